@@ -1,0 +1,85 @@
+#pragma once
+
+// The axis-aligned box: what the broad phases see of the world.
+
+#include <abut/math/vec.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace abut {
+
+/// An axis-aligned box, closed: touching counts as overlapping. An infinite coordinate means no bound on that side.
+template <int D>
+struct Aabb {
+    Vec<D> min{};
+    Vec<D> max{};
+
+    /// Holds nothing, overlaps nothing, and is the neutral element of `merged`.
+    static Aabb empty() {
+        return {Vec<D>(std::numeric_limits<float>::infinity()), Vec<D>(-std::numeric_limits<float>::infinity())};
+    }
+
+    friend bool operator==(const Aabb&, const Aabb&) = default;
+};
+template <int D>
+Aabb(glm::vec<D, float>, glm::vec<D, float>) -> Aabb<D>;
+
+using Aabb2 = Aabb<2>;
+using Aabb3 = Aabb<3>;
+
+/// False also where either box is empty or has a coordinate that is not a number.
+template <int D>
+bool overlaps(const Aabb<D>& a, const Aabb<D>& b) {
+    bool result = true;
+    for (int i = 0; i < D; ++i) result = result && a.min[i] <= b.max[i] && b.min[i] <= a.max[i];
+    return result && a.min[0] <= a.max[0] && b.min[0] <= b.max[0];
+}
+
+template <int D>
+bool contains(const Aabb<D>& box, const Vec<D>& point) {
+    bool result = true;
+    for (int i = 0; i < D; ++i) result = result && box.min[i] <= point[i] && point[i] <= box.max[i];
+    return result;
+}
+
+/// True where b lies in a altogether.
+template <int D>
+bool contains(const Aabb<D>& a, const Aabb<D>& b) {
+    return contains(a, b.min) && contains(a, b.max);
+}
+
+/// The least box that holds both.
+template <int D>
+Aabb<D> merged(const Aabb<D>& a, const Aabb<D>& b) {
+    Aabb<D> result;
+    for (int i = 0; i < D; ++i) {
+        result.min[i] = std::min(a.min[i], b.min[i]);
+        result.max[i] = std::max(a.max[i], b.max[i]);
+    }
+    return result;
+}
+
+/// The box that reaches `distance` farther on every side; rounded outwards, so that nothing within reach is lost.
+template <int D>
+Aabb<D> grown(const Aabb<D>& box, float distance) {
+    Aabb<D> result;
+    for (int i = 0; i < D; ++i) {
+        result.min[i] = std::nextafter(box.min[i] - distance, -std::numeric_limits<float>::infinity());
+        result.max[i] = std::nextafter(box.max[i] + distance, std::numeric_limits<float>::infinity());
+    }
+    return result;
+}
+
+/// The middle; of a box without bound on a side, some point in it.
+template <int D>
+Vec<D> center(const Aabb<D>& box) {
+    Vec<D> result;
+    constexpr float most = std::numeric_limits<float>::max();
+    for (int i = 0; i < D; ++i)
+        result[i] = 0.5f * std::clamp(box.min[i], -most, most) + 0.5f * std::clamp(box.max[i], -most, most);
+    return result;
+}
+
+}  // namespace abut

@@ -1,0 +1,82 @@
+#pragma once
+
+// Arithmetic on double vectors, for .cpp files. Written out term by term: the order of the operations is part of the
+// answer.
+
+#include <abut/math/vec.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace abut {
+
+inline double dot(const DVec<2>& a, const DVec<2>& b) {
+    return a.x * b.x + a.y * b.y;
+}
+inline double dot(const DVec<3>& a, const DVec<3>& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+inline double cross(const DVec<2>& a, const DVec<2>& b) {
+    return a.x * b.y - a.y * b.x;
+}
+inline DVec<3> cross(const DVec<3>& a, const DVec<3>& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+template <int D>
+double length_squared(const glm::vec<D, double>& v) {
+    return dot(v, v);
+}
+
+template <int D>
+double length(const glm::vec<D, double>& v) {
+    return std::sqrt(dot(v, v));
+}
+
+/// The largest absolute coordinate.
+template <int D>
+double largest(const glm::vec<D, double>& v) {
+    double most = 0;
+    for (int i = 0; i < D; ++i) most = std::max(most, std::abs(v[i]));
+    return most;
+}
+
+template <int D>
+glm::vec<D, double> axis(int i, double sign = 1) {
+    glm::vec<D, double> result(0.0);
+    result[i] = sign;
+    return result;
+}
+
+/// v at length 1, safe against overflow and underflow; `otherwise` where v is zero.
+template <int D>
+glm::vec<D, double> normalized(const glm::vec<D, double>& v, const glm::vec<D, double>& otherwise = axis<D>(0)) {
+    const double scale = largest(v);
+    if (!(scale > 0)) return otherwise;
+    const glm::vec<D, double> u = v / scale;
+    return u / length(u);
+}
+
+/// A unit vector at right angles to v.
+inline DVec<2> perpendicular(const DVec<2>& v) {
+    return normalized(DVec<2>{-v.y, v.x});
+}
+inline DVec<3> perpendicular(const DVec<3>& v) {
+    const DVec<3> a{std::abs(v.x), std::abs(v.y), std::abs(v.z)};
+    const int least = a.x <= a.y && a.x <= a.z ? 0 : (a.y <= a.z ? 1 : 2);
+    return normalized(cross(v, axis<3>(least)));
+}
+
+template <int D>
+Vec<D> to_float(const glm::vec<D, double>& v) {
+    return Vec<D>(v);
+}
+
+/// A unit vector in float. Rounding a unit vector of doubles keeps its length to one ulp.
+template <int D>
+DVec<D> to_double(const glm::vec<D, float>& v) {
+    return DVec<D>(v);
+}
+
+}  // namespace abut

@@ -1,0 +1,119 @@
+#include <abut/math/linear.hpp>
+#include <abut/math/pose.hpp>
+
+#include <glm/ext/quaternion_double.hpp>
+
+namespace abut {
+namespace {
+
+struct SinCos {
+    double sin, cos;
+};
+
+// Taylor polynomials on [-pi/4, pi/4] after taking off quarter turns: right to 1e-15, which a float can't tell from
+// exact.
+SinCos sin_cos(double radians) {
+    constexpr double half_pi_high = 1.57079632673412561417e+00;  // the first 33 bits of pi / 2
+    constexpr double half_pi_low = 6.07710050650619224932e-11;   // what they leave
+    const double quarters = std::nearbyint(radians / (half_pi_high + half_pi_low));
+    const double x = (radians - quarters * half_pi_high) - quarters * half_pi_low;
+    const double xx = x * x;
+    double sine = 0, cosine = 0;
+    for (int n = 17; n >= 3; n -= 2) sine = (1 + sine) * (-xx / (n * (n - 1)));
+    for (int n = 16; n >= 2; n -= 2) cosine = (1 + cosine) * (-xx / (n * (n - 1)));
+    sine = x * (1 + sine);
+    cosine = 1 + cosine;
+    switch (static_cast<int>(quarters - 4 * std::floor(quarters / 4))) {
+        case 0:
+            return {sine, cosine};
+        case 1:
+            return {cosine, -sine};
+        case 2:
+            return {-sine, -cosine};
+        default:
+            return {-cosine, sine};
+    }
+}
+
+glm::dquat unit(const glm::quat& q) {
+    const glm::dquat d(q);
+    const double norm = std::sqrt(d.w * d.w + d.x * d.x + d.y * d.y + d.z * d.z);
+    if (!(norm > 0)) return {1, 0, 0, 0};
+    return {d.w / norm, d.x / norm, d.y / norm, d.z / norm};
+}
+
+glm::dquat multiply(const glm::dquat& a, const glm::dquat& b) {
+    return {a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
+            a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
+}
+
+DVec<2> unit(const Turn& turn) {
+    return normalized(DVec<2>(turn.cos, turn.sin), DVec<2>(1, 0));
+}
+
+}  // namespace
+
+Turn Turn::by(float radians) {
+    const SinCos s = sin_cos(radians);
+    return {static_cast<float>(s.cos), static_cast<float>(s.sin)};
+}
+
+glm::quat turn_about(const Vec3& axis, float radians) {
+    const SinCos s = sin_cos(0.5 * static_cast<double>(radians));
+    const DVec<3> v = normalized(DVec<3>(axis), DVec<3>(0.0)) * s.sin;
+    return glm::quat(glm::dquat(s.cos, v.x, v.y, v.z));
+}
+
+Affine<2> affine(const Pose2& pose) {
+    const DVec<2> u = unit(pose.rotation);
+    return {{DVec<2>(u.x, u.y), DVec<2>(-u.y, u.x)}, DVec<2>(pose.position)};
+}
+
+Affine<3> affine(const Pose3& pose) {
+    const glm::dquat q = unit(pose.rotation);
+    const double xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z;
+    const double xy = q.x * q.y, xz = q.x * q.z, yz = q.y * q.z;
+    const double wx = q.w * q.x, wy = q.w * q.y, wz = q.w * q.z;
+    return {{DVec<3>(1 - 2 * (yy + zz), 2 * (xy + wz), 2 * (xz - wy)),
+             DVec<3>(2 * (xy - wz), 1 - 2 * (xx + zz), 2 * (yz + wx)),
+             DVec<3>(2 * (xz + wy), 2 * (yz - wx), 1 - 2 * (xx + yy))},
+            DVec<3>(pose.position)};
+}
+
+Vec2 rotate(const Turn& rotation, const Vec2& v) {
+    return Pose2{Vec2(0), rotation} * v;
+}
+Vec3 rotate(const glm::quat& rotation, const Vec3& v) {
+    return Pose3{Vec3(0), rotation} * v;
+}
+
+Vec2 operator*(const Pose2& pose, const Vec2& point) {
+    return to_float(affine(pose).point(DVec<2>(point)));
+}
+Vec3 operator*(const Pose3& pose, const Vec3& point) {
+    return to_float(affine(pose).point(DVec<3>(point)));
+}
+
+Pose2 operator*(const Pose2& outer, const Pose2& inner) {
+    const DVec<2> a = unit(outer.rotation), b = unit(inner.rotation);
+    const Turn turn{static_cast<float>(a.x * b.x - a.y * b.y), static_cast<float>(a.y * b.x + a.x * b.y)};
+    return {outer * inner.position, turn};
+}
+
+Pose3 operator*(const Pose3& outer, const Pose3& inner) {
+    return {outer * inner.position, glm::quat(multiply(unit(outer.rotation), unit(inner.rotation)))};
+}
+
+Pose2 inverse(const Pose2& pose) {
+    const DVec<2> u = unit(pose.rotation);
+    const Affine<2> map = affine(pose);
+    return {to_float(-map.transposed(map.offset)), Turn{static_cast<float>(u.x), static_cast<float>(-u.y)}};
+}
+
+Pose3 inverse(const Pose3& pose) {
+    const glm::dquat q = unit(pose.rotation);
+    const Affine<3> map = affine(pose);
+    return {to_float(-map.transposed(map.offset)), glm::quat(glm::dquat(q.w, -q.x, -q.y, -q.z))};
+}
+
+}  // namespace abut

@@ -1,0 +1,74 @@
+#pragma once
+
+// A pose: where a thing is and how it is turned.
+
+#include <abut/math/vec.hpp>
+
+#include <cstddef>
+#include <type_traits>
+
+#include <glm/ext/quaternion_float.hpp>
+
+namespace abut {
+
+/// A rotation in the plane, counter-clockwise, as a unit vector.
+struct Turn {
+    float cos = 1;
+    float sin = 0;
+
+    /// By an angle in radians; the same bits on every machine (no trigonometry of the C library).
+    static Turn by(float radians);
+
+    friend bool operator==(const Turn&, const Turn&) = default;
+};
+
+/// How a thing is turned: a Turn in 2D, a unit quaternion in 3D. Questions normalise it, so that a rotation that has
+/// drifted from length 1 turns, and never scales.
+template <int D>
+using Rotation = std::conditional_t<D == 2, Turn, glm::quat>;
+
+template <int D>
+struct IdentityRotation;
+template <>
+struct IdentityRotation<2> {
+    static constexpr Turn value{1, 0};
+};
+template <>
+struct IdentityRotation<3> {
+    static constexpr glm::quat value{1, 0, 0, 0};
+};
+template <int D>
+inline constexpr Rotation<D> no_rotation = IdentityRotation<D>::value;
+
+/// Turned by `rotation` about the origin, then moved by `position`.
+template <int D>
+struct Pose {
+    Vec<D> position{};
+    Rotation<D> rotation = no_rotation<D>;
+
+    friend bool operator==(const Pose&, const Pose&) = default;
+};
+using Pose2 = Pose<2>;
+using Pose3 = Pose<3>;
+
+/// By an angle in radians about an axis of length 1; the same bits on every machine.
+glm::quat turn_about(const Vec3& axis, float radians);
+
+Vec2 rotate(const Turn& rotation, const Vec2& v);
+Vec3 rotate(const glm::quat& rotation, const Vec3& v);
+
+/// Where a point of the thing is in the world.
+Vec2 operator*(const Pose2& pose, const Vec2& point);
+Vec3 operator*(const Pose3& pose, const Vec3& point);
+
+/// First `inner`, then `outer`.
+Pose2 operator*(const Pose2& outer, const Pose2& inner);
+Pose3 operator*(const Pose3& outer, const Pose3& inner);
+
+Pose2 inverse(const Pose2& pose);
+Pose3 inverse(const Pose3& pose);
+
+static_assert(sizeof(glm::quat) == 4 * sizeof(float) && offsetof(glm::quat, x) == 0,
+              "abut needs glm's quaternions stored x y z w: build without GLM_FORCE_QUAT_DATA_WXYZ");
+
+}  // namespace abut

@@ -1,0 +1,15 @@
+#include <abut/math/dvec.hpp>
+#include <abut/math/ray.hpp>
+
+namespace abut {
+
+template <int D>
+Ray<D> Ray<D>::between(const Vec<D>& a, const Vec<D>& b) {
+    const DVec<D> way = DVec<D>(b) - DVec<D>(a);
+    return {a, to_float(normalized(way)), static_cast<float>(abut::length(way))};
+}
+
+template struct Ray<2>;
+template struct Ray<3>;
+
+}  // namespace abut

@@ -1,0 +1,29 @@
+#pragma once
+
+// A ray: a piece of a straight line, with a direction.
+
+#include <abut/math/vec.hpp>
+
+#include <limits>
+
+namespace abut {
+
+template <int D>
+struct Ray {
+    Vec<D> origin{};
+    Vec<D> direction{};                                     ///< of length 1
+    float length = std::numeric_limits<float>::infinity();  ///< how far it reaches; may be infinite or zero
+
+    /// From a to b. Where a == b the ray has length 0 and some direction.
+    static Ray between(const Vec<D>& a, const Vec<D>& b);
+};
+template <int D>
+Ray(glm::vec<D, float>, glm::vec<D, float>, float) -> Ray<D>;
+
+using Ray2 = Ray<2>;
+using Ray3 = Ray<3>;
+
+extern template struct Ray<2>;
+extern template struct Ray<3>;
+
+}  // namespace abut

@@ -1,0 +1,36 @@
+#pragma once
+
+// The vocabulary of positions: glm's vectors, float at the doors, double inside.
+
+#include <cmath>
+#include <cstddef>
+
+#include <glm/ext/vector_double2.hpp>
+#include <glm/ext/vector_double3.hpp>
+#include <glm/ext/vector_float2.hpp>
+#include <glm/ext/vector_float3.hpp>
+
+namespace abut {
+
+/// A point, a displacement or a direction in D dimensions.
+template <int D>
+using Vec = glm::vec<D, float>;
+using Vec2 = Vec<2>;
+using Vec3 = Vec<3>;
+
+/// The same in double: what the engines calculate in.
+template <int D>
+using DVec = glm::vec<D, double>;
+
+// glm's configuration macros change the layout of its types, and with it the meaning of every pose in memory.
+static_assert(sizeof(Vec2) == 2 * sizeof(float) && sizeof(Vec3) == 3 * sizeof(float) && alignof(Vec3) == alignof(float),
+              "abut needs glm's packed vectors: build without GLM_FORCE_DEFAULT_ALIGNED_GENTYPES");
+
+template <int D>
+bool is_finite(const Vec<D>& v) {
+    for (int i = 0; i < D; ++i)
+        if (!std::isfinite(v[i])) return false;
+    return true;
+}
+
+}  // namespace abut
