@@ -1,0 +1,194 @@
+#include <abut/convex/face.hpp>
+
+namespace abut {
+namespace {
+
+/// How nearly a direction must look along a round shape's flat end or at right angles to its side to meet it with all
+/// of it.
+constexpr double aligned = 0.9995;
+
+template <int D>
+Face<D> corner(const Convex<D>& convex, const DVec<D>& direction) {
+    Face<D> face;
+    const CorePoint<D> point = core_support(convex, direction);
+    face.push_back(point.position, point.index);
+    return face;
+}
+
+template <int D>
+DVec<D> vertex(const Convex<D>& convex, std::uint32_t i) {
+    return convex.place.point(DVec<D>(convex.vertices()[i]));
+}
+
+/// An edge of the plane with its normal on the side that `direction` looks to.
+Face<2> edge_along(const DVec<2>& a, std::uint32_t index_a, const DVec<2>& b, std::uint32_t index_b,
+                   const DVec<2>& direction) {
+    Face<2> face;
+    face.push_back(a, index_a);
+    face.push_back(b, index_b);
+    face.normal = perpendicular(b - a);
+    if (dot(face.normal, direction) < 0) face.normal = -face.normal;
+    return face;
+}
+
+Face<3> triangle_along(const Convex<3>& convex, const DVec<3>& direction) {
+    Face<3> face;
+    for (std::uint32_t i = 0; i < 3; ++i) face.push_back(vertex(convex, i), i);
+    face.normal = normalized(cross(face.points[1] - face.points[0], face.points[2] - face.points[0]), DVec<3>(0.0));
+    if (dot(face.normal, direction) < 0) face.normal = -face.normal;
+    return face;
+}
+
+Face<3> facet_along(const Convex<3>& convex, const DVec<3>& direction) {
+    const Facets& facets = *convex.facets;
+    std::size_t best = 0;
+    DVec<3> normal(0.0);
+    double most = -2;
+    for (std::size_t i = 0; i < facets.normals.size(); ++i) {
+        const DVec<3> n = normalized(mapped_normal(convex.place, DVec<3>(facets.normals[i])), DVec<3>(0.0));
+        const double along = dot(n, direction);
+        if (along > most) {
+            most = along;
+            best = i;
+            normal = n;
+        }
+    }
+    Face<3> face;
+    face.normal = normal;
+    const std::size_t begin = best == 0 ? 0 : facets.loop_ends[best - 1], corners = facets.loop_ends[best] - begin;
+    const std::size_t kept = std::min(corners, Face<3>::capacity / 2);
+    for (std::size_t i = 0; i < kept; ++i) {
+        const std::uint32_t index = facets.loops[begin + i * corners / kept];
+        face.push_back(vertex(convex, index), index);
+    }
+    return face;
+}
+
+Face<3> box_face_along(const Convex<3>& convex, const DVec<3>& direction) {
+    int best = 0;
+    double sign = 1, most = -1;
+    DVec<3> normal(0.0);
+    for (int i = 0; i < 3; ++i) {
+        const DVec<3> n = normalized(mapped_normal(convex.place, axis<3>(i)), DVec<3>(0.0));
+        const double along = dot(n, direction);
+        if (std::abs(along) > most) {
+            most = std::abs(along);
+            best = i;
+            sign = along < 0 ? -1 : 1;
+            normal = n * sign;
+        }
+    }
+    Face<3> face;
+    face.normal = normal;
+    const int u = (best + 1) % 3, v = (best + 2) % 3;
+    constexpr double corners[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+    for (const auto& c : corners) {
+        DVec<3> point(convex.own[0]);
+        point[best] *= sign;
+        point[u] *= c[0];
+        point[v] *= c[1];
+        const std::uint32_t index = (point[0] < 0 ? 1u : 0u) | (point[1] < 0 ? 2u : 0u) | (point[2] < 0 ? 4u : 0u);
+        face.push_back(convex.place.point(point), index);
+    }
+    return face;
+}
+
+/// A flat end as a ring of points, a line along the side, or a corner.
+Face<3> discs_face_along(const Convex<3>& convex, const DVec<3>& direction) {
+    const DVec<3> a(convex.own[0]), b(convex.own[1]);
+    const double radius_a = static_cast<double>(convex.disc_radius[0]),
+                 radius_b = static_cast<double>(convex.disc_radius[1]);
+    const DVec<3> u = normalized(b - a, axis<3>(2));
+    const DVec<3> local = normalized(convex.place.transposed(direction));
+    const double along = dot(u, local);
+    const bool at_b = along > 0;
+    Face<3> face;
+    if (std::abs(along) >= aligned && (at_b ? radius_b : radius_a) > 0) {
+        // Eight directions by halving right angles: the ring is the same on every machine.
+        const DVec<3> x = perpendicular(u), y = cross(u, x);
+        const double diagonal = std::sqrt(0.5);
+        const DVec<3> ring[8] = {x,  (x + y) * diagonal,  y,  (y - x) * diagonal,
+                                 -x, -(x + y) * diagonal, -y, (x - y) * diagonal};
+        std::uint32_t index = 0;
+        for (const DVec<3>& r : ring)
+            face.push_back(convex.place.point(at_b ? b + r * radius_b : a + r * radius_a), index++);
+        face.normal = normalized(mapped_normal(convex.place, at_b ? u : -u));
+        return face;
+    }
+    const DVec<3> rim = normalized(local - u * along, DVec<3>(0.0));
+    const DVec<3> low = a + rim * radius_a, high = b + rim * radius_b;
+    const DVec<3> side = normalized(high - low, u);
+    if (std::abs(dot(side, local)) > std::sqrt(1 - aligned * aligned)) return corner(convex, direction);
+    face.push_back(convex.place.point(low), 0);
+    face.push_back(convex.place.point(high), 1);
+    return face;
+}
+
+}  // namespace
+
+Face<2> face_along(const Convex<2>& convex, const DVec<2>& direction) {
+    if (convex.inner_radius > 0 || convex.core == Core::function) return corner(convex, direction);
+    std::array<Vec<2>, 4> corners;
+    const Vec<2>* points = convex.vertices();
+    std::uint32_t count = convex.count;
+    if (convex.core == Core::box) {
+        const Vec<2> half = convex.own[0];
+        corners = {Vec<2>(-half.x, -half.y), Vec<2>(half.x, -half.y), half, Vec<2>(-half.x, half.y)};
+        points = corners.data();
+        count = 4;
+    }
+    if (count == 1) return corner(convex, direction);
+    const auto at = [&](std::uint32_t i) { return convex.place.point(DVec<2>(points[i])); };
+    std::uint32_t farthest = 0;
+    for (std::uint32_t i = 1; i < count; ++i)
+        if (dot(at(i), direction) > dot(at(farthest), direction)) farthest = i;
+    const std::uint32_t after = (farthest + 1) % count, before = (farthest + count - 1) % count;
+    const Face<2> next = edge_along(at(farthest), farthest, at(after), after, direction);
+    if (count == 2) return next;
+    const Face<2> last = edge_along(at(before), before, at(farthest), farthest, direction);
+    return dot(last.normal, direction) > dot(next.normal, direction) ? last : next;
+}
+
+Face<3> face_along(const Convex<3>& convex, const DVec<3>& direction) {
+    if (convex.inner_radius > 0) return corner(convex, direction);
+    switch (convex.core) {
+        case Core::box:
+            return box_face_along(convex, direction);
+        case Core::discs:
+            return discs_face_along(convex, direction);
+        case Core::function:
+            return corner(convex, direction);
+        case Core::points:
+            break;
+    }
+    if (convex.facets != nullptr && !convex.facets->normals.empty()) return facet_along(convex, direction);
+    if (convex.count == 3) return triangle_along(convex, direction);
+    if (convex.count != 2) return corner(convex, direction);
+    Face<3> face;
+    face.push_back(vertex(convex, 0), 0);
+    face.push_back(vertex(convex, 1), 1);
+    return face;
+}
+
+template <int D>
+void clip(Face<D>& face, const DVec<D>& normal, double offset, std::uint32_t plane_name) {
+    const Face<D> before = face;
+    face.count = 0;
+    const auto height = [&](std::size_t i) { return dot(normal, before.points[i]) - offset; };
+    for (std::size_t i = 0; i < before.count; ++i) {
+        const double here = height(i);
+        if (here <= 0 && face.count < Face<D>::capacity) face.push_back(before.points[i], before.indices[i]);
+        const bool closes = i + 1 == before.count;
+        if (closes && before.count < 3) break;
+        const std::size_t j = closes ? 0 : i + 1;
+        const double there = height(j);
+        if ((here < 0) == (there < 0) || here == 0 || there == 0 || face.count == Face<D>::capacity) continue;
+        const DVec<D> point = before.points[i] + (before.points[j] - before.points[i]) * (here / (here - there));
+        face.push_back(point, (plane_name + 1) << 16 | ((here > 0 ? before.indices[i] : before.indices[j]) & 0xffffu));
+    }
+}
+
+template void clip(Face<2>&, const DVec<2>&, double, std::uint32_t);
+template void clip(Face<3>&, const DVec<3>&, double, std::uint32_t);
+
+}  // namespace abut

@@ -1,0 +1,153 @@
+#include <abut/convex/face.hpp>
+#include <abut/convex/manifold.hpp>
+
+namespace abut {
+namespace {
+
+/// The cosine of the angle within which a face counts as looking along the contact normal: 1.8 degrees.
+constexpr double aligned = 0.9995;
+
+/// All candidates, before they are thinned out.
+template <int D>
+struct Candidates {
+    std::array<ManifoldPoint<D>, Face<D>::capacity + 1> points;
+    std::size_t count = 0;
+
+    void push_back(const ManifoldPoint<D>& point) {
+        if (count < points.size()) points[count++] = point;
+    }
+};
+
+/// The sides of a face, as planes through its edges that look outwards; of an edge, its two ends.
+template <int D, class Visit>
+void each_side(const Face<D>& face, Visit&& visit) {
+    if (face.count == 2) {
+        const DVec<D> along = normalized(face.points[1] - face.points[0]);
+        visit(-along, dot(-along, face.points[0]), face.indices[0]);
+        visit(along, dot(along, face.points[1]), face.indices[1]);
+        return;
+    }
+    if constexpr (D == 3) {
+        DVec<3> middle(0.0);
+        for (std::size_t i = 0; i < face.count; ++i) middle += face.points[i] / static_cast<double>(face.count);
+        for (std::size_t i = 0; i < face.count; ++i) {
+            const DVec<3>& from = face.points[i];
+            const DVec<3> edge = face.points[(i + 1) % face.count] - from;
+            DVec<3> side = normalized(cross(edge, face.normal), DVec<3>(0.0));
+            if (dot(side, middle - from) > 0) side = -side;
+            visit(side, dot(side, from), face.indices[i]);
+        }
+    }
+}
+
+/// Two edges side by side, such as those of two capsules.
+bool parallel(const Face<3>& a, const Face<3>& b) {
+    if (a.count != 2 || b.count != 2) return false;
+    return std::abs(dot(normalized(a.points[1] - a.points[0]), normalized(b.points[1] - b.points[0]))) >= aligned;
+}
+bool parallel(const Face<2>&, const Face<2>&) {
+    return false;
+}
+
+template <int D>
+double alignment(const Face<D>& face, const DVec<D>& direction) {
+    return face.flat() ? dot(face.normal, direction) : -1;
+}
+
+template <int D>
+Manifold<D> thinned(const Candidates<D>& all, const DVec<D>& normal) {
+    Manifold<D> result;
+    const auto& points = all.points;
+    if (all.count <= result.points.size()) {
+        for (std::size_t i = 0; i < all.count; ++i) result.points[result.count++] = points[i];
+        return result;
+    }
+    // The deepest, the farthest from it, and in 3D the farthest to either side of their line.
+    const auto most = [&](auto&& measure) {
+        std::size_t best = 0;
+        for (std::size_t i = 1; i < all.count; ++i)
+            if (measure(points[i]) > measure(points[best])) best = i;
+        return best;
+    };
+    const std::size_t deepest = most([](const ManifoldPoint<D>& p) { return p.depth; });
+    const DVec<D> first = points[deepest].position;
+    const std::size_t farthest = most([&](const ManifoldPoint<D>& p) { return length_squared(p.position - first); });
+    result.points[result.count++] = points[deepest];
+    if (farthest != deepest) result.points[result.count++] = points[farthest];
+    if constexpr (D == 3) {
+        const DVec<3> side = cross(normal, points[farthest].position - first);
+        const auto off = [&](const ManifoldPoint<3>& p) { return dot(side, p.position - first); };
+        const std::size_t left = most(off), right = most([&](const ManifoldPoint<3>&p) { return -off(p); });
+        if (off(points[left]) > 0) result.points[result.count++] = points[left];
+        if (off(points[right]) < 0) result.points[result.count++] = points[right];
+    }
+    return result;
+}
+
+}  // namespace
+
+template <int D>
+Manifold<D> manifold(const Convex<D>& a, const Convex<D>& b, const SignedDistance<D>& distance, double margin) {
+    const DVec<D>& normal = distance.normal;
+    const double slack = 1e-6 * std::min(size(a), size(b));
+    const std::uint32_t witness_name = distance.face.points[0].index_a << 8 ^ distance.face.points[0].index_b;
+    const ManifoldPoint<D> witness{distance.on_a + normal * (0.5 * distance.distance), -distance.distance,
+                                   witness_name};
+
+    Candidates<D> candidates;
+    const Face<D> face_a = face_along(a, normal), face_b = face_along(b, -normal);
+    const double alignment_a = alignment(face_a, normal), alignment_b = alignment(face_b, -normal);
+    if (std::max(alignment_a, alignment_b) >= aligned || parallel(face_a, face_b)) {
+        const bool a_is_reference = alignment_a >= alignment_b - 1e-6;
+        const Face<D>& reference = a_is_reference ? face_a : face_b;
+        Face<D> incident = a_is_reference ? face_b : face_a;
+        const DVec<D> out = a_is_reference ? normal : -normal;
+        const double reference_radius = a_is_reference ? a.radius : b.radius;
+        const double incident_radius = a_is_reference ? b.radius : a.radius;
+        each_side(reference, [&](const DVec<D>& side, double offset, std::uint32_t name) {
+            clip(incident, side, offset + slack, name);
+        });
+        const DVec<D> plane = reference.flat() ? reference.normal : out;
+        for (std::size_t i = 0; i < incident.count; ++i) {
+            const double gap = dot(plane, incident.points[i] - reference.points[0]) / dot(plane, out);
+            const double depth = reference_radius + incident_radius - gap;
+            if (depth < -margin - slack) continue;
+            const DVec<D> middle = incident.points[i] + out * (0.5 * (reference_radius - incident_radius - gap));
+            candidates.push_back({middle, margin > 0 ? depth : std::max(depth, 0.0), incident.indices[i]});
+        }
+    }
+    double deepest = -std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < candidates.count; ++i) deepest = std::max(deepest, candidates.points[i].depth);
+    if (deepest < witness.depth - slack) candidates.push_back(witness);
+    return thinned(candidates, normal);
+}
+
+template <int D>
+Manifold<D> manifold_with_plane(const Convex<D>& a, const DVec<D>& normal, double offset, double margin) {
+    const double slack = 1e-6 * size(a);
+    Candidates<D> candidates;
+    const Face<D> face = face_along(a, -normal);
+    for (std::size_t i = 0; i < face.count; ++i) {
+        const DVec<D> surface = face.points[i] - normal * a.radius;
+        const double depth = offset - dot(normal, surface);
+        if (depth < -margin - slack) continue;
+        candidates.push_back(
+            {surface + normal * (0.5 * depth), margin > 0 ? depth : std::max(depth, 0.0), face.indices[i]});
+    }
+    if (candidates.count == 0) {
+        const CorePoint<D> lowest = core_support(a, -normal);
+        const DVec<D> surface = lowest.position - normal * a.radius;
+        const double depth = offset - dot(normal, surface);
+        candidates.push_back({surface + normal * (0.5 * depth), depth, lowest.index});
+    }
+    return thinned(candidates, normal);
+}
+
+#define ABUT_INSTANTIATE(D)                                                                              \
+    template Manifold<D> manifold(const Convex<D>&, const Convex<D>&, const SignedDistance<D>&, double); \
+    template Manifold<D> manifold_with_plane(const Convex<D>&, const DVec<D>&, double, double);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
+
+}  // namespace abut

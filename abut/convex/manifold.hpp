@@ -1,0 +1,31 @@
+#pragma once
+
+// The corners of the area in which two convex sets meet: the face of one clipped by the sides of the other's.
+
+#include <abut/convex/signed_distance.hpp>
+
+namespace abut {
+
+template <int D>
+struct ManifoldPoint {
+    DVec<D> position;  ///< midway between the two surfaces along the normal
+    double depth;
+    std::uint32_t feature;
+};
+
+template <int D>
+struct Manifold {
+    std::array<ManifoldPoint<D>, D == 2 ? 2 : 4> points;
+    std::size_t count = 0;
+};
+
+/// Two sets whose distance is at most `margin`. The points are those at most `margin` apart, among them the deepest; of
+/// more than there is room for, those that keep the most area.
+template <int D>
+Manifold<D> manifold(const Convex<D>& a, const Convex<D>& b, const SignedDistance<D>& distance, double margin);
+
+/// A set and the half-space dot(normal, p) <= offset; the contact normal, from the set, is -normal.
+template <int D>
+Manifold<D> manifold_with_plane(const Convex<D>& a, const DVec<D>& normal, double offset, double margin);
+
+}  // namespace abut

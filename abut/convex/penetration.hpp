@@ -1,0 +1,36 @@
+#pragma once
+
+// How deep two cores are in one another: the direction along which the least translation parts them.
+//
+// With h(n) the extent of A - B along a unit vector n, the depth is the least h(n) over all n. A polytope inside A - B
+// grows towards the boundary where it is nearest to the origin (van den Bergen, "Proximity queries and penetration
+// depth computation on 3D game objects", 2001). What is returned is always some h(n), so moving B by depth * normal
+// truly parts them, whatever made the search stop.
+
+#include <abut/convex/simplex.hpp>
+
+namespace abut {
+
+enum class PenetrationExit : std::uint8_t {
+    exact,          ///< the nearest face is one of A - B
+    flat,           ///< A - B has no thickness along the normal: touching, or crossing without depth
+    no_progress,    ///< rounding stopped it: the depth is valid, and the least that was seen
+    bound_reached,  ///< the same, at the bound on steps
+};
+
+template <int D>
+struct Penetration {
+    PenetrationExit exit = PenetrationExit::bound_reached;
+    DVec<D> normal{0.0};  ///< from A to B, of length 1
+    double depth = 0;     ///< h(normal); below zero where the cores are apart after all, by rounding
+    Simplex<D> face;      ///< the face of A - B along the normal, weighted at the point nearest to the origin
+};
+
+/// The bound on growing steps; polytopes need a few, curved shapes some dozens.
+inline constexpr std::size_t penetration_most_steps = 160;
+
+/// For cores that overlap or touch. Never allocates.
+Penetration<2> penetration(const CoreDifference<2>& difference);
+Penetration<3> penetration(const CoreDifference<3>& difference);
+
+}  // namespace abut

@@ -1,0 +1,107 @@
+#include <abut/convex/penetration.hpp>
+
+namespace abut {
+namespace {
+
+/// A convex polygon inside A - B, counter-clockwise.
+struct GrowingPolygon {
+    std::array<DifferencePoint<2>, penetration_most_steps + 4> points;
+    std::array<bool, penetration_most_steps + 4> final{};  ///< the edge that begins at this point is one of A - B
+    std::size_t count = 0;
+
+    const DifferencePoint<2>& after(std::size_t i) const { return points[i + 1 == count ? 0 : i + 1]; }
+
+    DVec<2> outward(std::size_t i) const {
+        const DVec<2> along = after(i).position - points[i].position;
+        return normalized(DVec<2>(along.y, -along.x));
+    }
+
+    void insert_after(std::size_t i, const DifferencePoint<2>& point) {
+        for (std::size_t j = count; j > i + 1; --j) {
+            points[j] = points[j - 1];
+            final[j] = final[j - 1];
+        }
+        points[i + 1] = point;
+        final[i] = final[i + 1] = false;
+        ++count;
+    }
+};
+
+Simplex<2> face_of(std::initializer_list<DifferencePoint<2>> points) {
+    Simplex<2> face;
+    for (const DifferencePoint<2>& point : points) face.points[face.count++] = point;
+    reduce_to_closest(face);
+    return face;
+}
+
+}  // namespace
+
+Penetration<2> penetration(const CoreDifference<2>& difference) {
+    Penetration<2> result;
+
+    // 1. Two points far apart; a difference without extent is a point.
+    DifferencePoint<2> low = difference.support(DVec<2>(-1, 0)), high = difference.support(DVec<2>(1, 0));
+    const DifferencePoint<2> bottom = difference.support(DVec<2>(0, -1)), top = difference.support(DVec<2>(0, 1));
+    if (length_squared(top.position - bottom.position) > length_squared(high.position - low.position)) {
+        low = bottom;
+        high = top;
+    }
+    const DVec<2> base = high.position - low.position;
+    const double scale = std::max(largest(low.position), largest(high.position));
+    const double noise = 1e-13 * std::max({scale, largest(low.on_a), largest(low.on_b)});
+
+    // 2. What lies farthest to either side of their line; nothing does where the difference is a segment.
+    const DVec<2> right = length(base) <= noise ? DVec<2>(1, 0) : normalized(DVec<2>(base.y, -base.x));
+    const DifferencePoint<2> rightmost = difference.support(right), leftmost = difference.support(-right);
+    const double right_height = dot(rightmost.position - low.position, right);
+    const double left_height = dot(low.position - leftmost.position, right);
+    if (right_height + left_height <= noise) {
+        const double to_right = dot(rightmost.position, right), to_left = -dot(leftmost.position, right);
+        result.exit = PenetrationExit::flat;
+        result.normal = to_left < to_right ? -right : right;
+        result.depth = std::min(to_left, to_right);
+        result.face = face_of({low, high});
+        return result;
+    }
+    GrowingPolygon polygon;
+    polygon.points[polygon.count++] = low;
+    if (right_height > noise) polygon.points[polygon.count++] = rightmost;
+    polygon.points[polygon.count++] = high;
+    if (left_height > noise) polygon.points[polygon.count++] = leftmost;
+
+    // 3. Grow at the edge nearest to the origin, until it is an edge of A - B.
+    bool any = false;
+    for (std::size_t step = 0; step < penetration_most_steps; ++step) {
+        std::size_t nearest = 0;
+        double least = 0;
+        for (std::size_t i = 0; i < polygon.count; ++i) {
+            const double distance = dot(polygon.outward(i), polygon.points[i].position);
+            if (i == 0 || distance < least) {
+                least = distance;
+                nearest = i;
+            }
+        }
+        const DVec<2> normal = polygon.outward(nearest);
+        const DifferencePoint<2> next = difference.support(normal);
+        const double extent = dot(normal, next.position);
+        if (!any || extent < result.depth) {
+            any = true;
+            result.normal = normal;
+            result.depth = extent;
+            result.face = face_of({polygon.points[nearest], polygon.after(nearest)});
+        }
+        if (extent - least <= noise || polygon.final[nearest] || result.depth - least <= noise) {
+            result.exit = PenetrationExit::exact;
+            return result;
+        }
+        if (next.position == polygon.points[nearest].position || next.position == polygon.after(nearest).position) {
+            result.exit = PenetrationExit::no_progress;
+            return result;
+        }
+        polygon.insert_after(nearest, next);
+    }
+    result.exit = PenetrationExit::bound_reached;
+    return result;
+}
+
+}  // namespace abut

@@ -1,0 +1,247 @@
+#include <abut/convex/penetration.hpp>
+
+namespace abut {
+namespace {
+
+/// Without initialisers, so that a polytope's room for faces costs nothing until it is used.
+struct Face {
+    std::array<std::uint32_t, 3> corner;    ///< counter-clockwise seen from outside
+    std::array<std::uint32_t, 3> neighbor;  ///< the face beyond the edge from corner i to i + 1
+    DVec<3> normal;
+    double distance;  ///< of its plane from the origin, below zero where the origin is outside
+    bool alive;
+    bool flat;  ///< a sliver: its plane means nothing
+};
+
+struct Edge {
+    std::uint32_t from, to, beyond;  ///< `beyond`: the face that stays, on the other side
+};
+
+/// A convex polytope of triangles inside A - B.
+class GrowingPolytope {
+public:
+    GrowingPolytope(const std::array<DifferencePoint<3>, 4>& corners, double noise) : noise_(noise), point_count_(4) {
+        std::copy(corners.begin(), corners.end(), points_.begin());
+        const DVec<3> normal =
+            cross(corners[1].position - corners[0].position, corners[2].position - corners[0].position);
+        if (dot(normal, corners[3].position - corners[0].position) > 0) std::swap(points_[1], points_[2]);
+        add_face(0, 1, 2, {1, 2, 3});
+        add_face(0, 3, 1, {3, 2, 0});
+        add_face(1, 3, 2, {1, 3, 0});
+        add_face(0, 2, 3, {0, 2, 1});
+    }
+
+    const DifferencePoint<3>& point(std::uint32_t i) const { return points_[i]; }
+    const Face& face(std::uint32_t i) const { return faces_[i]; }
+
+    std::uint32_t nearest() const {
+        std::uint32_t best = face_count_;
+        for (std::uint32_t i = 0; i < face_count_; ++i)
+            if (faces_[i].alive && !faces_[i].flat &&
+                (best == face_count_ || faces_[i].distance < faces_[best].distance))
+                best = i;
+        return best;
+    }
+    bool valid(std::uint32_t face) const { return face < face_count_; }
+
+    /// Adds a point that lies in front of the face. False where rounding or the bound on faces forbids it.
+    bool grow(std::uint32_t first, const DifferencePoint<3>& point) {
+        if (point_count_ == points_.size()) return false;
+        if (!find_horizon(first, point.position)) return false;
+        if (face_count_ + horizon_count_ > faces_.size()) return false;
+        const std::uint32_t apex = static_cast<std::uint32_t>(point_count_);
+        points_[point_count_++] = point;
+        const std::uint32_t first_new = face_count_;
+        const std::uint32_t fan = horizon_count_;
+        for (std::uint32_t i = 0; i < fan; ++i) {
+            const Edge& edge = horizon_[i];
+            const std::uint32_t added = face_count_;
+            add_face(edge.from, edge.to, apex,
+                     {edge.beyond, first_new + (i + 1) % fan, first_new + (i + fan - 1) % fan});
+            for (std::size_t j = 0; j < 3; ++j)
+                if (faces_[edge.beyond].corner[j] == edge.to && faces_[edge.beyond].corner[(j + 1) % 3] == edge.from)
+                    faces_[edge.beyond].neighbor[j] = added;
+        }
+        return true;
+    }
+
+private:
+    static constexpr std::size_t most_faces = 6 * penetration_most_steps;
+
+    void add_face(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::array<std::uint32_t, 3> neighbor) {
+        Face& face = faces_[face_count_++];
+        const DVec<3>& origin = points_[a].position;
+        const DVec<3> ab = points_[b].position - origin, ac = points_[c].position - origin;
+        const DVec<3> normal = cross(ab, ac);
+        const double area = length(normal);
+        const double longest = std::sqrt(std::max({length_squared(ab), length_squared(ac), length_squared(ac - ab)}));
+        const bool flat = !(area > noise_ * longest);
+        const DVec<3> unit = flat ? DVec<3>(0.0) : normal / area;
+        face = Face{{a, b, c}, neighbor, unit, dot(unit, origin), true, flat};
+    }
+
+    bool sees(std::uint32_t face, const DVec<3>& position) const {
+        const Face& f = faces_[face];
+        return !f.flat && dot(f.normal, position - points_[f.corner[0]].position) > noise_;
+    }
+
+    /// Removes what the point sees, beginning at a face that it does, and lists the edges around it in order.
+    bool find_horizon(std::uint32_t first, const DVec<3>& position) {
+        horizon_count_ = 0;
+        std::size_t depth = 0;
+        const auto enter = [&](std::uint32_t face, std::uint32_t edge) {
+            faces_[face].alive = false;
+            stack_[depth++] = {face, edge, 0};
+        };
+        enter(first, 0);
+        // Edges of a face are walked counter-clockwise from the one it was entered by, which chains the horizon.
+        while (depth > 0) {
+            Visit& visit = stack_[depth - 1];
+            if (visit.done == 3) {
+                --depth;
+                continue;
+            }
+            const std::size_t edge = (visit.entry + visit.done++) % 3;
+            const Face& face = faces_[visit.face];
+            const std::uint32_t beyond = face.neighbor[edge];
+            if (!faces_[beyond].alive) continue;
+            const std::uint32_t from = face.corner[edge], to = face.corner[(edge + 1) % 3];
+            if (sees(beyond, position)) {
+                std::uint32_t shared = 0;
+                while (shared < 3 && faces_[beyond].corner[shared] != to) ++shared;
+                if (shared == 3 || depth == stack_.size()) return false;
+                enter(beyond, shared);
+            } else {
+                if (horizon_count_ == horizon_.size()) return false;
+                horizon_[horizon_count_++] = {from, to, beyond};
+            }
+        }
+        if (horizon_count_ < 3) return false;
+        for (std::uint32_t i = 0; i < horizon_count_; ++i)
+            if (horizon_[i].to != horizon_[(i + 1) % horizon_count_].from) return false;
+        return true;
+    }
+
+    struct Visit {
+        std::uint32_t face, entry, done;
+    };
+
+    double noise_;
+    std::array<DifferencePoint<3>, penetration_most_steps + 4> points_;
+    std::size_t point_count_;
+    std::array<Face, most_faces> faces_;
+    std::uint32_t face_count_ = 0;
+    std::array<Edge, 2 * penetration_most_steps> horizon_;
+    std::uint32_t horizon_count_ = 0;
+    std::array<Visit, 2 * penetration_most_steps> stack_;
+};
+
+Simplex<3> face_of(std::initializer_list<DifferencePoint<3>> points) {
+    Simplex<3> face;
+    for (const DifferencePoint<3>& point : points) face.points[face.count++] = point;
+    reduce_to_closest(face);
+    return face;
+}
+
+/// Four points that span a volume, or as many as there are: 1 for a point, 2 for a segment, 3 for a flat difference.
+struct Start {
+    std::array<DifferencePoint<3>, 4> corners;
+    std::size_t count = 1;
+    DVec<3> normal{1, 0, 0};  ///< at right angles to what there is, where count < 4
+    double noise = 0;
+};
+
+Start spanning_points(const CoreDifference<3>& difference) {
+    Start start;
+    double longest = -1, scale = 0;
+    for (int i = 0; i < 3; ++i) {
+        const DifferencePoint<3> low = difference.support(axis<3>(i, -1)), high = difference.support(axis<3>(i, 1));
+        scale = std::max({scale, largest(low.on_a), largest(low.on_b), largest(high.on_a), largest(high.on_b)});
+        const double extent = length_squared(high.position - low.position);
+        if (extent > longest) {
+            longest = extent;
+            start.corners[0] = low;
+            start.corners[1] = high;
+        }
+    }
+    start.noise = 1e-13 * scale;
+    const DVec<3> origin = start.corners[0].position;
+    const DVec<3> line = start.corners[1].position - origin;
+    if (length(line) <= start.noise) return start;
+    start.count = 2;
+    start.normal = perpendicular(line);
+    const DVec<3> along = normalized(line), across = cross(along, start.normal);
+    double widest = start.noise;
+    for (const DVec<3>& direction : {start.normal, -start.normal, across, -across}) {
+        const DifferencePoint<3> point = difference.support(direction);
+        const double width = length(cross(along, point.position - origin));
+        if (width > widest) {
+            widest = width;
+            start.corners[2] = point;
+            start.count = 3;
+        }
+    }
+    if (start.count == 2) return start;
+    start.normal = normalized(cross(line, start.corners[2].position - origin));
+    double highest = start.noise;
+    for (const DVec<3>& direction : {start.normal, -start.normal}) {
+        const DifferencePoint<3> point = difference.support(direction);
+        const double height = dot(direction, point.position - origin);
+        if (height > highest) {
+            highest = height;
+            start.corners[3] = point;
+            start.count = 4;
+        }
+    }
+    return start;
+}
+
+Penetration<3> without_thickness(const CoreDifference<3>& difference, const Start& start) {
+    Penetration<3> result;
+    result.exit = PenetrationExit::flat;
+    const double up = dot(start.normal, difference.support(start.normal).position);
+    const double down = -dot(start.normal, difference.support(-start.normal).position);
+    result.normal = down < up ? -start.normal : start.normal;
+    result.depth = std::min(up, down);
+    for (std::size_t i = 0; i < start.count; ++i) result.face.points[result.face.count++] = start.corners[i];
+    reduce_to_closest(result.face);
+    return result;
+}
+
+}  // namespace
+
+Penetration<3> penetration(const CoreDifference<3>& difference) {
+    const Start start = spanning_points(difference);
+    if (start.count < 4) return without_thickness(difference, start);
+
+    Penetration<3> result;
+    GrowingPolytope polytope(start.corners, start.noise);
+    bool any = false;
+    for (std::size_t step = 0; step < penetration_most_steps; ++step) {
+        const std::uint32_t nearest = polytope.nearest();
+        if (!polytope.valid(nearest)) break;
+        const Face& face = polytope.face(nearest);
+        const DifferencePoint<3> next = difference.support(face.normal);
+        const double extent = dot(face.normal, next.position);
+        if (!any || extent < result.depth) {
+            any = true;
+            result.normal = face.normal;
+            result.depth = extent;
+            result.face = face_of(
+                {polytope.point(face.corner[0]), polytope.point(face.corner[1]), polytope.point(face.corner[2])});
+        }
+        // Curved shapes come near their nearest face and never quite there: stop at a millionth of the depth.
+        if (result.depth - face.distance <= start.noise + 1e-6 * std::abs(result.depth)) {
+            result.exit = PenetrationExit::exact;
+            return result;
+        }
+        if (!polytope.grow(nearest, next)) {
+            result.exit = PenetrationExit::no_progress;
+            return result;
+        }
+    }
+    result.exit = PenetrationExit::bound_reached;
+    return result;
+}
+
+}  // namespace abut

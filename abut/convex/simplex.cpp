@@ -1,0 +1,137 @@
+#include <abut/convex/simplex.hpp>
+
+namespace abut {
+namespace {
+
+/// Weights of the closest point on up to three of the simplex' points, and which of them count.
+template <int D>
+struct Candidate {
+    std::array<std::size_t, 3> which{};
+    std::array<double, 3> weights{};
+    std::size_t count = 0;
+    double distance_squared = 0;
+};
+
+template <int D>
+Candidate<D> candidate(const Simplex<D>& simplex, std::initializer_list<std::size_t> which,
+                       std::initializer_list<double> weights) {
+    Candidate<D> result;
+    DVec<D> point(0.0);
+    auto weight = weights.begin();
+    for (std::size_t i : which) {
+        result.which[result.count] = i;
+        result.weights[result.count++] = *weight;
+        point += simplex.points[i].position * *weight++;
+    }
+    result.distance_squared = length_squared(point);
+    return result;
+}
+
+template <int D>
+Candidate<D> closest_on_segment(const Simplex<D>& simplex, std::size_t i, std::size_t j) {
+    const DVec<D>& a = simplex.points[i].position;
+    const DVec<D>& b = simplex.points[j].position;
+    const DVec<D> ab = b - a;
+    const double along = -dot(a, ab), whole = dot(ab, ab);
+    if (!(along > 0)) return candidate(simplex, {i}, {1.0});
+    if (along >= whole) return candidate(simplex, {j}, {1.0});
+    const double t = along / whole;
+    return candidate(simplex, {i, j}, {1 - t, t});
+}
+
+template <int D>
+Candidate<D> better(const Candidate<D>& a, const Candidate<D>& b) {
+    return b.distance_squared < a.distance_squared ? b : a;
+}
+
+template <int D>
+Candidate<D> closest_on_triangle(const Simplex<D>& simplex, std::size_t i, std::size_t j, std::size_t k) {
+    const DVec<D>& a = simplex.points[i].position;
+    const DVec<D>& b = simplex.points[j].position;
+    const DVec<D>& c = simplex.points[k].position;
+    const DVec<D> ab = b - a, ac = c - a;
+    // The weights of the origin's projection are the areas it spans with the edges, measured along the normal.
+    double u, v, w;
+    if constexpr (D == 3) {
+        const DVec<3> normal = cross(ab, ac);
+        u = dot(cross(b, c), normal);
+        v = dot(cross(c, a), normal);
+        w = dot(cross(a, b), normal);
+    } else {
+        const double area = cross(ab, ac);
+        u = cross(b, c) * area;
+        v = cross(c, a) * area;
+        w = cross(a, b) * area;
+    }
+    const double sum = u + v + w;
+    if (u > 0 && v > 0 && w > 0 && sum > 0) return candidate(simplex, {i, j, k}, {u / sum, v / sum, w / sum});
+    return better(better(closest_on_segment(simplex, i, j), closest_on_segment(simplex, j, k)),
+                  closest_on_segment(simplex, i, k));
+}
+
+/// Whether the plane of i j k parts the origin from l; a face of a flat tetrahedron parts them always.
+bool parts_origin(const Simplex<3>& simplex, std::size_t i, std::size_t j, std::size_t k, std::size_t l) {
+    const DVec<3>& a = simplex.points[i].position;
+    const DVec<3> normal = cross(simplex.points[j].position - a, simplex.points[k].position - a);
+    const double height_origin = -dot(normal, a);
+    const double height_last = dot(normal, simplex.points[l].position - a);
+    const double noise = 1e-15 * length(normal) * (largest(a) + largest(simplex.points[l].position));
+    if (std::abs(height_last) <= noise) return true;
+    return height_last > 0 ? height_origin < 0 : height_origin > 0;
+}
+
+template <int D>
+DVec<D> keep(Simplex<D>& simplex, const Candidate<D>& best) {
+    const Simplex<D> before = simplex;
+    simplex.count = best.count;
+    for (std::size_t i = 0; i < best.count; ++i) {
+        simplex.points[i] = before.points[best.which[i]];
+        simplex.weights[i] = best.weights[i];
+    }
+    return simplex.combine(&DifferencePoint<D>::position);
+}
+
+DVec<3> reduce_tetrahedron(Simplex<3>& simplex) {
+    constexpr std::size_t faces[4][4] = {{0, 1, 2, 3}, {0, 3, 1, 2}, {0, 2, 3, 1}, {1, 3, 2, 0}};
+    Candidate<3> best;
+    bool outside = false;
+    for (const auto& f : faces) {
+        if (!parts_origin(simplex, f[0], f[1], f[2], f[3])) continue;
+        const Candidate<3> on_face = closest_on_triangle(simplex, f[0], f[1], f[2]);
+        best = outside ? better(best, on_face) : on_face;
+        outside = true;
+    }
+    if (outside) return keep(simplex, best);
+    // Inside: each weight is the volume that the origin spans with the face opposite.
+    double sum = 0;
+    for (const auto& f : faces) {
+        const DVec<3>&a = simplex.points[f[0]].position, &b = simplex.points[f[1]].position,
+              &c = simplex.points[f[2]].position;
+        simplex.weights[f[3]] = std::abs(dot(a, cross(b, c)));
+        sum += simplex.weights[f[3]];
+    }
+    for (double& weight : simplex.weights) weight /= sum;
+    return DVec<3>(0.0);
+}
+
+}  // namespace
+
+template <int D>
+DVec<D> reduce_to_closest(Simplex<D>& simplex) {
+    switch (simplex.count) {
+        case 1:
+            return keep(simplex, candidate(simplex, {0}, {1.0}));
+        case 2:
+            return keep(simplex, closest_on_segment(simplex, 0, 1));
+        case 3:
+            return keep(simplex, closest_on_triangle(simplex, 0, 1, 2));
+        default:
+            if constexpr (D == 3) return reduce_tetrahedron(simplex);
+            return DVec<D>(0.0);
+    }
+}
+
+template DVec<2> reduce_to_closest(Simplex<2>&);
+template DVec<3> reduce_to_closest(Simplex<3>&);
+
+}  // namespace abut

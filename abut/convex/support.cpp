@@ -1,0 +1,181 @@
+#include <abut/convex/support.hpp>
+#include <abut/math/assert.hpp>
+
+namespace abut {
+namespace {
+
+template <int D>
+CorePoint<D> farthest_point(const Vec<D>* points, std::uint32_t count, const DVec<D>& direction) {
+    std::uint32_t best = 0;
+    double most = dot(DVec<D>(points[0]), direction);
+    for (std::uint32_t i = 1; i < count; ++i) {
+        const double along = dot(DVec<D>(points[i]), direction);
+        if (along > most) {
+            most = along;
+            best = i;
+        }
+    }
+    return {DVec<D>(points[best]), best};
+}
+
+template <int D>
+CorePoint<D> farthest_corner(const Vec<D>& half, const DVec<D>& direction) {
+    CorePoint<D> result;
+    for (int i = 0; i < D; ++i) {
+        const bool low = direction[i] < 0;
+        result.position[i] = low ? -static_cast<double>(half[i]) : static_cast<double>(half[i]);
+        result.index |= low ? 1u << i : 0u;
+    }
+    return result;
+}
+
+DVec<3> farthest_on_discs(const Convex<3>& convex, const DVec<3>& direction) {
+    const DVec<3> a(convex.own[0]), b(convex.own[1]);
+    const DVec<3> u = normalized(b - a, axis<3>(2));
+    const double along = dot(u, direction);
+    const DVec<3> across = direction - u * along;
+    const DVec<3> rim = normalized(across, DVec<3>(0.0));
+    const double radius_a = static_cast<double>(convex.disc_radius[0]),
+                 radius_b = static_cast<double>(convex.disc_radius[1]);
+    const double gain_a = dot(a, direction) + radius_a * dot(rim, direction);
+    const double gain_b = dot(b, direction) + radius_b * dot(rim, direction);
+    return gain_b > gain_a ? b + rim * radius_b : a + rim * radius_a;
+}
+
+template <int D>
+CorePoint<D> local_support(const Convex<D>& convex, const DVec<D>& direction) {
+    switch (convex.core) {
+        case Core::points:
+            return farthest_point(convex.vertices(), convex.count, direction);
+        case Core::box:
+            return farthest_corner(convex.own[0], direction);
+        case Core::discs:
+            if constexpr (D == 3) return {farthest_on_discs(convex, direction), 0};
+            break;
+        case Core::function:
+            return {DVec<D>(convex.function(convex.object, to_float(normalized(direction)))), 0};
+    }
+    return {};
+}
+
+/// The float at or beyond x, towards `side`.
+float rounded_outwards(double x, float side) {
+    const float nearest = static_cast<float>(x);
+    const bool inside = side > 0 ? static_cast<double>(nearest) < x : static_cast<double>(nearest) > x;
+    return inside ? std::nextafter(nearest, side) : nearest;
+}
+
+}  // namespace
+
+template <int D>
+Convex<D> round_points(std::initializer_list<Vec<D>> points, float radius) {
+    Convex<D> result;
+    result.count = static_cast<std::uint32_t>(points.size());
+    std::copy(points.begin(), points.end(), result.own.begin());
+    result.radius = static_cast<double>(radius);
+    return result;
+}
+
+template <int D>
+Placement<D> mapped(const Placement<D>& placement, const Affine<D>& map) {
+    const double factor_squared = length_squared(map.column[0]);
+    const double doubt = 1e-12 * factor_squared;
+    bool similar = true;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(D); ++i) {
+        similar = similar && std::abs(length_squared(map.column[i]) - factor_squared) <= doubt;
+        for (std::size_t j = 0; j < i; ++j) similar = similar && std::abs(dot(map.column[i], map.column[j])) <= doubt;
+    }
+    Placement<D> result = placement;
+    result.place = map * placement.place;
+    if (similar) {
+        const double factor = std::sqrt(factor_squared);
+        result.scale *= factor;
+        result.radius *= factor;
+        return result;
+    }
+    ABUT_ASSERT(placement.radius == 0 || placement.similar);
+    if (placement.radius > 0 && placement.scale > 0) {
+        result.inner_radius += placement.radius / placement.scale;
+        result.radius = 0;
+    }
+    result.similar = false;
+    return result;
+}
+
+template <int D>
+Convex<D> placed(const Convex<D>& convex, const Placement<D>& placement) {
+    Placement<D> own = convex;
+    own.radius += placement.inner_radius;
+    own = mapped(own, placement.place);
+    own.radius += placement.radius;
+    Convex<D> result = convex;
+    static_cast<Placement<D>&>(result) = own;
+    return result;
+}
+
+template <int D>
+bool is_finite(const Convex<D>& convex) {
+    // A sum is finite only where all its terms are; none of them is near the largest double.
+    double sum = convex.radius + convex.inner_radius;
+    for (int i = 0; i < D; ++i) {
+        sum += convex.place.offset[i] * 0;
+        for (int j = 0; j < D; ++j) sum += convex.place.column[static_cast<std::size_t>(i)][j] * 0;
+        for (const Vec<D>& point : convex.own) sum += static_cast<double>(point[i]) * 0;
+    }
+    return std::isfinite(sum + static_cast<double>(convex.disc_radius[0]) + static_cast<double>(convex.disc_radius[1]));
+}
+
+template <int D>
+CorePoint<D> core_support(const Convex<D>& convex, const DVec<D>& direction) {
+    const DVec<D> local = convex.place.transposed(direction);
+    CorePoint<D> result = local_support(convex, local);
+    if (convex.inner_radius > 0) result.position += normalized(local) * convex.inner_radius;
+    result.position = convex.place.point(result.position);
+    return result;
+}
+
+template <int D>
+DVec<D> support(const Convex<D>& convex, const DVec<D>& direction) {
+    return core_support(convex, direction).position + normalized(direction) * convex.radius;
+}
+
+template <int D>
+Aabb<D> bounds(const Convex<D>& convex) {
+    Aabb<D> result;
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    for (int i = 0; i < D; ++i) {
+        result.min[i] = rounded_outwards(core_support(convex, axis<D>(i, -1)).position[i] - convex.radius, -infinity);
+        result.max[i] = rounded_outwards(core_support(convex, axis<D>(i, 1)).position[i] + convex.radius, infinity);
+    }
+    return result;
+}
+
+template <int D>
+DVec<D> reference_point(const Convex<D>& convex) {
+    return convex.core == Core::box ? convex.place.offset : core_support(convex, axis<D>(0)).position;
+}
+
+template <int D>
+double size(const Convex<D>& convex) {
+    DVec<D> half;
+    for (int i = 0; i < D; ++i)
+        half[i] =
+            0.5 * (core_support(convex, axis<D>(i, 1)).position[i] - core_support(convex, axis<D>(i, -1)).position[i]);
+    return length(half) + convex.radius;
+}
+
+#define ABUT_INSTANTIATE(D)                                                \
+    template Convex<D> round_points(std::initializer_list<Vec<D>>, float); \
+    template Placement<D> mapped(const Placement<D>&, const Affine<D>&);   \
+    template Convex<D> placed(const Convex<D>&, const Placement<D>&);      \
+    template bool is_finite(const Convex<D>&);                             \
+    template CorePoint<D> core_support(const Convex<D>&, const DVec<D>&);  \
+    template DVec<D> support(const Convex<D>&, const DVec<D>&);            \
+    template Aabb<D> bounds(const Convex<D>&);                             \
+    template DVec<D> reference_point(const Convex<D>&);                    \
+    template double size(const Convex<D>&);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
+
+}  // namespace abut

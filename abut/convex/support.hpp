@@ -1,0 +1,107 @@
+#pragma once
+
+// A convex set as the engines of this folder see it: a core, placed, with a ball rolled around it.
+//
+//     S = place * (core + inner ball) + ball,     "+" the Minkowski sum
+//
+// A circle, a capsule, a rounded box and a hull are one thing to them, and touching cases stay well conditioned:
+// the cores of two touching rounded shapes are apart by their radii.
+
+#include <abut/math/aabb.hpp>
+#include <abut/math/linear.hpp>
+
+#include <array>
+#include <cstdint>
+#include <initializer_list>
+#include <span>
+
+namespace abut {
+
+/// What a convex core is made of.
+enum class Core : std::uint8_t {
+    points,    ///< the hull of 1..n points
+    box,       ///< a box about the origin, by its half extents
+    discs,     ///< the hull of two parallel discs (D = 3): cylinder, cone
+    function,  ///< known by its support function alone
+};
+
+/// The faces of a polytope in 3D, as loops of point numbers, counter-clockwise seen from outside.
+struct Facets {
+    std::span<const Vec3> normals;         ///< one a face, of length 1, outwards
+    std::span<const std::uint32_t> loops;  ///< the point numbers of all faces, one after the other
+    std::span<const std::uint32_t>
+        loop_ends;  ///< one a face: where its loop ends in `loops`; it begins where the last ended
+};
+
+/// How a set is placed: place * (set + inner ball) + ball.
+template <int D>
+struct Placement {
+    Affine<D> place;          ///< from the shape's own frame to the world
+    bool similar = true;      ///< place keeps angles: a ball stays a ball
+    double scale = 1;         ///< how place changes lengths, where `similar`
+    double inner_radius = 0;  ///< of the ball added before `place`
+    double radius = 0;        ///< of the ball added after
+};
+
+/// The same placement moved, turned or stretched by `map`. What was stretched and then rounded can't be stretched again
+/// (its ball would become the sum of two different ellipsoids); poses and uniform scales always work.
+template <int D>
+Placement<D> mapped(const Placement<D>& placement, const Affine<D>& map);
+
+/// A small value that refers to the points, facets or object of a shape and must not outlive it.
+template <int D>
+struct Convex : Placement<D> {
+    Core core = Core::points;
+    std::uint32_t count = 1;      ///< of points
+    std::array<Vec<D>, 3> own{};  ///< up to three points; box: [0] the half extents; discs: [0], [1] their centres
+    std::array<float, 2> disc_radius{};
+    const Vec<D>* points = nullptr;  ///< `count` points; null: they are in `own`
+    const Facets* facets = nullptr;  ///< of a polyhedron; else null
+    const void* object = nullptr;    ///< for `function`
+    Vec<D> (*function)(const void* object, const Vec<D>& direction) = nullptr;
+
+    const Vec<D>* vertices() const { return points != nullptr ? points : own.data(); }
+};
+
+/// The core of up to three points, with a ball around it.
+template <int D>
+Convex<D> round_points(std::initializer_list<Vec<D>> points, float radius);
+
+/// The same set placed once more.
+template <int D>
+Convex<D> placed(const Convex<D>& convex, const Placement<D>& placement);
+
+/// False where a number of it is NaN or infinite. What a support function of the user returns is not looked at.
+template <int D>
+bool is_finite(const Convex<D>& convex);
+
+/// A point of a core, farthest along a direction.
+template <int D>
+struct CorePoint {
+    DVec<D> position{0.0};
+    std::uint32_t index = 0;  ///< of the point or corner; 0 where a core has none
+};
+
+/// The farthest point of the core and its inner ball (without the outer ball) along `direction`, which has any length
+/// but zero. Where several are equally far, the one of the lowest index.
+template <int D>
+CorePoint<D> core_support(const Convex<D>& convex, const DVec<D>& direction);
+
+/// The farthest point of the whole set along `direction`.
+template <int D>
+DVec<D> support(const Convex<D>& convex, const DVec<D>& direction);
+
+/// The least box around the set, rounded outwards.
+template <int D>
+Aabb<D> bounds(const Convex<D>& convex);
+
+/// Some point of the core: where to look from, so that distances don't depend on how far the shapes are from the
+/// origin.
+template <int D>
+DVec<D> reference_point(const Convex<D>& convex);
+
+/// The bounding radius: of a ball around the middle of `bounds` that holds the set; at most sqrt(D) times the least.
+template <int D>
+double size(const Convex<D>& convex);
+
+}  // namespace abut
