@@ -1,0 +1,52 @@
+#pragma once
+
+// How far apart are two shapes, or how deep in one another, and where?
+
+#include <abut/query/feature.hpp>
+#include <abut/query/options.hpp>
+#include <abut/shape/view.hpp>
+
+#include <limits>
+
+namespace abut {
+
+/// All fields are always valid, also where the shapes touch, coincide or are nested.
+template <int D>
+struct Closest {
+    /// The gap; or minus the least translation that parts them; 0 where they touch. For composite shapes the least over
+    /// all pairs of parts; infinite where one has no parts.
+    float distance = std::numeric_limits<float>::infinity();
+    Vec<D> normal = first_axis();  ///< of length 1, from A to B: moving B by -distance * normal makes them touch
+    Vec<D> on_a{};                 ///< on the surface of A; on_b == on_a + distance * normal
+    Vec<D> on_b{};                 ///< on the surface of B
+    Feature feature_a{};
+    Feature feature_b{};
+
+private:
+    static constexpr Vec<D> first_axis() {
+        Vec<D> result{};
+        result[0] = 1;
+        return result;
+    }
+};
+
+template <int D>
+Closest<D> closest(const View<D>& a, const View<D>& b, const QueryOptions& options = {});
+
+/// The signed distance of two shapes with the points and direction it is measured at.
+/// Right to within 1e-5 x the size of the smaller; the depth of cylinders, cones and shapes known by a support function
+/// is that of a move which truly parts them, at most 1e-3 x size above the least.
+template <class A, class B>
+requires Pair<A, B> Closest<dimension<A>> closest(const A& a, const B& b, const QueryOptions& options = {}) {
+    constexpr int D = dimension<A>;
+    return closest(View<D>(view(a)), View<D>(view(b)), options);
+}
+
+/// The place on a shape closest to a point: `on_a`. Inside, the distance is below zero and `on_a` the nearest way out.
+template <Shape A>
+Closest<dimension<A>> closest(const A& a, const Vec<dimension<A>>& point, const QueryOptions& options = {}) {
+    constexpr int D = dimension<A>;
+    return closest(View<D>(view(a)), View<D>(round_points<D>({point}, 0)), options);
+}
+
+}  // namespace abut

@@ -1,0 +1,61 @@
+#include <abut/convex/manifold.hpp>
+#include <abut/query/contact.hpp>
+#include <abut/query/part_pairs.hpp>
+
+namespace abut {
+namespace {
+
+template <int D>
+Manifold<D> parts_manifold(const Convex<D>& a, const Convex<D>& b, const SignedDistance<D>& distance, double margin) {
+    return manifold(a, b, distance, margin);
+}
+template <int D>
+Manifold<D> parts_manifold(const Convex<D>& a, const Solid<D>& b, const SignedDistance<D>&, double margin) {
+    return manifold_with_plane(a, b.normal, b.offset, margin);
+}
+template <int D>
+Manifold<D> parts_manifold(const Solid<D>& a, const Convex<D>& b, const SignedDistance<D>&, double margin) {
+    return manifold_with_plane(b, a.normal, a.offset, margin);
+}
+
+template <int D>
+Contact<D> answer(const Manifold<D>& found, const SignedDistance<D>& distance, std::uint32_t part_a,
+                  std::uint32_t part_b) {
+    Contact<D> result;
+    result.normal = to_float(distance.normal);
+    result.depth = static_cast<float>(-distance.distance);
+    for (std::size_t i = 0; i < found.count; ++i)
+        result.points.push_back(
+            {to_float(found.points[i].position), static_cast<float>(found.points[i].depth), found.points[i].feature});
+    result.feature_a = feature_on(distance.face, &DifferencePoint<D>::index_a, part_a);
+    result.feature_b = feature_on(distance.face, &DifferencePoint<D>::index_b, part_b);
+    return result;
+}
+
+}  // namespace
+
+template <int D>
+Contact<D> contact(const View<D>& a, const View<D>& b, const QueryOptions& options) {
+    const bool finite = is_finite(a) && is_finite(b);
+    ABUT_ASSERT(finite);
+    Contact<D> result;
+    result.normal[0] = 1;
+    if (!finite) return result;
+    const double margin = static_cast<double>(options.margin);
+    double least = margin;
+    each_part_pair(a, b, options.margin,
+                   [&](const auto& part_a, std::uint32_t index_a, const auto& part_b, std::uint32_t index_b) {
+                       const SignedDistance<D> distance = signed_distance(part_a, part_b);
+                       if (distance.distance > least || (result && distance.distance == least)) return true;
+                       // Now, while the parts are there: a composite shape may make them up as it goes.
+                       least = distance.distance;
+                       result = answer(parts_manifold(part_a, part_b, distance, margin), distance, index_a, index_b);
+                       return true;
+                   });
+    return result;
+}
+
+template Contact<2> contact(const View<2>&, const View<2>&, const QueryOptions&);
+template Contact<3> contact(const View<3>&, const View<3>&, const QueryOptions&);
+
+}  // namespace abut

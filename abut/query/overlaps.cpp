@@ -1,0 +1,38 @@
+#include <abut/query/overlaps.hpp>
+#include <abut/query/part_pairs.hpp>
+
+namespace abut {
+namespace {
+
+template <int D>
+bool parts_overlap(const Convex<D>& a, const Convex<D>& b) {
+    return convex_overlap(a, b);
+}
+template <int D>
+bool parts_overlap(const Convex<D>& a, const Solid<D>& b) {
+    return signed_distance(a, b).distance <= 0;
+}
+template <int D>
+bool parts_overlap(const Solid<D>& a, const Convex<D>& b) {
+    return parts_overlap(b, a);
+}
+
+}  // namespace
+
+template <int D>
+bool overlaps(const View<D>& a, const View<D>& b, const QueryOptions&) {
+    const bool finite = is_finite(a) && is_finite(b);
+    ABUT_ASSERT(finite);
+    if (!finite) return false;
+    bool found = false;
+    each_part_pair(a, b, 0, [&](const auto& part_a, std::uint32_t, const auto& part_b, std::uint32_t) {
+        found = parts_overlap(part_a, part_b);
+        return !found;
+    });
+    return found;
+}
+
+template bool overlaps(const View<2>&, const View<2>&, const QueryOptions&);
+template bool overlaps(const View<3>&, const View<3>&, const QueryOptions&);
+
+}  // namespace abut

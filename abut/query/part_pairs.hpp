@@ -1,0 +1,52 @@
+#pragma once
+
+// The pairs of convex parts of two shapes, whatever the shapes are. For .cpp files.
+
+#include <abut/convex/signed_distance.hpp>
+#include <abut/math/assert.hpp>
+#include <abut/query/feature.hpp>
+#include <abut/shape/view.hpp>
+
+namespace abut {
+
+/// Calls visit(part, index) for a convex shape or half-space itself, and for the parts of a composite one that are at
+/// most `reach` from `other`. The visitor returns false to stop.
+template <int D, class Other, class Visit>
+void each_part_near(const View<D>& shape, const Other& other, float reach, Visit&& visit) {
+    if (const auto* convex = std::get_if<Convex<D>>(&shape))
+        visit(*convex, 0u);
+    else if (const auto* solid = std::get_if<Solid<D>>(&shape))
+        visit(*solid, 0u);
+    else
+        each_part<D>(std::get<Composite<D>>(shape), grown(bounds(other), reach),
+                     [&](const Convex<D>& part, std::uint32_t index) -> bool { return visit(part, index); });
+}
+
+/// Calls visit(part_a, index_a, part_b, index_b) for at least all pairs of parts that are at most `reach` apart; each
+/// part is a Convex or a Solid, never both a Solid. The visitor returns false to stop.
+template <int D, class Visit>
+void each_part_pair(const View<D>& a, const View<D>& b, float reach, Visit&& visit) {
+    each_part_near(a, b, reach, [&]<class PartA>(const PartA& part_a, std::uint32_t index_a) {
+        bool go_on = true;
+        each_part_near(b, part_a, reach, [&]<class PartB>(const PartB& part_b, std::uint32_t index_b) {
+            if constexpr (std::is_same_v<PartA, Solid<D>> && std::is_same_v<PartB, Solid<D>>)
+                ABUT_ASSERT(!"two half-spaces don't pair");
+            else
+                go_on = visit(part_a, index_a, part_b, index_b);
+            return go_on;
+        });
+        return go_on;
+    });
+}
+
+/// The signed distance of a convex set and a half-space, in either order.
+template <int D>
+SignedDistance<D> signed_distance(const Convex<D>& a, const Solid<D>& b);
+template <int D>
+SignedDistance<D> signed_distance(const Solid<D>& a, const Convex<D>& b);
+
+/// The feature that a witness point lies on, from the points it is a weighted sum of.
+template <int D>
+Feature feature_on(const Simplex<D>& face, std::uint32_t DifferencePoint<D>::*index, std::uint32_t part);
+
+}  // namespace abut

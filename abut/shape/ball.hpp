@@ -1,0 +1,23 @@
+#pragma once
+
+// Circle and sphere: all points within a distance of one.
+
+#include <abut/convex/support.hpp>
+
+namespace abut {
+
+template <int D>
+struct Ball {
+    Vec<D> center{};
+    float radius = 0;  ///< not below zero; zero is a point
+};
+template <int D>
+Ball(glm::vec<D, float>, float) -> Ball<D>;
+
+using Circle = Ball<2>;
+using Sphere = Ball<3>;
+
+template <int D>
+Convex<D> convex(const Ball<D>& ball);
+
+}  // namespace abut

@@ -1,0 +1,24 @@
+#pragma once
+
+// Capsule: all points within a distance of a segment.
+
+#include <abut/convex/support.hpp>
+
+namespace abut {
+
+template <int D>
+struct Capsule {
+    Vec<D> a{};
+    Vec<D> b{};
+    float radius = 0;  ///< not below zero
+};
+template <int D>
+Capsule(glm::vec<D, float>, glm::vec<D, float>, float) -> Capsule<D>;
+
+using Capsule2 = Capsule<2>;
+using Capsule3 = Capsule<3>;
+
+template <int D>
+Convex<D> convex(const Capsule<D>& capsule);
+
+}  // namespace abut

@@ -1,0 +1,166 @@
+#include <abut/broad_phase/bvh.hpp>
+#include <abut/shape/mesh.hpp>
+
+#include <algorithm>
+#include <array>
+#include <tuple>
+#include <vector>
+
+namespace abut {
+
+struct Mesh::Data {
+    std::vector<Vec3> points;
+    std::vector<glm::uvec3> triangles;
+    Bvh<3> tree;
+    bool closed = false;
+};
+
+namespace {
+
+constexpr glm::length_t x = 0, y = 1, z = 2;
+
+bool before(const Vec3& a, const Vec3& b) {
+    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+}
+
+/// For each point, the first of the points at its position.
+std::vector<std::uint32_t> welded(std::span<const Vec3> points) {
+    std::vector<std::uint32_t> order(points.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::uint32_t>(i);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
+        if (before(points[i], points[j])) return true;
+        return !before(points[j], points[i]) && i < j;
+    });
+    std::vector<std::uint32_t> first(points.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const bool same = i > 0 && points[order[i]] == points[order[i - 1]];
+        first[order[i]] = same ? first[order[i - 1]] : order[i];
+    }
+    return first;
+}
+
+bool is_closed(std::span<const Vec3> points, std::span<const glm::uvec3> triangles) {
+    struct Edge {
+        std::uint32_t low, high;
+        int direction;
+    };
+    const std::vector<std::uint32_t> first = welded(points);
+    std::vector<Edge> edges;
+    edges.reserve(3 * triangles.size());
+    for (const glm::uvec3& t : triangles)
+        for (glm::length_t i = 0; i < 3; ++i) {
+            const std::uint32_t from = first[t[i]], to = first[t[(i + 1) % 3]];
+            if (from != to) edges.push_back({std::min(from, to), std::max(from, to), from < to ? 1 : -1});
+        }
+    std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
+        return std::tie(a.low, a.high, a.direction) < std::tie(b.low, b.high, b.direction);
+    });
+    int balance = 0;
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        balance += edges[i].direction;
+        const bool last =
+            i + 1 == edges.size() || edges[i + 1].low != edges[i].low || edges[i + 1].high != edges[i].high;
+        if (last && balance != 0) return false;
+    }
+    return true;
+}
+
+/// On which side of the line from a to b the point is, seen along x: above zero on the left. An edge gives the same
+/// answer whichever way round it is asked, so that neighbouring triangles agree about every point.
+double side(const Vec3& a, const Vec3& b, const Vec3& point) {
+    if (before(b, a)) return -side(b, a, point);
+    const DVec<3> from(a), ab = DVec<3>(b) - from, ap = DVec<3>(point) - from;
+    return ab[y] * ap[z] - ab[z] * ap[y];
+}
+
+/// How often the triangle goes round the line through the point along x: 1, -1 or 0.
+int turns_around(const Triangle3& t, const Vec3& point) {
+    int turns = 0;
+    const std::array<Vec3, 4> corner{t.a, t.b, t.c, t.a};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const bool from_below = corner[i].z <= point.z, to_below = corner[i + 1].z <= point.z;
+        if (from_below == to_below) continue;
+        const double left = side(corner[i], corner[i + 1], point);
+        if (from_below && left > 0) ++turns;
+        if (to_below && left < 0) --turns;
+    }
+    return turns;
+}
+
+/// Whether the plane of the triangle is beyond the point, going along x.
+bool is_beyond(const Triangle3& t, const Vec3& point) {
+    const DVec<3> a(t.a);
+    const DVec<3> normal = cross(DVec<3>(t.b) - a, DVec<3>(t.c) - a);
+    const double height = dot(normal, DVec<3>(point) - a);
+    return normal[x] > 0 ? height < 0 : height > 0;
+}
+
+Aabb3 box_of(const Triangle3& t) {
+    return merged(merged(Aabb3{t.a, t.a}, Aabb3{t.b, t.b}), Aabb3{t.c, t.c});
+}
+
+}  // namespace
+
+Result<Mesh> Mesh::build(std::span<const Vec3> points, std::span<const glm::uvec3> triangles) {
+    if (triangles.empty()) return Problem{ProblemCode::empty_input, "a mesh needs at least one triangle", 0};
+    for (std::size_t i = 0; i < points.size(); ++i)
+        if (!is_finite(points[i]))
+            return Problem{ProblemCode::not_finite,
+                           "point " + std::to_string(i) + " has a coordinate that is not finite", i};
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+        for (glm::length_t j = 0; j < 3; ++j)
+            if (triangles[i][j] >= points.size())
+                return Problem{ProblemCode::index_out_of_range,
+                               "triangle " + std::to_string(i) + " names point " + std::to_string(triangles[i][j]) +
+                                   " of " + std::to_string(points.size()),
+                               i};
+    auto data = std::make_shared<Data>();
+    data->points.assign(points.begin(), points.end());
+    data->triangles.assign(triangles.begin(), triangles.end());
+    data->closed = is_closed(points, triangles);
+    Mesh mesh(data);
+    std::vector<Aabb3> boxes(triangles.size());
+    for (std::uint32_t i = 0; i < boxes.size(); ++i) boxes[i] = box_of(mesh.triangle(i));
+    data->tree.build(boxes);
+    return mesh;
+}
+
+std::span<const Vec3> Mesh::points() const {
+    return data_->points;
+}
+std::span<const glm::uvec3> Mesh::triangles() const {
+    return data_->triangles;
+}
+bool Mesh::closed() const {
+    return data_->closed;
+}
+
+Triangle3 Mesh::triangle(std::uint32_t index) const {
+    const glm::uvec3& t = data_->triangles[index];
+    return {data_->points[t.x], data_->points[t.y], data_->points[t.z]};
+}
+
+Aabb3 bounds(const Mesh& mesh) {
+    return mesh.data_->tree.bounds();
+}
+
+void each_part(const Mesh& mesh, const Aabb3& box,
+               FunctionRef<bool(const Triangle3& part, std::uint32_t index)> visit) {
+    mesh.data_->tree.each_overlapping(box,
+                                      [&](std::uint32_t index) -> bool { return visit(mesh.triangle(index), index); });
+}
+
+bool solid_contains(const Mesh& mesh, const Vec3& point) {
+    if (!mesh.closed()) return false;
+    Aabb3 ahead{point, point};
+    ahead.max.x = std::numeric_limits<float>::infinity();
+    int turns = 0;
+    mesh.data_->tree.each_overlapping(ahead, [&](std::uint32_t index) {
+        const Triangle3 t = mesh.triangle(index);
+        const int around = turns_around(t, point);
+        if (around != 0 && is_beyond(t, point)) turns += around;
+    });
+    return turns != 0;
+}
+
+}  // namespace abut

@@ -1,0 +1,54 @@
+#pragma once
+
+// Triangle mesh: level geometry in 3D, any triangles in any order.
+
+#include <abut/math/result.hpp>
+#include <abut/shape/triangle.hpp>
+#include <abut/shape/view.hpp>
+
+#include <memory>
+#include <span>
+
+#include <glm/ext/vector_uint3.hpp>
+
+namespace abut {
+
+/// The union of its triangles, each of zero thickness and the same from both sides; part i is triangle i of the input.
+/// Only `contains` takes a closed mesh as solid. Immutable: copies share the data, so one mesh at many poses costs one
+/// tree. Memory: the input, 28 bytes a triangle for its box and about 26 for the tree.
+class Mesh {
+public:
+    /// Any number of triangles but zero, also flat, doubled or crossing ones. A Problem where a coordinate is not
+    /// finite or an index is out of range: it says which point or triangle.
+    static Result<Mesh> build(std::span<const Vec3> points, std::span<const glm::uvec3> triangles);
+
+    std::span<const Vec3> points() const;
+    std::span<const glm::uvec3> triangles() const;
+    Triangle3 triangle(std::uint32_t index) const;
+
+    /// Whether the triangles bound a volume: each edge is shared by equally many triangles in both directions, points
+    /// at the same position counted as one.
+    bool closed() const;
+
+private:
+    struct Data;
+    explicit Mesh(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
+
+    friend Aabb3 bounds(const Mesh& mesh);
+    friend void each_part(const Mesh& mesh, const Aabb3& box,
+                          FunctionRef<bool(const Triangle3& part, std::uint32_t index)> visit);
+    friend bool solid_contains(const Mesh& mesh, const Vec3& point);
+
+    std::shared_ptr<const Data> data_;
+};
+
+Aabb3 bounds(const Mesh& mesh);
+
+/// Visits the triangles whose boxes overlap `box`; the visitor returns false to stop.
+void each_part(const Mesh& mesh, const Aabb3& box, FunctionRef<bool(const Triangle3& part, std::uint32_t index)> visit);
+
+/// Whether a closed mesh goes round the point; false for one that isn't closed. Points of the surface itself are told
+/// by the triangles.
+bool solid_contains(const Mesh& mesh, const Vec3& point);
+
+}  // namespace abut

@@ -1,0 +1,139 @@
+#pragma once
+
+// Composable views of a shape: moved and turned, rounded, stretched. They refer to an lvalue and own an rvalue.
+
+#include <abut/shape/view.hpp>
+
+#include <utility>
+
+namespace abut {
+
+/// `shape` moved and turned by `pose`, on top of the position it carries itself.
+template <class S>
+struct At {
+    S shape;
+    Pose<dimension<std::remove_cvref_t<S>>> pose;
+};
+
+/// All points within `radius` of `shape`: the Minkowski sum with a ball.
+template <class S>
+struct Rounded {
+    S shape;
+    float radius;
+};
+
+/// `shape` with each coordinate multiplied by a factor, about the origin of its own frame.
+template <class S>
+struct Stretched {
+    S shape;
+    Vec<dimension<std::remove_cvref_t<S>>> scale;
+};
+
+template <class S>
+requires Shape<std::remove_cvref_t<S>> At<S> at(S&& shape, const Pose<dimension<std::remove_cvref_t<S>>>& pose) {
+    return {std::forward<S>(shape), pose};
+}
+
+/// `radius` is not below zero.
+template <class S>
+requires Shape<std::remove_cvref_t<S>> Rounded<S> rounded(S&& shape, float radius) {
+    return {std::forward<S>(shape), radius};
+}
+
+namespace detail {
+
+/// Whether S is `rounded` somewhere outside of a `stretched`.
+template <class S>
+inline constexpr bool rounded_after_stretching = false;
+template <class S>
+inline constexpr bool was_stretched = false;
+template <class S>
+inline constexpr bool was_stretched<At<S>> = was_stretched<std::remove_cvref_t<S>>;
+template <class S>
+inline constexpr bool was_stretched<Rounded<S>> = was_stretched<std::remove_cvref_t<S>>;
+template <class S>
+inline constexpr bool was_stretched<Stretched<S>> = true;
+template <class S>
+inline constexpr bool rounded_after_stretching<At<S>> = rounded_after_stretching<std::remove_cvref_t<S>>;
+template <class S>
+inline constexpr bool rounded_after_stretching<Stretched<S>> = rounded_after_stretching<std::remove_cvref_t<S>>;
+template <class S>
+inline constexpr bool rounded_after_stretching<Rounded<S>> = was_stretched<std::remove_cvref_t<S>>;
+
+}  // namespace detail
+
+/// A factor below zero mirrors, zero flattens.
+template <class S>
+requires Shape<std::remove_cvref_t<S>> Stretched<S> stretched(S&& shape,
+                                                              const Vec<dimension<std::remove_cvref_t<S>>>& scale) {
+    static_assert(!detail::rounded_after_stretching<std::remove_cvref_t<S>>,
+                  "a shape that was stretched and then rounded can't be stretched again: stretch first, round last");
+    return {std::forward<S>(shape), scale};
+}
+
+template <class S>
+auto view(const At<S>& shape) {
+    return mapped(view(std::as_const(shape.shape)), affine(shape.pose));
+}
+template <class S>
+auto view(const Rounded<S>& shape) {
+    return rounded(view(std::as_const(shape.shape)), static_cast<double>(shape.radius));
+}
+template <class S>
+auto view(const Stretched<S>& shape) {
+    return mapped(view(std::as_const(shape.shape)), scaling(shape.scale));
+}
+
+namespace detail {
+
+template <class S>
+struct Owned {
+    using type = std::remove_cvref_t<S>;
+};
+template <class S>
+struct Owned<At<S>> {
+    using type = At<typename Owned<std::remove_cvref_t<S>>::type>;
+};
+template <class S>
+struct Owned<Rounded<S>> {
+    using type = Rounded<typename Owned<std::remove_cvref_t<S>>::type>;
+};
+template <class S>
+struct Owned<Stretched<S>> {
+    using type = Stretched<typename Owned<std::remove_cvref_t<S>>::type>;
+};
+
+}  // namespace detail
+
+/// The same shape with all that it referred to copied into it: what may be kept.
+template <class S>
+S owned(const S& shape) {
+    return shape;
+}
+template <class S>
+typename detail::Owned<At<S>>::type owned(const At<S>& shape) {
+    return {owned(std::as_const(shape.shape)), shape.pose};
+}
+template <class S>
+typename detail::Owned<Rounded<S>>::type owned(const Rounded<S>& shape) {
+    return {owned(std::as_const(shape.shape)), shape.radius};
+}
+template <class S>
+typename detail::Owned<Stretched<S>>::type owned(const Stretched<S>& shape) {
+    return {owned(std::as_const(shape.shape)), shape.scale};
+}
+
+template <class S>
+Aabb<dimension<std::remove_cvref_t<S>>> bounds(const At<S>& shape) {
+    return bounds(view(shape));
+}
+template <class S>
+Aabb<dimension<std::remove_cvref_t<S>>> bounds(const Rounded<S>& shape) {
+    return bounds(view(shape));
+}
+template <class S>
+Aabb<dimension<std::remove_cvref_t<S>>> bounds(const Stretched<S>& shape) {
+    return bounds(view(shape));
+}
+
+}  // namespace abut

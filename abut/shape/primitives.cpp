@@ -1,0 +1,87 @@
+// How the plain shapes look to the engines: points with a ball around them, boxes, discs.
+
+#include <abut/shape/ball.hpp>
+#include <abut/shape/box.hpp>
+#include <abut/shape/capsule.hpp>
+#include <abut/shape/cylinder.hpp>
+#include <abut/shape/segment.hpp>
+#include <abut/shape/triangle.hpp>
+
+namespace abut {
+namespace {
+
+template <int D>
+Convex<D> box_about(const Affine<D>& place, const Vec<D>& half) {
+    Convex<D> result;
+    result.core = Core::box;
+    result.own[0] = half;
+    result.place = place;
+    return result;
+}
+
+Convex<3> discs(const Vec3& a, const Vec3& b, float radius_a, float radius_b) {
+    Convex<3> result;
+    result.core = Core::discs;
+    result.own = {a, b, Vec3(0)};
+    result.disc_radius = {radius_a, radius_b};
+    return result;
+}
+
+}  // namespace
+
+template <int D>
+Convex<D> convex(const Ball<D>& ball) {
+    return round_points<D>({ball.center}, ball.radius);
+}
+
+template <int D>
+Convex<D> convex(const Capsule<D>& capsule) {
+    return round_points<D>({capsule.a, capsule.b}, capsule.radius);
+}
+
+template <int D>
+Convex<D> convex(const Segment<D>& segment) {
+    return round_points<D>({segment.a, segment.b}, 0);
+}
+
+template <int D>
+Convex<D> convex(const Triangle<D>& triangle) {
+    return round_points<D>({triangle.a, triangle.b, triangle.c}, 0);
+}
+
+template <int D>
+Convex<D> convex(const Box<D>& box) {
+    return box_about(affine(Pose<D>{box.center, box.rotation}), box.half);
+}
+
+template <int D>
+Convex<D> convex(const Aabb<D>& box) {
+    Affine<D> place;
+    Vec<D> half;
+    for (int i = 0; i < D; ++i) {
+        const double low = static_cast<double>(box.min[i]), high = static_cast<double>(box.max[i]);
+        place.offset[i] = 0.5 * (low + high);
+        half[i] = static_cast<float>(0.5 * (high - low));
+    }
+    return box_about(place, half);
+}
+
+Convex<3> convex(const Cylinder& cylinder) {
+    return discs(cylinder.a, cylinder.b, cylinder.radius, cylinder.radius);
+}
+Convex<3> convex(const Cone& cone) {
+    return discs(cone.a, cone.b, cone.radius, 0);
+}
+
+#define ABUT_INSTANTIATE(D)                        \
+    template Convex<D> convex(const Ball<D>&);     \
+    template Convex<D> convex(const Capsule<D>&);  \
+    template Convex<D> convex(const Segment<D>&);  \
+    template Convex<D> convex(const Triangle<D>&); \
+    template Convex<D> convex(const Box<D>&);      \
+    template Convex<D> convex(const Aabb<D>&);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
+
+}  // namespace abut

@@ -1,0 +1,23 @@
+#pragma once
+
+// The straight piece between two points.
+
+#include <abut/convex/support.hpp>
+
+namespace abut {
+
+template <int D>
+struct Segment {
+    Vec<D> a{};
+    Vec<D> b{};
+};
+template <int D>
+Segment(glm::vec<D, float>, glm::vec<D, float>) -> Segment<D>;
+
+using Segment2 = Segment<2>;
+using Segment3 = Segment<3>;
+
+template <int D>
+Convex<D> convex(const Segment<D>& segment);
+
+}  // namespace abut

@@ -1,0 +1,204 @@
+#pragma once
+
+// What the questions see of a shape. Every front door turns its arguments into views and calls one function a
+// dimension.
+//
+// A convex shape is a Convex, a half-space a Solid, and a composite one gives its convex parts where it is asked to.
+
+#include <abut/convex/support.hpp>
+#include <abut/math/function_ref.hpp>
+#include <abut/shape/half_space.hpp>
+
+#include <concepts>
+#include <type_traits>
+#include <variant>
+
+namespace abut {
+
+/// Is given one convex part of a composite shape with its number; returns false to stop.
+template <int D>
+using PartVisitor = FunctionRef<bool(const Convex<D>& part, std::uint32_t index)>;
+
+/// A composite shape: the union of its parts. Refers to the shape and must not outlive it.
+template <int D>
+struct Composite : Placement<D> {
+    Aabb<D> bounds;  ///< in the shape's own frame, before the placement
+    const void* object = nullptr;
+    /// Visits at least the parts whose boxes overlap `box`, both in the shape's own frame.
+    void (*each_part)(const void* object, const Aabb<D>& box, PartVisitor<D> visit) = nullptr;
+    /// Whether a point of the shape's own frame is inside it; null where the shape is the union of its parts and no
+    /// more.
+    bool (*contains)(const void* object, const Vec<D>& point) = nullptr;
+};
+
+/// Any shape.
+template <int D>
+using View = std::variant<Convex<D>, Solid<D>, Composite<D>>;
+
+/// The least box around a shape, rounded outwards; for a composite turned or stretched, the box of its turned box.
+template <int D>
+Aabb<D> bounds(const Composite<D>& composite);
+template <int D>
+Aabb<D> bounds(const View<D>& view);
+
+/// Visits at least the parts whose boxes overlap `box`, placed as the composite is; box and parts in the world.
+template <int D>
+void each_part(const Composite<D>& composite, const Aabb<D>& box, PartVisitor<D> visit);
+
+/// Whether a point of the world is inside a composite that is solid, without its parts and without what was rounded
+/// onto it.
+template <int D>
+bool contains_inside(const Composite<D>& composite, const Vec<D>& point);
+
+/// The bounding radius; infinite for a half-space.
+template <int D>
+double size(const View<D>& view);
+
+/// False where a number of it is NaN or infinite.
+template <int D>
+bool is_finite(const View<D>& view);
+
+template <int D>
+Convex<D> mapped(const Convex<D>& convex, const Affine<D>& map);
+template <int D>
+Composite<D> mapped(const Composite<D>& composite, const Affine<D>& map);
+template <int D>
+View<D> mapped(const View<D>& view, const Affine<D>& map);
+
+template <int D>
+Convex<D> rounded(const Convex<D>& convex, double radius);
+template <int D>
+Composite<D> rounded(const Composite<D>& composite, double radius);
+
+// From here on: how a type becomes a view. The library's own shapes give `convex(shape)`; a user's give `bounds(shape)`
+// and either `support(shape, direction)` or `each_part(shape, box, visit)`, found by argument-dependent lookup.
+
+namespace detail {
+
+template <class S>
+concept HasConvex = requires(const S& shape) {
+    convex(shape);
+};
+
+template <class B>
+struct DimensionOfBox;
+template <int D>
+struct DimensionOfBox<Aabb<D>> : std::integral_constant<int, D> {};
+
+template <class S>
+concept HasBounds = requires(const S& shape) {
+    DimensionOfBox<decltype(bounds(shape))>::value;
+};
+
+template <HasBounds S>
+inline constexpr int box_dimension = DimensionOfBox<decltype(bounds(std::declval<const S&>()))>::value;
+
+template <class S>
+concept HasSupport = HasBounds<S> && requires(const S& shape) {
+    { support(shape, Vec<box_dimension<S>>()) } -> std::convertible_to<Vec<box_dimension<S>>>;
+};
+
+/// The visitor that a user's each_part is called with in order to find out whether it has one.
+template <int D>
+struct AnyPart {
+    template <class Part>
+    bool operator()(const Part&, std::uint32_t) const {
+        return true;
+    }
+};
+
+template <class S>
+concept HasParts = HasBounds<S> && requires(const S& shape) {
+    each_part(shape, bounds(shape), AnyPart<box_dimension<S>>());
+};
+
+}  // namespace detail
+
+template <int D>
+const View<D>& view(const View<D>& shape) {
+    return shape;
+}
+template <int D>
+const Convex<D>& view(const Convex<D>& shape) {
+    return shape;
+}
+template <int D>
+const Composite<D>& view(const Composite<D>& shape) {
+    return shape;
+}
+template <int D>
+Solid<D> view(const HalfSpace<D>& shape) {
+    return solid(shape);
+}
+
+template <detail::HasConvex S>
+auto view(const S& shape) {
+    return convex(shape);
+}
+
+template <class S>
+requires(!detail::HasConvex<S> && detail::HasSupport<S>) auto view(const S& shape) {
+    constexpr int D = detail::box_dimension<S>;
+    Convex<D> result;
+    result.core = Core::function;
+    result.object = &shape;
+    result.function = [](const void* object, const Vec<D>& direction) -> Vec<D> {
+        return support(*static_cast<const S*>(object), direction);
+    };
+    return result;
+}
+
+template <class S>
+requires(!detail::HasConvex<S> && !detail::HasSupport<S> && detail::HasParts<S>) auto view(const S& shape) {
+    constexpr int D = detail::box_dimension<S>;
+    Composite<D> result;
+    result.bounds = bounds(shape);
+    result.object = &shape;
+    result.each_part = [](const void* object, const Aabb<D>& box, PartVisitor<D> visit) {
+        each_part(*static_cast<const S*>(object), box,
+                  [&](const auto& part, std::uint32_t index) -> bool { return visit(view(part), index); });
+    };
+    if constexpr (requires {
+                      { solid_contains(shape, Vec<D>()) } -> std::same_as<bool>;
+                  })
+        result.contains = [](const void* object, const Vec<D>& point) {
+            return solid_contains(*static_cast<const S*>(object), point);
+        };
+    return result;
+}
+
+namespace detail {
+
+template <class V>
+struct DimensionOfView;
+template <int D>
+struct DimensionOfView<Convex<D>> : std::integral_constant<int, D> {};
+template <int D>
+struct DimensionOfView<Solid<D>> : std::integral_constant<int, D> {};
+template <int D>
+struct DimensionOfView<Composite<D>> : std::integral_constant<int, D> {};
+template <int D>
+struct DimensionOfView<View<D>> : std::integral_constant<int, D> {};
+
+template <class S>
+using ViewOf = std::remove_cvref_t<decltype(view(std::declval<const S&>()))>;
+
+}  // namespace detail
+
+/// Anything that can be asked questions: a shape of this library, a view of one, or a user's own.
+template <class S>
+concept Shape = requires {
+    detail::DimensionOfView<detail::ViewOf<S>>::value;
+};
+
+/// 2 or 3.
+template <Shape S>
+inline constexpr int dimension = detail::DimensionOfView<detail::ViewOf<S>>::value;
+
+/// Two shapes of one dimension, at most one of them a half-space.
+template <class A, class B>
+concept Pair = Shape<A> && Shape<B> && dimension<A>
+== dimension<B> &&
+    !(std::same_as<detail::ViewOf<A>, Solid<dimension<A>>> && std::same_as<detail::ViewOf<B>, Solid<dimension<B>>>);
+
+}  // namespace abut
