@@ -1,0 +1,123 @@
+#include <abut/math/assert.hpp>
+#include <abut/world/world.hpp>
+
+namespace abut {
+
+template <int D>
+const typename World<D>::Item* World<D>::find(Id id) const {
+    if (id.index == 0 || id.index > items_.size()) return nullptr;
+    const Item& item = items_[id.index - 1];
+    return item.stored != nullptr && item.generation == id.generation ? &item : nullptr;
+}
+
+template <int D>
+typename World<D>::Item* World<D>::find(Id id) {
+    return const_cast<Item*>(std::as_const(*this).find(id));
+}
+
+template <int D>
+Id World<D>::add(std::unique_ptr<const detail::StoredShape<D>> stored, const ItemOptions<D>& options) {
+    std::uint32_t slot = static_cast<std::uint32_t>(items_.size());
+    if (free_.empty()) {
+        items_.emplace_back();
+    } else {
+        slot = free_.back();
+        free_.pop_back();
+    }
+    Item& item = items_[slot];
+    item.stored = std::move(stored);
+    item.options = options;
+    ++item.generation;
+    ++count_;
+    place(slot);
+    return id_of(slot);
+}
+
+template <int D>
+void World<D>::set_shape(Id id, std::unique_ptr<const detail::StoredShape<D>> stored) {
+    Item* item = find(id);
+    ABUT_ASSERT(item != nullptr);
+    if (item == nullptr) return;
+    item->stored = std::move(stored);
+    place(id.index - 1);
+}
+
+template <int D>
+void World<D>::move(Id id, const Pose<D>& pose) {
+    Item* item = find(id);
+    ABUT_ASSERT(item != nullptr);
+    if (item == nullptr || item->options.pose == pose) return;
+    item->options.pose = pose;
+    place(id.index - 1);
+}
+
+template <int D>
+void World<D>::set_filter(Id id, std::uint32_t layers, std::uint32_t mask) {
+    Item* item = find(id);
+    ABUT_ASSERT(item != nullptr);
+    if (item == nullptr) return;
+    item->options.layers = layers;
+    item->options.mask = mask;
+    mark_pending(id.index - 1);
+}
+
+template <int D>
+void World<D>::remove(Id id) {
+    Item* item = find(id);
+    ABUT_ASSERT(item != nullptr);
+    if (item == nullptr) return;
+    item->stored = nullptr;
+    item->placed = View<D>();
+    item->box = Aabb<D>::empty();
+    mark_pending(id.index - 1);
+    free_.push_back(id.index - 1);
+    --count_;
+}
+
+template <int D>
+void World<D>::place(std::uint32_t slot) {
+    Item& item = items_[slot];
+    item.placed = mapped(item.stored->view(), affine(item.options.pose));
+    const bool finite = is_finite(item.placed);
+    ABUT_ASSERT(finite);
+    item.box = finite ? bounds(item.placed) : Aabb<D>::empty();
+    mark_pending(slot);
+}
+
+template <int D>
+void World<D>::mark_pending(std::uint32_t slot) {
+    if (items_[slot].pending) return;
+    items_[slot].pending = true;
+    pending_.push_back(slot);
+}
+
+template <int D>
+bool World<D>::contains(Id id) const {
+    return find(id) != nullptr;
+}
+
+template <int D>
+std::uint64_t World<D>::user(Id id) const {
+    const Item* item = find(id);
+    ABUT_ASSERT(item != nullptr);
+    return item != nullptr ? item->options.user : 0;
+}
+
+template <int D>
+Pose<D> World<D>::pose(Id id) const {
+    const Item* item = find(id);
+    ABUT_ASSERT(item != nullptr);
+    return item != nullptr ? item->options.pose : Pose<D>{};
+}
+
+template <int D>
+View<D> World<D>::shape(Id id) const {
+    const Item* item = find(id);
+    ABUT_ASSERT(item != nullptr);
+    return item != nullptr ? item->placed : View<D>();
+}
+
+template class World<2>;
+template class World<3>;
+
+}  // namespace abut

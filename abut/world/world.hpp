@@ -1,0 +1,213 @@
+#pragma once
+
+// A world for games: it keeps shapes by id, tells from update to update who touches whom, and answers questions about
+// them all. It moves nothing by itself.
+
+#include <abut/broad_phase/bvh.hpp>
+#include <abut/query/closest.hpp>
+#include <abut/query/contact.hpp>
+#include <abut/query/raycast.hpp>
+#include <abut/shape/placed.hpp>
+#include <abut/world/id.hpp>
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace abut {
+
+/// How a shape takes part in a world.
+template <int D>
+struct ItemOptions {
+    Pose<D> pose{};                   ///< on top of the position that the shape carries itself
+    std::uint64_t user = 0;           ///< the game's own, such as an index
+    std::uint32_t layers = 1;         ///< the layers it is on, one bit each
+    std::uint32_t mask = 0xffffffff;  ///< the layers it pairs with; both sides must agree
+    bool fixed = false;               ///< hardly ever moves; two fixed items never pair
+    bool sensor = false;              ///< has events and no contacts; queries skip it unless they ask
+};
+
+/// Which items a question is about.
+struct Filter {
+    std::uint32_t layers = 0xffffffff;  ///< asks as if on these layers
+    std::uint32_t mask = 0xffffffff;    ///< only items on one of these layers
+    bool sensors = false;               ///< sensors too
+    Id ignore{};                        ///< but for this one, such as the one who asks
+};
+
+struct IdPair {
+    Id a, b;  ///< a < b
+
+    friend auto operator<=>(const IdPair&, const IdPair&) = default;
+};
+
+/// What changed with an update; each sorted. Valid until the next update.
+struct Events {
+    std::span<const IdPair> began;   ///< touch now and did not before
+    std::span<const IdPair> stayed;  ///< touch now and did before
+    std::span<const IdPair> ended;   ///< touched before and don't now, also because one was removed
+};
+
+template <int D>
+struct WorldContact {
+    Id a, b;
+    Contact<D> contact;
+};
+
+template <int D>
+struct WorldHit {
+    Id id;
+    Hit<D> hit;
+};
+
+template <int D>
+struct WorldClosest {
+    Id id;
+    Closest<D> closest;  ///< from the asking point or shape (A) to the item (B)
+};
+
+/// What the last update did.
+struct UpdateCounts {
+    std::size_t near = 0;    ///< pairs whose boxes overlap and whose layers agree
+    std::size_t tested = 0;  ///< those of them that were looked at again because one of the two had moved
+};
+
+namespace detail {
+
+/// A shape of any type, owned.
+template <int D>
+struct StoredShape {
+    virtual ~StoredShape() = default;
+    virtual View<D> view() const = 0;
+};
+
+template <int D, class S>
+struct StoredShapeOf final : StoredShape<D> {
+    explicit StoredShapeOf(S s) : shape(std::move(s)) {}
+    View<D> view() const override { return abut::view(shape); }
+
+    S shape;
+};
+
+template <int D, class S>
+std::unique_ptr<const StoredShape<D>> store(const S& shape) {
+    auto kept = owned(shape);
+    return std::make_unique<StoredShapeOf<D, decltype(kept)>>(std::move(kept));
+}
+
+}  // namespace detail
+
+/// All lists are sorted by id, and no answer depends on the order in which items were added but for the ids.
+/// Questions see every item where it is now, moved since the last update or not; they are const and may run on many
+/// threads at once, those that return no list without allocating. A stale id trips ABUT_ASSERT; in release it is
+/// ignored.
+template <int D>
+class World {
+public:
+    /// Takes a copy of the shape, and of what it refers to.
+    template <class S>
+    requires(Shape<S>&& dimension<S> == D) Id add(const S& shape, const ItemOptions<D>& options = {}) {
+        return add(detail::store<D>(shape), options);
+    }
+    template <class S>
+    requires(Shape<S>&& dimension<S> == D) void set_shape(Id id, const S& shape) {
+        set_shape(id, detail::store<D>(shape));
+    }
+    void move(Id id, const Pose<D>& pose);
+    void set_filter(Id id, std::uint32_t layers, std::uint32_t mask);
+    void remove(Id id);
+
+    bool contains(Id id) const;
+    std::uint64_t user(Id id) const;
+    Pose<D> pose(Id id) const;
+    /// The item's shape where it is; valid until it is moved, changed or removed.
+    View<D> shape(Id id) const;
+    std::size_t size() const { return count_; }
+
+    /// Finds who touches whom. Allocates nothing once it has seen a scene of this size. A pair of which neither moved
+    /// since the last update isn't looked at again.
+    Events update();
+    /// One for each pair that touches without a sensor, as of the last update.
+    std::span<const WorldContact<D>> contacts() const { return contacts_; }
+    UpdateCounts counts() const { return counts_; }
+
+    /// The first hit, as told at abut::raycast; of equally near ones, the one with the lowest id.
+    std::optional<WorldHit<D>> raycast(const Ray<D>& ray, const Filter& filter = {}) const;
+    /// The first hit on each item, near to far.
+    std::vector<WorldHit<D>> raycast_all(const Ray<D>& ray, const Filter& filter = {}) const;
+
+    template <Shape S>
+    std::optional<WorldClosest<D>> closest(const S& shape, const Filter& filter = {}) const {
+        return closest_to(View<D>(view(shape)), filter);
+    }
+    std::optional<WorldClosest<D>> closest(const Vec<D>& point, const Filter& filter = {}) const {
+        return closest_to(View<D>(round_points<D>({point}, 0)), filter);
+    }
+
+    template <Shape S>
+    std::vector<Id> overlapping(const S& shape, const Filter& filter = {}) const {
+        return all_overlapping(View<D>(view(shape)), filter);
+    }
+    /// visit(id), in no order that is promised; returns nothing, or false to stop.
+    template <Shape S, Visitor<Id> F>
+    void each_overlapping(const S& shape, F&& visit, const Filter& filter = {}) const {
+        visit_overlapping(View<D>(view(shape)), filter, go_on_after(visit));
+    }
+    std::vector<Id> containing(const Vec<D>& point, const Filter& filter = {}) const;
+
+private:
+    struct Item {
+        std::unique_ptr<const detail::StoredShape<D>> stored;  // null: a free slot
+        View<D> placed;
+        Aabb<D> box = Aabb<D>::empty();
+        ItemOptions<D> options;
+        std::uint32_t generation = 0;
+        bool pending = false;  // not yet in the trees as it is now
+    };
+
+    Id add(std::unique_ptr<const detail::StoredShape<D>> stored, const ItemOptions<D>& options);
+    void set_shape(Id id, std::unique_ptr<const detail::StoredShape<D>> stored);
+    const Item* find(Id id) const;
+    Item* find(Id id);
+    Id id_of(std::uint32_t slot) const { return {slot + 1, items_[slot].generation}; }
+    void place(std::uint32_t slot);
+    void mark_pending(std::uint32_t slot);
+    bool asked(std::uint32_t slot, const Filter& filter) const;
+
+    void refresh_trees();
+    void consider(std::uint32_t slot, std::uint32_t other);
+    void look_at(const IdPair& pair);
+    void compare_with_last();
+
+    template <class F>
+    void each_near(const Aabb<D>& box, const Filter& filter, F&& visit) const;
+    template <class F>
+    void each_near_ray(const Ray<D>& ray, const Filter& filter, F&& visit) const;
+    std::optional<WorldClosest<D>> closest_to(const View<D>& shape, const Filter& filter) const;
+    std::vector<Id> all_overlapping(const View<D>& shape, const Filter& filter) const;
+    void visit_overlapping(const View<D>& shape, const Filter& filter, FunctionRef<bool(Id)> visit) const;
+
+    std::vector<Item> items_;
+    std::vector<std::uint32_t> free_;
+    std::vector<std::uint32_t> pending_;
+    std::size_t count_ = 0;
+
+    Bvh<D> fixed_tree_, moving_tree_;
+    std::vector<Aabb<D>> fixed_boxes_, moving_boxes_;  // by slot; empty where the item is of the other kind
+    bool fixed_changed_ = false;
+
+    std::vector<IdPair> near_;
+    std::vector<IdPair> touching_, touched_;  // now and at the last update
+    std::vector<WorldContact<D>> contacts_, last_contacts_;
+    std::vector<IdPair> began_, stayed_, ended_;
+    UpdateCounts counts_;
+};
+
+using World2 = World<2>;
+using World3 = World<3>;
+
+extern template class World<2>;
+extern template class World<3>;
+
+}  // namespace abut
