@@ -1,0 +1,63 @@
+#pragma once
+
+// Boxes that drift about and bounce off the walls of their world, as the items of a game do: each frame is much like the
+// one before, and after many frames nothing is where it began.
+
+#include "../test/oracle/random.hpp"
+
+#include <abut/math/aabb.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace abut::scenes {
+
+/// Edges of 0.5 to 2, at most 0.1 a frame along each axis, and about one overlapping pair a box. Every coordinate is a
+/// multiple of 1/1024, so that no library rounds a box on its way in, and which boxes touch is the same to all.
+template <int D>
+class MovingBoxes {
+public:
+    MovingBoxes(std::size_t count, std::uint64_t seed) : boxes_(count), velocities_(count) {
+        // A box overlaps those whose centres lie in a box of 2.5, two mean edges; each pair is of two boxes.
+        const double volume = 0.5 * power(2.5) * static_cast<double>(count);
+        while (power(side_) < volume) ++side_;
+        oracle::Random random(seed);
+        for (std::size_t item = 0; item < count; ++item) {
+            for (int i = 0; i < D; ++i) {
+                const float half = on_grid(random.uniform(0.25, 1));
+                const float center = on_grid(random.uniform(half, side_ - half));
+                boxes_[item].min[i] = center - half;
+                boxes_[item].max[i] = center + half;
+                velocities_[item][i] = on_grid(random.uniform(-0.1, 0.1));
+            }
+        }
+    }
+
+    std::span<const Aabb<D>> boxes() const { return boxes_; }
+    /// The boxes lie in a cube from 0 to here, but for what has just run into a wall.
+    float side() const { return side_; }
+
+    void step() {
+        for (std::size_t item = 0; item < boxes_.size(); ++item) {
+            Aabb<D>& box = boxes_[item];
+            Vec<D>& velocity = velocities_[item];
+            for (int i = 0; i < D; ++i)
+                if ((box.min[i] < 0 && velocity[i] < 0) || (box.max[i] > side_ && velocity[i] > 0))
+                    velocity[i] = -velocity[i];
+            box.min += velocity;
+            box.max += velocity;
+        }
+    }
+
+private:
+    static double power(double x) { return D == 2 ? x * x : x * x * x; }
+    static float on_grid(double x) { return static_cast<float>(std::floor(x * 1024) / 1024); }
+
+    float side_ = 2;
+    std::vector<Aabb<D>> boxes_;
+    std::vector<Vec<D>> velocities_;
+};
+
+}  // namespace abut::scenes

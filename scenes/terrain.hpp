@@ -1,0 +1,41 @@
+#pragma once
+
+// Hilly ground as a grid of triangles.
+
+#include "../test/oracle/random.hpp"
+
+#include <abut/math/vec.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <glm/ext/vector_uint3.hpp>
+
+namespace abut::scenes {
+
+struct Terrain {
+    std::vector<Vec3> points;
+    std::vector<glm::uvec3> triangles;
+};
+
+/// `columns` x `columns` squares of edge 1, two triangles each, y up, heights from -0.5 to 0.5, in the middle of the
+/// world.
+inline Terrain random_terrain(std::uint32_t columns, oracle::Random& random) {
+    Terrain result;
+    const float middle = 0.5f * static_cast<float>(columns);
+    for (std::uint32_t row = 0; row <= columns; ++row)
+        for (std::uint32_t column = 0; column <= columns; ++column)
+            result.points.emplace_back(static_cast<float>(column) - middle, random.uniform_float(-0.5, 0.5),
+                                       static_cast<float>(row) - middle);
+    for (std::uint32_t row = 0; row < columns; ++row) {
+        for (std::uint32_t column = 0; column < columns; ++column) {
+            const std::uint32_t near = row * (columns + 1) + column, far = near + columns + 1;
+            result.triangles.emplace_back(near, far, near + 1);
+            result.triangles.emplace_back(near + 1, far, far + 1);
+        }
+    }
+    return result;
+}
+
+}  // namespace abut::scenes
