@@ -6,7 +6,6 @@ namespace {
 /// A convex polygon inside A - B, counter-clockwise.
 struct GrowingPolygon {
     std::array<DifferencePoint<2>, penetration_most_steps + 4> points;
-    std::array<bool, penetration_most_steps + 4> final{};  ///< the edge that begins at this point is one of A - B
     std::size_t count = 0;
 
     const DifferencePoint<2>& after(std::size_t i) const { return points[i + 1 == count ? 0 : i + 1]; }
@@ -17,22 +16,25 @@ struct GrowingPolygon {
     }
 
     void insert_after(std::size_t i, const DifferencePoint<2>& point) {
-        for (std::size_t j = count; j > i + 1; --j) {
-            points[j] = points[j - 1];
-            final[j] = final[j - 1];
-        }
+        for (std::size_t j = count; j > i + 1; --j) points[j] = points[j - 1];
         points[i + 1] = point;
-        final[i] = final[i + 1] = false;
         ++count;
     }
-};
 
-Simplex<2> face_of(std::initializer_list<DifferencePoint<2>> points) {
-    Simplex<2> face;
-    for (const DifferencePoint<2>& point : points) face.points[face.count++] = point;
-    reduce_to_closest(face);
-    return face;
-}
+    /// The place on the outline nearest to `target`.
+    Simplex<2> outline_near(const DVec<2>& target) const {
+        Simplex<2> best;
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < count; ++i) {
+            const Simplex<2> edge = face_near({points[i], after(i)}, target);
+            const double distance = length_squared(edge.combine(&DifferencePoint<2>::position) - target);
+            if (distance >= least) continue;
+            least = distance;
+            best = edge;
+        }
+        return best;
+    }
+};
 
 }  // namespace
 
@@ -60,7 +62,7 @@ Penetration<2> penetration(const CoreDifference<2>& difference) {
         result.exit = PenetrationExit::flat;
         result.normal = to_left < to_right ? -right : right;
         result.depth = std::min(to_left, to_right);
-        result.face = face_of({low, high});
+        result.face = face_near({low, high}, DVec<2>(0.0));
         return result;
     }
     GrowingPolygon polygon;
@@ -70,7 +72,7 @@ Penetration<2> penetration(const CoreDifference<2>& difference) {
     if (left_height > noise) polygon.points[polygon.count++] = leftmost;
 
     // 3. Grow at the edge nearest to the origin, until it is an edge of A - B.
-    bool any = false;
+    result.depth = std::numeric_limits<double>::infinity();
     for (std::size_t step = 0; step < penetration_most_steps; ++step) {
         std::size_t nearest = 0;
         double least = 0;
@@ -84,23 +86,22 @@ Penetration<2> penetration(const CoreDifference<2>& difference) {
         const DVec<2> normal = polygon.outward(nearest);
         const DifferencePoint<2> next = difference.support(normal);
         const double extent = dot(normal, next.position);
-        if (!any || extent < result.depth) {
-            any = true;
+        if (extent < result.depth) {
             result.normal = normal;
             result.depth = extent;
-            result.face = face_of({polygon.points[nearest], polygon.after(nearest)});
         }
-        if (extent - least <= noise || polygon.final[nearest] || result.depth - least <= noise) {
+        if (result.depth - least <= noise) {
             result.exit = PenetrationExit::exact;
-            return result;
+            break;
         }
         if (next.position == polygon.points[nearest].position || next.position == polygon.after(nearest).position) {
             result.exit = PenetrationExit::no_progress;
-            return result;
+            break;
         }
         polygon.insert_after(nearest, next);
     }
-    result.exit = PenetrationExit::bound_reached;
+    // The edge that first gave the normal may have been an inner one.
+    result.face = polygon.outline_near(result.normal * result.depth);
     return result;
 }
 

@@ -31,7 +31,6 @@ public:
         add_face(0, 2, 3, {0, 2, 1});
     }
 
-    const DifferencePoint<3>& point(std::uint32_t i) const { return points_[i]; }
     const Face& face(std::uint32_t i) const { return faces_[i]; }
 
     std::uint32_t nearest() const {
@@ -63,6 +62,24 @@ public:
                     faces_[edge.beyond].neighbor[j] = added;
         }
         return true;
+    }
+
+    /// The place on the surface nearest to `target`. Faces that were grown away lie behind others, and where growing
+    /// failed halfway they fill the hole.
+    Simplex<3> surface_near(const DVec<3>& target) const {
+        Simplex<3> best;
+        double least = std::numeric_limits<double>::infinity();
+        for (std::uint32_t i = 0; i < face_count_; ++i) {
+            const double height = dot(faces_[i].normal, target) - faces_[i].distance;
+            if (height * height >= least) continue;
+            const auto& [a, b, c] = faces_[i].corner;
+            const Simplex<3> face = face_near({points_[a], points_[b], points_[c]}, target);
+            const double distance = length_squared(face.combine(&DifferencePoint<3>::position) - target);
+            if (distance >= least) continue;
+            least = distance;
+            best = face;
+        }
+        return best;
     }
 
 private:
@@ -136,13 +153,6 @@ private:
     std::array<Visit, 2 * penetration_most_steps> stack_;
 };
 
-Simplex<3> face_of(std::initializer_list<DifferencePoint<3>> points) {
-    Simplex<3> face;
-    for (const DifferencePoint<3>& point : points) face.points[face.count++] = point;
-    reduce_to_closest(face);
-    return face;
-}
-
 /// Four points that span a volume, or as many as there are: 1 for a point, 2 for a segment, 3 for a flat difference.
 struct Start {
     std::array<DifferencePoint<3>, 4> corners;
@@ -215,32 +225,31 @@ Penetration<3> penetration(const CoreDifference<3>& difference) {
     if (start.count < 4) return without_thickness(difference, start);
 
     Penetration<3> result;
+    result.depth = std::numeric_limits<double>::infinity();
     GrowingPolytope polytope(start.corners, start.noise);
-    bool any = false;
     for (std::size_t step = 0; step < penetration_most_steps; ++step) {
         const std::uint32_t nearest = polytope.nearest();
         if (!polytope.valid(nearest)) break;
         const Face& face = polytope.face(nearest);
         const DifferencePoint<3> next = difference.support(face.normal);
         const double extent = dot(face.normal, next.position);
-        if (!any || extent < result.depth) {
-            any = true;
+        if (extent < result.depth) {
             result.normal = face.normal;
             result.depth = extent;
-            result.face = face_of(
-                {polytope.point(face.corner[0]), polytope.point(face.corner[1]), polytope.point(face.corner[2])});
         }
         // Curved shapes come near their nearest face and never quite there: stop at a millionth of the depth.
         if (result.depth - face.distance <= start.noise + 1e-6 * std::abs(result.depth)) {
             result.exit = PenetrationExit::exact;
-            return result;
+            break;
         }
         if (!polytope.grow(nearest, next)) {
             result.exit = PenetrationExit::no_progress;
-            return result;
+            break;
         }
     }
-    result.exit = PenetrationExit::bound_reached;
+    if (!std::isfinite(result.depth)) return without_thickness(difference, start);
+    // The face that first gave the normal may have been an inner one.
+    result.face = polytope.surface_near(result.normal * result.depth);
     return result;
 }
 

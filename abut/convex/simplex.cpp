@@ -131,7 +131,23 @@ DVec<D> reduce_to_closest(Simplex<D>& simplex) {
     }
 }
 
-template DVec<2> reduce_to_closest(Simplex<2>&);
-template DVec<3> reduce_to_closest(Simplex<3>&);
+template <int D>
+Simplex<D> face_near(std::initializer_list<DifferencePoint<D>> corners, const DVec<D>& target) {
+    Simplex<D> face;
+    for (const DifferencePoint<D>& corner : corners) {
+        face.points[face.count] = corner;
+        face.points[face.count++].position -= target;
+    }
+    reduce_to_closest(face);
+    for (std::size_t i = 0; i < face.count; ++i) face.points[i].position += target;
+    return face;
+}
+
+#define ABUT_INSTANTIATE(D)                          \
+    template DVec<D> reduce_to_closest(Simplex<D>&); \
+    template Simplex<D> face_near(std::initializer_list<DifferencePoint<D>>, const DVec<D>&);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
 
 }  // namespace abut

@@ -5,6 +5,7 @@
 #include <abut/convex/minkowski_difference.hpp>
 
 #include <array>
+#include <initializer_list>
 
 namespace abut {
 
@@ -27,5 +28,9 @@ struct Simplex {
 /// in Ericson, Real-Time Collision Detection (2005), 5.1.
 template <int D>
 DVec<D> reduce_to_closest(Simplex<D>& simplex);
+
+/// The part of a face of A - B closest to `target`, weighted there.
+template <int D>
+Simplex<D> face_near(std::initializer_list<DifferencePoint<D>> corners, const DVec<D>& target);
 
 }  // namespace abut

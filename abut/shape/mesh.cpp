@@ -1,4 +1,5 @@
 #include <abut/broad_phase/bvh.hpp>
+#include <abut/math/coincident.hpp>
 #include <abut/shape/mesh.hpp>
 
 #include <algorithm>
@@ -23,28 +24,12 @@ bool before(const Vec3& a, const Vec3& b) {
     return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
 }
 
-/// For each point, the first of the points at its position.
-std::vector<std::uint32_t> welded(std::span<const Vec3> points) {
-    std::vector<std::uint32_t> order(points.size());
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::uint32_t>(i);
-    std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
-        if (before(points[i], points[j])) return true;
-        return !before(points[j], points[i]) && i < j;
-    });
-    std::vector<std::uint32_t> first(points.size());
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const bool same = i > 0 && points[order[i]] == points[order[i - 1]];
-        first[order[i]] = same ? first[order[i - 1]] : order[i];
-    }
-    return first;
-}
-
 bool is_closed(std::span<const Vec3> points, std::span<const glm::uvec3> triangles) {
     struct Edge {
         std::uint32_t low, high;
         int direction;
     };
-    const std::vector<std::uint32_t> first = welded(points);
+    const std::vector<std::uint32_t> first = first_coincident(points);
     std::vector<Edge> edges;
     edges.reserve(3 * triangles.size());
     for (const glm::uvec3& t : triangles)

@@ -77,7 +77,9 @@ auto view(const At<S>& shape) {
 }
 template <class S>
 auto view(const Rounded<S>& shape) {
-    return rounded(view(std::as_const(shape.shape)), static_cast<double>(shape.radius));
+    // As an lvalue: of the two functions called rounded, only the one for views then takes it as it is.
+    const auto inner = view(std::as_const(shape.shape));
+    return rounded(inner, static_cast<double>(shape.radius));
 }
 template <class S>
 auto view(const Stretched<S>& shape) {

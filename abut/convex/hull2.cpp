@@ -1,0 +1,74 @@
+// The hull in the plane: a monotone chain. Differences of floats are exact in double unless their exponents are more
+// than 29 apart; then a turn is off by no more than 2^-52 of the lengths it is made of.
+
+#include <abut/convex/hull.hpp>
+#include <abut/convex/hull_input.hpp>
+#include <abut/math/dvec.hpp>
+
+#include <algorithm>
+#include <numeric>
+
+namespace abut {
+namespace {
+
+/// Twice the area of the triangle abc; positive if counter-clockwise.
+double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
+    return cross(DVec<2>(b) - DVec<2>(a), DVec<2>(c) - DVec<2>(a));
+}
+
+Vec2 farthest_from(const Vec2& from, std::span<const Vec2> points) {
+    return *std::max_element(points.begin(), points.end(), [&](const Vec2& a, const Vec2& b) {
+        return length_squared(DVec<2>(a) - DVec<2>(from)) < length_squared(DVec<2>(b) - DVec<2>(from));
+    });
+}
+
+/// A loop no wider than the tolerance, seen along the longest way through it, is the segment that ends there.
+void flatten(std::vector<Vec2>& loop) {
+    Vec2 a = farthest_from(loop[0], loop), b = farthest_from(a, loop);
+    if (less(b, a)) std::swap(a, b);
+    const auto [right, left] = std::minmax_element(
+        loop.begin(), loop.end(), [&](const Vec2& p, const Vec2& q) { return turn(a, b, p) < turn(a, b, q); });
+    const double length_ab = length(DVec<2>(b) - DVec<2>(a));
+    if ((turn(a, b, *left) - turn(a, b, *right)) / length_ab <= hull_tolerance * extent<2>(loop)) loop = {a, b};
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> hull_loop(std::span<const Vec2> points) {
+    std::vector<std::uint32_t> order(points.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
+        return points[i] == points[j] ? i < j : less(points[i], points[j]);
+    });
+    const auto same = [&](std::uint32_t i, std::uint32_t j) { return points[i] == points[j]; };
+    order.erase(std::unique(order.begin(), order.end(), same), order.end());
+    if (order.size() == 1) return order;
+
+    // Along the lower chain from the least point to the greatest, and back along the upper one. Each leaves out its
+    // last point, where the other begins.
+    std::vector<std::uint32_t> loop;
+    const auto append_chain = [&](auto begin, auto end) {
+        const std::size_t first = loop.size();
+        for (auto i = begin; i != end; ++i) {
+            while (loop.size() >= first + 2 &&
+                   !(turn(points[loop[loop.size() - 2]], points[loop.back()], points[*i]) > 0))
+                loop.pop_back();
+            loop.push_back(*i);
+        }
+        loop.pop_back();
+    };
+    append_chain(order.begin(), order.end());
+    append_chain(order.rbegin(), order.rend());
+    return loop;
+}
+
+Result<Hull2> hull(std::span<const Vec2> points) {
+    if (auto problem = problem_with(points)) return *problem;
+    Hull2 result;
+    for (const std::uint32_t i : hull_loop(points)) result.points.push_back(without_negative_zero(points[i]));
+    if (result.points.size() > 2) flatten(result.points);
+    result.rank = static_cast<int>(std::min<std::size_t>(result.points.size() - 1, 2));
+    return result;
+}
+
+}  // namespace abut

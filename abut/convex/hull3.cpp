@@ -1,0 +1,223 @@
+// The hull in space: how flat the points are, the quickhull of those that aren't, and the result in floats.
+
+#include <abut/convex/hull.hpp>
+#include <abut/convex/hull_faces.hpp>
+#include <abut/convex/hull_input.hpp>
+#include <abut/convex/quickhull.hpp>
+#include <abut/math/dvec.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace abut {
+namespace {
+
+std::vector<Vec3> sorted_without_copies(std::span<const Vec3> points) {
+    std::vector<Vec3> result;
+    result.reserve(points.size());
+    for (const Vec3& point : points) result.push_back(without_negative_zero(point));
+    std::sort(result.begin(), result.end(), [](const Vec3& a, const Vec3& b) { return less(a, b); });
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
+}
+
+/// Points rounded to a grid whose steps are a power of two, so that those of a coarser grid stay where they are.
+struct Grid {
+    std::vector<GridPoint> points;
+    DVec<3> least;                       ///< where the grid's origin is
+    double step = 0;                     ///< the length of a step
+    double tolerance = 0, flatness = 0;  ///< in steps
+};
+
+Grid on_grid(std::span<const Vec3> points) {
+    Grid result;
+    result.least = least_corner<3>(points);
+    const double side = extent<3>(points);
+    int exponent = 0;
+    std::frexp(side, &exponent);  // side < 2^exponent
+    result.step = std::ldexp(1.0, exponent - grid_bits);
+    result.points.reserve(points.size());
+    for (const Vec3& point : points) {
+        const DVec<3> offset = (DVec<3>(point) - result.least) / result.step;
+        result.points.emplace_back(std::llround(offset.x), std::llround(offset.y), std::llround(offset.z));
+    }
+    result.tolerance = hull_tolerance * side / result.step;
+    result.flatness = hull_flatness * side / result.step;
+    return result;
+}
+
+/// The point for which `measure` is greatest, the first of them if there are several.
+template <class Measure>
+std::uint32_t farthest(const std::vector<GridPoint>& points, Measure measure) {
+    std::uint32_t best = 0;
+    double most = measure(points[0]);
+    for (std::uint32_t i = 1; i < points.size(); ++i) {
+        const double value = measure(points[i]);
+        if (value > most) {
+            most = value;
+            best = i;
+        }
+    }
+    return best;
+}
+
+/// Rank + 1 points that span the set: two that are far apart, the one farthest from their line, the one farthest from
+/// the plane of the three. What is no farther than the tolerance doesn't count.
+struct Span {
+    std::array<std::uint32_t, 4> points{};
+    int rank = 0;
+};
+
+Span spanning(const Grid& grid) {
+    const std::vector<GridPoint>& points = grid.points;
+    const auto distance_from = [&](std::uint32_t from) {
+        return [&points, from](const GridPoint& p) { return length(DVec<3>(p - points[from])); };
+    };
+    Span result;
+    std::uint32_t& a = result.points[0];
+    std::uint32_t& b = result.points[1];
+    std::uint32_t& c = result.points[2];
+    std::uint32_t& d = result.points[3];
+    a = farthest(points, distance_from(0));
+    b = farthest(points, distance_from(a));
+    result.rank = 1;
+
+    const double base = length(DVec<3>(points[b] - points[a]));
+    const auto twice_area = [&](const GridPoint& p) { return length(DVec<3>(grid_normal(points[a], points[b], p))); };
+    c = farthest(points, twice_area);
+    if (twice_area(points[c]) <= grid.tolerance * base) return result;
+    result.rank = 2;
+
+    const GridPoint normal = grid_normal(points[a], points[b], points[c]);
+    const auto volume = [&](const GridPoint& p) { return std::abs(grid_dot(normal, p - points[a])); };
+    d = farthest(points, volume);
+    if (volume(points[d]) > grid.tolerance * length(DVec<3>(normal))) result.rank = 3;
+    return result;
+}
+
+/// The hull of points that lie in a plane to within the tolerance: their outline along the axis closest to its normal,
+/// as two faces, back to back.
+HullFaces flat_faces(std::span<const Vec3> points, const DVec<3>& normal) {
+    const DVec<3> steep{std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};
+    const int up = steep.x >= steep.y && steep.x >= steep.z ? 0 : (steep.y >= steep.z ? 1 : 2);
+    std::vector<Vec2> outline;
+    outline.reserve(points.size());
+    for (const Vec3& point : points) outline.emplace_back(point[(up + 1) % 3], point[(up + 2) % 3]);
+    std::vector<std::uint32_t> loop = hull_loop(outline);
+
+    DVec<3> area(0.0);
+    const DVec<3> origin(points[loop[0]]);
+    for (std::size_t i = 1; i + 1 < loop.size(); ++i)
+        area += cross(DVec<3>(points[loop[i]]) - origin, DVec<3>(points[loop[i + 1]]) - origin);
+    HullFaces result;
+    result.normals = {normalized(area), -normalized(area)};
+    result.loops = {loop, loop};
+    std::reverse(result.loops[1].begin(), result.loops[1].end());
+    return result;
+}
+
+/// Keeps the points that occur in loops, with new numbers.
+void number_points(Hull3& hull, std::span<const Vec3> points, std::vector<std::vector<std::uint32_t>>& loops) {
+    std::vector<std::uint32_t> number(points.size(), 0);
+    for (const auto& loop : loops)
+        for (const std::uint32_t point : loop) number[point] = 1;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (number[i] == 0) continue;
+        number[i] = static_cast<std::uint32_t>(hull.points.size());
+        hull.points.push_back(points[i]);
+    }
+    for (auto& loop : loops) {
+        for (std::uint32_t& point : loop) point = number[point];
+        std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
+    }
+}
+
+void take_faces(Hull3& result, std::span<const Vec3> points, HullFaces faces) {
+    number_points(result, points, faces.loops);
+
+    std::vector<std::size_t> order(faces.loops.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t i, std::size_t j) { return faces.loops[i] < faces.loops[j]; });
+    for (const std::size_t face : order) {
+        const Vec3 normal = to_float(faces.normals[face]);
+        const auto along = [&](std::uint32_t point) { return dot(DVec<3>(normal), DVec<3>(result.points[point])); };
+        const std::vector<std::uint32_t>& loop = faces.loops[face];
+        double offset = along(loop[0]);
+        for (const std::uint32_t point : loop) offset = std::max(offset, along(point));
+        result.normals.push_back(normal);
+        result.offsets.push_back(offset);
+        result.loops.insert(result.loops.end(), loop.begin(), loop.end());
+        result.loop_ends.push_back(static_cast<std::uint32_t>(result.loops.size()));
+    }
+}
+
+/// Volume, area and centroid, from triangles that cover the surface (three corners each). Joined faces aren't quite
+/// flat, which would tell in the volume of a thin body; the triangles are exact.
+void measure(Hull3& hull, const Grid& grid, std::span<const std::uint32_t> triangles) {
+    const GridPoint& origin = grid.points[triangles[0]];
+    const auto seen = [&](std::size_t i) { return grid.points[triangles[i]] - origin; };
+    // The solid between a triangle and the origin has its centre at (a + b + c) / 4, the triangle at (a + b + c) / 3.
+    double volume = 0, area = 0;
+    DVec<3> by_volume(0.0), by_area(0.0);
+    for (std::size_t i = 0; i < triangles.size(); i += 3) {
+        const GridPoint a = seen(i), b = seen(i + 1), c = seen(i + 2), normal = grid_normal(a, b, c);
+        const double part = grid_dot(normal, a), face = length(DVec<3>(normal));  // the part is never below 0
+        volume += part;
+        by_volume += part * DVec<3>(a + b + c);
+        area += face;
+        by_area += face * DVec<3>(a + b + c);
+    }
+    const DVec<3> center = hull.rank == 3 ? by_volume / (4 * volume) : by_area / (3 * area);
+    hull.centroid = to_float(grid.least + (DVec<3>(origin) + center) * grid.step);
+    hull.volume = hull.rank == 3 ? volume / 6 * grid.step * grid.step * grid.step : 0;
+    hull.area = area / 2 * grid.step * grid.step;
+}
+
+std::vector<std::uint32_t> triangles_of(const std::vector<std::vector<std::uint32_t>>& loops) {
+    std::vector<std::uint32_t> result;
+    for (const auto& loop : loops)
+        for (std::size_t i = 1; i + 1 < loop.size(); ++i) result.insert(result.end(), {loop[0], loop[i], loop[i + 1]});
+    return result;
+}
+
+/// Where the points aren't all on a line.
+Hull3 hull_with_faces(std::span<const Vec3> points, const Grid& grid, const Span& span) {
+    Hull3 result;
+    result.rank = span.rank;
+    if (span.rank == 2) {
+        const auto& [a, b, c, d] = span.points;
+        HullFaces faces = flat_faces(points, DVec<3>(grid_normal(grid.points[a], grid.points[b], grid.points[c])));
+        measure(result, grid, triangles_of(faces.loops));
+        take_faces(result, points, std::move(faces));
+        return result;
+    }
+    const TriangleSurface surface = quickhull(grid.points, span.points, grid.tolerance);
+    measure(result, grid, surface.origin);
+    take_faces(result, points, hull_faces(grid.points, surface, grid.tolerance, grid.flatness));
+    return result;
+}
+
+}  // namespace
+
+Result<Hull3> hull(std::span<const Vec3> points) {
+    if (auto problem = problem_with(points)) return *problem;
+    const std::vector<Vec3> sorted = sorted_without_copies(points);
+    Hull3 result;
+    if (sorted.size() > 1) {
+        const Grid grid = on_grid(sorted);
+        const Span span = spanning(grid);
+        if (span.rank > 1) return hull_with_faces(sorted, grid, span);
+        const auto [low, high] = std::minmax(span.points[0], span.points[1]);
+        result.points = {sorted[low], sorted[high]};
+        result.rank = 1;
+    } else {
+        result.points = sorted;
+    }
+    result.centroid = to_float(0.5 * (DVec<3>(result.points.front()) + DVec<3>(result.points.back())));
+    return result;
+}
+
+}  // namespace abut

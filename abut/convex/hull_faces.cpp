@@ -1,0 +1,218 @@
+// Joining faces in a mesh of half-edges.
+
+#include <abut/convex/hull_faces.hpp>
+#include <abut/math/dvec.hpp>
+
+#include <algorithm>
+
+namespace abut {
+namespace {
+
+constexpr std::uint32_t none = 0xffffffffu;
+
+/// Faces whose normals are farther apart than this (45 degrees) stay apart however small they are: else the two sides
+/// of a thin plate and the rim between them would become one.
+constexpr double least_cosine = 0.7071;
+
+class FaceMesh {
+public:
+    FaceMesh(std::span<const GridPoint> points, const TriangleSurface& surface, double tolerance, double flatness);
+
+    void join_coplanar();
+    void join_flat();
+    HullFaces faces() const;
+
+private:
+    static std::uint32_t following(std::uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
+    DVec<3> point(std::uint32_t h) const { return DVec<3>(points_[origin_[h]]); }
+    bool alive(std::uint32_t h) const { return next_[h] != none; }
+    bool coplanar(std::uint32_t triangle, std::uint32_t half_edge) const;
+    void link(std::uint32_t before, std::uint32_t after);
+    bool between_two_faces(std::uint32_t h) const;
+    void take_out_origin(std::uint32_t h);
+    bool convex_with(std::uint32_t before, std::uint32_t after, const DVec<3>& normal) const;
+    bool share_two_corners(std::uint32_t h);
+    bool flat_together(std::uint32_t h, const DVec<3>& normal) const;
+    bool joinable(std::uint32_t h);
+    void join(std::uint32_t h);
+
+    std::span<const GridPoint> points_;
+    const std::vector<GridPoint>& triangle_normals_;
+    double tolerance_, flatness_;
+    // One a half-edge; those that have no next one are no longer part of the mesh.
+    std::vector<std::uint32_t> origin_, twin_, next_, previous_, face_;
+    // One a face; a face that was joined to another has no start.
+    std::vector<DVec<3>> area_;  ///< twice its vector area
+    std::vector<std::uint32_t> start_;
+    std::vector<std::uint64_t> seen_in_;  ///< one a point: the last search that came by
+    std::uint64_t search_ = 0;
+};
+
+FaceMesh::FaceMesh(std::span<const GridPoint> points, const TriangleSurface& surface, double tolerance, double flatness)
+    : points_(points),
+      triangle_normals_(surface.normals),
+      tolerance_(tolerance),
+      flatness_(flatness),
+      origin_(surface.origin),
+      twin_(surface.twin),
+      next_(surface.origin.size(), none),
+      previous_(surface.origin.size(), none),
+      face_(surface.origin.size(), none),
+      seen_in_(points.size(), 0) {}
+
+void FaceMesh::link(std::uint32_t before, std::uint32_t after) {
+    next_[before] = after;
+    previous_[after] = before;
+}
+
+/// Whether the triangle behind the half-edge lies in the plane of the given one; exact.
+bool FaceMesh::coplanar(std::uint32_t triangle, std::uint32_t half_edge) const {
+    const std::uint32_t apex = origin_[following(following(twin_[half_edge]))];
+    return grid_dot(triangle_normals_[triangle], points_[apex] - points_[origin_[half_edge]]) == 0;
+}
+
+void FaceMesh::join_coplanar() {
+    // Coplanar neighbours get one number.
+    std::vector<std::uint32_t> waiting;
+    for (std::uint32_t seed = 0; seed < triangle_normals_.size(); ++seed) {
+        if (face_[3 * seed] != none) continue;
+        const auto face = static_cast<std::uint32_t>(area_.size());
+        area_.emplace_back(0.0);
+        const auto take = [&](std::uint32_t triangle) {
+            for (std::uint32_t i = 0; i < 3; ++i) face_[3 * triangle + i] = face;
+            area_[face] += DVec<3>(triangle_normals_[triangle]);
+            waiting.push_back(triangle);
+        };
+        take(seed);
+        while (!waiting.empty()) {
+            const std::uint32_t triangle = waiting.back();
+            waiting.pop_back();
+            for (std::uint32_t h = 3 * triangle; h < 3 * triangle + 3; ++h)
+                if (face_[twin_[h]] == none && coplanar(triangle, h)) take(twin_[h] / 3);
+        }
+    }
+
+    // What is left between different faces are the loops: a coplanar part of a convex surface has one outline, which
+    // passes each of its points once.
+    start_.assign(area_.size(), none);
+    for (std::uint32_t h = 0; h < origin_.size(); ++h) {
+        if (face_[h] == face_[twin_[h]]) continue;
+        std::uint32_t after = following(h);
+        while (face_[after] == face_[twin_[after]]) after = following(twin_[after]);
+        link(h, after);
+        start_[face_[h]] = h;
+    }
+    // A point where only two faces meet lies on the line that their planes have in common.
+    for (std::uint32_t h = 0; h < origin_.size(); ++h)
+        if (alive(h) && between_two_faces(h)) take_out_origin(h);
+}
+
+bool FaceMesh::between_two_faces(std::uint32_t h) const {
+    return twin_[previous_[h]] == next_[twin_[h]];
+}
+
+/// Makes the half-edge before h and h itself one; the same on the other side. Only where two faces meet.
+void FaceMesh::take_out_origin(std::uint32_t h) {
+    const std::uint32_t before = previous_[h], back = twin_[h], back_after = next_[back];
+    link(before, next_[h]);
+    link(back, next_[back_after]);
+    twin_[before] = back;
+    twin_[back] = before;
+    next_[h] = next_[back_after] = none;
+    start_[face_[before]] = before;
+    start_[face_[back]] = back;
+}
+
+/// Whether a loop that comes in by `before` and leaves by `after`, from the same point, would be convex there.
+bool FaceMesh::convex_with(std::uint32_t before, std::uint32_t after, const DVec<3>& normal) const {
+    const DVec<3> a = point(before), b = point(after), c = point(next_[after]);
+    return dot(cross(b - a, c - b), normal) >= -tolerance_ * length(c - a);
+}
+
+/// Whether the faces on both sides of the half-edge have no more than its two ends in common.
+bool FaceMesh::share_two_corners(std::uint32_t h) {
+    const std::uint32_t other = twin_[h];
+    ++search_;
+    seen_in_[origin_[h]] = search_;
+    for (std::uint32_t i = next_[h]; i != h; i = next_[i]) seen_in_[origin_[i]] = search_;
+    for (std::uint32_t i = next_[next_[other]]; i != other; i = next_[i])
+        if (seen_in_[origin_[i]] == search_) return false;
+    return true;
+}
+
+/// Whether the corners of the faces on both sides of the half-edge lie in a slab across the normal. It goes round both
+/// at once: a small neighbour of a large face says no as soon as it can.
+bool FaceMesh::flat_together(std::uint32_t h, const DVec<3>& normal) const {
+    const DVec<3> origin = point(h);
+    double low = 0, high = 0;
+    std::uint32_t i = next_[h], j = next_[twin_[h]];
+    while (i != h || j != twin_[h]) {
+        for (const std::uint32_t k : {i, j}) {
+            const double height = dot(normal, point(k) - origin);
+            low = std::min(low, height);
+            high = std::max(high, height);
+        }
+        if (high - low > flatness_) return false;
+        if (i != h) i = next_[i];
+        if (j != twin_[h]) j = next_[j];
+    }
+    return true;
+}
+
+bool FaceMesh::joinable(std::uint32_t h) {
+    const std::uint32_t other = twin_[h];
+    const DVec<3>&area = area_[face_[h]], &other_area = area_[face_[other]];
+    const double cosine = dot(area, other_area) / (length(area) * length(other_area));
+    if (!(cosine >= least_cosine)) return false;
+    const DVec<3> normal = normalized(area + other_area);
+    return convex_with(previous_[h], next_[other], normal) && convex_with(previous_[other], next_[h], normal) &&
+           flat_together(h, normal) && share_two_corners(h);
+}
+
+void FaceMesh::join(std::uint32_t h) {
+    const std::uint32_t other = twin_[h], face = face_[h], gone = face_[other];
+    for (std::uint32_t i = next_[other]; i != other; i = next_[i]) face_[i] = face;
+    area_[face] += area_[gone];
+    start_[gone] = none;
+    start_[face] = next_[h];
+    const std::uint32_t at_origin = next_[other], at_end = next_[h];
+    link(previous_[h], at_origin);
+    link(previous_[other], at_end);
+    next_[h] = next_[other] = none;
+}
+
+void FaceMesh::join_flat() {
+    for (bool changed = true; changed;) {  // each time round there is a face less
+        changed = false;
+        for (std::uint32_t h = 0; h < origin_.size(); ++h)
+            if (alive(h) && h < twin_[h] && joinable(h)) {
+                join(h);
+                changed = true;
+            }
+    }
+}
+
+HullFaces FaceMesh::faces() const {
+    HullFaces result;
+    for (std::size_t face = 0; face < start_.size(); ++face) {
+        const std::uint32_t start = start_[face];
+        if (start == none) continue;
+        std::vector<std::uint32_t> loop{origin_[start]};
+        for (std::uint32_t h = next_[start]; h != start; h = next_[h]) loop.push_back(origin_[h]);
+        result.normals.push_back(normalized(area_[face]));
+        result.loops.push_back(std::move(loop));
+    }
+    return result;
+}
+
+}  // namespace
+
+HullFaces hull_faces(std::span<const GridPoint> points, const TriangleSurface& surface, double tolerance,
+                     double flatness) {
+    FaceMesh mesh(points, surface, tolerance, flatness);
+    mesh.join_coplanar();
+    mesh.join_flat();
+    return mesh.faces();
+}
+
+}  // namespace abut

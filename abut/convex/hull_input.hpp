@@ -1,0 +1,58 @@
+#pragma once
+
+// What the hulls of both dimensions ask of their input.
+
+#include <abut/math/result.hpp>
+#include <abut/math/vec.hpp>
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace abut {
+
+/// Nothing where the hull of the points can be built; else what is wrong, with the number of the first bad point.
+template <int D>
+std::optional<Problem> problem_with(std::span<const glm::vec<D, float>> points) {
+    if (points.empty()) return Problem{ProblemCode::empty_input, "there are no points to build from", 0};
+    for (std::size_t i = 0; i < points.size(); ++i)
+        if (!is_finite<D>(points[i]))
+            return Problem{ProblemCode::not_finite, "point " + std::to_string(i) + " is not finite", i};
+    return std::nullopt;
+}
+
+/// The lexicographical order.
+template <int D>
+bool less(const glm::vec<D, float>& a, const glm::vec<D, float>& b) {
+    for (int i = 0; i < D - 1; ++i)
+        if (a[i] != b[i]) return a[i] < b[i];
+    return a[D - 1] < b[D - 1];
+}
+
+/// The same point, with 0 for -0: two that compare as equal are then equal bit by bit.
+template <int D>
+glm::vec<D, float> without_negative_zero(const glm::vec<D, float>& point) {
+    return point + glm::vec<D, float>(0.0f);
+}
+
+/// The least coordinate on every axis.
+template <int D>
+DVec<D> least_corner(std::span<const Vec<D>> points) {
+    DVec<D> result(points[0]);
+    for (const Vec<D>& point : points)
+        for (int i = 0; i < D; ++i) result[i] = std::min(result[i], static_cast<double>(point[i]));
+    return result;
+}
+
+/// The longest side of the bounding box.
+template <int D>
+double extent(std::span<const Vec<D>> points) {
+    const DVec<D> least = least_corner<D>(points);
+    double result = 0;
+    for (const Vec<D>& point : points)
+        for (int i = 0; i < D; ++i) result = std::max(result, static_cast<double>(point[i]) - least[i]);
+    return result;
+}
+
+}  // namespace abut

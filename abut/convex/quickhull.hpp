@@ -1,0 +1,40 @@
+#pragma once
+
+// Quickhull on whole numbers: every decision is exact, so the surface is closed and convex by construction.
+
+#include <abut/math/vec.hpp>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace abut {
+
+/// A point of a grid. Any two of a set differ by at most 2^28 on every axis.
+using GridPoint = glm::vec<3, std::int64_t>;
+inline constexpr int grid_bits = 28;
+
+/// At right angles to the triangle abc, seen counter-clockwise from its tip, twice its area long. Exact; below 2^58 on
+/// every axis.
+GridPoint grid_normal(const GridPoint& a, const GridPoint& b, const GridPoint& c);
+
+/// dot(normal, difference) with the exact sign, and a relative error of 2^-53, for a normal of `grid_normal` and the
+/// difference of two points.
+double grid_dot(const GridPoint& normal, const GridPoint& difference);
+
+/// A closed convex surface of triangles in half-edges. Those of triangle t are 3t, 3t + 1 and 3t + 2, counter-clockwise
+/// seen from outside.
+struct TriangleSurface {
+    std::vector<std::uint32_t> origin;  ///< one a half-edge: the number of the point it leaves
+    std::vector<std::uint32_t> twin;    ///< one a half-edge: the one that runs the other way
+    std::vector<GridPoint> normals;     ///< one a triangle, outwards
+};
+
+/// The hull of points that don't lie in a plane. `start` are four of them that don't either. Points within `tolerance`
+/// (in steps of the grid, not below 0) of the surface may be left out of it; no other point lies outside of it.
+/// Neighbours may be coplanar, and points in a face or an edge may be corners of triangles.
+TriangleSurface quickhull(std::span<const GridPoint> points, const std::array<std::uint32_t, 4>& start,
+                          double tolerance);
+
+}  // namespace abut

@@ -1,0 +1,71 @@
+#include <abut/convex/hull.hpp>
+#include <abut/math/dvec.hpp>
+#include <abut/shape/polygon.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace abut {
+namespace {
+
+constexpr Vec2 zero(0.0f);
+
+/// Calls visit(a, b) for the triangles of a fan: the first corner, from which a and b are seen, and the edge from a to
+/// b.
+template <class Visit>
+void each_triangle(std::span<const Vec2> points, Visit visit) {
+    const DVec<2> origin(points[0]);
+    for (std::size_t i = 1; i + 1 < points.size(); ++i)
+        visit(DVec<2>(points[i]) - origin, DVec<2>(points[i + 1]) - origin);
+}
+
+}  // namespace
+
+Result<Polygon> Polygon::build(std::span<const Vec2> points) {
+    Result<Hull2> built = hull(points);
+    if (!built) return built.problem();
+    Polygon result;
+    result.points_ = std::move(built->points);
+    return result;
+}
+
+Result<Polygon> Polygon::build(std::initializer_list<Vec2> points) {
+    return build(std::span<const Vec2>(points.begin(), points.size()));
+}
+
+std::span<const Vec2> Polygon::points() const {
+    return points_.empty() ? std::span<const Vec2>(&zero, 1) : std::span<const Vec2>(points_);
+}
+
+int Polygon::rank() const {
+    return static_cast<int>(std::min<std::size_t>(points().size() - 1, 2));
+}
+
+double Polygon::area() const {
+    double twice = 0;
+    each_triangle(points(), [&](const DVec<2>& a, const DVec<2>& b) { twice += cross(a, b); });
+    return 0.5 * twice;
+}
+
+Vec2 Polygon::centroid() const {
+    const std::span<const Vec2> corners = points();
+    const DVec<2> origin(corners[0]);
+    if (rank() < 2) return to_float(0.5 * (origin + DVec<2>(corners.back())));
+    double weight = 0;
+    DVec<2> sum(0.0);
+    each_triangle(corners, [&](const DVec<2>& a, const DVec<2>& b) {
+        weight += cross(a, b);
+        sum += cross(a, b) * (a + b);
+    });
+    return to_float(origin + sum / (3 * weight));
+}
+
+Convex<2> convex(const Polygon& polygon) {
+    Convex<2> result;
+    const std::span<const Vec2> points = polygon.points();
+    result.points = points.data();
+    result.count = static_cast<std::uint32_t>(points.size());
+    return result;
+}
+
+}  // namespace abut

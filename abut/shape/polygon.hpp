@@ -1,0 +1,44 @@
+#pragma once
+
+// The convex polygon: the hull of any points of the plane, as a value.
+
+#include <abut/convex/support.hpp>
+#include <abut/math/result.hpp>
+
+#include <initializer_list>
+#include <span>
+#include <vector>
+
+namespace abut {
+
+/// Convex, filled, of any number of corners; without build() the single point 0. Points that lie on a line, or all in
+/// one place, make a valid polygon of no area.
+class Polygon {
+public:
+    Polygon() = default;
+
+    /// The hull of the points, in any order, copies allowed. A Problem only where there are none (`empty_input`) or one
+    /// is NaN or infinite (`not_finite`, with its index).
+    static Result<Polygon> build(std::span<const Vec2> points);
+    static Result<Polygon> build(std::initializer_list<Vec2> points);
+
+    /// The corners, counter-clockwise from the lexicographically least, none of them between two others on a straight
+    /// line. They are points of the input, and don't depend on its order.
+    std::span<const Vec2> points() const;
+
+    /// 0: a point, 1: a segment, 2: an area. No wider than 1.2e-7 of the extent is a segment.
+    int rank() const;
+
+    /// In double: an area leaves the range of float long before its corners do.
+    double area() const;
+
+    /// The centre of gravity: of the area, or of the segment or point where there is none.
+    Vec2 centroid() const;
+
+private:
+    std::vector<Vec2> points_;  ///< empty: the point 0, also after a move
+};
+
+Convex<2> convex(const Polygon& polygon);
+
+}  // namespace abut

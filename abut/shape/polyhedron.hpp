@@ -1,0 +1,59 @@
+#pragma once
+
+// The convex polyhedron: the hull of any points of space with its faces, as a value.
+
+#include <abut/convex/support.hpp>
+#include <abut/math/result.hpp>
+
+#include <initializer_list>
+#include <memory>
+#include <span>
+
+namespace abut {
+
+/// Convex, solid, of any number of corners; without build() the single point 0. Points that lie in a plane, on a line
+/// or all in one place make a valid polyhedron of no volume. Copies are cheap and share what was built, which never
+/// changes: spans and views of it stay valid as long as any copy lives.
+class Polyhedron {
+public:
+    Polyhedron() = default;
+
+    /// The hull of the points, in any order, copies allowed, n log n for n points of any usual shape. A Problem only
+    /// where there are none (`empty_input`) or one is NaN or infinite (`not_finite`, with its index). A point
+    /// within 1.2e-7 of the extent (the longest side of the bounding box) of the hull of the others may be left out of
+    /// it.
+    static Result<Polyhedron> build(std::span<const Vec3> points);
+    static Result<Polyhedron> build(std::initializer_list<Vec3> points);
+
+    /// The corners, in lexicographical order. They are points of the input, and don't depend on its order.
+    std::span<const Vec3> points() const;
+
+    /// The faces, in lexicographical order of their loops, each from its lowest point number. Every edge belongs to two
+    /// faces, one each way. Neighbours whose corners lie in a slab 1e-6 of the extent thick, with a convex outline, are
+    /// one face. A flat polygon has two faces back to back; a segment or a point has none.
+    const Facets& facets() const;
+
+    /// One a face: the face's plane is dot(normal, p) == offset, and no corner of the face lies above it. Other points
+    /// of the input do by no more than 1e-6 of the extent. In double, as the planes of distant shapes need it.
+    std::span<const double> offsets() const;
+
+    /// 0: a point, 1: a segment, 2: a flat polygon, 3: a solid. No thicker than 1.2e-7 of the extent counts as flat.
+    int rank() const;
+
+    /// In double: a volume leaves the range of float long before its corners do.
+    double volume() const;
+
+    /// Of all faces; of a flat polygon both.
+    double area() const;
+
+    /// The centre of gravity: of the volume, or of the polygon, segment or point where there is none.
+    Vec3 centroid() const;
+
+private:
+    struct Data;
+    std::shared_ptr<const Data> data_;  ///< null: the point 0, also after a move
+};
+
+Convex<3> convex(const Polyhedron& polyhedron);
+
+}  // namespace abut

@@ -1,0 +1,477 @@
+// The hull engines: exact arithmetic, hulls found by trying every plane, and the laws that every hull keeps.
+#include "../oracle/random.hpp"
+#include <abut/convex/hull.hpp>
+#include <abut/convex/hull_input.hpp>
+#include <abut/convex/quickhull.hpp>
+#include <abut/math/linear.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <tuple>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using abut::cross;
+using abut::dot;
+using abut::DVec;
+using abut::Hull3;
+using abut::Vec2;
+using abut::Vec3;
+using abut::oracle::Random;
+
+std::vector<std::vector<std::uint32_t>> loops_of(const Hull3& hull) {
+    std::vector<std::vector<std::uint32_t>> result;
+    std::size_t begin = 0;
+    for (const std::uint32_t end : hull.loop_ends) {
+        result.emplace_back(hull.loops.begin() + static_cast<std::ptrdiff_t>(begin), hull.loops.begin() + end);
+        begin = end;
+    }
+    return result;
+}
+
+std::tuple<float, float, float> key(const Vec3& p) {
+    return {p.x, p.y, p.z};
+}
+
+template <class T>
+void shuffle(std::vector<T>& items, Random& random) {
+    for (std::size_t i = items.size(); i > 1; --i)
+        std::swap(items[i - 1], items[random.below(static_cast<std::uint32_t>(i))]);
+}
+
+// Random point sets, each of a kind that hulls find hard in another way.
+std::vector<Vec3> in_a_cube(Random& random, int count) {
+    std::vector<Vec3> result;
+    for (int i = 0; i < count; ++i) result.emplace_back(abut::to_float(random.in_cube<3>()));
+    return result;
+}
+std::vector<Vec3> on_a_sphere(Random& random, int count) {
+    std::vector<Vec3> result;
+    for (int i = 0; i < count; ++i) result.emplace_back(abut::to_float(random.direction<3>()));
+    return result;
+}
+std::vector<Vec3> on_a_lattice(Random& random, int count) {
+    const auto coordinate = [&] { return static_cast<float>(random.below(4)) - 1.5f; };
+    std::vector<Vec3> result;
+    for (int i = 0; i < count; ++i) result.push_back({coordinate(), coordinate(), coordinate()});
+    return result;
+}
+std::vector<Vec3> stretched(std::vector<Vec3> points, const Vec3& factor) {
+    for (Vec3& point : points) point *= factor;
+    return points;
+}
+std::vector<Vec3> turned(std::vector<Vec3> points, Random& random) {
+    const abut::Affine<3> place = abut::affine(abut::Pose3{Vec3(0.0f), random.rotation<3>()});
+    for (Vec3& point : points) point = abut::to_float(place.point(DVec<3>(point)));
+    return points;
+}
+std::vector<Vec3> rings(int sides) {
+    std::vector<Vec3> result;
+    for (int i = 0; i < sides; ++i) {
+        const double angle = 2 * 3.14159265358979323846 * i / sides;
+        const auto x = static_cast<float>(std::cos(angle)), y = static_cast<float>(std::sin(angle));
+        result.insert(result.end(), {{x, y, -1.0f}, {x, y, 1.0f}});
+    }
+    return result;
+}
+std::vector<Vec3> box_surface(int pieces) {
+    std::vector<Vec3> result;
+    const auto at = [&](int i) { return static_cast<float>(2 * i - pieces) / static_cast<float>(pieces); };
+    for (int x = 0; x <= pieces; ++x)
+        for (int y = 0; y <= pieces; ++y)
+            for (int z = 0; z <= pieces; ++z)
+                if (x % pieces == 0 || y % pieces == 0 || z % pieces == 0) result.emplace_back(at(x), at(y), at(z));
+    return result;
+}
+std::vector<Vec3> with_near_copies(std::vector<Vec3> points, Random& random) {
+    const std::size_t count = points.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const double distance = random.power_of_two(-26, -18);
+        points.push_back(points[i] + abut::to_float(random.in_cube<3>() * distance));
+    }
+    return points;
+}
+
+// One statement a random thing: the order in which arguments are evaluated is the compiler's to choose.
+struct Kind {
+    std::string name;
+    std::function<std::vector<Vec3>(Random&)> make;
+};
+float thin(Random& random) {
+    return static_cast<float>(random.power_of_two(-24, -1));
+}
+const std::vector<Kind> kinds{
+    {"few in a cube",
+     [](Random& random) {
+         const int count = 4 + static_cast<int>(random.below(12));
+         return in_a_cube(random, count);
+     }},
+    {"many in a cube", [](Random& random) { return in_a_cube(random, 400); }},
+    {"on a sphere", [](Random& random) { return on_a_sphere(random, 300); }},
+    {"on a lattice",
+     [](Random& random) {
+         const int count = 6 + static_cast<int>(random.below(40));
+         return on_a_lattice(random, count);
+     }},
+    {"lattice, turned",
+     [](Random& random) {
+         const std::vector<Vec3> points = on_a_lattice(random, 40);
+         return turned(points, random);
+     }},
+    {"box, turned",
+     [](Random& random) {
+         const int pieces = 1 + static_cast<int>(random.below(6));
+         return turned(box_surface(pieces), random);
+     }},
+    {"cylinder, turned",
+     [](Random& random) {
+         const int sides = 3 + static_cast<int>(random.below(62));
+         return turned(rings(sides), random);
+     }},
+    {"plate",
+     [](Random& random) {
+         const std::vector<Vec3> points = in_a_cube(random, 60);
+         const float z = thin(random);
+         return turned(stretched(points, {1, 1, z}), random);
+     }},
+    {"needle",
+     [](Random& random) {
+         const std::vector<Vec3> points = in_a_cube(random, 60);
+         const float xy = 0.05f * thin(random);
+         return turned(stretched(points, {xy, xy, 1}), random);
+     }},
+    {"lens",
+     [](Random& random) {
+         const std::vector<Vec3> points = on_a_sphere(random, 200);
+         return stretched(points, {1, 1, thin(random)});
+     }},
+    {"flake in a needle",
+     [](Random& random) {
+         const std::vector<Vec3> points = in_a_cube(random, 50);
+         const float x = thin(random), z = thin(random);
+         return stretched(points, {x, 1, z});
+     }},
+    {"near copies",
+     [](Random& random) {
+         const std::vector<Vec3> points = in_a_cube(random, 30);
+         return with_near_copies(points, random);
+     }},
+};
+
+void expect_one_closed_surface(const Hull3& hull) {
+    std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
+    std::set<std::uint32_t> used;
+    for (const auto& loop : loops_of(hull)) {
+        ASSERT_GE(loop.size(), 3u);
+        EXPECT_EQ(*std::min_element(loop.begin(), loop.end()), loop[0]);
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            ASSERT_LT(loop[i], hull.points.size());
+            used.insert(loop[i]);
+            EXPECT_TRUE(edges.emplace(loop[i], loop[(i + 1) % loop.size()]).second) << "an edge twice the same way";
+        }
+    }
+    for (const auto& [from, to] : edges) EXPECT_TRUE(edges.contains({to, from})) << "an edge of one face alone";
+    EXPECT_EQ(used.size(), hull.points.size());
+    EXPECT_EQ(hull.points.size() + hull.loop_ends.size(), edges.size() / 2 + 2) << "Euler";
+    EXPECT_EQ(hull.normals.size(), hull.loop_ends.size());
+    EXPECT_EQ(hull.offsets.size(), hull.loop_ends.size());
+}
+
+void expect_faces_hold_all(const Hull3& hull, const std::vector<Vec3>& points, double extent) {
+    const double tolerance = 1e-6 * extent;
+    const auto loops = loops_of(hull);
+    for (std::size_t face = 0; face < loops.size(); ++face) {
+        const DVec<3> normal(hull.normals[face]);
+        EXPECT_NEAR(length(normal), 1, 1e-6);
+        for (const Vec3& point : points) ASSERT_LE(dot(normal, DVec<3>(point)), hull.offsets[face] + tolerance);
+        const DVec<3> origin(hull.points[loops[face][0]]);
+        DVec<3> area(0.0);
+        for (std::size_t i = 0; i < loops[face].size(); ++i) {
+            const DVec<3> a(hull.points[loops[face][i]]), b(hull.points[loops[face][(i + 1) % loops[face].size()]]);
+            EXPECT_GE(dot(normal, a), hull.offsets[face] - 1.5 * tolerance) << "a corner off its face";
+            EXPECT_LE(dot(normal, a), hull.offsets[face]);
+            const DVec<3> c(hull.points[loops[face][(i + 2) % loops[face].size()]]);
+            EXPECT_GE(dot(cross(b - a, c - b), normal), -0.2 * tolerance * length(c - a)) << "not convex";
+            area += cross(a - origin, b - origin);
+        }
+        // Not of slivers that are as narrow as the rounding of the floats.
+        if (length(area) > 1e-4 * extent * extent) {
+            EXPECT_GT(dot(area, normal), 0.999 * length(area)) << "clockwise";
+        }
+    }
+}
+
+double volume_below_faces(const Hull3& hull) {
+    double six_times = 0;
+    const DVec<3> origin(hull.points[0]);
+    for (const auto& loop : loops_of(hull))
+        for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
+            const DVec<3> a(hull.points[loop[0]]), b(hull.points[loop[i]]), c(hull.points[loop[i + 1]]);
+            six_times += dot(cross(b - a, c - a), a - origin);
+        }
+    return six_times / 6;
+}
+
+void expect_laws(const Hull3& hull, const std::vector<Vec3>& points, Random& random) {
+    const double extent = abut::extent<3>(points);
+    std::set<std::tuple<float, float, float>> given;
+    for (const Vec3& point : points) given.insert(key(point));
+    for (const Vec3& point : hull.points) EXPECT_TRUE(given.contains(key(point))) << "a corner from nowhere";
+    EXPECT_TRUE(std::is_sorted(hull.points.begin(), hull.points.end(),
+                               [](const Vec3& a, const Vec3& b) { return key(a) < key(b); }));
+
+    // The hull reaches as far as the points do, in every direction.
+    for (int i = 0; i < 50; ++i) {
+        const DVec<3> direction = random.direction<3>();
+        const auto reach = [&](const std::vector<Vec3>& set) {
+            double most = dot(direction, DVec<3>(set[0]));
+            for (const Vec3& point : set) most = std::max(most, dot(direction, DVec<3>(point)));
+            return most;
+        };
+        EXPECT_NEAR(reach(hull.points), reach(points), 1.5e-7 * extent);
+    }
+    if (hull.rank < 2) {
+        EXPECT_EQ(hull.points.size(), static_cast<std::size_t>(hull.rank) + 1);
+        EXPECT_TRUE(hull.loops.empty());
+        return;
+    }
+    expect_one_closed_surface(hull);
+    expect_faces_hold_all(hull, points, extent);
+    EXPECT_NEAR(hull.volume, volume_below_faces(hull), 1e-6 * extent * hull.area);
+    const double rounding = 2e-7 * abut::largest(DVec<3>(hull.centroid));
+    for (std::size_t face = 0; face < hull.normals.size(); ++face)
+        EXPECT_LE(dot(DVec<3>(hull.normals[face]), DVec<3>(hull.centroid)),
+                  hull.offsets[face] + 1e-6 * extent + rounding);
+}
+
+TEST(GridDot, IsExactWhereDoubleIsNot) {
+    constexpr std::int64_t most = std::int64_t{1} << abut::grid_bits;
+    Random random(71);
+    const auto coordinate = [&] { return static_cast<std::int64_t>(random.below(2 * most + 1)) - most; };
+    const auto point = [&] { return abut::GridPoint{coordinate(), coordinate(), coordinate()} / std::int64_t{2}; };
+    int wrong_in_double = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const abut::GridPoint a = point(), b = point(), c = point();
+        const abut::GridPoint normal = abut::grid_normal(a, b, c);
+        // Next to the plane: the corner of a parallelogram, one step aside.
+        const abut::GridPoint step(static_cast<std::int64_t>(random.below(3)) - 1, 0, 0);
+        const abut::GridPoint in_plane = (b - a) - (c - a);
+        EXPECT_EQ(abut::grid_dot(normal, in_plane), 0);
+        const double expected = static_cast<double>(normal.x) * static_cast<double>(step.x);
+        EXPECT_EQ(abut::grid_dot(normal, in_plane + step), expected);
+        wrong_in_double += dot(DVec<3>(normal), DVec<3>(in_plane)) != 0 ? 1 : 0;
+    }
+    EXPECT_GT(wrong_in_double, 5000);
+    EXPECT_EQ(abut::grid_dot({-most * most * 2, 0, 0}, {most, 0, 0}), -0x1p85);
+    EXPECT_EQ(abut::grid_dot({most * most * 2, most * most * 2, 1}, {most, -most, -1}), -1);
+}
+
+TEST(HullLoop, LeavesOutWhatLiesOnAnEdge) {
+    std::vector<Vec2> points;
+    for (int x = 0; x <= 6; ++x)
+        for (int y = 0; y <= 4; ++y) points.emplace_back(static_cast<float>(x), static_cast<float>(y));
+    const std::vector<std::uint32_t> loop = abut::hull_loop(points);
+    std::vector<Vec2> corners;
+    for (const std::uint32_t i : loop) corners.push_back(points[i]);
+    EXPECT_EQ(corners, (std::vector<Vec2>{{0, 0}, {6, 0}, {6, 4}, {0, 4}}));
+}
+
+TEST(HullLoop, KeepsAllThatIsExtremeAndNoMore) {
+    Random random(72);
+    int corners = 0, left_out = 0;
+    for (int round = 0; round < 500; ++round) {
+        SCOPED_TRACE("seed 72, round " + std::to_string(round));
+        std::vector<Vec2> points;
+        for (std::uint32_t i = 0, count = 1 + random.below(12); i < count; ++i)
+            points.push_back({static_cast<float>(random.below(6)), static_cast<float>(random.below(6))});
+        std::set<std::pair<float, float>> found;
+        for (const std::uint32_t i : abut::hull_loop(points))
+            EXPECT_TRUE(found.emplace(points[i].x, points[i].y).second);
+
+        // A point is no corner if it lies between two others or in the triangle of three others.
+        const auto turn = [](const Vec2& a, const Vec2& b, const Vec2& c) {
+            return cross(DVec<2>(b) - DVec<2>(a), DVec<2>(c) - DVec<2>(a));
+        };
+        for (const Vec2& p : points) {
+            bool inside = false;
+            for (const Vec2& a : points)
+                for (const Vec2& b : points) {
+                    if (a == p || b == p) continue;
+                    inside =
+                        inside || (turn(a, b, p) == 0 && dot(DVec<2>(a) - DVec<2>(p), DVec<2>(b) - DVec<2>(p)) < 0);
+                    for (const Vec2& c : points)
+                        inside = inside || (c != p && turn(a, b, p) > 0 && turn(b, c, p) > 0 && turn(c, a, p) > 0);
+                }
+            EXPECT_EQ(found.contains({p.x, p.y}), !inside) << p.x << ' ' << p.y;
+            corners += inside ? 0 : 1;
+            left_out += inside ? 1 : 0;
+        }
+    }
+    EXPECT_GT(corners, 500);
+    EXPECT_GT(left_out, 500);
+}
+
+// On a lattice every plane through three points is exact in double, so that the faces can be found by trying them all.
+TEST(Hull, HasTheFacesFoundByTryingEveryPlane) {
+    Random random(73);
+    int solid = 0, faces_of_many_corners = 0;
+    for (int round = 0; round < 300; ++round) {
+        SCOPED_TRACE("seed 73, round " + std::to_string(round));
+        const int count = 4 + static_cast<int>(random.below(12));
+        const std::vector<Vec3> points = on_a_lattice(random, count);
+        const Hull3 hull = *abut::hull(points);
+        if (hull.rank < 3) continue;
+        ++solid;
+
+        struct Face {
+            DVec<3> normal;
+            std::set<std::tuple<float, float, float>> points;
+        };
+        std::vector<Face> expected;
+        const auto face_across = [&](const DVec<3>& normal) {
+            return std::find_if(expected.begin(), expected.end(),
+                                [&](const Face& face) { return length(face.normal - normal) < 1e-5; });
+        };
+        for (const Vec3& a : points)
+            for (const Vec3& b : points)
+                for (const Vec3& c : points) {
+                    const DVec<3> normal = cross(DVec<3>(b) - DVec<3>(a), DVec<3>(c) - DVec<3>(a));
+                    const auto above = [&](const Vec3& p) { return dot(normal, DVec<3>(p) - DVec<3>(a)); };
+                    if (normal == DVec<3>(0.0) || face_across(abut::normalized(normal)) != expected.end() ||
+                        std::any_of(points.begin(), points.end(), [&](const Vec3& p) { return above(p) > 0; }))
+                        continue;
+                    Face& face = expected.emplace_back(Face{abut::normalized(normal), {}});
+                    for (const Vec3& p : points)
+                        if (above(p) == 0) face.points.insert(key(p));
+                }
+        const auto loops = loops_of(hull);
+        ASSERT_EQ(loops.size(), expected.size());
+        for (std::size_t i = 0; i < loops.size(); ++i) {
+            const auto found = face_across(DVec<3>(hull.normals[i]));
+            ASSERT_TRUE(found != expected.end());
+            for (const std::uint32_t point : loops[i]) EXPECT_TRUE(found->points.contains(key(hull.points[point])));
+            // Strictly convex, and with nothing of the plane outside of it: these are its corners.
+            for (std::size_t j = 0; j < loops[i].size(); ++j) {
+                const DVec<3> a(hull.points[loops[i][j]]), b(hull.points[loops[i][(j + 1) % loops[i].size()]]);
+                const DVec<3> next(hull.points[loops[i][(j + 2) % loops[i].size()]]), normal(hull.normals[i]);
+                EXPECT_GT(dot(cross(b - a, next - b), normal), 0.1);
+                for (const auto& [x, y, z] : found->points)
+                    EXPECT_GT(dot(cross(b - a, DVec<3>(x, y, z) - a), normal), -1e-6);
+            }
+            faces_of_many_corners += loops[i].size() > 3 ? 1 : 0;
+        }
+    }
+    EXPECT_GT(solid, 200);
+    EXPECT_GT(faces_of_many_corners, 200);
+}
+
+TEST(Hull, KeepsItsLawsAtEveryScale) {
+    std::map<int, int> ranks;
+    for (std::size_t kind = 0; kind < kinds.size(); ++kind)
+        for (const double scale : {1e-6, 1e-3, 1.0, 1e4, 1e6})
+            for (const double away : {0.0, 3.0, 1e4})
+                for (std::uint64_t round = 0; round < 4; ++round) {
+                    const std::uint64_t seed = 1000 * kind + round;
+                    SCOPED_TRACE(kinds[kind].name + ", scale " + std::to_string(scale) + ", away " +
+                                 std::to_string(away) + ", seed " + std::to_string(seed));
+                    Random random(seed);
+                    std::vector<Vec3> points = kinds[kind].make(random);
+                    const DVec<3> offset = random.direction<3>() * away;
+                    for (Vec3& point : points) point = abut::to_float((DVec<3>(point) + offset) * scale);
+                    const auto hull = abut::hull(points);
+                    ASSERT_TRUE(hull);
+                    expect_laws(*hull, points, random);
+                    ++ranks[hull->rank];
+                }
+    EXPECT_GT(ranks[1], 3);
+    EXPECT_GT(ranks[2], 10);
+    EXPECT_GT(ranks[3], 500);
+}
+
+TEST(Hull, DoesNotDependOnTheOrderOfThePoints) {
+    for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
+        SCOPED_TRACE(kinds[kind].name + ", seed " + std::to_string(kind));
+        Random random(kind);
+        std::vector<Vec3> points = kinds[kind].make(random);
+        points.insert(points.end(), {Vec3(0.0f), Vec3(-0.0f)});
+        const Hull3 first = *abut::hull(points);
+        for (int round = 0; round < 5; ++round) {
+            shuffle(points, random);
+            points.push_back(points[random.below(static_cast<std::uint32_t>(points.size()))]);
+            const Hull3 again = *abut::hull(points);
+            EXPECT_EQ(first.points, again.points);
+            EXPECT_EQ(first.normals, again.normals);
+            EXPECT_EQ(first.offsets, again.offsets);
+            EXPECT_EQ(first.loops, again.loops);
+            EXPECT_EQ(first.volume, again.volume);
+        }
+    }
+}
+
+TEST(Hull, OfAHullIsTheSame) {
+    for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
+        if (kinds[kind].name == "near copies") continue;  // points that differ by about the tolerance
+        SCOPED_TRACE(kinds[kind].name + ", seed " + std::to_string(kind));
+        Random random(kind);
+        const Hull3 once = *abut::hull(kinds[kind].make(random));
+        const Hull3 twice = *abut::hull(once.points);
+        EXPECT_EQ(once.points, twice.points);
+        EXPECT_EQ(once.rank, twice.rank);
+    }
+}
+
+// Rounding moves the points of a turned box or cylinder off its faces by about 1e-7 of its size.
+TEST(Hull, HasTheFacesThatWereMeantWhereRoundingBentThem) {
+    Random random(74);
+    int grids_of_six_faces = 0;
+    for (int round = 0; round < 50; ++round) {
+        SCOPED_TRACE("seed 74, round " + std::to_string(round));
+        const Hull3 box = *abut::hull(turned(box_surface(1), random));
+        EXPECT_EQ(box.loop_ends.size(), 6u);
+        EXPECT_EQ(box.points.size(), 8u);
+        const int sides = 3 + static_cast<int>(random.below(62));
+        const Hull3 cylinder = *abut::hull(turned(rings(sides), random));
+        EXPECT_EQ(cylinder.loop_ends.size(), static_cast<std::size_t>(sides + 2));
+        EXPECT_EQ(cylinder.points.size(), static_cast<std::size_t>(2 * sides));
+        // Points within a face may stick out by more than is left out, and then it is sometimes two.
+        grids_of_six_faces += abut::hull(turned(box_surface(5), random))->loop_ends.size() == 6 ? 1 : 0;
+    }
+    EXPECT_GE(grids_of_six_faces, 46);
+}
+
+// Corners that differ only in the sign of a zero are one corner, whichever comes first.
+TEST(Hull, HasNoNegativeZeros) {
+    const Hull3 hull = *abut::hull(std::vector<Vec3>{{1, -0.0f, -0.0f}, {-0.0f, 1, 0}, {-0.0f, 0, 1}, Vec3(-0.0f)});
+    for (const Vec3& point : hull.points)
+        for (int i = 0; i < 3; ++i) EXPECT_FALSE(std::signbit(point[i]));
+    const abut::Hull2 flat = *abut::hull(std::vector<Vec2>{{1, -0.0f}, {-0.0f, 1}, Vec2(-0.0f)});
+    for (const Vec2& point : flat.points)
+        for (int i = 0; i < 2; ++i) EXPECT_FALSE(std::signbit(point[i]));
+}
+
+// All corners lie in a slab as thin as joined faces may be, and still there are an upper and a lower side and four
+// between them.
+TEST(Hull, OfAThinPlateKeepsItsRim) {
+    std::vector<Vec3> points = stretched(box_surface(1), {1, 1, 4e-7f});
+    const Hull3 hull = *abut::hull(points);
+    EXPECT_EQ(hull.rank, 3);
+    EXPECT_EQ(hull.loop_ends.size(), 6u);
+}
+
+TEST(Hull, OfTenThousandPointsHasThemAll) {
+    Random random(75);
+    const std::vector<Vec3> points = on_a_sphere(random, 10000);
+    const Hull3 hull = *abut::hull(points);
+    EXPECT_GT(hull.points.size(), 9990u);
+    expect_one_closed_surface(hull);
+    EXPECT_NEAR(hull.volume, 4.18879, 0.005);
+    EXPECT_NEAR(hull.area, 12.56637, 0.01);
+}
+
+}  // namespace
