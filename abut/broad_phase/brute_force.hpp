@@ -1,0 +1,71 @@
+#pragma once
+
+// Every box against every other: the oracle of the broad phases, and the best of them for a handful of boxes.
+
+#include <abut/broad_phase/visit.hpp>
+#include <abut/math/aabb.hpp>
+#include <abut/math/ray.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace abut {
+
+/// A BroadPhase without a structure (concept.hpp tells what each function does). Visits in the order of the indices.
+/// Keeps a copy of the boxes: 24 bytes an item in 3D, 16 in 2D.
+template <int D>
+class BruteForce {
+public:
+    void build(std::span<const Aabb<D>> boxes);
+    void update(std::span<const Aabb<D>> boxes);
+
+    template <Visitor<std::uint32_t, std::uint32_t> F>
+    void each_pair(F&& visit) const {
+        visit_pairs(go_on_after(visit));
+    }
+    void sorted_pairs(std::vector<std::pair<std::uint32_t, std::uint32_t>>& out) const;
+
+    template <Visitor<std::uint32_t, std::uint32_t> F>
+    void each_overlapping_pair(const BruteForce& other, F&& visit) const {
+        visit_pairs(other, go_on_after(visit));
+    }
+    template <Visitor<std::uint32_t> F>
+    void each_overlapping(const Aabb<D>& box, F&& visit) const {
+        visit_overlapping(box, go_on_after(visit));
+    }
+    template <ReachVisitor F>
+    void raycast(const Ray<D>& ray, F&& visit) const {
+        visit_along(ray, reach_after(visit));
+    }
+    template <ReachVisitor F>
+    void closest(const Aabb<D>& box, F&& visit, float reach = std::numeric_limits<float>::infinity()) const {
+        visit_near(box, reach, reach_after(visit));
+    }
+    template <ReachVisitor F>
+    void closest(const Vec<D>& point, F&& visit, float reach = std::numeric_limits<float>::infinity()) const {
+        visit_near(Aabb<D>{point, point}, reach, reach_after(visit));
+    }
+
+    std::size_t size() const { return boxes_.size(); }
+    bool empty() const { return boxes_.empty(); }
+    /// Of all boxes together; Aabb::empty() where there is none.
+    Aabb<D> bounds() const;
+
+private:
+    void visit_pairs(PairCall visit) const;
+    void visit_pairs(const BruteForce& other, PairCall visit) const;
+    void visit_overlapping(const Aabb<D>& box, ItemCall visit) const;
+    void visit_along(const Ray<D>& ray, ReachCall visit) const;
+    void visit_near(const Aabb<D>& box, float reach, ReachCall visit) const;
+
+    std::vector<Aabb<D>> boxes_;
+};
+
+extern template class BruteForce<2>;
+extern template class BruteForce<3>;
+
+}  // namespace abut

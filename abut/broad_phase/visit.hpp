@@ -1,0 +1,57 @@
+#pragma once
+
+// Visitors: the callable that a user hands to a traversal, and the one form in which it reaches a .cpp file.
+
+#include <abut/math/function_ref.hpp>
+
+#include <concepts>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+
+namespace abut {
+
+/// Is told of pairs or items: `visit(i, j)` or `visit(i)`. Returns nothing (go on) or bool (false stops).
+template <class F, class... Items>
+concept Visitor = std::invocable<F&, Items...> &&
+    (std::is_void_v<std::invoke_result_t<F&, Items...>> || std::same_as<std::invoke_result_t<F&, Items...>, bool>);
+
+/// Is told of items within reach: `visit(i)`. Returns nothing (go on), bool (false stops) or float: the new reach, as a
+/// distance. The reach only shrinks: a larger one and NaN change nothing; a negative one stops; at 0 the search goes on
+/// among what is touched.
+template <class F>
+concept ReachVisitor = Visitor<F, std::uint32_t> ||
+    (std::invocable<F&, std::uint32_t>&& std::same_as<std::invoke_result_t<F&, std::uint32_t>, float>);
+
+using PairCall = FunctionRef<bool(std::uint32_t, std::uint32_t)>;  ///< false stops
+using ItemCall = FunctionRef<bool(std::uint32_t)>;                 ///< false stops
+using ReachCall = FunctionRef<float(std::uint32_t)>;               ///< the new reach
+
+/// Any visitor of pairs or items as one that returns whether to go on. Refers to `visit`.
+template <class F>
+auto go_on_after(F& visit) {
+    return [&visit](auto... items) -> bool {
+        if constexpr (std::is_void_v<std::invoke_result_t<F&, decltype(items)...>>) {
+            visit(items...);
+            return true;
+        } else {
+            return visit(items...);
+        }
+    };
+}
+
+/// Any visitor of items within reach as one that returns the new reach. Refers to `visit`.
+template <ReachVisitor F>
+auto reach_after(F& visit) {
+    return [&visit](std::uint32_t item) -> float {
+        using Answer = std::invoke_result_t<F&, std::uint32_t>;
+        if constexpr (std::is_same_v<Answer, float>) {
+            return visit(item);
+        } else {
+            constexpr float on = std::numeric_limits<float>::infinity();
+            return go_on_after(visit)(item) ? on : -on;
+        }
+    };
+}
+
+}  // namespace abut
