@@ -1,0 +1,36 @@
+# cmake --install: headers, libraries, the tool, and the package that find_package(abut) finds. Each library is a component
+# with an export of its own, so that a game which wants abut::abut needs no Assimp.
+include(CMakePackageConfigHelpers)
+
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/abut)
+set(components core bake draw)
+if(ABUT_IO)
+    list(APPEND components io)
+endif()
+
+# All that is handed out, without tests and examples.
+add_custom_target(abut_product)
+
+foreach(component IN LISTS components)
+    add_dependencies(abut_product abut_${component})
+    install(TARGETS abut_${component} EXPORT abut_${component} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+    install(EXPORT abut_${component} NAMESPACE abut:: DESTINATION ${package_dir})
+endforeach()
+
+set(left_out)
+if(NOT ABUT_IO)
+    set(left_out REGEX "/abut/io(/|\\.hpp)" EXCLUDE)
+endif()
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/abut DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+    FILES_MATCHING PATTERN "*.hpp" ${left_out})
+
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/abutConfig.cmake.in ${PROJECT_BINARY_DIR}/abutConfig.cmake
+    INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/abutConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/abutConfig.cmake ${PROJECT_BINARY_DIR}/abutConfigVersion.cmake
+    DESTINATION ${package_dir})
+
+if(ABUT_TOOL)
+    add_dependencies(abut_product abut_tool scenes)
+    install(TARGETS abut_tool RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()

@@ -1,0 +1,40 @@
+# How every target of ours is compiled.
+include(GNUInstallDirs)
+
+# Multiplying and adding in one rounding gives other bits on other machines. Users need the flag too, for what our headers
+# put inline into their code. Only C++ of compilers that know it: an `enable_language(CUDA)` next door must not see it.
+set(ABUT_SAME_BITS $<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang,AppleClang>:-ffp-contract=off>)
+
+# Our own sources are held to these; who uses the library is not. g++ 12 warns of std::string's own copying (its bug 105651).
+function(abut_strict target)
+    target_compile_options(${target} PRIVATE
+        $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Wall;-Wextra;-Wconversion;-Wshadow>
+        $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
+        $<$<AND:$<BOOL:${ABUT_WERROR}>,$<CXX_COMPILER_ID:GNU,Clang,AppleClang>>:-Werror>)
+endfunction()
+
+# A static library of the .cpp files in the given folders of abut/, known as abut::NAME; of headers alone where there are none.
+#   abut_library(abut_bake EXPORT_NAME bake FOLDERS bake LINK abut_core)  ->  abut::bake
+# LINK is what users of the library need as well.
+function(abut_library target)
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "EXPORT_NAME" "FOLDERS;LINK")
+    set(sources)
+    foreach(folder IN LISTS arg_FOLDERS)
+        file(GLOB_RECURSE found CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/abut/${folder}/*.cpp)
+        list(APPEND sources ${found})
+    endforeach()
+    if(sources)
+        set(scope PUBLIC)
+        add_library(${target} STATIC ${sources})
+        abut_strict(${target})
+    else()
+        set(scope INTERFACE)
+        add_library(${target} INTERFACE)
+    endif()
+    add_library(abut::${arg_EXPORT_NAME} ALIAS ${target})
+    set_target_properties(${target} PROPERTIES EXPORT_NAME ${arg_EXPORT_NAME})
+    target_link_libraries(${target} ${scope} ${arg_LINK})
+    target_compile_features(${target} ${scope} cxx_std_20)
+    target_compile_options(${target} ${scope} ${ABUT_SAME_BITS})
+    target_include_directories(${target} ${scope} $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+endfunction()

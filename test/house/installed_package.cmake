@@ -1,0 +1,30 @@
+# Installs abut, builds the consumer against it from outside (where there is no Assimp), and compares what it prints with
+# what ours prints.
+#   cmake -D build= -D folder= -D consumer= -D here= -D generator= -D compiler= -D flags= -P installed_package.cmake
+function(must)
+    execute_process(COMMAND ${ARGN} OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE result)
+    if(NOT result EQUAL 0)
+        list(JOIN ARGN " " command)
+        message(FATAL_ERROR "${command}: ${result}\n${output}")
+    endif()
+    set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+# Anew each time: a header that is no longer installed must not be found.
+file(REMOVE_RECURSE ${folder})
+must(${CMAKE_COMMAND} --install ${build} --prefix ${folder}/prefix)
+must(${CMAKE_COMMAND} -S ${consumer} -B ${folder}/build -G ${generator}
+    -D CMAKE_BUILD_TYPE=None
+    -D CMAKE_PREFIX_PATH=${folder}/prefix
+    -D CMAKE_CXX_COMPILER=${compiler}
+    -D CMAKE_DISABLE_FIND_PACKAGE_assimp=ON
+    "-D CMAKE_CXX_FLAGS=${flags} -O3 -march=native")
+must(${CMAKE_COMMAND} --build ${folder}/build)
+
+must(${folder}/build/consumer)
+set(outside "${output}")
+must(${here})
+if(NOT outside STREQUAL output)
+    message(FATAL_ERROR "built outside:\n${outside}\nbuilt here:\n${output}")
+endif()
+message(STATUS "${output}")
