@@ -1,0 +1,6 @@
+#pragma once
+
+// All of abut::bake: slow work before the game starts.
+
+#include <abut/bake/solid.hpp>
+#include <abut/bake/weld.hpp>
