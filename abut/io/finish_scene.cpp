@@ -1,0 +1,192 @@
+#include <abut/io/finish_scene.hpp>
+#include <abut/math/dvec.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <unordered_set>
+#include <utility>
+
+#include <glm/ext/quaternion_geometric.hpp>
+
+namespace abut {
+namespace {
+
+constexpr std::size_t deepest = 1000;
+
+std::string title(const Scene& scene, const Geometry& geometry) {
+    const auto place = static_cast<std::size_t>(&geometry - scene.geometries.data());
+    return geometry.name.empty() ? "mesh " + std::to_string(place) : "mesh '" + geometry.name + "'";
+}
+
+std::string title(const SceneNode& node) {
+    return "node '" + node.name + "'";
+}
+
+std::optional<Problem> check_points(const Scene& scene, const Geometry& geometry) {
+    for (std::size_t i = 0; i < geometry.points.size(); ++i)
+        if (!is_finite<3>(geometry.points[i]))
+            return Problem{ProblemCode::not_finite,
+                           title(scene, geometry) + ", vertex " + std::to_string(i) + ": coordinate is not finite", i};
+    for (std::size_t i = 0; i < geometry.triangles.size(); ++i) {
+        const glm::uvec3& t = geometry.triangles[i];
+        const std::uint32_t largest_index = std::max({t.x, t.y, t.z});
+        if (largest_index >= geometry.points.size())
+            return Problem{ProblemCode::index_out_of_range,
+                           title(scene, geometry) + ", triangle " + std::to_string(i) + ": index " +
+                               std::to_string(largest_index) + " is out of range (" +
+                               std::to_string(geometry.points.size()) + " vertices)",
+                           i};
+    }
+    return std::nullopt;
+}
+
+// After check_points. Refuses triangles without area, or takes them out and counts them.
+std::optional<Problem> check_areas(const Scene& scene, Geometry& geometry, bool skip, std::size_t& skipped) {
+    const auto is_degenerate = [&](const glm::uvec3& t) {
+        return has_zero_area(geometry.points[t.x], geometry.points[t.y], geometry.points[t.z]);
+    };
+    const auto first = std::find_if(geometry.triangles.begin(), geometry.triangles.end(), is_degenerate);
+    if (first == geometry.triangles.end()) return std::nullopt;
+    if (!skip) {
+        const auto i = static_cast<std::size_t>(first - geometry.triangles.begin());
+        return Problem{ProblemCode::degenerate,
+                       title(scene, geometry) + ", triangle " + std::to_string(i) + ": zero area", i};
+    }
+    const auto rest = std::remove_if(first, geometry.triangles.end(), is_degenerate);
+    skipped += static_cast<std::size_t>(geometry.triangles.end() - rest);
+    geometry.triangles.erase(rest, geometry.triangles.end());
+    return std::nullopt;
+}
+
+bool is_finite(const glm::dmat4& matrix) {
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row)
+            if (!std::isfinite(matrix[column][row])) return false;
+    return true;
+}
+
+std::optional<Problem> check_nodes(const Scene& scene) {
+    std::vector<std::size_t> depths;
+    std::size_t depth = 0;
+    std::size_t too_deep = scene.nodes.size();
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+        const SceneNode& node = scene.nodes[i];
+        if (!is_finite(node.local))
+            return Problem{ProblemCode::not_finite, title(node) + ": transform is not finite", i};
+        depths.push_back(node.parent == SceneNode::no_parent ? 1 : depths[node.parent] + 1);
+        depth = std::max(depth, depths.back());
+        if (depths.back() > deepest) too_deep = std::min(too_deep, i);
+    }
+    if (depth <= deepest) return std::nullopt;
+    return Problem{ProblemCode::too_large,
+                   "node tree is " + std::to_string(depth) + " deep; the limit is " + std::to_string(deepest) +
+                       ", passed at " + title(scene.nodes[too_deep]),
+                   too_deep};
+}
+
+template <int N>
+bool is_finite(const glm::vec<N, double>& value) {
+    for (int i = 0; i < N; ++i)
+        if (!std::isfinite(value[i])) return false;
+    return true;
+}
+bool is_finite(const glm::dquat& value) {
+    return is_finite(glm::vec<3, double>(value.x, value.y, value.z)) && std::isfinite(value.w);
+}
+
+// The first key that is wrong, and what it is that's wrong.
+struct BadKey {
+    std::size_t key;
+    const char* what;
+};
+
+template <class Value>
+std::optional<BadKey> bad_key(const KeyTrack<Value>& track) {
+    const auto finite = [](const std::vector<Value>& values, std::size_t i) {
+        return i >= values.size() || is_finite(values[i]);
+    };
+    for (std::size_t i = 0; i < track.times.size(); ++i) {
+        if (!std::isfinite(track.times[i]) || !finite(track.values, i) || !finite(track.in_tangents, i) ||
+            !finite(track.out_tangents, i))
+            return BadKey{i, "is not finite"};
+        if (i > 0 && track.times[i] < track.times[i - 1]) return BadKey{i, "is earlier than the one before"};
+    }
+    return std::nullopt;
+}
+
+std::optional<Problem> check_animations(const Scene& scene) {
+    for (const Animation& animation : scene.animations)
+        for (const NodeMotion& motion : animation.motions) {
+            std::optional<BadKey> bad = bad_key(motion.translation);
+            if (!bad) bad = bad_key(motion.rotation);
+            if (!bad) bad = bad_key(motion.scale);
+            if (bad)
+                return Problem{ProblemCode::not_finite,
+                               "animation '" + animation.name + "', " + title(scene.nodes[motion.node]) + ": key " +
+                                   std::to_string(bad->key) + " " + bad->what,
+                               bad->key};
+        }
+    return std::nullopt;
+}
+
+void drop_empty_geometry(Scene& scene) {
+    for (SceneNode& node : scene.nodes)
+        std::erase_if(node.geometries, [&](std::uint32_t i) { return scene.geometries[i].triangles.empty(); });
+}
+
+// Each path is taken by the first node that comes along with it; the next ones get a number.
+void make_paths_unique(Scene& scene) {
+    std::unordered_set<std::string> taken;
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+        SceneNode& node = scene.nodes[i];
+        if (node.name.empty() && !node.geometries.empty()) node.name = scene.geometries[node.geometries.front()].name;
+        if (node.name.empty() && !node.geometries.empty()) node.name = "unnamed";
+        if (node.name.empty()) continue;
+        const std::string name = node.name;
+        for (std::size_t number = 2; !taken.insert(path(scene, i)).second; ++number)
+            node.name = name + "#" + std::to_string(number);
+    }
+}
+
+void normalize_rotations(Scene& scene) {
+    for (Animation& animation : scene.animations)
+        for (NodeMotion& motion : animation.motions)
+            if (motion.rotation.interpolation != Interpolation::cubic)
+                for (glm::dquat& rotation : motion.rotation.values) rotation = glm::normalize(rotation);
+}
+
+}  // namespace
+
+bool has_zero_area(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const DVec<3> ab = DVec<3>(b) - DVec<3>(a);
+    const DVec<3> ac = DVec<3>(c) - DVec<3>(a);
+    const DVec<3> bc = DVec<3>(c) - DVec<3>(b);
+    const double longest = std::max({length_squared(ab), length_squared(ac), length_squared(bc)});
+    const double area = length(cross(ab, ac));
+    return a == b || b == c || c == a || area <= 1e-12 * longest;
+}
+
+Result<Scene> finish_scene(Scene scene, const ReadOptions& options) {
+    std::optional<Problem> problem = check_nodes(scene);
+    std::size_t skipped = 0;
+    for (Geometry& geometry : scene.geometries) {
+        if (!problem) problem = check_points(scene, geometry);
+        if (!problem) problem = check_areas(scene, geometry, options.skip_degenerate, skipped);
+    }
+    if (!problem) problem = check_animations(scene);
+    if (problem) return *std::move(problem);
+
+    if (skipped > 0) scene.warnings.push_back(std::to_string(skipped) + " triangles of zero area are left out");
+    drop_empty_geometry(scene);
+    const bool has_objects = std::any_of(scene.nodes.begin(), scene.nodes.end(),
+                                         [](const SceneNode& node) { return !node.geometries.empty(); });
+    if (!has_objects) return Problem{ProblemCode::empty_input, "no triangles in it: 0 objects"};
+    make_paths_unique(scene);
+    normalize_rotations(scene);
+    schedule(scene);
+    return scene;
+}
+
+}  // namespace abut
