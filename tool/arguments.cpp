@@ -1,0 +1,47 @@
+#include "arguments.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <system_error>
+
+namespace abut::tool {
+namespace {
+
+constexpr std::size_t most_frames = 1'000'000;
+
+// True where all of the text is one number.
+template <class Number>
+bool parse(const std::string& text, Number& number) {
+    const char* end = text.data() + text.size();
+    const auto [stopped, error] = std::from_chars(text.data(), end, number);
+    return error == std::errc() && stopped == end;
+}
+
+Problem bad(const std::string& text, const char* expected) {
+    return {ProblemCode::bad_argument, "'" + text + "' is not " + expected};
+}
+
+}  // namespace
+
+Result<float> parse_length(const std::string& text) {
+    float length = 0;
+    if (!parse(text, length) || !std::isfinite(length) || length < 0) return bad(text, "a number of at least 0");
+    return length;
+}
+
+Result<std::size_t> parse_frames(const std::string& text) {
+    std::size_t frames = 0;
+    if (!parse(text, frames) || frames < 1 || frames > most_frames)
+        return bad(text, "a whole number from 1 to 1000000");
+    return frames;
+}
+
+Result<PairPattern> parse_pair(const std::string& text) {
+    const std::size_t colon = text.find(':');
+    if (colon == std::string::npos || text.find(':', colon + 1) != std::string::npos || colon == 0 ||
+        colon + 1 == text.size())
+        return bad(text, "two patterns with one ':' between them (a ':' in a name is matched by '?')");
+    return PairPattern{text.substr(0, colon), text.substr(colon + 1)};
+}
+
+}  // namespace abut::tool

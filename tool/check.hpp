@@ -1,0 +1,56 @@
+#pragma once
+
+// Which objects of a scene touch, where, how deep and when.
+
+#include "objects.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace abut::tool {
+
+/// Two patterns for names, one for each side of a pair.
+struct PairPattern {
+    std::string a, b;
+};
+
+struct CheckOptions {
+    float clearance = 0;              ///< pairs closer than this are found as well, unless they rest on one another
+    std::optional<float> allow = {};  ///< how deep is nothing to speak of; by default 1e-3 of the smaller object's size
+    std::vector<PairPattern> pairs = {};  ///< only those that one of these describes, either way round; none: all
+};
+
+/// One pair, over one unbroken interval of frames, at its deepest moment.
+struct Finding {
+    std::size_t a = 0, b = 0;                                 ///< objects; a < b, in the order of their paths
+    std::size_t first = 0, last = 0, deepest = 0;             ///< frames
+    float distance = std::numeric_limits<float>::infinity();  ///< signed
+    float allow = 0;                                          ///< what was allowed of this pair then
+    Vec3 normal{};                                            ///< from a to b
+    std::vector<Vec3> points;
+    bool inside = false;  ///< a body is inside of the other, whose surface it meets nowhere, or no deeper than allowed
+};
+
+struct CheckResult {
+    std::vector<Finding> findings;  ///< sorted by pair and time
+    std::uint64_t tested = 0;       ///< pairs looked at, over all frames
+    std::uint64_t possible = 0;     ///< all pairs there are, over all frames
+};
+
+/// Called with frames done and frames in all.
+using ProgressCall = FunctionRef<void(std::size_t done, std::size_t all)>;
+
+/// Takes the objects through the times, which it expects them to be at the first of. A pair of which neither moved
+/// since the frame before isn't tested again. A Problem where an object can't be placed.
+Result<CheckResult> check(Objects& objects, const std::vector<double>& times, const CheckOptions& options,
+                          ProgressCall progress);
+
+/// Whether a pattern describes the object: its path, or its own name alone.
+bool describes(std::string_view pattern, const Object& object);
+
+}  // namespace abut::tool

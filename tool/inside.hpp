@@ -1,0 +1,21 @@
+#pragma once
+
+// The inside of shapes. Questions about a mesh are about its surface; of two bodies that touch nowhere, or meet face on
+// face all over, it takes a point of the inside to say whether they are in one another.
+
+#include <abut/abut.hpp>
+
+namespace abut::tool {
+
+/// A point of a shape, in the shape's own frame, and how deep it is under the surface: the farther the better.
+struct InsidePoint {
+    Vec3 point{};
+    float depth = 0;  ///< 0: on the surface
+};
+
+InsidePoint inside_point(const Polyhedron& solid);
+
+/// `filled` says that the mesh is the surface of a body, wound outwards: then the point is one of the body.
+InsidePoint inside_point(const Mesh& mesh, bool filled);
+
+}  // namespace abut::tool

@@ -1,0 +1,112 @@
+// The tool `abut`: collision checks for asset pipelines. What is asked of it, and by which verb.
+
+#include "arguments.hpp"
+#include "verbs.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+namespace abut::tool {
+namespace {
+
+int fail(std::string line) {
+    std::replace_if(
+        line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    std::fprintf(stderr, "abut: %s\n", line.c_str());
+    return unusable;
+}
+
+// What was typed for `abut check`, numbers and patterns as text.
+struct CheckArguments {
+    CheckRequest request;
+    std::optional<std::string> clearance, allow, frames;
+    std::vector<std::string> pairs;
+};
+
+void describe(CLI::App& verb, CheckArguments& arguments) {
+    verb.add_option("SCENE", arguments.request.scene, "glTF 2.0, or anything else that Assimp reads")->required();
+    verb.add_option("--clearance", arguments.clearance,
+                    "Report pairs closer than D too, unless they rest on one another")
+        ->type_name("D");
+    verb.add_option("--allow", arguments.allow, "Depth to overlook; without it 1e-3 of the smaller object's size")
+        ->type_name("DEPTH");
+    verb.add_option("--baseline", arguments.request.baseline,
+                    "Report only what this earlier --json report doesn't have")
+        ->type_name("OLD.json");
+    verb.add_option("--frames", arguments.frames,
+                    "Look at N moments, evenly spread; without it at the file's key times, at most 30 a second")
+        ->type_name("N");
+    verb.add_option("--pairs", arguments.pairs,
+                    "Only pairs of an object that A describes and one that B does, path or name, with * and ?")
+        ->type_name("A:B")
+        ->allow_extra_args(false);
+    verb.add_flag("--json", arguments.request.json, "One JSON object in place of text");
+    verb.add_flag("--skip-degenerate", arguments.request.skip_degenerate, "Leave out triangles of zero area");
+}
+
+void describe(CLI::App& verb, InfoRequest& request) {
+    verb.add_option("FILE", request.scene, "glTF 2.0, or anything else that Assimp reads")->required();
+    verb.add_flag("--json", request.json, "One JSON object in place of text");
+    verb.add_flag("--skip-degenerate", request.skip_degenerate, "Leave out triangles of zero area");
+}
+
+// Puts what the text means in its place; the line for stderr if it means nothing.
+template <class Value, class To>
+std::optional<std::string> understand(const char* option, const std::optional<std::string>& text,
+                                      Result<Value> (*parse)(const std::string&), To& to) {
+    if (!text) return std::nullopt;
+    Result<Value> value = parse(*text);
+    if (!value) return std::string(option) + ": " + value.problem().message;
+    to = *std::move(value);
+    return std::nullopt;
+}
+
+Result<ExitCode> run_check(CheckArguments& arguments) {
+    CheckOptions& options = arguments.request.options;
+    std::optional<std::string> problem =
+        understand("--clearance", arguments.clearance, parse_length, options.clearance);
+    if (!problem) problem = understand("--allow", arguments.allow, parse_length, options.allow);
+    if (!problem) problem = understand("--frames", arguments.frames, parse_frames, arguments.request.frames);
+    for (const std::string& text : arguments.pairs)
+        if (!problem) problem = understand("--pairs", text, parse_pair, options.pairs.emplace_back());
+    if (problem) return Problem{ProblemCode::bad_argument, *problem};
+    return run_check(arguments.request);
+}
+
+int run(int count, char** words) {
+    CLI::App app("Collision checks for scenes: who touches whom, where, how deep and when.", "abut");
+    app.set_version_flag("--version", "abut " ABUT_VERSION);
+    app.require_subcommand(1);
+    app.footer("Exits with 0 if all is fine, 1 if something was found, 2 for bad input or usage.");
+
+    CheckArguments check;
+    CLI::App& check_verb = *app.add_subcommand("check", "Which objects of a scene touch, where, how deep and when");
+    describe(check_verb, check);
+    InfoRequest info;
+    CLI::App& info_verb = *app.add_subcommand("info", "What is in a scene");
+    describe(info_verb, info);
+
+    try {
+        app.parse(count, words);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return app.exit(error);
+        const bool has_verb = check_verb.parsed() || info_verb.parsed();
+        if (!has_verb && count > 1 && words[1][0] != '-')
+            return fail("'" + std::string(words[1]) + "' is not a verb; abut --help lists them");
+        return fail(error.what());
+    }
+    const Result<ExitCode> code = check_verb.parsed() ? run_check(check) : run_info(info);
+    return code ? static_cast<int>(*code) : fail(code.problem().message);
+}
+
+}  // namespace
+}  // namespace abut::tool
+
+int main(int count, char** words) {
+    return abut::tool::run(count, words);
+}

@@ -1,0 +1,177 @@
+#include "objects.hpp"
+
+#include <abut/bake/solid.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/matrix.hpp>
+
+namespace abut::tool {
+namespace {
+
+// How far from a rotation a change of transform may be to count as one: within the margin of every answer.
+constexpr double rotation_tolerance = 1e-6;
+
+// All geometry of a node as one surface.
+Welded surface_of(const Scene& scene, const std::vector<std::uint32_t>& geometries) {
+    std::vector<Vec3> points;
+    std::vector<glm::uvec3> triangles;
+    for (const std::uint32_t index : geometries) {
+        const Geometry& geometry = scene.geometries[index];
+        const auto shift = static_cast<std::uint32_t>(points.size());
+        points.insert(points.end(), geometry.points.begin(), geometry.points.end());
+        for (const glm::uvec3& t : geometry.triangles) triangles.push_back(t + shift);
+    }
+    return weld(points, triangles);
+}
+
+bool is_rotation(const glm::dmat3& m) {
+    const glm::dmat3 product = glm::transpose(m) * m;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            if (!(std::abs(product[i][j] - (i == j ? 1 : 0)) <= rotation_tolerance)) return false;
+    return glm::determinant(m) > 0;
+}
+
+// Rotation, mirroring and even scale: what leaves convex things convex to within the same margin.
+bool is_similarity(const glm::dmat3& m) {
+    const double scale = glm::length(m[0]);
+    glm::dmat3 turned = m / scale;
+    if (glm::determinant(turned) < 0) turned[0] = -turned[0];
+    return is_rotation(turned);
+}
+
+bool is_finite(const glm::dmat4& m) {
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row)
+            if (!std::isfinite(m[column][row])) return false;
+    return true;
+}
+
+// Shrunk to a line or a point, or all but: no shape to speak of. A floor that is flattened to a plane stays one.
+bool vanishes(const glm::dmat3& m) {
+    const double longest = std::max({glm::length(m[0]), glm::length(m[1]), glm::length(m[2])});
+    const double widest = std::max({glm::length(glm::cross(m[0], m[1])), glm::length(glm::cross(m[1], m[2])),
+                                    glm::length(glm::cross(m[2], m[0]))});
+    return !(widest > 1e-12 * longest * longest);
+}
+
+// How an object has turned since its shape was baked; nothing where it has done more than turn.
+std::optional<glm::dmat3> turn_since(const glm::dmat3& baked, const glm::dmat3& now) {
+    if (now == baked) return glm::dmat3(1.0);
+    const glm::dmat3 change = now * glm::inverse(baked);
+    return is_rotation(change) ? std::optional(change) : std::nullopt;
+}
+
+float bounding_radius(std::span<const Vec3> points) {
+    Aabb3 box = Aabb3::empty();
+    for (const Vec3& p : points) box = merged(box, Aabb3{p, p});
+    const Vec3 middle = center(box);
+    double radius = 0;
+    for (const Vec3& p : points) radius = std::max(radius, glm::length(glm::dvec3(p) - glm::dvec3(middle)));
+    return static_cast<float>(radius);
+}
+
+Problem out_of_range(const Object& object) {
+    return {ProblemCode::not_finite, "object '" + object.path + "': its transform takes it out of the range of floats"};
+}
+
+}  // namespace
+
+Objects::Objects(const Scene& scene) : scene_(scene) {
+    std::map<std::vector<std::uint32_t>, std::size_t> model_of_geometries;
+    for (std::uint32_t i = 0; i < scene.nodes.size(); ++i) {
+        const SceneNode& node = scene.nodes[i];
+        if (node.geometries.empty()) continue;
+        const auto [place, is_new] = model_of_geometries.try_emplace(node.geometries, models_.size());
+        if (is_new) {
+            Model model{surface_of(scene, node.geometries)};
+            model.solid = is_convex_solid(model.surface.points, model.surface.triangles);
+            models_.push_back(std::move(model));
+        }
+        Object object;
+        object.path = path(scene, i);
+        object.name = node.name;
+        object.node = i;
+        object.model = place->second;
+        objects_.push_back(std::move(object));
+    }
+    std::sort(objects_.begin(), objects_.end(), [](const Object& a, const Object& b) { return a.path < b.path; });
+    was_hidden_.assign(objects_.size(), false);
+}
+
+std::optional<Problem> Objects::go_to(double time) {
+    world_matrices(scene_, time, matrices_);
+    for (std::size_t i = 0; i < objects_.size(); ++i) {
+        Object& object = objects_[i];
+        const glm::dmat4& matrix = matrices_[object.node];
+        object.moved = object.matrix != matrix;
+        if (object.moved)
+            if (std::optional<Problem> problem = place(object, matrix)) return problem;
+        if (!object.present) was_hidden_[i] = true;
+    }
+    return std::nullopt;
+}
+
+// A shape is kept as long as its node only turns and moves.
+std::optional<Problem> Objects::place(Object& object, const glm::dmat4& matrix) {
+    object.matrix = matrix;
+    object.box = Aabb3::empty();
+    if (!is_finite(matrix)) return out_of_range(object);
+    const glm::dmat3 linear(matrix);
+    object.present = !vanishes(linear);
+    if (!object.present) return std::nullopt;
+
+    std::optional<glm::dmat3> turn = turn_since(object.baked, linear);
+    if (!turn) {
+        if (std::optional<Problem> problem = bake(object, linear)) return problem;
+        turn = glm::dmat3(1.0);
+    }
+    object.pose.position = Vec3(matrix[3]);
+    object.pose.rotation = glm::qua<float>(glm::normalize(glm::quat_cast(*turn)));
+    object.placed = std::visit([&](const auto& shape) { return View<3>(view(at(shape, object.pose))); }, object.shape);
+    object.box = bounds(object.placed);
+    if (!abut::is_finite(object.box.min) || !abut::is_finite(object.box.max)) return out_of_range(object);
+    return std::nullopt;
+}
+
+std::optional<Problem> Objects::bake(Object& object, const glm::dmat3& linear) {
+    const Model& model = models_[object.model];
+    std::vector<Vec3> points;
+    points.reserve(model.surface.points.size());
+    for (const Vec3& p : model.surface.points) points.emplace_back(linear * glm::dvec3(p));
+    std::vector<glm::uvec3> triangles = model.surface.triangles;
+    if (glm::determinant(linear) < 0)
+        for (glm::uvec3& t : triangles) std::swap(t.y, t.z);
+
+    object.baked = linear;
+    object.radius = bounding_radius(points);
+    object.solid = model.solid && (is_similarity(linear) || is_convex_solid(points, triangles));
+    object.filled = false;
+    if (object.solid) {
+        Result<Polyhedron> built = Polyhedron::build(points);
+        if (!built) return out_of_range(object);
+        object.inside = inside_point(*built);
+        object.shape = *std::move(built);
+    } else {
+        Result<Mesh> built = Mesh::build(points, triangles);
+        if (!built) return out_of_range(object);
+        object.filled = built->closed() && signed_volume(points, triangles) > 0;
+        object.inside = inside_point(*built, object.filled);
+        object.shape = *std::move(built);
+    }
+    return std::nullopt;
+}
+
+std::vector<std::string> Objects::hidden() const {
+    std::vector<std::string> paths;
+    for (std::size_t i = 0; i < objects_.size(); ++i)
+        if (was_hidden_[i]) paths.push_back(objects_[i].path);
+    return paths;
+}
+
+}  // namespace abut::tool

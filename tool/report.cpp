@@ -1,0 +1,143 @@
+#include "report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace abut::tool {
+namespace {
+
+// Beyond these a person reads no further; --json has them all.
+constexpr std::size_t most_pairs = 100;
+constexpr std::size_t most_moments = 5;
+
+using Moments = std::vector<const Finding*>;
+
+std::string number(double value) {
+    return fmt::format("{:.4g}", value);
+}
+
+// Coordinates that are nothing beside the largest one are written as 0.
+std::string vector(const Vec3& v) {
+    const float most = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    const auto one = [&](float value) { return std::abs(value) < 1e-4f * most ? "0" : number(value); };
+    return fmt::format("({}, {}, {})", one(v.x), one(v.y), one(v.z));
+}
+
+std::string counted(std::size_t count, const char* one, const char* many) {
+    return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+Vec3 middle(const std::vector<Vec3>& points) {
+    Vec3 sum{};
+    for (const Vec3& point : points) sum += point / static_cast<float>(points.size());
+    return sum;
+}
+
+bool collides(const Finding& finding) {
+    return finding.distance < 0;
+}
+
+// The moments of each pair, the pair with the worst one first.
+std::vector<Moments> by_pair(const std::vector<Finding>& findings) {
+    std::map<std::pair<std::size_t, std::size_t>, Moments> pairs;
+    for (const Finding& finding : findings) pairs[{finding.a, finding.b}].push_back(&finding);
+    std::vector<Moments> result;
+    for (auto& [pair, moments] : pairs) {
+        std::sort(moments.begin(), moments.end(), [](const Finding* x, const Finding* y) {
+            return std::tie(x->distance, x->first) < std::tie(y->distance, y->first);
+        });
+        result.push_back(std::move(moments));
+    }
+    std::stable_sort(result.begin(), result.end(),
+                     [](const Moments& x, const Moments& y) { return x.front()->distance < y.front()->distance; });
+    return result;
+}
+
+std::string how(const Finding& finding) {
+    if (finding.inside) return fmt::format("one inside the other, {} to get out", number(-finding.distance));
+    if (collides(finding)) return fmt::format("{} deep", number(-finding.distance));
+    return fmt::format("{} apart", number(finding.distance));
+}
+
+std::string when(const Report& report, const Finding& finding) {
+    const auto time = [&](std::size_t frame) { return number(report.times[frame]); };
+    if (report.times.size() == 1) return {};
+    if (finding.first == finding.last) return fmt::format(" at {} s (frame {})", time(finding.first), finding.first);
+    const std::string deepest = fmt::format(" at {} s (frame {})", time(finding.deepest), finding.deepest);
+    if (finding.first == 0 && finding.last + 1 == report.times.size()) return deepest + ", all the time";
+    return fmt::format("{}, from {} s to {} s (frames {} to {})", deepest, time(finding.first), time(finding.last),
+                       finding.first, finding.last);
+}
+
+std::string moment(const Report& report, const Finding& finding) {
+    std::string line =
+        fmt::format("        {}{}, near {}", how(finding), when(report, finding), vector(middle(finding.points)));
+    if (collides(finding))
+        line += fmt::format("; moving {} by {} parts them", report.objects[finding.b].name,
+                            vector(finding.normal * -finding.distance));
+    return line + "\n";
+}
+
+std::string pair(const Report& report, const Moments& moments, std::size_t rank) {
+    const Finding& worst = *moments.front();
+    std::string text =
+        fmt::format("{:4}. {}  and  {}\n", rank, report.objects[worst.a].path, report.objects[worst.b].path);
+    for (std::size_t i = 0; i < moments.size() && i < most_moments; ++i) text += moment(report, *moments[i]);
+    if (moments.size() > most_moments)
+        text += fmt::format("        and {} more times\n", moments.size() - most_moments);
+    return text;
+}
+
+std::string summary(const Report& report, std::size_t pairs) {
+    std::size_t solids = 0;
+    for (std::size_t i = 0; i < report.objects.size(); ++i) solids += report.objects[i].solid ? 1 : 0;
+    const CheckResult& result = report.result;
+    const double share =
+        result.possible == 0 ? 0 : 100.0 * static_cast<double>(result.tested) / static_cast<double>(result.possible);
+    std::string text;
+    text += fmt::format("objects   {}: {} taken as convex solids, {} as meshes\n", report.objects.size(), solids,
+                        report.objects.size() - solids);
+    text += fmt::format("frames    {}", report.times.size());
+    if (report.times.size() > 1)
+        text += fmt::format(", from {} s to {} s", number(report.times.front()), number(report.times.back()));
+    text += fmt::format("\npairs     {} tested of {} possible ({} %)\n", result.tested, result.possible, number(share));
+    text += fmt::format("contacts  {} between {}", result.findings.size(), counted(pairs, "pair", "pairs"));
+    if (report.has_baseline) text += fmt::format(", and {} that the baseline has", report.known);
+    text += fmt::format("\nseconds   read {:.3f}, build {:.3f}, check {:.3f}\n", report.seconds.read,
+                        report.seconds.build, report.seconds.check);
+    return text;
+}
+
+std::string verdict(const Report& report, const std::vector<Moments>& pairs) {
+    const char* anew = report.has_baseline ? " that didn't before" : "";
+    std::size_t colliding = 0;
+    for (const Moments& moments : pairs) colliding += collides(*moments.front()) ? 1 : 0;
+    const std::size_t near = pairs.size() - colliding;
+    if (pairs.empty()) return fmt::format("CLEAN: no pair collides{}\n", anew);
+    std::string text = "FAULTS FOUND: ";
+    if (colliding > 0) text += counted(colliding, "pair collides", "pairs collide");
+    if (colliding > 0 && near > 0) text += ", ";
+    if (near > 0) text += counted(near, "pair comes too near", "pairs come too near");
+    return text + anew + "\n";
+}
+
+}  // namespace
+
+std::string text_report(const Report& report, const std::string& scene_name) {
+    const std::vector<Moments> pairs = by_pair(report.result.findings);
+    std::string text = scene_name + "\n\n";
+    for (std::size_t i = 0; i < pairs.size() && i < most_pairs; ++i) text += pair(report, pairs[i], i + 1);
+    if (pairs.size() > most_pairs)
+        text += fmt::format("      and {} more pairs (--json lists them all)\n", pairs.size() - most_pairs);
+    if (!pairs.empty()) text += "\n";
+    for (const std::string& note : report.notes) text += "note: " + note + "\n";
+    if (!report.notes.empty()) text += "\n";
+    return text + summary(report, pairs.size()) + "\n" + verdict(report, pairs);
+}
+
+}  // namespace abut::tool

@@ -1,0 +1,33 @@
+#pragma once
+
+// What `abut check` has to say.
+
+#include "check.hpp"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace abut::tool {
+
+struct Seconds {
+    double read = 0;
+    double build = 0;
+    double check = 0;
+};
+
+/// Everything a report is made of.
+struct Report {
+    const Objects& objects;
+    const std::vector<double>& times;
+    CheckResult result;
+    std::vector<std::string> notes;
+    Seconds seconds;
+    bool has_baseline = false;
+    std::size_t known = 0;  ///< findings left out because the baseline has them
+};
+
+/// For a person: the findings, worst first, what was looked at, and a verdict in the last line.
+std::string text_report(const Report& report, const std::string& scene_name);
+
+}  // namespace abut::tool

@@ -1,0 +1,31 @@
+#pragma once
+
+// The report as JSON, and what is to be known of an earlier one.
+
+#include "report.hpp"
+#include <abut/math/result.hpp>
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace abut::tool {
+
+/// One object; numbers unrounded.
+std::string json_report(const Report& report);
+
+/// A finding of an earlier report.
+struct KnownFinding {
+    std::string a, b;
+    std::size_t first = 0, last = 0;
+    double distance = 0;
+};
+
+/// The findings of a file that `abut check --json` wrote. The message of a Problem doesn't name the file.
+Result<std::vector<KnownFinding>> read_baseline(const std::filesystem::path& file);
+
+/// What `abut info` tells.
+std::string json_info(const Objects& objects, const Scene& scene, const std::vector<double>& times);
+
+}  // namespace abut::tool

@@ -1,0 +1,122 @@
+#include "progress.hpp"
+#include "report.hpp"
+#include "report_json.hpp"
+#include "verbs.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace abut::tool {
+namespace {
+
+// Keys farther apart than this leave room for things to pass through one another unseen.
+constexpr double long_gap = 0.25;
+
+class Stopwatch {
+public:
+    /// Seconds since the last lap.
+    double lap() {
+        const auto now = Clock::now();
+        const std::chrono::duration<double> passed = now - last_;
+        last_ = now;
+        return passed.count();
+    }
+
+private:
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point last_ = Clock::now();
+};
+
+// A pattern that names nothing is a mistake, and would make a check that can't fail.
+std::optional<Problem> check_patterns(const CheckRequest& request, const Objects& objects) {
+    for (const PairPattern& pattern : request.options.pairs)
+        for (const std::string& side : {pattern.a, pattern.b}) {
+            bool any = false;
+            for (std::size_t i = 0; i < objects.size(); ++i) any = any || describes(side, objects[i]);
+            if (!any)
+                return Problem{ProblemCode::bad_argument,
+                               request.scene + ": --pairs: no object is named '" + side + "'"};
+        }
+    return std::nullopt;
+}
+
+// Leaves what an earlier report doesn't have: pairs that touch at other moments, or deeper by more than is allowed.
+std::size_t drop_known(std::vector<Finding>& findings, const std::vector<KnownFinding>& known, const Objects& objects) {
+    std::map<std::pair<std::string, std::string>, std::vector<const KnownFinding*>> of_pair;
+    for (const KnownFinding& old : known) of_pair[{old.a, old.b}].push_back(&old);
+    return std::erase_if(findings, [&](const Finding& finding) {
+        const auto olds = of_pair.find({objects[finding.a].path, objects[finding.b].path});
+        return olds != of_pair.end() &&
+               std::any_of(olds->second.begin(), olds->second.end(), [&](const KnownFinding* old) {
+                   return old->first <= finding.last && finding.first <= old->last &&
+                          static_cast<double>(finding.distance) >= old->distance - static_cast<double>(finding.allow);
+               });
+    });
+}
+
+std::vector<std::string> notes_of(const Scene& scene, const Objects& objects, const std::vector<double>& times,
+                                  bool chose_frames) {
+    std::vector<std::string> notes = scene.warnings;
+    const std::vector<std::string> hidden = objects.hidden();
+    if (!hidden.empty())
+        notes.push_back(fmt::format("{} shrunk to nothing at some moments and left out there, such as '{}'",
+                                    hidden.size() == 1 ? "1 object is" : fmt::format("{} objects are", hidden.size()),
+                                    hidden.front()));
+    double gap = 0;
+    for (std::size_t i = 1; i < times.size(); ++i) gap = std::max(gap, times[i] - times[i - 1]);
+    if (gap > long_gap && !chose_frames)
+        notes.push_back(fmt::format("up to {:.4g} s pass from one key to the next; --frames {} looks 30 times a second",
+                                    gap, static_cast<std::size_t>(30 * (times.back() - times.front())) + 1));
+    return notes;
+}
+
+}  // namespace
+
+Result<ExitCode> run_check(const CheckRequest& request) {
+    std::vector<KnownFinding> known;
+    if (request.baseline) {
+        Result<std::vector<KnownFinding>> read = read_baseline(*request.baseline);
+        if (!read) return Problem{read.problem().code, *request.baseline + ": " + read.problem().message};
+        known = *std::move(read);
+    }
+    Stopwatch watch;
+    const Result<Scene> scene = load(request.scene, request.skip_degenerate);
+    if (!scene) return scene.problem();
+    Seconds seconds;
+    seconds.read = watch.lap();
+
+    const std::vector<double> times = request.frames ? frame_times(*scene, *request.frames) : key_times(*scene);
+    const auto with_file = [&](const Problem& problem) {
+        return Problem{problem.code, request.scene + ": " + problem.message};
+    };
+    Objects objects(*scene);
+    if (const std::optional<Problem> problem = check_patterns(request, objects)) return *problem;
+    if (const std::optional<Problem> problem = objects.go_to(times.front())) return with_file(*problem);
+    seconds.build = watch.lap();
+
+    Result<CheckResult> result = [&] {
+        Progress progress("checking");
+        return check(objects, times, request.options,
+                     [&](std::size_t done, std::size_t all) { progress.show(done, all); });
+    }();
+    if (!result) return with_file(result.problem());
+    seconds.check = watch.lap();
+
+    const std::size_t dropped = drop_known(result->findings, known, objects);
+    const Report report{objects,
+                        times,
+                        *std::move(result),
+                        notes_of(*scene, objects, times, request.frames.has_value()),
+                        seconds,
+                        request.baseline.has_value(),
+                        dropped};
+    return print(request.json ? json_report(report) : text_report(report, request.scene),
+                 report.result.findings.empty() ? fine : found);
+}
+
+}  // namespace abut::tool

@@ -1,0 +1,42 @@
+#pragma once
+
+// The verbs of the tool. Each prints its report on stdout and returns what the program exits with; what goes wrong
+// comes back as the one line for stderr, without the "abut: " before it.
+
+#include "check.hpp"
+#include <abut/math/result.hpp>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+namespace abut::tool {
+
+enum ExitCode : int { fine = 0, found = 1, unusable = 2 };
+
+struct CheckRequest {
+    std::string scene;
+    std::optional<std::string> baseline;
+    std::optional<std::size_t> frames;  ///< none: the file's own key times
+    bool json = false;
+    bool skip_degenerate = false;
+    CheckOptions options;
+};
+
+Result<ExitCode> run_check(const CheckRequest& request);
+
+struct InfoRequest {
+    std::string scene;
+    bool json = false;
+    bool skip_degenerate = false;
+};
+
+Result<ExitCode> run_info(const InfoRequest& request);
+
+/// A scene as the verbs want it; the message of a Problem begins with the file.
+Result<Scene> load(const std::string& file, bool skip_degenerate);
+
+/// Everything at once on stdout.
+Result<ExitCode> print(const std::string& text, ExitCode code);
+
+}  // namespace abut::tool
