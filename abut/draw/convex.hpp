@@ -1,0 +1,38 @@
+#pragma once
+
+// How a convex set is drawn: an outline in the plane, lines and faces in space. Behind `draw`.
+
+#include <abut/convex/support.hpp>
+#include <abut/draw/canvas.hpp>
+
+namespace abut {
+
+void draw_convex(Canvas<2>& canvas, const Convex<2>& convex, const Style& style);
+void draw_convex(Canvas<3>& canvas, const Convex<3>& convex, const Style& style);
+
+/// Whether the set is one point with a ball around it.
+template <int D>
+bool is_ball(const Convex<D>& convex) {
+    return convex.core == Core::points && convex.count == 1 && convex.inner_radius == 0;
+}
+
+/// Draws such a set.
+template <int D>
+void draw_ball(Canvas<D>& canvas, const Convex<D>& convex, const Style& style) {
+    const Vec<D> center = to_float(convex.place.point(DVec<D>(convex.vertices()[0])));
+    if (convex.radius > 0)
+        canvas.ball(center, static_cast<float>(convex.radius), style);
+    else
+        canvas.point(center, style);
+}
+
+inline Style unfilled(Style style) {
+    style.fill = transparent;
+    return style;
+}
+inline Style fill_only(Style style) {
+    style.stroke = transparent;
+    return style;
+}
+
+}  // namespace abut
