@@ -3,7 +3,6 @@
 // Pairs of convex shapes of size about 1, placed at a wanted distance from one another.
 
 #include "../test/oracle/random.hpp"
-
 #include <abut/query/closest.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/capsule.hpp>
@@ -51,11 +50,15 @@ inline Polyhedron random_hull(oracle::Random& random, std::size_t corners) {
     return *Polyhedron::build(points);
 }
 
-inline Box3 placed(const Box3& box, const Pose3& pose) { return {pose * box.center, box.half, pose.rotation}; }
+inline Box3 placed(const Box3& box, const Pose3& pose) {
+    return {pose * box.center, box.half, pose.rotation};
+}
 inline Capsule3 placed(const Capsule3& capsule, const Pose3& pose) {
     return {pose * capsule.a, pose * capsule.b, capsule.radius};
 }
-inline At<const Polyhedron&> placed(const Polyhedron& hull, const Pose3& pose) { return at(hull, pose); }
+inline At<const Polyhedron&> placed(const Polyhedron& hull, const Pose3& pose) {
+    return at(hull, pose);
+}
 
 /// Turned at random. B is put down far off in a random direction and brought near along the line of closest approach,
 /// until the gap is one between `low` and `high`, evenly; below zero, as deep along that line. No gap is within 0.01 of

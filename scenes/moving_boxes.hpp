@@ -1,10 +1,9 @@
 #pragma once
 
-// Boxes that drift about and bounce off the walls of their world, as the items of a game do: each frame is much like the
-// one before, and after many frames nothing is where it began.
+// Boxes that drift about and bounce off the walls of their world, as the items of a game do: each frame is much like
+// the one before, and after many frames nothing is where it began.
 
 #include "../test/oracle/random.hpp"
-
 #include <abut/math/aabb.hpp>
 
 #include <cmath>
@@ -36,6 +35,8 @@ public:
     }
 
     std::span<const Aabb<D>> boxes() const { return boxes_; }
+    /// How far each has moved in the last step.
+    std::span<const Vec<D>> last_steps() const { return velocities_; }
     /// The boxes lie in a cube from 0 to here, but for what has just run into a wall.
     float side() const { return side_; }
 

@@ -3,7 +3,6 @@
 // Hilly ground as a grid of triangles.
 
 #include "../test/oracle/random.hpp"
-
 #include <abut/math/vec.hpp>
 
 #include <cstddef>

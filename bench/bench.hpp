@@ -1,0 +1,43 @@
+#pragma once
+
+// What a row of the table is made of: one job, and several sides that do it.
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace abut::bench {
+
+/// Does the job once and tells what came out, one number for each value the job asks for. The same call is verified and
+/// timed.
+using Ask = std::function<void(std::span<double> values)>;
+
+struct Side {
+    std::string who;  ///< "abut" or the peer
+    Ask ask;
+    std::function<void()> prepare = nullptr;  ///< before each call, not timed: what happens to all sides alike
+    double strays = 0;                        ///< the share of its values that is known to be off, and forgiven
+};
+
+/// A job with all that do it, ready to run. The first side is abut, the one the others are compared with.
+struct Job {
+    std::size_t items = 0;    ///< a call answers for so many: what the time is divided by
+    std::size_t values = 0;   ///< a call tells so many numbers
+    std::size_t rounds = 1;   ///< how many calls are verified
+    std::size_t frames = 0;   ///< 0: every call is like the first. Else so many calls a repetition are timed, and all
+                              ///< count: what a side does only now and then, to keep its tree in order, is paid for
+    double tolerance = 1e-3;  ///< how far two sides' values may lie apart
+    std::vector<Side> sides;
+};
+
+struct Bench {
+    std::string name;           ///< group/what/...
+    std::function<Job()> make;  ///< the scene and the sides, made when it is their turn
+};
+
+std::vector<Bench> narrow_benches();
+std::vector<Bench> broad_benches();
+
+}  // namespace abut::bench

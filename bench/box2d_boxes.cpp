@@ -1,0 +1,84 @@
+// Box2D's broad phase: b2BroadPhase, which tells of new pairs of fattened boxes, and a list of them kept beside it, as
+// b2ContactManager keeps one.
+
+#include "../scenes/moving_boxes.hpp"
+#include "peers.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <unordered_set>
+
+#include <box2d/b2_broad_phase.h>
+
+namespace abut::bench {
+
+namespace {
+
+b2Vec2 to_box2d(const Vec2& v) {
+    return {v.x, v.y};
+}
+
+b2AABB to_box2d(const Aabb2& box) {
+    return {to_box2d(box.min), to_box2d(box.max)};
+}
+
+void* as_pointer(std::size_t number) {
+    return reinterpret_cast<void*>(number);
+}
+
+class World {
+public:
+    World(std::size_t count, std::uint64_t seed) : scene_(count, seed) {
+        for (const Aabb2& box : scene_.boxes())
+            proxies_.push_back(broad_phase_.CreateProxy(to_box2d(box), as_pointer(proxies_.size())));
+    }
+
+    void step() { scene_.step(); }
+
+    /// Of the boxes themselves.
+    std::size_t count_pairs() {
+        const std::span<const Aabb2> boxes = scene_.boxes();
+        for (std::size_t i = 0; i < boxes.size(); ++i)
+            broad_phase_.MoveProxy(proxies_[i], to_box2d(boxes[i]), to_box2d(scene_.last_steps()[i]));
+        broad_phase_.UpdatePairs(this);
+        std::erase_if(pairs_, [this](const Pair& pair) {
+            const bool over = !broad_phase_.TestOverlap(proxies_[pair.a], proxies_[pair.b]);
+            if (over) known_.erase(key(pair));
+            return over;
+        });
+        return static_cast<std::size_t>(
+            std::ranges::count_if(pairs_, [&](const Pair& pair) { return overlaps(boxes[pair.a], boxes[pair.b]); }));
+    }
+
+    /// Called by UpdatePairs.
+    void AddPair(void* a, void* b) {
+        const Pair pair{reinterpret_cast<std::size_t>(a), reinterpret_cast<std::size_t>(b)};
+        if (known_.insert(key(pair)).second) pairs_.push_back(pair);
+    }
+
+private:
+    struct Pair {
+        std::size_t a, b;
+    };
+
+    static std::uint64_t key(const Pair& pair) {
+        const auto [low, high] = std::minmax(pair.a, pair.b);
+        return (std::uint64_t{low} << 32) | high;
+    }
+
+    scenes::MovingBoxes<2> scene_;
+    b2BroadPhase broad_phase_;
+    std::vector<int32> proxies_;
+    std::vector<Pair> pairs_;
+    std::unordered_set<std::uint64_t> known_;
+};
+
+}  // namespace
+
+Side box2d_moving(std::size_t count, std::uint64_t seed) {
+    const auto world = std::make_shared<World>(count, seed);
+    return {"box2d", [world](std::span<double> values) { values[0] = static_cast<double>(world->count_pairs()); },
+            [world] { world->step(); }};
+}
+
+}  // namespace abut::bench

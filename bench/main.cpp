@@ -1,0 +1,80 @@
+// abut beside its peers: nanoseconds an item, all in one run, on the same scenes, after checking that all say the same.
+
+#include "bench.hpp"
+#include "measure.hpp"
+#include "report.hpp"
+
+#include <algorithm>
+#include <iostream>
+#include <iterator>
+#include <string_view>
+
+#include <benchmark/benchmark.h>
+
+namespace {
+
+using namespace abut::bench;
+
+constexpr int ok = 0, sides_disagree = 1, wrong_usage = 2;
+
+constexpr const char* usage =
+    "abut_bench [GROUP] [--json]\n"
+    "  GROUP    narrow or broad, or the beginning of a row's name, such as broad/moving; otherwise all\n"
+    "Exit status: 0 = fine, 1 = abut and a peer disagree, 2 = wrong usage\n";
+
+std::vector<Bench> all_benches() {
+    std::vector<Bench> result = narrow_benches();
+    std::ranges::move(broad_benches(), std::back_inserter(result));
+    return result;
+}
+
+/// Options of the benchmark library's own: the sides of a job take turns.
+void set_up_timing() {
+    char program[] = "abut_bench", take_turns[] = "--benchmark_enable_random_interleaving=true";
+    char* arguments[] = {program, take_turns, nullptr};
+    int count = 2;
+    benchmark::Initialize(&count, arguments);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    std::string_view group;
+    bool json = false;
+    for (int i = 1; i < argc; ++i) {
+        const std::string_view argument = argv[i];
+        if (argument == "--help" || argument == "-h") {
+            std::cout << usage;
+            return ok;
+        }
+        if (argument == "--json" && !json)
+            json = true;
+        else if (!argument.empty() && !argument.starts_with('-') && group.empty())
+            group = argument;
+        else {
+            std::cerr << usage;
+            return wrong_usage;
+        }
+    }
+
+    std::vector<Bench> benches = all_benches();
+    std::erase_if(benches, [&](const Bench& bench) { return !bench.name.starts_with(group); });
+    if (benches.empty()) {
+        std::cerr << "abut_bench: there is no group " << group << '\n' << usage;
+        return wrong_usage;
+    }
+
+    set_up_timing();
+    if (!json) {
+        print_machine(std::cout);
+        print_table_head(std::cout);
+    }
+    std::vector<Row> rows;
+    for (const Bench& bench : benches) {
+        const std::vector<Row> found = measure(bench);
+        if (!json) print_table_rows(std::cout, found);
+        rows.insert(rows.end(), found.begin(), found.end());
+    }
+    if (json) print_json(std::cout, rows);
+    return std::ranges::all_of(rows, [](const Row& row) { return row.agrees; }) ? ok : sides_disagree;
+}

@@ -1,0 +1,126 @@
+#include "measure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <sstream>
+
+#include <benchmark/benchmark.h>
+
+namespace abut::bench {
+
+namespace {
+
+constexpr int repetitions = 9;
+constexpr double seconds_each = 0.05;  // at least; a call that takes longer is made once
+
+std::vector<double> answers(const Side& side, const Job& job) {
+    std::vector<double> result(job.rounds * job.values);
+    for (std::size_t round = 0; round < job.rounds; ++round) {
+        if (side.prepare) side.prepare();
+        side.ask(std::span(result).subspan(round * job.values, job.values));
+    }
+    return result;
+}
+
+/// Compares the values of a row's side with abut's.
+void compare(const std::vector<double>& ours, const std::vector<double>& theirs, double tolerance, double strays,
+             Row& row) {
+    std::size_t count = 0, first = 0;
+    for (std::size_t i = ours.size(); i-- > 0;) {
+        if (std::abs(ours[i] - theirs[i]) <= tolerance) continue;  // written so that NaN differs
+        ++count;
+        first = i;
+    }
+    if (count == 0) return;
+    std::ostringstream out;
+    out << count << " of " << ours.size() << " differ, as number " << first << ": " << theirs[first] << ", abut says "
+        << ours[first];
+    row.difference = out.str();
+    row.agrees = static_cast<double>(count) <= strays * static_cast<double>(ours.size());
+}
+
+double median(std::vector<double> numbers) {
+    const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
+    std::nth_element(numbers.begin(), middle, numbers.end());
+    return *middle;
+}
+
+double mean(const std::vector<double>& numbers) {
+    return std::accumulate(numbers.begin(), numbers.end(), 0.0) / static_cast<double>(numbers.size());
+}
+
+/// Keeps the time of a call from every repetition, by the number of the side that the benchmark is named by.
+class Collector : public benchmark::BenchmarkReporter {
+public:
+    explicit Collector(std::size_t sides) : times_(sides) {}
+
+    bool ReportContext(const Context&) override { return true; }
+    void ReportRuns(const std::vector<Run>& runs) override {
+        for (const Run& run : runs)
+            if (run.run_type == Run::RT_Iteration)
+                times_[std::stoul(run.run_name.function_name)].push_back(run.cpu_accumulated_time /
+                                                                         static_cast<double>(run.iterations));
+    }
+
+    /// Of one call, in seconds, one for each repetition.
+    const std::vector<double>& times(std::size_t side) const { return times_[side]; }
+
+private:
+    std::vector<std::vector<double>> times_;
+};
+
+void time_calls(benchmark::State& state, const Side& side, std::size_t value_count) {
+    std::vector<double> values(value_count);
+    for (auto _ : state) {
+        if (side.prepare) {
+            state.PauseTiming();
+            side.prepare();
+            state.ResumeTiming();
+        }
+        side.ask(values);
+        benchmark::ClobberMemory();
+    }
+}
+
+}  // namespace
+
+std::vector<Row> measure(const Bench& bench) {
+    const Job job = bench.make();
+
+    std::vector<Row> rows;
+    std::vector<double> ours;
+    for (const Side& side : job.sides) {
+        const std::vector<double> values = answers(side, job);
+        if (rows.empty()) ours = values;
+        Row& row = rows.emplace_back();
+        row.bench = bench.name;
+        row.who = side.who;
+        for (const double value : values) row.answer += value;
+        compare(ours, values, job.tolerance, side.strays, row);
+    }
+
+    // The time of the thread, not of the clock on the wall: what else the machine does should not count.
+    for (std::size_t i = 0; i < job.sides.size(); ++i) {
+        benchmark::internal::Benchmark* registered = benchmark::RegisterBenchmark(
+            std::to_string(i).c_str(),
+            [&job, i](benchmark::State& state) { time_calls(state, job.sides[i], job.values); });
+        registered->Repetitions(repetitions);
+        if (job.frames > 0)
+            registered->Iterations(static_cast<benchmark::IterationCount>(job.frames));
+        else
+            registered->MinTime(seconds_each);
+    }
+    Collector collector(job.sides.size());
+    benchmark::RunSpecifiedBenchmarks(&collector);
+    benchmark::ClearRegisteredBenchmarks();
+
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const std::vector<double>& times = collector.times(i);
+        rows[i].ns = 1e9 * (job.frames > 0 ? mean(times) : median(times)) / static_cast<double>(job.items);
+    }
+    for (Row& row : rows) row.ratio = rows[0].ns / row.ns;
+    return rows;
+}
+
+}  // namespace abut::bench

@@ -1,0 +1,64 @@
+#include "report.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <iomanip>
+#include <limits>
+#include <ostream>
+
+namespace abut::bench {
+
+namespace {
+
+std::string processor() {
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);)
+        if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+    return "an unknown processor";
+}
+
+constexpr const char* compiler =
+#ifdef __clang__
+    "clang " __clang_version__;
+#else
+    "g++ " __VERSION__;
+#endif
+
+}  // namespace
+
+void print_machine(std::ostream& out) {
+    out << processor() << ", " << compiler << ". ns: processor time an item, median. ratio: abut's ns / this one's\n";
+}
+
+void print_table_head(std::ostream& out) {
+    out << std::left << std::setw(34) << "bench" << std::setw(20) << "who" << std::right << std::setw(12) << "ns"
+        << std::setw(9) << "ratio" << std::setw(16) << "answer" << '\n';
+}
+
+void print_table_rows(std::ostream& out, std::span<const Row> rows) {
+    out << std::fixed;
+    for (const Row& row : rows) {
+        out << std::left << std::setw(34) << (&row == &rows.front() ? row.bench : "") << std::setw(20) << row.who
+            << std::right << std::setprecision(1) << std::setw(12) << row.ns << std::setprecision(2) << std::setw(9)
+            << row.ratio << std::setw(16) << row.answer;
+        if (!row.difference.empty()) out << (row.agrees ? "  (" : "  DISAGREES (") << row.difference << ')';
+        out << '\n';
+    }
+    out << std::flush;
+}
+
+void print_json(std::ostream& out, std::span<const Row> rows) {
+    out << std::setprecision(std::numeric_limits<double>::max_digits10) << "{\"rows\": [";
+    const char* separator = "\n";
+    for (const Row& row : rows) {
+        out << separator << R"(  {"bench": ")" << row.bench << R"(", "who": ")" << row.who << R"(", "ns": )" << row.ns
+            << R"(, "ratio": )" << row.ratio << R"(, "answer": )";
+        std::isfinite(row.answer) ? out << row.answer : out << "null";
+        if (!row.agrees) out << R"(, "disagreement": ")" << row.difference << '"';
+        out << '}';
+        separator = ",\n";
+    }
+    out << "\n]}\n";
+}
+
+}  // namespace abut::bench

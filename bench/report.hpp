@@ -1,0 +1,22 @@
+#pragma once
+
+// How rows are shown: as a table, or as JSON.
+
+#include "measure.hpp"
+
+#include <iosfwd>
+#include <span>
+
+namespace abut::bench {
+
+/// One line: processor, compiler, and how the times are to be read.
+void print_machine(std::ostream& out);
+
+void print_table_head(std::ostream& out);
+/// The rows of one bench.
+void print_table_rows(std::ostream& out, std::span<const Row> rows);
+
+/// {"rows": [{"bench", "who", "ns", "ratio", "answer"}]}, and "disagreement" in a row that has one.
+void print_json(std::ostream& out, std::span<const Row> rows);
+
+}  // namespace abut::bench
