@@ -20,11 +20,12 @@ DVec<D> vertex(const Convex<D>& convex, std::uint32_t i) {
     return convex.place.point(DVec<D>(convex.vertices()[i]));
 }
 
-/// An edge of the plane with its normal on the side that `direction` looks to.
+/// An edge of the plane with its normal on the side that `direction` looks to; a corner where it has no length.
 Face<2> edge_along(const DVec<2>& a, std::uint32_t index_a, const DVec<2>& b, std::uint32_t index_b,
                    const DVec<2>& direction) {
     Face<2> face;
     face.push_back(a, index_a);
+    if (a == b) return face;
     face.push_back(b, index_b);
     face.normal = perpendicular(b - a);
     if (dot(face.normal, direction) < 0) face.normal = -face.normal;
@@ -146,7 +147,7 @@ Face<2> face_along(const Convex<2>& convex, const DVec<2>& direction) {
     const Face<2> next = edge_along(at(farthest), farthest, at(after), after, direction);
     if (count == 2) return next;
     const Face<2> last = edge_along(at(before), before, at(farthest), farthest, direction);
-    return dot(last.normal, direction) > dot(next.normal, direction) ? last : next;
+    return !next.flat() || dot(last.normal, direction) > dot(next.normal, direction) ? last : next;
 }
 
 Face<3> face_along(const Convex<3>& convex, const DVec<3>& direction) {

@@ -18,11 +18,18 @@ struct Candidates {
     }
 };
 
-/// The sides of a face, as planes through its edges that look outwards; of an edge, its two ends.
+/// The part of v at right angles to the unit vector n, at length 1.
+template <int D>
+DVec<D> across(const DVec<D>& v, const DVec<D>& n) {
+    return normalized(v - n * dot(v, n), DVec<D>(0.0));
+}
+
+/// The sides of a face as planes through its edges along `out`, looking outwards; of an edge, its two ends. What lies
+/// between them lies in front of the face, seen along `out`.
 template <int D, class Visit>
-void each_side(const Face<D>& face, Visit&& visit) {
+void each_side(const Face<D>& face, const DVec<D>& out, Visit&& visit) {
     if (face.count == 2) {
-        const DVec<D> along = normalized(face.points[1] - face.points[0]);
+        const DVec<D> along = across(face.points[1] - face.points[0], out);
         visit(-along, dot(-along, face.points[0]), face.indices[0]);
         visit(along, dot(along, face.points[1]), face.indices[1]);
         return;
@@ -33,20 +40,29 @@ void each_side(const Face<D>& face, Visit&& visit) {
         for (std::size_t i = 0; i < face.count; ++i) {
             const DVec<3>& from = face.points[i];
             const DVec<3> edge = face.points[(i + 1) % face.count] - from;
-            DVec<3> side = normalized(cross(edge, face.normal), DVec<3>(0.0));
+            DVec<3> side = normalized(cross(edge, out), DVec<3>(0.0));
             if (dot(side, middle - from) > 0) side = -side;
             visit(side, dot(side, from), face.indices[i]);
         }
     }
 }
 
-/// Two edges side by side, such as those of two capsules.
-bool parallel(const Face<3>& a, const Face<3>& b) {
+/// Two edges side by side across the normal, such as those of two capsules.
+bool side_by_side(const Face<3>& a, const Face<3>& b, const DVec<3>& normal) {
     if (a.count != 2 || b.count != 2) return false;
-    return std::abs(dot(normalized(a.points[1] - a.points[0]), normalized(b.points[1] - b.points[0]))) >= aligned;
+    const DVec<3> along_a = normalized(a.points[1] - a.points[0], DVec<3>(0.0));
+    const DVec<3> along_b = normalized(b.points[1] - b.points[0], DVec<3>(0.0));
+    const double tilt = std::sqrt(1 - aligned * aligned);
+    return std::abs(dot(along_a, along_b)) >= aligned && std::abs(dot(along_a, normal)) <= tilt;
 }
-bool parallel(const Face<2>&, const Face<2>&) {
+bool side_by_side(const Face<2>&, const Face<2>&, const DVec<2>&) {
     return false;
+}
+
+/// The normal of the plane in which a face lies; of an edge, of the one that looks most along `out`.
+template <int D>
+DVec<D> plane_of(const Face<D>& face, const DVec<D>& out) {
+    return face.flat() ? face.normal : across(out, normalized(face.points[1] - face.points[0]));
 }
 
 template <int D>
@@ -97,17 +113,17 @@ Manifold<D> manifold(const Convex<D>& a, const Convex<D>& b, const SignedDistanc
     Candidates<D> candidates;
     const Face<D> face_a = face_along(a, normal), face_b = face_along(b, -normal);
     const double alignment_a = alignment(face_a, normal), alignment_b = alignment(face_b, -normal);
-    if (std::max(alignment_a, alignment_b) >= aligned || parallel(face_a, face_b)) {
+    if (std::max(alignment_a, alignment_b) >= aligned || side_by_side(face_a, face_b, normal)) {
         const bool a_is_reference = alignment_a >= alignment_b - 1e-6;
         const Face<D>& reference = a_is_reference ? face_a : face_b;
         Face<D> incident = a_is_reference ? face_b : face_a;
         const DVec<D> out = a_is_reference ? normal : -normal;
         const double reference_radius = a_is_reference ? a.radius : b.radius;
         const double incident_radius = a_is_reference ? b.radius : a.radius;
-        each_side(reference, [&](const DVec<D>& side, double offset, std::uint32_t name) {
+        each_side(reference, out, [&](const DVec<D>& side, double offset, std::uint32_t name) {
             clip(incident, side, offset + slack, name);
         });
-        const DVec<D> plane = reference.flat() ? reference.normal : out;
+        const DVec<D> plane = plane_of(reference, out);
         for (std::size_t i = 0; i < incident.count; ++i) {
             const double gap = dot(plane, incident.points[i] - reference.points[0]) / dot(plane, out);
             const double depth = reference_radius + incident_radius - gap;

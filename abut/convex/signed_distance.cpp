@@ -10,9 +10,10 @@ SignedDistance<D> signed_distance(const Convex<D>& a, const Convex<D>& b) {
     const GjkResult<D> apart = gjk(difference);
     SignedDistance<D> result;
     const double gap = length(apart.closest);
-    // Below this the direction of the difference is rounding, and the faces around the origin know better.
-    const double blurred =
-        1e-10 * std::max(largest(apart.simplex.points[0].on_a), largest(apart.simplex.points[0].on_b));
+    // Below this the direction of the difference is rounding, sooner where rounding has stopped the walk already, and
+    // the faces around the origin know better.
+    const double blurred = (apart.exit == GjkExit::no_progress ? 1e-7 : 1e-10) *
+                           std::max(largest(apart.simplex.points[0].on_a), largest(apart.simplex.points[0].on_b));
     if (apart.apart() && gap > blurred) {
         result.distance = gap;
         result.normal = -apart.closest / gap;

@@ -3,12 +3,13 @@
 namespace abut {
 namespace {
 
-/// Weights of the closest point on up to three of the simplex' points, and which of them count.
+/// The closest point on up to three of the simplex' points, their weights, and which of them count.
 template <int D>
 struct Candidate {
     std::array<std::size_t, 3> which{};
     std::array<double, 3> weights{};
     std::size_t count = 0;
+    DVec<D> point{0.0};
     double distance_squared = 0;
 };
 
@@ -16,15 +17,33 @@ template <int D>
 Candidate<D> candidate(const Simplex<D>& simplex, std::initializer_list<std::size_t> which,
                        std::initializer_list<double> weights) {
     Candidate<D> result;
-    DVec<D> point(0.0);
     auto weight = weights.begin();
     for (std::size_t i : which) {
         result.which[result.count] = i;
         result.weights[result.count++] = *weight;
-        point += simplex.points[i].position * *weight++;
+        result.point += simplex.points[i].position * *weight++;
     }
+    result.distance_squared = length_squared(result.point);
+    return result;
+}
+
+/// With the point where it is known better than as a sum of the corners, which are large where it is small: at right
+/// angles to the edge or face, to the last digit.
+template <int D>
+Candidate<D> candidate(const Simplex<D>& simplex, std::initializer_list<std::size_t> which,
+                       std::initializer_list<double> weights, const DVec<D>& point) {
+    Candidate<D> result = candidate(simplex, which, weights);
+    result.point = point;
     result.distance_squared = length_squared(point);
     return result;
+}
+
+/// The part of v at right angles to `edge`.
+DVec<2> across(const DVec<2>& edge, const DVec<2>& v) {
+    return DVec<2>(-edge.y, edge.x) * (cross(edge, v) / dot(edge, edge));
+}
+DVec<3> across(const DVec<3>& edge, const DVec<3>& v) {
+    return cross(edge, cross(v, edge)) / dot(edge, edge);
 }
 
 template <int D>
@@ -36,12 +55,21 @@ Candidate<D> closest_on_segment(const Simplex<D>& simplex, std::size_t i, std::s
     if (!(along > 0)) return candidate(simplex, {i}, {1.0});
     if (along >= whole) return candidate(simplex, {j}, {1.0});
     const double t = along / whole;
-    return candidate(simplex, {i, j}, {1 - t, t});
+    return candidate(simplex, {i, j}, {1 - t, t}, across(ab, a));
 }
 
 template <int D>
 Candidate<D> better(const Candidate<D>& a, const Candidate<D>& b) {
     return b.distance_squared < a.distance_squared ? b : a;
+}
+
+/// The origin's projection onto a plane; in 2D the origin itself.
+DVec<2> projected_origin(const DVec<2>&, const DVec<2>&, const DVec<2>&) {
+    return DVec<2>(0.0);
+}
+DVec<3> projected_origin(const DVec<3>& a, const DVec<3>& b, const DVec<3>& c) {
+    const DVec<3> normal = cross(b - a, c - a);
+    return normal * (dot(normal, a) / dot(normal, normal));
 }
 
 template <int D>
@@ -64,7 +92,8 @@ Candidate<D> closest_on_triangle(const Simplex<D>& simplex, std::size_t i, std::
         w = cross(a, b) * area;
     }
     const double sum = u + v + w;
-    if (u > 0 && v > 0 && w > 0 && sum > 0) return candidate(simplex, {i, j, k}, {u / sum, v / sum, w / sum});
+    if (u > 0 && v > 0 && w > 0 && sum > 0)
+        return candidate(simplex, {i, j, k}, {u / sum, v / sum, w / sum}, projected_origin(a, b, c));
     return better(better(closest_on_segment(simplex, i, j), closest_on_segment(simplex, j, k)),
                   closest_on_segment(simplex, i, k));
 }
@@ -88,7 +117,7 @@ DVec<D> keep(Simplex<D>& simplex, const Candidate<D>& best) {
         simplex.points[i] = before.points[best.which[i]];
         simplex.weights[i] = best.weights[i];
     }
-    return simplex.combine(&DifferencePoint<D>::position);
+    return best.point;
 }
 
 DVec<3> reduce_tetrahedron(Simplex<3>& simplex) {

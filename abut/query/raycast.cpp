@@ -48,18 +48,25 @@ bool thin(const Solid<D>&) {
 /// the surface, so nothing is passed (conservative advancement; Mirtich, "Impulse-based dynamic simulation", 1996).
 template <int D, class Part>
 std::optional<BeamHit<D>> cast(const Beam<D>& beam, const Part& part, std::uint32_t index, double doubt) {
-    double along = 0;
+    double along = 0, last_approach = 0;
+    DVec<D> last_normal(0.0);
     for (int step = 0; step < most_steps; ++step) {
         const SignedDistance<D> distance = signed_distance(part, point_shape<D>(beam.at(along)));
         const double approach = -dot(beam.direction, distance.normal);
-        if (!(approach > 0)) return std::nullopt;
+        const bool there = distance.distance <= doubt;
         // Every way is a way out of a thin part: what starts on one leaves it, whichever side rounding put it on.
         if (along == 0 && thin(part) && distance.distance <= 100 * doubt) return std::nullopt;
-        if (distance.distance <= doubt || step + 1 == most_steps)
-            return BeamHit<D>{along, distance.normal, along == 0 && distance.distance < -doubt,
+        if ((along == 0 || !there) && !(approach > 0)) return std::nullopt;
+        if (there || step + 1 == most_steps) {
+            // At an edge there are several ways out, and the one found may lie across the ray.
+            const bool across = approach < 0.5 * last_approach;
+            return BeamHit<D>{along, across ? last_normal : distance.normal, along == 0 && distance.distance < -doubt,
                               feature_on(distance.face, &DifferencePoint<D>::index_a, index)};
+        }
         along += distance.distance / approach;
         if (!(along <= beam.length)) return std::nullopt;
+        last_approach = approach;
+        last_normal = distance.normal;
     }
     return std::nullopt;
 }

@@ -1,5 +1,7 @@
 // Questions to a world. What has moved since the last update is looked at one by one, the rest through the trees.
 
+#include <abut/broad_phase/boxes.hpp>
+#include <abut/math/assert.hpp>
 #include <abut/query/contains.hpp>
 #include <abut/query/overlaps.hpp>
 #include <abut/world/world.hpp>
@@ -7,11 +9,29 @@
 #include <algorithm>
 
 namespace abut {
+namespace {
 
+/// Told once here, and not by every item that is looked at.
+template <int D>
+bool can_be_asked(const View<D>& shape) {
+    const bool finite = is_finite(shape);
+    ABUT_ASSERT(finite);
+    return finite;
+}
+template <int D>
+bool can_be_asked(const Ray<D>& ray) {
+    const bool finite = is_finite(ray.origin) && is_finite(ray.direction) && !std::isnan(ray.length);
+    ABUT_ASSERT(finite);
+    return finite;
+}
+
+}  // namespace
+
+/// A free slot has no box, and neither has an item that is not finite or has no parts.
 template <int D>
 bool World<D>::asked(std::uint32_t slot, const Filter& filter) const {
     const Item& item = items_[slot];
-    if (item.stored == nullptr || (item.options.sensor && !filter.sensors)) return false;
+    if (is_empty(item.box) || (item.options.sensor && !filter.sensors)) return false;
     if ((filter.layers & item.options.mask) == 0 || (item.options.layers & filter.mask) == 0) return false;
     return id_of(slot) != filter.ignore;
 }
@@ -35,6 +55,7 @@ void World<D>::each_near(const Aabb<D>& box, const Filter& filter, F&& visit) co
 template <int D>
 template <class F>
 void World<D>::each_near_ray(const Ray<D>& ray, const Filter& filter, F&& visit) const {
+    if (!can_be_asked(ray)) return;
     Ray<D> rest = ray;
     const auto any = [&](std::uint32_t slot) -> float {
         if (asked(slot, filter)) rest.length = std::min(rest.length, static_cast<float>(visit(slot)));
@@ -77,6 +98,7 @@ std::vector<WorldHit<D>> World<D>::raycast_all(const Ray<D>& ray, const Filter& 
 template <int D>
 std::optional<WorldClosest<D>> World<D>::closest_to(const View<D>& shape, const Filter& filter) const {
     std::optional<WorldClosest<D>> nearest;
+    if (!can_be_asked(shape)) return nearest;
     float reach = std::numeric_limits<float>::infinity();
     const auto any = [&](std::uint32_t slot) -> float {
         const View<D>& placed = items_[slot].placed;
@@ -84,6 +106,7 @@ std::optional<WorldClosest<D>> World<D>::closest_to(const View<D>& shape, const 
             (std::holds_alternative<Solid<D>>(shape) && std::holds_alternative<Solid<D>>(placed)))
             return reach;
         const Closest<D> found = abut::closest(shape, placed);
+        if (std::isinf(found.distance)) return reach;
         const Id id = id_of(slot);
         const bool nearer = !nearest || found.distance < nearest->closest.distance;
         if (nearer || (found.distance == nearest->closest.distance && id < nearest->id)) {
@@ -102,6 +125,7 @@ std::optional<WorldClosest<D>> World<D>::closest_to(const View<D>& shape, const 
 
 template <int D>
 void World<D>::visit_overlapping(const View<D>& shape, const Filter& filter, FunctionRef<bool(Id)> visit) const {
+    if (!can_be_asked(shape)) return;
     each_near(bounds(shape), filter, [&](std::uint32_t slot) {
         const View<D>& placed = items_[slot].placed;
         if (std::holds_alternative<Solid<D>>(shape) && std::holds_alternative<Solid<D>>(placed)) return true;
@@ -123,6 +147,7 @@ std::vector<Id> World<D>::all_overlapping(const View<D>& shape, const Filter& fi
 template <int D>
 std::vector<Id> World<D>::containing(const Vec<D>& point, const Filter& filter) const {
     std::vector<Id> result;
+    if (!can_be_asked(View<D>(round_points<D>({point}, 0)))) return result;
     each_near(Aabb<D>{point, point}, filter, [&](std::uint32_t slot) {
         if (abut::contains(items_[slot].placed, point)) result.push_back(id_of(slot));
         return true;

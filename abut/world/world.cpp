@@ -2,6 +2,18 @@
 #include <abut/world/world.hpp>
 
 namespace abut {
+namespace {
+
+/// A ray meets what it passes by no more than rounding (1e-7 of its size), and the box must not refuse it.
+template <int D>
+Aabb<D> box_for_questions(const View<D>& view) {
+    const Aabb<D> box = bounds(view);
+    float widest = 0;
+    for (int i = 0; i < D; ++i) widest = std::max(widest, box.max[i] - box.min[i]);
+    return widest > 0 && std::isfinite(widest) ? grown(box, 1e-7f * widest) : box;
+}
+
+}  // namespace
 
 template <int D>
 const typename World<D>::Item* World<D>::find(Id id) const {
@@ -80,7 +92,7 @@ void World<D>::place(std::uint32_t slot) {
     item.placed = mapped(item.stored->view(), affine(item.options.pose));
     const bool finite = is_finite(item.placed);
     ABUT_ASSERT(finite);
-    item.box = finite ? bounds(item.placed) : Aabb<D>::empty();
+    item.box = finite ? box_for_questions(item.placed) : Aabb<D>::empty();
     mark_pending(slot);
 }
 

@@ -105,6 +105,10 @@ std::unique_ptr<const StoredShape<D>> store(const S& shape) {
 template <int D>
 class World {
 public:
+    World() = default;
+    World(World&&) noexcept = default;
+    World& operator=(World&&) noexcept = default;
+
     /// Takes a copy of the shape, and of what it refers to.
     template <class S>
     requires(Shape<S>&& dimension<S> == D) Id add(const S& shape, const ItemOptions<D>& options = {}) {
@@ -195,7 +199,6 @@ private:
 
     Bvh<D> fixed_tree_, moving_tree_;
     std::vector<Aabb<D>> fixed_boxes_, moving_boxes_;  // by slot; empty where the item is of the other kind
-    bool fixed_changed_ = false;
 
     std::vector<IdPair> near_;
     std::vector<IdPair> touching_, touched_;  // now and at the last update
