@@ -1,0 +1,216 @@
+// What is the tree's own: the shapes it must cope with, and how few it asks.
+
+#include "scenes.hpp"
+#include <abut/broad_phase/bvh.hpp>
+#include <abut/broad_phase/bvh_size.hpp>
+
+#include <algorithm>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace abut::test {
+namespace {
+
+template <int D>
+std::size_t count_pairs(const Bvh<D>& tree) {
+    std::size_t result = 0;
+    tree.each_pair([&](std::uint32_t, std::uint32_t) { ++result; });
+    return result;
+}
+
+/// What build_nodes makes of boxes with bounds, or of the same boxes taken for boundless.
+template <int D>
+class Nodes {
+public:
+    Nodes(const std::vector<Aabb<D>>& boxes, bool bounded) {
+        for (std::uint32_t i = 0; i < boxes.size(); ++i) items_.push_back({boxes[i], i});
+        build_nodes(items_, bounded ? items_.size() : 0, nodes_);
+        walk(0, 0);
+    }
+    int depth() const { return depth_; }
+    double area() const { return area_; }
+
+private:
+    Aabb<D> walk(std::uint32_t index, int depth) {
+        depth_ = std::max(depth_, depth);
+        const BvhNode<D>& node = nodes_[index];
+        Aabb<D> box = Aabb<D>::empty();
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) box = merged(box, items_[i].box);
+        if (node.count == 0) box = merged(walk(index + 1, depth + 1), walk(node.first, depth + 1));
+        area_ += half_area(box);
+        return box;
+    }
+
+    std::vector<BvhItem<D>> items_;
+    std::vector<BvhNode<D>> nodes_;
+    int depth_ = 0;
+    double area_ = 0;
+};
+
+TEST(Bvh, SplitsBetterThanInHalves) {
+    oracle::Random random(12);
+    for (const Scene scene : {Scene::uniform, Scene::clustered, Scene::mixed_sizes}) {
+        const auto boxes = make_scene<3>(scene, 3000, random);
+        EXPECT_LT(Nodes<3>(boxes, true).area(), 0.95 * Nodes<3>(boxes, false).area()) << static_cast<int>(scene);
+    }
+}
+
+TEST(Bvh, IsNeverDeeperThanItsStacks) {
+    // Ever nearer to 0 along each axis in turn, each step a tenth of the last: every split parts off a few.
+    std::vector<Aabb3> boxes;
+    for (int exponent = -148; exponent < 120; ++exponent)
+        for (int axis = 0; axis < 3; ++axis)
+            for (int copy = 0; copy < 4; ++copy) {
+                Vec3 point(0);
+                point[axis] = std::ldexp(1.0f, exponent);
+                boxes.push_back({point, point});
+            }
+    const int depth = Nodes<3>(boxes, true).depth();
+    EXPECT_GT(depth, 64) << "too easy to prove anything";
+    EXPECT_LE(depth, bvh_depth);
+}
+
+TEST(Bvh, PartsWhatCoincidesByIndex) {
+    const std::vector<Aabb2> boxes(1000, {Vec2(0), Vec2(1)});
+    Bvh<2> tree;
+    tree.build(boxes);
+    std::uint32_t next = 0;
+    tree.each_overlapping(boxes[0], [&](std::uint32_t i) { EXPECT_EQ(i, next++); });
+    EXPECT_EQ(next, 1000u);
+}
+
+TEST(Bvh, TakesManyBoxesInOnePlace) {
+    std::vector<Aabb3> boxes(100000, {Vec3(0), Vec3(1)});
+    Bvh<3> tree;
+    tree.build(boxes);
+    std::size_t found = 0;
+    tree.each_overlapping({Vec3(1), Vec3(2)}, [&](std::uint32_t) { ++found; });
+    EXPECT_EQ(found, boxes.size());
+    tree.update(boxes);
+    EXPECT_EQ(tree.bounds(), boxes[0]);
+}
+
+TEST(Bvh, TakesPointsThatHalveTheirWay) {
+    // Each split by cost parts off a few: a tree that doesn't change its way at some depth would be a list.
+    std::vector<Aabb2> boxes;
+    for (int exponent = -148; exponent < 127; ++exponent)
+        for (int copy = 0; copy < 20; ++copy) {
+            const Vec2 point(std::ldexp(1.0f, exponent));
+            boxes.push_back({point, point});
+        }
+    Bvh<2> tree;
+    tree.build(boxes);
+    // The 20 points of a place pair with one another, and no others.
+    EXPECT_EQ(count_pairs(tree), boxes.size() * 19 / 2);
+    for (std::uint32_t i = 0; i < boxes.size(); i += 20) {
+        std::uint32_t found = 0, near = 0;
+        tree.each_overlapping(boxes[i], [&](std::uint32_t item) { found += item / 20 == i / 20 ? 1 : 100; });
+        tree.closest(boxes[i].min, [&](std::uint32_t) { return ++near, 0.0f; });
+        EXPECT_EQ(found, 20u);
+        EXPECT_GE(near, 20u);
+    }
+}
+
+TEST(Bvh, TakesTheLargestNumbers) {
+    constexpr float most = std::numeric_limits<float>::max(), least = std::numeric_limits<float>::denorm_min();
+    std::vector<Aabb3> boxes;
+    for (int i = 0; i < 12; ++i) {
+        boxes.push_back({Vec3(-most), Vec3(most)});
+        boxes.push_back({Vec3(most), Vec3(most)});
+        boxes.push_back({Vec3(0), Vec3(least * static_cast<float>(i))});
+    }
+    Bvh<3> tree;
+    tree.build(boxes);
+    // 66 within each of three kinds, and 12 * 24 of the large ones with the others.
+    EXPECT_EQ(count_pairs(tree), 3u * 66 + 12 * 24);
+}
+
+TEST(Bvh, NewcomersAndHolesInAnUpdate) {
+    std::vector<Aabb2> boxes(40, Aabb2::empty());
+    Bvh<2> tree;
+    tree.build(boxes);
+    EXPECT_EQ(tree.size(), 40u);
+    EXPECT_FALSE(tree.empty());
+    EXPECT_EQ(tree.bounds(), Aabb2::empty());
+    for (std::size_t i = 0; i < 10; ++i) boxes[3 * i] = {Vec2(static_cast<float>(i)), Vec2(static_cast<float>(i) + 1)};
+    tree.update(boxes);
+    EXPECT_EQ(count_pairs(tree), 9u);
+    for (std::size_t i = 0; i < 5; ++i) boxes[3 * i] = Aabb2::empty();
+    tree.update(boxes);
+    EXPECT_EQ(count_pairs(tree), 4u);
+    boxes[0] = {Vec2(5), Vec2(6)};    // one that was here before
+    boxes[1] = {Vec2(20), Vec2(21)};  // and one that wasn't
+    tree.update(boxes);
+    EXPECT_EQ(count_pairs(tree), 6u);
+    EXPECT_EQ(tree.bounds().max, Vec2(21));
+}
+
+/// How many visits the nearest of many needs.
+int visits_to_nearest(const Bvh<2>& tree, const std::vector<Aabb2>& boxes, const Vec2& point) {
+    int visits = 0;
+    tree.closest(point, [&](std::uint32_t i) {
+        ++visits;
+        const DVec<2> gap = DVec<2>(point) - DVec<2>(center(boxes[i]));
+        return static_cast<float>(length(gap));
+    });
+    return visits;
+}
+
+TEST(Bvh, AsksTheNearFirst) {
+    std::vector<Aabb2> boxes;
+    for (int i = 0; i < 1000; ++i) boxes.push_back(box_at<2>({2.0 * i, 0.0}, {0.5, 0.5}));
+    Bvh<2> tree;
+    tree.build(boxes);
+    for (const float x : {-50.0f, 3.0f, 700.0f, 1500.0f, 5000.0f}) {
+        EXPECT_LE(visits_to_nearest(tree, boxes, {x, 3}), 8) << x;
+        for (const float direction : {-1.0f, 1.0f}) {
+            int visits = 0;
+            const Ray2 ray{Vec2(x, 0), Vec2(direction, 0)};
+            tree.raycast(ray, [&](std::uint32_t i) {
+                ++visits;
+                return std::max(0.0f, direction * (boxes[i].min.x - x));
+            });
+            EXPECT_LE(visits, 8) << x;
+        }
+    }
+}
+
+TEST(Bvh, StaysGoodWhileEverythingMixes) {
+    oracle::Random random(9);
+    auto boxes = make_scene<2>(Scene::uniform, 2000, random);
+    Bvh<2> kept;
+    kept.build(boxes);
+    for (int frame = 0; frame < 60; ++frame) {
+        for (Aabb2& box : boxes) {
+            const Vec2 step(random.in_cube<2>() * 4.0);
+            box = {box.min + step, box.max + step};
+        }
+        kept.update(boxes);
+    }
+    Bvh<2> fresh;
+    fresh.build(boxes);
+    int kept_visits = 0, fresh_visits = 0;
+    for (int repeat = 0; repeat < 200; ++repeat) {
+        const Vec2 point(random.in_cube<2>() * 40.0);
+        kept_visits += visits_to_nearest(kept, boxes, point);
+        fresh_visits += visits_to_nearest(fresh, boxes, point);
+    }
+    EXPECT_LT(kept_visits, 1.5 * fresh_visits);
+}
+
+TEST(Bvh, IsAValue) {
+    oracle::Random random(2);
+    const auto boxes = make_scene<3>(Scene::uniform, 50, random);
+    Bvh<3> tree;
+    tree.build(boxes);
+    const Bvh<3> copy = tree;
+    tree.build({});
+    Bvh<3> again;
+    again.build(boxes);
+    EXPECT_EQ(count_pairs(copy), count_pairs(again));
+    EXPECT_EQ(count_pairs(tree), 0u);
+}
+
+}  // namespace
+}  // namespace abut::test

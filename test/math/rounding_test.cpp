@@ -1,0 +1,30 @@
+// A double that becomes a float is rounded, whatever the optimiser thinks of it. GCC 12 at -O2 takes the way of two
+// neighbours to float and back for no way at all, unless it is told -fno-tree-slp-vectorize.
+#include "../oracle/random.hpp"
+#include <abut/math/dvec.hpp>
+
+#include <gtest/gtest.h>
+
+namespace abut::test {
+namespace {
+
+template <int D>
+void expect_rounded() {
+    oracle::Random random(8);
+    for (int repeat = 0; repeat < 100; ++repeat) {
+        const DVec<D> exact = random.in_cube<D>();
+        const DVec<D> rounded(to_float(exact));
+        for (int i = 0; i < D; ++i) {
+            const volatile float one_by_one = static_cast<float>(exact[i]);
+            EXPECT_EQ(rounded[i], double{one_by_one}) << "seed 8, repeat " << repeat;
+        }
+    }
+}
+
+TEST(Rounding, IsNotOptimisedAway) {
+    expect_rounded<2>();
+    expect_rounded<3>();
+}
+
+}  // namespace
+}  // namespace abut::test

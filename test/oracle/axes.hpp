@@ -1,0 +1,187 @@
+#pragma once
+
+// The axes that can part two polytopes, and whether one does: decided in double where rounding can't matter, and in
+// rational numbers where it could.
+//
+// The difference A - B is a polytope whose edges have the directions of the edges of A and B. The origin is outside of
+// it only if a face of it, spanned by two such directions, says so; where it is flat, its plane or one of its edges.
+
+#include "polytope.hpp"
+
+#include <boost/multiprecision/cpp_int.hpp>
+
+namespace abut::oracle {
+
+using abut::cross;
+using abut::dot;
+
+template <class T>
+T dot(const std::array<T, 2>& a, const std::array<T, 2>& b) {
+    return T(a[0] * b[0] + a[1] * b[1]);
+}
+template <class T>
+T dot(const std::array<T, 3>& a, const std::array<T, 3>& b) {
+    return T(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
+}
+template <class T>
+std::array<T, 3> cross(const std::array<T, 3>& a, const std::array<T, 3>& b) {
+    return {T(a[1] * b[2] - a[2] * b[1]), T(a[2] * b[0] - a[0] * b[2]), T(a[0] * b[1] - a[1] * b[0])};
+}
+template <class T, std::size_t D>
+std::array<T, D> minus(const std::array<T, D>& a, const std::array<T, D>& b) {
+    std::array<T, D> result;
+    for (std::size_t i = 0; i < D; ++i) result[i] = a[i] - b[i];
+    return result;
+}
+/// The part of v at right angles to e, times e squared.
+template <class T, std::size_t D>
+std::array<T, D> across(const std::array<T, D>& e, const std::array<T, D>& v) {
+    const T whole = dot(e, e), along = dot(e, v);
+    std::array<T, D> result;
+    for (std::size_t i = 0; i < D; ++i) result[i] = whole * v[i] - along * e[i];
+    return result;
+}
+
+/// Two polytopes seen from one place, in numbers of the type T.
+template <class T, int D>
+struct Setting {
+    using Vector = std::array<T, static_cast<std::size_t>(D)>;
+    std::vector<Vector> a, b, directions;
+
+    Setting(const Polytope<D>& polytope_a, const Polytope<D>& polytope_b, const DVec<D>& origin)
+        : a(corners<T>(polytope_a, origin)), b(corners<T>(polytope_b, origin)) {
+        for (const auto& [i, j] : polytope_a.edge_directions) directions.push_back(minus(a[j], a[i]));
+        for (const auto& [i, j] : polytope_b.edge_directions) directions.push_back(minus(b[j], b[i]));
+    }
+
+    Vector between() const { return minus(b[0], a[0]); }
+};
+
+template <class T, std::size_t D>
+std::array<T, D> coordinate_axis(std::size_t i) {
+    std::array<T, D> result{};
+    result[i] = 1;
+    return result;
+}
+
+/// Visits all candidates, in the same order for every T; the last ones matter where the difference is flat or a point.
+template <class T, class Visit>
+void each_axis(const Setting<T, 2>& s, bool, Visit&& visit) {
+    for (const auto& e : s.directions) visit(std::array<T, 2>{T(-e[1]), e[0]});
+    for (const auto& e : s.directions) visit(e);
+    visit(s.between());
+    for (std::size_t i = 0; i < 2; ++i) visit(coordinate_axis<T, 2>(i));
+}
+template <class T, class Visit>
+void each_axis(const Setting<T, 3>& s, bool flat, Visit&& visit) {
+    for (std::size_t i = 0; i < s.directions.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j) visit(cross(s.directions[i], s.directions[j]));
+    if (!flat) return;
+    for (std::size_t i = 0; i < s.directions.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            for (const auto& e : s.directions) visit(cross(cross(s.directions[i], s.directions[j]), e));
+    for (const auto& e : s.directions) visit(e);
+    visit(s.between());
+    for (const auto& e : s.directions) visit(across(e, s.between()));
+    for (std::size_t i = 0; i < 3; ++i) {
+        visit(coordinate_axis<T, 3>(i));
+        for (const auto& e : s.directions) visit(across(e, coordinate_axis<T, 3>(i)));
+    }
+}
+
+/// How far A reaches past where B begins along n, and the same along -n.
+template <class T, int D>
+std::array<T, 2> extents(const Setting<T, D>& s, const typename Setting<T, D>::Vector& n) {
+    T low_a = dot(n, s.a[0]), high_a = low_a, low_b = dot(n, s.b[0]), high_b = low_b;
+    for (const auto& p : s.a) {
+        const T along = dot(n, p);
+        if (along < low_a) low_a = along;
+        if (along > high_a) high_a = along;
+    }
+    for (const auto& p : s.b) {
+        const T along = dot(n, p);
+        if (along < low_b) low_b = along;
+        if (along > high_b) high_b = along;
+    }
+    return {T(high_a - low_b), T(high_b - low_a)};
+}
+
+/// The least extent over all axes.
+template <int D>
+struct LeastExtent {
+    bool overlap = true;
+    bool rational = false;
+    double extent = std::numeric_limits<double>::infinity();  ///< along `normal`, to some digits
+    DVec<D> normal{0.0};                                      ///< of length 1, from A to B
+};
+
+inline bool nearly_flat(const Setting<double, 2>&) {
+    return false;
+}
+inline bool nearly_flat(const Setting<double, 3>& s) {
+    const auto unit = [](const std::array<double, 3>& v) {
+        return normalized(DVec<3>(v[0], v[1], v[2]), DVec<3>(0.0));
+    };
+    DVec<3> widest(0.0);
+    for (const auto& e : s.directions)
+        for (const auto& f : s.directions) {
+            const DVec<3> normal = cross(unit(e), unit(f));
+            if (length(normal) > length(widest)) widest = normal;
+        }
+    if (length(widest) < 1e-3) return true;
+    for (const auto& e : s.directions)
+        if (std::abs(dot(unit(e), normalized(widest))) > 1e-6) return false;
+    return true;
+}
+
+enum class Arithmetic {
+    exact,  ///< yes or no is decided in rational numbers where need be
+    rough,  ///< in double alone
+};
+
+/// The cores, without their radii.
+template <int D>
+LeastExtent<D> least_extent(const Polytope<D>& a, const Polytope<D>& b, Arithmetic arithmetic) {
+    const DVec<D> origin = middle(a);
+    const Setting<double, D> rough(a, b, origin);
+    const bool flat = nearly_flat(rough);
+    // Some twenty roundings of numbers no larger than this, in unit vectors whose own error moves nothing but the axis.
+    const double doubt = 1e-14 * largest_coordinate(a, b);
+
+    LeastExtent<D> result;
+    std::vector<bool> undecided;
+    each_axis(rough, flat, [&](const std::array<double, static_cast<std::size_t>(D)>& axis) {
+        DVec<D> n;
+        for (int i = 0; i < D; ++i) n[i] = axis[static_cast<std::size_t>(i)];
+        undecided.push_back(true);
+        if (length_squared(n) < 1e-280) return;
+        n = normalized(n);
+        std::array<double, static_cast<std::size_t>(D)> unit;
+        for (int i = 0; i < D; ++i) unit[static_cast<std::size_t>(i)] = n[i];
+        const std::array<double, 2> both = extents(rough, unit);
+        for (const double sign : {1.0, -1.0}) {
+            const double extent = both[sign > 0 ? 0 : 1];
+            if (extent < result.extent) {
+                result.extent = extent;
+                result.normal = n * sign;
+            }
+        }
+        undecided.back() = std::min(both[0], both[1]) < doubt;
+    });
+    result.overlap = result.extent > 0;
+    if (std::abs(result.extent) > doubt || arithmetic == Arithmetic::rough) return result;
+
+    using Rational = boost::multiprecision::cpp_rational;
+    const Setting<Rational, D> exact(a, b, origin);
+    result.rational = true;
+    result.overlap = true;
+    std::size_t index = 0;
+    each_axis(exact, flat, [&](const std::array<Rational, static_cast<std::size_t>(D)>& axis) {
+        if (!result.overlap || !undecided[index++]) return;
+        const std::array<Rational, 2> both = extents(exact, axis);
+        result.overlap = both[0] >= 0 && both[1] >= 0;
+    });
+    return result;
+}
+
+}  // namespace abut::oracle

@@ -1,0 +1,177 @@
+#pragma once
+
+// Polytopes as plain lists of corners, edges and triangles, with a ball around them: what the oracle understands.
+// Nothing here knows of GJK, support functions or penetration searches.
+
+#include <abut/math/linear.hpp>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace abut::oracle {
+
+/// The hull of place(points), and all within `radius` of it. Edges and triangles may list more than the hull has, as
+/// long as they lie in it; they must list at least those that it has.
+template <int D>
+struct Polytope {
+    Affine<D> place;
+    std::vector<Vec<D>> points;
+    std::vector<std::array<std::uint32_t, 2>> edges;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    std::vector<std::array<std::uint32_t, 2>> edge_directions;  ///< of `edges`, parallel ones once
+    double radius = 0;
+};
+
+/// The corners in the number type T, seen from `origin`; exact where T is.
+template <class T, int D>
+std::vector<std::array<T, D>> corners(const Polytope<D>& polytope, const DVec<D>& origin) {
+    std::vector<std::array<T, D>> result;
+    for (const Vec<D>& point : polytope.points) {
+        std::array<T, D>& corner = result.emplace_back();
+        for (int i = 0; i < D; ++i) {
+            T sum = T(polytope.place.offset[i]) - T(origin[i]);
+            for (int j = 0; j < D; ++j)
+                sum += T(polytope.place.column[static_cast<std::size_t>(j)][i]) * T(static_cast<double>(point[j]));
+            corner[static_cast<std::size_t>(i)] = sum;
+        }
+    }
+    return result;
+}
+
+/// The corners in double, seen from `origin`.
+template <int D>
+std::vector<DVec<D>> corners_seen_from(const Polytope<D>& polytope, const DVec<D>& origin) {
+    std::vector<DVec<D>> result;
+    Affine<D> place = polytope.place;
+    place.offset -= origin;
+    for (const Vec<D>& point : polytope.points) result.push_back(place.point(DVec<D>(point)));
+    return result;
+}
+
+/// Somewhere in the polytope: where to look from.
+template <int D>
+DVec<D> middle(const Polytope<D>& polytope) {
+    DVec<D> low(std::numeric_limits<double>::infinity()), high(-low);
+    for (const DVec<D>& p : corners_seen_from(polytope, DVec<D>(0.0)))
+        for (int i = 0; i < D; ++i) {
+            low[i] = std::min(low[i], p[i]);
+            high[i] = std::max(high[i], p[i]);
+        }
+    return (low + high) * 0.5;
+}
+
+/// The bounding radius about the middle.
+template <int D>
+double size(const Polytope<D>& polytope) {
+    double most = 0;
+    for (const DVec<D>& p : corners_seen_from(polytope, middle(polytope))) most = std::max(most, length(p));
+    return most + polytope.radius;
+}
+
+/// The largest coordinate of either shape, seen from the middle of A.
+template <int D>
+double largest_coordinate(const Polytope<D>& a, const Polytope<D>& b) {
+    const DVec<D> origin = middle(a);
+    double most = 0;
+    for (const Polytope<D>* polytope : {&a, &b})
+        for (const DVec<D>& p : corners_seen_from(*polytope, origin))
+            most = std::max(most, largest(p) + polytope->radius);
+    return most;
+}
+
+/// One step of a float as large as x.
+inline double ulp(double x) {
+    const float f = static_cast<float>(std::abs(x));
+    return static_cast<double>(std::nextafter(f, std::numeric_limits<float>::infinity())) - static_cast<double>(f);
+}
+
+/// How far an answer about a and b may be off, and how near to touching a yes or no may go either way.
+template <int D>
+double margin_of_doubt(const Polytope<D>& a, const Polytope<D>& b) {
+    return 1e-5 * std::min(size(a), size(b)) + 16 * ulp(largest_coordinate(a, b));
+}
+
+template <int D>
+void add_edge(Polytope<D>& polytope, std::uint32_t i, std::uint32_t j) {
+    polytope.edges.push_back({i, j});
+    polytope.edge_directions.push_back({i, j});
+}
+
+/// The hull of a few points, by trying all pairs and triples of them.
+template <int D>
+Polytope<D> hull_of(std::vector<Vec<D>> points, double radius = 0) {
+    Polytope<D> result;
+    result.points = std::move(points);
+    result.radius = radius;
+    const auto count = static_cast<std::uint32_t>(result.points.size());
+    if (D == 2 || count <= 3) {
+        for (std::uint32_t i = 0; i < count; ++i)
+            for (std::uint32_t j = 0; j < i; ++j) add_edge(result, i, j);
+        if (count == 3) result.triangles.push_back({0, 1, 2});
+        return result;
+    }
+    if constexpr (D == 3) {
+        std::vector<bool> used(count * count);
+        const std::vector<DVec<3>> at = corners_seen_from(result, middle(result));
+        const double doubt = 1e-9 * size(result);
+        for (std::uint32_t i = 0; i < count; ++i)
+            for (std::uint32_t j = 0; j < i; ++j)
+                for (std::uint32_t k = 0; k < j; ++k) {
+                    const DVec<3> normal = normalized(cross(at[j] - at[i], at[k] - at[i]), DVec<3>(0.0));
+                    double low = 0, high = 0;
+                    for (const DVec<3>& p : at) {
+                        low = std::min(low, dot(normal, p - at[i]));
+                        high = std::max(high, dot(normal, p - at[i]));
+                    }
+                    if (low < -doubt && high > doubt) continue;
+                    result.triangles.push_back({i, j, k});
+                    for (const auto& [from, to] : {std::array{i, j}, std::array{i, k}, std::array{j, k}}) {
+                        if (!used[from * count + to]) add_edge(result, from, to);
+                        used[from * count + to] = true;
+                    }
+                }
+    }
+    return result;
+}
+
+/// The box between two corners, seen by `place`.
+template <int D>
+Polytope<D> box_between(const Vec<D>& low, const Vec<D>& high, const Affine<D>& place = {}, double radius = 0) {
+    Polytope<D> result;
+    result.place = place;
+    result.radius = radius;
+    constexpr std::uint32_t count = 1u << D;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        Vec<D>& corner = result.points.emplace_back(low);
+        for (int axis = 0; axis < D; ++axis)
+            if ((i >> axis & 1u) != 0) corner[axis] = high[axis];
+        for (std::uint32_t bit = 1; bit < count; bit *= 2)
+            if ((i & bit) == 0) result.edges.push_back({i, i | bit});
+    }
+    for (std::uint32_t bit = 1; bit < count; bit *= 2) result.edge_directions.push_back({0, bit});
+    if constexpr (D == 3)
+        for (std::uint32_t axis = 0; axis < 3; ++axis) {
+            const std::uint32_t across = 1u << axis, u = 1u << (axis + 1) % 3, v = 1u << (axis + 2) % 3;
+            for (std::uint32_t side : {0u, across}) {
+                result.triangles.push_back({side, side | u, side | v});
+                result.triangles.push_back({side | u | v, side | u, side | v});
+            }
+        }
+    return result;
+}
+
+/// A box about the origin of `place`.
+template <int D>
+Polytope<D> box_of(const Affine<D>& place, const Vec<D>& half, double radius = 0) {
+    return box_between(-half, half, place, radius);
+}
+
+/// The same polytope moved, turned or stretched by `map`; its radius must be zero unless `map` is a pose.
+template <int D>
+Polytope<D> mapped(Polytope<D> polytope, const Affine<D>& map) {
+    polytope.place = map * polytope.place;
+    return polytope;
+}
+
+}  // namespace abut::oracle

@@ -1,0 +1,174 @@
+// Contacts: examples by hand, and what holds for every contact.
+
+#include "../oracle/check.hpp"
+#include "../oracle/expect.hpp"
+#include "../oracle/pair.hpp"
+#include <abut/query/contact.hpp>
+#include <abut/shape/cylinder.hpp>
+
+#include <set>
+
+namespace abut {
+namespace {
+
+using oracle::near;
+
+/// The positions of all points, sorted; to be compared with what was worked out by hand.
+template <int D>
+std::set<std::array<float, static_cast<std::size_t>(D)>> positions(const Contact<D>& contact) {
+    std::set<std::array<float, static_cast<std::size_t>(D)>> result;
+    for (const ContactPoint<D>& point : contact.points) {
+        std::array<float, static_cast<std::size_t>(D)> rounded;
+        for (int i = 0; i < D; ++i)
+            rounded[static_cast<std::size_t>(i)] = std::round(point.position[i] * 1e4f) / 1e4f + 0.0f;
+        result.insert(rounded);
+    }
+    return result;
+}
+
+TEST(Contact, OfApartShapesIsNone) {
+    const Contact<3> touch = contact(Sphere{{0, 0, 0}, 1}, Sphere{{3, 0, 0}, 1});
+    EXPECT_FALSE(touch);
+    EXPECT_TRUE(touch.points.empty());
+    EXPECT_TRUE(oracle::is_unit(touch.normal));
+}
+
+TEST(Contact, OfTwoCirclesIsMidway) {
+    const Contact<2> touch = contact(Circle{{0, 0}, 2}, Circle{{3, 0}, 2});
+    ASSERT_TRUE(touch);
+    EXPECT_FLOAT_EQ(touch.depth, 1);
+    EXPECT_TRUE(near(touch.normal, Vec2(1, 0)));
+    ASSERT_EQ(touch.points.size(), 1u);
+    EXPECT_TRUE(near(touch.points[0].position, Vec2(1.5f, 0)));
+    EXPECT_FLOAT_EQ(touch.points[0].depth, 1);
+}
+
+TEST(Contact, OfABoxOnABoxIsTheSharedSquare) {
+    // The upper box is smaller, stands half a unit off the middle, and is sunk in by 0.125.
+    const Box3 lower{{0, 0, 0}, {2, 1, 2}}, upper{{0.5f, 1.875f, 0}, {1, 1, 1}};
+    const Contact<3> touch = contact(lower, upper);
+    ASSERT_TRUE(touch);
+    EXPECT_FLOAT_EQ(touch.depth, 0.125f);
+    EXPECT_TRUE(near(touch.normal, Vec3(0, 1, 0)));
+    const float middle = 0.9375f;
+    EXPECT_EQ(positions(touch), (std::set<std::array<float, 3>>{
+                                    {-0.5f, middle, -1}, {-0.5f, middle, 1}, {1.5f, middle, -1}, {1.5f, middle, 1}}));
+    for (const auto& point : touch.points) EXPECT_FLOAT_EQ(point.depth, 0.125f);
+}
+
+TEST(Contact, OfTwoStackedSquaresIsTheSharedEdge) {
+    const Contact<2> touch = contact(Box2{{0, 0}, {1, 1}}, Box2{{0.5f, 2}, {1, 1}});
+    ASSERT_TRUE(touch);
+    EXPECT_FLOAT_EQ(touch.depth, 0);
+    EXPECT_EQ(positions(touch), (std::set<std::array<float, 2>>{{-0.5f, 1}, {1, 1}}));
+}
+
+TEST(Contact, OfABoxOnTheGroundIsItsFourLowerCorners) {
+    const HalfSpace3 ground{{0, 1, 0}, 0};
+    const Box3 box{{0, 0.875f, 0}, {1, 1, 2}};
+    const Contact<3> touch = contact(ground, box);
+    ASSERT_TRUE(touch);
+    EXPECT_FLOAT_EQ(touch.depth, 0.125f);
+    EXPECT_TRUE(near(touch.normal, Vec3(0, 1, 0)));
+    EXPECT_EQ(positions(touch), (std::set<std::array<float, 3>>{
+                                    {-1, -0.0625f, -2}, {-1, -0.0625f, 2}, {1, -0.0625f, -2}, {1, -0.0625f, 2}}));
+    EXPECT_TRUE(near(contact(box, ground).normal, Vec3(0, -1, 0)));
+}
+
+TEST(Contact, OfALyingCapsuleIsItsTwoEnds) {
+    const Capsule<3> capsule{{-1, 1.5f, 0}, {1, 1.5f, 0}, 0.75f};
+    const auto expected = std::set<std::array<float, 3>>{{-1, 0.875f, 0}, {1, 0.875f, 0}};
+    EXPECT_EQ(positions(contact(capsule, Box3{{0, 0, 0}, {4, 1, 4}})), expected);
+    EXPECT_EQ(positions(contact(capsule, HalfSpace3{{0, 1, 0}, 1})), expected);
+}
+
+TEST(Contact, OfCrossedAndOfParallelCapsules) {
+    const Capsule<3> along{{-2, 0, 0}, {2, 0, 0}, 0.5f};
+    const Contact<3> crossed = contact(along, Capsule<3>{{0, 0.75f, -2}, {0, 0.75f, 2}, 0.5f});
+    ASSERT_EQ(crossed.points.size(), 1u);
+    EXPECT_FLOAT_EQ(crossed.depth, 0.25f);
+    EXPECT_TRUE(near(crossed.points[0].position, Vec3(0, 0.375f, 0)));
+    const Contact<3> parallel = contact(along, Capsule<3>{{-1, 0.75f, 0}, {5, 0.75f, 0}, 0.5f});
+    EXPECT_FLOAT_EQ(parallel.depth, 0.25f);
+    EXPECT_EQ(positions(parallel), (std::set<std::array<float, 3>>{{-1, 0.375f, 0}, {2, 0.375f, 0}}));
+}
+
+TEST(Contact, OfACylinderOnItsEndHoldsItsRim) {
+    const Contact<3> touch = contact(Box3{{0, 0, 0}, {4, 1, 4}}, Cylinder{{0, 0.9375f, 0}, {0, 3, 0}, 1});
+    ASSERT_EQ(touch.points.size(), 4u);
+    EXPECT_NEAR(touch.depth, 0.0625, 1e-3);
+    for (const auto& point : touch.points) EXPECT_NEAR(length(DVec<3>(point.position)), std::hypot(1.0, 0.96875), 1e-3);
+}
+
+TEST(Contact, KeepsTheNamesOfItsPointsWhileTheSameCornersMeet) {
+    const Box3 lower{{0, 0, 0}, {2, 1, 2}};
+    const Contact<3> now = contact(lower, Box3{{0.5f, 1.875f, 0}, {1, 1, 1}});
+    const Contact<3> later = contact(lower, Box3{{0.52f, 1.87f, 0.01f}, {1, 1, 1}});
+    std::set<std::uint32_t> names, later_names;
+    for (const auto& point : now.points) names.insert(point.feature);
+    for (const auto& point : later.points) later_names.insert(point.feature);
+    EXPECT_EQ(names.size(), 4u);
+    EXPECT_EQ(names, later_names);
+}
+
+TEST(Contact, WithAMarginTellsNearMisses) {
+    const Box3 lower{{0, 0, 0}, {1, 1, 1}}, upper{{0, 2.125f, 0}, {1, 1, 1}};
+    EXPECT_FALSE(contact(lower, upper));
+    EXPECT_FALSE(contact(lower, upper, {.margin = 0.0625f}));
+    const Contact<3> miss = contact(lower, upper, {.margin = 0.25f});
+    ASSERT_EQ(miss.points.size(), 4u);
+    EXPECT_FLOAT_EQ(miss.depth, -0.125f);
+    for (const auto& point : miss.points) EXPECT_FLOAT_EQ(point.depth, -0.125f);
+}
+
+template <class T>
+class ContactLaws : public testing::Test {};
+using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(ContactLaws, Dimensions);
+
+TYPED_TEST(ContactLaws, HoldForEveryKindOfPair) {
+    constexpr int D = TypeParam::value;
+    int pairs = 0, touching = 0, with_several = 0;
+    for (int kind_a = 0; kind_a < oracle::kind_count; ++kind_a)
+        for (int kind_b = 0; kind_b < oracle::kind_count; ++kind_b)
+            for (int i = 0; i < oracle::amount(20); ++i) {
+                SCOPED_TRACE(testing::Message() << "seed " << pairs << ", kinds " << kind_a << " and " << kind_b);
+                oracle::Random random(static_cast<std::uint64_t>(pairs++));
+                const auto pair = oracle::random_pair<D>(random, static_cast<oracle::Kind>(kind_a),
+                                                         static_cast<oracle::Kind>(kind_b));
+                const auto& [a, b] = pair;
+                const double margin = margin_of_doubt(a.solid, b.solid);
+                const Closest<D> whole = closest(a.view, b.view);
+                const Contact<D> touch = contact(a.view, b.view);
+
+                EXPECT_TRUE(oracle::is_unit(touch.normal));
+                EXPECT_EQ(static_cast<bool>(touch), whole.distance <= 0);
+                touching += touch ? 1 : 0;
+                with_several += touch.points.size() > 1 ? 1 : 0;
+                if (!touch) continue;
+                EXPECT_EQ(touch.depth, -whole.distance);
+                EXPECT_EQ(touch.normal, whole.normal);
+                const DVec<D> normal(touch.normal);
+                double deepest = 0;
+                for (const ContactPoint<D>& point : touch.points) {
+                    const double depth = static_cast<double>(point.depth);
+                    deepest = std::max(deepest, depth);
+                    EXPECT_GE(depth, 0);
+                    EXPECT_LE(depth, static_cast<double>(touch.depth) + margin);
+                    // Half the depth either way is a point of A and a point of B.
+                    const double doubt = margin + 2 * oracle::rounding_of(point.position);
+                    for (const auto& [solid, side] : {std::pair{&a.solid, 0.5}, std::pair{&b.solid, -0.5}}) {
+                        auto surface = oracle::hull_of<D>({Vec<D>(0)});
+                        surface.place.offset = DVec<D>(point.position) + normal * (side * depth);
+                        EXPECT_LE(truth(*solid, surface, oracle::Arithmetic::rough).distance, doubt);
+                    }
+                }
+                EXPECT_NEAR(deepest, static_cast<double>(touch.depth), margin);
+            }
+    EXPECT_GT(touching, pairs * 3 / 10);
+    EXPECT_LT(touching, pairs * 7 / 10);
+    EXPECT_GT(with_several, pairs / 50);
+}
+
+}  // namespace
+}  // namespace abut

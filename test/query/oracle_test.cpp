@@ -1,0 +1,61 @@
+// overlaps and closest of every kind of pair against the oracle, on random and on degenerate input.
+
+#include "../oracle/check.hpp"
+#include "../oracle/degenerate.hpp"
+#include "../oracle/pair.hpp"
+
+namespace abut::oracle {
+namespace {
+
+template <class T>
+class Oracle : public testing::Test {};
+template <int D>
+using Dimension = std::integral_constant<int, D>;
+using Dimensions = testing::Types<Dimension<2>, Dimension<3>>;
+TYPED_TEST_SUITE(Oracle, Dimensions);
+
+/// A few failures tell the story; the rest would bury it.
+bool failed_enough() {
+    return testing::UnitTest::GetInstance()->current_test_info()->result()->total_part_count() > 20;
+}
+
+TYPED_TEST(Oracle, AgreesOnEveryKindOfPair) {
+    constexpr int D = TypeParam::value;
+    constexpr std::uint64_t first_seed = 20240501;
+    Tally tally;
+    for (int kind_a = 0; kind_a < kind_count; ++kind_a)
+        for (int kind_b = 0; kind_b < kind_count; ++kind_b)
+            for (int i = 0; i < amount(D == 2 ? 200 : 300) && !failed_enough(); ++i) {
+                const std::uint64_t seed = first_seed + static_cast<std::uint64_t>(tally.pairs);
+                SCOPED_TRACE(testing::Message() << "seed " << seed << ", kinds " << kind_a << " and " << kind_b);
+                Random random(seed);
+                const auto pair = random_pair<D>(random, static_cast<Kind>(kind_a), static_cast<Kind>(kind_b));
+                check_pair(pair.a, pair.b, tally);
+            }
+    this->RecordProperty("worst_of_margin", std::to_string(tally.worst_of_margin));
+    this->RecordProperty("worst_of_surface", std::to_string(tally.worst_of_surface));
+    EXPECT_GT(tally.overlapping_share(), 0.3);
+    EXPECT_LT(tally.overlapping_share(), 0.7);
+}
+
+TYPED_TEST(Oracle, AgreesOnDegeneratePairs) {
+    constexpr int D = TypeParam::value;
+    constexpr std::uint64_t first_seed = 777;
+    Tally tally;
+    for (int disturbance = 0; disturbance < disturbance_count; ++disturbance)
+        for (int i = 0; i < amount(3000) && !failed_enough(); ++i) {
+            const std::uint64_t seed = first_seed + static_cast<std::uint64_t>(tally.pairs);
+            SCOPED_TRACE(testing::Message() << "seed " << seed << ", disturbance " << disturbance);
+            Random random(seed);
+            LatticeMaker<D> maker(random, static_cast<Disturbance>(disturbance));
+            const Sample<D> a = maker.make(), b = maker.make();
+            check_pair(a, b, tally);
+        }
+    this->RecordProperty("worst_of_margin", std::to_string(tally.worst_of_margin));
+    EXPECT_GT(tally.overlapping_share(), 0.3);
+    EXPECT_LT(tally.overlapping_share(), 0.7);
+    EXPECT_GT(tally.rational, tally.pairs / 50) << "none of this is degenerate";
+}
+
+}  // namespace
+}  // namespace abut::oracle

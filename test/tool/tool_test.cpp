@@ -1,0 +1,339 @@
+// The tool as its users see it: arguments in, stdout, stderr and an exit code out.
+
+#include "../io/gltf_builder.hpp"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+
+namespace abut {
+namespace {
+
+using Json = nlohmann::json;
+using test::box_triangles;
+using test::GltfBuilder;
+
+struct Ran {
+    int code = -1;
+    std::string out, err;
+};
+
+class Tool : public test::SceneFiles {
+protected:
+    /// Each argument as one word, whatever is in it.
+    Ran run(const std::vector<std::string>& arguments) const {
+        std::string command = quoted(ABUT_TOOL_FILE);
+        for (const std::string& argument : arguments) command += " " + quoted(argument);
+        const std::filesystem::path out = folder() / "stdout";
+        const std::filesystem::path err = folder() / "stderr";
+        command += " >" + quoted(out.string()) + " 2>" + quoted(err.string());
+        const int status = std::system(command.c_str());
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(out), content(err)};
+    }
+
+    /// Bad input and bad usage look the same: nothing on stdout, one line on stderr, exit code 2.
+    std::string refusal(const std::vector<std::string>& arguments) const {
+        const Ran ran = run(arguments);
+        EXPECT_EQ(ran.code, 2);
+        EXPECT_EQ(ran.out, "");
+        EXPECT_TRUE(ran.err.starts_with("abut: ")) << ran.err;
+        EXPECT_TRUE(ran.err.ends_with("\n"));
+        EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
+        return ran.err.substr(0, ran.err.size() - (ran.err.empty() ? 0 : 1));
+    }
+    /// What the refusal of a file says behind its name.
+    std::string refusal_of(const std::string& name, std::string_view content) const {
+        const std::string file = write(name, content).string();
+        const std::string line = refusal({"check", file});
+        const std::string begins = "abut: " + file + ": ";
+        EXPECT_TRUE(line.starts_with(begins)) << line;
+        return line.substr(std::min(line.size(), begins.size()));
+    }
+
+    Json checked(const std::vector<std::string>& arguments, int code) const {
+        std::vector<std::string> all{"check", "--json"};
+        all.insert(all.end(), arguments.begin(), arguments.end());
+        const Ran ran = run(all);
+        EXPECT_EQ(ran.code, code) << ran.err;
+        EXPECT_EQ(ran.err, "");
+        return Json::parse(ran.out);
+    }
+
+    static std::string content(const std::filesystem::path& file) {
+        std::ostringstream text;
+        text << std::ifstream(file, std::ios::binary).rdbuf();
+        return text.str();
+    }
+
+private:
+    static std::string quoted(const std::string& word) {
+        std::string result = "'";
+        for (const char c : word) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+        return result + "'";
+    }
+};
+
+/// Boxes with edges of length 1 along x.
+std::string boxes_at(const std::vector<float>& xs) {
+    GltfBuilder builder;
+    const int mesh = builder.add_mesh("Box", box_triangles({0.5f, 0.5f, 0.5f}));
+    for (std::size_t i = 0; i < xs.size(); ++i) builder.add_node("Box " + std::to_string(i), mesh, {xs[i], 0, 0});
+    return builder.text();
+}
+
+TEST_F(Tool, HelpAndVersion) {
+    for (const char* option : {"--help", "--version"}) {
+        const Ran ran = run({option});
+        EXPECT_EQ(ran.code, 0);
+        EXPECT_EQ(ran.err, "");
+        EXPECT_NE(ran.out.find("abut"), std::string::npos);
+    }
+    const Ran check = run({"check", "--help"});
+    EXPECT_EQ(check.code, 0);
+    for (const char* option : {"--clearance", "--allow", "--baseline", "--frames", "--pairs", "--json"})
+        EXPECT_NE(check.out.find(option), std::string::npos) << option;
+}
+
+TEST_F(Tool, ExitsWith0WhenAllIsFine) {
+    const std::string file = write("fine.gltf", boxes_at({0, 1, 5})).string();
+    const Ran ran = run({"check", file});
+    EXPECT_EQ(ran.code, 0);
+    EXPECT_EQ(ran.err, "");
+    EXPECT_NE(ran.out.find("CLEAN"), std::string::npos) << ran.out;
+}
+
+TEST_F(Tool, ExitsWith1WhenSomethingIsFound) {
+    const std::string file = write("faulty.gltf", boxes_at({0, 0.75f, 5})).string();
+    const Ran ran = run({"check", file});
+    EXPECT_EQ(ran.code, 1);
+    EXPECT_EQ(ran.err, "");
+    EXPECT_NE(ran.out.find("Box 0  and  Box 1"), std::string::npos) << ran.out;
+    EXPECT_NE(ran.out.find("0.25 deep"), std::string::npos) << ran.out;
+    EXPECT_NE(ran.out.find("3 taken as convex solids, 0 as meshes"), std::string::npos) << ran.out;
+    EXPECT_NE(ran.out.find("1 tested of 3 possible"), std::string::npos) << ran.out;
+    EXPECT_NE(ran.out.find("FAULTS FOUND: 1 pair collides"), std::string::npos) << ran.out;
+}
+
+TEST_F(Tool, JsonSaysTheSameUnrounded) {
+    const std::string file = write("faulty.gltf", boxes_at({0, 0.9f, 5})).string();
+    const Json json = checked({file}, 1);
+    EXPECT_EQ(json["objects"], 3);
+    EXPECT_EQ(json["frames"], 1);
+    EXPECT_EQ(json["pairs"], 1);
+    for (const char* stage : {"read", "build", "check"}) EXPECT_TRUE(json["seconds"][stage].is_number()) << stage;
+    ASSERT_EQ(json["contacts"].size(), 1u);
+    const Json& contact = json["contacts"][0];
+    EXPECT_EQ(contact["a"], "Box 0");
+    EXPECT_EQ(contact["b"], "Box 1");
+    EXPECT_EQ(contact["frame"], 0);
+    EXPECT_EQ(contact["last_frame"], 0);
+    EXPECT_EQ(contact["normal"], Json({1.0, 0.0, 0.0}));
+    const auto distance = contact["distance"].get<double>();
+    EXPECT_NEAR(distance, -0.1, 1e-6);
+    EXPECT_EQ(static_cast<double>(static_cast<float>(distance)), distance) << "a float, with all its digits";
+    ASSERT_EQ(contact["points"].size(), 4u);
+    for (const Json& point : contact["points"]) EXPECT_EQ(point.size(), 3u);
+}
+
+TEST_F(Tool, BadFilesAreRefused) {
+    const std::string missing = (folder() / "missing.glb").string();
+    EXPECT_EQ(refusal({"check", missing}), "abut: " + missing + ": no such file");
+    EXPECT_EQ(refusal({"check", folder().string()}), "abut: " + folder().string() + ": is a directory");
+    EXPECT_EQ(refusal_of("empty.glb", ""), "is empty");
+    EXPECT_EQ(refusal_of("picture.png", "\x89PNG\r\n\x1a\n"), "'.png' is not a known scene format");
+
+    GltfBuilder whole;
+    whole.add_node("Crate", whole.add_mesh("Box", box_triangles({1, 1, 1})));
+    const std::string glb = whole.glb();
+    EXPECT_EQ(refusal_of("cut.glb", std::string_view(glb).substr(0, glb.size() / 2)),
+              "glTF container is truncated: " + std::to_string(glb.size() / 2) + " of " + std::to_string(glb.size()) +
+                  " bytes");
+
+    const auto box_with = [](auto&& change) {
+        GltfBuilder builder;
+        test::Triangles box = box_triangles({1, 1, 1});
+        change(box);
+        builder.add_node("Crate", builder.add_mesh("Box", box));
+        return builder.glb();
+    };
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_EQ(refusal_of("nan.glb", box_with([&](test::Triangles& box) { box.points[3].z = nan; })),
+              "mesh 'Box', vertex 3: coordinate is not finite");
+    EXPECT_EQ(refusal_of("index.glb", box_with([](test::Triangles& box) { box.triangles[2].y = 1000000; })),
+              "mesh 'Box', triangle 2: index 1000000 is out of range (8 vertices)");
+    const std::string flat = box_with([](test::Triangles& box) { box.triangles[5] = {1, 1, 2}; });
+    EXPECT_EQ(refusal_of("flat.glb", flat),
+              "mesh 'Box', triangle 5: zero area (--skip-degenerate leaves such triangles out)");
+    EXPECT_EQ(run({"check", "--skip-degenerate", write("flat.glb", flat).string()}).code, 0);
+
+    EXPECT_EQ(refusal_of("none.gltf", R"({"asset":{"version":"2.0"},"scenes":[{}],"scene":0})"),
+              "no triangles in it: 0 objects");
+
+    GltfBuilder circle;
+    circle.add_node("A", ",\"children\":[1]");
+    circle.add_node("B", ",\"children\":[0]");
+    EXPECT_EQ(refusal_of("circle.gltf", circle.text()), "node tree: node 'A' is part of a cycle");
+
+    GltfBuilder deep;
+    const int mesh = deep.add_mesh("Box", box_triangles({1, 1, 1}));
+    for (int i = 0; i < 9999; ++i)
+        deep.add_node("n" + std::to_string(i), ",\"children\":[" + std::to_string(i + 1) + "]");
+    deep.add_node("last", mesh);
+    EXPECT_EQ(refusal_of("deep.gltf", deep.text()),
+              "node tree is 10000 deep; the limit is 1000, passed at node 'n1000'");
+}
+
+TEST_F(Tool, BadUsageIsRefused) {
+    const std::string file = write("fine.gltf", boxes_at({0, 1})).string();
+    refusal({});
+    refusal({"check"});
+    EXPECT_EQ(refusal({"chekc", file}), "abut: 'chekc' is not a verb; abut --help lists them");
+    refusal({"check", file, "--unknown"});
+    refusal({"check", file, "again"});
+    EXPECT_EQ(refusal({"check", file, "--frames", "0"}), "abut: --frames: '0' is not a whole number from 1 to 1000000");
+    EXPECT_EQ(refusal({"check", file, "--allow", "-1"}), "abut: --allow: '-1' is not a number of at least 0");
+    EXPECT_EQ(refusal({"check", file, "--allow", "nan"}), "abut: --allow: 'nan' is not a number of at least 0");
+    EXPECT_EQ(refusal({"check", file, "--clearance", ""}), "abut: --clearance: '' is not a number of at least 0");
+    refusal({"check", file, "--pairs", "Box"});
+    EXPECT_EQ(refusal({"check", file, "--pairs", "Box*:Wal*"}),
+              "abut: " + file + ": --pairs: no object is named 'Wal*'");
+    refusal({"check", file, "--baseline", (folder() / "none.json").string()});
+}
+
+TEST_F(Tool, PairsMayBeGivenSeveralTimes) {
+    const std::string file = write("heap.gltf", boxes_at({0, 0.1f, 0.2f, 0.3f})).string();
+    EXPECT_EQ(checked({file}, 1)["contacts"].size(), 6u);
+    EXPECT_EQ(checked({file, "--pairs", "Box 0:Box 1"}, 1)["contacts"].size(), 1u);
+    EXPECT_EQ(checked({file, "--pairs", "Box 0:Box 1", "--pairs", "Box 3:Box ?"}, 1)["contacts"].size(), 4u);
+    EXPECT_EQ(checked({"--pairs", "Box 0:Box 1", file}, 1)["contacts"].size(), 1u);
+}
+
+TEST_F(Tool, AllowAndClearance) {
+    const std::string file = write("row.gltf", boxes_at({0, 0.75f, 2})).string();
+    EXPECT_EQ(checked({file, "--allow", "0.3"}, 0)["contacts"].size(), 0u);
+    EXPECT_EQ(checked({file, "--allow", "0.3", "--clearance", "0.5"}, 1)["contacts"].size(), 1u);
+    const Ran ran = run({"check", file, "--clearance", "0.5"});
+    EXPECT_NE(ran.out.find("FAULTS FOUND: 1 pair collides, 1 pair comes too near"), std::string::npos) << ran.out;
+}
+
+TEST_F(Tool, BaselineLeavesWhatIsNew) {
+    const auto baseline = [&](const std::string& content) { return write("old.json", content).string(); };
+    const std::string old = run({"check", "--json", write("old.gltf", boxes_at({0, 0.75f, 5})).string()}).out;
+
+    const std::string same = write("same.gltf", boxes_at({0, 0.75f, 5})).string();
+    Json json = checked({same, "--baseline", baseline(old)}, 0);
+    EXPECT_EQ(json["contacts"].size(), 0u);
+    EXPECT_EQ(json["known"], 1);
+
+    const std::string shallower = write("shallower.gltf", boxes_at({0, 0.8f, 5})).string();
+    checked({shallower, "--baseline", baseline(old)}, 0);
+
+    const std::string deeper = write("deeper.gltf", boxes_at({0, 0.7f, 5})).string();
+    json = checked({deeper, "--baseline", baseline(old)}, 1);
+    ASSERT_EQ(json["contacts"].size(), 1u);
+    checked({deeper, "--baseline", baseline(old), "--allow", "0.06"}, 0);
+
+    const std::string another = write("another.gltf", boxes_at({0, 0.75f, 1.5f})).string();
+    json = checked({another, "--baseline", baseline(old)}, 1);
+    ASSERT_EQ(json["contacts"].size(), 1u);
+    EXPECT_EQ(json["contacts"][0]["a"], "Box 1");
+    const Ran ran = run({"check", another, "--baseline", baseline(old)});
+    EXPECT_NE(ran.out.find("FAULTS FOUND: 1 pair collides that didn't before"), std::string::npos) << ran.out;
+
+    EXPECT_EQ(refusal({"check", same, "--baseline", baseline("{}")}),
+              "abut: " + baseline("{}") + ": is no report of `abut check --json`");
+    refusal({"check", same, "--baseline", baseline("")});
+    refusal({"check", same, "--baseline", baseline(R"({"contacts":[{"a":1}]})")});
+}
+
+TEST_F(Tool, BaselineKnowsMoments) {
+    const auto sliding = [](const std::vector<Vec3>& places) {
+        GltfBuilder builder;
+        const int mesh = builder.add_mesh("Box", box_triangles({0.5f, 0.5f, 0.5f}));
+        builder.add_node("Wall", mesh);
+        builder.add_node("Walker", mesh);
+        builder.add_motion(1, "Walk", {0, 1, 2, 3}, places);
+        return builder.text();
+    };
+    const std::string early = write("early.gltf", sliding({{0.5f, 0, 0}, {9, 0, 0}, {9, 0, 0}, {9, 0, 0}})).string();
+    const std::string late = write("late.gltf", sliding({{9, 0, 0}, {9, 0, 0}, {9, 0, 0}, {0.5f, 0, 0}})).string();
+    const std::string old = write("old.json", run({"check", "--json", early}).out).string();
+    checked({early, "--baseline", old}, 0);
+    const Json json = checked({late, "--baseline", old}, 1);
+    ASSERT_EQ(json["contacts"].size(), 1u);
+    EXPECT_EQ(json["contacts"][0]["frame"], 3);
+    EXPECT_EQ(json["contacts"][0]["time"], 3.0);
+}
+
+TEST_F(Tool, FramesLookBetweenTheKeys) {
+    GltfBuilder builder;
+    const int mesh = builder.add_mesh("Box", box_triangles({0.5f, 0.5f, 0.5f}));
+    builder.add_node("Wall", mesh);
+    builder.add_node("Walker", mesh);
+    builder.add_motion(1, "Walk", {0, 1}, {{-5, 0, 0}, {5, 0, 0}});
+    const std::string file = write("walk.gltf", builder.text()).string();
+    Json json = checked({file}, 0);
+    EXPECT_EQ(json["frames"], 2);
+    EXPECT_EQ(json["warnings"].size(), 1u) << "says that there is much between the keys";
+    json = checked({file, "--frames", "31"}, 1);
+    EXPECT_EQ(json["frames"], 31);
+    ASSERT_EQ(json["contacts"].size(), 1u);
+    EXPECT_EQ(json["contacts"][0]["deepest_frame"], 15);
+    EXPECT_EQ(json["contacts"][0]["deepest_time"], 0.5);
+}
+
+TEST_F(Tool, InfoTellsWhatIsThere) {
+    GltfBuilder builder;
+    builder.add_node("Crate", builder.add_mesh("Box", box_triangles({1, 2, 3})));
+    test::Triangles sheet = box_triangles({1, 1, 1});
+    sheet.triangles.resize(2);
+    builder.add_node("Sheet", builder.add_mesh("Sheet", sheet));
+    const std::string file = write("two.gltf", builder.text()).string();
+    const Ran text = run({"info", file});
+    EXPECT_EQ(text.code, 0);
+    EXPECT_NE(text.out.find("2: 1 convex solids, 1 meshes"), std::string::npos) << text.out;
+    const Json json = Json::parse(run({"info", "--json", file}).out);
+    ASSERT_EQ(json["objects"].size(), 2u);
+    EXPECT_EQ(json["objects"][0]["name"], "Crate");
+    EXPECT_EQ(json["objects"][0]["kind"], "solid");
+    EXPECT_EQ(json["objects"][0]["triangles"], 12);
+    EXPECT_EQ(json["objects"][0]["max"], Json({1.0, 2.0, 3.0}));
+    EXPECT_EQ(json["objects"][1]["kind"], "mesh");
+    refusal({"info", (folder() / "missing.glb").string()});
+}
+
+// What the script that wrote the level says is wrong with it is what is found: no less, and no more.
+TEST_F(Tool, FindsTheFaultsOfTheBundledLevel) {
+    const std::string scene = (folder() / "level.gltf").string();
+    const std::string faults_file = (folder() / "faults.json").string();
+    const std::string script = ABUT_SOURCE_FOLDER "/scenes/make_level.py";
+    ASSERT_EQ(std::system(("python3 -B '" + script + "' '" + scene + "' --faults '" + faults_file + "'").c_str()), 0);
+    const Json faults = Json::parse(content(faults_file));
+    const Json json = checked({scene}, 1);
+    EXPECT_GE(json["objects"], 40);
+    EXPECT_LT(json["pairs"].get<double>(), 0.01 * json["possible_pairs"].get<double>());
+    ASSERT_EQ(json["contacts"].size(), faults.size());
+    ASSERT_GT(faults.size(), 10u);
+    for (const Json& fault : faults) {
+        const auto found = std::find_if(json["contacts"].begin(), json["contacts"].end(), [&](const Json& contact) {
+            return (contact["a"] == fault["a"] && contact["b"] == fault["b"]) ||
+                   (contact["a"] == fault["b"] && contact["b"] == fault["a"]);
+        });
+        ASSERT_NE(found, json["contacts"].end()) << fault;
+        EXPECT_NEAR((*found)["time"].get<double>(), fault["from"].get<double>(), 1e-6) << fault;
+        EXPECT_NEAR((*found)["last_time"].get<double>(), fault["to"].get<double>(), 1e-6) << fault;
+        EXPECT_NEAR((*found)["distance"].get<double>(), -fault["depth"].get<double>(), 0.005) << fault;
+    }
+}
+
+}  // namespace
+}  // namespace abut

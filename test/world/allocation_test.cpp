@@ -1,0 +1,154 @@
+// What allocates nothing: an update of a world that has seen as much before, and questions that return no list.
+// This program's operator new counts.
+
+#include "simulation.hpp"
+
+#include <cstdlib>
+#include <new>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+thread_local long allocations = 0;
+
+void* counted(std::size_t size, std::size_t alignment) {
+    ++allocations;
+    void* result = std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+    if (result == nullptr) std::abort();
+    return result;
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) {
+    return counted(size, __STDCPP_DEFAULT_NEW_ALIGNMENT__);
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+    return counted(size, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::align_val_t) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+    std::free(memory);
+}
+
+namespace abut::test {
+namespace {
+
+template <class F>
+long allocations_of(F&& work) {
+    const long before = allocations;
+    work();
+    return allocations - before;
+}
+
+TEST(Allocation, IsCounted) {
+    EXPECT_EQ(allocations_of([] { std::vector<int>(1).resize(1000); }), 2);
+    World2 world;
+    EXPECT_GT(allocations_of([&] { world.add(Circle{{0, 0}, 1}); }), 0);
+    EXPECT_GT(allocations_of([&] { world.update(); }), 0);
+}
+
+/// A lap of poses for every item, with a pause here and there.
+template <int D>
+std::vector<std::vector<std::pair<Id, Pose<D>>>> lap(Simulation<D>& game, int frames) {
+    std::vector<std::vector<std::pair<Id, Pose<D>>>> result(static_cast<std::size_t>(frames));
+    for (auto& moves : result)
+        for (const auto& [id, item] : game.reference.items())
+            if (game.random().chance(item.options.fixed ? 0.01 : 0.6)) moves.emplace_back(id, game.any_pose());
+    return result;
+}
+
+template <int D>
+void expect_later_laps_allocate_nothing(std::uint64_t seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Simulation<D> game(seed, 60);
+    const auto moves = lap<D>(game, 51);
+    const auto run_a_lap = [&] {
+        long result = 0;
+        std::size_t most = 0;
+        for (const auto& frame : moves) {
+            for (const auto& [id, pose] : frame) game.world.move(id, pose);
+            result += allocations_of([&] { game.world.update(); });
+            most = std::max(most, game.world.contacts().size());
+        }
+        EXPECT_GT(most, 10u);
+        return result;
+    };
+    EXPECT_GT(run_a_lap(), 0);
+    EXPECT_EQ(run_a_lap(), 0);
+    EXPECT_EQ(run_a_lap(), 0);
+}
+
+TEST(Allocation, UpdateAllocatesNothingOnceWarm) {
+    expect_later_laps_allocate_nothing<2>(1);
+    expect_later_laps_allocate_nothing<3>(2);
+}
+
+// The lists of events had to grow one by one, each when it was first long; so had those that take turns.
+TEST(Allocation, OneUpdateOfThisSizeIsEnough) {
+    World2 world;
+    std::vector<Id> ids;
+    for (int i = 0; i < 40; ++i) ids.push_back(world.add(Circle{{0, 0}, 1}, {.fixed = i % 4 == 0}));
+    world.update();
+    const std::size_t pairs = world.contacts().size();
+    EXPECT_GT(pairs, 700u);
+    const auto update = [&] { return allocations_of([&] { world.update(); }); };
+    const auto move_all = [&](bool apart) {
+        for (std::size_t i = 0; i < ids.size(); ++i) world.move(ids[i], {{apart ? 3 * static_cast<float>(i) : 0, 0}});
+    };
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_EQ(update(), 0) << "all stay";
+        move_all(true);
+        EXPECT_EQ(update(), 0) << "all end";
+        EXPECT_TRUE(world.contacts().empty());
+        move_all(false);
+        EXPECT_EQ(update(), 0) << "all begin";
+        EXPECT_EQ(world.contacts().size(), pairs);
+        // Others in the same slots.
+        for (Id& id : ids) {
+            world.remove(id);
+            id = world.add(Box2{{0, 0}, {1, 1}}, {.fixed = id.index % 4 == 0});
+        }
+        EXPECT_EQ(update(), 0) << "all end, and as many begin";
+    }
+}
+
+template <int D>
+void expect_questions_allocate_nothing(std::uint64_t seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Simulation<D> game(seed, 60);
+    int found = 0;
+    for (int i = 0; i < 200; ++i) {
+        if (i == 100) game.world.update();
+        const Vec<D> from = game.any_point(), to = game.any_point();
+        const Ray<D> ray = Ray<D>::between(from, to);
+        game.with_any_shape([&](const auto& shape) {
+            const auto placed = at(shape, random_pose<D>(game.random(), Simulation<D>::extent));
+            EXPECT_EQ(allocations_of([&] {
+                          found += game.world.raycast(ray) ? 1 : 0;
+                          found += game.world.closest(placed) ? 1 : 0;
+                          found += game.world.closest(from) ? 1 : 0;
+                          game.world.each_overlapping(placed, [&](Id) { ++found; });
+                      }),
+                      0);
+        });
+    }
+    EXPECT_GT(found, 600);
+}
+
+TEST(Allocation, QuestionsThatReturnNoListAllocateNothing) {
+    expect_questions_allocate_nothing<2>(3);
+    expect_questions_allocate_nothing<3>(4);
+}
+
+}  // namespace
+}  // namespace abut::test

@@ -1,0 +1,136 @@
+// The same calls give the same bits, and what order items were added in shows in their ids alone.
+
+#include "bits.hpp"
+#include "simulation.hpp"
+
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+namespace abut::test {
+namespace {
+
+/// All that a world says in the course of a game.
+template <int D>
+Bits record(std::uint64_t seed) {
+    Simulation<D> game(seed, 30);
+    Bits result;
+    for (int frame = 0; frame < 40; ++frame) {
+        const Events events = game.world.update();
+        result.put(events.began);
+        result.put(events.stayed);
+        result.put(events.ended);
+        result.put(game.world.contacts());
+        game.change();
+        const Vec<D> from = game.any_point(), to = game.any_point();
+        result.put(game.world.raycast_all(Ray<D>::between(from, to)));
+        result.put(game.world.closest(from));
+        result.put(game.world.overlapping(Ball<D>{to, 1}));
+        // In no promised order, and yet in the same one.
+        game.world.each_overlapping(Ball<D>{to, 2}, [&](Id id) { result.put(id); });
+    }
+    return result;
+}
+
+TEST(Determinism, SameCallsGiveTheSameBits) {
+    EXPECT_EQ(record<2>(1), record<2>(1));
+    EXPECT_EQ(record<3>(2), record<3>(2));
+    EXPECT_NE(record<2>(1), record<2>(3));
+}
+
+/// A scene whose items know their number by `user`, added in some order.
+template <int D>
+class Scene {
+public:
+    Scene(std::uint64_t seed, std::span<const std::uint32_t> order) : ids_(order.size()) {
+        for (const std::uint32_t i : order) {
+            oracle::Random random(seed + i);
+            const Pose<D> pose = random_pose<D>(random, Simulation<D>::extent);
+            with_random_shape<D>(random, random_kind<D>(random), [&](const auto& shape) {
+                ids_[i] = world.add(shape, {.pose = pose, .user = i, .fixed = i % 4 == 0, .sensor = i % 7 == 0});
+            });
+        }
+    }
+
+    void move(std::uint32_t number, const Pose<D>& pose) { world.move(ids_[number], pose); }
+    std::uint32_t number(Id id) const { return static_cast<std::uint32_t>(world.user(id)); }
+
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> numbers(std::span<const IdPair> pairs) const {
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> result;
+        for (const IdPair& pair : pairs) result.push_back(std::minmax(number(pair.a), number(pair.b)));
+        std::sort(result.begin(), result.end());
+        return result;
+    }
+    std::vector<std::uint32_t> numbers(const std::vector<Id>& ids) const {
+        std::vector<std::uint32_t> result;
+        for (const Id id : ids) result.push_back(number(id));
+        std::sort(result.begin(), result.end());
+        return result;
+    }
+
+    /// By distance, then by number: where a ray starts inside of several, the lowest id comes first.
+    std::vector<std::pair<float, std::uint32_t>> hits(const Ray<D>& ray) const {
+        std::vector<std::pair<float, std::uint32_t>> result;
+        for (const WorldHit<D>& each : world.raycast_all(ray)) result.emplace_back(each.hit.distance, number(each.id));
+        const auto first = world.raycast(ray);
+        EXPECT_EQ(first.has_value(), !result.empty());
+        EXPECT_TRUE(!first || first->hit.distance == result.front().first);
+        std::sort(result.begin(), result.end());
+        return result;
+    }
+
+    World<D> world;
+
+private:
+    std::vector<Id> ids_;
+};
+
+template <int D>
+void expect_same_in_any_order(std::uint64_t seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::vector<std::uint32_t> order(40);
+    std::iota(order.begin(), order.end(), 0u);
+    Scene<D> straight(seed, order);
+    oracle::Random random(seed);
+    for (std::uint32_t i = 40; i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
+    Scene<D> shuffled(seed, order);
+    std::size_t began = 0, ended = 0, hits = 0;
+    for (int frame = 0; frame < 30; ++frame) {
+        const Events one = straight.world.update(), other = shuffled.world.update();
+        ASSERT_EQ(straight.numbers(one.began), shuffled.numbers(other.began));
+        ASSERT_EQ(straight.numbers(one.stayed), shuffled.numbers(other.stayed));
+        ASSERT_EQ(straight.numbers(one.ended), shuffled.numbers(other.ended));
+        began += one.began.size();
+        ended += one.ended.size();
+        const Vec<D> from = to_float(random.in_cube<D>() * 4.0), to = to_float(random.in_cube<D>() * 4.0);
+        const Ray<D> ray = Ray<D>::between(from, to);
+        const auto all = straight.hits(ray);
+        ASSERT_EQ(all, shuffled.hits(ray));
+        hits += all.size();
+        const auto nearest = straight.world.closest(from), same_nearest = shuffled.world.closest(from);
+        ASSERT_TRUE(nearest && same_nearest);
+        ASSERT_EQ(straight.number(nearest->id), shuffled.number(same_nearest->id));
+        ASSERT_EQ(Bits(nearest->closest), Bits(same_nearest->closest));
+        const Ball<D> ball{to, 1};
+        ASSERT_EQ(straight.numbers(straight.world.overlapping(ball)),
+                  shuffled.numbers(shuffled.world.overlapping(ball)));
+        ASSERT_EQ(straight.numbers(straight.world.containing(to)), shuffled.numbers(shuffled.world.containing(to)));
+        for (std::uint32_t i = 0; i < 40; ++i) {
+            if (random.chance(0.5)) continue;
+            const Pose<D> pose = random_pose<D>(random, Simulation<D>::extent);
+            straight.move(i, pose);
+            shuffled.move(i, pose);
+        }
+    }
+    EXPECT_GT(began, 100u);
+    EXPECT_GT(ended, 100u);
+    EXPECT_GT(hits, 30u);
+}
+
+TEST(Determinism, OrderOfAddingShowsInIdsAlone) {
+    expect_same_in_any_order<2>(100);
+    expect_same_in_any_order<3>(200);
+}
+
+}  // namespace
+}  // namespace abut::test

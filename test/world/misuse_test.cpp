@@ -1,0 +1,161 @@
+// Misuse of a world: stale and null ids, numbers that aren't. Where assertions are on, each trips exactly one; where
+// they are off, and where the user's own assert_failed returns, the answer is the neutral one and nothing else happens.
+
+#include "bits.hpp"
+#include "random_shapes.hpp"
+#include <abut/math/assert.hpp>
+#include <abut/world/world.hpp>
+
+#include <functional>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+bool expected = false;
+int trips = 0;
+
+}  // namespace
+
+// For all tests of this program: an assertion that no test waits for is a failure.
+void abut::assert_failed(const char* expression, const char* file, int line) {
+    if (expected)
+        ++trips;
+    else
+        ADD_FAILURE_AT(file, line) << "assertion failed: " << expression;
+}
+
+namespace abut::test {
+namespace {
+
+#if defined(NDEBUG) && !defined(ABUT_ENABLE_ASSERTS)
+constexpr int once = 0;
+#else
+constexpr int once = 1;
+#endif
+
+int trips_of(const std::function<void()>& misuse) {
+    trips = 0;
+    expected = true;
+    misuse();
+    expected = false;
+    return trips;
+}
+
+const Circle unit{{0, 0}, 1};
+constexpr float infinity = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+const Vec2 nowhere(nan, 0);
+
+/// Everything that takes an id, with an id that names nothing.
+void expect_caught(World2& world, Id id) {
+    EXPECT_FALSE(world.contains(id));
+    EXPECT_EQ(trips_of([&] { world.move(id, {{5, 5}}); }), once);
+    EXPECT_EQ(trips_of([&] { world.set_shape(id, Circle{{5, 5}, 3}); }), once);
+    EXPECT_EQ(trips_of([&] { world.set_filter(id, 0, 0); }), once);
+    EXPECT_EQ(trips_of([&] { world.remove(id); }), once);
+    EXPECT_EQ(trips_of([&] { EXPECT_EQ(world.user(id), 0u); }), once);
+    EXPECT_EQ(trips_of([&] { EXPECT_EQ(world.pose(id), Pose2{}); }), once);
+    EXPECT_EQ(trips_of([&] { EXPECT_TRUE(std::holds_alternative<Convex<2>>(world.shape(id))); }), once);
+    EXPECT_EQ(trips_of([&] { world.overlapping(unit, {.ignore = id}); }), 0) << "to ignore nobody is no misuse";
+}
+
+TEST(Misuse, NamesOfNothingAreCaughtAndHurtNobody) {
+    World2 world;
+    expect_caught(world, {});
+    const Id gone = world.add(unit, {.user = 1}), held = world.add(unit, {.user = 2});
+    EXPECT_FALSE(Id{});
+    EXPECT_TRUE(gone);
+    world.remove(gone);
+    const auto check = [&] {
+        SCOPED_TRACE("slot " + std::to_string(gone.index));
+        expect_caught(world, {});
+        expect_caught(world, gone);
+        expect_caught(world, {held.index, held.generation + 1});
+        expect_caught(world, {1000, 1});
+        expect_caught(world, {std::numeric_limits<std::uint32_t>::max(), 1});
+        expect_caught(world, {0, 1});
+    };
+    check();
+    world.update();
+    check();
+    const Id next = world.add(unit, {.pose = {{0.5f, 0}}, .user = 3});
+    EXPECT_EQ(next.index, gone.index);
+    EXPECT_NE(next, gone);
+    check();
+    EXPECT_EQ(world.size(), 2u);
+    EXPECT_EQ(world.user(held), 2u);
+    EXPECT_EQ(world.pose(held), Pose2{});
+    EXPECT_EQ(world.user(next), 3u);
+    EXPECT_EQ(world.pose(next).position, Vec2(0.5f, 0));
+    EXPECT_EQ(world.update().began.size(), 1u);
+    check();
+    EXPECT_EQ(world.update().stayed.size(), 1u);
+}
+
+TEST(Misuse, QuestionsThatAreNotFiniteHaveNoAnswer) {
+    World2 world;
+    const auto check = [&] {
+        EXPECT_EQ(trips_of([&] { EXPECT_FALSE(world.raycast({nowhere, {1, 0}, 1})); }), once);
+        EXPECT_EQ(trips_of([&] { EXPECT_FALSE(world.raycast({{0, 0}, nowhere, 1})); }), once);
+        EXPECT_EQ(trips_of([&] { EXPECT_FALSE(world.raycast({{0, 0}, {1, 0}, nan})); }), once);
+        EXPECT_EQ(trips_of([&] { EXPECT_TRUE(world.raycast_all({{infinity, 0}, {1, 0}, 1}).empty()); }), once);
+        EXPECT_EQ(trips_of([&] { EXPECT_FALSE(world.closest(nowhere)); }), once);
+        EXPECT_EQ(trips_of([&] { EXPECT_FALSE(world.closest(Circle{{0, 0}, infinity})); }), once);
+        EXPECT_EQ(trips_of([&] { EXPECT_TRUE(world.overlapping(Circle{nowhere, 1}).empty()); }), once);
+        EXPECT_EQ(trips_of([&] { EXPECT_TRUE(world.overlapping(HalfSpace2{{1, 0}, nan}).empty()); }), once);
+        EXPECT_EQ(trips_of([&] { world.each_overlapping(Circle{nowhere, 1}, [](Id) { FAIL(); }); }), once);
+        EXPECT_EQ(trips_of([&] { EXPECT_TRUE(world.containing(nowhere).empty()); }), once);
+    };
+    check();
+    for (int i = 0; i < 10; ++i) world.add(unit, {.fixed = i % 2 == 0});
+    world.add(HalfSpace2{{0, 1}, 0}, {.fixed = true});
+    check();
+    world.update();
+    check();
+}
+
+/// An item that isn't finite is there by its id, and touches nothing.
+void expect_nowhere(World2& world, Id id) {
+    const auto check = [&] {
+        EXPECT_TRUE(world.contains(id));
+        EXPECT_FALSE(world.raycast({{-10, 0}, {1, 0}, 100}));
+        EXPECT_FALSE(world.closest(unit));
+        EXPECT_FALSE(world.closest(Vec2(0, 0)));
+        EXPECT_TRUE(world.overlapping(unit).empty());
+        EXPECT_TRUE(world.overlapping(HalfSpace2{{0, 1}, 1}).empty());
+        EXPECT_TRUE(world.containing({0, 0}).empty());
+    };
+    check();
+    EXPECT_TRUE(world.update().began.empty());
+    EXPECT_TRUE(world.contacts().empty());
+    check();
+}
+
+TEST(Misuse, ItemsThatAreNotFiniteAreNowhere) {
+    for (const bool fixed : {false, true}) {
+        World2 world;
+        Id id;
+        EXPECT_EQ(trips_of([&] { id = world.add(Circle{nowhere, 1}, {.fixed = fixed}); }), once);
+        expect_nowhere(world, id);
+        EXPECT_EQ(trips_of([&] { world.move(id, {{1, 1}}); }), once) << "still a shape without a place";
+        expect_nowhere(world, id);
+        world.set_shape(id, unit);
+        EXPECT_EQ(world.containing({1, 1}), std::vector{id});
+
+        const Id other = world.add(unit);
+        EXPECT_EQ(world.update().began.size(), 1u);
+        EXPECT_EQ(trips_of([&] { world.move(id, {{0, infinity}}); }), once);
+        EXPECT_EQ(trips_of([&] { world.move(other, {nowhere}); }), once);
+        EXPECT_EQ(world.containing({0, 0}), std::vector<Id>{});
+        EXPECT_EQ(world.update().ended.size(), 1u);
+        expect_nowhere(world, id);
+        expect_nowhere(world, other);
+        world.move(id, {});
+        world.move(other, {});
+        EXPECT_EQ(world.update().began.size(), 1u);
+    }
+}
+
+}  // namespace
+}  // namespace abut::test

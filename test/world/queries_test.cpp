@@ -1,0 +1,229 @@
+// Questions to a world, with answers worked out by hand; each asked before the update that takes the items into the
+// trees, and again after it.
+
+#include "bits.hpp"
+#include "random_shapes.hpp"
+#include <abut/world/world.hpp>
+
+#include <gtest/gtest.h>
+
+namespace abut::test {
+namespace {
+
+/// Runs the checks on the world as it is, and once more after an update.
+template <int D, class Check>
+void before_and_after_update(World<D>& world, Check check) {
+    {
+        SCOPED_TRACE("before the update");
+        check();
+    }
+    world.update();
+    {
+        SCOPED_TRACE("after the update");
+        check();
+    }
+}
+
+Pose2 place(float x, float y = 0) {
+    return {{x, y}};
+}
+
+const Circle unit{{0, 0}, 1};
+const Ray2 to_the_right{{-10, 0}, {1, 0}, 100};
+
+TEST(Queries, EmptyWorldHasNoAnswers) {
+    World2 world;
+    before_and_after_update(world, [&] {
+        EXPECT_FALSE(world.raycast(to_the_right));
+        EXPECT_TRUE(world.raycast_all(to_the_right).empty());
+        EXPECT_FALSE(world.closest(Vec2(0, 0)));
+        EXPECT_TRUE(world.overlapping(unit).empty());
+        EXPECT_TRUE(world.containing({0, 0}).empty());
+    });
+}
+
+TEST(Queries, RayMeetsItemsFromNearToFar) {
+    World2 world;
+    const Id far = world.add(unit, {.pose = place(8)}), near = world.add(unit, {.pose = place(-4)}),
+             between = world.add(unit, {.pose = place(2), .fixed = true});
+    world.add(unit, {.pose = place(0, 5)});
+    before_and_after_update(world, [&] {
+        const auto first = world.raycast(to_the_right);
+        ASSERT_TRUE(first);
+        EXPECT_EQ(first->id, near);
+        EXPECT_EQ(first->hit.distance, 5);
+        EXPECT_EQ(first->hit.fraction, 0.05f);
+        EXPECT_EQ(first->hit.point, Vec2(-5, 0));
+        EXPECT_EQ(first->hit.normal, Vec2(-1, 0));
+        const auto all = world.raycast_all(to_the_right);
+        ASSERT_EQ(all.size(), 3u);
+        EXPECT_EQ(all[0].id, near);
+        EXPECT_EQ(all[1].id, between);
+        EXPECT_EQ(all[1].hit.distance, 11);
+        EXPECT_EQ(all[2].id, far);
+        EXPECT_EQ(all[2].hit.distance, 17);
+        EXPECT_FALSE(world.raycast({{-10, 0}, {1, 0}, 4.5f}));
+    });
+}
+
+TEST(Queries, OfEquallyNearTheLowestIdAnswers) {
+    World2 world;
+    std::vector<Id> ids;
+    for (int i = 0; i < 20; ++i) ids.push_back(world.add(unit, {.fixed = i % 3 == 0}));
+    const auto check = [&] {
+        EXPECT_EQ(world.raycast(to_the_right)->id, ids.front());
+        const auto all = world.raycast_all(to_the_right);
+        EXPECT_TRUE(std::equal(all.begin(), all.end(), ids.begin(), ids.end(),
+                               [](const WorldHit<2>& hit, Id id) { return hit.id == id; }));
+        EXPECT_EQ(world.closest(Vec2(3, 0))->id, ids.front());
+        EXPECT_EQ(world.closest(unit)->id, ids.front());
+        EXPECT_EQ(world.overlapping(unit), ids);
+        EXPECT_EQ(world.containing({0, 0}), ids);
+    };
+    before_and_after_update(world, check);
+    // The lowest is among those that have moved, and then alone in not having moved.
+    world.move(ids.front(), place(5));
+    world.move(ids.front(), place(0));
+    check();
+    world.update();
+    for (const Id id : ids)
+        if (id != ids.front()) world.move(id, {{0, 0}, Turn{0, 1}});
+    check();
+}
+
+TEST(Queries, ClosestIsSignedAndFromTheAskingSide) {
+    World2 world;
+    const Id left = world.add(unit, {.pose = place(-5)}), right = world.add(unit, {.pose = place(4), .fixed = true});
+    before_and_after_update(world, [&] {
+        const auto gap = world.closest(Circle{{0, 0}, 0.5f});
+        ASSERT_TRUE(gap);
+        EXPECT_EQ(gap->id, right);
+        EXPECT_EQ(gap->closest.distance, 2.5f);
+        EXPECT_EQ(gap->closest.normal, Vec2(1, 0));
+        EXPECT_EQ(gap->closest.on_a, Vec2(0.5f, 0));
+        EXPECT_EQ(gap->closest.on_b, Vec2(3, 0));
+        const auto inside = world.closest(Vec2(-5.5f, 0));
+        ASSERT_TRUE(inside);
+        EXPECT_EQ(inside->id, left);
+        EXPECT_EQ(inside->closest.distance, -0.5f);
+        // Farther from one than from the other by its depth in it alone.
+        EXPECT_EQ(world.closest(Capsule2{{-5, 0}, {4, 0}, 0.25f}, {.ignore = left})->id, right);
+    });
+}
+
+TEST(Queries, FilterPicksByLayersMaskSensorsAndId) {
+    World2 world;
+    const Id plain = world.add(unit), ghost = world.add(unit, {.sensor = true}),
+             wall = world.add(unit, {.layers = 2, .fixed = true}), picky = world.add(unit, {.mask = 4});
+    using Ids = std::vector<Id>;
+    before_and_after_update(world, [&] {
+        const auto found = [&](const Filter& filter) {
+            const Ids ids = world.overlapping(unit, filter);
+            EXPECT_EQ(world.containing({0, 0}, filter), ids);
+            Ids hit;
+            for (const WorldHit<2>& each : world.raycast_all(to_the_right, filter)) hit.push_back(each.id);
+            EXPECT_EQ(hit, ids);
+            EXPECT_EQ(world.raycast(to_the_right, filter).has_value(), !ids.empty());
+            const auto nearest = world.closest(unit, filter);
+            EXPECT_EQ(nearest ? nearest->id : Id{}, ids.empty() ? Id{} : ids.front());
+            return ids;
+        };
+        EXPECT_EQ(found({}), (Ids{plain, wall, picky}));
+        EXPECT_EQ(found({.sensors = true}), (Ids{plain, ghost, wall, picky}));
+        EXPECT_EQ(found({.layers = 1}), (Ids{plain, wall}));
+        EXPECT_EQ(found({.layers = 4}), (Ids{plain, wall, picky}));
+        EXPECT_EQ(found({.mask = 2}), Ids{wall});
+        EXPECT_EQ(found({.mask = 8}), Ids{});
+        EXPECT_EQ(found({.ignore = plain}), (Ids{wall, picky}));
+    });
+}
+
+TEST(Queries, SeeEveryChangeAtOnce) {
+    World2 world;
+    const Id id = world.add(unit);
+    world.update();
+    const Vec2 here(0, 0), there(20, 0);
+    world.move(id, place(20));
+    EXPECT_TRUE(world.containing(here).empty());
+    EXPECT_EQ(world.containing(there), std::vector{id});
+    world.set_shape(id, Circle{{-20, 0}, 1});
+    EXPECT_EQ(world.containing(here), std::vector{id});
+    world.set_filter(id, 2, 2);
+    EXPECT_TRUE(world.containing(here, {.layers = 1}).empty());
+    EXPECT_EQ(world.containing(here, {.layers = 2}), std::vector{id});
+    world.remove(id);
+    EXPECT_TRUE(world.containing(here).empty());
+    const Id next = world.add(unit);
+    EXPECT_EQ(world.containing(here), std::vector{next});
+    world.update();
+    EXPECT_EQ(world.containing(here), std::vector{next});
+}
+
+TEST(Queries, VisitorsStopOrGoOn) {
+    World2 world;
+    for (int i = 0; i < 10; ++i) world.add(unit, {.fixed = i % 2 == 0});
+    before_and_after_update(world, [&] {
+        int visits = 0;
+        world.each_overlapping(unit, [&](Id) { ++visits; });
+        EXPECT_EQ(visits, 10);
+        for (int most = 1; most <= 10; ++most) {
+            visits = 0;
+            world.each_overlapping(unit, [&](Id) { return ++visits < most; });
+            EXPECT_EQ(visits, most);
+        }
+    });
+}
+
+TEST(Queries, HalfSpacesReachEverywhereAndDontPair) {
+    World2 world;
+    const Id ground = world.add(HalfSpace2{{0, 1}, 0}, {.fixed = true}), ball = world.add(unit, {.pose = place(0, 5)});
+    before_and_after_update(world, [&] {
+        EXPECT_EQ(world.containing({1e6f, -1e6f}), std::vector{ground});
+        EXPECT_EQ(world.overlapping(Circle{{-3e5f, 1}, 1}), std::vector{ground});
+        EXPECT_EQ(world.closest(Vec2(1e6f, 2))->id, ground);
+        EXPECT_EQ(world.raycast({{700, 3}, {0, -1}})->hit.distance, 3);
+        const HalfSpace2 asked{{0, -1}, -1};
+        EXPECT_EQ(world.overlapping(asked), std::vector{ball});
+        EXPECT_EQ(world.closest(asked)->id, ball);
+        EXPECT_EQ(world.closest(asked)->closest.distance, -5);
+    });
+}
+
+// A ray that passes a shape within the rounding of a raycast counts as a hit, though it misses the shape's box; it did
+// so only until the shape had gone into the tree.
+TEST(Queries, GrazingRayHitsBeforeAndAfterTheUpdate) {
+    const Segment2 segment{{2, -3}, {3, -2}};
+    const Ray2 grazing{{-2.5f, -1}, {0.913811564f, -0.40613848f}, 10};
+    const auto expected = raycast(grazing, segment);
+    ASSERT_TRUE(expected);
+    for (const bool fixed : {false, true}) {
+        World2 world;
+        world.add(segment, {.fixed = fixed});
+        before_and_after_update(world, [&] {
+            const auto found = world.raycast(grazing);
+            ASSERT_TRUE(found);
+            EXPECT_EQ(Bits(found->hit), Bits(*expected));
+        });
+    }
+}
+
+// Far away from what there is, a closest item of infinite distance came back, until the update.
+TEST(Queries, ShapesWithoutPartsAreNowhere) {
+    World2 world;
+    world.add(Stairs<2>{});
+    before_and_after_update(world, [&] {
+        EXPECT_FALSE(world.closest(Vec2(0, 0)));
+        EXPECT_FALSE(world.closest(unit));
+        EXPECT_FALSE(world.raycast(to_the_right));
+        EXPECT_TRUE(world.overlapping(HalfSpace2{{0, 1}, 0}).empty());
+        EXPECT_TRUE(world.containing({0, 0}).empty());
+    });
+    const Id ball = world.add(unit);
+    before_and_after_update(world, [&] {
+        EXPECT_EQ(world.closest(Vec2(0, 0))->id, ball);
+        EXPECT_FALSE(world.closest(Stairs<2>{}));
+    });
+}
+
+}  // namespace
+}  // namespace abut::test

@@ -1,0 +1,144 @@
+#pragma once
+
+// A random game: a world and the reference world beside it, to which the same things happen.
+
+#include "random_shapes.hpp"
+#include "reference_world.hpp"
+
+#include <set>
+
+namespace abut::test {
+
+template <int D>
+class Simulation {
+public:
+    /// On a lattice all is of unit size at whole coordinates, so that much touches exactly and many answers tie.
+    Simulation(std::uint64_t seed, int items, bool lattice = false) : random_(seed), lattice_(lattice) {
+        for (int i = 0; i < items; ++i) add();
+    }
+
+    /// What a frame of a game may do to its world, in any order.
+    void change() {
+        const std::vector<Id> ids = all_ids();
+        for (const Id id : ids) {
+            const typename ReferenceWorld<D>::Item& item = reference.items().at(id);
+            if (item.options.fixed ? random_.chance(0.02) : random_.chance(0.5))
+                move(id, step_from(item.options.pose));
+            else if (random_.chance(0.02))
+                move(id, any_pose());
+            else if (random_.chance(0.05))
+                move(id, item.options.pose);
+            if (random_.chance(0.03)) set_shape(id);
+            if (random_.chance(0.03)) set_filter(id);
+            if (random_.chance(0.02)) {
+                remove(id);
+                if (random_.chance(0.9)) add();
+            }
+        }
+        if (reference.items().size() < ids.size() || random_.chance(0.1)) add();
+    }
+
+    /// A filter of any kind, most often the one that asks for all.
+    Filter filter() {
+        Filter result;
+        if (random_.chance(0.3)) result.layers = random_bits();
+        if (random_.chance(0.3)) result.mask = random_bits();
+        result.sensors = random_.chance(0.5);
+        if (random_.chance(0.3)) result.ignore = any_id();
+        return result;
+    }
+
+    Id any_id() {
+        return std::next(reference.items().begin(), random_.below(static_cast<std::uint32_t>(reference.items().size())))
+            ->first;
+    }
+
+    std::vector<Id> all_ids() const {
+        std::vector<Id> result;
+        for (const auto& [id, item] : reference.items()) result.push_back(id);
+        return result;
+    }
+
+    void add() {
+        ItemOptions<D> options;
+        options.pose = any_pose();
+        options.user = random_.bits();
+        if (random_.chance(0.3)) options.layers = random_bits();
+        if (random_.chance(0.3)) options.mask = random_bits();
+        options.fixed = random_.chance(0.3);
+        options.sensor = random_.chance(0.15);
+        with_any_shape([&](const auto& shape) {
+            const Id id = world.add(shape, options);
+            reused += id.generation > 1 ? 1 : 0;
+            fresh_ids = fresh_ids && given_.insert(id).second;
+            reference.add(id, shape, options);
+        });
+    }
+    void remove(Id id) {
+        world.remove(id);
+        reference.remove(id);
+    }
+    void move(Id id, const Pose<D>& pose) {
+        world.move(id, pose);
+        reference.move(id, pose);
+    }
+    void set_shape(Id id) {
+        with_any_shape([&](const auto& shape) {
+            world.set_shape(id, shape);
+            reference.set_shape(id, shape);
+        });
+    }
+    void set_filter(Id id) {
+        const std::uint32_t layers = random_bits(), mask = random_bits();
+        world.set_filter(id, layers, mask);
+        reference.set_filter(id, layers, mask);
+    }
+
+    template <class Take>
+    void with_any_shape(Take&& take) {
+        if (!lattice_) return with_random_shape<D>(random_, random_kind<D>(random_), take);
+        switch (random_.below(4)) {
+            case 0:
+                return take(Ball<D>{Vec<D>(0.5f), 0.5f});
+            case 1:
+                return take(Segment<D>{Vec<D>(0.0f), Vec<D>(1.0f)});
+            case 2:
+                return take(Aabb<D>{Vec<D>(0.0f), Vec<D>(1.0f)});
+            default:
+                return take(stairs<D>(2, 1));
+        }
+    }
+    Vec<D> any_point() {
+        const Vec<D> point = to_float(random_.in_cube<D>() * extent);
+        return lattice_ ? 0.5f * snapped(2.0f * point) : point;
+    }
+    Pose<D> any_pose() { return lattice_ ? Pose<D>{snapped(any_point())} : random_pose<D>(random_, extent); }
+
+    oracle::Random& random() { return random_; }
+
+    static constexpr double extent = D == 2 ? 5 : 2.5;  ///< half the side of the square or cube that it happens in
+
+    World<D> world;
+    ReferenceWorld<D> reference;
+    int reused = 0;         ///< items that got a slot another had before
+    bool fresh_ids = true;  ///< no id was given twice
+
+private:
+    static Vec<D> snapped(const Vec<D>& v) {
+        Vec<D> result;
+        for (int i = 0; i < D; ++i) result[i] = std::floor(v[i]);
+        return result;
+    }
+    Pose<D> step_from(const Pose<D>& pose) {
+        if (!lattice_) return moved_a_little(random_, pose, 0.15);
+        return {pose.position + snapped(to_float(random_.in_cube<D>() + DVec<D>(0.5)))};
+    }
+    /// Three layers, and at least one of them.
+    std::uint32_t random_bits() { return 1 + random_.below(7); }
+
+    oracle::Random random_;
+    bool lattice_;
+    std::set<Id> given_;
+};
+
+}  // namespace abut::test

@@ -1,0 +1,179 @@
+// Random games against the plain reference: whatever happens to a world, its events, contacts and answers are those of
+// looking at every pair.
+
+#include "simulation.hpp"
+
+#include "../oracle/pair.hpp"
+#include "bits.hpp"
+
+#include <iostream>
+
+#include <gtest/gtest.h>
+
+namespace abut::test {
+namespace {
+
+/// How often each answer came out interesting: a test of questions that all say no proves nothing.
+struct Seen {
+    int began = 0, stayed = 0, ended = 0, contacts = 0, untested = 0;
+    int hits = 0, several_hits = 0, misses = 0, gaps = 0, depths = 0, overlapping = 0, containing = 0, stopped = 0;
+};
+
+std::ostream& operator<<(std::ostream& out, const Seen& seen) {
+    return out << "began " << seen.began << ", stayed " << seen.stayed << ", ended " << seen.ended << ", contacts "
+               << seen.contacts << ", untested " << seen.untested << "; hits " << seen.hits << ", several "
+               << seen.several_hits << ", misses " << seen.misses << "; gaps " << seen.gaps << ", depths "
+               << seen.depths << "; overlapping " << seen.overlapping << ", containing " << seen.containing
+               << ", stopped " << seen.stopped;
+}
+
+template <int D>
+void check_rays(Simulation<D>& game, Seen& seen) {
+    oracle::Random& random = game.random();
+    const Vec<D> from = game.any_point(), to = game.any_point();
+    Ray<D> ray = Ray<D>::between(from, to);
+    if (random.chance(0.3)) ray.length = std::numeric_limits<float>::infinity();
+    const Filter filter = game.filter();
+    const std::vector<WorldHit<D>> expected = game.reference.raycast_all(ray, filter);
+    ASSERT_EQ(Bits(game.world.raycast_all(ray, filter)), Bits(expected));
+    const auto first = expected.empty() ? std::nullopt : std::optional(expected.front());
+    ASSERT_EQ(Bits(game.world.raycast(ray, filter)), Bits(first));
+    seen.misses += expected.empty() ? 1 : 0;
+    seen.hits += expected.empty() ? 0 : 1;
+    seen.several_hits += expected.size() > 1 ? 1 : 0;
+}
+
+/// The visitor that stops after some gets that many, each once, all of them right.
+template <int D, class S>
+void check_early_stop(const Simulation<D>& game, const S& shape, const Filter& filter, const std::vector<Id>& all,
+                      std::size_t most, Seen& seen) {
+    std::vector<Id> visited;
+    game.world.each_overlapping(
+        shape,
+        [&](Id id) {
+            visited.push_back(id);
+            return visited.size() < most;
+        },
+        filter);
+    ASSERT_EQ(visited.size(), std::min(most, all.size()));
+    std::sort(visited.begin(), visited.end());
+    ASSERT_TRUE(std::includes(all.begin(), all.end(), visited.begin(), visited.end()));
+    ASSERT_EQ(std::adjacent_find(visited.begin(), visited.end()), visited.end());
+    seen.stopped += visited.size() < all.size() ? 1 : 0;
+}
+
+template <int D>
+void check_shapes(Simulation<D>& game, Seen& seen) {
+    oracle::Random& random = game.random();
+    const Filter filter = game.filter();
+    const Pose<D> pose = game.any_pose();
+    game.with_any_shape([&](const auto& shape) {
+        const auto placed = at(shape, pose);
+        const View<D> asked = view(placed);
+        const auto nearest = game.reference.closest(asked, filter);
+        ASSERT_EQ(Bits(game.world.closest(placed, filter)), Bits(nearest));
+        if (nearest) ++(nearest->closest.distance > 0 ? seen.gaps : seen.depths);
+
+        const std::vector<Id> all = game.reference.overlapping(asked, filter);
+        ASSERT_EQ(game.world.overlapping(placed, filter), all);
+        seen.overlapping += all.empty() ? 0 : 1;
+        check_early_stop(game, placed, filter, all, 1 + random.below(3), seen);
+    });
+}
+
+template <int D>
+void check_points(Simulation<D>& game, Seen& seen) {
+    const Filter filter = game.filter();
+    const Vec<D> point = game.any_point();
+    const std::vector<Id> holders = game.reference.containing(point, filter);
+    ASSERT_EQ(game.world.containing(point, filter), holders);
+    seen.containing += holders.empty() ? 0 : 1;
+    const View<D> as_shape(round_points<D>({point}, 0));
+    ASSERT_EQ(Bits(game.world.closest(point, filter)), Bits(game.reference.closest(as_shape, filter)));
+}
+
+template <int D>
+void check_queries(Simulation<D>& game, Seen& seen) {
+    for (int i = 0; i < 2; ++i) {
+        ASSERT_NO_FATAL_FAILURE(check_rays(game, seen));
+        ASSERT_NO_FATAL_FAILURE(check_shapes(game, seen));
+        ASSERT_NO_FATAL_FAILURE(check_points(game, seen));
+    }
+}
+
+template <int D>
+void check_items(const Simulation<D>& game) {
+    ASSERT_EQ(game.world.size(), game.reference.items().size());
+    for (const auto& [id, item] : game.reference.items()) {
+        ASSERT_TRUE(game.world.contains(id));
+        ASSERT_EQ(game.world.user(id), item.options.user);
+        ASSERT_EQ(game.world.pose(id), item.options.pose);
+    }
+}
+
+template <int D>
+void check_update(Simulation<D>& game, Seen& seen) {
+    const Events events = game.world.update();
+    game.reference.update();
+    ASSERT_EQ(Bits(events.began), Bits(game.reference.began));
+    ASSERT_EQ(Bits(events.stayed), Bits(game.reference.stayed));
+    ASSERT_EQ(Bits(events.ended), Bits(game.reference.ended));
+    ASSERT_EQ(Bits(game.world.contacts()), Bits(game.reference.contacts));
+    const UpdateCounts counts = game.world.counts(), least = game.reference.least, most = game.reference.most;
+    ASSERT_TRUE(least.near <= counts.near && counts.near <= most.near) << least.near << " " << counts.near;
+    ASSERT_TRUE(least.tested <= counts.tested && counts.tested <= most.tested) << least.tested << " " << counts.tested;
+    seen.began += static_cast<int>(events.began.size());
+    seen.stayed += static_cast<int>(events.stayed.size());
+    seen.ended += static_cast<int>(events.ended.size());
+    seen.contacts += static_cast<int>(game.world.contacts().size());
+    seen.untested += static_cast<int>(game.world.counts().near - game.world.counts().tested);
+}
+
+/// Plays one game, and adds what it saw.
+template <int D>
+void play(std::uint64_t seed, int items, int frames, bool lattice, Seen& seen) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Simulation<D> game(seed, items, lattice);
+    for (int frame = 0; frame < frames; ++frame) {
+        SCOPED_TRACE("frame " + std::to_string(frame));
+        ASSERT_NO_FATAL_FAILURE(check_queries(game, seen));
+        ASSERT_NO_FATAL_FAILURE(check_update(game, seen));
+        ASSERT_NO_FATAL_FAILURE(check_queries(game, seen));
+        ASSERT_NO_FATAL_FAILURE(check_items(game));
+        game.change();
+    }
+    EXPECT_TRUE(game.fresh_ids);
+    EXPECT_GT(game.reused, frames / 10);
+    std::cout << "seed " << seed << ", so far: " << seen << "\n";
+}
+
+/// A crowd, and a few that meet now and then.
+template <int D>
+void play_all(std::uint64_t seed, bool lattice) {
+    constexpr int frames = 150;
+    Seen seen;
+    for (int game = 0; game < oracle::amount(1); ++game) {
+        play<D>(seed++, 40, frames, lattice, seen);
+        play<D>(seed++, 12, frames, lattice, seen);
+    }
+    for (const int count :
+         {seen.began, seen.stayed, seen.ended, seen.contacts, seen.untested, seen.hits, seen.several_hits, seen.misses,
+          seen.gaps, seen.depths, seen.overlapping, seen.containing, seen.stopped})
+        EXPECT_GT(count, oracle::amount(frames / 2));
+}
+
+TEST(Simulation, Plane) {
+    play_all<2>(1, false);
+}
+TEST(Simulation, Space) {
+    play_all<3>(1001, false);
+}
+TEST(Simulation, PlaneOnALattice) {
+    play_all<2>(2001, true);
+}
+TEST(Simulation, SpaceOnALattice) {
+    play_all<3>(3001, true);
+}
+
+}  // namespace
+}  // namespace abut::test
