@@ -29,12 +29,19 @@ CorePoint<D> farthest_corner(const Vec<D>& half, const DVec<D>& direction) {
     return result;
 }
 
+/// `across` at length 1 and at right angles to u, which it is but for rounding; zero where it is nothing but rounding,
+/// and would lead off the disc.
+DVec<3> unit_across(const DVec<3>& u, const DVec<3>& across, double scale) {
+    if (!(largest(across) > 1e-9 * scale)) return DVec<3>(0.0);
+    const DVec<3> nearly = normalized(across);
+    return normalized(nearly - u * dot(u, nearly));
+}
+
 DVec<3> farthest_on_discs(const Convex<3>& convex, const DVec<3>& direction) {
     const DVec<3> a(convex.own[0]), b(convex.own[1]);
     const DVec<3> u = normalized(b - a, axis<3>(2));
     const double along = dot(u, direction);
-    const DVec<3> across = direction - u * along;
-    const DVec<3> rim = normalized(across, DVec<3>(0.0));
+    const DVec<3> rim = unit_across(u, direction - u * along, largest(direction));
     const double radius_a = static_cast<double>(convex.disc_radius[0]),
                  radius_b = static_cast<double>(convex.disc_radius[1]);
     const double gain_a = dot(a, direction) + radius_a * dot(rim, direction);

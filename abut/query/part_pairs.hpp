@@ -27,10 +27,11 @@ void each_part_near(const View<D>& shape, const Other& other, float reach, Visit
 template <int D, class Visit>
 void each_part_pair(const View<D>& a, const View<D>& b, float reach, Visit&& visit) {
     each_part_near(a, b, reach, [&]<class PartA>(const PartA& part_a, std::uint32_t index_a) {
+        [[maybe_unused]] constexpr bool two_half_spaces_pair = false;
         bool go_on = true;
         each_part_near(b, part_a, reach, [&]<class PartB>(const PartB& part_b, std::uint32_t index_b) {
             if constexpr (std::is_same_v<PartA, Solid<D>> && std::is_same_v<PartB, Solid<D>>)
-                ABUT_ASSERT(!"two half-spaces don't pair");
+                ABUT_ASSERT(two_half_spaces_pair);
             else
                 go_on = visit(part_a, index_a, part_b, index_b);
             return go_on;

@@ -1,0 +1,8 @@
+#pragma once
+
+// All of abut::draw: pictures of shapes and answers, on a canvas that you fill.
+
+#include <abut/draw/canvas.hpp>
+#include <abut/draw/draw.hpp>
+#include <abut/draw/projected.hpp>
+#include <abut/draw/svg.hpp>
