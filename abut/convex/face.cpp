@@ -89,7 +89,10 @@ Face<3> box_face_along(const Convex<3>& convex, const DVec<3>& direction) {
         point[u] *= c[0];
         point[v] *= c[1];
         const std::uint32_t index = (point[0] < 0 ? 1u : 0u) | (point[1] < 0 ? 2u : 0u) | (point[2] < 0 ? 4u : 0u);
-        face.push_back(convex.place.point(point), index);
+        const DVec<3> position = convex.place.point(point);
+        // The face of a box without thickness is an edge or a corner.
+        if (face.count > 0 && (position == face.points[0] || position == face.points[face.count - 1])) continue;
+        face.push_back(position, index);
     }
     return face;
 }

@@ -5,8 +5,10 @@
 #include <abut/draw/outline.hpp>
 #include <abut/draw/polytope.hpp>
 
+#include <array>
 #include <map>
 #include <utility>
+#include <vector>
 
 namespace abut {
 namespace {

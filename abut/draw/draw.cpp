@@ -3,6 +3,8 @@
 #include <abut/draw/half_space.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <vector>
 
 namespace abut {

@@ -12,6 +12,7 @@
 #include <abut/draw/outline.hpp>
 
 #include <array>
+#include <utility>
 
 namespace abut {
 namespace {

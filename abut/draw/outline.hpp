@@ -17,7 +17,8 @@ struct OutlinePlane {
 };
 
 /// The closed outline, counter-clockwise from x to y: the set's own boundary in 2D; in 3D a closed line on its surface.
-/// Corners are exact, curves right to 1/800 of the set's size. One point where the set is one, two for a segment.
+/// Curves are right to 1/800 of the set's size. Polygons have their own corners, but for those within 1e-6 of the size
+/// of the line between others. One point where the set is one, two for a segment.
 template <int D>
 std::vector<Vec<D>> outline(const Convex<D>& convex, const OutlinePlane<D>& plane);
 

@@ -156,6 +156,11 @@ Composite<D> rounded(const Composite<D>& composite, double radius) {
     return result;
 }
 
+template <int D>
+View<D> rounded(const View<D>& view, double radius) {
+    return std::visit([&](const auto& shape) -> View<D> { return rounded(shape, radius); }, view);
+}
+
 #define ABUT_INSTANTIATE(D)                                                       \
     template Aabb<D> bounds(const Composite<D>&);                                 \
     template Aabb<D> bounds(const View<D>&);                                      \
@@ -167,7 +172,8 @@ Composite<D> rounded(const Composite<D>& composite, double radius) {
     template Composite<D> mapped(const Composite<D>&, const Affine<D>&);          \
     template View<D> mapped(const View<D>&, const Affine<D>&);                    \
     template Convex<D> rounded(const Convex<D>&, double);                         \
-    template Composite<D> rounded(const Composite<D>&, double);
+    template Composite<D> rounded(const Composite<D>&, double);                   \
+    template View<D> rounded(const View<D>&, double);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

@@ -69,6 +69,8 @@ template <int D>
 Convex<D> rounded(const Convex<D>& convex, double radius);
 template <int D>
 Composite<D> rounded(const Composite<D>& composite, double radius);
+template <int D>
+View<D> rounded(const View<D>& view, double radius);
 
 // From here on: how a type becomes a view. The library's own shapes give `convex(shape)`; a user's give `bounds(shape)`
 // and either `support(shape, direction)` or `each_part(shape, box, visit)`, found by argument-dependent lookup.

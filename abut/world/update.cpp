@@ -96,6 +96,10 @@ Events World<D>::update() {
     contacts_.clear();
     counts_ = {near_.size(), 0};
     for (const IdPair& pair : near_) look_at(pair);
+    // Room at once for whatever such a scene may bring: the lists change places, and all pairs may begin, stay or end.
+    const std::size_t most = std::max(touching_.capacity(), touched_.capacity());
+    for (std::vector<IdPair>* list : {&touched_, &touching_, &began_, &stayed_, &ended_}) list->reserve(most);
+    last_contacts_.reserve(contacts_.capacity());
     compare_with_last();
 
     for (const std::uint32_t slot : pending_) items_[slot].pending = false;

@@ -57,7 +57,7 @@ TEST(Bvh, SplitsBetterThanInHalves) {
 }
 
 TEST(Bvh, IsNeverDeeperThanItsStacks) {
-    // Ever nearer to 0 along each axis in turn, each step a tenth of the last: every split parts off a few.
+    // Ever nearer to 0 along each axis in turn, each step half of the last: every split parts off a few.
     std::vector<Aabb3> boxes;
     for (int exponent = -148; exponent < 120; ++exponent)
         for (int axis = 0; axis < 3; ++axis)

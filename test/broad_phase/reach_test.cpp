@@ -104,7 +104,7 @@ TYPED_TEST(Reach, OfARayThatGrazesACorner) {
     oracle::Random random(19);
     for (int repeat = 0; repeat < 20000; ++repeat) {
         // Whole numbers, so that the point is exactly on the ray; in the box it is the only one.
-        Vec<D> origin, direction;
+        Vec<D> origin(0), direction(0);
         for (int i = 0; i < D; ++i) {
             origin[i] = static_cast<float>(random.below(1000));
             direction[i] = static_cast<float>(1 + random.below(1000)) * (random.chance(0.5) ? 1.0f : -1.0f);
@@ -113,10 +113,10 @@ TYPED_TEST(Reach, OfARayThatGrazesACorner) {
         const Vec<D> point = origin + direction * steps;
         Aabb<D> box{point, point};
         box.max[0] += 1;
-        if (direction[0] > 0)
-            (direction[1] > 0 ? box.min : box.max)[1] += direction[1] > 0 ? -1.0f : 1.0f;
+        if ((direction[0] > 0) == (direction[1] > 0))
+            box.min[1] -= 1;
         else
-            (direction[1] > 0 ? box.max : box.min)[1] += direction[1] > 0 ? 1.0f : -1.0f;
+            box.max[1] += 1;
         EXPECT_TRUE(reaches<D>({origin, direction}, box)) << "seed 19, repeat " << repeat;
         EXPECT_TRUE(reaches<D>({origin, direction, steps}, box)) << "seed 19, repeat " << repeat;
         EXPECT_FALSE(reaches<D>({origin, direction, steps * 0.999f}, box)) << "seed 19, repeat " << repeat;

@@ -10,7 +10,9 @@
 #include <abut/shape/segment.hpp>
 #include <abut/shape/triangle.hpp>
 
+#include <cmath>
 #include <limits>
+#include <vector>
 
 #include <gtest/gtest.h>
 

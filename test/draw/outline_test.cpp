@@ -10,6 +10,7 @@
 #include <abut/shape/segment.hpp>
 #include <abut/shape/triangle.hpp>
 
+#include <algorithm>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -66,10 +67,12 @@ TEST(Outline, OfAPolygonIsItsCorners) {
     EXPECT_EQ(outline(convex(Segment2{{0, 0}, {1, 1}})), (std::vector<Vec2>{{1, 1}, {0, 0}}));
     EXPECT_EQ(outline(convex(Segment2{{5, 5}, {5, 5}})), (std::vector<Vec2>{{5, 5}}));
 
-    Random random(4);
-    std::vector<Vec2> cloud;
-    for (int i = 0; i < 2000; ++i) cloud.push_back(to_float(random.direction<2>() * random.uniform(0.99, 1.0)));
-    const Result<Polygon> polygon = Polygon::build(cloud);
+    std::vector<Vec2> around;
+    for (int i = 0; i < 200; ++i) {
+        const Turn turn = Turn::by(0.03f * static_cast<float>(i) + 0.01f * static_cast<float>(i % 3));
+        around.push_back({7 + turn.cos, turn.sin});
+    }
+    const Result<Polygon> polygon = Polygon::build(around);
     ASSERT_TRUE(polygon);
     ASSERT_GT(polygon->points().size(), 100u);
     std::vector<Vec2> loop = outline(convex(*polygon));

@@ -6,6 +6,7 @@
 #include <abut/draw/canvas.hpp>
 #include <abut/shape/view.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>

@@ -3,6 +3,7 @@
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 
+#include <algorithm>
 #include <cctype>
 #include <limits>
 #include <locale>

@@ -156,7 +156,8 @@ TYPED_TEST(ContactLaws, HoldForEveryKindOfPair) {
                     EXPECT_GE(depth, 0);
                     EXPECT_LE(depth, static_cast<double>(touch.depth) + margin);
                     // Half the depth either way is a point of A and a point of B.
-                    const double doubt = margin + 2 * oracle::rounding_of(point.position);
+                    // Faces are clipped with some slack, which at a sharp corner is a multiple of itself.
+                    const double doubt = 4 * margin + 2 * oracle::rounding_of(point.position);
                     for (const auto& [solid, side] : {std::pair{&a.solid, 0.5}, std::pair{&b.solid, -0.5}}) {
                         auto surface = oracle::hull_of<D>({Vec<D>(0)});
                         surface.place.offset = DVec<D>(point.position) + normal * (side * depth);
