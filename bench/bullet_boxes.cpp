@@ -1,4 +1,5 @@
-// Bullet's broad phase: btDbvt, the tree behind btDbvtBroadphase, and quicker without it at this.
+// Bullet's broad phase: btDbvt, the tree of btDbvtBroadphase, which alone is the quicker of the two at all pairs of a
+// frame.
 
 #include "../scenes/moving_boxes.hpp"
 #include "bullet.hpp"
@@ -10,7 +11,7 @@ namespace abut::bench {
 
 namespace {
 
-constexpr btScalar margin = 0.2f;  // twice the longest step: quicker here than btDbvtBroadphase's 0.05, and than 0
+constexpr btScalar margin = 0.2f;  // twice the longest step: quicker here than btDbvtBroadphase's own 0.05, or none
 
 std::uintptr_t number_of(const btDbvtNode* leaf) {
     return reinterpret_cast<std::uintptr_t>(leaf->data);

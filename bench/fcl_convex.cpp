@@ -3,6 +3,7 @@
 #include "fcl.hpp"
 #include "peers.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <variant>
 

@@ -11,6 +11,7 @@
 #include <abut/shape/mesh.hpp>
 #include <abut/shape/segment.hpp>
 
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -77,10 +78,10 @@ std::vector<Polyhedron> hulls(oracle::Random& random) {
     return many(hull_count, [&] { return scenes::random_hull(random, 32); });
 }
 
-ConvexPairs box_pairs(double low, double high, std::size_t count = pair_count) {
+ConvexPairs box_pairs(double low, double high) {
     oracle::Random random(seed);
-    const auto boxes = many(2 * count, [&] { return scenes::random_box(random); });
-    return scenes::random_pairs(boxes, count, low, high, random);
+    const auto boxes = many(2 * pair_count, [&] { return scenes::random_box(random); });
+    return scenes::random_pairs(boxes, pair_count, low, high, random);
 }
 ConvexPairs capsule_pairs(double low, double high) {
     oracle::Random random(seed);
