@@ -33,8 +33,9 @@ using Aabb3 = Aabb<3>;
 template <int D>
 bool overlaps(const Aabb<D>& a, const Aabb<D>& b) {
     bool result = true;
-    for (int i = 0; i < D; ++i) result = result && a.min[i] <= b.max[i] && b.min[i] <= a.max[i];
-    return result && a.min[0] <= a.max[0] && b.min[0] <= b.max[0];
+    for (int i = 0; i < D; ++i)
+        result = result && a.min[i] <= b.max[i] && b.min[i] <= a.max[i] && a.min[i] <= a.max[i] && b.min[i] <= b.max[i];
+    return result;
 }
 
 template <int D>

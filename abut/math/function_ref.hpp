@@ -20,7 +20,11 @@ public:
         FunctionRef(F&& f)
         : object_(const_cast<void*>(static_cast<const void*>(std::addressof(f)))),
           call_([](void* object, Arguments... arguments) -> R {
-              return (*static_cast<std::remove_reference_t<F>*>(object))(std::forward<Arguments>(arguments)...);
+              auto& callable = *static_cast<std::remove_reference_t<F>*>(object);
+              if constexpr (std::is_void_v<R>)
+                  callable(std::forward<Arguments>(arguments)...);
+              else
+                  return callable(std::forward<Arguments>(arguments)...);
           }) {}
 
     R operator()(Arguments... arguments) const { return call_(object_, std::forward<Arguments>(arguments)...); }

@@ -1,3 +1,4 @@
+#include <abut/math/assert.hpp>
 #include <abut/math/linear.hpp>
 #include <abut/math/pose.hpp>
 
@@ -13,6 +14,8 @@ struct SinCos {
 // Taylor polynomials on [-pi/4, pi/4] after taking off quarter turns: right to 1e-15, which a float can't tell from
 // exact.
 SinCos sin_cos(double radians) {
+    ABUT_ASSERT(std::isfinite(radians));
+    if (!std::isfinite(radians)) return {0, 1};
     constexpr double half_pi_high = 1.57079632673412561417e+00;  // the first 33 bits of pi / 2
     constexpr double half_pi_low = 6.07710050650619224932e-11;   // what they leave
     const double quarters = std::nearbyint(radians / (half_pi_high + half_pi_low));
@@ -38,7 +41,7 @@ SinCos sin_cos(double radians) {
 glm::dquat unit(const glm::quat& q) {
     const glm::dquat d(q);
     const double norm = std::sqrt(d.w * d.w + d.x * d.x + d.y * d.y + d.z * d.z);
-    if (!(norm > 0)) return {1, 0, 0, 0};
+    if (norm == 0) return {1, 0, 0, 0};
     return {d.w / norm, d.x / norm, d.y / norm, d.z / norm};
 }
 
@@ -48,7 +51,8 @@ glm::dquat multiply(const glm::dquat& a, const glm::dquat& b) {
 }
 
 DVec<2> unit(const Turn& turn) {
-    return normalized(DVec<2>(turn.cos, turn.sin), DVec<2>(1, 0));
+    const DVec<2> u(turn.cos, turn.sin);
+    return u == DVec<2>(0.0) ? DVec<2>(1, 0) : normalized(u, u);
 }
 
 }  // namespace

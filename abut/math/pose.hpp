@@ -16,7 +16,8 @@ struct Turn {
     float cos = 1;
     float sin = 0;
 
-    /// By an angle in radians; the same bits on every machine (no trigonometry of the C library).
+    /// By an angle in radians; the same bits on every machine (no trigonometry of the C library). NaN and infinity trip
+    /// ABUT_ASSERT, and turn by nothing.
     static Turn by(float radians);
 
     friend bool operator==(const Turn&, const Turn&) = default;

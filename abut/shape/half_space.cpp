@@ -5,7 +5,7 @@ template <int D>
 Solid<D> solid(const HalfSpace<D>& half_space) {
     const DVec<D> normal(half_space.normal);
     const double norm = length(normal);
-    if (!(norm > 0)) return {axis<D>(0), static_cast<double>(half_space.offset)};
+    if (norm == 0) return {axis<D>(0), static_cast<double>(half_space.offset)};
     return {normal / norm, static_cast<double>(half_space.offset) / norm};
 }
 

@@ -117,7 +117,8 @@ double size(const View<D>& view) {
 template <int D>
 bool is_finite(const View<D>& view) {
     if (const auto* convex = std::get_if<Convex<D>>(&view)) return is_finite(*convex);
-    if (const auto* solid = std::get_if<Solid<D>>(&view)) return std::isfinite(largest(solid->normal) + solid->offset);
+    if (const auto* solid = std::get_if<Solid<D>>(&view))
+        return std::isfinite(length_squared(solid->normal) + solid->offset);
     Convex<D> placement;
     static_cast<Placement<D>&>(placement) = std::get<Composite<D>>(view);
     return is_finite(placement);
