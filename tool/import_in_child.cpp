@@ -2,6 +2,7 @@
 
 #include <abut/io/scene_bytes.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -12,6 +13,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <fcntl.h>
@@ -55,8 +57,7 @@ void become_quiet_and_limited(const ImportLimits& limits) {
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nowhere, stream);
     limit(RLIMIT_CORE, 0);
     limit(RLIMIT_CPU, limits.seconds);
-    // The sanitizers reserve terabytes of address space for themselves.
-    if constexpr (!sanitized) limit(RLIMIT_AS, limits.bytes);
+    if (limits_memory()) limit(RLIMIT_AS, limits.bytes);
 }
 
 void send(int pipe, std::span<const std::byte> bytes) {
@@ -117,6 +118,22 @@ Problem crashed(int signal, const ImportLimits& limits) {
 }
 
 }  // namespace
+
+bool limits_memory() {
+    return !sanitized;
+}
+
+ImportLimits limits_for(const std::filesystem::path& file) {
+    // glTF keeps its bulk in other files, and its reader is ours.
+    const std::string extension = file.extension().string();
+    const bool is_gltf = extension == ".gltf" || extension == ".glb";
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(file, error);
+    const std::uintmax_t megabytes = error ? 0 : std::min<std::uintmax_t>(size >> 20, 10'000);
+    ImportLimits limits;
+    limits.seconds = (is_gltf ? 60 : 10) + 2 * static_cast<std::uint32_t>(megabytes);
+    return limits;
+}
 
 Result<Scene> import_in_child(const std::filesystem::path& file, const ReadOptions& options,
                               const ImportLimits& limits) {

@@ -13,8 +13,15 @@ namespace abut::tool {
 
 struct ImportLimits {
     std::uint32_t seconds = 60;                    ///< of computing, and of waiting
-    std::uint64_t bytes = std::uint64_t{4} << 30;  ///< of address space
+    std::uint64_t bytes = std::uint64_t{4} << 30;  ///< of address space, where `limits_memory`
 };
+
+/// False in builds with sanitizers, which reserve terabytes of address space for themselves.
+bool limits_memory();
+
+/// For a file of this size and format: what the slowest of importers needs several times over, and no more, for some
+/// never come to an end.
+ImportLimits limits_for(const std::filesystem::path& file);
 
 /// `read_scene` in a child process of its own. Whatever becomes of the child, the answer is a Scene or a Problem,
 /// nothing is printed, and no process stays behind. To be called while the program has one thread.

@@ -77,7 +77,9 @@ std::string when(const Report& report, const Finding& finding) {
 std::string moment(const Report& report, const Finding& finding) {
     std::string line =
         fmt::format("        {}{}, near {}", how(finding), when(report, finding), vector(middle(finding.points)));
-    if (collides(finding))
+    // Of a mesh it is one triangle that is moved out, not all of it.
+    const bool both_solid = report.objects[finding.a].solid && report.objects[finding.b].solid;
+    if (collides(finding) && both_solid)
         line += fmt::format("; moving {} by {} parts them", report.objects[finding.b].name,
                             vector(finding.normal * -finding.distance));
     return line + "\n";

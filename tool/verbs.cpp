@@ -7,7 +7,7 @@
 namespace abut::tool {
 
 Result<Scene> load(const std::string& file, bool skip_degenerate) {
-    Result<Scene> scene = import_in_child(file, {.skip_degenerate = skip_degenerate});
+    Result<Scene> scene = import_in_child(file, {.skip_degenerate = skip_degenerate}, limits_for(file));
     if (scene) return scene;
     Problem problem = scene.problem();
     problem.message = file + ": " + problem.message;

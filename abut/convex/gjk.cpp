@@ -31,40 +31,41 @@ GjkResult<D> gjk(const CoreDifference<D>& difference, double enough) {
     result.closest = reduce_to_closest(simplex);
 
     double distance_squared = length_squared(result.closest);
+    double proven = 0;  // A - B lies behind a plane this far from the origin
     for (int step = 0; step < gjk_most_steps; ++step) {
-        const double noise = 1e-15 * largest(simplex);
-        if (distance_squared <= noise * noise) {
+        const double noise = 1e-15 * largest(simplex), distance = std::sqrt(distance_squared);
+        if (distance <= noise) {
             result.exit = GjkExit::touching;
             return result;
         }
-        if (yes_no && distance_squared <= enough * enough) {
+        if (yes_no && distance <= enough) {
             result.exit = GjkExit::within;
             return result;
         }
         const DifferencePoint<D> next = difference.support(-result.closest);
-        // next.closest / |closest| is the distance of a plane that A - B lies behind: it bounds the true distance from
-        // below.
-        const double bound = dot(next.position, result.closest);
-        if (yes_no && bound > 0 && bound * bound > enough * enough * distance_squared) {
+        proven = std::max(proven, dot(next.position, result.closest) / distance - noise);
+        if (yes_no && proven > enough) {
             result.exit = GjkExit::beyond;
             return result;
         }
-        if (holds(simplex, next.position) || distance_squared - bound <= 1e-15 * distance_squared) {
+        if (holds(simplex, next.position) || distance - proven <= 1e-13 * distance) {
             result.exit = GjkExit::separated;
             return result;
         }
         const Simplex<D> before = simplex;
         simplex.points[simplex.count++] = next;
         const DVec<D> closest = reduce_to_closest(simplex);
-        if (simplex.count == static_cast<std::size_t>(D) + 1) {
-            result.closest = DVec<D>(0.0);
-            result.exit = GjkExit::overlapping;
-            return result;
-        }
         const double now = length_squared(closest);
-        if (!(now < distance_squared)) {
+        const bool whole = simplex.count == static_cast<std::size_t>(D) + 1;
+        // Near the end on curved shapes the simplex shrinks until its faces are rounding. What was proven stays.
+        if (!(now < distance_squared) || now < proven * proven || (whole && proven > 0)) {
             simplex = before;
             result.exit = GjkExit::no_progress;
+            return result;
+        }
+        if (whole) {
+            result.closest = DVec<D>(0.0);
+            result.exit = GjkExit::overlapping;
             return result;
         }
         result.closest = closest;

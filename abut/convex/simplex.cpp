@@ -30,12 +30,19 @@ Candidate<D> candidate(const Simplex<D>& simplex, std::initializer_list<std::siz
 /// With the point where it is known better than as a sum of the corners, which are large where it is small: at right
 /// angles to the edge or face, to the last digit.
 template <int D>
-Candidate<D> candidate(const Simplex<D>& simplex, std::initializer_list<std::size_t> which,
-                       std::initializer_list<double> weights, const DVec<D>& point) {
-    Candidate<D> result = candidate(simplex, which, weights);
-    result.point = point;
-    result.distance_squared = length_squared(point);
-    return result;
+Candidate<D> moved_to(Candidate<D> candidate, const DVec<D>& point) {
+    candidate.point = point;
+    candidate.distance_squared = length_squared(point);
+    return candidate;
+}
+
+/// Edges shorter and triangles lower than this have a direction that is rounding by more than 1e-9.
+template <int D>
+double least_extent(const Simplex<D>& simplex, std::initializer_list<std::size_t> which) {
+    double most = 0;
+    for (std::size_t i : which)
+        most = std::max({most, largest(simplex.points[i].on_a), largest(simplex.points[i].on_b)});
+    return 1e-7 * most;
 }
 
 /// The part of v at right angles to `edge`.
@@ -54,8 +61,9 @@ Candidate<D> closest_on_segment(const Simplex<D>& simplex, std::size_t i, std::s
     const double along = -dot(a, ab), whole = dot(ab, ab);
     if (!(along > 0)) return candidate(simplex, {i}, {1.0});
     if (along >= whole) return candidate(simplex, {j}, {1.0});
-    const double t = along / whole;
-    return candidate(simplex, {i, j}, {1 - t, t}, across(ab, a));
+    const double t = along / whole, least = least_extent(simplex, {i, j});
+    const Candidate<D> inside = candidate(simplex, {i, j}, {1 - t, t});
+    return whole > least * least ? moved_to(inside, across(ab, a)) : inside;
 }
 
 template <int D>
@@ -63,13 +71,20 @@ Candidate<D> better(const Candidate<D>& a, const Candidate<D>& b) {
     return b.distance_squared < a.distance_squared ? b : a;
 }
 
-/// The origin's projection onto a plane; in 2D the origin itself.
-DVec<2> projected_origin(const DVec<2>&, const DVec<2>&, const DVec<2>&) {
-    return DVec<2>(0.0);
+/// Moved to the origin's projection onto the triangle's plane, where that is known.
+Candidate<3> sharpened(const Simplex<3>& simplex, const Candidate<3>& inside) {
+    const DVec<3>& a = simplex.points[inside.which[0]].position;
+    const DVec<3> ab = simplex.points[inside.which[1]].position - a, ac = simplex.points[inside.which[2]].position - a;
+    const DVec<3> normal = cross(ab, ac);
+    const double least = least_extent(simplex, {inside.which[0], inside.which[1], inside.which[2]});
+    const double longest_squared = std::max({length_squared(ab), length_squared(ac), length_squared(ac - ab)});
+    const double area_squared = length_squared(normal);
+    if (!(area_squared > least * least * longest_squared)) return inside;
+    return moved_to(inside, normal * (dot(normal, a) / area_squared));
 }
-DVec<3> projected_origin(const DVec<3>& a, const DVec<3>& b, const DVec<3>& c) {
-    const DVec<3> normal = cross(b - a, c - a);
-    return normal * (dot(normal, a) / dot(normal, normal));
+/// In the plane the origin is in the triangle itself.
+Candidate<2> sharpened(const Simplex<2>&, const Candidate<2>& inside) {
+    return inside;
 }
 
 template <int D>
@@ -93,7 +108,7 @@ Candidate<D> closest_on_triangle(const Simplex<D>& simplex, std::size_t i, std::
     }
     const double sum = u + v + w;
     if (u > 0 && v > 0 && w > 0 && sum > 0)
-        return candidate(simplex, {i, j, k}, {u / sum, v / sum, w / sum}, projected_origin(a, b, c));
+        return sharpened(simplex, candidate(simplex, {i, j, k}, {u / sum, v / sum, w / sum}));
     return better(better(closest_on_segment(simplex, i, j), closest_on_segment(simplex, j, k)),
                   closest_on_segment(simplex, i, k));
 }

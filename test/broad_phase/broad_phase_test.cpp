@@ -42,11 +42,11 @@ struct Checks {
         move_some(others, random);
         check_other(phase, oracle, others);
         for (int repeat = 0; repeat < 8; ++repeat) {
-            const Aabb<D> box = random.chance(0.1) ? endless_box<D>(random)
-                                                   : box_at<D>(random.in_cube<D>() * 12.0, random.in_cube<D>() * 4.0);
+            const Aabb<D> box = random.chance(0.1) ? endless_box<D>(random) : some_box<D>(random, 12, 4);
             EXPECT_EQ(overlapping(phase, box), overlapping(oracle, box));
             check_ray(phase, oracle, boxes, some_ray(random));
-            check_closest(phase, oracle, boxes, Vec<D>(random.in_cube<D>() * 15.0), random.uniform_float(0, 10));
+            const Vec<D> point(random.in_cube<D>() * 15.0);
+            check_closest(phase, oracle, boxes, point, random.uniform_float(0, 10));
         }
         return expected.size();
     }
@@ -316,7 +316,7 @@ TYPED_TEST(BroadPhases, ClosestToABox) {
     const auto phase = TestFixture::built(boxes);
     int found = 0;
     for (int repeat = 0; repeat < 100; ++repeat) {
-        const Aabb<D> box = box_at<D>(random.in_cube<D>() * 30.0, DVec<D>(random.uniform(0, 3)));
+        const Aabb<D> box = some_box<D>(random, 30, 3);
         Items near, grown_by_it;
         phase.closest(
             box, [&](std::uint32_t i) { near.push_back(i); }, 2.0f);

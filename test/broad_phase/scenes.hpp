@@ -28,10 +28,18 @@ Aabb<D> box_at(const DVec<D>& center, const DVec<D>& half) {
     return {Vec<D>(center - half), Vec<D>(center + half)};
 }
 
+/// Within reach of the origin, and no larger on any side than twice `half`.
+template <int D>
+Aabb<D> some_box(oracle::Random& random, double reach, double half) {
+    // One after the other: the order in which arguments are worked out is the compiler's.
+    const DVec<D> center = random.in_cube<D>() * reach;
+    return box_at<D>(center, DVec<D>(random.uniform(0, half)));
+}
+
 /// Without bound on some sides, perhaps on all.
 template <int D>
 Aabb<D> endless_box(oracle::Random& random) {
-    Aabb<D> result = box_at<D>(random.in_cube<D>() * 10.0, DVec<D>(random.uniform(0, 2)));
+    Aabb<D> result = some_box<D>(random, 10, 2);
     constexpr float far = std::numeric_limits<float>::infinity();
     for (int i = 0; i < D; ++i) {
         if (random.chance(0.5)) result.min[i] = -far;
@@ -51,10 +59,11 @@ std::vector<Aabb<D>> make_scene(Scene scene, std::uint32_t count, oracle::Random
             case Scene::uniform:
                 result.push_back(box_at<D>(place, half));
                 break;
-            case Scene::clustered:
-                result.push_back(
-                    box_at<D>(DVec<D>(20.0 * random.below(4)) + random.in_cube<D>() * random.uniform(0, 9), half));
+            case Scene::clustered: {
+                const double cluster = 20.0 * random.below(4), width = random.uniform(0, 9);
+                result.push_back(box_at<D>(DVec<D>(cluster) + random.in_cube<D>() * width, half));
                 break;
+            }
             case Scene::mixed_sizes:
                 result.push_back(
                     box_at<D>(place * 100.0, half * (random.chance(0.05) ? 1e4 : random.power_of_two(-10, 7))));
@@ -95,7 +104,7 @@ void move_some(std::vector<Aabb<D>>& boxes, oracle::Random& random) {
         else if (what < 0.011)
             box = endless_box<D>(random);
         else if (what < 0.04)
-            box = box_at<D>(random.in_cube<D>() * 20.0, DVec<D>(random.uniform(0, 3)));
+            box = some_box<D>(random, 20, 3);
         else if (what < 0.6) {
             const Vec<D> step(random.in_cube<D>() * 0.3);
             box.min += step;

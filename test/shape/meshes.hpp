@@ -139,6 +139,16 @@ inline Terrain random_terrain(oracle::Random& random, int cells, double roughnes
     return result;
 }
 
+/// Along each axis somewhere from 0.5 to 2, half of the time mirrored.
+inline Vec3 random_scale(oracle::Random& random) {
+    Vec3 result;
+    for (int i = 0; i < 3; ++i) {
+        const bool mirrored = random.chance(0.5);
+        result[i] = random.uniform_float(0.5, 2) * (mirrored ? -1.0f : 1.0f);
+    }
+    return result;
+}
+
 /// Triangles anywhere in a cube, without order or meaning.
 inline Surface random_soup(oracle::Random& random, int count, double extent, double size) {
     Surface result;

@@ -1,60 +1,25 @@
 // What allocates nothing: an update of a world that has seen as much before, and questions that return no list.
-// This program's operator new counts.
 
+#include "../broad_phase/allocations.hpp"
 #include "simulation.hpp"
 
-#include <cstdlib>
-#include <new>
-
 #include <gtest/gtest.h>
-
-namespace {
-
-thread_local long allocations = 0;
-
-void* counted(std::size_t size, std::size_t alignment) {
-    ++allocations;
-    void* result = std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
-    if (result == nullptr) std::abort();
-    return result;
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) {
-    return counted(size, __STDCPP_DEFAULT_NEW_ALIGNMENT__);
-}
-void* operator new(std::size_t size, std::align_val_t alignment) {
-    return counted(size, static_cast<std::size_t>(alignment));
-}
-void operator delete(void* memory) noexcept {
-    std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-    std::free(memory);
-}
-void operator delete(void* memory, std::align_val_t) noexcept {
-    std::free(memory);
-}
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
-    std::free(memory);
-}
 
 namespace abut::test {
 namespace {
 
 template <class F>
-long allocations_of(F&& work) {
-    const long before = allocations;
+std::size_t allocations_of(F&& work) {
+    const std::size_t before = allocations();
     work();
-    return allocations - before;
+    return allocations() - before;
 }
 
 TEST(Allocation, IsCounted) {
-    EXPECT_EQ(allocations_of([] { std::vector<int>(1).resize(1000); }), 2);
+    EXPECT_EQ(allocations_of([] { std::vector<int>(1).resize(1000); }), 2u);
     World2 world;
-    EXPECT_GT(allocations_of([&] { world.add(Circle{{0, 0}, 1}); }), 0);
-    EXPECT_GT(allocations_of([&] { world.update(); }), 0);
+    EXPECT_GT(allocations_of([&] { world.add(Circle{{0, 0}, 1}); }), 0u);
+    EXPECT_GT(allocations_of([&] { world.update(); }), 0u);
 }
 
 /// A lap of poses for every item, with a pause here and there.
@@ -73,7 +38,7 @@ void expect_later_laps_allocate_nothing(std::uint64_t seed) {
     Simulation<D> game(seed, 60);
     const auto moves = lap<D>(game, 51);
     const auto run_a_lap = [&] {
-        long result = 0;
+        std::size_t result = 0;
         std::size_t most = 0;
         for (const auto& frame : moves) {
             for (const auto& [id, pose] : frame) game.world.move(id, pose);
@@ -83,9 +48,9 @@ void expect_later_laps_allocate_nothing(std::uint64_t seed) {
         EXPECT_GT(most, 10u);
         return result;
     };
-    EXPECT_GT(run_a_lap(), 0);
-    EXPECT_EQ(run_a_lap(), 0);
-    EXPECT_EQ(run_a_lap(), 0);
+    EXPECT_GT(run_a_lap(), 0u);
+    EXPECT_EQ(run_a_lap(), 0u);
+    EXPECT_EQ(run_a_lap(), 0u);
 }
 
 TEST(Allocation, UpdateAllocatesNothingOnceWarm) {
@@ -106,19 +71,19 @@ TEST(Allocation, OneUpdateOfThisSizeIsEnough) {
         for (std::size_t i = 0; i < ids.size(); ++i) world.move(ids[i], {{apart ? 3 * static_cast<float>(i) : 0, 0}});
     };
     for (int i = 0; i < 3; ++i) {
-        EXPECT_EQ(update(), 0) << "all stay";
+        EXPECT_EQ(update(), 0u) << "all stay";
         move_all(true);
-        EXPECT_EQ(update(), 0) << "all end";
+        EXPECT_EQ(update(), 0u) << "all end";
         EXPECT_TRUE(world.contacts().empty());
         move_all(false);
-        EXPECT_EQ(update(), 0) << "all begin";
+        EXPECT_EQ(update(), 0u) << "all begin";
         EXPECT_EQ(world.contacts().size(), pairs);
         // Others in the same slots.
         for (Id& id : ids) {
             world.remove(id);
             id = world.add(Box2{{0, 0}, {1, 1}}, {.fixed = id.index % 4 == 0});
         }
-        EXPECT_EQ(update(), 0) << "all end, and as many begin";
+        EXPECT_EQ(update(), 0u) << "all end, and as many begin";
     }
 }
 
@@ -139,7 +104,7 @@ void expect_questions_allocate_nothing(std::uint64_t seed) {
                           found += game.world.closest(from) ? 1 : 0;
                           game.world.each_overlapping(placed, [&](Id) { ++found; });
                       }),
-                      0);
+                      0u);
         });
     }
     EXPECT_GT(found, 600);

@@ -103,7 +103,10 @@ void with_random_shape(oracle::Random& random, int kind, Take&& take) {
     };
     const auto scale = [&] {
         Vec<D> result;
-        for (int i = 0; i < D; ++i) result[i] = random.uniform_float(0.4, 1.6) * (random.chance(0.3) ? -1.0f : 1.0f);
+        for (int i = 0; i < D; ++i) {
+            const bool mirrored = random.chance(0.3);
+            result[i] = random.uniform_float(0.4, 1.6) * (mirrored ? -1.0f : 1.0f);
+        }
         return result;
     };
     switch (kind) {
@@ -129,8 +132,10 @@ void with_random_shape(oracle::Random& random, int kind, Take&& take) {
             const Triangle<D> inner{point(), point(), point()};
             return take(rounded(stretched(inner, scale()), 0.1f));
         }
-        case 10:
-            return take(at(rounded(at(stairs<D>(3, 0.2f), {point(), random.rotation<D>()}), 0.1f), {point()}));
+        case 10: {
+            const Pose<D> inner{point(), random.rotation<D>()}, outer{point()};
+            return take(at(rounded(at(stairs<D>(3, 0.2f), inner), 0.1f), outer));
+        }
         default:
             break;
     }

@@ -1,0 +1,104 @@
+// No question allocates memory.
+
+#include "../oracle/check.hpp"
+#include "../oracle/pair.hpp"
+#include <abut/query/contact.hpp>
+#include <abut/query/contains.hpp>
+#include <abut/query/raycast.hpp>
+#include <abut/shape/cylinder.hpp>
+#include <abut/shape/mesh.hpp>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+namespace {
+std::atomic<long> allocations = 0;
+
+void* counted(std::size_t bytes) {
+    ++allocations;
+    if (void* memory = std::malloc(bytes > 0 ? bytes : 1)) return memory;
+    throw std::bad_alloc();
+}
+}  // namespace
+
+void* operator new(std::size_t bytes) {
+    return counted(bytes);
+}
+void* operator new[](std::size_t bytes) {
+    return counted(bytes);
+}
+void operator delete(void* memory) noexcept {
+    std::free(memory);
+}
+void operator delete[](void* memory) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+    std::free(memory);
+}
+void operator delete[](void* memory, std::size_t) noexcept {
+    std::free(memory);
+}
+
+namespace abut {
+namespace {
+
+template <int D>
+long allocations_of_all_questions(const View<D>& a, const View<D>& b, const Ray<D>& ray) {
+    const long before = allocations;
+    overlaps(a, b);
+    closest(a, b);
+    contact(a, b);
+    contact(a, b, {.margin = 1});
+    contains(a, ray.origin);
+    closest(a, ray.origin);
+    raycast(ray, a);
+    return allocations - before;
+}
+
+TEST(Allocation, IsCounted) {
+    const long before = allocations;
+    const std::vector<int> numbers(100);
+    EXPECT_EQ(allocations - before, 1) << numbers.size();
+}
+
+template <int D>
+void expect_none() {
+    for (std::uint64_t seed = 0; seed < 2000; ++seed) {
+        SCOPED_TRACE(seed);
+        oracle::Random random(seed);
+        const auto pair = oracle::random_pair<D>(random, static_cast<oracle::Kind>(random.below(oracle::kind_count)),
+                                                 static_cast<oracle::Kind>(random.below(oracle::kind_count)));
+        const auto ray = Ray<D>::between(to_float(random.direction<D>()), to_float(oracle::middle(pair.a.solid)));
+        EXPECT_EQ(allocations_of_all_questions<D>(pair.a.view, pair.b.view, ray), 0);
+        EXPECT_EQ(allocations_of_all_questions<D>(pair.a.view, view(HalfSpace<D>{ray.direction, ray.length}), ray), 0);
+    }
+}
+
+TEST(Allocation, OfQuestionsInThePlaneIsNone) {
+    expect_none<2>();
+}
+TEST(Allocation, OfQuestionsInSpaceIsNone) {
+    expect_none<3>();
+}
+
+TEST(Allocation, OfQuestionsAboutMeshesAndRoundShapesIsNone) {
+    oracle::Random random(5);
+    std::vector<Vec3> points;
+    std::vector<glm::uvec3> triangles;
+    for (std::uint32_t i = 0; i < 300; ++i) {
+        points.push_back(to_float(random.in_cube<3>()));
+        triangles.push_back({i, random.below(300), random.below(300)});
+    }
+    const Mesh mesh = *Mesh::build(points, triangles);
+    const Ray3 ray = Ray3::between({-3, -2, -1}, {2, 2, 2});
+    const Cylinder cylinder{{0, 0, 0}, {1, 1, 0}, 0.5f};
+    const Cone cone{{0.5f, 0, 0}, {1, 1, 1}, 0.5f};
+    EXPECT_EQ(allocations_of_all_questions<3>(view(mesh), view(cylinder), ray), 0);
+    EXPECT_EQ(allocations_of_all_questions<3>(view(cone), view(cylinder), ray), 0);
+    EXPECT_EQ(allocations_of_all_questions<3>(view(mesh), view(at(mesh, Pose3{{0.5f, 0, 0}})), ray), 0);
+}
+
+}  // namespace
+}  // namespace abut

@@ -1,0 +1,188 @@
+// The same bits everywhere: a hash over the bits of 100,000 answers, compared with a constant.
+//
+// The shapes are made of whole numbers, so no arithmetic of this file is in the answers. Where a change of the library
+// is meant to change answers, the constant is renewed from the failing test's output, after the same output was seen
+// from gcc and clang, -O0 and -O3 -march=native.
+
+#include "../oracle/random.hpp"
+#include <abut/query/closest.hpp>
+#include <abut/query/contact.hpp>
+#include <abut/query/contains.hpp>
+#include <abut/query/overlaps.hpp>
+#include <abut/query/raycast.hpp>
+#include <abut/shape/ball.hpp>
+#include <abut/shape/box.hpp>
+#include <abut/shape/capsule.hpp>
+#include <abut/shape/cylinder.hpp>
+#include <abut/shape/mesh.hpp>
+#include <abut/shape/placed.hpp>
+#include <abut/shape/polygon.hpp>
+#include <abut/shape/polyhedron.hpp>
+#include <abut/shape/segment.hpp>
+#include <abut/shape/triangle.hpp>
+
+#include <bit>
+#include <memory>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace abut {
+namespace {
+
+/// FNV-1a over whole words.
+class Hash {
+public:
+    void add(std::uint64_t word) { value_ = (value_ ^ word) * 0x100000001b3u; }
+    void add(float x) { add(std::uint64_t{std::bit_cast<std::uint32_t>(x)}); }
+    template <int D>
+    void add(const glm::vec<D, float>& v) {
+        for (int i = 0; i < D; ++i) add(v[i]);
+    }
+    void add(const Feature& f) {
+        add(std::uint64_t{f.part} << 34 | std::uint64_t{f.index} << 2 | static_cast<std::uint64_t>(f.kind));
+    }
+    std::uint64_t value() const { return value_; }
+
+private:
+    std::uint64_t value_ = 0xcbf29ce484222325u;
+};
+
+/// Random shapes of whole numbers, 8 units across and near the origin. No two numbers are drawn in one call: which of
+/// its arguments comes first is up to the compiler.
+template <int D>
+class WholeNumbers {
+public:
+    explicit WholeNumbers(std::uint64_t seed) : random_(seed) {}
+
+    float number(int most) {
+        return static_cast<float>(static_cast<int>(random_.below(static_cast<std::uint32_t>(2 * most + 1))) - most);
+    }
+    float size() { return (1 + static_cast<float>(random_.below(64))) / 16; }
+    Vec<D> point() {
+        Vec<D> result;
+        for (int i = 0; i < D; ++i) result[i] = number(512) / 128;
+        return result;
+    }
+    Vec<D> half() {
+        Vec<D> result;
+        for (int i = 0; i < D; ++i) result[i] = size();
+        return result;
+    }
+    Rotation<D> rotation() {
+        if constexpr (D == 2)
+            return {number(100), number(100)};
+        else
+            return glm::quat{number(100), number(100), number(100), number(100)};
+    }
+    std::vector<Vec<D>> points(std::uint32_t count) {
+        std::vector<Vec<D>> result;
+        for (std::uint32_t i = 0; i < count; ++i) result.push_back(point());
+        return result;
+    }
+
+    /// The shape lives as long as this generator.
+    View<D> shape() {
+        switch (random_.below(D == 2 ? 9 : 12)) {
+            case 0:
+                return keep(Ball<D>{point(), size()});
+            case 1:
+                return keep(Capsule<D>{point(), point(), size()});
+            case 2:
+                return keep(Segment<D>{point(), point()});
+            case 3:
+                return keep(Triangle<D>{point(), point(), point()});
+            case 4:
+                return keep(Box<D>{point(), half(), rotation()});
+            case 5: {
+                const Pose<D> pose{point(), rotation()};
+                const Box<D> box{point(), half()};
+                return keep(at(rounded(Box<D>(box), size()), pose));
+            }
+            case 6: {
+                const Pose<D> pose{point(), rotation()};
+                const Ball<D> ball{point() / 8.0f, size()};
+                return keep(at(stretched(Ball<D>(ball), half()), pose));
+            }
+            case 7:
+                if constexpr (D == 2)
+                    return keep(*Polygon::build(points(8)));
+                else
+                    return keep(*Polyhedron::build(points(12)));
+            case 8: {
+                const Vec<D> a = point(), b = point();
+                return keep(merged(Aabb<D>{a, a}, Aabb<D>{b, b}));
+            }
+            case 9:
+                if constexpr (D == 3) return keep(Cylinder{point(), point(), size()});
+                break;
+            case 10:
+                if constexpr (D == 3) return keep(Cone{point(), point(), size()});
+                break;
+            default:
+                if constexpr (D == 3) {
+                    std::vector<glm::uvec3> triangles;
+                    for (int i = 0; i < 8; ++i)
+                        triangles.push_back({random_.below(8), random_.below(8), random_.below(8)});
+                    return keep(*Mesh::build(points(8), triangles));
+                }
+                break;
+        }
+        return {};
+    }
+
+private:
+    template <class S>
+    View<D> keep(S shape) {
+        auto kept = std::make_shared<const S>(std::move(shape));
+        keepers_.push_back(kept);
+        return view(*kept);
+    }
+
+    oracle::Random random_;
+    std::vector<std::shared_ptr<const void>> keepers_;
+};
+
+template <int D>
+void add_answers(Hash& hash, std::uint64_t seed) {
+    WholeNumbers<D> make(seed);
+    const View<D> a = make.shape(), b = make.shape();
+    hash.add(std::uint64_t{overlaps(a, b)});
+    const Closest<D> found = closest(a, b);
+    hash.add(found.distance);
+    hash.add<D>(found.normal);
+    hash.add<D>(found.on_a);
+    hash.add<D>(found.on_b);
+    hash.add(found.feature_a);
+    hash.add(found.feature_b);
+    const Contact<D> touch = contact(a, b);
+    hash.add(touch.depth);
+    hash.add<D>(touch.normal);
+    for (const ContactPoint<D>& point : touch.points) {
+        hash.add<D>(point.position);
+        hash.add(point.depth);
+        hash.add(std::uint64_t{point.feature});
+    }
+    hash.add(std::uint64_t{contains(a, make.point())});
+    const Vec<D> from = make.point() * 4.0f;
+    if (const auto hit = raycast(Ray<D>::between(from, make.point()), a)) {
+        hash.add(hit->fraction);
+        hash.add(hit->distance);
+        hash.add<D>(hit->point);
+        hash.add<D>(hit->normal);
+        hash.add(hit->feature);
+    }
+}
+
+TEST(Golden, AnswersHaveTheSameBitsEverywhere) {
+    Hash plane, space;
+    for (std::uint64_t seed = 0; seed < 10000; ++seed) {
+        add_answers<2>(plane, seed);
+        add_answers<3>(space, seed);
+    }
+    EXPECT_EQ(plane.value(), 0u);
+    EXPECT_EQ(space.value(), 0u);
+}
+
+}  // namespace
+}  // namespace abut
