@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <tuple>
 
 namespace abut::test {
 
@@ -68,8 +69,9 @@ public:
         for (const auto& [id, item] : items_)
             if (asked(id, item, filter))
                 if (const auto hit = abut::raycast(ray, item.view())) all.push_back({id, *hit});
-        std::stable_sort(all.begin(), all.end(),
-                         [](const auto& a, const auto& b) { return a.hit.distance < b.hit.distance; });
+        std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+            return std::tie(a.hit.distance, a.id) < std::tie(b.hit.distance, b.id);
+        });
         return all;
     }
 
