@@ -16,7 +16,7 @@ namespace {
 
 int fail(std::string line) {
     std::replace_if(
-        line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+        line.begin(), line.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
     std::fprintf(stderr, "abut: %s\n", line.c_str());
     return unusable;
 }

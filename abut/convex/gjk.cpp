@@ -18,6 +18,14 @@ double largest(const Simplex<D>& simplex) {
     return most;
 }
 
+/// How far a support point may be short of the farthest, as a part of the coordinates: a user's function is asked and
+/// answers in floats.
+template <int D>
+double rounding(const CoreDifference<D>& difference) {
+    const bool floats = difference.a().core == Core::function || difference.b().core == Core::function;
+    return floats ? 4e-7 : 1e-15;
+}
+
 }  // namespace
 
 template <int D>
@@ -31,9 +39,10 @@ GjkResult<D> gjk(const CoreDifference<D>& difference, double enough) {
     result.closest = reduce_to_closest(simplex);
 
     double distance_squared = length_squared(result.closest);
+    const double relative_noise = rounding(difference);
     double proven = 0;  // A - B lies behind a plane this far from the origin
     for (int step = 0; step < gjk_most_steps; ++step) {
-        const double noise = 1e-15 * largest(simplex), distance = std::sqrt(distance_squared);
+        const double noise = relative_noise * largest(simplex), distance = std::sqrt(distance_squared);
         if (distance <= noise) {
             result.exit = GjkExit::touching;
             return result;
@@ -43,12 +52,13 @@ GjkResult<D> gjk(const CoreDifference<D>& difference, double enough) {
             return result;
         }
         const DifferencePoint<D> next = difference.support(-result.closest);
-        proven = std::max(proven, dot(next.position, result.closest) / distance - noise);
+        const double plane = dot(next.position, result.closest) / distance;
+        proven = std::max(proven, plane - noise);
         if (yes_no && proven > enough) {
             result.exit = GjkExit::beyond;
             return result;
         }
-        if (holds(simplex, next.position) || distance - proven <= 1e-13 * distance) {
+        if (holds(simplex, next.position) || distance - plane <= std::max(noise, 1e-13 * distance)) {
             result.exit = GjkExit::separated;
             return result;
         }

@@ -22,7 +22,9 @@ SignedDistance<D> signed_distance(const Convex<D>& a, const Convex<D>& b) {
         const Penetration<D> deep = penetration(difference);
         result.distance = -deep.depth;
         result.normal = deep.normal;
-        result.face = deep.exit == PenetrationExit::flat ? apart.simplex : deep.face;
+        // Where they barely touch, a common point is on both surfaces.
+        const bool deeper = deep.exit != PenetrationExit::flat && deep.depth > blurred;
+        result.face = deeper ? deep.face : apart.simplex;
     }
     result.distance -= a.radius + b.radius;
     result.on_a = difference.origin() + result.face.combine(&DifferencePoint<D>::on_a) + result.normal * a.radius;

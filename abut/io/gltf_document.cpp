@@ -264,6 +264,8 @@ void Reader::read_nodes() {
         node.name = name_in(json);
         node.mesh = index(json, "mesh", "meshes", where);
         node.skinned = index(json, "skin", "skins", where) != none;
+        const Json* extensions = member(json, "extensions");
+        node.instanced = extensions != nullptr && member(*extensions, "EXT_mesh_gpu_instancing") != nullptr;
         each_member(json, "children", where, [&](const Json& child) {
             node.children.push_back(index(child, count("nodes"), where, "children"));
         });

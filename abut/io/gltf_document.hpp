@@ -67,6 +67,7 @@ struct Node {
     std::vector<std::uint32_t> children;
     std::uint32_t mesh = none;
     bool skinned = false;
+    bool instanced = false;  ///< shown in many places by EXT_mesh_gpu_instancing
     bool has_matrix = false;
     glm::dmat4 matrix{1.0};
     glm::dvec3 translation{0.0};

@@ -107,7 +107,11 @@ private:
     std::string stem_;
     Scene scene_;
     std::vector<bool> was_cut_;  // of each mesh: it has polygons
-    std::unordered_map<std::string, std::uint32_t> node_named_;
+    struct Named {
+        std::uint32_t first = 0;
+        bool is_unique = true;
+    };
+    std::unordered_map<std::string, Named> node_named_;  // Assimp's animations name the nodes they move
 };
 
 std::optional<Problem> Reader::check_faces(const ReadOptions& options) {
@@ -190,7 +194,8 @@ void Reader::read_nodes() {
         for (unsigned i = 0; i < from->mNumMeshes; ++i)
             if (from->mMeshes[i] < from_.mNumMeshes) node.geometries.push_back(from->mMeshes[i]);
         const auto index = static_cast<std::uint32_t>(scene_.nodes.size());
-        node_named_.try_emplace(text(from->mName), index);
+        const auto [named, is_new] = node_named_.try_emplace(text(from->mName), Named{index});
+        named->second.is_unique = is_new;
         for (unsigned i = from->mNumChildren; i-- > 0;) waiting.push_back({from->mChildren[i], index});
         scene_.nodes.push_back(std::move(node));
     }
@@ -204,7 +209,9 @@ void Reader::read_animation(const aiAnimation& from) {
         const aiNodeAnim& channel = *from.mChannels[i];
         const auto node = node_named_.find(text(channel.mNodeName));
         if (node == node_named_.end()) continue;
-        NodeMotion motion{.node = node->second, .translation = {}, .rotation = {}, .scale = {}};
+        if (!node->second.is_unique)
+            warn_once("several nodes are named '" + node->first + "': the first is taken for the one that moves");
+        NodeMotion motion{.node = node->second.first, .translation = {}, .rotation = {}, .scale = {}};
         read_track(motion.translation, std::span(channel.mPositionKeys, channel.mNumPositionKeys), ticks);
         read_track(motion.rotation, std::span(channel.mRotationKeys, channel.mNumRotationKeys), ticks);
         read_track(motion.scale, std::span(channel.mScalingKeys, channel.mNumScalingKeys), ticks);

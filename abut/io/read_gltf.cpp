@@ -145,6 +145,7 @@ std::optional<Problem> Reader::read_nodes() {
             Result<std::vector<std::uint32_t>> geometries = read_mesh(from.mesh);
             if (!geometries) return geometries.problem();
             node.geometries = *std::move(geometries);
+            if (from.instanced) warn_once("of instances made by EXT_mesh_gpu_instancing only the node's own is taken");
             if (from.skinned) warn_once("skinned meshes are taken in their bind pose");
         }
         scene_node_[index] = static_cast<std::uint32_t>(scene_.nodes.size());

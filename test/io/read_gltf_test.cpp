@@ -72,6 +72,21 @@ TEST_F(ReadGltf, AgreesWithAssimp) {
     EXPECT_GT(compared, 700u);
 }
 
+TEST_F(ReadGltf, ThroughAssimpNodesOfOneNameAreWarnedOf) {
+    GltfBuilder builder;
+    const int mesh = builder.add_mesh("Box", test::box_triangles({1, 1, 1}));
+    builder.add_node("Crate", mesh);
+    builder.add_node("Crate", mesh);
+    builder.add_motion(1, "Fall", {0, 1}, {{0, 0, 0}, {0, 8, 0}});
+    builder.add_text(R"(,"scenes":[{"nodes":[0,1]}],"scene":0)");
+    const std::string text = builder.text();
+    const Result<Scene> scene = read_assimp(test::bytes_of(text), ".gltf", {});
+    ASSERT_TRUE(scene) << scene.problem().message;
+    EXPECT_EQ(scene->warnings,
+              std::vector<std::string>{"several nodes are named 'Crate': the first is taken for the one that moves"});
+    EXPECT_TRUE(read(text).warnings.empty());
+}
+
 TEST_F(ReadGltf, QuantizedPositions) {
     GltfBuilder builder;
     const std::vector<std::int16_t> shorts{0, 0, 0, 0, 32767, 0, 0, 0, 0, -32767, 0, 0};

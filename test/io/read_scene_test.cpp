@@ -267,6 +267,7 @@ TEST_F(ReadScene, WarnsOnceOfWhatItTakesDifferently) {
     const int points = builder.add_points({{0, 0, 0}, {1, 0, 0}});
     const int cloud =
         builder.add_mesh("Cloud", "{\"mode\":0,\"attributes\":{\"POSITION\":" + std::to_string(points) + "}}");
+    builder.add_node("Trees", ",\"mesh\":" + std::to_string(mesh) + R"(,"extensions":{"EXT_mesh_gpu_instancing":{}})");
     for (int i = 0; i < 2; ++i) {
         builder.add_node("Person", ",\"skin\":0,\"mesh\":" + std::to_string(mesh));
         builder.add_node("Dust", cloud);
@@ -274,8 +275,10 @@ TEST_F(ReadScene, WarnsOnceOfWhatItTakesDifferently) {
     builder.add_text(R"(,"skins":[{"joints":[0]}])");
     const Result<Scene> scene = read_scene(write("odd.gltf", builder.text()));
     ASSERT_TRUE(scene) << scene.problem().message;
-    EXPECT_EQ(scene->warnings, (std::vector<std::string>{"skinned meshes are taken in their bind pose",
-                                                         "points and lines are left out: only triangles collide"}));
+    EXPECT_EQ(scene->warnings,
+              (std::vector<std::string>{"of instances made by EXT_mesh_gpu_instancing only the node's own is taken",
+                                        "skinned meshes are taken in their bind pose",
+                                        "points and lines are left out: only triangles collide"}));
 }
 
 }  // namespace

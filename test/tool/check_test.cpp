@@ -122,6 +122,16 @@ TEST(Check, OnlyThePairsThatAreAskedFor) {
     EXPECT_EQ(check_scene(scene, {.pairs = {{"Wall*", "Wall*"}}}).findings.size(), 1u);
 }
 
+TEST(Check, PatternsAreForPathsAndForNames) {
+    Object object;
+    object.path = "Level/Walls/North";
+    object.name = "North";
+    for (const char* pattern : {"North", "N*", "Level/Walls/North", "*/North", "Level*"})
+        EXPECT_TRUE(describes(pattern, object)) << pattern;
+    for (const char* pattern : {"Walls", "Level", "Walls/North", "South"})
+        EXPECT_FALSE(describes(pattern, object)) << pattern;
+}
+
 TEST(Check, ABodyInsideOfAnotherThatIsNotConvex) {
     // A crate within the corner cube of an L whose cubes have edges of length 4: 1.5 under its surface, 0.5 to its own.
     Scene scene;

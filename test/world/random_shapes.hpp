@@ -176,11 +176,12 @@ Pose<D> random_pose(oracle::Random& random, double extent) {
 /// The pose a frame later: a small step and, in 3D as in 2D, a small turn.
 template <int D>
 Pose<D> moved_a_little(oracle::Random& random, const Pose<D>& pose, double step) {
-    Pose<D> turn{{}, no_rotation<D>};
+    const float angle = random.uniform_float(-0.1, 0.1);
+    Pose<D> turn;
     if constexpr (D == 2)
-        turn.rotation = Turn::by(random.uniform_float(-0.1, 0.1));
+        turn.rotation = Turn::by(angle);
     else
-        turn.rotation = turn_about(to_float(random.direction<3>()), random.uniform_float(-0.1, 0.1));
+        turn.rotation = turn_about(to_float(random.direction<3>()), angle);
     Pose<D> result = pose * turn;
     result.position += to_float(random.in_cube<D>() * step);
     return result;
