@@ -122,10 +122,8 @@ bool is_convex_solid(std::span<const Vec3> points, std::span<const glm::uvec3> t
 
     // 1. Closed; and across each edge the neighbour bends back. This is where nearly everything concave is found out.
     const std::vector<Edge> edges = sorted_edges(triangles);
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-        const Edge& edge = edges[i];
-        const bool twice = i > 0 && !before(edges[i - 1], edge);
-        const Edge* other = twice ? nullptr : twin(edges, edge);
+    for (const Edge& edge : edges) {
+        const Edge* other = twin(edges, edge);
         if (other == nullptr) return false;
         const Plane plane(points[edge.from], points[edge.to], points[edge.opposite]);
         if (plane.height(points[other->opposite]) > margin) return false;

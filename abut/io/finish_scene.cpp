@@ -165,7 +165,7 @@ bool has_zero_area(const Vec3& a, const Vec3& b, const Vec3& c) {
     const DVec<3> bc = DVec<3>(c) - DVec<3>(b);
     const double longest = std::max({length_squared(ab), length_squared(ac), length_squared(bc)});
     const double area = length(cross(ab, ac));
-    return a == b || b == c || c == a || area <= 1e-12 * longest;
+    return area <= 1e-12 * longest;
 }
 
 Result<Scene> finish_scene(Scene scene, const ReadOptions& options) {

@@ -11,7 +11,12 @@ TEST(Weld, MakesPointsAtOnePositionOne) {
     const Welded welded = weld(points, std::vector<glm::uvec3>{{1, 2, 3}, {4, 5, 6}});
     EXPECT_EQ(welded.points, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
     EXPECT_EQ(welded.triangles, (std::vector<glm::uvec3>{{0, 1, 2}, {0, 2, 3}}));
-    EXPECT_FALSE(std::signbit(welded.points[0].x));
+}
+
+TEST(Weld, MakesMinusZeroZero) {
+    const std::vector<Vec3> points{{-0.0f, -0.0f, -0.0f}, {1, 0, 0}, {0, 1, 0}};
+    const Welded welded = weld(points, std::vector<glm::uvec3>{{0, 1, 2}});
+    for (int i = 0; i < 3; ++i) EXPECT_FALSE(std::signbit(welded.points[0][i]));
 }
 
 TEST(Weld, KeepsApartWhatDiffersByOneUlp) {
