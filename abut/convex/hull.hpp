@@ -3,6 +3,7 @@
 // Convex hulls of point sets: the engines behind Polygon and Polyhedron.
 // The input is floats, sorted before anything else, so that a hull doesn't depend on the order its points came in.
 
+#include <abut/convex/facets.hpp>
 #include <abut/math/result.hpp>
 #include <abut/math/vec.hpp>
 
@@ -33,6 +34,7 @@ struct Hull3 {
     std::vector<double> offsets;           ///< one a face: the most of dot(normal, corner) over its loop
     std::vector<std::uint32_t> loops;      ///< the point numbers of all faces, one after the other
     std::vector<std::uint32_t> loop_ends;  ///< one a face: where its loop ends in `loops`
+    std::vector<FacetEdge> edges;          ///< as those of `Facets`
     double volume = 0;                     ///< of a solid
     double area = 0;                       ///< of all faces
     Vec3 centroid{};                       ///< of the volume; of the polygon, segment or point where there is none

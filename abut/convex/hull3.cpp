@@ -152,6 +152,7 @@ void take_faces(Hull3& result, std::span<const Vec3> points, HullFaces faces) {
         result.loops.insert(result.loops.end(), loop.begin(), loop.end());
         result.loop_ends.push_back(static_cast<std::uint32_t>(result.loops.size()));
     }
+    result.edges = facet_edges(result.loops, result.loop_ends);
 }
 
 /// Volume, area and centroid, from triangles that cover the surface (three corners each). Joined faces aren't quite

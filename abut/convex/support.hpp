@@ -7,13 +7,13 @@
 // A circle, a capsule, a rounded box and a hull are one thing to them, and touching cases stay well conditioned:
 // the cores of two touching rounded shapes are apart by their radii.
 
+#include <abut/convex/facets.hpp>
 #include <abut/math/aabb.hpp>
 #include <abut/math/linear.hpp>
 
 #include <array>
 #include <cstdint>
 #include <initializer_list>
-#include <span>
 
 namespace abut {
 
@@ -23,14 +23,6 @@ enum class Core : std::uint8_t {
     box,       ///< a box about the origin, by its half extents
     discs,     ///< the hull of two parallel discs (D = 3): cylinder, cone
     function,  ///< known by its support function alone
-};
-
-/// The faces of a polytope in 3D, as loops of point numbers, counter-clockwise seen from outside.
-struct Facets {
-    std::span<const Vec3> normals;         ///< one a face, of length 1, outwards
-    std::span<const std::uint32_t> loops;  ///< the point numbers of all faces, one after the other
-    std::span<const std::uint32_t>
-        loop_ends;  ///< one a face: where its loop ends in `loops`; it begins where the last ended
 };
 
 /// How a set is placed: place * (set + inner ball) + ball.

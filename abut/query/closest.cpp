@@ -62,7 +62,7 @@ private:
 }  // namespace
 
 template <int D>
-Closest<D> closest(const View<D>& a, const View<D>& b, const QueryOptions&) {
+Closest<D> closest(const View<D>& a, const View<D>& b, const QueryOptions<D>&) {
     const bool finite = is_finite(a) && is_finite(b);
     ABUT_ASSERT(finite);
     if (!finite) return {};
@@ -88,7 +88,7 @@ Closest<D> closest(const View<D>& a, const View<D>& b, const QueryOptions&) {
     return nearest.found();
 }
 
-template Closest<2> closest(const View<2>&, const View<2>&, const QueryOptions&);
-template Closest<3> closest(const View<3>&, const View<3>&, const QueryOptions&);
+template Closest<2> closest(const View<2>&, const View<2>&, const QueryOptions<2>&);
+template Closest<3> closest(const View<3>&, const View<3>&, const QueryOptions<3>&);
 
 }  // namespace abut

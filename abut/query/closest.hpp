@@ -31,20 +31,22 @@ private:
 };
 
 template <int D>
-Closest<D> closest(const View<D>& a, const View<D>& b, const QueryOptions& options = {});
+Closest<D> closest(const View<D>& a, const View<D>& b, const QueryOptions<D>& options = {});
 
 /// The signed distance of two shapes with the points and direction it is measured at.
 /// Right to within 1e-5 x the size of the smaller; the depth of cylinders, cones and shapes known by a support function
 /// is that of a move which truly parts them, at most 1e-3 x size above the least.
 template <class A, class B>
-requires Pair<A, B> Closest<dimension<A>> closest(const A& a, const B& b, const QueryOptions& options = {}) {
+requires Pair<A, B> Closest<dimension<A>> closest(const A& a, const B& b,
+                                                  const QueryOptions<dimension<A>>& options = {}) {
     constexpr int D = dimension<A>;
     return closest(View<D>(view(a)), View<D>(view(b)), options);
 }
 
 /// The place on a shape closest to a point: `on_a`. Inside, the distance is below zero and `on_a` the nearest way out.
 template <Shape A>
-Closest<dimension<A>> closest(const A& a, const Vec<dimension<A>>& point, const QueryOptions& options = {}) {
+Closest<dimension<A>> closest(const A& a, const Vec<dimension<A>>& point,
+                              const QueryOptions<dimension<A>>& options = {}) {
     constexpr int D = dimension<A>;
     return closest(View<D>(view(a)), View<D>(round_points<D>({point}, 0)), options);
 }

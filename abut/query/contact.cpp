@@ -35,7 +35,7 @@ Contact<D> answer(const Manifold<D>& found, const SignedDistance<D>& distance, s
 }  // namespace
 
 template <int D>
-Contact<D> contact(const View<D>& a, const View<D>& b, const QueryOptions& options) {
+Contact<D> contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& options) {
     const bool finite = is_finite(a) && is_finite(b);
     ABUT_ASSERT(finite);
     Contact<D> result;
@@ -55,7 +55,7 @@ Contact<D> contact(const View<D>& a, const View<D>& b, const QueryOptions& optio
     return result;
 }
 
-template Contact<2> contact(const View<2>&, const View<2>&, const QueryOptions&);
-template Contact<3> contact(const View<3>&, const View<3>&, const QueryOptions&);
+template Contact<2> contact(const View<2>&, const View<2>&, const QueryOptions<2>&);
+template Contact<3> contact(const View<3>&, const View<3>&, const QueryOptions<3>&);
 
 }  // namespace abut

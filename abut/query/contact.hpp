@@ -48,12 +48,13 @@ struct Contact {
 };
 
 template <int D>
-Contact<D> contact(const View<D>& a, const View<D>& b, const QueryOptions& options = {});
+Contact<D> contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& options = {});
 
 /// The contact of two touching or overlapping shapes; of composite ones, of their deepest pair of parts.
 /// With a margin, of shapes up to so far apart as well.
 template <class A, class B>
-requires Pair<A, B> Contact<dimension<A>> contact(const A& a, const B& b, const QueryOptions& options = {}) {
+requires Pair<A, B> Contact<dimension<A>> contact(const A& a, const B& b,
+                                                  const QueryOptions<dimension<A>>& options = {}) {
     constexpr int D = dimension<A>;
     return contact(View<D>(view(a)), View<D>(view(b)), options);
 }

@@ -2,9 +2,20 @@
 
 // What every question takes as its optional last argument.
 
+#include <abut/convex/cache.hpp>
+#include <abut/convex/trace.hpp>
+
 namespace abut {
 
+/// Any of them may be left out: closest(a, b, {.cache = &cache, .margin = 0.1f}).
+template <int D>
 struct QueryOptions {
+    /// Where this pair's search ended last time, kept by the caller, one for each pair.
+    Cache* cache = nullptr;
+
+    /// Is told what the engines do, step by step.
+    Trace<D>* trace = nullptr;
+
     /// Contacts: points whose surfaces are up to this far apart count too, with a depth below zero.
     float margin = 0;
 };

@@ -20,7 +20,7 @@ bool parts_overlap(const Solid<D>& a, const Convex<D>& b) {
 }  // namespace
 
 template <int D>
-bool overlaps(const View<D>& a, const View<D>& b, const QueryOptions&) {
+bool overlaps(const View<D>& a, const View<D>& b, const QueryOptions<D>&) {
     const bool finite = is_finite(a) && is_finite(b);
     ABUT_ASSERT(finite);
     if (!finite) return false;
@@ -32,7 +32,7 @@ bool overlaps(const View<D>& a, const View<D>& b, const QueryOptions&) {
     return found;
 }
 
-template bool overlaps(const View<2>&, const View<2>&, const QueryOptions&);
-template bool overlaps(const View<3>&, const View<3>&, const QueryOptions&);
+template bool overlaps(const View<2>&, const View<2>&, const QueryOptions<2>&);
+template bool overlaps(const View<3>&, const View<3>&, const QueryOptions<3>&);
 
 }  // namespace abut

@@ -74,7 +74,7 @@ std::optional<BeamHit<D>> cast(const Beam<D>& beam, const Part& part, std::uint3
 }  // namespace
 
 template <int D>
-std::optional<Hit<D>> raycast(const Ray<D>& ray, const View<D>& shape, const QueryOptions&) {
+std::optional<Hit<D>> raycast(const Ray<D>& ray, const View<D>& shape, const QueryOptions<D>&) {
     const bool finite =
         is_finite(shape) && is_finite(ray.origin) && is_finite(ray.direction) && !std::isnan(ray.length);
     ABUT_ASSERT(finite);
@@ -115,7 +115,7 @@ std::optional<Hit<D>> raycast(const Ray<D>& ray, const View<D>& shape, const Que
     return hit;
 }
 
-template std::optional<Hit<2>> raycast(const Ray<2>&, const View<2>&, const QueryOptions&);
-template std::optional<Hit<3>> raycast(const Ray<3>&, const View<3>&, const QueryOptions&);
+template std::optional<Hit<2>> raycast(const Ray<2>&, const View<2>&, const QueryOptions<2>&);
+template std::optional<Hit<3>> raycast(const Ray<3>&, const View<3>&, const QueryOptions<3>&);
 
 }  // namespace abut

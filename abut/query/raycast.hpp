@@ -23,13 +23,13 @@ struct Hit {
 };
 
 template <int D>
-std::optional<Hit<D>> raycast(const Ray<D>& ray, const View<D>& shape, const QueryOptions& options = {});
+std::optional<Hit<D>> raycast(const Ray<D>& ray, const View<D>& shape, const QueryOptions<D>& options = {});
 
 /// The first hit. A ray that starts inside or on the surface hits at 0 only if it goes further in; along the surface or
 /// outwards is no hit, and the search goes on behind it.
 template <Shape S>
 std::optional<Hit<dimension<S>>> raycast(const Ray<dimension<S>>& ray, const S& shape,
-                                         const QueryOptions& options = {}) {
+                                         const QueryOptions<dimension<S>>& options = {}) {
     return raycast(ray, View<dimension<S>>(view(shape)), options);
 }
 

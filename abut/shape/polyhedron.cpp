@@ -12,7 +12,7 @@ constexpr Facets no_facets;
 }  // namespace
 
 struct Polyhedron::Data {
-    explicit Data(Hull3 built) : hull(std::move(built)), facets{hull.normals, hull.loops, hull.loop_ends} {}
+    explicit Data(Hull3 built) : hull(std::move(built)), facets{hull.normals, hull.loops, hull.loop_ends, hull.edges} {}
     Data(const Data&) = delete;
     Data& operator=(const Data&) = delete;
 
