@@ -10,6 +10,7 @@
 #include <abut/math/ray.hpp>
 #include <abut/math/result.hpp>
 #include <abut/math/vec.hpp>
+#include <abut/query/certify.hpp>
 #include <abut/query/closest.hpp>
 #include <abut/query/contact.hpp>
 #include <abut/query/contains.hpp>

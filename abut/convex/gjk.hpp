@@ -3,7 +3,11 @@
 // The distance between two convex cores.
 // Gilbert, Johnson, Keerthi, "A fast procedure for computing the distance between complex objects in three-dimensional
 // space" (1988); van den Bergen, "A fast and robust GJK implementation" (1999).
+//
+// Whatever stops the walk, two bounds hold: a point of A - B that was reached, and a plane that parts A - B from the
+// origin. Where they agree the answer is proven, and where they don't the caller must ask another way.
 
+#include <abut/convex/search_options.hpp>
 #include <abut/convex/simplex.hpp>
 
 #include <limits>
@@ -12,22 +16,27 @@ namespace abut {
 
 /// How a walk ended.
 enum class GjkExit : std::uint8_t {
-    separated,      ///< the distance is known to the last digits
+    separated,      ///< no point of A - B is nearer to the origin
     beyond,         ///< they are farther apart than was asked
     within,         ///< they are at most as far apart as was asked
-    touching,       ///< the distance is zero as far as doubles can tell
+    touching,       ///< a point of A - B is the origin as far as doubles can tell
     overlapping,    ///< the origin is inside the simplex
-    no_progress,    ///< the distance stopped falling: it is known as well as rounding allows
-    bound_reached,  ///< gave up; the distance is an upper bound
+    no_progress,    ///< the distance stopped falling
+    bound_reached,  ///< gave up
 };
 
 template <int D>
 struct GjkResult {
     GjkExit exit = GjkExit::bound_reached;
-    DVec<D> closest{0.0};  ///< the point of A - B closest to the origin; zero for overlapping
-    Simplex<D> simplex;    ///< its face there, with weights
+    Simplex<D> simplex;  ///< of A - B, with the weights of its point closest to the origin
+    /// How far that point is from the origin: the gap is at most this. Zero where they touch or overlap.
+    double reached = std::numeric_limits<double>::infinity();
+    /// Moving B by -proven along `axis` makes them at least touch from outside: the signed distance is at least this.
+    double proven = -std::numeric_limits<double>::infinity();
+    DVec<D> axis = abut::axis<D>(0);  ///< from A to B, of length 1
+    double doubt = 0;                 ///< the bounds agree where they are no farther apart than this
 
-    bool apart() const { return exit != GjkExit::touching && exit != GjkExit::overlapping; }
+    bool agreed() const { return reached - proven <= doubt; }
 };
 
 /// The bound on steps; reaching it takes shapes of thousands of vertices seen along their worst direction.
@@ -35,6 +44,7 @@ inline constexpr int gjk_most_steps = 256;
 
 /// Walks until the distance is known or, with a finite `enough`, until it is known whether it is above that.
 template <int D>
-GjkResult<D> gjk(const CoreDifference<D>& difference, double enough = std::numeric_limits<double>::infinity());
+GjkResult<D> gjk(const CoreDifference<D>& difference, double enough = std::numeric_limits<double>::infinity(),
+                 const SearchOptions<D>& options = {});
 
 }  // namespace abut

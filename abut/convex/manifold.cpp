@@ -71,6 +71,14 @@ double alignment(const Face<D>& face, const DVec<D>& direction) {
 }
 
 template <int D>
+void record(const Face<D>& left, const DVec<D>& side, double offset, Trace<D>* trace) {
+    if (trace == nullptr) return;
+    ClipStep<D> step{to_float(side), static_cast<float>(offset), {}};
+    for (std::size_t i = 0; i < left.count; ++i) step.points.push_back(to_float(left.points[i]));
+    trace->steps.push_back(std::move(step));
+}
+
+template <int D>
 Manifold<D> thinned(const Candidates<D>& all, const DVec<D>& normal) {
     Manifold<D> result;
     const auto& points = all.points;
@@ -103,7 +111,8 @@ Manifold<D> thinned(const Candidates<D>& all, const DVec<D>& normal) {
 }  // namespace
 
 template <int D>
-Manifold<D> manifold(const Convex<D>& a, const Convex<D>& b, const SignedDistance<D>& distance, double margin) {
+Manifold<D> manifold(const Convex<D>& a, const Convex<D>& b, const SignedDistance<D>& distance, double margin,
+                     Trace<D>* trace) {
     const DVec<D>& normal = distance.normal;
     const double slack = 1e-6 * std::min(size(a), size(b));
     const std::uint32_t witness_name = distance.face.points[0].index_a << 8 ^ distance.face.points[0].index_b;
@@ -122,6 +131,7 @@ Manifold<D> manifold(const Convex<D>& a, const Convex<D>& b, const SignedDistanc
         const double incident_radius = a_is_reference ? b.radius : a.radius;
         each_side(reference, out, [&](const DVec<D>& side, double offset, std::uint32_t name) {
             clip(incident, side, offset + slack, name);
+            record(incident, side, offset, trace);
         });
         const DVec<D> plane = plane_of(reference, out);
         for (std::size_t i = 0; i < incident.count; ++i) {
@@ -159,8 +169,8 @@ Manifold<D> manifold_with_plane(const Convex<D>& a, const DVec<D>& normal, doubl
     return thinned(candidates, normal);
 }
 
-#define ABUT_INSTANTIATE(D)                                                                              \
-    template Manifold<D> manifold(const Convex<D>&, const Convex<D>&, const SignedDistance<D>&, double); \
+#define ABUT_INSTANTIATE(D)                                                                                         \
+    template Manifold<D> manifold(const Convex<D>&, const Convex<D>&, const SignedDistance<D>&, double, Trace<D>*); \
     template Manifold<D> manifold_with_plane(const Convex<D>&, const DVec<D>&, double, double);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

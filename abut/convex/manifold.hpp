@@ -22,7 +22,8 @@ struct Manifold {
 /// Two sets whose distance is at most `margin`. The points are those at most `margin` apart, among them the deepest; of
 /// more than there is room for, those that keep the most area.
 template <int D>
-Manifold<D> manifold(const Convex<D>& a, const Convex<D>& b, const SignedDistance<D>& distance, double margin);
+Manifold<D> manifold(const Convex<D>& a, const Convex<D>& b, const SignedDistance<D>& distance, double margin,
+                     Trace<D>* trace = nullptr);
 
 /// A set and the half-space dot(normal, p) <= offset; the contact normal, from the set, is -normal.
 template <int D>

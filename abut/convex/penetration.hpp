@@ -8,6 +8,9 @@
 // truly parts them, whatever made the search stop.
 
 #include <abut/convex/simplex.hpp>
+#include <abut/convex/trace.hpp>
+
+#include <limits>
 
 namespace abut {
 
@@ -22,15 +25,16 @@ template <int D>
 struct Penetration {
     PenetrationExit exit = PenetrationExit::bound_reached;
     DVec<D> normal{0.0};  ///< from A to B, of length 1
-    double depth = 0;     ///< h(normal); below zero where the cores are apart after all, by rounding
-    Simplex<D> face;      ///< the face of A - B along the normal, weighted at the point nearest to the origin
+    double depth = 0;     ///< h(normal); below zero where the cores are apart after all
+    double at_least = -std::numeric_limits<double>::infinity();  ///< no h(n) is below this
+    Simplex<D> face;  ///< the face of A - B along the normal, weighted at the point nearest to the origin
 };
 
 /// The bound on growing steps; polytopes need a few, curved shapes some dozens.
 inline constexpr std::size_t penetration_most_steps = 160;
 
-/// For cores that overlap or touch. Never allocates.
-Penetration<2> penetration(const CoreDifference<2>& difference);
-Penetration<3> penetration(const CoreDifference<3>& difference);
+/// For cores that overlap or touch. Never allocates but for the trace.
+Penetration<2> penetration(const CoreDifference<2>& difference, Trace<2>* trace = nullptr);
+Penetration<3> penetration(const CoreDifference<3>& difference, Trace<3>* trace = nullptr);
 
 }  // namespace abut

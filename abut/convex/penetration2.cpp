@@ -36,9 +36,19 @@ struct GrowingPolygon {
     }
 };
 
+void record(const GrowingPolygon& polygon, std::size_t edge, double distance, double extent, Trace<2>* trace) {
+    if (trace == nullptr) return;
+    PenetrationStep<2> step;
+    step.points = {to_float(polygon.points[edge].position), to_float(polygon.after(edge).position)};
+    step.normal = to_float(polygon.outward(edge));
+    step.distance = static_cast<float>(distance);
+    step.extent = static_cast<float>(extent);
+    trace->steps.push_back(step);
+}
+
 }  // namespace
 
-Penetration<2> penetration(const CoreDifference<2>& difference) {
+Penetration<2> penetration(const CoreDifference<2>& difference, Trace<2>* trace) {
     Penetration<2> result;
 
     // 1. Two points far apart; a difference without extent is a point.
@@ -86,11 +96,14 @@ Penetration<2> penetration(const CoreDifference<2>& difference) {
         const DVec<2> normal = polygon.outward(nearest);
         const DifferencePoint<2> next = difference.support(normal);
         const double extent = dot(normal, next.position);
+        record(polygon, nearest, least, extent, trace);
+        result.at_least = least;
         if (extent < result.depth) {
             result.normal = normal;
             result.depth = extent;
         }
-        if (result.depth - least <= noise) {
+        // Curved shapes come near their nearest edge and never quite there: stop at a ten-millionth of the depth.
+        if (result.depth - least <= noise + 1e-7 * std::abs(result.depth)) {
             result.exit = PenetrationExit::exact;
             break;
         }

@@ -32,6 +32,7 @@ public:
     }
 
     const Face& face(std::uint32_t i) const { return faces_[i]; }
+    const DVec<3>& corner(std::uint32_t face, std::size_t i) const { return points_[faces_[face].corner[i]].position; }
 
     std::uint32_t nearest() const {
         std::uint32_t best = face_count_;
@@ -218,9 +219,19 @@ Penetration<3> without_thickness(const CoreDifference<3>& difference, const Star
     return result;
 }
 
+void record(const GrowingPolytope& polytope, std::uint32_t nearest, double extent, Trace<3>* trace) {
+    if (trace == nullptr) return;
+    PenetrationStep<3> step;
+    for (std::size_t i = 0; i < 3; ++i) step.points[i] = to_float(polytope.corner(nearest, i));
+    step.normal = to_float(polytope.face(nearest).normal);
+    step.distance = static_cast<float>(polytope.face(nearest).distance);
+    step.extent = static_cast<float>(extent);
+    trace->steps.push_back(step);
+}
+
 }  // namespace
 
-Penetration<3> penetration(const CoreDifference<3>& difference) {
+Penetration<3> penetration(const CoreDifference<3>& difference, Trace<3>* trace) {
     const Start start = spanning_points(difference);
     if (start.count < 4) return without_thickness(difference, start);
 
@@ -233,12 +244,14 @@ Penetration<3> penetration(const CoreDifference<3>& difference) {
         const Face& face = polytope.face(nearest);
         const DifferencePoint<3> next = difference.support(face.normal);
         const double extent = dot(face.normal, next.position);
+        record(polytope, nearest, extent, trace);
+        result.at_least = face.distance;
         if (extent < result.depth) {
             result.normal = face.normal;
             result.depth = extent;
         }
-        // Curved shapes come near their nearest face and never quite there: stop at a millionth of the depth.
-        if (result.depth - face.distance <= start.noise + 1e-6 * std::abs(result.depth)) {
+        // Curved shapes come near their nearest face and never quite there: stop at a ten-millionth of the depth.
+        if (result.depth - face.distance <= start.noise + 1e-7 * std::abs(result.depth)) {
             result.exit = PenetrationExit::exact;
             break;
         }

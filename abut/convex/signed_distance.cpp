@@ -1,56 +1,113 @@
 #include <abut/convex/gjk.hpp>
 #include <abut/convex/penetration.hpp>
+#include <abut/convex/sat.hpp>
 #include <abut/convex/signed_distance.hpp>
 
 namespace abut {
+namespace {
+
+/// The signed distance of two cores, with the simplex of A - B at it.
+template <int D>
+struct CoreDistance {
+    double distance;
+    DVec<D> normal;
+    Simplex<D> face;
+};
+
+/// A box keeps its axes however thin it is; a polygon has a volume as long as its placement doesn't flatten it.
+template <int D>
+bool keeps_its_axes(const Convex<D>& core) {
+    if (!core.similar || !(core.scale > 0) || core.inner_radius > 0) return false;
+    return core.core == Core::box || (D == 2 && core.core == Core::points && core.points != nullptr && core.count > 2);
+}
+
+/// Whether the separating axes are few, and all there: with one body of some volume the difference has no other sides.
+bool few_axes(const CoreDifference<2>& difference) {
+    const Convex<2>&a = difference.a(), &b = difference.b();
+    return is_polytope(a) && is_polytope(b) && a.count + b.count <= 16 && (keeps_its_axes(a) || keeps_its_axes(b));
+}
+bool few_axes(const CoreDifference<3>& difference) {
+    return keeps_its_axes(difference.a()) && keeps_its_axes(difference.b());
+}
+
+/// The simplex at which A and B touch, once B has moved by `depth` along the normal.
+template <int D>
+Simplex<D> touching_face(const CoreDifference<D>& difference, const DVec<D>& normal, double depth) {
+    Convex<D> moved = difference.b();
+    moved.place.offset += normal * depth;
+    const CoreDifference<D> touching(difference.a(), moved);
+    return gjk(touching).simplex;
+}
+
+/// How far the weighted point of a face of A - B is from where it should be.
+template <int D>
+double distance_from(const DVec<D>& target, const Simplex<D>& face) {
+    return length(face.combine(&DifferencePoint<D>::position) - target);
+}
+
+/// Where the walk proved nothing: they overlap, or are so thin or so near that it lost its way.
+template <int D>
+CoreDistance<D> deep_distance(const CoreDifference<D>& difference, const GjkResult<D>& walk, Trace<D>* trace) {
+    CoreDistance<D> result{-std::numeric_limits<double>::infinity(), {}, walk.simplex};
+    if (few_axes(difference)) {
+        const SeparatingAxis<D> axis = separating_axis(difference, std::numeric_limits<double>::infinity(), trace);
+        result = {-axis.extent, axis.normal, touching_face(difference, axis.normal, axis.extent)};
+    }
+    if (!std::isfinite(result.distance)) {
+        const Penetration<D> deep = penetration(difference, trace);
+        result = {-deep.depth, deep.normal, deep.face};
+        // Where they barely touch, a common point is on both surfaces.
+        if (walk.reached <= walk.doubt && (deep.exit == PenetrationExit::flat || deep.depth <= 1e-3 * walk.doubt))
+            result.face = walk.simplex;
+        else if (distance_from(deep.normal * deep.depth, deep.face) > walk.doubt)
+            result.face = touching_face(difference, deep.normal, deep.depth);
+    }
+    if (walk.proven > result.distance) {
+        result.distance = walk.proven;
+        result.normal = walk.axis;
+        if (walk.proven <= 0) result.face = touching_face(difference, walk.axis, -walk.proven);
+    }
+    if (result.distance > 0) {
+        if (walk.reached < distance_from(DVec<D>(0.0), result.face)) result.face = walk.simplex;
+        result.distance = std::max(result.distance, distance_from(DVec<D>(0.0), result.face));
+    }
+    return result;
+}
+
+}  // namespace
 
 template <int D>
-SignedDistance<D> signed_distance(const Convex<D>& a, const Convex<D>& b) {
+SignedDistance<D> signed_distance(const Convex<D>& a, const Convex<D>& b, const SearchOptions<D>& options) {
     const CoreDifference<D> difference(a, b);
-    const GjkResult<D> apart = gjk(difference);
+    const GjkResult<D> walk = gjk(difference, std::numeric_limits<double>::infinity(), options);
+    const CoreDistance<D> cores = walk.agreed() ? CoreDistance<D>{walk.reached, walk.axis, walk.simplex}
+                                                : deep_distance(difference, walk, options.trace);
     SignedDistance<D> result;
-    const double gap = length(apart.closest);
-    // Below this the direction of the difference is rounding, sooner where rounding has stopped the walk already, and
-    // the faces around the origin know better.
-    const double blurred = (apart.exit == GjkExit::no_progress ? 1e-7 : 1e-10) *
-                           std::max(largest(apart.simplex.points[0].on_a), largest(apart.simplex.points[0].on_b));
-    if (apart.apart() && gap > blurred) {
-        result.distance = gap;
-        result.normal = -apart.closest / gap;
-        result.face = apart.simplex;
-    } else {
-        const Penetration<D> deep = penetration(difference);
-        result.distance = -deep.depth;
-        result.normal = deep.normal;
-        // Where they barely touch, a common point is on both surfaces.
-        const bool deeper = deep.exit != PenetrationExit::flat && deep.depth > blurred;
-        result.face = deeper ? deep.face : apart.simplex;
-    }
-    result.distance -= a.radius + b.radius;
+    result.distance = cores.distance - a.radius - b.radius;
+    result.normal = cores.normal;
+    result.face = cores.face;
     result.on_a = difference.origin() + result.face.combine(&DifferencePoint<D>::on_a) + result.normal * a.radius;
     return result;
 }
 
 template <int D>
-bool convex_overlap(const Convex<D>& a, const Convex<D>& b) {
+bool convex_overlap(const Convex<D>& a, const Convex<D>& b, const SearchOptions<D>& options) {
     const CoreDifference<D> difference(a, b);
     const double enough = a.radius + b.radius;
-    const GjkResult<D> result = gjk(difference, enough);
-    switch (result.exit) {
-        case GjkExit::beyond:
-            return false;
-        case GjkExit::within:
-        case GjkExit::touching:
-        case GjkExit::overlapping:
-            return true;
-        default:
-            return length(result.closest) <= enough;
+    if (few_axes(difference)) {
+        const SeparatingAxis<D> axis = separating_axis(difference, enough, options.trace);
+        if (-axis.extent > enough) return false;
+        if (enough == 0 && axis.normal != DVec<D>(0.0)) return true;
     }
+    const GjkResult<D> walk = gjk(difference, enough, options);
+    if (walk.proven > enough) return false;
+    if (walk.reached <= enough + walk.doubt) return true;
+    return signed_distance(a, b).distance <= 0;
 }
 
-#define ABUT_INSTANTIATE(D)                                                         \
-    template SignedDistance<D> signed_distance(const Convex<D>&, const Convex<D>&); \
-    template bool convex_overlap(const Convex<D>&, const Convex<D>&);
+#define ABUT_INSTANTIATE(D)                                                                                  \
+    template SignedDistance<D> signed_distance(const Convex<D>&, const Convex<D>&, const SearchOptions<D>&); \
+    template bool convex_overlap(const Convex<D>&, const Convex<D>&, const SearchOptions<D>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

@@ -1,8 +1,10 @@
 #pragma once
 
-// The signed distance of two convex sets, in double: GJK between the cores, the penetration search where they overlap,
-// and the radii taken off at the end.
+// The signed distance of two convex sets, in double: GJK between the cores, separating axes or the penetration search
+// where they overlap, and the radii taken off at the end. An answer that isn't proven by two bounds that agree is asked
+// for in another way.
 
+#include <abut/convex/search_options.hpp>
 #include <abut/convex/simplex.hpp>
 
 namespace abut {
@@ -18,10 +20,10 @@ struct SignedDistance {
 };
 
 template <int D>
-SignedDistance<D> signed_distance(const Convex<D>& a, const Convex<D>& b);
+SignedDistance<D> signed_distance(const Convex<D>& a, const Convex<D>& b, const SearchOptions<D>& options = {});
 
 /// Whether they have a point in common.
 template <int D>
-bool convex_overlap(const Convex<D>& a, const Convex<D>& b);
+bool convex_overlap(const Convex<D>& a, const Convex<D>& b, const SearchOptions<D>& options = {});
 
 }  // namespace abut

@@ -1,5 +1,7 @@
 #include <abut/convex/simplex.hpp>
 
+#include <limits>
+
 namespace abut {
 namespace {
 
@@ -124,6 +126,9 @@ bool parts_origin(const Simplex<3>& simplex, std::size_t i, std::size_t j, std::
     return height_last > 0 ? height_origin < 0 : height_origin > 0;
 }
 
+/// Each with the corner opposite.
+constexpr std::size_t tetrahedron_faces[4][4] = {{0, 1, 2, 3}, {0, 3, 1, 2}, {0, 2, 3, 1}, {1, 3, 2, 0}};
+
 template <int D>
 DVec<D> keep(Simplex<D>& simplex, const Candidate<D>& best) {
     const Simplex<D> before = simplex;
@@ -135,27 +140,37 @@ DVec<D> keep(Simplex<D>& simplex, const Candidate<D>& best) {
     return best.point;
 }
 
-DVec<3> reduce_tetrahedron(Simplex<3>& simplex) {
-    constexpr std::size_t faces[4][4] = {{0, 1, 2, 3}, {0, 3, 1, 2}, {0, 2, 3, 1}, {1, 3, 2, 0}};
-    Candidate<3> best;
-    bool outside = false;
-    for (const auto& f : faces) {
-        if (!parts_origin(simplex, f[0], f[1], f[2], f[3])) continue;
-        const Candidate<3> on_face = closest_on_triangle(simplex, f[0], f[1], f[2]);
-        best = outside ? better(best, on_face) : on_face;
-        outside = true;
-    }
-    if (outside) return keep(simplex, best);
-    // Inside: each weight is the volume that the origin spans with the face opposite.
-    double sum = 0;
-    for (const auto& f : faces) {
+/// Sets the weights at the origin, each the volume that it spans with the face opposite. False where they don't lead
+/// there: of a tetrahedron almost without thickness, inside or outside is rounding.
+bool weigh_origin(Simplex<3>& simplex) {
+    double sum = 0, scale = 0;
+    for (const auto& f : tetrahedron_faces) {
         const DVec<3>&a = simplex.points[f[0]].position, &b = simplex.points[f[1]].position,
               &c = simplex.points[f[2]].position;
         simplex.weights[f[3]] = std::abs(dot(a, cross(b, c)));
         sum += simplex.weights[f[3]];
+        scale = std::max(scale, largest(a));
     }
     for (double& weight : simplex.weights) weight /= sum;
-    return DVec<3>(0.0);
+    return largest(simplex.combine(&DifferencePoint<3>::position)) <= 1e-10 * scale;
+}
+
+DVec<3> reduce_tetrahedron(Simplex<3>& simplex) {
+    std::array<bool, 4> outside;
+    bool inside = true;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const auto& f = tetrahedron_faces[i];
+        outside[i] = parts_origin(simplex, f[0], f[1], f[2], f[3]);
+        inside = inside && !outside[i];
+    }
+    if (inside && weigh_origin(simplex)) return DVec<3>(0.0);
+    Candidate<3> best;
+    best.distance_squared = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < 4; ++i) {
+        const auto& f = tetrahedron_faces[i];
+        if (inside || outside[i]) best = better(best, closest_on_triangle(simplex, f[0], f[1], f[2]));
+    }
+    return keep(simplex, best);
 }
 
 }  // namespace

@@ -34,11 +34,13 @@ float first_step(const View<D>& a, const View<D>& b, float start) {
 template <int D>
 class Nearest {
 public:
+    explicit Nearest(const SearchOptions<D>& options) : options_(options) {}
+
     /// The least distance over all pairs of parts within reach.
     void search(const View<D>& a, const View<D>& b, float reach) {
         each_part_pair(a, b, reach,
                        [&](const auto& part_a, std::uint32_t index_a, const auto& part_b, std::uint32_t index_b) {
-                           const SignedDistance<D> distance = signed_distance(part_a, part_b);
+                           const SignedDistance<D> distance = signed_distance(part_a, part_b, options_);
                            if (!any_ || distance.distance < least_.distance) {
                                any_ = true;
                                least_ = distance;
@@ -54,6 +56,7 @@ public:
     Closest<D> found() const { return any_ ? answer(least_, part_a_, part_b_) : Closest<D>{}; }
 
 private:
+    SearchOptions<D> options_;
     bool any_ = false;
     SignedDistance<D> least_{};
     std::uint32_t part_a_ = 0, part_b_ = 0;
@@ -62,11 +65,11 @@ private:
 }  // namespace
 
 template <int D>
-Closest<D> closest(const View<D>& a, const View<D>& b, const QueryOptions<D>&) {
+Closest<D> closest(const View<D>& a, const View<D>& b, const QueryOptions<D>& options) {
     const bool finite = is_finite(a) && is_finite(b);
     ABUT_ASSERT(finite);
     if (!finite) return {};
-    Nearest<D> nearest;
+    Nearest<D> nearest(search_options(a, b, options));
     if (!std::holds_alternative<Composite<D>>(a) && !std::holds_alternative<Composite<D>>(b)) {
         nearest.search(a, b, 0);
         return nearest.found();

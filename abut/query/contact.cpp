@@ -6,15 +6,16 @@ namespace abut {
 namespace {
 
 template <int D>
-Manifold<D> parts_manifold(const Convex<D>& a, const Convex<D>& b, const SignedDistance<D>& distance, double margin) {
-    return manifold(a, b, distance, margin);
+Manifold<D> parts_manifold(const Convex<D>& a, const Convex<D>& b, const SignedDistance<D>& distance, double margin,
+                           Trace<D>* trace) {
+    return manifold(a, b, distance, margin, trace);
 }
 template <int D>
-Manifold<D> parts_manifold(const Convex<D>& a, const Solid<D>& b, const SignedDistance<D>&, double margin) {
+Manifold<D> parts_manifold(const Convex<D>& a, const Solid<D>& b, const SignedDistance<D>&, double margin, Trace<D>*) {
     return manifold_with_plane(a, b.normal, b.offset, margin);
 }
 template <int D>
-Manifold<D> parts_manifold(const Solid<D>& a, const Convex<D>& b, const SignedDistance<D>&, double margin) {
+Manifold<D> parts_manifold(const Solid<D>& a, const Convex<D>& b, const SignedDistance<D>&, double margin, Trace<D>*) {
     return manifold_with_plane(b, a.normal, a.offset, margin);
 }
 
@@ -42,14 +43,16 @@ Contact<D> contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& op
     result.normal[0] = 1;
     if (!finite) return result;
     const double margin = static_cast<double>(options.margin);
+    const SearchOptions<D> search = search_options(a, b, options);
     double least = margin;
     each_part_pair(a, b, options.margin,
                    [&](const auto& part_a, std::uint32_t index_a, const auto& part_b, std::uint32_t index_b) {
-                       const SignedDistance<D> distance = signed_distance(part_a, part_b);
+                       const SignedDistance<D> distance = signed_distance(part_a, part_b, search);
                        if (distance.distance > least || (result && distance.distance == least)) return true;
                        // Now, while the parts are there: a composite shape may make them up as it goes.
                        least = distance.distance;
-                       result = answer(parts_manifold(part_a, part_b, distance, margin), distance, index_a, index_b);
+                       result = answer(parts_manifold(part_a, part_b, distance, margin, options.trace), distance,
+                                       index_a, index_b);
                        return true;
                    });
     return result;

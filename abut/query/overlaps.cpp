@@ -5,28 +5,29 @@ namespace abut {
 namespace {
 
 template <int D>
-bool parts_overlap(const Convex<D>& a, const Convex<D>& b) {
-    return convex_overlap(a, b);
+bool parts_overlap(const Convex<D>& a, const Convex<D>& b, const SearchOptions<D>& options) {
+    return convex_overlap(a, b, options);
 }
 template <int D>
-bool parts_overlap(const Convex<D>& a, const Solid<D>& b) {
+bool parts_overlap(const Convex<D>& a, const Solid<D>& b, const SearchOptions<D>&) {
     return signed_distance(a, b).distance <= 0;
 }
 template <int D>
-bool parts_overlap(const Solid<D>& a, const Convex<D>& b) {
-    return parts_overlap(b, a);
+bool parts_overlap(const Solid<D>& a, const Convex<D>& b, const SearchOptions<D>& options) {
+    return parts_overlap(b, a, options);
 }
 
 }  // namespace
 
 template <int D>
-bool overlaps(const View<D>& a, const View<D>& b, const QueryOptions<D>&) {
+bool overlaps(const View<D>& a, const View<D>& b, const QueryOptions<D>& options) {
     const bool finite = is_finite(a) && is_finite(b);
     ABUT_ASSERT(finite);
     if (!finite) return false;
+    const SearchOptions<D> search = search_options(a, b, options);
     bool found = false;
     each_part_pair(a, b, 0, [&](const auto& part_a, std::uint32_t, const auto& part_b, std::uint32_t) {
-        found = parts_overlap(part_a, part_b);
+        found = parts_overlap(part_a, part_b, search);
         return !found;
     });
     return found;

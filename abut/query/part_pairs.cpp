@@ -3,7 +3,7 @@
 namespace abut {
 
 template <int D>
-SignedDistance<D> signed_distance(const Convex<D>& a, const Solid<D>& b) {
+SignedDistance<D> signed_distance(const Convex<D>& a, const Solid<D>& b, const SearchOptions<D>&) {
     const CorePoint<D> lowest = core_support(a, -b.normal);
     SignedDistance<D> result;
     result.normal = -b.normal;
@@ -16,7 +16,7 @@ SignedDistance<D> signed_distance(const Convex<D>& a, const Solid<D>& b) {
 }
 
 template <int D>
-SignedDistance<D> signed_distance(const Solid<D>& a, const Convex<D>& b) {
+SignedDistance<D> signed_distance(const Solid<D>& a, const Convex<D>& b, const SearchOptions<D>&) {
     SignedDistance<D> result = signed_distance(b, a);
     result.on_a = result.on_b();
     result.normal = -result.normal;
@@ -39,9 +39,9 @@ Feature feature_on(const Simplex<D>& face, std::uint32_t DifferencePoint<D>::*in
     return {part, least, FeatureKind::vertex};
 }
 
-#define ABUT_INSTANTIATE(D)                                                        \
-    template SignedDistance<D> signed_distance(const Convex<D>&, const Solid<D>&); \
-    template SignedDistance<D> signed_distance(const Solid<D>&, const Convex<D>&); \
+#define ABUT_INSTANTIATE(D)                                                                                 \
+    template SignedDistance<D> signed_distance(const Convex<D>&, const Solid<D>&, const SearchOptions<D>&); \
+    template SignedDistance<D> signed_distance(const Solid<D>&, const Convex<D>&, const SearchOptions<D>&); \
     template Feature feature_on(const Simplex<D>&, std::uint32_t DifferencePoint<D>::*, std::uint32_t);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

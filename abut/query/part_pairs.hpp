@@ -5,6 +5,7 @@
 #include <abut/convex/signed_distance.hpp>
 #include <abut/math/assert.hpp>
 #include <abut/query/feature.hpp>
+#include <abut/query/options.hpp>
 #include <abut/shape/view.hpp>
 
 namespace abut {
@@ -40,11 +41,19 @@ void each_part_pair(const View<D>& a, const View<D>& b, float reach, Visit&& vis
     });
 }
 
-/// The signed distance of a convex set and a half-space, in either order.
+/// The signed distance of a convex set and a half-space, in either order. There is nothing to search.
 template <int D>
-SignedDistance<D> signed_distance(const Convex<D>& a, const Solid<D>& b);
+SignedDistance<D> signed_distance(const Convex<D>& a, const Solid<D>& b, const SearchOptions<D>& options = {});
 template <int D>
-SignedDistance<D> signed_distance(const Solid<D>& a, const Convex<D>& b);
+SignedDistance<D> signed_distance(const Solid<D>& a, const Convex<D>& b, const SearchOptions<D>& options = {});
+
+/// What the engines are told for each pair of parts: a cache is of one pair, so only of shapes that are a part
+/// themselves.
+template <int D>
+SearchOptions<D> search_options(const View<D>& a, const View<D>& b, const QueryOptions<D>& options) {
+    const bool composite = std::holds_alternative<Composite<D>>(a) || std::holds_alternative<Composite<D>>(b);
+    return {composite ? nullptr : options.cache, options.trace};
+}
 
 /// The feature that a witness point lies on, from the points it is a weighted sum of.
 template <int D>

@@ -47,11 +47,14 @@ bool thin(const Solid<D>&) {
 /// The ray runs up to the plane that parts its point from the shape, and again from there: the plane is never behind
 /// the surface, so nothing is passed (conservative advancement; Mirtich, "Impulse-based dynamic simulation", 1996).
 template <int D, class Part>
-std::optional<BeamHit<D>> cast(const Beam<D>& beam, const Part& part, std::uint32_t index, double doubt) {
+std::optional<BeamHit<D>> cast(const Beam<D>& beam, const Part& part, std::uint32_t index, double doubt,
+                               Trace<D>* trace) {
     double along = 0, last_approach = 0;
+    Cache cache;
     DVec<D> last_normal(0.0);
     for (int step = 0; step < most_steps; ++step) {
-        const SignedDistance<D> distance = signed_distance(part, point_shape<D>(beam.at(along)));
+        const SignedDistance<D> distance =
+            signed_distance(part, point_shape<D>(beam.at(along)), SearchOptions<D>{&cache, trace});
         const double approach = -dot(beam.direction, distance.normal);
         const bool there = distance.distance <= doubt;
         // Every way is a way out of a thin part: what starts on one leaves it, whichever side rounding put it on.
@@ -74,7 +77,7 @@ std::optional<BeamHit<D>> cast(const Beam<D>& beam, const Part& part, std::uint3
 }  // namespace
 
 template <int D>
-std::optional<Hit<D>> raycast(const Ray<D>& ray, const View<D>& shape, const QueryOptions<D>&) {
+std::optional<Hit<D>> raycast(const Ray<D>& ray, const View<D>& shape, const QueryOptions<D>& options) {
     const bool finite =
         is_finite(shape) && is_finite(ray.origin) && is_finite(ray.direction) && !std::isnan(ray.length);
     ABUT_ASSERT(finite);
@@ -86,7 +89,7 @@ std::optional<Hit<D>> raycast(const Ray<D>& ray, const View<D>& shape, const Que
         if (first) shorter.length = first->along;
         const double part_size = size(View<D>(part));
         const double doubt = std::isfinite(part_size) ? 1e-7 * part_size : 0;
-        const auto hit = cast(shorter, part, index, doubt);
+        const auto hit = cast(shorter, part, index, doubt, options.trace);
         if (hit && (!first || hit->along < first->along)) first = hit;
         return true;
     };

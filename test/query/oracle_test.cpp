@@ -57,5 +57,39 @@ TYPED_TEST(Oracle, AgreesOnDegeneratePairs) {
     EXPECT_GT(tally.rational, tally.pairs / 50) << "none of this is degenerate";
 }
 
+/// Pairs that long runs found wrong, mostly a small shape beside one a hundred thousand times its size.
+struct Found {
+    std::uint64_t seed;
+    Kind a, b;
+};
+
+TEST(OracleRegression, OfSliversInSpace) {
+    Tally tally;
+    for (const auto& [seed, a, b] : {
+             Found{20273535, Kind::stretched_box, Kind::segment},   // overlapping, and 1e-7 of the segment apart
+             Found{21751737, Kind::box, Kind::segment},             // 43 margins too far: the last step was refused
+             Found{21449567, Kind::triangle, Kind::box},            // 3 margins too far
+             Found{21597617, Kind::triangle, Kind::stretched_box},  // a normal along which they overlap by 389
+             Found{21088423, Kind::segment, Kind::box},             // the same by 1.5
+             Found{20249059, Kind::segment, Kind::box},             // the same, from the sum of large corners
+         }) {
+        SCOPED_TRACE(seed);
+        Random random(seed);
+        const auto pair = random_pair<3>(random, a, b);
+        check_pair(pair.a, pair.b, tally);
+    }
+}
+
+TEST(OracleRegression, OfShapesThatAnswerInFloats) {
+    Tally tally;
+    Random random(621992);  // a user's points about a circle's center: taken for 283 deep instead of 512
+    LatticeMaker<2> maker(random, Disturbance::nudged);
+    const Sample<2> a = maker.make(), b = maker.make();
+    check_pair(a, b, tally);
+    Random again(22150876);  // off by 2 margins, where two corners are equally far to within a float
+    const auto pair = random_pair<2>(again, Kind::cloud, Kind::polytope);
+    check_pair(pair.a, pair.b, tally);
+}
+
 }  // namespace
 }  // namespace abut::oracle

@@ -1,0 +1,143 @@
+#include <abut/convex/gjk.hpp>
+#include <abut/query/certify.hpp>
+#include <abut/query/part_pairs.hpp>
+
+namespace abut {
+namespace {
+
+/// Calls visit(part) for a shape itself, or for the part of a composite one that has the number.
+template <int D, class Visit>
+void with_part(const View<D>& shape, std::uint32_t number, Visit&& visit) {
+    if (const auto* convex = std::get_if<Convex<D>>(&shape))
+        visit(*convex);
+    else if (const auto* solid = std::get_if<Solid<D>>(&shape))
+        visit(*solid);
+    else
+        each_part<D>(std::get<Composite<D>>(shape), bounds(shape), [&](const Convex<D>& part, std::uint32_t index) {
+            if (index == number) visit(part);
+            return index != number;
+        });
+}
+
+/// The largest dot(direction, p - origin) over the part.
+template <int D>
+double extent(const Convex<D>& part, const DVec<D>& direction, const DVec<D>& origin) {
+    return dot(direction, core_support(part, direction).position - origin) + part.radius;
+}
+template <int D>
+double extent(const Solid<D>& part, const DVec<D>& direction, const DVec<D>& origin) {
+    const bool along = length_squared(direction - part.normal) <= 1e-12;
+    return along ? part.offset - dot(part.normal, origin) : std::numeric_limits<double>::infinity();
+}
+
+template <int D>
+double outside(const Convex<D>& part, const DVec<D>& point) {
+    Convex<D> as_shape;
+    as_shape.place.offset = point;
+    return std::max(0.0, signed_distance(part, as_shape).distance);
+}
+template <int D>
+double outside(const Solid<D>& part, const DVec<D>& point) {
+    return std::max(0.0, dot(part.normal, point) - part.offset);
+}
+
+/// A point of both, where they overlap: the cores' nearest points are weighted sums of corners, and what the cores lack
+/// the balls around them reach.
+template <int D>
+DVec<D> common_point(const Convex<D>& a, const Convex<D>& b) {
+    const CoreDifference<D> difference(a, b);
+    const GjkResult<D> walk = gjk(difference);
+    const DVec<D> on_a = walk.simplex.combine(&DifferencePoint<D>::on_a);
+    const DVec<D> between = walk.simplex.combine(&DifferencePoint<D>::on_b) - on_a;
+    const double gap = length(between);
+    const double along = 0.5 * (std::max(0.0, gap - b.radius) + std::min(gap, a.radius));
+    return difference.origin() + on_a + normalized(between) * along;
+}
+template <int D>
+DVec<D> common_point(const Convex<D>& a, const Solid<D>& b) {
+    return support(a, -b.normal);
+}
+template <int D>
+DVec<D> common_point(const Solid<D>& a, const Convex<D>& b) {
+    return common_point(b, a);
+}
+
+/// The largest coordinate seen from `origin`.
+template <int D>
+double reach(const Convex<D>& part, const DVec<D>& origin) {
+    double most = 0;
+    for (int i = 0; i < D; ++i)
+        for (const double sign : {1.0, -1.0}) most = std::max(most, extent(part, axis<D>(i, sign), origin));
+    return most;
+}
+
+double unit_in_the_last_place(double x) {
+    const float f = static_cast<float>(std::abs(x));
+    return static_cast<double>(std::nextafter(f, std::numeric_limits<float>::infinity())) - static_cast<double>(f);
+}
+
+template <int D>
+double margin_of(const Convex<D>& a, const Convex<D>& b) {
+    const DVec<D> origin = reference_point(a);
+    return 1e-5 * std::min(size(a), size(b)) +
+           16 * unit_in_the_last_place(std::max(reach(a, origin), reach(b, origin)));
+}
+template <int D>
+double margin_of(const Convex<D>& a, const Solid<D>& b) {
+    const double beyond = std::abs(extent(a, -b.normal, DVec<D>(0.0)) + b.offset);
+    return 1e-5 * size(a) + 16 * unit_in_the_last_place(std::max(2 * size(a), beyond));
+}
+template <int D>
+double margin_of(const Solid<D>& a, const Convex<D>& b) {
+    return margin_of(b, a);
+}
+/// How far rounding the coordinates of a point to floats moves it at most.
+template <int D>
+double rounding_of(const Vec<D>& point) {
+    double result = 0;
+    for (int i = 0; i < D; ++i) result += 0.5 * unit_in_the_last_place(static_cast<double>(point[i]));
+    return result;
+}
+
+template <int D, class A, class B>
+Certificate<D> certificate(const A& a, const B& b, const Closest<D>& answer) {
+    const DVec<D> on_a(answer.on_a), on_b(answer.on_b), normal = normalized(DVec<D>(answer.normal));
+    const double distance = static_cast<double>(answer.distance);
+
+    Certificate<D> result;
+    result.margin = margin_of(a, b);
+    const double past_a = extent(a, normal, on_a), past_b = extent(b, -normal, on_a);
+    result.plane = std::abs(-past_b - past_a - distance);
+    result.off_a = std::max(std::abs(past_a), outside(a, on_a));
+    result.off_b = std::max(std::abs(extent(b, -normal, on_b)), outside(b, on_b));
+    result.across = length(on_b - on_a - normal * distance);
+    if (distance <= 0) {
+        result.common = to_float(common_point(a, b));
+        const DVec<D> common(result.common);
+        result.off_common = std::max(outside(a, common), outside(b, common));
+    }
+    const double rounding = rounding_of(answer.on_a) + rounding_of(answer.on_b) + rounding_of(result.common);
+    const double worst = std::max({result.plane, result.off_a, result.off_b, result.across, result.off_common});
+    result.holds = std::abs(length(DVec<D>(answer.normal)) - 1) <= 1e-6 && worst <= result.margin + 2 * rounding;
+    return result;
+}
+
+}  // namespace
+
+template <int D>
+Certificate<D> certify(const View<D>& a, const View<D>& b, const Closest<D>& answer) {
+    Certificate<D> result;
+    with_part(a, answer.feature_a.part, [&](const auto& part_a) {
+        with_part(b, answer.feature_b.part, [&](const auto& part_b) {
+            constexpr bool solids =
+                std::is_same_v<decltype(part_a), const Solid<D>&> && std::is_same_v<decltype(part_b), const Solid<D>&>;
+            if constexpr (!solids) result = certificate<D>(part_a, part_b, answer);
+        });
+    });
+    return result;
+}
+
+template Certificate<2> certify(const View<2>&, const View<2>&, const Closest<2>&);
+template Certificate<3> certify(const View<3>&, const View<3>&, const Closest<3>&);
+
+}  // namespace abut
