@@ -31,7 +31,7 @@ struct Hull2 {
 struct Hull3 {
     std::vector<Vec3> points;              ///< the corners, in lexicographical order
     std::vector<Vec3> normals;             ///< one a face, of length 1, outwards
-    std::vector<double> offsets;           ///< one a face: the most of dot(normal, corner) over its loop
+    std::vector<double> offsets;           ///< one a face: dot(normal, p) <= offset, in double, for every input point
     std::vector<std::uint32_t> loops;      ///< the point numbers of all faces, one after the other
     std::vector<std::uint32_t> loop_ends;  ///< one a face: where its loop ends in `loops`
     std::vector<FacetEdge> edges;          ///< as those of `Facets`
@@ -42,8 +42,8 @@ struct Hull3 {
 };
 
 /// The corners of the hull as indices, by the monotone chain of Andrew (1979): counter-clockwise, from the
-/// lexicographically least, no three on a line. One index where all points are the same, two where they lie on a line.
-/// The points are finite; there is at least one.
+/// lexicographically least, no three on a line, exactly. One index where all points are the same, two where they lie on
+/// a line. The points are finite; there is at least one.
 std::vector<std::uint32_t> hull_loop(std::span<const Vec2> points);
 
 /// The hull of every non-empty set of finite points; a Problem names the first point that isn't finite.

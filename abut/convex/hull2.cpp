@@ -1,9 +1,9 @@
-// The hull in the plane: a monotone chain. Differences of floats are exact in double unless their exponents are more
-// than 29 apart; then a turn is off by no more than 2^-52 of the lengths it is made of.
+// The hull in the plane: a monotone chain of exact turns.
 
 #include <abut/convex/hull.hpp>
 #include <abut/convex/hull_input.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/math/predicates.hpp>
 
 #include <algorithm>
 #include <numeric>
@@ -11,8 +11,8 @@
 namespace abut {
 namespace {
 
-/// Twice the area of the triangle abc; positive if counter-clockwise.
-double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
+/// Twice the area of the triangle abc, as doubles have it.
+double area(const Vec2& a, const Vec2& b, const Vec2& c) {
     return cross(DVec<2>(b) - DVec<2>(a), DVec<2>(c) - DVec<2>(a));
 }
 
@@ -27,9 +27,9 @@ void flatten(std::vector<Vec2>& loop) {
     Vec2 a = farthest_from(loop[0], loop), b = farthest_from(a, loop);
     if (less(b, a)) std::swap(a, b);
     const auto [right, left] = std::minmax_element(
-        loop.begin(), loop.end(), [&](const Vec2& p, const Vec2& q) { return turn(a, b, p) < turn(a, b, q); });
+        loop.begin(), loop.end(), [&](const Vec2& p, const Vec2& q) { return area(a, b, p) < area(a, b, q); });
     const double length_ab = length(DVec<2>(b) - DVec<2>(a));
-    if ((turn(a, b, *left) - turn(a, b, *right)) / length_ab <= hull_tolerance * extent<2>(loop)) loop = {a, b};
+    if ((area(a, b, *left) - area(a, b, *right)) / length_ab <= hull_tolerance * extent<2>(loop)) loop = {a, b};
 }
 
 }  // namespace
@@ -51,7 +51,7 @@ std::vector<std::uint32_t> hull_loop(std::span<const Vec2> points) {
         const std::size_t first = loop.size();
         for (auto i = begin; i != end; ++i) {
             while (loop.size() >= first + 2 &&
-                   !(turn(points[loop[loop.size() - 2]], points[loop.back()], points[*i]) > 0))
+                   orientation(points[loop[loop.size() - 2]], points[loop.back()], points[*i]) <= 0)
                 loop.pop_back();
             loop.push_back(*i);
         }

@@ -2,7 +2,9 @@
 
 #include <abut/convex/hull.hpp>
 #include <abut/convex/hull_faces.hpp>
+#include <abut/convex/hull_grid.hpp>
 #include <abut/convex/hull_input.hpp>
+#include <abut/convex/hull_planes.hpp>
 #include <abut/convex/quickhull.hpp>
 #include <abut/math/dvec.hpp>
 
@@ -20,31 +22,6 @@ std::vector<Vec3> sorted_without_copies(std::span<const Vec3> points) {
     for (const Vec3& point : points) result.push_back(without_negative_zero(point));
     std::sort(result.begin(), result.end(), [](const Vec3& a, const Vec3& b) { return less(a, b); });
     result.erase(std::unique(result.begin(), result.end()), result.end());
-    return result;
-}
-
-/// Points rounded to a grid whose steps are a power of two, so that those of a coarser grid stay where they are.
-struct Grid {
-    std::vector<GridPoint> points;
-    DVec<3> least;                       ///< where the grid's origin is
-    double step = 0;                     ///< the length of a step
-    double tolerance = 0, flatness = 0;  ///< in steps
-};
-
-Grid on_grid(std::span<const Vec3> points) {
-    Grid result;
-    result.least = least_corner<3>(points);
-    const double side = extent<3>(points);
-    int exponent = 0;
-    std::frexp(side, &exponent);  // side < 2^exponent
-    result.step = std::ldexp(1.0, exponent - grid_bits);
-    result.points.reserve(points.size());
-    for (const Vec3& point : points) {
-        const DVec<3> offset = (DVec<3>(point) - result.least) / result.step;
-        result.points.emplace_back(std::llround(offset.x), std::llround(offset.y), std::llround(offset.z));
-    }
-    result.tolerance = hull_tolerance * side / result.step;
-    result.flatness = hull_flatness * side / result.step;
     return result;
 }
 
@@ -112,43 +89,65 @@ HullFaces flat_faces(std::span<const Vec3> points, const DVec<3>& normal) {
     for (std::size_t i = 1; i + 1 < loop.size(); ++i)
         area += cross(DVec<3>(points[loop[i]]) - origin, DVec<3>(points[loop[i + 1]]) - origin);
     HullFaces result;
-    result.normals = {normalized(area), -normalized(area)};
-    result.loops = {loop, loop};
-    std::reverse(result.loops[1].begin(), result.loops[1].end());
+    result.normals = {to_float(normalized(area)), to_float(-normalized(area))};
+    result.loops = loop;
+    result.loops.insert(result.loops.end(), loop.rbegin(), loop.rend());
+    const auto corners = static_cast<std::uint32_t>(loop.size());
+    result.loop_ends = {corners, 2 * corners};
     return result;
 }
 
-/// Keeps the points that occur in loops, with new numbers.
-void number_points(Hull3& hull, std::span<const Vec3> points, std::vector<std::vector<std::uint32_t>>& loops) {
+/// Keeps the points that occur in loops, with new numbers, and begins every loop with its lowest.
+void number_points(Hull3& hull, std::span<const Vec3> points, HullFaces& faces) {
     std::vector<std::uint32_t> number(points.size(), 0);
-    for (const auto& loop : loops)
-        for (const std::uint32_t point : loop) number[point] = 1;
+    for (const std::uint32_t point : faces.loops) number[point] = 1;
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (number[i] == 0) continue;
         number[i] = static_cast<std::uint32_t>(hull.points.size());
         hull.points.push_back(points[i]);
     }
-    for (auto& loop : loops) {
-        for (std::uint32_t& point : loop) point = number[point];
-        std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
+    for (std::uint32_t& point : faces.loops) point = number[point];
+    auto begin = faces.loops.begin();
+    for (const std::uint32_t loop_end : faces.loop_ends) {
+        const auto end = faces.loops.begin() + loop_end;
+        std::rotate(begin, std::min_element(begin, end), end);
+        begin = end;
     }
 }
 
-void take_faces(Hull3& result, std::span<const Vec3> points, HullFaces faces) {
-    number_points(result, points, faces.loops);
+/// The faces in the lexicographical order of their loops: two points next to each other tell them apart.
+std::vector<std::uint32_t> order_of(const HullFaces& faces) {
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> keys;
+    keys.reserve(faces.normals.size());
+    for (std::uint32_t face = 0; face < faces.normals.size(); ++face) {
+        const std::span<const std::uint32_t> loop = faces.loop(face);
+        keys.emplace_back(std::uint64_t{loop[0]} << 32 | loop[1], face);
+    }
+    std::sort(keys.begin(), keys.end());
+    std::vector<std::uint32_t> result;
+    result.reserve(keys.size());
+    for (const auto& [key, face] : keys) result.push_back(face);
+    return result;
+}
 
-    std::vector<std::size_t> order(faces.loops.size());
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::sort(order.begin(), order.end(),
-              [&](std::size_t i, std::size_t j) { return faces.loops[i] < faces.loops[j]; });
-    for (const std::size_t face : order) {
-        const Vec3 normal = to_float(faces.normals[face]);
-        const auto along = [&](std::uint32_t point) { return dot(DVec<3>(normal), DVec<3>(result.points[point])); };
-        const std::vector<std::uint32_t>& loop = faces.loops[face];
-        double offset = along(loop[0]);
-        for (const std::uint32_t point : loop) offset = std::max(offset, along(point));
-        result.normals.push_back(normal);
-        result.offsets.push_back(offset);
+/// The least offset of a plane across the normal that no point is above.
+double offset_across(const Vec3& normal, std::span<const Vec3> points) {
+    const auto along = [&](const Vec3& point) { return dot(DVec<3>(normal), DVec<3>(point)); };
+    double result = along(points[0]);
+    for (const Vec3& point : points) result = std::max(result, along(point));
+    return result;
+}
+
+void take_faces(Hull3& result, std::span<const Vec3> points, HullFaces faces, std::span<const double> offsets) {
+    number_points(result, points, faces);
+    result.normals.reserve(faces.normals.size());
+    result.offsets.reserve(faces.normals.size());
+    result.loops.reserve(faces.loops.size());
+    result.loop_ends.reserve(faces.normals.size());
+    for (const std::uint32_t face : order_of(faces)) {
+        const std::span<const std::uint32_t> loop = faces.loop(face);
+        result.normals.push_back(faces.normals[face]);
+        result.offsets.push_back(offsets[face]);
         result.loops.insert(result.loops.end(), loop.begin(), loop.end());
         result.loop_ends.push_back(static_cast<std::uint32_t>(result.loops.size()));
     }
@@ -177,10 +176,12 @@ void measure(Hull3& hull, const Grid& grid, std::span<const std::uint32_t> trian
     hull.area = area / 2 * grid.step * grid.step;
 }
 
-std::vector<std::uint32_t> triangles_of(const std::vector<std::vector<std::uint32_t>>& loops) {
+std::vector<std::uint32_t> triangles_of(const HullFaces& faces) {
     std::vector<std::uint32_t> result;
-    for (const auto& loop : loops)
+    for (std::size_t face = 0; face < faces.normals.size(); ++face) {
+        const std::span<const std::uint32_t> loop = faces.loop(face);
         for (std::size_t i = 1; i + 1 < loop.size(); ++i) result.insert(result.end(), {loop[0], loop[i], loop[i + 1]});
+    }
     return result;
 }
 
@@ -191,13 +192,16 @@ Hull3 hull_with_faces(std::span<const Vec3> points, const Grid& grid, const Span
     if (span.rank == 2) {
         const auto& [a, b, c, d] = span.points;
         HullFaces faces = flat_faces(points, DVec<3>(grid_normal(grid.points[a], grid.points[b], grid.points[c])));
-        measure(result, grid, triangles_of(faces.loops));
-        take_faces(result, points, std::move(faces));
+        measure(result, grid, triangles_of(faces));
+        const double offsets[] = {offset_across(faces.normals[0], points), offset_across(faces.normals[1], points)};
+        take_faces(result, points, std::move(faces), offsets);
         return result;
     }
     const TriangleSurface surface = quickhull(grid.points, span.points, grid.tolerance);
     measure(result, grid, surface.origin);
-    take_faces(result, points, hull_faces(grid.points, surface, grid.tolerance, grid.flatness));
+    HullFaces faces = hull_faces(grid.points, surface, grid.tolerance, grid.flatness);
+    const std::vector<double> offsets = plane_offsets(faces, points, grid, surface);
+    take_faces(result, points, std::move(faces), offsets);
     return result;
 }
 

@@ -23,7 +23,6 @@ public:
     HullFaces faces() const;
 
 private:
-    static std::uint32_t following(std::uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
     DVec<3> point(std::uint32_t h) const { return DVec<3>(points_[origin_[h]]); }
     bool alive(std::uint32_t h) const { return next_[h] != none; }
     bool coplanar(std::uint32_t triangle, std::uint32_t half_edge) const;
@@ -182,10 +181,15 @@ void FaceMesh::join(std::uint32_t h) {
 }
 
 void FaceMesh::join_flat() {
-    for (bool changed = true; changed;) {  // each time round there is a face less
+    // Each time round there is a face less. Two faces are looked at again where one of them has grown since.
+    std::vector<std::uint32_t> grown_in(start_.size(), 0);
+    bool changed = true;
+    for (std::uint32_t round = 1; changed; ++round) {
         changed = false;
+        const auto grown = [&](std::uint32_t h) { return grown_in[face_[h]] + 1 >= round; };
         for (std::uint32_t h = 0; h < origin_.size(); ++h)
-            if (alive(h) && h < twin_[h] && joinable(h)) {
+            if (alive(h) && h < twin_[h] && (grown(h) || grown(twin_[h])) && joinable(h)) {
+                grown_in[face_[h]] = round;
                 join(h);
                 changed = true;
             }
@@ -197,10 +201,10 @@ HullFaces FaceMesh::faces() const {
     for (std::size_t face = 0; face < start_.size(); ++face) {
         const std::uint32_t start = start_[face];
         if (start == none) continue;
-        std::vector<std::uint32_t> loop{origin_[start]};
-        for (std::uint32_t h = next_[start]; h != start; h = next_[h]) loop.push_back(origin_[h]);
-        result.normals.push_back(normalized(area_[face]));
-        result.loops.push_back(std::move(loop));
+        result.normals.push_back(to_float(normalized(area_[face])));
+        result.loops.push_back(origin_[start]);
+        for (std::uint32_t h = next_[start]; h != start; h = next_[h]) result.loops.push_back(origin_[h]);
+        result.loop_ends.push_back(static_cast<std::uint32_t>(result.loops.size()));
     }
     return result;
 }

@@ -12,8 +12,15 @@ namespace abut {
 
 /// The faces of a polytope as loops of point numbers, counter-clockwise seen from outside.
 struct HullFaces {
-    std::vector<DVec<3>> normals;  ///< one a face, of length 1, outwards
-    std::vector<std::vector<std::uint32_t>> loops;
+    std::vector<Vec3> normals;             ///< one a face, of length 1, outwards
+    std::vector<std::uint32_t> loops;      ///< the point numbers of all faces, one after the other
+    std::vector<std::uint32_t> loop_ends;  ///< one a face: where its loop ends in `loops`
+
+    /// The point numbers of one face.
+    std::span<const std::uint32_t> loop(std::size_t face) const {
+        const std::size_t begin = face == 0 ? 0 : loop_ends[face - 1];
+        return std::span(loops).subspan(begin, loop_ends[face] - begin);
+    }
 };
 
 /// Joins the triangles of a convex surface to faces. Coplanar ones become one face, and points that are then inside of

@@ -2,6 +2,7 @@
 
 // What the hulls of both dimensions ask of their input.
 
+#include <abut/math/dvec.hpp>
 #include <abut/math/result.hpp>
 #include <abut/math/vec.hpp>
 
@@ -36,23 +37,26 @@ glm::vec<D, float> without_negative_zero(const glm::vec<D, float>& point) {
     return point + glm::vec<D, float>(0.0f);
 }
 
-/// The least coordinate on every axis.
+/// The least and the greatest coordinate on every axis.
 template <int D>
-DVec<D> least_corner(std::span<const Vec<D>> points) {
+DVec<D> least_corner(std::span<const glm::vec<D, float>> points) {
     DVec<D> result(points[0]);
     for (const Vec<D>& point : points)
         for (int i = 0; i < D; ++i) result[i] = std::min(result[i], static_cast<double>(point[i]));
+    return result;
+}
+template <int D>
+DVec<D> greatest_corner(std::span<const glm::vec<D, float>> points) {
+    DVec<D> result(points[0]);
+    for (const Vec<D>& point : points)
+        for (int i = 0; i < D; ++i) result[i] = std::max(result[i], static_cast<double>(point[i]));
     return result;
 }
 
 /// The longest side of the bounding box.
 template <int D>
 double extent(std::span<const Vec<D>> points) {
-    const DVec<D> least = least_corner<D>(points);
-    double result = 0;
-    for (const Vec<D>& point : points)
-        for (int i = 0; i < D; ++i) result = std::max(result, static_cast<double>(point[i]) - least[i]);
-    return result;
+    return largest(greatest_corner<D>(points) - least_corner<D>(points));
 }
 
 }  // namespace abut

@@ -5,15 +5,13 @@
 #include <abut/math/dvec.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace abut {
 namespace {
 
 constexpr std::uint32_t none = 0xffffffffu;
-
-std::uint32_t following(std::uint32_t half_edge) {
-    return half_edge % 3 == 2 ? half_edge - 2 : half_edge + 1;
-}
 
 double distance_squared_to_segment(const DVec<3>& p, const DVec<3>& a, const DVec<3>& b) {
     const DVec<3> along = b - a;
@@ -43,7 +41,8 @@ private:
 
     std::uint32_t add_facet(std::uint32_t a, std::uint32_t b, std::uint32_t c);
     double height(const Facet& facet, std::uint32_t point) const;
-    bool near(const Facet& facet, std::uint32_t point) const;
+    double distance(const Facet& facet, std::uint32_t point) const;
+    double farthest_left_out(const Facet& facet) const;
     std::uint32_t next_eye(const Facet& facet) const;
     void assign(std::uint32_t point, std::uint32_t first_facet);
     void insert(std::uint32_t eye, std::uint32_t seen);
@@ -72,17 +71,18 @@ double Quickhull::height(const Facet& facet, std::uint32_t point) const {
     return grid_dot(facet.normal, points_[point] - points_[facet.corner[0]]) * facet.inverse_length;
 }
 
-/// Whether a point no higher than the tolerance is within it of the triangle itself, not of its plane alone: beyond a
-/// sharp corner a point can be low above every facet and still far from all of them.
-bool Quickhull::near(const Facet& facet, std::uint32_t point) const {
+/// From a point above the facet to the triangle itself, not to its plane alone: beyond a sharp corner a point can be
+/// low above every facet and still far from all of them.
+double Quickhull::distance(const Facet& facet, std::uint32_t point) const {
     const DVec<3> p(points_[point]), normal(facet.normal);
     bool over = true;
+    double to_edge_squared = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < 3; ++i) {
         const DVec<3> a(points_[facet.corner[i]]), b(points_[facet.corner[(i + 1) % 3]]);
-        if (distance_squared_to_segment(p, a, b) <= tolerance_ * tolerance_) return true;
         over = over && dot(cross(normal, b - a), p - a) >= 0;
+        to_edge_squared = std::min(to_edge_squared, distance_squared_to_segment(p, a, b));
     }
-    return over;
+    return over ? height(facet, point) : std::sqrt(to_edge_squared);
 }
 
 /// The point above the facet to go on with; none where all are near enough to be left out. A hull only grows, so they
@@ -93,7 +93,7 @@ std::uint32_t Quickhull::next_eye(const Facet& facet) const {
     double most = 0;
     for (std::uint32_t point = facet.outside; point != none; point = next_outside_[point]) {
         const double above = height(facet, point);
-        if (above > most && !near(facet, point)) {
+        if (above > most && distance(facet, point) > tolerance_) {
             most = above;
             result = point;
         }
@@ -182,6 +182,13 @@ void Quickhull::run(std::array<std::uint32_t, 4> start) {
     }
 }
 
+double Quickhull::farthest_left_out(const Facet& facet) const {
+    double result = 0;
+    for (std::uint32_t point = facet.outside; point != none; point = next_outside_[point])
+        result = std::max(result, distance(facet, point));
+    return result;
+}
+
 TriangleSurface Quickhull::surface() const {
     std::vector<std::uint32_t> number(facets_.size(), none);
     std::uint32_t count = 0;
@@ -193,6 +200,7 @@ TriangleSurface Quickhull::surface() const {
         result.origin.insert(result.origin.end(), facet.corner.begin(), facet.corner.end());
         for (const std::uint32_t twin : facet.twin) result.twin.push_back(3 * number[twin / 3] + twin % 3);
         result.normals.push_back(facet.normal);
+        result.left_out = std::max(result.left_out, farthest_left_out(facet));
     }
     return result;
 }

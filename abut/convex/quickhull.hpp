@@ -29,10 +29,16 @@ struct TriangleSurface {
     std::vector<std::uint32_t> origin;  ///< one a half-edge: the number of the point it leaves
     std::vector<std::uint32_t> twin;    ///< one a half-edge: the one that runs the other way
     std::vector<GridPoint> normals;     ///< one a triangle, outwards
+    double left_out = 0;                ///< how far from it points outside of it are at most, in steps of the grid
 };
 
+/// The next half-edge of the same triangle.
+inline std::uint32_t following(std::uint32_t half_edge) {
+    return half_edge % 3 == 2 ? half_edge - 2 : half_edge + 1;
+}
+
 /// The hull of points that don't lie in a plane. `start` are four of them that don't either. Points within `tolerance`
-/// (in steps of the grid, not below 0) of the surface may be left out of it; no other point lies outside of it.
+/// (in steps of the grid, not below 0) of the surface may be left outside of it; no other point lies outside of it.
 /// Neighbours may be coplanar, and points in a face or an edge may be corners of triangles.
 TriangleSurface quickhull(std::span<const GridPoint> points, const std::array<std::uint32_t, 4>& start,
                           double tolerance);

@@ -1,4 +1,5 @@
 #include <abut/convex/hull.hpp>
+#include <abut/math/dvec.hpp>
 #include <abut/shape/polyhedron.hpp>
 
 #include <utility>
@@ -58,6 +59,26 @@ double Polyhedron::area() const {
 
 Vec3 Polyhedron::centroid() const {
     return data_ ? data_->hull.centroid : zero;
+}
+
+Vec3 Polyhedron::normal() const {
+    const std::span<const Vec3> corners = points();
+    if (rank() == 0) return to_float(axis<3>(0));
+    if (rank() == 1) return to_float(perpendicular(DVec<3>(corners[1]) - DVec<3>(corners[0])));
+    std::size_t largest_face = 0;
+    double most = 0;
+    for (std::size_t face = 0; face < facets().normals.size(); ++face) {
+        const std::span<const std::uint32_t> loop = facets().loop(face);
+        const DVec<3> origin(corners[loop[0]]);
+        DVec<3> area(0.0);
+        for (std::size_t i = 1; i + 1 < loop.size(); ++i)
+            area += cross(DVec<3>(corners[loop[i]]) - origin, DVec<3>(corners[loop[i + 1]]) - origin);
+        if (length_squared(area) > most) {
+            most = length_squared(area);
+            largest_face = face;
+        }
+    }
+    return facets().normals[largest_face];
 }
 
 Convex<3> convex(const Polyhedron& polyhedron) {

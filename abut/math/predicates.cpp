@@ -1,0 +1,140 @@
+// Below, u = 2^-53 is what an operation in double may be off by, relative to its result. Nothing under- or overflows:
+// a float is a multiple of 2^-149 below 2^128, and so products of three are multiples of 2^-447 and below 2^384, those
+// of differences below 2^387.
+
+#include <abut/math/dvec.hpp>
+#include <abut/math/predicates.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace abut {
+namespace {
+
+int sign(double value) {
+    return value > 0 ? 1 : value < 0 ? -1 : 0;
+}
+
+/// rounded + lost == a + b, exactly (Knuth).
+struct Sum {
+    double rounded, lost;
+};
+
+Sum two_sum(double a, double b) {
+    const double sum = a + b, b_in_sum = sum - a;
+    return {sum, (a - (sum - b_in_sum)) + (b - b_in_sum)};
+}
+
+/// An exact sum of up to 48 doubles, in parts that don't overlap: of growing magnitude, none of them zero, each larger
+/// than all before it together. So the last has the sign of the sum.
+class Expansion {
+public:
+    void add(double term) {
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < count_; ++i) {
+            const Sum sum = two_sum(term, parts_[i]);
+            if (sum.lost != 0) parts_[kept++] = sum.lost;
+            term = sum.rounded;
+        }
+        if (term != 0) parts_[kept++] = term;
+        count_ = kept;
+    }
+
+    /// Adds the product of two floats times a third.
+    void add_product(double product, double factor) {
+        // Two halves of 26 bits (Dekker), times 24: neither product is rounded.
+        const double scaled = 0x1.0000002p27 * product;
+        const double high = scaled - (scaled - product), low = product - high;
+        add(high * factor);
+        add(low * factor);
+    }
+
+    int sign() const { return count_ == 0 ? 0 : abut::sign(parts_[count_ - 1]); }
+
+private:
+    std::array<double, 48> parts_;
+    std::size_t count_ = 0;
+};
+
+/// The determinant of | a 1 |, | b 1 |, | c 1 |: six products of two floats, which are exact in double.
+int exact_orientation(const DVec<2>& a, const DVec<2>& b, const DVec<2>& c) {
+    Expansion sum;
+    const auto add_cross = [&](const DVec<2>& p, const DVec<2>& q) {
+        sum.add(p.x * q.y);
+        sum.add(-p.y * q.x);
+    };
+    add_cross(a, b);
+    add_cross(b, c);
+    add_cross(c, a);
+    return sum.sign();
+}
+
+/// The same of four rows: [b c d] - [a c d] + [a b d] - [a b c], where [p q r] = dot(cross(p, q), r).
+int exact_orientation(const DVec<3>& a, const DVec<3>& b, const DVec<3>& c, const DVec<3>& d) {
+    Expansion sum;
+    const auto add_triple = [&](const DVec<3>& p, const DVec<3>& q, const DVec<3>& r) {
+        for (int i = 0; i < 3; ++i) {
+            const int j = (i + 1) % 3, k = (i + 2) % 3;
+            sum.add_product(p[j] * q[k], r[i]);
+            sum.add_product(-p[k] * q[j], r[i]);
+        }
+    };
+    add_triple(b, c, d);
+    add_triple(c, a, d);
+    add_triple(a, b, d);
+    add_triple(b, a, c);
+    return sum.sign();
+}
+
+}  // namespace
+
+int orientation(const Vec2& a, const Vec2& b, const Vec2& c) {
+    const DVec<2> p = DVec<2>(b) - DVec<2>(a), q = DVec<2>(c) - DVec<2>(a);
+    const double left = p.x * q.y, right = p.y * q.x, turn = left - right;
+    // Each product is made of two differences and rounded itself, 3 u; the last difference adds u. The bound is twice
+    // the first order of that, 8 u; it is 0 only where both products are 0 exactly.
+    const double bound = 0x1p-50 * (std::abs(left) + std::abs(right));
+    if (std::abs(turn) >= bound) return sign(turn);
+    return exact_orientation(DVec<2>(a), DVec<2>(b), DVec<2>(c));
+}
+
+int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    const DVec<3> p = DVec<3>(b) - DVec<3>(a), q = DVec<3>(c) - DVec<3>(a), r = DVec<3>(d) - DVec<3>(a);
+    double volume = 0, magnitude = 0;
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        const double left = p[j] * q[k], right = p[k] * q[j];
+        volume += (left - right) * r[i];
+        magnitude += (std::abs(left) + std::abs(right)) * std::abs(r[i]);
+    }
+    // left and right: 3 u; their difference: 4 u; times r[i], a difference: 6 u; the two sums: 8 u. Twice that.
+    if (std::abs(volume) >= 0x1p-49 * magnitude) return sign(volume);
+    return exact_orientation(DVec<3>(a), DVec<3>(b), DVec<3>(c), DVec<3>(d));
+}
+
+bool on_line(const Vec2& a, const Vec2& b, const Vec2& p) {
+    return orientation(a, b, p) == 0;
+}
+
+bool on_line(const Vec3& a, const Vec3& b, const Vec3& p) {
+    // The three coordinates of cross(b - a, p - a), each from the shadows of the points along an axis.
+    const auto shadow_on_line = [&](int x, int y) {
+        return orientation(Vec2(a[x], a[y]), Vec2(b[x], b[y]), Vec2(p[x], p[y])) == 0;
+    };
+    return shadow_on_line(0, 1) && shadow_on_line(1, 2) && shadow_on_line(2, 0);
+}
+
+bool in_plane(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) {
+    return orientation(a, b, c, p) == 0;
+}
+
+int sign_of_sum(double a, double b, double c) {
+    // a + b is off by half an ulp at most. Where c all but cancels it, their sum is exact and at least as much, half
+    // the ulp of the larger: the rounding tells only where nothing else is left.
+    const Sum two = two_sum(a, b);
+    const double three = two.rounded + c;
+    return sign(three != 0 ? three : two.lost);
+}
+
+}  // namespace abut
