@@ -1,11 +1,19 @@
+#include <abut/convex/farthest_point.hpp>
 #include <abut/convex/support.hpp>
 #include <abut/math/assert.hpp>
 
 namespace abut {
 namespace {
 
+/// From so many points on, several at a time are faster than one.
+constexpr std::uint32_t many = 32;
+
 template <int D>
-CorePoint<D> farthest_point(const Vec<D>* points, std::uint32_t count, const DVec<D>& direction) {
+CorePoint<D> farthest_of(const Vec<D>* points, std::uint32_t count, const DVec<D>& direction) {
+    if (count >= many) {
+        const std::uint32_t best = farthest_point(std::span<const Vec<D>>(points, count), direction);
+        return {DVec<D>(points[best]), best};
+    }
     std::uint32_t best = 0;
     double most = dot(DVec<D>(points[0]), direction);
     for (std::uint32_t i = 1; i < count; ++i) {
@@ -53,7 +61,7 @@ template <int D>
 CorePoint<D> local_support(const Convex<D>& convex, const DVec<D>& direction) {
     switch (convex.core) {
         case Core::points:
-            return farthest_point(convex.vertices(), convex.count, direction);
+            return farthest_of(convex.vertices(), convex.count, direction);
         case Core::box:
             return farthest_corner(convex.own[0], direction);
         case Core::discs:

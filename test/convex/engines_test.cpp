@@ -26,7 +26,8 @@ TEST(Gjk, EndsAsThePairIs) {
     const Box3 box{{0, 0, 0}, {1, 1, 1}};
     const auto apart = gjk(difference<3>(box, Box3{{5, 0.5f, 0}, {1, 1, 1}}));
     EXPECT_EQ(apart.exit, GjkExit::separated);
-    EXPECT_DOUBLE_EQ(length(apart.closest), 3);
+    EXPECT_DOUBLE_EQ(apart.reached, 3);
+    EXPECT_TRUE(apart.agreed());
     EXPECT_EQ(gjk(difference<3>(box, Box3{{1, 0.5f, 0.25f}, {1, 1, 1}})).exit, GjkExit::overlapping);
     EXPECT_EQ(gjk(difference<3>(Segment<3>{{0, 0, 0}, {1, 0, 0}}, Segment<3>{{1, 0, 0}, {2, 5, 0}})).exit,
               GjkExit::touching);

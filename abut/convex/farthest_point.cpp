@@ -1,0 +1,103 @@
+// Compiled once for each kind of vector unit by Highway, which takes the best of them when the program runs. Products
+// and sums are rounded one by one in all of them, and the largest of some numbers doesn't depend on the order in which
+// they are compared.
+
+#include <abut/convex/farthest_point.hpp>
+
+#include <limits>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "abut/convex/farthest_point.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace abut::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Doubles = hn::ScalableTag<double>;
+using Floats = hn::Rebind<float, Doubles>;
+using Vector = hn::Vec<Doubles>;
+
+Vector along(const Vec2* points, const Vector* direction) {
+    hn::Vec<Floats> x, y;
+    hn::LoadInterleaved2(Floats(), &points->x, x, y);
+    const Doubles d;
+    return hn::Add(hn::Mul(hn::PromoteTo(d, x), direction[0]), hn::Mul(hn::PromoteTo(d, y), direction[1]));
+}
+
+Vector along(const Vec3* points, const Vector* direction) {
+    hn::Vec<Floats> x, y, z;
+    hn::LoadInterleaved3(Floats(), &points->x, x, y, z);
+    const Doubles d;
+    const Vector xy = hn::Add(hn::Mul(hn::PromoteTo(d, x), direction[0]), hn::Mul(hn::PromoteTo(d, y), direction[1]));
+    return hn::Add(xy, hn::Mul(hn::PromoteTo(d, z), direction[2]));
+}
+
+/// Each lane keeps the first of its largest; the lanes are compared at the end, and then what is left over.
+template <int D>
+std::uint32_t farthest(const Vec<D>* points, std::size_t count, const DVec<D>& direction) {
+    const Doubles d;
+    const std::size_t lanes = hn::Lanes(d);
+    Vector axes[D];
+    for (int i = 0; i < D; ++i) axes[i] = hn::Set(d, direction[i]);
+
+    constexpr double lowest = -std::numeric_limits<double>::infinity();
+    Vector most = hn::Set(d, lowest), best = hn::Zero(d), index = hn::Iota(d, 0.0);
+    const Vector step = hn::Set(d, static_cast<double>(lanes));
+    std::size_t i = 0;
+    for (; i + lanes <= count; i += lanes) {
+        const Vector here = along(points + i, axes);
+        const auto farther = hn::Gt(here, most);
+        most = hn::IfThenElse(farther, here, most);
+        best = hn::IfThenElse(farther, index, best);
+        index = hn::Add(index, step);
+    }
+
+    HWY_ALIGN double most_of[hn::MaxLanes(d)];
+    HWY_ALIGN double best_of[hn::MaxLanes(d)];
+    hn::Store(most, d, most_of);
+    hn::Store(best, d, best_of);
+    double result = best_of[0], value = most_of[0];
+    for (std::size_t lane = 1; lane < lanes; ++lane)
+        if (most_of[lane] > value || (most_of[lane] == value && best_of[lane] < result)) {
+            value = most_of[lane];
+            result = best_of[lane];
+        }
+    for (; i < count; ++i) {
+        double here = static_cast<double>(points[i][0]) * direction[0];
+        for (int axis = 1; axis < D; ++axis) here += static_cast<double>(points[i][axis]) * direction[axis];
+        if (here > value) {
+            value = here;
+            result = static_cast<double>(i);
+        }
+    }
+    return static_cast<std::uint32_t>(result);
+}
+
+std::uint32_t farthest_in_plane(const Vec2* points, std::size_t count, const DVec<2>& direction) {
+    return farthest<2>(points, count, direction);
+}
+std::uint32_t farthest_in_space(const Vec3* points, std::size_t count, const DVec<3>& direction) {
+    return farthest<3>(points, count, direction);
+}
+
+}  // namespace abut::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace abut {
+
+HWY_EXPORT(farthest_in_plane);
+HWY_EXPORT(farthest_in_space);
+
+std::uint32_t farthest_point(std::span<const Vec2> points, const DVec<2>& direction) {
+    return HWY_DYNAMIC_DISPATCH(farthest_in_plane)(points.data(), points.size(), direction);
+}
+std::uint32_t farthest_point(std::span<const Vec3> points, const DVec<3>& direction) {
+    return HWY_DYNAMIC_DISPATCH(farthest_in_space)(points.data(), points.size(), direction);
+}
+
+}  // namespace abut
+#endif

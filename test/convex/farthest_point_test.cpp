@@ -1,0 +1,67 @@
+// The same index from every kind of vector unit that this machine has.
+
+#include "../oracle/random.hpp"
+#include <abut/convex/farthest_point.hpp>
+
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+namespace abut {
+namespace {
+
+template <int D>
+std::uint32_t one_by_one(const std::vector<Vec<D>>& points, const DVec<D>& direction) {
+    std::uint32_t best = 0;
+    for (std::uint32_t i = 1; i < points.size(); ++i)
+        if (dot(DVec<D>(points[i]), direction) > dot(DVec<D>(points[best]), direction)) best = i;
+    return best;
+}
+
+/// Runs a test once for each target.
+class FarthestPoint : public testing::TestWithParam<std::int64_t> {
+protected:
+    void SetUp() override { force(GetParam()); }
+    void TearDown() override { force(0); }
+
+    static void force(std::int64_t target) {
+        hwy::SetSupportedTargetsForTest(target);
+        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    }
+
+    template <int D>
+    static void expect_the_first_of_the_farthest() {
+        for (std::uint64_t seed = 0; seed < 2000; ++seed) {
+            SCOPED_TRACE(seed);
+            oracle::Random random(seed);
+            const std::uint32_t count = 1 + random.below(70);
+            std::vector<Vec<D>> points;
+            // Half of them on a small lattice, where many are equally far.
+            const bool lattice = random.chance(0.5);
+            for (std::uint32_t i = 0; i < count; ++i) {
+                DVec<D> point = random.in_cube<D>() * (lattice ? 2.0 : 1e4);
+                if (lattice)
+                    for (int k = 0; k < D; ++k) point[k] = std::floor(point[k]);
+                points.push_back(to_float(point));
+            }
+            DVec<D> direction = random.in_cube<D>();
+            if (lattice)
+                for (int k = 0; k < D; ++k) direction[k] = std::floor(2 * direction[k]);
+            EXPECT_EQ(farthest_point(points, direction), one_by_one<D>(points, direction));
+        }
+    }
+};
+
+TEST_P(FarthestPoint, IsTheFirstOfThem) {
+    expect_the_first_of_the_farthest<2>();
+    expect_the_first_of_the_farthest<3>();
+}
+
+INSTANTIATE_TEST_SUITE_P(Targets, FarthestPoint, testing::ValuesIn(hwy::SupportedAndGeneratedTargets()),
+                         [](const testing::TestParamInfo<std::int64_t>& target) {
+                             return std::string(hwy::TargetName(target.param));
+                         });
+
+}  // namespace
+}  // namespace abut
