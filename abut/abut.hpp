@@ -7,6 +7,7 @@
 #include <abut/math/aabb.hpp>
 #include <abut/math/assert.hpp>
 #include <abut/math/pose.hpp>
+#include <abut/math/predicates.hpp>
 #include <abut/math/ray.hpp>
 #include <abut/math/result.hpp>
 #include <abut/math/vec.hpp>

@@ -34,7 +34,7 @@ template <int D>
 double outside(const Convex<D>& part, const DVec<D>& point) {
     Convex<D> as_shape;
     as_shape.place.offset = point;
-    return std::max(0.0, signed_distance(part, as_shape).distance);
+    return std::max(0.0, part_distance(part, as_shape, {}).distance);
 }
 template <int D>
 double outside(const Solid<D>& part, const DVec<D>& point) {

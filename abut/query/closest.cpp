@@ -4,18 +4,6 @@
 namespace abut {
 namespace {
 
-template <int D>
-Closest<D> answer(const SignedDistance<D>& found, std::uint32_t part_a, std::uint32_t part_b) {
-    Closest<D> result;
-    result.distance = static_cast<float>(found.distance);
-    result.normal = to_float(found.normal);
-    result.on_a = to_float(found.on_a);
-    result.on_b = to_float(found.on_b());
-    result.feature_a = feature_on(found.face, &DifferencePoint<D>::index_a, part_a);
-    result.feature_b = feature_on(found.face, &DifferencePoint<D>::index_b, part_b);
-    return result;
-}
-
 /// The gap between two boxes along the axis on which it is widest; not below zero.
 template <int D>
 float gap(const Aabb<D>& a, const Aabb<D>& b) {
@@ -40,12 +28,12 @@ public:
     void search(const View<D>& a, const View<D>& b, float reach) {
         each_part_pair(a, b, reach,
                        [&](const auto& part_a, std::uint32_t index_a, const auto& part_b, std::uint32_t index_b) {
-                           const SignedDistance<D> distance = signed_distance(part_a, part_b, options_);
+                           const SignedDistance<D> distance = part_distance(part_a, part_b, options_);
                            if (!any_ || distance.distance < least_.distance) {
                                any_ = true;
                                least_ = distance;
-                               part_a_ = index_a;
-                               part_b_ = index_b;
+                               // Now, while the parts are there: a composite shape may make them up as it goes.
+                               features_ = features_of(part_a, part_b, distance, index_a, index_b);
                            }
                            return true;
                        });
@@ -53,13 +41,23 @@ public:
 
     bool any() const { return any_; }
     double distance() const { return least_.distance; }
-    Closest<D> found() const { return any_ ? answer(least_, part_a_, part_b_) : Closest<D>{}; }
+    Closest<D> found() const {
+        Closest<D> result;
+        if (!any_) return result;
+        result.distance = static_cast<float>(least_.distance);
+        result.normal = to_float(least_.normal);
+        result.on_a = to_float(least_.on_a);
+        result.on_b = to_float(least_.on_b());
+        result.feature_a = features_[0];
+        result.feature_b = features_[1];
+        return result;
+    }
 
 private:
     SearchOptions<D> options_;
     bool any_ = false;
     SignedDistance<D> least_{};
-    std::uint32_t part_a_ = 0, part_b_ = 0;
+    std::array<Feature, 2> features_{};
 };
 
 }  // namespace

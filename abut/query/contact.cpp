@@ -20,16 +20,15 @@ Manifold<D> parts_manifold(const Solid<D>& a, const Convex<D>& b, const SignedDi
 }
 
 template <int D>
-Contact<D> answer(const Manifold<D>& found, const SignedDistance<D>& distance, std::uint32_t part_a,
-                  std::uint32_t part_b) {
+Contact<D> answer(const Manifold<D>& found, const SignedDistance<D>& distance, const std::array<Feature, 2>& features) {
     Contact<D> result;
     result.normal = to_float(distance.normal);
     result.depth = static_cast<float>(-distance.distance);
     for (std::size_t i = 0; i < found.count; ++i)
         result.points.push_back(
             {to_float(found.points[i].position), static_cast<float>(found.points[i].depth), found.points[i].feature});
-    result.feature_a = feature_on(distance.face, &DifferencePoint<D>::index_a, part_a);
-    result.feature_b = feature_on(distance.face, &DifferencePoint<D>::index_b, part_b);
+    result.feature_a = features[0];
+    result.feature_b = features[1];
     return result;
 }
 
@@ -47,12 +46,12 @@ Contact<D> contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& op
     double least = margin;
     each_part_pair(a, b, options.margin,
                    [&](const auto& part_a, std::uint32_t index_a, const auto& part_b, std::uint32_t index_b) {
-                       const SignedDistance<D> distance = signed_distance(part_a, part_b, search);
+                       const SignedDistance<D> distance = part_distance(part_a, part_b, search);
                        if (distance.distance > least || (result && distance.distance == least)) return true;
                        // Now, while the parts are there: a composite shape may make them up as it goes.
                        least = distance.distance;
                        result = answer(parts_manifold(part_a, part_b, distance, margin, options.trace), distance,
-                                       index_a, index_b);
+                                       features_of(part_a, part_b, distance, index_a, index_b));
                        return true;
                    });
     return result;

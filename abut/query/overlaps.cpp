@@ -6,11 +6,12 @@ namespace {
 
 template <int D>
 bool parts_overlap(const Convex<D>& a, const Convex<D>& b, const SearchOptions<D>& options) {
+    if (const auto form = closed_form(a, b)) return form->distance <= 0;
     return convex_overlap(a, b, options);
 }
 template <int D>
 bool parts_overlap(const Convex<D>& a, const Solid<D>& b, const SearchOptions<D>&) {
-    return signed_distance(a, b).distance <= 0;
+    return part_distance(a, b).distance <= 0;
 }
 template <int D>
 bool parts_overlap(const Solid<D>& a, const Convex<D>& b, const SearchOptions<D>& options) {

@@ -1,9 +1,11 @@
+#include <abut/convex/farthest_point.hpp>
+#include <abut/convex/features.hpp>
 #include <abut/query/part_pairs.hpp>
 
 namespace abut {
 
 template <int D>
-SignedDistance<D> signed_distance(const Convex<D>& a, const Solid<D>& b, const SearchOptions<D>&) {
+SignedDistance<D> part_distance(const Convex<D>& a, const Solid<D>& b, const SearchOptions<D>&) {
     const CorePoint<D> lowest = core_support(a, -b.normal);
     SignedDistance<D> result;
     result.normal = -b.normal;
@@ -16,33 +18,76 @@ SignedDistance<D> signed_distance(const Convex<D>& a, const Solid<D>& b, const S
 }
 
 template <int D>
-SignedDistance<D> signed_distance(const Solid<D>& a, const Convex<D>& b, const SearchOptions<D>&) {
-    SignedDistance<D> result = signed_distance(b, a);
+SignedDistance<D> part_distance(const Solid<D>& a, const Convex<D>& b, const SearchOptions<D>&) {
+    SignedDistance<D> result = part_distance(b, a);
     result.on_a = result.on_b();
     result.normal = -result.normal;
     std::swap(result.face.points[0].index_a, result.face.points[0].index_b);
     return result;
 }
 
+namespace {
+
+/// The distinct numbers among those of a simplex.
 template <int D>
-Feature feature_on(const Simplex<D>& face, std::uint32_t DifferencePoint<D>::*index, std::uint32_t part) {
-    std::uint32_t least = face.points[0].*index, most = least;
-    bool third = false;
-    for (std::size_t i = 1; i < face.count; ++i) {
-        const std::uint32_t next = face.points[i].*index;
-        third = third || (least != most && next != least && next != most);
-        least = std::min(least, next);
-        most = std::max(most, next);
+struct Numbers {
+    std::array<std::uint32_t, static_cast<std::size_t>(D) + 1> all{};
+    std::size_t count = 0;
+
+    Numbers(const Simplex<D>& face, std::uint32_t DifferencePoint<D>::*index) {
+        for (std::size_t i = 0; i < face.count; ++i)
+            if (std::find(all.begin(), all.begin() + count, face.points[i].*index) == all.begin() + count)
+                all[count++] = face.points[i].*index;
     }
-    if (third) return {part, least, FeatureKind::face};
-    if (least != most) return {part, least | most << 16, FeatureKind::edge};
-    return {part, least, FeatureKind::vertex};
+};
+
+std::uint32_t face_number(const Convex<3>& part, const Numbers<3>& numbers, const DVec<3>& out) {
+    if (part.core == Core::box) {
+        // The bit on which the corners agree is the axis of their side.
+        std::uint32_t ones = 7, zeros = 7;
+        for (std::size_t i = 0; i < numbers.count; ++i) {
+            ones &= numbers.all[i];
+            zeros &= ~numbers.all[i];
+        }
+        for (std::uint32_t axis = 0; axis < 3; ++axis)
+            if (((ones | zeros) >> axis & 1u) != 0) return 2 * axis + (ones >> axis & 1u);
+        return 0;
+    }
+    if (part.facets == nullptr) {
+        const auto corner = [&](std::uint32_t i) { return part.place.point(DVec<3>(part.vertices()[i])); };
+        const DVec<3> normal = cross(corner(1) - corner(0), corner(2) - corner(0));
+        return dot(normal, out) < 0 ? 1 : 0;
+    }
+    const DVec<3> local = part.place.transposed(out);
+    return farthest_point(part.facets->normals, local);
 }
 
-#define ABUT_INSTANTIATE(D)                                                                                 \
-    template SignedDistance<D> signed_distance(const Convex<D>&, const Solid<D>&, const SearchOptions<D>&); \
-    template SignedDistance<D> signed_distance(const Solid<D>&, const Convex<D>&, const SearchOptions<D>&); \
-    template Feature feature_on(const Simplex<D>&, std::uint32_t DifferencePoint<D>::*, std::uint32_t);
+}  // namespace
+
+template <int D>
+Feature feature_on(const Convex<D>& part, const Simplex<D>& face, std::uint32_t DifferencePoint<D>::*index,
+                   [[maybe_unused]] const DVec<D>& out, std::uint32_t number) {
+    if (!has_features(part)) return {number, 0, FeatureKind::none};
+    const Numbers<D> numbers(face, index);
+    if (numbers.count == 1) return {number, numbers.all[0], FeatureKind::vertex};
+    if constexpr (D == 3)
+        if (numbers.count > 2) return {number, face_number(part, numbers, out), FeatureKind::face};
+    return {number, edge_index(numbers.all[0], numbers.all[1]), FeatureKind::edge};
+}
+
+template <int D>
+Feature feature_on(const Solid<D>&, const Simplex<D>&, std::uint32_t DifferencePoint<D>::*, const DVec<D>&,
+                   std::uint32_t number) {
+    return {number, 0, FeatureKind::none};
+}
+
+#define ABUT_INSTANTIATE(D)                                                                               \
+    template SignedDistance<D> part_distance(const Convex<D>&, const Solid<D>&, const SearchOptions<D>&); \
+    template SignedDistance<D> part_distance(const Solid<D>&, const Convex<D>&, const SearchOptions<D>&); \
+    template Feature feature_on(const Convex<D>&, const Simplex<D>&, std::uint32_t DifferencePoint<D>::*, \
+                                const DVec<D>&, std::uint32_t);                                           \
+    template Feature feature_on(const Solid<D>&, const Simplex<D>&, std::uint32_t DifferencePoint<D>::*,  \
+                                const DVec<D>&, std::uint32_t);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

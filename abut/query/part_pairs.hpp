@@ -2,8 +2,8 @@
 
 // The pairs of convex parts of two shapes, whatever the shapes are. For .cpp files.
 
-#include <abut/convex/signed_distance.hpp>
 #include <abut/math/assert.hpp>
+#include <abut/query/closed_form.hpp>
 #include <abut/query/feature.hpp>
 #include <abut/query/options.hpp>
 #include <abut/shape/view.hpp>
@@ -43,9 +43,9 @@ void each_part_pair(const View<D>& a, const View<D>& b, float reach, Visit&& vis
 
 /// The signed distance of a convex set and a half-space, in either order. There is nothing to search.
 template <int D>
-SignedDistance<D> signed_distance(const Convex<D>& a, const Solid<D>& b, const SearchOptions<D>& options = {});
+SignedDistance<D> part_distance(const Convex<D>& a, const Solid<D>& b, const SearchOptions<D>& options = {});
 template <int D>
-SignedDistance<D> signed_distance(const Solid<D>& a, const Convex<D>& b, const SearchOptions<D>& options = {});
+SignedDistance<D> part_distance(const Solid<D>& a, const Convex<D>& b, const SearchOptions<D>& options = {});
 
 /// What the engines are told for each pair of parts: a cache is of one pair, so only of shapes that are a part
 /// themselves.
@@ -55,8 +55,20 @@ SearchOptions<D> search_options(const View<D>& a, const View<D>& b, const QueryO
     return {composite ? nullptr : options.cache, options.trace};
 }
 
-/// The feature that a witness point lies on, from the points it is a weighted sum of.
+/// The feature of a part that its witness point lies on. `index` tells whether it is A or B, `out` is its normal.
 template <int D>
-Feature feature_on(const Simplex<D>& face, std::uint32_t DifferencePoint<D>::*index, std::uint32_t part);
+Feature feature_on(const Convex<D>& part, const Simplex<D>& face, std::uint32_t DifferencePoint<D>::*index,
+                   const DVec<D>& out, std::uint32_t number);
+template <int D>
+Feature feature_on(const Solid<D>& part, const Simplex<D>& face, std::uint32_t DifferencePoint<D>::*index,
+                   const DVec<D>& out, std::uint32_t number);
+
+/// Those of both parts, the first of them A.
+template <int D, class PartA, class PartB>
+std::array<Feature, 2> features_of(const PartA& part_a, const PartB& part_b, const SignedDistance<D>& distance,
+                                   std::uint32_t number_a, std::uint32_t number_b) {
+    return {feature_on(part_a, distance.face, &DifferencePoint<D>::index_a, distance.normal, number_a),
+            feature_on(part_b, distance.face, &DifferencePoint<D>::index_b, -distance.normal, number_b)};
+}
 
 }  // namespace abut

@@ -54,7 +54,7 @@ std::optional<BeamHit<D>> cast(const Beam<D>& beam, const Part& part, std::uint3
     DVec<D> last_normal(0.0);
     for (int step = 0; step < most_steps; ++step) {
         const SignedDistance<D> distance =
-            signed_distance(part, point_shape<D>(beam.at(along)), SearchOptions<D>{&cache, trace});
+            part_distance(part, point_shape<D>(beam.at(along)), SearchOptions<D>{&cache, trace});
         const double approach = -dot(beam.direction, distance.normal);
         const bool there = distance.distance <= doubt;
         // Every way is a way out of a thin part: what starts on one leaves it, whichever side rounding put it on.
@@ -64,7 +64,7 @@ std::optional<BeamHit<D>> cast(const Beam<D>& beam, const Part& part, std::uint3
             // At an edge there are several ways out, and the one found may lie across the ray.
             const bool across = approach < 0.5 * last_approach;
             return BeamHit<D>{along, across ? last_normal : distance.normal, along == 0 && distance.distance < -doubt,
-                              feature_on(distance.face, &DifferencePoint<D>::index_a, index)};
+                              feature_on(part, distance.face, &DifferencePoint<D>::index_a, distance.normal, index)};
         }
         along += distance.distance / approach;
         if (!(along <= beam.length)) return std::nullopt;

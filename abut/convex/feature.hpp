@@ -1,0 +1,26 @@
+#pragma once
+
+// What a place on a shape is called: a corner, an edge or a face, by number.
+
+#include <algorithm>
+#include <cstdint>
+
+namespace abut {
+
+/// The numbers are the shape's own. Points are counted as the shape lists them; a box's corners have bit i set where
+/// axis i is at its low end. Faces, in 3D alone: of a polyhedron as `facets()` lists them; of a box 2 * axis, plus one
+/// at the low end; of a triangle 0 on the side from which it is counter-clockwise, 1 on the other.
+enum class FeatureKind : std::uint8_t {
+    none,    ///< a round or unnamed place
+    vertex,  ///< index: of the point
+    edge,    ///< index: `edge_index` of its two points
+    face,    ///< index: of the face
+};
+
+/// The lower of two point numbers in the low 16 bits, the higher one in the high 16. Of a number above 65535 its low
+/// 16 bits count: two edges of so large a shape may have one name.
+inline std::uint32_t edge_index(std::uint32_t i, std::uint32_t j) {
+    return (std::min(i, j) & 0xffffu) | std::max(i, j) << 16;
+}
+
+}  // namespace abut
