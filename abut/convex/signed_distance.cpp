@@ -48,20 +48,13 @@ double distance_from(const DVec<D>& target, const Simplex<D>& face) {
 /// Where the walk proved nothing: they overlap, or are so thin or so near that it lost its way.
 template <int D>
 CoreDistance<D> deep_distance(const CoreDifference<D>& difference, const GjkResult<D>& walk, Trace<D>* trace) {
-    CoreDistance<D> result{-std::numeric_limits<double>::infinity(), {}, walk.simplex};
-    if (few_axes(difference)) {
-        const SeparatingAxis<D> axis = separating_axis(difference, std::numeric_limits<double>::infinity(), trace);
-        result = {-axis.extent, axis.normal, touching_face(difference, axis.normal, axis.extent)};
-    }
-    if (!std::isfinite(result.distance)) {
-        const Penetration<D> deep = penetration(difference, trace);
-        result = {-deep.depth, deep.normal, deep.face};
-        // Where they barely touch, a common point is on both surfaces.
-        if (walk.reached <= walk.doubt && (deep.exit == PenetrationExit::flat || deep.depth <= 1e-3 * walk.doubt))
-            result.face = walk.simplex;
-        else if (distance_from(deep.normal * deep.depth, deep.face) > walk.doubt)
-            result.face = touching_face(difference, deep.normal, deep.depth);
-    }
+    const Penetration<D> deep = penetration(difference, trace);
+    CoreDistance<D> result{-deep.depth, deep.normal, deep.face};
+    // Where they barely touch, a common point is on both surfaces.
+    if (walk.reached <= walk.doubt && (deep.exit == PenetrationExit::flat || deep.depth <= 1e-3 * walk.doubt))
+        result.face = walk.simplex;
+    else if (distance_from(deep.normal * deep.depth, deep.face) > walk.doubt)
+        result.face = touching_face(difference, deep.normal, deep.depth);
     if (walk.proven > result.distance) {
         result.distance = walk.proven;
         result.normal = walk.axis;
@@ -74,14 +67,27 @@ CoreDistance<D> deep_distance(const CoreDifference<D>& difference, const GjkResu
     return result;
 }
 
+template <int D>
+CoreDistance<D> core_distance(const CoreDifference<D>& difference, SearchOptions<D> options) {
+    Cache found;
+    if (few_axes(difference)) {
+        const SeparatingAxis<D> axis = separating_axis(difference, 0, options.trace);
+        if (axis.extent >= 0) return {-axis.extent, axis.normal, touching_face(difference, axis.normal, axis.extent)};
+        // Along an axis that parts them is where the nearest points are.
+        for (int i = 0; i < D; ++i) found.axis[static_cast<std::size_t>(i)] = static_cast<float>(axis.normal[i]);
+        if (options.cache == nullptr) options.cache = &found;
+    }
+    const GjkResult<D> walk = gjk(difference, std::numeric_limits<double>::infinity(), options);
+    return walk.agreed() ? CoreDistance<D>{walk.reached, walk.axis, walk.simplex}
+                         : deep_distance(difference, walk, options.trace);
+}
+
 }  // namespace
 
 template <int D>
 SignedDistance<D> signed_distance(const Convex<D>& a, const Convex<D>& b, const SearchOptions<D>& options) {
     const CoreDifference<D> difference(a, b);
-    const GjkResult<D> walk = gjk(difference, std::numeric_limits<double>::infinity(), options);
-    const CoreDistance<D> cores = walk.agreed() ? CoreDistance<D>{walk.reached, walk.axis, walk.simplex}
-                                                : deep_distance(difference, walk, options.trace);
+    const CoreDistance<D> cores = core_distance(difference, options);
     SignedDistance<D> result;
     result.distance = cores.distance - a.radius - b.radius;
     result.normal = cores.normal;

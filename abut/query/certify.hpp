@@ -11,9 +11,9 @@ template <int D>
 struct Certificate {
     double margin = 0;  ///< of doubt, how far an answer about these two may be off: 1e-5 of the size of the smaller,
                         ///< and 16 units in the last place of a float as large as the largest coordinate seen from A
-    double plane = 0;  ///< error of the distance, seen along the normal: of the gap between two parallel planes, one
-                       ///< on each shape, or of the move that truly parts them
-    double off_a = 0;  ///< how far on_a is off the surface of A, along the normal, or outside of A
+    double plane = 0;   ///< error of the distance, seen along the normal: of the gap between two parallel planes, one
+                        ///< on each shape, or of the move that truly parts them
+    double off_a = 0;   ///< how far on_a is off the surface of A, along the normal, or outside of A
     double off_b = 0;
     double across = 0;      ///< how far on_b is from on_a + distance * normal
     Vec<D> common{};        ///< of shapes that overlap: a point of both. It needn't lie between on_a and on_b
