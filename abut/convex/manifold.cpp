@@ -24,14 +24,19 @@ DVec<D> across(const DVec<D>& v, const DVec<D>& n) {
     return normalized(v - n * dot(v, n), DVec<D>(0.0));
 }
 
-/// The sides of a face as planes through its edges along `out`, looking outwards; of an edge, its two ends. What lies
-/// between them lies in front of the face, seen along `out`.
+/// The sides of a face as planes through its edges along `out`, looking outwards; of an edge, its two ends, and its
+/// sides `reach` away. What lies between them lies in front of the face, seen along `out`.
 template <int D, class Visit>
-void each_side(const Face<D>& face, const DVec<D>& out, Visit&& visit) {
+void each_side(const Face<D>& face, const DVec<D>& out, double reach, Visit&& visit) {
     if (face.count == 2) {
         const DVec<D> along = across(face.points[1] - face.points[0], out);
         visit(-along, dot(-along, face.points[0]), face.indices[0]);
         visit(along, dot(along, face.points[1]), face.indices[1]);
+        if constexpr (D == 3) {
+            const DVec<3> side = cross(along, out);
+            visit(-side, dot(-side, face.points[0]) + reach, face.indices[0]);
+            visit(side, dot(side, face.points[0]) + reach, face.indices[1]);
+        }
         return;
     }
     if constexpr (D == 3) {
@@ -45,6 +50,16 @@ void each_side(const Face<D>& face, const DVec<D>& out, Visit&& visit) {
             visit(side, dot(side, from), face.indices[i]);
         }
     }
+}
+
+/// How far the ball around an edge reaches past it along `out`, seen from a point beside it.
+double reach_beside(const Face<3>& edge, const DVec<3>& out, double radius, const DVec<3>& point) {
+    const DVec<3> side = cross(across(edge.points[1] - edge.points[0], out), out);
+    const double off = dot(side, point - edge.points[0]);
+    return std::sqrt(std::max(0.0, radius * radius - off * off));
+}
+double reach_beside(const Face<2>&, const DVec<2>&, double radius, const DVec<2>&) {
+    return radius;
 }
 
 /// Two edges side by side across the normal, such as those of two capsules.
@@ -108,16 +123,22 @@ Manifold<D> thinned(const Candidates<D>& all, const DVec<D>& normal) {
     return result;
 }
 
+/// Adds the witness where no candidate is as deep as it is: a corner may lie on no face that looks along the normal.
+template <int D>
+void add_deepest(Candidates<D>& candidates, const ManifoldPoint<D>& witness, double slack) {
+    for (std::size_t i = 0; i < candidates.count; ++i)
+        if (candidates.points[i].depth >= witness.depth - slack) return;
+    candidates.push_back(witness);
+}
+
 }  // namespace
 
 template <int D>
 Manifold<D> manifold(const Convex<D>& a, const Convex<D>& b, const SignedDistance<D>& distance, double margin,
                      Trace<D>* trace) {
     const DVec<D>& normal = distance.normal;
-    const double slack = 1e-6 * std::min(size(a), size(b));
+    const double slack = 1e-6 * std::min(size(a), size(b)), depth = -distance.distance;
     const std::uint32_t witness_name = distance.face.points[0].index_a << 8 ^ distance.face.points[0].index_b;
-    const ManifoldPoint<D> witness{distance.on_a + normal * (0.5 * distance.distance), -distance.distance,
-                                   witness_name};
 
     Candidates<D> candidates;
     const Face<D> face_a = face_along(a, normal), face_b = face_along(b, -normal);
@@ -129,22 +150,24 @@ Manifold<D> manifold(const Convex<D>& a, const Convex<D>& b, const SignedDistanc
         const DVec<D> out = a_is_reference ? normal : -normal;
         const double reference_radius = a_is_reference ? a.radius : b.radius;
         const double incident_radius = a_is_reference ? b.radius : a.radius;
-        each_side(reference, out, [&](const DVec<D>& side, double offset, std::uint32_t name) {
-            clip(incident, side, offset + slack, name);
-            record(incident, side, offset, trace);
-        });
+        each_side(reference, out, reference_radius + slack,
+                  [&](const DVec<D>& side, double offset, std::uint32_t name) {
+                      clip(incident, side, offset, name);
+                      record(incident, side, offset, trace);
+                  });
         const DVec<D> plane = plane_of(reference, out);
         for (std::size_t i = 0; i < incident.count; ++i) {
             const double gap = dot(plane, incident.points[i] - reference.points[0]) / dot(plane, out);
-            const double depth = reference_radius + incident_radius - gap;
-            if (depth < -margin - slack) continue;
-            const DVec<D> middle = incident.points[i] + out * (0.5 * (reference_radius - incident_radius - gap));
-            candidates.push_back({middle, margin > 0 ? depth : std::max(depth, 0.0), incident.indices[i]});
+            const double reach = reference.flat() ? reference_radius
+                                                  : reach_beside(reference, out, reference_radius, incident.points[i]);
+            // No two places are deeper than the shapes; faces that are not quite flat may say so.
+            const double here = std::min(reach + incident_radius - gap, depth);
+            if (here < -margin - slack) continue;
+            const DVec<D> middle = incident.points[i] - out * (incident_radius - 0.5 * here);
+            candidates.push_back({middle, margin > 0 ? here : std::max(here, 0.0), incident.indices[i]});
         }
     }
-    double deepest = -std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < candidates.count; ++i) deepest = std::max(deepest, candidates.points[i].depth);
-    if (deepest < witness.depth - slack) candidates.push_back(witness);
+    add_deepest(candidates, {distance.on_a - normal * (0.5 * depth), depth, witness_name}, slack);
     return thinned(candidates, normal);
 }
 
@@ -152,20 +175,18 @@ template <int D>
 Manifold<D> manifold_with_plane(const Convex<D>& a, const DVec<D>& normal, double offset, double margin) {
     const double slack = 1e-6 * size(a);
     Candidates<D> candidates;
+    const auto touching_at = [&](const DVec<D>& core, std::uint32_t name) {
+        const DVec<D> surface = core - normal * a.radius;
+        const double depth = offset - dot(normal, surface);
+        return ManifoldPoint<D>{surface + normal * (0.5 * depth), margin > 0 ? depth : std::max(depth, 0.0), name};
+    };
     const Face<D> face = face_along(a, -normal);
     for (std::size_t i = 0; i < face.count; ++i) {
-        const DVec<D> surface = face.points[i] - normal * a.radius;
-        const double depth = offset - dot(normal, surface);
-        if (depth < -margin - slack) continue;
-        candidates.push_back(
-            {surface + normal * (0.5 * depth), margin > 0 ? depth : std::max(depth, 0.0), face.indices[i]});
+        const double depth = offset - dot(normal, face.points[i]) + a.radius;
+        if (depth >= -margin - slack) candidates.push_back(touching_at(face.points[i], face.indices[i]));
     }
-    if (candidates.count == 0) {
-        const CorePoint<D> lowest = core_support(a, -normal);
-        const DVec<D> surface = lowest.position - normal * a.radius;
-        const double depth = offset - dot(normal, surface);
-        candidates.push_back({surface + normal * (0.5 * depth), depth, lowest.index});
-    }
+    const CorePoint<D> lowest = core_support(a, -normal);
+    add_deepest(candidates, touching_at(lowest.position, lowest.index), slack);
     return thinned(candidates, normal);
 }
 

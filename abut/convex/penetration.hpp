@@ -33,6 +33,12 @@ struct Penetration {
 /// The bound on growing steps; polytopes need a few, curved shapes some dozens.
 inline constexpr std::size_t penetration_most_steps = 160;
 
+/// Rolls on to where h is least nearby, from a normal found by growing a polytope: curved shapes come to the last
+/// digits so, where growing takes a step for each new corner. Keeps the better of both; the face is no longer of the
+/// normal. Gradient descent on the sphere; the slope of h at n is the farthest point along n, less its part along n.
+template <int D>
+void descend(const CoreDifference<D>& difference, Penetration<D>& found);
+
 /// For cores that overlap or touch. Never allocates but for the trace.
 Penetration<2> penetration(const CoreDifference<2>& difference, Trace<2>* trace = nullptr);
 Penetration<3> penetration(const CoreDifference<3>& difference, Trace<3>* trace = nullptr);

@@ -48,7 +48,9 @@ double distance_from(const DVec<D>& target, const Simplex<D>& face) {
 /// Where the walk proved nothing: they overlap, or are so thin or so near that it lost its way.
 template <int D>
 CoreDistance<D> deep_distance(const CoreDifference<D>& difference, const GjkResult<D>& walk, Trace<D>* trace) {
-    const Penetration<D> deep = penetration(difference, trace);
+    Penetration<D> deep = penetration(difference, trace);
+    if (deep.exit == PenetrationExit::bound_reached || deep.exit == PenetrationExit::no_progress)
+        descend(difference, deep);
     CoreDistance<D> result{-deep.depth, deep.normal, deep.face};
     // Where they barely touch, a common point is on both surfaces.
     if (walk.reached <= walk.doubt && (deep.exit == PenetrationExit::flat || deep.depth <= 1e-3 * walk.doubt))

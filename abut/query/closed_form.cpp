@@ -44,11 +44,22 @@ Corners corners_of(const Convex<D>& convex, const ClosestFeature<D>& feature) {
     return {{feature.index}, 1};
 }
 
+/// Whether all of the core lies behind the feature, seen along its normal. Faces of a hull that were merged aren't
+/// quite flat, which turns the normals of a needle.
+template <int D>
+bool parts(const Convex<D>& core, const ClosestFeature<D>& feature) {
+    if (core.facets == nullptr) return true;
+    const DVec<D> seen = feature.point - reference_point(core);
+    const double height = dot(core_support(core, feature.normal).position - feature.point, feature.normal);
+    return height <= 1e-7 * largest(seen);
+}
+
 /// The distance of a polytope A from a point B, with their radii.
 template <int D>
-SignedDistance<D> distance_from_point(const Convex<D>& a, const Convex<D>& b) {
+std::optional<SignedDistance<D>> distance_from_point(const Convex<D>& a, const Convex<D>& b) {
     const DVec<D> point = b.place.point(DVec<D>(b.vertices()[0]));
     const ClosestFeature<D> nearest = closest_feature(a, point);
+    if (!parts(a, nearest)) return std::nullopt;
     const Corners corners = corners_of(a, nearest);
     SignedDistance<D> result;
     result.distance = nearest.distance - a.radius - b.radius;
@@ -139,7 +150,10 @@ std::optional<SignedDistance<D>> distance_of_segments(const Convex<D>& a, const 
 template <int D>
 std::optional<SignedDistance<D>> closed_form(const Convex<D>& a, const Convex<D>& b) {
     if (is_round_points(b, 1) && has_few_features(a)) return distance_from_point(a, b);
-    if (is_round_points(a, 1) && has_few_features(b)) return turned_round(distance_from_point(b, a));
+    if (is_round_points(a, 1) && has_few_features(b)) {
+        const auto turned = distance_from_point(b, a);
+        return turned ? std::optional(turned_round(*turned)) : std::nullopt;
+    }
     if (is_round_points(a, 2) && is_round_points(b, 2)) return distance_of_segments(a, b);
     return std::nullopt;
 }
