@@ -125,13 +125,18 @@ std::optional<SignedDistance<D>> distance_of_segments(const Convex<D>& a, const 
     const Places places = nearest_places(a_ends[0], u, b_ends[0], v);
     const DVec<D> on_a = a_ends[0] + u * places.on_a, on_b = b_ends[0] + v * places.on_b, between = on_b - on_a;
     const double gap = length(between);
-    // Nearer than this the direction between the points is rounding.
+    // Nearer than this the direction between the points is rounding; and where nearly parallel segments are nearest may
+    // be. Then there is no plane between them that proves the gap.
     const double scale = std::max({largest(a_ends[1]), largest(b_ends[0]), largest(b_ends[1])});
     if (!(gap > 1e-6 * scale)) return std::nullopt;
+    const DVec<D> normal = between / gap;
+    const double proven = std::min(dot(normal, b_ends[0]), dot(normal, b_ends[1])) -
+                          std::max(dot(normal, a_ends[0]), dot(normal, a_ends[1]));
+    if (gap - proven > 1e-9 * scale) return std::nullopt;
 
     SignedDistance<D> result;
     result.distance = gap - a.radius - b.radius;
-    result.normal = between / gap;
+    result.normal = normal;
     result.on_a = origin + on_a + result.normal * a.radius;
     const auto corners = [](double part) -> Corners {
         return part <= 0 ? Corners{{0}, 1} : part >= 1 ? Corners{{1}, 1} : Corners{{0, 1}, 2};
