@@ -4,6 +4,7 @@
 
 #include <abut/broad_phase/brute_force.hpp>
 #include <abut/broad_phase/bvh.hpp>
+#include <abut/convex/features.hpp>
 #include <abut/math/aabb.hpp>
 #include <abut/math/assert.hpp>
 #include <abut/math/pose.hpp>
@@ -15,7 +16,10 @@
 #include <abut/query/closest.hpp>
 #include <abut/query/contact.hpp>
 #include <abut/query/contains.hpp>
+#include <abut/query/intersection.hpp>
+#include <abut/query/minkowski_sum.hpp>
 #include <abut/query/overlaps.hpp>
+#include <abut/query/polytope.hpp>
 #include <abut/query/raycast.hpp>
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>

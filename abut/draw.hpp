@@ -6,3 +6,5 @@
 #include <abut/draw/draw.hpp>
 #include <abut/draw/projected.hpp>
 #include <abut/draw/svg.hpp>
+#include <abut/draw/trace.hpp>
+#include <abut/draw/voronoi.hpp>

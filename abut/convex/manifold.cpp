@@ -40,13 +40,15 @@ void each_side(const Face<D>& face, const DVec<D>& out, double reach, Visit&& vi
         return;
     }
     if constexpr (D == 3) {
-        DVec<3> middle(0.0);
-        for (std::size_t i = 0; i < face.count; ++i) middle += face.points[i] / static_cast<double>(face.count);
+        // One way round for all edges, so that the two long ones of a sliver look opposite ways.
+        DVec<3> area(0.0);
+        for (std::size_t i = 2; i < face.count; ++i)
+            area += cross(face.points[i - 1] - face.points[0], face.points[i] - face.points[0]);
+        const double round = dot(area, out) < 0 ? -1 : 1;
         for (std::size_t i = 0; i < face.count; ++i) {
             const DVec<3>& from = face.points[i];
             const DVec<3> edge = face.points[(i + 1) % face.count] - from;
-            DVec<3> side = normalized(cross(edge, out), DVec<3>(0.0));
-            if (dot(side, middle - from) > 0) side = -side;
+            const DVec<3> side = normalized(cross(edge, out) * round, DVec<3>(0.0));
             visit(side, dot(side, from), face.indices[i]);
         }
     }
@@ -93,33 +95,58 @@ void record(const Face<D>& left, const DVec<D>& side, double offset, Trace<D>* t
     trace->steps.push_back(std::move(step));
 }
 
+/// The index of the largest value of `measure` over the candidates; of several the lowest.
+template <int D, class Measure>
+std::size_t most(const Candidates<D>& all, Measure&& measure) {
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < all.count; ++i)
+        if (measure(all.points[i]) > measure(all.points[best])) best = i;
+    return best;
+}
+
+/// The deepest, and the one farthest from it.
+std::array<std::size_t, 2> kept(const Candidates<2>& all, std::size_t deepest, const DVec<2>&) {
+    const DVec<2> first = all.points[deepest].position;
+    return {deepest, most(all, [&](const ManifoldPoint<2>& p) { return length_squared(p.position - first); })};
+}
+
+/// The deepest, and the three that make the largest quadrilateral with it: for each that may lie opposite, the two that
+/// are farthest to either side of the diagonal.
+std::array<std::size_t, 4> kept(const Candidates<3>& all, std::size_t deepest, const DVec<3>& normal) {
+    const DVec<3> first = all.points[deepest].position;
+    std::array<std::size_t, 4> result{deepest, deepest, deepest, deepest};
+    double largest = -1;
+    for (std::size_t opposite = 0; opposite < all.count; ++opposite) {
+        if (opposite == deepest) continue;
+        const DVec<3> side = cross(normal, all.points[opposite].position - first);
+        const auto off = [&](const ManifoldPoint<3>& p) { return dot(side, p.position - first); };
+        const std::size_t left = most(all, off), right = most(all, [&](const ManifoldPoint<3>&p) { return -off(p); });
+        const double area = off(all.points[left]) - off(all.points[right]);
+        // Of points in a row, the two ends.
+        const double size = area > 0 ? area : 1e-12 * length(side);
+        if (size <= largest) continue;
+        largest = size;
+        result = {deepest, opposite, off(all.points[left]) > 0 ? left : deepest,
+                  off(all.points[right]) < 0 ? right : deepest};
+    }
+    return result;
+}
+
 template <int D>
-Manifold<D> thinned(const Candidates<D>& all, const DVec<D>& normal) {
+Manifold<D> thinned(const Candidates<D>& all, const DVec<D>& normal, double slack) {
     Manifold<D> result;
-    const auto& points = all.points;
     if (all.count <= result.points.size()) {
-        for (std::size_t i = 0; i < all.count; ++i) result.points[result.count++] = points[i];
+        for (std::size_t i = 0; i < all.count; ++i) result.points[result.count++] = all.points[i];
         return result;
     }
-    // The deepest, the farthest from it, and in 3D the farthest to either side of their line.
-    const auto most = [&](auto&& measure) {
-        std::size_t best = 0;
-        for (std::size_t i = 1; i < all.count; ++i)
-            if (measure(points[i]) > measure(points[best])) best = i;
-        return best;
-    };
-    const std::size_t deepest = most([](const ManifoldPoint<D>& p) { return p.depth; });
-    const DVec<D> first = points[deepest].position;
-    const std::size_t farthest = most([&](const ManifoldPoint<D>& p) { return length_squared(p.position - first); });
-    result.points[result.count++] = points[deepest];
-    if (farthest != deepest) result.points[result.count++] = points[farthest];
-    if constexpr (D == 3) {
-        const DVec<3> side = cross(normal, points[farthest].position - first);
-        const auto off = [&](const ManifoldPoint<3>& p) { return dot(side, p.position - first); };
-        const std::size_t left = most(off), right = most([&](const ManifoldPoint<3>&p) { return -off(p); });
-        if (off(points[left]) > 0) result.points[result.count++] = points[left];
-        if (off(points[right]) < 0) result.points[result.count++] = points[right];
-    }
+    // Of those that are as deep to within the slack the first, which stays the same from frame to frame.
+    const auto depth = [](const ManifoldPoint<D>& p) { return p.depth; };
+    const double least = depth(all.points[most(all, depth)]) - slack;
+    const std::size_t deepest = most(all, [&](const ManifoldPoint<D>& p) { return p.depth >= least ? 1 : 0; });
+    const auto indices = kept(all, deepest, normal);
+    for (std::size_t i = 0; i < indices.size(); ++i)
+        if (std::find(indices.begin(), indices.begin() + i, indices[i]) == indices.begin() + i)
+            result.points[result.count++] = all.points[indices[i]];
     return result;
 }
 
@@ -168,7 +195,7 @@ Manifold<D> manifold(const Convex<D>& a, const Convex<D>& b, const SignedDistanc
         }
     }
     add_deepest(candidates, {distance.on_a - normal * (0.5 * depth), depth, witness_name}, slack);
-    return thinned(candidates, normal);
+    return thinned(candidates, normal, slack);
 }
 
 template <int D>
@@ -187,7 +214,7 @@ Manifold<D> manifold_with_plane(const Convex<D>& a, const DVec<D>& normal, doubl
     }
     const CorePoint<D> lowest = core_support(a, -normal);
     add_deepest(candidates, touching_at(lowest.position, lowest.index), slack);
-    return thinned(candidates, normal);
+    return thinned(candidates, normal, slack);
 }
 
 #define ABUT_INSTANTIATE(D)                                                                                         \

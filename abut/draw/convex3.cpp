@@ -3,7 +3,7 @@
 
 #include <abut/draw/convex.hpp>
 #include <abut/draw/outline.hpp>
-#include <abut/draw/polytope.hpp>
+#include <abut/draw/placed_faces.hpp>
 
 #include <array>
 #include <map>
@@ -15,9 +15,9 @@ namespace {
 
 // --- lines of polytopes ---
 
-using FaceLoop = Polytope::FaceLoop;
+using FaceLoop = PlacedFaces::FaceLoop;
 
-std::vector<Vec3> pushed_out(const Polytope& polytope, const FaceLoop& face, double radius) {
+std::vector<Vec3> pushed_out(const PlacedFaces& polytope, const FaceLoop& face, double radius) {
     std::vector<Vec3> result;
     for (const std::uint32_t i : face.corners) result.push_back(to_float(polytope.corners[i] + face.normal * radius));
     return result;
@@ -37,7 +37,7 @@ void draw_arc(Canvas<3>& canvas, const DVec<3>& center, double radius, const DVe
 /// visit(i, j, face, other): each edge once, with the face on whose loop it runs from i to j and the one where it runs
 /// back.
 template <class Visit>
-void each_edge(const Polytope& polytope, Visit&& visit) {
+void each_edge(const PlacedFaces& polytope, Visit&& visit) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, const FaceLoop*> sides;
     for (const FaceLoop& face : polytope.faces)
         for (std::size_t k = 0; k < face.corners.size(); ++k)
@@ -48,7 +48,7 @@ void each_edge(const Polytope& polytope, Visit&& visit) {
     }
 }
 
-void draw_edges(Canvas<3>& canvas, const Polytope& polytope, double radius, const Style& style) {
+void draw_edges(Canvas<3>& canvas, const PlacedFaces& polytope, double radius, const Style& style) {
     if (radius > 0)
         for (const FaceLoop& face : polytope.faces) canvas.polygon(pushed_out(polytope, face, radius), unfilled(style));
     each_edge(polytope, [&](std::uint32_t i, std::uint32_t j, const FaceLoop& face, const FaceLoop& other) {
@@ -150,7 +150,7 @@ void draw_convex(Canvas<3>& canvas, const Convex<3>& convex, const Style& style)
         const auto end = [&](int i) { return to_float(convex.place.point(DVec<3>(convex.vertices()[i]))); };
         return canvas.line(end(0), end(1), style);
     }
-    const Polytope shape = polytope(convex);
+    const PlacedFaces shape = placed_faces(convex);
     const bool flat_faces = !shape.faces.empty();
     if (style.fill.visible() && flat_faces && convex.radius == 0)
         for (const FaceLoop& face : shape.faces) canvas.polygon(pushed_out(shape, face, 0), fill_only(style));

@@ -60,6 +60,16 @@ Vec2 Polygon::centroid() const {
     return to_float(origin + sum / (3 * weight));
 }
 
+Vec2 Polygon::normal() const {
+    const std::span<const Vec2> corners = points();
+    DVec<2> longest(0.0);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const DVec<2> edge = DVec<2>(corners[(i + 1) % corners.size()]) - DVec<2>(corners[i]);
+        if (length_squared(edge) > length_squared(longest)) longest = edge;
+    }
+    return to_float(normalized(DVec<2>(longest.y, -longest.x)));
+}
+
 Convex<2> convex(const Polygon& polygon) {
     Convex<2> result;
     const std::span<const Vec2> points = polygon.points();

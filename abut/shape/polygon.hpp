@@ -35,6 +35,10 @@ public:
     /// The centre of gravity: of the area, or of the segment or point where there is none.
     Vec2 centroid() const;
 
+    /// Of length 1, out of the longest edge (the first of several); of a segment, at right angles to it; of a point,
+    /// the first axis. Of the thin overlap of two shapes it is that of the line they touch in, to either side.
+    Vec2 normal() const;
+
 private:
     std::vector<Vec2> points_;  ///< empty: the point 0, also after a move
 };

@@ -341,7 +341,7 @@ TYPED_TEST_SUITE(FeaturesOracle, Dimensions);
 TYPED_TEST(FeaturesOracle, AgreesOnRandomShapes) {
     constexpr int D = TypeParam::value;
     Tally tally;
-    for (int i = 0; i < oracle::amount(2000) && !this->HasFailure(); ++i) {
+    for (int i = 0; i < oracle::amount(1200) && !this->HasFailure(); ++i) {
         const std::uint64_t seed = 4711 + static_cast<std::uint64_t>(i);
         SCOPED_TRACE(testing::Message() << "seed " << seed);
         Random random(seed);
@@ -350,7 +350,7 @@ TYPED_TEST(FeaturesOracle, AgreesOnRandomShapes) {
         oracle::Maker<D> maker(Random(seed + 1), random.direction<D>() * away, size);
         check(maker.make(static_cast<oracle::Kind>(i % oracle::kind_count)), random, tally);
     }
-    EXPECT_GT(tally.asked, 4000);
+    EXPECT_GT(tally.asked, 2000);
     EXPECT_GT(tally.inside, tally.asked / 10);
 }
 
@@ -358,15 +358,43 @@ TYPED_TEST(FeaturesOracle, AgreesOnDegenerateShapes) {
     constexpr int D = TypeParam::value;
     Tally tally;
     for (int disturbance = 0; disturbance < oracle::disturbance_count; ++disturbance)
-        for (int i = 0; i < oracle::amount(500) && !this->HasFailure(); ++i) {
+        for (int i = 0; i < oracle::amount(200) && !this->HasFailure(); ++i) {
             const std::uint64_t seed = 99 + static_cast<std::uint64_t>(i);
             SCOPED_TRACE(testing::Message() << "seed " << seed << ", disturbance " << disturbance);
             Random random(seed);
             oracle::LatticeMaker<D> maker(random, static_cast<oracle::Disturbance>(disturbance));
             check(maker.make(), random, tally);
         }
-    EXPECT_GT(tally.asked, 4000);
+    EXPECT_GT(tally.asked, 2000);
     EXPECT_GT(tally.inside, tally.asked / 30);
+}
+
+TYPED_TEST(FeaturesOracle, AgreesOnWhatIsStretchedFlat) {
+    constexpr int D = TypeParam::value;
+    Tally tally;
+    for (int i = 0; i < oracle::amount(150) && !this->HasFailure(); ++i) {
+        const std::uint64_t seed = 31 + static_cast<std::uint64_t>(i);
+        SCOPED_TRACE(testing::Message() << "seed " << seed);
+        Random random(seed);
+        std::vector<Vec<D>> points;
+        for (std::uint32_t k = 2 + random.below(8); k > 0; --k) points.push_back(to_float(random.in_cube<D>()));
+        Vec<D> scale, half;
+        for (int k = 0; k < D; ++k) {
+            scale[k] = random.chance(0.4) ? 0 : random.uniform_float(-2, 2);
+            half[k] = random.uniform_float(0, 1);
+        }
+        const Pose<D> pose{to_float(random.in_cube<D>() * 10.0), random.rotation<D>()};
+        const Affine<D> place = affine(pose) * scaling(scale);
+        check(
+            oracle::sample<D>(oracle::Kind::polytope, at(stretched(*oracle::BuiltHull<D>::build(points), scale), pose),
+                              mapped(oracle::hull_of<D>(points), place)),
+            random, tally);
+        const Box<D> box{points[0], half, random.rotation<D>()};
+        check(oracle::sample<D>(oracle::Kind::stretched_box, at(stretched(Box<D>(box), scale), pose),
+                                oracle::box_of<D>(place * affine(Pose<D>{box.center, box.rotation}), half)),
+              random, tally);
+    }
+    EXPECT_GT(tally.asked, 1000);
 }
 
 }  // namespace

@@ -1,7 +1,10 @@
 #pragma once
 
-// The true signed distance of two polytopes. A gap by trying all pairs of features, with a proof: the plane between
-// them. An overlap by trying all axes.
+// The true signed distance of two polytopes, with what it can be wrong by.
+//
+// A gap is the least distance between a corner, edge or face of one and of the other, and the plane across it proves
+// that there is no less. A depth is the least extent of A - B over the normals of its faces: those of A, those of B,
+// and across an edge of each.
 
 #include "axes.hpp"
 
@@ -23,65 +26,91 @@ struct Nearest {
 };
 
 template <int D>
-DVec<D> nearest_on_segment(const DVec<D>& p, const DVec<D>& from, const DVec<D>& to) {
-    const DVec<D> along = to - from;
-    const double whole = dot(along, along);
-    return whole > 0 ? from + along * std::clamp(dot(p - from, along) / whole, 0.0, 1.0) : from;
-}
-
-/// The lines' nearest points where both are inside, and each end against the other segment.
-template <int D>
-void offer_segments(Nearest<D>& nearest, const DVec<D>& a, const DVec<D>& b, const DVec<D>& c, const DVec<D>& d) {
-    nearest.offer(a, nearest_on_segment(a, c, d));
-    nearest.offer(b, nearest_on_segment(b, c, d));
-    nearest.offer(nearest_on_segment(c, a, b), c);
-    nearest.offer(nearest_on_segment(d, a, b), d);
-    const DVec<D> u = b - a, v = d - c, w = a - c;
-    const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w);
-    const double whole = uu * vv - uv * uv;
-    if (!(whole > 0)) return;
-    const double s = (uv * vw - vv * uw) / whole, t = (uu * vw - uv * uw) / whole;
-    if (s > 0 && s < 1 && t > 0 && t < 1) nearest.offer(a + u * s, c + v * t);
-}
-
-/// Where p projects into the triangle; what projects outside is nearer to an edge.
-inline bool project(const DVec<3>& p, const DVec<3>& a, const DVec<3>& b, const DVec<3>& c, DVec<3>& on) {
-    const DVec<3> normal = normalized(cross(b - a, c - a), DVec<3>(0.0));
-    const double u = dot(cross(b - a, p - a), normal), v = dot(cross(c - b, p - b), normal),
-                 w = dot(cross(a - c, p - c), normal);
-    on = p - normal * dot(p - a, normal);
-    // With some slack, so that nothing falls between the two triangles of a square.
-    return u + v + w > 0 && std::min({u, v, w}) >= -1e-12 * (u + v + w);
-}
-
-template <int D>
 struct Truth {
-    bool overlap = false;  ///< with the radii; exact for polytopes without
+    bool overlap = false;  ///< with the radii; exact for polytopes without, where asked for exactly
     double distance = 0;   ///< signed, with the radii
     DVec<D> normal{0.0};   ///< of length 1, from A to B
     double unproved = 0;   ///< by how much the gap found is above the gap proved by a plane; rounding, or a bug here
     bool rational = false;
 };
 
+/// A polytope's corners seen from some origin, with the edges and triangles between them.
 template <int D>
-Nearest<D> nearest_features(const Polytope<D>& a, const Polytope<D>& b) {
-    const DVec<D> origin = middle(a);
-    const std::vector<DVec<D>> at_a = corners_seen_from(a, origin), at_b = corners_seen_from(b, origin);
-    const auto edges = [](const Polytope<D>& polytope) {
-        return polytope.edges.empty() ? std::vector<std::array<std::uint32_t, 2>>{{0, 0}} : polytope.edges;
-    };
+struct Located {
+    std::vector<DVec<D>> corners;
+    const std::vector<std::array<std::uint32_t, 2>>& edges;
+    const std::vector<std::array<std::uint32_t, 2>>& edge_directions;
+    const std::vector<std::array<std::uint32_t, 3>>& triangles;
+
+    Located(const Polytope<D>& polytope, const DVec<D>& origin)
+        : corners(corners_seen_from(polytope, origin)),
+          edges(polytope.edges),
+          edge_directions(polytope.edge_directions),
+          triangles(polytope.triangles) {}
+
+    double least(const DVec<D>& n) const {
+        double result = std::numeric_limits<double>::infinity();
+        for (const DVec<D>& p : corners) result = std::min(result, dot(n, p));
+        return result;
+    }
+    double most(const DVec<D>& n) const { return -least(-n); }
+};
+
+template <int D>
+DVec<D> nearest_on_segment(const DVec<D>& p, const DVec<D>& from, const DVec<D>& to) {
+    const DVec<D> along = to - from;
+    const double whole = dot(along, along);
+    return whole > 0 ? from + along * std::clamp(dot(p - from, along) / whole, 0.0, 1.0) : from;
+}
+
+/// The lines' nearest points, where both are inside of their segments. Of lines that are nearly parallel the places are
+/// mostly rounding; each is brought nearest to the other.
+template <int D>
+void offer_crossing(Nearest<D>& nearest, const DVec<D>& a, const DVec<D>& b, const DVec<D>& c, const DVec<D>& d) {
+    const DVec<D> u = b - a, v = d - c, w = a - c;
+    const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w);
+    const double whole = uu * vv - uv * uv;
+    if (!(whole > 0)) return;
+    const double slack =
+        1e-14 * (uu * vv + std::abs(uv * vw) + std::abs(vv * uw) + std::abs(uu * vw) + std::abs(uv * uw));
+    const double s = uv * vw - vv * uw, t = uu * vw - uv * uw;
+    if (std::min(s, t) < -slack || std::max(s, t) > whole + slack) return;
+    const DVec<D> there = nearest_on_segment(a + u * std::clamp(s / whole, 0.0, 1.0), c, d);
+    nearest.offer(nearest_on_segment(there, a, b), there);
+}
+
+/// Where p projects into the triangle; what projects outside is nearer to an edge. The point given is always in it.
+inline bool project(const DVec<3>& p, const DVec<3>& a, const DVec<3>& b, const DVec<3>& c, DVec<3>& on) {
+    const DVec<3> normal = cross(b - a, c - a);
+    const double u = dot(cross(b - a, p - a), normal), v = dot(cross(c - b, p - b), normal),
+                 w = dot(cross(a - c, p - c), normal);
+    // With some slack, so that nothing falls between the two triangles of a square.
+    const double whole = u + v + w;
+    if (!(whole > 0) || std::min({u, v, w}) < -1e-12 * whole) return false;
+    on = a + (b - a) * std::clamp(w / whole, 0.0, 1.0) + (c - a) * std::clamp(u / whole, 0.0, 1.0);
+    return true;
+}
+
+template <int D>
+Nearest<D> nearest_features(const Located<D>& a, const Located<D>& b) {
     Nearest<D> nearest;
-    const auto edges_b = edges(b);
-    for (const auto& [i, j] : edges(a))
-        for (const auto& [k, l] : edges_b) offer_segments(nearest, at_a[i], at_a[j], at_b[k], at_b[l]);
+    for (const DVec<D>& p : a.corners)
+        for (const DVec<D>& q : b.corners) nearest.offer(p, q);
+    for (const DVec<D>& p : a.corners)
+        for (const auto& [k, l] : b.edges) nearest.offer(p, nearest_on_segment(p, b.corners[k], b.corners[l]));
+    for (const DVec<D>& p : b.corners)
+        for (const auto& [i, j] : a.edges) nearest.offer(nearest_on_segment(p, a.corners[i], a.corners[j]), p);
+    for (const auto& [i, j] : a.edges)
+        for (const auto& [k, l] : b.edges)
+            offer_crossing(nearest, a.corners[i], a.corners[j], b.corners[k], b.corners[l]);
     if constexpr (D == 3) {
         DVec<3> on;
-        for (const DVec<3>& p : at_b)
-            for (const auto& [i, j, k] : a.triangles)
-                if (project(p, at_a[i], at_a[j], at_a[k], on)) nearest.offer(on, p);
-        for (const DVec<3>& p : at_a)
-            for (const auto& [i, j, k] : b.triangles)
-                if (project(p, at_b[i], at_b[j], at_b[k], on)) nearest.offer(p, on);
+        for (const auto& [i, j, k] : a.triangles)
+            for (const DVec<3>& p : b.corners)
+                if (project(p, a.corners[i], a.corners[j], a.corners[k], on)) nearest.offer(on, p);
+        for (const auto& [i, j, k] : b.triangles)
+            for (const DVec<3>& p : a.corners)
+                if (project(p, b.corners[i], b.corners[j], b.corners[k], on)) nearest.offer(p, on);
     }
     return nearest;
 }
@@ -90,29 +119,114 @@ Nearest<D> nearest_features(const Polytope<D>& a, const Polytope<D>& b) {
 template <int D>
 double gap_along(const Polytope<D>& a, const Polytope<D>& b, const DVec<D>& n) {
     const DVec<D> origin = middle(a);
-    double high_a = -std::numeric_limits<double>::infinity(), low_b = -high_a;
-    for (const DVec<D>& p : corners_seen_from(a, origin)) high_a = std::max(high_a, dot(n, p));
-    for (const DVec<D>& p : corners_seen_from(b, origin)) low_b = std::min(low_b, dot(n, p));
-    return low_b - high_a;
+    return Located<D>(b, origin).least(n) - Located<D>(a, origin).most(n);
+}
+
+/// The least extent of A - B over the axes offered, along either sign of each.
+template <int D>
+struct LeastOver {
+    const Located<D>&a, &b;
+    double extent = std::numeric_limits<double>::infinity();
+    DVec<D> normal{0.0};
+
+    /// Of length 1, or zero: none.
+    void offer(const DVec<D>& n) {
+        if (!(length_squared(n) > 0.5)) return;
+        for (const DVec<D>& way : {n, -n}) {
+            const double now = a.most(way) - b.least(way);
+            if (now >= extent) continue;
+            extent = now;
+            normal = way;
+        }
+    }
+};
+
+/// Of length 1, and at right angles to both to the last digits, however nearly parallel they are; zero where they are
+/// parallel.
+inline DVec<3> across_both(const DVec<3>& e, const DVec<3>& f) {
+    DVec<3> n = normalized(cross(e, f), DVec<3>(0.0));
+    for (const DVec<3>& edge : {e, f}) n -= edge * (dot(edge, n) / dot(edge, edge));
+    return normalized(n, DVec<3>(0.0));
+}
+
+/// Whether no corner is beyond doubt above the others' plane while another is below it: the plane through `in_plane`
+/// across n.
+inline bool on_one_side(const std::vector<DVec<3>>& corners, const DVec<3>& n, const DVec<3>& in_plane, double doubt) {
+    bool above = false, below = false;
+    for (const DVec<3>& p : corners) {
+        const double height = dot(n, p - in_plane);
+        above = above || height > doubt;
+        below = below || height < -doubt;
+        if (above && below) return false;
+    }
+    return true;
+}
+
+/// All normals of the faces of A - B where it has any, and a few more. An edge of each spans a face only where A lies
+/// on one side of the plane along both, and so does B. With axes as good as rounding lets them be, the least extent is
+/// right to about 1e-8 of the largest coordinate: what is nearly parallel or tiny turns an axis far, but then matters
+/// as little.
+inline void offer_face_normals(LeastOver<3>& least) {
+    double reach = 0;
+    for (const Located<3>* both : {&least.a, &least.b}) {
+        const auto& at = both->corners;
+        for (const DVec<3>& p : at) reach = std::max(reach, largest(p));
+        for (const auto& [i, j, k] : both->triangles) least.offer(across_both(at[j] - at[i], at[k] - at[i]));
+    }
+    const auto &at_a = least.a.corners, &at_b = least.b.corners;
+    // One edge may stand for several parallel ones; then only its direction means something.
+    const bool own_a = least.a.edge_directions.size() == least.a.edges.size();
+    const bool own_b = least.b.edge_directions.size() == least.b.edges.size();
+    for (const auto& [i, j] : least.a.edge_directions)
+        for (const auto& [k, l] : least.b.edge_directions) {
+            const DVec<3> e = at_a[j] - at_a[i], f = at_b[l] - at_b[k];
+            const double norm = length(cross(e, f));
+            if (!(norm > 0)) continue;
+            const double doubt = 8e-15 * reach * (1 + reach * (length(e) + length(f)) / norm);
+            const DVec<3> n = across_both(e, f);
+            if (own_a && !on_one_side(at_a, n, at_a[i], doubt)) continue;
+            if (own_b && !on_one_side(at_b, n, at_b[k], doubt)) continue;
+            least.offer(n);
+        }
+}
+inline void offer_face_normals(LeastOver<2>& least) {
+    for (const Located<2>* both : {&least.a, &least.b})
+        for (const auto& [i, j] : both->edge_directions) {
+            const DVec<2> e = both->corners[j] - both->corners[i];
+            least.offer(normalized(DVec<2>(-e.y, e.x), DVec<2>(0.0)));
+        }
 }
 
 template <int D>
 Truth<D> truth(const Polytope<D>& a, const Polytope<D>& b, Arithmetic arithmetic = Arithmetic::exact) {
-    const LeastExtent<D> least = least_extent(a, b, arithmetic);
+    const DVec<D> origin = middle(a);
+    const Located<D> at_a(a, origin), at_b(b, origin);
+    LeastOver<D> least{at_a, at_b};
+    offer_face_normals(least);
+    // Some twenty roundings of numbers no larger than this, in unit vectors whose own error moves nothing but the axis.
+    const double doubt = 1e-14 * largest_coordinate(a, b);
+
     Truth<D> result;
-    result.rational = least.rational;
-    if (least.overlap) {
-        result.distance = -std::max(least.extent, 0.0);
+    result.overlap = least.extent < std::numeric_limits<double>::infinity() && least.extent > doubt;
+    if (result.overlap) {
+        result.distance = -least.extent;
         result.normal = least.normal;
     } else {
-        const Nearest<D> nearest = nearest_features(a, b);
+        const Nearest<D> nearest = nearest_features(at_a, at_b);
         result.distance = std::sqrt(nearest.distance_squared);
-        result.normal = normalized(nearest.on_b - nearest.on_a, least.normal);
+        const DVec<D> some = length_squared(least.normal) > 0 ? least.normal : axis<D>(0);
+        result.normal = normalized(nearest.on_b - nearest.on_a, some);
         // Of what nearly touches, the direction between two points is rounding, and the best axis knows better.
-        result.unproved = result.distance - std::max(gap_along(a, b, result.normal), -least.extent);
+        const double proved = at_b.least(result.normal) - at_a.most(result.normal);
+        result.unproved = result.distance - std::max({proved, -least.extent, 0.0});
+        if (result.distance <= doubt && arithmetic == Arithmetic::exact) {
+            const LeastExtent<D> exact = least_extent(a, b, arithmetic);
+            result.overlap = exact.overlap;
+            result.rational = exact.rational;
+        }
     }
     result.distance -= a.radius + b.radius;
-    result.overlap = a.radius + b.radius > 0 ? result.distance <= 0 : least.overlap;
+    if (a.radius + b.radius > 0) result.overlap = result.distance <= 0;
     return result;
 }
 

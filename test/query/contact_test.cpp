@@ -171,5 +171,59 @@ TYPED_TEST(ContactLaws, HoldForEveryKindOfPair) {
     EXPECT_GT(with_several, pairs / 50);
 }
 
+/// Twice the area of a quadrilateral or less, whatever order its corners come in.
+double twice_area(const std::vector<DVec<2>>& corners) {
+    double most = 0;
+    std::vector<std::size_t> order{0, 1, 2, 3};
+    order.resize(corners.size());
+    do {
+        double sum = 0;
+        for (std::size_t i = 0; i < order.size(); ++i)
+            sum += cross(corners[order[i]], corners[order[(i + 1) % order.size()]]);
+        most = std::max(most, std::abs(sum));
+    } while (std::next_permutation(order.begin(), order.end()));
+    return most;
+}
+
+TEST(Contact, KeepsTheFourPointsOfTheLargestArea) {
+    const Box3 ground{{0, -1, 0}, {10, 1, 10}};
+    for (std::uint64_t seed = 0; seed < 300; ++seed) {
+        SCOPED_TRACE(seed);
+        oracle::Random random(seed);
+        std::vector<Vec3> points;
+        const std::uint32_t sides = 5 + random.below(12);
+        for (std::uint32_t i = 0; i < sides; ++i) {
+            const DVec<2> place = random.direction<2>() * random.uniform(0.8, 1);
+            for (const double height : {0.0, 1.0}) points.push_back(to_float(DVec<3>(place.x, height, place.y)));
+        }
+        const Polyhedron prism = *Polyhedron::build(points);
+        const float tilt = random.uniform_float(-0.002, 0.002), other_tilt = random.uniform_float(-0.002, 0.002);
+        const Pose3 pose{{0, -0.01f, 0}, glm::quat(1, tilt, 0, other_tilt)};
+        const Contact<3> found = contact(ground, at(prism, pose), {.margin = 0.1f});
+        ASSERT_EQ(found.points.size(), 4u);
+
+        std::vector<DVec<2>> kept, corners;
+        std::size_t deepest = 0;
+        double lowest = 1;
+        for (const ContactPoint<3>& point : found.points) kept.emplace_back(point.position.x, point.position.z);
+        for (const Vec3& point : prism.points()) {
+            if (point.y > 0.5f) continue;
+            const DVec<3> placed(pose * point);
+            if (placed.y < lowest) {
+                lowest = placed.y;
+                deepest = corners.size();
+            }
+            corners.emplace_back(placed.x, placed.z);
+        }
+        double most = 0;
+        for (std::size_t i = 0; i < corners.size(); ++i)
+            for (std::size_t j = 0; j < i; ++j)
+                for (std::size_t k = 0; k < j; ++k)
+                    most = std::max(most, twice_area({corners[deepest], corners[i], corners[j], corners[k]}));
+        EXPECT_NEAR(twice_area(kept), most, 1e-3);
+        EXPECT_NEAR(found.depth, -lowest, 1e-5);
+    }
+}
+
 }  // namespace
 }  // namespace abut

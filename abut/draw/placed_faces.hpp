@@ -9,7 +9,7 @@
 namespace abut {
 
 /// In the world, without the ball around the set.
-struct Polytope {
+struct PlacedFaces {
     struct FaceLoop {
         DVec<3> normal;                      ///< of length 1, outwards; zero where the placement has flattened the face
         std::vector<std::uint32_t> corners;  ///< counter-clockwise seen from outside
@@ -19,6 +19,6 @@ struct Polytope {
 };
 
 /// Box, triangle (two faces, back to back) or polyhedron; without faces for anything else.
-Polytope polytope(const Convex<3>& convex);
+PlacedFaces placed_faces(const Convex<3>& convex);
 
 }  // namespace abut

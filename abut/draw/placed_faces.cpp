@@ -1,18 +1,18 @@
-#include <abut/draw/polytope.hpp>
+#include <abut/draw/placed_faces.hpp>
 
 #include <algorithm>
 
 namespace abut {
 namespace {
 
-void add_face(Polytope& result, const Convex<3>& convex, const DVec<3>& normal, std::vector<std::uint32_t> corners) {
+void add_face(PlacedFaces& result, const Convex<3>& convex, const DVec<3>& normal, std::vector<std::uint32_t> corners) {
     const Affine<3>& place = convex.place;
     const bool mirrored = dot(place.column[0], cross(place.column[1], place.column[2])) < 0;
     if (mirrored) std::reverse(corners.begin(), corners.end());
     result.faces.push_back({normalized(mapped_normal(place, normal), DVec<3>(0.0)), std::move(corners)});
 }
 
-void add_box(Polytope& result, const Convex<3>& convex) {
+void add_box(PlacedFaces& result, const Convex<3>& convex) {
     for (std::uint32_t i = 0; i < 8; ++i) {
         DVec<3> corner(convex.own[0]);
         for (int k = 0; k < 3; ++k)
@@ -26,7 +26,7 @@ void add_box(Polytope& result, const Convex<3>& convex) {
     }
 }
 
-void add_triangle(Polytope& result, const Convex<3>& convex) {
+void add_triangle(PlacedFaces& result, const Convex<3>& convex) {
     const Vec3* p = convex.vertices();
     const DVec<3> a(p[0]), b(p[1]), c(p[2]);
     const DVec<3> normal = normalized(cross(b - a, c - a), DVec<3>(0.0));
@@ -34,7 +34,7 @@ void add_triangle(Polytope& result, const Convex<3>& convex) {
     add_face(result, convex, -normal, {0, 2, 1});
 }
 
-void add_facets(Polytope& result, const Convex<3>& convex) {
+void add_facets(PlacedFaces& result, const Convex<3>& convex) {
     const Facets& facets = *convex.facets;
     auto begin = facets.loops.begin();
     for (std::size_t i = 0; i < facets.normals.size(); ++i) {
@@ -46,8 +46,8 @@ void add_facets(Polytope& result, const Convex<3>& convex) {
 
 }  // namespace
 
-Polytope polytope(const Convex<3>& convex) {
-    Polytope result;
+PlacedFaces placed_faces(const Convex<3>& convex) {
+    PlacedFaces result;
     if (convex.inner_radius > 0) return result;
     if (convex.core == Core::box) {
         add_box(result, convex);
