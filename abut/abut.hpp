@@ -16,6 +16,7 @@
 #include <abut/query/closest.hpp>
 #include <abut/query/contact.hpp>
 #include <abut/query/contains.hpp>
+#include <abut/query/early_out.hpp>
 #include <abut/query/intersection.hpp>
 #include <abut/query/minkowski_sum.hpp>
 #include <abut/query/overlaps.hpp>

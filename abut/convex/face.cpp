@@ -128,6 +128,54 @@ Face<3> discs_face_along(const Convex<3>& convex, const DVec<3>& direction) {
     return face;
 }
 
+/// A face a million times as long as wide is an edge: its normal is rounding, and its sides don't end it.
+Face<3> edge_if_thin(const Face<3>& face) {
+    if (face.count < 3) return face;
+    const auto farthest_from = [&](std::size_t from) {
+        std::size_t best = from;
+        double most = 0;
+        for (std::size_t i = 0; i < face.count; ++i) {
+            const double distance = length_squared(face.points[i] - face.points[from]);
+            if (distance > most) {
+                most = distance;
+                best = i;
+            }
+        }
+        return best;
+    };
+    const std::size_t a = farthest_from(0), b = farthest_from(a);
+    const DVec<3> along = face.points[b] - face.points[a];
+    double widest = 0;
+    for (std::size_t i = 0; i < face.count; ++i)
+        widest = std::max(widest, length(cross(along, face.points[i] - face.points[a])));
+    if (widest > 1e-6 * length_squared(along)) return face;
+    Face<3> edge;
+    edge.push_back(face.points[a], face.indices[a]);
+    if (a != b) edge.push_back(face.points[b], face.indices[b]);
+    return edge;
+}
+
+Face<3> any_face_along(const Convex<3>& convex, const DVec<3>& direction) {
+    if (convex.inner_radius > 0) return corner(convex, direction);
+    switch (convex.core) {
+        case Core::box:
+            return box_face_along(convex, direction);
+        case Core::discs:
+            return discs_face_along(convex, direction);
+        case Core::function:
+            return corner(convex, direction);
+        case Core::points:
+            break;
+    }
+    if (convex.facets != nullptr && !convex.facets->normals.empty()) return facet_along(convex, direction);
+    if (convex.count == 3) return triangle_along(convex, direction);
+    if (convex.count != 2) return corner(convex, direction);
+    Face<3> face;
+    face.push_back(vertex(convex, 0), 0);
+    face.push_back(vertex(convex, 1), 1);
+    return face;
+}
+
 }  // namespace
 
 Face<2> face_along(const Convex<2>& convex, const DVec<2>& direction) {
@@ -154,24 +202,7 @@ Face<2> face_along(const Convex<2>& convex, const DVec<2>& direction) {
 }
 
 Face<3> face_along(const Convex<3>& convex, const DVec<3>& direction) {
-    if (convex.inner_radius > 0) return corner(convex, direction);
-    switch (convex.core) {
-        case Core::box:
-            return box_face_along(convex, direction);
-        case Core::discs:
-            return discs_face_along(convex, direction);
-        case Core::function:
-            return corner(convex, direction);
-        case Core::points:
-            break;
-    }
-    if (convex.facets != nullptr && !convex.facets->normals.empty()) return facet_along(convex, direction);
-    if (convex.count == 3) return triangle_along(convex, direction);
-    if (convex.count != 2) return corner(convex, direction);
-    Face<3> face;
-    face.push_back(vertex(convex, 0), 0);
-    face.push_back(vertex(convex, 1), 1);
-    return face;
+    return edge_if_thin(any_face_along(convex, direction));
 }
 
 template <int D>

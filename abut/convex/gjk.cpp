@@ -177,7 +177,24 @@ GjkResult<D> gjk(const CoreDifference<D>& difference, double enough, const Searc
     return Walk<D>(difference, enough, options).run();
 }
 
-template GjkResult<2> gjk(const CoreDifference<2>&, double, const SearchOptions<2>&);
-template GjkResult<3> gjk(const CoreDifference<3>&, double, const SearchOptions<3>&);
+template <int D>
+GjkResult<D> gjk_common_point(const CoreDifference<D>& difference) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    GjkResult<D> best = gjk(difference);
+    for (std::size_t i = 0; i < 2 * D && best.reached > 1e-3 * best.doubt; ++i) {
+        Cache start;
+        start.axis[i / 2] = i % 2 == 0 ? 1.0f : -1.0f;
+        const GjkResult<D> walk = gjk(difference, infinity, {.cache = &start});
+        if (walk.reached < best.reached) best = walk;
+    }
+    return best;
+}
+
+#define ABUT_INSTANTIATE(D)                                                               \
+    template GjkResult<D> gjk(const CoreDifference<D>&, double, const SearchOptions<D>&); \
+    template GjkResult<D> gjk_common_point(const CoreDifference<D>&);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
 
 }  // namespace abut

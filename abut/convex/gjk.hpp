@@ -47,4 +47,9 @@ template <int D>
 GjkResult<D> gjk(const CoreDifference<D>& difference, double enough = std::numeric_limits<double>::infinity(),
                  const SearchOptions<D>& options = {});
 
+/// For two that overlap or touch: walks from one side and then from others, until one comes to the origin. Among
+/// needles a walk may end early.
+template <int D>
+GjkResult<D> gjk_common_point(const CoreDifference<D>& difference);
+
 }  // namespace abut

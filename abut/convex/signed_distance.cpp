@@ -36,7 +36,7 @@ Simplex<D> touching_face(const CoreDifference<D>& difference, const DVec<D>& nor
     Convex<D> moved = difference.b();
     moved.place.offset += normal * depth;
     const CoreDifference<D> touching(difference.a(), moved);
-    return gjk(touching).simplex;
+    return gjk_common_point(touching).simplex;
 }
 
 /// How far the weighted point of a face of A - B is from where it should be.
@@ -57,7 +57,7 @@ CoreDistance<D> deep_distance(const CoreDifference<D>& difference, const GjkResu
         result.face = walk.simplex;
     else if (distance_from(deep.normal * deep.depth, deep.face) > walk.doubt)
         result.face = touching_face(difference, deep.normal, deep.depth);
-    if (walk.proven > result.distance) {
+    if (walk.proven > result.distance + 1e-3 * walk.doubt) {
         result.distance = walk.proven;
         result.normal = walk.axis;
         if (walk.proven <= 0) result.face = touching_face(difference, walk.axis, -walk.proven);

@@ -42,17 +42,11 @@ double outside(const Solid<D>& part, const DVec<D>& point) {
 }
 
 /// A point of both, where they overlap: the cores' nearest points are weighted sums of corners, and what the cores lack
-/// the balls around them reach. A walk among needles may end early; then another begins elsewhere.
+/// the balls around them reach.
 template <int D>
 DVec<D> common_point(const Convex<D>& a, const Convex<D>& b) {
     const CoreDifference<D> difference(a, b);
-    GjkResult<D> walk = gjk(difference);
-    for (int i = 0; i < 2 * D && walk.reached > 1e-3 * walk.doubt; ++i) {
-        Cache start;
-        start.axis[static_cast<std::size_t>(i / 2)] = i % 2 == 0 ? 1.0f : -1.0f;
-        const GjkResult<D> again = gjk(difference, std::numeric_limits<double>::infinity(), {.cache = &start});
-        if (again.reached < walk.reached) walk = again;
-    }
+    const GjkResult<D> walk = gjk_common_point(difference);
     const DVec<D> on_a = walk.simplex.combine(&DifferencePoint<D>::on_a);
     const DVec<D> between = walk.simplex.combine(&DifferencePoint<D>::on_b) - on_a;
     const double gap = length(between);

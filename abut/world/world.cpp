@@ -32,17 +32,27 @@ Id World<D>::add(std::unique_ptr<const detail::StoredShape<D>> stored, const Ite
     std::uint32_t slot = static_cast<std::uint32_t>(items_.size());
     if (free_.empty()) {
         items_.emplace_back();
+        balls_.emplace_back();
     } else {
         slot = free_.back();
         free_.pop_back();
     }
     Item& item = items_[slot];
-    item.stored = std::move(stored);
     item.options = options;
     ++item.generation;
     ++count_;
-    place(slot);
+    take(slot, std::move(stored));
     return id_of(slot);
+}
+
+template <int D>
+void World<D>::take(std::uint32_t slot, std::unique_ptr<const detail::StoredShape<D>> stored) {
+    Item& item = items_[slot];
+    item.stored = std::move(stored);
+    const View<D> own = item.stored->view();
+    item.type = shape_type(own);
+    item.own_ball = bounding_ball(own);
+    place(slot);
 }
 
 template <int D>
@@ -50,8 +60,7 @@ void World<D>::set_shape(Id id, std::unique_ptr<const detail::StoredShape<D>> st
     Item* item = find(id);
     ABUT_ASSERT(item != nullptr);
     if (item == nullptr) return;
-    item->stored = std::move(stored);
-    place(id.index - 1);
+    take(id.index - 1, std::move(stored));
 }
 
 template <int D>
@@ -89,7 +98,9 @@ void World<D>::remove(Id id) {
 template <int D>
 void World<D>::place(std::uint32_t slot) {
     Item& item = items_[slot];
-    item.placed = mapped(item.stored->view(), affine(item.options.pose));
+    const Affine<D> pose = affine(item.options.pose);
+    item.placed = mapped(item.stored->view(), pose);
+    balls_[slot] = moved(item.own_ball, pose);
     const bool finite = is_finite(item.placed);
     ABUT_ASSERT(finite);
     item.box = finite ? box_for_questions(item.placed) : Aabb<D>::empty();

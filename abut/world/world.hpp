@@ -8,7 +8,9 @@
 #include <abut/query/contact.hpp>
 #include <abut/query/raycast.hpp>
 #include <abut/shape/placed.hpp>
+#include <abut/world/bounding_ball.hpp>
 #include <abut/world/id.hpp>
+#include <abut/world/pretest.hpp>
 
 #include <memory>
 #include <optional>
@@ -26,6 +28,10 @@ struct ItemOptions {
     std::uint32_t mask = 0xffffffff;  ///< the layers it pairs with; both sides must agree
     bool fixed = false;               ///< hardly ever moves; two fixed items never pair
     bool sensor = false;              ///< has events and no contacts; queries skip it unless they ask
+};
+
+struct WorldOptions {
+    Pretest pretest = Pretest::measured;  ///< no answer depends on it: for tests and measurements
 };
 
 /// Which items a question is about.
@@ -71,6 +77,7 @@ struct WorldClosest {
 struct UpdateCounts {
     std::size_t near = 0;    ///< pairs whose boxes overlap and whose layers agree
     std::size_t tested = 0;  ///< those of them that were looked at again because one of the two had moved
+    std::size_t balls = 0;   ///< those of them whose bounding balls were asked and settled it: depends on measurements
 };
 
 namespace detail {
@@ -106,6 +113,7 @@ template <int D>
 class World {
 public:
     World() = default;
+    explicit World(const WorldOptions& options) : pretests_(options.pretest) {}
     World(World&&) noexcept = default;
     World& operator=(World&&) noexcept = default;
 
@@ -130,7 +138,8 @@ public:
     std::size_t size() const { return count_; }
 
     /// Finds who touches whom. Allocates nothing once it has seen a scene of this size. A pair of which neither moved
-    /// since the last update isn't looked at again.
+    /// since the last update isn't looked at again. Now and then looks at a clock, to learn for which types of shapes
+    /// it pays to ask their bounding balls first; the events and contacts are the same whatever it finds.
     Events update();
     /// One for each pair that touches without a sensor, as of the last update.
     std::span<const WorldContact<D>> contacts() const { return contacts_; }
@@ -165,12 +174,15 @@ private:
         std::unique_ptr<const detail::StoredShape<D>> stored;  // null: a free slot
         View<D> placed;
         Aabb<D> box = Aabb<D>::empty();
+        BoundingBall<D> own_ball;  // in the shape's own frame
         ItemOptions<D> options;
         std::uint32_t generation = 0;
+        ShapeType type{};
         bool pending = false;  // not yet in the trees as it is now
     };
 
     Id add(std::unique_ptr<const detail::StoredShape<D>> stored, const ItemOptions<D>& options);
+    void take(std::uint32_t slot, std::unique_ptr<const detail::StoredShape<D>> stored);
     void set_shape(Id id, std::unique_ptr<const detail::StoredShape<D>> stored);
     const Item* find(Id id) const;
     Item* find(Id id);
@@ -182,6 +194,10 @@ private:
     void refresh_trees();
     void consider(std::uint32_t slot, std::uint32_t other);
     void look_at(const IdPair& pair);
+    void repeat_last(const IdPair& pair);
+    bool balls_apart(const IdPair& pair) const;
+    bool shapes_touch(const IdPair& pair);
+    void measure(const IdPair& pair, Pretests::Entry& entry);
     void compare_with_last();
 
     template <class F>
@@ -193,6 +209,7 @@ private:
     void visit_overlapping(const View<D>& shape, const Filter& filter, FunctionRef<bool(Id)> visit) const;
 
     std::vector<Item> items_;
+    std::vector<BoundingBall<D>> balls_;  // by slot, where the items are
     std::vector<std::uint32_t> free_;
     std::vector<std::uint32_t> pending_;
     std::size_t count_ = 0;
@@ -205,6 +222,7 @@ private:
     std::vector<WorldContact<D>> contacts_, last_contacts_;
     std::vector<IdPair> began_, stayed_, ended_;
     UpdateCounts counts_;
+    Pretests pretests_;
 };
 
 using World2 = World<2>;

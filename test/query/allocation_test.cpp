@@ -2,6 +2,8 @@
 
 #include "../oracle/check.hpp"
 #include "../oracle/pair.hpp"
+#include <abut/convex/features.hpp>
+#include <abut/query/certify.hpp>
 #include <abut/query/contact.hpp>
 #include <abut/query/contains.hpp>
 #include <abut/query/raycast.hpp>
@@ -47,13 +49,18 @@ namespace {
 template <int D>
 long allocations_of_all_questions(const View<D>& a, const View<D>& b, const Ray<D>& ray) {
     const long before = allocations;
+    Cache cache;
     overlaps(a, b);
-    closest(a, b);
+    overlaps(a, b, {.cache = &cache});
+    closest(a, b, {.cache = &cache});
+    certify(a, b, closest(a, b));
     contact(a, b);
     contact(a, b, {.margin = 1});
     contains(a, ray.origin);
     closest(a, ray.origin);
     raycast(ray, a);
+    if (const auto* convex = std::get_if<Convex<D>>(&a); convex != nullptr && has_features(*convex))
+        closest_feature(*convex, DVec<D>(ray.origin));
     return allocations - before;
 }
 

@@ -3,6 +3,7 @@
 #include "bits.hpp"
 #include "simulation.hpp"
 
+#include <iostream>
 #include <numeric>
 
 #include <gtest/gtest.h>
@@ -10,13 +11,14 @@
 namespace abut::test {
 namespace {
 
-/// All that a world says in the course of a game.
+/// All that a world says in the course of a game; `balls` counts the pairs that were settled by their balls.
 template <int D>
-Bits record(std::uint64_t seed) {
-    Simulation<D> game(seed, 30);
+Bits record(std::uint64_t seed, Pretest pretest = Pretest::measured, int frames = 40, std::size_t* balls = nullptr) {
+    Simulation<D> game(seed, 30, false, pretest);
     Bits result;
-    for (int frame = 0; frame < 40; ++frame) {
+    for (int frame = 0; frame < frames; ++frame) {
         const Events events = game.world.update();
+        if (balls != nullptr) *balls += game.world.counts().balls;
         result.put(events.began);
         result.put(events.stayed);
         result.put(events.ended);
@@ -36,6 +38,72 @@ TEST(Determinism, SameCallsGiveTheSameBits) {
     EXPECT_EQ(record<2>(1), record<2>(1));
     EXPECT_EQ(record<3>(2), record<3>(2));
     EXPECT_NE(record<2>(1), record<2>(3));
+}
+
+template <int D>
+void expect_same_with_and_without_balls(std::uint64_t seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    constexpr int frames = 200;
+    std::size_t by_balls = 0, without = 0;
+    const Bits never = record<D>(seed, Pretest::never, frames, &without);
+    EXPECT_TRUE(never == record<D>(seed, Pretest::always, frames, &by_balls));
+    EXPECT_TRUE(never == record<D>(seed, Pretest::measured, frames));
+    EXPECT_EQ(without, 0u);
+    EXPECT_GT(by_balls, 100u);
+}
+
+TEST(Determinism, BoundingBallsChangeNoAnswer) {
+    expect_same_with_and_without_balls<2>(11);
+    expect_same_with_and_without_balls<3>(12);
+}
+
+/// So many pairs of one type that the world makes up its own mind within a frame, one way or the other.
+template <int D>
+Bits record_crowd(Pretest pretest, std::size_t& balls) {
+    oracle::Random random(D);
+    World<D> world({.pretest = pretest});
+    const double extent = D == 2 ? 14 : 5;
+    const auto points = cloud<D>(random, 9, 0.9);
+    const auto hull = [&] {
+        if constexpr (D == 2)
+            return *Polygon::build(points);
+        else
+            return *Polyhedron::build(points);
+    }();
+    std::vector<Id> ids;
+    for (int i = 0; i < 500; ++i) {
+        const Pose<D> pose = random_pose<D>(random, extent);
+        ids.push_back(i % 2 == 0 ? world.add(hull, {.pose = pose})
+                                 : world.add(Ball<D>{Vec<D>(0.0f), 0.5f}, {.pose = pose}));
+    }
+    Bits result;
+    for (int frame = 0; frame < 30; ++frame) {
+        const Events events = world.update();
+        result.put(events.began);
+        result.put(events.stayed);
+        result.put(events.ended);
+        result.put(world.contacts());
+        balls += world.counts().balls;
+        for (const Id id : ids) world.move(id, moved_a_little(random, world.pose(id), 0.2));
+    }
+    return result;
+}
+
+template <int D>
+void expect_crowd_the_same() {
+    std::size_t always = 0, measured = 0, never = 0;
+    const Bits expected = record_crowd<D>(Pretest::never, never);
+    EXPECT_TRUE(expected == record_crowd<D>(Pretest::always, always));
+    EXPECT_TRUE(expected == record_crowd<D>(Pretest::measured, measured));
+    EXPECT_EQ(never, 0u);
+    EXPECT_GT(always, 1000u);
+    EXPECT_LE(measured, always);
+    std::cout << D << "D: of " << always << " pairs that balls can settle, " << measured << " were left to them\n";
+}
+
+TEST(Determinism, WhatIsMeasuredChangesNoAnswer) {
+    expect_crowd_the_same<2>();
+    expect_crowd_the_same<3>();
 }
 
 /// A scene whose items know their number by `user`, added in some order.

@@ -13,7 +13,8 @@ template <int D>
 class Simulation {
 public:
     /// On a lattice all is of unit size at whole coordinates, so that much touches exactly and many answers tie.
-    Simulation(std::uint64_t seed, int items, bool lattice = false) : random_(seed), lattice_(lattice) {
+    Simulation(std::uint64_t seed, int items, bool lattice = false, Pretest pretest = Pretest::measured)
+        : world({.pretest = pretest}), random_(seed), lattice_(lattice) {
         for (int i = 0; i < items; ++i) add();
     }
 

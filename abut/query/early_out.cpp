@@ -1,0 +1,99 @@
+#include <abut/math/assert.hpp>
+#include <abut/query/early_out.hpp>
+
+#include <chrono>
+
+namespace abut {
+namespace {
+
+/// t / (1 - p), infinite for what never refuses.
+double rank(const TestCost& test) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const double result = test.time / (1 - test.pass);
+    return result < infinity ? result : infinity;
+}
+
+[[maybe_unused]] bool is_cost(const TestCost& test) {
+    return test.time >= 0 && test.pass >= 0 && test.pass <= 1;
+}
+
+/// A run that has got so far on average.
+struct Run {
+    double cost = 0, reached = 1;
+
+    void ask(const TestCost& test) {
+        ABUT_ASSERT(is_cost(test));
+        if (reached > 0) cost += reached * test.time;
+        reached *= test.pass;
+    }
+};
+
+/// How many samples passed all the tests of `mask`.
+double passed_all(std::span<const double> outcomes, std::size_t mask) {
+    double result = 0;
+    for (std::size_t m = 0; m < outcomes.size(); ++m) result += (m & mask) == mask ? outcomes[m] : 0;
+    return result;
+}
+
+}  // namespace
+
+void best_order(std::span<const TestCost> tests, std::span<std::size_t> order) {
+    ABUT_ASSERT(order.size() == tests.size());
+    for (std::size_t i = 0; i < tests.size(); ++i) {
+        ABUT_ASSERT(is_cost(tests[i]));
+        std::size_t place = i;
+        for (; place > 0 && rank(tests[i]) < rank(tests[order[place - 1]]); --place) order[place] = order[place - 1];
+        order[place] = i;
+    }
+}
+
+std::vector<std::size_t> best_order(std::span<const TestCost> tests) {
+    std::vector<std::size_t> order(tests.size());
+    best_order(tests, order);
+    return order;
+}
+
+double expected_cost(std::span<const TestCost> tests) {
+    Run run;
+    for (const TestCost& test : tests) run.ask(test);
+    return run.cost;
+}
+
+double expected_cost(std::span<const TestCost> tests, std::span<const std::size_t> order) {
+    Run run;
+    for (const std::size_t i : order) run.ask(tests[i]);
+    return run.cost;
+}
+
+std::uint64_t steady_nanoseconds() {
+    const auto since = std::chrono::steady_clock::now().time_since_epoch();
+    return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(since).count());
+}
+
+namespace detail {
+
+void best_order(std::span<const double> times, std::span<const double> outcomes, std::span<std::size_t> order) {
+    std::size_t before = 0;
+    for (std::size_t place = 0; place < times.size(); ++place) {
+        // What no sample has got to is judged by itself.
+        const std::size_t given = passed_all(outcomes, before) > 0 ? before : 0;
+        const double reached = passed_all(outcomes, given);
+        std::size_t best = times.size();
+        double least = 0;
+        for (std::size_t i = 0; i < times.size(); ++i) {
+            const std::size_t bit = std::size_t{1} << i;
+            if ((before & bit) != 0) continue;
+            const double pass = reached > 0 ? passed_all(outcomes, given | bit) / reached : 1;
+            const double ranked = rank({times[i], pass});
+            if (best == times.size() || ranked < least) {
+                best = i;
+                least = ranked;
+            }
+        }
+        order[place] = best;
+        before |= std::size_t{1} << best;
+    }
+}
+
+}  // namespace detail
+}  // namespace abut

@@ -1,0 +1,114 @@
+#include <abut/world/bounding_ball.hpp>
+
+#include <cmath>
+
+namespace abut {
+namespace {
+
+/// Many times more than answers in double are wrong by.
+constexpr double of_size = 1e-4, of_position = 1e-12;
+/// 16 ulp of float: what a user's bounds, supports and parts may disagree by.
+constexpr double of_floats = 2e-6;
+
+template <int D>
+BoundingBall<D> around(const Aabb<D>& box) {
+    const DVec<D> low(box.min), high(box.max);
+    return {(low + high) * 0.5, 0.5 * length(high - low) + of_floats * std::max(largest(low), largest(high))};
+}
+
+template <int D>
+BoundingBall<D> around_points(const Vec<D>* points, std::uint32_t count) {
+    DVec<D> low(points[0]), high(points[0]);
+    for (std::uint32_t i = 1; i < count; ++i)
+        for (int k = 0; k < D; ++k) {
+            low[k] = std::min(low[k], static_cast<double>(points[i][k]));
+            high[k] = std::max(high[k], static_cast<double>(points[i][k]));
+        }
+    BoundingBall<D> result{(low + high) * 0.5, 0};
+    for (std::uint32_t i = 0; i < count; ++i)
+        result.radius = std::max(result.radius, length(DVec<D>(points[i]) - result.center));
+    return result;
+}
+
+template <int D>
+BoundingBall<D> around_discs(const Convex<D>& convex) {
+    const DVec<D> a(convex.own[0]), b(convex.own[1]);
+    const double widest = static_cast<double>(std::max(convex.disc_radius[0], convex.disc_radius[1]));
+    return {(a + b) * 0.5, std::sqrt(0.25 * length_squared(b - a) + widest * widest)};
+}
+
+/// Of the core, in its own frame.
+template <int D>
+BoundingBall<D> core_ball(const Convex<D>& convex) {
+    switch (convex.core) {
+        case Core::points:
+            return around_points(convex.vertices(), convex.count);
+        case Core::box:
+            return {DVec<D>(0.0), length(DVec<D>(convex.own[0]))};
+        case Core::discs:
+            return around_discs(convex);
+        case Core::function:
+            break;
+    }
+    Convex<D> core = convex;
+    static_cast<Placement<D>&>(core) = {};
+    return around(bounds(core));
+}
+template <int D>
+BoundingBall<D> core_ball(const Composite<D>& composite) {
+    return around(composite.bounds);
+}
+
+/// No vector gets longer by more than this: |M v|^2 = v . M^T M v, and no eigenvalue of M^T M is above its largest sum
+/// of a row's absolute values.
+template <int D>
+double most_stretch(const Affine<D>& map) {
+    double most = 0;
+    for (const DVec<D>& row : map.column) {
+        double sum = 0;
+        for (const DVec<D>& column : map.column) sum += std::abs(dot(row, column));
+        most = std::max(most, sum);
+    }
+    return std::sqrt(most);
+}
+
+template <int D, class Shape>
+BoundingBall<D> placed_ball(const Shape& shape) {
+    const Placement<D>& placement = shape;
+    const BoundingBall<D> core = core_ball(shape);
+    const double stretch = most_stretch(placement.place);
+    const double radius = (core.radius + placement.inner_radius) * stretch + placement.radius;
+    const double reach = largest(core.center) * stretch + largest(placement.place.offset);
+    return {placement.place.point(core.center), radius * (1 + of_size) + reach * of_position};
+}
+
+}  // namespace
+
+template <int D>
+BoundingBall<D> bounding_ball(const View<D>& view) {
+    if (const auto* convex = std::get_if<Convex<D>>(&view)) return placed_ball<D>(*convex);
+    if (const auto* composite = std::get_if<Composite<D>>(&view)) return placed_ball<D>(*composite);
+    return {DVec<D>(0.0), std::numeric_limits<double>::infinity()};
+}
+
+template <int D>
+BoundingBall<D> moved(const BoundingBall<D>& ball, const Affine<D>& pose) {
+    const double reach = largest(ball.center) + largest(pose.offset);
+    return {pose.point(ball.center), ball.radius + 2 * reach * of_position};
+}
+
+template <int D>
+bool apart(const BoundingBall<D>& a, const BoundingBall<D>& b) {
+    const double reach = a.radius + b.radius;
+    return length_squared(b.center - a.center) > reach * reach;
+}
+
+#define ABUT_INSTANTIATE(D)                                                   \
+    template BoundingBall<D> bounding_ball(const View<D>&);                   \
+    template BoundingBall<D> moved(const BoundingBall<D>&, const Affine<D>&); \
+    template bool apart(const BoundingBall<D>&, const BoundingBall<D>&);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
+
+}  // namespace abut

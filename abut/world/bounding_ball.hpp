@@ -1,0 +1,28 @@
+#pragma once
+
+// Balls around shapes: where two balls are apart, so are the shapes in them.
+
+#include <abut/shape/view.hpp>
+
+namespace abut {
+
+/// Holds a shape, with room for rounding. The radius is infinite or NaN where there is no such ball.
+template <int D>
+struct BoundingBall {
+    DVec<D> center{0.0};
+    double radius = 0;
+};
+
+/// The ball about the middle of a convex core's box; of a composite shape or a user's own, the one around its box.
+template <int D>
+BoundingBall<D> bounding_ball(const View<D>& view);
+
+/// The same ball for the shape moved and turned by `pose`.
+template <int D>
+BoundingBall<D> moved(const BoundingBall<D>& ball, const Affine<D>& pose);
+
+/// True only where the shapes in the balls are apart, by more than an answer about them can be wrong by.
+template <int D>
+bool apart(const BoundingBall<D>& a, const BoundingBall<D>& b);
+
+}  // namespace abut

@@ -1,0 +1,52 @@
+#include <abut/world/pretest.hpp>
+
+#include <algorithm>
+
+namespace abut {
+
+template <int D>
+ShapeType shape_type(const View<D>& view) {
+    if (std::holds_alternative<Solid<D>>(view)) return ShapeType::half_space;
+    if (std::holds_alternative<Composite<D>>(view)) return ShapeType::composite;
+    const Convex<D>& convex = std::get<Convex<D>>(view);
+    switch (convex.core) {
+        case Core::box:
+            return ShapeType::box;
+        case Core::discs:
+            return ShapeType::discs;
+        case Core::function:
+            return ShapeType::function;
+        case Core::points:
+            break;
+    }
+    return static_cast<ShapeType>(std::min(convex.count, 4u) - 1);
+}
+
+Pretests::Entry& Pretests::of(ShapeType a, ShapeType b, bool sensor) {
+    const std::size_t low = static_cast<std::size_t>(std::min(a, b)), high = static_cast<std::size_t>(std::max(a, b));
+    return entries_[sensor ? 1 : 0][high * (high + 1) / 2 + low];
+}
+
+void Pretests::add(Entry& entry, const std::array<double, 3>& laps, bool balls_meet, bool shapes_touch) {
+    constexpr std::array<std::size_t, 2> balls_first{0, 1};
+    const std::span<const std::size_t> usual(balls_first);
+    entry.sampled.add(laps, (balls_meet ? 1u : 0u) | (shapes_touch ? 2u : 0u), usual.subspan(entry.wanted ? 0 : 1));
+    news_ = true;
+}
+
+void Pretests::decide() {
+    if (!news_) return;
+    news_ = false;
+    for (auto& entries : entries_)
+        for (Entry& entry : entries) {
+            if (entry.sampled.samples() < SampledTests<2>::enough) continue;
+            const TestCost balls = entry.sampled.cost(0), shapes = entry.sampled.cost(1);
+            entry.wanted = worth_pretesting(balls.time, balls.pass, shapes.time);
+            entry.sampled.fade();
+        }
+}
+
+template ShapeType shape_type(const View<2>&);
+template ShapeType shape_type(const View<3>&);
+
+}  // namespace abut
