@@ -40,24 +40,13 @@ TEST(Gjk, StopsAsSoonAsYesOrNoIsKnown) {
     EXPECT_EQ(gjk(far, 5.01).exit, GjkExit::within);
 }
 
-/// Comes nearer each time it is asked, by ever less.
-struct Approaching {
-    mutable float times = 0;
-
-    friend Aabb2 bounds(const Approaching&) { return {{1, 0}, {2, 0}}; }
-    friend Vec2 support(const Approaching& shape, const Vec2&) { return {1 + 1 / ++shape.times, 0}; }
-};
-
-TEST(Gjk, NamesTheWaysToGiveUp) {
+TEST(Gjk, SaysWhereItStopsAtTheLastDigit) {
     // Here the square of the distance is at its last digit, and the plane is not.
     const Triangle<3> needle{{-0.00684267143f, 0, -64}, {0.00684267143f, 0, -128}, {-0.00342133571f, 128, -128}};
     const auto stuck =
         gjk(difference<3>(needle, Segment<3>{{-0.00684267143f, -64, -128}, {0.00342133571f, -64, -128}}));
     EXPECT_EQ(stuck.exit, GjkExit::no_progress);
     EXPECT_TRUE(stuck.agreed());
-    const auto endless = gjk(difference<2>(Approaching{}, Circle{{0, 0}, 0}));
-    EXPECT_EQ(endless.exit, GjkExit::bound_reached);
-    EXPECT_FALSE(endless.agreed());
 }
 
 /// A support function that never says the same twice: no walk can end well on it.
