@@ -73,8 +73,37 @@ Candidate<D> better(const Candidate<D>& a, const Candidate<D>& b) {
     return b.distance_squared < a.distance_squared ? b : a;
 }
 
+/// How fast each corner's weight grows along the ways of the plane, for weights that sum to 1.
+std::array<DVec<3>, 3> weight_slopes(const DVec<3>& a, const DVec<3>& b, const DVec<3>& c) {
+    const DVec<3> normal = cross(b - a, c - a);
+    const double area_squared = length_squared(normal);
+    return {cross(normal, c - b) / area_squared, cross(normal, a - c) / area_squared,
+            cross(normal, b - a) / area_squared};
+}
+std::array<DVec<2>, 3> weight_slopes(const DVec<2>& a, const DVec<2>& b, const DVec<2>& c) {
+    const double area = cross(b - a, c - a);
+    const auto turned = [area](const DVec<2>& v) { return DVec<2>(-v.y, v.x) / area; };
+    return {turned(c - b), turned(a - c), turned(b - a)};
+}
+
+/// Weights are quotients of small volumes of large coordinates; on needles that leaves few digits. What they miss the
+/// target by is known to all digits, and corrects them.
+template <int D>
+void refine(const Simplex<D>& simplex, Candidate<D>& inside, const DVec<D>& target) {
+    const auto corner = [&](std::size_t i) { return simplex.points[inside.which[i]].position; };
+    const auto slopes = weight_slopes(corner(0), corner(1), corner(2));
+    for (int round = 0; round < 2; ++round) {
+        DVec<D> missed = -target;
+        for (std::size_t i = 0; i < 3; ++i) missed += corner(i) * inside.weights[i];
+        for (std::size_t i = 0; i < 3; ++i)
+            inside.weights[i] = std::max(0.0, inside.weights[i] - dot(slopes[i], missed));
+    }
+    const double sum = inside.weights[0] + inside.weights[1] + inside.weights[2];
+    for (double& weight : inside.weights) weight /= sum;
+}
+
 /// Moved to the origin's projection onto the triangle's plane, where that is known.
-Candidate<3> sharpened(const Simplex<3>& simplex, const Candidate<3>& inside) {
+Candidate<3> sharpened(const Simplex<3>& simplex, Candidate<3> inside) {
     const DVec<3>& a = simplex.points[inside.which[0]].position;
     const DVec<3> ab = simplex.points[inside.which[1]].position - a, ac = simplex.points[inside.which[2]].position - a;
     const DVec<3> normal = cross(ab, ac);
@@ -82,10 +111,13 @@ Candidate<3> sharpened(const Simplex<3>& simplex, const Candidate<3>& inside) {
     const double longest_squared = std::max({length_squared(ab), length_squared(ac), length_squared(ac - ab)});
     const double area_squared = length_squared(normal);
     if (!(area_squared > least * least * longest_squared)) return inside;
-    return moved_to(inside, normal * (dot(normal, a) / area_squared));
+    const DVec<3> foot = normal * (dot(normal, a) / area_squared);
+    refine(simplex, inside, foot);
+    return moved_to(inside, foot);
 }
 /// In the plane the origin is in the triangle itself.
-Candidate<2> sharpened(const Simplex<2>&, const Candidate<2>& inside) {
+Candidate<2> sharpened(const Simplex<2>& simplex, Candidate<2> inside) {
+    refine(simplex, inside, DVec<2>(0.0));
     return inside;
 }
 
@@ -115,20 +147,6 @@ Candidate<D> closest_on_triangle(const Simplex<D>& simplex, std::size_t i, std::
                   closest_on_segment(simplex, i, k));
 }
 
-/// Whether the plane of i j k parts the origin from l; a face of a flat tetrahedron parts them always.
-bool parts_origin(const Simplex<3>& simplex, std::size_t i, std::size_t j, std::size_t k, std::size_t l) {
-    const DVec<3>& a = simplex.points[i].position;
-    const DVec<3> normal = cross(simplex.points[j].position - a, simplex.points[k].position - a);
-    const double height_origin = -dot(normal, a);
-    const double height_last = dot(normal, simplex.points[l].position - a);
-    const double noise = 1e-15 * length(normal) * (largest(a) + largest(simplex.points[l].position));
-    if (std::abs(height_last) <= noise) return true;
-    return height_last > 0 ? height_origin < 0 : height_origin > 0;
-}
-
-/// Each with the corner opposite.
-constexpr std::size_t tetrahedron_faces[4][4] = {{0, 1, 2, 3}, {0, 3, 1, 2}, {0, 2, 3, 1}, {1, 3, 2, 0}};
-
 template <int D>
 DVec<D> keep(Simplex<D>& simplex, const Candidate<D>& best) {
     const Simplex<D> before = simplex;
@@ -140,36 +158,60 @@ DVec<D> keep(Simplex<D>& simplex, const Candidate<D>& best) {
     return best.point;
 }
 
-/// Sets the weights at the origin, each the volume that it spans with the face opposite. False where they don't lead
-/// there: of a tetrahedron almost without thickness, inside or outside is rounding.
-bool weigh_origin(Simplex<3>& simplex) {
-    double sum = 0, scale = 0;
-    for (const auto& f : tetrahedron_faces) {
-        const DVec<3>&a = simplex.points[f[0]].position, &b = simplex.points[f[1]].position,
-              &c = simplex.points[f[2]].position;
-        simplex.weights[f[3]] = std::abs(dot(a, cross(b, c)));
-        sum += simplex.weights[f[3]];
-        scale = std::max(scale, largest(a));
+/// A face of a tetrahedron, with the corner opposite.
+struct Side {
+    std::array<std::size_t, 3> corners;
+    std::size_t opposite;
+    DVec<3> normal;
+    double origin, last;  ///< heights over it, times the length of the normal: of the origin, of the corner opposite
+    bool flat;            ///< the corner opposite is in its plane, as far as doubles can tell
+
+    Side(const Simplex<3>& simplex, std::size_t i, std::size_t j, std::size_t k, std::size_t l)
+        : corners{i, j, k}, opposite(l) {
+        const DVec<3>&a = simplex.points[i].position, &d = simplex.points[l].position;
+        normal = cross(simplex.points[j].position - a, simplex.points[k].position - a);
+        origin = -dot(normal, a);
+        last = dot(normal, d - a);
+        flat = std::abs(last) <= 1e-15 * length(normal) * (largest(a) + largest(d));
+    }
+
+    /// Whether its plane parts the origin from the corner opposite; always, of a flat tetrahedron.
+    bool parts() const { return flat || (last > 0 ? origin < 0 : origin > 0); }
+};
+
+/// Sets the weights at the origin, each how much of the way to its corner the origin has come from the face opposite.
+/// False where they don't lead there: of a tetrahedron almost without thickness, inside or outside is rounding.
+bool weigh_origin(Simplex<3>& simplex, const std::array<Side, 4>& sides) {
+    double scale = 0;
+    for (const Side& side : sides) {
+        simplex.weights[side.opposite] = side.origin / side.last;
+        scale = std::max(scale, largest(simplex.points[side.opposite].position));
+    }
+    // As in `refine`.
+    for (int round = 0; round < 3; ++round) {
+        const DVec<3> missed = simplex.combine(&DifferencePoint<3>::position);
+        for (const Side& side : sides) simplex.weights[side.opposite] -= dot(side.normal, missed) / side.last;
+    }
+    double sum = 0, least = 1;
+    for (const double weight : simplex.weights) {
+        sum += weight;
+        least = std::min(least, weight);
     }
     for (double& weight : simplex.weights) weight /= sum;
-    return largest(simplex.combine(&DifferencePoint<3>::position)) <= 1e-10 * scale;
+    return least >= 0 && largest(simplex.combine(&DifferencePoint<3>::position)) <= 1e-12 * scale;
 }
 
 DVec<3> reduce_tetrahedron(Simplex<3>& simplex) {
-    std::array<bool, 4> outside;
+    const std::array<Side, 4> sides{Side(simplex, 0, 1, 2, 3), Side(simplex, 0, 3, 1, 2), Side(simplex, 0, 2, 3, 1),
+                                    Side(simplex, 1, 3, 2, 0)};
     bool inside = true;
-    for (std::size_t i = 0; i < 4; ++i) {
-        const auto& f = tetrahedron_faces[i];
-        outside[i] = parts_origin(simplex, f[0], f[1], f[2], f[3]);
-        inside = inside && !outside[i];
-    }
-    if (inside && weigh_origin(simplex)) return DVec<3>(0.0);
+    for (const Side& side : sides) inside = inside && !side.parts();
+    if (inside && weigh_origin(simplex, sides)) return DVec<3>(0.0);
     Candidate<3> best;
     best.distance_squared = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < 4; ++i) {
-        const auto& f = tetrahedron_faces[i];
-        if (inside || outside[i]) best = better(best, closest_on_triangle(simplex, f[0], f[1], f[2]));
-    }
+    for (const Side& side : sides)
+        if (inside || side.parts())
+            best = better(best, closest_on_triangle(simplex, side.corners[0], side.corners[1], side.corners[2]));
     return keep(simplex, best);
 }
 

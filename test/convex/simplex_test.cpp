@@ -109,5 +109,21 @@ TEST(Simplex, NearAFaceFindsTheClosestPoint) {
     EXPECT_LT(length(face.combine(&DifferencePoint<3>::on_a) - DVec<3>(1, 1, 0)), 1e-15);
 }
 
+TEST(Simplex, OfANeedleKnowsItsWeights) {
+    // 36 long and 3e-4 wide: from volumes alone the weights led to a place 1e-5 beside the origin, and it was left for
+    // outside. The weights are those of rational numbers.
+    Simplex<3> simplex;
+    for (const DVec<3>& p : {DVec<3>(1.8535382801015869, 17.776018479940966, -3.6774544660502864),
+                             DVec<3>(-1.8064386701057733, -17.325371928003758, 3.5840265421671118),
+                             DVec<3>(-0.4537176929581731, -4.3489906809527792, 0.89975178248499543),
+                             DVec<3>(1.4168627629357806, 13.585752712852226, -2.8103287450518089)})
+        simplex.points[simplex.count++] = {p, p, DVec<3>(0.0), 0, 0};
+    EXPECT_EQ(reduce_to_closest(simplex), DVec<3>(0.0));
+    ASSERT_EQ(simplex.count, 4u);
+    const double expected[] = {0.22684032243346897, 0.289288430358481, 0.31191097077554275, 0.17196027643250733};
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(simplex.weights[i], expected[i], 1e-8);
+    EXPECT_LT(length(simplex.combine(&DifferencePoint<3>::position)), 1e-14);
+}
+
 }  // namespace
 }  // namespace abut
