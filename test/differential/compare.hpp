@@ -7,9 +7,9 @@
 #include "../oracle/check.hpp"
 #include "../oracle/pair.hpp"
 #include "../oracle/random.hpp"
+#include "peers.hpp"
 
 #include <iostream>
-#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -29,12 +29,6 @@ struct Body {
 };
 struct BodyPair {
     Body a, b;
-};
-
-/// What a peer says.
-struct Answer {
-    double distance;      ///< the gap, or minus the depth
-    DVec<3> normal{0.0};  ///< from A to B, of length 1; only told where there is a gap
 };
 
 inline Sphere placed(const Sphere& ball, const Pose3& pose) {
@@ -137,33 +131,38 @@ struct Tally {
 };
 
 /// Whether the peer's answer bears abut's out.
-inline bool agrees(const std::optional<Answer>& theirs, const Closest<3>& ours, bool overlap, double size,
-                   Tally& tally) {
-    if (!theirs) {
+inline bool agrees(const PeerAnswer& theirs, const Closest<3>& ours, bool overlap, double size, Tally& tally) {
+    if (theirs.state != PeerAnswer::State::answered) {
         ++tally.silent;
         return false;
     }
     const double distance = static_cast<double>(ours.distance);
-    if ((theirs->distance <= 0) != overlap) {
+    if ((theirs.distance <= 0) != overlap) {
         if (std::abs(distance) <= 1e-3 * size) return true;
         ++tally.decisions;
         return false;
     }
     if (overlap) {
-        const double excess = distance - theirs->distance;
+        const double excess = distance - theirs.distance;
         if (excess < -1e-3 * size) ++tally.too_small;
         if (excess > 0.05 * -distance) ++tally.too_large;
         return std::abs(excess) <= 1e-3 * size;
     }
-    const bool gap_agrees = std::abs(theirs->distance - distance) <= 1e-3 * distance + 1e-4 * size;
-    const bool normal_agrees = distance <= 0.05 * size || dot(theirs->normal, DVec<3>(ours.normal)) > 0.999;
+    const bool gap_agrees = std::abs(theirs.distance - distance) <= 1e-3 * distance + 1e-4 * size;
+    const bool normal_agrees = distance <= 0.05 * size || dot(theirs.normal, DVec<3>(ours.normal)) > 0.999;
     if (!gap_agrees) ++tally.gaps;
     if (!normal_agrees) ++tally.normals;
     return gap_agrees && normal_agrees;
 }
 
-template <class Peer>
-void check_pair(const Body& a, const Body& b, const Peer& peer, Tally& tally) {
+/// For the peers.
+inline PeerShape peer_shape_of(const Body& body) {
+    const bool box = std::holds_alternative<Box3>(body.shape);
+    const oracle::Kind kind = box ? oracle::Kind::box : oracle::Kind::polytope;
+    return *peer_shape({kind, nullptr, {}, corners_and_radius(body)});
+}
+
+inline void check_pair(const Body& a, const Body& b, Peer peer, Tally& tally) {
     const auto [ours, overlap] = std::visit(
         [&](const auto& shape_a, const auto& shape_b) {
             const auto in_a = placed(shape_a, a.pose);
@@ -177,12 +176,12 @@ void check_pair(const Body& a, const Body& b, const Peer& peer, Tally& tally) {
     if (std::abs(static_cast<double>(ours.distance)) > 1e-3 * size) {
         EXPECT_EQ(overlap, ours.distance <= 0);
     }
-    if (!agrees(peer(a, b), ours, overlap, size, tally)) oracle::check_pair(sample_of(a), sample_of(b), tally.judged);
+    if (!agrees(peer(peer_shape_of(a), peer_shape_of(b), size), ours, overlap, size, tally))
+        oracle::check_pair(sample_of(a), sample_of(b), tally.judged);
 }
 
 /// Every kind against every kind, `few` of each; stops where abut is wrong.
-template <class Peer>
-Tally compare(const std::string& name, const Peer& peer, int few) {
+inline Tally compare(const std::string& name, Peer peer, int few) {
     constexpr std::uint64_t first_seed = 90210;
     Tally tally;
     for (std::size_t kind_a = 0; kind_a < kind_count; ++kind_a)

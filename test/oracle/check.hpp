@@ -22,14 +22,6 @@ struct Tally {
     double overlapping_share() const { return static_cast<double>(overlapping) / static_cast<double>(pairs); }
 };
 
-/// How far rounding the coordinates of a point to floats moves it at most.
-template <int D>
-double rounding_of(const Vec<D>& point) {
-    double result = 0;
-    for (int i = 0; i < D; ++i) result += ulp(static_cast<double>(point[i]));
-    return result;
-}
-
 /// How far a point is off the surface of a shape.
 template <int D>
 double off_surface(const Polytope<D>& shape, const Vec<D>& point) {

@@ -63,19 +63,29 @@ DVec<D> nearest_on_segment(const DVec<D>& p, const DVec<D>& from, const DVec<D>&
     return whole > 0 ? from + along * std::clamp(dot(p - from, along) / whole, 0.0, 1.0) : from;
 }
 
+/// Where on their lines two segments are nearest, as parts of the square of cross(u, v).
+struct Crossing {
+    double s, t, whole;
+    double doubt;  ///< of s and t
+};
+inline Crossing crossing(const DVec<2>& u, const DVec<2>& v, const DVec<2>& w) {
+    const double n = cross(u, v);
+    return {cross(w, v) * n, cross(w, u) * n, n * n, 1e-14 * length(w) * (length(u) + length(v)) * std::abs(n)};
+}
+inline Crossing crossing(const DVec<3>& u, const DVec<3>& v, const DVec<3>& w) {
+    const DVec<3> n = cross(u, v);
+    return {dot(cross(w, v), n), dot(cross(w, u), n), dot(n, n),
+            1e-14 * length(w) * (length(u) + length(v)) * length(n)};
+}
+
 /// The lines' nearest points, where both are inside of their segments. Of lines that are nearly parallel the places are
 /// mostly rounding; each is brought nearest to the other.
 template <int D>
 void offer_crossing(Nearest<D>& nearest, const DVec<D>& a, const DVec<D>& b, const DVec<D>& c, const DVec<D>& d) {
-    const DVec<D> u = b - a, v = d - c, w = a - c;
-    const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w);
-    const double whole = uu * vv - uv * uv;
-    if (!(whole > 0)) return;
-    const double slack =
-        1e-14 * (uu * vv + std::abs(uv * vw) + std::abs(vv * uw) + std::abs(uu * vw) + std::abs(uv * uw));
-    const double s = uv * vw - vv * uw, t = uu * vw - uv * uw;
-    if (std::min(s, t) < -slack || std::max(s, t) > whole + slack) return;
-    const DVec<D> there = nearest_on_segment(a + u * std::clamp(s / whole, 0.0, 1.0), c, d);
+    const Crossing at = crossing(b - a, d - c, c - a);
+    if (!(at.whole > 0)) return;
+    if (std::min(at.s, at.t) < -at.doubt || std::max(at.s, at.t) > at.whole + at.doubt) return;
+    const DVec<D> there = nearest_on_segment(a + (b - a) * std::clamp(at.s / at.whole, 0.0, 1.0), c, d);
     nearest.offer(nearest_on_segment(there, a, b), there);
 }
 

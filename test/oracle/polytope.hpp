@@ -87,12 +87,25 @@ inline double ulp(double x) {
     return static_cast<double>(std::nextafter(f, std::numeric_limits<float>::infinity())) - static_cast<double>(f);
 }
 
-/// How far an answer about a and b may be off, and how near to touching a yes or no may go either way. Placing a shape
-/// in double rounds as well, which matters where two points far from the origin are the same.
+/// How far rounding the coordinates of a point to floats moves it at most.
+template <int D>
+double rounding_of(const Vec<D>& point) {
+    double result = 0;
+    for (int i = 0; i < D; ++i) result += ulp(static_cast<double>(point[i]));
+    return result;
+}
+
+/// How far placing a shape in double may move it, which matters where two points far from the origin are the same.
+template <int D>
+double placing_error(const Polytope<D>& polytope) {
+    return 1e-14 * std::max(largest(middle(polytope)), largest(polytope.place.offset));
+}
+
+/// How far an answer about a and b may be off, and how near to touching a yes or no may go either way.
 template <int D>
 double margin_of_doubt(const Polytope<D>& a, const Polytope<D>& b) {
-    const double from_origin = std::max(largest(middle(a)), largest(middle(b)));
-    return 1e-5 * std::min(size(a), size(b)) + 16 * ulp(largest_coordinate(a, b)) + 1e-14 * from_origin;
+    return 1e-5 * std::min(size(a), size(b)) + 16 * ulp(largest_coordinate(a, b)) +
+           std::max(placing_error(a), placing_error(b));
 }
 
 template <int D>

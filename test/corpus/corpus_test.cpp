@@ -1,0 +1,112 @@
+// A hundred thousand pairs with answers that are known exactly, ten million where the environment sets ABUT_LONG: no
+// wrong answer outside the margin of doubt.
+
+#include "corpus.hpp"
+
+#include <atomic>
+#include <mutex>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+namespace abut::corpus {
+namespace {
+
+/// What was seen over many pairs.
+struct Summary {
+    std::uint64_t pairs = 0, overlapping = 0, wrong = 0, within_margin = 0;
+    std::array<std::array<std::uint64_t, fault_count>, family_count> faults{};
+    double worst_distance = 0;
+    std::vector<std::string> stories;
+
+    void add(const Place& where, const Verdict& verdict) {
+        ++pairs;
+        overlapping += verdict.overlap ? 1 : 0;
+        within_margin += std::abs(verdict.distance) <= verdict.margin ? 1 : 0;
+        worst_distance = std::max(worst_distance, verdict.worst_distance);
+        if (verdict.faults == 0) return;
+        ++wrong;
+        bool new_to_us = false;
+        for (int fault = 0; fault < fault_count; ++fault) {
+            if ((verdict.faults >> fault & 1u) == 0) continue;
+            std::uint64_t& count = faults[static_cast<std::size_t>(where.family)][static_cast<std::size_t>(fault)];
+            new_to_us = new_to_us || count < few_stories;
+            ++count;
+        }
+        if (!new_to_us) return;
+        std::ostringstream story;
+        story << "  " << where.dimension << "D " << name_of(where.family) << " seed " << where.seed << ", distance "
+              << verdict.distance << ", margin " << verdict.margin << '\n'
+              << verdict.story;
+        stories.push_back(story.str());
+    }
+    void add(const Summary& other) {
+        pairs += other.pairs;
+        overlapping += other.overlapping;
+        within_margin += other.within_margin;
+        wrong += other.wrong;
+        worst_distance = std::max(worst_distance, other.worst_distance);
+        for (std::size_t i = 0; i < family_count; ++i)
+            for (std::size_t j = 0; j < fault_count; ++j) faults[i][j] += other.faults[i][j];
+        stories.insert(stories.end(), other.stories.begin(), other.stories.end());
+    }
+    /// A line a family with faults.
+    std::string table() const {
+        std::ostringstream out;
+        for (std::size_t i = 0; i < family_count; ++i)
+            for (std::size_t j = 0; j < fault_count; ++j)
+                if (faults[i][j] > 0)
+                    out << "  " << family_names[i] << ' ' << fault_names[j] << ' ' << faults[i][j] << '\n';
+        for (const std::string& story : stories) out << story;
+        return out.str();
+    }
+
+    /// Of each family and fault, in each thread.
+    static constexpr std::uint64_t few_stories = 2;
+};
+
+/// The pairs of the numbers first to last - 1, by all threads of the machine. What each thread adds up doesn't depend
+/// on the others; only which stories are told does.
+Summary judged(std::uint64_t first, std::uint64_t last) {
+    constexpr std::uint64_t piece = 500;
+    std::atomic<std::uint64_t> next = first;
+    std::mutex mutex;
+    Summary all;
+    const auto work = [&] {
+        Summary own;
+        for (std::uint64_t from = next.fetch_add(piece); from < last; from = next.fetch_add(piece))
+            for (std::uint64_t number = from; number < std::min(from + piece, last); ++number) {
+                const Place where = place(number);
+                own.add(where, check_corpus_pair(where.dimension, where.family, where.seed));
+            }
+        const std::lock_guard lock(mutex);
+        all.add(own);
+    };
+    std::vector<std::thread> threads;
+    for (unsigned i = std::max(1u, std::thread::hardware_concurrency()); i > 0; --i) threads.emplace_back(work);
+    for (std::thread& thread : threads) thread.join();
+    return all;
+}
+
+/// A tenth of them where nothing is optimised: those builds look for other mistakes.
+#ifdef NDEBUG
+constexpr int usual_pairs = 100'000;
+#else
+constexpr int usual_pairs = 10'000;
+#endif
+
+TEST(Corpus, HasNoWrongAnswer) {
+    const auto pairs = static_cast<std::uint64_t>(oracle::amount(usual_pairs));
+    const Summary all = judged(0, pairs);
+    RecordProperty("pairs", std::to_string(all.pairs));
+    RecordProperty("worst_distance_of_margin", std::to_string(all.worst_distance));
+    EXPECT_EQ(all.wrong, 0u) << all.table();
+    const double overlapping = static_cast<double>(all.overlapping) / static_cast<double>(all.pairs);
+    EXPECT_GT(overlapping, 0.3);
+    EXPECT_LT(overlapping, 0.7);
+    EXPECT_GT(all.within_margin, all.pairs / 20) << "too little of this nearly touches";
+    EXPECT_LT(all.within_margin, all.pairs / 2) << "too much of this can't be told wrong";
+}
+
+}  // namespace
+}  // namespace abut::corpus
