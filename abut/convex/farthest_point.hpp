@@ -9,8 +9,8 @@
 
 namespace abut {
 
-/// The index of the point with the largest dot product, worked out in double as x + y (+ z); of several the lowest. There
-/// is at least one point. As many at a time as the machine's vectors hold, and the same answer whatever that is.
+/// The index of the point with the largest dot product, worked out in double as x + y (+ z); of several the lowest.
+/// There is at least one point. As many at a time as the machine's vectors hold, and the same answer whatever that is.
 std::uint32_t farthest_point(std::span<const Vec2> points, const DVec<2>& direction);
 std::uint32_t farthest_point(std::span<const Vec3> points, const DVec<3>& direction);
 
