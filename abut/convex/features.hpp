@@ -63,7 +63,7 @@ ClosestFeature<2> closest_on_polygon(std::span<const Vec2> points, const DVec<2>
 
 /// Of place(polyhedron), as `Polyhedron` has its points and facets: at least one facet; flat ones, two faces back to
 /// back, too. Right to the rounding of double; where faces of the hull were merged that are not quite in one plane, to
-/// half of `hull_flatness` of its extent. O(n).
+/// half of `hull_flatness` of its extent, and corners may lie before the face by all of it. O(n).
 ClosestFeature<3> closest_on_polyhedron(std::span<const Vec3> points, const Facets& facets, const DVec<3>& point,
                                         const Affine<3>& place = {});
 

@@ -39,7 +39,7 @@ public:
         }
         const bool is_point = !(most > -std::numeric_limits<double>::infinity());
         if (is_point) return closest_on_segment(corner_(0), corner_(0), DVec<2>(0.0));
-        return outside ? closest_in_front() : on_line(nearest_side, side_at(nearest_side));
+        return outside ? closest_in_front() : on_line_at_foot(nearest_side, most);
     }
 
 private:
@@ -59,6 +59,17 @@ private:
         result.normal = side.out;
         result.distance = side.beyond;
         return result;
+    }
+
+    /// From inside. Of sides that lie on one line, to rounding, the one that the foot is on.
+    ClosestFeature<2> on_line_at_foot(std::uint32_t nearest_side, double most) const {
+        for (std::uint32_t i = 0; i < count_; ++i) {
+            const Side side = side_at(i);
+            const double doubt = on_it * std::max(largest(side.a), largest(side.b));
+            if (!side.proper() || side.beyond < most - doubt) continue;
+            if (closest_on_segment(side.a, side.b, DVec<2>(0.0)).kind == FeatureKind::edge) return on_line(i, side);
+        }
+        return on_line(nearest_side, side_at(nearest_side));
     }
 
     ClosestFeature<2> closest_in_front() const {
@@ -96,7 +107,16 @@ ClosestFeature<2> closest_on_loop(std::uint32_t count, double turn, const DVec<2
 
 ClosestFeature<2> closest_on_triangle(const DVec<2>& a, const DVec<2>& b, const DVec<2>& c, const DVec<2>& point) {
     const std::array<DVec<2>, 3> corners{a - point, b - point, c - point};
-    const double turn = cross(b - a, c - a) < 0 ? -1 : 1;
+    // Seen from the corner of the two shorter sides: of a needle the others round them away.
+    double area = 0, least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < 3; ++i) {
+        const DVec<2> u = corners[(i + 1) % 3] - corners[i], v = corners[(i + 2) % 3] - corners[i];
+        const double product = largest(u) * largest(v);
+        if (!(product < least)) continue;
+        least = product;
+        area = cross(u, v);
+    }
+    const double turn = area < 0 ? -1 : 1;
     return closest_on_loop(3, turn, point, [&](std::uint32_t i) { return corners[i]; });
 }
 

@@ -3,6 +3,7 @@
 #include "../oracle/degenerate.hpp"
 #include "../oracle/pair.hpp"
 #include <abut/convex/features.hpp>
+#include <abut/convex/hull.hpp>
 
 #include <gtest/gtest.h>
 
@@ -323,7 +324,9 @@ void check(const oracle::Sample<D>& sample, Random& random, Tally& tally) {
         };
         expect_within(std::abs(found.distance - truth), "distance");
         expect_within(length(point - found.point - found.normal * found.distance), "surface");
-        expect_within(dot(found.normal, support(core, found.normal) - found.point), "support");
+        // Of faces that were merged, corners stand out.
+        const double standing_out = D == 3 && core.facets != nullptr ? 2 * hull_flatness * oracle::size(solid) : 0;
+        expect_within(dot(found.normal, support(core, found.normal) - found.point) - standing_out, "support");
         expect_within(distance_to(corners_of(core, found.kind, found.index), found.point), "named");
         EXPECT_NEAR(length(found.normal), 1, 1e-12);
         ++tally.asked;
