@@ -10,7 +10,8 @@ namespace abut {
 /// Any of them may be left out: closest(a, b, {.cache = &cache, .margin = 0.1f}).
 template <int D>
 struct QueryOptions {
-    /// Where this pair's search ended last time, kept by the caller, one for each pair.
+    /// Where this pair's search ended last time, kept by the caller, one for each pair. Of composite
+    /// shapes nothing is remembered.
     Cache* cache = nullptr;
 
     /// Is told what the engines do, step by step.
