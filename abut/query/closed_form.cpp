@@ -4,8 +4,9 @@
 namespace abut {
 namespace {
 
-/// So many sides are looked at one by one as fast as a search finds the right one.
-constexpr std::size_t few = 64;
+/// So many sides of a polygon are looked at one by one as fast as a search finds the right one. Of a polyhedron they
+/// never are.
+constexpr std::uint32_t few = 8;
 
 template <int D>
 bool is_round_points(const Convex<D>& convex, std::uint32_t count) {
@@ -14,8 +15,7 @@ bool is_round_points(const Convex<D>& convex, std::uint32_t count) {
 
 template <int D>
 bool has_few_features(const Convex<D>& convex) {
-    if (!has_features(convex)) return false;
-    return convex.facets != nullptr ? convex.facets->normals.size() <= few : convex.count <= few;
+    return has_features(convex) && convex.facets == nullptr && convex.count <= few;
 }
 
 /// The corners of a feature, by number; at most three of a face.
@@ -28,10 +28,6 @@ Corners corners_of_face(const Convex<2>&, std::uint32_t face) {
     return {{face}, 1};
 }
 Corners corners_of_face(const Convex<3>& convex, std::uint32_t face) {
-    if (convex.facets != nullptr) {
-        const auto loop = convex.facets->loop(face);
-        return {{loop[0], loop[1], loop[2]}, 3};
-    }
     if (convex.core == Core::points) return {{0, 1, 2}, 3};
     const std::uint32_t axis = face / 2, low = (face & 1u) << axis;
     return {{low, low | 1u << (axis + 1) % 3, low | 1u << (axis + 2) % 3}, 3};
@@ -44,22 +40,11 @@ Corners corners_of(const Convex<D>& convex, const ClosestFeature<D>& feature) {
     return {{feature.index}, 1};
 }
 
-/// Whether all of the core lies behind the feature, seen along its normal. Faces of a hull that were merged aren't
-/// quite flat, which turns the normals of a needle.
-template <int D>
-bool parts(const Convex<D>& core, const ClosestFeature<D>& feature) {
-    if (core.facets == nullptr) return true;
-    const DVec<D> seen = feature.point - reference_point(core);
-    const double height = dot(core_support(core, feature.normal).position - feature.point, feature.normal);
-    return height <= 1e-7 * largest(seen);
-}
-
 /// The distance of a polytope A from a point B, with their radii.
 template <int D>
-std::optional<SignedDistance<D>> distance_from_point(const Convex<D>& a, const Convex<D>& b) {
+SignedDistance<D> distance_from_point(const Convex<D>& a, const Convex<D>& b) {
     const DVec<D> point = b.place.point(DVec<D>(b.vertices()[0]));
     const ClosestFeature<D> nearest = closest_feature(a, point);
-    if (!parts(a, nearest)) return std::nullopt;
     const Corners corners = corners_of(a, nearest);
     SignedDistance<D> result;
     result.distance = nearest.distance - a.radius - b.radius;
@@ -155,10 +140,7 @@ std::optional<SignedDistance<D>> distance_of_segments(const Convex<D>& a, const 
 template <int D>
 std::optional<SignedDistance<D>> closed_form(const Convex<D>& a, const Convex<D>& b) {
     if (is_round_points(b, 1) && has_few_features(a)) return distance_from_point(a, b);
-    if (is_round_points(a, 1) && has_few_features(b)) {
-        const auto turned = distance_from_point(b, a);
-        return turned ? std::optional(turned_round(*turned)) : std::nullopt;
-    }
+    if (is_round_points(a, 1) && has_few_features(b)) return turned_round(distance_from_point(b, a));
     if (is_round_points(a, 2) && is_round_points(b, 2)) return distance_of_segments(a, b);
     return std::nullopt;
 }

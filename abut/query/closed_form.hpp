@@ -1,7 +1,7 @@
 #pragma once
 
-// The pairs whose signed distance has a closed form as right as the searches: a point with a ball around it against any
-// polytope of few sides, and two segments that don't cross. For .cpp files.
+// The pairs whose signed distance has a closed form as right as the searches: a point with a ball around it against
+// another, a segment, a triangle, a box or a polygon of few sides, and two segments that don't cross. For .cpp files.
 
 #include <abut/convex/signed_distance.hpp>
 

@@ -236,10 +236,10 @@ protected:
 };
 
 TEST_P(Golden, AnswersInThePlaneHaveTheSameBitsEverywhere) {
-    EXPECT_EQ(hash_of_answers<2>(), 2487255793011260695u);
+    EXPECT_EQ(hash_of_answers<2>(), 17329281374665649876u);
 }
 TEST_P(Golden, AnswersInSpaceHaveTheSameBitsEverywhere) {
-    EXPECT_EQ(hash_of_answers<3>(), 15093708552439734425u);
+    EXPECT_EQ(hash_of_answers<3>(), 9647346951629085269u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, Golden, testing::ValuesIn(hwy::SupportedAndGeneratedTargets()),
