@@ -108,5 +108,42 @@ TEST(Corpus, HasNoWrongAnswer) {
     EXPECT_LT(all.within_margin, all.pairs / 2) << "too much of this can't be told wrong";
 }
 
+/// Pairs beyond the first hundred thousand that were wrong once, and what was.
+TEST(Corpus, KeepsRightWhatWasWrong) {
+    const struct {
+        int dimension;
+        Family family;
+        std::uint64_t seed;
+        const char* was;
+    } found[] = {
+        {3, Family::half_space, 10234,
+         "no contact point was the deepest: the face that looked along the normal lacked it"},
+        {3, Family::half_space, 276534, "the same by 347"},
+        {3, Family::far, 22868, "the deepest point 1.2 margins deeper than the contact"},
+        {3, Family::lattice, 73184,
+         "a contact point 19 off a shape of 512: sides moved out meet far from a sharp corner"},
+        {3, Family::lattice, 427212, "the same by 30"},
+        {3, Family::lattice, 996212, "a contact point beside an edge that was taken for a face"},
+        {3, Family::lattice, 143148, "points of two edges that are nearly parallel, off both"},
+        {3, Family::lattice, 1746448, "a triangle with two corners 1e-45 apart had no ends"},
+        {3, Family::identical, 3580522, "a sliver taken for a face: a contact point 5e-4 beyond its end"},
+        {3, Family::needle, 469288, "a normal of a face of a needle whose corners were merged"},
+        {3, Family::round, 92198, "an ellipsoid about a flat box 0.1 too deep: the search ended early"},
+        {3, Family::round, 65698, "points of two concentric ellipsoids 2.2 margins off them"},
+        {2, Family::lattice, 1071685, "crossing segments, nearly parallel, taken to be apart"},
+        {3, Family::lattice, 1489184, "nearly parallel segments: a normal 5e-6 off"},
+        {3, Family::identical, 4343522, "the point on B 1e-6 off it: the walk had ended early"},
+        {3, Family::zero_size, 2272996, "no common point was found of what overlaps"},
+        {3, Family::identical, 7866158, "the same: weights of a needle lost their digits"},
+        {3, Family::needle, 8159688, "the same"},
+    };
+    for (const auto& [dimension, family, seed, was] : found) {
+        const Verdict verdict = check_corpus_pair(dimension, family, seed);
+        EXPECT_EQ(verdict.faults, 0u) << dimension << "D " << name_of(family) << " seed " << seed << ", once: " << was
+                                      << '\n'
+                                      << verdict.story;
+    }
+}
+
 }  // namespace
 }  // namespace abut::corpus
