@@ -54,7 +54,7 @@ struct Restless {
     mutable oracle::Random random{1};
     double far;
 
-    friend Aabb3 bounds(const Restless&) { return {{-1, -1, -1}, {1, 1, 1}}; }
+    [[maybe_unused]] friend Aabb3 bounds(const Restless&) { return {{-1, -1, -1}, {1, 1, 1}}; }
     friend Vec3 support(const Restless& shape, const Vec3& direction) {
         return to_float(DVec<3>(direction) * shape.random.uniform(0.5, 1) + shape.random.in_cube<3>() +
                         DVec<3>(shape.far, 0, 0));

@@ -99,7 +99,7 @@ void expect_on_surface(const S& shape, const char* name) {
 struct Ellipsoid {
     Vec3 radii;
 };
-Aabb3 bounds(const Ellipsoid& e) {
+[[maybe_unused]] Aabb3 bounds(const Ellipsoid& e) {
     return {-e.radii, e.radii};
 }
 Vec3 support(const Ellipsoid& e, const Vec3& direction) {

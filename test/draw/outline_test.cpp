@@ -110,7 +110,7 @@ TEST(Outline, OfACylinderAcrossItsAxisKeepsToTheEndItIsTiltedTo) {
 struct Growing {
     mutable float radius = 1;
 };
-Aabb2 bounds(const Growing&) {
+[[maybe_unused]] Aabb2 bounds(const Growing&) {
     return {{-1, -1}, {1, 1}};
 }
 Vec2 support(const Growing& shape, const Vec2& direction) {
@@ -118,7 +118,7 @@ Vec2 support(const Growing& shape, const Vec2& direction) {
 }
 
 struct Nowhere {};
-Aabb2 bounds(const Nowhere&) {
+[[maybe_unused]] Aabb2 bounds(const Nowhere&) {
     return {{-1, -1}, {1, 1}};
 }
 Vec2 support(const Nowhere&, const Vec2&) {

@@ -127,7 +127,7 @@ TEST(BadInput, OfTurnsWithoutLengthCountsAsNone) {
 
 /// A shape whose owner divides by zero.
 struct Broken {
-    friend Aabb3 bounds(const Broken&) { return {{-1, -1, -1}, {1, 1, 1}}; }
+    [[maybe_unused]] friend Aabb3 bounds(const Broken&) { return {{-1, -1, -1}, {1, 1, 1}}; }
     friend Vec3 support(const Broken&, const Vec3&) { return {nan, nan, nan}; }
 };
 
