@@ -139,13 +139,6 @@ Interval interval(const Convex<D>& core, const DVec<D>& axis) {
     return {dot(axis, core_support(core, -axis).position), dot(axis, core_support(core, axis).position)};
 }
 
-template <int D>
-bool is_polytope(const Convex<D>& core) {
-    if (core.inner_radius > 0) return false;
-    return core.core == Core::box ||
-           (core.core == Core::points && (D == 2 || core.count <= 3 || core.facets != nullptr));
-}
-
 SeparatingAxis<2> separating_axis(const CoreDifference<2>& difference, double enough, Trace<2>* trace) {
     Search<2> search(difference, enough, trace);
     for (const Convex<2>* core : {&difference.a(), &difference.b()}) {
@@ -176,7 +169,5 @@ SeparatingAxis<3> separating_axis(const CoreDifference<3>& difference, double en
 
 template Interval interval(const Convex<2>&, const DVec<2>&);
 template Interval interval(const Convex<3>&, const DVec<3>&);
-template bool is_polytope(const Convex<2>&);
-template bool is_polytope(const Convex<3>&);
 
 }  // namespace abut

@@ -30,14 +30,10 @@ struct SeparatingAxis {
     double extent = std::numeric_limits<double>::infinity();
 };
 
-/// Whether a core is a polytope with its faces and edges known: a box, up to three points, a polyhedron with facets.
-template <int D>
-bool is_polytope(const Convex<D>& core);
-
-/// Of two polytopes, without their radii. The extent is the depth where they overlap, and some lower bound of the gap
-/// where not. Two segments, or a segment and a flat thing that it lies along, can lack the axis that matters: what is
-/// found is valid, but needn't be the least. Ends at the first gap wider than `enough`. Never allocates but for the
-/// trace.
+/// Of two polytopes (`has_features`), without their radii. The extent is the depth where they overlap, and some lower
+/// bound of the gap where not. Two segments, or a segment and a flat thing that it lies along, can lack the axis that
+/// matters: what is found is valid, but needn't be the least. Ends at the first gap wider than `enough`. Never
+/// allocates but for the trace.
 SeparatingAxis<2> separating_axis(const CoreDifference<2>& difference,
                                   double enough = std::numeric_limits<double>::infinity(), Trace<2>* trace = nullptr);
 SeparatingAxis<3> separating_axis(const CoreDifference<3>& difference,

@@ -1,3 +1,4 @@
+#include <abut/convex/features.hpp>
 #include <abut/convex/gjk.hpp>
 #include <abut/convex/penetration.hpp>
 #include <abut/convex/sat.hpp>
@@ -24,7 +25,7 @@ bool keeps_its_axes(const Convex<D>& core) {
 /// Whether the separating axes are few, and all there: with one body of some volume the difference has no other sides.
 bool few_axes(const CoreDifference<2>& difference) {
     const Convex<2>&a = difference.a(), &b = difference.b();
-    return is_polytope(a) && is_polytope(b) && a.count + b.count <= 16 && (keeps_its_axes(a) || keeps_its_axes(b));
+    return has_features(a) && has_features(b) && a.count + b.count <= 16 && (keeps_its_axes(a) || keeps_its_axes(b));
 }
 bool few_axes(const CoreDifference<3>& difference) {
     return keeps_its_axes(difference.a()) && keeps_its_axes(difference.b());

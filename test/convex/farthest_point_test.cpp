@@ -1,13 +1,12 @@
 // The same index from every kind of vector unit that this machine has.
 
 #include "../oracle/random.hpp"
+#include "../oracle/vector_units.hpp"
 #include <abut/convex/farthest_point.hpp>
 
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
-
 namespace abut {
 namespace {
 
@@ -19,17 +18,8 @@ std::uint32_t one_by_one(const std::vector<Vec<D>>& points, const DVec<D>& direc
     return best;
 }
 
-/// Runs a test once for each target.
-class FarthestPoint : public testing::TestWithParam<std::int64_t> {
+class FarthestPoint : public oracle::ByVectorUnit {
 protected:
-    void SetUp() override { force(GetParam()); }
-    void TearDown() override { force(0); }
-
-    static void force(std::int64_t target) {
-        hwy::SetSupportedTargetsForTest(target);
-        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    }
-
     template <int D>
     static void expect_the_first_of_the_farthest() {
         for (std::uint64_t seed = 0; seed < 2000; ++seed) {
@@ -58,10 +48,7 @@ TEST_P(FarthestPoint, IsTheFirstOfThem) {
     expect_the_first_of_the_farthest<3>();
 }
 
-INSTANTIATE_TEST_SUITE_P(Targets, FarthestPoint, testing::ValuesIn(hwy::SupportedAndGeneratedTargets()),
-                         [](const testing::TestParamInfo<std::int64_t>& target) {
-                             return std::string(hwy::TargetName(target.param));
-                         });
+INSTANTIATE_TEST_SUITE_P(Targets, FarthestPoint, oracle::vector_units(), oracle::name_of_unit);
 
 }  // namespace
 }  // namespace abut

@@ -2,6 +2,7 @@
 
 #include "../oracle/distance.hpp"
 #include "../oracle/pair.hpp"
+#include <abut/convex/features.hpp>
 #include <abut/convex/sat.hpp>
 #include <abut/shape/cylinder.hpp>
 
@@ -51,10 +52,10 @@ TEST(Sat, EndsAtAGapThatIsWideEnough) {
 }
 
 TEST(Sat, KnowsWhatIsAPolytope) {
-    EXPECT_TRUE(is_polytope<3>(view(Box3{{0, 0, 0}, {1, 1, 1}})));
-    EXPECT_TRUE(is_polytope<3>(view(Segment<3>{{0, 0, 0}, {1, 1, 1}})));
-    EXPECT_FALSE(is_polytope<3>(view(Cylinder{{0, 0, 0}, {1, 1, 1}, 1})));
-    EXPECT_FALSE(is_polytope<3>(view(stretched(Sphere{{0, 0, 0}, 1}, Vec3(1, 2, 3)))));
+    EXPECT_TRUE(has_features<3>(view(Box3{{0, 0, 0}, {1, 1, 1}})));
+    EXPECT_TRUE(has_features<3>(view(Segment<3>{{0, 0, 0}, {1, 1, 1}})));
+    EXPECT_FALSE(has_features<3>(view(Cylinder{{0, 0, 0}, {1, 1, 1}, 1})));
+    EXPECT_FALSE(has_features<3>(view(stretched(Sphere{{0, 0, 0}, 1}, Vec3(1, 2, 3)))));
 }
 
 template <class T>

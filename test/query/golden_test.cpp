@@ -6,6 +6,7 @@
 // from gcc and clang, -O0 and -O3 -march=native.
 
 #include "../oracle/random.hpp"
+#include "../oracle/vector_units.hpp"
 #include <abut/query/certify.hpp>
 #include <abut/query/closest.hpp>
 #include <abut/query/contact.hpp>
@@ -30,8 +31,6 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
-
 namespace abut {
 namespace {
 
@@ -223,17 +222,7 @@ std::uint64_t hash_of_answers() {
     return hash.value();
 }
 
-class Golden : public testing::TestWithParam<std::int64_t> {
-protected:
-    void SetUp() override { force(GetParam()); }
-    void TearDown() override { force(0); }
-
-    /// Only this vector unit; 0: the best there is.
-    static void force(std::int64_t target) {
-        hwy::SetSupportedTargetsForTest(target);
-        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    }
-};
+class Golden : public oracle::ByVectorUnit {};
 
 TEST_P(Golden, AnswersInThePlaneHaveTheSameBitsEverywhere) {
     EXPECT_EQ(hash_of_answers<2>(), 17329281374665649876u);
@@ -242,10 +231,7 @@ TEST_P(Golden, AnswersInSpaceHaveTheSameBitsEverywhere) {
     EXPECT_EQ(hash_of_answers<3>(), 9647346951629085269u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Targets, Golden, testing::ValuesIn(hwy::SupportedAndGeneratedTargets()),
-                         [](const testing::TestParamInfo<std::int64_t>& target) {
-                             return std::string(hwy::TargetName(target.param));
-                         });
+INSTANTIATE_TEST_SUITE_P(Targets, Golden, oracle::vector_units(), oracle::name_of_unit);
 
 }  // namespace
 }  // namespace abut
