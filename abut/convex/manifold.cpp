@@ -165,7 +165,7 @@ Manifold<D> manifold(const Convex<D>& a, const Convex<D>& b, const SignedDistanc
                      Trace<D>* trace) {
     const DVec<D>& normal = distance.normal;
     const double slack = 1e-6 * std::min(size(a), size(b)), depth = -distance.distance;
-    const std::uint32_t witness_name = distance.face.points[0].index_a << 8 ^ distance.face.points[0].index_b;
+    const std::uint32_t witness_name = distance.corners.a[0] << 8 ^ distance.corners.b[0];
 
     Candidates<D> candidates;
     const Face<D> face_a = face_along(a, normal), face_b = face_along(b, -normal);

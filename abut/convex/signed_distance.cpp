@@ -85,6 +85,17 @@ CoreDistance<D> core_distance(const CoreDifference<D>& difference, SearchOptions
                          : deep_distance(difference, walk, options.trace);
 }
 
+template <int D>
+MeetingCorners<D> corners_of(const Simplex<D>& face) {
+    MeetingCorners<D> result;
+    result.count = face.count;
+    for (std::size_t i = 0; i < face.count; ++i) {
+        result.a[i] = face.points[i].index_a;
+        result.b[i] = face.points[i].index_b;
+    }
+    return result;
+}
+
 }  // namespace
 
 template <int D>
@@ -94,8 +105,8 @@ SignedDistance<D> signed_distance(const Convex<D>& a, const Convex<D>& b, const 
     SignedDistance<D> result;
     result.distance = cores.distance - a.radius - b.radius;
     result.normal = cores.normal;
-    result.face = cores.face;
-    result.on_a = difference.origin() + result.face.combine(&DifferencePoint<D>::on_a) + result.normal * a.radius;
+    result.corners = corners_of(cores.face);
+    result.on_a = difference.origin() + cores.face.combine(&DifferencePoint<D>::on_a) + result.normal * a.radius;
     return result;
 }
 

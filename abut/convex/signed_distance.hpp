@@ -5,16 +5,25 @@
 // for in another way.
 
 #include <abut/convex/search_options.hpp>
-#include <abut/convex/simplex.hpp>
+#include <abut/convex/support.hpp>
 
 namespace abut {
 
+/// The corners of the cores that a place on A and one on B are made of, by number; those of no corner are 0.
+template <int D>
+using CornerNumbers = std::array<std::uint32_t, static_cast<std::size_t>(D) + 1>;
+template <int D>
+struct MeetingCorners {
+    CornerNumbers<D> a{}, b{};
+    std::size_t count = 1;  ///< of pairs; the same number may be there twice
+};
+
 template <int D>
 struct SignedDistance {
-    double distance = 0;  ///< the gap, or minus the least translation that parts them
-    DVec<D> normal;       ///< of length 1, from A to B
-    DVec<D> on_a;         ///< in the world; on_b = on_a + distance * normal
-    Simplex<D> face;      ///< the points of the cores that on_a and on_b are made of, relative to some origin
+    double distance = 0;        ///< the gap, or minus the least translation that parts them
+    DVec<D> normal;             ///< of length 1, from A to B
+    DVec<D> on_a;               ///< in the world; on_b = on_a + distance * normal
+    MeetingCorners<D> corners;  ///< at on_a and on_b
 
     DVec<D> on_b() const { return on_a + normal * distance; }
 };

@@ -130,14 +130,20 @@ Convex<D> placed(const Convex<D>& convex, const Placement<D>& placement) {
 
 template <int D>
 bool is_finite(const Convex<D>& convex) {
-    // A sum is finite only where all its terms are; none of them is near the largest double.
-    double sum = convex.radius + convex.inner_radius;
-    for (int i = 0; i < D; ++i) {
-        sum += convex.place.offset[i] * 0;
-        for (int j = 0; j < D; ++j) sum += convex.place.column[static_cast<std::size_t>(i)][j] * 0;
-        for (const Vec<D>& point : convex.own) sum += static_cast<double>(point[i]) * 0;
-    }
-    return std::isfinite(sum + static_cast<double>(convex.disc_radius[0]) + static_cast<double>(convex.disc_radius[1]));
+    // A sum is finite only where all its terms are; none of them is near the largest double. One sum an axis, so that
+    // they don't wait for one another.
+    DVec<D> sum = convex.place.offset * 0.0;
+    for (const DVec<D>& column : convex.place.column) sum += column * 0.0;
+    const std::size_t own = convex.core == Core::discs ? 2
+                            : convex.core == Core::box ? 1
+                            : convex.points == nullptr ? convex.count
+                                                       : 0;
+    for (std::size_t i = 0; i < own; ++i) sum += DVec<D>(convex.own[i]);
+    double total = convex.radius + convex.inner_radius;
+    if (convex.core == Core::discs)
+        total += static_cast<double>(convex.disc_radius[0]) + static_cast<double>(convex.disc_radius[1]);
+    for (int i = 0; i < D; ++i) total += sum[i];
+    return std::isfinite(total);
 }
 
 template <int D>

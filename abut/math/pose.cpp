@@ -74,13 +74,16 @@ Affine<2> affine(const Pose2& pose) {
 }
 
 Affine<3> affine(const Pose3& pose) {
-    const glm::dquat q = unit(pose.rotation);
-    const double xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z;
-    const double xy = q.x * q.y, xz = q.x * q.z, yz = q.y * q.z;
-    const double wx = q.w * q.x, wy = q.w * q.y, wz = q.w * q.z;
-    return {{DVec<3>(1 - 2 * (yy + zz), 2 * (xy + wz), 2 * (xz - wy)),
-             DVec<3>(2 * (xy - wz), 1 - 2 * (xx + zz), 2 * (yz + wx)),
-             DVec<3>(2 * (xz + wy), 2 * (yz - wx), 1 - 2 * (xx + yy))},
+    // The matrix of q / |q|; in double no square of a float overflows, or vanishes unless the float is zero.
+    const glm::dquat q(pose.rotation);
+    const double norm_squared = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
+    const double s = norm_squared == 0 ? 0 : 2 / norm_squared;
+    const double x = q.x * s, y = q.y * s, z = q.z * s;
+    const double xx = q.x * x, yy = q.y * y, zz = q.z * z;
+    const double xy = q.x * y, xz = q.x * z, yz = q.y * z;
+    const double wx = q.w * x, wy = q.w * y, wz = q.w * z;
+    return {{DVec<3>(1 - (yy + zz), xy + wz, xz - wy), DVec<3>(xy - wz, 1 - (xx + zz), yz + wx),
+             DVec<3>(xz + wy, yz - wx, 1 - (xx + yy))},
             DVec<3>(pose.position)};
 }
 

@@ -50,10 +50,8 @@ SignedDistance<D> distance_from_point(const Convex<D>& a, const Convex<D>& b) {
     result.distance = nearest.distance - a.radius - b.radius;
     result.normal = nearest.normal;
     result.on_a = nearest.point + nearest.normal * a.radius;
-    result.face.count = corners.count;
-    result.face.weights[0] = 1;
-    for (std::size_t i = 0; i < corners.count; ++i)
-        result.face.points[i] = {nearest.point - point, nearest.point, point, corners.numbers[i], 0};
+    result.corners.count = corners.count;
+    std::copy(corners.numbers.begin(), corners.numbers.end(), result.corners.a.begin());
     return result;
 }
 
@@ -61,8 +59,7 @@ template <int D>
 SignedDistance<D> turned_round(SignedDistance<D> distance) {
     distance.on_a = distance.on_b();
     distance.normal = -distance.normal;
-    for (std::size_t i = 0; i < distance.face.count; ++i)
-        std::swap(distance.face.points[i].index_a, distance.face.points[i].index_b);
+    std::swap(distance.corners.a, distance.corners.b);
     return distance;
 }
 
@@ -127,11 +124,11 @@ std::optional<SignedDistance<D>> distance_of_segments(const Convex<D>& a, const 
         return part <= 0 ? Corners{{0}, 1} : part >= 1 ? Corners{{1}, 1} : Corners{{0, 1}, 2};
     };
     const Corners of_a = corners(places.on_a), of_b = corners(places.on_b);
-    result.face.count = std::max(of_a.count, of_b.count);
-    result.face.weights[0] = 1;
-    for (std::size_t i = 0; i < result.face.count; ++i)
-        result.face.points[i] = {-between, on_a, on_b, of_a.numbers[std::min(i, of_a.count - 1)],
-                                 of_b.numbers[std::min(i, of_b.count - 1)]};
+    result.corners.count = std::max(of_a.count, of_b.count);
+    for (std::size_t i = 0; i < result.corners.count; ++i) {
+        result.corners.a[i] = of_a.numbers[std::min(i, of_a.count - 1)];
+        result.corners.b[i] = of_b.numbers[std::min(i, of_b.count - 1)];
+    }
     return result;
 }
 
@@ -145,17 +142,7 @@ std::optional<SignedDistance<D>> closed_form(const Convex<D>& a, const Convex<D>
     return std::nullopt;
 }
 
-template <int D>
-SignedDistance<D> part_distance(const Convex<D>& a, const Convex<D>& b, const SearchOptions<D>& options) {
-    if (const auto form = closed_form(a, b)) return *form;
-    return signed_distance(a, b, options);
-}
-
-#define ABUT_INSTANTIATE(D)                                                                    \
-    template std::optional<SignedDistance<D>> closed_form(const Convex<D>&, const Convex<D>&); \
-    template SignedDistance<D> part_distance(const Convex<D>&, const Convex<D>&, const SearchOptions<D>&);
-ABUT_INSTANTIATE(2)
-ABUT_INSTANTIATE(3)
-#undef ABUT_INSTANTIATE
+template std::optional<SignedDistance<2>> closed_form(const Convex<2>&, const Convex<2>&);
+template std::optional<SignedDistance<3>> closed_form(const Convex<3>&, const Convex<3>&);
 
 }  // namespace abut

@@ -13,8 +13,4 @@ namespace abut {
 template <int D>
 std::optional<SignedDistance<D>> closed_form(const Convex<D>& a, const Convex<D>& b);
 
-/// By a closed form, else by the searches.
-template <int D>
-SignedDistance<D> part_distance(const Convex<D>& a, const Convex<D>& b, const SearchOptions<D>& options);
-
 }  // namespace abut

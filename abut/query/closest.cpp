@@ -20,6 +20,18 @@ float first_step(const View<D>& a, const View<D>& b, float start) {
 }
 
 template <int D>
+Closest<D> answer(const SignedDistance<D>& distance, const std::array<Feature, 2>& features) {
+    Closest<D> result;
+    result.distance = static_cast<float>(distance.distance);
+    result.normal = to_float(distance.normal);
+    result.on_a = to_float(distance.on_a);
+    result.on_b = to_float(distance.on_b());
+    result.feature_a = features[0];
+    result.feature_b = features[1];
+    return result;
+}
+
+template <int D>
 class Nearest {
 public:
     explicit Nearest(const SearchOptions<D>& options) : options_(options) {}
@@ -41,17 +53,7 @@ public:
 
     bool any() const { return any_; }
     double distance() const { return least_.distance; }
-    Closest<D> found() const {
-        Closest<D> result;
-        if (!any_) return result;
-        result.distance = static_cast<float>(least_.distance);
-        result.normal = to_float(least_.normal);
-        result.on_a = to_float(least_.on_a);
-        result.on_b = to_float(least_.on_b());
-        result.feature_a = features_[0];
-        result.feature_b = features_[1];
-        return result;
-    }
+    Closest<D> found() const { return any_ ? answer(least_, features_) : Closest<D>(); }
 
 private:
     SearchOptions<D> options_;
@@ -61,6 +63,15 @@ private:
 };
 
 }  // namespace
+
+template <int D>
+Closest<D> closest(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options) {
+    const bool finite = is_finite(a) && is_finite(b);
+    ABUT_ASSERT(finite);
+    if (!finite) return {};
+    const SignedDistance<D> distance = part_distance(a, b, {options.cache, options.trace});
+    return answer(distance, features_of(a, b, distance, 0, 0));
+}
 
 template <int D>
 Closest<D> closest(const View<D>& a, const View<D>& b, const QueryOptions<D>& options) {
@@ -91,5 +102,7 @@ Closest<D> closest(const View<D>& a, const View<D>& b, const QueryOptions<D>& op
 
 template Closest<2> closest(const View<2>&, const View<2>&, const QueryOptions<2>&);
 template Closest<3> closest(const View<3>&, const View<3>&, const QueryOptions<3>&);
+template Closest<2> closest(const Convex<2>&, const Convex<2>&, const QueryOptions<2>&);
+template Closest<3> closest(const Convex<3>&, const Convex<3>&, const QueryOptions<3>&);
 
 }  // namespace abut

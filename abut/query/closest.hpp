@@ -32,6 +32,8 @@ private:
 
 template <int D>
 Closest<D> closest(const View<D>& a, const View<D>& b, const QueryOptions<D>& options = {});
+template <int D>
+Closest<D> closest(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options = {});
 
 /// The signed distance of two shapes with the points and direction it is measured at.
 /// Right to within 1e-5 x the size of the smaller; the depth of cylinders, cones and shapes known by a support function
@@ -39,16 +41,14 @@ Closest<D> closest(const View<D>& a, const View<D>& b, const QueryOptions<D>& op
 template <class A, class B>
 requires Pair<A, B> Closest<dimension<A>> closest(const A& a, const B& b,
                                                   const QueryOptions<dimension<A>>& options = {}) {
-    constexpr int D = dimension<A>;
-    return closest(View<D>(view(a)), View<D>(view(b)), options);
+    return closest(detail::view_beside<A, B>(a), detail::view_beside<B, A>(b), options);
 }
 
 /// The place on a shape closest to a point: `on_a`. Inside, the distance is below zero and `on_a` the nearest way out.
 template <Shape A>
 Closest<dimension<A>> closest(const A& a, const Vec<dimension<A>>& point,
                               const QueryOptions<dimension<A>>& options = {}) {
-    constexpr int D = dimension<A>;
-    return closest(View<D>(view(a)), View<D>(round_points<D>({point}, 0)), options);
+    return closest(a, round_points<dimension<A>>({point}, 0), options);
 }
 
 }  // namespace abut

@@ -6,27 +6,38 @@ namespace abut {
 namespace {
 
 template <int D>
-Manifold<D> parts_manifold(const Convex<D>& a, const Convex<D>& b, const SignedDistance<D>& distance, double margin,
-                           Trace<D>* trace) {
-    return manifold(a, b, distance, margin, trace);
+bool part_contact(const Convex<D>& a, const Solid<D>& b, double reach, double margin, const SearchOptions<D>&,
+                  PartContact<D>& contact) {
+    contact.distance = part_distance(a, b);
+    if (contact.distance.distance > reach) return false;
+    contact.manifold = manifold_with_plane(a, b.normal, b.offset, margin);
+    return true;
 }
 template <int D>
-Manifold<D> parts_manifold(const Convex<D>& a, const Solid<D>& b, const SignedDistance<D>&, double margin, Trace<D>*) {
-    return manifold_with_plane(a, b.normal, b.offset, margin);
-}
-template <int D>
-Manifold<D> parts_manifold(const Solid<D>& a, const Convex<D>& b, const SignedDistance<D>&, double margin, Trace<D>*) {
-    return manifold_with_plane(b, a.normal, a.offset, margin);
+bool part_contact(const Solid<D>& a, const Convex<D>& b, double reach, double margin, const SearchOptions<D>&,
+                  PartContact<D>& contact) {
+    contact.distance = part_distance(a, b);
+    if (contact.distance.distance > reach) return false;
+    contact.manifold = manifold_with_plane(b, a.normal, a.offset, margin);
+    return true;
 }
 
 template <int D>
-Contact<D> answer(const Manifold<D>& found, const SignedDistance<D>& distance, const std::array<Feature, 2>& features) {
+Contact<D> nothing() {
     Contact<D> result;
-    result.normal = to_float(distance.normal);
-    result.depth = static_cast<float>(-distance.distance);
-    for (std::size_t i = 0; i < found.count; ++i)
-        result.points.push_back(
-            {to_float(found.points[i].position), static_cast<float>(found.points[i].depth), found.points[i].feature});
+    result.normal[0] = 1;
+    return result;
+}
+
+template <int D>
+Contact<D> answer(const PartContact<D>& found, const std::array<Feature, 2>& features) {
+    Contact<D> result;
+    result.normal = to_float(found.distance.normal);
+    result.depth = static_cast<float>(-found.distance.distance);
+    for (std::size_t i = 0; i < found.manifold.count; ++i) {
+        const ManifoldPoint<D>& point = found.manifold.points[i];
+        result.points.push_back({to_float(point.position), static_cast<float>(point.depth), point.feature});
+    }
     result.feature_a = features[0];
     result.feature_b = features[1];
     return result;
@@ -35,23 +46,33 @@ Contact<D> answer(const Manifold<D>& found, const SignedDistance<D>& distance, c
 }  // namespace
 
 template <int D>
+Contact<D> contact(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options) {
+    const bool finite = is_finite(a) && is_finite(b);
+    ABUT_ASSERT(finite);
+    const double margin = static_cast<double>(options.margin);
+    PartContact<D> found;
+    if (!finite || !part_contact(a, b, margin, margin, {options.cache, options.trace}, found)) return nothing<D>();
+    return answer(found, features_of(a, b, found.distance, 0, 0));
+}
+
+template <int D>
 Contact<D> contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& options) {
     const bool finite = is_finite(a) && is_finite(b);
     ABUT_ASSERT(finite);
-    Contact<D> result;
-    result.normal[0] = 1;
+    Contact<D> result = nothing<D>();
     if (!finite) return result;
     const double margin = static_cast<double>(options.margin);
     const SearchOptions<D> search = search_options(a, b, options);
     double least = margin;
     each_part_pair(a, b, options.margin,
                    [&](const auto& part_a, std::uint32_t index_a, const auto& part_b, std::uint32_t index_b) {
-                       const SignedDistance<D> distance = part_distance(part_a, part_b, search);
-                       if (distance.distance > least || (result && distance.distance == least)) return true;
+                       PartContact<D> found;
+                       if (!part_contact(part_a, part_b, least, margin, search, found)) return true;
+                       const SignedDistance<D>& distance = found.distance;
+                       if (result && distance.distance == least) return true;
                        // Now, while the parts are there: a composite shape may make them up as it goes.
                        least = distance.distance;
-                       result = answer(parts_manifold(part_a, part_b, distance, margin, options.trace), distance,
-                                       features_of(part_a, part_b, distance, index_a, index_b));
+                       result = answer(found, features_of(part_a, part_b, distance, index_a, index_b));
                        return true;
                    });
     return result;
@@ -59,5 +80,7 @@ Contact<D> contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& op
 
 template Contact<2> contact(const View<2>&, const View<2>&, const QueryOptions<2>&);
 template Contact<3> contact(const View<3>&, const View<3>&, const QueryOptions<3>&);
+template Contact<2> contact(const Convex<2>&, const Convex<2>&, const QueryOptions<2>&);
+template Contact<3> contact(const Convex<3>&, const Convex<3>&, const QueryOptions<3>&);
 
 }  // namespace abut

@@ -49,14 +49,15 @@ struct Contact {
 
 template <int D>
 Contact<D> contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& options = {});
+template <int D>
+Contact<D> contact(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options = {});
 
 /// The contact of two touching or overlapping shapes; of composite ones, of their deepest pair of parts.
 /// With a margin, of shapes up to so far apart as well.
 template <class A, class B>
 requires Pair<A, B> Contact<dimension<A>> contact(const A& a, const B& b,
                                                   const QueryOptions<dimension<A>>& options = {}) {
-    constexpr int D = dimension<A>;
-    return contact(View<D>(view(a)), View<D>(view(b)), options);
+    return contact(detail::view_beside<A, B>(a), detail::view_beside<B, A>(b), options);
 }
 
 }  // namespace abut

@@ -5,20 +5,22 @@ namespace abut {
 namespace {
 
 template <int D>
-bool parts_overlap(const Convex<D>& a, const Convex<D>& b, const SearchOptions<D>& options) {
-    if (const auto form = closed_form(a, b)) return form->distance <= 0;
-    return convex_overlap(a, b, options);
-}
-template <int D>
-bool parts_overlap(const Convex<D>& a, const Solid<D>& b, const SearchOptions<D>&) {
+bool part_overlaps(const Convex<D>& a, const Solid<D>& b, const SearchOptions<D>&) {
     return part_distance(a, b).distance <= 0;
 }
 template <int D>
-bool parts_overlap(const Solid<D>& a, const Convex<D>& b, const SearchOptions<D>& options) {
-    return parts_overlap(b, a, options);
+bool part_overlaps(const Solid<D>& a, const Convex<D>& b, const SearchOptions<D>& options) {
+    return part_overlaps(b, a, options);
 }
 
 }  // namespace
+
+template <int D>
+bool overlaps(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options) {
+    const bool finite = is_finite(a) && is_finite(b);
+    ABUT_ASSERT(finite);
+    return finite && part_overlaps(a, b, SearchOptions<D>{options.cache, options.trace});
+}
 
 template <int D>
 bool overlaps(const View<D>& a, const View<D>& b, const QueryOptions<D>& options) {
@@ -28,7 +30,7 @@ bool overlaps(const View<D>& a, const View<D>& b, const QueryOptions<D>& options
     const SearchOptions<D> search = search_options(a, b, options);
     bool found = false;
     each_part_pair(a, b, 0, [&](const auto& part_a, std::uint32_t, const auto& part_b, std::uint32_t) {
-        found = parts_overlap(part_a, part_b, search);
+        found = part_overlaps(part_a, part_b, search);
         return !found;
     });
     return found;
@@ -36,5 +38,7 @@ bool overlaps(const View<D>& a, const View<D>& b, const QueryOptions<D>& options
 
 template bool overlaps(const View<2>&, const View<2>&, const QueryOptions<2>&);
 template bool overlaps(const View<3>&, const View<3>&, const QueryOptions<3>&);
+template bool overlaps(const Convex<2>&, const Convex<2>&, const QueryOptions<2>&);
+template bool overlaps(const Convex<3>&, const Convex<3>&, const QueryOptions<3>&);
 
 }  // namespace abut

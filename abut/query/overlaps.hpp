@@ -9,13 +9,14 @@ namespace abut {
 
 template <int D>
 bool overlaps(const View<D>& a, const View<D>& b, const QueryOptions<D>& options = {});
+template <int D>
+bool overlaps(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options = {});
 
 /// True where they overlap or touch. Cheaper than `closest`: stops at the first axis that parts them.
 template <class A, class B>
 requires Pair<A, B>
 bool overlaps(const A& a, const B& b, const QueryOptions<dimension<A>>& options = {}) {
-    constexpr int D = dimension<A>;
-    return overlaps(View<D>(view(a)), View<D>(view(b)), options);
+    return overlaps(detail::view_beside<A, B>(a), detail::view_beside<B, A>(b), options);
 }
 
 }  // namespace abut

@@ -11,9 +11,7 @@ SignedDistance<D> part_distance(const Convex<D>& a, const Solid<D>& b, const Sea
     result.normal = -b.normal;
     result.on_a = lowest.position + result.normal * a.radius;
     result.distance = dot(b.normal, result.on_a) - b.offset;
-    result.face.count = 1;
-    result.face.weights[0] = 1;
-    result.face.points[0] = {lowest.position, lowest.position, DVec<D>(0.0), lowest.index, 0};
+    result.corners.a[0] = lowest.index;
     return result;
 }
 
@@ -22,22 +20,22 @@ SignedDistance<D> part_distance(const Solid<D>& a, const Convex<D>& b, const Sea
     SignedDistance<D> result = part_distance(b, a);
     result.on_a = result.on_b();
     result.normal = -result.normal;
-    std::swap(result.face.points[0].index_a, result.face.points[0].index_b);
+    std::swap(result.corners.a, result.corners.b);
     return result;
 }
 
 namespace {
 
-/// The distinct numbers among those of a simplex.
+/// The distinct ones among them.
 template <int D>
 struct Numbers {
-    std::array<std::uint32_t, static_cast<std::size_t>(D) + 1> all{};
+    CornerNumbers<D> all{};
     std::size_t count = 0;
 
-    Numbers(const Simplex<D>& face, std::uint32_t DifferencePoint<D>::*index) {
-        for (std::size_t i = 0; i < face.count; ++i)
-            if (std::find(all.begin(), all.begin() + count, face.points[i].*index) == all.begin() + count)
-                all[count++] = face.points[i].*index;
+    Numbers(const CornerNumbers<D>& corners, std::size_t corner_count) {
+        for (std::size_t i = 0; i < corner_count; ++i)
+            if (std::find(all.begin(), all.begin() + count, corners[i]) == all.begin() + count)
+                all[count++] = corners[i];
     }
 };
 
@@ -65,10 +63,10 @@ std::uint32_t face_number(const Convex<3>& part, const Numbers<3>& numbers, cons
 }  // namespace
 
 template <int D>
-Feature feature_on(const Convex<D>& part, const Simplex<D>& face, std::uint32_t DifferencePoint<D>::*index,
+Feature feature_on(const Convex<D>& part, const CornerNumbers<D>& corners, std::size_t count,
                    [[maybe_unused]] const DVec<D>& out, std::uint32_t number) {
     if (!has_features(part)) return {number, 0, FeatureKind::none};
-    const Numbers<D> numbers(face, index);
+    const Numbers<D> numbers(corners, count);
     if (numbers.count == 1) return {number, numbers.all[0], FeatureKind::vertex};
     if constexpr (D == 3)
         if (numbers.count > 2) return {number, face_number(part, numbers, out), FeatureKind::face};
@@ -76,18 +74,16 @@ Feature feature_on(const Convex<D>& part, const Simplex<D>& face, std::uint32_t 
 }
 
 template <int D>
-Feature feature_on(const Solid<D>&, const Simplex<D>&, std::uint32_t DifferencePoint<D>::*, const DVec<D>&,
-                   std::uint32_t number) {
+Feature feature_on(const Solid<D>&, const CornerNumbers<D>&, std::size_t, const DVec<D>&, std::uint32_t number) {
     return {number, 0, FeatureKind::none};
 }
 
 #define ABUT_INSTANTIATE(D)                                                                               \
     template SignedDistance<D> part_distance(const Convex<D>&, const Solid<D>&, const SearchOptions<D>&); \
     template SignedDistance<D> part_distance(const Solid<D>&, const Convex<D>&, const SearchOptions<D>&); \
-    template Feature feature_on(const Convex<D>&, const Simplex<D>&, std::uint32_t DifferencePoint<D>::*, \
-                                const DVec<D>&, std::uint32_t);                                           \
-    template Feature feature_on(const Solid<D>&, const Simplex<D>&, std::uint32_t DifferencePoint<D>::*,  \
-                                const DVec<D>&, std::uint32_t);
+    template Feature feature_on(const Convex<D>&, const CornerNumbers<D>&, std::size_t, const DVec<D>&,   \
+                                std::uint32_t);                                                           \
+    template Feature feature_on(const Solid<D>&, const CornerNumbers<D>&, std::size_t, const DVec<D>&, std::uint32_t);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

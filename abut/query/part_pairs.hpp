@@ -3,7 +3,7 @@
 // The pairs of convex parts of two shapes, whatever the shapes are. For .cpp files.
 
 #include <abut/math/assert.hpp>
-#include <abut/query/closed_form.hpp>
+#include <abut/query/convex_pair.hpp>
 #include <abut/query/feature.hpp>
 #include <abut/query/options.hpp>
 #include <abut/shape/view.hpp>
@@ -55,20 +55,21 @@ SearchOptions<D> search_options(const View<D>& a, const View<D>& b, const QueryO
     return {composite ? nullptr : options.cache, options.trace};
 }
 
-/// The feature of a part that its witness point lies on. `index` tells whether it is A or B, `out` is its normal.
+/// The feature of a part that its witness point lies on, by the corners it is made of; `out` is the normal out of it.
 template <int D>
-Feature feature_on(const Convex<D>& part, const Simplex<D>& face, std::uint32_t DifferencePoint<D>::*index,
-                   const DVec<D>& out, std::uint32_t number);
+Feature feature_on(const Convex<D>& part, const CornerNumbers<D>& corners, std::size_t count, const DVec<D>& out,
+                   std::uint32_t number);
 template <int D>
-Feature feature_on(const Solid<D>& part, const Simplex<D>& face, std::uint32_t DifferencePoint<D>::*index,
-                   const DVec<D>& out, std::uint32_t number);
+Feature feature_on(const Solid<D>& part, const CornerNumbers<D>& corners, std::size_t count, const DVec<D>& out,
+                   std::uint32_t number);
 
 /// Those of both parts, the first of them A.
 template <int D, class PartA, class PartB>
 std::array<Feature, 2> features_of(const PartA& part_a, const PartB& part_b, const SignedDistance<D>& distance,
                                    std::uint32_t number_a, std::uint32_t number_b) {
-    return {feature_on(part_a, distance.face, &DifferencePoint<D>::index_a, distance.normal, number_a),
-            feature_on(part_b, distance.face, &DifferencePoint<D>::index_b, -distance.normal, number_b)};
+    const MeetingCorners<D>& corners = distance.corners;
+    return {feature_on(part_a, corners.a, corners.count, distance.normal, number_a),
+            feature_on(part_b, corners.b, corners.count, -distance.normal, number_b)};
 }
 
 }  // namespace abut

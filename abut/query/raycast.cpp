@@ -64,7 +64,7 @@ std::optional<BeamHit<D>> cast(const Beam<D>& beam, const Part& part, std::uint3
             // At an edge there are several ways out, and the one found may lie across the ray.
             const bool across = approach < 0.5 * last_approach;
             return BeamHit<D>{along, across ? last_normal : distance.normal, along == 0 && distance.distance < -doubt,
-                              feature_on(part, distance.face, &DifferencePoint<D>::index_a, distance.normal, index)};
+                              feature_on(part, distance.corners.a, distance.corners.count, distance.normal, index)};
         }
         along += distance.distance / approach;
         if (!(along <= beam.length)) return std::nullopt;

@@ -33,6 +33,12 @@ Solid<D> solid(const HalfSpace<D>& half_space);
 template <int D>
 Solid<D> mapped(const Solid<D>& solid, const Affine<D>& map);
 
+/// By a map that keeps all lengths.
+template <int D>
+Solid<D> moved(const Solid<D>& solid, const Affine<D>& rigid) {
+    return mapped(solid, rigid);
+}
+
 /// With its border `radius` farther out.
 template <int D>
 Solid<D> rounded(const Solid<D>& solid, double radius);

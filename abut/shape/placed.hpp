@@ -71,9 +71,23 @@ requires Shape<std::remove_cvref_t<S>> Stretched<S> stretched(S&& shape,
     return {std::forward<S>(shape), scale};
 }
 
+namespace detail {
+
+/// A shape that carries no position of its own can be put where it is wanted at once.
+template <class S, int D>
+concept HasOwnFrame = requires(const S& shape, const Affine<D>& place) {
+    convex(shape, place);
+};
+
+}  // namespace detail
+
 template <class S>
 auto view(const At<S>& shape) {
-    return mapped(view(std::as_const(shape.shape)), affine(shape.pose));
+    using Inner = std::remove_cvref_t<S>;
+    if constexpr (detail::HasOwnFrame<Inner, dimension<Inner>>)
+        return convex(std::as_const(shape.shape), affine(shape.pose));
+    else
+        return moved(view(std::as_const(shape.shape)), affine(shape.pose));
 }
 template <class S>
 auto view(const Rounded<S>& shape) {

@@ -70,8 +70,9 @@ Vec2 Polygon::normal() const {
     return to_float(normalized(DVec<2>(longest.y, -longest.x)));
 }
 
-Convex<2> convex(const Polygon& polygon) {
+Convex<2> convex(const Polygon& polygon, const Affine<2>& place) {
     Convex<2> result;
+    result.place = place;
     const std::span<const Vec2> points = polygon.points();
     result.points = points.data();
     result.count = static_cast<std::uint32_t>(points.size());

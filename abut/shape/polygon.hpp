@@ -43,6 +43,6 @@ private:
     std::vector<Vec2> points_;  ///< empty: the point 0, also after a move
 };
 
-Convex<2> convex(const Polygon& polygon);
+Convex<2> convex(const Polygon& polygon, const Affine<2>& place = {});
 
 }  // namespace abut

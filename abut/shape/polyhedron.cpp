@@ -81,8 +81,9 @@ Vec3 Polyhedron::normal() const {
     return facets().normals[largest_face];
 }
 
-Convex<3> convex(const Polyhedron& polyhedron) {
+Convex<3> convex(const Polyhedron& polyhedron, const Affine<3>& place) {
     Convex<3> result;
+    result.place = place;
     const std::span<const Vec3> points = polyhedron.points();
     result.points = points.data();
     result.count = static_cast<std::uint32_t>(points.size());

@@ -61,6 +61,6 @@ private:
     std::shared_ptr<const Data> data_;  ///< null: the point 0, also after a move
 };
 
-Convex<3> convex(const Polyhedron& polyhedron);
+Convex<3> convex(const Polyhedron& polyhedron, const Affine<3>& place = {});
 
 }  // namespace abut

@@ -144,6 +144,25 @@ View<D> mapped(const View<D>& view, const Affine<D>& map) {
 }
 
 template <int D>
+Convex<D> moved(const Convex<D>& convex, const Affine<D>& rigid) {
+    Convex<D> result = convex;
+    result.place = rigid * convex.place;
+    return result;
+}
+
+template <int D>
+Composite<D> moved(const Composite<D>& composite, const Affine<D>& rigid) {
+    Composite<D> result = composite;
+    result.place = rigid * composite.place;
+    return result;
+}
+
+template <int D>
+View<D> moved(const View<D>& view, const Affine<D>& rigid) {
+    return std::visit([&](const auto& shape) -> View<D> { return moved(shape, rigid); }, view);
+}
+
+template <int D>
 Convex<D> rounded(const Convex<D>& convex, double radius) {
     Convex<D> result = convex;
     result.radius += radius;
@@ -172,6 +191,9 @@ View<D> rounded(const View<D>& view, double radius) {
     template Convex<D> mapped(const Convex<D>&, const Affine<D>&);                \
     template Composite<D> mapped(const Composite<D>&, const Affine<D>&);          \
     template View<D> mapped(const View<D>&, const Affine<D>&);                    \
+    template Convex<D> moved(const Convex<D>&, const Affine<D>&);                 \
+    template Composite<D> moved(const Composite<D>&, const Affine<D>&);           \
+    template View<D> moved(const View<D>&, const Affine<D>&);                     \
     template Convex<D> rounded(const Convex<D>&, double);                         \
     template Composite<D> rounded(const Composite<D>&, double);                   \
     template View<D> rounded(const View<D>&, double);

@@ -65,6 +65,14 @@ Composite<D> mapped(const Composite<D>& composite, const Affine<D>& map);
 template <int D>
 View<D> mapped(const View<D>& view, const Affine<D>& map);
 
+/// By a map that keeps all lengths, such as a pose: the same as `mapped`, with less to find out.
+template <int D>
+Convex<D> moved(const Convex<D>& convex, const Affine<D>& rigid);
+template <int D>
+Composite<D> moved(const Composite<D>& composite, const Affine<D>& rigid);
+template <int D>
+View<D> moved(const View<D>& view, const Affine<D>& rigid);
+
 template <int D>
 Convex<D> rounded(const Convex<D>& convex, double radius);
 template <int D>
@@ -185,6 +193,11 @@ struct DimensionOfView<View<D>> : std::integral_constant<int, D> {};
 template <class S>
 using ViewOf = std::remove_cvref_t<decltype(view(std::declval<const S&>()))>;
 
+template <class V>
+inline constexpr bool is_convex_view = false;
+template <int D>
+inline constexpr bool is_convex_view<Convex<D>> = true;
+
 }  // namespace detail
 
 /// Anything that can be asked questions: a shape of this library, a view of one, or a user's own.
@@ -192,6 +205,19 @@ template <class S>
 concept Shape = requires {
     detail::DimensionOfView<detail::ViewOf<S>>::value;
 };
+
+namespace detail {
+
+/// What a question is asked of: two convex shapes as they are, anything else as a View.
+template <Shape S, class Other>
+decltype(auto) view_beside(const S& shape) {
+    if constexpr (is_convex_view<ViewOf<S>> && is_convex_view<ViewOf<Other>>)
+        return view(shape);
+    else
+        return View<DimensionOfView<ViewOf<S>>::value>(view(shape));
+}
+
+}  // namespace detail
 
 /// 2 or 3.
 template <Shape S>

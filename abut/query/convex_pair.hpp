@@ -1,0 +1,32 @@
+#pragma once
+
+// The questions about two convex parts. Here alone is decided by which way a pair is answered: a closed form, the
+// separating axes of boxes and polygons, or the searches that take any pair. All ways give the same answers. For .cpp
+// files.
+
+#include <abut/convex/manifold.hpp>
+#include <abut/convex/signed_distance.hpp>
+
+namespace abut {
+
+/// Whether they have a point in common.
+template <int D>
+bool part_overlaps(const Convex<D>& a, const Convex<D>& b, const SearchOptions<D>& options);
+
+template <int D>
+SignedDistance<D> part_distance(const Convex<D>& a, const Convex<D>& b, const SearchOptions<D>& options);
+
+/// Where two parts meet.
+template <int D>
+struct PartContact {
+    SignedDistance<D> distance;
+    Manifold<D> manifold;
+};
+
+/// False, and `contact` is of no use, where they are farther apart than `reach`. Points count that are at most `margin`
+/// apart.
+template <int D>
+bool part_contact(const Convex<D>& a, const Convex<D>& b, double reach, double margin, const SearchOptions<D>& options,
+                  PartContact<D>& contact);
+
+}  // namespace abut
