@@ -1,4 +1,5 @@
 #include <abut/convex/face.hpp>
+#include <abut/convex/farthest_point.hpp>
 
 namespace abut {
 namespace {
@@ -40,22 +41,27 @@ Face<3> triangle_along(const Convex<3>& convex, const DVec<3>& direction) {
     return face;
 }
 
-Face<3> facet_along(const Convex<3>& convex, const DVec<3>& direction) {
-    const Facets& facets = *convex.facets;
+/// Which normal looks most along `direction` where the placement turns them apart: each is placed first.
+std::size_t normal_along(const Convex<3>& convex, const DVec<3>& direction) {
     std::size_t best = 0;
-    DVec<3> normal(0.0);
     double most = -2;
-    for (std::size_t i = 0; i < facets.normals.size(); ++i) {
-        const DVec<3> n = normalized(mapped_normal(convex.place, DVec<3>(facets.normals[i])), DVec<3>(0.0));
-        const double along = dot(n, direction);
+    for (std::size_t i = 0; i < convex.facets->normals.size(); ++i) {
+        const DVec<3> normal(convex.facets->normals[i]);
+        const double along = dot(normalized(mapped_normal(convex.place, normal), DVec<3>(0.0)), direction);
         if (along > most) {
             most = along;
             best = i;
-            normal = n;
         }
     }
+    return best;
+}
+
+Face<3> facet_along(const Convex<3>& convex, const DVec<3>& direction) {
+    const Facets& facets = *convex.facets;
+    const std::size_t best = convex.similar ? farthest_point(facets.normals, convex.place.transposed(direction))
+                                            : normal_along(convex, direction);
     Face<3> face;
-    face.normal = normal;
+    face.normal = normalized(mapped_normal(convex.place, DVec<3>(facets.normals[best])), DVec<3>(0.0));
     const std::size_t begin = best == 0 ? 0 : facets.loop_ends[best - 1], corners = facets.loop_ends[best] - begin;
     const std::size_t kept = std::min(corners, Face<3>::capacity / 2);
     for (std::size_t i = 0; i < kept; ++i) {
@@ -129,8 +135,8 @@ Face<3> discs_face_along(const Convex<3>& convex, const DVec<3>& direction) {
 }
 
 /// A face a million times as long as wide is an edge: its normal is rounding, and its sides don't end it.
-Face<3> edge_if_thin(const Face<3>& face) {
-    if (face.count < 3) return face;
+void thin_to_edge(Face<3>& face) {
+    if (face.count < 3) return;
     const auto farthest_from = [&](std::size_t from) {
         std::size_t best = from;
         double most = 0;
@@ -145,14 +151,14 @@ Face<3> edge_if_thin(const Face<3>& face) {
     };
     const std::size_t a = farthest_from(0), b = farthest_from(a);
     const DVec<3> along = face.points[b] - face.points[a];
-    double widest = 0;
+    double widest_squared = 0;
     for (std::size_t i = 0; i < face.count; ++i)
-        widest = std::max(widest, length(cross(along, face.points[i] - face.points[a])));
-    if (widest > 1e-6 * length_squared(along)) return face;
+        widest_squared = std::max(widest_squared, length_squared(cross(along, face.points[i] - face.points[a])));
+    if (std::sqrt(widest_squared) > 1e-6 * length_squared(along)) return;
     Face<3> edge;
     edge.push_back(face.points[a], face.indices[a]);
     if (a != b) edge.push_back(face.points[b], face.indices[b]);
-    return edge;
+    face = edge;
 }
 
 Face<3> any_face_along(const Convex<3>& convex, const DVec<3>& direction) {
@@ -202,7 +208,9 @@ Face<2> face_along(const Convex<2>& convex, const DVec<2>& direction) {
 }
 
 Face<3> face_along(const Convex<3>& convex, const DVec<3>& direction) {
-    return edge_if_thin(any_face_along(convex, direction));
+    Face<3> face = any_face_along(convex, direction);
+    thin_to_edge(face);
+    return face;
 }
 
 template <int D>

@@ -17,6 +17,17 @@ struct Face {
     std::size_t count = 0;
     DVec<D> normal{0.0};  ///< outwards, where there are D points or more
 
+    Face() = default;
+    Face(const Face& other) { *this = other; }
+    /// Only as many points as there are: the room for them is large.
+    Face& operator=(const Face& other) {
+        count = other.count;
+        normal = other.normal;
+        std::copy_n(other.points.begin(), count, points.begin());
+        std::copy_n(other.indices.begin(), count, indices.begin());
+        return *this;
+    }
+
     bool flat() const { return count >= static_cast<std::size_t>(D); }
     void push_back(const DVec<D>& point, std::uint32_t index) {
         points[count] = point;

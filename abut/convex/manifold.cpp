@@ -150,6 +150,19 @@ Manifold<D> thinned(const Candidates<D>& all, const DVec<D>& normal, double slac
     return result;
 }
 
+/// The size of a set to within a factor of two, for less than `size` asks.
+template <int D>
+double rough_size(const Convex<D>& convex) {
+    if (!convex.similar || convex.inner_radius > 0) return size(convex);
+    if (convex.core == Core::box) return convex.scale * length(DVec<D>(convex.own[0])) + convex.radius;
+    if (convex.core != Core::points) return size(convex);
+    const Vec<D>* points = convex.vertices();
+    double most = 0;
+    for (std::uint32_t i = 1; i < convex.count; ++i)
+        most = std::max(most, length_squared(DVec<D>(points[i]) - DVec<D>(points[0])));
+    return 0.5 * convex.scale * std::sqrt(most) + convex.radius;
+}
+
 /// Adds the witness where no candidate is as deep as it is: a corner may lie on no face that looks along the normal.
 template <int D>
 void add_deepest(Candidates<D>& candidates, const ManifoldPoint<D>& witness, double slack) {
@@ -164,7 +177,7 @@ template <int D>
 Manifold<D> manifold(const Convex<D>& a, const Convex<D>& b, const SignedDistance<D>& distance, double margin,
                      Trace<D>* trace) {
     const DVec<D>& normal = distance.normal;
-    const double slack = 1e-6 * std::min(size(a), size(b)), depth = -distance.distance;
+    const double slack = 1e-6 * std::min(rough_size(a), rough_size(b)), depth = -distance.distance;
     const std::uint32_t witness_name = distance.corners.a[0] << 8 ^ distance.corners.b[0];
 
     Candidates<D> candidates;
@@ -200,7 +213,7 @@ Manifold<D> manifold(const Convex<D>& a, const Convex<D>& b, const SignedDistanc
 
 template <int D>
 Manifold<D> manifold_with_plane(const Convex<D>& a, const DVec<D>& normal, double offset, double margin) {
-    const double slack = 1e-6 * size(a);
+    const double slack = 1e-6 * rough_size(a);
     Candidates<D> candidates;
     const auto touching_at = [&](const DVec<D>& core, std::uint32_t name) {
         const DVec<D> surface = core - normal * a.radius;

@@ -7,8 +7,8 @@
 // depth computation on 3D game objects", 2001). What is returned is always some h(n), so moving B by depth * normal
 // truly parts them, whatever made the search stop.
 
+#include <abut/convex/search_options.hpp>
 #include <abut/convex/simplex.hpp>
-#include <abut/convex/trace.hpp>
 
 #include <limits>
 
@@ -39,8 +39,12 @@ inline constexpr std::size_t penetration_most_steps = 160;
 template <int D>
 void descend(const CoreDifference<D>& difference, Penetration<D>& found);
 
-/// For cores that overlap or touch. Never allocates but for the trace.
-Penetration<2> penetration(const CoreDifference<2>& difference, Trace<2>* trace = nullptr);
-Penetration<3> penetration(const CoreDifference<3>& difference, Trace<3>* trace = nullptr);
+/// For cores that overlap or touch. In space it begins with `start` where that has a volume: four points of A - B, such
+/// as GJK found around the origin; and the cache is told four that hold the nearest face and the origin, so that the
+/// next search has less to grow. Never allocates but for the trace.
+Penetration<2> penetration(const CoreDifference<2>& difference, const SearchOptions<2>& options = {},
+                           const Simplex<2>* start = nullptr);
+Penetration<3> penetration(const CoreDifference<3>& difference, const SearchOptions<3>& options = {},
+                           const Simplex<3>* start = nullptr);
 
 }  // namespace abut

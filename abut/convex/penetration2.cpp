@@ -48,7 +48,7 @@ void record(const GrowingPolygon& polygon, std::size_t edge, double distance, do
 
 }  // namespace
 
-Penetration<2> penetration(const CoreDifference<2>& difference, Trace<2>* trace) {
+Penetration<2> penetration(const CoreDifference<2>& difference, const SearchOptions<2>& options, const Simplex<2>*) {
     Penetration<2> result;
 
     // 1. Two points far apart; a difference without extent is a point.
@@ -96,7 +96,7 @@ Penetration<2> penetration(const CoreDifference<2>& difference, Trace<2>* trace)
         const DVec<2> normal = polygon.outward(nearest);
         const DifferencePoint<2> next = difference.support(normal);
         const double extent = dot(normal, next.position);
-        record(polygon, nearest, least, extent, trace);
+        record(polygon, nearest, least, extent, options.trace);
         result.at_least = least;
         if (extent < result.depth) {
             result.normal = normal;

@@ -1,5 +1,7 @@
 #include <abut/convex/penetration.hpp>
 
+#include <optional>
+
 namespace abut {
 namespace {
 
@@ -12,6 +14,8 @@ struct Face {
     bool alive;
     bool flat;  ///< a sliver: its plane means nothing
 };
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Edge {
     std::uint32_t from, to, beyond;  ///< `beyond`: the face that stays, on the other side
@@ -34,15 +38,14 @@ public:
     const Face& face(std::uint32_t i) const { return faces_[i]; }
     const DVec<3>& corner(std::uint32_t face, std::size_t i) const { return points_[faces_[face].corner[i]].position; }
 
+    /// Of the faces whose plane means something; not valid where there is none.
     std::uint32_t nearest() const {
-        std::uint32_t best = face_count_;
-        for (std::uint32_t i = 0; i < face_count_; ++i)
-            if (faces_[i].alive && !faces_[i].flat &&
-                (best == face_count_ || faces_[i].distance < faces_[best].distance))
-                best = i;
+        std::uint32_t best = 0;
+        for (std::uint32_t i = 1; i < face_count_; ++i)
+            if (distances_[i] < distances_[best]) best = i;
         return best;
     }
-    bool valid(std::uint32_t face) const { return face < face_count_; }
+    bool valid(std::uint32_t face) const { return distances_[face] < infinity; }
 
     /// Adds a point that lies in front of the face. False where rounding or the bound on faces forbids it.
     bool grow(std::uint32_t first, const DifferencePoint<3>& point) {
@@ -65,22 +68,52 @@ public:
         return true;
     }
 
+    /// The place on a face nearest to `target`.
+    Simplex<3> place_near(std::uint32_t face, const DVec<3>& target) const {
+        const auto& [a, b, c] = faces_[face].corner;
+        return face_near({points_[a], points_[b], points_[c]}, target);
+    }
+
     /// The place on the surface nearest to `target`. Faces that were grown away lie behind others, and where growing
     /// failed halfway they fill the hole.
     Simplex<3> surface_near(const DVec<3>& target) const {
         Simplex<3> best;
-        double least = std::numeric_limits<double>::infinity();
+        double least = infinity;
         for (std::uint32_t i = 0; i < face_count_; ++i) {
             const double height = dot(faces_[i].normal, target) - faces_[i].distance;
             if (height * height >= least) continue;
-            const auto& [a, b, c] = faces_[i].corner;
-            const Simplex<3> face = face_near({points_[a], points_[b], points_[c]}, target);
+            const Simplex<3> face = place_near(i, target);
             const double distance = length_squared(face.combine(&DifferencePoint<3>::position) - target);
             if (distance >= least) continue;
             least = distance;
             best = face;
         }
         return best;
+    }
+
+    /// A face, and of all points the one with which it holds the origin best.
+    void remember(std::uint32_t face, Cache& cache) const {
+        const auto& [a, b, c] = faces_[face].corner;
+        const DVec<3>&p = points_[a].position, &q = points_[b].position, &r = points_[c].position;
+        const DVec<3> ab = cross(p, q), bc = cross(q, r), ca = cross(r, p);
+        std::size_t best = point_count_;
+        double most = 0;
+        for (std::size_t i = 0; i < point_count_; ++i) {
+            // The volumes that the edges of the face span with the origin and the point.
+            const DVec<3>& point = points_[i].position;
+            const double least = -std::max({dot(ab, point), dot(bc, point), dot(ca, point)});
+            if (least <= most) continue;
+            most = least;
+            best = i;
+        }
+        if (best == point_count_) return;
+        cache.count = 0;
+        for (const std::size_t i : {std::size_t{a}, std::size_t{b}, std::size_t{c}, best}) {
+            cache.corner_a[cache.count] = points_[i].index_a;
+            cache.corner_b[cache.count++] = points_[i].index_b;
+        }
+        for (std::size_t i = 0; i < 3; ++i)
+            cache.axis[i] = static_cast<float>(faces_[face].normal[static_cast<int>(i)]);
     }
 
 private:
@@ -92,10 +125,11 @@ private:
         const DVec<3> ab = points_[b].position - origin, ac = points_[c].position - origin;
         const DVec<3> normal = cross(ab, ac);
         const double area = length(normal);
-        const double longest = std::sqrt(std::max({length_squared(ab), length_squared(ac), length_squared(ac - ab)}));
-        const bool flat = !(area > noise_ * longest);
+        const double longest_squared = std::max({length_squared(ab), length_squared(ac), length_squared(ac - ab)});
+        const bool flat = !(area * area > noise_ * noise_ * longest_squared);
         const DVec<3> unit = flat ? DVec<3>(0.0) : normal / area;
         face = Face{{a, b, c}, neighbor, unit, dot(unit, origin), true, flat};
+        distances_[face_count_ - 1] = flat ? infinity : face.distance;
     }
 
     bool sees(std::uint32_t face, const DVec<3>& position) const {
@@ -109,6 +143,7 @@ private:
         std::size_t depth = 0;
         const auto enter = [&](std::uint32_t face, std::uint32_t edge) {
             faces_[face].alive = false;
+            distances_[face] = infinity;
             stack_[depth++] = {face, edge, 0};
         };
         enter(first, 0);
@@ -148,6 +183,7 @@ private:
     std::array<DifferencePoint<3>, penetration_most_steps + 4> points_;
     std::size_t point_count_;
     std::array<Face, most_faces> faces_;
+    std::array<double, most_faces> distances_;  ///< of the faces to grow at; infinite for the others
     std::uint32_t face_count_ = 0;
     std::array<Edge, 2 * penetration_most_steps> horizon_;
     std::uint32_t horizon_count_ = 0;
@@ -207,6 +243,24 @@ Start spanning_points(const CoreDifference<3>& difference) {
     return start;
 }
 
+/// The points of a simplex, where it has some thickness.
+std::optional<Start> given_points(const Simplex<3>& simplex) {
+    if (simplex.count < 4) return std::nullopt;
+    Start start;
+    start.count = 4;
+    start.corners = simplex.points;
+    double scale = 0;
+    for (const DifferencePoint<3>& point : simplex.points)
+        scale = std::max({scale, largest(point.on_a), largest(point.on_b)});
+    start.noise = 1e-13 * scale;
+    const DVec<3>& a = simplex.points[0].position;
+    const DVec<3> ab = simplex.points[1].position - a, ac = simplex.points[2].position - a,
+                  ad = simplex.points[3].position - a;
+    const double longest = std::max({largest(ab), largest(ac), largest(ad)});
+    if (!(std::abs(dot(cross(ab, ac), ad)) > 1e-6 * longest * longest * longest)) return std::nullopt;
+    return start;
+}
+
 Penetration<3> without_thickness(const CoreDifference<3>& difference, const Start& start) {
     Penetration<3> result;
     result.exit = PenetrationExit::flat;
@@ -231,20 +285,23 @@ void record(const GrowingPolytope& polytope, std::uint32_t nearest, double exten
 
 }  // namespace
 
-Penetration<3> penetration(const CoreDifference<3>& difference, Trace<3>* trace) {
-    const Start start = spanning_points(difference);
+Penetration<3> penetration(const CoreDifference<3>& difference, const SearchOptions<3>& options,
+                           const Simplex<3>* simplex) {
+    const std::optional<Start> given = simplex != nullptr ? given_points(*simplex) : std::nullopt;
+    const Start start = given ? *given : spanning_points(difference);
     if (start.count < 4) return without_thickness(difference, start);
 
     Penetration<3> result;
-    result.depth = std::numeric_limits<double>::infinity();
+    result.depth = infinity;
     GrowingPolytope polytope(start.corners, start.noise);
+    std::uint32_t nearest = 0;
     for (std::size_t step = 0; step < penetration_most_steps; ++step) {
-        const std::uint32_t nearest = polytope.nearest();
+        nearest = polytope.nearest();
         if (!polytope.valid(nearest)) break;
         const Face& face = polytope.face(nearest);
         const DifferencePoint<3> next = difference.support(face.normal);
         const double extent = dot(face.normal, next.position);
-        record(polytope, nearest, extent, trace);
+        record(polytope, nearest, extent, options.trace);
         result.at_least = face.distance;
         if (extent < result.depth) {
             result.normal = face.normal;
@@ -261,8 +318,14 @@ Penetration<3> penetration(const CoreDifference<3>& difference, Trace<3>* trace)
         }
     }
     if (!std::isfinite(result.depth)) return without_thickness(difference, start);
-    // The face that first gave the normal may have been an inner one.
-    result.face = polytope.surface_near(result.normal * result.depth);
+    const DVec<3> target = result.normal * result.depth;
+    if (result.exit == PenetrationExit::exact) {
+        if (options.cache != nullptr) polytope.remember(nearest, *options.cache);
+        result.face = polytope.place_near(nearest, target);
+        if (length(result.face.combine(&DifferencePoint<3>::position) - target) <= 10 * start.noise) return result;
+    }
+    // The place lies beside the last face, or an inner one gave the normal.
+    result.face = polytope.surface_near(target);
     return result;
 }
 

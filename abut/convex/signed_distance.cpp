@@ -48,8 +48,9 @@ double distance_from(const DVec<D>& target, const Simplex<D>& face) {
 
 /// Where the walk proved nothing: they overlap, or are so thin or so near that it lost its way.
 template <int D>
-CoreDistance<D> deep_distance(const CoreDifference<D>& difference, const GjkResult<D>& walk, Trace<D>* trace) {
-    Penetration<D> deep = penetration(difference, trace);
+CoreDistance<D> deep_distance(const CoreDifference<D>& difference, const GjkResult<D>& walk,
+                              const SearchOptions<D>& options) {
+    Penetration<D> deep = penetration(difference, options, &walk.simplex);
     if (deep.exit == PenetrationExit::bound_reached || deep.exit == PenetrationExit::no_progress)
         descend(difference, deep);
     CoreDistance<D> result{-deep.depth, deep.normal, deep.face};
@@ -82,7 +83,7 @@ CoreDistance<D> core_distance(const CoreDifference<D>& difference, SearchOptions
     }
     const GjkResult<D> walk = gjk(difference, std::numeric_limits<double>::infinity(), options);
     return walk.agreed() ? CoreDistance<D>{walk.reached, walk.axis, walk.simplex}
-                         : deep_distance(difference, walk, options.trace);
+                         : deep_distance(difference, walk, options);
 }
 
 template <int D>

@@ -24,6 +24,8 @@ bool overlaps(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& opt
 
 template <int D>
 bool overlaps(const View<D>& a, const View<D>& b, const QueryOptions<D>& options) {
+    const auto *convex_a = std::get_if<Convex<D>>(&a), *convex_b = std::get_if<Convex<D>>(&b);
+    if (convex_a != nullptr && convex_b != nullptr) return overlaps(*convex_a, *convex_b, options);
     const bool finite = is_finite(a) && is_finite(b);
     ABUT_ASSERT(finite);
     if (!finite) return false;
