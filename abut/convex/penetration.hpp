@@ -33,6 +33,9 @@ struct Penetration {
 /// The bound on growing steps; polytopes need a few, curved shapes some dozens.
 inline constexpr std::size_t penetration_most_steps = 160;
 
+/// Curved shapes come near their nearest face and never quite there: the search ends at this part of the depth.
+inline constexpr double penetration_doubt = 1e-7;
+
 /// Rolls on to where h is least nearby, from a normal found by growing a polytope: curved shapes come to the last
 /// digits so, where growing takes a step for each new corner. Keeps the better of both; the face is no longer of the
 /// normal. Gradient descent on the sphere; the slope of h at n is the farthest point along n, less its part along n.

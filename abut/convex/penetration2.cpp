@@ -102,8 +102,7 @@ Penetration<2> penetration(const CoreDifference<2>& difference, const SearchOpti
             result.normal = normal;
             result.depth = extent;
         }
-        // Curved shapes come near their nearest edge and never quite there: stop at a ten-millionth of the depth.
-        if (result.depth - least <= noise + 1e-7 * std::abs(result.depth)) {
+        if (result.depth - least <= noise + penetration_doubt * std::abs(result.depth)) {
             result.exit = PenetrationExit::exact;
             break;
         }

@@ -307,8 +307,7 @@ Penetration<3> penetration(const CoreDifference<3>& difference, const SearchOpti
             result.normal = face.normal;
             result.depth = extent;
         }
-        // Curved shapes come near their nearest face and never quite there: stop at a ten-millionth of the depth.
-        if (result.depth - face.distance <= start.noise + 1e-7 * std::abs(result.depth)) {
+        if (result.depth - face.distance <= start.noise + penetration_doubt * std::abs(result.depth)) {
             result.exit = PenetrationExit::exact;
             break;
         }
@@ -322,7 +321,8 @@ Penetration<3> penetration(const CoreDifference<3>& difference, const SearchOpti
     if (result.exit == PenetrationExit::exact) {
         if (options.cache != nullptr) polytope.remember(nearest, *options.cache);
         result.face = polytope.place_near(nearest, target);
-        if (length(result.face.combine(&DifferencePoint<3>::position) - target) <= 10 * start.noise) return result;
+        const double missed = length(result.face.combine(&DifferencePoint<3>::position) - target);
+        if (missed <= 10 * start.noise + penetration_doubt * std::abs(result.depth)) return result;
     }
     // The place lies beside the last face, or an inner one gave the normal.
     result.face = polytope.surface_near(target);

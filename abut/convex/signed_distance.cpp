@@ -57,7 +57,7 @@ CoreDistance<D> deep_distance(const CoreDifference<D>& difference, const GjkResu
     // Where they barely touch, a common point is on both surfaces.
     if (walk.reached <= walk.doubt && (deep.exit == PenetrationExit::flat || deep.depth <= 1e-3 * walk.doubt))
         result.face = walk.simplex;
-    else if (distance_from(deep.normal * deep.depth, deep.face) > walk.doubt)
+    else if (distance_from(deep.normal * deep.depth, deep.face) > walk.doubt + penetration_doubt * deep.depth)
         result.face = touching_face(difference, deep.normal, deep.depth);
     if (walk.proven > result.distance + 1e-3 * walk.doubt) {
         result.distance = walk.proven;

@@ -37,24 +37,29 @@ CorePoint<D> farthest_corner(const Vec<D>& half, const DVec<D>& direction) {
     return result;
 }
 
-/// `across` at length 1 and at right angles to u, which it is but for rounding; zero where it is nothing but rounding,
-/// and would lead off the disc.
-DVec<3> unit_across(const DVec<3>& u, const DVec<3>& across, double scale) {
-    if (!(largest(across) > 1e-9 * scale)) return DVec<3>(0.0);
-    const DVec<3> nearly = normalized(across);
-    return normalized(nearly - u * dot(u, nearly));
-}
-
+/// Of two discs across w = b - a the rims are farthest along r, the part of d at right angles to w:
+///
+///     r = d - w (w . d) / (w . w),    (a + r/|r| ra) . d = a . d + ra |r|
 DVec<3> farthest_on_discs(const Convex<3>& convex, const DVec<3>& direction) {
     const DVec<3> a(convex.own[0]), b(convex.own[1]);
-    const DVec<3> u = normalized(b - a, axis<3>(2));
-    const double along = dot(u, direction);
-    const DVec<3> rim = unit_across(u, direction - u * along, largest(direction));
     const double radius_a = static_cast<double>(convex.disc_radius[0]),
                  radius_b = static_cast<double>(convex.disc_radius[1]);
-    const double gain_a = dot(a, direction) + radius_a * dot(rim, direction);
-    const double gain_b = dot(b, direction) + radius_b * dot(rim, direction);
-    return gain_b > gain_a ? b + rim * radius_b : a + rim * radius_a;
+    // Discs in one place lie across the third axis.
+    const DVec<3> w = a == b ? axis<3>(2) : b - a;
+    const double ww = dot(w, w);
+    const double along = dot(w, direction);
+    const DVec<3> r = direction - w * (along / ww);
+    const double rr = dot(r, r), dd = dot(direction, direction);
+    DVec<3> rim(0.0);
+    double reach = 0;
+    // Nothing but rounding, it would lead off the disc; and with few digits left it is set right once more.
+    if (rr > 1e-18 * dd) {
+        reach = std::sqrt(rr);
+        rim = r / reach;
+        if (rr < 1e-4 * dd) rim = normalized(rim - w * (dot(w, rim) / ww));
+    }
+    const double gain = dot(b - a, direction) + (radius_b - radius_a) * reach;
+    return gain > 0 ? b + rim * radius_b : a + rim * radius_a;
 }
 
 template <int D>

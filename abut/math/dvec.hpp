@@ -52,6 +52,8 @@ glm::vec<D, double> axis(int i, double sign = 1) {
 /// v at length 1, safe against overflow and underflow; `otherwise` where v is zero.
 template <int D>
 glm::vec<D, double> normalized(const glm::vec<D, double>& v, const glm::vec<D, double>& otherwise = axis<D>(0)) {
+    const double squared = dot(v, v);
+    if (squared > 1e-200 && squared < 1e200) return v / std::sqrt(squared);
     const double scale = largest(v);
     if (!(scale > 0)) return otherwise;
     const glm::vec<D, double> u = v / scale;
