@@ -2,6 +2,7 @@
 // b2ContactManager keeps one.
 
 #include "../scenes/moving_boxes.hpp"
+#include "box2d.hpp"
 #include "peers.hpp"
 
 #include <algorithm>
@@ -13,14 +14,6 @@
 namespace abut::bench {
 
 namespace {
-
-b2Vec2 to_box2d(const Vec2& v) {
-    return {v.x, v.y};
-}
-
-b2AABB to_box2d(const Aabb2& box) {
-    return {to_box2d(box.min), to_box2d(box.max)};
-}
 
 void* as_pointer(std::size_t number) {
     return reinterpret_cast<void*>(number);

@@ -1,6 +1,6 @@
 // Many boxes: all pairs of those that move, regions and rays among those that rest, and a whole world's update.
 
-#include "../scenes/convex_pairs.hpp"
+#include "../scenes/convex_shapes.hpp"
 #include "../scenes/moving_boxes.hpp"
 #include "bench.hpp"
 #include "peers.hpp"
@@ -109,7 +109,7 @@ Job rays(std::size_t count) {
 /// Boxes, capsules and hulls that drift about.
 struct MixedScene {
     struct Item {
-        scenes::AnyConvex shape;
+        scenes::AnyConvex<3> shape;
         glm::quat rotation;
     };
 
@@ -119,7 +119,7 @@ struct MixedScene {
             Item& item = items.emplace_back();
             item.rotation = random.rotation<3>();
             if (i % 3 == 0)
-                item.shape = scenes::random_box(random);
+                item.shape = scenes::random_box<3>(random);
             else if (i % 3 == 1)
                 item.shape = scenes::random_capsule(random);
             else

@@ -12,7 +12,8 @@ namespace abut::bench {
 struct Row {
     std::string bench;
     std::string who;
-    double ns = 0;           ///< an item: the median over the repetitions, or the mean where frames were timed
+    double ns = 0;           ///< an item: the median over the repetitions
+    bool is_mean = false;    ///< ... or the mean, where frames were timed
     double ratio = 0;        ///< abut's ns / this one's
     double answer = 0;       ///< the sum of all values of the verified calls
     std::string difference;  ///< from abut's values; empty: none

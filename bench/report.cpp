@@ -27,20 +27,22 @@ constexpr const char* compiler =
 }  // namespace
 
 void print_machine(std::ostream& out) {
-    out << processor() << ", " << compiler << ". ns: processor time an item, median. ratio: abut's ns / this one's\n";
+    out << processor() << ", " << compiler
+        << ". ns: processor time an item, median or, where told, mean. ratio: abut's ns / this one's\n";
 }
 
 void print_table_head(std::ostream& out) {
-    out << std::left << std::setw(34) << "bench" << std::setw(20) << "who" << std::right << std::setw(12) << "ns"
+    out << std::left << std::setw(48) << "bench" << std::setw(17) << "who" << std::right << std::setw(12) << "ns"
         << std::setw(9) << "ratio" << std::setw(16) << "answer" << '\n';
 }
 
 void print_table_rows(std::ostream& out, std::span<const Row> rows) {
     out << std::fixed;
     for (const Row& row : rows) {
-        out << std::left << std::setw(34) << (&row == &rows.front() ? row.bench : "") << std::setw(20) << row.who
+        out << std::left << std::setw(48) << (&row == &rows.front() ? row.bench : "") << std::setw(17) << row.who
             << std::right << std::setprecision(1) << std::setw(12) << row.ns << std::setprecision(2) << std::setw(9)
             << row.ratio << std::setw(16) << row.answer;
+        if (row.is_mean && &row == &rows.front()) out << "  mean of all frames";
         if (!row.difference.empty()) out << (row.agrees ? "  (" : "  DISAGREES (") << row.difference << ')';
         out << '\n';
     }

@@ -1,0 +1,83 @@
+// In the plane: distances, decisions, contacts and overlaps.
+
+#include "narrow.hpp"
+#include <abut/query/intersection.hpp>
+
+namespace abut::bench {
+
+namespace {
+
+constexpr Gaps apart{0.01, 1}, mixed{-0.3, 0.3}, shallow{-0.03, -0.01}, deep{-0.3, -0.1};
+
+inline constexpr Kind<Polygon> octagons{[](oracle::Random& random) { return scenes::random_polygon(random, 8); },
+                                        pair_count};
+
+template <class S>
+Job closest_with(const ConvexPairs<2>& scene, Frames frames) {
+    return job(scene, {abut_closest<S, S>(scene), box2d_closest(scene, frames)});
+}
+template <class S>
+Job closest_apart(const Kind<S>& kind) {
+    return closest_with<S>(resting(kind, kind, apart), Frames::unlike);
+}
+template <class S>
+Job closest_coherent(const Kind<S>& kind) {
+    return closest_with<S>(moving(kind, kind, always_apart), Frames::coherent);
+}
+
+Job polygons_overlap(const ConvexPairs<2>& scene) {
+    return job(scene, {abut_overlaps<Polygon, Polygon>(scene), box2d_overlaps(scene)});
+}
+
+template <class S>
+Job contact_with(const ConvexPairs<2>& scene) {
+    return job(scene, {abut_contact<S, S>(scene), box2d_contact_of_polygons(scene)});
+}
+template <class S>
+Job contact_at(const Kind<S>& kind, const Gaps& gaps) {
+    return contact_with<S>(resting(kind, kind, gaps));
+}
+template <class S>
+Job contact_moving(const Kind<S>& kind, const Course& course) {
+    return contact_with<S>(moving(kind, kind, course));
+}
+Job polygon_and_circle_at(const Gaps& gaps) {
+    const ConvexPairs<2> scene = resting(polygons, circles, gaps);
+    return job(scene, {abut_contact<Polygon, Circle>(scene), box2d_contact_of_polygon_and_circle(scene)});
+}
+
+/// The area of what both have in common.
+Job intersection_of_polygons() {
+    const ConvexPairs<2> scene = resting(octagons, octagons, mixed);
+    const Side ours = abut_side<Polygon, Polygon>(
+        scene, [out = Polygon()](const auto& a, const auto& b, const auto& options) mutable -> double {
+            return intersection(a, b, out, options) ? out.area() : 0;
+        });
+    return job(scene, {ours});
+}
+
+}  // namespace
+
+std::vector<Bench> plane_benches() {
+    return {
+        {"narrow/closest/box2-box2/apart", [] { return closest_apart(boxes<2>); }},
+        {"narrow/closest/box2-box2/coherent", [] { return closest_coherent(boxes<2>); }},
+        {"narrow/closest/polygon3-8/apart", [] { return closest_apart(polygons); }},
+        {"narrow/closest/polygon3-8/coherent", [] { return closest_coherent(polygons); }},
+        {"narrow/overlaps/polygon3-8/apart", [] { return polygons_overlap(resting(polygons, polygons, apart)); }},
+        {"narrow/overlaps/polygon3-8/mixed", [] { return polygons_overlap(resting(polygons, polygons, mixed)); }},
+        {"narrow/contact/polygon3-8-circle/shallow", [] { return polygon_and_circle_at(shallow); }},
+        {"narrow/contact/polygon3-8-circle/mixed", [] { return polygon_and_circle_at(mixed); }},
+        {"narrow/contact/box2-box2/shallow", [] { return contact_at(boxes<2>, shallow); }},
+        {"narrow/contact/box2-box2/deep", [] { return contact_at(boxes<2>, deep); }},
+        {"narrow/contact/box2-box2/coherent-touching", [] { return contact_moving(boxes<2>, touching); }},
+        {"narrow/contact/box2-box2/coherent-apart", [] { return contact_moving(boxes<2>, mostly_apart); }},
+        {"narrow/contact/polygon3-8/shallow", [] { return contact_at(polygons, shallow); }},
+        {"narrow/contact/polygon3-8/deep", [] { return contact_at(polygons, deep); }},
+        {"narrow/contact/polygon3-8/coherent-touching", [] { return contact_moving(polygons, touching); }},
+        {"narrow/contact/polygon3-8/coherent-apart", [] { return contact_moving(polygons, mostly_apart); }},
+        {"narrow/intersection/polygon8", intersection_of_polygons},
+    };
+}
+
+}  // namespace abut::bench
