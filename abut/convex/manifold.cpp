@@ -1,4 +1,5 @@
 #include <abut/convex/face.hpp>
+#include <abut/convex/largest_quadrilateral.hpp>
 #include <abut/convex/manifold.hpp>
 
 namespace abut {
@@ -110,26 +111,19 @@ std::array<std::size_t, 2> kept(const Candidates<2>& all, std::size_t deepest, c
     return {deepest, most(all, [&](const ManifoldPoint<2>& p) { return length_squared(p.position - first); })};
 }
 
-/// The deepest, and the three that make the largest quadrilateral with it: for each that may lie opposite, the two that
-/// are farthest to either side of the diagonal.
+/// The deepest, and the three that make the largest quadrilateral with it, seen along the normal.
 std::array<std::size_t, 4> kept(const Candidates<3>& all, std::size_t deepest, const DVec<3>& normal) {
-    const DVec<3> first = all.points[deepest].position;
-    std::array<std::size_t, 4> result{deepest, deepest, deepest, deepest};
-    double largest = -1;
-    for (std::size_t opposite = 0; opposite < all.count; ++opposite) {
-        if (opposite == deepest) continue;
-        const DVec<3> side = cross(normal, all.points[opposite].position - first);
-        const auto off = [&](const ManifoldPoint<3>& p) { return dot(side, p.position - first); };
-        const std::size_t left = most(all, off), right = most(all, [&](const ManifoldPoint<3>&p) { return -off(p); });
-        const double area = off(all.points[left]) - off(all.points[right]);
-        // Of points in a row, the two ends.
-        const double size = area > 0 ? area : 1e-12 * length(side);
-        if (size <= largest) continue;
-        largest = size;
-        result = {deepest, opposite, off(all.points[left]) > 0 ? left : deepest,
-                  off(all.points[right]) < 0 ? right : deepest};
+    const DVec<3> steep{std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};
+    const int up = steep.x >= steep.y && steep.x >= steep.z ? 0 : (steep.y >= steep.z ? 1 : 2);
+    const int u = (up + 1) % 3, v = (up + 2) % 3;
+    const double lean_u = normal[u] / normal[up], lean_v = normal[v] / normal[up];
+    std::array<double, Face<3>::capacity + 1> x, y;
+    for (std::size_t i = 0; i < all.count; ++i) {
+        const DVec<3>& position = all.points[i].position;
+        x[i] = position[u] - position[up] * lean_u;
+        y[i] = position[v] - position[up] * lean_v;
     }
-    return result;
+    return largest_quadrilateral({x.data(), all.count}, {y.data(), all.count}, deepest);
 }
 
 template <int D>

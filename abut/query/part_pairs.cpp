@@ -39,18 +39,24 @@ struct Numbers {
     }
 };
 
-std::uint32_t face_number(const Convex<3>& part, const Numbers<3>& numbers, const DVec<3>& out) {
-    if (part.core == Core::box) {
-        // The bit on which the corners agree is the axis of their side.
-        std::uint32_t ones = 7, zeros = 7;
-        for (std::size_t i = 0; i < numbers.count; ++i) {
-            ones &= numbers.all[i];
-            zeros &= ~numbers.all[i];
-        }
-        for (std::uint32_t axis = 0; axis < 3; ++axis)
-            if (((ones | zeros) >> axis & 1u) != 0) return 2 * axis + (ones >> axis & 1u);
-        return 0;
+/// Of a box, whose corners tell by their bits what they span. Without guesses at which it is: it is another each time.
+Feature feature_on_box(const CornerNumbers<3>& corners, std::size_t count, std::uint32_t number) {
+    const std::uint32_t first = corners[0];
+    std::uint32_t free = 0, seen = 0;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const std::uint32_t corner = i < count ? corners[i] : first;
+        free |= corner ^ first;
+        seen |= 1u << (corner & 7u);
     }
+    const std::uint32_t all_but_two = (seen & (seen - 1)) & ((seen & (seen - 1)) - 1);
+    if (free == 0) return {number, first, FeatureKind::vertex};
+    if (all_but_two == 0) return {number, edge_index(first, first ^ free), FeatureKind::edge};
+    // The bit on which the corners agree is the axis of their side.
+    const std::uint32_t axis = (free & 1u) == 0 ? 0 : (free & 2u) == 0 ? 1 : (free & 4u) == 0 ? 2 : 3;
+    return {number, axis == 3 ? 0 : 2 * axis + (first >> axis & 1u), FeatureKind::face};
+}
+
+std::uint32_t face_number(const Convex<3>& part, const DVec<3>& out) {
     if (part.facets == nullptr) {
         const auto corner = [&](std::uint32_t i) { return part.place.point(DVec<3>(part.vertices()[i])); };
         const DVec<3> normal = cross(corner(1) - corner(0), corner(2) - corner(0));
@@ -66,10 +72,12 @@ template <int D>
 Feature feature_on(const Convex<D>& part, const CornerNumbers<D>& corners, std::size_t count,
                    [[maybe_unused]] const DVec<D>& out, std::uint32_t number) {
     if (!has_features(part)) return {number, 0, FeatureKind::none};
+    if constexpr (D == 3)
+        if (part.core == Core::box) return feature_on_box(corners, count, number);
     const Numbers<D> numbers(corners, count);
     if (numbers.count == 1) return {number, numbers.all[0], FeatureKind::vertex};
     if constexpr (D == 3)
-        if (numbers.count > 2) return {number, face_number(part, numbers, out), FeatureKind::face};
+        if (numbers.count > 2) return {number, face_number(part, out), FeatureKind::face};
     return {number, edge_index(numbers.all[0], numbers.all[1]), FeatureKind::edge};
 }
 

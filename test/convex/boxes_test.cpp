@@ -1,0 +1,271 @@
+// Boxes by their axes against the searches that take any pair.
+
+#include "../oracle/pair.hpp"
+#include "../oracle/vector_units.hpp"
+#include <abut/convex/box_pair.hpp>
+#include <abut/query/certify.hpp>
+#include <abut/query/contact.hpp>
+#include <abut/query/overlaps.hpp>
+
+#include <gtest/gtest.h>
+
+namespace abut {
+namespace {
+
+using oracle::Random;
+
+/// How two boxes lie.
+enum class Family { any, aligned, flush, turned_about_a_normal, edge_on_edge, nested, stretched_out };
+constexpr int family_count = 7;
+
+struct Boxes {
+    Box3 a, b;
+    double size;  ///< of the smaller
+};
+
+Vec3 random_half(Random& random, double size, bool long_ones) {
+    Vec3 half;
+    for (int i = 0; i < 3; ++i)
+        half[i] = static_cast<float>(size * (long_ones ? random.power_of_two(-9, 1) : random.uniform(0.25, 1)));
+    return half;
+}
+
+glm::quat quarter_turns(Random& random) {
+    const float s = std::sqrt(0.5f);
+    const glm::quat turns[] = {{1, 0, 0, 0}, {s, s, 0, 0}, {s, 0, s, 0}, {s, 0, 0, s}, {0, 1, 0, 0}};
+    return turns[random.below(5)];
+}
+
+double size_of(const Box3& box) {
+    return length(DVec<3>(box.half));
+}
+
+/// B moved along the way out of A, to a gap of its own choice; about half of all overlap.
+void put_apart(Boxes& boxes, Random& random) {
+    const SignedDistance<3> now = signed_distance<3>(view(boxes.a), view(boxes.b));
+    const double scale = random.chance(0.5) ? 1 : random.power_of_two(-20, -2);
+    const double wanted = boxes.size * scale * random.uniform(-0.6, 0.5);
+    boxes.b.center += to_float(now.normal * (wanted - now.distance));
+}
+
+Boxes random_boxes(Random& random, Family family) {
+    const double size_a = random.power_of_two(-10, 13);
+    const double size_b = random.chance(0.8) ? size_a * random.power_of_two(-1, 1) : random.power_of_two(-10, 13);
+    const bool long_ones = family == Family::stretched_out;
+    Boxes boxes;
+    boxes.a.half = random_half(random, size_a, long_ones);
+    boxes.b.half = random_half(random, size_b, long_ones);
+    boxes.size = std::min(size_of(boxes.a), size_of(boxes.b));
+    boxes.a.center = to_float(random.direction<3>() * (random.chance(0.5) ? 0 : size_a * random.power_of_two(0, 13)));
+    boxes.a.rotation = random.rotation<3>();
+    boxes.b.rotation = random.rotation<3>();
+    boxes.b.center = boxes.a.center + to_float(random.direction<3>() * (1.5 * (size_a + size_b)));
+    switch (family) {
+        case Family::any:
+        case Family::stretched_out:
+            put_apart(boxes, random);
+            break;
+        case Family::aligned:
+            if (random.chance(0.5)) boxes.a.rotation = no_rotation<3>;
+            boxes.b.rotation = boxes.a.rotation * quarter_turns(random);
+            put_apart(boxes, random);
+            break;
+        case Family::flush: {
+            // Sides in one plane, faces that touch exactly.
+            boxes.a.rotation = boxes.b.rotation = no_rotation<3>;
+            boxes.a.center = Vec3(0);
+            for (int i = 0; i < 3; ++i) {
+                const float sign = static_cast<float>(static_cast<int>(random.below(3)) - 1);
+                const float to = boxes.a.half[i] + (random.chance(0.5) ? boxes.b.half[i] : -boxes.b.half[i]);
+                boxes.b.center[i] = sign * to;
+            }
+            break;
+        }
+        case Family::turned_about_a_normal: {
+            const int up = static_cast<int>(random.below(3));
+            Vec3 normal(0), offset(0);
+            normal[up] = 1;
+            for (int i = 0; i < 3; ++i) offset[i] = boxes.a.half[i] * random.uniform_float(-1, 1);
+            offset[up] = boxes.a.half[up] +
+                         boxes.b.half[up] * (1 + random.uniform_float(-0.1, 0.05) * (random.chance(0.5) ? 1 : 0));
+            const Pose3 pose =
+                Pose3{boxes.a.center, boxes.a.rotation} * Pose3{offset, turn_about(normal, random.uniform_float(0, 6))};
+            boxes.b.center = pose.position;
+            boxes.b.rotation = pose.rotation;
+            break;
+        }
+        case Family::edge_on_edge: {
+            const float eighth = 0.78539816f;
+            boxes.a.rotation = turn_about({1, 0, 0}, eighth);
+            boxes.b.rotation = turn_about({0, 0, 1}, random.uniform_float(0, 3)) * turn_about({1, 0, 0}, eighth);
+            boxes.b.center = boxes.a.center + Vec3(0, 0, 1.5f * static_cast<float>(size_a + size_b));
+            put_apart(boxes, random);
+            break;
+        }
+        case Family::nested:
+            boxes.b.center = boxes.a.center + to_float(random.in_cube<3>() * (0.3 * size_a));
+            break;
+    }
+    return boxes;
+}
+
+/// Calls visit(boxes, random) for boxes of all families; 30 to 70 of a hundred overlap.
+template <class Visit>
+void each_pair(Visit&& visit) {
+    int pairs = 0, overlapping = 0;
+    for (int i = 0; i < oracle::amount(3000); ++i)
+        for (int family = 0; family < family_count; ++family) {
+            const auto seed = static_cast<std::uint64_t>(pairs++);
+            SCOPED_TRACE(testing::Message() << "seed " << seed << ", family " << family);
+            Random random(seed);
+            const Boxes boxes = random_boxes(random, static_cast<Family>(family));
+            overlapping += signed_distance<3>(view(boxes.a), view(boxes.b)).distance <= 0 ? 1 : 0;
+            visit(boxes, random);
+            if (testing::Test::HasFailure()) return;
+        }
+    EXPECT_GT(overlapping, pairs * 3 / 10);
+    EXPECT_LT(overlapping, pairs * 7 / 10);
+}
+
+/// Of what the searches may be off.
+double doubt(const Boxes& boxes) {
+    return 1e-9 * (size_of(boxes.a) + size_of(boxes.b));
+}
+
+TEST(Boxes, AreAsFarApartAsTheSearchesSay) {
+    int plain = 0;
+    each_pair([&](const Boxes& boxes, Random&) {
+        const Convex<3> a = view(boxes.a), b = view(boxes.b);
+        if (!are_plain_boxes(a, b)) return;
+        ++plain;
+        const SignedDistance<3> found = distance_of_boxes(a, b, {}), searched = signed_distance(a, b);
+        EXPECT_NEAR(found.distance, searched.distance, doubt(boxes) + 1e-9 * std::abs(searched.distance));
+        EXPECT_NEAR(length(found.normal), 1, 1e-14);
+        EXPECT_EQ(boxes_overlap(a, b, {}), found.distance <= 0);
+        const auto answer = closest(boxes.a, boxes.b);
+        EXPECT_EQ(answer.distance, static_cast<float>(found.distance));
+        EXPECT_TRUE(certify(boxes.a, boxes.b, answer));
+    });
+    EXPECT_GT(plain, 10000);
+}
+
+/// How far the points of one contact are from some point of the other at most.
+double farthest_from(const Manifold<3>& points, const Manifold<3>& others) {
+    double farthest = 0;
+    for (std::size_t i = 0; i < points.count; ++i) {
+        double nearest = std::numeric_limits<double>::infinity();
+        for (std::size_t j = 0; j < others.count; ++j)
+            nearest = std::min(nearest, length(points.points[i].position - others.points[j].position));
+        farthest = std::max(farthest, nearest);
+    }
+    return farthest;
+}
+
+double area_of(const Manifold<3>& points, const DVec<3>& normal) {
+    double most = 0;
+    std::array<std::size_t, 4> order{0, 1, 2, 3};
+    do {
+        double area = 0;
+        for (std::size_t i = 0; i < 4; ++i) {
+            const auto at = [&](std::size_t k) {
+                return points.points[std::min(order[k % 4], points.count - 1)].position;
+            };
+            area += dot(normal, cross(at(i) - at(0), at(i + 1) - at(0)));
+        }
+        most = std::max(most, std::abs(area));
+    } while (std::next_permutation(order.begin() + 1, order.end()));
+    return most;
+}
+
+TEST(Boxes, TouchWhereTheSearchesSay) {
+    int touching = 0, several = 0, alike = 0;
+    each_pair([&](const Boxes& boxes, Random& random) {
+        const Convex<3> a = view(boxes.a), b = view(boxes.b);
+        if (!are_plain_boxes(a, b)) return;
+        const double margin = random.chance(0.5) ? 0 : boxes.size * random.uniform(0, 0.5);
+        SignedDistance<3> distance;
+        Manifold<3> points;
+        const bool found = contact_of_boxes(a, b, margin, margin, {}, distance, points);
+        const SignedDistance<3> plain = distance_of_boxes(a, b, {});
+        EXPECT_EQ(found, plain.distance <= margin);
+        if (!found) return;
+        ++touching;
+        several += points.count > 1 ? 1 : 0;
+        EXPECT_EQ(distance.distance, plain.distance);
+        EXPECT_EQ(distance.normal, plain.normal);
+        const double slack = 2e-6 * boxes.size;
+        double deepest = -std::numeric_limits<double>::infinity();
+        ASSERT_GE(points.count, 1u);
+        for (std::size_t i = 0; i < points.count; ++i) {
+            const ManifoldPoint<3>& point = points.points[i];
+            deepest = std::max(deepest, point.depth);
+            EXPECT_GE(point.depth, margin > 0 ? -margin - slack : 0);
+            for (const double side : {0.5, -0.5}) {
+                const DVec<3> surface = point.position + distance.normal * (side * point.depth);
+                EXPECT_LE(closest(side > 0 ? boxes.a : boxes.b, to_float(surface)).distance,
+                          5 * slack + 4e-7 * largest(surface));
+            }
+            for (std::size_t j = 0; j < i; ++j) EXPECT_NE(point.feature, points.points[j].feature);
+        }
+        EXPECT_NEAR(deepest, -distance.distance, slack);
+        // Of points that are as deep another may be kept, and with it others.
+        const Manifold<3> clipped = manifold(a, b, distance, margin);
+        EXPECT_GE(area_of(points, distance.normal), 0.5 * area_of(clipped, distance.normal) - slack * boxes.size);
+        alike += farthest_from(points, clipped) <= slack && farthest_from(clipped, points) <= slack ? 1 : 0;
+    });
+    EXPECT_GT(touching, 5000);
+    EXPECT_GT(several, touching / 3);
+    EXPECT_GT(alike, touching * 9 / 10);
+}
+
+TEST(Boxes, NeedNoCacheAndMindNone) {
+    Cache strange;
+    each_pair([&](const Boxes& boxes, Random& random) {
+        const Box3& a = boxes.a;
+        Box3 b = boxes.b;
+        Cache cache = random.chance(0.5) ? Cache{} : strange;
+        for (int i = 0; i < 3; ++i) {
+            const auto fresh = closest(a, b), kept = closest(a, b, {.cache = &cache});
+            EXPECT_NEAR(kept.distance, fresh.distance, 1e-6 * size_of(a) + 1e-6 * std::abs(fresh.distance));
+            EXPECT_TRUE(certify(a, b, kept));
+            if (std::abs(static_cast<double>(fresh.distance)) > 1e-6 * (size_of(a) + size_of(b))) {
+                EXPECT_EQ(overlaps(a, b, {.cache = &cache}), fresh.distance <= 0);
+                EXPECT_EQ(!!contact(a, b, {.cache = &cache}), fresh.distance <= 0);
+            }
+            b.center += to_float(random.in_cube<3>() * (0.01 * boxes.size));
+        }
+        strange = cache;
+    });
+}
+
+/// The numbers of all contacts of some pairs.
+std::vector<double> numbers_of_contacts() {
+    std::vector<double> numbers;
+    for (std::uint64_t seed = 0; seed < 700; ++seed) {
+        Random random(seed);
+        const Boxes boxes = random_boxes(random, static_cast<Family>(seed % family_count));
+        SignedDistance<3> distance;
+        Manifold<3> points;
+        if (!contact_of_boxes(view(boxes.a), view(boxes.b), boxes.size, boxes.size, {}, distance, points)) continue;
+        for (std::size_t i = 0; i < points.count; ++i) {
+            const ManifoldPoint<3>& point = points.points[i];
+            for (int k = 0; k < 3; ++k) numbers.push_back(point.position[k]);
+            numbers.push_back(point.depth);
+            numbers.push_back(point.feature);
+        }
+    }
+    return numbers;
+}
+
+using BoxesByVectorUnit = oracle::ByVectorUnit;
+
+TEST_P(BoxesByVectorUnit, TouchAtTheSamePoints) {
+    const std::vector<double> here = numbers_of_contacts();
+    TearDown();
+    EXPECT_EQ(here, numbers_of_contacts());
+    EXPECT_GT(here.size(), 5000u);
+}
+INSTANTIATE_TEST_SUITE_P(Units, BoxesByVectorUnit, oracle::vector_units(), oracle::name_of_unit);
+
+}  // namespace
+}  // namespace abut
