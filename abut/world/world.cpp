@@ -99,7 +99,7 @@ template <int D>
 void World<D>::place(std::uint32_t slot) {
     Item& item = items_[slot];
     const Affine<D> pose = affine(item.options.pose);
-    item.placed = mapped(item.stored->view(), pose);
+    item.placed = moved(item.stored->view(), pose);
     balls_[slot] = moved(item.own_ball, pose);
     const bool finite = is_finite(item.placed);
     ABUT_ASSERT(finite);
