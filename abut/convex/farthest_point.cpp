@@ -10,6 +10,8 @@
 #define HWY_TARGET_INCLUDE "abut/convex/farthest_point.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+// After them: once for each target.
+#include <abut/convex/farthest_lane-inl.h>
 
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE {
@@ -17,19 +19,19 @@ namespace abut::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using Doubles = hn::ScalableTag<double>;
-using Floats = hn::Rebind<float, Doubles>;
+using FewFloats = hn::Rebind<float, Doubles>;
 using Vector = hn::Vec<Doubles>;
 
 Vector along(const Vec2* points, const Vector* direction) {
-    hn::Vec<Floats> x, y;
-    hn::LoadInterleaved2(Floats(), &points->x, x, y);
+    hn::Vec<FewFloats> x, y;
+    hn::LoadInterleaved2(FewFloats(), &points->x, x, y);
     const Doubles d;
     return hn::Add(hn::Mul(hn::PromoteTo(d, x), direction[0]), hn::Mul(hn::PromoteTo(d, y), direction[1]));
 }
 
 Vector along(const Vec3* points, const Vector* direction) {
-    hn::Vec<Floats> x, y, z;
-    hn::LoadInterleaved3(Floats(), &points->x, x, y, z);
+    hn::Vec<FewFloats> x, y, z;
+    hn::LoadInterleaved3(FewFloats(), &points->x, x, y, z);
     const Doubles d;
     const Vector xy = hn::Add(hn::Mul(hn::PromoteTo(d, x), direction[0]), hn::Mul(hn::PromoteTo(d, y), direction[1]));
     return hn::Add(xy, hn::Mul(hn::PromoteTo(d, z), direction[2]));
@@ -83,6 +85,10 @@ std::uint32_t farthest_in_space(const Vec3* points, std::size_t count, const DVe
     return farthest<3>(points, count, direction);
 }
 
+std::uint32_t farthest_of_lanes(const PointLanes& points, const DVec<3>& direction) {
+    return farthest_lane(points, direction);
+}
+
 }  // namespace abut::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -91,12 +97,16 @@ namespace abut {
 
 HWY_EXPORT(farthest_in_plane);
 HWY_EXPORT(farthest_in_space);
+HWY_EXPORT(farthest_of_lanes);
 
 std::uint32_t farthest_point(std::span<const Vec2> points, const DVec<2>& direction) {
     return HWY_DYNAMIC_DISPATCH(farthest_in_plane)(points.data(), points.size(), direction);
 }
 std::uint32_t farthest_point(std::span<const Vec3> points, const DVec<3>& direction) {
     return HWY_DYNAMIC_DISPATCH(farthest_in_space)(points.data(), points.size(), direction);
+}
+std::uint32_t farthest_point(const PointLanes& points, const DVec<3>& direction) {
+    return HWY_DYNAMIC_DISPATCH(farthest_of_lanes)(points, direction);
 }
 
 }  // namespace abut

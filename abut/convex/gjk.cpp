@@ -12,24 +12,6 @@ bool holds(const Simplex<D>& simplex, const DVec<D>& position) {
     return false;
 }
 
-/// A corner of a core by its number; of a core without corners, or without so many, none.
-template <int D>
-bool corner(const Convex<D>& convex, std::uint32_t index, DVec<D>& position) {
-    if (convex.inner_radius > 0) return false;
-    if (convex.core == Core::points && index < convex.count) {
-        position = convex.place.point(DVec<D>(convex.vertices()[index]));
-        return true;
-    }
-    if (convex.core == Core::box && index < 1u << D) {
-        DVec<D> point(convex.own[0]);
-        for (int i = 0; i < D; ++i)
-            if ((index >> i & 1u) != 0) point[i] = -point[i];
-        position = convex.place.point(point);
-        return true;
-    }
-    return false;
-}
-
 /// Where to begin: with the simplex of the cache, else along its axis, else from A towards B.
 template <int D>
 Simplex<D> first_simplex(const CoreDifference<D>& difference, const Cache* cache) {
@@ -40,8 +22,10 @@ Simplex<D> first_simplex(const CoreDifference<D>& difference, const Cache* cache
             DifferencePoint<D> point;
             point.index_a = cache->corner_a[i];
             point.index_b = cache->corner_b[i];
-            if (!corner(difference.a(), point.index_a, point.on_a)) break;
-            if (!corner(difference.b(), point.index_b, point.on_b)) break;
+            const Convex<D>&a = difference.a(), &b = difference.b();
+            if (!has_corner(a, point.index_a) || !has_corner(b, point.index_b)) break;
+            point.on_a = a.place.point(own_corner(a, point.index_a));
+            point.on_b = b.place.point(own_corner(b, point.index_b));
             point.position = point.on_a - point.on_b;
             if (!holds(simplex, point.position)) simplex.points[simplex.count++] = point;
         }

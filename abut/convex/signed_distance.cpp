@@ -1,6 +1,7 @@
 #include <abut/convex/features.hpp>
 #include <abut/convex/gjk.hpp>
 #include <abut/convex/penetration.hpp>
+#include <abut/convex/quick_distance.hpp>
 #include <abut/convex/sat.hpp>
 #include <abut/convex/signed_distance.hpp>
 
@@ -87,23 +88,21 @@ CoreDistance<D> core_distance(const CoreDifference<D>& difference, SearchOptions
 }
 
 template <int D>
-MeetingCorners<D> corners_of(const Simplex<D>& face) {
-    MeetingCorners<D> result;
-    result.count = face.count;
-    for (std::size_t i = 0; i < face.count; ++i) {
-        result.a[i] = face.points[i].index_a;
-        result.b[i] = face.points[i].index_b;
-    }
-    return result;
+SearchOptions<D> from_there(SearchOptions<D> options, Cache& inside) {
+    if (inside.count > 0) options.cache = &inside;
+    return options;
 }
 
 }  // namespace
 
 template <int D>
 SignedDistance<D> signed_distance(const Convex<D>& a, const Convex<D>& b, const SearchOptions<D>& options) {
-    const CoreDifference<D> difference(a, b);
-    const CoreDistance<D> cores = core_distance(difference, options);
     SignedDistance<D> result;
+    Cache inside;
+    if (quick_distance(a, b, options, result, inside)) return result;
+    const CoreDifference<D> difference(a, b);
+    const CoreDistance<D> cores = core_distance(difference, from_there(options, inside));
+    if (inside.count > 0 && options.cache != nullptr) *options.cache = inside;
     result.distance = cores.distance - a.radius - b.radius;
     result.normal = cores.normal;
     result.corners = corners_of(cores.face);
@@ -113,8 +112,9 @@ SignedDistance<D> signed_distance(const Convex<D>& a, const Convex<D>& b, const 
 
 template <int D>
 bool convex_overlap(const Convex<D>& a, const Convex<D>& b, const SearchOptions<D>& options) {
-    const CoreDifference<D> difference(a, b);
     const double enough = a.radius + b.radius;
+    if (const auto quick = quick_overlap(a, b, options)) return *quick;
+    const CoreDifference<D> difference(a, b);
     if (few_axes(difference)) {
         const SeparatingAxis<D> axis = separating_axis(difference, enough, options.trace);
         if (-axis.extent > enough) return false;

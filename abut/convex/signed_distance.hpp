@@ -5,7 +5,7 @@
 // for in another way.
 
 #include <abut/convex/search_options.hpp>
-#include <abut/convex/support.hpp>
+#include <abut/convex/simplex.hpp>
 
 namespace abut {
 
@@ -17,6 +17,17 @@ struct MeetingCorners {
     CornerNumbers<D> a{}, b{};
     std::size_t count = 1;  ///< of pairs; the same number may be there twice
 };
+
+template <int D>
+MeetingCorners<D> corners_of(const Simplex<D>& face) {
+    MeetingCorners<D> result;
+    result.count = face.count;
+    for (std::size_t i = 0; i < face.count; ++i) {
+        result.a[i] = face.points[i].index_a;
+        result.b[i] = face.points[i].index_b;
+    }
+    return result;
+}
 
 template <int D>
 struct SignedDistance {

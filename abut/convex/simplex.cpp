@@ -8,17 +8,19 @@ namespace {
 /// The closest point on up to three of the simplex' points, their weights, and which of them count.
 template <int D>
 struct Candidate {
-    std::array<std::size_t, 3> which{};
-    std::array<double, 3> weights{};
-    std::size_t count = 0;
-    DVec<D> point{0.0};
-    double distance_squared = 0;
+    std::array<std::size_t, 3> which;
+    std::array<double, 3> weights;
+    std::size_t count;
+    DVec<D> point;
+    double distance_squared;
 };
 
 template <int D>
 Candidate<D> candidate(const Simplex<D>& simplex, std::initializer_list<std::size_t> which,
                        std::initializer_list<double> weights) {
     Candidate<D> result;
+    result.count = 0;
+    result.point = DVec<D>(0.0);
     auto weight = weights.begin();
     for (std::size_t i : which) {
         result.which[result.count] = i;
@@ -149,12 +151,15 @@ Candidate<D> closest_on_triangle(const Simplex<D>& simplex, std::size_t i, std::
 
 template <int D>
 DVec<D> keep(Simplex<D>& simplex, const Candidate<D>& best) {
-    const Simplex<D> before = simplex;
-    simplex.count = best.count;
-    for (std::size_t i = 0; i < best.count; ++i) {
-        simplex.points[i] = before.points[best.which[i]];
-        simplex.weights[i] = best.weights[i];
+    std::array<DifferencePoint<D>, 3> kept;
+    bool moves = false;
+    for (std::size_t i = 0; i < best.count; ++i) moves = moves || best.which[i] != i;
+    if (moves) {
+        for (std::size_t i = 0; i < best.count; ++i) kept[i] = simplex.points[best.which[i]];
+        for (std::size_t i = 0; i < best.count; ++i) simplex.points[i] = kept[i];
     }
+    for (std::size_t i = 0; i < best.count; ++i) simplex.weights[i] = best.weights[i];
+    simplex.count = best.count;
     return best.point;
 }
 

@@ -66,6 +66,11 @@ template <int D>
 CorePoint<D> local_support(const Convex<D>& convex, const DVec<D>& direction) {
     switch (convex.core) {
         case Core::points:
+            if constexpr (D == 3)
+                if (convex.lanes != nullptr) {
+                    const std::uint32_t best = farthest_point(*convex.lanes, direction);
+                    return {DVec<3>(convex.points[best]), best};
+                }
             return farthest_of(convex.vertices(), convex.count, direction);
         case Core::box:
             return farthest_corner(convex.own[0], direction);

@@ -8,6 +8,7 @@
 // the cores of two touching rounded shapes are apart by their radii.
 
 #include <abut/convex/facets.hpp>
+#include <abut/convex/point_lanes.hpp>
 #include <abut/math/aabb.hpp>
 #include <abut/math/linear.hpp>
 
@@ -47,9 +48,10 @@ struct Convex : Placement<D> {
     std::uint32_t count = 1;      ///< of points
     std::array<Vec<D>, 3> own{};  ///< up to three points; box: [0] the half extents; discs: [0], [1] their centres
     std::array<float, 2> disc_radius{};
-    const Vec<D>* points = nullptr;  ///< `count` points; null: they are in `own`
-    const Facets* facets = nullptr;  ///< of a polyhedron; else null
-    const void* object = nullptr;    ///< for `function`
+    const Vec<D>* points = nullptr;     ///< `count` points; null: they are in `own`
+    const PointLanes* lanes = nullptr;  ///< of the same points, where a shape keeps them; else null
+    const Facets* facets = nullptr;     ///< of a polyhedron; else null
+    const void* object = nullptr;       ///< for `function`
     Vec<D> (*function)(const void* object, const Vec<D>& direction) = nullptr;
 
     const Vec<D>* vertices() const { return points != nullptr ? points : own.data(); }
@@ -73,6 +75,24 @@ struct CorePoint {
     DVec<D> position{0.0};
     std::uint32_t index = 0;  ///< of the point or corner; 0 where a core has none
 };
+
+/// A corner of a core of points or of a box in its own frame, by its number.
+template <int D>
+DVec<D> own_corner(const Convex<D>& convex, std::uint32_t index) {
+    if (convex.core == Core::points) return DVec<D>(convex.vertices()[index]);
+    DVec<D> point(convex.own[0]);
+    for (int i = 0; i < D; ++i)
+        if ((index >> i & 1u) != 0) point[i] = -point[i];
+    return point;
+}
+
+/// Whether there is one of this number. Cores that are round have none.
+template <int D>
+bool has_corner(const Convex<D>& convex, std::uint32_t index) {
+    if (convex.inner_radius > 0) return false;
+    if (convex.core == Core::points) return index < convex.count;
+    return convex.core == Core::box && index < 1u << D;
+}
 
 /// The farthest point of the core and its inner ball (without the outer ball) along `direction`, which has any length
 /// but zero. Where several are equally far, the one of the lowest index.

@@ -13,12 +13,18 @@ constexpr Facets no_facets;
 }  // namespace
 
 struct Polyhedron::Data {
-    explicit Data(Hull3 built) : hull(std::move(built)), facets{hull.normals, hull.loops, hull.loop_ends, hull.edges} {}
+    explicit Data(Hull3 built)
+        : hull(std::move(built)),
+          facets{hull.normals, hull.loops, hull.loop_ends, hull.edges},
+          columns(3 * padded_count(hull.points.size())),
+          lanes(lay_out(hull.points, columns.data())) {}
     Data(const Data&) = delete;
     Data& operator=(const Data&) = delete;
 
     Hull3 hull;
     Facets facets;  ///< refers to `hull`
+    std::vector<float> columns;
+    PointLanes lanes;  ///< refers to `columns`
 };
 
 Result<Polyhedron> Polyhedron::build(std::span<const Vec3> points) {
@@ -61,6 +67,10 @@ Vec3 Polyhedron::centroid() const {
     return data_ ? data_->hull.centroid : zero;
 }
 
+const PointLanes* Polyhedron::lanes() const {
+    return data_ && fits_lanes(data_->lanes) ? &data_->lanes : nullptr;
+}
+
 Vec3 Polyhedron::normal() const {
     const std::span<const Vec3> corners = points();
     if (rank() == 0) return to_float(axis<3>(0));
@@ -87,6 +97,7 @@ Convex<3> convex(const Polyhedron& polyhedron, const Affine<3>& place) {
     const std::span<const Vec3> points = polyhedron.points();
     result.points = points.data();
     result.count = static_cast<std::uint32_t>(points.size());
+    result.lanes = polyhedron.lanes();
     if (!polyhedron.facets().normals.empty()) result.facets = &polyhedron.facets();
     return result;
 }

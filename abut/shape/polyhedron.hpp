@@ -56,6 +56,9 @@ public:
     /// the first axis. Of the thin or flat overlap of two shapes it is that of the plane they touch in, to either side.
     Vec3 normal() const;
 
+    /// The corners once more, for vector units; null where there are none of use to them.
+    const PointLanes* lanes() const;
+
 private:
     struct Data;
     std::shared_ptr<const Data> data_;  ///< null: the point 0, also after a move

@@ -3,6 +3,7 @@
 #include "../oracle/random.hpp"
 #include "../oracle/vector_units.hpp"
 #include <abut/convex/farthest_point.hpp>
+#include <abut/convex/point_lanes.hpp>
 
 #include <vector>
 
@@ -25,7 +26,7 @@ protected:
         for (std::uint64_t seed = 0; seed < 2000; ++seed) {
             SCOPED_TRACE(seed);
             oracle::Random random(seed);
-            const std::uint32_t count = 1 + random.below(70);
+            const std::uint32_t count = 1 + random.below(random.chance(0.1) ? 1500 : 70);
             std::vector<Vec<D>> points;
             // Half of them on a small lattice, where many are equally far.
             const bool lattice = random.chance(0.5);
@@ -38,7 +39,17 @@ protected:
             DVec<D> direction = random.in_cube<D>();
             if (lattice)
                 for (int k = 0; k < D; ++k) direction[k] = std::floor(2 * direction[k]);
-            EXPECT_EQ(farthest_point(points, direction), one_by_one<D>(points, direction));
+            const std::uint32_t expected = one_by_one<D>(points, direction);
+            EXPECT_EQ(farthest_point(points, direction), expected);
+            if constexpr (D == 3) {
+                if (!(largest(direction) > 0)) continue;
+                std::vector<float> memory(3 * padded_count(points.size()));
+                const PointLanes lanes = lay_out(points, memory.data());
+                EXPECT_EQ(farthest_point(lanes, direction), expected);
+                // Where floats would run over, or under.
+                const double scale = random.power_of_two(-300, 300);
+                EXPECT_EQ(farthest_point(lanes, direction * scale), one_by_one<D>(points, direction * scale));
+            }
         }
     }
 };

@@ -1,0 +1,346 @@
+// Compiled once for each kind of vector unit by Highway, which takes the best of them when the program runs.
+
+#include <abut/convex/quick_walk.hpp>
+
+#include <limits>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "abut/convex/quick_walk.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+// After them: once for each target.
+#include <abut/convex/farthest_lane-inl.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace abut::HWY_NAMESPACE {
+
+/// The corners of one of the two, in its own frame.
+class Corners {
+public:
+    explicit Corners(const Convex<3>& core) : half_(core.own[0]), box_(core.core == Core::box) {
+        if (box_) return;
+        if (core.lanes != nullptr)
+            lanes_ = *core.lanes;
+        else
+            lanes_ = lay_out({core.vertices(), core.count}, own_);
+    }
+
+    std::uint32_t farthest(const DVec<3>& direction) const {
+        if (!box_) return farthest_lane(lanes_, direction);
+        return (direction.x < 0 ? 1u : 0u) | (direction.y < 0 ? 2u : 0u) | (direction.z < 0 ? 4u : 0u);
+    }
+    DVec<3> position(std::uint32_t i) const {
+        if (!box_) return DVec<3>(lanes_.point(i));
+        return {(i & 1u) != 0 ? -half_.x : half_.x, (i & 2u) != 0 ? -half_.y : half_.y,
+                (i & 4u) != 0 ? -half_.z : half_.z};
+    }
+    DVec<3> middle() const { return box_ ? DVec<3>(0.0) : DVec<3>(lanes_.middle); }
+    double reach() const { return largest(box_ ? half_ : DVec<3>(lanes_.reach)); }
+
+private:
+    DVec<3> half_;
+    bool box_;
+    PointLanes lanes_;
+    float own_[3 * PointLanes::at_once];
+};
+
+struct Corner {
+    DVec<3> position;  ///< on A - B
+    std::uint32_t a, b;
+};
+
+/// A face of a simplex, by the numbers of its corners, and its point closest to the origin.
+struct Closest {
+    std::array<std::uint32_t, 3> corners;
+    std::uint32_t count;
+    DVec<3> point;
+    double distance_squared;
+};
+
+class QuickWalk {
+public:
+    QuickWalk(const Convex<3>& a, const Convex<3>& b, double enough)
+        : core_a_(a), a_(a), b_(b), unscale_(1 / (a.scale * a.scale)), enough_(enough / a.scale) {
+        for (std::size_t i = 0; i < 3; ++i) b_in_a_.column[i] = into_a(b.place.column[i]);
+        b_in_a_.offset = into_a(b.place.offset - a.place.offset);
+        scale_ = a_.reach() + b.scale / a.scale * b_.reach() * 2 + largest(b_in_a_.offset);
+    }
+
+    QuickExit run(QuickSimplex& simplex, Trace<3>* trace) {
+        for (std::uint32_t i = 0; i < simplex.count; ++i)
+            corners_[count_++] = corner(simplex.corner_a[i], simplex.corner_b[i]);
+        const QuickExit exit = begin(simplex.toward) ? walk(trace) : QuickExit::overlapping;
+        for (std::uint32_t i = 0; i < count_; ++i) {
+            simplex.corner_a[i] = corners_[i].a;
+            simplex.corner_b[i] = corners_[i].b;
+        }
+        simplex.count = count_;
+        simplex.toward = core_a_.place.vector(-closest_);
+        return exit;
+    }
+
+    /// Where the walk stopped. False within the rounding, and on slivers whose weights are. A point that isn't on the
+    /// simplex may be as near to the origin as a plane of it, and nearer than all of A - B.
+    HWY_INLINE bool gap(QuickGap& gap) const {
+        const std::array<double, 3> weights = weights_of_closest();
+        DVec<3> sum(0.0), on_a(0.0);
+        for (std::uint32_t i = 0; i < count_; ++i) {
+            sum += corners_[i].position * weights[i];
+            on_a += a_.position(corners_[i].a) * weights[i];
+        }
+        const double reached = length(sum);
+        gap.reached = reached * core_a_.scale;
+        gap.proven = along_ / std::sqrt(distance_squared_) * core_a_.scale;
+        gap.on_a = core_a_.place.point(on_a);
+        const bool on_simplex = weights[0] >= 0 && weights[1] >= 0 && weights[2] >= 0;
+        return on_simplex && reached > 1e-6 * scale_ && largest(sum - closest_) <= 1e-9 * reached;
+    }
+
+private:
+    static constexpr int most_steps = 64;
+
+    HWY_INLINE DVec<3> into_a(const DVec<3>& v) const { return core_a_.place.transposed(v) * unscale_; }
+
+    HWY_INLINE Corner corner(std::uint32_t a, std::uint32_t b) const {
+        return {a_.position(a) - b_in_a_.point(b_.position(b)), a, b};
+    }
+    HWY_INLINE Corner farthest(const DVec<3>& toward) const {
+        return corner(a_.farthest(toward), b_.farthest(b_in_a_.transposed(-toward)));
+    }
+    bool holds(const Corner& corner) const {
+        for (std::uint32_t i = 0; i < count_; ++i)
+            if (corners_[i].a == corner.a && corners_[i].b == corner.b) return true;
+        return false;
+    }
+
+    /// False where the corners given hold the origin.
+    bool begin(const DVec<3>& toward) {
+        if (count_ == 4 && certainly_inside()) return false;
+        if (count_ > 0 && !(largest(toward) > 0)) {
+            const Closest closest = closest_of_all();
+            keep(closest);
+            distance_squared_ = closest.distance_squared;
+            return true;
+        }
+        count_ = 0;
+        closest_ = -into_a(toward);
+        if (!(largest(closest_) > 0)) closest_ = a_.middle() - b_in_a_.point(b_.middle());
+        if (!(largest(closest_) > 0)) closest_.x = 1;
+        return true;
+    }
+
+    QuickExit walk(Trace<3>* trace) {
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        for (int step = 0; step < most_steps; ++step) {
+            if (count_ > 0) record(trace);
+            const Corner next = farthest(-closest_);
+            const double along = along_ = dot(next.position, closest_);
+            // Doubts are ten thousand times what rounding comes to.
+            if (along > 0 && enough_ < infinity) {
+                const double least = enough_ + 1e-11 * scale_;
+                if (along * along > least * least * length_squared(closest_)) return QuickExit::apart;
+            }
+            if (count_ > 0 && (holds(next) || distance_squared_ - along <= 1e-13 * distance_squared_))
+                return QuickExit::stopped;
+            corners_[count_] = next;
+            const Closest nearer = closest_of_grown();
+            if (nearer.count == 0) {
+                ++count_;
+                return certainly_inside() ? QuickExit::overlapping : QuickExit::lost;
+            }
+            if (!(nearer.distance_squared < distance_squared_)) return QuickExit::stopped;
+            keep(nearer);
+            distance_squared_ = nearer.distance_squared;
+            if (distance_squared_ <= 1e-24 * scale_ * scale_) return QuickExit::lost;
+        }
+        return QuickExit::lost;
+    }
+
+    HWY_INLINE void keep(const Closest& face) {
+        // Their numbers rise.
+        for (std::uint32_t i = 0; i < face.count; ++i) corners_[i] = corners_[face.corners[i]];
+        count_ = face.count;
+        closest_ = face.point;
+    }
+
+    void record(Trace<3>* trace) const {
+        if (trace == nullptr) return;
+        GjkStep<3> step;
+        step.count = count_;
+        for (std::uint32_t i = 0; i < count_; ++i)
+            step.points[i] = to_float(core_a_.place.vector(corners_[i].position));
+        step.closest = to_float(core_a_.place.vector(closest_));
+        trace->steps.push_back(step);
+    }
+
+    /// Up to three, in the order of the corners: how near the point is to each, by lengths or areas.
+    HWY_INLINE std::array<double, 3> weights_of_closest() const {
+        if (count_ == 1) return {1, 0, 0};
+        const DVec<3>&a = corners_[0].position, &b = corners_[1].position;
+        if (count_ == 2) {
+            const double to_a = dot(b, b - a), to_b = dot(a, a - b), whole = to_a + to_b;
+            return {to_a / whole, to_b / whole, 0};
+        }
+        const DVec<3>&c = corners_[2].position, normal = cross(b - a, c - a);
+        const double to_a = dot(cross(b, c), normal), to_b = dot(cross(c, a), normal), to_c = dot(cross(a, b), normal);
+        const double whole = to_a + to_b + to_c;
+        return {to_a / whole, to_b / whole, to_c / whole};
+    }
+
+    static HWY_INLINE Closest at_corner(std::uint32_t i, const DVec<3>& point) {
+        return {{i}, 1, point, length_squared(point)};
+    }
+
+    /// The closest points of simplices that a corner was added to, the last: nearer than all there was before. So it is
+    /// on one of the faces at the new corner.
+    HWY_INLINE Closest closest_of_grown() const {
+        switch (count_) {
+            case 0:
+                return at_corner(0, corners_[0].position);
+            case 1:
+                return on_edge(0, 1);
+            case 2:
+                return on_triangle(0, 1, 2, cross_from(2, 0, 1));
+            default:
+                return on_tetrahedron();
+        }
+    }
+
+    HWY_INLINE DVec<3> cross_from(std::uint32_t from, std::uint32_t i, std::uint32_t j) const {
+        const DVec<3>& a = corners_[from].position;
+        return cross(corners_[i].position - a, corners_[j].position - a);
+    }
+
+    /// Of the edge from a corner to the newest.
+    HWY_INLINE Closest on_edge(std::uint32_t i, std::uint32_t newest) const {
+        const DVec<3>& a = corners_[newest].position;
+        const DVec<3> edge = corners_[i].position - a;
+        const double along = -dot(a, edge);
+        if (!(along > 0)) return at_corner(newest, a);
+        const DVec<3> point = a + edge * std::min(along / length_squared(edge), 1.0);
+        return {{i, newest}, 2, point, length_squared(point)};
+    }
+
+    /// Of the triangle of two corners and the newest, with its normal (b - a) x (c - a).
+    HWY_INLINE Closest on_triangle(std::uint32_t i, std::uint32_t j, std::uint32_t newest,
+                                   const DVec<3>& normal) const {
+        const DVec<3>&a = corners_[newest].position, &b = corners_[i].position, &c = corners_[j].position;
+        const bool beyond_b = !(dot(cross(a, b), normal) > 0), beyond_c = !(dot(cross(c, a), normal) > 0);
+        if (!beyond_b && !beyond_c) {
+            const DVec<3> foot = normal * (dot(normal, a) / length_squared(normal));
+            return {{i, j, newest}, 3, foot, length_squared(foot)};
+        }
+        if (!beyond_c) return on_edge(i, newest);
+        if (!beyond_b) return on_edge(j, newest);
+        return better(on_edge(i, newest), on_edge(j, newest));
+    }
+
+    static HWY_INLINE Closest better(const Closest& a, const Closest& b) {
+        return b.distance_squared < a.distance_squared ? b : a;
+    }
+
+    /// Of no corners where the origin is inside.
+    HWY_INLINE Closest on_tetrahedron() const {
+        const DVec<3>& a = corners_[3].position;
+        const DVec<3> b = corners_[0].position - a, c = corners_[1].position - a, d = corners_[2].position - a;
+        const DVec<3> bc = cross(b, c), cd = cross(c, d), db = cross(d, b);
+        const double sign = dot(bc, d) < 0 ? -1 : 1;
+        Closest best{{}, 0, DVec<3>(0.0), std::numeric_limits<double>::infinity()};
+        if (sign * dot(bc, a) > 0) best = better(best, on_triangle(0, 1, 3, bc));
+        if (sign * dot(cd, a) > 0) best = better(best, on_triangle(1, 2, 3, cd));
+        if (sign * dot(db, a) > 0) best = better(best, on_triangle(0, 2, 3, -db));
+        return best;
+    }
+
+    /// The same of any simplex, of which nothing is known.
+    Closest closest_of_all() const {
+        if (count_ == 1) return at_corner(0, corners_[0].position);
+        if (count_ == 2) return on_whole_edge(0, 1);
+        if (count_ == 3) return on_whole_triangle(0, 1, 2);
+        return better(better(on_whole_triangle(0, 1, 2), on_whole_triangle(0, 1, 3)),
+                      better(on_whole_triangle(0, 2, 3), on_whole_triangle(1, 2, 3)));
+    }
+    Closest on_whole_edge(std::uint32_t i, std::uint32_t j) const {
+        return better(at_corner(i, corners_[i].position), on_edge(i, j));
+    }
+    Closest on_whole_triangle(std::uint32_t i, std::uint32_t j, std::uint32_t k) const {
+        const DVec<3> normal = cross_from(k, i, j);
+        const Closest face = on_triangle(i, j, k, normal);
+        const bool inside = face.count == 3 && dot(cross(corners_[i].position, corners_[j].position), normal) > 0;
+        return inside ? face : better(on_whole_edge(i, j), better(on_whole_edge(j, k), on_whole_edge(i, k)));
+    }
+
+    /// Whether the origin is inside the tetrahedron, farther from all its sides than rounding could be wrong by.
+    bool certainly_inside() const {
+        const DVec<3>&a = corners_[0].position, &b = corners_[1].position, &c = corners_[2].position,
+              &d = corners_[3].position;
+        const DVec<3> ab = cross(a, b), cd = cross(c, d);
+        // Six times the volumes between the origin and a side.
+        const double volumes[4] = {dot(cd, b), -dot(cd, a), dot(ab, d), -dot(ab, c)};
+        const double least = 1e-12 * scale_ * scale_ * scale_;
+        const double sign = volumes[0] < 0 ? -1 : 1;
+        bool inside = true;
+        for (const double volume : volumes) inside = inside && sign * volume > least;
+        return inside;
+    }
+
+    const Convex<3>& core_a_;
+    Corners a_, b_;
+    double unscale_, enough_;
+    Affine<3> b_in_a_;
+    double scale_;  ///< no coordinate is larger
+    DVec<3> closest_{0.0};
+    double distance_squared_ = std::numeric_limits<double>::infinity();  ///< of `closest_`, where there are corners
+    double along_ = 0;  ///< the farthest of A - B towards the origin, times the length of `closest_`
+    std::array<Corner, 4> corners_;
+    std::uint32_t count_ = 0;
+};
+
+QuickExit decide(const Convex<3>& a, const Convex<3>& b, double enough, QuickSimplex& simplex, Trace<3>* trace) {
+    return QuickWalk(a, b, enough).run(simplex, trace);
+}
+
+QuickExit find_gap(const Convex<3>& a, const Convex<3>& b, QuickSimplex& simplex, QuickGap& gap, Trace<3>* trace) {
+    QuickWalk walk(a, b, std::numeric_limits<double>::infinity());
+    const QuickExit exit = walk.run(simplex, trace);
+    return exit == QuickExit::stopped && !walk.gap(gap) ? QuickExit::lost : exit;
+}
+
+}  // namespace abut::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace abut {
+namespace {
+
+bool has_few_or_lanes(const Convex<3>& core) {
+    if (core.inner_radius > 0) return false;
+    if (core.core == Core::box) return true;
+    if (core.core != Core::points || core.lanes != nullptr) return core.lanes != nullptr;
+    if (core.count > PointLanes::at_once) return false;
+    for (std::uint32_t i = 0; i < core.count; ++i)
+        if (largest(DVec<3>(core.vertices()[i])) > static_cast<double>(PointLanes::most)) return false;
+    return true;
+}
+
+}  // namespace
+
+HWY_EXPORT(decide);
+HWY_EXPORT(find_gap);
+
+bool quick_to_walk(const Convex<3>& a, const Convex<3>& b) {
+    if (a.core == Core::box && b.core == Core::box) return false;
+    return a.similar && b.similar && a.scale > 0 && b.scale > 0 && has_few_or_lanes(a) && has_few_or_lanes(b);
+}
+
+QuickExit quick_gap(const Convex<3>& a, const Convex<3>& b, QuickSimplex& simplex, QuickGap& gap, Trace<3>* trace) {
+    return HWY_DYNAMIC_DISPATCH(find_gap)(a, b, simplex, gap, trace);
+}
+
+QuickExit quick_decision(const Convex<3>& a, const Convex<3>& b, double enough, QuickSimplex& simplex,
+                         Trace<3>* trace) {
+    return HWY_DYNAMIC_DISPATCH(decide)(a, b, enough, simplex, trace);
+}
+
+}  // namespace abut
+#endif
