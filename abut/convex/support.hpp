@@ -54,6 +54,10 @@ struct Convex : Placement<D> {
     const void* object = nullptr;       ///< for `function`
     Vec<D> (*function)(const void* object, const Vec<D>& direction) = nullptr;
 
+    /// Written out, so that compilers fill it member by member: to clear all of it first, as they do otherwise, is
+    /// slow.
+    Convex() {}
+
     const Vec<D>* vertices() const { return points != nullptr ? points : own.data(); }
 };
 

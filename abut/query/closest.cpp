@@ -20,15 +20,11 @@ float first_step(const View<D>& a, const View<D>& b, float start) {
 }
 
 template <int D>
-Closest<D> answer(const SignedDistance<D>& distance, const std::array<Feature, 2>& features) {
-    Closest<D> result;
+void write(const SignedDistance<D>& distance, Closest<D>& result) {
     result.distance = static_cast<float>(distance.distance);
     result.normal = to_float(distance.normal);
     result.on_a = to_float(distance.on_a);
     result.on_b = to_float(distance.on_b());
-    result.feature_a = features[0];
-    result.feature_b = features[1];
-    return result;
 }
 
 template <int D>
@@ -45,7 +41,7 @@ public:
                                any_ = true;
                                least_ = distance;
                                // Now, while the parts are there: a composite shape may make them up as it goes.
-                               features_ = features_of(part_a, part_b, distance, index_a, index_b);
+                               name_features(part_a, part_b, distance, index_a, index_b, found_);
                            }
                            return true;
                        });
@@ -53,24 +49,31 @@ public:
 
     bool any() const { return any_; }
     double distance() const { return least_.distance; }
-    Closest<D> found() const { return any_ ? answer(least_, features_) : Closest<D>(); }
+    Closest<D> found() const {
+        Closest<D> result = found_;
+        if (any_) write(least_, result);
+        return result;
+    }
 
 private:
     SearchOptions<D> options_;
     bool any_ = false;
     SignedDistance<D> least_{};
-    std::array<Feature, 2> features_{};
+    Closest<D> found_;  ///< its features
 };
 
 }  // namespace
 
 template <int D>
 Closest<D> closest(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options) {
+    Closest<D> result;
     const bool finite = is_finite(a) && is_finite(b);
     ABUT_ASSERT(finite);
-    if (!finite) return {};
+    if (!finite) return result;
     const SignedDistance<D> distance = part_distance(a, b, {options.cache, options.trace});
-    return answer(distance, features_of(a, b, distance, 0, 0));
+    write(distance, result);
+    name_features(a, b, distance, 0, 0, result);
+    return result;
 }
 
 template <int D>

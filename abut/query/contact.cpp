@@ -23,36 +23,30 @@ bool part_contact(const Solid<D>& a, const Convex<D>& b, double reach, double ma
 }
 
 template <int D>
-Contact<D> nothing() {
-    Contact<D> result;
-    result.normal[0] = 1;
-    return result;
-}
-
-template <int D>
-Contact<D> answer(const PartContact<D>& found, const std::array<Feature, 2>& features) {
-    Contact<D> result;
+void write(const PartContact<D>& found, Contact<D>& result) {
     result.normal = to_float(found.distance.normal);
     result.depth = static_cast<float>(-found.distance.distance);
+    result.points = {};
     for (std::size_t i = 0; i < found.manifold.count; ++i) {
         const ManifoldPoint<D>& point = found.manifold.points[i];
         result.points.push_back({to_float(point.position), static_cast<float>(point.depth), point.feature});
     }
-    result.feature_a = features[0];
-    result.feature_b = features[1];
-    return result;
 }
 
 }  // namespace
 
 template <int D>
 Contact<D> contact(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options) {
+    Contact<D> result;
+    result.normal[0] = 1;
     const bool finite = is_finite(a) && is_finite(b);
     ABUT_ASSERT(finite);
     const double margin = static_cast<double>(options.margin);
     PartContact<D> found;
-    if (!finite || !part_contact(a, b, margin, margin, {options.cache, options.trace}, found)) return nothing<D>();
-    return answer(found, features_of(a, b, found.distance, 0, 0));
+    if (!finite || !part_contact(a, b, margin, margin, {options.cache, options.trace}, found)) return result;
+    write(found, result);
+    name_features(a, b, found.distance, 0, 0, result);
+    return result;
 }
 
 template <int D>
@@ -61,7 +55,8 @@ Contact<D> contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& op
     if (convex_a != nullptr && convex_b != nullptr) return contact(*convex_a, *convex_b, options);
     const bool finite = is_finite(a) && is_finite(b);
     ABUT_ASSERT(finite);
-    Contact<D> result = nothing<D>();
+    Contact<D> result;
+    result.normal[0] = 1;
     if (!finite) return result;
     const double margin = static_cast<double>(options.margin);
     const SearchOptions<D> search = search_options(a, b, options);
@@ -74,7 +69,8 @@ Contact<D> contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& op
                        if (result && distance.distance == least) return true;
                        // Now, while the parts are there: a composite shape may make them up as it goes.
                        least = distance.distance;
-                       result = answer(found, features_of(part_a, part_b, distance, index_a, index_b));
+                       write(found, result);
+                       name_features(part_a, part_b, distance, index_a, index_b, result);
                        return true;
                    });
     return result;

@@ -26,21 +26,8 @@ SignedDistance<D> part_distance(const Solid<D>& a, const Convex<D>& b, const Sea
 
 namespace {
 
-/// The distinct ones among them.
-template <int D>
-struct Numbers {
-    CornerNumbers<D> all{};
-    std::size_t count = 0;
-
-    Numbers(const CornerNumbers<D>& corners, std::size_t corner_count) {
-        for (std::size_t i = 0; i < corner_count; ++i)
-            if (std::find(all.begin(), all.begin() + count, corners[i]) == all.begin() + count)
-                all[count++] = corners[i];
-    }
-};
-
 /// Of a box, whose corners tell by their bits what they span. Without guesses at which it is: it is another each time.
-Feature feature_on_box(const CornerNumbers<3>& corners, std::size_t count, std::uint32_t number) {
+void name_box_feature(const CornerNumbers<3>& corners, std::size_t count, Feature& feature) {
     const std::uint32_t first = corners[0];
     std::uint32_t free = 0, seen = 0;
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -49,11 +36,14 @@ Feature feature_on_box(const CornerNumbers<3>& corners, std::size_t count, std::
         seen |= 1u << (corner & 7u);
     }
     const std::uint32_t all_but_two = (seen & (seen - 1)) & ((seen & (seen - 1)) - 1);
-    if (free == 0) return {number, first, FeatureKind::vertex};
-    if (all_but_two == 0) return {number, edge_index(first, first ^ free), FeatureKind::edge};
     // The bit on which the corners agree is the axis of their side.
     const std::uint32_t axis = (free & 1u) == 0 ? 0 : (free & 2u) == 0 ? 1 : (free & 4u) == 0 ? 2 : 3;
-    return {number, axis == 3 ? 0 : 2 * axis + (first >> axis & 1u), FeatureKind::face};
+    const bool is_corner = free == 0, is_edge = all_but_two == 0;
+    feature.kind = is_corner ? FeatureKind::vertex : is_edge ? FeatureKind::edge : FeatureKind::face;
+    feature.index = is_corner   ? first
+                    : is_edge   ? edge_index(first, first ^ free)
+                    : axis == 3 ? 0
+                                : 2 * axis + (first >> axis & 1u);
 }
 
 std::uint32_t face_number(const Convex<3>& part, const DVec<3>& out) {
@@ -69,29 +59,48 @@ std::uint32_t face_number(const Convex<3>& part, const DVec<3>& out) {
 }  // namespace
 
 template <int D>
-Feature feature_on(const Convex<D>& part, const CornerNumbers<D>& corners, std::size_t count,
-                   [[maybe_unused]] const DVec<D>& out, std::uint32_t number) {
-    if (!has_features(part)) return {number, 0, FeatureKind::none};
+void name_feature(const Convex<D>& part, const CornerNumbers<D>& corners, std::size_t count,
+                  [[maybe_unused]] const DVec<D>& out, std::uint32_t number, Feature& feature) {
+    feature.part = number;
+    feature.index = 0;
+    feature.kind = FeatureKind::none;
+    if (!has_features(part)) return;
     if constexpr (D == 3)
-        if (part.core == Core::box) return feature_on_box(corners, count, number);
-    const Numbers<D> numbers(corners, count);
-    if (numbers.count == 1) return {number, numbers.all[0], FeatureKind::vertex};
-    if constexpr (D == 3)
-        if (numbers.count > 2) return {number, face_number(part, out), FeatureKind::face};
-    return {number, edge_index(numbers.all[0], numbers.all[1]), FeatureKind::edge};
+        if (part.core == Core::box) return name_box_feature(corners, count, feature);
+    // The same corner may be told twice.
+    std::size_t i = 1;
+    while (i < count && corners[i] == corners[0]) ++i;
+    if (i >= count) {
+        feature.index = corners[0];
+        feature.kind = FeatureKind::vertex;
+        return;
+    }
+    const std::uint32_t other = corners[i];
+    if constexpr (D == 3) {
+        while (i < count && (corners[i] == corners[0] || corners[i] == other)) ++i;
+        if (i < count) {
+            feature.index = face_number(part, out);
+            feature.kind = FeatureKind::face;
+            return;
+        }
+    }
+    feature.index = edge_index(corners[0], other);
+    feature.kind = FeatureKind::edge;
 }
 
 template <int D>
-Feature feature_on(const Solid<D>&, const CornerNumbers<D>&, std::size_t, const DVec<D>&, std::uint32_t number) {
-    return {number, 0, FeatureKind::none};
+void name_feature(const Solid<D>&, const CornerNumbers<D>&, std::size_t, const DVec<D>&, std::uint32_t number,
+                  Feature& feature) {
+    feature = {number, 0, FeatureKind::none};
 }
 
-#define ABUT_INSTANTIATE(D)                                                                               \
-    template SignedDistance<D> part_distance(const Convex<D>&, const Solid<D>&, const SearchOptions<D>&); \
-    template SignedDistance<D> part_distance(const Solid<D>&, const Convex<D>&, const SearchOptions<D>&); \
-    template Feature feature_on(const Convex<D>&, const CornerNumbers<D>&, std::size_t, const DVec<D>&,   \
-                                std::uint32_t);                                                           \
-    template Feature feature_on(const Solid<D>&, const CornerNumbers<D>&, std::size_t, const DVec<D>&, std::uint32_t);
+#define ABUT_INSTANTIATE(D)                                                                                           \
+    template SignedDistance<D> part_distance(const Convex<D>&, const Solid<D>&, const SearchOptions<D>&);             \
+    template SignedDistance<D> part_distance(const Solid<D>&, const Convex<D>&, const SearchOptions<D>&);             \
+    template void name_feature(const Convex<D>&, const CornerNumbers<D>&, std::size_t, const DVec<D>&, std::uint32_t, \
+                               Feature&);                                                                             \
+    template void name_feature(const Solid<D>&, const CornerNumbers<D>&, std::size_t, const DVec<D>&, std::uint32_t,  \
+                               Feature&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

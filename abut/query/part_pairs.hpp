@@ -56,20 +56,29 @@ SearchOptions<D> search_options(const View<D>& a, const View<D>& b, const QueryO
 }
 
 /// The feature of a part that its witness point lies on, by the corners it is made of; `out` is the normal out of it.
+/// Written where it is wanted: a feature that is handed on is read before its parts have arrived in memory.
 template <int D>
-Feature feature_on(const Convex<D>& part, const CornerNumbers<D>& corners, std::size_t count, const DVec<D>& out,
-                   std::uint32_t number);
+void name_feature(const Convex<D>& part, const CornerNumbers<D>& corners, std::size_t count, const DVec<D>& out,
+                  std::uint32_t number, Feature& feature);
 template <int D>
-Feature feature_on(const Solid<D>& part, const CornerNumbers<D>& corners, std::size_t count, const DVec<D>& out,
-                   std::uint32_t number);
+void name_feature(const Solid<D>& part, const CornerNumbers<D>& corners, std::size_t count, const DVec<D>& out,
+                  std::uint32_t number, Feature& feature);
 
-/// Those of both parts, the first of them A.
-template <int D, class PartA, class PartB>
-std::array<Feature, 2> features_of(const PartA& part_a, const PartB& part_b, const SignedDistance<D>& distance,
-                                   std::uint32_t number_a, std::uint32_t number_b) {
+template <int D, class Part>
+Feature feature_on(const Part& part, const CornerNumbers<D>& corners, std::size_t count, const DVec<D>& out,
+                   std::uint32_t number) {
+    Feature result;
+    name_feature(part, corners, count, out, number, result);
+    return result;
+}
+
+/// Those of both parts.
+template <int D, class PartA, class PartB, class Answer>
+void name_features(const PartA& part_a, const PartB& part_b, const SignedDistance<D>& distance, std::uint32_t number_a,
+                   std::uint32_t number_b, Answer& answer) {
     const MeetingCorners<D>& corners = distance.corners;
-    return {feature_on(part_a, corners.a, corners.count, distance.normal, number_a),
-            feature_on(part_b, corners.b, corners.count, -distance.normal, number_b)};
+    name_feature(part_a, corners.a, corners.count, distance.normal, number_a, answer.feature_a);
+    name_feature(part_b, corners.b, corners.count, -distance.normal, number_b, answer.feature_b);
 }
 
 }  // namespace abut

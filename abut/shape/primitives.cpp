@@ -10,6 +10,15 @@
 namespace abut {
 namespace {
 
+template <int D, class... Points>
+Convex<D> points_with_ball(float radius, const Points&... points) {
+    Convex<D> result;
+    result.count = 0;
+    ((result.own[result.count++] = points), ...);
+    result.radius = static_cast<double>(radius);
+    return result;
+}
+
 template <int D>
 Convex<D> box_about(const Affine<D>& place, const Vec<D>& half) {
     Convex<D> result;
@@ -31,22 +40,22 @@ Convex<3> discs(const Vec3& a, const Vec3& b, float radius_a, float radius_b) {
 
 template <int D>
 Convex<D> convex(const Ball<D>& ball) {
-    return round_points<D>({ball.center}, ball.radius);
+    return points_with_ball<D>(ball.radius, ball.center);
 }
 
 template <int D>
 Convex<D> convex(const Capsule<D>& capsule) {
-    return round_points<D>({capsule.a, capsule.b}, capsule.radius);
+    return points_with_ball<D>(capsule.radius, capsule.a, capsule.b);
 }
 
 template <int D>
 Convex<D> convex(const Segment<D>& segment) {
-    return round_points<D>({segment.a, segment.b}, 0);
+    return points_with_ball<D>(0, segment.a, segment.b);
 }
 
 template <int D>
 Convex<D> convex(const Triangle<D>& triangle) {
-    return round_points<D>({triangle.a, triangle.b, triangle.c}, 0);
+    return points_with_ball<D>(0, triangle.a, triangle.b, triangle.c);
 }
 
 template <int D>

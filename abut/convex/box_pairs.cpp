@@ -1,0 +1,221 @@
+// A point or a segment and a box, seen from the box's own frame.
+
+#include <abut/convex/round_pairs.hpp>
+
+namespace abut {
+namespace {
+
+/// What is nearer than this, in parts of the largest coordinate, has a direction that may be rounding.
+constexpr double near = 1e-7;
+/// By so much, in the same parts, may a proof fall short of what it proves.
+constexpr double doubt = 1e-9;
+
+inline DVec<3> seen_from(const Convex<3>& box, const Convex<3>& convex, std::uint32_t corner) {
+    const DVec<3> local = box.place.transposed(core_corner(convex, corner) - box.place.offset);
+    return box.scale == 1 ? local : local / (box.scale * box.scale);
+}
+
+DVec<3> within(const DVec<3>& half, const DVec<3>& point) {
+    return {std::min(std::max(point.x, -half.x), half.x), std::min(std::max(point.y, -half.y), half.y),
+            std::min(std::max(point.z, -half.z), half.z)};
+}
+
+/// The corners of a part of the box: where the axes in `fixed` are at one end, those in `low` at the low one. Of a face
+/// three.
+void name_part(std::uint32_t fixed, std::uint32_t low, MeetingCorners<3>& corners) {
+    corners.a[0] = low;
+    corners.count = 1;
+    for (std::uint32_t i = 0; i < 3; ++i)
+        if ((fixed >> i & 1u) == 0) corners.a[corners.count++] = low | 1u << i;
+}
+
+/// Adds those of the place on a segment, by its part of the way.
+void name_place(double part, MeetingCorners<3>& corners) {
+    const std::uint32_t first = part >= 1 ? 1 : 0, last = part <= 0 ? 0 : 1;
+    if (first != last && corners.count == 1) corners.a[corners.count++] = corners.a[0];
+    for (std::size_t i = 0; i < corners.count; ++i) corners.b[i] = i == 0 ? first : last;
+}
+
+/// Takes the answer for the cores back into the world.
+void place_answer(const Convex<3>& box, const Convex<3>& other, double distance, const DVec<3>& normal,
+                  const DVec<3>& on_box, SignedDistance<3>& result) {
+    result.normal = box.place.vector(normal);
+    if (box.scale != 1) {
+        result.normal = result.normal / box.scale;
+        distance *= box.scale;
+    }
+    result.distance = distance - box.radius - other.radius;
+    result.on_a = box.place.point(on_box) + result.normal * box.radius;
+}
+
+/// A segment seen from a box.
+struct SeenSegment {
+    DVec<3> half;  ///< of the box
+    DVec<3> from, to, along;
+    double scale;  ///< the largest coordinate
+
+    DVec<3> at(double part) const { return part >= 1 ? to : from + along * part; }
+};
+
+/// How fast the square of the distance from the box grows along the segment, halved.
+double slope(const SeenSegment& s, double part) {
+    const DVec<3> point = s.from + s.along * part;
+    return dot(point - within(s.half, point), s.along);
+}
+
+/// The part of the way at which the segment is nearest to the box. The slope never falls along the way, and changes its
+/// law only where the segment passes one of the planes of the six sides: between the last of them where it falls and
+/// the first where it doesn't, it is a line.
+double nearest_part(const SeenSegment& s) {
+    if (slope(s, 0) >= 0) return 0;
+    if (dot(s.to - within(s.half, s.to), s.along) <= 0) return 1;
+    double low = 0, high = 1;
+    for (int i = 0; i < 3; ++i) {
+        const double one = s.along[i] != 0 ? 1 / s.along[i] : 0;
+        for (const double side : {-s.half[i], s.half[i]}) {
+            const double part = std::min(std::max((side - s.from[i]) * one, 0.0), 1.0);
+            const bool falls = slope(s, part) < 0;
+            low = falls ? std::max(low, part) : low;
+            high = falls ? high : std::min(high, part);
+        }
+    }
+    const DVec<3> middle = s.at(0.5 * (low + high)), inside = within(s.half, middle);
+    double whole = 0, along = 0;
+    for (int i = 0; i < 3; ++i) {
+        const double weight = middle[i] != inside[i] ? s.along[i] : 0;
+        whole += weight * weight;
+        along += weight * (inside[i] - s.from[i]);
+    }
+    return whole > 0 ? std::min(std::max(along / whole, low), high) : low;
+}
+
+/// A direction out of the box along which it and the segment are least deep in one another.
+struct Way {
+    double separation = -std::numeric_limits<double>::infinity();
+    DVec<3> out{0.0};
+    int axis = 0;          ///< of the side of the box, or of the edge that meets the segment
+    bool of_side = false;  ///< else of an edge
+};
+
+/// All sides of the difference of a box and a segment: those of the box, and those that an edge makes with the segment.
+Way way_out(const SeenSegment& s) {
+    Way best;
+    const DVec<3> middle = (s.from + s.to) * 0.5;
+    for (int i = 0; i < 3; ++i) {
+        const double separation = std::abs(middle[i]) - s.half[i] - 0.5 * std::abs(s.along[i]);
+        if (!(separation > best.separation)) continue;
+        best = {separation, axis<3>(i, middle[i] < 0 ? -1 : 1), i, true};
+    }
+    const double least = 1e-18 * length_squared(s.along);
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        const double square = s.along[j] * s.along[j] + s.along[k] * s.along[k];
+        if (!(square > least)) continue;
+        const double across = std::sqrt(square), height = middle[k] * s.along[j] - middle[j] * s.along[k];
+        const double separation =
+            (std::abs(height) - s.half[j] * std::abs(s.along[k]) - s.half[k] * std::abs(s.along[j])) / across;
+        if (!(separation > best.separation + doubt * s.scale)) continue;
+        const double sign = height < 0 ? -1 / across : 1 / across;
+        best = {separation, DVec<3>(0.0), i, false};
+        best.out[j] = -s.along[k] * sign;
+        best.out[k] = s.along[j] * sign;
+    }
+    return best;
+}
+
+/// The place of the segment that is deepest below the side: an end, or what of the segment lies over the side.
+double part_below(const SeenSegment& s, const Way& way) {
+    double low = 0, high = 1;
+    for (int i = 0; i < 3; ++i) {
+        if (i == way.axis || s.along[i] == 0) continue;
+        const double one = 1 / s.along[i], a = (-s.half[i] - s.from[i]) * one, b = (s.half[i] - s.from[i]) * one;
+        low = std::max(low, std::min(a, b));
+        high = std::min(high, std::max(a, b));
+    }
+    const double deepest = s.along[way.axis] * way.out[way.axis] > 0 ? 0 : 1;
+    return std::min(std::max(deepest, low), high);
+}
+
+/// The place of the segment that is nearest to the line of the edge at `corner`, seen along the way out.
+double part_beside(const SeenSegment& s, const Way& way, const DVec<3>& corner) {
+    const DVec<3> across = cross(axis<3>(way.axis), way.out);
+    return std::min(std::max(dot(across, corner - s.from) / dot(across, s.along), 0.0), 1.0);
+}
+
+/// Where the cores overlap or hardly miss, `gap` apart.
+bool deep_in_box(const Convex<3>& box, const Convex<3>& segment, const SeenSegment& s, double gap,
+                 SignedDistance<3>& result) {
+    const Way way = way_out(s);
+    if (way.separation > 0 && gap - way.separation > doubt * s.scale) return false;
+    DVec<3> on_box = s.half;
+    for (int i = 0; i < 3; ++i) on_box[i] = way.out[i] < 0 ? -s.half[i] : s.half[i];
+    const double part = way.of_side ? part_below(s, way) : part_beside(s, way, on_box);
+    const DVec<3> on_segment = s.at(part), inside = within(s.half, on_segment);
+    for (int i = 0; i < 3; ++i)
+        if (way.of_side != (i == way.axis)) on_box[i] = inside[i];
+    // The places must be as deep as the way out is long, one right above the other.
+    if (largest(on_segment - on_box - way.out * way.separation) > doubt * s.scale) return false;
+
+    place_answer(box, segment, way.separation, way.out, on_box, result);
+    std::uint32_t low = 0;
+    for (int i = 0; i < 3; ++i) low |= way.out[i] < 0 ? 1u << i : 0u;
+    const std::uint32_t bit = 1u << way.axis;
+    name_part(way.of_side ? bit : 7u & ~bit, low, result.corners);
+    name_place(part, result.corners);
+    return true;
+}
+
+}  // namespace
+
+bool box_point(const Convex<3>& box, const Convex<3>& point, SignedDistance<3>& result) {
+    const DVec<3> half(box.own[0]), seen = seen_from(box, point, 0), inside = within(half, seen);
+    const DVec<3> between = seen - inside;
+    const double square = length_squared(between);
+    std::uint32_t fixed = 0, low = 0;
+    if (square > std::numeric_limits<double>::min()) {
+        for (int i = 0; i < 3; ++i) {
+            fixed |= between[i] != 0 ? 1u << i : 0u;
+            low |= between[i] < 0 ? 1u << i : 0u;
+        }
+        const double gap = std::sqrt(square);
+        place_answer(box, point, gap, between * (1 / gap), inside, result);
+    } else {
+        int nearest = 0;
+        for (int i = 1; i < 3; ++i)
+            if (std::abs(seen[i]) - half[i] > std::abs(seen[nearest]) - half[nearest]) nearest = i;
+        const double sign = seen[nearest] < 0 ? -1 : 1;
+        fixed = 1u << nearest;
+        low = sign < 0 ? fixed : 0;
+        DVec<3> on_box = inside;
+        on_box[nearest] = sign * half[nearest];
+        place_answer(box, point, std::abs(seen[nearest]) - half[nearest], axis<3>(nearest, sign), on_box, result);
+    }
+    name_part(fixed, low, result.corners);
+    return true;
+}
+
+bool box_segment(const Convex<3>& box, const Convex<3>& segment, SignedDistance<3>& result) {
+    SeenSegment s{DVec<3>(box.own[0]), seen_from(box, segment, 0), seen_from(box, segment, 1), {}, 0};
+    s.along = s.to - s.from;
+    s.scale = std::max({largest(s.half), largest(s.from), largest(s.to)});
+    const double part = nearest_part(s);
+    const DVec<3> on_segment = s.at(part), on_box = within(s.half, on_segment), between = on_segment - on_box;
+    const double gap = length(between);
+    if (!(gap > near * s.scale)) return deep_in_box(box, segment, s, gap, result);
+
+    const DVec<3> normal = between * (1 / gap);
+    double beyond = std::min(dot(normal, s.from), dot(normal, s.to));
+    for (int i = 0; i < 3; ++i) beyond -= std::abs(normal[i]) * s.half[i];
+    if (!(gap - beyond <= doubt * s.scale)) return false;
+    place_answer(box, segment, gap, normal, on_box, result);
+    std::uint32_t fixed = 0, low = 0;
+    for (int i = 0; i < 3; ++i) {
+        fixed |= between[i] != 0 ? 1u << i : 0u;
+        low |= between[i] < 0 ? 1u << i : 0u;
+    }
+    name_part(fixed, low, result.corners);
+    name_place(part, result.corners);
+    return true;
+}
+
+}  // namespace abut
