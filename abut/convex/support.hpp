@@ -41,17 +41,20 @@ struct Placement {
 template <int D>
 Placement<D> mapped(const Placement<D>& placement, const Affine<D>& map);
 
-/// A small value that refers to the points, facets or object of a shape and must not outlive it.
+/// A small value that refers to the points, facets or object of a shape and must not outlive it. What `core` and
+/// `count` don't speak of is left as it was: every question makes two of these.
 template <int D>
 struct Convex : Placement<D> {
     Core core = Core::points;
-    std::uint32_t count = 1;      ///< of points
-    std::array<Vec<D>, 3> own{};  ///< up to three points; box: [0] the half extents; discs: [0], [1] their centres
-    std::array<float, 2> disc_radius{};
+    std::uint32_t count = 1;  ///< of points
+    /// Up to three points; box: [0] the half extents; discs: [0], [1] their centres.
+    std::array<Vec<D>, 3> own{};
+    std::array<float, 2> disc_radius;
     const Vec<D>* points = nullptr;     ///< `count` points; null: they are in `own`
-    const PointLanes* lanes = nullptr;  ///< of the same points, where a shape keeps them; else null
-    const Facets* facets = nullptr;     ///< of a polyhedron; else null
-    const void* object = nullptr;       ///< for `function`
+    const PointLanes* lanes = nullptr;  ///< of the same points, where a polyhedron keeps them; else null
+    const double* sides = nullptr;   ///< of a polygon of 3 to `most_sides` corners, as `write_sides` has them; or null
+    const Facets* facets = nullptr;  ///< of a polyhedron; else null
+    const void* object = nullptr;    ///< for `function`
     Vec<D> (*function)(const void* object, const Vec<D>& direction) = nullptr;
 
     /// Written out, so that compilers fill it member by member: to clear all of it first, as they do otherwise, is

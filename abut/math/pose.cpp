@@ -1,6 +1,7 @@
 #include <abut/math/assert.hpp>
 #include <abut/math/linear.hpp>
 #include <abut/math/pose.hpp>
+#include <abut/math/unit_turn.hpp>
 
 #include <glm/ext/quaternion_double.hpp>
 
@@ -50,11 +51,6 @@ glm::dquat multiply(const glm::dquat& a, const glm::dquat& b) {
             a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
 }
 
-DVec<2> unit(const Turn& turn) {
-    const DVec<2> u(turn.cos, turn.sin);
-    return u == DVec<2>(0.0) ? DVec<2>(1, 0) : normalized(u, u);
-}
-
 }  // namespace
 
 Turn Turn::by(float radians) {
@@ -69,8 +65,9 @@ glm::quat turn_about(const Vec3& axis, float radians) {
 }
 
 Affine<2> affine(const Pose2& pose) {
-    const DVec<2> u = unit(pose.rotation);
-    return {{DVec<2>(u.x, u.y), DVec<2>(-u.y, u.x)}, DVec<2>(pose.position)};
+    Affine<2> result;
+    set_affine(result, pose);
+    return result;
 }
 
 Affine<3> affine(const Pose3& pose) {

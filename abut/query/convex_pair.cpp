@@ -1,54 +1,92 @@
 #include <abut/convex/box_pair.hpp>
+#include <abut/convex/plane_pair.hpp>
 #include <abut/convex/round_manifold.hpp>
 #include <abut/query/closed_form.hpp>
 #include <abut/query/convex_pair.hpp>
 
 namespace abut {
+namespace {
+
+// The ways for any dimension.
 
 template <int D>
-bool part_overlaps(const Convex<D>& a, const Convex<D>& b, const SearchOptions<D>& options) {
-    if constexpr (D == 3)
-        if (are_plain_boxes(a, b)) return boxes_overlap(a, b, options);
+bool any_overlap(const Convex<D>& a, const Convex<D>& b, const SearchOptions<D>& options) {
     SignedDistance<D> form;
     if (closed_form(a, b, form)) return form.distance <= 0;
     return convex_overlap(a, b, options);
 }
 
 template <int D>
-SignedDistance<D> part_distance(const Convex<D>& a, const Convex<D>& b, const SearchOptions<D>& options) {
-    if constexpr (D == 3)
-        if (are_plain_boxes(a, b)) return distance_of_boxes(a, b, options);
-    SignedDistance<D> result;
+void any_distance(const Convex<D>& a, const Convex<D>& b, const SearchOptions<D>& options, SignedDistance<D>& result) {
     if (!closed_form(a, b, result)) result = signed_distance(a, b, options);
-    return result;
 }
 
 template <int D>
-bool part_contact(const Convex<D>& a, const Convex<D>& b, double reach, double margin, const SearchOptions<D>& options,
-                  PartContact<D>& contact) {
-    if constexpr (D == 3)
-        if (are_plain_boxes(a, b))
-            return contact_of_boxes(a, b, reach, margin, options, contact.distance, contact.manifold);
-    if (!closed_form(a, b, contact.distance)) contact.distance = signed_distance(a, b, options);
+bool any_contact(const Convex<D>& a, const Convex<D>& b, double reach, double margin, const SearchOptions<D>& options,
+                 PartContact<D>& contact) {
+    any_distance(a, b, options, contact.distance);
     if (contact.distance.distance > reach) return false;
     if constexpr (D == 3) {
         // The clipping that it saves is told where somebody watches.
         if (options.trace != nullptr) manifold(a, b, contact.distance, margin, options.trace);
         if (round_manifold(a, b, contact.distance, margin, contact.manifold)) return true;
-        contact.manifold = manifold(a, b, contact.distance, margin);
-    } else {
-        contact.manifold = manifold(a, b, contact.distance, margin, options.trace);
     }
+    contact.manifold = manifold(a, b, contact.distance, margin, D == 3 ? nullptr : options.trace);
     return true;
 }
 
-#define ABUT_INSTANTIATE(D)                                                                                 \
-    template bool part_overlaps(const Convex<D>&, const Convex<D>&, const SearchOptions<D>&);               \
-    template SignedDistance<D> part_distance(const Convex<D>&, const Convex<D>&, const SearchOptions<D>&);  \
-    template bool part_contact(const Convex<D>&, const Convex<D>&, double, double, const SearchOptions<D>&, \
-                               PartContact<D>&);
-ABUT_INSTANTIATE(2)
-ABUT_INSTANTIATE(3)
-#undef ABUT_INSTANTIATE
+}  // namespace
+
+// The quick ways of the plane have no steps to tell of. A trace is told those of the search, and changes no answer.
+
+template <>
+bool part_overlaps(const Convex<2>& a, const Convex<2>& b, const SearchOptions<2>& options) {
+    const PlaneAnswer answer = plane_near(a, b, 0, options.cache);
+    if (answer == PlaneAnswer::unknown) return any_overlap(a, b, options);
+    if (options.trace != nullptr) any_overlap<2>(a, b, {nullptr, options.trace});
+    return answer == PlaneAnswer::within;
+}
+template <>
+bool part_overlaps(const Convex<3>& a, const Convex<3>& b, const SearchOptions<3>& options) {
+    return are_plain_boxes(a, b) ? boxes_overlap(a, b, options) : any_overlap(a, b, options);
+}
+
+template <>
+SignedDistance<2> part_distance(const Convex<2>& a, const Convex<2>& b, const SearchOptions<2>& options) {
+    SignedDistance<2> result;
+    if (plane_distance(a, b, options.cache, result) == PlaneAnswer::unknown) {
+        any_distance(a, b, options, result);
+    } else if (options.trace != nullptr) {
+        SignedDistance<2> searched;
+        any_distance<2>(a, b, {nullptr, options.trace}, searched);
+    }
+    return result;
+}
+template <>
+SignedDistance<3> part_distance(const Convex<3>& a, const Convex<3>& b, const SearchOptions<3>& options) {
+    if (are_plain_boxes(a, b)) return distance_of_boxes(a, b, options);
+    SignedDistance<3> result;
+    any_distance(a, b, options, result);
+    return result;
+}
+
+template <>
+bool part_contact(const Convex<2>& a, const Convex<2>& b, double reach, double margin, const SearchOptions<2>& options,
+                  PartContact<2>& contact) {
+    const PlaneAnswer answer = plane_contact(a, b, reach, margin, options.cache, contact.distance, contact.manifold);
+    if (answer == PlaneAnswer::unknown) return any_contact(a, b, reach, margin, options, contact);
+    if (options.trace != nullptr) {
+        PartContact<2> searched;
+        any_contact<2>(a, b, reach, margin, {nullptr, options.trace}, searched);
+    }
+    return answer == PlaneAnswer::within;
+}
+template <>
+bool part_contact(const Convex<3>& a, const Convex<3>& b, double reach, double margin, const SearchOptions<3>& options,
+                  PartContact<3>& contact) {
+    if (are_plain_boxes(a, b))
+        return contact_of_boxes(a, b, reach, margin, options, contact.distance, contact.manifold);
+    return any_contact(a, b, reach, margin, options, contact);
+}
 
 }  // namespace abut

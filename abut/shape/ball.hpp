@@ -19,5 +19,7 @@ using Sphere = Ball<3>;
 
 template <int D>
 Convex<D> convex(const Ball<D>& ball);
+template <int D>
+Convex<D> convex(const Ball<D>& ball, const Pose<D>& pose);
 
 }  // namespace abut

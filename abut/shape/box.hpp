@@ -20,6 +20,8 @@ using Box3 = Box<3>;
 
 template <int D>
 Convex<D> convex(const Box<D>& box);
+template <int D>
+Convex<D> convex(const Box<D>& box, const Pose<D>& pose);
 
 template <int D>
 Convex<D> convex(const Aabb<D>& box);

@@ -20,5 +20,7 @@ using Capsule3 = Capsule<3>;
 
 template <int D>
 Convex<D> convex(const Capsule<D>& capsule);
+template <int D>
+Convex<D> convex(const Capsule<D>& capsule, const Pose<D>& pose);
 
 }  // namespace abut

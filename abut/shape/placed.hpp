@@ -73,7 +73,13 @@ requires Shape<std::remove_cvref_t<S>> Stretched<S> stretched(S&& shape,
 
 namespace detail {
 
-/// A shape that carries no position of its own can be put where it is wanted at once.
+/// Shapes of the plane are put where they are wanted at once.
+template <class S, int D>
+concept PlacedByPose = D == 2 && requires(const S& shape, const Pose<D>& pose) {
+    convex(shape, pose);
+};
+
+/// A shape that carries no position of its own can be, too.
 template <class S, int D>
 concept HasOwnFrame = requires(const S& shape, const Affine<D>& place) {
     convex(shape, place);
@@ -84,7 +90,9 @@ concept HasOwnFrame = requires(const S& shape, const Affine<D>& place) {
 template <class S>
 auto view(const At<S>& shape) {
     using Inner = std::remove_cvref_t<S>;
-    if constexpr (detail::HasOwnFrame<Inner, dimension<Inner>>)
+    if constexpr (detail::PlacedByPose<Inner, dimension<Inner>>)
+        return convex(std::as_const(shape.shape), shape.pose);
+    else if constexpr (detail::HasOwnFrame<Inner, dimension<Inner>>)
         return convex(std::as_const(shape.shape), affine(shape.pose));
     else
         return moved(view(std::as_const(shape.shape)), affine(shape.pose));

@@ -1,5 +1,7 @@
 #include <abut/convex/hull.hpp>
+#include <abut/convex/sides.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/math/unit_turn.hpp>
 #include <abut/shape/polygon.hpp>
 
 #include <algorithm>
@@ -19,6 +21,13 @@ void each_triangle(std::span<const Vec2> points, Visit visit) {
         visit(DVec<2>(points[i]) - origin, DVec<2>(points[i + 1]) - origin);
 }
 
+void set_points(Convex<2>& convex, const Polygon& polygon) {
+    const std::span<const Vec2> points = polygon.points();
+    convex.points = points.data();
+    convex.count = static_cast<std::uint32_t>(points.size());
+    convex.sides = polygon.sides();
+}
+
 }  // namespace
 
 Result<Polygon> Polygon::build(std::span<const Vec2> points) {
@@ -26,11 +35,24 @@ Result<Polygon> Polygon::build(std::span<const Vec2> points) {
     if (!built) return built.problem();
     Polygon result;
     result.points_ = std::move(built->points);
+    result.write_sides();
     return result;
 }
 
 Result<Polygon> Polygon::build(std::initializer_list<Vec2> points) {
     return build(std::span<const Vec2>(points.begin(), points.size()));
+}
+
+void Polygon::set_loop(std::span<const Vec2> loop) {
+    points_.assign(loop.begin(), loop.end());
+    write_sides();
+}
+
+void Polygon::write_sides() {
+    const auto count = static_cast<std::uint32_t>(points_.size());
+    const bool few = count > 2 && count <= most_sides;
+    sides_.resize(few ? numbers_for_sides(count) : 0);
+    if (few) abut::write_sides(points_, sides_.data());
 }
 
 std::span<const Vec2> Polygon::points() const {
@@ -72,10 +94,15 @@ Vec2 Polygon::normal() const {
 
 Convex<2> convex(const Polygon& polygon, const Affine<2>& place) {
     Convex<2> result;
+    set_points(result, polygon);
     result.place = place;
-    const std::span<const Vec2> points = polygon.points();
-    result.points = points.data();
-    result.count = static_cast<std::uint32_t>(points.size());
+    return result;
+}
+
+Convex<2> convex(const Polygon& polygon, const Pose2& pose) {
+    Convex<2> result;
+    set_points(result, polygon);
+    set_affine(result.place, pose);
     return result;
 }
 

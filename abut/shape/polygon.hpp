@@ -39,10 +39,20 @@ public:
     /// the first axis. Of the thin overlap of two shapes it is that of the line they touch in, to either side.
     Vec2 normal() const;
 
+    /// For `Convex::sides`: null where there are too few corners for an area, or too many.
+    const double* sides() const { return sides_.empty() ? nullptr : sides_.data(); }
+
+    /// Sets it to a loop that is already what `points` promises. Allocates nothing where there is room.
+    void set_loop(std::span<const Vec2> loop);
+
 private:
+    void write_sides();
+
     std::vector<Vec2> points_;  ///< empty: the point 0, also after a move
+    std::vector<double> sides_;
 };
 
 Convex<2> convex(const Polygon& polygon, const Affine<2>& place = {});
+Convex<2> convex(const Polygon& polygon, const Pose2& pose);
 
 }  // namespace abut

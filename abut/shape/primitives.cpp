@@ -1,5 +1,6 @@
 // How the plain shapes look to the engines: points with a ball around them, boxes, discs.
 
+#include <abut/math/unit_turn.hpp>
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/capsule.hpp>
@@ -16,6 +17,27 @@ Convex<D> points_with_ball(float radius, const Points&... points) {
     result.count = 0;
     ((result.own[result.count++] = points), ...);
     result.radius = static_cast<double>(radius);
+    return result;
+}
+
+/// The core of up to three points in a place of its own, with a ball around it.
+template <int D, class... Points>
+Convex<D> round_points_at(const Pose<D>& pose, float radius, const Points&... points) {
+    Convex<D> result;
+    set_affine(result.place, pose);
+    result.radius = static_cast<double>(radius);
+    result.count = sizeof...(points);
+    std::size_t i = 0;
+    ((result.own[i++] = points), ...);
+    return result;
+}
+
+template <int D>
+Convex<D> box_at(const Pose<D>& pose, const Vec<D>& half) {
+    Convex<D> result;
+    set_affine(result.place, pose);
+    result.core = Core::box;
+    result.own[0] = half;
     return result;
 }
 
@@ -42,25 +64,50 @@ template <int D>
 Convex<D> convex(const Ball<D>& ball) {
     return points_with_ball<D>(ball.radius, ball.center);
 }
+template <int D>
+Convex<D> convex(const Ball<D>& ball, const Pose<D>& pose) {
+    return round_points_at<D>(pose, ball.radius, ball.center);
+}
 
 template <int D>
 Convex<D> convex(const Capsule<D>& capsule) {
     return points_with_ball<D>(capsule.radius, capsule.a, capsule.b);
+}
+template <int D>
+Convex<D> convex(const Capsule<D>& capsule, const Pose<D>& pose) {
+    return round_points_at<D>(pose, capsule.radius, capsule.a, capsule.b);
 }
 
 template <int D>
 Convex<D> convex(const Segment<D>& segment) {
     return points_with_ball<D>(0, segment.a, segment.b);
 }
+template <int D>
+Convex<D> convex(const Segment<D>& segment, const Pose<D>& pose) {
+    return round_points_at<D>(pose, 0, segment.a, segment.b);
+}
 
 template <int D>
 Convex<D> convex(const Triangle<D>& triangle) {
     return points_with_ball<D>(0, triangle.a, triangle.b, triangle.c);
 }
+template <int D>
+Convex<D> convex(const Triangle<D>& triangle, const Pose<D>& pose) {
+    return round_points_at<D>(pose, 0, triangle.a, triangle.b, triangle.c);
+}
 
 template <int D>
 Convex<D> convex(const Box<D>& box) {
-    return box_about(affine(Pose<D>{box.center, box.rotation}), box.half);
+    return box_at(Pose<D>{box.center, box.rotation}, box.half);
+}
+template <int D>
+Convex<D> convex(const Box<D>& box, const Pose<D>& pose) {
+    Convex<D> result = box_at(pose, box.half);
+    if (box.rotation == no_rotation<D>)
+        result.place.offset = result.place.point(DVec<D>(box.center));
+    else
+        result.place = result.place * affine(Pose<D>{box.center, box.rotation});
+    return result;
 }
 
 template <int D>
@@ -82,12 +129,17 @@ Convex<3> convex(const Cone& cone) {
     return discs(cone.a, cone.b, cone.radius, 0);
 }
 
-#define ABUT_INSTANTIATE(D)                        \
-    template Convex<D> convex(const Ball<D>&);     \
-    template Convex<D> convex(const Capsule<D>&);  \
-    template Convex<D> convex(const Segment<D>&);  \
-    template Convex<D> convex(const Triangle<D>&); \
-    template Convex<D> convex(const Box<D>&);      \
+#define ABUT_INSTANTIATE(D)                                        \
+    template Convex<D> convex(const Ball<D>&);                     \
+    template Convex<D> convex(const Ball<D>&, const Pose<D>&);     \
+    template Convex<D> convex(const Capsule<D>&);                  \
+    template Convex<D> convex(const Capsule<D>&, const Pose<D>&);  \
+    template Convex<D> convex(const Segment<D>&);                  \
+    template Convex<D> convex(const Segment<D>&, const Pose<D>&);  \
+    template Convex<D> convex(const Triangle<D>&);                 \
+    template Convex<D> convex(const Triangle<D>&, const Pose<D>&); \
+    template Convex<D> convex(const Box<D>&);                      \
+    template Convex<D> convex(const Box<D>&, const Pose<D>&);      \
     template Convex<D> convex(const Aabb<D>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

@@ -19,5 +19,7 @@ using Segment3 = Segment<3>;
 
 template <int D>
 Convex<D> convex(const Segment<D>& segment);
+template <int D>
+Convex<D> convex(const Segment<D>& segment, const Pose<D>& pose);
 
 }  // namespace abut

@@ -20,5 +20,7 @@ using Triangle3 = Triangle<3>;
 
 template <int D>
 Convex<D> convex(const Triangle<D>& triangle);
+template <int D>
+Convex<D> convex(const Triangle<D>& triangle, const Pose<D>& pose);
 
 }  // namespace abut

@@ -1,0 +1,146 @@
+#include <abut/convex/polygon_manifold.hpp>
+
+namespace abut {
+namespace {
+
+/// The cosine of the angle within which a side counts as looking along the contact normal: 1.8 degrees.
+constexpr double aligned = 0.9995;
+
+/// A side as seen from the reference of the meeting.
+struct Edge {
+    DVec<2> ends[2];
+    std::uint32_t names[2];
+    DVec<2> normal;
+    double alignment;  ///< of its normal with the direction it is to look along
+};
+
+/// The corners of a box are counted round it here, as `face_along` does.
+std::uint32_t name_of(const Sides& sides, std::uint32_t corner) {
+    return sides.numbering == Numbering::box ? (corner + 2) & 3 : sides.corner_number(corner);
+}
+
+/// Of the sides beside a corner the one that looks most along a direction, both in the polygon's own frame.
+inline std::uint32_t facing_side(const Sides& sides, std::uint32_t corner, const DVec<2>& direction,
+                                 double& alignment) {
+    const auto looks = [&](std::uint32_t side) {
+        const bool proper = sides.corner(side) != sides.corner(sides.after(side));
+        return proper ? dot(sides.normal(side), direction) : -1;
+    };
+    const std::uint32_t last = sides.before(corner);
+    const double next_looks = looks(corner), last_looks = looks(last);
+    alignment = std::max(next_looks, last_looks);
+    return last_looks > next_looks ? last : corner;
+}
+
+void find_reference_edge(const PolygonPair& pair, const Meeting& meeting, Edge& edge) {
+    const Sides& sides = pair.sides(meeting.of);
+    const std::uint32_t side = facing_side(sides, meeting.reference_corners[0], meeting.normal, edge.alignment);
+    const std::uint32_t after = sides.after(side);
+    edge.ends[0] = sides.corner(side);
+    edge.ends[1] = sides.corner(after);
+    edge.names[0] = name_of(sides, side);
+    edge.names[1] = name_of(sides, after);
+    edge.normal = sides.normal(side);
+}
+
+void find_other_edge(const PolygonPair& pair, const Meeting& meeting, Edge& edge) {
+    const Sides& sides = pair.sides(1 - meeting.of);
+    const Seen& seen = pair.seen_from(meeting.of);
+    const DVec<2> direction = -pair.seen_from(1 - meeting.of).vector(meeting.normal);
+    const std::uint32_t side = facing_side(sides, meeting.other_corners[0], direction, edge.alignment);
+    const std::uint32_t after = sides.after(side);
+    edge.ends[0] = seen.point(sides.corner(side));
+    edge.ends[1] = seen.point(sides.corner(after));
+    edge.names[0] = name_of(sides, side);
+    edge.names[1] = name_of(sides, after);
+    edge.normal = seen.vector(sides.normal(side));
+}
+
+/// At most three points: the ends of an edge that was cut off, and the place where the two are nearest.
+struct Candidates {
+    std::array<ManifoldPoint<2>, 3> points;
+    std::size_t count = 0;
+};
+
+/// Cuts off what lies past an end of the reference, told by how far along it the places are. False: nothing is left.
+inline bool cut_off(Edge& edge, double (&along)[2], double limit, double sign, std::uint32_t name) {
+    const double heights[2] = {sign * (along[0] - limit), sign * (along[1] - limit)};
+    if (heights[0] > 0 && heights[1] > 0) return false;
+    for (std::size_t i = 0; i < 2; ++i) {
+        if (!(heights[i] > 0)) continue;
+        const std::size_t j = 1 - i;
+        edge.ends[i] += (edge.ends[j] - edge.ends[i]) * (heights[i] / (heights[i] - heights[j]));
+        edge.names[i] = (name + 1) << 16 | (edge.names[i] & 0xffffu);
+        along[i] = limit;
+    }
+    return true;
+}
+
+/// The deepest, of those as deep to within the slack the first, and the farthest from it.
+Manifold<2> thinned(const Candidates& all, double slack) {
+    Manifold<2> result;
+    result.count = std::min(all.count, result.points.size());
+    for (std::size_t i = 0; i < result.count; ++i) result.points[i] = all.points[i];
+    if (all.count < 3) return result;
+    const auto& points = all.points;
+    const double least = std::max({points[0].depth, points[1].depth, points[2].depth}) - slack;
+    const std::size_t deepest = points[0].depth >= least ? 0 : points[1].depth >= least ? 1 : 2;
+    const std::size_t i = (deepest + 1) % 3, j = (deepest + 2) % 3;
+    const auto far = [&](std::size_t k) { return length_squared(points[k].position - points[deepest].position); };
+    result.points = {points[deepest], points[far(j) > far(i) ? j : i]};
+    return result;
+}
+
+}  // namespace
+
+Manifold<2> polygon_manifold(const PolygonPair& pair, const Meeting& meeting, const SignedDistance<2>& distance,
+                             double margin) {
+    const Convex<2>&a = pair.shape(0), &b = pair.shape(1);
+    const double slack = 1e-6 * std::min(pair.sides(0).size + a.radius, pair.sides(1).size + b.radius);
+    const double depth = -distance.distance;
+    const Affine<2>& place = pair.shape(meeting.of).place;
+    Edge of_reference, of_other;
+    find_reference_edge(pair, meeting, of_reference);
+    find_other_edge(pair, meeting, of_other);
+
+    Candidates candidates;
+    if (std::max(of_reference.alignment, of_other.alignment) >= aligned) {
+        const bool first_is_a = meeting.of == 0;
+        const double of_a = first_is_a ? of_reference.alignment : of_other.alignment,
+                     of_b = first_is_a ? of_other.alignment : of_reference.alignment;
+        const bool a_is_reference = of_a >= of_b - 1e-6;
+        const bool same = a_is_reference == first_is_a;
+        const Edge& reference = same ? of_reference : of_other;
+        Edge& incident = same ? of_other : of_reference;
+        const DVec<2> out = same ? meeting.normal : -meeting.normal, across(-out.y, out.x);
+        const double reference_radius = a_is_reference ? a.radius : b.radius;
+        const double incident_radius = a_is_reference ? b.radius : a.radius;
+
+        // Counter-clockwise, a side runs along `across`.
+        const double limits[2] = {dot(across, reference.ends[0]), dot(across, reference.ends[1])};
+        double along[2] = {dot(across, incident.ends[0]), dot(across, incident.ends[1])};
+        const bool left = cut_off(incident, along, limits[0], -1, reference.names[0]) &&
+                          cut_off(incident, along, limits[1], 1, reference.names[1]);
+        // Where but an end is left of the edge, it is one point: the end itself, if it wasn't cut off.
+        const bool one = std::abs(along[0] - along[1]) <= slack;
+        const std::size_t dropped = !one ? 2 : incident.names[1] < 1u << 16 ? 0 : 1;
+        const double slope = dot(reference.normal, out);
+        for (std::size_t i = 0; i < 2 && left; ++i) {
+            if (i == dropped) continue;
+            const double gap = dot(reference.normal, incident.ends[i] - reference.ends[0]) / slope;
+            const double here = std::min(reference_radius + incident_radius - gap, depth);
+            if (here < -margin - slack) continue;
+            const DVec<2> middle = incident.ends[i] - out * (incident_radius - 0.5 * here);
+            candidates.points[candidates.count++] = {place.point(middle), margin > 0 ? here : std::max(here, 0.0),
+                                                     incident.names[i]};
+        }
+    }
+    bool as_deep = false;
+    for (std::size_t i = 0; i < candidates.count; ++i) as_deep = as_deep || candidates.points[i].depth >= depth - slack;
+    if (!as_deep)
+        candidates.points[candidates.count++] = {distance.on_a - distance.normal * (0.5 * depth), depth,
+                                                 distance.corners.a[0] << 8 ^ distance.corners.b[0]};
+    return thinned(candidates, slack);
+}
+
+}  // namespace abut

@@ -1,0 +1,176 @@
+// Compiled once for each kind of vector unit by Highway, which takes the best of them when the program runs. Products
+// and sums are rounded one by one in all of them, and the least of some numbers doesn't depend on the order in which
+// they are compared.
+
+#include <abut/convex/side_gaps.hpp>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "abut/convex/side_gaps.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace abut::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Lanes = hn::CappedTag<double, side_lanes>;
+using Vector = hn::Vec<Lanes>;
+constexpr Lanes d;
+constexpr std::size_t lanes = hn::MaxLanes(d);
+
+/// Rows of numbers, as long as the rows of Sides.
+struct Points {
+    HWY_ALIGN double x[most_sides];
+    HWY_ALIGN double y[most_sides];
+};
+
+void place(const Sides& sides, const Seen& seen, Points& points) {
+    const Vector cos = hn::Set(d, seen.cos), sin = hn::Set(d, seen.sin);
+    const Vector offset_x = hn::Set(d, seen.x), offset_y = hn::Set(d, seen.y);
+    for (std::size_t i = 0; i < sides.room; i += lanes) {
+        const Vector x = hn::LoadU(d, sides.x + i), y = hn::LoadU(d, sides.y + i);
+        hn::Store(hn::Add(hn::Sub(hn::Mul(cos, x), hn::Mul(sin, y)), offset_x), d, points.x + i);
+        hn::Store(hn::Add(hn::Add(hn::Mul(sin, x), hn::Mul(cos, y)), offset_y), d, points.y + i);
+    }
+}
+
+/// Of `groups` vectors of sides, from `first` on, the gaps in front of them; returns the widest, lane by lane.
+template <std::size_t groups>
+Vector gaps_of(const Sides& sides, std::size_t first, const double* x, const double* y, std::uint32_t count,
+               double* gaps) {
+    Vector normal_x[groups], normal_y[groups], least[groups];
+    const Vector x0 = hn::Set(d, x[0]), y0 = hn::Set(d, y[0]);
+    for (std::size_t g = 0; g < groups; ++g) {
+        normal_x[g] = hn::LoadU(d, sides.normal_x + first + g * lanes);
+        normal_y[g] = hn::LoadU(d, sides.normal_y + first + g * lanes);
+        least[g] = hn::Add(hn::Mul(normal_x[g], x0), hn::Mul(normal_y[g], y0));
+    }
+    for (std::uint32_t k = 1; k < count; ++k) {
+        const Vector xk = hn::Set(d, x[k]), yk = hn::Set(d, y[k]);
+        for (std::size_t g = 0; g < groups; ++g)
+            least[g] = hn::Min(least[g], hn::Add(hn::Mul(normal_x[g], xk), hn::Mul(normal_y[g], yk)));
+    }
+    Vector widest = hn::Set(d, -1e300);
+    for (std::size_t g = 0; g < groups; ++g) {
+        const Vector gap = hn::Sub(least[g], hn::LoadU(d, sides.offset + first + g * lanes));
+        hn::Store(gap, d, gaps + first + g * lanes);
+        widest = hn::Max(widest, gap);
+    }
+    return widest;
+}
+
+/// The first of the numbers that equals the largest or least of them, which is in every lane of `value`.
+std::uint32_t first_of(const double* numbers, std::size_t room, Vector value) {
+    for (std::size_t i = 0; i < room; i += lanes) {
+        const auto same = hn::Eq(hn::Load(d, numbers + i), value);
+        if (!hn::AllFalse(d, same))
+            return static_cast<std::uint32_t>(i + static_cast<std::size_t>(hn::FindFirstTrue(d, same)));
+    }
+    return 0;
+}
+
+/// The widest gap, and the first side that has it.
+SideGap widest_of(const Sides& sides, const double* x, const double* y, std::uint32_t count) {
+    HWY_ALIGN double gaps[most_sides];
+    const bool many = sides.room >= 8;
+    Vector widest =
+        many ? gaps_of<8 / lanes>(sides, 0, x, y, count, gaps) : gaps_of<4 / lanes>(sides, 0, x, y, count, gaps);
+    for (std::size_t first = 8; first < sides.room; first += 4)
+        widest = hn::Max(widest, gaps_of<4 / lanes>(sides, first, x, y, count, gaps));
+    SideGap result;
+    result.side = first_of(gaps, sides.room, hn::MaxOfLanes(d, widest));
+    result.gap = gaps[result.side];
+    return result;
+}
+
+std::uint32_t lowest(const Points& points, std::size_t room, double normal_x, double normal_y) {
+    HWY_ALIGN double heights[most_sides];
+    const Vector x = hn::Set(d, normal_x), y = hn::Set(d, normal_y);
+    Vector least = hn::Set(d, 1e300);
+    for (std::size_t i = 0; i < room; i += lanes) {
+        const Vector height = hn::Add(hn::Mul(x, hn::Load(d, points.x + i)), hn::Mul(y, hn::Load(d, points.y + i)));
+        hn::Store(height, d, heights + i);
+        least = hn::Min(least, height);
+    }
+    return first_of(heights, room, hn::MinOfLanes(d, least));
+}
+
+SideGap widest_gap_of_two(const Sides& a, const Sides& b, const Seen (&seen)[2], double enough, double doubt) {
+    Points points[2];  // of B as seen from A, of A as seen from B
+    place(b, seen[0], points[0]);
+    SideGap result = widest_of(a, points[0].x, points[0].y, b.count);
+    result.of = 0;
+    if (!(result.gap > enough)) {
+        place(a, seen[1], points[1]);
+        const SideGap other = widest_of(b, points[1].x, points[1].y, a.count);
+        if (other.gap > result.gap + doubt) {
+            result = other;
+            result.of = 1;
+        }
+    }
+    const Sides& reference = result.of == 0 ? a : b;
+    result.corner = lowest(points[result.of], (result.of == 0 ? b : a).room, reference.normal_x[result.side],
+                           reference.normal_y[result.side]);
+    return result;
+}
+
+SideGap widest_gap_before_point(const Sides& a, const DVec<2>& point) {
+    SideGap result = widest_of(a, &point.x, &point.y, 1);
+    result.of = 0;
+    result.corner = 0;
+    return result;
+}
+
+}  // namespace abut::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace abut {
+
+HWY_EXPORT(widest_gap_of_two);
+HWY_EXPORT(widest_gap_before_point);
+
+namespace {
+
+/// Of a box, the side towards a place, and the gap before it, of something that reaches so far along the axes.
+SideGap gap_before_box(const Sides& box, const DVec<2>& place, double reach_x, double reach_y) {
+    const double gap_x = std::abs(place.x) - box.offset[1] - reach_x;
+    const double gap_y = std::abs(place.y) - box.offset[0] - reach_y;
+    const bool along_x = gap_x > gap_y;
+    SideGap result;
+    result.gap = along_x ? gap_x : gap_y;
+    result.of = 0;
+    result.side = (along_x ? place.x < 0 ? 1u : 3u : place.y < 0 ? 2u : 0u);
+    result.corner = 0;
+    return result;
+}
+
+SideGap gap_of_boxes(const Sides& a, const Sides& b, const Seen (&seen)[2], double doubt) {
+    const double cos = std::abs(seen[0].cos), sin = std::abs(seen[0].sin);
+    const double b_x = b.offset[1], b_y = b.offset[0], a_x = a.offset[1], a_y = a.offset[0];
+    SideGap result = gap_before_box(a, {seen[0].x, seen[0].y}, cos * b_x + sin * b_y, sin * b_x + cos * b_y);
+    const SideGap other = gap_before_box(b, {seen[1].x, seen[1].y}, cos * a_x + sin * a_y, sin * a_x + cos * a_y);
+    if (other.gap > result.gap + doubt) {
+        result = other;
+        result.of = 1;
+    }
+    // The other's lowest corner is that of the quadrant that the normal comes from.
+    const DVec<2> down = seen[1 - result.of].vector(-(result.of == 0 ? a : b).normal(result.side));
+    result.corner = down.y < 0 ? (down.x < 0 ? 2 : 3) : (down.x < 0 ? 1 : 0);
+    return result;
+}
+
+}  // namespace
+
+SideGap widest_gap(const Sides& a, const Sides& b, const Seen (&seen)[2], double enough, double doubt) {
+    if (a.numbering == Numbering::box && b.numbering == Numbering::box) return gap_of_boxes(a, b, seen, doubt);
+    return HWY_DYNAMIC_DISPATCH(widest_gap_of_two)(a, b, seen, enough, doubt);
+}
+SideGap widest_gap(const Sides& a, const DVec<2>& point) {
+    if (a.numbering == Numbering::box) return gap_before_box(a, point, 0, 0);
+    return HWY_DYNAMIC_DISPATCH(widest_gap_before_point)(a, point);
+}
+
+}  // namespace abut
+#endif

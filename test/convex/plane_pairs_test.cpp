@@ -1,0 +1,225 @@
+// The quick ways of the plane against the searches that they save.
+
+#include "../oracle/pair.hpp"
+#include <abut/convex/clip.hpp>
+#include <abut/convex/plane_pair.hpp>
+#include <abut/query/certify.hpp>
+#include <abut/query/contact.hpp>
+#include <abut/query/intersection.hpp>
+#include <abut/query/overlaps.hpp>
+
+#include <gtest/gtest.h>
+
+namespace abut {
+namespace {
+
+using oracle::Kind;
+using oracle::Random;
+
+/// What was asked and told, so that no sample is vacuous.
+struct Told {
+    int pairs = 0, told = 0, overlapping = 0;
+};
+
+Closest<2> as_closest(const SignedDistance<2>& distance) {
+    Closest<2> result;
+    result.distance = static_cast<float>(distance.distance);
+    result.normal = to_float(distance.normal);
+    result.on_a = to_float(distance.on_a);
+    result.on_b = to_float(distance.on_b());
+    return result;
+}
+
+/// The same answers as those of the searches; certified; and the same again from a cache.
+void expect_agreement(const Convex<2>& a, const Convex<2>& b, double margin, Told& told) {
+    ++told.pairs;
+    SignedDistance<2> quick;
+    if (plane_distance(a, b, nullptr, quick) == PlaneAnswer::unknown) return;
+    ++told.told;
+    const SignedDistance<2> searched = signed_distance(a, b);
+    told.overlapping += searched.distance <= 0 ? 1 : 0;
+    EXPECT_NEAR(quick.distance, searched.distance, 0.1 * margin);
+    EXPECT_NEAR(length(quick.normal), 1, 1e-12);
+    EXPECT_TRUE(certify(View<2>(a), View<2>(b), as_closest(quick)));
+
+    const PlaneAnswer near = plane_near(a, b, 0, nullptr);
+    const bool certain = std::abs(searched.distance) > margin;
+    if (certain) {
+        EXPECT_EQ(near, searched.distance <= 0 ? PlaneAnswer::within : PlaneAnswer::beyond);
+    }
+    Cache cache;
+    for (int time = 0; time < 3; ++time) {
+        SignedDistance<2> again;
+        ASSERT_NE(plane_distance(a, b, &cache, again), PlaneAnswer::unknown);
+        EXPECT_NEAR(again.distance, quick.distance, 1e-3 * margin);
+        if (certain) {
+            EXPECT_EQ(plane_near(a, b, 0, &cache), near);
+        }
+    }
+}
+
+/// The deepest point is as deep, and each lies midway between surfaces that are as deep there as it says.
+void expect_same_contact(const Convex<2>& a, const Convex<2>& b, double margin) {
+    SignedDistance<2> distance;
+    Manifold<2> quick;
+    const PlaneAnswer answer = plane_contact(a, b, 0, 0, nullptr, distance, quick);
+    if (answer != PlaneAnswer::within) return;
+    const Manifold<2> plain = manifold(a, b, distance, 0);
+    double deepest = 0;
+    for (std::size_t i = 0; i < quick.count; ++i) deepest = std::max(deepest, quick.points[i].depth);
+    EXPECT_NEAR(deepest, -distance.distance, 0.1 * margin);
+    // An end of a side that just touches the other's is one point or two in one place.
+    const auto has = [&](const Manifold<2>& all, const ManifoldPoint<2>& point) {
+        for (std::size_t i = 0; i < all.count; ++i)
+            if (length(all.points[i].position - point.position) <= margin &&
+                std::abs(all.points[i].depth - point.depth) <= margin)
+                return true;
+        return false;
+    };
+    for (std::size_t i = 0; i < quick.count; ++i) EXPECT_TRUE(has(plain, quick.points[i]));
+    for (std::size_t i = 0; i < plain.count; ++i) EXPECT_TRUE(has(quick, plain.points[i]));
+}
+
+const Convex<2>& convex_of(const oracle::Sample<2>& sample) {
+    return std::get<Convex<2>>(sample.view);
+}
+
+TEST(PlanePairs, AgreeWithTheSearches) {
+    constexpr Kind kinds[] = {Kind::ball, Kind::capsule, Kind::segment, Kind::triangle,
+                              Kind::box,  Kind::aabb,    Kind::polytope};
+    Told told;
+    for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(oracle::amount(10000)); ++seed) {
+        SCOPED_TRACE(seed);
+        Random random(seed);
+        const Kind kind_a = kinds[random.below(7)], kind_b = kinds[random.below(7)];
+        const auto pair = oracle::random_pair<2>(random, kind_a, kind_b);
+        const double margin = oracle::margin_of_doubt(pair.a.solid, pair.b.solid);
+        expect_agreement(convex_of(pair.a), convex_of(pair.b), margin, told);
+        expect_same_contact(convex_of(pair.a), convex_of(pair.b), margin);
+    }
+    EXPECT_GT(told.told, told.pairs * 8 / 10);
+    EXPECT_GT(told.overlapping, told.told * 3 / 10);
+    EXPECT_LT(told.overlapping, told.told * 7 / 10);
+}
+
+/// Corners on a coarse grid: sides on one line, corners that touch, shapes in one another, boxes of no width.
+TEST(PlanePairs, AgreeOnAGrid) {
+    Told told;
+    for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(oracle::amount(10000)); ++seed) {
+        SCOPED_TRACE(seed);
+        Random random(seed);
+        const float unit = static_cast<float>(random.power_of_two(-10, 13));
+        const auto on_grid = [&](std::uint32_t reach) {
+            return unit * (static_cast<float>(random.below(2 * reach + 1)) - static_cast<float>(reach));
+        };
+        const auto point = [&] { return Vec2(on_grid(3), on_grid(3)); };
+        const auto shape = [&](Polygon& polygon) -> Convex<2> {
+            const Pose2 pose{
+                point(), random.chance(0.5) ? Turn{} : Turn::by(static_cast<float>(random.below(8)) * 0.785398163f)};
+            std::vector<Vec2> points(3 + random.below(6));
+            for (Vec2& corner : points) corner = point();
+            polygon = *Polygon::build(points);
+            switch (random.below(6)) {
+                case 0:
+                    return view(at(Circle{point(), std::abs(on_grid(2))}, pose));
+                case 1:
+                    return view(at(Capsule2{point(), point(), std::abs(on_grid(1))}, pose));
+                case 2:
+                    return view(at(Box2{point(), {std::abs(on_grid(3)), std::abs(on_grid(3))}}, pose));
+                case 3:
+                    return view(at(Triangle2{point(), point(), point()}, pose));
+                case 4:
+                    return view(rounded(at(polygon, pose), unit / 2));
+                default:
+                    return view(at(polygon, pose));
+            }
+        };
+        Polygon polygon_a, polygon_b;
+        const Convex<2> a = shape(polygon_a), b = shape(polygon_b);
+        const double margin = 1e-5 * std::min(size(a), size(b)) + 1e-5 * static_cast<double>(unit);
+        expect_agreement(a, b, margin, told);
+    }
+    EXPECT_GT(told.told, told.pairs * 6 / 10);
+    EXPECT_GT(told.overlapping, told.told * 3 / 10);
+    EXPECT_LT(told.overlapping, told.told * 7 / 10);
+}
+
+TEST(PlanePairs, OfAPointBesideSidesOnOneLine) {
+    // The second and third corner are on the line of their neighbours but for the smallest of floats.
+    const Polygon polygon = *Polygon::build({{-64, -64}, {-32, -64}, {2.80259693e-45f, -32}, {64, 32}, {0, 64}});
+    EXPECT_NEAR(closest(polygon, Vec2(40, -8)).distance, std::sqrt(128.0f), 1e-5f);
+    EXPECT_NEAR(closest(polygon, Vec2(-8, -56)).distance, std::sqrt(128.0f), 1e-5f);
+}
+
+TEST(PlanePairs, NameTheSameCornersAsTheSearches) {
+    const Box2 box{{0, 0}, {1, 1}};
+    const Box2 other{{0.25f, 1.75f}, {1, 1}};
+    const Contact<2> quick = contact(box, other);
+    const Manifold<2> plain = manifold(view(box), view(other), signed_distance<2>(view(box), view(other)), 0);
+    ASSERT_EQ(quick.points.size(), 2u);
+    ASSERT_EQ(plain.count, 2u);
+    for (const ContactPoint<2>& point : quick.points) {
+        const bool first = length(DVec<2>(point.position) - plain.points[0].position) < 1e-6;
+        EXPECT_EQ(point.feature, plain.points[first ? 0 : 1].feature);
+    }
+    EXPECT_EQ(quick.depth, 0.25f);
+    EXPECT_EQ(quick.normal, Vec2(0, 1));
+}
+
+TEST(PlanePairs, MoveWithTheirCacheFromOverlappingToApart) {
+    const Polygon a = *Polygon::build({{-1, -1}, {1, -1}, {1.5f, 0}, {1, 1}, {-1, 1}});
+    Cache cache;
+    for (int step = 0; step < 400; ++step) {
+        const float along = static_cast<float>(step) * 0.01f;
+        const auto b = at(a, Pose2{{along, 0.5f * along}, Turn::by(3 * along)});
+        const Closest<2> cold = closest(a, b), warm = closest(a, b, {.cache = &cache});
+        EXPECT_NEAR(warm.distance, cold.distance, 1e-6f);
+        EXPECT_TRUE(certify(a, b, warm));
+        EXPECT_EQ(overlaps(a, b, {.cache = &cache}), cold.distance <= 0);
+    }
+}
+
+TEST(PlaneIntersection, IsThatOfTheGeneralCut) {
+    int overlapping = 0, pairs = 0;
+    Polygon quick;
+    for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(oracle::amount(5000)); ++seed) {
+        SCOPED_TRACE(seed);
+        Random random(seed);
+        const Kind kinds[] = {Kind::box, Kind::polytope, Kind::triangle};
+        const auto pair = oracle::random_pair<2>(random, kinds[random.below(3)], kinds[random.below(3)]);
+        const Convex<2>&a = convex_of(pair.a), &b = convex_of(pair.b);
+        if (a.radius > 0 || b.radius > 0) continue;
+        ++pairs;
+        std::vector<Vec2> corners;
+        for (const DVec<2>& corner : clip(a, b)) corners.push_back(to_float(corner));
+        const bool meet = intersection(a, b, quick);
+        const double margin = oracle::margin_of_doubt(pair.a.solid, pair.b.solid);
+        if (meet == corners.empty()) {
+            EXPECT_LE(std::abs(signed_distance(a, b).distance), margin);
+            continue;
+        }
+        overlapping += meet ? 1 : 0;
+        if (!meet) continue;
+        const Polygon plain = *Polygon::build(corners);
+        const double extent = 2 * std::min(size(a), size(b));
+        EXPECT_NEAR(quick.area(), plain.area(), 4 * margin * extent);
+        for (const Vec2& corner : quick.points()) EXPECT_LE(closest(plain, corner).distance, margin);
+        for (const Vec2& corner : plain.points()) EXPECT_LE(closest(quick, corner).distance, margin);
+    }
+    EXPECT_GT(overlapping, pairs * 3 / 10);
+}
+
+TEST(PlaneIntersection, BeginsAtTheLeastCornerAndGivesWhatLiesInsideBack) {
+    const Polygon small = *Polygon::build({{0.1f, 0.2f}, {0.7f, -0.3f}, {1.3f, 0.9f}, {0.3f, 1.1f}});
+    Polygon out;
+    ASSERT_TRUE(intersection(Box2{{0, 0}, {4, 4}}, small, out));
+    EXPECT_TRUE(std::ranges::equal(out.points(), small.points()));
+    ASSERT_TRUE(intersection(Box2{{0, 0}, {1, 1}}, Box2{{1, 1}, {1, 1}}, out));
+    EXPECT_TRUE(std::ranges::equal(out.points(), std::array{Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1)}));
+    ASSERT_TRUE(intersection(Box2{{0, 0}, {1, 1}}, Box2{{2, 0.5f}, {1, 1}}, out));
+    EXPECT_EQ(out.rank(), 1);
+    EXPECT_FALSE(intersection(Box2{{0, 0}, {1, 1}}, Box2{{2.5f, 0.5f}, {1, 1}}, out));
+}
+
+}  // namespace
+}  // namespace abut
