@@ -149,6 +149,11 @@ void Bvh<D>::visit_along(const Ray<D>& ray, ReachCall visit) const {
 }
 
 template <int D>
+void Bvh<D>::visit_along(const MovingBox<D>& box, ReachCall visit) const {
+    visit_within(nodes_, items_, RayReach<D>::of_box(box), visit);
+}
+
+template <int D>
 void Bvh<D>::visit_near(const Aabb<D>& box, float reach, ReachCall visit) const {
     visit_within(nodes_, items_, BoxReach<D>(box, reach), visit);
 }

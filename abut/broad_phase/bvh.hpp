@@ -48,6 +48,11 @@ public:
     void raycast(const Ray<D>& ray, F&& visit) const {
         visit_along(ray, reach_after(visit));
     }
+    /// The same for a box on its way; the visitor's reach is in lengths of its direction.
+    template <ReachVisitor F>
+    void sweep(const MovingBox<D>& box, F&& visit) const {
+        visit_along(box, reach_after(visit));
+    }
     template <ReachVisitor F>
     void closest(const Aabb<D>& box, F&& visit, float reach = std::numeric_limits<float>::infinity()) const {
         visit_near(box, reach, reach_after(visit));
@@ -74,6 +79,7 @@ private:
     void visit_pairs(const Bvh& other, PairCall visit) const;
     void visit_overlapping(const Aabb<D>& box, ItemCall visit) const;
     void visit_along(const Ray<D>& ray, ReachCall visit) const;
+    void visit_along(const MovingBox<D>& box, ReachCall visit) const;
     void visit_near(const Aabb<D>& box, float reach, ReachCall visit) const;
 
     std::size_t size_ = 0;

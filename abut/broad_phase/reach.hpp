@@ -16,13 +16,16 @@ namespace abut {
 /// Covers what a float loses when a distance, or the length of a unit direction, is rounded to it.
 inline constexpr double reach_slack = 1 + 1e-6;
 
-/// The part of a ray that is still of interest. Its measure of a box is the distance along the ray where it comes in.
+/// The part of a ray, or of the way of a moving box, that is still of interest. Its measure of a box is the distance
+/// along the way where it comes in.
 template <int D>
 class RayReach {
 public:
-    explicit RayReach(const Ray<D>& ray) : origin_(ray.origin), direction_(ray.direction), inverse_(1.0 / direction_) {
-        const bool usable_ray = is_finite(ray.origin) && is_finite(ray.direction);
-        if (usable_ray && ray.length >= 0) reach_ = static_cast<double>(ray.length) * reach_slack;
+    explicit RayReach(const Ray<D>& ray)
+        : RayReach(DVec<D>(ray.origin), DVec<D>(ray.origin), DVec<D>(ray.direction), static_cast<double>(ray.length)) {}
+
+    static RayReach of_box(const MovingBox<D>& box) {
+        return {box.center - box.half, box.center + box.half, box.direction, box.length};
     }
 
     bool over() const { return reach_ < 0; }
@@ -36,10 +39,10 @@ public:
         for (int i = 0; i < D; ++i) {
             const double min = static_cast<double>(box.min[i]), max = static_cast<double>(box.max[i]);
             if (direction_[i] == 0) {
-                if (!(min <= origin_[i] && origin_[i] <= max)) return false;
+                if (!(min <= high_[i] && low_[i] <= max)) return false;
                 continue;
             }
-            const double at_min = (min - origin_[i]) * inverse_[i], at_max = (max - origin_[i]) * inverse_[i];
+            const double at_min = (min - high_[i]) * inverse_[i], at_max = (max - low_[i]) * inverse_[i];
             from = std::max(from, direction_[i] > 0 ? at_min : at_max);
             to = std::min(to, direction_[i] > 0 ? at_max : at_min);
         }
@@ -49,7 +52,15 @@ public:
     }
 
 private:
-    DVec<D> origin_, direction_, inverse_;
+    RayReach(const DVec<D>& low, const DVec<D>& high, const DVec<D>& direction, double length_of_way)
+        : low_(low), high_(high), direction_(direction), inverse_(1.0 / direction_) {
+        // Of doubles that were floats once no square is infinite.
+        const bool usable_way =
+            std::isfinite(length_squared(low_) + length_squared(high_) + length_squared(direction_));
+        if (usable_way && length_of_way >= 0) reach_ = length_of_way * reach_slack;
+    }
+
+    DVec<D> low_, high_, direction_, inverse_;  ///< the box it begins with, for a ray a point
     double reach_ = -1;
 };
 

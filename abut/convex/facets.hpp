@@ -23,6 +23,7 @@ struct Facets {
     std::span<const std::uint32_t> loop_ends;  ///< one a face: where its loop ends in `loops`; it begins where the last
                                                ///< ended
     std::span<const FacetEdge> edges;          ///< each once, in the order of (from, to)
+    std::span<const double> offsets{};         ///< one a face: dot(normal, p) <= offset for all points; none: not known
 
     /// The point numbers of one face.
     std::span<const std::uint32_t> loop(std::size_t face) const {

@@ -65,6 +65,31 @@ inline DVec<3> mapped_normal(const Affine<3>& map, const DVec<3>& n) {
     return (cross(v, w) * n.x + cross(w, u) * n.y + cross(u, v) * n.z) * sign;
 }
 
+inline double determinant(const Affine<2>& map) {
+    return cross(map.column[0], map.column[1]);
+}
+inline double determinant(const Affine<3>& map) {
+    return dot(map.column[0], cross(map.column[1], map.column[2]));
+}
+
+/// The way back; the determinant is not zero.
+inline Affine<2> inverse(const Affine<2>& map, double determinant) {
+    Affine<2> result;
+    result.column[0] = DVec<2>(map.column[1].y, -map.column[0].y) / determinant;
+    result.column[1] = DVec<2>(-map.column[1].x, map.column[0].x) / determinant;
+    result.offset = -result.vector(map.offset);
+    return result;
+}
+inline Affine<3> inverse(const Affine<3>& map, double determinant) {
+    const DVec<3> x = cross(map.column[1], map.column[2]) / determinant;
+    const DVec<3> y = cross(map.column[2], map.column[0]) / determinant;
+    const DVec<3> z = cross(map.column[0], map.column[1]) / determinant;
+    Affine<3> result;
+    for (int i = 0; i < 3; ++i) result.column[static_cast<std::size_t>(i)] = DVec<3>(x[i], y[i], z[i]);
+    result.offset = -result.vector(map.offset);
+    return result;
+}
+
 template <int D>
 Affine<D> scaling(const Vec<D>& scale) {
     Affine<D> result;

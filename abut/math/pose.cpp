@@ -1,7 +1,7 @@
 #include <abut/math/assert.hpp>
 #include <abut/math/linear.hpp>
 #include <abut/math/pose.hpp>
-#include <abut/math/unit_turn.hpp>
+#include <abut/math/set_affine.hpp>
 
 #include <glm/ext/quaternion_double.hpp>
 
@@ -71,17 +71,9 @@ Affine<2> affine(const Pose2& pose) {
 }
 
 Affine<3> affine(const Pose3& pose) {
-    // The matrix of q / |q|; in double no square of a float overflows, or vanishes unless the float is zero.
-    const glm::dquat q(pose.rotation);
-    const double norm_squared = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
-    const double s = norm_squared == 0 ? 0 : 2 / norm_squared;
-    const double x = q.x * s, y = q.y * s, z = q.z * s;
-    const double xx = q.x * x, yy = q.y * y, zz = q.z * z;
-    const double xy = q.x * y, xz = q.x * z, yz = q.y * z;
-    const double wx = q.w * x, wy = q.w * y, wz = q.w * z;
-    return {{DVec<3>(1 - (yy + zz), xy + wz, xz - wy), DVec<3>(xy - wz, 1 - (xx + zz), yz + wx),
-             DVec<3>(xz + wy, yz - wx, 1 - (xx + yy))},
-            DVec<3>(pose.position)};
+    Affine<3> result;
+    set_affine(result, pose);
+    return result;
 }
 
 Vec2 rotate(const Turn& rotation, const Vec2& v) {

@@ -23,6 +23,16 @@ Ray(glm::vec<D, float>, glm::vec<D, float>, float) -> Ray<D>;
 using Ray2 = Ray<2>;
 using Ray3 = Ray<3>;
 
+/// A box on its way, in double: it reaches `half` each way from its center, which moves from `center` along
+/// `direction`, of any length, 0 to `length` times.
+template <int D>
+struct MovingBox {
+    DVec<D> center{0.0};
+    DVec<D> half{0.0};
+    DVec<D> direction{0.0};
+    double length = 0;
+};
+
 extern template struct Ray<2>;
 extern template struct Ray<3>;
 

@@ -1,23 +1,11 @@
 #include <abut/query/closest.hpp>
 #include <abut/query/part_pairs.hpp>
+#include <abut/query/vicinity.hpp>
+
+#include <optional>
 
 namespace abut {
 namespace {
-
-/// The gap between two boxes along the axis on which it is widest; not below zero.
-template <int D>
-float gap(const Aabb<D>& a, const Aabb<D>& b) {
-    float widest = 0;
-    for (int i = 0; i < D; ++i) widest = std::max({widest, a.min[i] - b.max[i], b.min[i] - a.max[i]});
-    return widest;
-}
-
-/// How much wider to look at first: an eighth of the smaller shape, and enough to matter beside `start`.
-template <int D>
-float first_step(const View<D>& a, const View<D>& b, float start) {
-    const float eighth = static_cast<float>(0.125 * std::min(size(a), size(b)));
-    return std::max(eighth, 2 * (std::nextafter(start, std::numeric_limits<float>::max()) - start));
-}
 
 template <int D>
 void write(const SignedDistance<D>& distance, Closest<D>& result) {
@@ -27,28 +15,37 @@ void write(const SignedDistance<D>& distance, Closest<D>& result) {
     result.on_b = to_float(distance.on_b());
 }
 
+/// Calls visit(part, index) for a convex shape or half-space itself, and for the parts of a composite one that are
+/// within reach of `other`, as long as visit() returns it.
+template <int D, class Other, class Visit>
+void each_part_within_reach(const View<D>& shape, const Other& other, Visit&& visit) {
+    if (const auto* convex = std::get_if<Convex<D>>(&shape))
+        visit(*convex, 0u);
+    else if (const auto* solid = std::get_if<Solid<D>>(&shape))
+        visit(*solid, 0u);
+    else
+        each_part_near<D>(std::get<Composite<D>>(shape), bounds(other),
+                          [&](const Convex<D>& part, std::uint32_t index) -> float { return visit(part, index); });
+}
+
+/// The least distance over all pairs of parts.
 template <int D>
 class Nearest {
 public:
     explicit Nearest(const SearchOptions<D>& options) : options_(options) {}
 
-    /// The least distance over all pairs of parts within reach.
-    void search(const View<D>& a, const View<D>& b, float reach) {
-        each_part_pair(a, b, reach,
-                       [&](const auto& part_a, std::uint32_t index_a, const auto& part_b, std::uint32_t index_b) {
-                           const SignedDistance<D> distance = part_distance(part_a, part_b, options_);
-                           if (!any_ || distance.distance < least_.distance) {
-                               any_ = true;
-                               least_ = distance;
-                               // Now, while the parts are there: a composite shape may make them up as it goes.
-                               name_features(part_a, part_b, distance, index_a, index_b, found_);
-                           }
-                           return true;
-                       });
+    void search(const View<D>& a, const View<D>& b) {
+        if (const auto* convex = std::get_if<Convex<D>>(&b))
+            look_around<false>(a, *convex, 0);
+        else if (const auto* solid = std::get_if<Solid<D>>(&b))
+            look_around<false>(a, *solid, 0);
+        else
+            each_part_within_reach(a, b, [&](const auto& part, std::uint32_t index) {
+                look_around<true>(b, part, index);
+                return reach();
+            });
     }
 
-    bool any() const { return any_; }
-    double distance() const { return least_.distance; }
     Closest<D> found() const {
         Closest<D> result = found_;
         if (any_) write(least_, result);
@@ -56,6 +53,43 @@ public:
     }
 
 private:
+    /// What is farther off can't be nearer. Of what overlaps all must be looked at.
+    float reach() const {
+        return any_ ? static_cast<float>(std::max(least_.distance, 0.0)) : std::numeric_limits<float>::infinity();
+    }
+
+    /// At all parts of a shape near a part of the other one, which is of A or of B.
+    template <bool of_a, class Part>
+    void look_around(const View<D>& shape, const Part& part, std::uint32_t index) {
+        [[maybe_unused]] constexpr bool two_half_spaces_pair = false;
+        constexpr bool is_convex = std::is_same_v<Part, Convex<D>>;
+        std::optional<Vicinity<D>> vicinity;
+        if constexpr (is_convex)
+            if (std::holds_alternative<Composite<D>>(shape)) vicinity.emplace(part);
+        each_part_within_reach(shape, part, [&]<class Other>(const Other& other, std::uint32_t other_index) {
+            if constexpr (is_convex && std::is_same_v<Other, Convex<D>>)
+                if (any_ && vicinity && least_.distance > 0 && vicinity->is_beyond(other, least_.distance))
+                    return reach();
+            if constexpr (!is_convex && std::is_same_v<Part, Other>)
+                ABUT_ASSERT(two_half_spaces_pair);
+            else if constexpr (of_a)
+                look_at(part, index, other, other_index);
+            else
+                look_at(other, other_index, part, index);
+            return reach();
+        });
+    }
+
+    template <class PartA, class PartB>
+    void look_at(const PartA& part_a, std::uint32_t index_a, const PartB& part_b, std::uint32_t index_b) {
+        const SignedDistance<D> distance = part_distance(part_a, part_b, options_);
+        if (any_ && !(distance.distance < least_.distance)) return;
+        any_ = true;
+        least_ = distance;
+        // Now, while the parts are there: a composite shape may make them up as it goes.
+        name_features(part_a, part_b, distance, index_a, index_b, found_);
+    }
+
     SearchOptions<D> options_;
     bool any_ = false;
     SignedDistance<D> least_{};
@@ -82,24 +116,7 @@ Closest<D> closest(const View<D>& a, const View<D>& b, const QueryOptions<D>& op
     ABUT_ASSERT(finite);
     if (!finite) return {};
     Nearest<D> nearest(search_options(a, b, options));
-    if (!std::holds_alternative<Composite<D>>(a) && !std::holds_alternative<Composite<D>>(b)) {
-        nearest.search(a, b, 0);
-        return nearest.found();
-    }
-    // Parts are told by their boxes alone. So the search widens until it finds some part, and then looks once more as
-    // far as that one is, since a box out there may hold something nearer.
-    const Aabb<D> box_a = bounds(a), box_b = bounds(b);
-    if (!(box_a.min[0] <= box_a.max[0] && box_b.min[0] <= box_b.max[0])) return {};
-    constexpr float most = std::numeric_limits<float>::max();
-    const float start = gap(box_a, box_b);
-    float reach = start;
-    nearest.search(a, b, reach);
-    for (float step = first_step(a, b, start); !nearest.any() && reach < most; step *= 2) {
-        reach = std::min(start + step, most);
-        nearest.search(a, b, reach);
-    }
-    if (nearest.any() && nearest.distance() > static_cast<double>(reach))
-        nearest.search(a, b, std::nextafter(static_cast<float>(nearest.distance()), most));
+    nearest.search(a, b);
     return nearest.found();
 }
 

@@ -135,6 +135,16 @@ void each_part(const Mesh& mesh, const Aabb3& box,
                                       [&](std::uint32_t index) -> bool { return visit(mesh.triangle(index), index); });
 }
 
+void each_part_along(const Mesh& mesh, const MovingBox<3>& box,
+                     FunctionRef<float(const Triangle3& part, std::uint32_t index)> visit) {
+    mesh.data_->tree.sweep(box, [&](std::uint32_t index) -> float { return visit(mesh.triangle(index), index); });
+}
+
+void each_part_near(const Mesh& mesh, const Aabb3& box,
+                    FunctionRef<float(const Triangle3& part, std::uint32_t index)> visit) {
+    mesh.data_->tree.closest(box, [&](std::uint32_t index) -> float { return visit(mesh.triangle(index), index); });
+}
+
 bool solid_contains(const Mesh& mesh, const Vec3& point) {
     if (!mesh.closed()) return false;
     Aabb3 ahead{point, point};

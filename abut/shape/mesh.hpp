@@ -37,6 +37,10 @@ private:
     friend Aabb3 bounds(const Mesh& mesh);
     friend void each_part(const Mesh& mesh, const Aabb3& box,
                           FunctionRef<bool(const Triangle3& part, std::uint32_t index)> visit);
+    friend void each_part_along(const Mesh& mesh, const MovingBox<3>& box,
+                                FunctionRef<float(const Triangle3& part, std::uint32_t index)> visit);
+    friend void each_part_near(const Mesh& mesh, const Aabb3& box,
+                               FunctionRef<float(const Triangle3& part, std::uint32_t index)> visit);
     friend bool solid_contains(const Mesh& mesh, const Vec3& point);
 
     std::shared_ptr<const Data> data_;
@@ -46,6 +50,16 @@ Aabb3 bounds(const Mesh& mesh);
 
 /// Visits the triangles whose boxes overlap `box`; the visitor returns false to stop.
 void each_part(const Mesh& mesh, const Aabb3& box, FunctionRef<bool(const Triangle3& part, std::uint32_t index)> visit);
+
+/// Visits the triangles whose boxes the moving box meets, roughly in the order in which it does; the visitor returns
+/// the new, shorter reach.
+void each_part_along(const Mesh& mesh, const MovingBox<3>& box,
+                     FunctionRef<float(const Triangle3& part, std::uint32_t index)> visit);
+
+/// Visits the triangles, roughly those first whose boxes are nearest to `box`; the visitor returns the new, shorter
+/// reach.
+void each_part_near(const Mesh& mesh, const Aabb3& box,
+                    FunctionRef<float(const Triangle3& part, std::uint32_t index)> visit);
 
 /// Whether a closed mesh goes round the point; false for one that isn't closed. Points of the surface itself are told
 /// by the triangles.

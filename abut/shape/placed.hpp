@@ -75,7 +75,7 @@ namespace detail {
 
 /// Shapes of the plane are put where they are wanted at once.
 template <class S, int D>
-concept PlacedByPose = D == 2 && requires(const S& shape, const Pose<D>& pose) {
+concept PlacedByPose = requires(const S& shape, const Pose<D>& pose) {
     convex(shape, pose);
 };
 

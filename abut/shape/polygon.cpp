@@ -1,7 +1,7 @@
 #include <abut/convex/hull.hpp>
 #include <abut/convex/sides.hpp>
 #include <abut/math/dvec.hpp>
-#include <abut/math/unit_turn.hpp>
+#include <abut/math/set_affine.hpp>
 #include <abut/shape/polygon.hpp>
 
 #include <algorithm>

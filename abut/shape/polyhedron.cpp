@@ -15,7 +15,7 @@ constexpr Facets no_facets;
 struct Polyhedron::Data {
     explicit Data(Hull3 built)
         : hull(std::move(built)),
-          facets{hull.normals, hull.loops, hull.loop_ends, hull.edges},
+          facets{hull.normals, hull.loops, hull.loop_ends, hull.edges, hull.offsets},
           columns(3 * padded_count(hull.points.size())),
           lanes(lay_out(hull.points, columns.data())) {}
     Data(const Data&) = delete;

@@ -1,6 +1,6 @@
 // How the plain shapes look to the engines: points with a ball around them, boxes, discs.
 
-#include <abut/math/unit_turn.hpp>
+#include <abut/math/set_affine.hpp>
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/capsule.hpp>
@@ -20,15 +20,10 @@ Convex<D> points_with_ball(float radius, const Points&... points) {
     return result;
 }
 
-/// The core of up to three points in a place of its own, with a ball around it.
 template <int D, class... Points>
 Convex<D> round_points_at(const Pose<D>& pose, float radius, const Points&... points) {
-    Convex<D> result;
+    Convex<D> result = points_with_ball<D>(radius, points...);
     set_affine(result.place, pose);
-    result.radius = static_cast<double>(radius);
-    result.count = sizeof...(points);
-    std::size_t i = 0;
-    ((result.own[i++] = points), ...);
     return result;
 }
 

@@ -24,30 +24,6 @@ Aabb<D> mapped_box(const Aabb<D>& box, const Affine<D>& map) {
     return result;
 }
 
-double determinant(const Affine<2>& map) {
-    return cross(map.column[0], map.column[1]);
-}
-double determinant(const Affine<3>& map) {
-    return dot(map.column[0], cross(map.column[1], map.column[2]));
-}
-
-Affine<2> inverse_of(const Affine<2>& map, double determinant) {
-    Affine<2> result;
-    result.column[0] = DVec<2>(map.column[1].y, -map.column[0].y) / determinant;
-    result.column[1] = DVec<2>(-map.column[1].x, map.column[0].x) / determinant;
-    result.offset = -result.vector(map.offset);
-    return result;
-}
-Affine<3> inverse_of(const Affine<3>& map, double determinant) {
-    const DVec<3> x = cross(map.column[1], map.column[2]) / determinant;
-    const DVec<3> y = cross(map.column[2], map.column[0]) / determinant;
-    const DVec<3> z = cross(map.column[0], map.column[1]) / determinant;
-    Affine<3> result;
-    for (int i = 0; i < 3; ++i) result.column[static_cast<std::size_t>(i)] = DVec<3>(x[i], y[i], z[i]);
-    result.offset = -result.vector(map.offset);
-    return result;
-}
-
 template <int D>
 Aabb<D> everywhere() {
     constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -67,9 +43,64 @@ template <int D>
 Aabb<D> unplaced_box(const Aabb<D>& box, const Placement<D>& placement) {
     const double volume = determinant(placement.place);
     if (volume == 0 || !bounded(box)) return everywhere<D>();
-    const Affine<D> back = inverse_of(placement.place, volume);
+    const Affine<D> back = inverse(placement.place, volume);
     const Aabb<D> wide = grown(box, static_cast<float>(placement.radius));
     return grown(mapped_box(wide, back), static_cast<float>(placement.inner_radius));
+}
+
+/// A part of a composite, placed. Most parts have no placement of their own, so that there is nothing to find out about
+/// the two together.
+template <int D>
+Convex<D> placed_part(const Convex<D>& part, const Composite<D>& composite) {
+    const bool plain = part.place.column == Affine<D>().column && part.place.offset == DVec<D>(0.0) && part.similar &&
+                       part.radius == 0 && part.inner_radius == 0;
+    if (!plain) return placed(part, composite);
+    Convex<D> result = part;
+    static_cast<Placement<D>&>(result) = composite;
+    return result;
+}
+
+/// The gap between two boxes along the axis on which it is widest; not below zero.
+template <int D>
+float gap(const Aabb<D>& a, const Aabb<D>& b) {
+    float widest = 0;
+    for (int i = 0; i < D; ++i) widest = std::max({widest, a.min[i] - b.max[i], b.min[i] - a.max[i]});
+    return widest;
+}
+
+/// How long a way of length 1 in the world may be in the shape's own frame.
+template <int D>
+double longest_of_unit(const Placement<D>& placement, const Affine<D>& back) {
+    if (placement.similar) return 1 / placement.scale;
+    double sum = 0;
+    for (const DVec<D>& column : back.column) sum += length_squared(column);
+    return std::sqrt(sum);
+}
+
+/// Widens a box until some part is found, and then looks once more as far as that one is, since a box out there may
+/// hold something nearer.
+template <int D>
+void each_part_by_widening(const Composite<D>& composite, const Aabb<D>& box, PartReachVisitor<D> visit) {
+    const Aabb<D> all = bounds(composite);
+    if (!(all.min[0] <= all.max[0] && box.min[0] <= box.max[0])) return;
+    constexpr float most = std::numeric_limits<float>::max();
+    const float start = gap(all, box);
+    double smaller = std::numeric_limits<double>::infinity();
+    for (const Aabb<D>& one : {all, box})
+        smaller = std::min(smaller, 0.5 * length(DVec<D>(one.max) - DVec<D>(one.min)));
+    // An eighth of the smaller shape, and enough to matter beside `start`.
+    float step = std::max(static_cast<float>(0.125 * smaller), 2 * (std::nextafter(start, most) - start));
+    float looked = start, reach = std::numeric_limits<float>::infinity();
+    const auto look = [&] {
+        each_part<D>(composite, grown(box, looked), [&](const Convex<D>& part, std::uint32_t index) -> bool {
+            reach = std::min(reach, visit(part, index));
+            return reach >= 0;
+        });
+    };
+    for (look(); reach > most && looked < most; look(), step *= 2) looked = std::min(start + step, most);
+    if (reach <= looked || reach > most) return;
+    looked = std::nextafter(reach, most);
+    look();
 }
 
 }  // namespace
@@ -92,17 +123,61 @@ Aabb<D> bounds(const View<D>& view) {
 template <int D>
 void each_part(const Composite<D>& composite, const Aabb<D>& box, PartVisitor<D> visit) {
     const auto place_and_visit = [&](const Convex<D>& part, std::uint32_t index) -> bool {
-        return visit(placed(part, composite), index);
+        return visit(placed_part(part, composite), index);
     };
     composite.each_part(composite.object, unplaced_box(box, static_cast<const Placement<D>&>(composite)),
                         place_and_visit);
 }
 
 template <int D>
+void each_part_along(const Composite<D>& composite, const DVec<D>& origin, const DVec<D>& direction,
+                     double length_of_ray, PartReachVisitor<D> visit) {
+    const Aabb<D> all = bounds(composite);
+    if (!(all.min[0] <= all.max[0])) return;
+    const double across = length(DVec<D>(all.max) - DVec<D>(all.min));
+    const double reach = std::min(length_of_ray, length(DVec<D>(center(all)) - origin) + across);
+    // Parts count that a search takes for hit: they are a little wider than their boxes.
+    const double slack = 2e-7 * across;
+    const double volume = determinant(composite.place);
+    if (composite.each_part_along != nullptr && volume != 0) {
+        const Affine<D> back = inverse(composite.place, volume);
+        MovingBox<D> box;
+        box.center = back.point(origin);
+        box.direction = back.vector(direction);
+        box.length = reach;
+        for (int i = 0; i < D; ++i) {
+            double squares = 0;
+            for (const DVec<D>& column : back.column) squares += column[i] * column[i];
+            box.half[i] = std::sqrt(squares) * (composite.radius + slack) + composite.inner_radius;
+        }
+        composite.each_part_along(composite.object, box, [&](const Convex<D>& part, std::uint32_t index) -> float {
+            return visit(placed_part(part, composite), index);
+        });
+        return;
+    }
+    const Vec<D> from = to_float(origin), to = to_float(origin + direction * reach);
+    each_part<D>(composite, grown(merged(Aabb<D>{from, from}, Aabb<D>{to, to}), static_cast<float>(slack)),
+                 [&](const Convex<D>& part, std::uint32_t index) -> bool { return visit(part, index) >= 0; });
+}
+
+template <int D>
+void each_part_near(const Composite<D>& composite, const Aabb<D>& box, PartReachVisitor<D> visit) {
+    const double volume = determinant(composite.place);
+    if (composite.each_part_near == nullptr || volume == 0) return each_part_by_widening(composite, box, visit);
+    const Placement<D>& placement = composite;
+    const double longest = longest_of_unit(placement, inverse(composite.place, volume)) * (1 + 1e-6);
+    composite.each_part_near(composite.object, unplaced_box(box, placement),
+                             [&](const Convex<D>& part, std::uint32_t index) -> float {
+                                 const double reach = static_cast<double>(visit(placed_part(part, composite), index));
+                                 return static_cast<float>(reach * longest);
+                             });
+}
+
+template <int D>
 bool contains_inside(const Composite<D>& composite, const Vec<D>& point) {
     const double volume = determinant(composite.place);
     if (composite.contains == nullptr || volume == 0) return false;
-    return composite.contains(composite.object, to_float(inverse_of(composite.place, volume).point(DVec<D>(point))));
+    return composite.contains(composite.object, to_float(inverse(composite.place, volume).point(DVec<D>(point))));
 }
 
 template <int D>
@@ -181,21 +256,23 @@ View<D> rounded(const View<D>& view, double radius) {
     return std::visit([&](const auto& shape) -> View<D> { return rounded(shape, radius); }, view);
 }
 
-#define ABUT_INSTANTIATE(D)                                                       \
-    template Aabb<D> bounds(const Composite<D>&);                                 \
-    template Aabb<D> bounds(const View<D>&);                                      \
-    template void each_part(const Composite<D>&, const Aabb<D>&, PartVisitor<D>); \
-    template bool contains_inside(const Composite<D>&, const Vec<D>&);            \
-    template double size(const View<D>&);                                         \
-    template bool is_finite(const View<D>&);                                      \
-    template Convex<D> mapped(const Convex<D>&, const Affine<D>&);                \
-    template Composite<D> mapped(const Composite<D>&, const Affine<D>&);          \
-    template View<D> mapped(const View<D>&, const Affine<D>&);                    \
-    template Convex<D> moved(const Convex<D>&, const Affine<D>&);                 \
-    template Composite<D> moved(const Composite<D>&, const Affine<D>&);           \
-    template View<D> moved(const View<D>&, const Affine<D>&);                     \
-    template Convex<D> rounded(const Convex<D>&, double);                         \
-    template Composite<D> rounded(const Composite<D>&, double);                   \
+#define ABUT_INSTANTIATE(D)                                                                                          \
+    template Aabb<D> bounds(const Composite<D>&);                                                                    \
+    template Aabb<D> bounds(const View<D>&);                                                                         \
+    template void each_part(const Composite<D>&, const Aabb<D>&, PartVisitor<D>);                                    \
+    template void each_part_along(const Composite<D>&, const DVec<D>&, const DVec<D>&, double, PartReachVisitor<D>); \
+    template void each_part_near(const Composite<D>&, const Aabb<D>&, PartReachVisitor<D>);                          \
+    template bool contains_inside(const Composite<D>&, const Vec<D>&);                                               \
+    template double size(const View<D>&);                                                                            \
+    template bool is_finite(const View<D>&);                                                                         \
+    template Convex<D> mapped(const Convex<D>&, const Affine<D>&);                                                   \
+    template Composite<D> mapped(const Composite<D>&, const Affine<D>&);                                             \
+    template View<D> mapped(const View<D>&, const Affine<D>&);                                                       \
+    template Convex<D> moved(const Convex<D>&, const Affine<D>&);                                                    \
+    template Composite<D> moved(const Composite<D>&, const Affine<D>&);                                              \
+    template View<D> moved(const View<D>&, const Affine<D>&);                                                        \
+    template Convex<D> rounded(const Convex<D>&, double);                                                            \
+    template Composite<D> rounded(const Composite<D>&, double);                                                      \
     template View<D> rounded(const View<D>&, double);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

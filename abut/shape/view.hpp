@@ -7,6 +7,7 @@
 
 #include <abut/convex/support.hpp>
 #include <abut/math/function_ref.hpp>
+#include <abut/math/ray.hpp>
 #include <abut/shape/half_space.hpp>
 
 #include <concepts>
@@ -19,6 +20,11 @@ namespace abut {
 template <int D>
 using PartVisitor = FunctionRef<bool(const Convex<D>& part, std::uint32_t index)>;
 
+/// Is given one convex part with its number while the parts are asked for in some order; returns how far on they are
+/// still wanted: the new, shorter reach.
+template <int D>
+using PartReachVisitor = FunctionRef<float(const Convex<D>& part, std::uint32_t index)>;
+
 /// A composite shape: the union of its parts. Refers to the shape and must not outlive it.
 template <int D>
 struct Composite : Placement<D> {
@@ -26,6 +32,12 @@ struct Composite : Placement<D> {
     const void* object = nullptr;
     /// Visits at least the parts whose boxes overlap `box`, both in the shape's own frame.
     void (*each_part)(const void* object, const Aabb<D>& box, PartVisitor<D> visit) = nullptr;
+    /// Visits at least the parts whose boxes the moving box meets within reach, roughly the first first. Null: they are
+    /// asked for by a box around the whole way.
+    void (*each_part_along)(const void* object, const MovingBox<D>& box, PartReachVisitor<D> visit) = nullptr;
+    /// Visits at least the parts whose boxes are within reach of `box`, roughly the nearest first. Null: they are asked
+    /// for by wider and wider boxes.
+    void (*each_part_near)(const void* object, const Aabb<D>& box, PartReachVisitor<D> visit) = nullptr;
     /// Whether a point of the shape's own frame is inside it; null where the shape is the union of its parts and no
     /// more.
     bool (*contains)(const void* object, const Vec<D>& point) = nullptr;
@@ -44,6 +56,17 @@ Aabb<D> bounds(const View<D>& view);
 /// Visits at least the parts whose boxes overlap `box`, placed as the composite is; box and parts in the world.
 template <int D>
 void each_part(const Composite<D>& composite, const Aabb<D>& box, PartVisitor<D> visit);
+
+/// Visits at least the parts that a ray of the world meets within reach, which is a distance along it; roughly the
+/// first first.
+template <int D>
+void each_part_along(const Composite<D>& composite, const DVec<D>& origin, const DVec<D>& direction, double length,
+                     PartReachVisitor<D> visit);
+
+/// Visits at least the parts whose boxes are within reach of `box`, roughly the nearest first; box and parts in the
+/// world. A part may be visited more than once.
+template <int D>
+void each_part_near(const Composite<D>& composite, const Aabb<D>& box, PartReachVisitor<D> visit);
 
 /// Whether a point of the world is inside a composite that is solid, without its parts and without what was rounded
 /// onto it.
@@ -81,7 +104,9 @@ template <int D>
 View<D> rounded(const View<D>& view, double radius);
 
 // From here on: how a type becomes a view. The library's own shapes give `convex(shape)`; a user's give `bounds(shape)`
-// and either `support(shape, direction)` or `each_part(shape, box, visit)`, found by argument-dependent lookup.
+// and either `support(shape, direction)` or `each_part(shape, box, visit)`, found by argument-dependent lookup. A
+// composite one that has its parts in some order may also give `each_part_along(shape, moving_box, visit)` and
+// `each_part_near(shape, box, visit)`, for rays and distances.
 
 namespace detail {
 
@@ -114,6 +139,14 @@ struct AnyPart {
     template <class Part>
     bool operator()(const Part&, std::uint32_t) const {
         return true;
+    }
+};
+
+template <int D>
+struct AnyPartReach {
+    template <class Part>
+    float operator()(const Part&, std::uint32_t) const {
+        return 0;
     }
 };
 
@@ -168,6 +201,16 @@ requires(!detail::HasConvex<S> && !detail::HasSupport<S> && detail::HasParts<S>)
         each_part(*static_cast<const S*>(object), box,
                   [&](const auto& part, std::uint32_t index) -> bool { return visit(view(part), index); });
     };
+    if constexpr (requires { each_part_along(shape, MovingBox<D>(), detail::AnyPartReach<D>()); })
+        result.each_part_along = [](const void* object, const MovingBox<D>& box, PartReachVisitor<D> visit) {
+            each_part_along(*static_cast<const S*>(object), box,
+                            [&](const auto& part, std::uint32_t index) -> float { return visit(view(part), index); });
+        };
+    if constexpr (requires { each_part_near(shape, Aabb<D>(), detail::AnyPartReach<D>()); })
+        result.each_part_near = [](const void* object, const Aabb<D>& box, PartReachVisitor<D> visit) {
+            each_part_near(*static_cast<const S*>(object), box,
+                           [&](const auto& part, std::uint32_t index) -> float { return visit(view(part), index); });
+        };
     if constexpr (requires {
                       { solid_contains(shape, Vec<D>()) } -> std::same_as<bool>;
                   })

@@ -56,6 +56,49 @@ TEST(Bvh, SplitsBetterThanInHalves) {
     }
 }
 
+TEST(Bvh, SweepsABoxThroughAllThatItTouches) {
+    oracle::Random random(13);
+    int met = 0, visited = 0;
+    for (int i = 0; i < 200; ++i) {
+        const auto boxes = make_scene<3>(Scene::mixed_sizes, 300, random);
+        Bvh<3> tree;
+        tree.build(boxes);
+        const DVec<3> low(tree.bounds().min), high(tree.bounds().max), extent = high - low;
+        MovingBox<3> moving;
+        moving.center = low + (DVec<3>(0.5) + 0.5 * random.in_cube<3>()) * extent;
+        moving.half = DVec<3>(random.unit(), random.unit(), random.chance(0.3) ? 0 : random.unit()) * (0.02 * extent.x);
+        moving.direction = random.in_cube<3>() * extent;
+        if (random.chance(0.3)) moving.direction.y = 0;
+        moving.length = random.uniform(0, 1);
+        std::vector<bool> seen(boxes.size());
+        tree.sweep(moving, [&](std::uint32_t item) {
+            seen[item] = true;
+            ++visited;
+        });
+        // Where it is at some moments.
+        for (int step = 0; step <= 50; ++step) {
+            const DVec<3> now = moving.center + moving.direction * (moving.length * step / 50);
+            for (std::size_t k = 0; k < boxes.size(); ++k) {
+                bool touches = true;
+                for (int axis = 0; axis < 3; ++axis)
+                    touches = touches && static_cast<double>(boxes[k].min[axis]) <= now[axis] + moving.half[axis] &&
+                              now[axis] - moving.half[axis] <= static_cast<double>(boxes[k].max[axis]);
+                EXPECT_TRUE(!touches || seen[k]) << i << " " << step;
+            }
+        }
+        // A visitor that shortens the reach to nothing is asked no more of what lies ahead.
+        std::size_t few = 0;
+        tree.sweep(moving, [&](std::uint32_t) -> float {
+            ++few;
+            return -1;
+        });
+        EXPECT_LE(few, 1u);
+        met += static_cast<int>(std::count(seen.begin(), seen.end(), true));
+    }
+    EXPECT_GT(met, 200);
+    EXPECT_EQ(visited, met) << "each once";
+}
+
 TEST(Bvh, IsNeverDeeperThanItsStacks) {
     // Ever nearer to 0 along each axis in turn, each step half of the last: every split parts off a few.
     std::vector<Aabb3> boxes;

@@ -174,6 +174,50 @@ TEST(MeshQuery, ClosedMeshAgreesWithItsTriangles) {
     expect_both_kinds(seen);
 }
 
+/// The same triangles as a user's own shape, which has them in no order.
+struct Heap {
+    Mesh mesh;
+};
+Aabb3 bounds(const Heap& heap) {
+    return bounds(heap.mesh);
+}
+template <class Visit>
+void each_part(const Heap& heap, const Aabb3& box, Visit&& visit) {
+    for (std::uint32_t i = 0; i < heap.mesh.triangles().size(); ++i)
+        if (overlaps(bounds(convex(heap.mesh.triangle(i))), box) && !visit(heap.mesh.triangle(i), i)) return;
+}
+
+TEST(MeshQuery, IsLikeTheSameTrianglesInNoOrder) {
+    oracle::Random random(6);
+    int hits = 0, gaps = 0;
+    for (int i = 0; i < 200; ++i) {
+        const Heap heap{random_soup(random, 30, 1, 0.6).mesh()};
+        static_assert(Shape<Heap>);
+        ASSERT_EQ(view(heap).each_part_near, nullptr);
+        ASSERT_NE(view(heap.mesh).each_part_near, nullptr);
+        const Pose3 pose = random_pose<3>(random, 1.5);
+        const Vec3 scale = random_scale(random);
+        const Box3 box{to_float(random.in_cube<3>() * 2.5), {0.2f, 0.3f, 0.1f}, random.rotation<3>()};
+        const auto ordered = at(stretched(heap.mesh, scale), pose);
+        const auto unordered = at(stretched(heap, scale), pose);
+        const Closest<3> found = closest(ordered, box), expected = closest(unordered, box);
+        EXPECT_EQ(found.distance, expected.distance);
+        EXPECT_EQ(closest(box, unordered).distance, expected.distance);
+        EXPECT_EQ(closest(unordered, ordered).distance, closest(ordered, ordered).distance);
+        gaps += found.distance > 0 ? 1 : 0;
+        const Vec3 from = to_float(random.in_cube<3>() * 4.0), to = to_float(random.in_cube<3>());
+        const auto hit = raycast(Ray3::between(from, to), ordered), same = raycast(Ray3::between(from, to), unordered);
+        ASSERT_EQ(hit.has_value(), same.has_value());
+        if (!hit) continue;
+        ++hits;
+        EXPECT_EQ(hit->distance, same->distance);
+        EXPECT_EQ(hit->feature, same->feature);
+        EXPECT_EQ(hit->normal, same->normal);
+    }
+    EXPECT_GT(hits, 40);
+    EXPECT_GT(gaps, 40);
+}
+
 TEST(MeshQuery, MeshAgainstMeshAgreesWithAllPairsOfTriangles) {
     oracle::Random random(3);
     Seen seen;

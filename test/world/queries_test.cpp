@@ -189,10 +189,21 @@ TEST(Queries, HalfSpacesReachEverywhereAndDontPair) {
     });
 }
 
+/// A segment that is known by its support function alone: rays search for it.
+struct Rod {
+    Vec2 from{2, -3}, to{3, -2};
+};
+Aabb2 bounds(const Rod& rod) {
+    return {rod.from, rod.to};
+}
+Vec2 support(const Rod& rod, const Vec2& direction) {
+    return direction.x + direction.y > 0 ? rod.to : rod.from;
+}
+
 // A ray that passes a shape within the rounding of a raycast counts as a hit, though it misses the shape's box; it did
 // so only until the shape had gone into the tree.
 TEST(Queries, GrazingRayHitsBeforeAndAfterTheUpdate) {
-    const Segment2 segment{{2, -3}, {3, -2}};
+    const Rod segment;
     const Ray2 grazing{{-2.5f, -1}, {0.913811564f, -0.40613848f}, 10};
     const auto expected = raycast(grazing, segment);
     ASSERT_TRUE(expected);

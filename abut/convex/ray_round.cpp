@@ -1,0 +1,80 @@
+#include <abut/convex/ray_forms.hpp>
+
+namespace abut {
+namespace {
+
+/// Where a beam enters a ball, from outside: the square is taken of the distance at which it passes the middle, which
+/// keeps its digits however far the ball is. Below zero, or nothing to go by, where it doesn't.
+template <int D>
+double along_to_ball(const Beam<D>& beam, const DVec<D>& center, double radius, bool& enters) {
+    const double nearest = dot(center, beam.direction);
+    const double passes = length_squared(center - beam.direction * nearest);
+    const double half_chord = radius * radius - passes;
+    enters = nearest > 0 && half_chord >= 0;
+    return enters ? nearest - std::sqrt(half_chord) : 0;
+}
+
+template <int D>
+RayEntry<D> entered(double along, const DVec<D>& normal, FeatureKind kind, std::uint32_t index) {
+    return {RayAnswer::enters, along, normal, kind, index};
+}
+
+template <int D>
+RayEntry<D> enter_end(const Beam<D>& beam, const DVec<D>& center, double radius, std::uint32_t number) {
+    bool enters = false;
+    const double along = along_to_ball(beam, center, radius, enters);
+    if (!enters || along > beam.length) return ray_misses<D>();
+    return entered(along, beam.direction * along - center, FeatureKind::vertex, number);
+}
+
+}  // namespace
+
+template <int D>
+RayEntry<D> enter_ball(const Beam<D>& beam, const DVec<D>& center, double radius) {
+    if (!(radius > 0)) return {};
+    const double about = radius + ray_doubt * (largest(center) + radius);
+    if (!(length_squared(center) > about * about)) return {};
+    return enter_end(beam, center, radius, 0);
+}
+
+template <int D>
+RayEntry<D> enter_capsule(const Beam<D>& beam, const DVec<D>& a, const DVec<D>& b, double radius) {
+    const DVec<D> axis = b - a;
+    const double long_squared = length_squared(axis), doubt = ray_doubt * (largest(a) + largest(b) + radius);
+    const double about = radius + doubt;
+    if (!(long_squared > doubt * doubt)) return {};
+    const double along_axis = -dot(a, axis) / long_squared;
+    const DVec<D> nearest = a + axis * std::clamp(along_axis, 0.0, 1.0);
+    if (!(length_squared(nearest) > about * about)) return {};
+
+    // Across the axis it is a disc that the beam's shadow meets.
+    const DVec<D> foot = a + axis * along_axis;
+    const double climbs = dot(beam.direction, axis) / long_squared;
+    const DVec<D> across = beam.direction - axis * climbs;
+    const double off_axis = length_squared(foot), pace = length_squared(across);
+    double height = along_axis;
+    if (off_axis > radius * radius) {
+        // Nearly along the axis, the shadow hardly moves.
+        if (!(pace > 1e-10)) return {};
+        const double passes_at = dot(foot, across) / pace;
+        const double half_chord = radius * radius - length_squared(foot - across * passes_at);
+        if (passes_at < 0 || half_chord < 0) return ray_misses<D>();
+        const double along = passes_at - std::sqrt(half_chord / pace);
+        height += climbs * along;
+        if (height >= 0 && height <= 1) {
+            if (along > beam.length) return ray_misses<D>();
+            return entered(along, across * along - foot, FeatureKind::edge, edge_index(0, 1));
+        }
+    }
+    // Beyond an end of the axis only the ball there is in the way.
+    return height < 0.5 ? enter_end(beam, a, radius, 0) : enter_end(beam, b, radius, 1);
+}
+
+#define ABUT_INSTANTIATE(D)                                                  \
+    template RayEntry<D> enter_ball(const Beam<D>&, const DVec<D>&, double); \
+    template RayEntry<D> enter_capsule(const Beam<D>&, const DVec<D>&, const DVec<D>&, double);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
+
+}  // namespace abut

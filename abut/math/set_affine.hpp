@@ -1,0 +1,40 @@
+#pragma once
+
+// Poses as affine maps, written where they are wanted. For .cpp files.
+
+#include <abut/math/linear.hpp>
+
+namespace abut {
+
+/// Of no length: no turn. A turn that is a unit vector but for its rounding to floats needs no root: what is left of
+/// the series after so many terms is below a double's last digit.
+inline DVec<2> unit(const Turn& turn) {
+    const DVec<2> u(turn.cos, turn.sin);
+    const double squared = dot(u, u), e = squared - 1;  // no square of a float overflows a double, or vanishes
+    if (std::abs(e) < 1e-5) return u * (1 - e * (0.5 - e * (0.375 - e * 0.3125)));
+    return squared == 0 ? DVec<2>(1, 0) : u / std::sqrt(squared);
+}
+
+/// affine(pose), where a call and a copy would cost more than it does.
+inline void set_affine(Affine<2>& map, const Pose2& pose) {
+    const DVec<2> u = unit(pose.rotation);
+    map.column[0] = u;
+    map.column[1] = DVec<2>(0 - u.y, u.x);  // no zero below zero, as in a product of maps
+    map.offset = DVec<2>(pose.position);
+}
+/// The matrix of q / |q|; in double no square of a float overflows, or vanishes unless the float is zero.
+inline void set_affine(Affine<3>& map, const Pose3& pose) {
+    const double w = static_cast<double>(pose.rotation.w), x = static_cast<double>(pose.rotation.x),
+                 y = static_cast<double>(pose.rotation.y), z = static_cast<double>(pose.rotation.z);
+    const double norm_squared = w * w + x * x + y * y + z * z;
+    const double s = norm_squared == 0 ? 0 : 2 / norm_squared;
+    const double sx = x * s, sy = y * s, sz = z * s;
+    const double xx = x * sx, yy = y * sy, zz = z * sz, xy = x * sy, xz = x * sz, yz = y * sz;
+    const double wx = w * sx, wy = w * sy, wz = w * sz;
+    map.column[0] = DVec<3>(1 - (yy + zz), xy + wz, xz - wy);
+    map.column[1] = DVec<3>(xy - wz, 1 - (xx + zz), yz + wx);
+    map.column[2] = DVec<3>(xz + wy, yz - wx, 1 - (xx + yy));
+    map.offset = DVec<3>(pose.position);
+}
+
+}  // namespace abut

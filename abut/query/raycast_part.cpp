@@ -1,0 +1,90 @@
+#include <abut/query/part_pairs.hpp>
+#include <abut/query/raycast_part.hpp>
+
+namespace abut {
+namespace {
+
+/// Steps of the advance; each comes nearer by the whole known gap, so a handful is usual.
+constexpr int most_steps = 64;
+
+/// A point as a shape in its own right, in double.
+template <int D>
+Convex<D> point_shape(const DVec<D>& position) {
+    Convex<D> result;
+    result.place.offset = position;
+    return result;
+}
+
+/// Without inside: a point, a segment in the plane, a triangle in space.
+template <int D>
+bool thin(const Convex<D>& part) {
+    return part.core == Core::points && part.count <= static_cast<std::uint32_t>(D) && part.radius == 0 &&
+           part.inner_radius == 0;
+}
+
+}  // namespace
+
+/// The plane is never behind the surface, so nothing is passed (conservative advancement; Mirtich, "Impulse-based
+/// dynamic simulation", 1996).
+template <int D>
+bool part_hit_by_advance(const Beam<D>& beam, const Convex<D>& part, std::uint32_t index, Trace<D>* trace,
+                         PartHit<D>& hit) {
+    const double doubt = 1e-7 * size(part);
+    double along = 0, last_approach = 0;
+    Cache cache;
+    DVec<D> last_normal(0.0);
+    for (int step = 0; step < most_steps; ++step) {
+        const SignedDistance<D> distance =
+            part_distance(part, point_shape<D>(beam.at(along)), SearchOptions<D>{&cache, trace});
+        const double approach = -dot(beam.direction, distance.normal);
+        const bool there = distance.distance <= doubt;
+        // Every way is a way out of a thin part: what starts on one leaves it, whichever side rounding put it on.
+        if (along == 0 && thin(part) && distance.distance <= 100 * doubt) return false;
+        if ((along == 0 || !there) && !(approach > 0)) return false;
+        if (there || step + 1 == most_steps) {
+            // At an edge there are several ways out, and the one found may lie across the ray.
+            const bool across = approach < 0.5 * last_approach;
+            hit = {along, across ? last_normal : distance.normal, along == 0 && distance.distance < -doubt,
+                   feature_on(part, distance.corners.a, distance.corners.count, distance.normal, index)};
+            return true;
+        }
+        along += distance.distance / approach;
+        if (!(along <= beam.length)) return false;
+        last_approach = approach;
+        last_normal = distance.normal;
+    }
+    return false;
+}
+
+template <int D>
+bool part_hit(const Beam<D>& beam, const Convex<D>& part, std::uint32_t index, Trace<D>* trace, PartHit<D>& hit) {
+    const RayEntry<D> entry = ray_entry(part, beam);
+    if (entry.answer == RayAnswer::undecided) return part_hit_by_advance(beam, part, index, trace, hit);
+    if (entry.answer == RayAnswer::misses) return false;
+    hit.along = entry.along;
+    hit.normal = entry.normal;
+    hit.started_inside = false;
+    hit.feature.part = index;
+    hit.feature.index = entry.index;
+    hit.feature.kind = entry.kind;
+    return true;
+}
+
+template <int D>
+bool part_hit(const Beam<D>& beam, const Solid<D>& part, PartHit<D>& hit) {
+    const double height = dot(part.normal, beam.origin) - part.offset, approach = -dot(beam.direction, part.normal);
+    if (!(approach > 0)) return false;
+    const double along = std::max(height / approach, 0.0);
+    hit = {along, part.normal, height < 0, Feature()};
+    return along <= beam.length;
+}
+
+#define ABUT_INSTANTIATE(D)                                                                                     \
+    template bool part_hit_by_advance(const Beam<D>&, const Convex<D>&, std::uint32_t, Trace<D>*, PartHit<D>&); \
+    template bool part_hit(const Beam<D>&, const Convex<D>&, std::uint32_t, Trace<D>*, PartHit<D>&);            \
+    template bool part_hit(const Beam<D>&, const Solid<D>&, PartHit<D>&);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
+
+}  // namespace abut

@@ -1,0 +1,68 @@
+// The same cut from every kind of vector unit that this machine has, and from looking at the planes one by one.
+
+#include "../oracle/random.hpp"
+#include "../oracle/vector_units.hpp"
+#include <abut/convex/ray_planes.hpp>
+
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace abut {
+namespace {
+
+class RayPlanes : public oracle::ByVectorUnit {};
+
+TEST_P(RayPlanes, AreCutOneByOne) {
+    for (std::uint64_t seed = 0; seed < 3000; ++seed) {
+        SCOPED_TRACE(seed);
+        oracle::Random random(seed);
+        // Half of them on a small lattice, where many planes are cut in one place or run along the beam.
+        const bool lattice = random.chance(0.5);
+        const auto some = [&] {
+            DVec<3> result = random.in_cube<3>() * 2.0;
+            if (lattice)
+                for (int i = 0; i < 3; ++i) result[i] = std::floor(result[i]);
+            return result;
+        };
+        std::vector<Vec3> normals;
+        std::vector<double> offsets;
+        for (std::uint32_t i = 1 + random.below(60); i > 0; --i) {
+            normals.push_back(to_float(some()));
+            offsets.push_back(some().x);
+        }
+        const DVec<3> origin = some(), direction = some();
+        const double out = lattice ? 0 : 0.25;
+
+        PlaneCut expected;
+        expected.in = expected.out = normals.size();
+        for (std::size_t i = 0; i < normals.size(); ++i) {
+            const double height = dot(DVec<3>(normals[i]), origin) - (offsets[i] + out);
+            const double sinks = -dot(DVec<3>(normals[i]), direction);
+            if (sinks > 0 && height / sinks > expected.cut.lower) {
+                expected.cut.lower = height / sinks;
+                expected.cut.slope_in = sinks;
+                expected.in = i;
+            }
+            if (sinks < 0 && height / sinks < expected.cut.upper) {
+                expected.cut.upper = height / sinks;
+                expected.cut.slope_out = -sinks;
+                expected.out = i;
+            }
+            if (sinks == 0) expected.beside = std::max(expected.beside, height);
+        }
+        const PlaneCut found = cut_by_planes(normals, offsets, out, origin, direction);
+        EXPECT_EQ(found.cut.lower, expected.cut.lower);
+        EXPECT_EQ(found.cut.upper, expected.cut.upper);
+        EXPECT_EQ(found.cut.slope_in, expected.cut.slope_in);
+        EXPECT_EQ(found.cut.slope_out, expected.cut.slope_out);
+        EXPECT_EQ(found.beside, expected.beside);
+        EXPECT_EQ(found.in, expected.in);
+        EXPECT_EQ(found.out, expected.out);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Targets, RayPlanes, oracle::vector_units(), oracle::name_of_unit);
+
+}  // namespace
+}  // namespace abut
