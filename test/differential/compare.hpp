@@ -86,9 +86,9 @@ inline Polyhedron random_hull(Random& random) {
 inline AnyShape random_shape(Random& random, std::size_t kind) {
     switch (kind) {
         case 0:
-            return scenes::random_box(random);
+            return scenes::random_box<3>(random);
         case 1:
-            return Sphere{Vec3(0), random.uniform_float(0.25, 1)};
+            return scenes::random_ball<3>(random);
         case 2:
             return scenes::random_capsule(random);
         default:

@@ -225,10 +225,10 @@ std::uint64_t hash_of_answers() {
 class Golden : public oracle::ByVectorUnit {};
 
 TEST_P(Golden, AnswersInThePlaneHaveTheSameBitsEverywhere) {
-    EXPECT_EQ(hash_of_answers<2>(), 17329281374665649876u);
+    EXPECT_EQ(hash_of_answers<2>(), 5041279134481362960u);
 }
 TEST_P(Golden, AnswersInSpaceHaveTheSameBitsEverywhere) {
-    EXPECT_EQ(hash_of_answers<3>(), 9647346951629085269u);
+    EXPECT_EQ(hash_of_answers<3>(), 17296443660927923419u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, Golden, oracle::vector_units(), oracle::name_of_unit);
