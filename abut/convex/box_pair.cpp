@@ -7,17 +7,6 @@
 namespace abut {
 namespace {
 
-/// Boxes flatter than this are left to the searches that take any pair.
-constexpr double flat = 1e-4;
-
-bool is_plain_box(const Convex<3>& box) {
-    if (box.core != Core::box || !box.similar || box.radius != 0 || box.inner_radius != 0 || !(box.scale > 0))
-        return false;
-    const Vec3& half = box.own[0];
-    const float most = std::max(std::max(half.x, half.y), half.z), least = std::min(std::min(half.x, half.y), half.z);
-    return least > static_cast<float>(flat) * most;
-}
-
 /// Whether the axis that parted them last parts them still, by more than `reach`, not below zero: the axis may be none,
 /// along which nothing is apart.
 bool still_parted(const Convex<3>& a, const Convex<3>& b, double reach, const Cache* cache) {
@@ -175,10 +164,6 @@ void remember(const SignedDistance<3>& distance, Cache& cache) {
 }
 
 }  // namespace
-
-bool are_plain_boxes(const Convex<3>& a, const Convex<3>& b) {
-    return is_plain_box(a) && is_plain_box(b);
-}
 
 // Who watches is shown the searches, which come to the same.
 

@@ -143,13 +143,6 @@ ClosestFeature<D> closest_on_box(const DVec<D>& half, const DVec<D>& point) {
 }
 
 template <int D>
-bool has_features(const Convex<D>& convex) {
-    if (convex.inner_radius > 0) return false;
-    return convex.core == Core::box ||
-           (convex.core == Core::points && (D == 2 || convex.count <= 3 || convex.facets != nullptr));
-}
-
-template <int D>
 ClosestFeature<D> closest_feature(const Convex<D>& core, const DVec<D>& point) {
     ABUT_ASSERT(has_features(core));
     const bool stretched = !core.similar || !(core.scale > 0);
@@ -169,7 +162,6 @@ ClosestFeature<D> closest_feature(const Convex<D>& core, const DVec<D>& point) {
     template ClosestFeature<D> closest_on_segment(const DVec<D>&, const DVec<D>&, const DVec<D>&);                 \
     template ClosestFeature<D> closest_on_segment(const DVec<D>&, const DVec<D>&, const DVec<D>&, const DVec<D>&); \
     template ClosestFeature<D> closest_on_box(const DVec<D>&, const DVec<D>&);                                     \
-    template bool has_features(const Convex<D>&);                                                                  \
     template ClosestFeature<D> closest_feature(const Convex<D>&, const DVec<D>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

@@ -70,7 +70,11 @@ ClosestFeature<3> closest_on_polyhedron(std::span<const Vec3> points, const Face
 /// Whether `closest_feature` knows the core: boxes, segments, triangles, polygons and polyhedra do, and single points.
 /// Discs, functions, and what is round before it is placed don't.
 template <int D>
-bool has_features(const Convex<D>& convex);
+bool has_features(const Convex<D>& convex) {
+    if (convex.inner_radius > 0) return false;
+    return convex.core == Core::box ||
+           (convex.core == Core::points && (D == 2 || convex.count <= 3 || convex.facets != nullptr));
+}
 
 /// Of the placed core, without the ball around it: take `radius` off the distance, and move the point along the normal.
 /// Where the placement is similar (poses, uniform scales, mirrors) the point is seen from the shape's own frame; else

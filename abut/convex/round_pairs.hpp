@@ -37,6 +37,12 @@ struct Places {
     double on_a, on_b;
 };
 
+/// The nearest part of the way that there is.
+inline double part_on_segment(double part) {
+    const double from_start = part > 0 ? part : 0;
+    return from_start < 1 ? from_start : 1;
+}
+
 /// Of nearly parallel segments, or points: at an end of one and its foot on the other.
 template <int D>
 Places nearest_ends(const DVec<D>& u, const DVec<D>& v, const DVec<D>& w);
@@ -50,16 +56,11 @@ inline Places nearest_places(const DVec<D>& u, const DVec<D>& v, const DVec<D>& 
     const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w);
     const double whole = uu * vv - uv * uv;
     if (!(whole > parallel * uu * vv)) return nearest_ends(u, v, w);
-    // All divisions at once, rather than each where it is known to be needed.
+    // Each step is taken, needed or not: which it is can't be guessed, and what is best already stays as it is.
     const double one = 1 / whole, one_u = 1 / uu, one_v = 1 / vv;
-    Places places{(uv * vw - vv * uw) * one, (uu * vw - uv * uw) * one};
-    if (places.on_a >= 0 && places.on_a <= 1 && places.on_b >= 0 && places.on_b <= 1) return places;
-    places.on_a = std::clamp(places.on_a, 0.0, 1.0);
-    places.on_b = (vw + uv * places.on_a) * one_v;
-    if (places.on_b >= 0 && places.on_b <= 1) return places;
-    places.on_b = places.on_b < 0 ? 0 : 1;
-    places.on_a = std::clamp((uv * places.on_b - uw) * one_u, 0.0, 1.0);
-    return places;
+    const double first = part_on_segment((uv * vw - vv * uw) * one);
+    const double on_b = part_on_segment((vw + uv * first) * one_v);
+    return {part_on_segment((uv * on_b - uw) * one_u), on_b};
 }
 
 /// A point of a core in the world.

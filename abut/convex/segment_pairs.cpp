@@ -16,7 +16,7 @@ struct Ends {
     std::uint32_t first, last;
 };
 Ends ends_at(double part) {
-    return part <= 0 ? Ends{0, 0} : part >= 1 ? Ends{1, 1} : Ends{0, 1};
+    return {part >= 1 ? 1u : 0u, part > 0 ? 1u : 0u};
 }
 
 /// At right angles to both, where that is beyond doubt; else zero.
@@ -79,7 +79,7 @@ bool segment_point(const Convex<3>& segment, const Convex<3>& point, SignedDista
     result.on_a = from + on_segment + result.normal * segment.radius;
     result.corners.a[0] = ends.first;
     result.corners.a[1] = ends.last;
-    result.corners.count = ends.first != ends.last ? 2 : 1;
+    result.corners.count = 2;
     return true;
 }
 
@@ -111,7 +111,7 @@ bool segment_segment(const Convex<D>& a, const Convex<D>& b, SignedDistance<D>& 
     result.corners.a[1] = of_a.last;
     result.corners.b[0] = of_b.first;
     result.corners.b[1] = of_b.last;
-    result.corners.count = of_a.first != of_a.last || of_b.first != of_b.last ? 2 : 1;
+    result.corners.count = 2;
     return true;
 }
 

@@ -139,24 +139,6 @@ Convex<D> placed(const Convex<D>& convex, const Placement<D>& placement) {
 }
 
 template <int D>
-bool is_finite(const Convex<D>& convex) {
-    // A sum is finite only where all its terms are; none of them is near the largest double. One sum an axis, so that
-    // they don't wait for one another.
-    DVec<D> sum = convex.place.offset;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(D); ++i) sum += convex.place.column[i];
-    double total = convex.radius + convex.inner_radius;
-    const std::uint32_t own = convex.core == Core::discs ? 2
-                              : convex.core == Core::box ? 1
-                              : convex.points == nullptr ? convex.count
-                                                         : 0;
-    for (std::uint32_t i = 0; i < own; ++i) sum += DVec<D>(convex.own[i]);
-    if (convex.core == Core::discs)
-        total += static_cast<double>(convex.disc_radius[0]) + static_cast<double>(convex.disc_radius[1]);
-    for (int i = 0; i < D; ++i) total += sum[i];
-    return std::isfinite(total);
-}
-
-template <int D>
 CorePoint<D> core_support(const Convex<D>& convex, const DVec<D>& direction) {
     const DVec<D> local = convex.place.transposed(direction);
     CorePoint<D> result = local_support(convex, local);
@@ -199,7 +181,6 @@ double size(const Convex<D>& convex) {
     template Convex<D> round_points(std::initializer_list<Vec<D>>, float); \
     template Placement<D> mapped(const Placement<D>&, const Affine<D>&);   \
     template Convex<D> placed(const Convex<D>&, const Placement<D>&);      \
-    template bool is_finite(const Convex<D>&);                             \
     template CorePoint<D> core_support(const Convex<D>&, const DVec<D>&);  \
     template DVec<D> support(const Convex<D>&, const DVec<D>&);            \
     template Aabb<D> bounds(const Convex<D>&);                             \

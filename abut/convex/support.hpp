@@ -74,7 +74,22 @@ Convex<D> placed(const Convex<D>& convex, const Placement<D>& placement);
 
 /// False where a number of it is NaN or infinite. What a support function of the user returns is not looked at.
 template <int D>
-bool is_finite(const Convex<D>& convex);
+bool is_finite(const Convex<D>& convex) {
+    // A sum is finite only where all its terms are; none of them is near the largest double. One sum an axis, so that
+    // they don't wait for one another.
+    DVec<D> sum = convex.place.offset;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(D); ++i) sum += convex.place.column[i];
+    double total = convex.radius + convex.inner_radius;
+    const std::uint32_t own = convex.core == Core::discs ? 2
+                              : convex.core == Core::box ? 1
+                              : convex.points == nullptr ? convex.count
+                                                         : 0;
+    for (std::uint32_t i = 0; i < own; ++i) sum += DVec<D>(convex.own[i]);
+    if (convex.core == Core::discs)
+        total += static_cast<double>(convex.disc_radius[0]) + static_cast<double>(convex.disc_radius[1]);
+    for (int i = 0; i < D; ++i) total += sum[i];
+    return std::isfinite(total);
+}
 
 /// A point of a core, farthest along a direction.
 template <int D>

@@ -26,7 +26,7 @@ template <int D>
 void write(const PartContact<D>& found, Contact<D>& result) {
     result.normal = to_float(found.distance.normal);
     result.depth = static_cast<float>(-found.distance.distance);
-    result.points = {};
+    result.points.clear();
     for (std::size_t i = 0; i < found.manifold.count; ++i) {
         const ManifoldPoint<D>& point = found.manifold.points[i];
         result.points.push_back({to_float(point.position), static_cast<float>(point.depth), point.feature});

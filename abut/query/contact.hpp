@@ -24,15 +24,20 @@ class ContactPoints {
 public:
     static constexpr std::size_t capacity = D == 2 ? 2 : 4;
 
+    /// Written out, so that compilers fill it member by member: to clear all of it first, as they do otherwise, is
+    /// slow.
+    ContactPoints() {}
+
     const ContactPoint<D>* begin() const { return points_.data(); }
     const ContactPoint<D>* end() const { return points_.data() + count_; }
     std::size_t size() const { return count_; }
     bool empty() const { return count_ == 0; }
     const ContactPoint<D>& operator[](std::size_t i) const { return points_[i]; }
+    void clear() { count_ = 0; }
     void push_back(const ContactPoint<D>& point) { points_[count_++] = point; }
 
 private:
-    std::array<ContactPoint<D>, capacity> points_{};
+    std::array<ContactPoint<D>, capacity> points_;
     std::size_t count_ = 0;
 };
 
