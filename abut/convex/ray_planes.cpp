@@ -20,6 +20,12 @@ using Vector = hn::Vec<Doubles>;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// Highway's emulated vector unit takes the largest finite numbers for the largest there are.
+double unbounded(double value) {
+    constexpr double most = std::numeric_limits<double>::max();
+    return value >= most ? infinity : value <= -most ? -infinity : value;
+}
+
 /// One plane.
 void cut(const DVec<3>& normal, double offset, const DVec<3>& origin, const DVec<3>& direction, std::size_t index,
          PlaneCut& result) {
@@ -78,9 +84,9 @@ PlaneCut cut_many(const Vec3* normals, const double* offsets, std::size_t count,
             exit = hn::IfThenElse(leaves, index, exit);
             beside = hn::IfThenElse(hn::And(hn::Eq(sinks, zero), hn::Gt(height, beside)), height, beside);
         }
-        result.cut.lower = hn::GetLane(hn::MaxOfLanes(d, lower));
-        result.cut.upper = hn::GetLane(hn::MinOfLanes(d, upper));
-        result.beside = hn::GetLane(hn::MaxOfLanes(d, beside));
+        result.cut.lower = unbounded(hn::GetLane(hn::MaxOfLanes(d, lower)));
+        result.cut.upper = unbounded(hn::GetLane(hn::MinOfLanes(d, upper)));
+        result.beside = unbounded(hn::GetLane(hn::MaxOfLanes(d, beside)));
         result.in = plane_of(lower, in, result.cut.lower, count);
         result.out = plane_of(upper, exit, result.cut.upper, count);
     }

@@ -226,7 +226,8 @@ TEST(Boxes, NeedNoCacheAndMindNone) {
         Cache cache = random.chance(0.5) ? Cache{} : strange;
         for (int i = 0; i < 3; ++i) {
             const auto fresh = closest(a, b), kept = closest(a, b, {.cache = &cache});
-            EXPECT_NEAR(kept.distance, fresh.distance, 1e-6 * size_of(a) + 1e-6 * std::abs(fresh.distance));
+            EXPECT_NEAR(kept.distance, fresh.distance,
+                        1e-6 * size_of(a) + 1e-6 * std::abs(fresh.distance) + 1e-9 * size_of(b));
             EXPECT_TRUE(certify(a, b, kept));
             if (std::abs(static_cast<double>(fresh.distance)) > 1e-6 * (size_of(a) + size_of(b))) {
                 EXPECT_EQ(overlaps(a, b, {.cache = &cache}), fresh.distance <= 0);
