@@ -5,9 +5,6 @@
 namespace abut {
 namespace {
 
-/// The cosine of the angle within which a face counts as looking along the contact normal: 1.8 degrees.
-constexpr double aligned = 0.9995;
-
 /// A place along the axes of a box, in the world; `one` is 1 / its scale.
 void put(const Convex<3>& box, double one, const Triple& place, DVec<3>& position) {
     const Affine<3>& map = box.place;

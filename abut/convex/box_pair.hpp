@@ -9,8 +9,7 @@ namespace abut {
 /// Whether these answers are for a box: as it is, or scaled alike along all axes, and not all but flat. Those that are
 /// left to the searches that take any pair.
 inline bool is_plain_box_of_volume(const Convex<3>& box) {
-    if (box.core != Core::box || !box.similar || box.radius != 0 || box.inner_radius != 0 || !(box.scale > 0))
-        return false;
+    if (!is_plain_box(box) || box.radius != 0) return false;
     const Vec3& half = box.own[0];
     const float most = std::max(std::max(half.x, half.y), half.z), least = std::min(std::min(half.x, half.y), half.z);
     return least > 1e-4f * most;

@@ -4,10 +4,6 @@
 namespace abut {
 namespace {
 
-/// How nearly a direction must look along a round shape's flat end or at right angles to its side to meet it with all
-/// of it.
-constexpr double aligned = 0.9995;
-
 template <int D>
 Face<D> corner(const Convex<D>& convex, const DVec<D>& direction) {
     Face<D> face;

@@ -6,6 +6,10 @@
 
 namespace abut {
 
+/// The cosine of the angle within which a face, a side or a flat end counts as looking along a direction, and a line as
+/// lying across it: 1.8 degrees.
+inline constexpr double aligned = 0.9995;
+
 /// A corner, an edge, or a face as the loop of its points; of the core, in the world.
 template <int D>
 struct Face {

@@ -5,9 +5,6 @@
 namespace abut {
 namespace {
 
-/// The cosine of the angle within which a face counts as looking along the contact normal: 1.8 degrees.
-constexpr double aligned = 0.9995;
-
 /// All candidates, before they are thinned out.
 template <int D>
 struct Candidates {

@@ -2,6 +2,7 @@
 
 // The corners of the area in which two convex sets meet: the face of one clipped by the sides of the other's.
 
+#include <abut/convex/face.hpp>
 #include <abut/convex/signed_distance.hpp>
 
 namespace abut {

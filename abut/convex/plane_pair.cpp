@@ -1,5 +1,6 @@
 #include <abut/convex/plane_pair.hpp>
 #include <abut/convex/polygon_manifold.hpp>
+#include <abut/convex/round_pairs.hpp>
 
 namespace abut {
 namespace {
@@ -10,15 +11,11 @@ constexpr double everywhere = std::numeric_limits<double>::infinity();
 constexpr double on_it = 0x1p-30;
 
 bool is_point(const Convex<2>& convex) {
-    return convex.core == Core::points && convex.count == 1 && convex.inner_radius == 0;
-}
-
-DVec<2> point_of(const Convex<2>& convex) {
-    return convex.place.point(DVec<2>(convex.vertices()[0]));
+    return is_round_points(convex, 1);
 }
 
 PlaneAnswer distance_of_points(const Convex<2>& a, const Convex<2>& b, SignedDistance<2>& result) {
-    const DVec<2> from = point_of(a), between = point_of(b) - from;
+    const DVec<2> from = core_corner(a, 0), between = core_corner(b, 0) - from;
     const double gap = length(between);
     if (!(gap > 0)) return PlaneAnswer::unknown;
     result.distance = gap - a.radius - b.radius;
@@ -35,7 +32,7 @@ PlaneAnswer distance_from_point(const Convex<2>& polygon, const Convex<2>& round
     FewSides room;
     Sides sides;
     if (!sides_of(polygon, room, sides)) return PlaneAnswer::unknown;
-    const DVec<2> center = point_of(round);
+    const DVec<2> center = core_corner(round, 0);
     const DVec<2> point = polygon.place.transposed(center - polygon.place.offset);
     const SideGap found = widest_gap(sides, point);
     const double radii = polygon.radius + round.radius;

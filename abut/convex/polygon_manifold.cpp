@@ -3,9 +3,6 @@
 namespace abut {
 namespace {
 
-/// The cosine of the angle within which a side counts as looking along the contact normal: 1.8 degrees.
-constexpr double aligned = 0.9995;
-
 /// A side as seen from the reference of the meeting.
 struct Edge {
     DVec<2> ends[2];

@@ -314,7 +314,6 @@ namespace abut {
 namespace {
 
 bool has_few_or_lanes(const Convex<3>& core) {
-    if (core.inner_radius > 0) return false;
     if (core.core == Core::box) return true;
     if (core.core != Core::points || core.lanes != nullptr) return core.lanes != nullptr;
     if (core.count > PointLanes::at_once) return false;
@@ -330,7 +329,7 @@ HWY_EXPORT(find_gap);
 
 bool quick_to_walk(const Convex<3>& a, const Convex<3>& b) {
     if (a.core == Core::box && b.core == Core::box) return false;
-    return a.similar && b.similar && a.scale > 0 && b.scale > 0 && has_few_or_lanes(a) && has_few_or_lanes(b);
+    return keeps_its_form(a) && keeps_its_form(b) && has_few_or_lanes(a) && has_few_or_lanes(b);
 }
 
 QuickExit quick_gap(const Convex<3>& a, const Convex<3>& b, QuickSimplex& simplex, QuickGap& gap, Trace<3>* trace) {

@@ -6,8 +6,6 @@
 namespace abut {
 namespace {
 
-/// The cosine of the angle within which a face counts as looking along the contact normal, as in `manifold`.
-constexpr double aligned = 0.9995;
 constexpr double tilt_squared = 1 - aligned * aligned;
 
 /// A segment, and what planes have left of it.

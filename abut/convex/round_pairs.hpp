@@ -17,15 +17,6 @@ bool is_round_points(const Convex<D>& convex, std::uint32_t count) {
     return convex.core == Core::points && convex.count == count && convex.inner_radius == 0;
 }
 
-/// Placed without being sheared or flattened.
-template <int D>
-bool keeps_its_form(const Convex<D>& convex) {
-    return convex.inner_radius == 0 && convex.similar && convex.scale > 0;
-}
-template <int D>
-bool is_plain_box(const Convex<D>& convex) {
-    return convex.core == Core::box && keeps_its_form(convex);
-}
 /// A polyhedron with sides of its own: a point, a segment or a triangle are what they are.
 inline bool is_plain_hull(const Convex<3>& convex) {
     return convex.core == Core::points && convex.count > 3 && convex.facets != nullptr &&
@@ -67,14 +58,6 @@ inline Places nearest_places(const DVec<D>& u, const DVec<D>& v, const DVec<D>& 
 template <int D>
 inline DVec<D> core_corner(const Convex<D>& convex, std::uint32_t i) {
     return convex.place.point(DVec<D>(convex.vertices()[i]));
-}
-
-/// The same pair, B first.
-template <int D>
-void turn_round(SignedDistance<D>& distance) {
-    distance.on_a = distance.on_b();
-    distance.normal = -distance.normal;
-    std::swap(distance.corners.a, distance.corners.b);
 }
 
 // Each of these gives the signed distance from A to B, with the balls around them. False where there is no answer; then

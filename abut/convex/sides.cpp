@@ -106,7 +106,7 @@ void write_sides(std::span<const Vec2> points, double* numbers) {
 }
 
 bool sides_of(const Convex<2>& convex, FewSides& room, Sides& sides) {
-    const bool rigid = convex.similar && std::abs(convex.scale - 1) <= 1e-12 && convex.inner_radius == 0 &&
+    const bool rigid = keeps_its_form(convex) && std::abs(convex.scale - 1) <= 1e-12 &&
                        cross(convex.place.column[0], convex.place.column[1]) > 0;
     if (!rigid) return false;
     if (convex.sides != nullptr) {

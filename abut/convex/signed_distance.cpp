@@ -19,7 +19,7 @@ struct CoreDistance {
 /// A box keeps its axes however thin it is; a polygon has a volume as long as its placement doesn't flatten it.
 template <int D>
 bool keeps_its_axes(const Convex<D>& core) {
-    if (!core.similar || !(core.scale > 0) || core.inner_radius > 0) return false;
+    if (!keeps_its_form(core)) return false;
     return core.core == Core::box || (D == 2 && core.core == Core::points && core.points != nullptr && core.count > 2);
 }
 

@@ -39,6 +39,14 @@ struct SignedDistance {
     DVec<D> on_b() const { return on_a + normal * distance; }
 };
 
+/// The same pair, B first.
+template <int D>
+void turn_round(SignedDistance<D>& distance) {
+    distance.on_a = distance.on_b();
+    distance.normal = -distance.normal;
+    std::swap(distance.corners.a, distance.corners.b);
+}
+
 template <int D>
 SignedDistance<D> signed_distance(const Convex<D>& a, const Convex<D>& b, const SearchOptions<D>& options = {});
 

@@ -91,6 +91,16 @@ bool is_finite(const Convex<D>& convex) {
     return std::isfinite(total);
 }
 
+/// Placed without being sheared or flattened, and not made round before it is.
+template <int D>
+bool keeps_its_form(const Convex<D>& convex) {
+    return convex.inner_radius == 0 && convex.similar && convex.scale > 0;
+}
+template <int D>
+bool is_plain_box(const Convex<D>& convex) {
+    return convex.core == Core::box && keeps_its_form(convex);
+}
+
 /// A point of a core, farthest along a direction.
 template <int D>
 struct CorePoint {

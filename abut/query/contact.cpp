@@ -14,11 +14,10 @@ bool part_contact(const Convex<D>& a, const Solid<D>& b, double reach, double ma
     return true;
 }
 template <int D>
-bool part_contact(const Solid<D>& a, const Convex<D>& b, double reach, double margin, const SearchOptions<D>&,
+bool part_contact(const Solid<D>& a, const Convex<D>& b, double reach, double margin, const SearchOptions<D>& options,
                   PartContact<D>& contact) {
-    contact.distance = part_distance(a, b);
-    if (contact.distance.distance > reach) return false;
-    contact.manifold = manifold_with_plane(b, a.normal, a.offset, margin);
+    if (!part_contact(b, a, reach, margin, options, contact)) return false;
+    turn_round(contact.distance);
     return true;
 }
 

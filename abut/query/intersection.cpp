@@ -1,5 +1,4 @@
 #include <abut/convex/clip.hpp>
-#include <abut/convex/hull.hpp>
 #include <abut/convex/polygon_clip.hpp>
 #include <abut/convex/signed_distance.hpp>
 #include <abut/math/assert.hpp>
@@ -47,34 +46,6 @@ void round_loop(const ClippedLoop& loop, std::array<Vec2, 2 * most_sides>& round
         rounded[i] = corners[least + i < loop.count ? least + i : least + i - loop.count];
 }
 
-/// Whether a loop is sure to be the outline of a hull: it turns left at each corner, once around in all, and isn't
-/// nearly as thin as what counts as flat; `thick` is a width that it has to have as well.
-bool is_outline(std::span<const Vec2> loop, double thick) {
-    if (loop.size() < 3) return false;
-    double area = 0;
-    DVec<2> low(loop[0]), high(loop[0]);
-    std::size_t turns_back = 0;
-    const DVec<2> first(loop[0]);
-    DVec<2> from(loop.back()), at(loop[0]);
-    bool was_right = at.x > from.x || (at.x == from.x && at.y > from.y);
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-        const DVec<2> to(loop[i + 1 == loop.size() ? 0 : i + 1]);
-        const DVec<2> u = at - from, v = to - at;
-        const double left = u.x * v.y, right = u.y * v.x;
-        if (!(left - right > 1e-14 * (std::abs(left) + std::abs(right)))) return false;
-        const bool is_right = v.x > 0 || (v.x == 0 && v.y > 0);
-        turns_back += is_right != was_right ? 1 : 0;
-        was_right = is_right;
-        area += cross(at - first, v);
-        low = {std::min(low.x, at.x), std::min(low.y, at.y)};
-        high = {std::max(high.x, at.x), std::max(high.y, at.y)};
-        from = at;
-        at = to;
-    }
-    const double extent = std::max(high.x - low.x, high.y - low.y);
-    return turns_back == 2 && area > extent * std::max(16 * hull_tolerance * extent, thick);
-}
-
 /// Polygons of few sides that overlap by more than rounding. False: nothing is known.
 bool quick_intersection(const Convex<2>& a, const Convex<2>& b, Polygon& out) {
     if (a.radius > 0 || b.radius > 0 || !is_finite(a) || !is_finite(b)) return false;
@@ -87,11 +58,8 @@ bool quick_intersection(const Convex<2>& a, const Convex<2>& b, Polygon& out) {
     if (!(scale < 1e37) || !clip_polygons(pair, loop)) return false;
     std::array<Vec2, 2 * most_sides> rounded;
     round_loop(loop, rounded);
-    const std::span<const Vec2> outline(rounded.data(), loop.count);
     // What rounding to floats alone may have opened isn't told from touching here.
-    if (!is_outline(outline, 1e-6 * scale)) return false;
-    out.set_loop(outline);
-    return true;
+    return out.set_outline(std::span(rounded.data(), loop.count), 1e-6 * scale);
 }
 
 }  // namespace

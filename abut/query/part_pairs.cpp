@@ -18,9 +18,7 @@ SignedDistance<D> part_distance(const Convex<D>& a, const Solid<D>& b, const Sea
 template <int D>
 SignedDistance<D> part_distance(const Solid<D>& a, const Convex<D>& b, const SearchOptions<D>&) {
     SignedDistance<D> result = part_distance(b, a);
-    result.on_a = result.on_b();
-    result.normal = -result.normal;
-    std::swap(result.corners.a, result.corners.b);
+    turn_round(result);
     return result;
 }
 

@@ -64,14 +64,6 @@ template <int D>
 void name_feature(const Solid<D>& part, const CornerNumbers<D>& corners, std::size_t count, const DVec<D>& out,
                   std::uint32_t number, Feature& feature);
 
-template <int D, class Part>
-Feature feature_on(const Part& part, const CornerNumbers<D>& corners, std::size_t count, const DVec<D>& out,
-                   std::uint32_t number) {
-    Feature result;
-    name_feature(part, corners, count, out, number, result);
-    return result;
-}
-
 /// Those of both parts.
 template <int D, class PartA, class PartB, class Answer>
 void name_features(const PartA& part_a, const PartB& part_b, const SignedDistance<D>& distance, std::uint32_t number_a,

@@ -56,34 +56,36 @@ bool first_hit(const Beam<D>& beam, const Composite<D>& composite, Trace<D>* tra
     return any;
 }
 
-}  // namespace
-
-template <int D>
-std::optional<Hit<D>> raycast(const Ray<D>& ray, const Convex<D>& shape, const QueryOptions<D>& options) {
+/// `find` is asked for the first hit of a beam.
+template <int D, class Asked, class Find>
+std::optional<Hit<D>> first_hit_of(const Ray<D>& ray, const Asked& shape, const Find& find) {
     std::optional<Hit<D>> result;
     const bool finite = is_finite(shape) && can_be_asked(ray);
     ABUT_ASSERT(finite);
     if (!finite) return result;
     const Beam<D> beam = beam_of(ray);
     PartHit<D> first;
-    if (part_hit(beam, shape, 0, options.trace, first)) tell(beam, first, result.emplace());
+    if (find(beam, first)) tell(beam, first, result.emplace());
     return result;
+}
+
+}  // namespace
+
+template <int D>
+std::optional<Hit<D>> raycast(const Ray<D>& ray, const Convex<D>& shape, const QueryOptions<D>& options) {
+    return first_hit_of(ray, shape, [&](const Beam<D>& beam, PartHit<D>& first) {
+        return part_hit(beam, shape, 0, options.trace, first);
+    });
 }
 
 template <int D>
 std::optional<Hit<D>> raycast(const Ray<D>& ray, const View<D>& shape, const QueryOptions<D>& options) {
     if (const auto* convex = std::get_if<Convex<D>>(&shape)) return raycast(ray, *convex, options);
-    std::optional<Hit<D>> result;
-    const bool finite = is_finite(shape) && can_be_asked(ray);
-    ABUT_ASSERT(finite);
-    if (!finite) return result;
-    const Beam<D> beam = beam_of(ray);
-    PartHit<D> first;
-    const auto* composite = std::get_if<Composite<D>>(&shape);
-    if (composite != nullptr ? first_hit(beam, *composite, options.trace, first)
-                             : part_hit(beam, std::get<Solid<D>>(shape), first))
-        tell(beam, first, result.emplace());
-    return result;
+    return first_hit_of(ray, shape, [&](const Beam<D>& beam, PartHit<D>& first) {
+        const auto* composite = std::get_if<Composite<D>>(&shape);
+        return composite != nullptr ? first_hit(beam, *composite, options.trace, first)
+                                    : part_hit(beam, std::get<Solid<D>>(shape), first);
+    });
 }
 
 #define ABUT_INSTANTIATE(D)                                                                        \

@@ -27,25 +27,12 @@ std::optional<Hit<D>> raycast(const Ray<D>& ray, const View<D>& shape, const Que
 template <int D>
 std::optional<Hit<D>> raycast(const Ray<D>& ray, const Convex<D>& shape, const QueryOptions<D>& options = {});
 
-namespace detail {
-
-/// A convex shape as it is, anything else as a View.
-template <Shape S>
-decltype(auto) view_for_ray(const S& shape) {
-    if constexpr (is_convex_view<ViewOf<S>>)
-        return view(shape);
-    else
-        return View<DimensionOfView<ViewOf<S>>::value>(view(shape));
-}
-
-}  // namespace detail
-
 /// The first hit. A ray that starts inside or on the surface hits at 0 only if it goes further in; along the surface or
 /// outwards is no hit, and the search goes on behind it.
 template <Shape S>
 std::optional<Hit<dimension<S>>> raycast(const Ray<dimension<S>>& ray, const S& shape,
                                          const QueryOptions<dimension<S>>& options = {}) {
-    return raycast(ray, detail::view_for_ray(shape), options);
+    return raycast(ray, detail::view_beside<S, S>(shape), options);
 }
 
 }  // namespace abut

@@ -44,8 +44,8 @@ bool part_hit_by_advance(const Beam<D>& beam, const Convex<D>& part, std::uint32
         if (there || step + 1 == most_steps) {
             // At an edge there are several ways out, and the one found may lie across the ray.
             const bool across = approach < 0.5 * last_approach;
-            hit = {along, across ? last_normal : distance.normal, along == 0 && distance.distance < -doubt,
-                   feature_on(part, distance.corners.a, distance.corners.count, distance.normal, index)};
+            hit = {along, across ? last_normal : distance.normal, along == 0 && distance.distance < -doubt, Feature()};
+            name_feature(part, distance.corners.a, distance.corners.count, distance.normal, index, hit.feature);
             return true;
         }
         along += distance.distance / approach;

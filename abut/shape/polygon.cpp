@@ -28,6 +28,36 @@ void set_points(Convex<2>& convex, const Polygon& polygon) {
     convex.sides = polygon.sides();
 }
 
+/// Whether a loop is sure to be the outline of a hull: it begins with its least corner, turns left at each, once around
+/// in all, and isn't nearly as thin as what counts as flat; `thick` is a width that it has to have as well.
+bool is_outline(std::span<const Vec2> loop, double thick) {
+    if (loop.size() < 3) return false;
+    double area = 0;
+    DVec<2> low(loop[0]), high(loop[0]);
+    std::size_t turns_back = 0;
+    const DVec<2> first(loop[0]);
+    DVec<2> from(loop.back()), at(loop[0]);
+    bool was_right = at.x > from.x || (at.x == from.x && at.y > from.y);
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        const DVec<2> to(loop[i + 1 == loop.size() ? 0 : i + 1]);
+        const DVec<2> u = at - from, v = to - at;
+        const double left = u.x * v.y, right = u.y * v.x;
+        if (!(left - right > 1e-14 * (std::abs(left) + std::abs(right)))) return false;
+        const bool is_right = v.x > 0 || (v.x == 0 && v.y > 0);
+        turns_back += is_right != was_right ? 1 : 0;
+        was_right = is_right;
+        area += cross(at - first, v);
+        low = {std::min(low.x, at.x), std::min(low.y, at.y)};
+        high = {std::max(high.x, at.x), std::max(high.y, at.y)};
+        from = at;
+        at = to;
+    }
+    for (const Vec2& corner : loop.subspan(1))
+        if (corner.x < loop[0].x || (corner.x == loop[0].x && corner.y < loop[0].y)) return false;
+    const double extent = std::max(high.x - low.x, high.y - low.y);
+    return turns_back == 2 && area > extent * std::max(16 * hull_tolerance * extent, thick);
+}
+
 }  // namespace
 
 Result<Polygon> Polygon::build(std::span<const Vec2> points) {
@@ -43,9 +73,11 @@ Result<Polygon> Polygon::build(std::initializer_list<Vec2> points) {
     return build(std::span<const Vec2>(points.begin(), points.size()));
 }
 
-void Polygon::set_loop(std::span<const Vec2> loop) {
+bool Polygon::set_outline(std::span<const Vec2> loop, double thick) {
+    if (!is_outline(loop, thick)) return false;
     points_.assign(loop.begin(), loop.end());
     write_sides();
+    return true;
 }
 
 void Polygon::write_sides() {

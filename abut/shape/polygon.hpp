@@ -42,8 +42,9 @@ public:
     /// For `Convex::sides`: null where there are too few corners for an area, or too many.
     const double* sides() const { return sides_.empty() ? nullptr : sides_.data(); }
 
-    /// Sets it to a loop that is already what `points` promises. Allocates nothing where there is room.
-    void set_loop(std::span<const Vec2> loop);
+    /// Becomes a loop that is surely what `points` promises of it, without the work of a hull, and allocates nothing
+    /// where there is room. False, and as it was, where the loop may be anything else, or isn't wider than `thick`.
+    bool set_outline(std::span<const Vec2> loop, double thick = 0);
 
 private:
     void write_sides();

@@ -251,7 +251,8 @@ concept Shape = requires {
 
 namespace detail {
 
-/// What a question is asked of: two convex shapes as they are, anything else as a View.
+/// What a question is asked of: two convex shapes as they are, anything else as a View. A shape alone stands beside
+/// itself.
 template <Shape S, class Other>
 decltype(auto) view_beside(const S& shape) {
     if constexpr (is_convex_view<ViewOf<S>> && is_convex_view<ViewOf<Other>>)

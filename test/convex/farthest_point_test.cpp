@@ -54,6 +54,30 @@ protected:
     }
 };
 
+// Floats can't tell these points apart, and doubles can: a filter in float that trusts itself too far takes another.
+TEST_P(FarthestPoint, IsFoundAmongThoseThatFloatsTakeForAsFar) {
+    int hidden = 0;
+    for (std::uint64_t seed = 0; seed < 2000; ++seed) {
+        SCOPED_TRACE(seed);
+        oracle::Random random(seed);
+        const DVec<3> direction = random.direction<3>(), across = perpendicular(direction);
+        const DVec<3> other = cross(direction, across);
+        std::vector<Vec3> points;
+        for (int i = 0; i < 48; ++i)
+            points.push_back(to_float<3>(direction * (1 + random.uniform(-3e-8, 3e-8)) +
+                                         across * random.uniform(-1, 1) + other * random.uniform(-1, 1)));
+        std::vector<float> memory(3 * padded_count(points.size()));
+        const std::uint32_t expected = one_by_one<3>(points, direction);
+        EXPECT_EQ(farthest_point(lay_out(points, memory.data()), direction), expected);
+        const auto in_float = [&](const Vec3& p) {
+            const Vec3 d = to_float(direction);
+            return p.x * d.x + p.y * d.y + p.z * d.z;
+        };
+        for (const Vec3& point : points) hidden += in_float(point) > in_float(points[expected]) ? 1 : 0;
+    }
+    EXPECT_GT(hidden, 1000);
+}
+
 TEST_P(FarthestPoint, IsTheFirstOfThem) {
     expect_the_first_of_the_farthest<2>();
     expect_the_first_of_the_farthest<3>();
