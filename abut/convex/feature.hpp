@@ -19,7 +19,7 @@ enum class FeatureKind : std::uint8_t {
 
 /// The lower of two point numbers in the low 16 bits, the higher one in the high 16. Of a number above 65535 its low
 /// 16 bits count: two edges of so large a shape may have one name.
-inline std::uint32_t edge_index(std::uint32_t i, std::uint32_t j) {
+constexpr std::uint32_t edge_index(std::uint32_t i, std::uint32_t j) {
     return (std::min(i, j) & 0xffffu) | std::max(i, j) << 16;
 }
 

@@ -40,7 +40,7 @@ bool clip_polygons(const PolygonPair& pair, ClippedLoop& loop) {
     const Sides &body = pair.sides(of), &tool = pair.sides(1 - of);
     for (const Sides* sides : {&body, &tool})
         if (sides->count < 3 || !(sides->area > least_part * sides->size * sides->size)) return false;
-    const Seen& seen = pair.seen_from(of);
+    const Rigid2& seen = pair.seen_from(of);
     const double doubt =
         0x1p-47 * (std::abs(seen.x) + std::abs(seen.y) + 2 * (body.size + tool.size) + std::abs(body.x[0]) +
                    std::abs(body.y[0]) + std::abs(tool.x[0]) + std::abs(tool.y[0]));
@@ -59,7 +59,7 @@ bool clip_polygons(const PolygonPair& pair, ClippedLoop& loop) {
         cut(*now, heights, doubt, *next);
         std::swap(now, next);
     }
-    const Affine<2>& place = pair.shape(of).place;
+    const Rigid2& place = pair.outline(of).place;
     loop.count = now->count;
     for (std::size_t i = 0; i < now->count; ++i) loop.points[i] = place.point(DVec<2>(now->x[i], now->y[i]));
     return true;

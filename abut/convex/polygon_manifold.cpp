@@ -42,7 +42,7 @@ void find_reference_edge(const PolygonPair& pair, const Meeting& meeting, Edge& 
 
 void find_other_edge(const PolygonPair& pair, const Meeting& meeting, Edge& edge) {
     const Sides& sides = pair.sides(1 - meeting.of);
-    const Seen& seen = pair.seen_from(meeting.of);
+    const Rigid2& seen = pair.seen_from(meeting.of);
     const DVec<2> direction = -pair.seen_from(1 - meeting.of).vector(meeting.normal);
     const std::uint32_t side = facing_side(sides, meeting.other_corners[0], direction, edge.alignment);
     const std::uint32_t after = sides.after(side);
@@ -73,29 +73,38 @@ inline bool cut_off(Edge& edge, double (&along)[2], double limit, double sign, s
     return true;
 }
 
+/// Number by number.
+inline void put(const ManifoldPoint<2>& from, ManifoldPoint<2>& to) {
+    to.position.x = from.position.x;
+    to.position.y = from.position.y;
+    to.depth = from.depth;
+    to.feature = from.feature;
+}
+
 /// The deepest, of those as deep to within the slack the first, and the farthest from it.
-Manifold<2> thinned(const Candidates& all, double slack) {
-    Manifold<2> result;
+void thin_out(const Candidates& all, double slack, Manifold<2>& result) {
     result.count = std::min(all.count, result.points.size());
-    for (std::size_t i = 0; i < result.count; ++i) result.points[i] = all.points[i];
-    if (all.count < 3) return result;
+    if (all.count < 3) {
+        for (std::size_t i = 0; i < result.count; ++i) put(all.points[i], result.points[i]);
+        return;
+    }
     const auto& points = all.points;
     const double least = std::max({points[0].depth, points[1].depth, points[2].depth}) - slack;
     const std::size_t deepest = points[0].depth >= least ? 0 : points[1].depth >= least ? 1 : 2;
     const std::size_t i = (deepest + 1) % 3, j = (deepest + 2) % 3;
     const auto far = [&](std::size_t k) { return length_squared(points[k].position - points[deepest].position); };
-    result.points = {points[deepest], points[far(j) > far(i) ? j : i]};
-    return result;
+    put(points[deepest], result.points[0]);
+    put(points[far(j) > far(i) ? j : i], result.points[1]);
 }
 
 }  // namespace
 
-Manifold<2> polygon_manifold(const PolygonPair& pair, const Meeting& meeting, const SignedDistance<2>& distance,
-                             double margin) {
-    const Convex<2>&a = pair.shape(0), &b = pair.shape(1);
-    const double slack = 1e-6 * std::min(pair.sides(0).size + a.radius, pair.sides(1).size + b.radius);
+void set_polygon_manifold(const PolygonPair& pair, const Meeting& meeting, const SignedDistance<2>& distance,
+                          double margin, Manifold<2>& result) {
+    const Outline &a = pair.outline(0), &b = pair.outline(1);
+    const double slack = 1e-6 * std::min(a.sides.size + a.radius, b.sides.size + b.radius);
     const double depth = -distance.distance;
-    const Affine<2>& place = pair.shape(meeting.of).place;
+    const Rigid2& place = pair.outline(meeting.of).place;
     Edge of_reference, of_other;
     find_reference_edge(pair, meeting, of_reference);
     find_other_edge(pair, meeting, of_other);
@@ -137,7 +146,7 @@ Manifold<2> polygon_manifold(const PolygonPair& pair, const Meeting& meeting, co
     if (!as_deep)
         candidates.points[candidates.count++] = {distance.on_a - distance.normal * (0.5 * depth), depth,
                                                  distance.corners.a[0] << 8 ^ distance.corners.b[0]};
-    return thinned(candidates, slack);
+    thin_out(candidates, slack, result);
 }
 
 }  // namespace abut

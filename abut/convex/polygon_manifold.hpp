@@ -7,8 +7,9 @@
 
 namespace abut {
 
-/// What `manifold` gives, of polygons rounded by their radii that meet as `meeting` says.
-Manifold<2> polygon_manifold(const PolygonPair& pair, const Meeting& meeting, const SignedDistance<2>& distance,
-                             double margin);
+/// What `manifold` gives, of polygons rounded by their radii that meet as `meeting` says; written where it is wanted,
+/// as what is copied at once has to be waited for.
+void set_polygon_manifold(const PolygonPair& pair, const Meeting& meeting, const SignedDistance<2>& distance,
+                          double margin, Manifold<2>& result);
 
 }  // namespace abut

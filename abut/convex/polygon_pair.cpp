@@ -14,27 +14,25 @@ constexpr double parallel = 1e-3;
 
 }  // namespace
 
-PolygonPair::PolygonPair(const Convex<2>& a, const Convex<2>& b) : shapes_{&a, &b} {
-    known_ = sides_of(a, rooms_[0], sides_[0]) && sides_of(b, rooms_[1], sides_[1]);
-    if (!known_) return;
-    const DVec<2> cosine_sine = a.place.transposed(b.place.column[0]);
-    const DVec<2> offset = a.place.transposed(b.place.offset - a.place.offset);
+PolygonPair::PolygonPair(const Outline& a, const Outline& b) : outlines_{&a, &b} {
+    const DVec<2> cosine_sine = a.place.transposed({b.place.cos, b.place.sin});
+    const DVec<2> offset = a.place.unplaced(b.place.offset());
     const double cos = cosine_sine.x, sin = cosine_sine.y;
     seen_[0] = {cos, sin, offset.x, offset.y};
     seen_[1] = {cos, -sin, -(cos * offset.x + sin * offset.y), sin * offset.x - cos * offset.y};
 }
 
 double PolygonPair::scale() const {
-    return std::abs(seen_[0].x) + std::abs(seen_[0].y) + std::abs(sides_[0].x[0]) + std::abs(sides_[0].y[0]) +
-           std::abs(sides_[1].x[0]) + std::abs(sides_[1].y[0]) + 2 * (sides_[0].size + sides_[1].size);
+    return std::abs(seen_[0].x) + std::abs(seen_[0].y) + std::abs(sides(0).x[0]) + std::abs(sides(0).y[0]) +
+           std::abs(sides(1).x[0]) + std::abs(sides(1).y[0]) + 2 * (sides(0).size + sides(1).size);
 }
 
 /// The other's corner in front of a side. Lowers it while that leads nearer; on to the end of the side where that leads
 /// past it.
 PolygonPair::Step PolygonPair::before_side(std::uint32_t of, std::uint32_t side, std::array<std::uint32_t, 2>& corners,
                                            Meeting& meeting) const {
-    const Sides &reference = sides_[of], &other = sides_[1 - of];
-    const Seen &seen = seen_[of], &back = seen_[1 - of];
+    const Sides &reference = sides(of), &other = sides(1 - of);
+    const Rigid2 &seen = seen_[of], &back = seen_[1 - of];
     std::uint32_t& k = corners[1 - of];
     double gap = dot(reference.normal(side), seen.point(other.corner(k))) - reference.offset[side];
     if (gap < 0 && reference.count == 2) {
@@ -74,16 +72,16 @@ bool PolygonPair::walk(std::array<std::uint32_t, 2> corners, int steps, Meeting&
     // After a step off a side's end the other one is asked first, or it might lead back.
     std::uint32_t first = 0;
     for (int step = 0; step < steps; ++step) {
-        const DVec<2> between = other_corner(0, corners[1]) - sides_[0].corner(corners[0]);
+        const DVec<2> between = other_corner(0, corners[1]) - sides(0).corner(corners[0]);
         const DVec<2> direction[2] = {between, -seen_[1].vector(between)};
         bool leans = false;
         for (std::uint32_t turn = 0; turn < 2 && !leans; ++turn) {
             const std::uint32_t of = turn == 0 ? first : 1 - first;
-            const Lean to = lean(sides_[of], corners[of], direction[of]);
+            const Lean to = lean(sides(of), corners[of], direction[of]);
             if (!to.leans) continue;
             leans = true;
             if (to.along >= to.length || to.along <= 0) {
-                corners[of] = to.along <= 0 ? to.side : sides_[of].after(to.side);
+                corners[of] = to.along <= 0 ? to.side : sides(of).after(to.side);
                 continue;
             }
             const Step outcome = before_side(of, to.side, corners, meeting);
@@ -97,7 +95,7 @@ bool PolygonPair::walk(std::array<std::uint32_t, 2> corners, int steps, Meeting&
         meeting = {0,
                    between / gap,
                    gap,
-                   sides_[0].corner(corners[0]),
+                   sides(0).corner(corners[0]),
                    other_corner(0, corners[1]),
                    {corners[0], corners[0]},
                    {corners[1], corners[1]}};
@@ -108,7 +106,7 @@ bool PolygonPair::walk(std::array<std::uint32_t, 2> corners, int steps, Meeting&
 
 /// From the side with the widest gap: what is nearest lies in front of it, or past one of its ends.
 bool PolygonPair::apart(const SideGap& found, Meeting& meeting) const {
-    const Sides& reference = sides_[found.of];
+    const Sides& reference = sides(found.of);
     const DVec<2> corner = other_corner(found.of, found.corner), normal = reference.normal(found.side);
     const double along = dot(reference.along(found.side), corner - reference.corner(found.side));
     const double length = reference.length(found.side);
@@ -131,7 +129,7 @@ bool PolygonPair::apart(const SideGap& found, Meeting& meeting) const {
 /// The other's lowest corner lies behind the side that it is least deep behind. Where it lies behind the line past the
 /// side's end, an edge lies along the side, and one of its places lies behind that end.
 bool PolygonPair::overlapping(const SideGap& found, Meeting& meeting) const {
-    const Sides &reference = sides_[found.of], &other = sides_[1 - found.of];
+    const Sides &reference = sides(found.of), &other = sides(1 - found.of);
     const DVec<2> normal = reference.normal(found.side), corner = other_corner(found.of, found.corner);
     const double along = dot(reference.along(found.side), corner - reference.corner(found.side));
     const double length = reference.length(found.side);
@@ -159,8 +157,8 @@ bool PolygonPair::overlapping(const SideGap& found, Meeting& meeting) const {
 }
 
 bool PolygonPair::sides_are_all(const SideGap& found) const {
-    if (sides_[0].count > 2 || sides_[1].count > 2 || found.gap > 0) return true;
-    return std::abs(dot(sides_[1].along(0), seen_[1].vector(sides_[0].normal(0)))) > parallel;
+    if (sides(0).count > 2 || sides(1).count > 2 || found.gap > 0) return true;
+    return std::abs(dot(sides(1).along(0), seen_[1].vector(sides(0).normal(0)))) > parallel;
 }
 
 void PolygonPair::remember(const Meeting& meeting, Cache* cache) const {
@@ -171,24 +169,24 @@ void PolygonPair::remember(const Meeting& meeting, Cache* cache) const {
     // The sides of what overlaps are all tried each time.
     cache->count = meeting.gap > 0 ? (of_a[0] != of_a[1] || of_b[0] != of_b[1] ? 2 : 1) : 0;
     for (std::size_t i = 0; i < 2; ++i) {
-        cache->corner_a[i] = sides_[0].corner_number(of_a[i]);
-        cache->corner_b[i] = sides_[1].corner_number(of_b[i]);
+        cache->corner_a[i] = sides(0).corner_number(of_a[i]);
+        cache->corner_b[i] = sides(1).corner_number(of_b[i]);
     }
-    const DVec<2> normal = shapes_[meeting.of]->place.vector(meeting.normal);
+    const DVec<2> normal = outlines_[meeting.of]->place.vector(meeting.normal);
     cache->axis = {static_cast<float>(a_is_reference ? normal.x : -normal.x),
                    static_cast<float>(a_is_reference ? normal.y : -normal.y), 0};
 }
 
 /// From the side and the corner, or the two corners, that were nearest.
 bool PolygonPair::apart_by_cache(const Cache& cache, Meeting& meeting) const {
-    const std::uint32_t count_a = sides_[0].count, count_b = sides_[1].count;
+    const std::uint32_t count_a = sides(0).count, count_b = sides(1).count;
     if (cache.count == 0 || cache.count > 2 || cache.corner_a[0] >= count_a || cache.corner_b[0] >= count_b)
         return false;
-    std::array<std::uint32_t, 2> corners{sides_[0].corner_number(cache.corner_a[0]),
-                                         sides_[1].corner_number(cache.corner_b[0])};
+    std::array<std::uint32_t, 2> corners{sides(0).corner_number(cache.corner_a[0]),
+                                         sides(1).corner_number(cache.corner_b[0])};
     if (cache.count == 2) {
         const std::uint32_t of = cache.corner_a[0] != cache.corner_a[1] ? 0 : 1, side = corners[of];
-        const Sides& reference = sides_[of];
+        const Sides& reference = sides(of);
         const DVec<2> from = other_corner(of, corners[1 - of]) - reference.corner(side);
         const double along = dot(reference.along(side), from);
         if (along >= 0 && along <= reference.length(side)) {
@@ -199,12 +197,45 @@ bool PolygonPair::apart_by_cache(const Cache& cache, Meeting& meeting) const {
     return walk(corners, most_steps_from_cache, meeting);
 }
 
+/// Whether the side that parted them last parts them still by more than `enough`. That it does is proof, whatever the
+/// cache says of it.
+bool PolygonPair::parted_by_cache(const Cache& cache, double enough) const {
+    if (cache.count != 2) return false;
+    const std::uint32_t of = cache.corner_a[0] != cache.corner_a[1] ? 0 : 1;
+    const std::uint32_t first = of == 0 ? cache.corner_a[0] : cache.corner_b[0];
+    const Sides &reference = sides(of), &other = sides(1 - of);
+    if (first >= reference.count) return false;
+    const std::uint32_t side = reference.corner_number(first);
+    const DVec<2> normal = reference.normal(side), down = seen_[1 - of].vector(normal);
+    double lowest = std::numeric_limits<double>::infinity();
+    for (std::uint32_t i = 0; i < other.count; ++i) {
+        const double height = down.x * other.x[i] + down.y * other.y[i];
+        lowest = height < lowest ? height : lowest;
+    }
+    const double gap = lowest + dot(normal, {seen_[of].x, seen_[of].y}) - reference.offset[side];
+    return gap > enough + 1e-14 * scale();
+}
+
+/// The side that parts them, and the corner in front of it.
+void PolygonPair::remember_side(const SideGap& found, Cache* cache) const {
+    if (cache == nullptr) return;
+    auto &of_reference = found.of == 0 ? cache->corner_a : cache->corner_b,
+         &of_other = found.of == 0 ? cache->corner_b : cache->corner_a;
+    const Sides &reference = sides(found.of), &other = sides(1 - found.of);
+    cache->count = 2;
+    of_reference[0] = reference.corner_number(found.side);
+    of_reference[1] = reference.corner_number(reference.after(found.side));
+    of_other[0] = of_other[1] = other.corner_number(found.corner);
+}
+
 PolygonPair::Answer PolygonPair::meet(double enough, Cache* cache, Meeting& meeting) const {
-    if (cache == nullptr || !apart_by_cache(*cache, meeting)) {
-        const SideGap found = widest_gap(sides_[0], sides_[1], seen_, enough, 1e-14 * scale());
+    const bool all = !(enough < std::numeric_limits<double>::infinity());
+    if (cache != nullptr && !all && parted_by_cache(*cache, enough)) return Answer::beyond;
+    if (cache == nullptr || !all || !apart_by_cache(*cache, meeting)) {
+        const SideGap found = widest_gap(sides(0), sides(1), seen_, enough, 1e-14 * scale());
         if (!sides_are_all(found)) return Answer::unknown;
         if (found.gap > enough) {
-            if (cache != nullptr && apart(found, meeting)) remember(meeting, cache);
+            remember_side(found, cache);
             return Answer::beyond;
         }
         const bool met = found.gap > 0 ? apart(found, meeting) : overlapping(found, meeting);
@@ -215,14 +246,16 @@ PolygonPair::Answer PolygonPair::meet(double enough, Cache* cache, Meeting& meet
 }
 
 PolygonPair::Answer PolygonPair::near(double enough, Cache* cache) const {
-    Meeting meeting;
-    if (cache == nullptr || !apart_by_cache(*cache, meeting)) {
-        const SideGap found = widest_gap(sides_[0], sides_[1], seen_, enough, 1e-14 * scale());
-        if (!sides_are_all(found)) return Answer::unknown;
-        if (found.gap <= 0) return Answer::within;
-        if (found.gap > enough && cache == nullptr) return Answer::beyond;
-        if (!apart(found, meeting)) return found.gap > enough ? Answer::beyond : Answer::unknown;
+    if (cache != nullptr && parted_by_cache(*cache, enough)) return Answer::beyond;
+    const SideGap found = widest_gap(sides(0), sides(1), seen_, enough, 1e-14 * scale());
+    if (!sides_are_all(found)) return Answer::unknown;
+    if (found.gap <= 0) return Answer::within;
+    if (found.gap > enough) {
+        remember_side(found, cache);
+        return Answer::beyond;
     }
+    Meeting meeting;
+    if (!apart(found, meeting)) return Answer::unknown;
     remember(meeting, cache);
     return meeting.gap > enough ? Answer::beyond : Answer::within;
 }

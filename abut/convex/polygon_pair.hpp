@@ -26,10 +26,8 @@ struct Meeting {
 
 class PolygonPair {
 public:
-    PolygonPair(const Convex<2>& a, const Convex<2>& b);
-
-    /// False where one has no `Sides`: ask in another way.
-    bool known() const { return known_; }
+    /// Neither is a point. They must outlive it.
+    PolygonPair(const Outline& a, const Outline& b);
 
     enum class Answer {
         beyond,   ///< they are farther apart than `enough`
@@ -43,12 +41,12 @@ public:
     /// Only whether they are at most `enough` apart.
     Answer near(double enough, Cache* cache) const;
 
-    const Sides& sides(std::uint32_t of) const { return sides_[of]; }
-    const Convex<2>& shape(std::uint32_t of) const { return *shapes_[of]; }
+    const Outline& outline(std::uint32_t of) const { return *outlines_[of]; }
+    const Sides& sides(std::uint32_t of) const { return outlines_[of]->sides; }
     /// The other one as seen from this one.
-    const Seen& seen_from(std::uint32_t of) const { return seen_[of]; }
+    const Rigid2& seen_from(std::uint32_t of) const { return seen_[of]; }
     /// A corner of the other one, as seen from this one.
-    DVec<2> other_corner(std::uint32_t of, std::uint32_t i) const { return seen_[of].point(sides_[1 - of].corner(i)); }
+    DVec<2> other_corner(std::uint32_t of, std::uint32_t i) const { return seen_[of].point(sides(1 - of).corner(i)); }
 
 private:
     enum class Step { apart, on, lost };
@@ -60,14 +58,13 @@ private:
     bool apart(const SideGap& found, Meeting& meeting) const;
     bool overlapping(const SideGap& found, Meeting& meeting) const;
     bool sides_are_all(const SideGap& found) const;
+    bool parted_by_cache(const Cache& cache, double enough) const;
     void remember(const Meeting& meeting, Cache* cache) const;
+    void remember_side(const SideGap& found, Cache* cache) const;
     double scale() const;
 
-    const Convex<2>* shapes_[2];
-    FewSides rooms_[2];
-    Sides sides_[2];
-    Seen seen_[2];
-    bool known_;
+    const Outline* outlines_[2];
+    Rigid2 seen_[2];
 };
 
 }  // namespace abut

@@ -1,4 +1,5 @@
-#include <abut/convex/ray_forms.hpp>
+#include <abut/convex/ray_ball.hpp>
+#include <abut/convex/ray_sides.hpp>
 
 namespace abut {
 namespace {
@@ -34,6 +35,11 @@ template <int D>
 RayEntry<D> enter_own(const Convex<D>& convex, const Beam<D>& own, double radius) {
     if (convex.core == Core::box) return enter_box(own, DVec<D>(convex.own[0]), radius);
     if constexpr (D == 2) {
+        if (convex.sides != nullptr) {
+            Sides sides;
+            sides.refer_to(convex.sides, convex.count);
+            return enter_sides(own, sides, radius);
+        }
         if (convex.core == Core::points) return enter_polygon(own, {convex.vertices(), convex.count}, radius);
     } else {
         if (convex.core == Core::points)

@@ -4,6 +4,7 @@
 // the core has them.
 
 #include <abut/convex/ray_entry.hpp>
+#include <abut/convex/sides.hpp>
 
 #include <limits>
 #include <span>
@@ -54,9 +55,6 @@ RayEntry<3> enter_polyhedron(const Beam<3>& beam, std::span<const Vec3> points, 
 RayEntry<3> enter_discs(const Beam<3>& beam, const DVec<3>& a, const DVec<3>& b, double radius_a, double radius_b);
 
 // In any frame, with the corners seen from the beam's origin.
-
-template <int D>
-RayEntry<D> enter_ball(const Beam<D>& beam, const DVec<D>& center, double radius);
 
 template <int D>
 RayEntry<D> enter_capsule(const Beam<D>& beam, const DVec<D>& a, const DVec<D>& b, double radius);

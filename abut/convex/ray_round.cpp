@@ -1,41 +1,14 @@
-#include <abut/convex/ray_forms.hpp>
+#include <abut/convex/ray_ball.hpp>
 
 namespace abut {
 namespace {
-
-/// Where a beam enters a ball, from outside: the square is taken of the distance at which it passes the middle, which
-/// keeps its digits however far the ball is. Below zero, or nothing to go by, where it doesn't.
-template <int D>
-double along_to_ball(const Beam<D>& beam, const DVec<D>& center, double radius, bool& enters) {
-    const double nearest = dot(center, beam.direction);
-    const double passes = length_squared(center - beam.direction * nearest);
-    const double half_chord = radius * radius - passes;
-    enters = nearest > 0 && half_chord >= 0;
-    return enters ? nearest - std::sqrt(half_chord) : 0;
-}
 
 template <int D>
 RayEntry<D> entered(double along, const DVec<D>& normal, FeatureKind kind, std::uint32_t index) {
     return {RayAnswer::enters, along, normal, kind, index};
 }
 
-template <int D>
-RayEntry<D> enter_end(const Beam<D>& beam, const DVec<D>& center, double radius, std::uint32_t number) {
-    bool enters = false;
-    const double along = along_to_ball(beam, center, radius, enters);
-    if (!enters || along > beam.length) return ray_misses<D>();
-    return entered(along, beam.direction * along - center, FeatureKind::vertex, number);
-}
-
 }  // namespace
-
-template <int D>
-RayEntry<D> enter_ball(const Beam<D>& beam, const DVec<D>& center, double radius) {
-    if (!(radius > 0)) return {};
-    const double about = radius + ray_doubt * (largest(center) + radius);
-    if (!(length_squared(center) > about * about)) return {};
-    return enter_end(beam, center, radius, 0);
-}
 
 template <int D>
 RayEntry<D> enter_capsule(const Beam<D>& beam, const DVec<D>& a, const DVec<D>& b, double radius) {
@@ -70,11 +43,7 @@ RayEntry<D> enter_capsule(const Beam<D>& beam, const DVec<D>& a, const DVec<D>& 
     return height < 0.5 ? enter_end(beam, a, radius, 0) : enter_end(beam, b, radius, 1);
 }
 
-#define ABUT_INSTANTIATE(D)                                                  \
-    template RayEntry<D> enter_ball(const Beam<D>&, const DVec<D>&, double); \
-    template RayEntry<D> enter_capsule(const Beam<D>&, const DVec<D>&, const DVec<D>&, double);
-ABUT_INSTANTIATE(2)
-ABUT_INSTANTIATE(3)
-#undef ABUT_INSTANTIATE
+template RayEntry<2> enter_capsule(const Beam<2>&, const DVec<2>&, const DVec<2>&, double);
+template RayEntry<3> enter_capsule(const Beam<3>&, const DVec<3>&, const DVec<3>&, double);
 
 }  // namespace abut

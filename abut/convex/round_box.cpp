@@ -1,5 +1,6 @@
 // A point or a segment and a box, seen from the box's own frame.
 
+#include <abut/convex/box_point-inl.h>
 #include <abut/convex/round_pairs.hpp>
 
 namespace abut {
@@ -168,29 +169,14 @@ bool deep_in_box(const Convex<3>& box, const Convex<3>& segment, const SeenSegme
 }  // namespace
 
 bool box_point(const Convex<3>& box, const Convex<3>& point, SignedDistance<3>& result) {
-    const DVec<3> half(box.own[0]), seen = seen_from(box, point, 0), inside = within(half, seen);
-    const DVec<3> between = seen - inside;
-    const double square = length_squared(between);
-    std::uint32_t fixed = 0, low = 0;
-    if (square > std::numeric_limits<double>::min()) {
-        for (int i = 0; i < 3; ++i) {
-            fixed |= between[i] != 0 ? 1u << i : 0u;
-            low |= between[i] < 0 ? 1u << i : 0u;
-        }
-        const double gap = std::sqrt(square);
-        place_answer(box, point, gap, between * (1 / gap), inside, result);
-    } else {
-        int nearest = 0;
-        for (int i = 1; i < 3; ++i)
-            if (std::abs(seen[i]) - half[i] > std::abs(seen[nearest]) - half[nearest]) nearest = i;
-        const double sign = seen[nearest] < 0 ? -1 : 1;
-        fixed = 1u << nearest;
-        low = sign < 0 ? fixed : 0;
-        DVec<3> on_box = inside;
-        on_box[nearest] = sign * half[nearest];
-        place_answer(box, point, std::abs(seen[nearest]) - half[nearest], axis<3>(nearest, sign), on_box, result);
-    }
-    name_part(fixed, low, result.corners);
+    BoxPlace place;
+    const DVec<3> center = core_corner(point, 0);
+    nearest_on_box(DVec<3>(box.own[0]), seen_from(box, point, 0), place);
+    const double distance = place.distance * box.scale;
+    result.distance = distance - box.radius - point.radius;
+    result.normal = box.place.vector(place.normal) / box.scale;
+    result.on_a = center - result.normal * (distance - box.radius);
+    name_part(place.fixed, place.low, result.corners);
     return true;
 }
 

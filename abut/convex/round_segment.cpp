@@ -1,3 +1,4 @@
+#include <abut/convex/round_lanes-inl.h>
 #include <abut/convex/round_pairs.hpp>
 
 namespace abut {
@@ -85,6 +86,11 @@ bool segment_point(const Convex<3>& segment, const Convex<3>& point, SignedDista
 
 template <int D>
 bool segment_segment(const Convex<D>& a, const Convex<D>& b, SignedDistance<D>& result) {
+    if constexpr (D == 3) {
+        const SegmentPair pair{lanes::both(core_corner(a, 0), core_corner(b, 0)),
+                               lanes::both(core_corner(a, 1), core_corner(b, 1)), a.radius, b.radius};
+        if (distance_of_segments(pair, result)) return true;
+    }
     // Seen from an end of A.
     const DVec<D> origin = core_corner(a, 0), from = core_corner(b, 0) - origin;
     const DVec<D> u = core_corner(a, 1) - origin, to = core_corner(b, 1) - origin, v = to - from;

@@ -25,7 +25,7 @@ struct Points {
     HWY_ALIGN double y[most_sides];
 };
 
-void place(const Sides& sides, const Seen& seen, Points& points) {
+void place(const Sides& sides, const Rigid2& seen, Points& points) {
     const Vector cos = hn::Set(d, seen.cos), sin = hn::Set(d, seen.sin);
     const Vector offset_x = hn::Set(d, seen.x), offset_y = hn::Set(d, seen.y);
     for (std::size_t i = 0; i < sides.room; i += lanes) {
@@ -96,7 +96,7 @@ std::uint32_t lowest(const Points& points, std::size_t room, double normal_x, do
     return first_of(heights, room, hn::MinOfLanes(d, least));
 }
 
-SideGap widest_gap_of_two(const Sides& a, const Sides& b, const Seen (&seen)[2], double enough, double doubt) {
+SideGap widest_gap_of_two(const Sides& a, const Sides& b, const Rigid2 (&seen)[2], double enough, double doubt) {
     Points points[2];  // of B as seen from A, of A as seen from B
     place(b, seen[0], points[0]);
     SideGap result = widest_of(a, points[0].x, points[0].y, b.count);
@@ -115,13 +115,6 @@ SideGap widest_gap_of_two(const Sides& a, const Sides& b, const Seen (&seen)[2],
     return result;
 }
 
-SideGap widest_gap_before_point(const Sides& a, const DVec<2>& point) {
-    SideGap result = widest_of(a, &point.x, &point.y, 1);
-    result.of = 0;
-    result.corner = 0;
-    return result;
-}
-
 }  // namespace abut::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -129,7 +122,6 @@ HWY_AFTER_NAMESPACE();
 namespace abut {
 
 HWY_EXPORT(widest_gap_of_two);
-HWY_EXPORT(widest_gap_before_point);
 
 namespace {
 
@@ -146,7 +138,7 @@ SideGap gap_before_box(const Sides& box, const DVec<2>& place, double reach_x, d
     return result;
 }
 
-SideGap gap_of_boxes(const Sides& a, const Sides& b, const Seen (&seen)[2], double doubt) {
+SideGap gap_of_boxes(const Sides& a, const Sides& b, const Rigid2 (&seen)[2], double doubt) {
     const double cos = std::abs(seen[0].cos), sin = std::abs(seen[0].sin);
     const double b_x = b.offset[1], b_y = b.offset[0], a_x = a.offset[1], a_y = a.offset[0];
     SideGap result = gap_before_box(a, {seen[0].x, seen[0].y}, cos * b_x + sin * b_y, sin * b_x + cos * b_y);
@@ -163,13 +155,9 @@ SideGap gap_of_boxes(const Sides& a, const Sides& b, const Seen (&seen)[2], doub
 
 }  // namespace
 
-SideGap widest_gap(const Sides& a, const Sides& b, const Seen (&seen)[2], double enough, double doubt) {
+SideGap widest_gap(const Sides& a, const Sides& b, const Rigid2 (&seen)[2], double enough, double doubt) {
     if (a.numbering == Numbering::box && b.numbering == Numbering::box) return gap_of_boxes(a, b, seen, doubt);
     return HWY_DYNAMIC_DISPATCH(widest_gap_of_two)(a, b, seen, enough, doubt);
-}
-SideGap widest_gap(const Sides& a, const DVec<2>& point) {
-    if (a.numbering == Numbering::box) return gap_before_box(a, point, 0, 0);
-    return HWY_DYNAMIC_DISPATCH(widest_gap_before_point)(a, point);
 }
 
 }  // namespace abut

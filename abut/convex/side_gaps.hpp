@@ -6,14 +6,6 @@
 
 namespace abut {
 
-/// Turned by (cos, sin), then moved: how one polygon lies, seen from the other.
-struct Seen {
-    double cos = 1, sin = 0, x = 0, y = 0;
-
-    DVec<2> vector(const DVec<2>& v) const { return {cos * v.x - sin * v.y, sin * v.x + cos * v.y}; }
-    DVec<2> point(const DVec<2>& p) const { return {(cos * p.x - sin * p.y) + x, (sin * p.x + cos * p.y) + y}; }
-};
-
 /// The side with the widest gap in front of it, and the corner of the other that is nearest to its line.
 struct SideGap {
     double gap;        ///< below zero: the least depth along any side's normal
@@ -24,9 +16,6 @@ struct SideGap {
 
 /// Of the sides of A and B, those of A first among those that part them equally, to within `doubt`. `seen[0]` is B as
 /// seen from A, `seen[1]` A as seen from B. Where A's sides leave a gap wider than `enough`, B's aren't looked at.
-SideGap widest_gap(const Sides& a, const Sides& b, const Seen (&seen)[2], double enough, double doubt);
-
-/// The side of A in front of which a point lies farthest, seen from A; `corner` is 0.
-SideGap widest_gap(const Sides& a, const DVec<2>& point);
+SideGap widest_gap(const Sides& a, const Sides& b, const Rigid2 (&seen)[2], double enough, double doubt);
 
 }  // namespace abut

@@ -1,3 +1,4 @@
+#include <abut/convex/round_pairs.hpp>
 #include <abut/convex/sides.hpp>
 
 namespace abut {
@@ -43,83 +44,56 @@ private:
     std::uint32_t count_, room_;
 };
 
-/// Field by field, as what is written in parts and read as a whole has to be waited for.
-void refer_to(const double* numbers, std::uint32_t count, Numbering numbering, Sides& sides) {
-    const std::uint32_t room = room_for_sides(count);
-    sides.x = numbers;
-    sides.y = numbers + room;
-    sides.normal_x = numbers + std::size_t{2} * room;
-    sides.normal_y = numbers + std::size_t{3} * room;
-    sides.offset = numbers + std::size_t{4} * room;
-    sides.count = count;
-    sides.room = room;
-    sides.numbering = numbering;
-    sides.size = numbers[std::size_t{5} * room];
-    sides.area = numbers[std::size_t{5} * room + 1];
-}
-
-void sides_of_box(const Vec2& half, FewSides& room, Sides& sides) {
-    static constexpr double normals_x[4] = {0, -1, 0, 1}, normals_y[4] = {1, 0, -1, 0};
-    const double x = static_cast<double>(half.x), y = static_cast<double>(half.y);
-    double* numbers = room.numbers;
-    numbers[0] = numbers[3] = numbers[9] = numbers[11] = x;
-    numbers[1] = numbers[2] = -x;
-    numbers[4] = numbers[5] = numbers[8] = numbers[10] = y;
-    numbers[6] = numbers[7] = -y;
-    sides.x = numbers;
-    sides.y = numbers + 4;
-    sides.normal_x = normals_x;
-    sides.normal_y = normals_y;
-    sides.offset = numbers + 8;
-    sides.count = 4;
-    sides.room = 4;
-    sides.numbering = Numbering::box;
-    sides.size = x + y;
-    sides.area = 4 * x * y;
-}
-
-bool sides_of_segment(const Vec2* points, FewSides& room, Sides& sides) {
-    if (points[0] == points[1]) return false;
-    Rows rows(room.numbers, 2);
-    rows.write([&](std::uint32_t i) { return DVec<2>(points[i]); });
-    refer_to(room.numbers, 2, Numbering::listed, sides);
-    return true;
-}
-
-/// A triangle so thin that its area may be rounding has none.
-bool sides_of_triangle(const Vec2* points, FewSides& room, Sides& sides) {
-    const DVec<2> u = DVec<2>(points[1]) - DVec<2>(points[0]), v = DVec<2>(points[2]) - DVec<2>(points[0]);
-    const double area = cross(u, v);
-    const double most = std::max({dot(u, u), dot(v, v), length_squared(v - u)});
-    if (!(std::abs(area) > 1e-9 * most)) return false;
-    const bool backwards = area < 0;
-    Rows rows(room.numbers, 3);
-    rows.write([&](std::uint32_t i) { return DVec<2>(points[backwards ? (3 - i) % 3 : i]); });
-    refer_to(room.numbers, 3, backwards ? Numbering::backwards : Numbering::listed, sides);
-    return true;
-}
-
 }  // namespace
 
 void write_sides(std::span<const Vec2> points, double* numbers) {
     Rows(numbers, static_cast<std::uint32_t>(points.size())).write([&](std::uint32_t i) { return DVec<2>(points[i]); });
 }
 
-bool sides_of(const Convex<2>& convex, FewSides& room, Sides& sides) {
-    const bool rigid = keeps_its_form(convex) && std::abs(convex.scale - 1) <= 1e-12 &&
-                       cross(convex.place.column[0], convex.place.column[1]) > 0;
+bool Outline::set_segment(const Vec2& a, const Vec2& b) {
+    if (a == b) return false;
+    Rows rows(room.numbers, 2);
+    rows.write([&](std::uint32_t i) { return DVec<2>(i == 0 ? a : b); });
+    sides.refer_to(room.numbers, 2);
+    return true;
+}
+
+bool Outline::set_triangle(const Vec2& a, const Vec2& b, const Vec2& c) {
+    const DVec<2> points[] = {DVec<2>(a), DVec<2>(b), DVec<2>(c)}, u = points[1] - points[0], v = points[2] - points[0];
+    const double area = cross(u, v);
+    const double most = std::max({dot(u, u), dot(v, v), length_squared(v - u)});
+    if (!(std::abs(area) > 1e-9 * most)) return false;
+    const bool backwards = area < 0;
+    Rows rows(room.numbers, 3);
+    rows.write([&](std::uint32_t i) { return points[backwards ? (3 - i) % 3 : i]; });
+    sides.refer_to(room.numbers, 3);
+    if (backwards) sides.numbering = Numbering::backwards;
+    return true;
+}
+
+bool set_outline(const Convex<2>& convex, Outline& outline) {
+    const Affine<2>& place = convex.place;
+    outline.radius = convex.radius;
+    if (is_round_points(convex, 1)) {
+        outline.set_point(place.point(DVec<2>(convex.vertices()[0])));
+        return true;
+    }
+    const bool rigid =
+        keeps_its_form(convex) && std::abs(convex.scale - 1) <= 1e-12 && cross(place.column[0], place.column[1]) > 0;
     if (!rigid) return false;
+    outline.place = {place.column[0].x, place.column[0].y, place.offset.x, place.offset.y};
     if (convex.sides != nullptr) {
-        refer_to(convex.sides, convex.count, Numbering::listed, sides);
+        outline.sides.refer_to(convex.sides, convex.count);
         return true;
     }
     if (convex.core == Core::box) {
-        sides_of_box(convex.own[0], room, sides);
+        outline.set_box(convex.own[0]);
         return true;
     }
     if (convex.core != Core::points) return false;
-    if (convex.count == 2) return sides_of_segment(convex.vertices(), room, sides);
-    return convex.count == 3 && sides_of_triangle(convex.vertices(), room, sides);
+    const Vec2* points = convex.vertices();
+    if (convex.count == 2) return outline.set_segment(points[0], points[1]);
+    return convex.count == 3 && outline.set_triangle(points[0], points[1], points[2]);
 }
 
 }  // namespace abut

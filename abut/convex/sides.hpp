@@ -47,6 +47,9 @@ struct Sides {
     std::uint32_t before(std::uint32_t i) const { return i == 0 ? count - 1 : i - 1; }
     double length(std::uint32_t i) const { return dot(along(i), corner(after(i)) - corner(i)); }
 
+    /// Takes the rows that a polygon keeps.
+    void refer_to(const double* numbers, std::uint32_t count);
+
     /// The number that the shape itself gives corner i; and back, as each way of counting undoes itself.
     std::uint32_t corner_number(std::uint32_t i) const;
 };
@@ -87,8 +90,89 @@ struct FewSides {
     double numbers[numbers_for_sides(4)];
 };
 
-/// Whether a placed core has sides, and then those: a box, a segment of some length, a triangle of some area, or a
-/// polygon that brings them along; placed by a pose, neither stretched nor mirrored nor round in itself.
-bool sides_of(const Convex<2>& convex, FewSides& room, Sides& sides);
+/// Turned by (cos, sin), then moved: how a shape of the plane is placed, or how another one sees it. Without
+/// initialisers, as `Sides`.
+struct Rigid2 {
+    double cos, sin, x, y;
+
+    DVec<2> offset() const { return {x, y}; }
+    DVec<2> vector(const DVec<2>& v) const { return {cos * v.x - sin * v.y, sin * v.x + cos * v.y}; }
+    DVec<2> point(const DVec<2>& p) const { return {(cos * p.x - sin * p.y) + x, (sin * p.x + cos * p.y) + y}; }
+    /// A direction as the shape itself sees it.
+    DVec<2> transposed(const DVec<2>& v) const { return {cos * v.x + sin * v.y, cos * v.y - sin * v.x}; }
+    /// A place as the shape itself sees it.
+    DVec<2> unplaced(const DVec<2>& p) const { return transposed({p.x - x, p.y - y}); }
+};
+
+/// A shape of the plane as the questions about two of them see it: its sides, or the one point that it is, placed by a
+/// pose, and the ball around. Refers to the shape, or to its own room.
+struct Outline {
+    Rigid2 place;
+    double radius;
+    Sides sides;  ///< of a point, which is at place.offset(): `count` 1, and nothing else
+    FewSides room;
+
+    Outline() = default;
+    Outline(const Outline&) = delete;
+    Outline& operator=(const Outline&) = delete;
+
+    bool is_point() const { return sides.count == 1; }
+
+    void set_box(const Vec2& half);
+    /// False where it has no length.
+    bool set_segment(const Vec2& a, const Vec2& b);
+    /// False where it is so thin that its area may be rounding.
+    bool set_triangle(const Vec2& a, const Vec2& b, const Vec2& c);
+    /// Where it is in the world.
+    void set_point(const DVec<2>& point);
+};
+
+/// Whether a placed core has an outline, and then that: a point, a segment of some length, a box, a triangle of some
+/// area, or a polygon that brings its sides along; neither stretched nor mirrored nor round before it is placed.
+bool set_outline(const Convex<2>& convex, Outline& outline);
+
+// From here on: what is done so often that it is to be done in place.
+
+/// Field by field, as what is written in parts and read as a whole has to be waited for.
+inline void Sides::refer_to(const double* numbers, std::uint32_t number) {
+    const std::uint32_t rows = room_for_sides(number);
+    x = numbers;
+    y = numbers + rows;
+    normal_x = numbers + std::size_t{2} * rows;
+    normal_y = numbers + std::size_t{3} * rows;
+    offset = numbers + std::size_t{4} * rows;
+    count = number;
+    room = rows;
+    numbering = Numbering::listed;
+    size = numbers[std::size_t{5} * rows];
+    area = numbers[std::size_t{5} * rows + 1];
+}
+
+inline void Outline::set_box(const Vec2& half) {
+    static constexpr double normals_x[4] = {0, -1, 0, 1}, normals_y[4] = {1, 0, -1, 0};
+    const double x = static_cast<double>(half.x), y = static_cast<double>(half.y);
+    double* numbers = room.numbers;
+    numbers[0] = numbers[3] = numbers[9] = numbers[11] = x;
+    numbers[1] = numbers[2] = -x;
+    numbers[4] = numbers[5] = numbers[8] = numbers[10] = y;
+    numbers[6] = numbers[7] = -y;
+    sides.x = numbers;
+    sides.y = numbers + 4;
+    sides.normal_x = normals_x;
+    sides.normal_y = normals_y;
+    sides.offset = numbers + 8;
+    sides.count = 4;
+    sides.room = 4;
+    sides.numbering = Numbering::box;
+    sides.size = x + y;
+    sides.area = 4 * x * y;
+}
+
+inline void Outline::set_point(const DVec<2>& point) {
+    place = {1, 0, point.x, point.y};
+    sides.count = 1;
+    sides.size = 0;
+    sides.area = 0;
+}
 
 }  // namespace abut

@@ -60,6 +60,15 @@ glm::vec<D, double> normalized(const glm::vec<D, double>& v, const glm::vec<D, d
     return u / length(u);
 }
 
+/// v at length 1, of numbers that were floats, whose squares are nothing special in double; the first axis where v is
+/// zero. What is a unit vector but for its rounding to floats needs no root: the series leaves out a third power.
+template <int D>
+glm::vec<D, double> unit(const glm::vec<D, double>& v) {
+    const double square = dot(v, v), excess = square - 1;
+    if (std::abs(excess) < 1e-5) return v * (1 - excess * (0.5 - 0.375 * excess));
+    return square == 0 ? axis<D>(0) : v * (1 / std::sqrt(square));
+}
+
 /// A unit vector at right angles to v.
 inline DVec<2> perpendicular(const DVec<2>& v) {
     return normalized(DVec<2>{-v.y, v.x});

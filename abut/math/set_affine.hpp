@@ -6,13 +6,8 @@
 
 namespace abut {
 
-/// Of no length: no turn. A turn that is a unit vector but for its rounding to floats needs no root: what is left of
-/// the series after so many terms is below a double's last digit.
 inline DVec<2> unit(const Turn& turn) {
-    const DVec<2> u(turn.cos, turn.sin);
-    const double squared = dot(u, u), e = squared - 1;  // no square of a float overflows a double, or vanishes
-    if (std::abs(e) < 1e-5) return u * (1 - e * (0.5 - e * (0.375 - e * 0.3125)));
-    return squared == 0 ? DVec<2>(1, 0) : u / std::sqrt(squared);
+    return unit(DVec<2>(turn.cos, turn.sin));
 }
 
 /// affine(pose), where a call and a copy would cost more than it does.

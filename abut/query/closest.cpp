@@ -1,19 +1,13 @@
 #include <abut/query/closest.hpp>
+#include <abut/query/direct.hpp>
 #include <abut/query/part_pairs.hpp>
 #include <abut/query/vicinity.hpp>
+#include <abut/query/write_answer.hpp>
 
 #include <optional>
 
 namespace abut {
 namespace {
-
-template <int D>
-void write(const SignedDistance<D>& distance, Closest<D>& result) {
-    result.distance = static_cast<float>(distance.distance);
-    result.normal = to_float(distance.normal);
-    result.on_a = to_float(distance.on_a);
-    result.on_b = to_float(distance.on_b());
-}
 
 /// Calls visit(part, index) for a convex shape or half-space itself, and for the parts of a composite one that are
 /// within reach of `other`, as long as visit() returns it.
@@ -96,17 +90,30 @@ private:
     Closest<D> found_;  ///< its features
 };
 
+template <int D>
+void answer(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options, Closest<D>& result) {
+    const bool finite = is_finite(a) && is_finite(b);
+    ABUT_ASSERT(finite);
+    if (!finite) return;
+    const SignedDistance<D> distance = part_distance(a, b, {options.cache, options.trace});
+    write(distance, result);
+    name_features(a, b, distance, 0, 0, result);
+}
+
 }  // namespace
 
 template <int D>
 Closest<D> closest(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options) {
     Closest<D> result;
-    const bool finite = is_finite(a) && is_finite(b);
-    ABUT_ASSERT(finite);
-    if (!finite) return result;
-    const SignedDistance<D> distance = part_distance(a, b, {options.cache, options.trace});
-    write(distance, result);
-    name_features(a, b, distance, 0, 0, result);
+    answer(a, b, options, result);
+    return result;
+}
+
+template <int D>
+Closest<D> closest(const Given<D>& a, const Given<D>& b, const QueryOptions<D>& options) {
+    Closest<D> result;
+    if (options.trace != nullptr || !direct_closest(a, b, options.cache, result))
+        answer(convex_of(a), convex_of(b), options, result);
     return result;
 }
 
@@ -124,5 +131,7 @@ template Closest<2> closest(const View<2>&, const View<2>&, const QueryOptions<2
 template Closest<3> closest(const View<3>&, const View<3>&, const QueryOptions<3>&);
 template Closest<2> closest(const Convex<2>&, const Convex<2>&, const QueryOptions<2>&);
 template Closest<3> closest(const Convex<3>&, const Convex<3>&, const QueryOptions<3>&);
+template Closest<2> closest(const Given<2>&, const Given<2>&, const QueryOptions<2>&);
+template Closest<3> closest(const Given<3>&, const Given<3>&, const QueryOptions<3>&);
 
 }  // namespace abut

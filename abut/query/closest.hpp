@@ -4,6 +4,7 @@
 
 #include <abut/query/feature.hpp>
 #include <abut/query/options.hpp>
+#include <abut/shape/ball.hpp>
 #include <abut/shape/view.hpp>
 
 #include <limits>
@@ -34,6 +35,8 @@ template <int D>
 Closest<D> closest(const View<D>& a, const View<D>& b, const QueryOptions<D>& options = {});
 template <int D>
 Closest<D> closest(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options = {});
+template <int D>
+Closest<D> closest(const Given<D>& a, const Given<D>& b, const QueryOptions<D>& options = {});
 
 /// The signed distance of two shapes with the points and direction it is measured at.
 /// Right to within 1e-5 x the size of the smaller; the depth of cylinders, cones and shapes known by a support function
@@ -48,7 +51,7 @@ requires Pair<A, B> Closest<dimension<A>> closest(const A& a, const B& b,
 template <Shape A>
 Closest<dimension<A>> closest(const A& a, const Vec<dimension<A>>& point,
                               const QueryOptions<dimension<A>>& options = {}) {
-    return closest(a, round_points<dimension<A>>({point}, 0), options);
+    return closest(a, Ball<dimension<A>>{point, 0}, options);
 }
 
 }  // namespace abut

@@ -1,6 +1,8 @@
 #include <abut/convex/manifold.hpp>
 #include <abut/query/contact.hpp>
+#include <abut/query/direct.hpp>
 #include <abut/query/part_pairs.hpp>
+#include <abut/query/write_answer.hpp>
 
 namespace abut {
 namespace {
@@ -22,14 +24,14 @@ bool part_contact(const Solid<D>& a, const Convex<D>& b, double reach, double ma
 }
 
 template <int D>
-void write(const PartContact<D>& found, Contact<D>& result) {
-    result.normal = to_float(found.distance.normal);
-    result.depth = static_cast<float>(-found.distance.distance);
-    result.points.clear();
-    for (std::size_t i = 0; i < found.manifold.count; ++i) {
-        const ManifoldPoint<D>& point = found.manifold.points[i];
-        result.points.push_back({to_float(point.position), static_cast<float>(point.depth), point.feature});
-    }
+void answer(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options, Contact<D>& result) {
+    const bool finite = is_finite(a) && is_finite(b);
+    ABUT_ASSERT(finite);
+    const double margin = static_cast<double>(options.margin);
+    PartContact<D> found;
+    if (!finite || !part_contact(a, b, margin, margin, {options.cache, options.trace}, found)) return;
+    write(found.distance, found.manifold, result);
+    name_features(a, b, found.distance, 0, 0, result);
 }
 
 }  // namespace
@@ -38,13 +40,16 @@ template <int D>
 Contact<D> contact(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options) {
     Contact<D> result;
     result.normal[0] = 1;
-    const bool finite = is_finite(a) && is_finite(b);
-    ABUT_ASSERT(finite);
-    const double margin = static_cast<double>(options.margin);
-    PartContact<D> found;
-    if (!finite || !part_contact(a, b, margin, margin, {options.cache, options.trace}, found)) return result;
-    write(found, result);
-    name_features(a, b, found.distance, 0, 0, result);
+    answer(a, b, options, result);
+    return result;
+}
+
+template <int D>
+Contact<D> contact(const Given<D>& a, const Given<D>& b, const QueryOptions<D>& options) {
+    Contact<D> result;
+    result.normal[0] = 1;
+    if (options.trace != nullptr || !direct_contact(a, b, static_cast<double>(options.margin), options.cache, result))
+        answer(convex_of(a), convex_of(b), options, result);
     return result;
 }
 
@@ -68,7 +73,7 @@ Contact<D> contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& op
                        if (result && distance.distance == least) return true;
                        // Now, while the parts are there: a composite shape may make them up as it goes.
                        least = distance.distance;
-                       write(found, result);
+                       write(found.distance, found.manifold, result);
                        name_features(part_a, part_b, distance, index_a, index_b, result);
                        return true;
                    });
@@ -79,5 +84,7 @@ template Contact<2> contact(const View<2>&, const View<2>&, const QueryOptions<2
 template Contact<3> contact(const View<3>&, const View<3>&, const QueryOptions<3>&);
 template Contact<2> contact(const Convex<2>&, const Convex<2>&, const QueryOptions<2>&);
 template Contact<3> contact(const Convex<3>&, const Convex<3>&, const QueryOptions<3>&);
+template Contact<2> contact(const Given<2>&, const Given<2>&, const QueryOptions<2>&);
+template Contact<3> contact(const Given<3>&, const Given<3>&, const QueryOptions<3>&);
 
 }  // namespace abut

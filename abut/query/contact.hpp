@@ -56,6 +56,8 @@ template <int D>
 Contact<D> contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& options = {});
 template <int D>
 Contact<D> contact(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options = {});
+template <int D>
+Contact<D> contact(const Given<D>& a, const Given<D>& b, const QueryOptions<D>& options = {});
 
 /// The contact of two touching or overlapping shapes; of composite ones, of their deepest pair of parts.
 /// With a margin, of shapes up to so far apart as well.

@@ -39,9 +39,24 @@ bool any_contact(const Convex<D>& a, const Convex<D>& b, double reach, double ma
 
 // The quick ways of the plane have no steps to tell of. A trace is told those of the search, and changes no answer.
 
+namespace {
+
+/// What both must have for a quick way.
+struct Outlines {
+    Outline a, b;
+    bool known;
+
+    Outlines(const Convex<2>& first, const Convex<2>& second)
+        : known(set_outline(first, a) && set_outline(second, b)) {}
+};
+
+}  // namespace
+
 template <>
 bool part_overlaps(const Convex<2>& a, const Convex<2>& b, const SearchOptions<2>& options) {
-    const PlaneAnswer answer = plane_near(a, b, 0, options.cache);
+    const Outlines outlines(a, b);
+    const PlaneAnswer answer =
+        outlines.known ? plane_near(outlines.a, outlines.b, 0, options.cache) : PlaneAnswer::unknown;
     if (answer == PlaneAnswer::unknown) return any_overlap(a, b, options);
     if (options.trace != nullptr) any_overlap<2>(a, b, {nullptr, options.trace});
     return answer == PlaneAnswer::within;
@@ -54,7 +69,8 @@ bool part_overlaps(const Convex<3>& a, const Convex<3>& b, const SearchOptions<3
 template <>
 SignedDistance<2> part_distance(const Convex<2>& a, const Convex<2>& b, const SearchOptions<2>& options) {
     SignedDistance<2> result;
-    if (plane_distance(a, b, options.cache, result) == PlaneAnswer::unknown) {
+    const Outlines outlines(a, b);
+    if (!outlines.known || plane_distance(outlines.a, outlines.b, options.cache, result) == PlaneAnswer::unknown) {
         any_distance(a, b, options, result);
     } else if (options.trace != nullptr) {
         SignedDistance<2> searched;
@@ -73,7 +89,10 @@ SignedDistance<3> part_distance(const Convex<3>& a, const Convex<3>& b, const Se
 template <>
 bool part_contact(const Convex<2>& a, const Convex<2>& b, double reach, double margin, const SearchOptions<2>& options,
                   PartContact<2>& contact) {
-    const PlaneAnswer answer = plane_contact(a, b, reach, margin, options.cache, contact.distance, contact.manifold);
+    const Outlines outlines(a, b);
+    const PlaneAnswer answer = outlines.known ? plane_contact(outlines.a, outlines.b, reach, margin, options.cache,
+                                                              contact.distance, contact.manifold)
+                                              : PlaneAnswer::unknown;
     if (answer == PlaneAnswer::unknown) return any_contact(a, b, reach, margin, options, contact);
     if (options.trace != nullptr) {
         PartContact<2> searched;

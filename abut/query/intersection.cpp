@@ -49,11 +49,14 @@ void round_loop(const ClippedLoop& loop, std::array<Vec2, 2 * most_sides>& round
 /// Polygons of few sides that overlap by more than rounding. False: nothing is known.
 bool quick_intersection(const Convex<2>& a, const Convex<2>& b, Polygon& out) {
     if (a.radius > 0 || b.radius > 0 || !is_finite(a) || !is_finite(b)) return false;
-    const PolygonPair pair(a, b);
-    if (!pair.known()) return false;
-    const double scale = std::max({largest(a.place.offset), largest(b.place.offset), pair.sides(0).size,
-                                   pair.sides(1).size, std::abs(pair.sides(0).x[0]), std::abs(pair.sides(0).y[0]),
-                                   std::abs(pair.sides(1).x[0]), std::abs(pair.sides(1).y[0])});
+    Outline outline_a, outline_b;
+    if (!set_outline(a, outline_a) || !set_outline(b, outline_b)) return false;
+    if (outline_a.is_point() || outline_b.is_point()) return false;
+    const PolygonPair pair(outline_a, outline_b);
+    const double scale =
+        std::max({largest(outline_a.place.offset()), largest(outline_b.place.offset()), pair.sides(0).size,
+                  pair.sides(1).size, std::abs(pair.sides(0).x[0]), std::abs(pair.sides(0).y[0]),
+                  std::abs(pair.sides(1).x[0]), std::abs(pair.sides(1).y[0])});
     ClippedLoop loop;
     if (!(scale < 1e37) || !clip_polygons(pair, loop)) return false;
     std::array<Vec2, 2 * most_sides> rounded;

@@ -1,3 +1,4 @@
+#include <abut/query/direct.hpp>
 #include <abut/query/overlaps.hpp>
 #include <abut/query/part_pairs.hpp>
 
@@ -23,6 +24,15 @@ bool overlaps(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& opt
 }
 
 template <int D>
+bool overlaps(const Given<D>& a, const Given<D>& b, const QueryOptions<D>& options) {
+    if (options.trace == nullptr) {
+        const DirectAnswer answer = direct_overlap(a, b, options.cache);
+        if (answer != DirectAnswer::unknown) return answer == DirectAnswer::yes;
+    }
+    return overlaps(convex_of(a), convex_of(b), options);
+}
+
+template <int D>
 bool overlaps(const View<D>& a, const View<D>& b, const QueryOptions<D>& options) {
     const auto *convex_a = std::get_if<Convex<D>>(&a), *convex_b = std::get_if<Convex<D>>(&b);
     if (convex_a != nullptr && convex_b != nullptr) return overlaps(*convex_a, *convex_b, options);
@@ -42,5 +52,7 @@ template bool overlaps(const View<2>&, const View<2>&, const QueryOptions<2>&);
 template bool overlaps(const View<3>&, const View<3>&, const QueryOptions<3>&);
 template bool overlaps(const Convex<2>&, const Convex<2>&, const QueryOptions<2>&);
 template bool overlaps(const Convex<3>&, const Convex<3>&, const QueryOptions<3>&);
+template bool overlaps(const Given<2>&, const Given<2>&, const QueryOptions<2>&);
+template bool overlaps(const Given<3>&, const Given<3>&, const QueryOptions<3>&);
 
 }  // namespace abut

@@ -11,6 +11,8 @@ template <int D>
 bool overlaps(const View<D>& a, const View<D>& b, const QueryOptions<D>& options = {});
 template <int D>
 bool overlaps(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options = {});
+template <int D>
+bool overlaps(const Given<D>& a, const Given<D>& b, const QueryOptions<D>& options = {});
 
 /// True where they overlap or touch. Cheaper than `closest`: stops at the first axis that parts them.
 template <class A, class B>

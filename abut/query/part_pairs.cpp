@@ -63,14 +63,7 @@ void name_feature(const Convex<D>& part, const CornerNumbers<D>& corners, std::s
     feature.index = 0;
     feature.kind = FeatureKind::none;
     if (!has_features(part)) return;
-    if (count == 2) {
-        // Without a branch, which of them it is being as good as random.
-        const bool same = corners[0] == corners[1];
-        const std::uint32_t edge = edge_index(corners[0], corners[1]);
-        feature.index = same ? corners[0] : edge;
-        feature.kind = same ? FeatureKind::vertex : FeatureKind::edge;
-        return;
-    }
+    if (count == 2) return name_end_or_edge<D>(corners, number, feature);
     if constexpr (D == 3)
         if (part.core == Core::box) return name_box_feature(corners, count, feature);
     // The same corner may be told twice.

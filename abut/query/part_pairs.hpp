@@ -60,6 +60,17 @@ SearchOptions<D> search_options(const View<D>& a, const View<D>& b, const QueryO
 template <int D>
 void name_feature(const Convex<D>& part, const CornerNumbers<D>& corners, std::size_t count, const DVec<D>& out,
                   std::uint32_t number, Feature& feature);
+/// Of a part without faces, by the two corners, or the one told twice, of its place.
+template <int D>
+void name_end_or_edge(const CornerNumbers<D>& corners, std::uint32_t number, Feature& feature) {
+    // By arithmetic: which of them it is can't be guessed, and compilers make a branch of a choice.
+    const std::uint32_t differ = corners[0] != corners[1] ? 1 : 0;
+    const std::uint32_t edge = edge_index(corners[0], corners[1]);
+    feature.part = number;
+    feature.index = corners[0] ^ ((corners[0] ^ edge) & (0u - differ));
+    feature.kind = static_cast<FeatureKind>(static_cast<std::uint32_t>(FeatureKind::vertex) + differ);
+    static_assert(static_cast<int>(FeatureKind::edge) == static_cast<int>(FeatureKind::vertex) + 1);
+}
 template <int D>
 void name_feature(const Solid<D>& part, const CornerNumbers<D>& corners, std::size_t count, const DVec<D>& out,
                   std::uint32_t number, Feature& feature);

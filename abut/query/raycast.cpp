@@ -1,7 +1,11 @@
-#include <abut/convex/ray_entry.hpp>
+#include <abut/convex/ray_ball.hpp>
+#include <abut/convex/ray_sides.hpp>
 #include <abut/math/assert.hpp>
+#include <abut/math/set_affine.hpp>
 #include <abut/query/raycast.hpp>
 #include <abut/query/raycast_part.hpp>
+#include <abut/shape/ball.hpp>
+#include <abut/shape/polygon.hpp>
 
 namespace abut {
 namespace {
@@ -11,28 +15,23 @@ bool can_be_asked(const Ray<D>& ray) {
     return is_finite(ray.origin) && is_finite(ray.direction) && !std::isnan(ray.length);
 }
 
-/// v at length 1. Squares of floats, and of their products, are nothing special in double.
-template <int D>
-DVec<D> unit(const DVec<D>& v) {
-    const double square = length_squared(v), excess = square - 1;
-    // A unit vector in float needs no root: what the series leaves out is a third power.
-    if (std::abs(excess) < 1e-5) return v * (1 - excess * (0.5 - 0.375 * excess));
-    return square > 0 ? v * (1 / std::sqrt(square)) : axis<D>(0);
-}
-
 template <int D>
 Beam<D> beam_of(const Ray<D>& ray) {
     return {DVec<D>(ray.origin), unit(DVec<D>(ray.direction)), static_cast<double>(ray.length)};
 }
 
 template <int D>
-void tell(const Beam<D>& beam, const PartHit<D>& first, Hit<D>& hit) {
-    hit.distance = static_cast<float>(first.along);
+inline void tell(const Beam<D>& beam, double along, const DVec<D>& normal, Hit<D>& hit) {
+    hit.distance = static_cast<float>(along);
     hit.fraction = beam.length > 0 && beam.length <= static_cast<double>(std::numeric_limits<float>::max())
-                       ? std::min(1.0f, static_cast<float>(first.along / beam.length))
+                       ? std::min(1.0f, static_cast<float>(along / beam.length))
                        : 0.0f;
-    hit.point = to_float(beam.at(first.along));
-    hit.normal = to_float(unit(first.normal));
+    hit.point = to_float(beam.at(along));
+    hit.normal = to_float(unit(normal));
+}
+template <int D>
+void tell(const Beam<D>& beam, const PartHit<D>& first, Hit<D>& hit) {
+    tell(beam, first.along, first.normal, hit);
     hit.started_inside = first.started_inside;
     hit.feature = first.feature;
 }
@@ -58,39 +57,112 @@ bool first_hit(const Beam<D>& beam, const Composite<D>& composite, Trace<D>* tra
 
 /// `find` is asked for the first hit of a beam.
 template <int D, class Asked, class Find>
-std::optional<Hit<D>> first_hit_of(const Ray<D>& ray, const Asked& shape, const Find& find) {
-    std::optional<Hit<D>> result;
+void find_first_hit(const Ray<D>& ray, const Asked& shape, const Find& find, std::optional<Hit<D>>& result) {
     const bool finite = is_finite(shape) && can_be_asked(ray);
     ABUT_ASSERT(finite);
-    if (!finite) return result;
+    if (!finite) return;
     const Beam<D> beam = beam_of(ray);
     PartHit<D> first;
     if (find(beam, first)) tell(beam, first, result.emplace());
+}
+
+template <int D>
+void answer(const Ray<D>& ray, const Convex<D>& shape, const QueryOptions<D>& options, std::optional<Hit<D>>& result) {
+    const auto find = [&](const Beam<D>& beam, PartHit<D>& first) {
+        return part_hit(beam, shape, 0, options.trace, first);
+    };
+    find_first_hit(ray, shape, find, result);
+}
+
+template <int D>
+Affine<D> place_of(const Given<D>& shape) {
+    Affine<D> place;
+    if (shape.pose != nullptr) set_affine(place, *shape.pose);
+    return place;
+}
+
+// Plain shapes from which the answer comes at once, as `ray_entry` gives it; undecided of all others.
+
+template <int D>
+RayEntry<D> direct_entry(const Beam<D>& beam, const Ball<D>& ball, const Given<D>& given) {
+    Affine<D> seen = place_of(given);
+    seen.offset -= beam.origin;
+    const DVec<D> center = seen.point(DVec<D>(ball.center));
+    const double radius = static_cast<double>(ball.radius);
+    double sum = radius;
+    for (int i = 0; i < D; ++i) sum += center[i];
+    return std::isfinite(sum) ? enter_ball(beam, center, radius) : RayEntry<D>();
+}
+
+RayEntry<2> direct_entry(const Beam<2>& beam, const Polygon& polygon, const Given<2>& given) {
+    if (polygon.sides() == nullptr) return {};
+    Rigid2 place{1, 0, 0, 0};
+    if (given.pose != nullptr) {
+        const DVec<2> turn = unit(given.pose->rotation), offset(given.pose->position);
+        place = {turn.x, turn.y, offset.x, offset.y};
+    }
+    Sides sides;
+    sides.refer_to(polygon.sides(), polygon.side_count());
+    const Beam<2> own{place.unplaced(beam.origin), place.transposed(beam.direction), beam.length};
+    if (!std::isfinite(own.origin.x + own.origin.y)) return {};
+    RayEntry<2> result = enter_sides(own, sides, 0);
+    result.normal = place.vector(result.normal);
     return result;
+}
+
+RayEntry<2> direct_entry(const Beam<2>& beam, const Given<2>& shape) {
+    if (shape.kind == ShapeKind::ball) return direct_entry(beam, shape.as<Circle>(), shape);
+    return shape.kind == ShapeKind::polytope ? direct_entry(beam, shape.as<Polygon>(), shape) : RayEntry<2>();
+}
+RayEntry<3> direct_entry(const Beam<3>& beam, const Given<3>& shape) {
+    return shape.kind == ShapeKind::ball ? direct_entry(beam, shape.as<Sphere>(), shape) : RayEntry<3>();
 }
 
 }  // namespace
 
 template <int D>
 std::optional<Hit<D>> raycast(const Ray<D>& ray, const Convex<D>& shape, const QueryOptions<D>& options) {
-    return first_hit_of(ray, shape, [&](const Beam<D>& beam, PartHit<D>& first) {
-        return part_hit(beam, shape, 0, options.trace, first);
-    });
+    std::optional<Hit<D>> result;
+    answer(ray, shape, options, result);
+    return result;
 }
 
 template <int D>
 std::optional<Hit<D>> raycast(const Ray<D>& ray, const View<D>& shape, const QueryOptions<D>& options) {
     if (const auto* convex = std::get_if<Convex<D>>(&shape)) return raycast(ray, *convex, options);
-    return first_hit_of(ray, shape, [&](const Beam<D>& beam, PartHit<D>& first) {
+    std::optional<Hit<D>> result;
+    const auto find = [&](const Beam<D>& beam, PartHit<D>& first) {
         const auto* composite = std::get_if<Composite<D>>(&shape);
         return composite != nullptr ? first_hit(beam, *composite, options.trace, first)
                                     : part_hit(beam, std::get<Solid<D>>(shape), first);
-    });
+    };
+    find_first_hit(ray, shape, find, result);
+    return result;
 }
 
-#define ABUT_INSTANTIATE(D)                                                                        \
-    template std::optional<Hit<D>> raycast(const Ray<D>&, const View<D>&, const QueryOptions<D>&); \
-    template std::optional<Hit<D>> raycast(const Ray<D>&, const Convex<D>&, const QueryOptions<D>&);
+template <int D>
+std::optional<Hit<D>> raycast(const Ray<D>& ray, const Given<D>& shape, const QueryOptions<D>& options) {
+    std::optional<Hit<D>> result;
+    if (options.trace == nullptr && can_be_asked(ray)) {
+        const Beam<D> beam = beam_of(ray);
+        const RayEntry<D> entry = direct_entry(beam, shape);
+        if (entry.answer == RayAnswer::misses) return result;
+        if (entry.answer == RayAnswer::enters) {
+            Hit<D>& hit = result.emplace();
+            tell(beam, entry.along, entry.normal, hit);
+            hit.feature.index = entry.index;
+            hit.feature.kind = entry.kind;
+            return result;
+        }
+    }
+    answer(ray, convex_of(shape), options, result);
+    return result;
+}
+
+#define ABUT_INSTANTIATE(D)                                                                          \
+    template std::optional<Hit<D>> raycast(const Ray<D>&, const View<D>&, const QueryOptions<D>&);   \
+    template std::optional<Hit<D>> raycast(const Ray<D>&, const Convex<D>&, const QueryOptions<D>&); \
+    template std::optional<Hit<D>> raycast(const Ray<D>&, const Given<D>&, const QueryOptions<D>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

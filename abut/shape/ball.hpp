@@ -2,7 +2,7 @@
 
 // Circle and sphere: all points within a distance of one.
 
-#include <abut/convex/support.hpp>
+#include <abut/shape/given.hpp>
 
 namespace abut {
 
@@ -21,5 +21,9 @@ template <int D>
 Convex<D> convex(const Ball<D>& ball);
 template <int D>
 Convex<D> convex(const Ball<D>& ball, const Pose<D>& pose);
+template <int D>
+Given<D> given(const Ball<D>& ball) {
+    return {ShapeKind::ball, &ball};
+}
 
 }  // namespace abut

@@ -2,7 +2,7 @@
 
 // Boxes: turned ones, and the axis-aligned ones of the broad phase as shapes.
 
-#include <abut/convex/support.hpp>
+#include <abut/shape/given.hpp>
 
 namespace abut {
 
@@ -22,6 +22,10 @@ template <int D>
 Convex<D> convex(const Box<D>& box);
 template <int D>
 Convex<D> convex(const Box<D>& box, const Pose<D>& pose);
+template <int D>
+Given<D> given(const Box<D>& box) {
+    return {ShapeKind::box, &box};
+}
 
 template <int D>
 Convex<D> convex(const Aabb<D>& box);

@@ -2,7 +2,7 @@
 
 // Capsule: all points within a distance of a segment.
 
-#include <abut/convex/support.hpp>
+#include <abut/shape/given.hpp>
 
 namespace abut {
 
@@ -22,5 +22,9 @@ template <int D>
 Convex<D> convex(const Capsule<D>& capsule);
 template <int D>
 Convex<D> convex(const Capsule<D>& capsule, const Pose<D>& pose);
+template <int D>
+Given<D> given(const Capsule<D>& capsule) {
+    return {ShapeKind::capsule, &capsule};
+}
 
 }  // namespace abut

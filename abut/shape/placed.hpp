@@ -73,6 +73,11 @@ requires Shape<std::remove_cvref_t<S>> Stretched<S> stretched(S&& shape,
 
 namespace detail {
 
+template <class S>
+inline constexpr bool is_at = false;
+template <class S>
+inline constexpr bool is_at<At<S>> = true;
+
 /// Shapes of the plane are put where they are wanted at once.
 template <class S, int D>
 concept PlacedByPose = requires(const S& shape, const Pose<D>& pose) {
@@ -96,6 +101,13 @@ auto view(const At<S>& shape) {
         return convex(std::as_const(shape.shape), affine(shape.pose));
     else
         return moved(view(std::as_const(shape.shape)), affine(shape.pose));
+}
+/// Of one that isn't placed by a pose already.
+template <class S>
+requires(detail::HasGiven<std::remove_cvref_t<S>> &&
+         !detail::is_at<std::remove_cvref_t<S>>) Given<dimension<std::remove_cvref_t<S>>> given(const At<S>& shape) {
+    const auto inner = given(std::as_const(shape.shape));
+    return {inner.kind, inner.shape, &shape.pose};
 }
 template <class S>
 auto view(const Rounded<S>& shape) {

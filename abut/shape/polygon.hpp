@@ -2,8 +2,8 @@
 
 // The convex polygon: the hull of any points of the plane, as a value.
 
-#include <abut/convex/support.hpp>
 #include <abut/math/result.hpp>
+#include <abut/shape/given.hpp>
 
 #include <initializer_list>
 #include <span>
@@ -41,6 +41,8 @@ public:
 
     /// For `Convex::sides`: null where there are too few corners for an area, or too many.
     const double* sides() const { return sides_.empty() ? nullptr : sides_.data(); }
+    /// Of those.
+    std::uint32_t side_count() const { return static_cast<std::uint32_t>(points_.size()); }
 
     /// Becomes a loop that is surely what `points` promises of it, without the work of a hull, and allocates nothing
     /// where there is room. False, and as it was, where the loop may be anything else, or isn't wider than `thick`.
@@ -55,5 +57,8 @@ private:
 
 Convex<2> convex(const Polygon& polygon, const Affine<2>& place = {});
 Convex<2> convex(const Polygon& polygon, const Pose2& pose);
+inline Given<2> given(const Polygon& polygon) {
+    return {ShapeKind::polytope, &polygon};
+}
 
 }  // namespace abut

@@ -2,8 +2,8 @@
 
 // The convex polyhedron: the hull of any points of space with its faces, as a value.
 
-#include <abut/convex/support.hpp>
 #include <abut/math/result.hpp>
+#include <abut/shape/given.hpp>
 
 #include <initializer_list>
 #include <memory>
@@ -65,5 +65,8 @@ private:
 };
 
 Convex<3> convex(const Polyhedron& polyhedron, const Affine<3>& place = {});
+inline Given<3> given(const Polyhedron& polyhedron) {
+    return {ShapeKind::polytope, &polyhedron};
+}
 
 }  // namespace abut

@@ -2,7 +2,7 @@
 
 // The straight piece between two points.
 
-#include <abut/convex/support.hpp>
+#include <abut/shape/given.hpp>
 
 namespace abut {
 
@@ -21,5 +21,9 @@ template <int D>
 Convex<D> convex(const Segment<D>& segment);
 template <int D>
 Convex<D> convex(const Segment<D>& segment, const Pose<D>& pose);
+template <int D>
+Given<D> given(const Segment<D>& segment) {
+    return {ShapeKind::segment, &segment};
+}
 
 }  // namespace abut

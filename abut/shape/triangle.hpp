@@ -2,7 +2,7 @@
 
 // The triangle: filled, in 3D of zero thickness, the same from both sides.
 
-#include <abut/convex/support.hpp>
+#include <abut/shape/given.hpp>
 
 namespace abut {
 
@@ -22,5 +22,9 @@ template <int D>
 Convex<D> convex(const Triangle<D>& triangle);
 template <int D>
 Convex<D> convex(const Triangle<D>& triangle, const Pose<D>& pose);
+template <int D>
+Given<D> given(const Triangle<D>& triangle) {
+    return {ShapeKind::triangle, &triangle};
+}
 
 }  // namespace abut

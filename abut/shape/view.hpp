@@ -8,6 +8,7 @@
 #include <abut/convex/support.hpp>
 #include <abut/math/function_ref.hpp>
 #include <abut/math/ray.hpp>
+#include <abut/shape/given.hpp>
 #include <abut/shape/half_space.hpp>
 
 #include <concepts>
@@ -103,7 +104,8 @@ Composite<D> rounded(const Composite<D>& composite, double radius);
 template <int D>
 View<D> rounded(const View<D>& view, double radius);
 
-// From here on: how a type becomes a view. The library's own shapes give `convex(shape)`; a user's give `bounds(shape)`
+// From here on: how a type becomes a view. The library's own shapes give `convex(shape)`, the plain ones also
+// `given(shape)`, which saves the view where both of a pair have it; a user's give `bounds(shape)`
 // and either `support(shape, direction)` or `each_part(shape, box, visit)`, found by argument-dependent lookup. A
 // composite one that has its parts in some order may also give `each_part_along(shape, moving_box, visit)` and
 // `each_part_near(shape, box, visit)`, for rays and distances.
@@ -119,6 +121,11 @@ template <class B>
 struct DimensionOfBox;
 template <int D>
 struct DimensionOfBox<Aabb<D>> : std::integral_constant<int, D> {};
+
+template <class S>
+concept HasGiven = requires(const S& shape) {
+    given(shape);
+};
 
 template <class S>
 concept HasBounds = requires(const S& shape) {
@@ -251,11 +258,13 @@ concept Shape = requires {
 
 namespace detail {
 
-/// What a question is asked of: two convex shapes as they are, anything else as a View. A shape alone stands beside
-/// itself.
+/// What a question is asked of: two plain shapes as they were given, two convex ones by their Convex, anything else by
+/// a View. A shape alone stands beside itself.
 template <Shape S, class Other>
 decltype(auto) view_beside(const S& shape) {
-    if constexpr (is_convex_view<ViewOf<S>> && is_convex_view<ViewOf<Other>>)
+    if constexpr (HasGiven<S> && HasGiven<Other>)
+        return given(shape);
+    else if constexpr (is_convex_view<ViewOf<S>> && is_convex_view<ViewOf<Other>>)
         return view(shape);
     else
         return View<DimensionOfView<ViewOf<S>>::value>(view(shape));

@@ -33,8 +33,10 @@ Closest<2> as_closest(const SignedDistance<2>& distance) {
 /// The same answers as those of the searches; certified; and the same again from a cache.
 void expect_agreement(const Convex<2>& a, const Convex<2>& b, double margin, Told& told) {
     ++told.pairs;
+    Outline outline_a, outline_b;
+    if (!set_outline(a, outline_a) || !set_outline(b, outline_b)) return;
     SignedDistance<2> quick;
-    if (plane_distance(a, b, nullptr, quick) == PlaneAnswer::unknown) return;
+    if (plane_distance(outline_a, outline_b, nullptr, quick) == PlaneAnswer::unknown) return;
     ++told.told;
     const SignedDistance<2> searched = signed_distance(a, b);
     told.overlapping += searched.distance <= 0 ? 1 : 0;
@@ -42,7 +44,7 @@ void expect_agreement(const Convex<2>& a, const Convex<2>& b, double margin, Tol
     EXPECT_NEAR(length(quick.normal), 1, 1e-12);
     EXPECT_TRUE(certify(View<2>(a), View<2>(b), as_closest(quick)));
 
-    const PlaneAnswer near = plane_near(a, b, 0, nullptr);
+    const PlaneAnswer near = plane_near(outline_a, outline_b, 0, nullptr);
     const bool certain = std::abs(searched.distance) > margin;
     if (certain) {
         EXPECT_EQ(near, searched.distance <= 0 ? PlaneAnswer::within : PlaneAnswer::beyond);
@@ -50,19 +52,21 @@ void expect_agreement(const Convex<2>& a, const Convex<2>& b, double margin, Tol
     Cache cache;
     for (int time = 0; time < 3; ++time) {
         SignedDistance<2> again;
-        ASSERT_NE(plane_distance(a, b, &cache, again), PlaneAnswer::unknown);
+        ASSERT_NE(plane_distance(outline_a, outline_b, &cache, again), PlaneAnswer::unknown);
         EXPECT_NEAR(again.distance, quick.distance, 1e-3 * margin);
         if (certain) {
-            EXPECT_EQ(plane_near(a, b, 0, &cache), near);
+            EXPECT_EQ(plane_near(outline_a, outline_b, 0, &cache), near);
         }
     }
 }
 
 /// The deepest point is as deep, and each lies midway between surfaces that are as deep there as it says.
 void expect_same_contact(const Convex<2>& a, const Convex<2>& b, double margin) {
+    Outline outline_a, outline_b;
+    if (!set_outline(a, outline_a) || !set_outline(b, outline_b)) return;
     SignedDistance<2> distance;
     Manifold<2> quick;
-    const PlaneAnswer answer = plane_contact(a, b, 0, 0, nullptr, distance, quick);
+    const PlaneAnswer answer = plane_contact(outline_a, outline_b, 0, 0, nullptr, distance, quick);
     if (answer != PlaneAnswer::within) return;
     const Manifold<2> plain = manifold(a, b, distance, 0);
     double deepest = 0;

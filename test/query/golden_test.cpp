@@ -225,10 +225,10 @@ std::uint64_t hash_of_answers() {
 class Golden : public oracle::ByVectorUnit {};
 
 TEST_P(Golden, AnswersInThePlaneHaveTheSameBitsEverywhere) {
-    EXPECT_EQ(hash_of_answers<2>(), 5041279134481362960u);
+    EXPECT_EQ(hash_of_answers<2>(), 14627858747501139529u);
 }
 TEST_P(Golden, AnswersInSpaceHaveTheSameBitsEverywhere) {
-    EXPECT_EQ(hash_of_answers<3>(), 10338521782133260612u);
+    EXPECT_EQ(hash_of_answers<3>(), 1688546043094958404u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, Golden, oracle::vector_units(), oracle::name_of_unit);

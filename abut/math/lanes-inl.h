@@ -1,0 +1,72 @@
+#pragma once
+
+// Two doubles side by side, in the vectors that compilers have on every machine: for what is so little that choosing a
+// vector unit by a call would cost as much. The answers are those of doubles one by one. For .cpp files.
+
+#include <cstdint>
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
+namespace abut {
+
+namespace lanes {
+
+using Both = double __attribute__((vector_size(16)));
+using Chosen = long long __attribute__((vector_size(16)));
+
+inline Both both(double a, double b) {
+    return Both{a, b};
+}
+/// One bit a lane.
+inline std::uint32_t bits(Chosen mask) {
+#ifdef __SSE2__
+    return static_cast<std::uint32_t>(_mm_movemask_pd(reinterpret_cast<__m128d>(mask)));
+#else
+    return static_cast<std::uint32_t>((mask[0] & 1) | (mask[1] & 2));
+#endif
+}
+/// Of two floats in memory.
+inline Both loaded(const float* numbers) {
+#ifdef __SSE2__
+    return _mm_cvtps_pd(_mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(numbers))));
+#else
+    return {numbers[0], numbers[1]};
+#endif
+}
+inline Both lower(Both a, Both b) {
+    return __builtin_shufflevector(a, b, 0, 2);
+}
+inline Both upper(Both a, Both b) {
+    return __builtin_shufflevector(a, b, 1, 3);
+}
+inline Both swapped(Both v) {
+    return __builtin_shufflevector(v, v, 1, 0);
+}
+inline Both magnitude(Both v) {
+    return reinterpret_cast<Both>(reinterpret_cast<Chosen>(v) & 0x7fffffffffffffff);
+}
+
+/// Lane by lane a > b ? a : b, and a < b ? a : b: one instruction each, of which compilers make four.
+inline Both greater(Both a, Both b) {
+#ifdef __SSE2__
+    return _mm_max_pd(a, b);
+#else
+    return a > b ? a : b;
+#endif
+}
+inline Both lesser(Both a, Both b) {
+#ifdef __SSE2__
+    return _mm_min_pd(a, b);
+#else
+    return a < b ? a : b;
+#endif
+}
+/// The nearest number from 0 to 1.
+inline Both part(Both v) {
+    return lesser(greater(v, Both{0, 0}), Both{1, 1});
+}
+
+}  // namespace lanes
+}  // namespace abut

@@ -1,0 +1,25 @@
+#pragma once
+
+// The questions about two plain shapes, answered from the shapes as they were given, without views of them: circles,
+// capsules, segments, triangles, boxes and polygons of few sides in the plane; spheres, capsules and boxes in space.
+// The answers are those of `convex_pair`, to the last bit. For .cpp files.
+
+#include <abut/query/closest.hpp>
+#include <abut/query/contact.hpp>
+
+namespace abut {
+
+enum class DirectAnswer : std::uint8_t { no, yes, unknown };
+
+DirectAnswer direct_overlap(const Given<2>& a, const Given<2>& b, Cache* cache);
+DirectAnswer direct_overlap(const Given<3>& a, const Given<3>& b, Cache* cache);
+
+// False where they have no answer: `result` is as it was then.
+
+bool direct_closest(const Given<2>& a, const Given<2>& b, Cache* cache, Closest<2>& result);
+bool direct_closest(const Given<3>& a, const Given<3>& b, Cache* cache, Closest<3>& result);
+
+bool direct_contact(const Given<2>& a, const Given<2>& b, double margin, Cache* cache, Contact<2>& result);
+bool direct_contact(const Given<3>& a, const Given<3>& b, double margin, Cache* cache, Contact<3>& result);
+
+}  // namespace abut

@@ -1,0 +1,198 @@
+#include <abut/convex/box_pair.hpp>
+#include <abut/convex/box_point-inl.h>
+#include <abut/convex/round_lanes-inl.h>
+#include <abut/convex/round_pairs.hpp>
+#include <abut/math/set_affine.hpp>
+#include <abut/query/direct.hpp>
+#include <abut/query/part_pairs.hpp>
+#include <abut/query/write_answer.hpp>
+#include <abut/shape/ball.hpp>
+#include <abut/shape/box.hpp>
+#include <abut/shape/capsule.hpp>
+
+namespace abut {
+namespace {
+
+/// The ends of two capsules as they are.
+SegmentPair segments_of(const Capsule3& a, const Capsule3& b) {
+    static_assert(sizeof(Capsule3) == 7 * sizeof(float));
+    const auto *first = &a.a.x, *second = &b.a.x;  // six numbers in a row, read two at a time
+    const lanes::Both a0 = lanes::loaded(first), a1 = lanes::loaded(first + 2), a2 = lanes::loaded(first + 4);
+    const lanes::Both b0 = lanes::loaded(second), b1 = lanes::loaded(second + 2), b2 = lanes::loaded(second + 4);
+    return {{lanes::lower(a0, b0), lanes::upper(a0, b0), lanes::lower(a1, b1)},
+            {lanes::upper(a1, b1), lanes::lower(a2, b2), lanes::upper(a2, b2)},
+            static_cast<double>(a.radius),
+            static_cast<double>(b.radius)};
+}
+
+/// The ends of both capsules, as `convex(capsule, pose)` places them.
+SegmentPair placed_segments_of(const Given<3>& a, const Given<3>& b) {
+    const Capsule3 &first = a.as<Capsule3>(), &second = b.as<Capsule3>();
+    Affine<3> place_a, place_b;
+    if (a.pose != nullptr) set_affine(place_a, *a.pose);
+    if (b.pose != nullptr) set_affine(place_b, *b.pose);
+    return {lanes::both(place_a.point(DVec<3>(first.a)), place_b.point(DVec<3>(second.a))),
+            lanes::both(place_a.point(DVec<3>(first.b)), place_b.point(DVec<3>(second.b))),
+            static_cast<double>(first.radius), static_cast<double>(second.radius)};
+}
+
+/// An end of a segment, or what is between them, by the corners of the place on it.
+void name_place_on_segment(const CornerNumbers<3>& corners, Feature& feature) {
+    // From a table: which of them it is can't be guessed.
+    static constexpr std::uint32_t numbers[4] = {0, 1, edge_index(0, 1), 1};
+    static constexpr FeatureKind kinds[4] = {FeatureKind::vertex, FeatureKind::vertex, FeatureKind::edge,
+                                             FeatureKind::vertex};
+    const std::uint32_t place = corners[0] + 2 * corners[1];
+    feature.part = 0;
+    feature.index = numbers[place];
+    feature.kind = kinds[place];
+}
+
+bool closest_of_segments(const SegmentPair& pair, Closest<3>& result) {
+    SignedDistance<3> distance;
+    if (!distance_of_segments(pair, distance) || !std::isfinite(distance.distance)) return false;
+    write(distance, result);
+    name_place_on_segment(distance.corners.a, result.feature_a);
+    name_place_on_segment(distance.corners.b, result.feature_b);
+    return true;
+}
+
+bool closest_of_capsules(const Given<3>& a, const Given<3>& b, Closest<3>& result) {
+    return a.pose == nullptr && b.pose == nullptr
+               ? closest_of_segments(segments_of(a.as<Capsule3>(), b.as<Capsule3>()), result)
+               : closest_of_segments(placed_segments_of(a, b), result);
+}
+
+void place_further(const Box3& box, const Pose3& pose, Affine<3>& place) {
+    set_affine(place, pose);
+    if (box.rotation == no_rotation<3>)
+        place.offset = place.point(DVec<3>(box.center));
+    else
+        place = place * affine(Pose3{box.center, box.rotation});
+}
+/// As `convex(box, pose)` places it.
+inline void set_place(const Box3& box, const Pose3* pose, Affine<3>& place) {
+    if (pose == nullptr)
+        set_affine(place, Pose3{box.center, box.rotation});
+    else
+        place_further(box, *pose, place);
+}
+
+/// The corner, edge or face of a box, by its bits.
+void name_place(std::uint32_t fixed, std::uint32_t low, Feature& feature) {
+    static constexpr FeatureKind kinds[8] = {FeatureKind::none, FeatureKind::face,  FeatureKind::face,
+                                             FeatureKind::edge, FeatureKind::face,  FeatureKind::edge,
+                                             FeatureKind::edge, FeatureKind::vertex};
+    // By arithmetic alone: which it is can't be guessed. Of the one axis that is fixed across a face, twice its number
+    // is 0, 2 or 4.
+    const std::uint32_t other = low | (fixed ^ 7u), at_low = (low | low >> 1 | low >> 2) & 1u;
+    const std::uint32_t numbers[4] = {0, low, low | other << 16, (fixed & 6u) + at_low};
+    feature.part = 0;
+    feature.kind = kinds[fixed];
+    feature.index = numbers[static_cast<std::size_t>(feature.kind)];
+}
+
+/// Sums are finite only where all their terms are.
+double sum_of(const DVec<3>& v) {
+    return v.x + v.y + v.z;
+}
+
+bool closest_of_ball_and_box(const Given<3>& ball_given, const Given<3>& box_given, bool ball_is_a,
+                             Closest<3>& result) {
+    const Sphere& ball = ball_given.as<Sphere>();
+    const Box3& box = box_given.as<Box3>();
+    Affine<3> place;
+    set_place(box, box_given.pose, place);
+    DVec<3> center(ball.center);
+    if (ball_given.pose != nullptr) {
+        Affine<3> of_ball;
+        set_affine(of_ball, *ball_given.pose);
+        center = of_ball.point(center);
+    }
+    const DVec<3> half(box.half), seen = place.transposed(center - place.offset);
+    const double radius = static_cast<double>(ball.radius);
+    if (!std::isfinite(sum_of(seen) + sum_of(half) + radius)) return false;
+    BoxPlace nearest;
+    nearest_on_box(half, seen, nearest);
+    SignedDistance<3> distance;
+    distance.normal = place.vector(nearest.normal);
+    distance.distance = nearest.distance - radius;
+    distance.on_a = center - distance.normal * nearest.distance;
+    if (ball_is_a) turn_round(distance);
+    write(distance, result);
+    Feature &of_ball = ball_is_a ? result.feature_a : result.feature_b,
+            &of_box = ball_is_a ? result.feature_b : result.feature_a;
+    of_ball = {0, 0, FeatureKind::vertex};
+    name_place(nearest.fixed, nearest.low, of_box);
+    return true;
+}
+
+/// What the questions about two boxes read.
+bool set_box(const Given<3>& given, Convex<3>& result) {
+    const Box3& box = given.as<Box3>();
+    set_place(box, given.pose, result.place);
+    result.core = Core::box;
+    result.own[0] = box.half;
+    const Affine<3>& place = result.place;
+    return std::isfinite(sum_of(place.offset) + sum_of(place.column[0]) + sum_of(place.column[1]) +
+                         sum_of(DVec<3>(box.half)));
+}
+
+/// Two boxes, where both have a volume and finite numbers.
+struct Boxes {
+    Convex<3> a, b;
+    bool known;
+
+    Boxes(const Given<3>& first, const Given<3>& second)
+        : known(set_box(first, a) && set_box(second, b) && are_plain_boxes(a, b)) {}
+};
+
+bool are_boxes(const Given<3>& a, const Given<3>& b) {
+    return a.kind == ShapeKind::box && b.kind == ShapeKind::box;
+}
+
+/// Whether the balls around two boxes that carry their own places are farther apart than `reach`.
+bool far_apart(const Given<3>& a, const Given<3>& b, double reach) {
+    if (a.pose != nullptr || b.pose != nullptr || !(reach >= 0)) return false;
+    const Box3 &first = a.as<Box3>(), &second = b.as<Box3>();
+    const DVec<3> half_a(first.half), half_b(second.half);
+    const DVec<3> between = DVec<3>(second.center) - DVec<3>(first.center);
+    // (r + s + t)^2 is at most 3 (r^2 + s^2 + t^2), and without reach (r + s)^2 at most 2 (r^2 + s^2); a bit more for
+    // rounding.
+    const double radii = length_squared(half_a) + length_squared(half_b);
+    const double most = reach == 0 ? 2 * radii : 3 * (radii + reach * reach);
+    const double square = length_squared(between);
+    return square > most * (1 + 1e-12) && square < std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+DirectAnswer direct_overlap(const Given<3>& a, const Given<3>& b, Cache* cache) {
+    if (!are_boxes(a, b)) return DirectAnswer::unknown;
+    if (far_apart(a, b, 0)) return DirectAnswer::no;
+    const Boxes boxes(a, b);
+    if (!boxes.known) return DirectAnswer::unknown;
+    return boxes_overlap(boxes.a, boxes.b, {cache, nullptr}) ? DirectAnswer::yes : DirectAnswer::no;
+}
+
+bool direct_closest(const Given<3>& a, const Given<3>& b, Cache*, Closest<3>& result) {
+    if (a.kind == ShapeKind::capsule && b.kind == ShapeKind::capsule) return closest_of_capsules(a, b, result);
+    if (a.kind == ShapeKind::ball && b.kind == ShapeKind::box) return closest_of_ball_and_box(a, b, true, result);
+    if (a.kind == ShapeKind::box && b.kind == ShapeKind::ball) return closest_of_ball_and_box(b, a, false, result);
+    return false;
+}
+
+bool direct_contact(const Given<3>& a, const Given<3>& b, double margin, Cache* cache, Contact<3>& result) {
+    if (!are_boxes(a, b)) return false;
+    if (far_apart(a, b, margin)) return true;
+    const Boxes boxes(a, b);
+    if (!boxes.known) return false;
+    SignedDistance<3> distance;
+    Manifold<3> manifold;
+    if (!contact_of_boxes(boxes.a, boxes.b, margin, margin, {cache, nullptr}, distance, manifold)) return true;
+    write(distance, manifold, result);
+    name_features(boxes.a, boxes.b, distance, 0, 0, result);
+    return true;
+}
+
+}  // namespace abut

@@ -1,0 +1,207 @@
+// Plain shapes are asked as they were given, without views: the answers must be those of their views, to the last bit.
+
+#include "../oracle/pair.hpp"
+#include "../oracle/random.hpp"
+#include <abut/query/closest.hpp>
+#include <abut/query/contact.hpp>
+#include <abut/query/overlaps.hpp>
+#include <abut/query/raycast.hpp>
+#include <abut/shape/ball.hpp>
+#include <abut/shape/box.hpp>
+#include <abut/shape/capsule.hpp>
+#include <abut/shape/placed.hpp>
+#include <abut/shape/polygon.hpp>
+#include <abut/shape/polyhedron.hpp>
+#include <abut/shape/segment.hpp>
+#include <abut/shape/triangle.hpp>
+
+#include <gtest/gtest.h>
+
+namespace abut {
+namespace {
+
+using oracle::Random;
+
+struct Told {
+    int pairs = 0, overlapping = 0, rays = 0, hits = 0;
+};
+
+template <int D>
+void expect_same(const Closest<D>& direct, const Closest<D>& of_views) {
+    EXPECT_EQ(direct.distance, of_views.distance);
+    EXPECT_EQ(direct.normal, of_views.normal);
+    EXPECT_EQ(direct.on_a, of_views.on_a);
+    EXPECT_EQ(direct.on_b, of_views.on_b);
+    EXPECT_EQ(direct.feature_a, of_views.feature_a);
+    EXPECT_EQ(direct.feature_b, of_views.feature_b);
+}
+
+template <int D>
+void expect_same(const Contact<D>& direct, const Contact<D>& of_views) {
+    EXPECT_EQ(direct.normal, of_views.normal);
+    EXPECT_EQ(direct.depth, of_views.depth);
+    EXPECT_EQ(direct.feature_a, of_views.feature_a);
+    EXPECT_EQ(direct.feature_b, of_views.feature_b);
+    ASSERT_EQ(direct.points.size(), of_views.points.size());
+    for (std::size_t i = 0; i < direct.points.size(); ++i) {
+        EXPECT_EQ(direct.points[i].position, of_views.points[i].position);
+        EXPECT_EQ(direct.points[i].depth, of_views.points[i].depth);
+        EXPECT_EQ(direct.points[i].feature, of_views.points[i].feature);
+    }
+}
+
+template <int D>
+void expect_same(const std::optional<Hit<D>>& direct, const std::optional<Hit<D>>& of_views) {
+    ASSERT_EQ(direct.has_value(), of_views.has_value());
+    if (!direct) return;
+    EXPECT_EQ(direct->fraction, of_views->fraction);
+    EXPECT_EQ(direct->distance, of_views->distance);
+    EXPECT_EQ(direct->point, of_views->point);
+    EXPECT_EQ(direct->normal, of_views->normal);
+    EXPECT_EQ(direct->started_inside, of_views->started_inside);
+    EXPECT_EQ(direct->feature, of_views->feature);
+}
+
+template <class A, class B>
+void compare(const A& a, const B& b, float margin, Told& told) {
+    constexpr int D = dimension<A>;
+    const View<D> view_a(view(a)), view_b(view(b));
+    ++told.pairs;
+    told.overlapping += overlaps(view_a, view_b) ? 1 : 0;
+    EXPECT_EQ(overlaps(a, b), overlaps(view_a, view_b));
+    expect_same(closest(a, b), closest(view_a, view_b));
+    expect_same(contact(a, b), contact(view_a, view_b));
+    expect_same(contact(a, b, {.margin = margin}), contact(view_a, view_b, {.margin = margin}));
+    expect_same(closest(a, b, {.trace = nullptr}), closest(view_a, view_b));
+}
+
+template <int D>
+using Polytope = std::conditional_t<D == 2, Polygon, Polyhedron>;
+
+/// Some in places that numbers hold exactly, so that much is aligned, parallel or equally far.
+template <int D>
+class Shapes {
+public:
+    explicit Shapes(Random& random) : random_(random), on_grid_(random.chance(0.3)) {}
+
+    float number(double most) {
+        const double x = random_.uniform(-most, most);
+        return static_cast<float>(on_grid_ ? std::round(2 * x) / 2 : x);
+    }
+    float size() {
+        return on_grid_ ? 0.5f + 0.5f * static_cast<float>(random_.below(3)) : random_.uniform_float(0.1, 1.5);
+    }
+    Vec<D> point(double most) {
+        Vec<D> result;
+        for (int i = 0; i < D; ++i) result[i] = number(most);
+        return result;
+    }
+    Vec<D> half() {
+        Vec<D> result;
+        for (int i = 0; i < D; ++i) result[i] = size();
+        return result;
+    }
+    Rotation<D> rotation() { return on_grid_ && random_.chance(0.7) ? no_rotation<D> : random_.rotation<D>(); }
+
+    /// visit(shape), the shape as it is or placed by a pose.
+    template <class Visit>
+    void draw(const Visit& visit) {
+        const std::uint32_t kind = random_.below(6);
+        const bool placed = random_.chance(0.5);
+        const Pose<D> pose{point(0.5), rotation()};
+        const auto tell = [&](const auto& shape) {
+            if (placed)
+                visit(at(shape, pose));
+            else
+                visit(shape);
+        };
+        constexpr double spread = D == 2 ? 1.5 : 1;
+        const Vec<D> a = point(spread), b = point(spread), c = point(spread);
+        const float radius = random_.chance(0.1) ? 0 : 0.5f * size();
+        switch (kind) {
+            case 0:
+                return tell(Ball<D>{a, radius});
+            case 1:
+                return tell(Capsule<D>{a, b, radius});
+            case 2:
+                return tell(Segment<D>{a, b});
+            case 3:
+                return tell(Triangle<D>{a, b, c});
+            case 4: {
+                const Vec<D> half_extents = half();
+                return tell(Box<D>{a, half_extents, rotation()});
+            }
+            default: {
+                std::vector<Vec<D>> points(D == 2 && random_.chance(0.1) ? 60 : 2 + random_.below(9));
+                for (Vec<D>& p : points) p = point(spread);
+                return tell(*Polytope<D>::build(points));
+            }
+        }
+    }
+
+private:
+    Random& random_;
+    bool on_grid_;
+};
+
+template <class D>
+class Direct : public testing::Test {};
+using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(Direct, Dimensions);
+
+TYPED_TEST(Direct, AnswersOfPairsAreThoseOfTheirViews) {
+    constexpr int D = TypeParam::value;
+    Told told;
+    for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(oracle::amount(8000)); ++seed) {
+        SCOPED_TRACE(seed);
+        Random random(seed);
+        Shapes<D> shapes(random);
+        const float margin = random.uniform_float(0, 0.5);
+        shapes.draw([&](const auto& a) { shapes.draw([&](const auto& b) { compare(a, b, margin, told); }); });
+        if (this->HasFatalFailure()) return;
+    }
+    EXPECT_GT(told.overlapping, told.pairs * 3 / 10);
+    EXPECT_LT(told.overlapping, told.pairs * 7 / 10);
+}
+
+TYPED_TEST(Direct, RaysAndPointsTooAreThoseOfTheViews) {
+    constexpr int D = TypeParam::value;
+    Told told;
+    for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(oracle::amount(8000)); ++seed) {
+        SCOPED_TRACE(seed);
+        Random random(seed);
+        Shapes<D> shapes(random);
+        shapes.draw([&](const auto& shape) {
+            const View<D> as_view(view(shape));
+            const Vec<D> from = shapes.point(4), to = shapes.point(0.5);
+            if (from != to) {
+                const Ray<D> ray = Ray<D>::between(from, to);
+                const auto hit = raycast(ray, shape);
+                expect_same(hit, raycast(ray, as_view));
+                ++told.rays;
+                told.hits += hit ? 1 : 0;
+            }
+            expect_same(closest(shape, from), closest(as_view, View<D>(round_points<D>({from}, 0))));
+        });
+        if (this->HasFatalFailure()) return;
+    }
+    EXPECT_GT(told.hits, told.rays * 15 / 100);
+    EXPECT_LT(told.hits, told.rays * 8 / 10);
+}
+
+// Corner against corner, the balls around two boxes hardly reach farther than the boxes.
+TEST(DirectBoxes, ThatMeetWithTheirCornersAreNotRefusedByTheirBalls) {
+    for (const float half : {1.0f, 0.7f, 1.5f}) {
+        const Box3 a{{0, 0, 0}, {1, 1, 1}};
+        const auto beside = [&](float gap) { return Box3{Vec3(1 + half + gap), Vec3(half)}; };
+        EXPECT_TRUE(overlaps(a, beside(-0.001f)));
+        EXPECT_TRUE(contact(a, beside(-0.001f)));
+        EXPECT_FALSE(overlaps(a, beside(0.001f)));
+        EXPECT_FALSE(contact(a, beside(0.001f)));
+        EXPECT_TRUE(contact(a, beside(0.01f), {.margin = 0.05f}));
+        EXPECT_FALSE(contact(a, beside(0.01f), {.margin = 0.01f}));
+    }
+}
+
+}  // namespace
+}  // namespace abut
