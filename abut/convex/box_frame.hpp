@@ -39,6 +39,17 @@ struct BoxFrame {
         }
     }
 
+    /// Of boxes that keep their size where they are placed.
+    BoxFrame(const Affine<3>& a, const Vec3& half_of_a, const Affine<3>& b, const Vec3& half_of_b) {
+        const DVec<3> between = b.offset - a.offset;
+        for (std::size_t i = 0; i < 3; ++i) {
+            half_a[i] = static_cast<double>(half_of_a[static_cast<int>(i)]);
+            half_b[i] = static_cast<double>(half_of_b[static_cast<int>(i)]);
+            middle[i] = abut::dot(a.column[i], between);
+            for (std::size_t j = 0; j < 3; ++j) axis_b[j][i] = abut::dot(a.column[i], b.column[j]);
+        }
+    }
+
     /// How far a vector goes along each axis of B.
     Triple along_b(const Triple& v) const { return {dot(axis_b[0], v), dot(axis_b[1], v), dot(axis_b[2], v)}; }
 

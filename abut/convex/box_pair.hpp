@@ -8,11 +8,12 @@ namespace abut {
 
 /// Whether these answers are for a box: as it is, or scaled alike along all axes, and not all but flat. Those that are
 /// left to the searches that take any pair.
-inline bool is_plain_box_of_volume(const Convex<3>& box) {
-    if (!is_plain_box(box) || box.radius != 0) return false;
-    const Vec3& half = box.own[0];
+inline bool has_volume(const Vec3& half) {
     const float most = std::max(std::max(half.x, half.y), half.z), least = std::min(std::min(half.x, half.y), half.z);
     return least > 1e-4f * most;
+}
+inline bool is_plain_box_of_volume(const Convex<3>& box) {
+    return is_plain_box(box) && box.radius == 0 && has_volume(box.own[0]);
 }
 inline bool are_plain_boxes(const Convex<3>& a, const Convex<3>& b) {
     return is_plain_box_of_volume(a) && is_plain_box_of_volume(b);

@@ -1,4 +1,5 @@
 #include <abut/convex/polygon_manifold.hpp>
+#include <abut/math/lanes-inl.h>
 
 namespace abut {
 namespace {
@@ -59,16 +60,22 @@ struct Candidates {
     std::size_t count = 0;
 };
 
-/// Cuts off what lies past an end of the reference, told by how far along it the places are. False: nothing is left.
-inline bool cut_off(Edge& edge, double (&along)[2], double limit, double sign, std::uint32_t name) {
-    const double heights[2] = {sign * (along[0] - limit), sign * (along[1] - limit)};
-    if (heights[0] > 0 && heights[1] > 0) return false;
-    for (std::size_t i = 0; i < 2; ++i) {
-        if (!(heights[i] > 0)) continue;
-        const std::size_t j = 1 - i;
-        edge.ends[i] += (edge.ends[j] - edge.ends[i]) * (heights[i] / (heights[i] - heights[j]));
-        edge.names[i] = (name + 1) << 16 | (edge.names[i] & 0xffffu);
-        along[i] = limit;
+/// The part of an edge beside a side that runs from `low` to `high` along `across`. False: there is none. By arithmetic
+/// without a branch: which ends are cut off can't be guessed.
+inline bool cut_to(const Edge& reference, const DVec<2>& across, Edge& edge, double (&along)[2]) {
+    using namespace lanes;
+    const double low = dot(across, reference.ends[0]), high = dot(across, reference.ends[1]);
+    const Both from{low, low}, to{high, high}, at{dot(across, edge.ends[0]), dot(across, edge.ends[1])};
+    const Both kept = lesser(greater(at, from), to), way = kept - at;
+    const std::uint32_t below = bits(at < from), above = bits(at > to);
+    if (below == 3 || above == 3) return false;
+    const DVec<2> whole = edge.ends[1] - edge.ends[0];
+    const double run = at[1] - at[0], part = run != 0 ? 1 / run : 0;
+    for (std::uint32_t i = 0; i < 2; ++i) {
+        edge.ends[i] += whole * (way[i] * part);
+        const std::uint32_t cut_low = below >> i & 1u, cut_high = above >> i & 1u;
+        edge.names[i] |= ((reference.names[0] + 1) * cut_low | (reference.names[1] + 1) * cut_high) << 16;
+        along[i] = kept[i];
     }
     return true;
 }
@@ -123,17 +130,15 @@ void set_polygon_manifold(const PolygonPair& pair, const Meeting& meeting, const
         const double incident_radius = a_is_reference ? b.radius : a.radius;
 
         // Counter-clockwise, a side runs along `across`.
-        const double limits[2] = {dot(across, reference.ends[0]), dot(across, reference.ends[1])};
-        double along[2] = {dot(across, incident.ends[0]), dot(across, incident.ends[1])};
-        const bool left = cut_off(incident, along, limits[0], -1, reference.names[0]) &&
-                          cut_off(incident, along, limits[1], 1, reference.names[1]);
+        double along[2] = {0, 0};
+        const bool left = cut_to(reference, across, incident, along);
         // Where but an end is left of the edge, it is one point: the end itself, if it wasn't cut off.
         const bool one = std::abs(along[0] - along[1]) <= slack;
         const std::size_t dropped = !one ? 2 : incident.names[1] < 1u << 16 ? 0 : 1;
-        const double slope = dot(reference.normal, out);
+        const double one_slope = 1 / dot(reference.normal, out);
         for (std::size_t i = 0; i < 2 && left; ++i) {
             if (i == dropped) continue;
-            const double gap = dot(reference.normal, incident.ends[i] - reference.ends[0]) / slope;
+            const double gap = dot(reference.normal, incident.ends[i] - reference.ends[0]) * one_slope;
             const double here = std::min(reference_radius + incident_radius - gap, depth);
             if (here < -margin - slack) continue;
             const DVec<2> middle = incident.ends[i] - out * (incident_radius - 0.5 * here);

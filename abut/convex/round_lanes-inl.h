@@ -43,6 +43,16 @@ inline Both sum_of_sizes(const BothVectors& v) {
 }
 }  // namespace lanes
 
+/// Two points with balls around them.
+inline void distance_of_points(const DVec<3>& a, double radius_a, const DVec<3>& b, double radius_b,
+                               SignedDistance<3>& result) {
+    const DVec<3> between = b - a;
+    const double gap = length(between);
+    result.distance = gap - radius_a - radius_b;
+    result.normal = gap > 0 ? between * (1 / gap) : axis<3>(0);
+    result.on_a = a + result.normal * radius_a;
+}
+
 /// Two segments, an end of each in `from`, the other in `to`.
 struct SegmentPair {
     lanes::BothVectors from, to;

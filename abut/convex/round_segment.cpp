@@ -49,11 +49,7 @@ Places nearest_ends(const DVec<D>& u, const DVec<D>& v, const DVec<D>& w) {
 }
 
 bool point_point(const Convex<3>& a, const Convex<3>& b, SignedDistance<3>& result) {
-    const DVec<3> from = core_corner(a, 0), between = core_corner(b, 0) - from;
-    const double gap = length(between);
-    result.distance = gap - a.radius - b.radius;
-    result.normal = gap > 0 ? between * (1 / gap) : axis<3>(0);
-    result.on_a = from + result.normal * a.radius;
+    distance_of_points(core_corner(a, 0), a.radius, core_corner(b, 0), b.radius, result);
     return true;
 }
 

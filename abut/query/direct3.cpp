@@ -1,3 +1,4 @@
+#include <abut/convex/box_axes.hpp>
 #include <abut/convex/box_pair.hpp>
 #include <abut/convex/box_point-inl.h>
 #include <abut/convex/round_lanes-inl.h>
@@ -9,6 +10,7 @@
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/capsule.hpp>
+#include <abut/shape/polyhedron.hpp>
 
 namespace abut {
 namespace {
@@ -16,7 +18,8 @@ namespace {
 /// The ends of two capsules as they are.
 SegmentPair segments_of(const Capsule3& a, const Capsule3& b) {
     static_assert(sizeof(Capsule3) == 7 * sizeof(float));
-    const auto *first = &a.a.x, *second = &b.a.x;  // six numbers in a row, read two at a time
+    // Six numbers in a row, read two at a time.
+    const auto *first = reinterpret_cast<const float*>(&a), *second = reinterpret_cast<const float*>(&b);
     const lanes::Both a0 = lanes::loaded(first), a1 = lanes::loaded(first + 2), a2 = lanes::loaded(first + 4);
     const lanes::Both b0 = lanes::loaded(second), b1 = lanes::loaded(second + 2), b2 = lanes::loaded(second + 4);
     return {{lanes::lower(a0, b0), lanes::upper(a0, b0), lanes::lower(a1, b1)},
@@ -63,6 +66,24 @@ bool closest_of_capsules(const Given<3>& a, const Given<3>& b, Closest<3>& resul
                : closest_of_segments(placed_segments_of(a, b), result);
 }
 
+DVec<3> center_of(const Given<3>& ball) {
+    const DVec<3> center(ball.as<Sphere>().center);
+    if (ball.pose == nullptr) return center;
+    Affine<3> place;
+    set_affine(place, *ball.pose);
+    return place.point(center);
+}
+
+bool closest_of_balls(const Given<3>& a, const Given<3>& b, Closest<3>& result) {
+    SignedDistance<3> distance;
+    distance_of_points(center_of(a), static_cast<double>(a.as<Sphere>().radius), center_of(b),
+                       static_cast<double>(b.as<Sphere>().radius), distance);
+    if (!std::isfinite(distance.distance)) return false;
+    write(distance, result);
+    result.feature_a.kind = result.feature_b.kind = FeatureKind::vertex;
+    return true;
+}
+
 void place_further(const Box3& box, const Pose3& pose, Affine<3>& place) {
     set_affine(place, pose);
     if (box.rotation == no_rotation<3>)
@@ -103,13 +124,7 @@ bool closest_of_ball_and_box(const Given<3>& ball_given, const Given<3>& box_giv
     const Box3& box = box_given.as<Box3>();
     Affine<3> place;
     set_place(box, box_given.pose, place);
-    DVec<3> center(ball.center);
-    if (ball_given.pose != nullptr) {
-        Affine<3> of_ball;
-        set_affine(of_ball, *ball_given.pose);
-        center = of_ball.point(center);
-    }
-    const DVec<3> half(box.half), seen = place.transposed(center - place.offset);
+    const DVec<3> center = center_of(ball_given), half(box.half), seen = place.transposed(center - place.offset);
     const double radius = static_cast<double>(ball.radius);
     if (!std::isfinite(sum_of(seen) + sum_of(half) + radius)) return false;
     BoxPlace nearest;
@@ -151,25 +166,74 @@ bool are_boxes(const Given<3>& a, const Given<3>& b) {
     return a.kind == ShapeKind::box && b.kind == ShapeKind::box;
 }
 
-/// Whether the balls around two boxes that carry their own places are farther apart than `reach`.
+/// A ball around a shape, and a sum that is finite only where all its numbers are.
+struct BallAround {
+    DVec<3> center;
+    double radius, sum;
+};
+
+/// Turned by q / |q|.
+DVec<3> turned(const glm::quat& q, const DVec<3>& v) {
+    const DVec<3> u(static_cast<double>(q.x), static_cast<double>(q.y), static_cast<double>(q.z));
+    const double w = static_cast<double>(q.w), square = w * w + dot(u, u);
+    const DVec<3> t = cross(u, v) * (square == 0 ? 0 : 2 / square);
+    return v + t * w + cross(u, t);
+}
+double sum_of(const glm::quat& q) {
+    return static_cast<double>(q.w + q.x + q.y + q.z);
+}
+
+/// Of boxes, spheres and polyhedra.
+bool set_ball(const Given<3>& given, BallAround& ball) {
+    if (given.kind == ShapeKind::box) {
+        const Box3& box = given.as<Box3>();
+        ball.center = DVec<3>(box.center);
+        ball.radius = length(DVec<3>(box.half));
+        ball.sum = sum_of(box.rotation);
+    } else if (given.kind == ShapeKind::polytope || given.kind == ShapeKind::ball) {
+        const Sphere sphere = given.kind == ShapeKind::ball ? given.as<Sphere>() : given.as<Polyhedron>().ball();
+        ball.center = DVec<3>(sphere.center);
+        ball.radius = static_cast<double>(sphere.radius);
+        ball.sum = 0;
+    } else {
+        return false;
+    }
+    if (given.pose != nullptr) {
+        ball.center = turned(given.pose->rotation, ball.center) + DVec<3>(given.pose->position);
+        ball.sum += sum_of(given.pose->rotation);
+    }
+    return true;
+}
+
+/// Whether the balls around two shapes are farther apart than `reach`, which is known of most pairs at once.
 bool far_apart(const Given<3>& a, const Given<3>& b, double reach) {
-    if (a.pose != nullptr || b.pose != nullptr || !(reach >= 0)) return false;
+    BallAround first, second;
+    if (!(reach >= 0) || !set_ball(a, first) || !set_ball(b, second)) return false;
+    const double square = length_squared(second.center - first.center), radii = first.radius + second.radius + reach;
+    return square > radii * radii * (1 + 1e-12) && std::isfinite(square + (first.sum + second.sum));
+}
+
+/// `boxes_overlap` where nothing is remembered.
+DirectAnswer overlap_of_boxes(const Given<3>& a, const Given<3>& b) {
     const Box3 &first = a.as<Box3>(), &second = b.as<Box3>();
-    const DVec<3> half_a(first.half), half_b(second.half);
-    const DVec<3> between = DVec<3>(second.center) - DVec<3>(first.center);
-    // (r + s + t)^2 is at most 3 (r^2 + s^2 + t^2), and without reach (r + s)^2 at most 2 (r^2 + s^2); a bit more for
-    // rounding.
-    const double radii = length_squared(half_a) + length_squared(half_b);
-    const double most = reach == 0 ? 2 * radii : 3 * (radii + reach * reach);
-    const double square = length_squared(between);
-    return square > most * (1 + 1e-12) && square < std::numeric_limits<double>::infinity();
+    if (!has_volume(first.half) || !has_volume(second.half)) return DirectAnswer::unknown;
+    Affine<3> place_a, place_b;
+    set_place(first, a.pose, place_a);
+    set_place(second, b.pose, place_b);
+    const BoxFrame frame(place_a, first.half, place_b, second.half);
+    if (!std::isfinite(frame.scale() + sum_of(place_b.column[0]) + sum_of(place_b.column[1])))
+        return DirectAnswer::unknown;
+    const BoxFaceGap face = widest_face_gap(frame);
+    if (face.gap > 0) return DirectAnswer::no;
+    return BoxEdgeGaps(frame, face.gap).apart ? DirectAnswer::no : DirectAnswer::yes;
 }
 
 }  // namespace
 
 DirectAnswer direct_overlap(const Given<3>& a, const Given<3>& b, Cache* cache) {
-    if (!are_boxes(a, b)) return DirectAnswer::unknown;
     if (far_apart(a, b, 0)) return DirectAnswer::no;
+    if (!are_boxes(a, b)) return DirectAnswer::unknown;
+    if (cache == nullptr) return overlap_of_boxes(a, b);
     const Boxes boxes(a, b);
     if (!boxes.known) return DirectAnswer::unknown;
     return boxes_overlap(boxes.a, boxes.b, {cache, nullptr}) ? DirectAnswer::yes : DirectAnswer::no;
@@ -177,14 +241,15 @@ DirectAnswer direct_overlap(const Given<3>& a, const Given<3>& b, Cache* cache) 
 
 bool direct_closest(const Given<3>& a, const Given<3>& b, Cache*, Closest<3>& result) {
     if (a.kind == ShapeKind::capsule && b.kind == ShapeKind::capsule) return closest_of_capsules(a, b, result);
+    if (a.kind == ShapeKind::ball && b.kind == ShapeKind::ball) return closest_of_balls(a, b, result);
     if (a.kind == ShapeKind::ball && b.kind == ShapeKind::box) return closest_of_ball_and_box(a, b, true, result);
     if (a.kind == ShapeKind::box && b.kind == ShapeKind::ball) return closest_of_ball_and_box(b, a, false, result);
     return false;
 }
 
 bool direct_contact(const Given<3>& a, const Given<3>& b, double margin, Cache* cache, Contact<3>& result) {
-    if (!are_boxes(a, b)) return false;
     if (far_apart(a, b, margin)) return true;
+    if (!are_boxes(a, b)) return false;
     const Boxes boxes(a, b);
     if (!boxes.known) return false;
     SignedDistance<3> distance;

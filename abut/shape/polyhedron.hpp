@@ -3,7 +3,7 @@
 // The convex polyhedron: the hull of any points of space with its faces, as a value.
 
 #include <abut/math/result.hpp>
-#include <abut/shape/given.hpp>
+#include <abut/shape/ball.hpp>
 
 #include <initializer_list>
 #include <memory>
@@ -55,6 +55,9 @@ public:
     /// Of length 1, out of the largest face (the first of several); of a segment, at right angles to it; of a point,
     /// the first axis. Of the thin or flat overlap of two shapes it is that of the plane they touch in, to either side.
     Vec3 normal() const;
+
+    /// A ball that holds all corners: about the middle of the box around them.
+    Sphere ball() const;
 
     /// The corners once more, for vector units; null where there are none of use to them.
     const PointLanes* lanes() const;
