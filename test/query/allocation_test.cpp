@@ -6,9 +6,14 @@
 #include <abut/query/certify.hpp>
 #include <abut/query/contact.hpp>
 #include <abut/query/contains.hpp>
+#include <abut/query/intersection.hpp>
 #include <abut/query/raycast.hpp>
+#include <abut/shape/box.hpp>
 #include <abut/shape/cylinder.hpp>
 #include <abut/shape/mesh.hpp>
+#include <abut/shape/placed.hpp>
+#include <abut/shape/polygon.hpp>
+#include <abut/shape/polyhedron.hpp>
 
 #include <atomic>
 #include <cstdlib>
@@ -109,6 +114,59 @@ TEST(Allocation, OfQuestionsAboutMeshesAndRoundShapesIsNone) {
     EXPECT_EQ(allocations_of_all_questions<3>(view(mesh), view(cylinder), ray), 0);
     EXPECT_EQ(allocations_of_all_questions<3>(view(cone), view(cylinder), ray), 0);
     EXPECT_EQ(allocations_of_all_questions<3>(view(mesh), view(at(mesh, Pose3{{0.5f, 0, 0}})), ray), 0);
+}
+
+template <class A, class B>
+long allocations_of_plain_questions(const A& a, const B& b) {
+    constexpr int D = dimension<A>;
+    const Ray<D> ray = Ray<D>::between(Vec<D>(-5), Vec<D>(5));
+    const long before = allocations;
+    Cache cache;
+    overlaps(a, b);
+    closest(a, b);
+    closest(a, b, {.cache = &cache});
+    contact(a, b);
+    contact(a, b, {.cache = &cache, .margin = 1});
+    raycast(ray, a);
+    closest(a, Vec<D>(3));
+    return allocations - before;
+}
+
+TEST(Allocation, OfQuestionsAboutPlainShapesIsNone) {
+    const Polygon polygon = *Polygon::build({{-1, -1}, {1, -1}, {1.5f, 0.5f}, {0, 1}});
+    const Polyhedron hull = *Polyhedron::build({{-1, -1, -1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}});
+    for (const float along : {0.0f, 1.2f, 4.0f}) {
+        const auto placed = at(polygon, Pose2{{along, 0.1f}, Turn::by(along)});
+        EXPECT_EQ(allocations_of_plain_questions(placed, polygon), 0);
+        EXPECT_EQ(allocations_of_plain_questions(placed, Circle{{0, 0}, 1}), 0);
+        EXPECT_EQ(allocations_of_plain_questions(placed, Box2{{0, 0}, {1, 2}}), 0);
+        const Box3 box{{along, 0.1f, 0.2f}, {1, 2, 1}, turn_about({0, 0, 1}, along)};
+        EXPECT_EQ(allocations_of_plain_questions(box, Box3{{0, 0, 0}, {1, 1, 1}}), 0);
+        EXPECT_EQ(allocations_of_plain_questions(box, Sphere{{0, 0, 0}, 1}), 0);
+        EXPECT_EQ(allocations_of_plain_questions(Capsule3{{along, 0, 0}, {2, 1, 1}, 0.5f}, box), 0);
+        EXPECT_EQ(allocations_of_plain_questions(at(hull, Pose3{{along, 0, 0}}), box), 0);
+    }
+}
+
+TEST(Allocation, OfOverlapsOfPolygonsIsNoneWhereThereIsRoom) {
+    const Polygon a = *Polygon::build({{-1, -1}, {1, -1}, {1.5f, 0.5f}, {0, 1}});
+    const Polygon b = *Polygon::build({{-1.2f, -0.5f}, {0.2f, -1.5f}, {1, 1}, {-0.5f, 1.2f}});
+    Polygon out;
+    int overlapping = 0;
+    for (int i = 0; i < 200; ++i) {
+        const auto turned = at(b, Pose2{{0.2f, 0.01f * static_cast<float>(i)}, Turn::by(0.1f * static_cast<float>(i))});
+        if (i < 100) {
+            intersection(a, turned, out);  // makes room
+            continue;
+        }
+        const long before = allocations;
+        const bool met = intersection(a, turned, out);
+        overlapping += met && out.area() > 0.01 ? 1 : 0;
+        if (met && out.area() > 0.01) {
+            EXPECT_EQ(allocations - before, 0) << i;
+        }
+    }
+    EXPECT_GT(overlapping, 50);
 }
 
 }  // namespace
