@@ -166,10 +166,12 @@ bool are_boxes(const Given<3>& a, const Given<3>& b) {
     return a.kind == ShapeKind::box && b.kind == ShapeKind::box;
 }
 
-/// A ball around a shape, and a sum that is finite only where all its numbers are.
+/// A ball around a shape, by its radius, or where that would take a root by its square alone; and a sum that is finite
+/// only where all numbers are.
 struct BallAround {
     DVec<3> center;
-    double radius, sum;
+    double radius, square, sum;
+    bool has_radius;
 };
 
 /// Turned by q / |q|.
@@ -188,12 +190,15 @@ bool set_ball(const Given<3>& given, BallAround& ball) {
     if (given.kind == ShapeKind::box) {
         const Box3& box = given.as<Box3>();
         ball.center = DVec<3>(box.center);
-        ball.radius = length(DVec<3>(box.half));
+        ball.has_radius = false;
+        ball.square = length_squared(DVec<3>(box.half));
         ball.sum = sum_of(box.rotation);
     } else if (given.kind == ShapeKind::polytope || given.kind == ShapeKind::ball) {
         const Sphere sphere = given.kind == ShapeKind::ball ? given.as<Sphere>() : given.as<Polyhedron>().ball();
         ball.center = DVec<3>(sphere.center);
+        ball.has_radius = true;
         ball.radius = static_cast<double>(sphere.radius);
+        ball.square = ball.radius * ball.radius;
         ball.sum = 0;
     } else {
         return false;
@@ -207,10 +212,15 @@ bool set_ball(const Given<3>& given, BallAround& ball) {
 
 /// Whether the balls around two shapes are farther apart than `reach`, which is known of most pairs at once.
 bool far_apart(const Given<3>& a, const Given<3>& b, double reach) {
-    BallAround first, second;
+    BallAround first{}, second{};
     if (!(reach >= 0) || !set_ball(a, first) || !set_ball(b, second)) return false;
-    const double square = length_squared(second.center - first.center), radii = first.radius + second.radius + reach;
-    return square > radii * radii * (1 + 1e-12) && std::isfinite(square + (first.sum + second.sum));
+    // (r + s)^2 is at most 2 (r^2 + s^2), and (r + s + t)^2 at most 3 (r^2 + s^2 + t^2).
+    const double radii = first.radius + second.radius + reach;
+    const double most = first.has_radius && second.has_radius
+                            ? radii * radii
+                            : (first.square + second.square + reach * reach) * (reach == 0 ? 2 : 3);
+    const double square = length_squared(second.center - first.center);
+    return square > most * (1 + 1e-12) && std::isfinite(square + (first.sum + second.sum));
 }
 
 /// `boxes_overlap` where nothing is remembered.
