@@ -66,12 +66,14 @@ bool closest_of_capsules(const Given<3>& a, const Given<3>& b, Closest<3>& resul
                : closest_of_segments(placed_segments_of(a, b), result);
 }
 
-DVec<3> center_of(const Given<3>& ball) {
-    const DVec<3> center(ball.as<Sphere>().center);
-    if (ball.pose == nullptr) return center;
+DVec<3> placed(const DVec<3>& point, const Pose3& pose) {
     Affine<3> place;
-    set_affine(place, *ball.pose);
-    return place.point(center);
+    set_affine(place, pose);
+    return place.point(point);
+}
+inline DVec<3> center_of(const Given<3>& ball) {
+    const DVec<3> center(ball.as<Sphere>().center);
+    return ball.pose == nullptr ? center : placed(center, *ball.pose);
 }
 
 bool closest_of_balls(const Given<3>& a, const Given<3>& b, Closest<3>& result) {
