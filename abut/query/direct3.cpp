@@ -144,26 +144,6 @@ bool closest_of_ball_and_box(const Given<3>& ball_given, const Given<3>& box_giv
     return true;
 }
 
-/// What the questions about two boxes read.
-bool set_box(const Given<3>& given, Convex<3>& result) {
-    const Box3& box = given.as<Box3>();
-    set_place(box, given.pose, result.place);
-    result.core = Core::box;
-    result.own[0] = box.half;
-    const Affine<3>& place = result.place;
-    return std::isfinite(sum_of(place.offset) + sum_of(place.column[0]) + sum_of(place.column[1]) +
-                         sum_of(DVec<3>(box.half)));
-}
-
-/// Two boxes, where both have a volume and finite numbers.
-struct Boxes {
-    Convex<3> a, b;
-    bool known;
-
-    Boxes(const Given<3>& first, const Given<3>& second)
-        : known(set_box(first, a) && set_box(second, b) && are_plain_boxes(a, b)) {}
-};
-
 bool are_boxes(const Given<3>& a, const Given<3>& b) {
     return a.kind == ShapeKind::box && b.kind == ShapeKind::box;
 }
@@ -244,11 +224,8 @@ DirectAnswer overlap_of_boxes(const Given<3>& a, const Given<3>& b) {
 
 DirectAnswer direct_overlap(const Given<3>& a, const Given<3>& b, Cache* cache) {
     if (far_apart(a, b, 0)) return DirectAnswer::no;
-    if (!are_boxes(a, b)) return DirectAnswer::unknown;
-    if (cache == nullptr) return overlap_of_boxes(a, b);
-    const Boxes boxes(a, b);
-    if (!boxes.known) return DirectAnswer::unknown;
-    return boxes_overlap(boxes.a, boxes.b, {cache, nullptr}) ? DirectAnswer::yes : DirectAnswer::no;
+    if (!are_boxes(a, b) || cache != nullptr) return DirectAnswer::unknown;
+    return overlap_of_boxes(a, b);
 }
 
 bool direct_closest(const Given<3>& a, const Given<3>& b, Cache*, Closest<3>& result) {
@@ -259,17 +236,8 @@ bool direct_closest(const Given<3>& a, const Given<3>& b, Cache*, Closest<3>& re
     return false;
 }
 
-bool direct_contact(const Given<3>& a, const Given<3>& b, double margin, Cache* cache, Contact<3>& result) {
-    if (far_apart(a, b, margin)) return true;
-    if (!are_boxes(a, b)) return false;
-    const Boxes boxes(a, b);
-    if (!boxes.known) return false;
-    SignedDistance<3> distance;
-    Manifold<3> manifold;
-    if (!contact_of_boxes(boxes.a, boxes.b, margin, margin, {cache, nullptr}, distance, manifold)) return true;
-    write(distance, manifold, result);
-    name_features(boxes.a, boxes.b, distance, 0, 0, result);
-    return true;
+bool direct_contact(const Given<3>& a, const Given<3>& b, double margin, Cache*, Contact<3>&) {
+    return far_apart(a, b, margin);
 }
 
 }  // namespace abut

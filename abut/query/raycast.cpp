@@ -143,7 +143,8 @@ std::optional<Hit<D>> raycast(const Ray<D>& ray, const View<D>& shape, const Que
 template <int D>
 std::optional<Hit<D>> raycast(const Ray<D>& ray, const Given<D>& shape, const QueryOptions<D>& options) {
     std::optional<Hit<D>> result;
-    if (options.trace == nullptr && can_be_asked(ray)) {
+    const bool direct = shape.kind == ShapeKind::ball || (D == 2 && shape.kind == ShapeKind::polytope);
+    if (direct && options.trace == nullptr && can_be_asked(ray)) {
         const Beam<D> beam = beam_of(ray);
         const RayEntry<D> entry = direct_entry(beam, shape);
         if (entry.answer == RayAnswer::misses) return result;
