@@ -4,6 +4,7 @@
 // several sides are looked at in one step.
 
 #include <abut/convex/support.hpp>
+#include <abut/math/set_affine.hpp>
 
 #include <span>
 
@@ -103,6 +104,11 @@ struct Rigid2 {
     /// A place as the shape itself sees it.
     DVec<2> unplaced(const DVec<2>& p) const { return transposed({p.x - x, p.y - y}); }
 };
+
+inline Rigid2 rigid(const Pose2& pose) {
+    const DVec<2> turn = unit(pose.rotation);
+    return {turn.x, turn.y, static_cast<double>(pose.position.x), static_cast<double>(pose.position.y)};
+}
 
 /// A shape of the plane as the questions about two of them see it: its sides, or the one point that it is, placed by a
 /// pose, and the ball around. Refers to the shape, or to its own room.

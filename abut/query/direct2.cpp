@@ -14,10 +14,6 @@
 namespace abut {
 namespace {
 
-inline Rigid2 rigid(const Pose2& pose) {
-    const DVec<2> turn = unit(pose.rotation);
-    return {turn.x, turn.y, static_cast<double>(pose.position.x), static_cast<double>(pose.position.y)};
-}
 inline Rigid2 place_of(const Given<2>& given) {
     return given.pose != nullptr ? rigid(*given.pose) : Rigid2{1, 0, 0, 0};
 }
@@ -25,14 +21,8 @@ inline Rigid2 place_of(const Given<2>& given) {
 /// As `convex(box, pose)` places it.
 inline Rigid2 place_of_box(const Box2& box, const Pose2* pose) {
     if (pose == nullptr) return rigid({box.center, box.rotation});
-    const Rigid2 outer = rigid(*pose);
-    if (box.rotation == no_rotation<2>) {
-        const DVec<2> center = outer.point(DVec<2>(box.center));
-        return {outer.cos, outer.sin, center.x, center.y};
-    }
-    const Rigid2 own = rigid({box.center, box.rotation});
-    const DVec<2> turn = outer.vector({own.cos, own.sin}), center = outer.point(own.offset());
-    return {turn.x, turn.y, center.x, center.y};
+    const Affine<2> place = convex(box, *pose).place;
+    return {place.column[0].x, place.column[0].y, place.offset.x, place.offset.y};
 }
 
 /// Of one kind, so that what is asked of it can be compiled for that kind.
@@ -93,21 +83,19 @@ inline double sum_of(const Outline& outline, ShapeKind kind) {
 
 /// ask(outline of a, outline of b), where both have one and all their numbers are finite; else `otherwise`. What is
 /// asked of two polygons or two boxes is compiled for those.
-template <ShapeKind kind, class Ask, class Answer>
-inline Answer ask_of(const Given<2>& a, const Given<2>& b, const Ask& ask, Answer otherwise) {
+template <class Ask, class Answer, class Set>
+inline Answer ask_of(const Given<2>& a, const Given<2>& b, const Ask& ask, Answer otherwise, const Set& set) {
     Outline first, second;
-    const bool known = set_outline<kind>(a, first) && set_outline<kind>(b, second) &&
-                       std::isfinite(sum_of(first, kind) + sum_of(second, kind));
+    const bool known = set(a, first) && set(b, second) && std::isfinite(sum_of(first, a.kind) + sum_of(second, b.kind));
     return known ? ask(first, second) : otherwise;
 }
 template <class Ask, class Answer>
 Answer ask_of_outlines(const Given<2>& a, const Given<2>& b, const Ask& ask, Answer otherwise) {
-    if (a.kind == b.kind && a.kind == ShapeKind::polytope) return ask_of<ShapeKind::polytope>(a, b, ask, otherwise);
-    if (a.kind == b.kind && a.kind == ShapeKind::box) return ask_of<ShapeKind::box>(a, b, ask, otherwise);
-    Outline first, second;
-    const bool known = set_outline(a, first) && set_outline(b, second) &&
-                       std::isfinite(sum_of(first, a.kind) + sum_of(second, b.kind));
-    return known ? ask(first, second) : otherwise;
+    if (a.kind == b.kind && a.kind == ShapeKind::polytope)
+        return ask_of(a, b, ask, otherwise, set_outline<ShapeKind::polytope>);
+    if (a.kind == b.kind && a.kind == ShapeKind::box) return ask_of(a, b, ask, otherwise, set_outline<ShapeKind::box>);
+    return ask_of(a, b, ask, otherwise,
+                  [](const Given<2>& given, Outline& outline) { return set_outline(given, outline); });
 }
 
 template <class Answer>

@@ -86,19 +86,15 @@ bool closest_of_balls(const Given<3>& a, const Given<3>& b, Closest<3>& result) 
     return true;
 }
 
-void place_further(const Box3& box, const Pose3& pose, Affine<3>& place) {
-    set_affine(place, pose);
-    if (box.rotation == no_rotation<3>)
-        place.offset = place.point(DVec<3>(box.center));
-    else
-        place = place * affine(Pose3{box.center, box.rotation});
+/// Kept out of what is hot, where it would take up room.
+[[gnu::noinline]] void place_by(const Box3& box, const Pose3& pose, Affine<3>& place) {
+    place = convex(box, pose).place;
 }
-/// As `convex(box, pose)` places it.
 inline void set_place(const Box3& box, const Pose3* pose, Affine<3>& place) {
     if (pose == nullptr)
         set_affine(place, Pose3{box.center, box.rotation});
     else
-        place_further(box, *pose, place);
+        place_by(box, *pose, place);
 }
 
 /// The corner, edge or face of a box, by its bits.
@@ -156,15 +152,16 @@ struct BallAround {
     bool has_radius;
 };
 
-/// Turned by q / |q|.
-DVec<3> turned(const glm::quat& q, const DVec<3>& v) {
-    const DVec<3> u(static_cast<double>(q.x), static_cast<double>(q.y), static_cast<double>(q.z));
-    const double w = static_cast<double>(q.w), square = w * w + dot(u, u);
-    const DVec<3> t = cross(u, v) * (square == 0 ? 0 : 2 / square);
-    return v + t * w + cross(u, t);
-}
 double sum_of(const glm::quat& q) {
     return static_cast<double>(q.w + q.x + q.y + q.z);
+}
+
+void set_radius(BallAround& ball, const DVec<3>& center, double radius) {
+    ball.center = center;
+    ball.radius = radius;
+    ball.square = radius * radius;
+    ball.sum = 0;
+    ball.has_radius = true;
 }
 
 /// Of boxes, spheres and polyhedra.
@@ -175,18 +172,17 @@ bool set_ball(const Given<3>& given, BallAround& ball) {
         ball.has_radius = false;
         ball.square = length_squared(DVec<3>(box.half));
         ball.sum = sum_of(box.rotation);
-    } else if (given.kind == ShapeKind::polytope || given.kind == ShapeKind::ball) {
-        const Sphere sphere = given.kind == ShapeKind::ball ? given.as<Sphere>() : given.as<Polyhedron>().ball();
-        ball.center = DVec<3>(sphere.center);
-        ball.has_radius = true;
-        ball.radius = static_cast<double>(sphere.radius);
-        ball.square = ball.radius * ball.radius;
-        ball.sum = 0;
+    } else if (given.kind == ShapeKind::polytope) {
+        const BoundingBall<3> own = given.as<Polyhedron>().ball();
+        set_radius(ball, own.center, own.radius);
+    } else if (given.kind == ShapeKind::ball) {
+        const Sphere& sphere = given.as<Sphere>();
+        set_radius(ball, DVec<3>(sphere.center), static_cast<double>(sphere.radius));
     } else {
         return false;
     }
     if (given.pose != nullptr) {
-        ball.center = turned(given.pose->rotation, ball.center) + DVec<3>(given.pose->position);
+        ball.center = placed(ball.center, *given.pose);
         ball.sum += sum_of(given.pose->rotation);
     }
     return true;

@@ -96,11 +96,7 @@ RayEntry<D> direct_entry(const Beam<D>& beam, const Ball<D>& ball, const Given<D
 
 RayEntry<2> direct_entry(const Beam<2>& beam, const Polygon& polygon, const Given<2>& given) {
     if (polygon.sides() == nullptr) return {};
-    Rigid2 place{1, 0, 0, 0};
-    if (given.pose != nullptr) {
-        const DVec<2> turn = unit(given.pose->rotation), offset(given.pose->position);
-        place = {turn.x, turn.y, offset.x, offset.y};
-    }
+    const Rigid2 place = given.pose != nullptr ? rigid(*given.pose) : Rigid2{1, 0, 0, 0};
     Sides sides;
     sides.refer_to(polygon.sides(), polygon.side_count());
     const Beam<2> own{place.unplaced(beam.origin), place.transposed(beam.direction), beam.length};

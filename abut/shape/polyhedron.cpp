@@ -12,32 +12,13 @@ constexpr Facets no_facets;
 
 }  // namespace
 
-namespace {
-
-Sphere ball_around(std::span<const Vec3> points) {
-    DVec<3> low(points[0]), high = low;
-    for (const Vec3& point : points)
-        for (int i = 0; i < 3; ++i) {
-            low[i] = std::min(low[i], static_cast<double>(point[i]));
-            high[i] = std::max(high[i], static_cast<double>(point[i]));
-        }
-    const Vec3 middle = to_float((low + high) * 0.5);
-    double square = 0;
-    for (const Vec3& point : points) square = std::max(square, length_squared(DVec<3>(point) - DVec<3>(middle)));
-    // Rounded up, also where it is too large for a float.
-    const float radius = static_cast<float>(std::sqrt(square));
-    return {middle, std::nextafter(radius, std::numeric_limits<float>::infinity())};
-}
-
-}  // namespace
-
 struct Polyhedron::Data {
     explicit Data(Hull3 built)
         : hull(std::move(built)),
           facets{hull.normals, hull.loops, hull.loop_ends, hull.edges, hull.offsets},
           columns(3 * padded_count(hull.points.size())),
           lanes(lay_out(hull.points, columns.data())),
-          ball(ball_around(hull.points)) {}
+          ball(ball_around<3>(hull.points)) {}
     Data(const Data&) = delete;
     Data& operator=(const Data&) = delete;
 
@@ -45,7 +26,7 @@ struct Polyhedron::Data {
     Facets facets;  ///< refers to `hull`
     std::vector<float> columns;
     PointLanes lanes;  ///< refers to `columns`
-    Sphere ball;
+    BoundingBall<3> ball;
 };
 
 Result<Polyhedron> Polyhedron::build(std::span<const Vec3> points) {
@@ -88,8 +69,8 @@ Vec3 Polyhedron::centroid() const {
     return data_ ? data_->hull.centroid : zero;
 }
 
-Sphere Polyhedron::ball() const {
-    return data_ ? data_->ball : Sphere();
+BoundingBall<3> Polyhedron::ball() const {
+    return data_ ? data_->ball : BoundingBall<3>();
 }
 
 const PointLanes* Polyhedron::lanes() const {

@@ -2,8 +2,9 @@
 
 // The convex polyhedron: the hull of any points of space with its faces, as a value.
 
+#include <abut/convex/bounding_ball.hpp>
 #include <abut/math/result.hpp>
-#include <abut/shape/ball.hpp>
+#include <abut/shape/given.hpp>
 
 #include <initializer_list>
 #include <memory>
@@ -56,8 +57,8 @@ public:
     /// the first axis. Of the thin or flat overlap of two shapes it is that of the plane they touch in, to either side.
     Vec3 normal() const;
 
-    /// A ball that holds all corners: about the middle of the box around them.
-    Sphere ball() const;
+    /// A ball that holds all corners, to the rounding of doubles.
+    BoundingBall<3> ball() const;
 
     /// The corners once more, for vector units; null where there are none of use to them.
     const PointLanes* lanes() const;

@@ -17,20 +17,6 @@ BoundingBall<D> around(const Aabb<D>& box) {
 }
 
 template <int D>
-BoundingBall<D> around_points(const Vec<D>* points, std::uint32_t count) {
-    DVec<D> low(points[0]), high(points[0]);
-    for (std::uint32_t i = 1; i < count; ++i)
-        for (int k = 0; k < D; ++k) {
-            low[k] = std::min(low[k], static_cast<double>(points[i][k]));
-            high[k] = std::max(high[k], static_cast<double>(points[i][k]));
-        }
-    BoundingBall<D> result{(low + high) * 0.5, 0};
-    for (std::uint32_t i = 0; i < count; ++i)
-        result.radius = std::max(result.radius, length(DVec<D>(points[i]) - result.center));
-    return result;
-}
-
-template <int D>
 BoundingBall<D> around_discs(const Convex<D>& convex) {
     const DVec<D> a(convex.own[0]), b(convex.own[1]);
     const double widest = static_cast<double>(std::max(convex.disc_radius[0], convex.disc_radius[1]));
@@ -42,7 +28,7 @@ template <int D>
 BoundingBall<D> core_ball(const Convex<D>& convex) {
     switch (convex.core) {
         case Core::points:
-            return around_points(convex.vertices(), convex.count);
+            return ball_around<D>({convex.vertices(), convex.count});
         case Core::box:
             return {DVec<D>(0.0), length(DVec<D>(convex.own[0]))};
         case Core::discs:

@@ -2,18 +2,13 @@
 
 // Balls around shapes: where two balls are apart, so are the shapes in them.
 
+#include <abut/convex/bounding_ball.hpp>
 #include <abut/shape/view.hpp>
 
 namespace abut {
 
-/// Holds a shape, with room for rounding. The radius is infinite or NaN where there is no such ball.
-template <int D>
-struct BoundingBall {
-    DVec<D> center{0.0};
-    double radius = 0;
-};
-
-/// The ball about the middle of a convex core's box; of a composite shape or a user's own, the one around its box.
+/// Holds a shape, with room for rounding; the radius is infinite or NaN where there is no such ball. About the middle
+/// of a convex core's box; of a composite shape or a user's own, the one around its box.
 template <int D>
 BoundingBall<D> bounding_ball(const View<D>& view);
 

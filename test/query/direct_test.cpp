@@ -145,21 +145,30 @@ private:
 };
 
 template <class D>
-class Direct : public testing::Test {};
+class Direct : public testing::Test {
+protected:
+    /// ask(random, shapes), of many seeds.
+    template <class Ask>
+    void for_each_seed(const Ask& ask) {
+        for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(oracle::amount(8000)); ++seed) {
+            SCOPED_TRACE(seed);
+            Random random(seed);
+            Shapes<D::value> shapes(random);
+            ask(random, shapes);
+            if (HasFatalFailure()) return;
+        }
+    }
+};
 using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(Direct, Dimensions);
 
 TYPED_TEST(Direct, AnswersOfPairsAreThoseOfTheirViews) {
     constexpr int D = TypeParam::value;
     Told told;
-    for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(oracle::amount(8000)); ++seed) {
-        SCOPED_TRACE(seed);
-        Random random(seed);
-        Shapes<D> shapes(random);
+    this->for_each_seed([&](Random& random, Shapes<D>& shapes) {
         const float margin = random.uniform_float(0, 0.5);
         shapes.draw([&](const auto& a) { shapes.draw([&](const auto& b) { compare(a, b, margin, told); }); });
-        if (this->HasFatalFailure()) return;
-    }
+    });
     EXPECT_GT(told.overlapping, told.pairs * 3 / 10);
     EXPECT_LT(told.overlapping, told.pairs * 7 / 10);
 }
@@ -167,10 +176,7 @@ TYPED_TEST(Direct, AnswersOfPairsAreThoseOfTheirViews) {
 TYPED_TEST(Direct, RaysAndPointsTooAreThoseOfTheViews) {
     constexpr int D = TypeParam::value;
     Told told;
-    for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(oracle::amount(8000)); ++seed) {
-        SCOPED_TRACE(seed);
-        Random random(seed);
-        Shapes<D> shapes(random);
+    this->for_each_seed([&](Random&, Shapes<D>& shapes) {
         shapes.draw([&](const auto& shape) {
             const View<D> as_view(view(shape));
             const Vec<D> from = shapes.point(4), to = shapes.point(0.5);
@@ -183,8 +189,7 @@ TYPED_TEST(Direct, RaysAndPointsTooAreThoseOfTheViews) {
             }
             expect_same(closest(shape, from), closest(as_view, View<D>(round_points<D>({from}, 0))));
         });
-        if (this->HasFatalFailure()) return;
-    }
+    });
     EXPECT_GT(told.hits, told.rays * 15 / 100);
     EXPECT_LT(told.hits, told.rays * 8 / 10);
 }

@@ -1,0 +1,31 @@
+#pragma once
+
+// A ball around points: where two balls are apart, so is what they hold. For .cpp files.
+
+#include <abut/math/dvec.hpp>
+
+#include <span>
+
+namespace abut {
+
+template <int D>
+struct BoundingBall {
+    DVec<D> center{0.0};
+    double radius = 0;
+};
+
+/// About the middle of the box around the points, of which there is one at least. Right to rounding.
+template <int D>
+BoundingBall<D> ball_around(std::span<const Vec<D>> points) {
+    DVec<D> low(points[0]), high = low;
+    for (const Vec<D>& point : points)
+        for (int i = 0; i < D; ++i) {
+            low[i] = std::min(low[i], static_cast<double>(point[i]));
+            high[i] = std::max(high[i], static_cast<double>(point[i]));
+        }
+    BoundingBall<D> result{(low + high) * 0.5, 0};
+    for (const Vec<D>& point : points) result.radius = std::max(result.radius, length(DVec<D>(point) - result.center));
+    return result;
+}
+
+}  // namespace abut
