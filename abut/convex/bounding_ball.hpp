@@ -1,6 +1,6 @@
 #pragma once
 
-// A ball around points: where two balls are apart, so is what they hold. For .cpp files.
+// A ball around points: where two balls are apart, so is what they hold.
 
 #include <abut/math/dvec.hpp>
 
