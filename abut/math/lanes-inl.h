@@ -3,6 +3,7 @@
 // Two doubles side by side, in the vectors that compilers have on every machine: for what is so little that choosing a
 // vector unit by a call would cost as much. The answers are those of doubles one by one. For .cpp files.
 
+#include <cmath>
 #include <cstdint>
 
 #ifdef __SSE2__
@@ -27,6 +28,15 @@ inline std::uint32_t bits(Chosen mask) {
     return static_cast<std::uint32_t>((mask[0] & 1) | (mask[1] & 2));
 #endif
 }
+/// Which of them have their sign set.
+inline std::uint32_t signs(Both v) {
+#ifdef __SSE2__
+    return static_cast<std::uint32_t>(_mm_movemask_pd(v));
+#else
+    return static_cast<std::uint32_t>(std::signbit(v[0]) ? 1 : 0) |
+           static_cast<std::uint32_t>(std::signbit(v[1]) ? 2 : 0);
+#endif
+}
 /// Of two floats in memory.
 inline Both loaded(const float* numbers) {
 #ifdef __SSE2__
@@ -34,6 +44,11 @@ inline Both loaded(const float* numbers) {
 #else
     return {numbers[0], numbers[1]};
 #endif
+}
+inline Both at(const double* numbers) {
+    Both result;
+    __builtin_memcpy(&result, numbers, sizeof(result));
+    return result;
 }
 inline Both lower(Both a, Both b) {
     return __builtin_shufflevector(a, b, 0, 2);
@@ -66,6 +81,39 @@ inline Both lesser(Both a, Both b) {
 /// The nearest number from 0 to 1.
 inline Both part(Both v) {
     return lesser(greater(v, Both{0, 0}), Both{1, 1});
+}
+
+// A vector of the plane, in two lanes.
+
+inline Both first(Both v) {
+    return __builtin_shufflevector(v, v, 0, 0);
+}
+inline Both second(Both v) {
+    return __builtin_shufflevector(v, v, 1, 1);
+}
+/// In both lanes.
+inline Both dot(Both a, Both b) {
+    const Both products = a * b;
+    return products + swapped(products);
+}
+inline bool finite(Both v) {
+    return bits(magnitude(v) <= Both{1.7976931348623157e308, 1.7976931348623157e308}) == 3;
+}
+/// As `unit` of a vector of two numbers that were floats.
+inline Both unit(Both v) {
+    const Both square = dot(v, v), excess = square - 1;
+    if (std::abs(excess[0]) < 1e-5) [[likely]]
+        return v * (1 - excess * (0.5 - 0.375 * excess));
+    return square[0] == 0 ? Both{1, 0} : v * (1 / std::sqrt(square[0]));
+}
+/// As two floats.
+inline void store(Both v, float* numbers) {
+#ifdef __SSE2__
+    _mm_storel_pi(reinterpret_cast<__m64*>(numbers), _mm_cvtpd_ps(v));
+#else
+    numbers[0] = static_cast<float>(v[0]);
+    numbers[1] = static_cast<float>(v[1]);
+#endif
 }
 
 }  // namespace lanes

@@ -1,11 +1,6 @@
-#include <abut/convex/ray_ball.hpp>
-#include <abut/convex/ray_sides.hpp>
 #include <abut/math/assert.hpp>
-#include <abut/math/set_affine.hpp>
 #include <abut/query/raycast.hpp>
 #include <abut/query/raycast_part.hpp>
-#include <abut/shape/ball.hpp>
-#include <abut/shape/polygon.hpp>
 
 namespace abut {
 namespace {
@@ -74,46 +69,6 @@ void answer(const Ray<D>& ray, const Convex<D>& shape, const QueryOptions<D>& op
     find_first_hit(ray, shape, find, result);
 }
 
-template <int D>
-Affine<D> place_of(const Given<D>& shape) {
-    Affine<D> place;
-    if (shape.pose != nullptr) set_affine(place, *shape.pose);
-    return place;
-}
-
-// Plain shapes from which the answer comes at once, as `ray_entry` gives it; undecided of all others.
-
-template <int D>
-RayEntry<D> direct_entry(const Beam<D>& beam, const Ball<D>& ball, const Given<D>& given) {
-    Affine<D> seen = place_of(given);
-    seen.offset -= beam.origin;
-    const DVec<D> center = seen.point(DVec<D>(ball.center));
-    const double radius = static_cast<double>(ball.radius);
-    double sum = radius;
-    for (int i = 0; i < D; ++i) sum += center[i];
-    return std::isfinite(sum) ? enter_ball(beam, center, radius) : RayEntry<D>();
-}
-
-RayEntry<2> direct_entry(const Beam<2>& beam, const Polygon& polygon, const Given<2>& given) {
-    if (polygon.sides() == nullptr) return {};
-    const Rigid2 place = given.pose != nullptr ? rigid(*given.pose) : Rigid2{1, 0, 0, 0};
-    Sides sides;
-    sides.refer_to(polygon.sides(), polygon.side_count());
-    const Beam<2> own{place.unplaced(beam.origin), place.transposed(beam.direction), beam.length};
-    if (!std::isfinite(own.origin.x + own.origin.y)) return {};
-    RayEntry<2> result = enter_sides(own, sides, 0);
-    result.normal = place.vector(result.normal);
-    return result;
-}
-
-RayEntry<2> direct_entry(const Beam<2>& beam, const Given<2>& shape) {
-    if (shape.kind == ShapeKind::ball) return direct_entry(beam, shape.as<Circle>(), shape);
-    return shape.kind == ShapeKind::polytope ? direct_entry(beam, shape.as<Polygon>(), shape) : RayEntry<2>();
-}
-RayEntry<3> direct_entry(const Beam<3>& beam, const Given<3>& shape) {
-    return shape.kind == ShapeKind::ball ? direct_entry(beam, shape.as<Sphere>(), shape) : RayEntry<3>();
-}
-
 }  // namespace
 
 template <int D>
@@ -136,30 +91,9 @@ std::optional<Hit<D>> raycast(const Ray<D>& ray, const View<D>& shape, const Que
     return result;
 }
 
-template <int D>
-std::optional<Hit<D>> raycast(const Ray<D>& ray, const Given<D>& shape, const QueryOptions<D>& options) {
-    std::optional<Hit<D>> result;
-    const bool direct = shape.kind == ShapeKind::ball || (D == 2 && shape.kind == ShapeKind::polytope);
-    if (direct && options.trace == nullptr && can_be_asked(ray)) {
-        const Beam<D> beam = beam_of(ray);
-        const RayEntry<D> entry = direct_entry(beam, shape);
-        if (entry.answer == RayAnswer::misses) return result;
-        if (entry.answer == RayAnswer::enters) {
-            Hit<D>& hit = result.emplace();
-            tell(beam, entry.along, entry.normal, hit);
-            hit.feature.index = entry.index;
-            hit.feature.kind = entry.kind;
-            return result;
-        }
-    }
-    answer(ray, convex_of(shape), options, result);
-    return result;
-}
-
-#define ABUT_INSTANTIATE(D)                                                                          \
-    template std::optional<Hit<D>> raycast(const Ray<D>&, const View<D>&, const QueryOptions<D>&);   \
-    template std::optional<Hit<D>> raycast(const Ray<D>&, const Convex<D>&, const QueryOptions<D>&); \
-    template std::optional<Hit<D>> raycast(const Ray<D>&, const Given<D>&, const QueryOptions<D>&);
+#define ABUT_INSTANTIATE(D)                                                                        \
+    template std::optional<Hit<D>> raycast(const Ray<D>&, const View<D>&, const QueryOptions<D>&); \
+    template std::optional<Hit<D>> raycast(const Ray<D>&, const Convex<D>&, const QueryOptions<D>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

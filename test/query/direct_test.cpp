@@ -1,4 +1,5 @@
-// Plain shapes are asked as they were given, without views: the answers must be those of their views, to the last bit.
+// Plain shapes are asked as they were given, without views: the answers must be those of their views, to the last bit;
+// of rays but for rounding.
 
 #include "../oracle/pair.hpp"
 #include "../oracle/random.hpp"
@@ -23,7 +24,7 @@ namespace {
 using oracle::Random;
 
 struct Told {
-    int pairs = 0, overlapping = 0, rays = 0, hits = 0;
+    int pairs = 0, overlapping = 0, rays = 0, hits = 0, at_corners = 0;
 };
 
 template <int D>
@@ -51,15 +52,24 @@ void expect_same(const Contact<D>& direct, const Contact<D>& of_views) {
 }
 
 template <int D>
-void expect_same(const std::optional<Hit<D>>& direct, const std::optional<Hit<D>>& of_views) {
+void expect_near(const Vec<D>& direct, const Vec<D>& of_views) {
+    for (int i = 0; i < D; ++i) EXPECT_NEAR(direct[i], of_views[i], 1e-6);
+}
+
+/// At a corner a ray meets two sides at once, and either may be told.
+template <int D>
+void expect_near(const std::optional<Hit<D>>& direct, const std::optional<Hit<D>>& of_views, Told& told) {
     ASSERT_EQ(direct.has_value(), of_views.has_value());
     if (!direct) return;
-    EXPECT_EQ(direct->fraction, of_views->fraction);
-    EXPECT_EQ(direct->distance, of_views->distance);
-    EXPECT_EQ(direct->point, of_views->point);
-    EXPECT_EQ(direct->normal, of_views->normal);
+    EXPECT_NEAR(direct->fraction, of_views->fraction, 1e-6);
+    EXPECT_NEAR(direct->distance, of_views->distance, 1e-6);
+    expect_near<D>(direct->point, of_views->point);
     EXPECT_EQ(direct->started_inside, of_views->started_inside);
-    EXPECT_EQ(direct->feature, of_views->feature);
+    ++told.hits;
+    if (direct->feature != of_views->feature)
+        ++told.at_corners;
+    else
+        expect_near<D>(direct->normal, of_views->normal);
 }
 
 template <class A, class B>
@@ -182,16 +192,15 @@ TYPED_TEST(Direct, RaysAndPointsTooAreThoseOfTheViews) {
             const Vec<D> from = shapes.point(4), to = shapes.point(0.5);
             if (from != to) {
                 const Ray<D> ray = Ray<D>::between(from, to);
-                const auto hit = raycast(ray, shape);
-                expect_same(hit, raycast(ray, as_view));
+                expect_near<D>(raycast(ray, shape), raycast(ray, as_view), told);
                 ++told.rays;
-                told.hits += hit ? 1 : 0;
             }
             expect_same(closest(shape, from), closest(as_view, View<D>(round_points<D>({from}, 0))));
         });
     });
     EXPECT_GT(told.hits, told.rays * 15 / 100);
     EXPECT_LT(told.hits, told.rays * 8 / 10);
+    EXPECT_LT(told.at_corners, told.hits / 50);
 }
 
 // Corner against corner, the balls around two boxes hardly reach farther than the boxes.

@@ -1,0 +1,188 @@
+// Rays at balls, and in the plane at polygons of few sides, answered from the shapes as they were given, without views
+// of them. What isn't plain, as where a ray grazes or begins on the surface, is left to the view.
+
+#include <abut/convex/ray_forms.hpp>
+#include <abut/math/lanes-inl.h>
+#include <abut/math/set_affine.hpp>
+#include <abut/query/raycast.hpp>
+#include <abut/shape/ball.hpp>
+#include <abut/shape/polygon.hpp>
+
+#include <bit>
+
+namespace abut {
+namespace {
+
+using lanes::Both;
+
+/// What a ball is begun outside of: its radius, and what may be rounding.
+constexpr double outside = 1 + 4 * ray_doubt;
+
+/// Kept out of what is hot, where it would take up room.
+template <int D>
+[[gnu::noinline]] DVec<D> placed(const DVec<D>& point, const Pose<D>& pose) {
+    Affine<D> place;
+    set_affine(place, pose);
+    return place.point(point);
+}
+
+// False where the answer isn't plain; `result` is as it was then. Comparisons are such that what is not a number, or
+// has no end, isn't plain. Distances over lengths without end are 0.
+
+bool meet_sphere(const Ray3& ray, const Given<3>& given, std::optional<Hit<3>>& result) {
+    const Sphere& sphere = given.as<Sphere>();
+    const DVec<3> from(ray.origin), way = unit(DVec<3>(ray.direction)), middle(sphere.center);
+    const DVec<3> center = (given.pose != nullptr ? placed(middle, *given.pose) : middle) - from;
+    const double radius = static_cast<double>(sphere.radius), length = static_cast<double>(ray.length);
+    const double nearest = dot(center, way), square = length_squared(center), reach = radius * outside;
+    if (!(radius > 0 && square > reach * reach && std::isfinite(square + nearest) && length >= 0)) return false;
+    // The square is taken of the distance at which it passes the middle, which keeps its digits however far the sphere
+    // is.
+    const DVec<3> passes = center - way * nearest;
+    const double half_chord = radius * radius - length_squared(passes);
+    if (!(nearest > 0 && half_chord >= 0)) return true;
+    const double half = std::sqrt(half_chord), along = nearest - half;
+    if (along > length) return true;
+    Hit<3>& hit = result.emplace();
+    hit.distance = static_cast<float>(along);
+    hit.fraction = static_cast<float>(along / length);
+    hit.point = to_float(from + way * along);
+    hit.normal = to_float((passes + way * half) * (-1 / radius));
+    hit.feature.kind = FeatureKind::vertex;
+    return true;
+}
+
+/// One over the length of two vectors of the plane, each of which is a unit vector but for its rounding to floats, as
+/// `unit` has it; false where one isn't.
+inline bool set_scales(Both a, Both b, Both& scales) {
+    const Both x = lanes::lower(a, b), y = lanes::upper(a, b), excess = (x * x + y * y) - Both{1, 1};
+    scales = Both{1, 1} - excess * (Both{0.5, 0.5} - Both{0.375, 0.375} * excess);
+    return lanes::bits(lanes::magnitude(excess) < Both{1e-5, 1e-5}) == 3;
+}
+
+/// The lowest bit that is set.
+inline std::uint32_t lowest(std::uint32_t bits) {
+    return static_cast<std::uint32_t>(std::countr_zero(bits));
+}
+
+/// Finds the side by which the ray comes in, by the side of its line on which the corners lie. No number of the ray or
+/// the pose is divided by its length before that: signs don't change by it.
+bool meet_polygon(const Ray<2>& ray, const Given<2>& given, std::optional<Hit<2>>& result) {
+    const Polygon& polygon = given.as<Polygon>();
+    if (polygon.sides() == nullptr) return false;
+    Sides sides;
+    sides.refer_to(polygon.sides(), polygon.side_count());
+    static constexpr Pose2 nowhere;
+    const Pose2& pose = given.pose != nullptr ? *given.pose : nowhere;
+    const Both turn = lanes::loaded(&pose.rotation.cos), direction = lanes::loaded(&ray.direction.x);
+    Both scales;
+    const double length = static_cast<double>(ray.length);
+    if (!set_scales(turn, direction, scales) || !(length >= 0)) return false;
+
+    // As the polygon sees them, but for the scales.
+    const Both cos = lanes::first(turn), sin = lanes::second(turn) * Both{1, -1};
+    const Both from = lanes::loaded(&ray.origin.x), offset = from - lanes::loaded(&pose.position.x);
+    const Both origin = cos * offset + sin * lanes::swapped(offset);
+    const Both way = cos * direction + sin * lanes::swapped(direction);
+    const Both way_x = lanes::first(way), way_y = lanes::second(way);
+    const Both crossed = way * lanes::swapped(origin);
+    const double passed = (crossed[0] - crossed[1]) * scales[0];
+    const Both line = lanes::both(passed, passed);
+    std::uint32_t left = 0;
+    for (std::size_t i = 0; i < sides.count; i += 2)
+        left |= lanes::signs((line + way_y * lanes::at(sides.x + i)) - way_x * lanes::at(sides.y + i)) << i;
+    const std::uint32_t all = (2u << (sides.count - 1)) - 1;
+    left &= all;
+    // What is not a number, or has no end, is never more than this.
+    const double doubt = ray_doubt * (std::abs(origin[0]) + std::abs(origin[1]) + sides.size);
+    if (left == 0 || left == all) {
+        double nearest = std::numeric_limits<double>::infinity();
+        for (std::uint32_t i = 0; i < sides.count; ++i)
+            nearest = std::min(nearest, std::abs(way[0] * sides.y[i] - way[1] * sides.x[i] - passed));
+        return nearest > 2 * doubt;
+    }
+    const std::uint32_t next = left >> 1 | left << (sides.count - 1), side = lowest(left & ~next);
+    const double x = sides.normal_x[side], y = sides.normal_y[side];
+    const double height = (x * origin[0] + y * origin[1]) * scales[0] - sides.offset[side];
+    if (!(height > doubt)) {
+        const std::uint32_t last = lowest(~left & next & all);
+        return dot(sides.normal(last), {origin[0], origin[1]}) * scales[0] - sides.offset[last] > doubt;
+    }
+    const double sinks = -(x * way[0] + y * way[1]) * (scales[0] * scales[1]);
+    if (!(sinks >= 1e-6)) return false;
+    const double along = height / sinks;
+    if (along > length) return true;
+    Hit<2>& hit = result.emplace();
+    hit.distance = static_cast<float>(along);
+    hit.fraction = static_cast<float>(along / length);
+    const double part = along * scales[1], turned_x = x * scales[0], turned_y = y * scales[0];
+    lanes::store(from + direction * lanes::both(part, part), &hit.point.x);
+    lanes::store(cos * lanes::both(turned_x, turned_y) - sin * lanes::both(turned_y, turned_x), &hit.normal.x);
+    hit.feature.kind = FeatureKind::edge;
+    hit.feature.index = edge_index(side, sides.after(side));
+    return true;
+}
+
+bool meet_circle(const Ray<2>& ray, const Given<2>& given, std::optional<Hit<2>>& result) {
+    const Circle& circle = given.as<Circle>();
+    const Both from = lanes::loaded(&ray.origin.x), direction = lanes::loaded(&ray.direction.x);
+    Both middle = lanes::loaded(&circle.center.x);
+    if (given.pose != nullptr) {
+        const DVec<2> point = placed(DVec<2>(circle.center), *given.pose);
+        middle = lanes::both(point.x, point.y);
+    }
+    const Both excess = lanes::dot(direction, direction) - Both{1, 1};
+    const Both scale = Both{1, 1} - excess * (Both{0.5, 0.5} - Both{0.375, 0.375} * excess);
+    // Along the ray, and across it.
+    const Both center = middle - from;
+    const Both parts =
+        (lanes::first(direction) * center * Both{1, -1} + lanes::second(direction) * lanes::swapped(center)) * scale;
+    const double radius = static_cast<double>(circle.radius), length = static_cast<double>(ray.length);
+    const double square = lanes::dot(parts, parts)[0], reach = radius * outside;
+    if (!(std::abs(excess[0]) < 1e-5 && radius > 0 && square > reach * reach &&
+          square < std::numeric_limits<double>::max() && length >= 0))
+        return false;
+    const double half_chord = radius * radius - parts[1] * parts[1];
+    if (!(parts[0] > 0 && half_chord >= 0)) return true;
+    const double half = std::sqrt(half_chord), along = parts[0] - half;
+    if (along > length) return true;
+    Hit<2>& hit = result.emplace();
+    hit.distance = static_cast<float>(along);
+    hit.fraction = static_cast<float>(along / length);
+    const Both way = direction * scale, across = parts / lanes::both(radius, radius);
+    lanes::store(from + way * lanes::both(along, along), &hit.point.x);
+    // In parts of the radius, whose squares add up to 1.
+    const double back = half / radius;
+    lanes::store(lanes::swapped(way) * Both{-1, 1} * lanes::second(across) - way * lanes::both(back, back),
+                 &hit.normal.x);
+    hit.feature.kind = FeatureKind::vertex;
+    return true;
+}
+
+bool direct_raycast(const Ray<2>& ray, const Given<2>& shape, std::optional<Hit<2>>& result) {
+    if (shape.kind == ShapeKind::polytope) return meet_polygon(ray, shape, result);
+    return shape.kind == ShapeKind::ball && meet_circle(ray, shape, result);
+}
+bool direct_raycast(const Ray<3>& ray, const Given<3>& shape, std::optional<Hit<3>>& result) {
+    return shape.kind == ShapeKind::ball && meet_sphere(ray, shape, result);
+}
+
+template <int D>
+[[gnu::noinline]] void by_view(const Ray<D>& ray, const Given<D>& shape, const QueryOptions<D>& options,
+                               std::optional<Hit<D>>& result) {
+    result = raycast(ray, convex_of(shape), options);
+}
+
+}  // namespace
+
+template <int D>
+std::optional<Hit<D>> raycast(const Ray<D>& ray, const Given<D>& shape, const QueryOptions<D>& options) {
+    std::optional<Hit<D>> result;
+    if (options.trace != nullptr || !direct_raycast(ray, shape, result)) by_view(ray, shape, options, result);
+    return result;
+}
+
+template std::optional<Hit<2>> raycast(const Ray<2>&, const Given<2>&, const QueryOptions<2>&);
+template std::optional<Hit<3>> raycast(const Ray<3>&, const Given<3>&, const QueryOptions<3>&);
+
+}  // namespace abut
