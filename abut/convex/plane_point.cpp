@@ -1,6 +1,7 @@
 #include <abut/convex/plane_point.hpp>
 
 namespace abut {
+
 /// Inside, it is beside the next side that it lies nearest to; outside, of sides that lie on one line, to rounding, not
 /// the right one may have been found.
 void look_past_side(const Sides& sides, const DVec<2>& point, bool before, PlaceOfPoint& place) {
@@ -22,8 +23,7 @@ void look_past_side(const Sides& sides, const DVec<2>& point, bool before, Place
     const double away = length(from);
     if (!to.leans && away > on_corner * (largest(point) + sides.size)) {
         place.gap = away;
-        place.normal = from * (1 / away);
-        place.on = sides.corner(corner);
+        place.normal = lanes::both(from.x / away, from.y / away);
     }
 }
 

@@ -5,13 +5,16 @@
 
 #include <abut/convex/sides.hpp>
 #include <abut/convex/signed_distance.hpp>
+#include <abut/math/lanes-inl.h>
+
+#include <limits>
 
 namespace abut {
 
 /// Where a point lies about a polygon: in front of a side, or of a corner, which is told twice.
 struct PlaceOfPoint {
     double gap;          ///< below zero inside
-    DVec<2> normal, on;  ///< `on` is the place on the polygon: of a corner the corner itself
+    lanes::Both normal;  ///< from the nearest place on the polygon, which lies `gap` against it from the point
     std::uint32_t first, second;
 };
 
@@ -22,41 +25,76 @@ inline constexpr double on_corner = 0x1p-30;
 /// in front of the corner there, nor in front of the side.
 void look_past_side(const Sides& sides, const DVec<2>& point, bool before, PlaceOfPoint& place);
 
-/// Seen from the polygon. False where it is farther off than `reach`.
-__attribute__((always_inline)) inline bool find_place(const Sides& sides, const DVec<2>& point, double reach,
-                                                      PlaceOfPoint& place) {
-    double widest = -std::numeric_limits<double>::infinity();
-    std::uint32_t side = 0;
-    for (std::uint32_t i = 0; i < sides.count; ++i) {
-        const double gap = (sides.normal_x[i] * point.x + sides.normal_y[i] * point.y) - sides.offset[i];
-        if (gap > reach) return false;
-        if (!(gap > widest)) continue;
-        widest = gap;
-        side = i;
+/// Numbers that are nearly the same are told apart by their last bits, which hold which of them it is.
+struct Numbered {
+    static constexpr long long room = 15;
+
+    /// Of two in a row, the first of which is number 2 `pair`.
+    static lanes::Both put(lanes::Both v, std::size_t pair) {
+        alignas(16) static constexpr long long numbers[most_sides] = {15, 14, 13, 12, 11, 10, 9, 8,
+                                                                      7,  6,  5,  4,  3,  2,  1, 0};
+        const lanes::Chosen number = *reinterpret_cast<const lanes::Chosen*>(numbers + 2 * pair);
+        return reinterpret_cast<lanes::Both>((reinterpret_cast<lanes::Chosen>(v) & ~room) | number);
     }
-    const std::uint32_t after = sides.after(side);
-    const DVec<2> start = sides.corner(side), along = sides.along(side);
-    const double part = dot(along, point - start);
-    place.gap = widest;
-    place.normal = sides.normal(side);
+    static std::uint32_t number(lanes::Both v) {
+        return static_cast<std::uint32_t>(room - (reinterpret_cast<lanes::Chosen>(v)[0] & room));
+    }
+    static double value(lanes::Both v) {
+        return reinterpret_cast<lanes::Both>(reinterpret_cast<lanes::Chosen>(v) & ~room)[0];
+    }
+};
+static_assert(most_sides == Numbered::room + 1);
+
+/// Where a point lies that the polygon sees at `point`, times `scale`. False where it is farther off than `reach`; then
+/// of `place` only the gap is known, which is no finite number where the point has none.
+///
+/// What is chosen here can't be guessed, and what waits for it is long: the root and the quotient of the distances from
+/// both ends of the side are begun before it is known whether one is asked for, and which.
+__attribute__((always_inline)) inline bool find_place(const Sides& sides, lanes::Both point, lanes::Both scale,
+                                                      double reach, PlaceOfPoint& place) {
+    using namespace lanes;
+    const Both x = first(point), y = second(point);
+    Both widest = both(-std::numeric_limits<double>::infinity());
+    for (std::size_t i = 0; 2 * i < sides.count; ++i) {
+        const Both height = (at(sides.normal_x + 2 * i) * x + at(sides.normal_y + 2 * i) * y) * scale;
+        widest = greater(Numbered::put(height - at(sides.offset + 2 * i), i), widest);
+    }
+    widest = greater(widest, swapped(widest));
+    place.gap = Numbered::value(widest);
+    if (!(place.gap <= reach)) return false;
+    const std::uint32_t side = Numbered::number(widest), after = sides.after(side);
+
+    const double normal_x = sides.normal_x[side], normal_y = sides.normal_y[side];
+    place.normal = both(normal_x, normal_y);
     place.first = side;
     place.second = after;
-    const bool before = part < 0;
-    place.on = point - place.normal * widest;
-    if (!before && part <= dot(along, sides.corner(after) - start)) return true;
+    // From the start of the side, and from its end.
+    const Both from_x = x * scale - both(sides.x[side], sides.x[after]),
+               from_y = y * scale - both(sides.y[side], sides.y[after]);
+    const Both squares = from_x * from_x + from_y * from_y;
+    const Both parts = (both(normal_x) * from_y - both(normal_y) * from_x) * Both{1, -1};
+    const std::uint32_t past = bits(parts < Both{0, 0});
+    if (past == 0) return true;
 
-    const std::uint32_t corner = before ? side : after, next = before ? sides.before(side) : after;
-    const DVec<2> from = point - sides.corner(corner);
-    const double leans = dot(sides.along(next), from), away = length(from);
-    if (widest > 0 && (before ? leans >= 0 : leans <= 0) && away > on_corner * (largest(point) + sides.size)) {
-        place.gap = away;
-        place.normal = from * (1 / away);
-        place.on = sides.corner(corner);
-        place.first = place.second = corner;
+    const Both away = roots(squares), per_away = away * (Both{1, 1} / squares);
+    const std::uint32_t before = past & 1, last = (side == 0 ? sides.count : side) - 1;
+    const std::uint32_t next = after ^ ((after ^ last) & (0u - before));
+    const Chosen start = first(parts) < Both{0, 0};
+    const Both from = chosen(start, lower(from_x, from_y), upper(from_x, from_y));
+    const double leans = sides.normal_x[next] * from[1] - sides.normal_y[next] * from[0];
+    static constexpr double outwards[2] = {-1, 1};
+    const double doubt = on_corner * (std::abs(from[0]) + std::abs(from[1]) + 2 * sides.size);
+    const double gap = chosen(start, away, swapped(away))[0];
+    if (place.gap > 0 && leans * outwards[before] >= 0 && gap > doubt) {
+        place.gap = gap;
+        place.normal = from * chosen(start, first(per_away), second(per_away));
+        place.first = place.second = after ^ ((after ^ side) & (0u - before));
     } else {
         // From a copy: what is handed on by reference is kept in memory from the start.
         const Sides copy = sides;
-        look_past_side(copy, point, before, place);
+        PlaceOfPoint found = place;
+        look_past_side(copy, {x[0] * scale[0], y[0] * scale[0]}, before != 0, found);
+        place = found;
     }
     return place.gap <= reach;
 }
@@ -68,12 +106,12 @@ inline bool distance_from_point(const Outline& polygon, const Outline& round, bo
     const DVec<2> center = round.place.offset(), point = polygon.place.unplaced(center);
     const double radii = polygon.radius + round.radius;
     PlaceOfPoint place;
-    if (!find_place(sides, point, reach + radii, place)) return false;
-    const DVec<2> out = polygon.place.vector(place.normal);
+    if (!find_place(sides, lanes::both(point.x, point.y), lanes::both(1), reach + radii, place)) return false;
+    const DVec<2> out = polygon.place.vector({place.normal[0], place.normal[1]});
     const std::uint32_t first = sides.corner_number(place.first), second = sides.corner_number(place.second);
     result.distance = place.gap - radii;
     result.normal = polygon_is_a ? out : -out;
-    result.on_a = polygon_is_a ? polygon.place.point(place.on) + out * polygon.radius : center - out * round.radius;
+    result.on_a = center - out * (polygon_is_a ? place.gap - polygon.radius : round.radius);
     auto &of_polygon = polygon_is_a ? result.corners.a : result.corners.b,
          &of_point = polygon_is_a ? result.corners.b : result.corners.a;
     of_polygon[0] = first;

@@ -3,6 +3,7 @@
 // Two doubles side by side, in the vectors that compilers have on every machine: for what is so little that choosing a
 // vector unit by a call would cost as much. The answers are those of doubles one by one. For .cpp files.
 
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -20,6 +21,9 @@ using Chosen = long long __attribute__((vector_size(16)));
 inline Both both(double a, double b) {
     return Both{a, b};
 }
+inline Both both(double v) {
+    return Both{v, v};
+}
 /// One bit a lane.
 inline std::uint32_t bits(Chosen mask) {
 #ifdef __SSE2__
@@ -27,6 +31,9 @@ inline std::uint32_t bits(Chosen mask) {
 #else
     return static_cast<std::uint32_t>((mask[0] & 1) | (mask[1] & 2));
 #endif
+}
+inline std::uint32_t lowest_bit(std::uint32_t bits) {
+    return static_cast<std::uint32_t>(std::countr_zero(bits));
 }
 /// Which of them have their sign set.
 inline std::uint32_t signs(Both v) {
@@ -78,6 +85,17 @@ inline Both lesser(Both a, Both b) {
     return a < b ? a : b;
 #endif
 }
+/// Where the mask is set `a`, elsewhere `b`.
+inline Both chosen(Chosen mask, Both a, Both b) {
+    return reinterpret_cast<Both>((reinterpret_cast<Chosen>(a) & mask) | (reinterpret_cast<Chosen>(b) & ~mask));
+}
+inline Both roots(Both v) {
+#ifdef __SSE2__
+    return _mm_sqrt_pd(v);
+#else
+    return {std::sqrt(v[0]), std::sqrt(v[1])};
+#endif
+}
 /// The nearest number from 0 to 1.
 inline Both part(Both v) {
     return lesser(greater(v, Both{0, 0}), Both{1, 1});
@@ -99,12 +117,11 @@ inline Both dot(Both a, Both b) {
 inline bool finite(Both v) {
     return bits(magnitude(v) <= Both{1.7976931348623157e308, 1.7976931348623157e308}) == 3;
 }
-/// As `unit` of a vector of two numbers that were floats.
-inline Both unit(Both v) {
-    const Both square = dot(v, v), excess = square - 1;
-    if (std::abs(excess[0]) < 1e-5) [[likely]]
-        return v * (1 - excess * (0.5 - 0.375 * excess));
-    return square[0] == 0 ? Both{1, 0} : v * (1 / std::sqrt(square[0]));
+/// One over the root of squares that differ from 1 by `excess`, which is below `near_one`, as `unit` of a vector takes
+/// it.
+inline constexpr double near_one = 1e-5;
+inline Both inverse_root(Both excess) {
+    return Both{1, 1} - excess * (Both{0.5, 0.5} - Both{0.375, 0.375} * excess);
 }
 /// As two floats.
 inline void store(Both v, float* numbers) {

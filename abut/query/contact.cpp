@@ -84,7 +84,6 @@ template Contact<2> contact(const View<2>&, const View<2>&, const QueryOptions<2
 template Contact<3> contact(const View<3>&, const View<3>&, const QueryOptions<3>&);
 template Contact<2> contact(const Convex<2>&, const Convex<2>&, const QueryOptions<2>&);
 template Contact<3> contact(const Convex<3>&, const Convex<3>&, const QueryOptions<3>&);
-template Contact<2> contact(const Given<2>&, const Given<2>&, const QueryOptions<2>&);
 template Contact<3> contact(const Given<3>&, const Given<3>&, const QueryOptions<3>&);
 
 }  // namespace abut

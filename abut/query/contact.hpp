@@ -34,7 +34,13 @@ public:
     bool empty() const { return count_ == 0; }
     const ContactPoint<D>& operator[](std::size_t i) const { return points_[i]; }
     void clear() { count_ = 0; }
-    void push_back(const ContactPoint<D>& point) { points_[count_++] = point; }
+    void push_back(const ContactPoint<D>& point) {
+        // Number by number: what was just written in parts can't be read as a whole at once.
+        ContactPoint<D>& added = points_[count_++];
+        for (int i = 0; i < D; ++i) added.position[i] = point.position[i];
+        added.depth = point.depth;
+        added.feature = point.feature;
+    }
 
 private:
     std::array<ContactPoint<D>, capacity> points_;
@@ -58,6 +64,8 @@ template <int D>
 Contact<D> contact(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options = {});
 template <int D>
 Contact<D> contact(const Given<D>& a, const Given<D>& b, const QueryOptions<D>& options = {});
+template <>
+Contact<2> contact(const Given<2>& a, const Given<2>& b, const QueryOptions<2>& options);
 
 /// The contact of two touching or overlapping shapes; of composite ones, of their deepest pair of parts.
 /// With a margin, of shapes up to so far apart as well.

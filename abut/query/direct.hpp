@@ -19,7 +19,6 @@ DirectAnswer direct_overlap(const Given<3>& a, const Given<3>& b, Cache* cache);
 bool direct_closest(const Given<2>& a, const Given<2>& b, Cache* cache, Closest<2>& result);
 bool direct_closest(const Given<3>& a, const Given<3>& b, Cache* cache, Closest<3>& result);
 
-bool direct_contact(const Given<2>& a, const Given<2>& b, double margin, Cache* cache, Contact<2>& result);
 bool direct_contact(const Given<3>& a, const Given<3>& b, double margin, Cache* cache, Contact<3>& result);
 
 }  // namespace abut

@@ -130,43 +130,42 @@ bool direct_closest(const Given<2>& a, const Given<2>& b, Cache* cache, Closest<
 namespace {
 
 /// A circle and a polygon, from first to last in one piece: `plane_contact` with nothing but what these two need.
-template <bool polygon_is_a>
-bool contact_with_circle(const Given<2>& of_polygon, const Given<2>& of_circle, double margin, Contact<2>& result) {
+inline bool contact_with_circle(const Given<2>& of_polygon, const Given<2>& of_circle, bool polygon_is_a, double margin,
+                                Contact<2>& result) {
+    using lanes::Both;
     const Polygon& polygon = of_polygon.as<Polygon>();
     const Circle& circle = of_circle.as<Circle>();
     if (polygon.sides() == nullptr || of_circle.pose != nullptr) return false;
+    static constexpr Pose2 nowhere;
+    const Pose2& pose = of_polygon.pose != nullptr ? *of_polygon.pose : nowhere;
+    const Both turn = lanes::loaded(&pose.rotation.cos), excess = lanes::dot(turn, turn) - Both{1, 1};
+    if (!(std::abs(excess[0]) < lanes::near_one)) return false;
+    const Both scale = lanes::inverse_root(excess), cos = lanes::first(turn), sin = lanes::second(turn) * Both{1, -1};
+    const Both center = lanes::loaded(&circle.center.x), offset = center - lanes::loaded(&pose.position.x);
     const double radius = static_cast<double>(circle.radius);
-    const DVec<2> center(circle.center);
-    const Rigid2 frame = place_of(of_polygon);
-    const DVec<2> seen = frame.unplaced(center);
-    if (!std::isfinite(seen.x + seen.y + radius)) return false;
 
     Sides sides;
     sides.refer_to(polygon.sides(), polygon.side_count());
     PlaceOfPoint place;
-    if (!find_place(sides, seen, margin + radius, place)) return true;
-    const DVec<2> out = frame.vector(place.normal);
-    const double distance = place.gap - radius;
-    const DVec<2> normal = polygon_is_a ? out : -out;
-    const DVec<2> on_a = polygon_is_a ? frame.point(place.on) : center - out * radius;
-    result.normal = to_float(normal);
-    result.depth = static_cast<float>(-distance);
+    const bool near = find_place(sides, cos * offset + sin * lanes::swapped(offset), scale, margin + radius, place);
+    if (!(std::abs(place.gap) + radius < std::numeric_limits<double>::infinity())) return false;
+    if (!near) return true;
+    const Both out = (cos * scale) * place.normal - (sin * scale) * lanes::swapped(place.normal);
+    static constexpr double towards_b[2] = {-1, 1};
+    lanes::store(out * lanes::both(towards_b[polygon_is_a ? 1 : 0]), &result.normal.x);
+    result.depth = static_cast<float>(radius - place.gap);
+    ContactPoint<2> point;
+    lanes::store(center - out * lanes::both(0.5 * (place.gap + radius)), &point.position.x);
+    point.depth = result.depth;
     const std::uint32_t corner = polygon_is_a ? place.first << 8 : place.first;
-    result.points.push_back({to_float(on_a + normal * (0.5 * distance)), result.depth,
-                             corner & (0u - (place.first == place.second ? 1u : 0u))});
+    point.feature = corner & (0u - (place.first == place.second ? 1u : 0u));
+    result.points.push_back(point);
     name_end_or_edge<2>({place.first, place.second, 0}, 0, polygon_is_a ? result.feature_a : result.feature_b);
     (polygon_is_a ? result.feature_b : result.feature_a).kind = FeatureKind::vertex;
     return true;
 }
 
-}  // namespace
-
-bool direct_contact(const Given<2>& a, const Given<2>& b, double margin, Cache* cache, Contact<2>& result) {
-    if (a.kind == ShapeKind::polytope && b.kind == ShapeKind::ball) {
-        if (contact_with_circle<true>(a, b, margin, result)) return true;
-    } else if (a.kind == ShapeKind::ball && b.kind == ShapeKind::polytope) {
-        if (contact_with_circle<false>(b, a, margin, result)) return true;
-    }
+bool contact_of_outlines(const Given<2>& a, const Given<2>& b, double margin, Cache* cache, Contact<2>& result) {
     const auto ask = [&](const Outline& first, const Outline& second) {
         SignedDistance<2> distance;
         Manifold<2> manifold;
@@ -177,6 +176,30 @@ bool direct_contact(const Given<2>& a, const Given<2>& b, double margin, Cache* 
         return true;
     };
     return ask_of_outlines(a, b, ask, false);
+}
+
+/// Kept out of what is hot, where they would take up room.
+[[gnu::noinline]] void contact_of_views(const Given<2>& a, const Given<2>& b, const QueryOptions<2>& options,
+                                        Contact<2>& result) {
+    result = contact(convex_of(a), convex_of(b), options);
+}
+
+bool direct_contact(const Given<2>& a, const Given<2>& b, double margin, Cache* cache, Contact<2>& result) {
+    const bool polygon_is_a = a.kind == ShapeKind::polytope && b.kind == ShapeKind::ball;
+    if (polygon_is_a || (a.kind == ShapeKind::ball && b.kind == ShapeKind::polytope))
+        if (contact_with_circle(polygon_is_a ? a : b, polygon_is_a ? b : a, polygon_is_a, margin, result)) return true;
+    return contact_of_outlines(a, b, margin, cache, result);
+}
+
+}  // namespace
+
+template <>
+Contact<2> contact(const Given<2>& a, const Given<2>& b, const QueryOptions<2>& options) {
+    Contact<2> result;
+    result.normal[0] = 1;
+    if (options.trace != nullptr || !direct_contact(a, b, static_cast<double>(options.margin), options.cache, result))
+        contact_of_views(a, b, options, result);
+    return result;
 }
 
 }  // namespace abut

@@ -8,8 +8,6 @@
 #include <abut/shape/ball.hpp>
 #include <abut/shape/polygon.hpp>
 
-#include <bit>
-
 namespace abut {
 namespace {
 
@@ -56,13 +54,8 @@ bool meet_sphere(const Ray3& ray, const Given<3>& given, std::optional<Hit<3>>& 
 /// `unit` has it; false where one isn't.
 inline bool set_scales(Both a, Both b, Both& scales) {
     const Both x = lanes::lower(a, b), y = lanes::upper(a, b), excess = (x * x + y * y) - Both{1, 1};
-    scales = Both{1, 1} - excess * (Both{0.5, 0.5} - Both{0.375, 0.375} * excess);
-    return lanes::bits(lanes::magnitude(excess) < Both{1e-5, 1e-5}) == 3;
-}
-
-/// The lowest bit that is set.
-inline std::uint32_t lowest(std::uint32_t bits) {
-    return static_cast<std::uint32_t>(std::countr_zero(bits));
+    scales = lanes::inverse_root(excess);
+    return lanes::bits(lanes::magnitude(excess) < lanes::both(lanes::near_one)) == 3;
 }
 
 /// Finds the side by which the ray comes in, by the side of its line on which the corners lie. No number of the ray or
@@ -87,7 +80,7 @@ bool meet_polygon(const Ray<2>& ray, const Given<2>& given, std::optional<Hit<2>
     const Both way_x = lanes::first(way), way_y = lanes::second(way);
     const Both crossed = way * lanes::swapped(origin);
     const double passed = (crossed[0] - crossed[1]) * scales[0];
-    const Both line = lanes::both(passed, passed);
+    const Both line = lanes::both(passed);
     std::uint32_t left = 0;
     for (std::size_t i = 0; i < sides.count; i += 2)
         left |= lanes::signs((line + way_y * lanes::at(sides.x + i)) - way_x * lanes::at(sides.y + i)) << i;
@@ -101,11 +94,11 @@ bool meet_polygon(const Ray<2>& ray, const Given<2>& given, std::optional<Hit<2>
             nearest = std::min(nearest, std::abs(way[0] * sides.y[i] - way[1] * sides.x[i] - passed));
         return nearest > 2 * doubt;
     }
-    const std::uint32_t next = left >> 1 | left << (sides.count - 1), side = lowest(left & ~next);
+    const std::uint32_t next = left >> 1 | left << (sides.count - 1), side = lanes::lowest_bit(left & ~next);
     const double x = sides.normal_x[side], y = sides.normal_y[side];
     const double height = (x * origin[0] + y * origin[1]) * scales[0] - sides.offset[side];
     if (!(height > doubt)) {
-        const std::uint32_t last = lowest(~left & next & all);
+        const std::uint32_t last = lanes::lowest_bit(~left & next & all);
         return dot(sides.normal(last), {origin[0], origin[1]}) * scales[0] - sides.offset[last] > doubt;
     }
     const double sinks = -(x * way[0] + y * way[1]) * (scales[0] * scales[1]);
@@ -116,7 +109,7 @@ bool meet_polygon(const Ray<2>& ray, const Given<2>& given, std::optional<Hit<2>
     hit.distance = static_cast<float>(along);
     hit.fraction = static_cast<float>(along / length);
     const double part = along * scales[1], turned_x = x * scales[0], turned_y = y * scales[0];
-    lanes::store(from + direction * lanes::both(part, part), &hit.point.x);
+    lanes::store(from + direction * lanes::both(part), &hit.point.x);
     lanes::store(cos * lanes::both(turned_x, turned_y) - sin * lanes::both(turned_y, turned_x), &hit.normal.x);
     hit.feature.kind = FeatureKind::edge;
     hit.feature.index = edge_index(side, sides.after(side));
@@ -132,14 +125,14 @@ bool meet_circle(const Ray<2>& ray, const Given<2>& given, std::optional<Hit<2>>
         middle = lanes::both(point.x, point.y);
     }
     const Both excess = lanes::dot(direction, direction) - Both{1, 1};
-    const Both scale = Both{1, 1} - excess * (Both{0.5, 0.5} - Both{0.375, 0.375} * excess);
+    const Both scale = lanes::inverse_root(excess);
     // Along the ray, and across it.
     const Both center = middle - from;
     const Both parts =
         (lanes::first(direction) * center * Both{1, -1} + lanes::second(direction) * lanes::swapped(center)) * scale;
     const double radius = static_cast<double>(circle.radius), length = static_cast<double>(ray.length);
     const double square = lanes::dot(parts, parts)[0], reach = radius * outside;
-    if (!(std::abs(excess[0]) < 1e-5 && radius > 0 && square > reach * reach &&
+    if (!(std::abs(excess[0]) < lanes::near_one && radius > 0 && square > reach * reach &&
           square < std::numeric_limits<double>::max() && length >= 0))
         return false;
     const double half_chord = radius * radius - parts[1] * parts[1];
@@ -149,12 +142,11 @@ bool meet_circle(const Ray<2>& ray, const Given<2>& given, std::optional<Hit<2>>
     Hit<2>& hit = result.emplace();
     hit.distance = static_cast<float>(along);
     hit.fraction = static_cast<float>(along / length);
-    const Both way = direction * scale, across = parts / lanes::both(radius, radius);
-    lanes::store(from + way * lanes::both(along, along), &hit.point.x);
+    const Both way = direction * scale, across = parts / lanes::both(radius);
+    lanes::store(from + way * lanes::both(along), &hit.point.x);
     // In parts of the radius, whose squares add up to 1.
     const double back = half / radius;
-    lanes::store(lanes::swapped(way) * Both{-1, 1} * lanes::second(across) - way * lanes::both(back, back),
-                 &hit.normal.x);
+    lanes::store(lanes::swapped(way) * Both{-1, 1} * lanes::second(across) - way * lanes::both(back), &hit.normal.x);
     hit.feature.kind = FeatureKind::vertex;
     return true;
 }
