@@ -123,6 +123,12 @@ inline constexpr double near_one = 1e-5;
 inline Both inverse_root(Both excess) {
     return Both{1, 1} - excess * (Both{0.5, 0.5} - Both{0.375, 0.375} * excess);
 }
+/// One over the length of two vectors, of each in its lane; false where one isn't a unit vector but for rounding.
+inline bool inverse_lengths(Both a, Both b, Both& inverses) {
+    const Both x = lower(a, b), y = upper(a, b), excess = (x * x + y * y) - Both{1, 1};
+    inverses = inverse_root(excess);
+    return bits(magnitude(excess) < both(near_one)) == 3;
+}
 /// As two floats.
 inline void store(Both v, float* numbers) {
 #ifdef __SSE2__

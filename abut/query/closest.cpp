@@ -131,7 +131,6 @@ template Closest<2> closest(const View<2>&, const View<2>&, const QueryOptions<2
 template Closest<3> closest(const View<3>&, const View<3>&, const QueryOptions<3>&);
 template Closest<2> closest(const Convex<2>&, const Convex<2>&, const QueryOptions<2>&);
 template Closest<3> closest(const Convex<3>&, const Convex<3>&, const QueryOptions<3>&);
-template Closest<2> closest(const Given<2>&, const Given<2>&, const QueryOptions<2>&);
 template Closest<3> closest(const Given<3>&, const Given<3>&, const QueryOptions<3>&);
 
 }  // namespace abut

@@ -37,6 +37,8 @@ template <int D>
 Closest<D> closest(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options = {});
 template <int D>
 Closest<D> closest(const Given<D>& a, const Given<D>& b, const QueryOptions<D>& options = {});
+template <>
+Closest<2> closest(const Given<2>& a, const Given<2>& b, const QueryOptions<2>& options);
 
 /// The signed distance of two shapes with the points and direction it is measured at.
 /// Right to within 1e-5 x the size of the smaller; the depth of cylinders, cones and shapes known by a support function

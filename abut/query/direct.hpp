@@ -16,7 +16,6 @@ DirectAnswer direct_overlap(const Given<3>& a, const Given<3>& b, Cache* cache);
 
 // False where they have no answer: `result` is as it was then.
 
-bool direct_closest(const Given<2>& a, const Given<2>& b, Cache* cache, Closest<2>& result);
 bool direct_closest(const Given<3>& a, const Given<3>& b, Cache* cache, Closest<3>& result);
 
 bool direct_contact(const Given<3>& a, const Given<3>& b, double margin, Cache* cache, Contact<3>& result);

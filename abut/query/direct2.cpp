@@ -2,6 +2,7 @@
 #include <abut/convex/plane_point.hpp>
 #include <abut/math/set_affine.hpp>
 #include <abut/query/direct.hpp>
+#include <abut/query/nearest_again.hpp>
 #include <abut/query/part_pairs.hpp>
 #include <abut/query/write_answer.hpp>
 #include <abut/shape/ball.hpp>
@@ -116,17 +117,6 @@ DirectAnswer direct_overlap(const Given<2>& a, const Given<2>& b, Cache* cache) 
     return ask_of_outlines(a, b, ask, DirectAnswer::unknown);
 }
 
-bool direct_closest(const Given<2>& a, const Given<2>& b, Cache* cache, Closest<2>& result) {
-    const auto ask = [&](const Outline& first, const Outline& second) {
-        SignedDistance<2> distance;
-        if (plane_distance(first, second, cache, distance) == PlaneAnswer::unknown) return false;
-        write(distance, result);
-        name_features(distance, result);
-        return true;
-    };
-    return ask_of_outlines(a, b, ask, false);
-}
-
 namespace {
 
 /// A circle and a polygon, from first to last in one piece: `plane_contact` with nothing but what these two need.
@@ -178,7 +168,23 @@ bool contact_of_outlines(const Given<2>& a, const Given<2>& b, double margin, Ca
     return ask_of_outlines(a, b, ask, false);
 }
 
-/// Kept out of what is hot, where they would take up room.
+bool closest_of_outlines(const Given<2>& a, const Given<2>& b, Cache* cache, Closest<2>& result) {
+    const auto ask = [&](const Outline& first, const Outline& second) {
+        SignedDistance<2> distance;
+        if (plane_distance(first, second, cache, distance) == PlaneAnswer::unknown) return false;
+        write(distance, result);
+        name_features(distance, result);
+        return true;
+    };
+    return ask_of_outlines(a, b, ask, false);
+}
+
+// Kept out of what is hot, where they would take up room.
+
+[[gnu::noinline]] void closest_of_views(const Given<2>& a, const Given<2>& b, const QueryOptions<2>& options,
+                                        Closest<2>& result) {
+    result = closest(convex_of(a), convex_of(b), options);
+}
 [[gnu::noinline]] void contact_of_views(const Given<2>& a, const Given<2>& b, const QueryOptions<2>& options,
                                         Contact<2>& result) {
     result = contact(convex_of(a), convex_of(b), options);
@@ -192,6 +198,16 @@ bool direct_contact(const Given<2>& a, const Given<2>& b, double margin, Cache* 
 }
 
 }  // namespace
+
+template <>
+Closest<2> closest(const Given<2>& a, const Given<2>& b, const QueryOptions<2>& options) {
+    Closest<2> result;
+    if (options.trace != nullptr)
+        closest_of_views(a, b, options, result);
+    else if (options.cache == nullptr || !nearest_again(a, b, *options.cache, result))
+        if (!closest_of_outlines(a, b, options.cache, result)) closest_of_views(a, b, options, result);
+    return result;
+}
 
 template <>
 Contact<2> contact(const Given<2>& a, const Given<2>& b, const QueryOptions<2>& options) {

@@ -50,14 +50,6 @@ bool meet_sphere(const Ray3& ray, const Given<3>& given, std::optional<Hit<3>>& 
     return true;
 }
 
-/// One over the length of two vectors of the plane, each of which is a unit vector but for its rounding to floats, as
-/// `unit` has it; false where one isn't.
-inline bool set_scales(Both a, Both b, Both& scales) {
-    const Both x = lanes::lower(a, b), y = lanes::upper(a, b), excess = (x * x + y * y) - Both{1, 1};
-    scales = lanes::inverse_root(excess);
-    return lanes::bits(lanes::magnitude(excess) < lanes::both(lanes::near_one)) == 3;
-}
-
 /// Finds the side by which the ray comes in, by the side of its line on which the corners lie. No number of the ray or
 /// the pose is divided by its length before that: signs don't change by it.
 bool meet_polygon(const Ray<2>& ray, const Given<2>& given, std::optional<Hit<2>>& result) {
@@ -70,7 +62,7 @@ bool meet_polygon(const Ray<2>& ray, const Given<2>& given, std::optional<Hit<2>
     const Both turn = lanes::loaded(&pose.rotation.cos), direction = lanes::loaded(&ray.direction.x);
     Both scales;
     const double length = static_cast<double>(ray.length);
-    if (!set_scales(turn, direction, scales) || !(length >= 0)) return false;
+    if (!lanes::inverse_lengths(turn, direction, scales) || !(length >= 0)) return false;
 
     // As the polygon sees them, but for the scales.
     const Both cos = lanes::first(turn), sin = lanes::second(turn) * Both{1, -1};
