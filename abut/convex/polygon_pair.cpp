@@ -9,6 +9,23 @@ constexpr int most_steps = 3 * static_cast<int>(most_sides);
 /// A walk from what was remembered takes no more than this, lest it costs more than to begin anew.
 constexpr int most_steps_from_cache = 6;
 
+/// Number by number: what is written in parts and then copied as a whole has to be waited for.
+inline void set_meeting(Meeting& meeting, std::uint32_t of, const DVec<2>& normal, double gap,
+                        const DVec<2>& on_reference, const DVec<2>& on_other, std::uint32_t reference_first,
+                        std::uint32_t reference_second, std::uint32_t other_corner) {
+    meeting.of = of;
+    meeting.normal.x = normal.x;
+    meeting.normal.y = normal.y;
+    meeting.gap = gap;
+    meeting.on_reference.x = on_reference.x;
+    meeting.on_reference.y = on_reference.y;
+    meeting.on_other.x = on_other.x;
+    meeting.on_other.y = on_other.y;
+    meeting.reference_corners[0] = reference_first;
+    meeting.reference_corners[1] = reference_second;
+    meeting.other_corners[0] = meeting.other_corners[1] = other_corner;
+}
+
 /// Two segments with a smaller sine than this between them may overlap for their normals and yet be apart.
 constexpr double parallel = 1e-3;
 
@@ -48,7 +65,7 @@ PolygonPair::Step PolygonPair::before_side(std::uint32_t of, std::uint32_t side,
             const DVec<2> corner = seen.point(other.corner(k));
             gap = dot(normal, corner) - reference.offset[side];
             if (!(gap > 0)) return Step::lost;
-            meeting = {of, normal, gap, corner - normal * gap, corner, {side, reference.after(side)}, {k, k}};
+            set_meeting(meeting, of, normal, gap, corner - normal * gap, corner, side, reference.after(side), k);
             return Step::apart;
         }
         const std::uint32_t edge = forward ? k : other.before(k), next = forward ? other.after(k) : edge;
@@ -92,13 +109,8 @@ bool PolygonPair::walk(std::array<std::uint32_t, 2> corners, int steps, Meeting&
         if (leans) continue;
         const double gap = length(between);
         if (!(gap > 0)) return false;
-        meeting = {0,
-                   between / gap,
-                   gap,
-                   sides(0).corner(corners[0]),
-                   other_corner(0, corners[1]),
-                   {corners[0], corners[0]},
-                   {corners[1], corners[1]}};
+        set_meeting(meeting, 0, between / gap, gap, sides(0).corner(corners[0]), other_corner(0, corners[1]),
+                    corners[0], corners[0], corners[1]);
         return true;
     }
     return false;
@@ -111,13 +123,8 @@ bool PolygonPair::apart(const SideGap& found, Meeting& meeting) const {
     const double along = dot(reference.along(found.side), corner - reference.corner(found.side));
     const double length = reference.length(found.side);
     if (along >= 0 && along <= length) {
-        meeting = {found.of,
-                   normal,
-                   found.gap,
-                   corner - normal * found.gap,
-                   corner,
-                   {found.side, reference.after(found.side)},
-                   {found.corner, found.corner}};
+        set_meeting(meeting, found.of, normal, found.gap, corner - normal * found.gap, corner, found.side,
+                    reference.after(found.side), found.corner);
         return true;
     }
     std::array<std::uint32_t, 2> corners{};
@@ -232,7 +239,8 @@ PolygonPair::Answer PolygonPair::meet(double enough, Cache* cache, Meeting& meet
     const bool all = !(enough < std::numeric_limits<double>::infinity());
     if (cache != nullptr && !all && parted_by_cache(*cache, enough)) return Answer::beyond;
     if (cache == nullptr || !all || !apart_by_cache(*cache, meeting)) {
-        const SideGap found = widest_gap(sides(0), sides(1), seen_, enough, 1e-14 * scale());
+        SideGap found;
+        widest_gap(sides(0), sides(1), seen_, enough, 1e-14 * scale(), found);
         if (!sides_are_all(found)) return Answer::unknown;
         if (found.gap > enough) {
             remember_side(found, cache);
@@ -247,7 +255,8 @@ PolygonPair::Answer PolygonPair::meet(double enough, Cache* cache, Meeting& meet
 
 PolygonPair::Answer PolygonPair::near(double enough, Cache* cache) const {
     if (cache != nullptr && parted_by_cache(*cache, enough)) return Answer::beyond;
-    const SideGap found = widest_gap(sides(0), sides(1), seen_, enough, 1e-14 * scale());
+    SideGap found;
+    widest_gap(sides(0), sides(1), seen_, enough, 1e-14 * scale(), found);
     if (!sides_are_all(found)) return Answer::unknown;
     if (found.gap <= 0) return Answer::within;
     if (found.gap > enough) {

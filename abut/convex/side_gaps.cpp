@@ -70,18 +70,17 @@ std::uint32_t first_of(const double* numbers, std::size_t room, Vector value) {
     return 0;
 }
 
-/// The widest gap, and the first side that has it.
-SideGap widest_of(const Sides& sides, const double* x, const double* y, std::uint32_t count) {
+/// The widest gap, and the first side that has it. A structure would be read as a whole after it was written in parts,
+/// for which machines have to wait.
+double widest_of(const Sides& sides, const double* x, const double* y, std::uint32_t count, std::uint32_t& side) {
     HWY_ALIGN double gaps[most_sides];
     const bool many = sides.room >= 8;
     Vector widest =
         many ? gaps_of<8 / lanes>(sides, 0, x, y, count, gaps) : gaps_of<4 / lanes>(sides, 0, x, y, count, gaps);
     for (std::size_t first = 8; first < sides.room; first += 4)
         widest = hn::Max(widest, gaps_of<4 / lanes>(sides, first, x, y, count, gaps));
-    SideGap result;
-    result.side = first_of(gaps, sides.room, hn::MaxOfLanes(d, widest));
-    result.gap = gaps[result.side];
-    return result;
+    side = first_of(gaps, sides.room, hn::MaxOfLanes(d, widest));
+    return gaps[side];
 }
 
 std::uint32_t lowest(const Points& points, std::size_t room, double normal_x, double normal_y) {
@@ -96,23 +95,25 @@ std::uint32_t lowest(const Points& points, std::size_t room, double normal_x, do
     return first_of(heights, room, hn::MinOfLanes(d, least));
 }
 
-SideGap widest_gap_of_two(const Sides& a, const Sides& b, const Rigid2 (&seen)[2], double enough, double doubt) {
+void widest_gap_of_two(const Sides& a, const Sides& b, const Rigid2 (&seen)[2], double enough, double doubt,
+                       SideGap& result) {
     Points points[2];  // of B as seen from A, of A as seen from B
     place(b, seen[0], points[0]);
-    SideGap result = widest_of(a, points[0].x, points[0].y, b.count);
-    result.of = 0;
-    if (!(result.gap > enough)) {
+    std::uint32_t of = 0, side = 0;
+    double gap = widest_of(a, points[0].x, points[0].y, b.count, side);
+    if (!(gap > enough)) {
         place(a, seen[1], points[1]);
-        const SideGap other = widest_of(b, points[1].x, points[1].y, a.count);
-        if (other.gap > result.gap + doubt) {
-            result = other;
-            result.of = 1;
-        }
+        std::uint32_t other_side = 0;
+        const double other = widest_of(b, points[1].x, points[1].y, a.count, other_side);
+        of = other > gap + doubt ? 1 : 0;
+        gap = of == 1 ? other : gap;
+        side = of == 1 ? other_side : side;
     }
-    const Sides& reference = result.of == 0 ? a : b;
-    result.corner = lowest(points[result.of], (result.of == 0 ? b : a).room, reference.normal_x[result.side],
-                           reference.normal_y[result.side]);
-    return result;
+    const Sides& reference = of == 0 ? a : b;
+    result.gap = gap;
+    result.of = of;
+    result.side = side;
+    result.corner = lowest(points[of], (of == 0 ? b : a).room, reference.normal_x[side], reference.normal_y[side]);
 }
 
 }  // namespace abut::HWY_NAMESPACE
@@ -125,39 +126,41 @@ HWY_EXPORT(widest_gap_of_two);
 
 namespace {
 
-/// Of a box, the side towards a place, and the gap before it, of something that reaches so far along the axes.
-SideGap gap_before_box(const Sides& box, const DVec<2>& place, double reach_x, double reach_y) {
+/// Of a box, the side towards a place, and the gap before it, of something that reaches so far along the axes. By
+/// arithmetic: which side it is can't be guessed.
+double gap_before_box(const Sides& box, const DVec<2>& place, double reach_x, double reach_y, std::uint32_t& side) {
     const double gap_x = std::abs(place.x) - box.offset[1] - reach_x;
     const double gap_y = std::abs(place.y) - box.offset[0] - reach_y;
-    const bool along_x = gap_x > gap_y;
-    SideGap result;
-    result.gap = along_x ? gap_x : gap_y;
-    result.of = 0;
-    result.side = (along_x ? place.x < 0 ? 1u : 3u : place.y < 0 ? 2u : 0u);
-    result.corner = 0;
-    return result;
+    const std::uint32_t along_x = gap_x > gap_y ? 1 : 0;
+    const std::uint32_t back_x = place.x < 0 ? 1 : 0, back_y = place.y < 0 ? 1 : 0;
+    static constexpr std::uint32_t sides[8] = {0, 2, 0, 2, 3, 3, 1, 1};
+    side = sides[along_x << 2 | back_x << 1 | back_y];
+    return std::max(gap_x, gap_y);
 }
 
-SideGap gap_of_boxes(const Sides& a, const Sides& b, const Rigid2 (&seen)[2], double doubt) {
+void gap_of_boxes(const Sides& a, const Sides& b, const Rigid2 (&seen)[2], double doubt, SideGap& result) {
     const double cos = std::abs(seen[0].cos), sin = std::abs(seen[0].sin);
     const double b_x = b.offset[1], b_y = b.offset[0], a_x = a.offset[1], a_y = a.offset[0];
-    SideGap result = gap_before_box(a, {seen[0].x, seen[0].y}, cos * b_x + sin * b_y, sin * b_x + cos * b_y);
-    const SideGap other = gap_before_box(b, {seen[1].x, seen[1].y}, cos * a_x + sin * a_y, sin * a_x + cos * a_y);
-    if (other.gap > result.gap + doubt) {
-        result = other;
-        result.of = 1;
-    }
+    std::uint32_t sides[2];
+    const double gap =
+        gap_before_box(a, {seen[0].x, seen[0].y}, cos * b_x + sin * b_y, sin * b_x + cos * b_y, sides[0]);
+    const double other =
+        gap_before_box(b, {seen[1].x, seen[1].y}, cos * a_x + sin * a_y, sin * a_x + cos * a_y, sides[1]);
+    const std::uint32_t of = other > gap + doubt ? 1 : 0;
+    result.gap = of == 1 ? other : gap;
+    result.of = of;
+    result.side = sides[of];
     // The other's lowest corner is that of the quadrant that the normal comes from.
-    const DVec<2> down = seen[1 - result.of].vector(-(result.of == 0 ? a : b).normal(result.side));
-    result.corner = down.y < 0 ? (down.x < 0 ? 2 : 3) : (down.x < 0 ? 1 : 0);
-    return result;
+    const DVec<2> up = seen[1 - of].vector((of == 0 ? a : b).normal(result.side));
+    static constexpr std::uint32_t corners[4] = {0, 3, 1, 2};
+    result.corner = corners[(up.x > 0 ? 2u : 0u) | (up.y > 0 ? 1u : 0u)];
 }
 
 }  // namespace
 
-SideGap widest_gap(const Sides& a, const Sides& b, const Rigid2 (&seen)[2], double enough, double doubt) {
-    if (a.numbering == Numbering::box && b.numbering == Numbering::box) return gap_of_boxes(a, b, seen, doubt);
-    return HWY_DYNAMIC_DISPATCH(widest_gap_of_two)(a, b, seen, enough, doubt);
+void widest_gap(const Sides& a, const Sides& b, const Rigid2 (&seen)[2], double enough, double doubt, SideGap& result) {
+    if (a.numbering == Numbering::box && b.numbering == Numbering::box) return gap_of_boxes(a, b, seen, doubt, result);
+    HWY_DYNAMIC_DISPATCH(widest_gap_of_two)(a, b, seen, enough, doubt, result);
 }
 
 }  // namespace abut

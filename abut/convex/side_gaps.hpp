@@ -16,6 +16,6 @@ struct SideGap {
 
 /// Of the sides of A and B, those of A first among those that part them equally, to within `doubt`. `seen[0]` is B as
 /// seen from A, `seen[1]` A as seen from B. Where A's sides leave a gap wider than `enough`, B's aren't looked at.
-SideGap widest_gap(const Sides& a, const Sides& b, const Rigid2 (&seen)[2], double enough, double doubt);
+void widest_gap(const Sides& a, const Sides& b, const Rigid2 (&seen)[2], double enough, double doubt, SideGap& result);
 
 }  // namespace abut
