@@ -128,9 +128,9 @@ namespace {
 
 /// Of a box, the side towards a place, and the gap before it, of something that reaches so far along the axes. By
 /// arithmetic: which side it is can't be guessed.
-double gap_before_box(const Sides& box, const DVec<2>& place, double reach_x, double reach_y, std::uint32_t& side) {
-    const double gap_x = std::abs(place.x) - box.offset[1] - reach_x;
-    const double gap_y = std::abs(place.y) - box.offset[0] - reach_y;
+double gap_before_box(const DVec<2>& half, const DVec<2>& place, double reach_x, double reach_y, std::uint32_t& side) {
+    const double gap_x = std::abs(place.x) - half.x - reach_x;
+    const double gap_y = std::abs(place.y) - half.y - reach_y;
     const std::uint32_t along_x = gap_x > gap_y ? 1 : 0;
     const std::uint32_t back_x = place.x < 0 ? 1 : 0, back_y = place.y < 0 ? 1 : 0;
     static constexpr std::uint32_t sides[8] = {0, 2, 0, 2, 3, 3, 1, 1};
@@ -138,28 +138,29 @@ double gap_before_box(const Sides& box, const DVec<2>& place, double reach_x, do
     return std::max(gap_x, gap_y);
 }
 
-void gap_of_boxes(const Sides& a, const Sides& b, const Rigid2 (&seen)[2], double doubt, SideGap& result) {
+}  // namespace
+
+void gap_of_boxes(const DVec<2>& a, const DVec<2>& b, const Rigid2 (&seen)[2], double doubt, SideGap& result) {
     const double cos = std::abs(seen[0].cos), sin = std::abs(seen[0].sin);
-    const double b_x = b.offset[1], b_y = b.offset[0], a_x = a.offset[1], a_y = a.offset[0];
     std::uint32_t sides[2];
     const double gap =
-        gap_before_box(a, {seen[0].x, seen[0].y}, cos * b_x + sin * b_y, sin * b_x + cos * b_y, sides[0]);
+        gap_before_box(a, {seen[0].x, seen[0].y}, cos * b.x + sin * b.y, sin * b.x + cos * b.y, sides[0]);
     const double other =
-        gap_before_box(b, {seen[1].x, seen[1].y}, cos * a_x + sin * a_y, sin * a_x + cos * a_y, sides[1]);
+        gap_before_box(b, {seen[1].x, seen[1].y}, cos * a.x + sin * a.y, sin * a.x + cos * a.y, sides[1]);
     const std::uint32_t of = other > gap + doubt ? 1 : 0;
     result.gap = of == 1 ? other : gap;
     result.of = of;
     result.side = sides[of];
     // The other's lowest corner is that of the quadrant that the normal comes from.
-    const DVec<2> up = seen[1 - of].vector((of == 0 ? a : b).normal(result.side));
+    static constexpr double normals[4][2] = {{0, 1}, {-1, 0}, {0, -1}, {1, 0}};
+    const DVec<2> up = seen[1 - of].vector({normals[sides[of]][0], normals[sides[of]][1]});
     static constexpr std::uint32_t corners[4] = {0, 3, 1, 2};
     result.corner = corners[(up.x > 0 ? 2u : 0u) | (up.y > 0 ? 1u : 0u)];
 }
 
-}  // namespace
-
 void widest_gap(const Sides& a, const Sides& b, const Rigid2 (&seen)[2], double enough, double doubt, SideGap& result) {
-    if (a.numbering == Numbering::box && b.numbering == Numbering::box) return gap_of_boxes(a, b, seen, doubt, result);
+    if (a.numbering == Numbering::box && b.numbering == Numbering::box)
+        return gap_of_boxes({a.offset[1], a.offset[0]}, {b.offset[1], b.offset[0]}, seen, doubt, result);
     HWY_DYNAMIC_DISPATCH(widest_gap_of_two)(a, b, seen, enough, doubt, result);
 }
 

