@@ -194,7 +194,7 @@ bool direct_contact(const Given<2>& a, const Given<2>& b, double margin, Cache* 
     const bool polygon_is_a = a.kind == ShapeKind::polytope && b.kind == ShapeKind::ball;
     if (polygon_is_a || (a.kind == ShapeKind::ball && b.kind == ShapeKind::polytope))
         if (contact_with_circle(polygon_is_a ? a : b, polygon_is_a ? b : a, polygon_is_a, margin, result)) return true;
-    return contact_of_outlines(a, b, margin, cache, result);
+    return contact_polygons(a, b, margin, cache, result) || contact_of_outlines(a, b, margin, cache, result);
 }
 
 }  // namespace

@@ -5,12 +5,16 @@
 // are made where this is not enough.
 
 #include <abut/query/closest.hpp>
+#include <abut/query/contact.hpp>
 
 namespace abut {
 
 /// Looks first at what was nearest last time. False where the answer isn't found at once, or they are other shapes:
 /// `result` is as it was then.
 bool closest_polygons(const Given<2>& a, const Given<2>& b, Cache* cache, Closest<2>& result);
+
+/// The same of contacts. Not where the edge that is cut off is one of the reference's own, or has but a point left.
+bool contact_polygons(const Given<2>& a, const Given<2>& b, double margin, Cache* cache, Contact<2>& result);
 
 /// Whether they are farther apart than `reach`, as the side that parted them last proves. False: not known.
 bool parted_again(const Given<2>& a, const Given<2>& b, const Cache& cache, double reach);

@@ -1,12 +1,18 @@
-#include <abut/convex/feature.hpp>
+#pragma once
+
+// Polygons of few sides and boxes of the plane, placed, as lanes of their own numbers: what is asked of two of one kind
+// stays in registers. For .cpp files.
+
+#include <abut/convex/cache.hpp>
 #include <abut/convex/side_gaps.hpp>
 #include <abut/math/lanes-inl.h>
-#include <abut/query/polygons2.hpp>
+#include <abut/query/feature.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/polygon.hpp>
 
-namespace abut {
-namespace {
+#include <limits>
+
+namespace abut::placed_sides {
 
 using lanes::Both;
 
@@ -52,6 +58,22 @@ public:
                                     lanes::second(point) - lanes::both(sides_.y[end], sides_.y[side]));
         return static_cast<Beside>(lanes::bits(crosses <= Both{0, 0}) ^ 3);
     }
+    /// Of the two sides at a corner the one that looks most along a direction, the one after it of equals.
+    std::uint32_t facing(std::uint32_t corner, Both direction) const {
+        const std::uint32_t last = (corner == 0 ? sides_.count : corner) - 1;
+        const Both looks = lanes::both(sides_.normal_x[corner], sides_.normal_x[last]) * lanes::first(direction) +
+                           lanes::both(sides_.normal_y[corner], sides_.normal_y[last]) * lanes::second(direction);
+        const std::uint32_t before = lanes::bits(looks < lanes::swapped(looks)) & 1;
+        return corner ^ ((corner ^ last) & (0u - before));
+    }
+    /// The ends of a side, one in each lane.
+    Both ends_x(std::uint32_t side) const { return lanes::both(sides_.x[side], sides_.x[after(side)]); }
+    Both ends_y(std::uint32_t side) const { return lanes::both(sides_.y[side], sides_.y[after(side)]); }
+    /// What contacts call a corner.
+    std::uint32_t contact_number(std::uint32_t i) const { return i; }
+    bool has_area() const { return true; }
+    /// About half the diagonal of the box around it.
+    double extent() const { return sides_.size; }
     const Sides& sides() const { return sides_; }
 
 private:
@@ -90,6 +112,23 @@ public:
         const double place = lanes::dot(along, point)[0], end = half_[side & 1];
         return static_cast<Beside>((place > end ? 1u : 0u) | (place < -end ? 2u : 0u));
     }
+    std::uint32_t facing(std::uint32_t corner, Both direction) const {
+        // By turns, the side before a corner looks along x or along y.
+        const Both looks = direction * quadrant(corner);
+        const std::uint32_t is_last = lanes::bits(looks > lanes::swapped(looks)) >> (corner & 1) & 1;
+        return (corner + 3 * is_last) & 3;
+    }
+    Both ends_x(std::uint32_t side) const {
+        alignas(16) static constexpr double signs[8] = {1, -1, -1, -1, -1, 1, 1, 1};
+        return lanes::first(half_) * lanes::at(signs + 2 * side);
+    }
+    Both ends_y(std::uint32_t side) const {
+        alignas(16) static constexpr double signs[8] = {1, 1, 1, -1, -1, -1, -1, 1};
+        return lanes::second(half_) * lanes::at(signs + 2 * side);
+    }
+    std::uint32_t contact_number(std::uint32_t i) const { return (i + 2) & 3; }
+    bool has_area() const { return lanes::bits(half_ > Both{0, 0}) == 3; }
+    double extent() const { return half_[0] + half_[1]; }
     DVec<2> half() const { return {half_[0], half_[1]}; }
 
 private:
@@ -143,9 +182,17 @@ struct Placed {
     Placed(const typename Core::Shape& shape, const Pose2* pose) : core(shape), place(shape, pose) {}
 };
 
+inline constexpr double without_end = std::numeric_limits<double>::infinity();
+
 inline void name_corner(std::uint32_t number, Feature& feature) {
     feature.index = number;
     feature.kind = FeatureKind::vertex;
+}
+
+template <class Core>
+inline void name_side(const Core& core, std::uint32_t side, Feature& feature) {
+    feature.index = edge_index(core.number(side), core.number(core.after(side)));
+    feature.kind = FeatureKind::edge;
 }
 
 /// A side of one and a corner of the other, both where they were placed.
@@ -165,63 +212,6 @@ struct SideAndCorner {
         beside = reference.core.beside(side, seen);
     }
 };
-
-template <class Core>
-inline void write(const SideAndCorner<Core>& found, const Placed<Core>& reference, const Placed<Core>& other,
-                  std::uint32_t side, std::uint32_t corner, bool reference_is_a, Closest<2>& result) {
-    const Both out = found.normal * reference.place.scale, on_other = other.place.position + found.arm;
-    static constexpr double towards_b[2] = {-1, 1};
-    result.distance = static_cast<float>(found.gap);
-    lanes::store(out * lanes::both(towards_b[reference_is_a ? 1 : 0]), &result.normal.x);
-    lanes::store(on_other - out * lanes::both(found.gap), reference_is_a ? &result.on_a.x : &result.on_b.x);
-    lanes::store(on_other, reference_is_a ? &result.on_b.x : &result.on_a.x);
-    Feature& of_reference = reference_is_a ? result.feature_a : result.feature_b;
-    of_reference.index = edge_index(reference.core.number(side), reference.core.number(reference.core.after(side)));
-    of_reference.kind = FeatureKind::edge;
-    name_corner(other.core.number(corner), reference_is_a ? result.feature_b : result.feature_a);
-}
-
-constexpr double without_end = std::numeric_limits<double>::infinity();
-
-/// Two corners. False where they aren't apart, each the farthest in the direction of the other.
-template <class Core>
-bool closest_corners(const Placed<Core>& a, const Placed<Core>& b, std::uint32_t corner_a, std::uint32_t corner_b,
-                     Closest<2>& result) {
-    const Both arm_a = a.place.vector(a.core.corner(corner_a)) * a.place.scale;
-    const Both arm_b = b.place.vector(b.core.corner(corner_b)) * b.place.scale;
-    const Both between = (b.place.position - a.place.position) + (arm_b - arm_a);
-    const double square = lanes::dot(between, between)[0];
-    if (!(square > 0 && square < without_end && a.core.is_farthest(corner_a, a.place.back(between)) &&
-          b.core.is_farthest(corner_b, -b.place.back(between))))
-        return false;
-    // The root and the quotient side by side, not one after the other.
-    const double gap = std::sqrt(square), per_gap = gap * (1 / square);
-    result.distance = static_cast<float>(gap);
-    lanes::store(between * lanes::both(per_gap), &result.normal.x);
-    lanes::store(a.place.position + arm_a, &result.on_a.x);
-    lanes::store(b.place.position + arm_b, &result.on_b.x);
-    name_corner(a.core.number(corner_a), result.feature_a);
-    name_corner(b.core.number(corner_b), result.feature_b);
-    return true;
-}
-
-/// What was nearest last time is so still: the same corner before the same side, or the same two corners.
-template <class Core>
-inline bool closest_again(const Placed<Core>& a, const Placed<Core>& b, const Cache& cache, Closest<2>& result) {
-    const std::uint32_t number_a = cache.corner_a[0], number_b = cache.corner_b[0];
-    if (cache.count == 0 || cache.count > 2 || number_a >= a.core.count() || number_b >= b.core.count()) return false;
-    const std::uint32_t of_a = a.core.number(number_a), of_b = b.core.number(number_b);
-    if (cache.count == 1) return closest_corners(a, b, of_a, of_b, result);
-    const bool a_is_reference = number_a != cache.corner_a[1];
-    const Placed<Core>&reference = a_is_reference ? a : b, &other = a_is_reference ? b : a;
-    const std::uint32_t side = a_is_reference ? of_a : of_b, corner = a_is_reference ? of_b : of_a;
-    const SideAndCorner<Core> found(reference, other, side, corner);
-    if (!(found.beside == Beside::within && found.gap > 0 && found.gap < without_end &&
-          other.core.is_farthest(corner, -other.place.back(found.normal))))
-        return false;
-    write(found, reference, other, side, corner, a_is_reference, result);
-    return true;
-}
 
 /// How each sees the other.
 template <class Core>
@@ -246,92 +236,23 @@ inline void find_widest_gap(const BoxCore& a, const BoxCore& b, const Rigid2 (&s
     gap_of_boxes(a.half(), b.half(), seen, doubt, found);
 }
 
-inline void remember(std::uint32_t count, std::uint32_t a0, std::uint32_t a1, std::uint32_t b0, std::uint32_t b1,
-                     Cache& cache) {
-    cache.count = count;
-    cache.corner_a[0] = a0;
-    cache.corner_a[1] = a1;
-    cache.corner_b[0] = b0;
-    cache.corner_b[1] = b1;
-}
-
-/// From the side with the widest gap: the other's lowest corner is before it, or before one of its ends. Where they
-/// overlap, the least move apart is along that side's normal.
+/// Of sides that part them; the sides of what overlaps are all tried each time.
 template <class Core>
-inline bool closest_anew(const Placed<Core>& a, const Placed<Core>& b, Cache* cache, Closest<2>& result) {
-    Rigid2 seen[2];
-    set_seen(a, b, seen);
-    const double size = std::abs(seen[0].x) + std::abs(seen[0].y) + a.core.size() + b.core.size();
-    if (!(size < without_end)) return false;
-    SideGap widest;
-    find_widest_gap(a.core, b.core, seen, 1e-14 * size, widest);
-    const bool a_is_reference = widest.of == 0;
-    const Placed<Core>&reference = a_is_reference ? a : b, &other = a_is_reference ? b : a;
-    const SideAndCorner<Core> found(reference, other, widest.side, widest.corner);
-    const std::uint32_t after = reference.core.after(widest.side);
-    if (found.beside == Beside::within) {
-        write(found, reference, other, widest.side, widest.corner, a_is_reference, result);
-        if (cache == nullptr) return true;
-        const std::uint32_t start = reference.core.number(widest.side), end = reference.core.number(after),
-                            corner = other.core.number(widest.corner);
-        // The sides of what overlaps are all tried each time.
-        remember(found.gap > 0 ? 2 : 0, a_is_reference ? start : corner, a_is_reference ? end : corner,
-                 a_is_reference ? corner : start, a_is_reference ? corner : end, *cache);
-        return true;
-    }
-    if (!(found.gap > 0)) return false;
-    const std::uint32_t end = found.beside == Beside::before_start ? widest.side : after;
-    const std::uint32_t of_a = a_is_reference ? end : widest.corner, of_b = a_is_reference ? widest.corner : end;
-    if (!closest_corners(a, b, of_a, of_b, result)) return false;
-    if (cache != nullptr)
-        remember(1, a.core.number(of_a), a.core.number(of_a), b.core.number(of_b), b.core.number(of_b), *cache);
-    return true;
+inline void remember_side(const Placed<Core>& reference, const Placed<Core>& other, const SideGap& widest,
+                          Cache& cache) {
+    auto &of_reference = widest.of == 0 ? cache.corner_a : cache.corner_b,
+         &of_other = widest.of == 0 ? cache.corner_b : cache.corner_a;
+    cache.count = widest.gap > 0 ? 2 : 0;
+    of_reference[0] = reference.core.number(widest.side);
+    of_reference[1] = reference.core.number(reference.core.after(widest.side));
+    of_other[0] = of_other[1] = other.core.number(widest.corner);
 }
 
-template <class Core>
-bool closest_of(const Given<2>& given_a, const Given<2>& given_b, Cache* cache, Closest<2>& result) {
-    Placed<Core> a(given_a), b(given_b);
-    if (!set_scales(a.place, b.place)) return false;
-    if (!(cache != nullptr && closest_again(a, b, *cache, result)) && !closest_anew(a, b, cache, result)) return false;
-    if (cache != nullptr) cache->axis = {result.normal.x, result.normal.y, 0};
-    return true;
-}
-
-template <class Core>
-bool parted(const Given<2>& given_a, const Given<2>& given_b, const Cache& cache, double reach) {
-    Placed<Core> a(given_a), b(given_b);
-    const bool a_is_reference = cache.corner_a[0] != cache.corner_a[1];
-    const Placed<Core>&reference = a_is_reference ? a : b, &other = a_is_reference ? b : a;
-    const std::uint32_t number = a_is_reference ? cache.corner_a[0] : cache.corner_b[0];
-    if (number >= reference.core.count() || !set_scales(a.place, b.place)) return false;
-    const std::uint32_t side = reference.core.number(number);
-    const Both normal = reference.place.vector(reference.core.normal(side));
-    const Both between = other.place.position - reference.place.position;
-    const double lowest =
-        other.core.lowest(other.place.back(normal)) * (reference.place.scale[0] * other.place.scale[0]);
-    const double away = lanes::dot(normal, between)[0] * reference.place.scale[0];
-    const double doubt = 1e-14 * (std::abs(between[0]) + std::abs(between[1]) + a.core.size() + b.core.size());
-    return away + lowest - reference.core.offset(side) > reach + doubt;
-}
-
-bool is_polygon(const Given<2>& given) {
+inline bool is_polygon(const Given<2>& given) {
     return given.kind == ShapeKind::polytope && given.as<Polygon>().sides() != nullptr;
 }
-bool is_box(const Given<2>& given) {
+inline bool is_box(const Given<2>& given) {
     return given.kind == ShapeKind::box && given.pose == nullptr;
 }
 
-}  // namespace
-
-bool closest_polygons(const Given<2>& a, const Given<2>& b, Cache* cache, Closest<2>& result) {
-    if (is_polygon(a) && is_polygon(b)) return closest_of<PolygonCore>(a, b, cache, result);
-    return is_box(a) && is_box(b) && closest_of<BoxCore>(a, b, cache, result);
-}
-
-bool parted_again(const Given<2>& a, const Given<2>& b, const Cache& cache, double reach) {
-    if (cache.count != 2) return false;
-    if (is_polygon(a) && is_polygon(b)) return parted<PolygonCore>(a, b, cache, reach);
-    return is_box(a) && is_box(b) && parted<BoxCore>(a, b, cache, reach);
-}
-
-}  // namespace abut
+}  // namespace abut::placed_sides

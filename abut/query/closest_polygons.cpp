@@ -1,0 +1,131 @@
+#include <abut/query/placed_sides.hpp>
+#include <abut/query/polygons2.hpp>
+
+namespace abut {
+namespace {
+
+using namespace placed_sides;
+
+template <class Core>
+inline void write(const SideAndCorner<Core>& found, const Placed<Core>& reference, const Placed<Core>& other,
+                  std::uint32_t side, std::uint32_t corner, bool reference_is_a, Closest<2>& result) {
+    const Both out = found.normal * reference.place.scale, on_other = other.place.position + found.arm;
+    static constexpr double towards_b[2] = {-1, 1};
+    result.distance = static_cast<float>(found.gap);
+    lanes::store(out * lanes::both(towards_b[reference_is_a ? 1 : 0]), &result.normal.x);
+    lanes::store(on_other - out * lanes::both(found.gap), reference_is_a ? &result.on_a.x : &result.on_b.x);
+    lanes::store(on_other, reference_is_a ? &result.on_b.x : &result.on_a.x);
+    name_side(reference.core, side, reference_is_a ? result.feature_a : result.feature_b);
+    name_corner(other.core.number(corner), reference_is_a ? result.feature_b : result.feature_a);
+}
+
+/// Two corners. False where they aren't apart, each the farthest in the direction of the other.
+template <class Core>
+bool closest_corners(const Placed<Core>& a, const Placed<Core>& b, std::uint32_t corner_a, std::uint32_t corner_b,
+                     Closest<2>& result) {
+    const Both arm_a = a.place.vector(a.core.corner(corner_a)) * a.place.scale;
+    const Both arm_b = b.place.vector(b.core.corner(corner_b)) * b.place.scale;
+    const Both between = (b.place.position - a.place.position) + (arm_b - arm_a);
+    const double square = lanes::dot(between, between)[0];
+    if (!(square > 0 && square < without_end && a.core.is_farthest(corner_a, a.place.back(between)) &&
+          b.core.is_farthest(corner_b, -b.place.back(between))))
+        return false;
+    // The root and the quotient side by side, not one after the other.
+    const double gap = std::sqrt(square), per_gap = gap * (1 / square);
+    result.distance = static_cast<float>(gap);
+    lanes::store(between * lanes::both(per_gap), &result.normal.x);
+    lanes::store(a.place.position + arm_a, &result.on_a.x);
+    lanes::store(b.place.position + arm_b, &result.on_b.x);
+    name_corner(a.core.number(corner_a), result.feature_a);
+    name_corner(b.core.number(corner_b), result.feature_b);
+    return true;
+}
+
+/// What was nearest last time is so still: the same corner before the same side, or the same two corners.
+template <class Core>
+inline bool closest_again(const Placed<Core>& a, const Placed<Core>& b, const Cache& cache, Closest<2>& result) {
+    const std::uint32_t number_a = cache.corner_a[0], number_b = cache.corner_b[0];
+    if (cache.count == 0 || cache.count > 2 || number_a >= a.core.count() || number_b >= b.core.count()) return false;
+    const std::uint32_t of_a = a.core.number(number_a), of_b = b.core.number(number_b);
+    if (cache.count == 1) return closest_corners(a, b, of_a, of_b, result);
+    const bool a_is_reference = number_a != cache.corner_a[1];
+    const Placed<Core>&reference = a_is_reference ? a : b, &other = a_is_reference ? b : a;
+    const std::uint32_t side = a_is_reference ? of_a : of_b, corner = a_is_reference ? of_b : of_a;
+    const SideAndCorner<Core> found(reference, other, side, corner);
+    if (!(found.beside == Beside::within && found.gap > 0 && found.gap < without_end &&
+          other.core.is_farthest(corner, -other.place.back(found.normal))))
+        return false;
+    write(found, reference, other, side, corner, a_is_reference, result);
+    return true;
+}
+
+/// From the side with the widest gap: the other's lowest corner is before it, or before one of its ends. Where they
+/// overlap, the least move apart is along that side's normal.
+template <class Core>
+inline bool closest_anew(const Placed<Core>& a, const Placed<Core>& b, Cache* cache, Closest<2>& result) {
+    Rigid2 seen[2];
+    set_seen(a, b, seen);
+    const double size = std::abs(seen[0].x) + std::abs(seen[0].y) + a.core.size() + b.core.size();
+    if (!(size < without_end)) return false;
+    SideGap widest;
+    find_widest_gap(a.core, b.core, seen, 1e-14 * size, widest);
+    const bool a_is_reference = widest.of == 0;
+    const Placed<Core>&reference = a_is_reference ? a : b, &other = a_is_reference ? b : a;
+    const SideAndCorner<Core> found(reference, other, widest.side, widest.corner);
+    const std::uint32_t after = reference.core.after(widest.side);
+    if (found.beside == Beside::within) {
+        write(found, reference, other, widest.side, widest.corner, a_is_reference, result);
+        if (cache != nullptr) remember_side(reference, other, widest, *cache);
+        return true;
+    }
+    if (!(found.gap > 0)) return false;
+    const std::uint32_t end = found.beside == Beside::before_start ? widest.side : after;
+    const std::uint32_t of_a = a_is_reference ? end : widest.corner, of_b = a_is_reference ? widest.corner : end;
+    if (!closest_corners(a, b, of_a, of_b, result)) return false;
+    if (cache == nullptr) return true;
+    cache->count = 1;
+    cache->corner_a[0] = cache->corner_a[1] = a.core.number(of_a);
+    cache->corner_b[0] = cache->corner_b[1] = b.core.number(of_b);
+    return true;
+}
+
+template <class Core>
+bool closest_of(const Given<2>& given_a, const Given<2>& given_b, Cache* cache, Closest<2>& result) {
+    Placed<Core> a(given_a), b(given_b);
+    if (!set_scales(a.place, b.place)) return false;
+    if (!(cache != nullptr && closest_again(a, b, *cache, result)) && !closest_anew(a, b, cache, result)) return false;
+    if (cache != nullptr) cache->axis = {result.normal.x, result.normal.y, 0};
+    return true;
+}
+
+template <class Core>
+bool parted(const Given<2>& given_a, const Given<2>& given_b, const Cache& cache, double reach) {
+    Placed<Core> a(given_a), b(given_b);
+    const bool a_is_reference = cache.corner_a[0] != cache.corner_a[1];
+    const Placed<Core>&reference = a_is_reference ? a : b, &other = a_is_reference ? b : a;
+    const std::uint32_t number = a_is_reference ? cache.corner_a[0] : cache.corner_b[0];
+    if (number >= reference.core.count() || !set_scales(a.place, b.place)) return false;
+    const std::uint32_t side = reference.core.number(number);
+    const Both normal = reference.place.vector(reference.core.normal(side));
+    const Both between = other.place.position - reference.place.position;
+    const double lowest =
+        other.core.lowest(other.place.back(normal)) * (reference.place.scale[0] * other.place.scale[0]);
+    const double away = lanes::dot(normal, between)[0] * reference.place.scale[0];
+    const double doubt = 1e-14 * (std::abs(between[0]) + std::abs(between[1]) + a.core.size() + b.core.size());
+    return away + lowest - reference.core.offset(side) > reach + doubt;
+}
+
+}  // namespace
+
+bool closest_polygons(const Given<2>& a, const Given<2>& b, Cache* cache, Closest<2>& result) {
+    if (is_polygon(a) && is_polygon(b)) return closest_of<PolygonCore>(a, b, cache, result);
+    return is_box(a) && is_box(b) && closest_of<BoxCore>(a, b, cache, result);
+}
+
+bool parted_again(const Given<2>& a, const Given<2>& b, const Cache& cache, double reach) {
+    if (cache.count != 2) return false;
+    if (is_polygon(a) && is_polygon(b)) return parted<PolygonCore>(a, b, cache, reach);
+    return is_box(a) && is_box(b) && parted<BoxCore>(a, b, cache, reach);
+}
+
+}  // namespace abut

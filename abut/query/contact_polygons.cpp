@@ -1,0 +1,115 @@
+#include <abut/query/placed_sides.hpp>
+#include <abut/query/polygons2.hpp>
+
+namespace abut {
+namespace {
+
+using namespace placed_sides;
+
+/// Below this sine of the angle between them, two sides are as good as parallel.
+constexpr double parallel = 1e-6;
+
+/// The two ends of an edge, one in each lane, as the reference sees them.
+struct Edge {
+    Both x, y;
+    std::uint32_t names[2];
+};
+
+/// Cut off at both ends of the reference's side, and how far along that its ends are then. By arithmetic without a
+/// branch: which ends are cut off can't be guessed. Nothing is left where both are beyond one end.
+template <class Core>
+inline Both cut_off(const Core& reference, std::uint32_t side, Both normal, Edge& edge) {
+    const Both x = lanes::first(normal), y = lanes::second(normal);
+    const Both ends = x * reference.ends_y(side) - y * reference.ends_x(side);
+    const Both from = lanes::first(ends), to = lanes::second(ends), at = x * edge.y - y * edge.x;
+    const Both kept = lanes::lesser(lanes::greater(at, from), to);
+    const std::uint32_t below = lanes::bits(at < from), above = lanes::bits(at > to);
+    const double run = at[1] - at[0], per_run = run != 0 ? 1 / run : 0;
+    const Both part = (kept - at) * lanes::both(per_run);
+    edge.x += lanes::both(edge.x[1] - edge.x[0]) * part;
+    edge.y += lanes::both(edge.y[1] - edge.y[0]) * part;
+    const std::uint32_t start = reference.contact_number(side) + 1,
+                        end = reference.contact_number(reference.after(side)) + 1;
+    for (std::uint32_t i = 0; i < 2; ++i) edge.names[i] |= (start * (below >> i & 1u) | end * (above >> i & 1u)) << 16;
+    return kept;
+}
+
+template <class Core>
+bool contact_of(const Given<2>& given_a, const Given<2>& given_b, double margin, Cache* cache, Contact<2>& result) {
+    Placed<Core> a(given_a), b(given_b);
+    if (!set_scales(a.place, b.place) || !a.core.has_area() || !b.core.has_area()) return false;
+    Rigid2 seen[2];
+    set_seen(a, b, seen);
+    const double size = std::abs(seen[0].x) + std::abs(seen[0].y) + a.core.size() + b.core.size();
+    if (!(size < without_end)) return false;
+    SideGap widest;
+    find_widest_gap(a.core, b.core, seen, 1e-14 * size, widest);
+    const bool a_is_reference = widest.of == 0;
+    const Placed<Core>&reference = a_is_reference ? a : b, &other = a_is_reference ? b : a;
+    if (widest.gap > margin) {
+        if (cache != nullptr) remember_side(reference, other, widest, *cache);
+        return true;
+    }
+
+    const std::uint32_t side = widest.side, corner = widest.corner;
+    const SideAndCorner<Core> found(reference, other, side, corner);
+    if (found.beside != Beside::within) return false;
+    const Both down = -other.place.back(found.normal);
+    const std::uint32_t facing = other.core.facing(corner, down);
+    const Both faces = other.core.normal(facing);
+    // Of two sides as good as parallel, A's is the reference.
+    const double alignment = lanes::dot(faces, down)[0] * (a.place.scale[0] * b.place.scale[0]);
+    if (!a_is_reference && !(alignment < 1 - parallel)) return false;
+
+    const Rigid2& of_other = seen[widest.of];
+    const Both x = other.core.ends_x(facing), y = other.core.ends_y(facing);
+    const Both cos = lanes::both(of_other.cos), sin = lanes::both(of_other.sin);
+    Edge edge{(cos * x - sin * y) + lanes::both(of_other.x),
+              (sin * x + cos * y) + lanes::both(of_other.y),
+              {other.core.contact_number(facing), other.core.contact_number(other.core.after(facing))}};
+    const Both normal = reference.core.normal(side), along = cut_off(reference.core, side, normal, edge);
+    const double slack = 1e-6 * std::min(a.core.extent(), b.core.extent());
+    if (!(std::abs(along[0] - along[1]) > slack)) return false;
+
+    const double depth = -found.gap;
+    const Both gaps =
+        (lanes::first(normal) * edge.x + lanes::second(normal) * edge.y) - lanes::both(reference.core.offset(side));
+    const Both depths = lanes::lesser(-gaps, lanes::both(depth));
+    // The deepest corner may have been cut off.
+    if (!(std::max(depths[0], depths[1]) >= depth - slack)) return false;
+    const Both half = depths * Both{0.5, 0.5};
+    const Both middle_x = edge.x + lanes::first(normal) * half, middle_y = edge.y + lanes::second(normal) * half;
+    const Both turn_cos = reference.place.cos * reference.place.scale,
+               turn_sin = lanes::first(reference.place.sin) * reference.place.scale;
+    const Both world_x = (turn_cos * middle_x - turn_sin * middle_y) + lanes::first(reference.place.position);
+    const Both world_y = (turn_sin * middle_x + turn_cos * middle_y) + lanes::second(reference.place.position);
+    const std::uint32_t near = lanes::bits(depths >= lanes::both(-margin - slack));
+    const Both told = margin > 0 ? depths : lanes::greater(depths, Both{0, 0});
+    for (std::uint32_t i = 0; i < 2; ++i) {
+        if ((near >> i & 1) == 0) continue;
+        result.points.push_back({{static_cast<float>(world_x[i]), static_cast<float>(world_y[i])},
+                                 static_cast<float>(told[i]),
+                                 edge.names[i]});
+    }
+    static constexpr double towards_b[2] = {-1, 1};
+    const Both out = found.normal * reference.place.scale * lanes::both(towards_b[a_is_reference ? 1 : 0]);
+    lanes::store(out, &result.normal.x);
+    result.depth = static_cast<float>(depth);
+    name_side(reference.core, side, a_is_reference ? result.feature_a : result.feature_b);
+    name_corner(other.core.number(corner), a_is_reference ? result.feature_b : result.feature_a);
+    if (cache != nullptr) {
+        remember_side(reference, other, widest, *cache);
+        cache->axis = {result.normal.x, result.normal.y, 0};
+    }
+    return true;
+}
+
+}  // namespace
+
+bool contact_polygons(const Given<2>& a, const Given<2>& b, double margin, Cache* cache, Contact<2>& result) {
+    if (!(margin >= 0)) return false;
+    if (is_polygon(a) && is_polygon(b)) return contact_of<PolygonCore>(a, b, margin, cache, result);
+    return is_box(a) && is_box(b) && contact_of<BoxCore>(a, b, margin, cache, result);
+}
+
+}  // namespace abut
