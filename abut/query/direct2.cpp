@@ -128,9 +128,10 @@ inline bool contact_with_circle(const Given<2>& of_polygon, const Given<2>& of_c
     if (polygon.sides() == nullptr || of_circle.pose != nullptr) return false;
     static constexpr Pose2 nowhere;
     const Pose2& pose = of_polygon.pose != nullptr ? *of_polygon.pose : nowhere;
-    const Both turn = lanes::loaded(&pose.rotation.cos), excess = lanes::dot(turn, turn) - Both{1, 1};
-    if (!(std::abs(excess[0]) < lanes::near_one)) return false;
-    const Both scale = lanes::inverse_root(excess), cos = lanes::first(turn), sin = lanes::second(turn) * Both{1, -1};
+    const Both turn = lanes::loaded(&pose.rotation.cos), squares = lanes::dot(turn, turn);
+    if (!lanes::are_near_one(squares)) return false;
+    const Both scale = lanes::soon_inverse_root(squares), cos = lanes::first(turn),
+               sin = lanes::second(turn) * Both{1, -1};
     const Both center = lanes::loaded(&circle.center.x), offset = center - lanes::loaded(&pose.position.x);
     const double radius = static_cast<double>(circle.radius);
 

@@ -60,19 +60,20 @@ bool meet_polygon(const Ray<2>& ray, const Given<2>& given, std::optional<Hit<2>
     static constexpr Pose2 nowhere;
     const Pose2& pose = given.pose != nullptr ? *given.pose : nowhere;
     const Both turn = lanes::loaded(&pose.rotation.cos), direction = lanes::loaded(&ray.direction.x);
-    Both scales;
+    const Both squares = lanes::squared_lengths(turn, direction), scales = lanes::soon_inverse_root(squares);
     const double length = static_cast<double>(ray.length);
-    if (!lanes::inverse_lengths(turn, direction, scales) || !(length >= 0)) return false;
+    if (!lanes::are_near_one(squares) || !(length >= 0)) return false;
 
     // As the polygon sees them, but for the scales.
     const Both cos = lanes::first(turn), sin = lanes::second(turn) * Both{1, -1};
     const Both from = lanes::loaded(&ray.origin.x), offset = from - lanes::loaded(&pose.position.x);
     const Both origin = cos * offset + sin * lanes::swapped(offset);
     const Both way = cos * direction + sin * lanes::swapped(direction);
-    const Both way_x = lanes::first(way), way_y = lanes::second(way);
+    // Corners are as long as they are; so that a length need not be waited for, it is theirs that is scaled.
     const Both crossed = way * lanes::swapped(origin);
-    const double passed = (crossed[0] - crossed[1]) * scales[0];
-    const Both line = lanes::both(passed);
+    const Both line = lanes::first(crossed) - lanes::second(crossed);
+    const Both way_to_corners = way * lanes::both(2 - scales[0]);
+    const Both way_x = lanes::first(way_to_corners), way_y = lanes::second(way_to_corners);
     std::uint32_t left = 0;
     for (std::size_t i = 0; i < sides.count; i += 2)
         left |= lanes::signs((line + way_y * lanes::at(sides.x + i)) - way_x * lanes::at(sides.y + i)) << i;
@@ -83,7 +84,7 @@ bool meet_polygon(const Ray<2>& ray, const Given<2>& given, std::optional<Hit<2>
     if (left == 0 || left == all) {
         double nearest = std::numeric_limits<double>::infinity();
         for (std::uint32_t i = 0; i < sides.count; ++i)
-            nearest = std::min(nearest, std::abs(way[0] * sides.y[i] - way[1] * sides.x[i] - passed));
+            nearest = std::min(nearest, std::abs(way_x[0] * sides.y[i] - way_y[0] * sides.x[i] - line[0]));
         return nearest > 2 * doubt;
     }
     const std::uint32_t next = left >> 1 | left << (sides.count - 1), side = lanes::lowest_bit(left & ~next);
@@ -116,15 +117,14 @@ bool meet_circle(const Ray<2>& ray, const Given<2>& given, std::optional<Hit<2>>
         const DVec<2> point = placed(DVec<2>(circle.center), *given.pose);
         middle = lanes::both(point.x, point.y);
     }
-    const Both excess = lanes::dot(direction, direction) - Both{1, 1};
-    const Both scale = lanes::inverse_root(excess);
+    const Both squares = lanes::dot(direction, direction), scale = lanes::soon_inverse_root(squares);
     // Along the ray, and across it.
     const Both center = middle - from;
     const Both parts =
         (lanes::first(direction) * center * Both{1, -1} + lanes::second(direction) * lanes::swapped(center)) * scale;
     const double radius = static_cast<double>(circle.radius), length = static_cast<double>(ray.length);
     const double square = lanes::dot(parts, parts)[0], reach = radius * outside;
-    if (!(std::abs(excess[0]) < lanes::near_one && radius > 0 && square > reach * reach &&
+    if (!(lanes::are_near_one(squares) && radius > 0 && square > reach * reach &&
           square < std::numeric_limits<double>::max() && length >= 0))
         return false;
     const double half_chord = radius * radius - parts[1] * parts[1];

@@ -166,8 +166,9 @@ private:
 };
 
 inline bool set_scales(Placing& a, Placing& b) {
-    Both scales;
-    if (!lanes::inverse_lengths(a.turn, b.turn, scales)) return false;
+    const Both squares = lanes::squared_lengths(a.turn, b.turn);
+    if (!lanes::are_near_one(squares)) return false;
+    const Both scales = lanes::inverse_root(squares);
     a.set_scale(lanes::first(scales));
     b.set_scale(lanes::second(scales));
     return true;
