@@ -41,6 +41,18 @@ bool closest_corners(const Placed<Core>& a, const Placed<Core>& b, std::uint32_t
     return true;
 }
 
+/// The same corner before the same side, with nothing nearer.
+template <class Core>
+inline bool side_again(const Placed<Core>& reference, const Placed<Core>& other, std::uint32_t side,
+                       std::uint32_t corner, bool reference_is_a, Closest<2>& result) {
+    const SideAndCorner<Core> found(reference, other, side, corner);
+    if (!(found.beside == Beside::within && found.gap > 0 && found.gap < without_end &&
+          other.core.is_farthest(corner, -other.place.back(found.normal))))
+        return false;
+    write(found, reference, other, side, corner, reference_is_a, result);
+    return true;
+}
+
 /// What was nearest last time is so still: the same corner before the same side, or the same two corners.
 template <class Core>
 inline bool closest_again(const Placed<Core>& a, const Placed<Core>& b, const Cache& cache, Closest<2>& result) {
@@ -48,15 +60,9 @@ inline bool closest_again(const Placed<Core>& a, const Placed<Core>& b, const Ca
     if (cache.count == 0 || cache.count > 2 || number_a >= a.core.count() || number_b >= b.core.count()) return false;
     const std::uint32_t of_a = a.core.number(number_a), of_b = b.core.number(number_b);
     if (cache.count == 1) return closest_corners(a, b, of_a, of_b, result);
-    const bool a_is_reference = number_a != cache.corner_a[1];
-    const Placed<Core>&reference = a_is_reference ? a : b, &other = a_is_reference ? b : a;
-    const std::uint32_t side = a_is_reference ? of_a : of_b, corner = a_is_reference ? of_b : of_a;
-    const SideAndCorner<Core> found(reference, other, side, corner);
-    if (!(found.beside == Beside::within && found.gap > 0 && found.gap < without_end &&
-          other.core.is_farthest(corner, -other.place.back(found.normal))))
-        return false;
-    write(found, reference, other, side, corner, a_is_reference, result);
-    return true;
+    // Twice, so that each time it is known whose numbers are wanted.
+    return number_a != cache.corner_a[1] ? side_again(a, b, of_a, of_b, true, result)
+                                         : side_again(b, a, of_b, of_a, false, result);
 }
 
 /// From the side with the widest gap: the other's lowest corner is before it, or before one of its ends. Where they
