@@ -108,6 +108,7 @@ void name_features(const SignedDistance<2>& distance, Answer& answer) {
 }  // namespace
 
 DirectAnswer direct_overlap(const Given<2>& a, const Given<2>& b, Cache* cache) {
+    if (cache != nullptr && parted_again(a, b, *cache, 0)) return DirectAnswer::no;
     const auto ask = [&](const Outline& first, const Outline& second) {
         const PlaneAnswer answer = plane_near(first, second, 0, cache);
         return answer == PlaneAnswer::unknown  ? DirectAnswer::unknown
