@@ -3,6 +3,8 @@
 // Two doubles side by side, in the vectors that compilers have on every machine: for what is so little that choosing a
 // vector unit by a call would cost as much. The answers are those of doubles one by one. For .cpp files.
 
+#include <abut/math/vec.hpp>
+
 #include <cmath>
 #include <cstdint>
 
@@ -78,9 +80,9 @@ inline Both lesser(Both a, Both b) {
     return a < b ? a : b;
 #endif
 }
-/// The nearest number from 0 to 1.
-inline Both part(Both v) {
-    return lesser(greater(v, Both{0, 0}), Both{1, 1});
+/// The nearest number from 0 to `most`.
+inline Both limited(Both v, Both most) {
+    return lesser(greater(v, Both{0, 0}), most);
 }
 
 // A vector of the plane, in two lanes.
@@ -114,6 +116,36 @@ inline void store(Both v, float* numbers) {
     numbers[0] = static_cast<float>(v[0]);
     numbers[1] = static_cast<float>(v[1]);
 #endif
+}
+
+/// A vector of space: two numbers side by side, and the third in both lanes. Numbers that it is multiplied by are in
+/// both lanes too.
+struct Spatial {
+    Both xy, z;
+
+    Spatial operator+(const Spatial& v) const { return {xy + v.xy, z + v.z}; }
+    Spatial operator-(const Spatial& v) const { return {xy - v.xy, z - v.z}; }
+    Spatial operator*(Both s) const { return {xy * s, z * s}; }
+};
+inline Spatial spatial(const glm::vec<3, double>& v) {
+    return {both(v.x, v.y), both(v.z, v.z)};
+}
+inline glm::vec<3, double> vector(const Spatial& v) {
+    return {v.xy[0], v.xy[1], v.z[0]};
+}
+/// Of three floats in memory.
+inline Spatial loaded(const glm::vec<3, float>& v) {
+    const double z = static_cast<double>(v.z);
+    return {loaded(&v.x), both(z, z)};
+}
+/// In both lanes.
+inline Both dot(const Spatial& a, const Spatial& b) {
+    return dot(a.xy, b.xy) + a.z * b.z;
+}
+/// As three floats.
+inline void store(const Spatial& v, glm::vec<3, float>& result) {
+    store(v.xy, &result.x);
+    result.z = static_cast<float>(v.z[0]);
 }
 
 }  // namespace lanes

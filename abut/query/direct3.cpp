@@ -15,55 +15,46 @@
 namespace abut {
 namespace {
 
-/// The ends of two capsules as they are.
-SegmentPair segments_of(const Capsule3& a, const Capsule3& b) {
-    static_assert(sizeof(Capsule3) == 7 * sizeof(float));
-    // Six numbers in a row, read two at a time.
-    const auto *first = reinterpret_cast<const float*>(&a), *second = reinterpret_cast<const float*>(&b);
-    const lanes::Both a0 = lanes::loaded(first), a1 = lanes::loaded(first + 2), a2 = lanes::loaded(first + 4);
-    const lanes::Both b0 = lanes::loaded(second), b1 = lanes::loaded(second + 2), b2 = lanes::loaded(second + 4);
-    return {{lanes::lower(a0, b0), lanes::upper(a0, b0), lanes::lower(a1, b1)},
-            {lanes::upper(a1, b1), lanes::lower(a2, b2), lanes::upper(a2, b2)},
-            static_cast<double>(a.radius),
-            static_cast<double>(b.radius)};
+/// By the place on a segment.
+constexpr Feature segment_features[3] = {
+    {0, 0, FeatureKind::vertex}, {0, edge_index(0, 1), FeatureKind::edge}, {0, 1, FeatureKind::vertex}};
+
+inline bool closest_of_segments(const SegmentPair& pair, Closest<3>& result) {
+    SegmentMeeting meeting;
+    if (!meet(pair, meeting)) return false;
+    result.distance = static_cast<float>(meeting.distance);
+    lanes::store(meeting.normal, result.normal);
+    lanes::store(meeting.on_a, result.on_a);
+    lanes::store(meeting.on_a + meeting.normal * lanes::both(meeting.distance, meeting.distance), result.on_b);
+    result.feature_a = segment_features[meeting.place_a];
+    result.feature_b = segment_features[meeting.place_b];
+    return true;
 }
 
-/// The ends of both capsules, as `convex(capsule, pose)` places them.
+/// The ends as `convex(capsule, pose)` places them.
 SegmentPair placed_segments_of(const Given<3>& a, const Given<3>& b) {
     const Capsule3 &first = a.as<Capsule3>(), &second = b.as<Capsule3>();
     Affine<3> place_a, place_b;
     if (a.pose != nullptr) set_affine(place_a, *a.pose);
     if (b.pose != nullptr) set_affine(place_b, *b.pose);
-    return {lanes::both(place_a.point(DVec<3>(first.a)), place_b.point(DVec<3>(second.a))),
-            lanes::both(place_a.point(DVec<3>(first.b)), place_b.point(DVec<3>(second.b))),
-            static_cast<double>(first.radius), static_cast<double>(second.radius)};
+    return {lanes::spatial(place_a.point(DVec<3>(first.a))),
+            lanes::spatial(place_a.point(DVec<3>(first.b))),
+            lanes::spatial(place_b.point(DVec<3>(second.a))),
+            lanes::spatial(place_b.point(DVec<3>(second.b))),
+            static_cast<double>(first.radius),
+            static_cast<double>(second.radius)};
 }
-
-/// An end of a segment, or what is between them, by the corners of the place on it.
-void name_place_on_segment(const CornerNumbers<3>& corners, Feature& feature) {
-    // From a table: which of them it is can't be guessed.
-    static constexpr std::uint32_t numbers[4] = {0, 1, edge_index(0, 1), 1};
-    static constexpr FeatureKind kinds[4] = {FeatureKind::vertex, FeatureKind::vertex, FeatureKind::edge,
-                                             FeatureKind::vertex};
-    const std::uint32_t place = corners[0] + 2 * corners[1];
-    feature.part = 0;
-    feature.index = numbers[place];
-    feature.kind = kinds[place];
-}
-
-bool closest_of_segments(const SegmentPair& pair, Closest<3>& result) {
-    SignedDistance<3> distance;
-    if (!distance_of_segments(pair, distance) || !std::isfinite(distance.distance)) return false;
-    write(distance, result);
-    name_place_on_segment(distance.corners.a, result.feature_a);
-    name_place_on_segment(distance.corners.b, result.feature_b);
-    return true;
+[[gnu::noinline]] bool closest_of_placed_capsules(const Given<3>& a, const Given<3>& b, Closest<3>& result) {
+    return closest_of_segments(placed_segments_of(a, b), result);
 }
 
 bool closest_of_capsules(const Given<3>& a, const Given<3>& b, Closest<3>& result) {
-    return a.pose == nullptr && b.pose == nullptr
-               ? closest_of_segments(segments_of(a.as<Capsule3>(), b.as<Capsule3>()), result)
-               : closest_of_segments(placed_segments_of(a, b), result);
+    if (a.pose != nullptr || b.pose != nullptr) return closest_of_placed_capsules(a, b, result);
+    const Capsule3 &first = a.as<Capsule3>(), &second = b.as<Capsule3>();
+    return closest_of_segments(
+        {lanes::loaded(first.a), lanes::loaded(first.b), lanes::loaded(second.a), lanes::loaded(second.b),
+         static_cast<double>(first.radius), static_cast<double>(second.radius)},
+        result);
 }
 
 DVec<3> placed(const DVec<3>& point, const Pose3& pose) {
