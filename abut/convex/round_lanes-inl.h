@@ -23,11 +23,11 @@ inline void distance_of_points(const DVec<3>& a, double radius_a, const DVec<3>&
 /// Two segments with balls around them.
 struct SegmentPair {
     lanes::Spatial from_a, to_a, from_b, to_b;
-    double radius_a, radius_b;
+    lanes::Both radius_a, radius_b;  ///< in both lanes
 };
 
 struct SegmentMeeting {
-    double distance;
+    lanes::Both distance;          ///< in both lanes
     lanes::Spatial normal, on_a;   ///< as in a SignedDistance
     std::size_t place_a, place_b;  ///< 0 at the start, 1 between, 2 at the end
 };
@@ -45,7 +45,7 @@ inline bool meet(const SegmentPair& s, SegmentMeeting& result) {
     using namespace lanes;
     // Squares of the sine of their angle, and of the gap in parts of their lengths. So far from where it is in doubt,
     // rounding moves the places by at most 1e-9 of what they are apart, and along one another.
-    constexpr double parallel = 1e-6, near = 1e-10, most = 1e200;
+    constexpr double parallel = 1e-6, near = 1e-10, most = 1e200, above = 1 + 1e-15;
 
     const Spatial along_a = s.to_a - s.from_a, along_b = s.to_b - s.from_b, between_ends = s.from_a - s.from_b;
     const Both square_a = dot(along_a, along_a), square_b = dot(along_b, along_b), crossed = dot(along_a, along_b);
@@ -54,20 +54,22 @@ inline bool meet(const SegmentPair& s, SegmentMeeting& result) {
 
     // Each step is taken, needed or not: which it is can't be guessed, and what is best already stays as it is. Parts
     // of the ways are left multiplied by what they are to be divided by, so that the next step needn't wait for that.
-    const Both whole_b = whole * square_b, whole_a = whole * squares, one_a = 1 / whole_a;
+    // The quotient is a little above, so that an end is the end.
+    const Both end{1, 1};
+    const Both whole_a = whole * squares, one_a = Both{above, above} / whole_a, whole_b = whole * square_b;
     const Both first = limited(crossed * rise_b - square_b * rise_a, whole);
     const Both far_b = limited(crossed * first + rise_b * whole, whole_b);
-    const Both part_b = far_b / whole_b, part_a = limited((crossed * far_b - rise_a * whole_b) * one_a, Both{1, 1});
+    const Both part_b = lesser(far_b * (square_a * one_a), end);
+    const Both part_a = limited((crossed * far_b - rise_a * whole_b) * one_a, end);
     if (!(whole[0] > parallel * squares[0] && whole_a[0] + one_a[0] < most)) return false;
 
-    const Spatial on_a = along_a * part_a, between = along_b * part_b - (on_a + between_ends);
+    const Spatial on_a = along_a * part_a, between = along_b * part_b - between_ends - on_a;
     // The root and the quotient side by side, not one after the other.
-    const Both apart = dot(between, between);
-    const double gap = std::sqrt(apart[0]), one_gap = gap * (1 / apart[0]);
+    const Both apart = dot(between, between), gap = root(apart);
+    if (!(apart[0] > near * (square_a[0] + square_b[0]))) return false;
     result.distance = gap - s.radius_a - s.radius_b;
-    if (!(apart[0] > near * (square_a[0] + square_b[0]) && std::isfinite(result.distance))) return false;
-    result.normal = between * both(one_gap, one_gap);
-    result.on_a = s.from_a + on_a + result.normal * both(s.radius_a, s.radius_a);
+    result.normal = between * (gap * (1 / apart));
+    result.on_a = s.from_a + on_a + result.normal * s.radius_a;
     result.place_a = place_on_way(part_a[0]);
     result.place_b = place_on_way(part_b[0]);
     return true;

@@ -31,7 +31,7 @@ DVec<2> across_both(const DVec<2>&, const DVec<2>&) {
 }
 
 void set_distance(const SegmentMeeting& meeting, SignedDistance<3>& result) {
-    result.distance = meeting.distance;
+    result.distance = meeting.distance[0];
     result.normal = lanes::vector(meeting.normal);
     result.on_a = lanes::vector(meeting.on_a);
     result.corners.a[0] = meeting.place_a == 2 ? 1 : 0;
@@ -98,8 +98,8 @@ bool segment_segment(const Convex<D>& a, const Convex<D>& b, SignedDistance<D>& 
                                lanes::spatial(core_corner(a, 1)),
                                lanes::spatial(core_corner(b, 0)),
                                lanes::spatial(core_corner(b, 1)),
-                               a.radius,
-                               b.radius};
+                               lanes::both(a.radius),
+                               lanes::both(b.radius)};
         SegmentMeeting meeting;
         if (meet(pair, meeting)) {
             set_distance(meeting, result);

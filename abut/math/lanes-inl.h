@@ -22,6 +22,9 @@ using Chosen = long long __attribute__((vector_size(16)));
 inline Both both(double a, double b) {
     return Both{a, b};
 }
+inline Both both(double value) {
+    return Both{value, value};
+}
 /// One bit a lane.
 inline std::uint32_t bits(Chosen mask) {
 #ifdef __SSE2__
@@ -45,6 +48,15 @@ inline Both loaded(const float* numbers) {
     return _mm_cvtps_pd(_mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(numbers))));
 #else
     return {numbers[0], numbers[1]};
+#endif
+}
+/// Of one float in memory, in both lanes from there on.
+inline Both loaded_twice(const float& number) {
+#ifdef __SSE2__
+    const __m128 one = _mm_load_ss(&number);
+    return _mm_cvtps_pd(_mm_unpacklo_ps(one, one));
+#else
+    return both(static_cast<double>(number));
 #endif
 }
 inline Both at(const double* numbers) {
@@ -78,6 +90,13 @@ inline Both lesser(Both a, Both b) {
     return _mm_min_pd(a, b);
 #else
     return a < b ? a : b;
+#endif
+}
+inline Both root(Both v) {
+#ifdef __SSE2__
+    return _mm_sqrt_pd(v);
+#else
+    return {std::sqrt(v[0]), std::sqrt(v[1])};
 #endif
 }
 /// The nearest number from 0 to `most`.
@@ -128,15 +147,14 @@ struct Spatial {
     Spatial operator*(Both s) const { return {xy * s, z * s}; }
 };
 inline Spatial spatial(const glm::vec<3, double>& v) {
-    return {both(v.x, v.y), both(v.z, v.z)};
+    return {both(v.x, v.y), both(v.z)};
 }
 inline glm::vec<3, double> vector(const Spatial& v) {
     return {v.xy[0], v.xy[1], v.z[0]};
 }
 /// Of three floats in memory.
 inline Spatial loaded(const glm::vec<3, float>& v) {
-    const double z = static_cast<double>(v.z);
-    return {loaded(&v.x), both(z, z)};
+    return {loaded(&v.x), loaded_twice(v.z)};
 }
 /// In both lanes.
 inline Both dot(const Spatial& a, const Spatial& b) {

@@ -12,8 +12,15 @@
 #include <abut/shape/capsule.hpp>
 #include <abut/shape/polyhedron.hpp>
 
+#include <bit>
+
 namespace abut {
 namespace {
+
+/// By its bits, beside what is done in floating point.
+inline bool is_finite(float number) {
+    return std::bit_cast<std::uint32_t>(number) << 1 < 0xff000000u;
+}
 
 /// By the place on a segment.
 constexpr Feature segment_features[3] = {
@@ -22,10 +29,10 @@ constexpr Feature segment_features[3] = {
 inline bool closest_of_segments(const SegmentPair& pair, Closest<3>& result) {
     SegmentMeeting meeting;
     if (!meet(pair, meeting)) return false;
-    result.distance = static_cast<float>(meeting.distance);
+    result.distance = static_cast<float>(meeting.distance[0]);
     lanes::store(meeting.normal, result.normal);
     lanes::store(meeting.on_a, result.on_a);
-    lanes::store(meeting.on_a + meeting.normal * lanes::both(meeting.distance, meeting.distance), result.on_b);
+    lanes::store(meeting.on_a + meeting.normal * meeting.distance, result.on_b);
     result.feature_a = segment_features[meeting.place_a];
     result.feature_b = segment_features[meeting.place_b];
     return true;
@@ -41,19 +48,21 @@ SegmentPair placed_segments_of(const Given<3>& a, const Given<3>& b) {
             lanes::spatial(place_a.point(DVec<3>(first.b))),
             lanes::spatial(place_b.point(DVec<3>(second.a))),
             lanes::spatial(place_b.point(DVec<3>(second.b))),
-            static_cast<double>(first.radius),
-            static_cast<double>(second.radius)};
+            lanes::loaded_twice(first.radius),
+            lanes::loaded_twice(second.radius)};
 }
 [[gnu::noinline]] bool closest_of_placed_capsules(const Given<3>& a, const Given<3>& b, Closest<3>& result) {
-    return closest_of_segments(placed_segments_of(a, b), result);
+    return is_finite(a.as<Capsule3>().radius) && is_finite(b.as<Capsule3>().radius) &&
+           closest_of_segments(placed_segments_of(a, b), result);
 }
 
 bool closest_of_capsules(const Given<3>& a, const Given<3>& b, Closest<3>& result) {
     if (a.pose != nullptr || b.pose != nullptr) return closest_of_placed_capsules(a, b, result);
     const Capsule3 &first = a.as<Capsule3>(), &second = b.as<Capsule3>();
+    if (!is_finite(first.radius) || !is_finite(second.radius)) return false;
     return closest_of_segments(
         {lanes::loaded(first.a), lanes::loaded(first.b), lanes::loaded(second.a), lanes::loaded(second.b),
-         static_cast<double>(first.radius), static_cast<double>(second.radius)},
+         lanes::loaded_twice(first.radius), lanes::loaded_twice(second.radius)},
         result);
 }
 
