@@ -4,6 +4,7 @@
 #include <abut/convex/round_lanes-inl.h>
 #include <abut/convex/round_pairs.hpp>
 #include <abut/math/set_affine.hpp>
+#include <abut/math/turned-inl.h>
 #include <abut/query/direct.hpp>
 #include <abut/query/part_pairs.hpp>
 #include <abut/query/write_answer.hpp>
@@ -97,47 +98,86 @@ inline void set_place(const Box3& box, const Pose3* pose, Affine<3>& place) {
         place_by(box, *pose, place);
 }
 
-/// The corner, edge or face of a box, by its bits.
-void name_place(std::uint32_t fixed, std::uint32_t low, Feature& feature) {
-    static constexpr FeatureKind kinds[8] = {FeatureKind::none, FeatureKind::face,  FeatureKind::face,
-                                             FeatureKind::edge, FeatureKind::face,  FeatureKind::edge,
-                                             FeatureKind::edge, FeatureKind::vertex};
-    // By arithmetic alone: which it is can't be guessed. Of the one axis that is fixed across a face, twice its number
-    // is 0, 2 or 4.
-    const std::uint32_t other = low | (fixed ^ 7u), at_low = (low | low >> 1 | low >> 2) & 1u;
-    const std::uint32_t numbers[4] = {0, low, low | other << 16, (fixed & 6u) + at_low};
-    feature.part = 0;
-    feature.kind = kinds[fixed];
-    feature.index = numbers[static_cast<std::size_t>(feature.kind)];
-}
+/// The corners, edges and faces of a box, by their bits: those that are fixed, and those at the low end times eight.
+constexpr std::array<Feature, 64> box_features = [] {
+    std::array<Feature, 64> result{};
+    for (std::uint32_t i = 0; i < 64; ++i) {
+        const std::uint32_t fixed = i & 7u, low = i >> 3 & fixed;
+        const int count = std::popcount(fixed);
+        if (count == 1) result[i] = {0, (fixed & 6u) + (low != 0 ? 1u : 0u), FeatureKind::face};
+        if (count == 2) result[i] = {0, edge_index(low, low | (fixed ^ 7u)), FeatureKind::edge};
+        if (count == 3) result[i] = {0, low, FeatureKind::vertex};
+    }
+    return result;
+}();
 
 /// Sums are finite only where all their terms are.
 double sum_of(const DVec<3>& v) {
     return v.x + v.y + v.z;
 }
 
-bool closest_of_ball_and_box(const Given<3>& ball_given, const Given<3>& box_given, bool ball_is_a,
-                             Closest<3>& result) {
-    const Sphere& ball = ball_given.as<Sphere>();
+/// `on_box` and `normal` are as from the box to the ball; the distance in both lanes.
+inline void write(const lanes::Spatial& on_box, const lanes::Spatial& normal, lanes::Both distance, std::size_t place,
+                  bool ball_is_a, Closest<3>& result) {
+    using namespace lanes;
+    const Spatial on_ball = on_box + normal * distance;
+    const Feature& feature = box_features[place];
+    result.distance = static_cast<float>(distance[0]);
+    if (ball_is_a) {
+        store(normal * both(-1), result.normal);
+        store(on_ball, result.on_a);
+        store(on_ball - normal * distance, result.on_b);
+        result.feature_a.kind = FeatureKind::vertex;
+        result.feature_b = feature;
+    } else {
+        store(normal, result.normal);
+        store(on_box, result.on_a);
+        store(on_ball, result.on_b);
+        result.feature_a = feature;
+        result.feature_b.kind = FeatureKind::vertex;
+    }
+}
+inline std::size_t place_of(const BoxPlace& place) {
+    return place.fixed + 8 * place.low;
+}
+
+/// Placed by poses, or one in the other.
+[[gnu::noinline]] bool closest_of_any_ball_and_box(const Given<3>& ball, const Given<3>& box_given, bool ball_is_a,
+                                                   Closest<3>& result) {
     const Box3& box = box_given.as<Box3>();
     Affine<3> place;
     set_place(box, box_given.pose, place);
-    const DVec<3> center = center_of(ball_given), half(box.half), seen = place.transposed(center - place.offset);
-    const double radius = static_cast<double>(ball.radius);
+    const DVec<3> center = center_of(ball), half(box.half), seen = place.transposed(center - place.offset);
+    const double radius = static_cast<double>(ball.as<Sphere>().radius);
     if (!std::isfinite(sum_of(seen) + sum_of(half) + radius)) return false;
     BoxPlace nearest;
-    nearest_on_box(half, seen, nearest);
-    SignedDistance<3> distance;
-    distance.normal = place.vector(nearest.normal);
-    distance.distance = nearest.distance - radius;
-    distance.on_a = center - distance.normal * nearest.distance;
-    if (ball_is_a) turn_round(distance);
-    write(distance, result);
-    Feature &of_ball = ball_is_a ? result.feature_a : result.feature_b,
-            &of_box = ball_is_a ? result.feature_b : result.feature_a;
-    of_ball = {0, 0, FeatureKind::vertex};
-    name_place(nearest.fixed, nearest.low, of_box);
+    const bool outside = nearest_from_outside(lanes::spatial(half), lanes::spatial(seen), nearest);
+    if (!outside) nearest_from_inside(half, seen, nearest);
+    const DVec<3> way = place.vector(lanes::vector(nearest.way));
+    const DVec<3> on_box = center - (outside ? way : way * nearest.distance[0]);
+    write(lanes::spatial(on_box), lanes::spatial(way) * nearest.per_length, nearest.distance - lanes::both(radius),
+          place_of(nearest), ball_is_a, result);
     return true;
+}
+
+bool closest_of_ball_and_box(const Given<3>& ball_given, const Given<3>& box_given, bool ball_is_a,
+                             Closest<3>& result) {
+    using namespace lanes;
+    const Sphere& ball = ball_given.as<Sphere>();
+    const Box3& box = box_given.as<Box3>();
+    if (ball_given.pose == nullptr && box_given.pose == nullptr && is_finite(ball.radius) && is_finite(box.half.x) &&
+        is_finite(box.half.y) && is_finite(box.half.z)) {
+        const Spatial center = loaded(ball.center), half = loaded(box.half);
+        const Turned turn = turned(box.rotation);
+        BoxPlace nearest;
+        if (nearest_from_outside(half, turn.transposed(center - loaded(box.center)), nearest)) {
+            const Spatial way = turn.vector(nearest.way);
+            write(center - way, way * nearest.per_length, nearest.distance - loaded_twice(ball.radius),
+                  place_of(nearest), ball_is_a, result);
+            return true;
+        }
+    }
+    return closest_of_any_ball_and_box(ball_given, box_given, ball_is_a, result);
 }
 
 bool are_boxes(const Given<3>& a, const Given<3>& b) {
