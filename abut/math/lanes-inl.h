@@ -64,6 +64,9 @@ inline Both at(const double* numbers) {
     __builtin_memcpy(&result, numbers, sizeof(result));
     return result;
 }
+inline void put(Both v, double* numbers) {
+    __builtin_memcpy(numbers, &v, sizeof(v));
+}
 inline Both lower(Both a, Both b) {
     return __builtin_shufflevector(a, b, 0, 2);
 }
