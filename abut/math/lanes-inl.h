@@ -163,6 +163,9 @@ inline Spatial loaded(const glm::vec<3, float>& v) {
 inline Both dot(const Spatial& a, const Spatial& b) {
     return dot(a.xy, b.xy) + a.z * b.z;
 }
+inline Spatial magnitude(const Spatial& v) {
+    return {magnitude(v.xy), magnitude(v.z)};
+}
 /// As three floats.
 inline void store(const Spatial& v, glm::vec<3, float>& result) {
     store(v.xy, &result.x);

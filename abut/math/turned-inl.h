@@ -15,7 +15,11 @@ struct Turned {
     Both row_x, row_y, row_z, column_z;
     Both last;  ///< of the last row and column, in both lanes
 
-    // As an Affine has them, to the last bit.
+    Spatial first_column() const { return {lower(row_x, row_y), first(row_z)}; }
+    Spatial second_column() const { return {upper(row_x, row_y), second(row_z)}; }
+    Spatial last_column() const { return {column_z, last}; }
+
+    // As of an Affine, to the last bit.
 
     Spatial vector(const Spatial& v) const {
         const Both x = row_x * v.xy, y = row_y * v.xy;

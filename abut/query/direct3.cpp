@@ -5,7 +5,9 @@
 #include <abut/convex/round_pairs.hpp>
 #include <abut/math/set_affine.hpp>
 #include <abut/math/turned-inl.h>
+#include <abut/query/box_features.hpp>
 #include <abut/query/direct.hpp>
+#include <abut/query/direct_boxes.hpp>
 #include <abut/query/part_pairs.hpp>
 #include <abut/query/write_answer.hpp>
 #include <abut/shape/ball.hpp>
@@ -97,19 +99,6 @@ inline void set_place(const Box3& box, const Pose3* pose, Affine<3>& place) {
     else
         place_by(box, *pose, place);
 }
-
-/// The corners, edges and faces of a box, by their bits: those that are fixed, and those at the low end times eight.
-constexpr std::array<Feature, 64> box_features = [] {
-    std::array<Feature, 64> result{};
-    for (std::uint32_t i = 0; i < 64; ++i) {
-        const std::uint32_t fixed = i & 7u, low = i >> 3 & fixed;
-        const int count = std::popcount(fixed);
-        if (count == 1) result[i] = {0, (fixed & 6u) + (low != 0 ? 1u : 0u), FeatureKind::face};
-        if (count == 2) result[i] = {0, edge_index(low, low | (fixed ^ 7u)), FeatureKind::edge};
-        if (count == 3) result[i] = {0, low, FeatureKind::vertex};
-    }
-    return result;
-}();
 
 /// Sums are finite only where all their terms are.
 double sum_of(const DVec<3>& v) {
@@ -272,7 +261,9 @@ bool direct_closest(const Given<3>& a, const Given<3>& b, Cache*, Closest<3>& re
     return false;
 }
 
-bool direct_contact(const Given<3>& a, const Given<3>& b, double margin, Cache*, Contact<3>&) {
+bool direct_contact(const Given<3>& a, const Given<3>& b, double margin, Cache* cache, Contact<3>& result) {
+    if (are_boxes(a, b) && a.pose == nullptr && b.pose == nullptr)
+        return direct_contact(a.as<Box3>(), b.as<Box3>(), margin, cache, result);
     return far_apart(a, b, margin);
 }
 
