@@ -26,13 +26,11 @@ BoxFaceGap widest_face_gap(const BoxFrame& frame) {
         gaps[i] = std::abs(frame.middle[i]) - reach;
     }
     for (std::size_t j = 0; j < 3; ++j) {
-        double reach = frame.half_b[j];
-        for (std::size_t i = 0; i < 3; ++i) reach += std::abs(frame.axis_b[j][i]) * frame.half_a[i];
-        gaps[3 + j] = std::abs(dot(frame.axis_b[j], frame.middle)) - reach;
+        const Triple& axis = frame.axis_b[j];
+        const double reach = dot({std::abs(axis[0]), std::abs(axis[1]), std::abs(axis[2])}, frame.half_a);
+        gaps[3 + j] = std::abs(dot(axis, frame.middle)) - (frame.half_b[j] + reach);
     }
-    const auto wider = [&](std::size_t i, std::size_t j) { return gaps[j] > gaps[i] ? j : i; };
-    const std::size_t best = wider(wider(wider(0, 1), 2), wider(wider(3, 4), 5));
-    return {gaps[best], best};
+    return widest_of(gaps);
 }
 
 // Two at a time: the edges 0 and 1 of B across each of A's, and then its edge 2 across those of A.

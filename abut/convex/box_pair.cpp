@@ -200,10 +200,9 @@ SignedDistance<3> distance_of_boxes(const Convex<3>& a, const Convex<3>& b, cons
     return result;
 }
 
-BoxContact contact_in_frame(const BoxFrame& frame, const BoxPlacement& a, const BoxPlacement& b, double reach,
-                            double margin, Cache* cache, BoxMeeting& meeting, SignedDistance<3>& distance,
+BoxContact contact_in_frame(const BoxFrame& frame, const BoxFaceGap& face, const BoxPlacement& a, const BoxPlacement& b,
+                            double reach, double margin, Cache* cache, BoxMeeting& meeting, SignedDistance<3>& distance,
                             Manifold<3>& points) {
-    const BoxFaceGap face = widest_face_gap(frame);
     if (face.gap > reach) {
         remember_axis(a, face_normal(frame, face.number), cache);
         return BoxContact::none;
@@ -234,9 +233,10 @@ bool contact_of_boxes(const Convex<3>& a, const Convex<3>& b, double reach, doub
     if (options.trace != nullptr)
         manifold(a, b, signed_distance(a, b, {.trace = options.trace}), margin, options.trace);
     if (still_parted(a, b, reach, options.cache)) return false;
+    const BoxFrame frame(a, b);
     BoxMeeting meeting;
-    const BoxContact contact = contact_in_frame(BoxFrame(a, b), BoxPlacement(a), BoxPlacement(b), reach, margin,
-                                                options.cache, meeting, distance, points);
+    const BoxContact contact = contact_in_frame(frame, widest_face_gap(frame), BoxPlacement(a), BoxPlacement(b), reach,
+                                                margin, options.cache, meeting, distance, points);
     if (contact != BoxContact::unknown) {
         set_corners(meeting, false, distance.corners);
         return contact == BoxContact::some;

@@ -1,5 +1,3 @@
-#include <abut/convex/box_axes.hpp>
-#include <abut/convex/box_pair.hpp>
 #include <abut/convex/box_point-inl.h>
 #include <abut/convex/round_lanes-inl.h>
 #include <abut/convex/round_pairs.hpp>
@@ -169,8 +167,8 @@ bool closest_of_ball_and_box(const Given<3>& ball_given, const Given<3>& box_giv
     return closest_of_any_ball_and_box(ball_given, box_given, ball_is_a, result);
 }
 
-bool are_boxes(const Given<3>& a, const Given<3>& b) {
-    return a.kind == ShapeKind::box && b.kind == ShapeKind::box;
+bool are_boxes_in_place(const Given<3>& a, const Given<3>& b) {
+    return a.kind == ShapeKind::box && b.kind == ShapeKind::box && a.pose == nullptr && b.pose == nullptr;
 }
 
 /// A ball around a shape, by its radius, or where that would take a root by its square alone; and a sum that is finite
@@ -230,27 +228,11 @@ bool far_apart(const Given<3>& a, const Given<3>& b, double reach) {
     return square > most * (1 + 1e-12) && std::isfinite(square + (first.sum + second.sum));
 }
 
-/// `boxes_overlap` where nothing is remembered.
-DirectAnswer overlap_of_boxes(const Given<3>& a, const Given<3>& b) {
-    const Box3 &first = a.as<Box3>(), &second = b.as<Box3>();
-    if (!has_volume(first.half) || !has_volume(second.half)) return DirectAnswer::unknown;
-    Affine<3> place_a, place_b;
-    set_place(first, a.pose, place_a);
-    set_place(second, b.pose, place_b);
-    const BoxFrame frame(place_a, first.half, place_b, second.half);
-    if (!std::isfinite(frame.scale() + sum_of(place_b.column[0]) + sum_of(place_b.column[1])))
-        return DirectAnswer::unknown;
-    const BoxFaceGap face = widest_face_gap(frame);
-    if (face.gap > 0) return DirectAnswer::no;
-    return BoxEdgeGaps(frame, face.gap).apart ? DirectAnswer::no : DirectAnswer::yes;
-}
-
 }  // namespace
 
 DirectAnswer direct_overlap(const Given<3>& a, const Given<3>& b, Cache* cache) {
-    if (far_apart(a, b, 0)) return DirectAnswer::no;
-    if (!are_boxes(a, b) || cache != nullptr) return DirectAnswer::unknown;
-    return overlap_of_boxes(a, b);
+    if (are_boxes_in_place(a, b) && cache == nullptr) return direct_overlap(a.as<Box3>(), b.as<Box3>());
+    return far_apart(a, b, 0) ? DirectAnswer::no : DirectAnswer::unknown;
 }
 
 bool direct_closest(const Given<3>& a, const Given<3>& b, Cache*, Closest<3>& result) {
@@ -262,8 +244,7 @@ bool direct_closest(const Given<3>& a, const Given<3>& b, Cache*, Closest<3>& re
 }
 
 bool direct_contact(const Given<3>& a, const Given<3>& b, double margin, Cache* cache, Contact<3>& result) {
-    if (are_boxes(a, b) && a.pose == nullptr && b.pose == nullptr)
-        return direct_contact(a.as<Box3>(), b.as<Box3>(), margin, cache, result);
+    if (are_boxes_in_place(a, b)) return direct_contact(a.as<Box3>(), b.as<Box3>(), margin, cache, result);
     return far_apart(a, b, margin);
 }
 

@@ -1,3 +1,4 @@
+#include <abut/convex/box_axes.hpp>
 #include <abut/convex/box_pair.hpp>
 #include <abut/math/turned-inl.h>
 #include <abut/query/box_features.hpp>
@@ -42,6 +43,41 @@ struct Boxes {
     }
 };
 
+/// The gaps along the normals of the faces, as of `widest_face_gap`.
+struct FaceGaps {
+    Both a_xy, a_z, b_xy, b_z;
+
+    explicit FaceGaps(const Boxes& boxes) {
+        const Spatial sizes[3] = {magnitude(boxes.axis_b[0]), magnitude(boxes.axis_b[1]), magnitude(boxes.axis_b[2])};
+        const Spatial &half_a = boxes.half_a, &half_b = boxes.half_b, &middle = boxes.middle;
+        const Spatial reach_a =
+            half_a + sizes[0] * lanes::first(half_b.xy) + sizes[1] * lanes::second(half_b.xy) + sizes[2] * half_b.z;
+        const Spatial gap_a = magnitude(middle) - reach_a;
+        Both apart[3], reach_b[3];
+        for (std::size_t i = 0; i < 3; ++i) {
+            apart[i] = lanes::magnitude(dot(boxes.axis_b[i], middle));
+            reach_b[i] = dot(sizes[i], half_a);
+        }
+        a_xy = gap_a.xy;
+        a_z = gap_a.z;
+        b_xy = lanes::lower(apart[0], apart[1]) - (half_b.xy + lanes::lower(reach_b[0], reach_b[1]));
+        b_z = apart[2] - (half_b.z + reach_b[2]);
+    }
+
+    bool wider_than(double reach) const {
+        const Both most = lanes::greater(lanes::greater(a_xy, b_xy), lanes::greater(a_z, b_z));
+        return lanes::bits(most > lanes::both(reach)) != 0;
+    }
+    BoxFaceGap widest() const {
+        std::array<double, 6> gaps;
+        lanes::put(a_xy, &gaps[0]);
+        gaps[2] = a_z[0];
+        lanes::put(b_xy, &gaps[3]);
+        gaps[5] = b_z[0];
+        return widest_of(gaps);
+    }
+};
+
 void put(const Spatial& v, double* numbers) {
     lanes::put(v.xy, numbers);
     numbers[2] = v.z[0];
@@ -67,11 +103,23 @@ const Feature& feature_of(const BoxPart& part) {
 
 }  // namespace
 
+DirectAnswer direct_overlap(const Box3& a, const Box3& b) {
+    if (!has_volume(a.half) || !has_volume(b.half)) return DirectAnswer::unknown;
+    const Boxes boxes(a, b);
+    if (!boxes.finite()) return DirectAnswer::unknown;
+    if (FaceGaps(boxes).wider_than(0)) return DirectAnswer::no;
+    BoxFrame frame;
+    set_frame(boxes, frame);
+    return BoxEdgeGaps(frame, 0).apart ? DirectAnswer::no : DirectAnswer::yes;
+}
+
 bool direct_contact(const Box3& a, const Box3& b, double margin, Cache* cache, Contact<3>& result) {
     if (!has_volume(a.half) || !has_volume(b.half)) return false;
     const Boxes boxes(a, b);
     if (!boxes.finite()) return false;
     if (cache != nullptr && margin >= 0 && boxes.parted_along(cache->axis, margin)) return true;
+    const FaceGaps gaps(boxes);
+    if (cache == nullptr && gaps.wider_than(margin)) return true;
     BoxFrame frame;
     set_frame(boxes, frame);
     Affine<3> place_a, place_b;
@@ -80,8 +128,8 @@ bool direct_contact(const Box3& a, const Box3& b, double margin, Cache* cache, C
     BoxMeeting meeting;
     SignedDistance<3> distance;
     Manifold<3> points;
-    const BoxContact contact = contact_in_frame(frame, BoxPlacement(place_a), BoxPlacement(place_b), margin, margin,
-                                                cache, meeting, distance, points);
+    const BoxContact contact = contact_in_frame(frame, gaps.widest(), BoxPlacement(place_a), BoxPlacement(place_b),
+                                                margin, margin, cache, meeting, distance, points);
     if (contact == BoxContact::unknown) return false;
     if (contact == BoxContact::none) return true;
     write(distance, points, result);
