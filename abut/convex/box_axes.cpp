@@ -1,4 +1,5 @@
 #include <abut/convex/box_axes.hpp>
+#include <abut/math/lanes-inl.h>
 
 #include <limits>
 
@@ -25,36 +26,62 @@ BoxFaceGap widest_face_gap(const BoxFrame& frame) {
         gaps[i] = std::abs(frame.middle[i]) - reach;
     }
     for (std::size_t j = 0; j < 3; ++j) {
-        double reach = frame.half_b[j];
-        for (std::size_t i = 0; i < 3; ++i) reach += std::abs(frame.axis_b[j][i]) * frame.half_a[i];
-        gaps[3 + j] = std::abs(dot(frame.axis_b[j], frame.middle)) - reach;
+        const Triple& axis = frame.axis_b[j];
+        const double reach = dot({std::abs(axis[0]), std::abs(axis[1]), std::abs(axis[2])}, frame.half_a);
+        gaps[3 + j] = std::abs(dot(axis, frame.middle)) - (frame.half_b[j] + reach);
     }
-    const auto wider = [&](std::size_t i, std::size_t j) { return gaps[j] > gaps[i] ? j : i; };
-    const std::size_t best = wider(wider(wider(0, 1), 2), wider(wider(3, 4), 5));
-    return {gaps[best], best};
+    return widest_of(gaps);
 }
 
-BoxEdgeGaps::BoxEdgeGaps(const BoxFrame& frame, double face_gap) : apart(false), beats_face(false) {
-    const double slack = rounding * frame.scale(), face = signed_square(face_gap);
+// Two at a time: the edges 0 and 1 of B across each of A's, and then its edge 2 across those of A.
+BoxEdgeGaps::BoxEdgeGaps(const BoxFrame& frame, double face_gap) {
+    using namespace lanes;
+    const Both slack = both(rounding * frame.scale()), face = both(signed_square(face_gap));
+    Chosen above_zero{}, above_face{};
+    struct Pair {
+        Both gap, square;
+    };
+    // Of edges with these coordinates along the two axes beside an axis of A; `reach_b` is that of B.
+    const auto across = [&](Both x, Both y, Both middle_x, Both middle_y, Both half_x, Both half_y, Both reach_b) {
+        const Both between = magnitude(middle_y * x - middle_x * y);
+        const Both reach_a = half_x * magnitude(y) + half_y * magnitude(x);
+        const Pair result{between - (reach_a + reach_b) - slack, x * x + y * y};
+        // Without a branch: which one it is can't be guessed.
+        const Chosen is_axis = result.square > both(no_axis);
+        above_zero |= is_axis & (result.gap > Both{0, 0});
+        above_face |= is_axis & (result.gap * magnitude(result.gap) > face * result.square);
+        return result;
+    };
+
+    const Triple &b0 = frame.axis_b[0], &b1 = frame.axis_b[1], &b2 = frame.axis_b[2];
+    const Triple &middle = frame.middle, &half_a = frame.half_a, &half_b = frame.half_b;
+    const Both edge[3] = {both(b0[0], b1[0]), both(b0[1], b1[1]), both(b0[2], b1[2])};
+    const Both half_next = both(half_b[1], half_b[2]), half_last = both(half_b[2], half_b[0]);
+    Both reach_2[3];
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t x = next_axis(i), y = last_axis(i);
-        for (std::size_t j = 0; j < 3; ++j) {
-            const std::size_t u = next_axis(j), v = last_axis(j);
-            const Triple& edge = frame.axis_b[j];
-            const double between = std::abs(frame.middle[y] * edge[x] - frame.middle[x] * edge[y]);
-            const double reach_a = frame.half_a[x] * std::abs(edge[y]) + frame.half_a[y] * std::abs(edge[x]);
-            const double reach_b =
-                frame.half_b[u] * std::abs(frame.axis_b[v][i]) + frame.half_b[v] * std::abs(frame.axis_b[u][i]);
-            const double here = between - (reach_a + reach_b) - slack;
-            const double length = edge[x] * edge[x] + edge[y] * edge[y];
-            gap[3 * i + j] = here;
-            square[3 * i + j] = length;
-            // Without a branch: which one it is can't be guessed.
-            const bool is_axis = length > no_axis;
-            apart |= is_axis & (here > 0);
-            beats_face |= is_axis & (signed_square(here) > face * length);
-        }
+        const Both size = magnitude(edge[i]), size_2 = magnitude(both(b2[i]));
+        const Both reach = half_next * lower(size_2, size) + half_last * lower(swapped(size), size_2);
+        const Pair pair =
+            across(edge[x], edge[y], both(middle[x]), both(middle[y]), both(half_a[x]), both(half_a[y]), reach);
+        put(pair.gap, &gap[3 * i]);
+        put(pair.square, &square[3 * i]);
+        // Of edge 2: its next one is 0, its last one 1.
+        reach_2[i] = first(half_b[0] * second(size) + half_b[1] * first(size));
     }
+    const Pair two =
+        across(both(b2[1], b2[2]), both(b2[2], b2[0]), both(middle[1], middle[2]), both(middle[2], middle[0]),
+               both(half_a[1], half_a[2]), both(half_a[2], half_a[0]), lower(reach_2[0], reach_2[1]));
+    const Pair last = across(both(b2[0]), both(b2[1]), both(middle[0]), both(middle[1]), both(half_a[0]),
+                             both(half_a[1]), reach_2[2]);
+    gap[2] = two.gap[0];
+    gap[5] = two.gap[1];
+    gap[8] = last.gap[0];
+    square[2] = two.square[0];
+    square[5] = two.square[1];
+    square[8] = last.square[0];
+    apart = bits(above_zero) != 0;
+    beats_face = bits(above_face) != 0;
 }
 
 bool BoxEdgeGaps::wider_than(double reach) const {

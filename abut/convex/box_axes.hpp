@@ -16,6 +16,13 @@ struct BoxFaceGap {
     std::size_t number;  ///< 0 to 2: of A, 3 to 5: of B
 };
 
+/// Of the gaps of all, by their numbers.
+inline BoxFaceGap widest_of(const std::array<double, 6>& gaps) {
+    const auto wider = [&](std::size_t i, std::size_t j) { return gaps[j] > gaps[i] ? j : i; };
+    const std::size_t best = wider(wider(wider(0, 1), 2), wider(wider(3, 4), 5));
+    return {gaps[best], best};
+}
+
 BoxFaceGap widest_face_gap(const BoxFrame& frame);
 
 /// Gaps along the edges of A across those of B, at 3 * (edge of A) + (edge of B). They are short by what may be

@@ -73,10 +73,15 @@ struct BoxFrame {
     }
 };
 
-/// A vector along the axes of a box, in the world.
-inline DVec<3> to_world(const Convex<3>& box, const Triple& v) {
-    const double one = 1 / box.scale;
-    return box.place.vector(DVec<3>(v[0] * one, v[1] * one, v[2] * one));
-}
+/// Where a box is: what takes a vector along its axes into the world.
+struct BoxPlacement {
+    const Affine<3>& place;
+    double one = 1;  ///< 1 / its scale
+
+    explicit BoxPlacement(const Affine<3>& of_box) : place(of_box) {}
+    explicit BoxPlacement(const Convex<3>& box) : place(box.place), one(1 / box.scale) {}
+
+    DVec<3> vector(const Triple& v) const { return place.vector(DVec<3>(v[0] * one, v[1] * one, v[2] * one)); }
+};
 
 }  // namespace abut

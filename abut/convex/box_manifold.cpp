@@ -5,17 +5,18 @@
 namespace abut {
 namespace {
 
-/// A place along the axes of a box, in the world; `one` is 1 / its scale.
-void put(const Convex<3>& box, double one, const Triple& place, DVec<3>& position) {
+/// A place along the axes of a box, in the world.
+void put(const BoxPlacement& box, const Triple& place, DVec<3>& position) {
     const Affine<3>& map = box.place;
     for (int i = 0; i < 3; ++i)
-        position[i] = map.offset[i] +
-                      (map.column[0][i] * place[0] + map.column[1][i] * place[1] + map.column[2][i] * place[2]) * one;
+        position[i] =
+            map.offset[i] +
+            (map.column[0][i] * place[0] + map.column[1][i] * place[1] + map.column[2][i] * place[2]) * box.one;
 }
 
 /// Writes points where they are wanted, number by number.
 struct Writer {
-    const Convex<3>&a, &b;
+    const BoxPlacement &a, &b;
     const BoxMeeting& meeting;
     double margin, slack;
     DVec<3>* on_a;
@@ -25,16 +26,16 @@ struct Writer {
         Triple middle;
         for (std::size_t k = 0; k < 3; ++k) middle[k] = meeting.on_a[k] + meeting.normal[k] * (0.5 * meeting.distance);
         ManifoldPoint<3>& point = points.points[points.count++];
-        put(a, 1 / a.scale, middle, point.position);
+        put(a, middle, point.position);
         point.depth = -meeting.distance;
         point.feature = meeting.part_a.low << 8 ^ meeting.part_b.low;
     }
 
     /// The points between a face of `box`, which sees the other one so, and that one. The name is added to those of all
     /// points.
-    bool add_patch(const Convex<3>& box, const BoxFrame& frame, const Triple& out, std::uint32_t name) const {
+    bool add_patch(const BoxPlacement& box, const BoxFrame& frame, const Triple& out, std::uint32_t name) const {
         const BoxPatch patch(frame, out);
-        const double depth = -meeting.distance, one = 1 / box.scale;
+        const double depth = -meeting.distance;
         std::array<double, BoxPatch::capacity + 1> x, y, depths;
         std::array<std::size_t, BoxPatch::capacity + 1> number;
         std::size_t count = 0;
@@ -58,7 +59,7 @@ struct Writer {
             Triple place = patch.foot(nearest);
             if (&box == &b)
                 for (std::size_t i = 0; i < 3; ++i) place[i] += out[i] * patch.gap[nearest];
-            put(box, one, place, *on_a);
+            put(box, place, *on_a);
         }
 
         std::array<std::size_t, 4> kept{0, 1, 2, 3};
@@ -76,7 +77,7 @@ struct Writer {
             const double along = patch.gap[number[i]] + 0.5 * depths[i];
             for (std::size_t axis = 0; axis < 3; ++axis) place[axis] += out[axis] * along;
             ManifoldPoint<3>& point = points.points[points.count++];
-            put(box, one, place, point.position);
+            put(box, place, point.position);
             point.depth = margin > 0 || depths[i] > 0 ? depths[i] : 0;
             point.feature = patch.name(number[i]) | name;
         }
@@ -86,7 +87,7 @@ struct Writer {
 
 }  // namespace
 
-bool manifold_of_boxes(const Convex<3>& a, const Convex<3>& b, const BoxFrame& frame, const BoxMeeting& meeting,
+bool manifold_of_boxes(const BoxPlacement& a, const BoxPlacement& b, const BoxFrame& frame, const BoxMeeting& meeting,
                        double margin, DVec<3>* on_a, Manifold<3>& points) {
     const Triple &half_a = frame.half_a, &half_b = frame.half_b;
     const double slack = 1e-6 * std::min(half_a[0] + half_a[1] + half_a[2], half_b[0] + half_b[1] + half_b[2]);

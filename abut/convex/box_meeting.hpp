@@ -46,10 +46,11 @@ struct BoxPartCorners {
     }
 };
 
-/// What was found along the axes of A; or, `by_b`, along those of B, with B as the first of the two. Number by number:
-/// a vector that is copied as soon as its numbers are known waits for all of them to reach the memory.
-inline void in_world(const Convex<3>& box, const BoxMeeting& meeting, bool by_b, SignedDistance<3>& result) {
-    const double one = 1 / box.scale, one_normal = by_b ? -one : one, beyond = by_b ? meeting.distance : 0;
+/// What was found along the axes of A; or, `by_b`, along those of B, with B as the first of the two. Without the
+/// corners. Number by number: a vector that is copied as soon as its numbers are known waits for all of them to reach
+/// the memory.
+inline void in_world(const BoxPlacement& box, const BoxMeeting& meeting, bool by_b, SignedDistance<3>& result) {
+    const double one = box.one, one_normal = by_b ? -one : one, beyond = by_b ? meeting.distance : 0;
     const Triple &n = meeting.normal, &p = meeting.on_a;
     const Triple on_a{p[0] + n[0] * beyond, p[1] + n[1] * beyond, p[2] + n[2] * beyond};
     const Affine<3>& place = box.place;
@@ -59,11 +60,14 @@ inline void in_world(const Convex<3>& box, const BoxMeeting& meeting, bool by_b,
         result.normal[i] = (x * n[0] + y * n[1] + z * n[2]) * one_normal;
         result.on_a[i] = place.offset[i] + (x * on_a[0] + y * on_a[1] + z * on_a[2]) * one;
     }
+}
+
+inline void set_corners(const BoxMeeting& meeting, bool by_b, MeetingCorners<3>& corners) {
     const BoxPartCorners first(meeting.part_a), second(meeting.part_b);
-    result.corners.count = std::max(first.count, second.count);
+    corners.count = std::max(first.count, second.count);
     for (std::size_t i = 0; i < 3; ++i) {
-        result.corners.a[i] = by_b ? second.numbers[i] : first.numbers[i];
-        result.corners.b[i] = by_b ? first.numbers[i] : second.numbers[i];
+        corners.a[i] = by_b ? second.numbers[i] : first.numbers[i];
+        corners.b[i] = by_b ? first.numbers[i] : second.numbers[i];
     }
 }
 

@@ -23,9 +23,9 @@ bool still_parted(const Convex<3>& a, const Convex<3>& b, double reach, const Ca
     return middle - covered > reach + doubt && length_squared(axis) < 1 + 1e-6;
 }
 
-void remember_axis(const Convex<3>& a, const Triple& normal, Cache* cache) {
+void remember_axis(const BoxPlacement& a, const Triple& normal, Cache* cache) {
     if (cache == nullptr) return;
-    const DVec<3> axis = to_world(a, normal);
+    const DVec<3> axis = a.vector(normal);
     for (std::size_t i = 0; i < 3; ++i) cache->axis[i] = static_cast<float>(axis[static_cast<int>(i)]);
 }
 
@@ -150,7 +150,8 @@ bool nearest_as_before(const Convex<3>& a, const Convex<3>& b, const Cache& cach
     BoxMeeting meeting;
     if (!nearest_from_corner(BoxFrame(first, second), of_b ? cache.corner_b[0] : cache.corner_a[0], meeting))
         return false;
-    in_world(first, meeting, !of_b, distance);
+    in_world(BoxPlacement(first), meeting, !of_b, distance);
+    set_corners(meeting, !of_b, distance.corners);
     return true;
 }
 
@@ -173,12 +174,12 @@ bool boxes_overlap(const Convex<3>& a, const Convex<3>& b, const SearchOptions<3
     const BoxFrame frame(a, b);
     const BoxFaceGap face = widest_face_gap(frame);
     if (face.gap > 0) {
-        if (options.cache != nullptr) remember_axis(a, face_normal(frame, face.number), options.cache);
+        if (options.cache != nullptr) remember_axis(BoxPlacement(a), face_normal(frame, face.number), options.cache);
         return false;
     }
     const BoxEdgeGaps edges(frame, face.gap);
     if (!edges.apart) return true;
-    if (options.cache != nullptr) remember_axis(a, unit_edge_axis(frame, edges.widest(0)), options.cache);
+    if (options.cache != nullptr) remember_axis(BoxPlacement(a), unit_edge_axis(frame, edges.widest(0)), options.cache);
     return false;
 }
 
@@ -192,10 +193,39 @@ SignedDistance<3> distance_of_boxes(const Convex<3>& a, const Convex<3>& b, cons
             result = signed_distance(a, b, options);
             return result;
         }
-        in_world(a, meeting, false, result);
+        in_world(BoxPlacement(a), meeting, false, result);
+        set_corners(meeting, false, result.corners);
     }
     if (options.cache != nullptr && result.distance > 0) remember(result, *options.cache);
     return result;
+}
+
+BoxContact contact_in_frame(const BoxFrame& frame, const BoxFaceGap& face, const BoxPlacement& a, const BoxPlacement& b,
+                            double reach, double margin, Cache* cache, BoxMeeting& meeting, SignedDistance<3>& distance,
+                            Manifold<3>& points) {
+    if (face.gap > reach) {
+        remember_axis(a, face_normal(frame, face.number), cache);
+        return BoxContact::none;
+    }
+    const BoxEdgeGaps edges(frame, face.gap);
+    if (edges.apart && edges.wider_than(reach)) {
+        remember_axis(a, unit_edge_axis(frame, edges.widest(0)), cache);
+        return BoxContact::none;
+    }
+    const bool apart = face.gap > 0 || edges.apart, along_face = !apart && !edges.beats_face;
+    bool found = true;
+    if (along_face)
+        meet_along(frame, face_normal(frame, face.number), face.gap, meeting);
+    else
+        found = apart ? nearest_points(frame, face, meeting) : deepest_edges(frame, face, edges, meeting);
+    if (!found) return BoxContact::unknown;
+    if (meeting.distance > reach) {
+        remember_axis(a, meeting.normal, cache);
+        return BoxContact::none;
+    }
+    in_world(a, meeting, false, distance);
+    DVec<3>* const place = along_face ? &distance.on_a : nullptr;
+    return manifold_of_boxes(a, b, frame, meeting, margin, place, points) ? BoxContact::some : BoxContact::unknown;
 }
 
 bool contact_of_boxes(const Convex<3>& a, const Convex<3>& b, double reach, double margin,
@@ -204,32 +234,13 @@ bool contact_of_boxes(const Convex<3>& a, const Convex<3>& b, double reach, doub
         manifold(a, b, signed_distance(a, b, {.trace = options.trace}), margin, options.trace);
     if (still_parted(a, b, reach, options.cache)) return false;
     const BoxFrame frame(a, b);
-    const BoxFaceGap face = widest_face_gap(frame);
-    if (face.gap > reach) {
-        remember_axis(a, face_normal(frame, face.number), options.cache);
-        return false;
-    }
-    const BoxEdgeGaps edges(frame, face.gap);
-    if (edges.apart && edges.wider_than(reach)) {
-        remember_axis(a, unit_edge_axis(frame, edges.widest(0)), options.cache);
-        return false;
-    }
     BoxMeeting meeting;
-    const bool apart = face.gap > 0 || edges.apart, along_face = !apart && !edges.beats_face;
-    bool found = true;
-    if (along_face)
-        meet_along(frame, face_normal(frame, face.number), face.gap, meeting);
-    else
-        found = apart ? nearest_points(frame, face, meeting) : deepest_edges(frame, face, edges, meeting);
-    if (found && meeting.distance > reach) {
-        remember_axis(a, meeting.normal, options.cache);
-        return false;
+    const BoxContact contact = contact_in_frame(frame, widest_face_gap(frame), BoxPlacement(a), BoxPlacement(b), reach,
+                                                margin, options.cache, meeting, distance, points);
+    if (contact != BoxContact::unknown) {
+        set_corners(meeting, false, distance.corners);
+        return contact == BoxContact::some;
     }
-    if (found) {
-        in_world(a, meeting, false, distance);
-        found = manifold_of_boxes(a, b, frame, meeting, margin, along_face ? &distance.on_a : nullptr, points);
-    }
-    if (found) return true;
     distance = signed_distance(a, b, options);
     if (distance.distance > reach) return false;
     points = manifold(a, b, distance, margin);

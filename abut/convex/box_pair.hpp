@@ -2,6 +2,8 @@
 
 // A box against a box, both turned and moved and no more: all that is asked of them is answered from their axes.
 
+#include <abut/convex/box_axes.hpp>
+#include <abut/convex/box_meeting.hpp>
 #include <abut/convex/manifold.hpp>
 
 namespace abut {
@@ -22,6 +24,14 @@ inline bool are_plain_boxes(const Convex<3>& a, const Convex<3>& b) {
 bool boxes_overlap(const Convex<3>& a, const Convex<3>& b, const SearchOptions<3>& options);
 
 SignedDistance<3> distance_of_boxes(const Convex<3>& a, const Convex<3>& b, const SearchOptions<3>& options);
+
+enum class BoxContact : std::uint8_t { none, some, unknown };
+
+/// The same as the next, of boxes that are seen already, with nothing of the cache looked at; `distance` lacks the
+/// corners, which the meeting has. Unknown where only a search can tell.
+BoxContact contact_in_frame(const BoxFrame& frame, const BoxFaceGap& face, const BoxPlacement& a, const BoxPlacement& b,
+                            double reach, double margin, Cache* cache, BoxMeeting& meeting, SignedDistance<3>& distance,
+                            Manifold<3>& points);
 
 /// False where they are farther apart than `reach`. The points are those of `manifold`, under names of their own.
 bool contact_of_boxes(const Convex<3>& a, const Convex<3>& b, double reach, double margin,

@@ -76,7 +76,7 @@ __attribute__((always_inline)) inline bool find_place(const Sides& sides, lanes:
     const std::uint32_t past = bits(parts < Both{0, 0});
     if (past == 0) return true;
 
-    const Both away = roots(squares), per_away = away * (Both{1, 1} / squares);
+    const Both away = root(squares), per_away = away * (Both{1, 1} / squares);
     const std::uint32_t before = past & 1, last = (side == 0 ? sides.count : side) - 1;
     const std::uint32_t next = after ^ ((after ^ last) & (0u - before));
     const Chosen start = first(parts) < Both{0, 0};

@@ -170,12 +170,14 @@ bool deep_in_box(const Convex<3>& box, const Convex<3>& segment, const SeenSegme
 
 bool box_point(const Convex<3>& box, const Convex<3>& point, SignedDistance<3>& result) {
     BoxPlace place;
-    const DVec<3> center = core_corner(point, 0);
-    nearest_on_box(DVec<3>(box.own[0]), seen_from(box, point, 0), place);
-    const double distance = place.distance * box.scale;
-    result.distance = distance - box.radius - point.radius;
-    result.normal = box.place.vector(place.normal) / box.scale;
-    result.on_a = center - result.normal * (distance - box.radius);
+    const DVec<3> center = core_corner(point, 0), half(box.own[0]), seen = seen_from(box, point, 0);
+    const bool outside = nearest_from_outside(lanes::spatial(half), lanes::spatial(seen), place);
+    if (!outside) nearest_from_inside(half, seen, place);
+    const double distance = place.distance[0];
+    const DVec<3> way = box.place.vector(lanes::vector(place.way));
+    result.distance = distance * box.scale - box.radius - point.radius;
+    result.normal = way * place.per_length[0] / box.scale;
+    result.on_a = center - (outside ? way : way * distance) + result.normal * box.radius;
     name_part(place.fixed, place.low, result.corners);
     return true;
 }

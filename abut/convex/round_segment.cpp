@@ -30,6 +30,17 @@ DVec<2> across_both(const DVec<2>&, const DVec<2>&) {
     return DVec<2>(0.0);
 }
 
+void set_distance(const SegmentMeeting& meeting, SignedDistance<3>& result) {
+    result.distance = meeting.distance[0];
+    result.normal = lanes::vector(meeting.normal);
+    result.on_a = lanes::vector(meeting.on_a);
+    result.corners.a[0] = meeting.place_a == 2 ? 1 : 0;
+    result.corners.a[1] = meeting.place_a == 0 ? 0 : 1;
+    result.corners.b[0] = meeting.place_b == 2 ? 1 : 0;
+    result.corners.b[1] = meeting.place_b == 0 ? 0 : 1;
+    result.corners.count = 2;
+}
+
 }  // namespace
 
 template <int D>
@@ -83,9 +94,17 @@ bool segment_point(const Convex<3>& segment, const Convex<3>& point, SignedDista
 template <int D>
 bool segment_segment(const Convex<D>& a, const Convex<D>& b, SignedDistance<D>& result) {
     if constexpr (D == 3) {
-        const SegmentPair pair{lanes::both(core_corner(a, 0), core_corner(b, 0)),
-                               lanes::both(core_corner(a, 1), core_corner(b, 1)), a.radius, b.radius};
-        if (distance_of_segments(pair, result)) return true;
+        const SegmentPair pair{lanes::spatial(core_corner(a, 0)),
+                               lanes::spatial(core_corner(a, 1)),
+                               lanes::spatial(core_corner(b, 0)),
+                               lanes::spatial(core_corner(b, 1)),
+                               lanes::both(a.radius),
+                               lanes::both(b.radius)};
+        SegmentMeeting meeting;
+        if (meet(pair, meeting)) {
+            set_distance(meeting, result);
+            return true;
+        }
     }
     // Seen from an end of A.
     const DVec<D> origin = core_corner(a, 0), from = core_corner(b, 0) - origin;

@@ -3,6 +3,8 @@
 // Two doubles side by side, in the vectors that compilers have on every machine: for what is so little that choosing a
 // vector unit by a call would cost as much. The answers are those of doubles one by one. For .cpp files.
 
+#include <abut/math/vec.hpp>
+
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -21,8 +23,8 @@ using Chosen = long long __attribute__((vector_size(16)));
 inline Both both(double a, double b) {
     return Both{a, b};
 }
-inline Both both(double v) {
-    return Both{v, v};
+inline Both both(double value) {
+    return Both{value, value};
 }
 /// One bit a lane.
 inline std::uint32_t bits(Chosen mask) {
@@ -52,10 +54,22 @@ inline Both loaded(const float* numbers) {
     return {numbers[0], numbers[1]};
 #endif
 }
+/// Of one float in memory, in both lanes from there on.
+inline Both loaded_twice(const float& number) {
+#ifdef __SSE2__
+    const __m128 one = _mm_load_ss(&number);
+    return _mm_cvtps_pd(_mm_unpacklo_ps(one, one));
+#else
+    return both(static_cast<double>(number));
+#endif
+}
 inline Both at(const double* numbers) {
     Both result;
     __builtin_memcpy(&result, numbers, sizeof(result));
     return result;
+}
+inline void put(Both v, double* numbers) {
+    __builtin_memcpy(numbers, &v, sizeof(v));
 }
 inline Both lower(Both a, Both b) {
     return __builtin_shufflevector(a, b, 0, 2);
@@ -89,16 +103,16 @@ inline Both lesser(Both a, Both b) {
 inline Both chosen(Chosen mask, Both a, Both b) {
     return reinterpret_cast<Both>((reinterpret_cast<Chosen>(a) & mask) | (reinterpret_cast<Chosen>(b) & ~mask));
 }
-inline Both roots(Both v) {
+inline Both root(Both v) {
 #ifdef __SSE2__
     return _mm_sqrt_pd(v);
 #else
     return {std::sqrt(v[0]), std::sqrt(v[1])};
 #endif
 }
-/// The nearest number from 0 to 1.
-inline Both part(Both v) {
-    return lesser(greater(v, Both{0, 0}), Both{1, 1});
+/// The nearest number from 0 to `most`.
+inline Both limited(Both v, Both most) {
+    return lesser(greater(v, Both{0, 0}), most);
 }
 
 // A vector of the plane, in two lanes.
@@ -144,6 +158,38 @@ inline void store(Both v, float* numbers) {
     numbers[0] = static_cast<float>(v[0]);
     numbers[1] = static_cast<float>(v[1]);
 #endif
+}
+
+/// A vector of space: two numbers side by side, and the third in both lanes. Numbers that it is multiplied by are in
+/// both lanes too.
+struct Spatial {
+    Both xy, z;
+
+    Spatial operator+(const Spatial& v) const { return {xy + v.xy, z + v.z}; }
+    Spatial operator-(const Spatial& v) const { return {xy - v.xy, z - v.z}; }
+    Spatial operator*(Both s) const { return {xy * s, z * s}; }
+};
+inline Spatial spatial(const glm::vec<3, double>& v) {
+    return {both(v.x, v.y), both(v.z)};
+}
+inline glm::vec<3, double> vector(const Spatial& v) {
+    return {v.xy[0], v.xy[1], v.z[0]};
+}
+/// Of three floats in memory.
+inline Spatial loaded(const glm::vec<3, float>& v) {
+    return {loaded(&v.x), loaded_twice(v.z)};
+}
+/// In both lanes.
+inline Both dot(const Spatial& a, const Spatial& b) {
+    return dot(a.xy, b.xy) + a.z * b.z;
+}
+inline Spatial magnitude(const Spatial& v) {
+    return {magnitude(v.xy), magnitude(v.z)};
+}
+/// As three floats.
+inline void store(const Spatial& v, glm::vec<3, float>& result) {
+    store(v.xy, &result.x);
+    result.z = static_cast<float>(v.z[0]);
 }
 
 }  // namespace lanes

@@ -21,7 +21,7 @@ inline void set_affine(Affine<2>& map, const Pose2& pose) {
 inline void set_affine(Affine<3>& map, const Pose3& pose) {
     const double w = static_cast<double>(pose.rotation.w), x = static_cast<double>(pose.rotation.x),
                  y = static_cast<double>(pose.rotation.y), z = static_cast<double>(pose.rotation.z);
-    const double norm_squared = w * w + x * x + y * y + z * z;
+    const double norm_squared = (x * x + z * z) + (y * y + w * w);
     const double s = norm_squared == 0 ? 0 : 2 / norm_squared;
     const double sx = x * s, sy = y * s, sz = z * s;
     const double xx = x * sx, yy = y * sy, zz = z * sz, xy = x * sy, xz = x * sz, yz = y * sz;

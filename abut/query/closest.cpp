@@ -100,6 +100,13 @@ void answer(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& optio
     name_features(a, b, distance, 0, 0, result);
 }
 
+/// Kept out of what is hot, where it would take up room.
+template <int D>
+[[gnu::noinline]] void by_views(const Given<D>& a, const Given<D>& b, const QueryOptions<D>& options,
+                                Closest<D>& result) {
+    answer(convex_of(a), convex_of(b), options, result);
+}
+
 }  // namespace
 
 template <int D>
@@ -112,8 +119,7 @@ Closest<D> closest(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>
 template <int D>
 Closest<D> closest(const Given<D>& a, const Given<D>& b, const QueryOptions<D>& options) {
     Closest<D> result;
-    if (options.trace != nullptr || !direct_closest(a, b, options.cache, result))
-        answer(convex_of(a), convex_of(b), options, result);
+    if (options.trace != nullptr || !direct_closest(a, b, options.cache, result)) by_views(a, b, options, result);
     return result;
 }
 

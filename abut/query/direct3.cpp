@@ -1,10 +1,11 @@
-#include <abut/convex/box_axes.hpp>
-#include <abut/convex/box_pair.hpp>
 #include <abut/convex/box_point-inl.h>
 #include <abut/convex/round_lanes-inl.h>
 #include <abut/convex/round_pairs.hpp>
 #include <abut/math/set_affine.hpp>
+#include <abut/math/turned-inl.h>
+#include <abut/query/box_features.hpp>
 #include <abut/query/direct.hpp>
+#include <abut/query/direct_boxes.hpp>
 #include <abut/query/part_pairs.hpp>
 #include <abut/query/write_answer.hpp>
 #include <abut/shape/ball.hpp>
@@ -12,58 +13,58 @@
 #include <abut/shape/capsule.hpp>
 #include <abut/shape/polyhedron.hpp>
 
+#include <bit>
+
 namespace abut {
 namespace {
 
-/// The ends of two capsules as they are.
-SegmentPair segments_of(const Capsule3& a, const Capsule3& b) {
-    static_assert(sizeof(Capsule3) == 7 * sizeof(float));
-    // Six numbers in a row, read two at a time.
-    const auto *first = reinterpret_cast<const float*>(&a), *second = reinterpret_cast<const float*>(&b);
-    const lanes::Both a0 = lanes::loaded(first), a1 = lanes::loaded(first + 2), a2 = lanes::loaded(first + 4);
-    const lanes::Both b0 = lanes::loaded(second), b1 = lanes::loaded(second + 2), b2 = lanes::loaded(second + 4);
-    return {{lanes::lower(a0, b0), lanes::upper(a0, b0), lanes::lower(a1, b1)},
-            {lanes::upper(a1, b1), lanes::lower(a2, b2), lanes::upper(a2, b2)},
-            static_cast<double>(a.radius),
-            static_cast<double>(b.radius)};
+/// By its bits, beside what is done in floating point.
+inline bool is_finite(float number) {
+    return std::bit_cast<std::uint32_t>(number) << 1 < 0xff000000u;
 }
 
-/// The ends of both capsules, as `convex(capsule, pose)` places them.
+/// By the place on a segment.
+constexpr Feature segment_features[3] = {
+    {0, 0, FeatureKind::vertex}, {0, edge_index(0, 1), FeatureKind::edge}, {0, 1, FeatureKind::vertex}};
+
+inline bool closest_of_segments(const SegmentPair& pair, Closest<3>& result) {
+    SegmentMeeting meeting;
+    if (!meet(pair, meeting)) return false;
+    result.distance = static_cast<float>(meeting.distance[0]);
+    lanes::store(meeting.normal, result.normal);
+    lanes::store(meeting.on_a, result.on_a);
+    lanes::store(meeting.on_a + meeting.normal * meeting.distance, result.on_b);
+    result.feature_a = segment_features[meeting.place_a];
+    result.feature_b = segment_features[meeting.place_b];
+    return true;
+}
+
+/// The ends as `convex(capsule, pose)` places them.
 SegmentPair placed_segments_of(const Given<3>& a, const Given<3>& b) {
     const Capsule3 &first = a.as<Capsule3>(), &second = b.as<Capsule3>();
     Affine<3> place_a, place_b;
     if (a.pose != nullptr) set_affine(place_a, *a.pose);
     if (b.pose != nullptr) set_affine(place_b, *b.pose);
-    return {lanes::both(place_a.point(DVec<3>(first.a)), place_b.point(DVec<3>(second.a))),
-            lanes::both(place_a.point(DVec<3>(first.b)), place_b.point(DVec<3>(second.b))),
-            static_cast<double>(first.radius), static_cast<double>(second.radius)};
+    return {lanes::spatial(place_a.point(DVec<3>(first.a))),
+            lanes::spatial(place_a.point(DVec<3>(first.b))),
+            lanes::spatial(place_b.point(DVec<3>(second.a))),
+            lanes::spatial(place_b.point(DVec<3>(second.b))),
+            lanes::loaded_twice(first.radius),
+            lanes::loaded_twice(second.radius)};
 }
-
-/// An end of a segment, or what is between them, by the corners of the place on it.
-void name_place_on_segment(const CornerNumbers<3>& corners, Feature& feature) {
-    // From a table: which of them it is can't be guessed.
-    static constexpr std::uint32_t numbers[4] = {0, 1, edge_index(0, 1), 1};
-    static constexpr FeatureKind kinds[4] = {FeatureKind::vertex, FeatureKind::vertex, FeatureKind::edge,
-                                             FeatureKind::vertex};
-    const std::uint32_t place = corners[0] + 2 * corners[1];
-    feature.part = 0;
-    feature.index = numbers[place];
-    feature.kind = kinds[place];
-}
-
-bool closest_of_segments(const SegmentPair& pair, Closest<3>& result) {
-    SignedDistance<3> distance;
-    if (!distance_of_segments(pair, distance) || !std::isfinite(distance.distance)) return false;
-    write(distance, result);
-    name_place_on_segment(distance.corners.a, result.feature_a);
-    name_place_on_segment(distance.corners.b, result.feature_b);
-    return true;
+[[gnu::noinline]] bool closest_of_placed_capsules(const Given<3>& a, const Given<3>& b, Closest<3>& result) {
+    return is_finite(a.as<Capsule3>().radius) && is_finite(b.as<Capsule3>().radius) &&
+           closest_of_segments(placed_segments_of(a, b), result);
 }
 
 bool closest_of_capsules(const Given<3>& a, const Given<3>& b, Closest<3>& result) {
-    return a.pose == nullptr && b.pose == nullptr
-               ? closest_of_segments(segments_of(a.as<Capsule3>(), b.as<Capsule3>()), result)
-               : closest_of_segments(placed_segments_of(a, b), result);
+    if (a.pose != nullptr || b.pose != nullptr) return closest_of_placed_capsules(a, b, result);
+    const Capsule3 &first = a.as<Capsule3>(), &second = b.as<Capsule3>();
+    if (!is_finite(first.radius) || !is_finite(second.radius)) return false;
+    return closest_of_segments(
+        {lanes::loaded(first.a), lanes::loaded(first.b), lanes::loaded(second.a), lanes::loaded(second.b),
+         lanes::loaded_twice(first.radius), lanes::loaded_twice(second.radius)},
+        result);
 }
 
 DVec<3> placed(const DVec<3>& point, const Pose3& pose) {
@@ -97,51 +98,77 @@ inline void set_place(const Box3& box, const Pose3* pose, Affine<3>& place) {
         place_by(box, *pose, place);
 }
 
-/// The corner, edge or face of a box, by its bits.
-void name_place(std::uint32_t fixed, std::uint32_t low, Feature& feature) {
-    static constexpr FeatureKind kinds[8] = {FeatureKind::none, FeatureKind::face,  FeatureKind::face,
-                                             FeatureKind::edge, FeatureKind::face,  FeatureKind::edge,
-                                             FeatureKind::edge, FeatureKind::vertex};
-    // By arithmetic alone: which it is can't be guessed. Of the one axis that is fixed across a face, twice its number
-    // is 0, 2 or 4.
-    const std::uint32_t other = low | (fixed ^ 7u), at_low = (low | low >> 1 | low >> 2) & 1u;
-    const std::uint32_t numbers[4] = {0, low, low | other << 16, (fixed & 6u) + at_low};
-    feature.part = 0;
-    feature.kind = kinds[fixed];
-    feature.index = numbers[static_cast<std::size_t>(feature.kind)];
-}
-
 /// Sums are finite only where all their terms are.
 double sum_of(const DVec<3>& v) {
     return v.x + v.y + v.z;
 }
 
-bool closest_of_ball_and_box(const Given<3>& ball_given, const Given<3>& box_given, bool ball_is_a,
-                             Closest<3>& result) {
-    const Sphere& ball = ball_given.as<Sphere>();
+/// `on_box` and `normal` are as from the box to the ball; the distance in both lanes.
+inline void write(const lanes::Spatial& on_box, const lanes::Spatial& normal, lanes::Both distance, std::size_t place,
+                  bool ball_is_a, Closest<3>& result) {
+    using namespace lanes;
+    const Spatial on_ball = on_box + normal * distance;
+    const Feature& feature = box_features[place];
+    result.distance = static_cast<float>(distance[0]);
+    if (ball_is_a) {
+        store(normal * both(-1), result.normal);
+        store(on_ball, result.on_a);
+        store(on_ball - normal * distance, result.on_b);
+        result.feature_a.kind = FeatureKind::vertex;
+        result.feature_b = feature;
+    } else {
+        store(normal, result.normal);
+        store(on_box, result.on_a);
+        store(on_ball, result.on_b);
+        result.feature_a = feature;
+        result.feature_b.kind = FeatureKind::vertex;
+    }
+}
+inline std::size_t place_of(const BoxPlace& place) {
+    return place.fixed + 8 * place.low;
+}
+
+/// Placed by poses, or one in the other.
+[[gnu::noinline]] bool closest_of_any_ball_and_box(const Given<3>& ball, const Given<3>& box_given, bool ball_is_a,
+                                                   Closest<3>& result) {
     const Box3& box = box_given.as<Box3>();
     Affine<3> place;
     set_place(box, box_given.pose, place);
-    const DVec<3> center = center_of(ball_given), half(box.half), seen = place.transposed(center - place.offset);
-    const double radius = static_cast<double>(ball.radius);
+    const DVec<3> center = center_of(ball), half(box.half), seen = place.transposed(center - place.offset);
+    const double radius = static_cast<double>(ball.as<Sphere>().radius);
     if (!std::isfinite(sum_of(seen) + sum_of(half) + radius)) return false;
     BoxPlace nearest;
-    nearest_on_box(half, seen, nearest);
-    SignedDistance<3> distance;
-    distance.normal = place.vector(nearest.normal);
-    distance.distance = nearest.distance - radius;
-    distance.on_a = center - distance.normal * nearest.distance;
-    if (ball_is_a) turn_round(distance);
-    write(distance, result);
-    Feature &of_ball = ball_is_a ? result.feature_a : result.feature_b,
-            &of_box = ball_is_a ? result.feature_b : result.feature_a;
-    of_ball = {0, 0, FeatureKind::vertex};
-    name_place(nearest.fixed, nearest.low, of_box);
+    const bool outside = nearest_from_outside(lanes::spatial(half), lanes::spatial(seen), nearest);
+    if (!outside) nearest_from_inside(half, seen, nearest);
+    const DVec<3> way = place.vector(lanes::vector(nearest.way));
+    const DVec<3> on_box = center - (outside ? way : way * nearest.distance[0]);
+    write(lanes::spatial(on_box), lanes::spatial(way) * nearest.per_length, nearest.distance - lanes::both(radius),
+          place_of(nearest), ball_is_a, result);
     return true;
 }
 
-bool are_boxes(const Given<3>& a, const Given<3>& b) {
-    return a.kind == ShapeKind::box && b.kind == ShapeKind::box;
+bool closest_of_ball_and_box(const Given<3>& ball_given, const Given<3>& box_given, bool ball_is_a,
+                             Closest<3>& result) {
+    using namespace lanes;
+    const Sphere& ball = ball_given.as<Sphere>();
+    const Box3& box = box_given.as<Box3>();
+    if (ball_given.pose == nullptr && box_given.pose == nullptr && is_finite(ball.radius) && is_finite(box.half.x) &&
+        is_finite(box.half.y) && is_finite(box.half.z)) {
+        const Spatial center = loaded(ball.center), half = loaded(box.half);
+        const Turned turn = turned(box.rotation);
+        BoxPlace nearest;
+        if (nearest_from_outside(half, turn.transposed(center - loaded(box.center)), nearest)) {
+            const Spatial way = turn.vector(nearest.way);
+            write(center - way, way * nearest.per_length, nearest.distance - loaded_twice(ball.radius),
+                  place_of(nearest), ball_is_a, result);
+            return true;
+        }
+    }
+    return closest_of_any_ball_and_box(ball_given, box_given, ball_is_a, result);
+}
+
+bool are_boxes_in_place(const Given<3>& a, const Given<3>& b) {
+    return a.kind == ShapeKind::box && b.kind == ShapeKind::box && a.pose == nullptr && b.pose == nullptr;
 }
 
 /// A ball around a shape, by its radius, or where that would take a root by its square alone; and a sum that is finite
@@ -201,27 +228,11 @@ bool far_apart(const Given<3>& a, const Given<3>& b, double reach) {
     return square > most * (1 + 1e-12) && std::isfinite(square + (first.sum + second.sum));
 }
 
-/// `boxes_overlap` where nothing is remembered.
-DirectAnswer overlap_of_boxes(const Given<3>& a, const Given<3>& b) {
-    const Box3 &first = a.as<Box3>(), &second = b.as<Box3>();
-    if (!has_volume(first.half) || !has_volume(second.half)) return DirectAnswer::unknown;
-    Affine<3> place_a, place_b;
-    set_place(first, a.pose, place_a);
-    set_place(second, b.pose, place_b);
-    const BoxFrame frame(place_a, first.half, place_b, second.half);
-    if (!std::isfinite(frame.scale() + sum_of(place_b.column[0]) + sum_of(place_b.column[1])))
-        return DirectAnswer::unknown;
-    const BoxFaceGap face = widest_face_gap(frame);
-    if (face.gap > 0) return DirectAnswer::no;
-    return BoxEdgeGaps(frame, face.gap).apart ? DirectAnswer::no : DirectAnswer::yes;
-}
-
 }  // namespace
 
 DirectAnswer direct_overlap(const Given<3>& a, const Given<3>& b, Cache* cache) {
-    if (far_apart(a, b, 0)) return DirectAnswer::no;
-    if (!are_boxes(a, b) || cache != nullptr) return DirectAnswer::unknown;
-    return overlap_of_boxes(a, b);
+    if (are_boxes_in_place(a, b) && cache == nullptr) return direct_overlap(a.as<Box3>(), b.as<Box3>());
+    return far_apart(a, b, 0) ? DirectAnswer::no : DirectAnswer::unknown;
 }
 
 bool direct_closest(const Given<3>& a, const Given<3>& b, Cache*, Closest<3>& result) {
@@ -232,7 +243,8 @@ bool direct_closest(const Given<3>& a, const Given<3>& b, Cache*, Closest<3>& re
     return false;
 }
 
-bool direct_contact(const Given<3>& a, const Given<3>& b, double margin, Cache*, Contact<3>&) {
+bool direct_contact(const Given<3>& a, const Given<3>& b, double margin, Cache* cache, Contact<3>& result) {
+    if (are_boxes_in_place(a, b)) return direct_contact(a.as<Box3>(), b.as<Box3>(), margin, cache, result);
     return far_apart(a, b, margin);
 }
 

@@ -1,0 +1,141 @@
+#include <abut/convex/box_axes.hpp>
+#include <abut/convex/box_pair.hpp>
+#include <abut/math/turned-inl.h>
+#include <abut/query/box_features.hpp>
+#include <abut/query/direct_boxes.hpp>
+#include <abut/query/write_answer.hpp>
+
+namespace abut {
+namespace {
+
+using lanes::Both;
+using lanes::Spatial;
+
+/// Where two boxes are, and how A sees B.
+struct Boxes {
+    lanes::Turned turn_a, turn_b;
+    Spatial half_a, half_b, between;  ///< the last one in the world
+    Spatial axis_b[3], middle;        ///< along the axes of A
+
+    Boxes(const Box3& a, const Box3& b)
+        : turn_a(lanes::turned(a.rotation)),
+          turn_b(lanes::turned(b.rotation)),
+          half_a(lanes::loaded(a.half)),
+          half_b(lanes::loaded(b.half)),
+          between(lanes::loaded(b.center) - lanes::loaded(a.center)),
+          axis_b{turn_a.transposed(turn_b.first_column()), turn_a.transposed(turn_b.second_column()),
+                 turn_a.transposed(turn_b.last_column())},
+          middle(turn_a.transposed(between)) {}
+
+    bool finite() const {
+        const Spatial sum = half_a + half_b + middle + axis_b[0] + axis_b[1] + axis_b[2];
+        return lanes::finite(sum.xy + sum.z);
+    }
+
+    /// Whether the axis that parted them last parts them still, by more than `reach`, as of their views.
+    bool parted_along(const std::array<float, 3>& kept, double reach) const {
+        const Spatial axis{lanes::loaded(kept.data()), lanes::loaded_twice(kept[2])};
+        const double apart = dot(axis, between)[0];
+        const double covered =
+            (dot(magnitude(turn_a.transposed(axis)), half_a) + dot(magnitude(turn_b.transposed(axis)), half_b))[0];
+        const double doubt = 1e-14 * (std::abs(apart) + covered) + 1e-6 * reach;
+        return apart - covered > reach + doubt && dot(axis, axis)[0] < 1 + 1e-6;
+    }
+};
+
+/// The gaps along the normals of the faces, as of `widest_face_gap`.
+struct FaceGaps {
+    Both a_xy, a_z, b_xy, b_z;
+
+    explicit FaceGaps(const Boxes& boxes) {
+        const Spatial sizes[3] = {magnitude(boxes.axis_b[0]), magnitude(boxes.axis_b[1]), magnitude(boxes.axis_b[2])};
+        const Spatial &half_a = boxes.half_a, &half_b = boxes.half_b, &middle = boxes.middle;
+        const Spatial reach_a =
+            half_a + sizes[0] * lanes::first(half_b.xy) + sizes[1] * lanes::second(half_b.xy) + sizes[2] * half_b.z;
+        const Spatial gap_a = magnitude(middle) - reach_a;
+        Both apart[3], reach_b[3];
+        for (std::size_t i = 0; i < 3; ++i) {
+            apart[i] = lanes::magnitude(dot(boxes.axis_b[i], middle));
+            reach_b[i] = dot(sizes[i], half_a);
+        }
+        a_xy = gap_a.xy;
+        a_z = gap_a.z;
+        b_xy = lanes::lower(apart[0], apart[1]) - (half_b.xy + lanes::lower(reach_b[0], reach_b[1]));
+        b_z = apart[2] - (half_b.z + reach_b[2]);
+    }
+
+    bool wider_than(double reach) const {
+        const Both most = lanes::greater(lanes::greater(a_xy, b_xy), lanes::greater(a_z, b_z));
+        return lanes::bits(most > lanes::both(reach)) != 0;
+    }
+    BoxFaceGap widest() const {
+        std::array<double, 6> gaps;
+        lanes::put(a_xy, &gaps[0]);
+        gaps[2] = a_z[0];
+        lanes::put(b_xy, &gaps[3]);
+        gaps[5] = b_z[0];
+        return widest_of(gaps);
+    }
+};
+
+void put(const Spatial& v, double* numbers) {
+    lanes::put(v.xy, numbers);
+    numbers[2] = v.z[0];
+}
+
+void set_frame(const Boxes& boxes, BoxFrame& frame) {
+    put(boxes.half_a, frame.half_a.data());
+    put(boxes.half_b, frame.half_b.data());
+    for (std::size_t i = 0; i < 3; ++i) put(boxes.axis_b[i], frame.axis_b[i].data());
+    put(boxes.middle, frame.middle.data());
+}
+
+void set_place(const Box3& box, const lanes::Turned& turn, Affine<3>& place) {
+    put(turn.first_column(), &place.column[0].x);
+    put(turn.second_column(), &place.column[1].x);
+    put(turn.last_column(), &place.column[2].x);
+    place.offset = DVec<3>(box.center);
+}
+
+const Feature& feature_of(const BoxPart& part) {
+    return box_features[(part.free ^ 7u) + 8 * part.low];
+}
+
+}  // namespace
+
+DirectAnswer direct_overlap(const Box3& a, const Box3& b) {
+    if (!has_volume(a.half) || !has_volume(b.half)) return DirectAnswer::unknown;
+    const Boxes boxes(a, b);
+    if (!boxes.finite()) return DirectAnswer::unknown;
+    if (FaceGaps(boxes).wider_than(0)) return DirectAnswer::no;
+    BoxFrame frame;
+    set_frame(boxes, frame);
+    return BoxEdgeGaps(frame, 0).apart ? DirectAnswer::no : DirectAnswer::yes;
+}
+
+bool direct_contact(const Box3& a, const Box3& b, double margin, Cache* cache, Contact<3>& result) {
+    if (!has_volume(a.half) || !has_volume(b.half)) return false;
+    const Boxes boxes(a, b);
+    if (!boxes.finite()) return false;
+    if (cache != nullptr && margin >= 0 && boxes.parted_along(cache->axis, margin)) return true;
+    const FaceGaps gaps(boxes);
+    if (cache == nullptr && gaps.wider_than(margin)) return true;
+    BoxFrame frame;
+    set_frame(boxes, frame);
+    Affine<3> place_a, place_b;
+    set_place(a, boxes.turn_a, place_a);
+    set_place(b, boxes.turn_b, place_b);
+    BoxMeeting meeting;
+    SignedDistance<3> distance;
+    Manifold<3> points;
+    const BoxContact contact = contact_in_frame(frame, gaps.widest(), BoxPlacement(place_a), BoxPlacement(place_b),
+                                                margin, margin, cache, meeting, distance, points);
+    if (contact == BoxContact::unknown) return false;
+    if (contact == BoxContact::none) return true;
+    write(distance, points, result);
+    result.feature_a = feature_of(meeting.part_a);
+    result.feature_b = feature_of(meeting.part_b);
+    return true;
+}
+
+}  // namespace abut
