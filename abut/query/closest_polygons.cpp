@@ -21,8 +21,8 @@ inline void write(const SideAndCorner<Core>& found, const Placed<Core>& referenc
 
 /// Two corners. False where they aren't apart, each the farthest in the direction of the other.
 template <class Core>
-bool closest_corners(const Placed<Core>& a, const Placed<Core>& b, std::uint32_t corner_a, std::uint32_t corner_b,
-                     Closest<2>& result) {
+[[gnu::always_inline]] inline bool closest_corners(const Placed<Core>& a, const Placed<Core>& b, std::uint32_t corner_a,
+                                                   std::uint32_t corner_b, Closest<2>& result) {
     const Both arm_a = a.place.vector(a.core.corner(corner_a)) * a.place.scale;
     const Both arm_b = b.place.vector(b.core.corner(corner_b)) * b.place.scale;
     const Both between = (b.place.position - a.place.position) + (arm_b - arm_a);
@@ -53,22 +53,35 @@ inline bool side_again(const Placed<Core>& reference, const Placed<Core>& other,
     return true;
 }
 
+inline void remember_axis(const Closest<2>& result, Cache& cache) {
+    cache.axis = {result.normal.x, result.normal.y, 0};
+}
+
+// What is done again and what is done anew place the shapes each for itself: shared, they would be kept in memory.
+
 /// What was nearest last time is so still: the same corner before the same side, or the same two corners.
 template <class Core>
-inline bool closest_again(const Placed<Core>& a, const Placed<Core>& b, const Cache& cache, Closest<2>& result) {
+inline bool closest_again(const Given<2>& given_a, const Given<2>& given_b, Cache& cache, Closest<2>& result) {
+    if (cache.count == 0 || cache.count > 2) return false;
+    Placed<Core> a(given_a), b(given_b);
     const std::uint32_t number_a = cache.corner_a[0], number_b = cache.corner_b[0];
-    if (cache.count == 0 || cache.count > 2 || number_a >= a.core.count() || number_b >= b.core.count()) return false;
+    if (number_a >= a.core.count() || number_b >= b.core.count() || !set_scales(a.place, b.place)) return false;
     const std::uint32_t of_a = a.core.number(number_a), of_b = b.core.number(number_b);
-    if (cache.count == 1) return closest_corners(a, b, of_a, of_b, result);
     // Twice, so that each time it is known whose numbers are wanted.
-    return number_a != cache.corner_a[1] ? side_again(a, b, of_a, of_b, true, result)
-                                         : side_again(b, a, of_b, of_a, false, result);
+    const bool found = cache.count == 1                ? closest_corners(a, b, of_a, of_b, result)
+                       : number_a != cache.corner_a[1] ? side_again(a, b, of_a, of_b, true, result)
+                                                       : side_again(b, a, of_b, of_a, false, result);
+    if (found) remember_axis(result, cache);
+    return found;
 }
 
 /// From the side with the widest gap: the other's lowest corner is before it, or before one of its ends. Where they
 /// overlap, the least move apart is along that side's normal.
 template <class Core>
-inline bool closest_anew(const Placed<Core>& a, const Placed<Core>& b, Cache* cache, Closest<2>& result) {
+[[gnu::noinline]] bool closest_anew(const Given<2>& given_a, const Given<2>& given_b, Cache* cache,
+                                    Closest<2>& result) {
+    Placed<Core> a(given_a), b(given_b);
+    if (!set_scales(a.place, b.place)) return false;
     Rigid2 seen[2];
     set_seen(a, b, seen);
     const double size = std::abs(seen[0].x) + std::abs(seen[0].y) + a.core.size() + b.core.size();
@@ -78,47 +91,50 @@ inline bool closest_anew(const Placed<Core>& a, const Placed<Core>& b, Cache* ca
     const bool a_is_reference = widest.of == 0;
     const Placed<Core>&reference = a_is_reference ? a : b, &other = a_is_reference ? b : a;
     const SideAndCorner<Core> found(reference, other, widest.side, widest.corner);
-    const std::uint32_t after = reference.core.after(widest.side);
     if (found.beside == Beside::within) {
         write(found, reference, other, widest.side, widest.corner, a_is_reference, result);
         if (cache != nullptr) remember_side(reference, other, widest, *cache);
-        return true;
+    } else {
+        if (!(found.gap > 0)) return false;
+        const std::uint32_t end =
+            found.beside == Beside::before_start ? widest.side : reference.core.after(widest.side);
+        const std::uint32_t of_a = a_is_reference ? end : widest.corner, of_b = a_is_reference ? widest.corner : end;
+        if (!closest_corners(a, b, of_a, of_b, result)) return false;
+        if (cache != nullptr) {
+            cache->count = 1;
+            cache->corner_a[0] = cache->corner_a[1] = a.core.number(of_a);
+            cache->corner_b[0] = cache->corner_b[1] = b.core.number(of_b);
+        }
     }
-    if (!(found.gap > 0)) return false;
-    const std::uint32_t end = found.beside == Beside::before_start ? widest.side : after;
-    const std::uint32_t of_a = a_is_reference ? end : widest.corner, of_b = a_is_reference ? widest.corner : end;
-    if (!closest_corners(a, b, of_a, of_b, result)) return false;
-    if (cache == nullptr) return true;
-    cache->count = 1;
-    cache->corner_a[0] = cache->corner_a[1] = a.core.number(of_a);
-    cache->corner_b[0] = cache->corner_b[1] = b.core.number(of_b);
+    if (cache != nullptr) remember_axis(result, *cache);
     return true;
 }
 
 template <class Core>
-bool closest_of(const Given<2>& given_a, const Given<2>& given_b, Cache* cache, Closest<2>& result) {
-    Placed<Core> a(given_a), b(given_b);
-    if (!set_scales(a.place, b.place)) return false;
-    if (!(cache != nullptr && closest_again(a, b, *cache, result)) && !closest_anew(a, b, cache, result)) return false;
-    if (cache != nullptr) cache->axis = {result.normal.x, result.normal.y, 0};
-    return true;
+bool closest_of(const Given<2>& a, const Given<2>& b, Cache* cache, Closest<2>& result) {
+    return (cache != nullptr && closest_again<Core>(a, b, *cache, result)) || closest_anew<Core>(a, b, cache, result);
 }
 
 template <class Core>
-bool parted(const Given<2>& given_a, const Given<2>& given_b, const Cache& cache, double reach) {
-    Placed<Core> a(given_a), b(given_b);
-    const bool a_is_reference = cache.corner_a[0] != cache.corner_a[1];
-    const Placed<Core>&reference = a_is_reference ? a : b, &other = a_is_reference ? b : a;
-    const std::uint32_t number = a_is_reference ? cache.corner_a[0] : cache.corner_b[0];
-    if (number >= reference.core.count() || !set_scales(a.place, b.place)) return false;
+inline bool parts(const Placed<Core>& reference, const Placed<Core>& other, std::uint32_t number, double reach) {
+    if (number >= reference.core.count()) return false;
     const std::uint32_t side = reference.core.number(number);
     const Both normal = reference.place.vector(reference.core.normal(side));
     const Both between = other.place.position - reference.place.position;
     const double lowest =
         other.core.lowest(other.place.back(normal)) * (reference.place.scale[0] * other.place.scale[0]);
     const double away = lanes::dot(normal, between)[0] * reference.place.scale[0];
-    const double doubt = 1e-14 * (std::abs(between[0]) + std::abs(between[1]) + a.core.size() + b.core.size());
+    const double doubt =
+        1e-14 * (std::abs(between[0]) + std::abs(between[1]) + reference.core.size() + other.core.size());
     return away + lowest - reference.core.offset(side) > reach + doubt;
+}
+
+template <class Core>
+bool parted(const Given<2>& given_a, const Given<2>& given_b, const Cache& cache, double reach) {
+    Placed<Core> a(given_a), b(given_b);
+    if (!set_scales(a.place, b.place)) return false;
+    return cache.corner_a[0] != cache.corner_a[1] ? parts(a, b, cache.corner_a[0], reach)
+                                                  : parts(b, a, cache.corner_b[0], reach);
 }
 
 }  // namespace
