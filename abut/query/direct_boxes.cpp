@@ -50,26 +50,31 @@ struct Boxes {
 /// The gaps along the normals of the faces, as of `widest_face_gap`.
 struct FaceGaps {
     Both a_xy, a_z, b_xy, b_z;
+    Spatial sizes[3];
 
-    explicit FaceGaps(const Boxes& boxes) {
-        const Spatial sizes[3] = {magnitude(boxes.axis_b[0]), magnitude(boxes.axis_b[1]), magnitude(boxes.axis_b[2])};
-        const Spatial &half_a = boxes.half_a, &half_b = boxes.half_b, &middle = boxes.middle;
+    explicit FaceGaps(const Boxes& boxes)
+        : sizes{magnitude(boxes.axis_b[0]), magnitude(boxes.axis_b[1]), magnitude(boxes.axis_b[2])} {
+        const Spatial &half_a = boxes.half_a, &half_b = boxes.half_b;
         const Spatial reach_a =
             half_a + sizes[0] * lanes::first(half_b.xy) + sizes[1] * lanes::second(half_b.xy) + sizes[2] * half_b.z;
-        const Spatial gap_a = magnitude(middle) - reach_a;
-        Both apart[3], reach_b[3];
-        for (std::size_t i = 0; i < 3; ++i) {
-            apart[i] = lanes::magnitude(dot(boxes.axis_b[i], middle));
-            reach_b[i] = dot(sizes[i], half_a);
-        }
+        const Spatial gap_a = magnitude(boxes.middle) - reach_a;
         a_xy = gap_a.xy;
         a_z = gap_a.z;
+    }
+    void add_those_of_b(const Boxes& boxes) {
+        const Spatial& half_b = boxes.half_b;
+        Both apart[3], reach_b[3];
+        for (std::size_t i = 0; i < 3; ++i) {
+            apart[i] = lanes::magnitude(dot(boxes.axis_b[i], boxes.middle));
+            reach_b[i] = dot(sizes[i], boxes.half_a);
+        }
         b_xy = lanes::lower(apart[0], apart[1]) - (half_b.xy + lanes::lower(reach_b[0], reach_b[1]));
         b_z = apart[2] - (half_b.z + reach_b[2]);
     }
 
     /// All numbers of both boxes are in the gaps of A.
     bool finite() const { return lanes::finite(a_xy + a_z); }
+    bool a_wider_than(double reach) const { return lanes::bits(lanes::greater(a_xy, a_z) > lanes::both(reach)) != 0; }
     bool wider_than(double reach) const {
         const Both most = lanes::greater(lanes::greater(a_xy, b_xy), lanes::greater(a_z, b_z));
         return lanes::bits(most > lanes::both(reach)) != 0;
@@ -111,8 +116,10 @@ const Feature& feature_of(const BoxPart& part) {
 
 DirectAnswer direct_overlap(const Box3& a, const Box3& b) {
     const Boxes boxes(a, b);
-    const FaceGaps gaps(boxes);
+    FaceGaps gaps(boxes);
     if (!boxes.have_volume() || !gaps.finite()) return DirectAnswer::unknown;
+    if (gaps.a_wider_than(0)) return DirectAnswer::no;
+    gaps.add_those_of_b(boxes);
     if (gaps.wider_than(0)) return DirectAnswer::no;
     BoxFrame frame;
     set_frame(boxes, frame);
@@ -123,8 +130,9 @@ bool direct_contact(const Box3& a, const Box3& b, double margin, Cache* cache, C
     const Boxes boxes(a, b);
     if (!boxes.have_volume()) return false;
     if (cache != nullptr && margin >= 0 && boxes.parted_along(cache->axis, margin)) return true;
-    const FaceGaps gaps(boxes);
+    FaceGaps gaps(boxes);
     if (!gaps.finite()) return false;
+    gaps.add_those_of_b(boxes);
     if (cache == nullptr && gaps.wider_than(margin)) return true;
     BoxFrame frame;
     set_frame(boxes, frame);
