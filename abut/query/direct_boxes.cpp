@@ -133,7 +133,6 @@ bool direct_contact(const Box3& a, const Box3& b, double margin, Cache* cache, C
     FaceGaps gaps(boxes);
     if (!gaps.finite()) return false;
     gaps.add_those_of_b(boxes);
-    if (cache == nullptr && gaps.wider_than(margin)) return true;
     BoxFrame frame;
     set_frame(boxes, frame);
     Affine<3> place_a, place_b;
