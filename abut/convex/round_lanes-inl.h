@@ -45,7 +45,7 @@ inline bool meet(const SegmentPair& s, SegmentMeeting& result) {
     using namespace lanes;
     // Squares of the sine of their angle, and of the gap in parts of their lengths. So far from where it is in doubt,
     // rounding moves the places by at most 1e-9 of what they are apart, and along one another.
-    constexpr double parallel = 1e-6, near = 1e-10, most = 1e200, above = 1 + 1e-15;
+    constexpr double parallel = 1e-6, near = 1e-10, most = 1e200;
 
     const Spatial along_a = s.to_a - s.from_a, along_b = s.to_b - s.from_b, between_ends = s.from_a - s.from_b;
     const Both square_a = dot(along_a, along_a), square_b = dot(along_b, along_b), crossed = dot(along_a, along_b);
@@ -54,12 +54,12 @@ inline bool meet(const SegmentPair& s, SegmentMeeting& result) {
 
     // Each step is taken, needed or not: which it is can't be guessed, and what is best already stays as it is. Parts
     // of the ways are left multiplied by what they are to be divided by, so that the next step needn't wait for that.
-    // The quotient is a little above, so that an end is the end.
+    // What is at an end is told so, whatever the quotient rounds to.
     const Both end{1, 1};
-    const Both whole_a = whole * squares, one_a = Both{above, above} / whole_a, whole_b = whole * square_b;
+    const Both whole_a = whole * squares, one_a = 1 / whole_a, whole_b = whole * square_b;
     const Both first = limited(crossed * rise_b - square_b * rise_a, whole);
     const Both far_b = limited(crossed * first + rise_b * whole, whole_b);
-    const Both part_b = lesser(far_b * (square_a * one_a), end);
+    const Both part_b = lesser(greater(far_b * (square_a * one_a), chosen(far_b >= whole_b, end)), end);
     const Both part_a = limited((crossed * far_b - rise_a * whole_b) * one_a, end);
     if (!(whole[0] > parallel * squares[0] && whole_a[0] + one_a[0] < most)) return false;
 

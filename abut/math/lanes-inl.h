@@ -26,6 +26,10 @@ inline Both both(double a, double b) {
 inline Both both(double value) {
     return Both{value, value};
 }
+/// Where it isn't chosen, 0.
+inline Both chosen(Chosen mask, Both v) {
+    return reinterpret_cast<Both>(mask & reinterpret_cast<Chosen>(v));
+}
 /// One bit a lane.
 inline std::uint32_t bits(Chosen mask) {
 #ifdef __SSE2__
@@ -51,7 +55,7 @@ inline Both loaded(const float* numbers) {
 #ifdef __SSE2__
     return _mm_cvtps_pd(_mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(numbers))));
 #else
-    return {numbers[0], numbers[1]};
+    return both(static_cast<double>(numbers[0]), static_cast<double>(numbers[1]));
 #endif
 }
 /// Of one float in memory, in both lanes from there on.
@@ -107,7 +111,7 @@ inline Both root(Both v) {
 #ifdef __SSE2__
     return _mm_sqrt_pd(v);
 #else
-    return {std::sqrt(v[0]), std::sqrt(v[1])};
+    return both(std::sqrt(v[0]), std::sqrt(v[1]));
 #endif
 }
 /// The nearest number from 0 to `most`.

@@ -34,6 +34,13 @@ void answer(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& optio
     name_features(a, b, found.distance, 0, 0, result);
 }
 
+/// Kept out of what is hot, where it would take up room.
+template <int D>
+[[gnu::noinline]] void by_views(const Given<D>& a, const Given<D>& b, const QueryOptions<D>& options,
+                                Contact<D>& result) {
+    answer(convex_of(a), convex_of(b), options, result);
+}
+
 }  // namespace
 
 template <int D>
@@ -49,7 +56,7 @@ Contact<D> contact(const Given<D>& a, const Given<D>& b, const QueryOptions<D>& 
     Contact<D> result;
     result.normal[0] = 1;
     if (options.trace != nullptr || !direct_contact(a, b, static_cast<double>(options.margin), options.cache, result))
-        answer(convex_of(a), convex_of(b), options, result);
+        by_views(a, b, options, result);
     return result;
 }
 

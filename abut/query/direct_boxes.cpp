@@ -27,9 +27,12 @@ struct Boxes {
                  turn_a.transposed(turn_b.last_column())},
           middle(turn_a.transposed(between)) {}
 
-    bool finite() const {
-        const Spatial sum = half_a + half_b + middle + axis_b[0] + axis_b[1] + axis_b[2];
-        return lanes::finite(sum.xy + sum.z);
+    /// `has_volume` of both.
+    bool have_volume() const {
+        const Both x = lanes::lower(half_a.xy, half_b.xy), y = lanes::upper(half_a.xy, half_b.xy);
+        const Both z = lanes::lower(half_a.z, half_b.z);
+        const Both most = lanes::greater(lanes::greater(x, y), z), least = lanes::lesser(lanes::lesser(x, y), z);
+        return lanes::bits(least > most * lanes::both(static_cast<double>(1e-4f))) == 3;
     }
 
     /// Whether the axis that parted them last parts them still, by more than `reach`, as of their views.
@@ -39,31 +42,39 @@ struct Boxes {
         const double covered =
             (dot(magnitude(turn_a.transposed(axis)), half_a) + dot(magnitude(turn_b.transposed(axis)), half_b))[0];
         const double doubt = 1e-14 * (std::abs(apart) + covered) + 1e-6 * reach;
-        return apart - covered > reach + doubt && dot(axis, axis)[0] < 1 + 1e-6;
+        return apart - covered > reach + doubt && apart <= std::numeric_limits<double>::max() &&
+               dot(axis, axis)[0] < 1 + 1e-6;
     }
 };
 
 /// The gaps along the normals of the faces, as of `widest_face_gap`.
 struct FaceGaps {
     Both a_xy, a_z, b_xy, b_z;
+    Spatial sizes[3];
 
-    explicit FaceGaps(const Boxes& boxes) {
-        const Spatial sizes[3] = {magnitude(boxes.axis_b[0]), magnitude(boxes.axis_b[1]), magnitude(boxes.axis_b[2])};
-        const Spatial &half_a = boxes.half_a, &half_b = boxes.half_b, &middle = boxes.middle;
+    explicit FaceGaps(const Boxes& boxes)
+        : sizes{magnitude(boxes.axis_b[0]), magnitude(boxes.axis_b[1]), magnitude(boxes.axis_b[2])} {
+        const Spatial &half_a = boxes.half_a, &half_b = boxes.half_b;
         const Spatial reach_a =
             half_a + sizes[0] * lanes::first(half_b.xy) + sizes[1] * lanes::second(half_b.xy) + sizes[2] * half_b.z;
-        const Spatial gap_a = magnitude(middle) - reach_a;
-        Both apart[3], reach_b[3];
-        for (std::size_t i = 0; i < 3; ++i) {
-            apart[i] = lanes::magnitude(dot(boxes.axis_b[i], middle));
-            reach_b[i] = dot(sizes[i], half_a);
-        }
+        const Spatial gap_a = magnitude(boxes.middle) - reach_a;
         a_xy = gap_a.xy;
         a_z = gap_a.z;
+    }
+    void add_those_of_b(const Boxes& boxes) {
+        const Spatial& half_b = boxes.half_b;
+        Both apart[3], reach_b[3];
+        for (std::size_t i = 0; i < 3; ++i) {
+            apart[i] = lanes::magnitude(dot(boxes.axis_b[i], boxes.middle));
+            reach_b[i] = dot(sizes[i], boxes.half_a);
+        }
         b_xy = lanes::lower(apart[0], apart[1]) - (half_b.xy + lanes::lower(reach_b[0], reach_b[1]));
         b_z = apart[2] - (half_b.z + reach_b[2]);
     }
 
+    /// All numbers of both boxes are in the gaps of A.
+    bool finite() const { return lanes::finite(a_xy + a_z); }
+    bool a_wider_than(double reach) const { return lanes::bits(lanes::greater(a_xy, a_z) > lanes::both(reach)) != 0; }
     bool wider_than(double reach) const {
         const Both most = lanes::greater(lanes::greater(a_xy, b_xy), lanes::greater(a_z, b_z));
         return lanes::bits(most > lanes::both(reach)) != 0;
@@ -94,7 +105,7 @@ void set_place(const Box3& box, const lanes::Turned& turn, Affine<3>& place) {
     put(turn.first_column(), &place.column[0].x);
     put(turn.second_column(), &place.column[1].x);
     put(turn.last_column(), &place.column[2].x);
-    place.offset = DVec<3>(box.center);
+    put(lanes::loaded(box.center), &place.offset.x);
 }
 
 const Feature& feature_of(const BoxPart& part) {
@@ -104,22 +115,24 @@ const Feature& feature_of(const BoxPart& part) {
 }  // namespace
 
 DirectAnswer direct_overlap(const Box3& a, const Box3& b) {
-    if (!has_volume(a.half) || !has_volume(b.half)) return DirectAnswer::unknown;
     const Boxes boxes(a, b);
-    if (!boxes.finite()) return DirectAnswer::unknown;
-    if (FaceGaps(boxes).wider_than(0)) return DirectAnswer::no;
+    FaceGaps gaps(boxes);
+    if (!boxes.have_volume() || !gaps.finite()) return DirectAnswer::unknown;
+    if (gaps.a_wider_than(0)) return DirectAnswer::no;
+    gaps.add_those_of_b(boxes);
+    if (gaps.wider_than(0)) return DirectAnswer::no;
     BoxFrame frame;
     set_frame(boxes, frame);
     return BoxEdgeGaps(frame, 0).apart ? DirectAnswer::no : DirectAnswer::yes;
 }
 
 bool direct_contact(const Box3& a, const Box3& b, double margin, Cache* cache, Contact<3>& result) {
-    if (!has_volume(a.half) || !has_volume(b.half)) return false;
     const Boxes boxes(a, b);
-    if (!boxes.finite()) return false;
+    if (!boxes.have_volume()) return false;
     if (cache != nullptr && margin >= 0 && boxes.parted_along(cache->axis, margin)) return true;
-    const FaceGaps gaps(boxes);
-    if (cache == nullptr && gaps.wider_than(margin)) return true;
+    FaceGaps gaps(boxes);
+    if (!gaps.finite()) return false;
+    gaps.add_those_of_b(boxes);
     BoxFrame frame;
     set_frame(boxes, frame);
     Affine<3> place_a, place_b;

@@ -39,9 +39,9 @@ TEST(ClosedForm, OfCapsulesIsThatOfTheirSegments) {
     const Capsule3 a{{-2, 0, 0}, {2, 0, 0}, 0.5f}, b{{1, 3, -2}, {1, 3, 2}, 1};
     const auto found = form_of<3>(view(a), view(b));
     ASSERT_TRUE(found);
-    EXPECT_NEAR(found->distance, 1.5, 1e-14);
-    EXPECT_LT(length(found->on_a - DVec<3>(1, 0.5, 0)), 1e-14);
-    EXPECT_LT(length(found->on_b() - DVec<3>(1, 2, 0)), 1e-14);
+    EXPECT_EQ(found->distance, 1.5);
+    EXPECT_EQ(found->on_a, DVec<3>(1, 0.5, 0));
+    EXPECT_EQ(found->on_b(), DVec<3>(1, 2, 0));
 }
 
 TEST(ClosedForm, IsNotToldOfSegmentsThatCrossOrHardlyMiss) {
