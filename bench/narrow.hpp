@@ -21,6 +21,9 @@ using scenes::ConvexPairs;
 using scenes::Gaps;
 
 constexpr std::size_t pair_count = 1024;
+/// More than a processor learns by heart: of 1024 pairs that are asked again and again it comes to know which way each
+/// branch goes.
+constexpr std::size_t many = 65536;
 constexpr std::size_t hull_count = 32;  // so many different ones on each side
 constexpr std::uint64_t seed = 1;
 
@@ -52,12 +55,13 @@ std::vector<S> drawn(const Kind<S>& kind, oracle::Random& random) {
 }
 
 template <class A, class B>
-ConvexPairs<dimension<A>> resting(const Kind<A>& a, const Kind<B>& b, const Gaps& gaps) {
+ConvexPairs<dimension<A>> resting(const Kind<A>& a, const Kind<B>& b, const Gaps& gaps,
+                                  std::size_t count = pair_count) {
     oracle::Random random(seed);
     std::vector<A> all_a = drawn(a, random);
     std::vector<B> all_b = drawn(b, random);
     scenes::PairMaker<dimension<A>, A, B> maker(std::move(all_a), std::move(all_b), random);
-    return scenes::resting_pairs(maker, pair_count, gaps);
+    return scenes::resting_pairs(maker, count, gaps);
 }
 
 /// Which gaps the pairs have midway, and between which ones they stay.

@@ -53,6 +53,8 @@ std::vector<Bench> contact_benches() {
     return {
         {"narrow/contact/box-box/stacked", stacks},
         {"narrow/contact/box-box/shallow", [] { return boxes_with(resting(boxes<3>, boxes<3>, shallow), few); }},
+        {"narrow/contact/box-box/shallow-many",
+         [] { return boxes_with(resting(boxes<3>, boxes<3>, shallow, many), few); }},
         {"narrow/contact/box-box/deep", [] { return boxes_with(resting(boxes<3>, boxes<3>, deep), some); }},
         {"narrow/contact/box-box/coherent-touching", sliding_stacks},
         {"narrow/contact/box-box/coherent-apart",

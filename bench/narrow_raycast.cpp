@@ -15,13 +15,13 @@ namespace {
 
 /// From without, towards points in and near the shape; rays that graze it are left out.
 template <class S>
-RayScene<dimension<S>> rays_at(const Kind<S>& kind) {
+RayScene<dimension<S>> rays_at(const Kind<S>& kind, std::size_t count = pair_count) {
     constexpr int D = dimension<S>;
     oracle::Random random(seed);
     RayScene<D> scene;
     const std::vector<S> all = drawn(kind, random);
     scene.shapes.assign(all.begin(), all.end());
-    while (scene.rays.size() < pair_count) {
+    while (scene.rays.size() < count) {
         const scenes::Placed<D> target{random.below(static_cast<std::uint32_t>(kind.count)),
                                        {to_float<D>(random.in_cube<D>()), random.rotation<D>()}};
         const Vec<D> from = target.pose.position + to_float<D>(random.direction<D>() * 4.0);
@@ -61,8 +61,8 @@ Side abut_raycast(const RayScene<dimension<S>>& scene) {
             }};
 }
 
-Job job(std::vector<Side> sides) {
-    return {.items = pair_count, .values = pair_count, .sides = std::move(sides)};
+Job job(std::vector<Side> sides, std::size_t count = pair_count) {
+    return {.items = count, .values = count, .sides = std::move(sides)};
 }
 
 Job rays_at_spheres() {
@@ -83,9 +83,9 @@ Job rays_at_hulls() {
     return job({abut_raycast<Polyhedron>(scene), straying(bullet_raycast(scene), 0.01)});
 }
 template <class S>
-Job rays_in_plane(const Kind<S>& kind) {
-    const RayScene<2> scene = rays_at(kind);
-    return job({abut_raycast<S>(scene), box2d_raycast(scene)});
+Job rays_in_plane(const Kind<S>& kind, std::size_t count = pair_count) {
+    const RayScene<2> scene = rays_at(kind, count);
+    return job({abut_raycast<S>(scene), box2d_raycast(scene)}, count);
 }
 
 }  // namespace
@@ -98,6 +98,8 @@ std::vector<Bench> raycast_benches() {
         {"narrow/raycast/hull32", rays_at_hulls},
         {"narrow/raycast/circle", [] { return rays_in_plane(circles); }},
         {"narrow/raycast/polygon3-8", [] { return rays_in_plane(polygons); }},
+        {"narrow/raycast/circle-many", [] { return rays_in_plane(circles, many); }},
+        {"narrow/raycast/polygon3-8-many", [] { return rays_in_plane(polygons, many); }},
     };
 }
 

@@ -4,8 +4,9 @@ namespace abut {
 
 /// Inside, it is beside the next side that it lies nearest to; outside, of sides that lie on one line, to rounding, not
 /// the right one may have been found.
-void look_past_side(const Sides& sides, const DVec<2>& point, bool before, PlaceOfPoint& place) {
+void look_past_side(const Sides& sides, const DVec<2>& point, PlaceOfPoint& place) {
     const std::uint32_t side = place.first, after = sides.after(side);
+    const bool before = dot(sides.along(side), point - sides.corner(side)) < 0;
     if (!(place.gap > 0) && sides.count > 2) {
         place.first = before ? sides.before(side) : after;
         place.second = sides.after(place.first);

@@ -23,7 +23,7 @@ inline constexpr double on_corner = 0x1p-30;
 
 /// Past the end of the side that was found for it, the first or the second of `place`: what is neither plainly outside,
 /// in front of the corner there, nor in front of the side.
-void look_past_side(const Sides& sides, const DVec<2>& point, bool before, PlaceOfPoint& place);
+void look_past_side(const Sides& sides, const DVec<2>& point, PlaceOfPoint& place);
 
 /// Numbers that are nearly the same are told apart by their last bits, which hold which of them it is.
 struct Numbered {
@@ -45,12 +45,14 @@ struct Numbered {
 };
 static_assert(most_sides == Numbered::room + 1);
 
-/// Where a point lies that the polygon sees at `point`, times `scale`. False where it is farther off than `reach`; then
-/// of `place` only the gap is known, which is no finite number where the point has none.
+enum class Near : std::uint8_t { beyond, within, unclear };
+
+/// Where a point lies that the polygon sees at `point`, times `scale`. Beyond `reach`, only the gap is known, which is
+/// no finite number where the point has none; unclear it is where `look_past_side` is to be asked.
 ///
 /// What is chosen here can't be guessed, and what waits for it is long: the root and the quotient of the distances from
 /// both ends of the side are begun before it is known whether one is asked for, and which.
-__attribute__((always_inline)) inline bool find_place(const Sides& sides, lanes::Both point, lanes::Both scale,
+__attribute__((always_inline)) inline Near find_place(const Sides& sides, lanes::Both point, lanes::Both scale,
                                                       double reach, PlaceOfPoint& place) {
     using namespace lanes;
     const Both x = first(point), y = second(point);
@@ -61,7 +63,7 @@ __attribute__((always_inline)) inline bool find_place(const Sides& sides, lanes:
     }
     widest = greater(widest, swapped(widest));
     place.gap = Numbered::value(widest);
-    if (!(place.gap <= reach)) return false;
+    if (!(place.gap <= reach)) return Near::beyond;
     const std::uint32_t side = Numbered::number(widest), after = sides.after(side);
 
     const double normal_x = sides.normal_x[side], normal_y = sides.normal_y[side];
@@ -74,7 +76,7 @@ __attribute__((always_inline)) inline bool find_place(const Sides& sides, lanes:
     const Both squares = from_x * from_x + from_y * from_y;
     const Both parts = (both(normal_x) * from_y - both(normal_y) * from_x) * Both{1, -1};
     const std::uint32_t past = bits(parts < Both{0, 0});
-    if (past == 0) return true;
+    if (past == 0) return Near::within;
 
     const Both away = root(squares), per_away = away * (Both{1, 1} / squares);
     const std::uint32_t before = past & 1, last = (side == 0 ? sides.count : side) - 1;
@@ -83,20 +85,14 @@ __attribute__((always_inline)) inline bool find_place(const Sides& sides, lanes:
     const Both from = chosen(start, lower(from_x, from_y), upper(from_x, from_y));
     const double leans = sides.normal_x[next] * from[1] - sides.normal_y[next] * from[0];
     static constexpr double outwards[2] = {-1, 1};
-    const double doubt = on_corner * (std::abs(from[0]) + std::abs(from[1]) + 2 * sides.size);
+    const Both sizes = magnitude(point) + magnitude(point) + magnitude(from);
     const double gap = chosen(start, away, swapped(away))[0];
-    if (place.gap > 0 && leans * outwards[before] >= 0 && gap > doubt) {
-        place.gap = gap;
-        place.normal = from * chosen(start, first(per_away), second(per_away));
-        place.first = place.second = after ^ ((after ^ side) & (0u - before));
-    } else {
-        // From a copy: what is handed on by reference is kept in memory from the start.
-        const Sides copy = sides;
-        PlaceOfPoint found = place;
-        look_past_side(copy, {x[0] * scale[0], y[0] * scale[0]}, before != 0, found);
-        place = found;
-    }
-    return place.gap <= reach;
+    if (!(place.gap > 0 && leans * outwards[before] >= 0 && gap > on_corner * (sizes[0] + sizes[1])))
+        return Near::unclear;
+    place.gap = gap;
+    place.normal = from * chosen(start, first(per_away), second(per_away));
+    place.first = place.second = after ^ ((after ^ side) & (0u - before));
+    return gap <= reach ? Near::within : Near::beyond;
 }
 
 /// A polygon and a point with balls around them. False where they are farther apart than `reach`.
@@ -106,7 +102,12 @@ inline bool distance_from_point(const Outline& polygon, const Outline& round, bo
     const DVec<2> center = round.place.offset(), point = polygon.place.unplaced(center);
     const double radii = polygon.radius + round.radius;
     PlaceOfPoint place;
-    if (!find_place(sides, lanes::both(point.x, point.y), lanes::both(1), reach + radii, place)) return false;
+    const Near near = find_place(sides, lanes::both(point.x, point.y), lanes::both(1), reach + radii, place);
+    if (near == Near::beyond) return false;
+    if (near == Near::unclear) {
+        look_past_side(sides, point, place);
+        if (!(place.gap <= reach + radii)) return false;
+    }
     const DVec<2> out = polygon.place.vector({place.normal[0], place.normal[1]});
     const std::uint32_t first = sides.corner_number(place.first), second = sides.corner_number(place.second);
     result.distance = place.gap - radii;

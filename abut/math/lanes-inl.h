@@ -136,8 +136,12 @@ inline bool finite(Both v) {
     return bits(magnitude(v) <= Both{1.7976931348623157e308, 1.7976931348623157e308}) == 3;
 }
 /// Whether they differ from 1 by no more than what follows is good for.
+inline constexpr double near_one = 1e-5;
 inline bool are_near_one(Both squares) {
-    return bits(magnitude(squares - Both{1, 1}) < both(1e-5)) == 3;
+    return bits(magnitude(squares - Both{1, 1}) < both(near_one)) == 3;
+}
+inline bool is_near_one(double square) {
+    return std::abs(square - 1) < near_one;
 }
 /// One over the root of squares near 1, as `unit` of a vector takes it.
 inline Both inverse_root(Both squares) {

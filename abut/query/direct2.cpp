@@ -130,7 +130,7 @@ inline bool contact_with_circle(const Given<2>& of_polygon, const Given<2>& of_c
     static constexpr Pose2 nowhere;
     const Pose2& pose = of_polygon.pose != nullptr ? *of_polygon.pose : nowhere;
     const Both turn = lanes::loaded(&pose.rotation.cos), squares = lanes::dot(turn, turn);
-    if (!lanes::are_near_one(squares)) return false;
+    if (!lanes::is_near_one(squares[0])) return false;
     const Both scale = lanes::soon_inverse_root(squares), cos = lanes::first(turn),
                sin = lanes::second(turn) * Both{1, -1};
     const Both center = lanes::loaded(&circle.center.x), offset = center - lanes::loaded(&pose.position.x);
@@ -139,9 +139,10 @@ inline bool contact_with_circle(const Given<2>& of_polygon, const Given<2>& of_c
     Sides sides;
     sides.refer_to(polygon.sides(), polygon.side_count());
     PlaceOfPoint place;
-    const bool near = find_place(sides, cos * offset + sin * lanes::swapped(offset), scale, margin + radius, place);
-    if (!(std::abs(place.gap) + radius < std::numeric_limits<double>::infinity())) return false;
-    if (!near) return true;
+    const Near near = find_place(sides, cos * offset + sin * lanes::swapped(offset), scale, margin + radius, place);
+    if (near == Near::unclear || !(std::abs(place.gap) + radius < std::numeric_limits<double>::infinity()))
+        return false;
+    if (near == Near::beyond) return true;
     const Both out = (cos * scale) * place.normal - (sin * scale) * lanes::swapped(place.normal);
     static constexpr double towards_b[2] = {-1, 1};
     lanes::store(out * lanes::both(towards_b[polygon_is_a ? 1 : 0]), &result.normal.x);
@@ -192,11 +193,12 @@ bool closest_of_outlines(const Given<2>& a, const Given<2>& b, Cache* cache, Clo
     result = contact(convex_of(a), convex_of(b), options);
 }
 
-bool direct_contact(const Given<2>& a, const Given<2>& b, double margin, Cache* cache, Contact<2>& result) {
-    const bool polygon_is_a = a.kind == ShapeKind::polytope && b.kind == ShapeKind::ball;
-    if (polygon_is_a || (a.kind == ShapeKind::ball && b.kind == ShapeKind::polytope))
-        if (contact_with_circle(polygon_is_a ? a : b, polygon_is_a ? b : a, polygon_is_a, margin, result)) return true;
-    return contact_polygons(a, b, margin, cache, result) || contact_of_outlines(a, b, margin, cache, result);
+[[gnu::noinline]] bool contact_of_sides(const Given<2>& a, const Given<2>& b, const QueryOptions<2>& options,
+                                        Contact<2>& result) {
+    const double margin = static_cast<double>(options.margin);
+    return (options.cache != nullptr && parted_again(a, b, *options.cache, margin)) ||
+           contact_polygons(a, b, margin, options.cache, result) ||
+           contact_of_outlines(a, b, margin, options.cache, result);
 }
 
 }  // namespace
@@ -215,11 +217,15 @@ template <>
 Contact<2> contact(const Given<2>& a, const Given<2>& b, const QueryOptions<2>& options) {
     Contact<2> result;
     result.normal[0] = 1;
-    if (options.trace == nullptr && options.cache != nullptr &&
-        parted_again(a, b, *options.cache, static_cast<double>(options.margin)))
-        return result;
-    if (options.trace != nullptr || !direct_contact(a, b, static_cast<double>(options.margin), options.cache, result))
-        contact_of_views(a, b, options, result);
+    if (options.trace == nullptr) {
+        const bool polygon_is_a = a.kind == ShapeKind::polytope && b.kind == ShapeKind::ball;
+        if ((polygon_is_a || (a.kind == ShapeKind::ball && b.kind == ShapeKind::polytope)) &&
+            contact_with_circle(polygon_is_a ? a : b, polygon_is_a ? b : a, polygon_is_a,
+                                static_cast<double>(options.margin), result))
+            return result;
+        if (contact_of_sides(a, b, options, result)) return result;
+    }
+    contact_of_views(a, b, options, result);
     return result;
 }
 

@@ -124,7 +124,7 @@ bool meet_circle(const Ray<2>& ray, const Given<2>& given, std::optional<Hit<2>>
         (lanes::first(direction) * center * Both{1, -1} + lanes::second(direction) * lanes::swapped(center)) * scale;
     const double radius = static_cast<double>(circle.radius), length = static_cast<double>(ray.length);
     const double square = lanes::dot(parts, parts)[0], reach = radius * outside;
-    if (!(lanes::are_near_one(squares) && radius > 0 && square > reach * reach &&
+    if (!(lanes::is_near_one(squares[0]) && radius > 0 && square > reach * reach &&
           square < std::numeric_limits<double>::max() && length >= 0))
         return false;
     const double half_chord = radius * radius - parts[1] * parts[1];
