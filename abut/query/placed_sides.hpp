@@ -16,7 +16,7 @@ namespace abut::placed_sides {
 
 using lanes::Both;
 
-/// By bits. What is not a number is past both ends.
+/// Where a point is along a side, by bits; where polygons can't tell, as of what is not a number, `nowhere`.
 enum class Beside : std::uint32_t { within = 0, past_end = 1, before_start = 2, nowhere = 3 };
 
 // Corners and sides of a shape in its own frame, counted as `Sides` does.
@@ -50,7 +50,6 @@ public:
                                   lanes::both(sides_.normal_y[i], sides_.normal_y[last]), lanes::first(direction),
                                   lanes::second(direction)) <= Both{0, 0}) == 3;
     }
-    /// Where a point is along a side.
     Beside beside(std::uint32_t side, Both point) const {
         const std::uint32_t end = after(side);
         const Both crosses = turned(lanes::both(sides_.normal_x[side]), lanes::both(sides_.normal_y[side]),
