@@ -83,11 +83,8 @@ template <class Core>
     Placed<Core> a(given_a), b(given_b);
     if (!set_scales(a.place, b.place)) return false;
     Rigid2 seen[2];
-    set_seen(a, b, seen);
-    const double size = std::abs(seen[0].x) + std::abs(seen[0].y) + a.core.size() + b.core.size();
-    if (!(size < without_end)) return false;
     SideGap widest;
-    find_widest_gap(a.core, b.core, seen, 1e-14 * size, widest);
+    if (!find_widest(a, b, seen, widest)) return false;
     const bool a_is_reference = widest.of == 0;
     const Placed<Core>&reference = a_is_reference ? a : b, &other = a_is_reference ? b : a;
     const SideAndCorner<Core> found(reference, other, widest.side, widest.corner);

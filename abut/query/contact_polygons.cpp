@@ -18,8 +18,8 @@ struct Edge {
 /// Cut off at both ends of the reference's side, and how far along that its ends are then. By arithmetic without a
 /// branch: which ends are cut off can't be guessed. Nothing is left where both are beyond one end.
 template <class Core>
-inline Both cut_off(const Core& reference, std::uint32_t side, Both normal, Edge& edge) {
-    const Both x = lanes::first(normal), y = lanes::second(normal);
+inline Both cut_off(const Core& reference, std::uint32_t side, Edge& edge) {
+    const Both normal = reference.normal(side), x = lanes::first(normal), y = lanes::second(normal);
     const Both ends = x * reference.ends_y(side) - y * reference.ends_x(side);
     const Both from = lanes::first(ends), to = lanes::second(ends), at = x * edge.y - y * edge.x;
     const Both kept = lanes::lesser(lanes::greater(at, from), to);
@@ -34,16 +34,37 @@ inline Both cut_off(const Core& reference, std::uint32_t side, Both normal, Edge
     return kept;
 }
 
+/// The ends of the edge that are near enough, midway between the two surfaces. False, and none, where the deepest
+/// corner has been cut off.
+template <class Core>
+inline bool add_points(const Placed<Core>& reference, std::uint32_t side, const Edge& edge, double depth, double margin,
+                       double slack, Contact<2>& result) {
+    const Both normal = reference.core.normal(side), x = lanes::first(normal), y = lanes::second(normal);
+    const Both gaps = (x * edge.x + y * edge.y) - lanes::both(reference.core.offset(side));
+    const Both depths = lanes::lesser(-gaps, lanes::both(depth));
+    if (!(std::max(depths[0], depths[1]) >= depth - slack)) return false;
+    const Both half = depths * Both{0.5, 0.5}, middle_x = edge.x + x * half, middle_y = edge.y + y * half;
+    const Placing& place = reference.place;
+    const Both cos = place.cos * place.scale, sin = lanes::first(place.sin) * place.scale;
+    const Both world_x = (cos * middle_x - sin * middle_y) + lanes::first(place.position);
+    const Both world_y = (sin * middle_x + cos * middle_y) + lanes::second(place.position);
+    const std::uint32_t near = lanes::bits(depths >= lanes::both(-margin - slack));
+    const Both told = margin > 0 ? depths : lanes::greater(depths, Both{0, 0});
+    for (std::uint32_t i = 0; i < 2; ++i)
+        if ((near >> i & 1) != 0)
+            result.points.push_back({{static_cast<float>(world_x[i]), static_cast<float>(world_y[i])},
+                                     static_cast<float>(told[i]),
+                                     edge.names[i]});
+    return true;
+}
+
 template <class Core>
 bool contact_of(const Given<2>& given_a, const Given<2>& given_b, double margin, Cache* cache, Contact<2>& result) {
     Placed<Core> a(given_a), b(given_b);
     if (!set_scales(a.place, b.place) || !a.core.has_area() || !b.core.has_area()) return false;
     Rigid2 seen[2];
-    set_seen(a, b, seen);
-    const double size = std::abs(seen[0].x) + std::abs(seen[0].y) + a.core.size() + b.core.size();
-    if (!(size < without_end)) return false;
     SideGap widest;
-    find_widest_gap(a.core, b.core, seen, 1e-14 * size, widest);
+    if (!find_widest(a, b, seen, widest)) return false;
     const bool a_is_reference = widest.of == 0;
     const Placed<Core>&reference = a_is_reference ? a : b, &other = a_is_reference ? b : a;
     if (widest.gap > margin) {
@@ -67,30 +88,12 @@ bool contact_of(const Given<2>& given_a, const Given<2>& given_b, double margin,
     Edge edge{(cos * x - sin * y) + lanes::both(of_other.x),
               (sin * x + cos * y) + lanes::both(of_other.y),
               {other.core.contact_number(facing), other.core.contact_number(other.core.after(facing))}};
-    const Both normal = reference.core.normal(side), along = cut_off(reference.core, side, normal, edge);
+    const Both along = cut_off(reference.core, side, edge);
     const double slack = 1e-6 * std::min(a.core.extent(), b.core.extent());
     if (!(std::abs(along[0] - along[1]) > slack)) return false;
 
     const double depth = -found.gap;
-    const Both gaps =
-        (lanes::first(normal) * edge.x + lanes::second(normal) * edge.y) - lanes::both(reference.core.offset(side));
-    const Both depths = lanes::lesser(-gaps, lanes::both(depth));
-    // The deepest corner may have been cut off.
-    if (!(std::max(depths[0], depths[1]) >= depth - slack)) return false;
-    const Both half = depths * Both{0.5, 0.5};
-    const Both middle_x = edge.x + lanes::first(normal) * half, middle_y = edge.y + lanes::second(normal) * half;
-    const Both turn_cos = reference.place.cos * reference.place.scale,
-               turn_sin = lanes::first(reference.place.sin) * reference.place.scale;
-    const Both world_x = (turn_cos * middle_x - turn_sin * middle_y) + lanes::first(reference.place.position);
-    const Both world_y = (turn_sin * middle_x + turn_cos * middle_y) + lanes::second(reference.place.position);
-    const std::uint32_t near = lanes::bits(depths >= lanes::both(-margin - slack));
-    const Both told = margin > 0 ? depths : lanes::greater(depths, Both{0, 0});
-    for (std::uint32_t i = 0; i < 2; ++i) {
-        if ((near >> i & 1) == 0) continue;
-        result.points.push_back({{static_cast<float>(world_x[i]), static_cast<float>(world_y[i])},
-                                 static_cast<float>(told[i]),
-                                 edge.names[i]});
-    }
+    if (!add_points(reference, side, edge, depth, margin, slack, result)) return false;
     static constexpr double towards_b[2] = {-1, 1};
     const Both out = found.normal * reference.place.scale * lanes::both(towards_b[a_is_reference ? 1 : 0]);
     lanes::store(out, &result.normal.x);

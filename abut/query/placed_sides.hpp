@@ -236,6 +236,16 @@ inline void find_widest_gap(const BoxCore& a, const BoxCore& b, const Rigid2 (&s
     gap_of_boxes(a.half(), b.half(), seen, doubt, found);
 }
 
+/// Of all sides the one that parts them most, and how each sees the other. False where a number isn't finite.
+template <class Core>
+inline bool find_widest(const Placed<Core>& a, const Placed<Core>& b, Rigid2 (&seen)[2], SideGap& widest) {
+    set_seen(a, b, seen);
+    const double size = std::abs(seen[0].x) + std::abs(seen[0].y) + a.core.size() + b.core.size();
+    if (!(size < without_end)) return false;
+    find_widest_gap(a.core, b.core, seen, 1e-14 * size, widest);
+    return true;
+}
+
 /// Of sides that part them; the sides of what overlaps are all tried each time.
 template <class Core>
 inline void remember_side(const Placed<Core>& reference, const Placed<Core>& other, const SideGap& widest,
