@@ -2,6 +2,7 @@
 
 #include "../oracle/pair.hpp"
 #include "../oracle/random.hpp"
+#include <abut/query/certify.hpp>
 #include <abut/query/closest.hpp>
 #include <abut/query/contact.hpp>
 #include <abut/query/overlaps.hpp>
@@ -15,6 +16,7 @@
 #include <abut/shape/segment.hpp>
 #include <abut/shape/triangle.hpp>
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 namespace abut {
@@ -205,6 +207,66 @@ TYPED_TEST(Direct, RaysAndPointsTooAreThoseOfTheViews) {
     EXPECT_GT(told.hits, told.rays * 15 / 100);
     EXPECT_LT(told.hits, told.rays * 8 / 10);
     EXPECT_LT(told.at_corners, told.hits / 50);
+}
+
+// What a cache remembers is tried first, whatever it is: of the pair a moment ago, or of another one altogether.
+
+template <int D>
+void expect_same_from(Cache& cache, const auto& a, const auto& b, Told& told) {
+    const View<D> view_a(view(a)), view_b(view(b));
+    const Closest<D> anew = closest(view_a, view_b);
+    ++told.pairs;
+    told.overlapping += anew.distance < 0 ? 1 : 0;
+    const Closest<D> found = closest(a, b, {.cache = &cache});
+    EXPECT_NEAR(found.distance, anew.distance, rounding);
+    EXPECT_NEAR(glm::dot(found.on_b - found.on_a, found.normal), anew.distance, 4 * rounding);
+    EXPECT_TRUE(certify(view_a, view_b, found).holds);
+    if (std::abs(anew.distance) < 1e-5f) return;
+    EXPECT_EQ(overlaps(a, b, {.cache = &cache}), anew.distance < 0);
+    EXPECT_NEAR(contact(a, b, {.cache = &cache}).depth, std::max(-anew.distance, 0.0f), rounding);
+    const float margin = 0.25f;
+    if (std::abs(anew.distance - margin) < 1e-5f) return;
+    const Contact<D> near = contact(a, b, {.cache = &cache, .margin = margin});
+    EXPECT_EQ(static_cast<bool>(near), anew.distance < margin);
+    if (!near) return;
+    EXPECT_NEAR(near.depth, -anew.distance, rounding);
+}
+
+TYPED_TEST(Direct, AnswersFromACacheAreThoseAnew) {
+    constexpr int D = TypeParam::value;
+    Told told;
+    this->for_each_seed([&](Random& random, Shapes<D>& shapes) {
+        Cache cache;
+        if (random.chance(0.2)) {
+            cache.count = 1 + random.below(2);
+            for (std::size_t i = 0; i < 2; ++i) {
+                cache.corner_a[i] = random.below(5);
+                cache.corner_b[i] = random.below(5);
+            }
+        }
+        const Vec<D> step = to_float<D>(random.direction<D>() * 0.05);
+        const Rotation<D> turned = random.rotation<D>();
+        if (random.chance(0.5)) {
+            const Box<D> a{shapes.point(1), shapes.half(), shapes.rotation()};
+            Box<D> b{shapes.point(1.5), shapes.half(), shapes.rotation()};
+            for (int i = 0; i < 8; ++i, b.center += step) {
+                if (i == 4) b.rotation = turned;
+                expect_same_from<D>(cache, a, b, told);
+            }
+        } else {
+            std::vector<Vec<D>> of_a(4 + random.below(6)), of_b(4 + random.below(6));
+            for (Vec<D>& p : of_a) p = shapes.point(1);
+            for (Vec<D>& p : of_b) p = shapes.point(1);
+            const Polytope<D> a = *Polytope<D>::build(of_a), b = *Polytope<D>::build(of_b);
+            Pose<D> pose{shapes.point(1.5), shapes.rotation()};
+            for (int i = 0; i < 8; ++i, pose.position += step) {
+                if (i == 4) pose.rotation = turned;
+                expect_same_from<D>(cache, a, at(b, pose), told);
+            }
+        }
+    });
+    EXPECT_GT(told.overlapping, told.pairs / 5);
+    EXPECT_LT(told.overlapping, told.pairs * 4 / 5);
 }
 
 // Corner against corner, the balls around two boxes hardly reach farther than the boxes.
