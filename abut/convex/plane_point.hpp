@@ -112,7 +112,10 @@ inline bool distance_from_point(const Outline& polygon, const Outline& round, bo
     const std::uint32_t first = sides.corner_number(place.first), second = sides.corner_number(place.second);
     result.distance = place.gap - radii;
     result.normal = polygon_is_a ? out : -out;
-    result.on_a = center - out * (polygon_is_a ? place.gap - polygon.radius : round.radius);
+    // As the polygon has it, so that what is at a corner is exactly there.
+    const DVec<2> on = place.first == place.second ? sides.corner(place.first)
+                                                   : point - DVec<2>(place.normal[0], place.normal[1]) * place.gap;
+    result.on_a = polygon_is_a ? polygon.place.point(on) + out * polygon.radius : center - out * round.radius;
     auto &of_polygon = polygon_is_a ? result.corners.a : result.corners.b,
          &of_point = polygon_is_a ? result.corners.b : result.corners.a;
     of_polygon[0] = first;
