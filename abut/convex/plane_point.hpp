@@ -33,7 +33,8 @@ struct Numbered {
     static lanes::Both put(lanes::Both v, std::size_t pair) {
         alignas(16) static constexpr long long numbers[most_sides] = {15, 14, 13, 12, 11, 10, 9, 8,
                                                                       7,  6,  5,  4,  3,  2,  1, 0};
-        const lanes::Chosen number = *reinterpret_cast<const lanes::Chosen*>(numbers + 2 * pair);
+        lanes::Chosen number;
+        __builtin_memcpy(&number, numbers + 2 * pair, sizeof(number));
         return reinterpret_cast<lanes::Both>((reinterpret_cast<lanes::Chosen>(v) & ~room) | number);
     }
     static std::uint32_t number(lanes::Both v) {
