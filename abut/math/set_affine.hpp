@@ -32,4 +32,12 @@ inline void set_affine(Affine<3>& map, const Pose3& pose) {
     map.offset = DVec<3>(pose.position);
 }
 
+/// affine(pose).point(point). Kept out of what is hot, where it would take up room.
+template <int D>
+[[gnu::noinline]] DVec<D> placed(const DVec<D>& point, const Pose<D>& pose) {
+    Affine<D> place;
+    set_affine(place, pose);
+    return place.point(point);
+}
+
 }  // namespace abut

@@ -127,8 +127,7 @@ inline bool contact_with_circle(const Given<2>& of_polygon, const Given<2>& of_c
     const Polygon& polygon = of_polygon.as<Polygon>();
     const Circle& circle = of_circle.as<Circle>();
     if (polygon.sides() == nullptr || of_circle.pose != nullptr) return false;
-    static constexpr Pose2 nowhere;
-    const Pose2& pose = of_polygon.pose != nullptr ? *of_polygon.pose : nowhere;
+    const Pose2& pose = pose_or_none(of_polygon.pose);
     const Both turn = lanes::loaded(&pose.rotation.cos), squares = lanes::dot(turn, turn);
     if (!lanes::is_near_one(squares[0])) return false;
     const Both scale = lanes::soon_inverse_root(squares), cos = lanes::first(turn),

@@ -67,14 +67,9 @@ bool closest_of_capsules(const Given<3>& a, const Given<3>& b, Closest<3>& resul
         result);
 }
 
-DVec<3> placed(const DVec<3>& point, const Pose3& pose) {
-    Affine<3> place;
-    set_affine(place, pose);
-    return place.point(point);
-}
 inline DVec<3> center_of(const Given<3>& ball) {
     const DVec<3> center(ball.as<Sphere>().center);
-    return ball.pose == nullptr ? center : placed(center, *ball.pose);
+    return ball.pose == nullptr ? center : placed<3>(center, *ball.pose);
 }
 
 bool closest_of_balls(const Given<3>& a, const Given<3>& b, Closest<3>& result) {
@@ -209,7 +204,7 @@ bool set_ball(const Given<3>& given, BallAround& ball) {
         return false;
     }
     if (given.pose != nullptr) {
-        ball.center = placed(ball.center, *given.pose);
+        ball.center = placed<3>(ball.center, *given.pose);
         ball.sum += sum_of(given.pose->rotation);
     }
     return true;

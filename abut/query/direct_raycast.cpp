@@ -16,21 +16,13 @@ using lanes::Both;
 /// What a ball is begun outside of: its radius, and what may be rounding.
 constexpr double outside = 1 + 4 * ray_doubt;
 
-/// Kept out of what is hot, where it would take up room.
-template <int D>
-[[gnu::noinline]] DVec<D> placed(const DVec<D>& point, const Pose<D>& pose) {
-    Affine<D> place;
-    set_affine(place, pose);
-    return place.point(point);
-}
-
 // False where the answer isn't plain; `result` is as it was then. Comparisons are such that what is not a number, or
 // has no end, isn't plain. Distances over lengths without end are 0.
 
 bool meet_sphere(const Ray3& ray, const Given<3>& given, std::optional<Hit<3>>& result) {
     const Sphere& sphere = given.as<Sphere>();
     const DVec<3> from(ray.origin), way = unit(DVec<3>(ray.direction)), middle(sphere.center);
-    const DVec<3> center = (given.pose != nullptr ? placed(middle, *given.pose) : middle) - from;
+    const DVec<3> center = (given.pose != nullptr ? placed<3>(middle, *given.pose) : middle) - from;
     const double radius = static_cast<double>(sphere.radius), length = static_cast<double>(ray.length);
     const double nearest = dot(center, way), square = length_squared(center), reach = radius * outside;
     if (!(radius > 0 && square > reach * reach && std::isfinite(square + nearest) && length >= 0)) return false;
@@ -57,8 +49,7 @@ bool meet_polygon(const Ray<2>& ray, const Given<2>& given, std::optional<Hit<2>
     if (polygon.sides() == nullptr) return false;
     Sides sides;
     sides.refer_to(polygon.sides(), polygon.side_count());
-    static constexpr Pose2 nowhere;
-    const Pose2& pose = given.pose != nullptr ? *given.pose : nowhere;
+    const Pose2& pose = pose_or_none(given.pose);
     const Both turn = lanes::loaded(&pose.rotation.cos), direction = lanes::loaded(&ray.direction.x);
     const Both squares = lanes::squared_lengths(turn, direction), scales = lanes::soon_inverse_root(squares);
     const double length = static_cast<double>(ray.length);
@@ -114,7 +105,7 @@ bool meet_circle(const Ray<2>& ray, const Given<2>& given, std::optional<Hit<2>>
     const Both from = lanes::loaded(&ray.origin.x), direction = lanes::loaded(&ray.direction.x);
     Both middle = lanes::loaded(&circle.center.x);
     if (given.pose != nullptr) {
-        const DVec<2> point = placed(DVec<2>(circle.center), *given.pose);
+        const DVec<2> point = placed<2>(DVec<2>(circle.center), *given.pose);
         middle = lanes::both(point.x, point.y);
     }
     const Both squares = lanes::dot(direction, direction), scale = lanes::soon_inverse_root(squares);

@@ -139,15 +139,13 @@ private:
     Both half_;
 };
 
-constexpr Pose2 nowhere;
-
 /// How a shape is placed, by the numbers of its pose: a turned vector is as long as they are until it is scaled.
 struct Placing {
     Both position, turn;
     Both cos, sin;  ///< sine and minus sine
     Both scale;
 
-    Placing(const Polygon&, const Pose2* pose) : Placing(pose != nullptr ? *pose : nowhere) {}
+    Placing(const Polygon&, const Pose2* pose) : Placing(pose_or_none(pose)) {}
     Placing(const Box2& box, const Pose2*)
         : position(lanes::loaded(&box.center.x)), turn(lanes::loaded(&box.rotation.cos)) {}
 

@@ -32,6 +32,13 @@ struct Given {
     }
 };
 
+/// The pose, or the one that moves nothing.
+template <int D>
+const Pose<D>& pose_or_none(const Pose<D>* pose) {
+    static constexpr Pose<D> none;
+    return pose != nullptr ? *pose : none;
+}
+
 /// The same as a view.
 template <int D>
 Convex<D> convex_of(const Given<D>& given);
