@@ -56,6 +56,7 @@ std::vector<Bench> contact_benches() {
         {"narrow/contact/box-box/shallow-many",
          [] { return boxes_with(resting(boxes<3>, boxes<3>, shallow, many), few); }},
         {"narrow/contact/box-box/deep", [] { return boxes_with(resting(boxes<3>, boxes<3>, deep), some); }},
+        {"narrow/contact/box-box/deep-many", [] { return boxes_with(resting(boxes<3>, boxes<3>, deep, many), some); }},
         {"narrow/contact/box-box/coherent-touching", sliding_stacks},
         {"narrow/contact/box-box/coherent-apart",
          [] { return boxes_with(moving(boxes<3>, boxes<3>, mostly_apart), few); }},
