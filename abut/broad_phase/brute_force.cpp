@@ -1,6 +1,7 @@
 #include <abut/broad_phase/boxes.hpp>
 #include <abut/broad_phase/brute_force.hpp>
 #include <abut/broad_phase/concept.hpp>
+#include <abut/broad_phase/pair_buffer.hpp>
 #include <abut/broad_phase/reach.hpp>
 #include <abut/math/assert.hpp>
 
@@ -18,20 +19,20 @@ void visit_within(const std::vector<Aabb<D>>& boxes, Reach reach, ReachCall visi
 }  // namespace
 
 template <int D>
-void BruteForce<D>::build(std::span<const Aabb<D>> boxes) {
+void BruteForce<D>::build(std::span<const Aabb<D>> boxes, Executor*) {
     boxes_.clear();
     boxes_.reserve(boxes.size());
     for (const Aabb<D>& box : boxes) boxes_.push_back(usable(box));
 }
 
 template <int D>
-void BruteForce<D>::update(std::span<const Aabb<D>> boxes) {
+void BruteForce<D>::update(std::span<const Aabb<D>> boxes, Executor*) {
     ABUT_ASSERT(boxes.size() == size());
     build(boxes);
 }
 
 template <int D>
-void BruteForce<D>::sorted_pairs(std::vector<std::pair<std::uint32_t, std::uint32_t>>& out) const {
+void BruteForce<D>::sorted_pairs(std::vector<ItemPair>& out) const {
     out.clear();
     each_pair([&](std::uint32_t i, std::uint32_t j) { out.emplace_back(i, j); });
 }
@@ -44,17 +45,21 @@ Aabb<D> BruteForce<D>::bounds() const {
 }
 
 template <int D>
-void BruteForce<D>::visit_pairs(PairCall visit) const {
+void BruteForce<D>::visit_pairs(PairsCall visit, Executor*) const {
+    PairBuffer pairs(visit);
     for (std::uint32_t i = 0; i < boxes_.size(); ++i)
         for (std::uint32_t j = i + 1; j < boxes_.size(); ++j)
-            if (overlaps(boxes_[i], boxes_[j]) && !visit(i, j)) return;
+            if (overlaps(boxes_[i], boxes_[j]) && !pairs.add(i, j)) return;
+    pairs.flush();
 }
 
 template <int D>
-void BruteForce<D>::visit_pairs(const BruteForce& other, PairCall visit) const {
+void BruteForce<D>::visit_pairs(const BruteForce& other, PairsCall visit) const {
+    PairBuffer pairs(visit);
     for (std::uint32_t i = 0; i < boxes_.size(); ++i)
         for (std::uint32_t j = 0; j < other.boxes_.size(); ++j)
-            if (overlaps(boxes_[i], other.boxes_[j]) && !visit(i, j)) return;
+            if (overlaps(boxes_[i], other.boxes_[j]) && !pairs.add(i, j)) return;
+    pairs.flush();
 }
 
 template <int D>

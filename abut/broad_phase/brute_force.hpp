@@ -4,13 +4,13 @@
 
 #include <abut/broad_phase/visit.hpp>
 #include <abut/math/aabb.hpp>
+#include <abut/math/executor.hpp>
 #include <abut/math/ray.hpp>
 
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace abut {
@@ -20,18 +20,18 @@ namespace abut {
 template <int D>
 class BruteForce {
 public:
-    void build(std::span<const Aabb<D>> boxes);
-    void update(std::span<const Aabb<D>> boxes);
+    void build(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
+    void update(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
 
     template <Visitor<std::uint32_t, std::uint32_t> F>
-    void each_pair(F&& visit) const {
-        visit_pairs(go_on_after(visit));
+    void each_pair(F&& visit, Executor* executor = nullptr) const {
+        visit_pairs(each_pair_to(visit), executor);
     }
-    void sorted_pairs(std::vector<std::pair<std::uint32_t, std::uint32_t>>& out) const;
+    void sorted_pairs(std::vector<ItemPair>& out) const;
 
     template <Visitor<std::uint32_t, std::uint32_t> F>
     void each_overlapping_pair(const BruteForce& other, F&& visit) const {
-        visit_pairs(other, go_on_after(visit));
+        visit_pairs(other, each_pair_to(visit));
     }
     template <Visitor<std::uint32_t> F>
     void each_overlapping(const Aabb<D>& box, F&& visit) const {
@@ -56,8 +56,8 @@ public:
     Aabb<D> bounds() const;
 
 private:
-    void visit_pairs(PairCall visit) const;
-    void visit_pairs(const BruteForce& other, PairCall visit) const;
+    void visit_pairs(PairsCall visit, Executor* executor) const;
+    void visit_pairs(const BruteForce& other, PairsCall visit) const;
     void visit_overlapping(const Aabb<D>& box, ItemCall visit) const;
     void visit_along(const Ray<D>& ray, ReachCall visit) const;
     void visit_near(const Aabb<D>& box, float reach, ReachCall visit) const;

@@ -60,7 +60,7 @@ void visit_within(const std::vector<BvhNode<D>>& nodes, const std::vector<BvhIte
 }  // namespace
 
 template <int D>
-void Bvh<D>::build(std::span<const Aabb<D>> boxes) {
+void Bvh<D>::build(std::span<const Aabb<D>> boxes, Executor*) {
     ABUT_ASSERT(boxes.size() <= std::size_t{1} << 31);
     size_ = boxes.size();
     items_.clear();
@@ -79,7 +79,7 @@ void Bvh<D>::build(std::span<const Aabb<D>> boxes) {
 }
 
 template <int D>
-void Bvh<D>::update(std::span<const Aabb<D>> boxes) {
+void Bvh<D>::update(std::span<const Aabb<D>> boxes, Executor*) {
     ABUT_ASSERT(boxes.size() == size_);
     if (boxes.size() != size_ || has_newcomers(boxes)) return build(boxes);
     for (BvhItem<D>& item : items_) item.box = usable(boxes[item.index]);
@@ -118,7 +118,7 @@ typename Bvh<D>::Cost Bvh<D>::refit() {
 }
 
 template <int D>
-void Bvh<D>::sorted_pairs(std::vector<std::pair<std::uint32_t, std::uint32_t>>& out) const {
+void Bvh<D>::sorted_pairs(std::vector<ItemPair>& out) const {
     out.clear();
     each_pair([&](std::uint32_t i, std::uint32_t j) { out.emplace_back(i, j); });
     std::sort(out.begin(), out.end());

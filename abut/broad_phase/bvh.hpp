@@ -5,13 +5,13 @@
 #include <abut/broad_phase/bvh_node.hpp>
 #include <abut/broad_phase/visit.hpp>
 #include <abut/math/aabb.hpp>
+#include <abut/math/executor.hpp>
 #include <abut/math/ray.hpp>
 
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace abut {
@@ -27,18 +27,18 @@ namespace abut {
 template <int D>
 class Bvh {
 public:
-    void build(std::span<const Aabb<D>> boxes);
-    void update(std::span<const Aabb<D>> boxes);
+    void build(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
+    void update(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
 
     template <Visitor<std::uint32_t, std::uint32_t> F>
-    void each_pair(F&& visit) const {
-        visit_pairs(go_on_after(visit));
+    void each_pair(F&& visit, Executor* executor = nullptr) const {
+        visit_pairs(each_pair_to(visit), executor);
     }
-    void sorted_pairs(std::vector<std::pair<std::uint32_t, std::uint32_t>>& out) const;
+    void sorted_pairs(std::vector<ItemPair>& out) const;
 
     template <Visitor<std::uint32_t, std::uint32_t> F>
     void each_overlapping_pair(const Bvh& other, F&& visit) const {
-        visit_pairs(other, go_on_after(visit));
+        visit_pairs(other, each_pair_to(visit));
     }
     template <Visitor<std::uint32_t> F>
     void each_overlapping(const Aabb<D>& box, F&& visit) const {
@@ -75,8 +75,8 @@ private:
 
     Cost refit();
     bool has_newcomers(std::span<const Aabb<D>> boxes) const;
-    void visit_pairs(PairCall visit) const;
-    void visit_pairs(const Bvh& other, PairCall visit) const;
+    void visit_pairs(PairsCall visit, Executor* executor) const;
+    void visit_pairs(const Bvh& other, PairsCall visit) const;
     void visit_overlapping(const Aabb<D>& box, ItemCall visit) const;
     void visit_along(const Ray<D>& ray, ReachCall visit) const;
     void visit_along(const MovingBox<D>& box, ReachCall visit) const;

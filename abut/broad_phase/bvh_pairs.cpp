@@ -1,6 +1,7 @@
 // Pairs: two trees, or one twice, descended together. The depth of the recursion is at most twice that of a tree.
 
 #include <abut/broad_phase/bvh.hpp>
+#include <abut/broad_phase/pair_buffer.hpp>
 
 #include <algorithm>
 
@@ -26,8 +27,8 @@ struct Tree {
 template <int D>
 class PairWalk {
 public:
-    PairWalk(const Tree<D>& a, const Tree<D>& b, bool same, PairCall visit)
-        : a_(a), b_(b), same_(same), visit_(visit) {}
+    PairWalk(const Tree<D>& a, const Tree<D>& b, bool same, PairBuffer& pairs)
+        : a_(a), b_(b), same_(same), pairs_(pairs) {}
 
     /// The pairs below one node. Returns false where the visitor has had enough.
     bool below(std::uint32_t index) const {
@@ -62,31 +63,34 @@ private:
 
     bool pair(const BvhItem<D>& a, const BvhItem<D>& b) const {
         if (!overlaps(a.box, b.box)) return true;
-        return same_ && b.index < a.index ? visit_(b.index, a.index) : visit_(a.index, b.index);
+        return same_ ? pairs_.add_sorted(a.index, b.index) : pairs_.add(a.index, b.index);
     }
 
     Tree<D> a_, b_;
     bool same_;
-    PairCall visit_;
+    PairBuffer& pairs_;
 };
 
 }  // namespace
 
 template <int D>
-void Bvh<D>::visit_pairs(PairCall visit) const {
+void Bvh<D>::visit_pairs(PairsCall visit, Executor*) const {
     const Tree<D> tree{nodes_.data(), items_.data()};
-    if (!nodes_.empty()) PairWalk<D>(tree, tree, true, visit).below(0);
+    PairBuffer pairs(visit);
+    if (!nodes_.empty() && PairWalk<D>(tree, tree, true, pairs).below(0)) pairs.flush();
 }
 
 template <int D>
-void Bvh<D>::visit_pairs(const Bvh& other, PairCall visit) const {
+void Bvh<D>::visit_pairs(const Bvh& other, PairsCall visit) const {
     const Tree<D> tree{nodes_.data(), items_.data()}, others{other.nodes_.data(), other.items_.data()};
-    if (!nodes_.empty() && !other.nodes_.empty()) PairWalk<D>(tree, others, false, visit).between(0, 0);
+    PairBuffer pairs(visit);
+    if (!nodes_.empty() && !other.nodes_.empty() && PairWalk<D>(tree, others, false, pairs).between(0, 0))
+        pairs.flush();
 }
 
-template void Bvh<2>::visit_pairs(PairCall) const;
-template void Bvh<3>::visit_pairs(PairCall) const;
-template void Bvh<2>::visit_pairs(const Bvh&, PairCall) const;
-template void Bvh<3>::visit_pairs(const Bvh&, PairCall) const;
+template void Bvh<2>::visit_pairs(PairsCall, Executor*) const;
+template void Bvh<3>::visit_pairs(PairsCall, Executor*) const;
+template void Bvh<2>::visit_pairs(const Bvh&, PairsCall) const;
+template void Bvh<3>::visit_pairs(const Bvh&, PairsCall) const;
 
 }  // namespace abut

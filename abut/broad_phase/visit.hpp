@@ -7,7 +7,9 @@
 #include <concepts>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <type_traits>
+#include <utility>
 
 namespace abut {
 
@@ -23,9 +25,10 @@ template <class F>
 concept ReachVisitor = Visitor<F, std::uint32_t> ||
     (std::invocable<F&, std::uint32_t>&& std::same_as<std::invoke_result_t<F&, std::uint32_t>, float>);
 
-using PairCall = FunctionRef<bool(std::uint32_t, std::uint32_t)>;  ///< false stops
-using ItemCall = FunctionRef<bool(std::uint32_t)>;                 ///< false stops
-using ReachCall = FunctionRef<float(std::uint32_t)>;               ///< the new reach
+using ItemPair = std::pair<std::uint32_t, std::uint32_t>;
+using PairsCall = FunctionRef<bool(std::span<const ItemPair>)>;  ///< some pairs at once; false stops
+using ItemCall = FunctionRef<bool(std::uint32_t)>;               ///< false stops
+using ReachCall = FunctionRef<float(std::uint32_t)>;             ///< the new reach
 
 /// Any visitor of pairs or items as one that returns whether to go on. Refers to `visit`.
 template <class F>
@@ -37,6 +40,17 @@ auto go_on_after(F& visit) {
         } else {
             return visit(items...);
         }
+    };
+}
+
+/// Any visitor of pairs as one that takes some at once. Refers to `visit`.
+template <Visitor<std::uint32_t, std::uint32_t> F>
+auto each_pair_to(F& visit) {
+    return [&visit](std::span<const ItemPair> pairs) -> bool {
+        const auto go_on = go_on_after(visit);
+        for (const auto& [i, j] : pairs)
+            if (!go_on(i, j)) return false;
+        return true;
     };
 }
 

@@ -2,8 +2,7 @@
 
 #include "allocations.hpp"
 #include "scenes.hpp"
-#include <abut/broad_phase/brute_force.hpp>
-#include <abut/broad_phase/bvh.hpp>
+#include "structures.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +11,7 @@ namespace {
 
 template <class T>
 class Allocations : public testing::Test {};
-using All = testing::Types<BruteForce<2>, BruteForce<3>, Bvh<2>, Bvh<3>>;
-TYPED_TEST_SUITE(Allocations, All);
+TYPED_TEST_SUITE(Allocations, AllBroadPhases);
 
 TYPED_TEST(Allocations, NoneOnceWarm) {
     constexpr int D = dimension_of<TypeParam>;

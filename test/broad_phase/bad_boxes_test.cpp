@@ -1,8 +1,7 @@
 // Boxes and queries with NaN: asserted in debug builds, never visited in any.
 
 #include "scenes.hpp"
-#include <abut/broad_phase/brute_force.hpp>
-#include <abut/broad_phase/bvh.hpp>
+#include "structures.hpp"
 #include <abut/math/assert.hpp>
 
 #include <cstdio>
@@ -40,8 +39,7 @@ protected:
     }
     void TearDown() override { asserts_expected = false; }
 };
-using All = testing::Types<BruteForce<2>, BruteForce<3>, Bvh<2>, Bvh<3>>;
-TYPED_TEST_SUITE(BadBoxes, All);
+TYPED_TEST_SUITE(BadBoxes, AllBroadPhases);
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 

@@ -1,13 +1,14 @@
 // Every broad phase against every pair: after a build, and after many updates.
 
+#include "executors.hpp"
 #include "scenes.hpp"
-#include <abut/broad_phase/brute_force.hpp>
-#include <abut/broad_phase/bvh.hpp>
+#include "structures.hpp"
 #include <abut/broad_phase/concept.hpp>
 #include <abut/broad_phase/reach.hpp>
 
 #include <algorithm>
 #include <memory>
+#include <mutex>
 #include <tuple>
 
 #include <gtest/gtest.h>
@@ -150,8 +151,7 @@ struct Checks {
 
 template <class T>
 class BroadPhases : public testing::Test, protected Checks<T, dimension_of<T>> {};
-using All = testing::Types<BruteForce<2>, BruteForce<3>, Bvh<2>, Bvh<3>>;
-TYPED_TEST_SUITE(BroadPhases, All);
+TYPED_TEST_SUITE(BroadPhases, AllBroadPhases);
 
 TYPED_TEST(BroadPhases, AgreeAfterABuild) {
     constexpr int D = dimension_of<TypeParam>;
@@ -231,6 +231,39 @@ TYPED_TEST(BroadPhases, PairsOfFourBoxes) {
     Pairs pairs;
     TestFixture::built(boxes).sorted_pairs(pairs);
     EXPECT_EQ(pairs, (Pairs{{0, 1}, {1, 2}}));
+}
+
+TYPED_TEST(BroadPhases, HaveTheSamePairsWithSeveralThreads) {
+    constexpr int D = dimension_of<TypeParam>;
+    ThreadExecutor executor(3);
+    for (const Scene scene : all_scenes)
+        for (const std::uint32_t count : {0u, 1u, 7u, 3000u}) {
+            SCOPED_TRACE(testing::Message() << "scene " << static_cast<int>(scene) << " of " << count << " seed 31");
+            if (scene == Scene::coincident && count > 1000) continue;  // millions of pairs
+            oracle::Random random(31);
+            auto boxes = make_scene<D>(scene, count, random);
+            TypeParam phase, alone;
+            phase.build(boxes, &executor);
+            alone.build(boxes);
+            for (int frame = 0; frame < 3; ++frame) {
+                Pairs expected, found;
+                alone.sorted_pairs(expected);
+                std::mutex mutex;
+                const auto keep = [&](std::uint32_t i, std::uint32_t j) {
+                    const std::lock_guard lock(mutex);
+                    found.emplace_back(i, j);
+                };
+                phase.each_pair(keep, &executor);
+                std::sort(found.begin(), found.end());
+                EXPECT_EQ(found, expected);
+                std::atomic<int> told = 0;
+                phase.each_pair([&](std::uint32_t, std::uint32_t) { return ++told, false; }, &executor);
+                EXPECT_EQ(told > 0, !expected.empty());
+                move_some(boxes, random);
+                phase.update(boxes, &executor);
+                alone.update(boxes);
+            }
+        }
 }
 
 TYPED_TEST(BroadPhases, EndlessBoxesPairWithAllTheyTouch) {
