@@ -28,6 +28,7 @@ public:
         return {box.center - box.half, box.center + box.half, box.direction, box.length};
     }
 
+    double reach() const { return reach_; }
     bool over() const { return reach_ < 0; }
     bool within(double measure) const { return measure <= reach_; }
     void shrink(float reach) { reach_ = std::min(reach_, static_cast<double>(reach) * reach_slack); }

@@ -1,0 +1,177 @@
+#include <abut/broad_phase/boxes.hpp>
+#include <abut/broad_phase/concept.hpp>
+#include <abut/broad_phase/grid.hpp>
+#include <abut/broad_phase/grid_pairs.hpp>
+#include <abut/broad_phase/grid_plan.hpp>
+#include <abut/broad_phase/pair_buffer.hpp>
+#include <abut/math/assert.hpp>
+
+#include <algorithm>
+#include <atomic>
+
+namespace abut {
+namespace {
+
+constexpr double boxes_a_cell = 28;
+constexpr double edges_a_cell = 3;
+
+std::uint32_t most_cells(std::size_t boxes) {
+    return static_cast<std::uint32_t>(boxes / 24 + 64);
+}
+/// Room for the copies of all boxes, and for one page in each cell that isn't full.
+std::uint32_t most_pages(std::size_t boxes) {
+    return static_cast<std::uint32_t>(boxes * 9 / 4 / GridStore::page_size + 64) + most_cells(boxes);
+}
+
+}  // namespace
+
+template <int D>
+double Grid<D>::Cost::time() const {
+    return 12.0 * static_cast<double>(tiles) + 3.0 * static_cast<double>(copies);
+}
+
+template <int D>
+typename Grid<D>::Cost Grid<D>::cost() const {
+    Cost result;
+    for (std::uint32_t cell = 0; cell < cells_.total; ++cell) {
+        std::uint64_t pages = 0;
+        store_.each_page(cell, [&](std::uint32_t, std::uint32_t count) {
+            result.copies += count;
+            result.tiles += ++pages;
+            return true;
+        });
+    }
+    return result;
+}
+
+template <int D>
+void Grid<D>::set_edge(float edge) {
+    cells_ = cells_in(block_, edge, most_cells(boxes_.size()));
+}
+
+template <int D>
+void Grid<D>::fill_cells(std::span<const Aabb<D>> boxes) {
+    for (;;) {
+        store_.clear(cells_.total);
+        large_.clear();
+        fill(cells_, boxes, boxes_.data(), store_, large_);
+        if (!store_.is_full) return;
+        set_edge(cells_.edge * 1.25f);
+    }
+}
+
+template <int D>
+void Grid<D>::build(std::span<const Aabb<D>> boxes, Executor*) {
+    ABUT_ASSERT(boxes.size() <= std::size_t{1} << 27);
+    boxes_.resize(boxes.size());
+    large_.reserve(boxes.size());
+    store_.reserve(most_pages(boxes.size()), most_cells(boxes.size()), GridWords<D>::guards);
+    plan(boxes);
+}
+
+template <int D>
+void Grid<D>::plan(std::span<const Aabb<D>> boxes) {
+    const GridScene<D> scene = scene_of(boxes);
+    block_ = scene.block;
+    set_edge(wanted_edge_ > 0 ? wanted_edge_ : edge_for(scene, boxes_a_cell, edges_a_cell));
+    fill_cells(boxes);
+    planned_ = cost();
+}
+
+template <int D>
+void Grid<D>::update(std::span<const Aabb<D>> boxes, Executor* executor) {
+    ABUT_ASSERT(boxes.size() == size());
+    if (boxes.size() != size()) return build(boxes, executor);
+    fill_cells(boxes);
+    if (cost().time() > 1.5 * planned_.time()) plan(boxes);
+}
+
+template <int D>
+Aabb<D> Grid<D>::bounds() const {
+    Aabb<D> result = Aabb<D>::empty();
+    for (const Aabb<D>& box : boxes_) result = merged(result, box);
+    return result;
+}
+
+template <int D>
+void Grid<D>::sorted_pairs(std::vector<ItemPair>& out) const {
+    out.clear();
+    each_pair([&](std::uint32_t i, std::uint32_t j) { out.emplace_back(i, j); });
+    std::sort(out.begin(), out.end());
+}
+
+template <int D>
+bool Grid<D>::visit_large(PairsCall visit) const {
+    PairBuffer pairs(visit);
+    for (const std::uint32_t large : large_)
+        for (std::uint32_t i = 0; i < boxes_.size(); ++i) {
+            if (!overlaps(boxes_[large], boxes_[i]) || i == large) continue;
+            // Of two large ones, the lesser tells.
+            if (i < large && std::binary_search(large_.begin(), large_.end(), i)) continue;
+            if (!pairs.add_sorted(large, i)) return false;
+        }
+    return pairs.flush();
+}
+
+template <int D>
+void Grid<D>::visit_pairs(PairsCall visit, Executor* executor) const {
+    if (empty()) return;
+    if (executor == nullptr || size() < 1000) {
+        if (visit_large(visit)) visit_cells(store_, boxes_.data(), 0, cells_.total, visit);
+        return;
+    }
+    const std::uint32_t parts = std::min(4 * executor->workers(), cells_.total);
+    std::atomic<bool> enough = false;
+    const auto visit_some = [&](std::span<const ItemPair> pairs) {
+        if (enough.load(std::memory_order_relaxed)) return false;
+        if (visit(pairs)) return true;
+        enough.store(true, std::memory_order_relaxed);
+        return false;
+    };
+    executor->run(parts + 1, [&](std::uint32_t part) {
+        const auto cell = [&](std::uint64_t i) { return static_cast<std::uint32_t>(i * cells_.total / parts); };
+        if (part == 0)
+            visit_large(visit_some);
+        else
+            visit_cells(store_, boxes_.data(), cell(part - 1), cell(part), visit_some);
+    });
+}
+
+template <int D>
+void Grid<D>::visit_pairs(const Grid& other, PairsCall visit) const {
+    PairBuffer pairs(visit);
+    bool more = true;
+    for (std::uint32_t j = 0; j < other.size() && more; ++j)
+        each_overlapping(other.boxes_[j], [&](std::uint32_t i) { return more = pairs.add(i, j); });
+    if (more) pairs.flush();
+}
+
+template <int D>
+void Grid<D>::visit_overlapping(const Aabb<D>& box, ItemCall visit) const {
+    using Words = GridWords<D>;
+    const Aabb<D> query = usable(box);
+    if (empty() || is_empty(query)) return;
+    for (const std::uint32_t large : large_)
+        if (overlaps(boxes_[large], query) && !visit(large)) return;
+    const GridSteps<D> steps = cells_.steps(query);
+    each_cell<D>(cells_.range(steps), [&](const std::array<std::uint32_t, D>& cell) {
+        const WordsInCell<D> own(steps, cell);
+        return store_.each_page(cells_.index(cell), [&](std::uint32_t first, std::uint32_t count) {
+            for (std::uint32_t i = first; i < first + count; ++i) {
+                const GridRecord& record = store_.records[i];
+                if (((record.high - own.low) & (own.high - record.low) & Words::guards) != Words::guards) continue;
+                if (!Words::surely_meet(own.low, own.high, record.low, record.high) &&
+                    !overlaps(boxes_[record.item], query))
+                    continue;
+                if (!visit(record.item)) return false;
+            }
+            return true;
+        });
+    });
+}
+
+template class Grid<2>;
+template class Grid<3>;
+static_assert(BroadPhase<Grid<2>, 2> && BroadPhase<Grid<3>, 3>);
+
+}  // namespace abut

@@ -1,0 +1,108 @@
+#pragma once
+
+// A uniform grid: the broad phase for boxes of like sizes that all move.
+
+#include <abut/broad_phase/grid_store.hpp>
+#include <abut/broad_phase/visit.hpp>
+#include <abut/math/aabb.hpp>
+#include <abut/math/executor.hpp>
+#include <abut/math/ray.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace abut {
+
+/// A BroadPhase: a uniform grid (concept.hpp tells what each function does).
+///
+/// Each box is written into all cells that it touches, as two words that hold its place in the cell; in a cell, sixteen
+/// boxes are compared with one at a time, by two subtractions for all axes. The words decide nearly all pairs, floats
+/// the rest. A pair that has several cells in common is told in the first of them. `update` writes all cells anew:
+/// O(n), whether much moved or nothing.
+///
+/// The cells fill a block around most of the boxes; what lies outside belongs to the cells at its border. Boxes that
+/// would touch more than 32 cells (16 in 2D) are kept by themselves and compared with all others, so that a few giants
+/// do no harm; for many sizes take LayeredGrid. The edge of the cells is chosen from the data by counting: about thirty
+/// boxes a cell, and no less than three times their mean edge. docs/broad_phases.md has what other edges cost.
+///
+/// Up to 2^27 items. Memory: at most 64 bytes an item in 3D (56 in 2D) and 16 KB.
+template <int D>
+class Grid {
+public:
+    Grid() = default;
+    /// With cells of this edge; larger ones where memory would not do.
+    explicit Grid(float cell_edge) : wanted_edge_(cell_edge) {}
+
+    void build(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
+    void update(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
+
+    template <Visitor<std::uint32_t, std::uint32_t> F>
+    void each_pair(F&& visit, Executor* executor = nullptr) const {
+        visit_pairs(each_pair_to(visit), executor);
+    }
+    void sorted_pairs(std::vector<ItemPair>& out) const;
+
+    template <Visitor<std::uint32_t, std::uint32_t> F>
+    void each_overlapping_pair(const Grid& other, F&& visit) const {
+        visit_pairs(other, each_pair_to(visit));
+    }
+    template <Visitor<std::uint32_t> F>
+    void each_overlapping(const Aabb<D>& box, F&& visit) const {
+        visit_overlapping(box, go_on_after(visit));
+    }
+    template <ReachVisitor F>
+    void raycast(const Ray<D>& ray, F&& visit) const {
+        visit_along(ray, reach_after(visit));
+    }
+    template <ReachVisitor F>
+    void closest(const Aabb<D>& box, F&& visit, float reach = std::numeric_limits<float>::infinity()) const {
+        visit_near(box, reach, reach_after(visit));
+    }
+    template <ReachVisitor F>
+    void closest(const Vec<D>& point, F&& visit, float reach = std::numeric_limits<float>::infinity()) const {
+        visit_near(Aabb<D>{point, point}, reach, reach_after(visit));
+    }
+
+    std::size_t size() const { return boxes_.size(); }
+    bool empty() const { return size() == 0; }
+    /// Of all boxes together; Aabb::empty() where there is none.
+    Aabb<D> bounds() const;
+    /// Of the cells, as it was given or chosen.
+    float cell_edge() const { return cells_.edge; }
+
+private:
+    bool visit_large(PairsCall visit) const;
+    void visit_pairs(PairsCall visit, Executor* executor) const;
+    void visit_pairs(const Grid& other, PairsCall visit) const;
+    void visit_overlapping(const Aabb<D>& box, ItemCall visit) const;
+    void visit_along(const Ray<D>& ray, ReachCall visit) const;
+    void visit_near(const Aabb<D>& box, float reach, ReachCall visit) const;
+
+    /// What the pairs cost, by counting.
+    struct Cost {
+        std::uint64_t tiles = 0;  ///< sixteen boxes against sixteen
+        std::uint64_t copies = 0;
+        double time() const;
+    };
+
+    void plan(std::span<const Aabb<D>> boxes);
+    void set_edge(float edge);
+    void fill_cells(std::span<const Aabb<D>> boxes);
+    Cost cost() const;
+
+    float wanted_edge_ = 0;
+    GridCells<D> cells_;
+    Aabb<D> block_{};  ///< that the cells fill
+    GridStore store_;
+    std::vector<Aabb<D>> boxes_;
+    std::vector<std::uint32_t> large_;  ///< those that are in no cell
+    Cost planned_;
+};
+
+extern template class Grid<2>;
+extern template class Grid<3>;
+
+}  // namespace abut

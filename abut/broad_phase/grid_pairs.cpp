@@ -1,0 +1,206 @@
+// Compiled once for each kind of vector unit by Highway, which takes the best of them when the program runs. The order
+// of the pairs doesn't depend on it.
+
+#include <abut/broad_phase/grid_pairs.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "abut/broad_phase/grid_pairs.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace abut::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Lanes = hn::CappedTag<std::uint32_t, 16>;
+constexpr Lanes d;
+constexpr std::size_t lanes = hn::MaxLanes(d);
+constexpr std::size_t groups = GridStore::page_size / lanes;
+
+/// Which records of two pages meet: a bit for each pair, 16 for each record of the first page.
+struct Tile {
+    static constexpr std::uint32_t size = GridStore::page_size;
+    static constexpr std::size_t word_count = size * size / 64;
+    static constexpr std::uint32_t rows_a_word = 64 / size;
+
+    HWY_ALIGN std::uint8_t bits[size * size / 8];
+
+    std::uint64_t word(std::size_t w) const {
+        std::uint64_t result;
+        std::memcpy(&result, bits + 8 * w, 8);
+        return result;
+    }
+};
+
+void store_bits(const hn::Mask<Lanes> (&met)[groups], std::uint8_t* bits) {
+    if constexpr (lanes >= 8) {
+        for (std::size_t g = 0; g < groups; ++g) hn::StoreMaskBits(d, met[g], bits + g * lanes / 8);
+    } else {
+        std::uint8_t part[groups];
+        for (std::size_t g = 0; g < groups; ++g) hn::StoreMaskBits(d, met[g], part + g);
+        std::uint32_t all = 0;
+        for (std::size_t g = 0; g < groups; ++g) all |= std::uint32_t{part[g]} << (g * lanes);
+        bits[0] = static_cast<std::uint8_t>(all);
+        bits[1] = static_cast<std::uint8_t>(all >> 8);
+    }
+}
+
+/// The records of a page, from which on they are compared with others.
+template <int D>
+struct Page {
+    hn::Vec<Lanes> low[groups], high[groups];
+
+    explicit Page(const GridRecord* records) {
+        hn::Vec<Lanes> unused;
+        for (std::size_t g = 0; g < groups; ++g)
+            hn::LoadInterleaved3(d, &records[g * lanes].low, low[g], high[g], unused);
+    }
+
+    void meet(const GridRecord* row, std::uint32_t rows, Tile& tile) const {
+        const auto guards = hn::Set(d, GridWords<D>::guards);
+        for (std::uint32_t i = 0; i < rows; ++i) {
+            const auto row_low = hn::Set(d, row[i].low), row_high = hn::Set(d, row[i].high);
+            hn::Mask<Lanes> met[groups];
+            for (std::size_t g = 0; g < groups; ++g) {
+                const auto stay = hn::And(hn::Sub(high[g], row_low), hn::Sub(row_high, low[g]));
+                met[g] = hn::Eq(hn::And(stay, guards), guards);
+            }
+            store_bits(met, tile.bits + i * Tile::size / 8);
+        }
+    }
+};
+
+/// Pairs that meet by their steps, on their way to the visitor.
+template <int D>
+class Meetings {
+public:
+    Meetings(const GridStore& store, const Aabb<D>* boxes, PairsCall visit)
+        : records_(store.records.data()), boxes_(boxes), visit_(visit) {}
+
+    /// Room for another tile; false where the visitor has had enough.
+    bool make_room() { return count_ + Tile::size * Tile::size <= capacity || flush(); }
+
+    void add(std::uint64_t bits, std::uint32_t row, std::uint32_t column) {
+        // Three at once, whether there are so many or not: how many there are nobody can guess.
+        std::uint32_t left = static_cast<std::uint32_t>(std::popcount(bits));
+        std::size_t at = count_;
+        count_ += left;
+        for (;;) {
+            for (int k = 0; k < 3; ++k) {
+                const auto bit = static_cast<std::uint32_t>(std::countr_zero(bits)) & 63;
+                bits &= bits - 1;
+                first_[at] = row + bit / Tile::size;
+                second_[at++] = column + bit % Tile::size;
+            }
+            if (left <= 3) return;
+            left -= 3;
+        }
+    }
+
+    bool flush() {
+        std::size_t told = 0, doubtful = 0;
+        for (std::size_t k = 0; k < count_; ++k) {
+            const GridRecord &a = records_[first_[k]], &b = records_[second_[k]];
+            const bool sure = GridWords<D>::surely_meet(a.low, a.high, b.low, b.high);
+            const ItemPair pair = std::minmax(a.item, b.item);
+            told_[told] = pair;
+            told += sure ? 1 : 0;
+            doubtful_[doubtful] = pair;
+            doubtful += sure ? 0 : 1;
+        }
+        for (std::size_t k = 0; k < doubtful; ++k) {
+            const Aabb<D>&a = boxes_[doubtful_[k].first], &b = boxes_[doubtful_[k].second];
+            std::uint32_t apart = 0;
+            for (int i = 0; i < D; ++i)
+                apart |=
+                    static_cast<std::uint32_t>(a.min[i] > b.max[i]) | static_cast<std::uint32_t>(b.min[i] > a.max[i]);
+            told_[told] = doubtful_[k];
+            told += 1 - apart;
+        }
+        count_ = 0;
+        return told == 0 || visit_({told_, told});
+    }
+
+private:
+    static constexpr std::size_t capacity = 1024;
+
+    const GridRecord* records_;
+    const Aabb<D>* boxes_;
+    PairsCall visit_;
+    std::size_t count_ = 0;
+    std::uint32_t first_[capacity + 4], second_[capacity + 4];
+    ItemPair told_[capacity + 1], doubtful_[capacity + 1];
+};
+
+/// Of a page with itself, the pairs whose first lies before the second. By words of a tile.
+constexpr std::uint64_t in_order(std::uint32_t word) {
+    std::uint64_t result = 0;
+    for (std::uint32_t bit = 0; bit < 64; ++bit)
+        if (bit % Tile::size > word * Tile::rows_a_word + bit / Tile::size) result |= std::uint64_t{1} << bit;
+    return result;
+}
+
+template <int D>
+bool visit(const GridStore& store, const Aabb<D>* boxes, std::uint32_t begin, std::uint32_t end, PairsCall call) {
+    constexpr std::uint64_t order[Tile::word_count] = {in_order(0), in_order(1), in_order(2), in_order(3)};
+    Meetings<D> meetings(store, boxes, call);
+    const GridRecord* records = store.records.data();
+    Tile tile;
+    for (std::uint32_t cell = begin; cell < end; ++cell) {
+        // The page begun last may have a few records only, in whole rows of words; those that it lacks meet nothing.
+        const bool more = store.each_page(cell, [&](std::uint32_t column, std::uint32_t count) {
+            const Page<D> page(records + column);
+            const std::uint32_t words = (count + Tile::rows_a_word - 1) / Tile::rows_a_word;
+            page.meet(records + column, words * Tile::rows_a_word, tile);
+            if (!meetings.make_room()) return false;
+            for (std::uint32_t w = 0; w < words; ++w)
+                meetings.add(tile.word(w) & order[w], column + w * Tile::rows_a_word, column);
+            for (std::uint32_t row = store.page_before(column); row != GridStore::none; row = store.page_before(row)) {
+                page.meet(records + row, Tile::size, tile);
+                if (!meetings.make_room()) return false;
+                for (std::uint32_t w = 0; w < Tile::word_count; ++w)
+                    meetings.add(tile.word(w), row + w * Tile::rows_a_word, column);
+            }
+            return true;
+        });
+        if (!more) return false;
+    }
+    return meetings.flush();
+}
+
+bool visit_cells2(const GridStore& store, const Aabb<2>* boxes, std::uint32_t begin, std::uint32_t end,
+                  PairsCall call) {
+    return visit(store, boxes, begin, end, call);
+}
+bool visit_cells3(const GridStore& store, const Aabb<3>* boxes, std::uint32_t begin, std::uint32_t end,
+                  PairsCall call) {
+    return visit(store, boxes, begin, end, call);
+}
+
+}  // namespace abut::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace abut {
+
+HWY_EXPORT(visit_cells2);
+HWY_EXPORT(visit_cells3);
+
+template <>
+bool visit_cells(const GridStore& store, const Aabb<2>* boxes, std::uint32_t begin, std::uint32_t end,
+                 PairsCall visit) {
+    return HWY_DYNAMIC_DISPATCH(visit_cells2)(store, boxes, begin, end, visit);
+}
+template <>
+bool visit_cells(const GridStore& store, const Aabb<3>* boxes, std::uint32_t begin, std::uint32_t end,
+                 PairsCall visit) {
+    return HWY_DYNAMIC_DISPATCH(visit_cells3)(store, boxes, begin, end, visit);
+}
+
+}  // namespace abut
+#endif

@@ -1,0 +1,30 @@
+#pragma once
+
+// Which cells suit some boxes. For .cpp files.
+
+#include <abut/broad_phase/grid_cells.hpp>
+
+#include <span>
+
+namespace abut {
+
+/// What there is to know of boxes in order to choose cells.
+template <int D>
+struct GridScene {
+    std::size_t count = 0;  ///< of those that hold something and have bounds
+    Aabb<D> block{};        ///< most of them have their middle in it
+    double mean_edge = 0;
+};
+template <int D>
+GridScene<D> scene_of(std::span<const Aabb<D>> boxes);
+
+/// The edge of cells that hold about so many of the boxes, but no less than `least` of their mean edges. At least a
+/// normal float.
+template <int D>
+float edge_for(const GridScene<D>& scene, double boxes_a_cell, double least);
+
+/// Cells of that edge, or of one so much larger that there are no more than `most`, in the block.
+template <int D>
+GridCells<D> cells_in(const Aabb<D>& block, float edge, std::uint32_t most);
+
+}  // namespace abut
