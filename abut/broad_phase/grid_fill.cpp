@@ -53,11 +53,12 @@ struct Coordinates {
     hn::Vec<Lanes> low[3], high[3];
 };
 
-void load(const Aabb<3>* boxes, std::size_t count, GridBlock& block) {
+void load(const Aabb<3>* boxes, std::size_t count, GridBlock& block, Aabb<3>* own) {
     for (std::size_t i = 0; i < count; ++i) {
         // A box is six numbers: the last four begin with the last of its low side.
         std::memcpy(block.low + 4 * i, &boxes[i].min.x, 4 * sizeof(float));
         std::memcpy(block.high + 4 * i, &boxes[i].min.z, 4 * sizeof(float));
+        own[i] = boxes[i];
     }
 }
 Coordinates coordinates(const Aabb<3>*, const GridBlock& block, std::size_t i) {
@@ -67,8 +68,11 @@ Coordinates coordinates(const Aabb<3>*, const GridBlock& block, std::size_t i) {
     hn::LoadInterleaved4(df, block.high + 4 * i, unused, result.high[0], result.high[1], result.high[2]);
     return result;
 }
-void load(const Aabb<2>* boxes, std::size_t count, GridBlock& block) {
-    std::memcpy(block.low, boxes, count * sizeof(Aabb<2>));
+void load(const Aabb<2>* boxes, std::size_t count, GridBlock& block, Aabb<2>* own) {
+    for (std::size_t i = 0; i < count; ++i) {
+        std::memcpy(block.low + 4 * i, &boxes[i].min.x, 4 * sizeof(float));
+        own[i] = boxes[i];
+    }
 }
 Coordinates coordinates(const Aabb<2>*, const GridBlock& block, std::size_t i) {
     Coordinates result;
@@ -123,12 +127,12 @@ void place(const GridCells<D>& cells, std::size_t count, GridBlock& block) {
     }
 }
 
-void place_block2(const GridCells<2>& cells, const Aabb<2>* boxes, std::size_t count, GridBlock& block) {
-    load(boxes, count, block);
+void place_block2(const GridCells<2>& cells, const Aabb<2>* boxes, std::size_t count, GridBlock& block, Aabb<2>* own) {
+    load(boxes, count, block, own);
     place(cells, count, block);
 }
-void place_block3(const GridCells<3>& cells, const Aabb<3>* boxes, std::size_t count, GridBlock& block) {
-    load(boxes, count, block);
+void place_block3(const GridCells<3>& cells, const Aabb<3>* boxes, std::size_t count, GridBlock& block, Aabb<3>* own) {
+    load(boxes, count, block, own);
     place(cells, count, block);
 }
 
@@ -143,11 +147,11 @@ HWY_EXPORT(place_block3);
 
 namespace {
 
-void place_block(const GridCells<2>& cells, const Aabb<2>* boxes, std::size_t count, GridBlock& block) {
-    HWY_DYNAMIC_DISPATCH(place_block2)(cells, boxes, count, block);
+void place_block(const GridCells<2>& cells, const Aabb<2>* boxes, std::size_t count, GridBlock& block, Aabb<2>* own) {
+    HWY_DYNAMIC_DISPATCH(place_block2)(cells, boxes, count, block, own);
 }
-void place_block(const GridCells<3>& cells, const Aabb<3>* boxes, std::size_t count, GridBlock& block) {
-    HWY_DYNAMIC_DISPATCH(place_block3)(cells, boxes, count, block);
+void place_block(const GridCells<3>& cells, const Aabb<3>* boxes, std::size_t count, GridBlock& block, Aabb<3>* own) {
+    HWY_DYNAMIC_DISPATCH(place_block3)(cells, boxes, count, block, own);
 }
 
 /// The numbers of the boxes of a block, by kind. Each list has room for all, as nobody could guess the next one's kind.
@@ -208,8 +212,7 @@ void fill(const GridCells<D>& cells, std::span<const Aabb<D>> boxes, Aabb<D>* ow
     for (std::size_t begin = 0; begin < boxes.size() && !store.is_full; begin += grid_block) {
         const std::size_t count = std::min(grid_block, boxes.size() - begin);
         const auto first = static_cast<std::uint32_t>(begin);
-        std::memcpy(static_cast<void*>(own + begin), &boxes[begin], count * sizeof(Aabb<D>));
-        place_block(cells, &boxes[begin], count, block);
+        place_block(cells, &boxes[begin], count, block, own + begin);
         const Kinds<D> kinds(block, count);
         for (std::uint32_t kind = 0; kind <= GridWords<D>::all_axes; ++kind)
             for (std::uint32_t axes = 0; axes <= kind; ++axes)

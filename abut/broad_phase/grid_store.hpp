@@ -17,10 +17,11 @@ struct GridRecord {
     std::uint32_t item;
 };
 
-/// The records of a cell lie in pages, of which all but the one begun last are full. Pages are handed out one after the
-/// other as they are needed.
+/// The records of a cell lie in pages, of which all but the one begun last are full. Each cell has two pages of its own,
+/// beside those of the next cell; what they can't hold lies in pages that are handed out as they are needed.
 struct GridStore {
     static constexpr std::uint32_t page_size = 16;
+    static constexpr std::uint32_t own_pages = 2;
     static constexpr std::uint32_t none = 0xffffffff;
 
     std::vector<GridRecord> records;    ///< in pages
@@ -40,13 +41,13 @@ struct GridStore {
     }
     void clear(std::uint32_t cells) {
         next.assign(cells, 0);
-        pages = 0;
+        pages = cells * own_pages;
         is_full = false;
     }
 
     void add(std::uint32_t cell, std::uint32_t low, std::uint32_t high, std::uint32_t item) {
         std::uint32_t place = next[cell];
-        if (place % page_size == 0) place = begin_page(place);
+        if (place % page_size == 0) place = begin_page(cell, place);
         records[place] = {low, high, item};
         next[cell] = place + 1;
     }
@@ -66,13 +67,17 @@ struct GridStore {
     }
 
 private:
-    std::uint32_t begin_page(std::uint32_t place) {
-        if (pages == page_limit) {
-            is_full = true;
-            return page_limit * page_size;
+    std::uint32_t begin_page(std::uint32_t cell, std::uint32_t place) {
+        std::uint32_t page = place == 0 ? cell * own_pages : place / page_size;
+        if (page >= (cell + 1) * own_pages) {
+            if (pages == page_limit) {
+                is_full = true;
+                return page_limit * page_size;
+            }
+            page = pages++;
         }
-        const std::uint32_t first = pages * page_size;
-        before[pages++] = place == 0 ? none : place - page_size;
+        const std::uint32_t first = page * page_size;
+        before[page] = place == 0 ? none : place - page_size;
         // Meets nothing: all guards are lost.
         for (std::uint32_t i = 0; i < page_size; ++i) records[first + i] = {meets_nothing, 0, 0};
         return first;

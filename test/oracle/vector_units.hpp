@@ -2,6 +2,7 @@
 
 // Tests that run once by each kind of vector unit that this machine has.
 
+#include <cstdint>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -9,17 +10,24 @@
 
 namespace abut::oracle {
 
-class ByVectorUnit : public testing::TestWithParam<std::int64_t> {
-protected:
-    void SetUp() override { force(GetParam()); }
-    void TearDown() override { force(0); }
+/// While it lives, only this kind of vector unit is taken.
+class OnlyVectorUnit {
+public:
+    explicit OnlyVectorUnit(std::int64_t target) { force(target); }
+    ~OnlyVectorUnit() { force(0); }
+    OnlyVectorUnit(const OnlyVectorUnit&) = delete;
+    OnlyVectorUnit& operator=(const OnlyVectorUnit&) = delete;
 
 private:
-    /// Only this one; 0: the best there is.
+    /// 0: the best there is.
     static void force(std::int64_t target) {
         hwy::SetSupportedTargetsForTest(target);
         hwy::GetChosenTarget().Update(hwy::SupportedTargets());
     }
+};
+
+class ByVectorUnit : public testing::TestWithParam<std::int64_t> {
+    OnlyVectorUnit only_{GetParam()};
 };
 
 inline auto vector_units() {

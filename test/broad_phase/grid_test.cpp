@@ -1,0 +1,155 @@
+// What is special in the uniform grid: cells and their borders, steps that tell or don't, boxes of many cells.
+
+#include "../oracle/random.hpp"
+#include "../oracle/vector_units.hpp"
+#include "scenes.hpp"
+#include <abut/broad_phase/brute_force.hpp>
+#include <abut/broad_phase/grid.hpp>
+
+#include <algorithm>
+#include <array>
+
+#include <gtest/gtest.h>
+
+namespace abut::test {
+namespace {
+
+using Pairs = std::vector<ItemPair>;
+
+template <class Phase>
+Pairs pairs_of(const Phase& phase) {
+    Pairs result;
+    phase.sorted_pairs(result);
+    return result;
+}
+template <int D>
+Pairs every_pair(const std::vector<Aabb<D>>& boxes) {
+    BruteForce<D> oracle;
+    oracle.build(boxes);
+    return pairs_of(oracle);
+}
+template <int D>
+Pairs grid_pairs(const std::vector<Aabb<D>>& boxes, float edge = 0) {
+    Grid<D> grid(edge);
+    grid.build(boxes);
+    return pairs_of(grid);
+}
+
+template <class T>
+class Grids : public testing::Test {};
+using Dimensions = testing::Types<Grid<2>, Grid<3>>;
+TYPED_TEST_SUITE(Grids, Dimensions);
+
+/// Corners lie on a lattice as fine as the steps of the cells, or on their borders: boxes touch, end where a cell ends,
+/// and lie in up to four cells along an axis.
+TYPED_TEST(Grids, BoxesThatEndWhereCellsEnd) {
+    constexpr int D = dimension_of<TypeParam>;
+    std::size_t found = 0;
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+        SCOPED_TRACE(testing::Message() << "seed " << seed);
+        oracle::Random random(seed);
+        const float lattice = std::array{1.0f, 0.5f, 1.0f / 128, 1.0f / 256, 1.0f / 8192}[seed % 5];
+        const auto place = [&](float most) {
+            return lattice * static_cast<float>(random.below(static_cast<std::uint32_t>(most / lattice) + 1));
+        };
+        // The first two boxes are points, so that the cells begin at 0 and there are four of them along each axis.
+        std::vector<Aabb<D>> boxes{{Vec<D>(0), Vec<D>(0)}, {Vec<D>(4), Vec<D>(4)}};
+        while (boxes.size() < 120) {
+            Aabb<D> box;
+            for (int i = 0; i < D; ++i) {
+                box.min[i] = place(4);
+                box.max[i] = box.min[i] + place(random.chance(0.1) ? 3.0f : 1.0f);
+            }
+            boxes.push_back(box);
+        }
+        const Pairs expected = every_pair(boxes);
+        EXPECT_EQ(grid_pairs(boxes, 1.0f), expected);
+        EXPECT_EQ(grid_pairs(boxes, 0.75f), expected);
+        found += expected.size();
+    }
+    EXPECT_GT(found, 5000u);
+}
+
+/// Boxes are a few times smaller than a step, or than the last digit of what is far from the origin.
+TYPED_TEST(Grids, WhatStepsCantTellIsLeftToFloats) {
+    constexpr int D = dimension_of<TypeParam>;
+    for (const float far : {0.0f, 1e4f, 1e6f, -3e7f}) {
+        for (const double size : {1e-3, 1e-1, 10.0}) {
+            oracle::Random random(9);
+            std::vector<Aabb<D>> boxes;
+            for (int i = 0; i < 400; ++i) {
+                const DVec<D> middle = random.in_cube<D>() * size * (i % 2 == 0 ? 10.0 : 0.01);
+                const DVec<D> half(random.uniform(0, size * 0.01));
+                boxes.push_back(box_at<D>(DVec<D>(static_cast<double>(far)) + middle, half));
+            }
+            EXPECT_EQ(grid_pairs(boxes), every_pair(boxes)) << "at " << far << " size " << size << " seed 9";
+        }
+    }
+}
+
+TYPED_TEST(Grids, ManyMovingBoxesOnEveryVectorUnit) {
+    constexpr int D = dimension_of<TypeParam>;
+    oracle::Random random(17);
+    auto boxes = make_scene<D>(Scene::uniform, 6000, random);
+    const auto units = hwy::SupportedAndGeneratedTargets();
+    std::vector<Grid<D>> grids(units.size());
+    for (int frame = 0; frame < 12; ++frame) {
+        move_some(boxes, random);
+        const Pairs expected = every_pair(boxes);
+        EXPECT_GT(expected.size(), 2000u);
+        Pairs first_order;
+        for (std::size_t unit = 0; unit < units.size(); ++unit) {
+            const oracle::OnlyVectorUnit only(units[unit]);
+            Grid<D>& grid = grids[unit];
+            if (frame == 0)
+                grid.build(boxes);
+            else
+                grid.update(boxes);
+            EXPECT_EQ(pairs_of(grid), expected)
+                << "seed 17 frame " << frame << " unit " << hwy::TargetName(units[unit]);
+            Pairs order;
+            grid.each_pair([&](std::uint32_t i, std::uint32_t j) { order.emplace_back(i, j); });
+            if (first_order.empty()) first_order = order;
+            EXPECT_EQ(order, first_order) << "the order depends on the vector unit";
+        }
+    }
+}
+
+/// All boxes run together into a corner, then apart to ten times the space: cells are chosen anew.
+TYPED_TEST(Grids, CellsFollowTheBoxes) {
+    constexpr int D = dimension_of<TypeParam>;
+    oracle::Random random(23);
+    const auto start = make_scene<D>(Scene::uniform, 3000, random);
+    Grid<D> grid;
+    grid.build(start);
+    const float edge_at_first = grid.cell_edge();
+    const auto spread = [&](float scale) {
+        auto boxes = start;
+        for (Aabb<D>& box : boxes) {
+            const Vec<D> half = 0.5f * (box.max - box.min), middle = scale * (box.min + half);
+            box = {middle - half, middle + half};
+        }
+        return boxes;
+    };
+    for (const float scale : {0.5f, 0.3f, 1.0f, 3.0f, 10.0f}) {
+        const auto boxes = spread(scale);
+        grid.update(boxes);
+        EXPECT_EQ(pairs_of(grid), every_pair(boxes)) << scale;
+    }
+    grid.update(spread(10));
+    Grid<D> fresh;
+    fresh.build(spread(10));
+    EXPECT_GT(fresh.cell_edge(), 2 * edge_at_first);
+}
+
+/// Whatever edge is asked for, memory holds it.
+TYPED_TEST(Grids, AnyEdgeOfCells) {
+    constexpr int D = dimension_of<TypeParam>;
+    oracle::Random random(29);
+    const auto boxes = make_scene<D>(Scene::mixed_sizes, 500, random);
+    const Pairs expected = every_pair(boxes);
+    for (const float edge : {1e-30f, 1e-3f, 1.0f, 30.0f, 1e5f, 1e30f}) EXPECT_EQ(grid_pairs(boxes, edge), expected);
+}
+
+}  // namespace
+}  // namespace abut::test
