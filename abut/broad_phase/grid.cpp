@@ -16,11 +16,11 @@ constexpr double boxes_a_cell = 28;
 constexpr double edges_a_cell = 3;
 
 std::uint32_t most_cells(std::size_t boxes) {
-    return static_cast<std::uint32_t>(boxes / 24 + 64);
+    return static_cast<std::uint32_t>(boxes / 28 + 64);
 }
-/// Room for the copies of all boxes, and for one page in each cell that isn't full.
+/// Room for two copies or three of each box. Where that doesn't do, cells are made larger.
 std::uint32_t most_pages(std::size_t boxes) {
-    return static_cast<std::uint32_t>(boxes * 9 / 4 / GridStore::page_size + 64) + most_cells(boxes);
+    return static_cast<std::uint32_t>(boxes / 6) + (GridStore::own_pages + 1) * 64;
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ namespace abut {
 /// do no harm; for many sizes take LayeredGrid. The edge of the cells is chosen from the data by counting: about thirty
 /// boxes a cell, and no less than three times their mean edge. docs/broad_phases.md has what other edges cost.
 ///
-/// Up to 2^27 items. Memory: at most 64 bytes an item in 3D (56 in 2D) and 16 KB.
+/// Up to 2^27 items. Memory: at most 62 bytes an item in 3D (54 in 2D), and 50 KB.
 template <int D>
 class Grid {
 public:
