@@ -1,6 +1,7 @@
 #include "measure.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numeric>
 #include <sstream>
@@ -12,15 +13,27 @@ namespace abut::bench {
 namespace {
 
 constexpr int repetitions = 25;
-constexpr double seconds_each = 0.008;  // at least; a call that takes longer is made once
+constexpr double seconds_each = 0.008;     // at least; a call that takes longer is made once
+constexpr double seconds_of_frames = 0.4;  // about, a side: where frames are long, there are fewer repetitions
 
-std::vector<double> answers(const Side& side, const Job& job) {
-    std::vector<double> result(job.rounds * job.values);
+struct Answers {
+    std::vector<double> values;
+    double seconds;  ///< a call, about
+};
+
+Answers answers(const Side& side, const Job& job) {
+    Answers result{std::vector<double>(job.rounds * job.values), 0};
     for (std::size_t round = 0; round < job.rounds; ++round) {
         if (side.prepare) side.prepare();
-        side.ask(std::span(result).subspan(round * job.values, job.values));
+        const auto begin = std::chrono::steady_clock::now();
+        side.ask(std::span(result.values).subspan(round * job.values, job.values));
+        result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     }
     return result;
+}
+
+int repetitions_of_frames(double seconds) {
+    return static_cast<int>(std::clamp(seconds_of_frames / seconds, 1.0, static_cast<double>(repetitions)));
 }
 
 /// Compares the values of a row's side with abut's.
@@ -89,9 +102,10 @@ std::vector<Row> measure(const Bench& bench) {
     const Job job = bench.make();
 
     std::vector<Row> rows;
-    std::vector<double> ours;
+    std::vector<double> ours, seconds_a_call;
     for (const Side& side : job.sides) {
-        const std::vector<double> values = answers(side, job);
+        const auto [values, seconds] = answers(side, job);
+        seconds_a_call.push_back(seconds);
         if (rows.empty()) ours = values;
         Row& row = rows.emplace_back();
         row.bench = bench.name;
@@ -106,11 +120,14 @@ std::vector<Row> measure(const Bench& bench) {
         benchmark::internal::Benchmark* registered = benchmark::RegisterBenchmark(
             std::to_string(i).c_str(),
             [&job, i](benchmark::State& state) { time_calls(state, job.sides[i], job.values); });
-        registered->Repetitions(repetitions);
-        if (job.frames > 0)
-            registered->Iterations(static_cast<benchmark::IterationCount>(job.frames));
-        else
+        if (job.frames > 0) {
+            const auto frames = static_cast<benchmark::IterationCount>(job.frames);
+            registered->Repetitions(repetitions_of_frames(seconds_a_call[i] * static_cast<double>(frames)));
+            registered->Iterations(frames);
+        } else {
+            registered->Repetitions(repetitions);
             registered->MinTime(seconds_each);
+        }
     }
     Collector collector(job.sides.size());
     benchmark::RunSpecifiedBenchmarks(&collector);
