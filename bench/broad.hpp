@@ -30,6 +30,7 @@ Job pairs_of_frames(const BoxFrames<D>& frames);
 
 std::vector<Bench> frame_benches();
 std::vector<Bench> box_query_benches();
+std::vector<Bench> thread_benches();
 std::vector<Bench> world_benches();
 
 }  // namespace abut::bench

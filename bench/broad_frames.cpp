@@ -48,7 +48,7 @@ Side plain_grid_pairs(const MakeScene<D>& make, bool skewed) {
     const float cell = skewed ? 4 : 2;  // the best of a few
     return count_pairs<PlainGridPairs<D>>("plain grid", make, cell);
 }
-constexpr Limits plain_grid_limits{.moving = 100'000};
+constexpr Limits plain_grid_limits{.moving = 100'000, .scratch = 10'000};
 
 template <int D>
 struct Peer {
@@ -100,13 +100,8 @@ BoxFrames<3> skewed(std::size_t count) {
 template <int D>
 Job pairs_of_frames(const BoxFrames<D>& frames) {
     // Fewer of the long ones.
-    const bool many = frames.count > 100'000;
-    Job job{.items = frames.count,
-            .values = 1,
-            .rounds = many ? 2u : 8u,
-            .frames = many ? 3u : 10u,
-            .tolerance = 0,
-            .sides = {}};
+    const std::size_t verified = frames.count <= 10'000 ? 8 : frames.count <= 100'000 ? 3 : 2;
+    Job job{.items = frames.count, .values = 1, .rounds = verified, .frames = 10, .tolerance = 0, .sides = {}};
     each_side<D>([&]<class Phase>(const Structure<Phase>& structure, std::string who) {
         if (within(structure.limits, frames))
             job.sides.push_back(count_pairs<PhasePairs<Phase, D>>(std::move(who), frames.scene, frames.upkeep));

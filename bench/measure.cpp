@@ -14,7 +14,7 @@ namespace {
 
 constexpr int repetitions = 25;
 constexpr double seconds_each = 0.008;     // at least; a call that takes longer is made once
-constexpr double seconds_of_frames = 0.4;  // about, a side: where frames are long, there are fewer repetitions
+constexpr double seconds_of_frames = 0.3;  // about, a side: where frames are long, fewer are timed
 
 struct Answers {
     std::vector<double> values;
@@ -32,8 +32,10 @@ Answers answers(const Side& side, const Job& job) {
     return result;
 }
 
-int repetitions_of_frames(double seconds) {
-    return static_cast<int>(std::clamp(seconds_of_frames / seconds, 1.0, static_cast<double>(repetitions)));
+/// How many of a limited number, so that all together take about so long.
+int fit(double seconds_each_takes, double seconds, std::size_t least, std::size_t most) {
+    return static_cast<int>(
+        std::clamp(seconds / seconds_each_takes, static_cast<double>(least), static_cast<double>(most)));
 }
 
 /// Compares the values of a row's side with abut's.
@@ -66,14 +68,15 @@ double mean(const std::vector<double>& numbers) {
 /// Keeps the time of a call from every repetition, by the number of the side that the benchmark is named by.
 class Collector : public benchmark::BenchmarkReporter {
 public:
-    explicit Collector(std::size_t sides) : times_(sides) {}
+    Collector(std::size_t sides, bool on_the_wall) : times_(sides), on_the_wall_(on_the_wall) {}
 
     bool ReportContext(const Context&) override { return true; }
     void ReportRuns(const std::vector<Run>& runs) override {
         for (const Run& run : runs)
             if (run.run_type == Run::RT_Iteration)
-                times_[std::stoul(run.run_name.function_name)].push_back(run.cpu_accumulated_time /
-                                                                         static_cast<double>(run.iterations));
+                times_[std::stoul(run.run_name.function_name)].push_back(
+                    (on_the_wall_ ? run.real_accumulated_time : run.cpu_accumulated_time) /
+                    static_cast<double>(run.iterations));
     }
 
     /// Of one call, in seconds, one for each repetition.
@@ -81,6 +84,7 @@ public:
 
 private:
     std::vector<std::vector<double>> times_;
+    bool on_the_wall_;
 };
 
 void time_calls(benchmark::State& state, const Side& side, std::size_t value_count) {
@@ -111,25 +115,26 @@ std::vector<Row> measure(const Bench& bench) {
         row.bench = bench.name;
         row.who = side.who;
         row.is_mean = job.frames > 0;
+        row.on_the_wall = job.on_the_wall;
         for (const double value : values) row.answer += value;
         compare(ours, values, job.tolerance, side.strays, row);
     }
 
-    // The time of the thread, not of the clock on the wall: what else the machine does should not count.
+    // The time of the thread, most often, not of the clock on the wall: what else the machine does should not count.
     for (std::size_t i = 0; i < job.sides.size(); ++i) {
         benchmark::internal::Benchmark* registered = benchmark::RegisterBenchmark(
             std::to_string(i).c_str(),
             [&job, i](benchmark::State& state) { time_calls(state, job.sides[i], job.values); });
         if (job.frames > 0) {
-            const auto frames = static_cast<benchmark::IterationCount>(job.frames);
-            registered->Repetitions(repetitions_of_frames(seconds_a_call[i] * static_cast<double>(frames)));
+            const int frames = fit(seconds_a_call[i], seconds_of_frames, 2, job.frames);
             registered->Iterations(frames);
+            registered->Repetitions(fit(seconds_a_call[i] * frames, seconds_of_frames, 1, repetitions));
         } else {
             registered->Repetitions(repetitions);
             registered->MinTime(seconds_each);
         }
     }
-    Collector collector(job.sides.size());
+    Collector collector(job.sides.size(), job.on_the_wall);
     benchmark::RunSpecifiedBenchmarks(&collector);
     benchmark::ClearRegisteredBenchmarks();
 

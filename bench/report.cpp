@@ -43,6 +43,7 @@ void print_table_rows(std::ostream& out, std::span<const Row> rows) {
             << std::right << std::setprecision(1) << std::setw(12) << row.ns << std::setprecision(2) << std::setw(9)
             << row.ratio << std::setw(16) << row.answer;
         if (row.is_mean && &row == &rows.front()) out << "  mean of all frames";
+        if (row.on_the_wall && &row == &rows.front()) out << ", time on the wall";
         if (!row.difference.empty()) out << (row.agrees ? "  (" : "  DISAGREES (") << row.difference << ')';
         out << '\n';
     }
