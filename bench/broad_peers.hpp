@@ -23,6 +23,7 @@ Side bullet_tree_pairs(const MakeScene<3>& make, Upkeep upkeep);
 Side bullet_sweep_pairs(const MakeScene<3>& make, Upkeep upkeep);
 Side fcl_tree_pairs(const MakeScene<3>& make, Upkeep upkeep);
 Side fcl_sweep_pairs(const MakeScene<3>& make, Upkeep upkeep);
+/// Keeps nothing from frame to frame.
 Side embree_pairs(const MakeScene<3>& make, Upkeep upkeep);
 /// Keeps nothing from frame to frame.
 template <int D>

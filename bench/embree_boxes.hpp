@@ -21,32 +21,27 @@ public:
         rtcReleaseDevice(device_);
     }
 
-    /// From nothing. A scene that is to be refitted later needs RTC_BUILD_QUALITY_REFIT from the beginning.
+    /// From nothing.
     void build(RTCBuildQuality quality, RTCIntersectFunctionN intersect = nullptr) {
         rtcReleaseScene(scene_);
         scene_ = rtcNewScene(device_);
-        rtcSetSceneFlags(scene_, quality == RTC_BUILD_QUALITY_REFIT ? RTC_SCENE_FLAG_DYNAMIC : RTC_SCENE_FLAG_NONE);
-        rtcSetSceneBuildQuality(scene_, quality == RTC_BUILD_QUALITY_REFIT ? RTC_BUILD_QUALITY_LOW : quality);
+        rtcSetSceneBuildQuality(scene_, quality);
         const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_USER);
         rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(boxes_.size()));
         rtcSetGeometryUserData(geometry, this);
         rtcSetGeometryBoundsFunction(geometry, tell_bounds, nullptr);
         if (intersect != nullptr) rtcSetGeometryIntersectFunction(geometry, intersect);
         rtcSetGeometryBuildQuality(geometry, quality);
-        rtcAttachGeometryByID(scene_, geometry, 0);
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(scene_, geometry);
         rtcReleaseGeometry(geometry);  // the scene keeps it
-        commit();
+        rtcCommitScene(scene_);
     }
-    void refit() { commit(); }
 
     RTCScene scene() const { return scene_; }
     const Aabb3& box(unsigned item) const { return boxes_[item]; }
 
 private:
-    void commit() {
-        rtcCommitGeometry(rtcGetGeometry(scene_, 0));
-        rtcCommitScene(scene_);
-    }
     static void tell_bounds(const RTCBoundsFunctionArguments* asked) {
         const Aabb3& box = static_cast<const EmbreeBoxes*>(asked->geometryUserPtr)->box(asked->primID);
         RTCBounds& bounds = *asked->bounds_o;

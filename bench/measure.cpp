@@ -14,7 +14,7 @@ namespace {
 
 constexpr int repetitions = 25;
 constexpr double seconds_each = 0.008;     // at least; a call that takes longer is made once
-constexpr double seconds_of_frames = 0.3;  // about, a side: where frames are long, fewer are timed
+constexpr double seconds_of_frames = 0.3;  // about, a side: where frames are long, there are fewer repetitions
 
 struct Answers {
     std::vector<double> values;
@@ -32,11 +32,18 @@ Answers answers(const Side& side, const Job& job) {
     return result;
 }
 
-/// How many of a limited number, so that all together take about so long.
-int fit(double seconds_each_takes, double seconds, std::size_t least, std::size_t most) {
-    return static_cast<int>(
-        std::clamp(seconds / seconds_each_takes, static_cast<double>(least), static_cast<double>(most)));
-}
+/// How many frames a repetition has, and how many of those there are, where a call takes so long.
+struct Effort {
+    Effort(double seconds, std::size_t wanted_frames)
+        : frames(seconds > too_long ? 2 : static_cast<int>(wanted_frames)),
+          repetitions(static_cast<int>(std::clamp(seconds_of_frames / (seconds * frames), 1.0, most))) {}
+
+    int frames, repetitions;
+
+private:
+    static constexpr double too_long = 0.5;
+    static constexpr double most = abut::bench::repetitions;
+};
 
 /// Compares the values of a row's side with abut's.
 void compare(const std::vector<double>& ours, const std::vector<double>& theirs, double tolerance, double strays,
@@ -126,9 +133,9 @@ std::vector<Row> measure(const Bench& bench) {
             std::to_string(i).c_str(),
             [&job, i](benchmark::State& state) { time_calls(state, job.sides[i], job.values); });
         if (job.frames > 0) {
-            const int frames = fit(seconds_a_call[i], seconds_of_frames, 2, job.frames);
-            registered->Iterations(frames);
-            registered->Repetitions(fit(seconds_a_call[i] * frames, seconds_of_frames, 1, repetitions));
+            const Effort effort(seconds_a_call[i], job.frames);
+            registered->Iterations(effort.frames);
+            registered->Repetitions(effort.repetitions);
         } else {
             registered->Repetitions(repetitions);
             registered->MinTime(seconds_each);
