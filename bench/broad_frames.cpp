@@ -45,7 +45,7 @@ struct PlainGridPairs {
 
 template <int D>
 Side plain_grid_pairs(const MakeScene<D>& make, bool skewed) {
-    const float cell = skewed ? 4 : 2;  // the best of a few
+    const float cell = skewed ? 8 : 2.5f;  // the best of a few
     return count_pairs<PlainGridPairs<D>>("plain grid", make, cell);
 }
 constexpr Limits plain_grid_limits{.moving = 100'000, .scratch = 10'000};
