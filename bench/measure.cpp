@@ -128,26 +128,32 @@ std::vector<Row> measure(const Bench& bench) {
     }
 
     // The time of the thread, most often, not of the clock on the wall: what else the machine does should not count.
-    for (std::size_t i = 0; i < job.sides.size(); ++i) {
+    const auto add = [&job](std::size_t number, const Side& side, double seconds) {
         benchmark::internal::Benchmark* registered = benchmark::RegisterBenchmark(
-            std::to_string(i).c_str(),
-            [&job, i](benchmark::State& state) { time_calls(state, job.sides[i], job.values); });
+            std::to_string(number).c_str(),
+            [&job, &side](benchmark::State& state) { time_calls(state, side, job.values); });
         if (job.frames > 0) {
-            const Effort effort(seconds_a_call[i], job.frames);
+            const Effort effort(seconds, job.frames);
             registered->Iterations(effort.frames);
             registered->Repetitions(effort.repetitions);
         } else {
             registered->Repetitions(repetitions);
             registered->MinTime(seconds_each);
         }
-    }
-    Collector collector(job.sides.size(), job.on_the_wall);
+    };
+    for (std::size_t i = 0; i < job.sides.size(); ++i) add(i, job.sides[i], seconds_a_call[i]);
+    // To stop the clock between frames takes time as well, half a microsecond. A side that does nothing tells how much.
+    const Side nothing{"", [](std::span<double>) {}, [] {}};
+    if (job.frames > 0) add(job.sides.size(), nothing, 0);
+
+    Collector collector(job.sides.size() + 1, job.on_the_wall);
     benchmark::RunSpecifiedBenchmarks(&collector);
     benchmark::ClearRegisteredBenchmarks();
 
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const std::vector<double>& times = collector.times(i);
-        rows[i].ns = 1e9 * (job.frames > 0 ? mean(times) : median(times)) / static_cast<double>(job.items);
+        const double seconds = job.frames > 0 ? mean(times) - median(collector.times(job.sides.size())) : median(times);
+        rows[i].ns = 1e9 * seconds / static_cast<double>(job.items);
     }
     for (Row& row : rows) row.ratio = rows[0].ns / row.ns;
     return rows;
