@@ -23,12 +23,14 @@ struct Side {
 
 /// A job with all that do it, ready to run. The first side is abut, the one the others are compared with.
 struct Job {
-    std::size_t items = 0;    ///< a call answers for so many: what the time is divided by
-    std::size_t values = 0;   ///< a call tells so many numbers
-    std::size_t rounds = 1;   ///< how many calls are verified
-    std::size_t frames = 0;   ///< 0: every call is like the first. Else so many calls a repetition are timed, and all
-                              ///< count: what a side does only now and then, to keep its tree in order, is paid for
-    double tolerance = 1e-3;  ///< how far two sides' values may lie apart
+    std::size_t items = 0;     ///< a call answers for so many: what the time is divided by
+    std::size_t values = 0;    ///< a call tells so many numbers
+    std::size_t rounds = 1;    ///< how many calls are verified
+    std::size_t frames = 0;    ///< 0: every call is like the first. Else so many calls a repetition are timed (two of
+                               ///< a slow side), and all count: what a side does only now and then, to keep its tree in
+                               ///< order, is paid for
+    bool on_the_wall = false;  ///< the time that passes counts, not the processor's: for what runs on several threads
+    double tolerance = 1e-3;   ///< how far two sides' values may lie apart
     std::vector<Side> sides;
 };
 

@@ -1,13 +1,12 @@
 // Box2D's broad phase: b2BroadPhase, which tells of new pairs of fattened boxes, and a list of them kept beside it, as
 // b2ContactManager keeps one.
 
-#include "../scenes/moving_boxes.hpp"
 #include "box2d.hpp"
-#include "peers.hpp"
+#include "broad_peers.hpp"
 
 #include <algorithm>
-#include <memory>
 #include <unordered_set>
+#include <vector>
 
 #include <box2d/b2_broad_phase.h>
 
@@ -19,20 +18,19 @@ void* as_pointer(std::size_t number) {
     return reinterpret_cast<void*>(number);
 }
 
-class World {
+class Counter {
 public:
-    World(std::size_t count, std::uint64_t seed) : scene_(count, seed) {
-        for (const Aabb2& box : scene_.boxes())
+    explicit Counter(std::span<const Aabb2> boxes) : last_(boxes.begin(), boxes.end()) {
+        for (const Aabb2& box : boxes)
             proxies_.push_back(broad_phase_.CreateProxy(to_box2d(box), as_pointer(proxies_.size())));
     }
 
-    void step() { scene_.step(); }
-
     /// Of the boxes themselves.
-    std::size_t count_pairs() {
-        const std::span<const Aabb2> boxes = scene_.boxes();
-        for (std::size_t i = 0; i < boxes.size(); ++i)
-            broad_phase_.MoveProxy(proxies_[i], to_box2d(boxes[i]), to_box2d(scene_.last_steps()[i]));
+    std::size_t count(std::span<const Aabb2> boxes) {
+        for (std::size_t i = 0; i < boxes.size(); ++i) {
+            broad_phase_.MoveProxy(proxies_[i], to_box2d(boxes[i]), to_box2d(boxes[i].min - last_[i].min));
+            last_[i] = boxes[i];
+        }
         broad_phase_.UpdatePairs(this);
         std::erase_if(pairs_, [this](const Pair& pair) {
             const bool over = !broad_phase_.TestOverlap(proxies_[pair.a], proxies_[pair.b]);
@@ -59,19 +57,17 @@ private:
         return (std::uint64_t{low} << 32) | high;
     }
 
-    scenes::MovingBoxes<2> scene_;
     b2BroadPhase broad_phase_;
     std::vector<int32> proxies_;
+    std::vector<Aabb2> last_;
     std::vector<Pair> pairs_;
     std::unordered_set<std::uint64_t> known_;
 };
 
 }  // namespace
 
-Side box2d_moving(std::size_t count, std::uint64_t seed) {
-    const auto world = std::make_shared<World>(count, seed);
-    return {"box2d", [world](std::span<double> values) { values[0] = static_cast<double>(world->count_pairs()); },
-            [world] { world->step(); }};
+Side box2d_pairs(const MakeScene<2>& make, Upkeep) {
+    return count_pairs<Counter>("box2d", make);
 }
 
 }  // namespace abut::bench

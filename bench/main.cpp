@@ -2,12 +2,18 @@
 
 #include "bench.hpp"
 #include "measure.hpp"
+#include "plot.hpp"
 #include "report.hpp"
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <iterator>
+#include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include <benchmark/benchmark.h>
 
@@ -20,7 +26,9 @@ constexpr int ok = 0, sides_disagree = 1, wrong_usage = 2;
 constexpr const char* usage =
     "abut_bench [GROUP] [--json]\n"
     "  GROUP    narrow or broad, or the beginning of a row's name, such as broad/moving; otherwise all\n"
-    "Exit status: 0 = fine, 1 = abut and a peer disagree, 2 = wrong usage\n";
+    "abut_bench --plots FOLDER\n"
+    "           measures what the documentation's pictures of broad phases show, and writes them there\n"
+    "Exit status: 0 = fine, 1 = abut and a peer disagree, 2 = wrong usage, or a file can't be written\n";
 
 std::vector<Bench> all_benches() {
     std::vector<Bench> result = narrow_benches();
@@ -36,9 +44,40 @@ void set_up_timing() {
     benchmark::Initialize(&count, arguments);
 }
 
+bool all_agree(std::span<const Row> rows) {
+    return std::ranges::all_of(rows, [](const Row& row) { return row.agrees; });
+}
+
+int write_plots(const std::filesystem::path& folder) {
+    print_machine(std::cout);
+    print_table_head(std::cout);
+    bool agree = true;
+    std::vector<std::string> sides;
+    std::vector<Plot> plots = broad_plots();
+    for (Plot& plot : plots) {
+        for (const PlotPoint& point : plot.points) {
+            const std::vector<Row> found = measure(point.bench);
+            print_table_rows(std::cout, found);
+            add_rows(plot.chart, point.x, found, sides);
+            agree = agree && all_agree(found);
+        }
+        const std::filesystem::path file = folder / plot.file;
+        if (!(std::ofstream(file) << svg(plot.chart) << std::flush)) {
+            std::cerr << "abut_bench: " << file.string() << " can't be written\n";
+            return wrong_usage;
+        }
+    }
+    return agree ? ok : sides_disagree;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+    if (argc == 3 && std::string_view(argv[1]) == "--plots") {
+        set_up_timing();
+        return write_plots(argv[2]);
+    }
+
     std::string_view group;
     bool json = false;
     for (int i = 1; i < argc; ++i) {
@@ -76,5 +115,5 @@ int main(int argc, char** argv) {
         rows.insert(rows.end(), found.begin(), found.end());
     }
     if (json) print_json(std::cout, rows);
-    return std::ranges::all_of(rows, [](const Row& row) { return row.agrees; }) ? ok : sides_disagree;
+    return all_agree(rows) ? ok : sides_disagree;
 }

@@ -1,6 +1,7 @@
 #include "measure.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numeric>
 #include <sstream>
@@ -12,16 +13,37 @@ namespace abut::bench {
 namespace {
 
 constexpr int repetitions = 25;
-constexpr double seconds_each = 0.008;  // at least; a call that takes longer is made once
+constexpr double seconds_each = 0.008;     // at least; a call that takes longer is made once
+constexpr double seconds_of_frames = 0.3;  // about, a side: where frames are long, there are fewer repetitions
 
-std::vector<double> answers(const Side& side, const Job& job) {
-    std::vector<double> result(job.rounds * job.values);
+struct Answers {
+    std::vector<double> values;
+    double seconds;  ///< a call, about
+};
+
+Answers answers(const Side& side, const Job& job) {
+    Answers result{std::vector<double>(job.rounds * job.values), 0};
     for (std::size_t round = 0; round < job.rounds; ++round) {
         if (side.prepare) side.prepare();
-        side.ask(std::span(result).subspan(round * job.values, job.values));
+        const auto begin = std::chrono::steady_clock::now();
+        side.ask(std::span(result.values).subspan(round * job.values, job.values));
+        result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     }
     return result;
 }
+
+/// How many frames a repetition has, and how many of those there are, where a call takes so long.
+struct Effort {
+    Effort(double seconds, std::size_t wanted_frames)
+        : frames(seconds > too_long ? 2 : static_cast<int>(wanted_frames)),
+          repetitions(static_cast<int>(std::clamp(seconds_of_frames / (seconds * frames), 1.0, most))) {}
+
+    int frames, repetitions;
+
+private:
+    static constexpr double too_long = 0.5;
+    static constexpr double most = abut::bench::repetitions;
+};
 
 /// Compares the values of a row's side with abut's.
 void compare(const std::vector<double>& ours, const std::vector<double>& theirs, double tolerance, double strays,
@@ -53,14 +75,15 @@ double mean(const std::vector<double>& numbers) {
 /// Keeps the time of a call from every repetition, by the number of the side that the benchmark is named by.
 class Collector : public benchmark::BenchmarkReporter {
 public:
-    explicit Collector(std::size_t sides) : times_(sides) {}
+    Collector(std::size_t sides, bool on_the_wall) : times_(sides), on_the_wall_(on_the_wall) {}
 
     bool ReportContext(const Context&) override { return true; }
     void ReportRuns(const std::vector<Run>& runs) override {
         for (const Run& run : runs)
             if (run.run_type == Run::RT_Iteration)
-                times_[std::stoul(run.run_name.function_name)].push_back(run.cpu_accumulated_time /
-                                                                         static_cast<double>(run.iterations));
+                times_[std::stoul(run.run_name.function_name)].push_back(
+                    (on_the_wall_ ? run.real_accumulated_time : run.cpu_accumulated_time) /
+                    static_cast<double>(run.iterations));
     }
 
     /// Of one call, in seconds, one for each repetition.
@@ -68,6 +91,7 @@ public:
 
 private:
     std::vector<std::vector<double>> times_;
+    bool on_the_wall_;
 };
 
 void time_calls(benchmark::State& state, const Side& side, std::size_t value_count) {
@@ -89,36 +113,47 @@ std::vector<Row> measure(const Bench& bench) {
     const Job job = bench.make();
 
     std::vector<Row> rows;
-    std::vector<double> ours;
+    std::vector<double> ours, seconds_a_call;
     for (const Side& side : job.sides) {
-        const std::vector<double> values = answers(side, job);
+        const auto [values, seconds] = answers(side, job);
+        seconds_a_call.push_back(seconds);
         if (rows.empty()) ours = values;
         Row& row = rows.emplace_back();
         row.bench = bench.name;
         row.who = side.who;
         row.is_mean = job.frames > 0;
+        row.on_the_wall = job.on_the_wall;
         for (const double value : values) row.answer += value;
         compare(ours, values, job.tolerance, side.strays, row);
     }
 
-    // The time of the thread, not of the clock on the wall: what else the machine does should not count.
-    for (std::size_t i = 0; i < job.sides.size(); ++i) {
+    // The time of the thread, most often, not of the clock on the wall: what else the machine does should not count.
+    const auto add = [&job](std::size_t number, const Side& side, double seconds) {
         benchmark::internal::Benchmark* registered = benchmark::RegisterBenchmark(
-            std::to_string(i).c_str(),
-            [&job, i](benchmark::State& state) { time_calls(state, job.sides[i], job.values); });
-        registered->Repetitions(repetitions);
-        if (job.frames > 0)
-            registered->Iterations(static_cast<benchmark::IterationCount>(job.frames));
-        else
+            std::to_string(number).c_str(),
+            [&job, &side](benchmark::State& state) { time_calls(state, side, job.values); });
+        if (job.frames > 0) {
+            const Effort effort(seconds, job.frames);
+            registered->Iterations(effort.frames);
+            registered->Repetitions(effort.repetitions);
+        } else {
+            registered->Repetitions(repetitions);
             registered->MinTime(seconds_each);
-    }
-    Collector collector(job.sides.size());
+        }
+    };
+    for (std::size_t i = 0; i < job.sides.size(); ++i) add(i, job.sides[i], seconds_a_call[i]);
+    // To stop the clock between frames takes time as well, half a microsecond. A side that does nothing tells how much.
+    const Side nothing{"", [](std::span<double>) {}, [] {}};
+    if (job.frames > 0) add(job.sides.size(), nothing, 0);
+
+    Collector collector(job.sides.size() + 1, job.on_the_wall);
     benchmark::RunSpecifiedBenchmarks(&collector);
     benchmark::ClearRegisteredBenchmarks();
 
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const std::vector<double>& times = collector.times(i);
-        rows[i].ns = 1e9 * (job.frames > 0 ? mean(times) : median(times)) / static_cast<double>(job.items);
+        const double seconds = job.frames > 0 ? mean(times) - median(collector.times(job.sides.size())) : median(times);
+        rows[i].ns = 1e9 * seconds / static_cast<double>(job.items);
     }
     for (Row& row : rows) row.ratio = rows[0].ns / row.ns;
     return rows;

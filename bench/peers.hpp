@@ -1,6 +1,6 @@
 #pragma once
 
-// What the peers are asked, each in the words of its own library: one file a peer and phase.
+// What the peers' narrow phases are asked, each in the words of its own library: one file a peer.
 // Their shapes are the same to the last bit of a float, and without Bullet's and Box2D's usual margins, which would
 // round them.
 
@@ -84,20 +84,5 @@ struct MeshScene {
     std::vector<scenes::Placed<3>> placed;
 };
 Side fcl_closest_to_mesh(const MeshScene& scene);
-
-// Broad phase. Trees that keep fattened boxes are asked for the pairs of the boxes themselves, as abut is: one more
-// comparison for each candidate, which a game would have to make as well.
-
-/// All frames take the boxes of the scene a step further, update the tree, and count the overlapping pairs.
-Side bullet_moving(std::size_t count, std::uint64_t seed);
-Side fcl_moving(std::size_t count, std::uint64_t seed);
-Side box2d_moving(std::size_t count, std::uint64_t seed);
-
-/// How many boxes overlap each region.
-Side bullet_regions(std::span<const Aabb3> boxes, std::span<const Aabb3> regions);
-Side fcl_regions(std::span<const Aabb3> boxes, std::span<const Aabb3> regions);
-
-/// How many boxes each ray touches.
-Side bullet_rays(std::span<const Aabb3> boxes, std::span<const Ray3> rays);
 
 }  // namespace abut::bench

@@ -32,17 +32,18 @@ void print_machine(std::ostream& out) {
 }
 
 void print_table_head(std::ostream& out) {
-    out << std::left << std::setw(48) << "bench" << std::setw(17) << "who" << std::right << std::setw(12) << "ns"
+    out << std::left << std::setw(48) << "bench" << std::setw(21) << "who" << std::right << std::setw(12) << "ns"
         << std::setw(9) << "ratio" << std::setw(16) << "answer" << '\n';
 }
 
 void print_table_rows(std::ostream& out, std::span<const Row> rows) {
     out << std::fixed;
     for (const Row& row : rows) {
-        out << std::left << std::setw(48) << (&row == &rows.front() ? row.bench : "") << std::setw(17) << row.who
+        out << std::left << std::setw(48) << (&row == &rows.front() ? row.bench : "") << std::setw(21) << row.who
             << std::right << std::setprecision(1) << std::setw(12) << row.ns << std::setprecision(2) << std::setw(9)
             << row.ratio << std::setw(16) << row.answer;
         if (row.is_mean && &row == &rows.front()) out << "  mean of all frames";
+        if (row.on_the_wall && &row == &rows.front()) out << ", time on the wall";
         if (!row.difference.empty()) out << (row.agrees ? "  (" : "  DISAGREES (") << row.difference << ')';
         out << '\n';
     }

@@ -13,14 +13,20 @@
 
 namespace abut::scenes {
 
+struct MovingBoxesOptions {
+    double overlaps = 2;           ///< how many others a box overlaps, about
+    std::size_t one_in_moves = 1;  ///< the first of so many moves, the others rest
+};
+
 /// Edges of 0.5 to 2, at most 0.1 a frame along each axis, and about one overlapping pair a box. Every coordinate is a
 /// multiple of 1/1024, so that no library rounds a box on its way in, and which boxes touch is the same to all.
 template <int D>
 class MovingBoxes {
 public:
-    MovingBoxes(std::size_t count, std::uint64_t seed) : boxes_(count), velocities_(count) {
-        // A box overlaps those whose centres lie in a box of 2.5, two mean edges; each pair is of two boxes.
-        const double volume = 0.5 * power(2.5) * static_cast<double>(count);
+    MovingBoxes(std::size_t count, std::uint64_t seed, const MovingBoxesOptions& options = {})
+        : boxes_(count), velocities_(count) {
+        // A box overlaps those whose centres lie in a box of 2.5, two mean edges.
+        const double volume = power(2.5) * static_cast<double>(count) / options.overlaps;
         while (power(side_) < volume) ++side_;
         oracle::Random random(seed);
         for (std::size_t item = 0; item < count; ++item) {
@@ -31,6 +37,7 @@ public:
                 boxes_[item].max[i] = center + half;
                 velocities_[item][i] = on_grid(random.uniform(-0.1, 0.1));
             }
+            if (item % options.one_in_moves != 0) velocities_[item] = {};
         }
     }
 

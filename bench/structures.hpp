@@ -1,0 +1,51 @@
+#pragma once
+
+// The broad phases of the library that the rows compare: the one list to extend.
+
+#include "bench.hpp"
+#include <abut/broad_phase/brute_force.hpp>
+#include <abut/broad_phase/bvh.hpp>
+
+#include <cstddef>
+#include <string>
+#include <type_traits>
+
+namespace abut::bench {
+
+/// "abut" in the table, the side that all ratios are about: what a World takes.
+template <int D>
+using Chosen = Bvh<D>;
+
+/// The most boxes that a side is given, so that a frame takes it less than a second, and the whole bench minutes.
+struct Limits {
+    std::size_t moving = 1'000'000;
+    std::size_t skewed = moving;   ///< where sizes and places are
+    std::size_t scratch = moving;  ///< where it is built anew in each frame
+    std::size_t queries = moving;  ///< in a structure of so many that rest
+};
+
+template <class Phase>
+struct Structure {
+    using Type = Phase;
+    const char* name;
+    Limits limits = {};
+};
+
+/// visit(structure) for each.
+template <int D, class Visit>
+void each_structure(Visit visit) {
+    visit(Structure<BruteForce<D>>{"BruteForce", {.moving = 1000}});
+    visit(Structure<Bvh<D>>{"Bvh"});
+}
+
+/// visit(structure, who) for the one chosen, and then for the others.
+template <int D, class Visit>
+void each_side(Visit visit) {
+    visit(Structure<Chosen<D>>{""}, std::string("abut"));
+    each_structure<D>([&](const auto& structure) {
+        using Phase = typename std::remove_cvref_t<decltype(structure)>::Type;
+        if constexpr (!std::is_same_v<Phase, Chosen<D>>) visit(structure, std::string("abut ") + structure.name);
+    });
+}
+
+}  // namespace abut::bench
