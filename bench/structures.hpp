@@ -5,6 +5,7 @@
 #include "bench.hpp"
 #include <abut/broad_phase/brute_force.hpp>
 #include <abut/broad_phase/bvh.hpp>
+#include <abut/broad_phase/grid.hpp>
 
 #include <cstddef>
 #include <string>
@@ -35,6 +36,7 @@ struct Structure {
 template <int D, class Visit>
 void each_structure(Visit visit) {
     visit(Structure<BruteForce<D>>{"BruteForce", {.moving = 1000}});
+    visit(Structure<Grid<D>>{"Grid"});
     visit(Structure<Bvh<D>>{"Bvh"});
 }
 
