@@ -1,0 +1,376 @@
+#include <abut/broad_phase/boxes.hpp>
+#include <abut/broad_phase/temporal_core.hpp>
+#include <abut/broad_phase/temporal_reach-inl.h>
+#include <abut/math/assert.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+#include <hwy/cache_control.h>
+
+namespace abut {
+namespace {
+
+constexpr float unbounded = std::numeric_limits<float>::infinity();
+constexpr double endless = std::numeric_limits<double>::infinity();
+
+/// How long they take for a way, at the least.
+double time_for(float way, float speed) {
+    return speed > 0 ? static_cast<double>(way / speed) : endless;
+}
+
+float usable_speed(float speed) {
+    ABUT_ASSERT(speed >= 0);
+    return speed >= 0 ? speed : unbounded;
+}
+
+/// A quarter of an edge, or about that part of the way to a neighbour, of boxes that aren't huge.
+template <int D>
+double first_margin(std::span<const Aabb<D>> boxes) {
+    const Aabb<D> near{Vec<D>(-1e18f), Vec<D>(1e18f)};
+    double edges = 0, count = 0;
+    Aabb<D> bounds = Aabb<D>::empty();
+    for (const Aabb<D>& given : boxes) {
+        const Aabb<D> box = usable(given);
+        if (is_empty(box) || !contains(near, box)) continue;
+        bounds = merged(bounds, box);
+        for (int i = 0; i < D; ++i) edges += static_cast<double>(box.max[i]) - static_cast<double>(box.min[i]);
+        ++count;
+    }
+    if (count == 0) return 0;
+    double room = 1 / count;
+    for (int i = 0; i < D; ++i) room *= static_cast<double>(bounds.max[i]) - static_cast<double>(bounds.min[i]);
+    // A power of two is near enough to the root.
+    int exponent = 0;
+    std::frexp(room, &exponent);
+    const double spacing = room > 0 ? std::ldexp(0.5, exponent / D) : 0;
+    return 0.25 * std::max(edges / (D * count), spacing);
+}
+
+}  // namespace
+
+template <int D>
+void TemporalCore<D>::build(std::span<const Aabb<D>> boxes, std::span<const float> top_speeds,
+                            TemporalSearch<D>& search) {
+    ABUT_ASSERT(boxes.size() == top_speeds.size());
+    wanted_.assign(boxes.size(), unbounded);
+    std::transform(top_speeds.begin(), top_speeds.begin() + std::min(boxes.size(), top_speeds.size()), wanted_.begin(),
+                   usable_speed);
+    counts_ = {};
+    start(boxes, search);
+}
+
+/// Anew, with the top speeds as they are.
+template <int D>
+void TemporalCore<D>::start(std::span<const Aabb<D>> boxes, TemporalSearch<D>& search) {
+    float fastest = 0;
+    for (const float speed : wanted_)
+        if (speed < unbounded) fastest = std::max(fastest, speed);
+    std::frexp(fastest, &fastest_);
+
+    now_ = 0;
+    items_.assign(boxes.size(), {Aabb<D>::empty(), unbounded, 0});
+    grown_.reserve(boxes.size());
+    const double margin = first_margin(boxes);
+    for (Group& group : groups_) {
+        group.members.clear();
+        group.window.begin(margin);
+        group.start = group.end = group.waited = 0;
+        group.due = group.changed = true;
+    }
+    groups_[0].members.resize(boxes.size());
+    for (std::uint32_t i = 0; i < boxes.size(); ++i) groups_[0].members[i] = i;
+    regroup();
+    search_due(boxes, search);
+}
+
+template <int D>
+void TemporalCore<D>::update(std::span<const Aabb<D>> boxes, double time, TemporalSearch<D>& search) {
+    ABUT_ASSERT(boxes.size() == size());
+    if (boxes.size() != size()) {
+        wanted_.resize(boxes.size(), unbounded);
+        return start(boxes, search);
+    }
+    ++counts_.updates;
+    counts_.plain_searches += size();
+    advance(time);
+    if (choose_due()) return start(boxes, search);
+    drop_left();
+    look_at_due(boxes);
+    drop_left();
+    regroup();
+    search_due(boxes, search);
+    count_held();
+}
+
+template <int D>
+void TemporalCore<D>::set_top_speed(std::uint32_t item, float speed) {
+    wanted_[item] = usable_speed(speed);
+    if (wanted_[item] > items_[item].speed) leave(item);
+}
+
+template <int D>
+void TemporalCore<D>::jumped(std::uint32_t item) {
+    if (items_[item].group != 0) leave(item);
+}
+
+/// Each group is four times as slow as the one before it.
+template <int D>
+std::uint32_t TemporalCore<D>::group_for(float speed) const {
+    constexpr int slowest = static_cast<int>(temporal_groups) - 1;
+    if (speed == unbounded) return 0;
+    int exponent = 0;
+    std::frexp(speed, &exponent);
+    if (speed == 0) return static_cast<std::uint32_t>(slowest);
+    if (exponent > fastest_) return 0;
+    return static_cast<std::uint32_t>(std::min(1 + (fastest_ - exponent) / 2, slowest));
+}
+
+/// For group 0, until the group where it belongs is searched next.
+template <int D>
+void TemporalCore<D>::leave(std::uint32_t index) {
+    Item& item = items_[index];
+    groups_[item.group].left = groups_[item.group].changed = groups_[0].changed = true;
+    groups_[0].members.push_back(index);
+    item.group = 0;
+    item.speed = unbounded;
+}
+
+/// The item's box. Where it has gone farther than it may, it leaves its group.
+template <int D>
+BoxLanes<D> TemporalCore<D>::checked(std::uint32_t index, const Aabb<D>& given) {
+    const BoxLanes<D> box(given);
+    const Item& item = items_[index];
+    const float way = item.speed * groups_[item.group].elapsed;
+    const bool kept_to_its_top_speed = item.group == 0 || within_way(BoxLanes<D>(item.box), box, way);
+    ABUT_ASSERT(kept_to_its_top_speed);
+    if (!kept_to_its_top_speed) {
+        ++counts_.too_fast;
+        leave(index);
+    }
+    return box;
+}
+
+template <int D>
+void TemporalCore<D>::advance(double time) {
+    ABUT_ASSERT(time >= 0);
+    // Rounded up: between two moments, never less time is taken to have gone by than has.
+    if (time != 0) now_ = std::nextafter(now_ + time, endless);
+    const bool countable = time >= 0 && now_ < std::numeric_limits<double>::max();
+    if (countable && time > 0) step_ = time;
+    for (Group& group : groups_) {
+        group.elapsed = countable ? no_earlier(now_ - group.start) : unbounded;
+        if (!countable) group.end = 0;
+        group.window.count_update();
+    }
+    if (!countable) now_ = 0;
+}
+
+/// True where all is to start anew, as items in group 0 are too fast for the groups there are.
+template <int D>
+bool TemporalCore<D>::choose_due() {
+    for (const std::uint32_t item : groups_[0].members)
+        if (wanted_[item] < unbounded) ++groups_[group_for(wanted_[item])].waited;
+    for (Group& group : groups_) {
+        const bool worth_it = group.waited > 0 && group.waited >= static_cast<double>(group.members.size());
+        group.due = !(now_ < group.end) || worth_it;
+    }
+    // What has been searched for in vain is as much as starting costs.
+    return groups_[0].waited > 0 && groups_[0].waited >= static_cast<double>(size());
+}
+
+template <int D>
+void TemporalCore<D>::look_at_due(std::span<const Aabb<D>> boxes) {
+    for (std::uint32_t a = 1; a < temporal_groups; ++a) {
+        for (std::uint32_t b = a; b < temporal_groups; ++b) {
+            Table& pairs = table(a, b);
+            if (groups_[a].due || groups_[b].due || pairs.pairs.size() == 0) continue;
+            const double elapsed = now_ - pairs.start;
+            const auto fetch = [&](const ItemPair& pair) {
+                for (const std::uint32_t item : {pair.first, pair.second}) {
+                    hwy::Prefetch(&items_[item]);
+                    hwy::Prefetch(&boxes[item]);
+                }
+            };
+            const auto look = [&](const ItemPair& pair) -> TimedPairs::Look {
+                const float speed = items_[pair.first].speed + items_[pair.second].speed;
+                const BoxLanes<D> first = checked(pair.first, boxes[pair.first]);
+                const Reach reach = reach_of(first, checked(pair.second, boxes[pair.second]));
+                return {no_later(elapsed + time_for(reach.way, speed)), reach.touching};
+            };
+            const std::size_t looks = pairs.pairs.look_at_due(no_earlier(elapsed), fetch, look);
+            counts_.looks += looks;
+            groups_[a].window.spend(SearchWindow::look_cost * static_cast<double>(looks));
+            if (a != b) groups_[b].window.spend(SearchWindow::look_cost * static_cast<double>(looks));
+        }
+    }
+}
+
+/// The pairs of items that have left their groups. Tables that are about to be filled anew don't matter.
+template <int D>
+void TemporalCore<D>::drop_left() {
+    for (std::uint32_t a = 1; a < temporal_groups; ++a) {
+        for (std::uint32_t b = a; b < temporal_groups; ++b) {
+            if (!(groups_[a].left || groups_[b].left) || groups_[a].due || groups_[b].due) continue;
+            table(a, b).pairs.keep_if(
+                [&](const ItemPair& pair) { return items_[pair.first].group != 0 && items_[pair.second].group != 0; });
+        }
+    }
+    for (Group& group : groups_) group.left = false;
+}
+
+/// Everyone to the group where he belongs, as far as it is searched now.
+template <int D>
+void TemporalCore<D>::regroup() {
+    for (std::uint32_t index = 1; index < temporal_groups; ++index) {
+        Group& group = groups_[index];
+        if (!group.due) continue;
+        std::erase_if(group.members, [&](std::uint32_t item) {
+            if (items_[item].group == index && group_for(wanted_[item]) != index) leave(item);
+            return items_[item].group != index;
+        });
+    }
+    std::erase_if(groups_[0].members, [&](std::uint32_t item) {
+        const std::uint32_t index = group_for(wanted_[item]);
+        if (index == 0 || !groups_[index].due) return false;
+        items_[item].group = index;
+        groups_[index].members.push_back(item);
+        groups_[index].changed = groups_[0].changed = true;
+        return true;
+    });
+    groups_[0].due = groups_[0].changed || !groups_[0].members.empty();
+    for (Group& group : groups_)
+        if (group.due && group.changed) std::sort(group.members.begin(), group.members.end());
+}
+
+template <int D>
+void TemporalCore<D>::search_due(std::span<const Aabb<D>> boxes, TemporalSearch<D>& search) {
+    for (std::uint32_t index = 0; index < temporal_groups; ++index)
+        if (groups_[index].due) search_group(index, boxes, search);
+    for (std::uint32_t a = 0; a < temporal_groups; ++a)
+        for (std::uint32_t b = a; b < temporal_groups; ++b)
+            if (groups_[a].due || groups_[b].due) fill(a, b, boxes, search);
+    for (Group& group : groups_) group.left = group.due = false;
+}
+
+template <int D>
+void TemporalCore<D>::search_group(std::uint32_t index, std::span<const Aabb<D>> boxes, TemporalSearch<D>& search) {
+    Group& group = groups_[index];
+    float fastest = 0;
+    for (const std::uint32_t member : group.members) {
+        Item& item = items_[member];
+        const Aabb<D> box = usable(boxes[member]);
+        if (item.speed < unbounded) {
+            const bool kept_to_its_top_speed =
+                within_way(BoxLanes<D>(item.box), BoxLanes<D>(box), item.speed * group.elapsed);
+            ABUT_ASSERT(kept_to_its_top_speed);
+            if (!kept_to_its_top_speed) ++counts_.too_fast;
+        }
+        item.box = box;
+        item.speed = index == 0 ? unbounded : wanted_[member];
+        fastest = std::max(fastest, item.speed);
+    }
+    double length = 0;
+    if (index > 0) length = group.window.next(static_cast<double>(fastest), step_, !(now_ < group.end));
+    group.start = now_;
+    group.end = length > 0 ? std::nextafter(now_ + length * (1 - leeway), 0.0) : 0;
+    group.elapsed = 0;
+    if (index > 0) group.waited = 0;
+    grown_.clear();
+    for (const std::uint32_t member : group.members) {
+        const Item& item = items_[member];
+        const bool moves = length > 0 && item.speed > 0;
+        grown_.push_back(moves ? grown_by_way(item.box, static_cast<float>(static_cast<double>(item.speed) * length))
+                               : item.box);
+    }
+    search.set(index, grown_, group.changed);
+    group.changed = false;
+    counts_.searches += group.members.size();
+    group.window.spend(SearchWindow::item_cost * static_cast<double>(group.members.size()));
+}
+
+/// With what the searches of two groups find in one another.
+template <int D>
+void TemporalCore<D>::fill(std::uint32_t a, std::uint32_t b, std::span<const Aabb<D>> boxes,
+                           const TemporalSearch<D>& search) {
+    Table& pairs = table(a, b);
+    const Group &group = groups_[a], &other = groups_[b];
+    pairs.pairs.clear();
+    pairs.start = now_;
+    if (group.members.empty() || other.members.empty()) return;
+    const double until = std::min(group.end, other.end) - now_;
+    std::size_t found = 0;
+    const auto add = [&](std::uint32_t in_group, std::uint32_t in_other) {
+        const std::uint32_t first = group.members[in_group], second = other.members[in_other];
+        if (items_[first].group != a || items_[second].group != b) return;
+        ++found;
+        const Reach reach = reach_of(BoxLanes<D>(boxes[first]), BoxLanes<D>(boxes[second]));
+        float due = TimedPairs::never;
+        if (until > 0) {
+            const double time = time_for(reach.way, items_[first].speed + items_[second].speed);
+            if (time < until) due = no_later(time);
+        }
+        if (due < TimedPairs::never || reach.touching)
+            pairs.pairs.add({std::min(first, second), std::max(first, second)}, {due, reach.touching});
+    };
+    if (a == b)
+        search.each_pair(a, add);
+    else
+        search.each_pair(a, b, add);
+    counts_.looks += found;
+    for (const std::uint32_t index : {a, b})
+        if (index == a || a != b) groups_[index].window.spend(SearchWindow::pair_cost * static_cast<double>(found));
+}
+
+template <int D>
+void TemporalCore<D>::count_held() {
+    for (std::uint32_t a = 0; a < temporal_groups; ++a) {
+        for (std::uint32_t b = a; b < temporal_groups; ++b) {
+            const std::size_t held = table(a, b).pairs.size();
+            counts_.plain_looks += held;
+            groups_[a].window.spend(SearchWindow::held_cost * static_cast<double>(held));
+            if (a != b) groups_[b].window.spend(SearchWindow::held_cost * static_cast<double>(held));
+        }
+    }
+}
+
+template <int D>
+void TemporalCore<D>::visit_pairs(PairsCall visit, Executor* executor) const {
+    std::size_t blocks = 0;
+    for (const Table& pairs : tables_) blocks += pairs.pairs.blocks();
+    // Some of the blocks of all tables in a row.
+    const auto tell = [&](std::size_t begin, std::size_t end, PairsCall to) {
+        PairBuffer out(to);
+        std::size_t first = 0;
+        for (const Table& pairs : tables_) {
+            const std::size_t count = pairs.pairs.blocks();
+            const std::size_t from = std::max(begin, first), until = std::min(end, first + count);
+            if (from < until && !pairs.pairs.tell(from - first, until - first, out)) return false;
+            first += count;
+        }
+        return out.flush();
+    };
+    const std::size_t parts =
+        executor == nullptr ? 1 : std::min<std::size_t>(4 * std::size_t{executor->workers()}, blocks / 16);
+    if (parts <= 1) {
+        tell(0, blocks, visit);
+        return;
+    }
+    std::atomic<bool> enough = false;
+    executor->run(static_cast<std::uint32_t>(parts), [&](std::uint32_t part) {
+        const auto until_enough = [&](std::span<const ItemPair> pairs) {
+            if (enough.load(std::memory_order_relaxed)) return false;
+            if (visit(pairs)) return true;
+            enough.store(true, std::memory_order_relaxed);
+            return false;
+        };
+        tell(blocks * part / parts, blocks * (part + 1) / parts, until_enough);
+    });
+}
+
+template class TemporalCore<2>;
+template class TemporalCore<3>;
+
+}  // namespace abut
