@@ -1,7 +1,6 @@
 #pragma once
 
-// For how long a search for neighbours shall hold: the margin by which boxes are grown, found by counting. For .cpp
-// files.
+// For how long a search for neighbours shall hold: how far boxes are grown for it, found by counting. For .cpp files.
 
 #include <cstdint>
 #include <limits>
@@ -10,11 +9,11 @@ namespace abut {
 
 /// A wide margin is searched for seldom and holds many pairs, a narrow one the other way round. The margin climbs to
 /// where both together cost least an update, by the factor that helped last time. Where things are so fast that a
-/// search holds for an update or two, it rests at none: then each update searches, and holds those pairs alone that
-/// touch. Costs are counts times about a nanosecond each; no clock has a say.
+/// search would hold for an update or two, the window rests: each update searches then, in boxes that aren't grown.
+/// From time to time it tries again. Costs are counts, times about what each takes in nanoseconds; no clock has a say.
 class SearchWindow {
 public:
-    static constexpr double item_cost = 50, pair_cost = 15, look_cost = 10, held_cost = 0.1;
+    static constexpr double item_cost = 100, pair_cost = 20, look_cost = 20, held_cost = 0.2;
 
     /// From nothing, with a first guess.
     void begin(double margin);
@@ -23,22 +22,24 @@ public:
     void spend(double cost) { cost_ += cost; }
     void count_update() { ++updates_; }
 
-    /// How long the next search shall hold; 0 is until the next update. `over` where the last one held to its end, and
-    /// was not cut short. An item goes at most `speed`, an update takes about `step`.
-    double next(double speed, double step, bool over);
+    /// How long a search holds for what goes at most `speed`.
+    double length(double speed) const { return speed > 0 ? margin_ / speed : std::numeric_limits<double>::infinity(); }
+    /// The window has gone by. An update takes about `step`.
+    void close(double speed, double step);
 
-    /// Whether each update searches.
     bool rests() const { return resting_; }
+    /// While it rests: whether it is time to try again.
+    bool wakes(double speed, double step);
 
 private:
     static constexpr std::uint32_t first_rest = 32, longest_rest = 1024;
 
-    double rest();
+    double rate() const { return cost_ / updates_; }
+    void count_anew() { cost_ = updates_ = 0; }
 
     double margin_ = 0, factor_ = 1.5;
-    double cost_ = 0;
-    double last_rate_ = std::numeric_limits<double>::infinity();  // costs an update
-    double rest_rate_ = std::numeric_limits<double>::infinity();
+    double cost_ = 0, last_rate_ = std::numeric_limits<double>::infinity(),
+           rest_rate_ = std::numeric_limits<double>::infinity();
     std::uint32_t updates_ = 0, rest_for_ = first_rest;
     bool resting_ = false;
 };

@@ -96,7 +96,10 @@ void TemporalCore<D>::update(std::span<const Aabb<D>> boxes, double time, Tempor
     ++counts_.updates;
     counts_.plain_searches += size();
     advance(time);
-    if (choose_due()) return start(boxes, search);
+    count_waiting();
+    // Items too fast for any group have been searched for as often as all of them are by starting anew.
+    if (groups_[0].waited > 0 && groups_[0].waited >= static_cast<double>(size())) return start(boxes, search);
+    choose_due();
     drop_left();
     look_at_due(boxes);
     drop_left();
@@ -126,6 +129,13 @@ std::uint32_t TemporalCore<D>::group_for(float speed) const {
     if (speed == 0) return static_cast<std::uint32_t>(slowest);
     if (exponent > fastest_) return 0;
     return static_cast<std::uint32_t>(std::min(1 + (fastest_ - exponent) / 2, slowest));
+}
+
+/// The group where an item is searched for next.
+template <int D>
+std::uint32_t TemporalCore<D>::home_of(std::uint32_t item) const {
+    const std::uint32_t group = group_for(wanted_[item]);
+    return groups_[group].window.rests() ? 0 : group;
 }
 
 /// For group 0, until the group where it belongs is searched next.
@@ -168,17 +178,36 @@ void TemporalCore<D>::advance(double time) {
     if (!countable) now_ = 0;
 }
 
-/// True where all is to start anew, as items in group 0 are too fast for the groups there are.
+/// What is searched for in group 0, on whose account.
 template <int D>
-bool TemporalCore<D>::choose_due() {
-    for (const std::uint32_t item : groups_[0].members)
-        if (wanted_[item] < unbounded) ++groups_[group_for(wanted_[item])].waited;
-    for (Group& group : groups_) {
-        const bool worth_it = group.waited > 0 && group.waited >= static_cast<double>(group.members.size());
-        group.due = !(now_ < group.end) || worth_it;
+void TemporalCore<D>::count_waiting() {
+    const double count = static_cast<double>(groups_[0].members.size());
+    const double pairs = static_cast<double>(table(0, 0).pairs.size());
+    for (const std::uint32_t item : groups_[0].members) {
+        if (wanted_[item] == unbounded) continue;
+        Group& group = groups_[group_for(wanted_[item])];
+        if (group.window.rests())
+            group.window.spend(SearchWindow::item_cost + SearchWindow::pair_cost * pairs / count);
+        else
+            ++group.waited;
     }
-    // What has been searched for in vain is as much as starting costs.
-    return groups_[0].waited > 0 && groups_[0].waited >= static_cast<double>(size());
+}
+
+template <int D>
+void TemporalCore<D>::choose_due() {
+    for (std::uint32_t index = 1; index < temporal_groups; ++index) {
+        Group& group = groups_[index];
+        const double speed = static_cast<double>(group.fastest);
+        const bool over = !(now_ < group.end);
+        if (group.window.rests()) {
+            group.due = group.window.wakes(speed, step_);
+        } else if (over) {
+            group.window.close(speed, step_);
+            group.due = true;
+        } else {
+            group.due = group.waited > 0 && group.waited >= static_cast<double>(group.members.size());
+        }
+    }
 }
 
 template <int D>
@@ -228,12 +257,12 @@ void TemporalCore<D>::regroup() {
         Group& group = groups_[index];
         if (!group.due) continue;
         std::erase_if(group.members, [&](std::uint32_t item) {
-            if (items_[item].group == index && group_for(wanted_[item]) != index) leave(item);
+            if (items_[item].group == index && home_of(item) != index) leave(item);
             return items_[item].group != index;
         });
     }
     std::erase_if(groups_[0].members, [&](std::uint32_t item) {
-        const std::uint32_t index = group_for(wanted_[item]);
+        const std::uint32_t index = home_of(item);
         if (index == 0 || !groups_[index].due) return false;
         items_[item].group = index;
         groups_[index].members.push_back(item);
@@ -247,48 +276,50 @@ void TemporalCore<D>::regroup() {
 
 template <int D>
 void TemporalCore<D>::search_due(std::span<const Aabb<D>> boxes, TemporalSearch<D>& search) {
-    for (std::uint32_t index = 0; index < temporal_groups; ++index)
-        if (groups_[index].due) search_group(index, boxes, search);
+    for (std::uint32_t index = 0; index < temporal_groups; ++index) {
+        Group& group = groups_[index];
+        if (!group.due) continue;
+        grown_.clear();
+        if (index > 0)
+            grow(group, boxes);
+        else
+            for (const std::uint32_t member : group.members) grown_.push_back(usable(boxes[member]));
+        search.set(index, grown_, group.changed);
+        group.changed = false;
+        counts_.searches += group.members.size();
+        group.window.spend(SearchWindow::item_cost * static_cast<double>(group.members.size()));
+    }
     for (std::uint32_t a = 0; a < temporal_groups; ++a)
         for (std::uint32_t b = a; b < temporal_groups; ++b)
             if (groups_[a].due || groups_[b].due) fill(a, b, boxes, search);
     for (Group& group : groups_) group.left = group.due = false;
 }
 
+/// The boxes of a group by as far as each may go until its next search.
 template <int D>
-void TemporalCore<D>::search_group(std::uint32_t index, std::span<const Aabb<D>> boxes, TemporalSearch<D>& search) {
-    Group& group = groups_[index];
-    float fastest = 0;
+void TemporalCore<D>::grow(Group& group, std::span<const Aabb<D>> boxes) {
+    group.fastest = 0;
     for (const std::uint32_t member : group.members) {
         Item& item = items_[member];
         const Aabb<D> box = usable(boxes[member]);
-        if (item.speed < unbounded) {
-            const bool kept_to_its_top_speed =
-                within_way(BoxLanes<D>(item.box), BoxLanes<D>(box), item.speed * group.elapsed);
-            ABUT_ASSERT(kept_to_its_top_speed);
-            if (!kept_to_its_top_speed) ++counts_.too_fast;
-        }
+        const bool kept_to_its_top_speed =
+            item.speed == unbounded || within_way(BoxLanes<D>(item.box), BoxLanes<D>(box), item.speed * group.elapsed);
+        ABUT_ASSERT(kept_to_its_top_speed);
+        if (!kept_to_its_top_speed) ++counts_.too_fast;
         item.box = box;
-        item.speed = index == 0 ? unbounded : wanted_[member];
-        fastest = std::max(fastest, item.speed);
+        item.speed = wanted_[member];
+        group.fastest = std::max(group.fastest, item.speed);
     }
-    double length = 0;
-    if (index > 0) length = group.window.next(static_cast<double>(fastest), step_, !(now_ < group.end));
+    const double length = group.window.length(static_cast<double>(group.fastest));
     group.start = now_;
-    group.end = length > 0 ? std::nextafter(now_ + length * (1 - leeway), 0.0) : 0;
+    group.end = std::nextafter(now_ + length * (1 - 1e-6), 0.0);
     group.elapsed = 0;
-    if (index > 0) group.waited = 0;
-    grown_.clear();
+    group.waited = 0;
     for (const std::uint32_t member : group.members) {
         const Item& item = items_[member];
-        const bool moves = length > 0 && item.speed > 0;
-        grown_.push_back(moves ? grown_by_way(item.box, static_cast<float>(static_cast<double>(item.speed) * length))
-                               : item.box);
+        const double way = item.speed > 0 ? static_cast<double>(item.speed) * length : 0;
+        grown_.push_back(way > 0 ? grown_by_way(item.box, static_cast<float>(way)) : item.box);
     }
-    search.set(index, grown_, group.changed);
-    group.changed = false;
-    counts_.searches += group.members.size();
-    group.window.spend(SearchWindow::item_cost * static_cast<double>(group.members.size()));
 }
 
 /// With what the searches of two groups find in one another.
@@ -306,9 +337,11 @@ void TemporalCore<D>::fill(std::uint32_t a, std::uint32_t b, std::span<const Aab
         const std::uint32_t first = group.members[in_group], second = other.members[in_other];
         if (items_[first].group != a || items_[second].group != b) return;
         ++found;
-        const Reach reach = reach_of(BoxLanes<D>(boxes[first]), BoxLanes<D>(boxes[second]));
+        // Those of group 0 aren't grown.
+        const bool known = b == 0;
+        const Reach reach = known ? Reach{true, 0} : reach_of(BoxLanes<D>(boxes[first]), BoxLanes<D>(boxes[second]));
         float due = TimedPairs::never;
-        if (until > 0) {
+        if (a > 0) {
             const double time = time_for(reach.way, items_[first].speed + items_[second].speed);
             if (time < until) due = no_later(time);
         }

@@ -71,6 +71,7 @@ private:
     struct Group {
         std::vector<std::uint32_t> members;  ///< ascending, but for those that have come since the last search
         double start = 0, end = 0;           ///< of the time for which the last search holds
+        float fastest = 0;                   ///< of the members' top speeds at the last search
         float elapsed = 0;                   ///< since the start
         SearchWindow window;
         double waited = 0;     ///< searches made in group 0 for items that belong here
@@ -86,15 +87,17 @@ private:
     Table& table(std::uint32_t a, std::uint32_t b) { return tables_[a * temporal_groups + b]; }
     void start(std::span<const Aabb<D>> boxes, TemporalSearch<D>& search);
     std::uint32_t group_for(float speed) const;
+    std::uint32_t home_of(std::uint32_t item) const;
     void leave(std::uint32_t item);
     BoxLanes<D> checked(std::uint32_t item, const Aabb<D>& given);
     void advance(double time);
-    bool choose_due();
+    void count_waiting();
+    void choose_due();
     void look_at_due(std::span<const Aabb<D>> boxes);
     void drop_left();
     void regroup();
     void search_due(std::span<const Aabb<D>> boxes, TemporalSearch<D>& search);
-    void search_group(std::uint32_t index, std::span<const Aabb<D>> boxes, TemporalSearch<D>& search);
+    void grow(Group& group, std::span<const Aabb<D>> boxes);
     void fill(std::uint32_t a, std::uint32_t b, std::span<const Aabb<D>> boxes, const TemporalSearch<D>& search);
     void count_held();
 
