@@ -163,19 +163,23 @@ BoxLanes<D> TemporalCore<D>::checked(std::uint32_t index, const Aabb<D>& given) 
     return box;
 }
 
+/// Rounded up: between two moments, never less time is taken to have gone by than has. Where the sum could no longer
+/// tell one update from the next, or was given no number, time begins anew with a search for all.
 template <int D>
 void TemporalCore<D>::advance(double time) {
     ABUT_ASSERT(time >= 0);
-    // Rounded up: between two moments, never less time is taken to have gone by than has.
-    if (time != 0) now_ = std::nextafter(now_ + time, endless);
-    const bool countable = time >= 0 && now_ < std::numeric_limits<double>::max();
-    if (countable && time > 0) step_ = time;
+    for (Group& group : groups_) group.window.count_update();
+    if (time == 0) return;
+    now_ = std::nextafter(now_ + time, endless);
+    const bool countable = time > 0 && now_ < std::numeric_limits<double>::max() && now_ < 0x1p50 * time;
+    if (countable)
+        step_ = time;
+    else
+        now_ = 0;
     for (Group& group : groups_) {
         group.elapsed = countable ? no_earlier(now_ - group.start) : unbounded;
         if (!countable) group.end = 0;
-        group.window.count_update();
     }
-    if (!countable) now_ = 0;
 }
 
 /// What is searched for in group 0, on whose account.
@@ -335,7 +339,8 @@ void TemporalCore<D>::fill(std::uint32_t a, std::uint32_t b, std::span<const Aab
     std::size_t found = 0;
     const auto add = [&](std::uint32_t in_group, std::uint32_t in_other) {
         const std::uint32_t first = group.members[in_group], second = other.members[in_other];
-        if (items_[first].group != a || items_[second].group != b) return;
+        // The boxes of a group that isn't searched now still have among them those who left.
+        if ((!group.due && items_[first].group != a) || (!other.due && items_[second].group != b)) return;
         ++found;
         // Those of group 0 aren't grown.
         const bool known = b == 0;

@@ -96,19 +96,14 @@ Aabb<D> grown_by_way(const Aabb<D>& box, float way) {
     return result;
 }
 
-/// As a float that isn't later.
+/// As a float that isn't later. Endless time becomes the longest there is.
 inline float no_later(double time) {
-    if (std::isinf(time)) return std::numeric_limits<float>::infinity();
-    const float result = static_cast<float>(std::min(time, static_cast<double>(std::numeric_limits<float>::max())));
-    return static_cast<double>(result) <= time ? result : std::nextafter(result, 0.0f);
+    return static_cast<float>(std::min(time, static_cast<double>(std::numeric_limits<float>::max())) * (1 - 0x1p-23));
 }
 
-/// As a float that isn't earlier.
+/// As a float that isn't earlier, nor infinite.
 inline float no_earlier(double time) {
-    if (time > static_cast<double>(std::numeric_limits<float>::max())) return std::numeric_limits<float>::infinity();
-    const float result = static_cast<float>(time);
-    return static_cast<double>(result) >= time ? result
-                                               : std::nextafter(result, std::numeric_limits<float>::infinity());
+    return static_cast<float>(std::min(time * (1 + 0x1p-23), static_cast<double>(std::numeric_limits<float>::max())));
 }
 
 }  // namespace abut
