@@ -25,13 +25,28 @@ inline Floats loaded(const float* numbers) {
     std::memcpy(&result, numbers, sizeof(result));
     return result;
 }
+/// The lanes behind the first, or the second; the last lanes hold anything.
+inline Floats from_second(Floats v) {
+    return __builtin_shufflevector(v, v, 1, 2, 3, 3);
+}
+inline Floats from_third(Floats v) {
+    return __builtin_shufflevector(v, v, 2, 3, 2, 3);
+}
 /// The second, where it is no number.
 inline Floats greater(Floats a, Floats b) {
+#ifdef __SSE2__
+    return _mm_max_ps(a, b);
+#else
     return a > b ? a : b;
+#endif
 }
 /// The second, where it is no number.
 inline Floats less(Floats a, Floats b) {
+#ifdef __SSE2__
+    return _mm_min_ps(a, b);
+#else
     return a < b ? a : b;
+#endif
 }
 inline Floats magnitude(Floats v) {
     constexpr std::int32_t all_but_sign = 0x7fffffff;
@@ -46,12 +61,12 @@ inline std::uint32_t bits(Mask mask) {
 #endif
 }
 inline float greatest(Floats v) {
-    const Floats two = greater(v, Floats{v[2], v[3], v[2], v[3]});
-    return two[0] > two[1] ? two[0] : two[1];
+    const Floats two = greater(v, from_third(v));
+    return greater(two, from_second(two))[0];
 }
 inline float least(Floats v) {
-    const Floats two = less(v, Floats{v[2], v[3], v[2], v[3]});
-    return two[0] < two[1] ? two[0] : two[1];
+    const Floats two = less(v, from_third(v));
+    return less(two, from_second(two))[0];
 }
 
 }  // namespace abut::four

@@ -16,37 +16,9 @@ namespace {
 constexpr float unbounded = std::numeric_limits<float>::infinity();
 constexpr double endless = std::numeric_limits<double>::infinity();
 
-/// How long they take for a way, at the least.
-double time_for(float way, float speed) {
-    return speed > 0 ? static_cast<double>(way / speed) : endless;
-}
-
 float usable_speed(float speed) {
     ABUT_ASSERT(speed >= 0);
     return speed >= 0 ? speed : unbounded;
-}
-
-/// A quarter of an edge, or about that part of the way to a neighbour, of boxes that aren't huge.
-template <int D>
-double first_margin(std::span<const Aabb<D>> boxes) {
-    const Aabb<D> near{Vec<D>(-1e18f), Vec<D>(1e18f)};
-    double edges = 0, count = 0;
-    Aabb<D> bounds = Aabb<D>::empty();
-    for (const Aabb<D>& given : boxes) {
-        const Aabb<D> box = usable(given);
-        if (is_empty(box) || !contains(near, box)) continue;
-        bounds = merged(bounds, box);
-        for (int i = 0; i < D; ++i) edges += static_cast<double>(box.max[i]) - static_cast<double>(box.min[i]);
-        ++count;
-    }
-    if (count == 0) return 0;
-    double room = 1 / count;
-    for (int i = 0; i < D; ++i) room *= static_cast<double>(bounds.max[i]) - static_cast<double>(bounds.min[i]);
-    // A power of two is near enough to the root.
-    int exponent = 0;
-    std::frexp(room, &exponent);
-    const double spacing = room > 0 ? std::ldexp(0.5, exponent / D) : 0;
-    return 0.25 * std::max(edges / (D * count), spacing);
 }
 
 }  // namespace
@@ -56,34 +28,10 @@ void TemporalCore<D>::build(std::span<const Aabb<D>> boxes, std::span<const floa
                             TemporalSearch<D>& search) {
     ABUT_ASSERT(boxes.size() == top_speeds.size());
     wanted_.assign(boxes.size(), unbounded);
-    std::transform(top_speeds.begin(), top_speeds.begin() + std::min(boxes.size(), top_speeds.size()), wanted_.begin(),
-                   usable_speed);
+    const auto given = top_speeds.first(std::min(boxes.size(), top_speeds.size()));
+    std::transform(given.begin(), given.end(), wanted_.begin(), usable_speed);
     counts_ = {};
     start(boxes, search);
-}
-
-/// Anew, with the top speeds as they are.
-template <int D>
-void TemporalCore<D>::start(std::span<const Aabb<D>> boxes, TemporalSearch<D>& search) {
-    float fastest = 0;
-    for (const float speed : wanted_)
-        if (speed < unbounded) fastest = std::max(fastest, speed);
-    std::frexp(fastest, &fastest_);
-
-    now_ = 0;
-    items_.assign(boxes.size(), {Aabb<D>::empty(), unbounded, 0});
-    grown_.reserve(boxes.size());
-    const double margin = first_margin(boxes);
-    for (Group& group : groups_) {
-        group.members.clear();
-        group.window.begin(margin);
-        group.start = group.end = group.waited = 0;
-        group.due = group.changed = true;
-    }
-    groups_[0].members.resize(boxes.size());
-    for (std::uint32_t i = 0; i < boxes.size(); ++i) groups_[0].members[i] = i;
-    regroup();
-    search_due(boxes, search);
 }
 
 template <int D>
@@ -119,25 +67,6 @@ void TemporalCore<D>::jumped(std::uint32_t item) {
     if (items_[item].group != 0) leave(item);
 }
 
-/// Each group is four times as slow as the one before it.
-template <int D>
-std::uint32_t TemporalCore<D>::group_for(float speed) const {
-    constexpr int slowest = static_cast<int>(temporal_groups) - 1;
-    if (speed == unbounded) return 0;
-    int exponent = 0;
-    std::frexp(speed, &exponent);
-    if (speed == 0) return static_cast<std::uint32_t>(slowest);
-    if (exponent > fastest_) return 0;
-    return static_cast<std::uint32_t>(std::min(1 + (fastest_ - exponent) / 2, slowest));
-}
-
-/// The group where an item is searched for next.
-template <int D>
-std::uint32_t TemporalCore<D>::home_of(std::uint32_t item) const {
-    const std::uint32_t group = group_for(wanted_[item]);
-    return groups_[group].window.rests() ? 0 : group;
-}
-
 /// For group 0, until the group where it belongs is searched next.
 template <int D>
 void TemporalCore<D>::leave(std::uint32_t index) {
@@ -148,19 +77,15 @@ void TemporalCore<D>::leave(std::uint32_t index) {
     item.speed = unbounded;
 }
 
-/// The item's box. Where it has gone farther than it may, it leaves its group.
+/// Where it has gone farther than it may, it leaves its group.
 template <int D>
-BoxLanes<D> TemporalCore<D>::checked(std::uint32_t index, const Aabb<D>& given) {
-    const BoxLanes<D> box(given);
-    const Item& item = items_[index];
-    const float way = item.speed * groups_[item.group].elapsed;
-    const bool kept_to_its_top_speed = item.group == 0 || within_way(BoxLanes<D>(item.box), box, way);
+void TemporalCore<D>::check(const Item& item, const BoxLanes<D>& box) {
+    if (item.group == 0) return;
+    const bool kept_to_its_top_speed = within_way(BoxLanes<D>(item.box), box, item.speed * groups_[item.group].elapsed);
     ABUT_ASSERT(kept_to_its_top_speed);
-    if (!kept_to_its_top_speed) {
-        ++counts_.too_fast;
-        leave(index);
-    }
-    return box;
+    if (kept_to_its_top_speed) return;
+    ++counts_.too_fast;
+    leave(static_cast<std::uint32_t>(&item - items_.data()));
 }
 
 /// Rounded up: between two moments, never less time is taken to have gone by than has. Where the sum could no longer
@@ -221,16 +146,20 @@ void TemporalCore<D>::look_at_due(std::span<const Aabb<D>> boxes) {
             Table& pairs = table(a, b);
             if (groups_[a].due || groups_[b].due || pairs.pairs.size() == 0) continue;
             const double elapsed = now_ - pairs.start;
-            const auto fetch = [&](const ItemPair& pair) {
+            const auto fetch = [items = items_.data(), boxes = boxes.data()](const ItemPair& pair) {
                 for (const std::uint32_t item : {pair.first, pair.second}) {
-                    hwy::Prefetch(&items_[item]);
-                    hwy::Prefetch(&boxes[item]);
+                    hwy::Prefetch(items + item);
+                    hwy::Prefetch(boxes + item);
                 }
             };
-            const auto look = [&](const ItemPair& pair) -> TimedPairs::Look {
-                const float speed = items_[pair.first].speed + items_[pair.second].speed;
-                const BoxLanes<D> first = checked(pair.first, boxes[pair.first]);
-                const Reach reach = reach_of(first, checked(pair.second, boxes[pair.second]));
+            const auto look = [this, elapsed, items = items_.data(),
+                               boxes = boxes.data()](const ItemPair& pair) -> TimedPairs::Look {
+                const Item &first = items[pair.first], &second = items[pair.second];
+                const float speed = first.speed + second.speed;
+                const BoxLanes<D> box(boxes[pair.first]), other(boxes[pair.second]);
+                check(first, box);
+                check(second, other);
+                const Reach reach = reach_of(box, other);
                 return {no_later(elapsed + time_for(reach.way, speed)), reach.touching};
             };
             const std::size_t looks = pairs.pairs.look_at_due(no_earlier(elapsed), fetch, look);
@@ -252,114 +181,6 @@ void TemporalCore<D>::drop_left() {
         }
     }
     for (Group& group : groups_) group.left = false;
-}
-
-/// Everyone to the group where he belongs, as far as it is searched now.
-template <int D>
-void TemporalCore<D>::regroup() {
-    for (std::uint32_t index = 1; index < temporal_groups; ++index) {
-        Group& group = groups_[index];
-        if (!group.due) continue;
-        std::erase_if(group.members, [&](std::uint32_t item) {
-            if (items_[item].group == index && home_of(item) != index) leave(item);
-            return items_[item].group != index;
-        });
-    }
-    std::erase_if(groups_[0].members, [&](std::uint32_t item) {
-        const std::uint32_t index = home_of(item);
-        if (index == 0 || !groups_[index].due) return false;
-        items_[item].group = index;
-        groups_[index].members.push_back(item);
-        groups_[index].changed = groups_[0].changed = true;
-        return true;
-    });
-    groups_[0].due = groups_[0].changed || !groups_[0].members.empty();
-    for (Group& group : groups_)
-        if (group.due && group.changed) std::sort(group.members.begin(), group.members.end());
-}
-
-template <int D>
-void TemporalCore<D>::search_due(std::span<const Aabb<D>> boxes, TemporalSearch<D>& search) {
-    for (std::uint32_t index = 0; index < temporal_groups; ++index) {
-        Group& group = groups_[index];
-        if (!group.due) continue;
-        grown_.clear();
-        if (index > 0)
-            grow(group, boxes);
-        else
-            for (const std::uint32_t member : group.members) grown_.push_back(usable(boxes[member]));
-        search.set(index, grown_, group.changed);
-        group.changed = false;
-        counts_.searches += group.members.size();
-        group.window.spend(SearchWindow::item_cost * static_cast<double>(group.members.size()));
-    }
-    for (std::uint32_t a = 0; a < temporal_groups; ++a)
-        for (std::uint32_t b = a; b < temporal_groups; ++b)
-            if (groups_[a].due || groups_[b].due) fill(a, b, boxes, search);
-    for (Group& group : groups_) group.left = group.due = false;
-}
-
-/// The boxes of a group by as far as each may go until its next search.
-template <int D>
-void TemporalCore<D>::grow(Group& group, std::span<const Aabb<D>> boxes) {
-    group.fastest = 0;
-    for (const std::uint32_t member : group.members) {
-        Item& item = items_[member];
-        const Aabb<D> box = usable(boxes[member]);
-        const bool kept_to_its_top_speed =
-            item.speed == unbounded || within_way(BoxLanes<D>(item.box), BoxLanes<D>(box), item.speed * group.elapsed);
-        ABUT_ASSERT(kept_to_its_top_speed);
-        if (!kept_to_its_top_speed) ++counts_.too_fast;
-        item.box = box;
-        item.speed = wanted_[member];
-        group.fastest = std::max(group.fastest, item.speed);
-    }
-    const double length = group.window.length(static_cast<double>(group.fastest));
-    group.start = now_;
-    group.end = std::nextafter(now_ + length * (1 - 1e-6), 0.0);
-    group.elapsed = 0;
-    group.waited = 0;
-    for (const std::uint32_t member : group.members) {
-        const Item& item = items_[member];
-        const double way = item.speed > 0 ? static_cast<double>(item.speed) * length : 0;
-        grown_.push_back(way > 0 ? grown_by_way(item.box, static_cast<float>(way)) : item.box);
-    }
-}
-
-/// With what the searches of two groups find in one another.
-template <int D>
-void TemporalCore<D>::fill(std::uint32_t a, std::uint32_t b, std::span<const Aabb<D>> boxes,
-                           const TemporalSearch<D>& search) {
-    Table& pairs = table(a, b);
-    const Group &group = groups_[a], &other = groups_[b];
-    pairs.pairs.clear();
-    pairs.start = now_;
-    if (group.members.empty() || other.members.empty()) return;
-    const double until = std::min(group.end, other.end) - now_;
-    std::size_t found = 0;
-    const auto add = [&](std::uint32_t in_group, std::uint32_t in_other) {
-        const std::uint32_t first = group.members[in_group], second = other.members[in_other];
-        // The boxes of a group that isn't searched now still have among them those who left.
-        if ((!group.due && items_[first].group != a) || (!other.due && items_[second].group != b)) return;
-        ++found;
-        // Those of group 0 aren't grown.
-        const bool known = b == 0;
-        const Reach reach = known ? Reach{true, 0} : reach_of(BoxLanes<D>(boxes[first]), BoxLanes<D>(boxes[second]));
-        float due = TimedPairs::never;
-        if (a > 0) {
-            const double time = time_for(reach.way, items_[first].speed + items_[second].speed);
-            if (time < until) due = no_later(time);
-        }
-        if (due < TimedPairs::never || reach.touching)
-            pairs.pairs.add({std::min(first, second), std::max(first, second)}, {due, reach.touching});
-    };
-    if (a == b)
-        search.each_pair(a, add);
-    else
-        search.each_pair(a, b, add);
-    counts_.looks += found;
-    for (const std::uint32_t index : {a, b})
-        if (index == a || a != b) groups_[index].window.spend(SearchWindow::pair_cost * static_cast<double>(found));
 }
 
 template <int D>

@@ -89,7 +89,7 @@ private:
     std::uint32_t group_for(float speed) const;
     std::uint32_t home_of(std::uint32_t item) const;
     void leave(std::uint32_t item);
-    BoxLanes<D> checked(std::uint32_t item, const Aabb<D>& given);
+    void check(const Item& item, const BoxLanes<D>& box);
     void advance(double time);
     void count_waiting();
     void choose_due();

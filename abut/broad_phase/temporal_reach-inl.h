@@ -31,12 +31,10 @@ struct BoxLanes {
         static_assert(sizeof(box) == 2 * D * sizeof(float));
         const float* floats = &box.min[0];
         min = four::loaded(floats);
-        if constexpr (D == 2) {
-            max = four::Floats{min[2], min[3], min[2], min[3]};
-        } else {
-            const four::Floats last = four::loaded(floats + 2);
-            max = four::Floats{last[1], last[2], last[3], last[3]};
-        }
+        if constexpr (D == 2)
+            max = four::from_third(min);
+        else
+            max = four::from_second(four::loaded(floats + 2));
     }
 };
 
@@ -94,6 +92,11 @@ Aabb<D> grown_by_way(const Aabb<D>& box, float way) {
         result.max[i] = box.max[i] + slack(box.max[i]);
     }
     return result;
+}
+
+/// How long they take for a way, at the least.
+inline double time_for(float way, float speed) {
+    return speed > 0 ? static_cast<double>(way / speed) : std::numeric_limits<double>::infinity();
 }
 
 /// As a float that isn't later. Endless time becomes the longest there is.
