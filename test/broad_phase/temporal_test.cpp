@@ -366,7 +366,9 @@ TYPED_TEST(TemporalTest, AllWakeUp) {
 }
 
 TYPED_TEST(TemporalTest, AViolatorIsFoundAndFollowed) {
-#ifdef NDEBUG
+#ifndef NDEBUG
+    GTEST_SKIP() << "it trips an assertion";
+#endif
     constexpr int D = TypeParam::D;
     // A slow one beside a slow one, so that they are looked at now and then, and far from a third.
     std::vector<Aabb<D>> boxes{box_at<D>(DVec<D>(0.0), DVec<D>(1.0)), box_at<D>(DVec<D>(2.5), DVec<D>(1.0)),
@@ -381,7 +383,6 @@ TYPED_TEST(TemporalTest, AViolatorIsFoundAndFollowed) {
     EXPECT_EQ(phase.counts().too_fast, 1u);
     EXPECT_LT(frames, 1000);
     EXPECT_EQ(sorted(phase), all_pairs(boxes));
-#endif
 }
 
 TYPED_TEST(TemporalTest, AllocatesNothingOnceWarm) {
