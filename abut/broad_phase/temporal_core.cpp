@@ -58,12 +58,14 @@ void TemporalCore<D>::update(std::span<const Aabb<D>> boxes, double time, Tempor
 
 template <int D>
 void TemporalCore<D>::set_top_speed(std::uint32_t item, float speed) {
+    ABUT_ASSERT(item < size());
     wanted_[item] = usable_speed(speed);
     if (wanted_[item] > items_[item].speed) leave(item);
 }
 
 template <int D>
 void TemporalCore<D>::jumped(std::uint32_t item) {
+    ABUT_ASSERT(item < size());
     if (items_[item].group != 0) leave(item);
 }
 
