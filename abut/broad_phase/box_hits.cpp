@@ -4,6 +4,7 @@
 #include <abut/broad_phase/box_hits.hpp>
 
 #include <array>
+#include <limits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "abut/broad_phase/box_hits.cpp"
@@ -38,15 +39,15 @@ public:
         }
     }
 
-    Mask begins(const BoxColumns<D>& boxes, std::size_t i) const {
+    Mask begins(const BoxRows<D>& boxes, std::size_t i) const {
         return hn::Le(hn::LoadU(d, boxes.min[0] + i), max_[0]);
     }
-    Mask overlaps(const BoxColumns<D>& boxes, std::size_t i, int axis) const {
+    Mask overlaps(const BoxRows<D>& boxes, std::size_t i, int axis) const {
         return hn::And(hn::Le(hn::LoadU(d, boxes.min[axis] + i), max_[axis]),
                        hn::Ge(hn::LoadU(d, boxes.max[axis] + i), min_[axis]));
     }
     /// Of the box_lanes boxes from i on.
-    std::uint32_t overlap_bits(const BoxColumns<D>& boxes, std::size_t i) const {
+    std::uint32_t overlap_bits(const BoxRows<D>& boxes, std::size_t i) const {
         std::uint32_t result = 0;
         for (std::size_t part = 0; part < box_lanes; part += lanes) {
             Mask hit = overlaps(boxes, i + part, 0);
@@ -87,7 +88,7 @@ std::uint32_t low_bits(std::size_t count) {
 }
 
 template <int D>
-std::uint64_t overlap_bits_of(const BoxColumns<D>& boxes, std::size_t first, std::size_t count, const Aabb<D>& box) {
+std::uint64_t overlap_bits_of(const BoxRows<D>& boxes, std::size_t first, std::size_t count, const Aabb<D>& box) {
     const Spread<D> spread(box);
     std::uint64_t result = 0;
     for (std::size_t i = 0; i < count; i += box_lanes)
@@ -96,7 +97,7 @@ std::uint64_t overlap_bits_of(const BoxColumns<D>& boxes, std::size_t first, std
 }
 
 template <int D>
-void hits_of(const BoxColumns<D>& boxes, std::size_t first, std::size_t last, std::size_t end, HitsCall visit) {
+void hits_of(const BoxRows<D>& boxes, std::size_t first, std::size_t last, std::size_t end, HitsCall visit) {
     HitBuffer hits(visit);
     for (std::size_t i = first; i < last; ++i) {
         const Spread<D> box(boxes[i]);
@@ -107,7 +108,7 @@ void hits_of(const BoxColumns<D>& boxes, std::size_t first, std::size_t last, st
 }
 
 template <int D>
-void sorted_hits_of(const BoxColumns<D>& boxes, std::size_t first, std::size_t last, HitsCall visit) {
+void sorted_hits_of(const BoxRows<D>& boxes, std::size_t first, std::size_t last, HitsCall visit) {
     constexpr std::uint32_t all = (1u << box_lanes) - 1;
     HitBuffer hits(visit);
     for (std::size_t i = first; i < last; ++i) {
@@ -130,17 +131,52 @@ void sorted_hits_of(const BoxColumns<D>& boxes, std::size_t first, std::size_t l
     hits.flush();
 }
 
+template <int D>
+void common_boxes_of(const BoxRows<D>& boxes, const std::uint32_t* marks, std::uint32_t left_out, std::size_t blocks,
+                     std::size_t begin, BoxTable<D>& result) {
+    const hn::Rebind<std::uint32_t, Lanes> marks_d;
+    constexpr float far = std::numeric_limits<float>::infinity();
+    const Vector least = hn::Set(d, -far), most = hn::Set(d, far);
+    const auto bits = hn::Set(marks_d, left_out), none = hn::Zero(marks_d);
+    for (std::size_t block = 0; block < blocks; ++block) {
+        Vector low[D], high[D];
+        for (int axis = 0; axis < D; ++axis) {
+            low[axis] = most;
+            high[axis] = least;
+        }
+        for (std::size_t i = block * box_lanes; i < (block + 1) * box_lanes; i += lanes) {
+            const Vector any = hn::LoadU(d, boxes.min[0] + i);
+            const Mask wanted = hn::RebindMask(d, hn::Eq(hn::And(hn::LoadU(marks_d, marks + i), bits), none));
+            const Mask in = hn::And(wanted, hn::Eq(any, any));
+            for (int axis = 0; axis < D; ++axis) {
+                low[axis] = hn::Min(low[axis], hn::IfThenElse(in, hn::LoadU(d, boxes.min[axis] + i), most));
+                high[axis] = hn::Max(high[axis], hn::IfThenElse(in, hn::LoadU(d, boxes.max[axis] + i), least));
+            }
+        }
+        Aabb<D> box;
+        for (int axis = 0; axis < D; ++axis) {
+            box.min[axis] = hn::GetLane(hn::MinOfLanes(d, low[axis]));
+            box.max[axis] = hn::GetLane(hn::MaxOfLanes(d, high[axis]));
+        }
+        result.set(begin + block, box);
+    }
+}
+
 // Names that a table of functions can be made of.
-#define ABUT_FOR_DIMENSION(D)                                                                                         \
-    std::uint64_t overlap_bits_##D(const BoxColumns<D>& boxes, std::size_t first, std::size_t count,                  \
-                                   const Aabb<D>& box) {                                                              \
-        return overlap_bits_of(boxes, first, count, box);                                                             \
-    }                                                                                                                 \
-    void hits_##D(const BoxColumns<D>& boxes, std::size_t first, std::size_t last, std::size_t end, HitsCall visit) { \
-        hits_of(boxes, first, last, end, visit);                                                                      \
-    }                                                                                                                 \
-    void sorted_hits_##D(const BoxColumns<D>& boxes, std::size_t first, std::size_t last, HitsCall visit) {           \
-        sorted_hits_of(boxes, first, last, visit);                                                                    \
+#define ABUT_FOR_DIMENSION(D)                                                                                      \
+    std::uint64_t overlap_bits_##D(const BoxRows<D>& boxes, std::size_t first, std::size_t count,                  \
+                                   const Aabb<D>& box) {                                                           \
+        return overlap_bits_of(boxes, first, count, box);                                                          \
+    }                                                                                                              \
+    void hits_##D(const BoxRows<D>& boxes, std::size_t first, std::size_t last, std::size_t end, HitsCall visit) { \
+        hits_of(boxes, first, last, end, visit);                                                                   \
+    }                                                                                                              \
+    void sorted_hits_##D(const BoxRows<D>& boxes, std::size_t first, std::size_t last, HitsCall visit) {           \
+        sorted_hits_of(boxes, first, last, visit);                                                                 \
+    }                                                                                                              \
+    void common_boxes_##D(const BoxRows<D>& boxes, const std::uint32_t* marks, std::uint32_t left_out,             \
+                          std::size_t blocks, std::size_t begin, BoxTable<D>& result) {                            \
+        common_boxes_of(boxes, marks, left_out, blocks, begin, result);                                            \
     }
 ABUT_FOR_DIMENSION(2)
 ABUT_FOR_DIMENSION(3)
@@ -158,9 +194,11 @@ HWY_EXPORT(hits_2);
 HWY_EXPORT(hits_3);
 HWY_EXPORT(sorted_hits_2);
 HWY_EXPORT(sorted_hits_3);
+HWY_EXPORT(common_boxes_2);
+HWY_EXPORT(common_boxes_3);
 
 template <int D>
-std::uint64_t overlap_bits(const BoxColumns<D>& boxes, std::size_t first, std::size_t count, const Aabb<D>& box) {
+std::uint64_t overlap_bits(const BoxRows<D>& boxes, std::size_t first, std::size_t count, const Aabb<D>& box) {
     if constexpr (D == 2)
         return HWY_DYNAMIC_DISPATCH(overlap_bits_2)(boxes, first, count, box);
     else
@@ -168,7 +206,7 @@ std::uint64_t overlap_bits(const BoxColumns<D>& boxes, std::size_t first, std::s
 }
 
 template <int D>
-void each_hit(const BoxColumns<D>& boxes, std::size_t first, std::size_t last, std::size_t end, HitsCall visit) {
+void each_hit(const BoxRows<D>& boxes, std::size_t first, std::size_t last, std::size_t end, HitsCall visit) {
     if constexpr (D == 2)
         HWY_DYNAMIC_DISPATCH(hits_2)(boxes, first, last, end, visit);
     else
@@ -176,19 +214,32 @@ void each_hit(const BoxColumns<D>& boxes, std::size_t first, std::size_t last, s
 }
 
 template <int D>
-void each_sorted_hit(const BoxColumns<D>& boxes, std::size_t first, std::size_t last, HitsCall visit) {
+void each_sorted_hit(const BoxRows<D>& boxes, std::size_t first, std::size_t last, HitsCall visit) {
     if constexpr (D == 2)
         HWY_DYNAMIC_DISPATCH(sorted_hits_2)(boxes, first, last, visit);
     else
         HWY_DYNAMIC_DISPATCH(sorted_hits_3)(boxes, first, last, visit);
 }
 
-template std::uint64_t overlap_bits(const BoxColumns<2>&, std::size_t, std::size_t, const Aabb<2>&);
-template std::uint64_t overlap_bits(const BoxColumns<3>&, std::size_t, std::size_t, const Aabb<3>&);
-template void each_hit(const BoxColumns<2>&, std::size_t, std::size_t, std::size_t, HitsCall);
-template void each_hit(const BoxColumns<3>&, std::size_t, std::size_t, std::size_t, HitsCall);
-template void each_sorted_hit(const BoxColumns<2>&, std::size_t, std::size_t, HitsCall);
-template void each_sorted_hit(const BoxColumns<3>&, std::size_t, std::size_t, HitsCall);
+template <int D>
+void common_boxes(const BoxRows<D>& boxes, const std::uint32_t* marks, std::uint32_t left_out, std::size_t blocks,
+                  std::size_t begin, BoxTable<D>& result) {
+    if constexpr (D == 2)
+        HWY_DYNAMIC_DISPATCH(common_boxes_2)(boxes, marks, left_out, blocks, begin, result);
+    else
+        HWY_DYNAMIC_DISPATCH(common_boxes_3)(boxes, marks, left_out, blocks, begin, result);
+}
+
+template std::uint64_t overlap_bits(const BoxRows<2>&, std::size_t, std::size_t, const Aabb<2>&);
+template std::uint64_t overlap_bits(const BoxRows<3>&, std::size_t, std::size_t, const Aabb<3>&);
+template void each_hit(const BoxRows<2>&, std::size_t, std::size_t, std::size_t, HitsCall);
+template void each_hit(const BoxRows<3>&, std::size_t, std::size_t, std::size_t, HitsCall);
+template void each_sorted_hit(const BoxRows<2>&, std::size_t, std::size_t, HitsCall);
+template void each_sorted_hit(const BoxRows<3>&, std::size_t, std::size_t, HitsCall);
+template void common_boxes(const BoxRows<2>&, const std::uint32_t*, std::uint32_t, std::size_t, std::size_t,
+                           BoxTable<2>&);
+template void common_boxes(const BoxRows<3>&, const std::uint32_t*, std::uint32_t, std::size_t, std::size_t,
+                           BoxTable<3>&);
 
 }  // namespace abut
 #endif

@@ -1,6 +1,6 @@
 #pragma once
 
-// Boxes by columns, one for each bound: the layout that vector units like. For .cpp files.
+// Boxes by rows of numbers, one for each bound: the layout that vector units like. For .cpp files.
 
 #include <abut/math/aabb.hpp>
 
@@ -12,7 +12,7 @@ namespace abut {
 
 /// Box i has the bounds min[axis][i], max[axis][i].
 template <int D>
-struct BoxColumns {
+struct BoxRows {
     const float* min[D];
     const float* max[D];
 
@@ -43,7 +43,7 @@ public:
     void reserve(std::size_t count) {
         if (count <= room_) return;
         room_ = count;
-        // An odd number of cache lines, or the columns would compete for the same places of the cache.
+        // An odd number of cache lines, or the rows would compete for the same places of the cache.
         const std::size_t lines = (count + box_lanes - 1) / box_lanes + 1;
         stride_ = (lines | 1) * box_lanes;
         numbers_.assign(2 * D * stride_, std::numeric_limits<float>::quiet_NaN());
@@ -58,10 +58,11 @@ public:
         }
     }
 
-    BoxColumns<D> columns() const {
-        BoxColumns<D> result;
+    /// From some box on.
+    BoxRows<D> rows(std::size_t first = 0) const {
+        BoxRows<D> result;
         for (std::size_t axis = 0; axis < D; ++axis) {
-            result.min[axis] = numbers_.data() + 2 * axis * stride_;
+            result.min[axis] = numbers_.data() + 2 * axis * stride_ + first;
             result.max[axis] = result.min[axis] + stride_;
         }
         return result;

@@ -23,7 +23,7 @@ bool add_hits(std::span<const BoxHits> hits, PairBuffer& pairs) {
 
 /// Visits those of the boxes that overlap this one. Returns false where the visitor has had enough.
 template <int D>
-bool visit_hits(const BoxColumns<D>& boxes, std::size_t count, const Aabb<D>& box, ItemCall visit) {
+bool visit_hits(const BoxRows<D>& boxes, std::size_t count, const Aabb<D>& box, ItemCall visit) {
     for (std::size_t first = 0; first < count; first += 64) {
         std::uint64_t bits = overlap_bits(boxes, first, std::min<std::size_t>(count - first, 64), box);
         for (; bits != 0; bits &= bits - 1)
@@ -61,7 +61,7 @@ void BruteForce<D>::sorted_pairs(std::vector<ItemPair>& out) const {
 template <int D>
 Aabb<D> BruteForce<D>::bounds() const {
     Aabb<D> result = Aabb<D>::empty();
-    const BoxColumns<D> boxes = boxes_.columns();
+    const BoxRows<D> boxes = boxes_.rows();
     for (std::size_t i = 0; i < size_; ++i)
         if (!is_empty(boxes[i])) result = merged(result, boxes[i]);
     return result;
@@ -69,7 +69,7 @@ Aabb<D> BruteForce<D>::bounds() const {
 
 template <int D>
 void BruteForce<D>::visit_pairs(PairsCall visit, Executor* executor) const {
-    const BoxColumns<D> boxes = boxes_.columns();
+    const BoxRows<D> boxes = boxes_.rows();
     std::atomic<bool> go_on = true;
     const auto visit_from = [&](std::size_t first, std::size_t last) {
         PairBuffer pairs(visit);
@@ -94,7 +94,7 @@ void BruteForce<D>::visit_pairs(PairsCall visit, Executor* executor) const {
 
 template <int D>
 void BruteForce<D>::visit_pairs(const BruteForce& other, PairsCall visit) const {
-    const BoxColumns<D> boxes = boxes_.columns(), others = other.boxes_.columns();
+    const BoxRows<D> boxes = boxes_.rows(), others = other.boxes_.rows();
     PairBuffer pairs(visit);
     for (std::uint32_t i = 0; i < size_; ++i) {
         const auto add = [&](std::uint32_t j) { return pairs.add(i, j); };
@@ -106,7 +106,7 @@ void BruteForce<D>::visit_pairs(const BruteForce& other, PairsCall visit) const 
 template <int D>
 void BruteForce<D>::visit_overlapping(const Aabb<D>& box, ItemCall visit) const {
     const Aabb<D> query = usable(box);
-    if (!is_empty(query)) visit_hits(boxes_.columns(), size_, query, visit);
+    if (!is_empty(query)) visit_hits(boxes_.rows(), size_, query, visit);
 }
 
 template <int D>
@@ -122,7 +122,7 @@ void BruteForce<D>::visit_near(const Aabb<D>& box, float reach, ReachCall visit)
 template <int D>
 template <class Reach>
 void BruteForce<D>::visit_within(Reach reach, ReachCall visit) const {
-    const BoxColumns<D> boxes = boxes_.columns();
+    const BoxRows<D> boxes = boxes_.rows();
     for (std::uint32_t i = 0; i < size_ && !reach.over(); ++i) {
         double measure = 0;
         if (!is_empty(boxes[i]) && reach.measure(boxes[i], measure)) reach.shrink(visit(i));

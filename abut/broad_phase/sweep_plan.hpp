@@ -1,0 +1,70 @@
+#pragma once
+
+// Along which axis SweepAndPrune sorts, and into how many columns it parts the space along the others. Not for users.
+
+#include <abut/math/aabb.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace abut {
+
+/// The axes in turn, so that `first` becomes axis 0.
+template <int D>
+Vec<D> turned(const Vec<D>& v, int first) {
+    Vec<D> result;
+    for (int i = 0; i < D; ++i) result[i] = v[(first + i) % D];
+    return result;
+}
+template <int D>
+Aabb<D> turned(const Aabb<D>& box, int first) {
+    return {turned<D>(box.min, first), turned<D>(box.max, first)};
+}
+/// Undoes `turned`.
+template <int D>
+Aabb<D> turned_back(const Aabb<D>& box, int first) {
+    return turned<D>(box, (D - first) % D);
+}
+
+/// Equal parts of an axis between two places; the outermost go on without end.
+struct Parts {
+    std::uint32_t count = 1;
+    float low = 0, high = 0;  ///< finite
+    float scale = 0;          ///< parts per length
+
+    Parts() = default;
+    Parts(std::uint32_t wanted, float from, float to);
+
+    /// Of a larger number never a lower part.
+    std::uint32_t at(float x) const {
+        const float place = (std::clamp(x, low, high) - low) * scale;
+        return std::min(static_cast<std::uint32_t>(static_cast<std::int32_t>(place)), count - 1);
+    }
+};
+
+template <int D>
+struct SweepPlan {
+    int axis = 0;
+    std::array<Parts, D - 1> parts;  ///< along the axes that follow
+
+    std::uint32_t columns() const {
+        std::uint32_t result = 1;
+        for (const Parts& p : parts) result *= p.count;
+        return result;
+    }
+};
+
+/// A measure of the time a box takes: to be copied into so many columns, and to be compared so often. Measured on
+/// scenes of boxes that move; not exact, and the same everywhere.
+inline double sweep_cost(double copies, double comparisons) {
+    return 16 * copies + 0.3 * comparisons;
+}
+
+/// Looks at some of the boxes. No more than `most_columns`, and no more than `most_copies` a box by what is to be seen.
+template <int D>
+SweepPlan<D> plan_sweep(std::span<const Aabb<D>> boxes, std::size_t most_columns, double most_copies);
+
+}  // namespace abut
