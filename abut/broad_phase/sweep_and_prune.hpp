@@ -66,6 +66,8 @@ public:
     bool empty() const { return size_ == 0; }
     /// Of all boxes together; Aabb::empty() where there is none.
     Aabb<D> bounds() const { return bounds_; }
+    /// The axis and the columns it has chosen; for tests and for those who want to see.
+    const SweepPlan<D>& plan() const { return plan_; }
 
 private:
     struct Place {
