@@ -29,38 +29,6 @@ constexpr std::size_t most_copies(std::size_t boxes) {
     return boxes + boxes / 2;
 }
 
-/// The columns of a box: along each axis from the first up to before the last.
-template <int D>
-struct Reached {
-    std::array<std::uint32_t, D - 1> first, last;
-
-    Reached(const SweepPlan<D>& plan, const Aabb<D>& turned_box) {
-        for (std::size_t k = 0; k < D - 1; ++k) {
-            first[k] = plan.parts[k].at(turned_box.min[static_cast<int>(k) + 1]);
-            last[k] = plan.parts[k].at(turned_box.max[static_cast<int>(k) + 1]) + 1;
-        }
-    }
-    std::size_t count() const {
-        std::size_t result = 1;
-        for (std::size_t k = 0; k < D - 1; ++k) result *= last[k] - first[k];
-        return result;
-    }
-    /// visit(column, bits of the axes on which the box began before it)
-    template <class F>
-    void each(const SweepPlan<D>& plan, F&& visit) const {
-        for (std::uint32_t i = first[0]; i < last[0]; ++i) {
-            const std::uint32_t began = i > first[0] ? 1u << 31 : 0;
-            if constexpr (D == 2) {
-                visit(i, began);
-            } else {
-                const std::uint32_t row = i * plan.parts[1].count;
-                visit(row + first[1], began);
-                for (std::uint32_t k = first[1] + 1; k < last[1]; ++k) visit(row + k, began | 1u << 30);
-            }
-        }
-    }
-};
-
 }  // namespace
 
 template <int D>
@@ -69,7 +37,7 @@ void SweepAndPrune<D>::build(std::span<const Aabb<D>> boxes, Executor*) {
     size_ = boxes.size();
     order_.resize(size_);
     scratch_.resize(size_);
-    columns_.reserve(most_columns(size_));
+    columns_.reserve(2 * most_columns(size_) + 2);
     rows_.reserve(most_copies(size_) + most_columns(size_));
     place_by_new_plan(boxes);
 }
@@ -140,46 +108,70 @@ void SweepAndPrune<D>::place(std::span<const Aabb<D>> boxes) {
                                         [](const Parts& a, const Parts& b) { return a.count < b.count; });
         most = Parts(most.count / 2, most.low, most.high);
     }
+    copy_items();
     if (plan_.axis == 0)
-        fill_columns<0>(boxes);
+        copy_boxes<0>(boxes);
     else if (plan_.axis == 1)
-        fill_columns<1>(boxes);
+        copy_boxes<1>(boxes);
     else
-        fill_columns<D - 1>(boxes);
+        copy_boxes<D - 1>(boxes);
     bounds_ = turned_back<D>(rows_.bounds(), plan_.axis);
 }
 
-/// Sets where each column begins. Returns how many boxes they hold together, or some number above most_copies.
+/// Sets where each column begins, and in scratch_, which are those of each item. Returns how many boxes they hold
+/// together, or some number above most_copies.
 template <int D>
 std::size_t SweepAndPrune<D>::count_copies(std::span<const Aabb<D>> boxes) {
-    columns_.assign(plan_.columns(), 0);
-    if (plan_.columns() == 1) return filled_;
+    const std::uint32_t count = plan_.columns(), row = plan_.row();
+    columns_.assign(count + row + 2, 0);
     std::size_t copies = 0;
-    for (const Aabb<D>& box : boxes) {
-        const Aabb<D> here = turned<D>(usable(box), plan_.axis);
-        if (is_empty(here)) continue;
-        const Reached<D> reached(plan_, here);
-        copies += reached.count();
-        if (copies > most_copies(size_)) return copies;
-        reached.each(plan_, [&](std::uint32_t column, std::uint32_t) { ++columns_[column]; });
+    for (std::size_t item = 0; item < size_; ++item) {
+        const Aabb<D> box = turned<D>(usable(boxes[item]), plan_.axis);
+        if (is_empty(box)) continue;
+        const ColumnSpan span = plan_.span(box);
+        scratch_[item] = {span.first, span.packed()};
+        copies += std::size_t{span.more_rows + 1} * (span.more + 1);
+        if (span.more_rows <= 1 && span.more <= 1) {
+            // Added without asking: which of them it is nobody can guess.
+            std::uint32_t* column = columns_.data() + span.first;
+            column[0] += 1;
+            column[1] += span.more;
+            column[row] += span.more_rows;
+            column[row + 1] += span.more_rows & span.more;
+        } else if (copies <= most_copies(size_)) {
+            span.each(row, [&](std::uint32_t column, std::uint32_t) { ++columns_[column]; });
+        } else {
+            return copies;
+        }
     }
+    columns_.resize(count);
     std::uint32_t begin = 0;
     for (std::uint32_t& column : columns_) begin += std::exchange(column, begin) + 1;
     return copies;
 }
 
+/// After this, columns_ are where each column ends.
 template <int D>
-template <int axis>
-void SweepAndPrune<D>::fill_columns(std::span<const Aabb<D>> boxes) {
+void SweepAndPrune<D>::copy_items() {
+    const std::uint32_t row = plan_.row();
     for (std::size_t i = 0; i < filled_; ++i) {
         const std::uint32_t item = order_[i].item;
-        const Aabb<D> box = turned<D>(boxes[item], axis);
-        Reached<D>(plan_, box).each(plan_, [&](std::uint32_t column, std::uint32_t began_before) {
-            rows_.set(columns_[column]++, box, item | began_before);
+        const ColumnSpan span(scratch_[item].key, scratch_[item].item);
+        span.each(row, [&](std::uint32_t column, std::uint32_t began_before) {
+            rows_.set_item(columns_[column]++, item | began_before);
         });
     }
-    for (const std::uint32_t end : columns_) rows_.end_column(end);
-    rows_.make_blocks(size_ == 0 ? 0 : columns_.back() + 1);
+}
+
+template <int D>
+template <int axis>
+void SweepAndPrune<D>::copy_boxes(std::span<const Aabb<D>> boxes) {
+    std::uint32_t i = 0;
+    for (const std::uint32_t end : columns_) {
+        for (; i < end; ++i) rows_.set_box(i, turned<D>(boxes[rows_.items()[i] & ~copy_bits], axis));
+        rows_.end_column(i++);
+    }
+    rows_.make_blocks(size_ == 0 ? 0 : i);
 }
 
 /// By what a few of the boxes would be compared with.

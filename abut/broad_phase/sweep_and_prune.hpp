@@ -79,8 +79,9 @@ private:
     void sort_anew(std::span<const Aabb<D>> boxes);
     void place(std::span<const Aabb<D>> boxes);
     std::size_t count_copies(std::span<const Aabb<D>> boxes);
+    void copy_items();
     template <int axis>
-    void fill_columns(std::span<const Aabb<D>> boxes);
+    void copy_boxes(std::span<const Aabb<D>> boxes);
     double cost() const;
 
     void visit_pairs(PairsCall visit, Executor* executor) const;

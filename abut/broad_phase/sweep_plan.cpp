@@ -115,7 +115,7 @@ private:
 }  // namespace
 
 Parts::Parts(std::uint32_t wanted, float from, float to) {
-    if (!(to - from > 0) || !std::isfinite(static_cast<float>(wanted) / (to - from))) return;
+    if (wanted > 1u << 16 || !(to - from > 0) || !std::isfinite(static_cast<float>(wanted) / (to - from))) return;
     count = wanted;
     low = from;
     high = to;
@@ -141,7 +141,7 @@ SweepPlan<D> plan_sweep(std::span<const Aabb<D>> boxes, std::size_t most_columns
             Parts& parts = next.parts[static_cast<std::size_t>(k - 1)];
             parts = Parts(2 * parts.count, parts.low, parts.high);
             const double copies = sample.copies(next);
-            if (next.columns() == last.columns() || next.columns() > most_columns || copies > most_copies) continue;
+            if (next.columns() <= last.columns() || next.columns() > most_columns || copies > most_copies) continue;
             const double cost = sweep_cost(copies, sample.comparisons(next));
             if (cost < least) {
                 least = cost;

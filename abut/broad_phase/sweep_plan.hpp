@@ -29,7 +29,7 @@ Aabb<D> turned_back(const Aabb<D>& box, int first) {
     return turned<D>(box, (D - first) % D);
 }
 
-/// Equal parts of an axis between two places; the outermost go on without end.
+/// Equal parts of an axis between two places, at most 2^16; the outermost go on without end.
 struct Parts {
     std::uint32_t count = 1;
     float low = 0, high = 0;  ///< finite
@@ -45,11 +45,41 @@ struct Parts {
     }
 };
 
+/// The columns of a box: some from the first on, and as many in some more rows of columns. In 2D each is a row.
+struct ColumnSpan {
+    std::uint32_t first = 0;
+    std::uint32_t more_rows = 0, more = 0;  ///< below 2^16
+
+    ColumnSpan(std::uint32_t first_column, std::uint32_t packed)
+        : first(first_column), more_rows(packed >> 16), more(packed & 0xFFFF) {}
+    std::uint32_t packed() const { return more_rows << 16 | more; }
+
+    /// visit(column, bits of the axes on which the box began before it)
+    template <class F>
+    void each(std::uint32_t row, F&& visit) const {
+        visit(first, 0u);
+        if (packed() == 0) return;
+        for (std::uint32_t k = 1; k <= more; ++k) visit(first + k, 1u << 30);
+        for (std::uint32_t i = 1; i <= more_rows; ++i) {
+            visit(first + i * row, 1u << 31);
+            for (std::uint32_t k = 1; k <= more; ++k) visit(first + i * row + k, 3u << 30);
+        }
+    }
+};
+
 template <int D>
 struct SweepPlan {
     int axis = 0;
     std::array<Parts, D - 1> parts;  ///< along the axes that follow
 
+    std::uint32_t row() const { return D == 2 ? 1 : parts[D - 2].count; }
+    ColumnSpan span(const Aabb<D>& turned_box) const {
+        const std::uint32_t first = parts[0].at(turned_box.min[1]), last = parts[0].at(turned_box.max[1]);
+        if constexpr (D == 2) return {first, (last - first) << 16};
+        const std::uint32_t begin = parts[D - 2].at(turned_box.min[D - 1]),
+                            end = parts[D - 2].at(turned_box.max[D - 1]);
+        return {first * row() + begin, (last - first) << 16 | (end - begin)};
+    }
     std::uint32_t columns() const {
         std::uint32_t result = 1;
         for (const Parts& p : parts) result *= p.count;

@@ -24,11 +24,12 @@ class SweepRows {
 public:
     /// Room for so many boxes, those of NaNs among them.
     void reserve(std::size_t count);
-    void set(std::size_t i, const Aabb<D>& box, std::uint32_t item) {
-        boxes_.set(i, box);
-        items_[i] = item;
+    void set_item(std::size_t i, std::uint32_t item) { items_[i] = item; }
+    void set_box(std::size_t i, const Aabb<D>& box) { boxes_.set(i, box); }
+    void end_column(std::size_t i) {
+        set_item(i, ~0u);
+        set_box(i, no_box<D>());
     }
-    void end_column(std::size_t i) { set(i, no_box<D>(), ~0u); }
     /// When the first `count` are set.
     void make_blocks(std::size_t count);
 
