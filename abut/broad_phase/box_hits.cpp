@@ -4,6 +4,8 @@
 #include <abut/broad_phase/box_hits.hpp>
 
 #include <array>
+#include <bit>
+#include <cstring>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
@@ -25,7 +27,12 @@ constexpr std::size_t lanes = hn::MaxLanes(d);
 std::uint32_t bits_of(Mask mask) {
     std::uint8_t bytes[8] = {};
     hn::StoreMaskBits(d, mask, bytes);
-    return bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8;
+    if constexpr (lanes <= 8) return bytes[0];
+    // Read as one number where it is one: put together from bytes, it would be taken apart before.
+    std::uint16_t both;
+    std::memcpy(&both, bytes, sizeof both);
+    if constexpr (std::endian::native == std::endian::big) both = static_cast<std::uint16_t>(both << 8 | both >> 8);
+    return both;
 }
 
 /// A box in every lane.

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <utility>
 
 namespace abut {
@@ -13,13 +14,23 @@ namespace {
 
 constexpr std::uint32_t empty_key = ~0u;
 
-/// As a whole number of the same order; of an empty box more than of any other.
+/// False where a box holds nothing or has a NaN: by arithmetic, where `usable` asks axis by axis.
+template <int D>
+bool holds(const Aabb<D>& box) {
+    std::uint32_t result = 1;
+    for (int i = 0; i < D; ++i) {
+        ABUT_ASSERT(!std::isnan(box.min[i]) && !std::isnan(box.max[i]));
+        result &= static_cast<std::uint32_t>(box.min[i] <= box.max[i]);
+    }
+    return result != 0;
+}
+
+/// Where the box begins, as a whole number of the same order; of an empty box more than of any other.
 template <int D>
 std::uint32_t key_of(const Aabb<D>& box, int axis) {
-    const Aabb<D> here = usable(box);
-    const std::uint32_t bits = std::bit_cast<std::uint32_t>(here.min[axis]);
-    const std::uint32_t key = bits ^ ((bits >> 31) != 0 ? ~0u : 1u << 31);
-    return is_empty(here) ? empty_key : key;
+    const auto bits = std::bit_cast<std::uint32_t>(box.min[axis]);
+    const std::uint32_t key = bits ^ (static_cast<std::uint32_t>(static_cast<std::int32_t>(bits) >> 31) | 1u << 31);
+    return holds(box) ? key : empty_key;
 }
 
 constexpr std::size_t most_columns(std::size_t boxes) {
@@ -102,33 +113,39 @@ void SweepAndPrune<D>::sort_anew(std::span<const Aabb<D>> boxes) {
 
 template <int D>
 void SweepAndPrune<D>::place(std::span<const Aabb<D>> boxes) {
+    if (plan_.axis == 0)
+        place_along<0>(boxes);
+    else if (plan_.axis == 1)
+        place_along<1>(boxes);
+    else
+        place_along<D - 1>(boxes);
+    bounds_ = turned_back<D>(rows_.bounds(), plan_.axis);
+}
+
+template <int D>
+template <int axis>
+void SweepAndPrune<D>::place_along(std::span<const Aabb<D>> boxes) {
     // What is large may be in more columns than there is room for.
-    while (count_copies(boxes) > most_copies(size_)) {
+    while (count_copies<axis>(boxes) > most_copies(size_)) {
         Parts& most = *std::max_element(plan_.parts.begin(), plan_.parts.end(),
                                         [](const Parts& a, const Parts& b) { return a.count < b.count; });
         most = Parts(most.count / 2, most.low, most.high);
     }
     copy_items();
-    if (plan_.axis == 0)
-        copy_boxes<0>(boxes);
-    else if (plan_.axis == 1)
-        copy_boxes<1>(boxes);
-    else
-        copy_boxes<D - 1>(boxes);
-    bounds_ = turned_back<D>(rows_.bounds(), plan_.axis);
+    copy_boxes<axis>(boxes);
 }
 
 /// Sets where each column begins, and in scratch_, which are those of each item. Returns how many boxes they hold
 /// together, or some number above most_copies.
 template <int D>
+template <int axis>
 std::size_t SweepAndPrune<D>::count_copies(std::span<const Aabb<D>> boxes) {
     const std::uint32_t count = plan_.columns(), row = plan_.row();
     columns_.assign(count + row + 2, 0);
     std::size_t copies = 0;
     for (std::size_t item = 0; item < size_; ++item) {
-        const Aabb<D> box = turned<D>(usable(boxes[item]), plan_.axis);
-        if (is_empty(box)) continue;
-        const ColumnSpan span = plan_.span(box);
+        if (!holds(boxes[item])) continue;
+        const ColumnSpan span = plan_.span(turned<D>(boxes[item], axis));
         scratch_[item] = {span.first, span.packed()};
         copies += std::size_t{span.more_rows + 1} * (span.more + 1);
         if (span.more_rows <= 1 && span.more <= 1) {
@@ -177,7 +194,7 @@ void SweepAndPrune<D>::copy_boxes(std::span<const Aabb<D>> boxes) {
 /// By what a few of the boxes would be compared with.
 template <int D>
 double SweepAndPrune<D>::cost() const {
-    const std::size_t count = rows_.count(), step = std::max<std::size_t>(16, count / 1024);
+    const std::size_t count = rows_.count(), step = std::max<std::size_t>(64, count / 512);
     const BoxRows<D> boxes = rows_.boxes();
     std::size_t looks = 0, comparisons = 0;
     for (std::size_t i = step / 2; i < count; i += step, ++looks) {

@@ -78,6 +78,9 @@ private:
     bool sort_again(std::span<const Aabb<D>> boxes);
     void sort_anew(std::span<const Aabb<D>> boxes);
     void place(std::span<const Aabb<D>> boxes);
+    template <int axis>
+    void place_along(std::span<const Aabb<D>> boxes);
+    template <int axis>
     std::size_t count_copies(std::span<const Aabb<D>> boxes);
     void copy_items();
     template <int axis>

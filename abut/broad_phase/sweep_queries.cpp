@@ -13,19 +13,36 @@
 namespace abut {
 namespace {
 
-/// A pair that is in two columns is told in the first: in any other, both have begun before it along some axis.
-/// Returns false where the visitor has had enough.
-bool add_hits(std::span<const BoxHits> hits, const std::uint32_t* items, PairBuffer& pairs) {
-    for (const BoxHits& hit : hits) {
-        const std::uint32_t item = items[hit.box];
+/// Pairs on their way to the visitor, all those of one BoxHits at a time.
+class Told {
+public:
+    Told(const std::uint32_t* items, PairsCall visit) : items_(items), visit_(visit) {}
+
+    /// A pair that is in two columns is told in the first: in any other, both have begun before it along some axis. It
+    /// is written and forgotten. Returns false where the visitor has had enough.
+    bool add(const BoxHits& hit) {
+        const std::uint32_t item = items_[hit.box];
         for (std::uint32_t bits = hit.bits; bits != 0; bits &= bits - 1) {
-            const std::uint32_t other = items[hit.first + static_cast<std::uint32_t>(std::countr_zero(bits))];
-            if ((item & other & copy_bits) != 0) continue;
-            if (!pairs.add_sorted(item & ~copy_bits, other & ~copy_bits)) return false;
+            const std::uint32_t other = items_[hit.first + static_cast<std::uint32_t>(std::countr_zero(bits))];
+            const std::uint32_t i = item & ~copy_bits, j = other & ~copy_bits;
+            pairs_[count_] = {std::min(i, j), std::max(i, j)};
+            count_ += (item & other & copy_bits) == 0 ? 1 : 0;
         }
+        return count_ < enough || flush();
     }
-    return true;
-}
+    bool flush() {
+        const std::size_t count = count_;
+        count_ = 0;
+        return visit_({pairs_.data(), count});
+    }
+
+private:
+    static constexpr std::size_t enough = 256;
+    const std::uint32_t* items_;
+    PairsCall visit_;
+    std::size_t count_ = 0;
+    std::array<ItemPair, enough + box_lanes> pairs_;
+};
 
 }  // namespace
 
@@ -45,10 +62,11 @@ template <int D>
 void SweepAndPrune<D>::visit_pairs(PairsCall visit, Executor* executor) const {
     std::atomic<bool> go_on = true;
     const auto visit_from = [&](std::size_t first, std::size_t last) {
-        PairBuffer pairs(visit);
+        Told pairs(rows_.items(), visit);
         const auto add = [&](std::span<const BoxHits> hits) {
-            if (go_on && !add_hits(hits, rows_.items(), pairs)) go_on = false;
-            return go_on.load();
+            for (const BoxHits& hit : hits)
+                if (!pairs.add(hit)) return go_on = false;
+            return go_on.load(std::memory_order_relaxed);
         };
         each_sorted_hit(rows_.boxes(), first, last, add);
         if (go_on && !pairs.flush()) go_on = false;
