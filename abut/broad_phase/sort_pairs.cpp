@@ -15,7 +15,8 @@ void sort_pairs(std::vector<ItemPair>& pairs) {
         first_bits |= i;
         second_bits |= j;
     }
-    const int low = std::bit_width(second_bits), bits = low + std::bit_width(first_bits);
+    const int low = static_cast<int>(std::bit_width(second_bits));
+    const int bits = low + static_cast<int>(std::bit_width(first_bits));
     pairs.resize(2 * count);
     ItemPair* const begin = pairs.data();
     const ItemPair* const sorted = radix_sort(begin, begin + count, count, bits, [low](const ItemPair& pair) {

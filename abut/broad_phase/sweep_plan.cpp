@@ -13,12 +13,11 @@ constexpr std::size_t most_seen = 1024, most_close = 4096;
 template <int D>
 class Sample {
 public:
-    /// About 2 sqrt(n) boxes, one of each stretch of them: to compare all pairs of these costs about as much as to look
-    /// at every box twice.
+    /// About sqrt(2 n) boxes, one of each stretch of them: they make n pairs.
     explicit Sample(std::span<const Aabb<D>> boxes) {
         std::size_t wanted = 32;
-        while (wanted < most_seen && wanted * wanted < 4 * boxes.size()) wanted *= 2;
-        wanted = std::min(wanted, boxes.size());
+        while (wanted < most_seen && wanted * wanted < 2 * boxes.size()) wanted += wanted / 4;
+        wanted = std::min({wanted, boxes.size(), most_seen});
         for (std::uint64_t i = 0; i < wanted; ++i) {
             const std::uint64_t begin = boxes.size() * i / wanted, end = boxes.size() * (i + 1) / wanted;
             const std::uint64_t somewhere = (i * 0x9E3779B97F4A7C15u) >> 32;
@@ -61,12 +60,12 @@ public:
         for (std::size_t step = 1; step < count_ && close_count_ < most_close; ++step)
             for (std::size_t i = step; i < count_ && close_count_ < most_close; ++i, ++looks_) {
                 const Aabb<D>&a = boxes_[i - step], &b = boxes_[i];
-                Aabb<D>& common = close_[close_count_];
+                if (a.min[0] > b.max[0] || b.min[0] > a.max[0]) continue;
+                Aabb<D>& common = close_[close_count_++];
                 for (int k = 0; k < D; ++k) {
                     common.min[k] = std::max(a.min[k], b.min[k]);
                     common.max[k] = std::min(a.max[k], b.max[k]);
                 }
-                close_count_ += common.min[0] <= common.max[0] ? 1 : 0;
             }
     }
 
@@ -109,7 +108,7 @@ private:
     std::size_t count_ = 0, close_count_ = 0, looks_ = 0;
     double others_ = 0;
     std::array<Aabb<D>, most_seen> boxes_;
-    std::array<Aabb<D>, most_close + 1> close_;
+    std::array<Aabb<D>, most_close> close_;
 };
 
 }  // namespace
