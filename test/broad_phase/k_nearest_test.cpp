@@ -69,7 +69,9 @@ TYPED_TEST(KNearest, OfEquallyFarTheLowerIndices) {
     EXPECT_EQ(found[0], (NearItem{0, 17}));
     for (std::uint32_t k = 1; k < 5; ++k) EXPECT_EQ(found[k].item, k - 1);
     // Distances so small that there are hardly any floats between them.
+    // Those of lower index are on the side where a sweep comes later.
     boxes.assign(30, {Vec<D>(1e-45f), Vec<D>(1)});
+    for (std::size_t i = 15; i < 30; ++i) boxes[i] = {Vec<D>(-1), Vec<D>(-1e-45f)};
     phase.build(boxes);
     k_nearest(phase, boxes, Vec<D>(0), 3, found);
     ASSERT_EQ(found.size(), 3u);
