@@ -126,7 +126,7 @@ TYPED_TEST(SweepAndPruneIn, SortsAlongTheAxisThatPartsTheBoxes) {
 TYPED_TEST(SweepAndPruneIn, HasOneOrderWhereverItComesFrom) {
     constexpr int D = TypeParam::value;
     oracle::Random random(6);
-    // On whole numbers, so that some begin at the same place; far apart on axis 0, or columns would have their own order.
+    // On whole numbers, so that some begin at the same place; far apart on axis 0, for columns have their own order.
     std::vector<Aabb<D>> boxes;
     for (int i = 0; i < 300; ++i) {
         Vec<D> corner(glm::vec<D, int>(random.in_cube<D>() * 3.0));
