@@ -1,3 +1,4 @@
+#include <abut/broad_phase/box_hits.hpp>
 #include <abut/broad_phase/boxes.hpp>
 #include <abut/broad_phase/brute_force.hpp>
 #include <abut/broad_phase/concept.hpp>
@@ -5,24 +6,44 @@
 #include <abut/broad_phase/reach.hpp>
 #include <abut/math/assert.hpp>
 
+#include <algorithm>
+#include <atomic>
+#include <bit>
+
 namespace abut {
 namespace {
 
-template <int D, class Reach>
-void visit_within(const std::vector<Aabb<D>>& boxes, Reach reach, ReachCall visit) {
-    for (std::uint32_t i = 0; i < boxes.size() && !reach.over(); ++i) {
-        double measure = 0;
-        if (!is_empty(boxes[i]) && reach.measure(boxes[i], measure)) reach.shrink(visit(i));
+/// False where the visitor has had enough.
+bool add_hits(std::span<const BoxHits> hits, PairBuffer& pairs) {
+    for (const BoxHits& hit : hits)
+        for (std::uint32_t bits = hit.bits; bits != 0; bits &= bits - 1)
+            if (!pairs.add(hit.box, hit.first + static_cast<std::uint32_t>(std::countr_zero(bits)))) return false;
+    return true;
+}
+
+/// Visits those of the boxes that overlap this one. Returns false where the visitor has had enough.
+template <int D>
+bool visit_hits(const BoxRows<D>& boxes, std::size_t count, const Aabb<D>& box, ItemCall visit) {
+    for (std::size_t first = 0; first < count; first += 64) {
+        std::uint64_t bits = overlap_bits(boxes, first, std::min<std::size_t>(count - first, 64), box);
+        for (; bits != 0; bits &= bits - 1)
+            if (!visit(static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(std::countr_zero(bits))))
+                return false;
     }
+    return true;
 }
 
 }  // namespace
 
 template <int D>
 void BruteForce<D>::build(std::span<const Aabb<D>> boxes, Executor*) {
-    boxes_.clear();
-    boxes_.reserve(boxes.size());
-    for (const Aabb<D>& box : boxes) boxes_.push_back(usable(box));
+    ABUT_ASSERT(boxes.size() < std::size_t{1} << 32);
+    size_ = boxes.size();
+    boxes_.reserve(size_);
+    for (std::size_t i = 0; i < size_; ++i) {
+        const Aabb<D> box = usable(boxes[i]);
+        boxes_.set(i, is_empty(box) ? no_box<D>() : box);
+    }
 }
 
 template <int D>
@@ -40,43 +61,72 @@ void BruteForce<D>::sorted_pairs(std::vector<ItemPair>& out) const {
 template <int D>
 Aabb<D> BruteForce<D>::bounds() const {
     Aabb<D> result = Aabb<D>::empty();
-    for (const Aabb<D>& box : boxes_) result = merged(result, box);
+    const BoxRows<D> boxes = boxes_.rows();
+    for (std::size_t i = 0; i < size_; ++i)
+        if (!is_empty(boxes[i])) result = merged(result, boxes[i]);
     return result;
 }
 
 template <int D>
-void BruteForce<D>::visit_pairs(PairsCall visit, Executor*) const {
-    PairBuffer pairs(visit);
-    for (std::uint32_t i = 0; i < boxes_.size(); ++i)
-        for (std::uint32_t j = i + 1; j < boxes_.size(); ++j)
-            if (overlaps(boxes_[i], boxes_[j]) && !pairs.add(i, j)) return;
-    pairs.flush();
+void BruteForce<D>::visit_pairs(PairsCall visit, Executor* executor) const {
+    const BoxRows<D> boxes = boxes_.rows();
+    std::atomic<bool> go_on = true;
+    const auto visit_from = [&](std::size_t first, std::size_t last) {
+        PairBuffer pairs(visit);
+        const auto add = [&](std::span<const BoxHits> hits) {
+            if (go_on && !add_hits(hits, pairs)) go_on = false;
+            return go_on.load();
+        };
+        each_hit(boxes, first, last, size_, add);
+        if (go_on && !pairs.flush()) go_on = false;
+    };
+    // Below this, starting a thread costs more than all there is to do.
+    constexpr std::size_t few = 512;
+    if (executor == nullptr || size_ < few) return visit_from(0, size_);
+    // Box k meets those behind it: parts from both ends at once are of equal size.
+    const std::size_t parts = std::min<std::size_t>(4 * std::size_t{executor->workers()}, size_ / 64),
+                      halves = 2 * parts;
+    executor->run(static_cast<std::uint32_t>(parts), [&](std::uint32_t part) {
+        for (const std::size_t half : {std::size_t{part}, halves - 1 - part})
+            visit_from(size_ * half / halves, size_ * (half + 1) / halves);
+    });
 }
 
 template <int D>
 void BruteForce<D>::visit_pairs(const BruteForce& other, PairsCall visit) const {
+    const BoxRows<D> boxes = boxes_.rows(), others = other.boxes_.rows();
     PairBuffer pairs(visit);
-    for (std::uint32_t i = 0; i < boxes_.size(); ++i)
-        for (std::uint32_t j = 0; j < other.boxes_.size(); ++j)
-            if (overlaps(boxes_[i], other.boxes_[j]) && !pairs.add(i, j)) return;
+    for (std::uint32_t i = 0; i < size_; ++i) {
+        const auto add = [&](std::uint32_t j) { return pairs.add(i, j); };
+        if (!visit_hits(others, other.size_, boxes[i], add)) return;
+    }
     pairs.flush();
 }
 
 template <int D>
 void BruteForce<D>::visit_overlapping(const Aabb<D>& box, ItemCall visit) const {
     const Aabb<D> query = usable(box);
-    for (std::uint32_t i = 0; i < boxes_.size(); ++i)
-        if (overlaps(boxes_[i], query) && !visit(i)) return;
+    if (!is_empty(query)) visit_hits(boxes_.rows(), size_, query, visit);
 }
 
 template <int D>
 void BruteForce<D>::visit_along(const Ray<D>& ray, ReachCall visit) const {
-    visit_within(boxes_, RayReach<D>(ray), visit);
+    visit_within(RayReach<D>(ray), visit);
 }
 
 template <int D>
 void BruteForce<D>::visit_near(const Aabb<D>& box, float reach, ReachCall visit) const {
-    visit_within(boxes_, BoxReach<D>(box, reach), visit);
+    visit_within(BoxReach<D>(box, reach), visit);
+}
+
+template <int D>
+template <class Reach>
+void BruteForce<D>::visit_within(Reach reach, ReachCall visit) const {
+    const BoxRows<D> boxes = boxes_.rows();
+    for (std::uint32_t i = 0; i < size_ && !reach.over(); ++i) {
+        double measure = 0;
+        if (!is_empty(boxes[i]) && reach.measure(boxes[i], measure)) reach.shrink(visit(i));
+    }
 }
 
 template class BruteForce<2>;

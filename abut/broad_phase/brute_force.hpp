@@ -2,6 +2,7 @@
 
 // Every box against every other: the oracle of the broad phases, and the best of them for a handful of boxes.
 
+#include <abut/broad_phase/box_table.hpp>
 #include <abut/broad_phase/visit.hpp>
 #include <abut/math/aabb.hpp>
 #include <abut/math/executor.hpp>
@@ -16,7 +17,7 @@
 namespace abut {
 
 /// A BroadPhase without a structure (concept.hpp tells what each function does). Visits in the order of the indices.
-/// Keeps a copy of the boxes: 24 bytes an item in 3D, 16 in 2D.
+/// Keeps a copy of the boxes, 16 of which are compared at a time: 24 bytes an item in 3D, 16 in 2D.
 template <int D>
 class BruteForce {
 public:
@@ -50,8 +51,8 @@ public:
         visit_near(Aabb<D>{point, point}, reach, reach_after(visit));
     }
 
-    std::size_t size() const { return boxes_.size(); }
-    bool empty() const { return boxes_.empty(); }
+    std::size_t size() const { return size_; }
+    bool empty() const { return size_ == 0; }
     /// Of all boxes together; Aabb::empty() where there is none.
     Aabb<D> bounds() const;
 
@@ -62,7 +63,11 @@ private:
     void visit_along(const Ray<D>& ray, ReachCall visit) const;
     void visit_near(const Aabb<D>& box, float reach, ReachCall visit) const;
 
-    std::vector<Aabb<D>> boxes_;
+    template <class Reach>
+    void visit_within(Reach reach, ReachCall visit) const;
+
+    std::size_t size_ = 0;
+    BoxTable<D> boxes_;  // those that are empty are NaN
 };
 
 extern template class BruteForce<2>;

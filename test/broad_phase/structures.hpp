@@ -5,14 +5,16 @@
 #include <abut/broad_phase/brute_force.hpp>
 #include <abut/broad_phase/bvh.hpp>
 #include <abut/broad_phase/grid.hpp>
+#include <abut/broad_phase/sweep_and_prune.hpp>
 
 #include <gtest/gtest.h>
 
 namespace abut::test {
 
-using AllBroadPhases = testing::Types<  //
-    BruteForce<2>, BruteForce<3>,       //
-    Bvh<2>, Bvh<3>,                     //
-    Grid<2>, Grid<3>>;
+using AllBroadPhases = testing::Types<   //
+    BruteForce<2>, BruteForce<3>,        //
+    Grid<2>, Grid<3>,                    //
+    SweepAndPrune<2>, SweepAndPrune<3>,  //
+    Bvh<2>, Bvh<3>>;
 
 }  // namespace abut::test

@@ -1,0 +1,124 @@
+// What a SweepAndPrune is asked.
+
+#include <abut/broad_phase/box_hits.hpp>
+#include <abut/broad_phase/boxes.hpp>
+#include <abut/broad_phase/pair_buffer.hpp>
+#include <abut/broad_phase/sort_pairs.hpp>
+#include <abut/broad_phase/sweep_and_prune.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+
+namespace abut {
+namespace {
+
+/// Pairs on their way to the visitor, all those of one BoxHits at a time.
+class Told {
+public:
+    Told(const std::uint32_t* items, PairsCall visit) : items_(items), visit_(visit) {}
+
+    /// A pair that is in two columns is told in the first: in any other, both have begun before it along some axis. It
+    /// is written and forgotten. Returns false where the visitor has had enough.
+    bool add(const BoxHits& hit) {
+        const std::uint32_t item = items_[hit.box];
+        for (std::uint32_t bits = hit.bits; bits != 0; bits &= bits - 1) {
+            const std::uint32_t other = items_[hit.first + static_cast<std::uint32_t>(std::countr_zero(bits))];
+            const std::uint32_t i = item & ~copy_bits, j = other & ~copy_bits;
+            pairs_[count_] = {std::min(i, j), std::max(i, j)};
+            count_ += (item & other & copy_bits) == 0 ? 1 : 0;
+        }
+        return count_ < enough || flush();
+    }
+    bool flush() {
+        const std::size_t count = count_;
+        count_ = 0;
+        return visit_({pairs_.data(), count});
+    }
+
+private:
+    static constexpr std::size_t enough = 256;
+    const std::uint32_t* items_;
+    PairsCall visit_;
+    std::size_t count_ = 0;
+    std::array<ItemPair, enough + box_lanes> pairs_;
+};
+
+}  // namespace
+
+template <int D>
+void SweepAndPrune<D>::sorted_pairs(std::vector<ItemPair>& out) const {
+    out.clear();
+    visit_pairs(
+        [&out](std::span<const ItemPair> pairs) {
+            out.insert(out.end(), pairs.begin(), pairs.end());
+            return true;
+        },
+        nullptr);
+    sort_pairs(out);
+}
+
+template <int D>
+void SweepAndPrune<D>::visit_pairs(PairsCall visit, Executor* executor) const {
+    std::atomic<bool> go_on = true;
+    const auto visit_from = [&](std::size_t first, std::size_t last) {
+        Told pairs(rows_.items(), visit);
+        const auto add = [&](std::span<const BoxHits> hits) {
+            for (const BoxHits& hit : hits)
+                if (!pairs.add(hit)) return go_on = false;
+            return go_on.load(std::memory_order_relaxed);
+        };
+        each_sorted_hit(rows_.boxes(), first, last, add);
+        if (go_on && !pairs.flush()) go_on = false;
+    };
+    // Below this, starting a thread costs more than all there is to do.
+    constexpr std::size_t few = 2048;
+    const std::size_t count = rows_.count();
+    if (executor == nullptr || count < few) return visit_from(0, count);
+    const std::size_t parts = std::min<std::size_t>(4 * std::size_t{executor->workers()}, count / 256);
+    executor->run(static_cast<std::uint32_t>(parts),
+                  [&](std::uint32_t part) { visit_from(count * part / parts, count * (part + 1) / parts); });
+}
+
+template <int D>
+void SweepAndPrune<D>::visit_pairs(const SweepAndPrune& other, PairsCall visit) const {
+    PairBuffer pairs(visit);
+    const BoxRows<D> boxes = rows_.boxes();
+    for (std::size_t i = 0; i < rows_.count(); ++i) {
+        const std::uint32_t item = rows_.items()[i];
+        if ((item & copy_bits) != 0) continue;
+        const Aabb<D> box = turned<D>(turned_back<D>(boxes[i], plan_.axis), other.plan_.axis);
+        if (!other.rows_.visit_overlapping(box, [&](std::uint32_t j) { return pairs.add(item, j); })) return;
+    }
+    pairs.flush();
+}
+
+template <int D>
+void SweepAndPrune<D>::visit_overlapping(const Aabb<D>& box, ItemCall visit) const {
+    const Aabb<D> query = usable(box);
+    if (!is_empty(query)) rows_.visit_overlapping(turned<D>(query, plan_.axis), visit);
+}
+
+template <int D>
+void SweepAndPrune<D>::visit_along(const Ray<D>& ray, ReachCall visit) const {
+    const Ray<D> here{turned<D>(ray.origin, plan_.axis), turned<D>(ray.direction, plan_.axis), ray.length};
+    rows_.visit_within(RayReach<D>(here), visit);
+}
+
+template <int D>
+void SweepAndPrune<D>::visit_near(const Aabb<D>& box, float reach, ReachCall visit) const {
+    rows_.visit_within(BoxReach<D>(turned<D>(box, plan_.axis), reach), visit);
+}
+
+#define ABUT_FOR_DIMENSION(D)                                                              \
+    template void SweepAndPrune<D>::sorted_pairs(std::vector<ItemPair>&) const;            \
+    template void SweepAndPrune<D>::visit_pairs(PairsCall, Executor*) const;               \
+    template void SweepAndPrune<D>::visit_pairs(const SweepAndPrune<D>&, PairsCall) const; \
+    template void SweepAndPrune<D>::visit_overlapping(const Aabb<D>&, ItemCall) const;     \
+    template void SweepAndPrune<D>::visit_along(const Ray<D>&, ReachCall) const;           \
+    template void SweepAndPrune<D>::visit_near(const Aabb<D>&, float, ReachCall) const;
+ABUT_FOR_DIMENSION(2)
+ABUT_FOR_DIMENSION(3)
+#undef ABUT_FOR_DIMENSION
+
+}  // namespace abut
