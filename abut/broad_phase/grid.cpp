@@ -4,6 +4,7 @@
 #include <abut/broad_phase/grid_pairs.hpp>
 #include <abut/broad_phase/grid_plan.hpp>
 #include <abut/broad_phase/pair_buffer.hpp>
+#include <abut/broad_phase/sort_pairs.hpp>
 #include <abut/math/assert.hpp>
 
 #include <algorithm>
@@ -97,7 +98,7 @@ template <int D>
 void Grid<D>::sorted_pairs(std::vector<ItemPair>& out) const {
     out.clear();
     each_pair([&](std::uint32_t i, std::uint32_t j) { out.emplace_back(i, j); });
-    std::sort(out.begin(), out.end());
+    sort_pairs(out);
 }
 
 template <int D>
