@@ -16,9 +16,17 @@ namespace abut {
 template <int D>
 void BvhTree<D>::build(std::span<const Aabb<D>> boxes, Executor* executor) {
     ABUT_ASSERT(boxes.size() <= std::size_t{1} << 31);
-    const auto size = static_cast<std::uint32_t>(boxes.size());
-    places_.assign(size, place_none);
+    places_.assign(boxes.size(), place_none);
     free_.clear();
+    build_anew(boxes, executor);
+}
+
+/// Keeps the indices that are free.
+template <int D>
+void BvhTree<D>::build_anew(std::span<const Aabb<D>> boxes, Executor* executor) {
+    const auto size = static_cast<std::uint32_t>(boxes.size());
+    for (std::uint32_t& place : places_)
+        if (place != place_free) place = place_none;
     BvhItem* items = make_room(size);
     std::uint32_t bounded = 0;
     items_ = 0;
@@ -260,6 +268,7 @@ double BvhTree<D>::cost() const {
 }
 
 template void BvhTree<2>::build(std::span<const Aabb<2>>, Executor*);
+template void BvhTree<2>::build_anew(std::span<const Aabb<2>>, Executor*);
 template void BvhTree<2>::run_jobs(const BvhItem*, Executor*);
 template std::uint32_t BvhTree<2>::take_node();
 template std::uint32_t BvhTree<2>::take_leaf();
@@ -267,6 +276,7 @@ template void BvhTree<2>::free_node(std::uint32_t);
 template void BvhTree<2>::free_leaf(std::uint32_t);
 template double BvhTree<2>::cost() const;
 template void BvhTree<3>::build(std::span<const Aabb<3>>, Executor*);
+template void BvhTree<3>::build_anew(std::span<const Aabb<3>>, Executor*);
 template void BvhTree<3>::run_jobs(const BvhItem*, Executor*);
 template std::uint32_t BvhTree<3>::take_node();
 template std::uint32_t BvhTree<3>::take_leaf();

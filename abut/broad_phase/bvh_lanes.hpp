@@ -31,24 +31,33 @@ inline std::uint32_t bits_of(BvhMask mask) {
     return bytes[0];
 }
 
-/// Which of eight boxes overlap one, a bit each.
-template <int D>
-std::uint32_t overlapping_lanes(const BvhRows<D>& rows, const float (&min)[D], const float (&max)[D]) {
-    BvhVector low[D], high[D];
-    for (int i = 0; i < D; ++i) {
-        low[i] = hn::Set(bvh_tag, min[i]);
-        high[i] = hn::Set(bvh_tag, max[i]);
-    }
+/// Which of eight boxes overlap one, a bit each. `min` and `max` tell its sides along an axis.
+template <int D, class Min, class Max>
+HWY_INLINE std::uint32_t lanes_between(const BvhRows<D>& rows, Min min, Max max) {
     std::uint32_t result = 0;
     for (std::uint32_t lane = 0; lane < bvh_lanes; lane += bvh_step) {
-        BvhMask mask = hn::And(hn::Le(hn::Load(bvh_tag, rows.min[0] + lane), high[0]),
-                               hn::Le(low[0], hn::Load(bvh_tag, rows.max[0] + lane)));
-        for (int i = 1; i < D; ++i)
-            mask = hn::And(mask, hn::And(hn::Le(hn::Load(bvh_tag, rows.min[i] + lane), high[i]),
-                                         hn::Le(low[i], hn::Load(bvh_tag, rows.max[i] + lane))));
+        BvhMask mask = hn::Le(hn::Load(bvh_tag, rows.min[0] + lane), hn::Set(bvh_tag, max(0)));
+        mask = hn::And(mask, hn::Le(hn::Set(bvh_tag, min(0)), hn::Load(bvh_tag, rows.max[0] + lane)));
+        for (int i = 1; i < D; ++i) {
+            mask = hn::And(mask, hn::Le(hn::Load(bvh_tag, rows.min[i] + lane), hn::Set(bvh_tag, max(i))));
+            mask = hn::And(mask, hn::Le(hn::Set(bvh_tag, min(i)), hn::Load(bvh_tag, rows.max[i] + lane)));
+        }
         result |= bits_of(mask) << lane;
     }
     return result;
+}
+
+template <int D>
+HWY_INLINE std::uint32_t overlapping_lanes(const BvhRows<D>& rows, const Aabb<D>& box) {
+    return lanes_between<D>(
+        rows, [&](int i) { return box.min[i]; }, [&](int i) { return box.max[i]; });
+}
+
+/// The same of one among eight.
+template <int D>
+HWY_INLINE std::uint32_t overlapping_lanes(const BvhRows<D>& rows, const BvhRows<D>& others, std::uint32_t lane) {
+    return lanes_between<D>(
+        rows, [&](int i) { return others.min[i][lane]; }, [&](int i) { return others.max[i][lane]; });
 }
 
 }  // namespace abut::HWY_NAMESPACE

@@ -26,16 +26,6 @@ struct Place {
 };
 
 template <int D>
-std::uint32_t overlapping_lanes(const BvhRows<D>& rows, const BvhRows<D>& others, std::uint32_t lane) {
-    float min[D], max[D];
-    for (int i = 0; i < D; ++i) {
-        min[i] = others.min[i][lane];
-        max[i] = others.max[i][lane];
-    }
-    return overlapping_lanes<D>(rows, min, max);
-}
-
-template <int D>
 class PairWalk {
 public:
     PairWalk(const BvhTree<D>& a, const BvhTree<D>& b, PairBuffer& pairs)

@@ -46,11 +46,6 @@ bool is_usual(const DVec<D>& v) {
 
 template <int D>
 void overlapping(const BvhTree<D>& tree, const Aabb<D>& box, ItemCall visit) {
-    float min[D], max[D];
-    for (int i = 0; i < D; ++i) {
-        min[i] = box.min[i];
-        max[i] = box.max[i];
-    }
     std::uint32_t stack[most_waiting];
     std::size_t waiting = 0;
     for (const std::size_t kind : {1u, 0u})
@@ -59,13 +54,13 @@ void overlapping(const BvhTree<D>& tree, const Aabb<D>& box, ItemCall visit) {
         const std::uint32_t ref = stack[--waiting];
         if (is_leaf(ref)) {
             const BvhLeaf<D>& leaf = tree.leaf(ref);
-            for (std::uint32_t bits = overlapping_lanes<D>(leaf, min, max); bits != 0;)
+            for (std::uint32_t bits = overlapping_lanes<D>(leaf, box); bits != 0;)
                 if (!visit(leaf.index[next_lane(bits)])) return;
             continue;
         }
         const BvhNode<D>& node = tree.node(ref);
         // The first child on top.
-        for (std::uint32_t bits = overlapping_lanes<D>(node, min, max); bits != 0;) {
+        for (std::uint32_t bits = overlapping_lanes<D>(node, box); bits != 0;) {
             const auto lane = static_cast<std::uint32_t>(std::bit_width(bits)) - 1;
             bits ^= 1u << lane;
             stack[waiting++] = node.child[lane];

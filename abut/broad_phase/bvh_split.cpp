@@ -48,6 +48,13 @@ struct Bounds {
         for (std::uint32_t i = begin; i < end; ++i) add(Bounds(items[i]));
     }
 
+    void store(BvhItem& item) const {
+        for (std::size_t k = 0; k < vectors; ++k) {
+            hn::Store(min[k], d, &item.min[0] + k * lanes);
+            hn::Store(max[k], d, &item.max[0] + k * lanes);
+        }
+    }
+
     void add(const Bounds& other) {
         for (std::size_t k = 0; k < vectors; ++k) {
             min[k] = hn::Min(min[k], other.min[k]);
@@ -185,11 +192,18 @@ private:
         std::uint32_t middle = range_.begin;
         for (std::uint32_t i = range_.begin; i < range_.end; ++i) {
             const bool goes_left = bin_of(items_[i]) < split;
-            std::swap(items_[i], items_[middle]);
+            swap(items_[i], items_[middle]);
             middle += goes_left ? 1 : 0;
         }
         part_at(middle, left, right);
         return true;
+    }
+
+    /// By whole registers: what was written in parts would have to wait to be read.
+    static void swap(BvhItem& a, BvhItem& b) {
+        const Bounds of_a(a), of_b(b);
+        of_a.store(b);
+        of_b.store(a);
     }
 
     /// How many bins go to the left, so that the areas of the two sides, each times its leaves, are least. 0 where no
@@ -219,7 +233,9 @@ private:
         return best;
     }
 
-    float weight(std::uint32_t items) const { return static_cast<float>(items); }
+    float weight(std::uint32_t items) const {
+        return static_cast<float>(range_.count() > bvh_node_items ? items : bvh_leaves_for(items));
+    }
 
     bool may_part(std::uint32_t on_left) const {
         const std::uint32_t on_right = range_.count() - on_left;

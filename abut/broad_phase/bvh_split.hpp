@@ -16,10 +16,10 @@ inline constexpr std::uint32_t bvh_leaves_for(std::uint32_t items) {
     return (items + bvh_lanes - 1) / bvh_lanes;
 }
 
-/// How many leaves some items may take: half as many again as they need, for a split is best where it parts clusters,
+/// How many leaves some items may take: a quarter more than they need, for a split is best where it parts clusters,
 /// and not where it fills leaves.
 inline constexpr std::uint32_t bvh_leaves_granted(std::uint32_t items) {
-    const auto granted = static_cast<std::uint32_t>(std::uint64_t{items} * 3 / (2 * bvh_lanes));
+    const auto granted = static_cast<std::uint32_t>(std::uint64_t{items} * 5 / (4 * bvh_lanes));
     return std::max(granted, bvh_leaves_for(items));
 }
 

@@ -62,6 +62,7 @@ private:
         std::uint32_t count = 0;
     };
 
+    void build_anew(std::span<const Aabb<D>> boxes, Executor* executor);
     BvhItem* make_room(std::uint32_t items);
     void plan(BvhItem* items, bool bounded, std::uint32_t begin, std::uint32_t end, Executor* executor);
     void plan_node(std::uint32_t top, bool bounded, std::uint32_t parent, std::uint32_t lane);
@@ -80,6 +81,7 @@ private:
     Counted refit_above(std::uint32_t ref, int levels, Cut& cut, bool done);
     template <class Refit>
     Counted refit_node(BvhNode<D>& node, Refit refit);
+    void prefetch(std::uint32_t ref, std::span<const Aabb<D>> boxes) const;
     Counted refit_leaf(std::uint32_t ref, std::span<const Aabb<D>> boxes, bool bounded);
     void plan_repairs(std::uint32_t ref, int depth, bool bounded, double& area, double& built);
     bool take_in_newcomers(std::span<const Aabb<D>> boxes);

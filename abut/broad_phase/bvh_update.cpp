@@ -10,6 +10,8 @@
 
 #include <algorithm>
 
+#include <hwy/cache_control.h>
+
 namespace abut {
 namespace {
 
@@ -17,11 +19,11 @@ namespace {
 /// were built in one frame would be repaired in one frame.
 double area_allowed(std::uint32_t node, double built) {
     const double some = static_cast<double>(node * 0x9E3779B9u) * 0x1p-32;
-    return built * (1.04 + 0.08 * some);
+    return built * (1.06 + 0.1 * some);
 }
 
 /// The same for all large nodes together.
-constexpr double large_area_allowed = 1.06;
+constexpr double large_area_allowed = 1.08;
 
 }  // namespace
 
@@ -30,14 +32,14 @@ void BvhTree<D>::update(std::span<const Aabb<D>> boxes, Executor* executor) {
     ABUT_ASSERT(boxes.size() == size());
     if (boxes.size() != size()) return build(boxes, executor);
     refit(boxes, executor);
-    if (items_ < size() && !take_in_newcomers(boxes)) return build(boxes, executor);
+    if (items_ < size() && !take_in_newcomers(boxes)) return build_anew(boxes, executor);
     // Leaves that hold few are too many.
-    if (leaves_live_ > items_ / 4 + bvh_lanes) return build(boxes, executor);
+    if (leaves_live_ > items_ / 4 + bvh_lanes) return build_anew(boxes, executor);
     jobs_.clear();
     for (const std::size_t kind : {0u, 1u}) {
         double area = 0, built = 0;
         if (roots_[kind].ref != bvh_none) plan_repairs(roots_[kind].ref, 0, kind == 0, area, built);
-        if (area > large_area_allowed * built) return build(boxes, executor);
+        if (area > large_area_allowed * built) return build_anew(boxes, executor);
     }
     run_jobs(nullptr, executor);
 }
@@ -68,7 +70,9 @@ void BvhTree<D>::refit(std::span<const Aabb<D>> boxes, Executor* executor) {
 template <int D>
 typename BvhTree<D>::Counted BvhTree<D>::refit_below(std::uint32_t ref, std::span<const Aabb<D>> boxes, bool bounded) {
     if (is_leaf(ref)) return refit_leaf(ref, boxes, bounded);
-    return refit_node(nodes_[ref], [&](std::uint32_t child) { return refit_below(child, boxes, bounded); });
+    BvhNode<D>& node = nodes_[ref];
+    for (const std::uint32_t child : node.child) prefetch(child, boxes);
+    return refit_node(node, [&](std::uint32_t child) { return refit_below(child, boxes, bounded); });
 }
 
 /// What lies above a cut through the tree: once to make the cut, and once when all below it is done.
@@ -122,6 +126,14 @@ typename BvhTree<D>::Counted BvhTree<D>::refit_leaf(std::uint32_t ref, std::span
         ++result.items;
     }
     return result;
+}
+
+/// Asks for the boxes of a leaf, which lie anywhere in memory, before they are needed.
+template <int D>
+void BvhTree<D>::prefetch(std::uint32_t ref, std::span<const Aabb<D>> boxes) const {
+    if (ref == bvh_none || !is_leaf(ref)) return;
+    for (const std::uint32_t index : leaf(ref).index)
+        if (index != bvh_none) hwy::Prefetch(&boxes[index]);
 }
 
 /// Lists the largest subtrees that are one part and have decayed, and sums up what is larger.
