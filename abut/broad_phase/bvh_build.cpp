@@ -54,7 +54,7 @@ BvhItem* BvhTree<D>::make_room(std::uint32_t items) {
         leaves_.resize(leaves);
         leaf_parents_.resize(leaves);
     }
-    const std::size_t nodes = items / 20 + bvh_depth;
+    const std::size_t nodes = items / 20 + 2 * bvh_lanes;
     if (nodes_.size() < nodes) {
         nodes_.clear();
         nodes_.resize(nodes);

@@ -46,13 +46,16 @@ private:
     std::uint32_t node(BvhRange<D> range) {
         const bool last = range.count() <= bvh_node_items;
         if (last) range.leaves = std::min(range.leaves, bvh_lanes);
+        // No child needs more levels than it must: so the nodes that are not full are few, and near the root.
+        std::uint32_t most_items = last ? bvh_lanes : bvh_node_items;
+        while (!last && most_items * bvh_lanes < range.count()) most_items *= bvh_lanes;
         std::array<BvhRange<D>, bvh_lanes> child;
         child[0] = range;
         std::uint32_t count = 1;
         for (std::uint32_t next = 0; next != bvh_none && count < bvh_lanes; ++count) {
             std::copy_backward(child.begin() + next + 1, child.begin() + count, child.begin() + count + 1);
             split(part_.items.data(), bounded_, child[next], child[next], child[next + 1]);
-            next = largest(child, count + 1, last ? bvh_lanes : bvh_node_items);
+            next = largest(child, count + 1, most_items);
         }
         const auto result = static_cast<std::uint32_t>(part_.nodes.size());
         part_.nodes.push_back(BvhNode<D>::nothing());

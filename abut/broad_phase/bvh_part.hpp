@@ -23,8 +23,8 @@ struct BvhPart {
 
     /// Room for so many items, whatever their places.
     void reserve(std::uint32_t count) {
-        // A node has 24 items or leaves alone for children, and full nodes above it.
-        const std::size_t most_nodes = count / 12 + 1, most_leaves = bvh_leaves_granted(count) + bvh_lanes;
+        // A node has 24 items at least, and nodes above it; few have so few.
+        const std::size_t most_nodes = count / 16 + bvh_lanes, most_leaves = bvh_leaves_granted(count) + bvh_lanes;
         items.reserve(count);
         nodes.reserve(most_nodes);
         leaves.reserve(most_leaves);
