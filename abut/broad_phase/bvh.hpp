@@ -2,7 +2,7 @@
 
 // A tree of boxes: the broad phase for scenes of mixed sizes, for rays, and for what hardly moves.
 
-#include <abut/broad_phase/bvh_node.hpp>
+#include <abut/broad_phase/bvh_tree.hpp>
 #include <abut/broad_phase/visit.hpp>
 #include <abut/math/aabb.hpp>
 #include <abut/math/executor.hpp>
@@ -16,19 +16,28 @@
 
 namespace abut {
 
-/// A BroadPhase: a bounding volume hierarchy (concept.hpp tells what each function does).
+/// A BroadPhase: a bounding volume hierarchy (concept.hpp tells what each function does). Its nodes have eight children
+/// and its leaves up to eight items, which are asked together.
 ///
 /// `build` splits where it costs least (binned surface area heuristic): O(n log n). `update` refits the boxes of the
-/// tree, O(n), and builds anew where that has made the tree worse than 1.3 times what it was when built (in the sum of
-/// its areas: never by a clock), or where a box that was empty at the build holds something now.
+/// tree, O(n), and puts together anew those parts of it that have grown worse than they were when they were built (in
+/// the sum of their areas: never by a clock): however long things move about, the tree stays about as good as a new
+/// one. With an executor both do so on several threads; the tree is the same.
 ///
-/// Up to 2^31 items. Memory: 32 bytes an item in 3D (24 in 2D) for its box and index, and as much a node, of which
-/// there are about 0.8 an item; room is kept for 2 an item, so that building anew allocates nothing.
+/// Up to 2^31 items. Memory: 56 bytes an item in 3D (50 in 2D) where there are many; of that, up to 190 kilobytes are
+/// for work, and as much again for each thread more that builds.
 template <int D>
 class Bvh {
 public:
     void build(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
     void update(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
+
+    /// A new item, in O(log n). Returns its index: the least of those that were erased, or else size(), which grows by
+    /// one. The indices of the others stay. The tree may grow somewhat worse: the next update repairs that.
+    std::uint32_t insert(const Aabb<D>& box);
+    /// Makes an item empty, in O(log n); its index may be given to a new one. In the span of an update it has a box
+    /// still, an empty one.
+    void erase(std::uint32_t index);
 
     template <Visitor<std::uint32_t, std::uint32_t> F>
     void each_pair(F&& visit, Executor* executor = nullptr) const {
@@ -62,19 +71,15 @@ public:
         visit_near(Aabb<D>{point, point}, reach, reach_after(visit));
     }
 
-    std::size_t size() const { return size_; }
-    bool empty() const { return size_ == 0; }
+    std::size_t size() const { return tree_.size(); }
+    bool empty() const { return size() == 0; }
     /// Of all boxes together; Aabb::empty() where there is none.
-    Aabb<D> bounds() const { return nodes_.empty() ? Aabb<D>::empty() : Aabb<D>{nodes_[0].min, nodes_[0].max}; }
+    Aabb<D> bounds() const { return tree_.bounds(); }
+    /// About how many nodes and leaves a ray through the bounds comes by: the sum of their areas, as parts of that of
+    /// the bounds. To compare trees of the same boxes by.
+    double cost() const { return tree_.cost(); }
 
 private:
-    struct Cost {
-        double area = 0;
-        std::size_t endless = 0;  ///< nodes without bound on some axis
-    };
-
-    Cost refit();
-    bool has_newcomers(std::span<const Aabb<D>> boxes) const;
     void visit_pairs(PairsCall visit, Executor* executor) const;
     void visit_pairs(const Bvh& other, PairsCall visit) const;
     void visit_overlapping(const Aabb<D>& box, ItemCall visit) const;
@@ -82,10 +87,7 @@ private:
     void visit_along(const MovingBox<D>& box, ReachCall visit) const;
     void visit_near(const Aabb<D>& box, float reach, ReachCall visit) const;
 
-    std::size_t size_ = 0;
-    std::vector<BvhItem<D>> items_;  // in the order of the leaves; those that were empty at the build are left out
-    std::vector<BvhNode<D>> nodes_;
-    Cost built_;
+    BvhTree<D> tree_;
 };
 
 extern template class Bvh<2>;

@@ -1,96 +1,141 @@
 // Pairs: two trees, or one twice, descended together. The depth of the recursion is at most twice that of a tree.
+// Compiled once for each kind of vector unit by Highway, which takes the best of them when the program runs.
 
-#include <abut/broad_phase/bvh.hpp>
+#include <abut/broad_phase/bvh_pairs.hpp>
+#include <abut/broad_phase/bvh_tree.hpp>
 #include <abut/broad_phase/pair_buffer.hpp>
 
-#include <algorithm>
+#include <bit>
 
-namespace abut {
-namespace {
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "abut/broad_phase/bvh_pairs.cpp"
+// clang-format off
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+#include <abut/broad_phase/bvh_lanes.hpp>
+// clang-format on
 
-/// Of node against node, and item against node. May be true of an empty box. Counts, for a branch on every side would
-/// cost more.
-template <class Box, class Other>
-bool meets(const Box& a, const Other& b) {
-    int apart = 0;
-    for (int i = 0; i < decltype(a.min)::length(); ++i)
-        apart += static_cast<int>(a.min[i] > b.max[i]) + static_cast<int>(b.min[i] > a.max[i]);
-    return apart == 0;
-}
+HWY_BEFORE_NAMESPACE();
+namespace abut::HWY_NAMESPACE {
 
+/// A box among eight.
 template <int D>
-struct Tree {
-    const BvhNode<D>* nodes;
-    const BvhItem<D>* items;
+struct Place {
+    const BvhRows<D>* rows;
+    std::uint32_t lane;
 };
 
 template <int D>
 class PairWalk {
 public:
-    PairWalk(const Tree<D>& a, const Tree<D>& b, bool same, PairBuffer& pairs)
-        : a_(a), b_(b), same_(same), pairs_(pairs) {}
+    PairWalk(const BvhTree<D>& a, const BvhTree<D>& b, PairBuffer& pairs)
+        : a_(a), b_(b), same_(&a == &b), pairs_(pairs) {}
 
     /// The pairs below one node. Returns false where the visitor has had enough.
-    bool below(std::uint32_t index) const {
-        const BvhNode<D>& node = a_.nodes[index];
-        if (node.count == 0) return below(index + 1) && below(node.first) && between(index + 1, node.first);
-        for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
-            for (std::uint32_t j = i + 1; j < node.first + node.count; ++j)
-                if (!pair(a_.items[i], a_.items[j])) return false;
-        return true;
-    }
-
-    /// The pairs of an item below one node with an item below another. Returns false where the visitor has had enough.
-    bool between(std::uint32_t index_a, std::uint32_t index_b) const {
-        const BvhNode<D>&a = a_.nodes[index_a], &b = b_.nodes[index_b];
-        if (!meets(a, b)) return true;
-        if (a.count > 0 && b.count > 0) return leaves(a, b);
-        if (a.count > 0) return between(index_a, index_b + 1) && between(index_a, b.first);
-        if (b.count > 0) return between(index_a + 1, index_b) && between(a.first, index_b);
-        return between(index_a + 1, index_b + 1) && between(index_a + 1, b.first) && between(a.first, index_b + 1) &&
-               between(a.first, b.first);
-    }
-
-private:
-    bool leaves(const BvhNode<D>& a, const BvhNode<D>& b) const {
-        for (std::uint32_t i = a.first; i < a.first + a.count; ++i) {
-            if (!meets(a_.items[i].box, b)) continue;
-            for (std::uint32_t j = b.first; j < b.first + b.count; ++j)
-                if (!pair(a_.items[i], b_.items[j])) return false;
+    bool below(std::uint32_t ref) const {
+        if (is_leaf(ref)) return below_leaf(a_.leaf(ref));
+        const BvhNode<D>& node = a_.node(ref);
+        for (std::uint32_t i = 0; i < bvh_lanes && node.child[i] != bvh_none; ++i) {
+            if (!below(node.child[i])) return false;
+            for (std::uint32_t m = overlapping_lanes<D>(node, node, i) & after(i); m != 0; m &= m - 1) {
+                const auto j = static_cast<std::uint32_t>(std::countr_zero(m));
+                if (!between(node.child[i], {&node, i}, node.child[j], {&node, j})) return false;
+            }
         }
         return true;
     }
 
-    bool pair(const BvhItem<D>& a, const BvhItem<D>& b) const {
-        if (!overlaps(a.box, b.box)) return true;
-        return same_ ? pairs_.add_sorted(a.index, b.index) : pairs_.add(a.index, b.index);
+    /// The pairs of an item below one node with an item below another. Returns false where the visitor has had enough.
+    bool between(std::uint32_t ref_a, Place<D> box_a, std::uint32_t ref_b, Place<D> box_b) const {
+        if (is_leaf(ref_a)) {
+            if (is_leaf(ref_b)) return leaves(a_.leaf(ref_a), b_.leaf(ref_b), box_b);
+            const BvhNode<D>& b = b_.node(ref_b);
+            for (std::uint32_t m = overlapping_lanes<D>(b, *box_a.rows, box_a.lane); m != 0; m &= m - 1) {
+                const auto j = static_cast<std::uint32_t>(std::countr_zero(m));
+                if (!between(ref_a, box_a, b.child[j], {&b, j})) return false;
+            }
+            return true;
+        }
+        const BvhNode<D>& a = a_.node(ref_a);
+        for (std::uint32_t m = overlapping_lanes<D>(a, *box_b.rows, box_b.lane); m != 0; m &= m - 1) {
+            const auto i = static_cast<std::uint32_t>(std::countr_zero(m));
+            if (is_leaf(ref_b)) {
+                if (!between(a.child[i], {&a, i}, ref_b, box_b)) return false;
+                continue;
+            }
+            const BvhNode<D>& b = b_.node(ref_b);
+            for (std::uint32_t n = overlapping_lanes<D>(b, a, i); n != 0; n &= n - 1) {
+                const auto j = static_cast<std::uint32_t>(std::countr_zero(n));
+                if (!between(a.child[i], {&a, i}, b.child[j], {&b, j})) return false;
+            }
+        }
+        return true;
     }
 
-    Tree<D> a_, b_;
+private:
+    static std::uint32_t after(std::uint32_t lane) { return 0xFEu << lane; }
+
+    bool below_leaf(const BvhLeaf<D>& leaf) const {
+        for (std::uint32_t i = 0; i < bvh_lanes && leaf.index[i] != bvh_none; ++i)
+            if (!tell(leaf.index[i], leaf, overlapping_lanes<D>(leaf, leaf, i) & after(i))) return false;
+        return true;
+    }
+
+    bool leaves(const BvhLeaf<D>& a, const BvhLeaf<D>& b, Place<D> box_b) const {
+        for (std::uint32_t m = overlapping_lanes<D>(a, *box_b.rows, box_b.lane); m != 0; m &= m - 1) {
+            const auto i = static_cast<std::uint32_t>(std::countr_zero(m));
+            if (!tell(a.index[i], b, overlapping_lanes<D>(b, a, i))) return false;
+        }
+        return true;
+    }
+
+    bool tell(std::uint32_t index, const BvhLeaf<D>& others, std::uint32_t which) const {
+        for (; which != 0; which &= which - 1) {
+            const std::uint32_t other = others.index[std::countr_zero(which)];
+            if (!(same_ ? pairs_.add_sorted(index, other) : pairs_.add(index, other))) return false;
+        }
+        return true;
+    }
+
+    const BvhTree<D>&a_, &b_;
     bool same_;
     PairBuffer& pairs_;
 };
 
-}  // namespace
-
 template <int D>
-void Bvh<D>::visit_pairs(PairsCall visit, Executor*) const {
-    const Tree<D> tree{nodes_.data(), items_.data()};
-    PairBuffer pairs(visit);
-    if (!nodes_.empty() && PairWalk<D>(tree, tree, true, pairs).below(0)) pairs.flush();
+bool pairs_of(const BvhTree<D>& a, const BvhTree<D>& b, const BvhPairTask<D>& task, PairBuffer& pairs) {
+    const PairWalk<D> walk(a, b, pairs);
+    if (task.b == bvh_none) return walk.below(task.a);
+    BvhRows<D> boxes;
+    boxes.set(0, task.box_a);
+    boxes.set(1, task.box_b);
+    return walk.between(task.a, {&boxes, 0}, task.b, {&boxes, 1});
 }
 
-template <int D>
-void Bvh<D>::visit_pairs(const Bvh& other, PairsCall visit) const {
-    const Tree<D> tree{nodes_.data(), items_.data()}, others{other.nodes_.data(), other.items_.data()};
-    PairBuffer pairs(visit);
-    if (!nodes_.empty() && !other.nodes_.empty() && PairWalk<D>(tree, others, false, pairs).between(0, 0))
-        pairs.flush();
+bool pairs_of_2(const BvhTree<2>& a, const BvhTree<2>& b, const BvhPairTask<2>& task, PairBuffer& pairs) {
+    return pairs_of<2>(a, b, task, pairs);
+}
+bool pairs_of_3(const BvhTree<3>& a, const BvhTree<3>& b, const BvhPairTask<3>& task, PairBuffer& pairs) {
+    return pairs_of<3>(a, b, task, pairs);
 }
 
-template void Bvh<2>::visit_pairs(PairsCall, Executor*) const;
-template void Bvh<3>::visit_pairs(PairsCall, Executor*) const;
-template void Bvh<2>::visit_pairs(const Bvh&, PairsCall) const;
-template void Bvh<3>::visit_pairs(const Bvh&, PairsCall) const;
+}  // namespace abut::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace abut {
+
+HWY_EXPORT(pairs_of_2);
+HWY_EXPORT(pairs_of_3);
+
+template <>
+bool find_pairs<2>(const BvhTree<2>& a, const BvhTree<2>& b, const BvhPairTask<2>& task, PairBuffer& pairs) {
+    return HWY_DYNAMIC_DISPATCH(pairs_of_2)(a, b, task, pairs);
+}
+template <>
+bool find_pairs<3>(const BvhTree<3>& a, const BvhTree<3>& b, const BvhPairTask<3>& task, PairBuffer& pairs) {
+    return HWY_DYNAMIC_DISPATCH(pairs_of_3)(a, b, task, pairs);
+}
 
 }  // namespace abut
+#endif

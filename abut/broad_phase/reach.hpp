@@ -32,6 +32,13 @@ public:
     bool over() const { return reach_ < 0; }
     bool within(double measure) const { return measure <= reach_; }
     void shrink(float reach) { reach_ = std::min(reach_, static_cast<double>(reach) * reach_slack); }
+    double most() const { return reach_; }  ///< the largest measure within reach
+
+    /// The box it begins with, for a ray a point, and the way it goes.
+    const DVec<D>& low() const { return low_; }
+    const DVec<D>& high() const { return high_; }
+    const DVec<D>& direction() const { return direction_; }
+    const DVec<D>& inverse() const { return inverse_; }
 
     /// True where the ray touches the box, with its measure. Never true of an empty box.
     template <class Box>
@@ -79,6 +86,8 @@ public:
     bool over() const { return reach_squared_ < 0; }
     bool within(double measure) const { return measure <= reach_squared_; }
     void shrink(float reach) { reach_squared_ = std::min(reach_squared_, squared(reach)); }
+    double most() const { return reach_squared_; }  ///< the largest measure within reach
+    const Aabb<D>& box() const { return box_; }
 
     /// True where the box is within reach, with its measure. Perhaps true of an empty box.
     template <class Box>
