@@ -19,6 +19,23 @@ Aabb<D> bounds_of(const std::vector<BspItem<D>>& items) {
     return result;
 }
 
+/// Found from the root, for it is seldom asked for.
+template <int D>
+Aabb<D> cell_of(const BspTree<D>& tree, std::uint32_t index) {
+    constexpr float far = std::numeric_limits<float>::infinity();
+    Aabb<D> cell{Vec<D>(-far), Vec<D>(far)};
+    for (std::uint32_t at = 0; at != index;) {
+        const BspNode& node = tree.nodes[at];
+        const bool above = index >= node.above();
+        if (above)
+            cell.min[node.axis()] = node.plane;
+        else
+            cell.max[node.axis()] = float_before(node.plane);
+        at = above ? node.above() : at + 1;
+    }
+    return cell;
+}
+
 /// A ray on its way through the cells: when it meets their planes, and which cell tells an item that it comes into at
 /// `enters`. At each plane that the item meets, that is the side on which the ray is then; so it may be told by a cell
 /// that the ray has left by a rounding, where it meets the item by no more than that.
@@ -35,10 +52,15 @@ public:
     bool starts_below(int axis, float plane) const { return origin_[axis] < static_cast<double>(plane); }
     double meets(int axis, float plane) const { return (static_cast<double>(plane) - origin_[axis]) * inverse_[axis]; }
 
-    /// Of an item in the cell that the ray is in from `from` to `to`.
-    bool tells(const Aabb<D>& item, double enters, const Aabb<D>& cell, double from, double to) const {
-        if (enters < from) return false;
-        if (enters < to) return true;
+    /// Of an item of a node whose cell the ray is in from `from` to `to`.
+    bool tells(const BspTree<D>& tree, std::uint32_t node, const Aabb<D>& item, double enters, double from,
+               double to) const {
+        if (enters < from || enters > to * (1 + doubt)) return false;
+        return enters < to || tells_about_its_end(cell_of(tree, node), item, enters);
+    }
+
+private:
+    bool tells_about_its_end(const Aabb<D>& cell, const Aabb<D>& item, double enters) const {
         for (int i = 0; i < D; ++i) {
             if (direction_[i] == 0) continue;
             const bool up = direction_[i] > 0;
@@ -48,7 +70,6 @@ public:
         return true;
     }
 
-private:
     DVec<D> origin_, direction_, inverse_;
 };
 
@@ -96,39 +117,40 @@ void Bsp<D>::visit_along(const Ray<D>& ray, ReachCall visit) const {
     struct Waiting {
         std::uint32_t node;
         double from, to;
-        Aabb<D> cell;
     };
     RayReach<D> reach(ray);
     double measure = 0;
     if (reach.over() || is_empty(bounds_) || !reach.measure(bounds_, measure)) return;
     const CellRay<D> way(ray);
+    constexpr double doubt = CellRay<D>::doubt;
     std::array<Waiting, bsp_depth + 1> stack;
-    stack[0] = {0, 0, std::numeric_limits<double>::infinity(), bounds_};
+    stack[0] = {0, 0, std::numeric_limits<double>::infinity()};
     for (std::size_t waiting = 1; waiting > 0;) {
-        const Waiting top = stack[--waiting];
-        if (!reach.within(top.from * (1 - CellRay<D>::doubt))) continue;
-        const BspNode& node = tree_.nodes[top.node];
-        for (std::uint32_t w = node.first; w < node.first + node.count; ++w) {
-            const BspItem<D>& item = tree_.items[tree_.words[w]];
-            if (!reach.measure(item.box, measure) || !way.tells(item.box, measure, top.cell, top.from, top.to))
-                continue;
-            reach.shrink(visit(item.index));
-            if (reach.over()) return;
+        auto [at, from, to] = stack[--waiting];
+        while (reach.within(from * (1 - doubt))) {
+            const BspNode& node = tree_.nodes[at];
+            for (std::uint32_t w = node.first; w < node.first + node.count; ++w) {
+                const BspItem<D>& item = tree_.items[tree_.words[w]];
+                if (!reach.measure(item.box, measure) || !way.tells(tree_, at, item.box, measure, from, to)) continue;
+                reach.shrink(visit(item.index));
+                if (reach.over()) return;
+            }
+            if (node.is_leaf()) break;
+            const int axis = node.axis();
+            const double meets = way.meets(axis, node.plane), direction = way.direction(axis);
+            const bool below_first = direction == 0 ? way.starts_below(axis, node.plane) : direction > 0;
+            const std::uint32_t first = below_first ? at + 1 : node.above();
+            const std::uint32_t second = below_first ? node.above() : at + 1;
+            const bool go_first = direction == 0 || from <= std::min(to, meets) * (1 + doubt);
+            const bool go_second = direction != 0 && std::max(from, meets) <= to * (1 + doubt);
+            if (go_first && go_second) stack[waiting++] = {second, std::max(from, meets), to};
+            at = go_first ? first : second;
+            if (go_first && direction != 0) to = std::min(to, meets);
+            if (!go_first) {
+                if (!go_second) break;
+                from = std::max(from, meets);
+            }
         }
-        if (node.is_leaf()) continue;
-        const int axis = node.axis();
-        const auto [cell_below, cell_above] = cut(top.cell, axis, node.plane);
-        Waiting below{top.node + 1, top.from, top.to, cell_below}, above{node.above(), top.from, top.to, cell_above};
-        if (way.direction(axis) == 0) {
-            stack[waiting++] = way.starts_below(axis, node.plane) ? below : above;
-            continue;
-        }
-        const double at = way.meets(axis, node.plane);
-        Waiting &first = way.direction(axis) > 0 ? below : above, &second = way.direction(axis) > 0 ? above : below;
-        first.to = std::min(first.to, at);
-        second.from = std::max(second.from, at);
-        if (second.from <= second.to * (1 + CellRay<D>::doubt)) stack[waiting++] = second;
-        if (first.from <= first.to * (1 + CellRay<D>::doubt)) stack[waiting++] = first;
     }
 }
 
@@ -143,7 +165,7 @@ void Bsp<D>::visit_near(const Aabb<D>& box, float near, ReachCall visit) const {
     double measure = 0;
     if (reach.over() || is_empty(bounds_) || !reach.measure(bounds_, measure)) return;
     // The cell tells an item that has the point of it nearest to the lower corner of the box.
-    const auto tells = [&](const Aabb<D>& item, const Aabb<D>& cell) {
+    const auto tells = [&](const Aabb<D>& cell, const Aabb<D>& item) {
         bool result = true;
         for (int i = 0; i < D; ++i) {
             const float place = std::min(std::max(item.min[i], box.min[i]), item.max[i]);
@@ -154,24 +176,27 @@ void Bsp<D>::visit_near(const Aabb<D>& box, float near, ReachCall visit) const {
     std::array<Waiting, bsp_depth + 1> stack;
     stack[0] = {0, measure, bounds_};
     for (std::size_t waiting = 1; waiting > 0;) {
-        const Waiting top = stack[--waiting];
-        if (!reach.within(top.measure)) continue;
-        const BspNode& node = tree_.nodes[top.node];
-        for (std::uint32_t w = node.first; w < node.first + node.count; ++w) {
-            const BspItem<D>& item = tree_.items[tree_.words[w]];
-            if (!tells(item.box, top.cell) || !reach.measure(item.box, measure)) continue;
-            reach.shrink(visit(item.index));
-            if (reach.over()) return;
+        auto [at, nearest, cell] = stack[--waiting];
+        if (!reach.within(nearest)) continue;
+        for (;;) {
+            const BspNode& node = tree_.nodes[at];
+            for (std::uint32_t w = node.first; w < node.first + node.count; ++w) {
+                const BspItem<D>& item = tree_.items[tree_.words[w]];
+                if (!reach.measure(item.box, measure) || !tells(cell, item.box)) continue;
+                reach.shrink(visit(item.index));
+                if (reach.over()) return;
+            }
+            if (node.is_leaf()) break;
+            // The nearer part is as near as the whole; so are both where the box is on both sides.
+            const int axis = node.axis();
+            const bool below_first = box.min[axis] < node.plane;
+            Waiting second{below_first ? node.above() : at + 1, nearest, cell};
+            (below_first ? second.cell.min : second.cell.max)[axis] =
+                below_first ? node.plane : float_before(node.plane);
+            if (reach.measure(second.cell, second.measure)) stack[waiting++] = second;
+            (below_first ? cell.max : cell.min)[axis] = below_first ? float_before(node.plane) : node.plane;
+            at = below_first ? at + 1 : node.above();
         }
-        if (node.is_leaf()) continue;
-        const auto [cell_below, cell_above] = cut(top.cell, node.axis(), node.plane);
-        Waiting below{top.node + 1, 0, cell_below}, above{node.above(), 0, cell_above};
-        const bool go_below = reach.measure(below.cell, below.measure);
-        const bool go_above = reach.measure(above.cell, above.measure);
-        const bool below_first = below.measure <= above.measure;
-        if (go_above && below_first) stack[waiting++] = above;
-        if (go_below) stack[waiting++] = below;
-        if (go_above && !below_first) stack[waiting++] = above;
     }
 }
 

@@ -15,9 +15,10 @@ namespace {
 
 constexpr std::uint32_t few_items = 16;  ///< so few are tried at each face of each box, more at the borders of bins
 constexpr std::uint32_t leaf_items = 2;
+constexpr std::uint32_t sampled_items = 1024;  ///< of more than so many, about so many are looked at for a plane
 constexpr int bins = 32;
 constexpr int cheapest_levels = 32;  ///< below, the middle of the items: 32 more would do for 2^32 of them
-constexpr double step_cost = 1.0;    ///< of going into a node, where looking at an item is 1
+constexpr double step_cost = 3.0;    ///< of going into a node, where looking at an item is 1
 
 /// What a subtree may use up.
 struct Room {
@@ -117,11 +118,12 @@ private:
     Split choose(std::uint32_t count, const Aabb<D>& cell, const Room& room, int depth) {
         Split best;
         if (count <= leaf_items || room.splits == 0 || depth == bsp_depth) return best;
+        if (depth >= cheapest_levels) return middle(count, cell);
         measure(cell);
-        count_ = count;
-        copies_ = room.copies;
-        best.cost = area() * (static_cast<double>(count) - step_cost);
-        if (depth >= cheapest_levels) return middle(cell);
+        stride_ = count / sampled_items | 1u;
+        count_ = (count + stride_ - 1) / stride_;
+        copies_ = room.copies / stride_;
+        best.cost = area() * (count_ - step_cost / stride_);
         for (int axis = 0; axis < D; ++axis) {
             if (!(cell.min[axis] < cell.max[axis])) continue;
             if (count <= few_items)
@@ -193,8 +195,8 @@ private:
             std::uint32_t low = 0, high = 0, wide_low = 0, wide_high = 0;
         };
         std::array<Ends, bins> ends;
-        for (std::uint32_t w = top_; w < top_ + count_; ++w) {
-            const Aabb<D>& item = box(w);
+        for (std::uint32_t i = 0; i < count_; ++i) {
+            const Aabb<D>& item = box(top_ + i * stride_);
             Ends& first = ends[bin_of(item.min[axis])];
             Ends& last = ends[bin_of(item.max[axis])];
             const std::uint32_t wide = is_wide(item, cell, axis) ? 1 : 0;
@@ -213,12 +215,12 @@ private:
     }
 
     /// Where half of the items begin below, along the axis on which their beginnings lie farthest apart.
-    Split middle(const Aabb<D>& cell) {
+    Split middle(std::uint32_t count, const Aabb<D>& cell) {
         int axis = 0;
         double most = 0;
         for (int i = 0; i < D; ++i) {
             double low = std::numeric_limits<double>::infinity(), high = -low;
-            for (std::uint32_t w = top_; w < top_ + count_; ++w) {
+            for (std::uint32_t w = top_; w < top_ + count; ++w) {
                 low = std::min(low, static_cast<double>(std::max(box(w).min[i], cell.min[i])));
                 high = std::max(high, static_cast<double>(std::max(box(w).min[i], cell.min[i])));
             }
@@ -228,11 +230,11 @@ private:
             }
         }
         const auto begin = words_.begin() + top_;
-        std::nth_element(begin, begin + count_ / 2, begin + count_, [&](std::uint32_t a, std::uint32_t b) {
+        std::nth_element(begin, begin + count / 2, begin + count, [&](std::uint32_t a, std::uint32_t b) {
             const float p = tree_.items[a].box.min[axis], q = tree_.items[b].box.min[axis];
             return p != q ? p < q : a < b;
         });
-        const float plane = box(top_ + count_ / 2).min[axis];
+        const float plane = box(top_ + count / 2).min[axis];
         const bool useful = most > 0 && cell.min[axis] < plane && plane <= cell.max[axis];
         return {useful ? axis : -1, plane, 0};
     }
@@ -240,9 +242,9 @@ private:
     BspTree<D>& tree_;
     std::vector<std::uint32_t>& words_;
     std::uint32_t top_ = 0;  ///< what is still to do lies at the end of the words, what is done at their beginning
-    // Of the node at hand:
+    // Of the node at hand, and of those of its items that are looked at:
     DVec<D> side_{0.0};
-    std::uint32_t count_ = 0;
+    std::uint32_t stride_ = 1, count_ = 0;
     std::uint64_t copies_ = 0;
 };
 

@@ -41,15 +41,23 @@ bool each_below(const BspTree<D>& tree, std::uint32_t from, const Vec<D>& from_l
     std::array<Waiting, bsp_depth + 1> stack;
     stack[0] = {from, from_low};
     for (std::size_t waiting = 1; waiting > 0;) {
-        const Waiting top = stack[--waiting];
-        const BspNode& node = tree.nodes[top.node];
-        for (std::uint32_t w = node.first; w < node.first + node.count; ++w) {
-            const BspItem<D>& item = tree.items[tree.words[w]];
-            if (meet_in(item.box, box, top.low) && !told(item)) return false;
+        auto [at, low] = stack[--waiting];
+        for (;;) {
+            const BspNode& node = tree.nodes[at];
+            for (std::uint32_t w = node.first; w < node.first + node.count; ++w) {
+                const BspItem<D>& item = tree.items[tree.words[w]];
+                if (meet_in(item.box, box, low) && !told(item)) return false;
+            }
+            if (node.is_leaf()) break;
+            const bool above = box.max[node.axis()] >= node.plane;
+            if (box.min[node.axis()] < node.plane) {
+                if (above) stack[waiting++] = {node.above(), low_above(low, node)};
+                at = at + 1;
+            } else {
+                low[node.axis()] = node.plane;
+                at = node.above();
+            }
         }
-        if (node.is_leaf()) continue;
-        if (box.max[node.axis()] >= node.plane) stack[waiting++] = {node.above(), low_above(top.low, node)};
-        if (box.min[node.axis()] < node.plane) stack[waiting++] = {top.node + 1, top.low};
     }
     return true;
 }
