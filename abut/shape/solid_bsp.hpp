@@ -41,8 +41,10 @@ struct SolidEntry {
 /// outside.
 ///
 /// Closed geometry (every corner in 2D, every edge in 3D is left as often as it is come to) may overlap itself, repeat
-/// faces, meet in T-junctions and be as thin as floats allow: solid is what it winds around. Open geometry makes a tree
-/// as well: there a leaf is what its last plane says, open in front and solid behind.
+/// faces, touch, and be as thin as floats allow: solid is what it winds around. Open geometry makes a tree as well:
+/// there a leaf is what its last plane says, open in front and solid behind, which is right as long as no face lies
+/// within the solid. So it is where closed surfaces in 3D meet in T-junctions. A wall of no thickness, two faces back
+/// to back in the open, is not solid.
 ///
 /// Planes are those of faces, where balance asks for it also such as stand across an axis; the next is the one that
 /// leaves both sides alike and cuts the fewest faces. Faces in one plane share a node. On which side of a face a point

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace abut::test {
@@ -143,6 +144,58 @@ Place place_in(const Level<D>& level, const Vec<D>& p, bool room) {
         for (const std::size_t g : touched)
             if (back_to_back(level, f, g)) return Place::on_nothing;
     return turns > 0 || !touched.empty() ? Place::inside : Place::outside;
+}
+
+/// Where a ray meets a face, above zero where it goes in; in lengths of its direction.
+struct Meeting {
+    double along = 0;
+    int turns = 0;
+    bool sure = true;  ///< false where it meets the border of the face, or skims it
+};
+
+inline Meeting meeting(const Level<2>& level, std::size_t face, const DVec<2>& origin, const DVec<2>& direction) {
+    const DVec<2> a = DVec<2>(level.corner(face, 0)) - origin, side = DVec<2>(level.corner(face, 1)) - origin - a;
+    const double slope = cross(side, direction), doubt = 1e-6 * length(side);
+    if (slope == 0) return {0, 0, std::abs(cross(side, a)) > doubt};
+    const double part = cross(direction, a) / slope, along = cross(side, a) / slope;
+    if (part < -1e-6 || part > 1 + 1e-6) return {};
+    const bool border = part < 1e-6 || part > 1 - 1e-6 || std::abs(slope) < doubt;
+    return {along, slope > 0 ? 1 : -1, !border};
+}
+
+inline Meeting meeting(const Level<3>& level, std::size_t face, const DVec<3>& origin, const DVec<3>& direction) {
+    const DVec<3> a = DVec<3>(level.corner(face, 0)) - origin, b = DVec<3>(level.corner(face, 1)) - origin,
+                  c = DVec<3>(level.corner(face, 2)) - origin, normal = cross(b - a, c - a);
+    const double slope = -dot(normal, direction), size = length(normal);
+    if (size == 0) return {};
+    if (slope == 0) return {0, 0, std::abs(dot(normal, a)) > 1e-6 * size};
+    const std::array<double, 3> sides{dot(direction, cross(a, b)), dot(direction, cross(b, c)),
+                                      dot(direction, cross(c, a))};
+    const auto [least, most] = std::minmax_element(sides.begin(), sides.end());
+    const double doubt = 1e-6 * size;
+    if (*least<-doubt&& * most> doubt) return {};
+    return {-dot(normal, a) / slope, slope > 0 ? 1 : -1, (*least > doubt || *most < -doubt) && std::abs(slope) > doubt};
+}
+
+/// The first place where a ray comes into the solid, infinite where none is. NaN where rounding could say otherwise.
+template <int D>
+double first_entry(const Level<D>& level, const Vec<D>& from, const DVec<D>& direction, bool room) {
+    std::vector<Meeting> met;
+    int turns = room ? 1 : 0;
+    for (std::size_t face = 0; face < level.faces.size(); ++face) {
+        const Seen seen = seen_from(level, face, from);
+        turns += seen.turns;
+        const Meeting here = meeting(level, face, DVec<D>(from), direction);
+        if (!here.sure || seen.touches) return std::nan("");
+        if (here.turns != 0 && here.along > 0) met.push_back(here);
+    }
+    std::sort(met.begin(), met.end(), [](const Meeting& a, const Meeting& b) { return a.along < b.along; });
+    for (const Meeting& here : met) {
+        const bool was_open = turns <= 0;
+        turns += here.turns;
+        if (was_open && turns > 0) return here.along;
+    }
+    return std::numeric_limits<double>::infinity();
 }
 
 }  // namespace abut::test
