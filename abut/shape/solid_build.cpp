@@ -24,9 +24,7 @@ public:
         tree_.depth = std::max(tree_.depth, depth + 1);
         const auto index = static_cast<std::uint32_t>(tree_.nodes.size());
         tree_.nodes.emplace_back();
-        Parts parts = part(here);
-        here.clear();
-        here.shrink_to_fit();
+        Parts parts = part(std::move(here));
         tree_.nodes[index].plane = parts.plane;
         tree_.nodes[index].first_piece = static_cast<std::uint32_t>(tree_.pieces.size());
         tree_.nodes[index].pieces = static_cast<std::uint32_t>(parts.in_plane.size());
@@ -58,34 +56,34 @@ private:
         double cost = std::numeric_limits<double>::infinity();
     };
 
-    Parts part(const std::vector<Fragment>& here) const {
+    Parts part(std::vector<Fragment> here) const {
         const Candidate face = best_face(here);
         Candidate across;
         if (here.size() > few_faces) across = best_across(here);
         if (across.cost < face.cost) {
-            Parts parts = part_by(across, here);
+            Parts parts = part_by(across, std::vector<Fragment>(here));
             // Where a face is in it, that face's own is better: it settles something.
-            if (!parts.in_plane.empty()) return part_by(candidate(parts.in_plane[0].face), here);
+            if (!parts.in_plane.empty()) return part_by(candidate(parts.in_plane[0].face), std::move(here));
             const std::size_t most = here.size() - here.size() / 8;
             if (!parts.front.empty() && !parts.back.empty() && parts.front.size() < most && parts.back.size() < most)
                 return parts;
         }
-        return part_by(face, here);
+        return part_by(face, std::move(here));
     }
 
     Candidate candidate(std::uint32_t face) const { return {build_.plane(face), face}; }
 
-    Parts part_by(const Candidate& candidate, const std::vector<Fragment>& here) const {
+    Parts part_by(const Candidate& candidate, std::vector<Fragment> here) const {
         Parts parts;
         parts.plane = candidate.plane;
         CutFragment<D> pieces;
-        for (const Fragment& fragment : here) {
+        for (Fragment& fragment : here) {
             // A face is in its own plane, whatever rounding says of its pieces.
             if (fragment.face == candidate.face) {
-                parts.in_plane.push_back(fragment);
+                parts.in_plane.push_back(std::move(fragment));
                 continue;
             }
-            cut(tree_, parts.plane, build_.margin, Fragment(fragment), pieces);
+            cut(tree_, parts.plane, build_.margin, std::move(fragment), pieces);
             if (pieces.in_plane) {
                 parts.in_plane.push_back(std::move(pieces.front));
                 continue;

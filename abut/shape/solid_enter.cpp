@@ -21,6 +21,7 @@ public:
         for (int i = 0; i < D; ++i)
             far = std::max({far, std::abs(static_cast<double>(tree.bounds.min[i])),
                             std::abs(static_cast<double>(tree.bounds.max[i]))});
+        far_ = far;
         least_ = 1e-13 * far / length(direction);
     }
 
@@ -35,11 +36,30 @@ public:
     }
 
     bool first(double length, SolidEntry<D>& entry) {
+        double from = 0, to = length;
+        if (!clip(from, to)) return false;
         entry.started_inside = in_solid_ = inside(tree_.root);
-        return enter(tree_.root, 0, length, no_number, entry);
+        return enter(tree_.root, from, to, no_number, entry);
     }
 
 private:
+    /// To where faces are, and a bit more. False where the way doesn't come there.
+    bool clip(double& from, double& to) const {
+        const double more = 1e-6 * far_;
+        for (int i = 0; i < D; ++i) {
+            const double low = static_cast<double>(tree_.bounds.min[i]) - more - origin_[i];
+            const double high = static_cast<double>(tree_.bounds.max[i]) + more - origin_[i];
+            if (direction_[i] == 0) {
+                if (low > 0 || high < 0) return false;
+                continue;
+            }
+            const double at_low = low / direction_[i], at_high = high / direction_[i];
+            from = std::max(from, std::min(at_low, at_high));
+            to = std::min(to, std::max(at_low, at_high));
+        }
+        return from <= to;
+    }
+
     /// The part of the way from `from` to `to`, which came in through the plane of node `through`.
     bool enter(std::uint32_t at, double from, double to, std::uint32_t through, SolidEntry<D>& entry) {
         while (at < open_leaf) {
@@ -115,7 +135,7 @@ private:
     const SolidTree<D>& tree_;
     Vec<D> point_;
     DVec<D> origin_, direction_;
-    double least_ = 0;
+    double far_ = 0, least_ = 0;
     bool in_solid_ = false;
 };
 
