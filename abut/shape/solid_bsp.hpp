@@ -51,8 +51,7 @@ struct SolidEntry {
 /// is, is decided exactly; where a face has been cut, the end of the piece is known to about 1e-12 of the largest
 /// coordinate.
 ///
-/// Immutable: copies share the data. Memory: about 80 bytes a node, of which there is one for each piece of a face or
-/// less.
+/// Immutable: copies share the data. Memory: about 80 bytes a segment, 170 a triangle, besides the input.
 template <int D>
 class SolidBsp {
 public:

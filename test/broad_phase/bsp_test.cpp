@@ -223,7 +223,7 @@ void expect_the_same_while_few_move(Scene scene, std::uint64_t seed) {
         move_some(few, random);
         for (std::size_t i = 0; i < few.size(); ++i) boxes[which[i]] = few[i];
         tree.update(boxes);
-        oracle.update(boxes);
+        oracle.build(boxes);
         ASSERT_EQ(sorted_pairs_of(tree), sorted_pairs_of(oracle)) << "seed " << seed << " frame " << frame;
         EXPECT_EQ(tree.bounds(), oracle.bounds());
         for (int repeat = 0; repeat < 10; ++repeat) {

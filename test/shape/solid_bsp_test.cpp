@@ -412,6 +412,31 @@ TEST(SolidBspFromBrushes, IsTheUnionOfThem) {
     EXPECT_LT(count.inside, count.checked * 4 / 5);
 }
 
+TEST(SolidBspFromBrushes, BrushesThatTouchLeaveNoGap) {
+    std::vector<HalfSpace3> sides;
+    std::vector<std::uint32_t> ends;
+    for (int i = 0; i < 27; ++i) {
+        const Vec3 low(static_cast<float>(i % 3), static_cast<float>(i / 3 % 3), static_cast<float>(i / 9));
+        if (i == 13) continue;  // hollow
+        for (const HalfSpace3& side : box_sides(low, low + Vec3(1))) sides.push_back(side);
+        ends.push_back(static_cast<std::uint32_t>(sides.size()));
+    }
+    const auto tree = SolidBsp3::from_brushes(sides, ends);
+    ASSERT_TRUE(tree);
+    for (int i = 0; i < 13 * 13 * 13; ++i) {
+        const Vec3 p =
+            0.25f * Vec3(static_cast<float>(i % 13), static_cast<float>(i / 13 % 13), static_cast<float>(i / 169));
+        const bool hollow = p.x > 1 && p.x < 2 && p.y > 1 && p.y < 2 && p.z > 1 && p.z < 2;
+        ASSERT_EQ(tree->contains(p), !hollow) << p.x << " " << p.y << " " << p.z;
+    }
+    EXPECT_FALSE(tree->contains({3.25f, 1, 1}));
+    SolidEntry<3> entry;
+    ASSERT_TRUE(tree->enter({0.5f, 1.5f, 1.4f}, {1, 0, 0}, 9, entry)) << "through the hollow";
+    EXPECT_EQ(entry.along, 1.5);
+    EXPECT_TRUE(entry.started_inside);
+    EXPECT_FALSE(tree->enter({0.5f, 0.5f, 0.4f}, {1, 0, 0}, 9, entry)) << "from brush to brush";
+}
+
 TEST(SolidBspFromBrushes, RefusesWhatIsNone) {
     const auto cube = box_sides(Vec3(0), Vec3(1));
     const std::vector<HalfSpace3> sides(cube.begin(), cube.end());
