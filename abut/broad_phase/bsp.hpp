@@ -1,0 +1,86 @@
+#pragma once
+
+// Planes that part space: the broad phase for what moves little or never.
+
+#include <abut/broad_phase/bsp_node.hpp>
+#include <abut/broad_phase/visit.hpp>
+#include <abut/math/aabb.hpp>
+#include <abut/math/executor.hpp>
+#include <abut/math/ray.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace abut {
+
+/// A BroadPhase: a tree of planes across the axes, a k-d tree (concept.hpp tells what each function does). Rays and
+/// regions find their way by one comparison a level, and stop at the first cell that holds what they look for.
+///
+/// `build` cuts where it costs least (surface area heuristic, counted in bins, of few items at every face): O(n log n).
+/// A box that meets a plane is told to both sides of it where it is narrow against the cell, and is kept at the plane
+/// where it is not, or where there are as many copies as items. No answer tells it twice: each has one point of the
+/// box, such as the corner of an overlap, and the cell with that point tells it.
+///
+/// `update` costs a look at each box where nothing has moved. Up to an eighth of the items that have moved are taken
+/// out and put in anew, each at the cost of a query; where there are more, where the room for lists is used up, or
+/// where as many have been put in anew as there are items, the tree is built anew (counts alone decide, never a clock).
+///
+/// Up to 2^29 items. Memory: at most 64 bytes an item in 3D (56 in 2D): 28 for its box and index, 16 for nodes, 16 for
+/// lists, of which about a third is spare room, and 4 for its place.
+template <int D>
+class Bsp {
+public:
+    void build(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
+    void update(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
+
+    template <Visitor<std::uint32_t, std::uint32_t> F>
+    void each_pair(F&& visit, Executor* executor = nullptr) const {
+        visit_pairs(each_pair_to(visit), executor);
+    }
+    void sorted_pairs(std::vector<ItemPair>& out) const;
+
+    template <Visitor<std::uint32_t, std::uint32_t> F>
+    void each_overlapping_pair(const Bsp& other, F&& visit) const {
+        visit_pairs(other, each_pair_to(visit));
+    }
+    template <Visitor<std::uint32_t> F>
+    void each_overlapping(const Aabb<D>& box, F&& visit) const {
+        visit_overlapping(box, go_on_after(visit));
+    }
+    template <ReachVisitor F>
+    void raycast(const Ray<D>& ray, F&& visit) const {
+        visit_along(ray, reach_after(visit));
+    }
+    template <ReachVisitor F>
+    void closest(const Aabb<D>& box, F&& visit, float reach = std::numeric_limits<float>::infinity()) const {
+        visit_near(box, reach, reach_after(visit));
+    }
+    template <ReachVisitor F>
+    void closest(const Vec<D>& point, F&& visit, float reach = std::numeric_limits<float>::infinity()) const {
+        visit_near(Aabb<D>{point, point}, reach, reach_after(visit));
+    }
+
+    std::size_t size() const { return tree_.items.size(); }
+    bool empty() const { return tree_.items.empty(); }
+    /// Of all boxes together; Aabb::empty() where there is none.
+    Aabb<D> bounds() const { return bounds_; }
+
+private:
+    void visit_pairs(PairsCall visit, Executor* executor) const;
+    void visit_pairs(const Bsp& other, PairsCall visit) const;
+    void visit_overlapping(const Aabb<D>& box, ItemCall visit) const;
+    void visit_along(const Ray<D>& ray, ReachCall visit) const;
+    void visit_near(const Aabb<D>& box, float reach, ReachCall visit) const;
+
+    BspTree<D> tree_;
+    Aabb<D> bounds_ = Aabb<D>::empty();
+    std::size_t replaced_ = 0;  ///< how many have been put in anew since the last build
+};
+
+extern template class Bsp<2>;
+extern template class Bsp<3>;
+
+}  // namespace abut
