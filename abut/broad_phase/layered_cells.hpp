@@ -4,6 +4,7 @@
 
 #include <abut/math/aabb.hpp>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -25,7 +26,7 @@ struct CellFormat {
     static constexpr int field_bits = cell_bits + 2;          ///< two cells, and the bit above
     static constexpr int first_flag = D * field_bits;         ///< in `low`; one for each axis
     static constexpr int coordinate_bits = D == 2 ? 28 : 19;  ///< of the number of a cell along an axis
-    static constexpr int range_bits = 48;                     ///< of a coordinate in units of the finest layer
+    static constexpr int range_bits = 47;  ///< of the largest coordinate in units of the finest layer
 
     /// The value in each of the fields whose axes are in the mask.
     static constexpr std::uint32_t fields(std::uint32_t value, std::uint32_t axes = (1u << D) - 1) {
@@ -64,17 +65,20 @@ template <int D>
 struct CellKey {
     static constexpr int bits = CellFormat<D>::coordinate_bits;
 
-    static std::uint64_t of(std::uint32_t layer, const std::array<std::uint32_t, D>& cell) {
+    /// What is added to a coordinate, for there are negative ones.
+    static constexpr std::int64_t middle = std::int64_t{1} << (bits - 1);
+
+    static std::uint64_t of(std::uint32_t layer, const std::array<std::int64_t, D>& cell) {
         std::uint64_t result = layer;
-        for (std::size_t i = D; i-- > 0;) result = result << bits | cell[i];
+        for (std::size_t i = D; i-- > 0;) result = result << bits | static_cast<std::uint64_t>(cell[i] + middle);
         return result;
     }
     static std::uint32_t layer(std::uint64_t key) { return static_cast<std::uint32_t>(key >> (D * bits)); }
-    static std::uint32_t coordinate(std::uint64_t key, std::size_t axis) {
-        return static_cast<std::uint32_t>(key >> (static_cast<int>(axis) * bits)) & ((1u << bits) - 1);
+    static std::int64_t coordinate(std::uint64_t key, std::size_t axis) {
+        return static_cast<std::int64_t>(key >> (static_cast<int>(axis) * bits) & ((1u << bits) - 1)) - middle;
     }
-    static std::array<std::uint32_t, D> coordinates(std::uint64_t key) {
-        std::array<std::uint32_t, D> result;
+    static std::array<std::int64_t, D> coordinates(std::uint64_t key) {
+        std::array<std::int64_t, D> result;
         for (std::size_t i = 0; i < D; ++i) result[i] = coordinate(key, i);
         return result;
     }
@@ -86,18 +90,18 @@ struct CellKey {
     /// The cell of a coarser layer around it, whose edge is 2^shift times as long.
     static std::uint64_t around(std::uint64_t key, std::uint32_t coarser_layer, int shift) {
         auto cell = coordinates(key);
-        for (std::uint32_t& coordinate : cell) coordinate >>= shift;
+        for (std::int64_t& coordinate : cell) coordinate >>= shift;
         return of(coarser_layer, cell);
     }
 };
 
 /// Whether a comes before b on the way that goes through each cell of twice the edge before the next (Morton 1966).
-template <int D, class Coordinate>
-bool before_on_the_way(const std::array<Coordinate, D>& a, const std::array<Coordinate, D>& b) {
-    std::size_t axis = D - 1;
-    Coordinate most = a[axis] ^ b[axis];
-    for (std::size_t i = D - 1; i-- > 0;) {
-        const Coordinate differs = a[i] ^ b[i];
+template <int D>
+bool before_on_the_way(const std::array<std::int64_t, D>& a, const std::array<std::int64_t, D>& b) {
+    std::size_t axis = 0;
+    std::uint64_t most = 0;
+    for (std::size_t i = D; i-- > 0;) {
+        const auto differs = static_cast<std::uint64_t>(a[i] ^ b[i]);
         if (most < differs && most < (most ^ differs)) {  // the highest bit that differs is higher
             most = differs;
             axis = i;
@@ -155,11 +159,13 @@ struct LayeredPlan {
     /// A double from 2^52 to 2^53 has whole numbers for its last bits.
     static constexpr double whole_numbers = 0x1.8p52;
 
-    /// A coordinate in units, rounded. It never falls where x rises; out of range it is larger than range_bits allow.
-    std::uint64_t units(float x, int axis) const {
-        return std::bit_cast<std::uint64_t>(static_cast<double>(x) * scale + offset[axis]) -
-               std::bit_cast<std::uint64_t>(whole_numbers);
+    /// A coordinate in units, rounded. It never falls where x rises, and far out it is far out, if no more.
+    std::int64_t units(float x, int axis) const {
+        const double shifted = std::max(static_cast<double>(x) * scale + offset[axis], 0.0);
+        return std::bit_cast<std::int64_t>(shifted) - std::bit_cast<std::int64_t>(whole_numbers);
     }
+    /// By its bits one can tell how large a number is, negative or not.
+    static std::uint64_t magnitude(std::int64_t units) { return static_cast<std::uint64_t>(units ^ units >> 63); }
 };
 
 /// Chooses the layers for these boxes, from a sample of them. Allocates nothing.

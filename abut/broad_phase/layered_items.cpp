@@ -15,7 +15,7 @@ constexpr std::uint32_t no_place = no_cell, stray = no_cell - 1;
 /// Where a box is in units.
 template <int D>
 struct Units {
-    std::array<std::uint64_t, D> low, high;
+    std::array<std::int64_t, D> low, high;
 
     Units(const LayeredPlan<D>& plan, const Aabb<D>& box) {
         for (int i = 0; i < D; ++i) {
@@ -27,16 +27,16 @@ struct Units {
     std::uint32_t layer(const LayeredPlan<D>& plan) const {
         std::uint64_t edge = 0, place = 0;
         for (std::size_t i = 0; i < D; ++i) {
-            edge |= high[i] - low[i];
-            place |= low[i] | high[i];
+            edge |= static_cast<std::uint64_t>(high[i] - low[i]);
+            place |= plan.magnitude(low[i]) | plan.magnitude(high[i]);
         }
         if (place >> CellFormat<D>::range_bits != 0) return plan.layers;
         return std::max(plan.layer_of_size[static_cast<std::size_t>(std::bit_width(edge))],
                         plan.layer_of_place[static_cast<std::size_t>(std::bit_width(place))]);
     }
     std::uint64_t key(std::uint32_t layer, int cell_shift) const {
-        std::array<std::uint32_t, D> cell;
-        for (std::size_t i = 0; i < D; ++i) cell[i] = static_cast<std::uint32_t>(low[i] >> cell_shift);
+        std::array<std::int64_t, D> cell;
+        for (std::size_t i = 0; i < D; ++i) cell[i] = low[i] >> cell_shift;
         return CellKey<D>::of(layer, cell);
     }
 };
@@ -174,8 +174,8 @@ private:
             const Units<D> units(plan_, box);
             std::uint32_t low = 0, high = 0, crossed = 0;
             for (std::size_t i = 0; i < D; ++i) {
-                const std::uint64_t begins = units.low[i] >> shift, ends = units.high[i] >> shift;
-                const std::uint64_t border = begins >> Format::cell_bits << Format::cell_bits;
+                const std::int64_t begins = units.low[i] >> shift, ends = units.high[i] >> shift;
+                const std::int64_t border = begins >> Format::cell_bits << Format::cell_bits;
                 const int at = static_cast<int>(i) * Format::field_bits;
                 low |= static_cast<std::uint32_t>(begins - border) << at;
                 high |= static_cast<std::uint32_t>(ends - border) << at;

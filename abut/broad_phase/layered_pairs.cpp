@@ -146,7 +146,8 @@ private:
         std::uint32_t banned = Format::flags;
         Vector inside[D];
         for (std::size_t i = 0; i < D; ++i) {
-            const std::uint32_t number = CellKey<D>::coordinate(cell.key, i) & ((1u << shift) - 1);
+            const std::uint32_t number =
+                static_cast<std::uint32_t>(CellKey<D>::coordinate(cell.key, i)) & ((1u << shift) - 1);
             if (number == 0) banned &= ~(1u << (Format::first_flag + static_cast<int>(i)));
             inside[i] = hn::Set(d, number << (Format::cell_bits - shift_units));
         }

@@ -99,15 +99,16 @@ private:
         const int small_edge = exponent(std::max(quantile(0.1, D), tiny));
         const int finest = std::clamp(std::max({small_edge, gap - 8, farthest - 24}), -110, 110);
         plan_.scale = std::ldexp(1.0, Format::cell_bits - finest);
-        // The middle of the world comes to a third of the range, which is far from the borders of cells in every layer.
-        const double third = std::floor(std::ldexp(1.0, Format::range_bits) / 3);
+        // The middle of the boxes comes to a third of where the numbers of cells end in the finest layer, which is far
+        // from the borders of cells in every layer.
+        const double third = std::floor(std::ldexp(1.0, Format::coordinate_bits - 1 + Format::cell_bits) / 3);
         for (int axis = 0; axis < D; ++axis)
             plan_.offset[axis] = LayeredPlan<D>::whole_numbers + (third - std::floor(median[axis] * plan_.scale));
     }
 
     struct Sample {
-        std::array<std::uint64_t, D> cell;  ///< of the finest level
-        std::uint32_t size;                 ///< the level whose cells are the first that are large enough
+        std::array<std::int64_t, D> cell;  ///< of the finest level
+        std::uint32_t size;                ///< the level whose cells are the first that are large enough
     };
 
     void place_samples() {
@@ -117,12 +118,12 @@ private:
             std::uint64_t edge = 0, range = 0;
             double edges = 0;
             for (int axis = 0; axis < D; ++axis) {
-                const std::uint64_t low = plan_.units(sample_[i].min[axis], axis);
-                const std::uint64_t high = plan_.units(sample_[i].max[axis], axis);
+                const std::int64_t low = plan_.units(sample_[i].min[axis], axis);
+                const std::int64_t high = plan_.units(sample_[i].max[axis], axis);
                 sample.cell[static_cast<std::size_t>(axis)] = low >> Format::cell_bits;
-                edge |= high - low;
+                edge |= static_cast<std::uint64_t>(high - low);
                 edges += static_cast<double>(high - low);
-                range |= low | high;
+                range |= plan_.magnitude(low) | plan_.magnitude(high);
             }
             sample.size =
                 static_cast<std::uint32_t>(std::max(0, static_cast<int>(std::bit_width(edge)) - Format::cell_bits));
@@ -226,14 +227,14 @@ private:
         // And a few more for what lies so far out that its number in a finer layer would be too large, or is larger
         // than all of the sample.
         constexpr std::size_t last = 22, step = 7;
-        static_assert(last + Format::cell_bits + Format::coordinate_bits >= Format::range_bits);
+        static_assert(last + Format::cell_bits + Format::coordinate_bits - 1 >= Format::range_bits);
         while (plan_.shift[plan_.layers - 1] < last) add_layer(std::min(plan_.shift[plan_.layers - 1] + step, last));
         static_assert(planned + (last + step - 1) / step <= most_layers);
         for (std::size_t bits = 0; bits <= 64; ++bits) {
             std::uint32_t size = 0, place = 0;
             while (size < plan_.layers && bits > plan_.shift[size] + std::size_t{Format::cell_bits}) ++size;
             while (place < plan_.layers &&
-                   bits > plan_.shift[place] + std::size_t{Format::cell_bits + Format::coordinate_bits})
+                   bits > plan_.shift[place] + std::size_t{Format::cell_bits + Format::coordinate_bits - 1})
                 ++place;
             plan_.layer_of_size[bits] = static_cast<std::uint8_t>(size);
             plan_.layer_of_place[bits] = static_cast<std::uint8_t>(place);
