@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -28,6 +29,22 @@ struct BoxRuns {
     }
 };
 
+/// The least box that holds these, of which there is one at least.
+template <int D>
+Aabb<D> around(const Aabb<D>* begin, const Aabb<D>* end) {
+    // As plain rows: glm chooses an axis by a switch, which compilers keep in loops.
+    using Row = std::array<float, D>;
+    Row min = std::bit_cast<Row>(begin->min), max = std::bit_cast<Row>(begin->max);
+    for (const Aabb<D>* box = begin + 1; box != end; ++box) {
+        const Row box_min = std::bit_cast<Row>(box->min), box_max = std::bit_cast<Row>(box->max);
+        for (std::size_t i = 0; i < D; ++i) {
+            min[i] = std::min(min[i], box_min[i]);
+            max[i] = std::max(max[i], box_max[i]);
+        }
+    }
+    return {std::bit_cast<Vec<D>>(min), std::bit_cast<Vec<D>>(max)};
+}
+
 /// The tree over `count` boxes from `first` on. Its nodes are added to the row of nodes.
 template <int D>
 BoxRuns build_runs(const std::vector<Aabb<D>>& boxes, std::uint32_t first, std::uint32_t count,
@@ -44,9 +61,7 @@ BoxRuns build_runs(const std::vector<Aabb<D>>& boxes, std::uint32_t first, std::
         for (std::uint32_t begin = 0; begin < below; begin += BoxRuns::width) {
             if (level > 1) from = nodes.data() + result.first[level - 1];
             const std::uint32_t end = std::min(begin + BoxRuns::width, below);
-            Aabb<D> node = from[begin];
-            for (std::uint32_t i = begin + 1; i < end; ++i) node = merged(node, from[i]);
-            nodes.push_back(node);
+            nodes.push_back(around(from + begin, from + end));
         }
         below = (below + BoxRuns::width - 1) / BoxRuns::width;
     }

@@ -150,7 +150,7 @@ private:
 template <int D>
 struct LayeredPlan {
     double scale = 1;                               ///< units in a length of 1, a power of two
-    DVec<D> offset{0.0};                            ///< so that x * scale + offset rounds to the unit in its last bit
+    std::array<double, D> offset{};                 ///< so that x * scale + offset rounds to the unit in its last bit
     std::uint32_t layers = 0;                       ///< from the finest
     std::array<std::uint8_t, most_layers> shift{};  ///< a unit of the layer is 2^shift of the finest
     std::array<std::uint8_t, 65> layer_of_size{};   ///< by the bits of the longest edge; `layers` where none is enough
@@ -160,7 +160,7 @@ struct LayeredPlan {
     static constexpr double whole_numbers = 0x1.8p52;
 
     /// A coordinate in units, rounded. It never falls where x rises, and far out it is far out, if no more.
-    std::int64_t units(float x, int axis) const {
+    std::int64_t units(float x, std::size_t axis) const {
         const double shifted = std::max(static_cast<double>(x) * scale + offset[axis], 0.0);
         return std::bit_cast<std::int64_t>(shifted) - std::bit_cast<std::int64_t>(whole_numbers);
     }

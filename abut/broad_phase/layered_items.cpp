@@ -1,26 +1,53 @@
 // How the boxes come into their cells. Three passes: over the boxes as they were given, to find the cells; over the
 // places, to write each box in the cell where it begins; over the cells, to fetch the guests from those before.
 
-#include <abut/broad_phase/boxes.hpp>
+#include <abut/broad_phase/layered_guests.hpp>
 #include <abut/broad_phase/layered_items.hpp>
+#include <abut/math/assert.hpp>
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 namespace abut {
 namespace {
 
 constexpr std::uint32_t no_place = no_cell, stray = no_cell - 1;
 
+/// The sides of a box as plain rows: glm chooses an axis by a switch, which compilers keep in loops.
+template <int D>
+struct Sides {
+    std::array<float, D> min, max;
+
+    static Sides of(const Aabb<D>& box) {
+        static_assert(sizeof(Sides) == sizeof(Aabb<D>));
+        return std::bit_cast<Sides>(box);
+    }
+    bool holds_something() const {
+        bool result = true;
+        for (std::size_t i = 0; i < D; ++i) {
+            ABUT_ASSERT(!std::isnan(min[i]) && !std::isnan(max[i]));
+            result = result & (min[i] <= max[i]);
+        }
+        return result;
+    }
+    void take_in(const Sides& other) {
+        for (std::size_t i = 0; i < D; ++i) {
+            min[i] = std::min(min[i], other.min[i]);
+            max[i] = std::max(max[i], other.max[i]);
+        }
+    }
+};
+
 /// Where a box is in units.
 template <int D>
 struct Units {
     std::array<std::int64_t, D> low, high;
 
-    Units(const LayeredPlan<D>& plan, const Aabb<D>& box) {
-        for (int i = 0; i < D; ++i) {
-            low[static_cast<std::size_t>(i)] = plan.units(box.min[i], i);
-            high[static_cast<std::size_t>(i)] = plan.units(box.max[i], i);
+    Units(const LayeredPlan<D>& plan, const Sides<D>& box) {
+        for (std::size_t i = 0; i < D; ++i) {
+            low[i] = plan.units(box.min[i], i);
+            high[i] = plan.units(box.max[i], i);
         }
     }
     /// `plan.layers` where no layer can hold it.
@@ -56,7 +83,7 @@ public:
         if (items_.cells.size() > items_.sorted_cells) sort_cells();
         give_places();
         write_residents();
-        write_guests();
+        fetch_guests(items_, guests_);
         find_parents();
         build_trees();
     }
@@ -65,14 +92,14 @@ private:
     void find_cells() {
         for (LayeredCell& cell : items_.cells) cell.residents = 0;
         cell_of_.resize(given_.size());
-        Aabb<D> bounds = Aabb<D>::empty();
+        Sides<D> bounds = Sides<D>::of(Aabb<D>::empty());
         for (std::size_t i = 0; i < given_.size(); ++i) {
-            const Aabb<D> box = usable(given_[i]);
-            if (is_empty(box)) {
+            const Sides<D> box = Sides<D>::of(given_[i]);
+            if (!box.holds_something()) {
                 cell_of_[i] = no_place;
                 continue;
             }
-            bounds = merged(bounds, box);
+            bounds.take_in(box);
             const Units<D> units(plan_, box);
             const std::uint32_t layer = units.layer(plan_);
             if (layer == plan_.layers) {
@@ -85,7 +112,7 @@ private:
             ++items_.cells[cell].residents;
             cell_of_[i] = cell;
         }
-        items_.bounds = bounds;
+        items_.bounds = std::bit_cast<Aabb<D>>(bounds);
     }
 
     /// The new cells among the old ones, of which those are left out that have been empty since the last time.
@@ -144,8 +171,8 @@ private:
     void write_residents() {
         const std::size_t places = items_.index.size();
         items_.boxes.resize(places);
-        items_.low.resize(places);
-        items_.high.resize(places);
+        items_.low.resize(places + guest_slack);
+        items_.high.resize(places + guest_slack);
         SpareCell none;
         none.fill(no_cell);
         items_.spare.assign(items_.cells.size(), none);
@@ -158,7 +185,7 @@ private:
                 if ((crossed & supersets(axes)) != 0) send_guests(cell, axes, now.key);
         }
         for (std::size_t place = items_.with_cell; place < places; ++place)
-            items_.boxes[place] = usable(given_[items_.index[place]]);
+            items_.boxes[place] = given_[items_.index[place]];
     }
 
     /// Returns which sets of axes there are that a box goes over, as bits.
@@ -171,7 +198,7 @@ private:
             __builtin_prefetch(&given_[items_.index[std::min(place + ahead, last)]]);
             const Aabb<D> box = given_[items_.index[place]];
             items_.boxes[place] = box;
-            const Units<D> units(plan_, box);
+            const Units<D> units(plan_, Sides<D>::of(box));
             std::uint32_t low = 0, high = 0, crossed = 0;
             for (std::size_t i = 0; i < D; ++i) {
                 const std::int64_t begins = units.low[i] >> shift, ends = units.high[i] >> shift;
@@ -205,33 +232,6 @@ private:
             items_.spare.push_back(none);
         }
         items_.spare[to][axes] = from;
-    }
-
-    void write_guests() {
-        for (auto* row : {&items_.guest_low, &items_.guest_high, &items_.guest_place}) row->resize(guests_);
-        std::uint32_t next = 0;
-        for (std::size_t i = 0; i < items_.cells.size(); ++i) {
-            LayeredCell& cell = items_.cells[i];
-            cell.first_guest = next;
-            for (std::uint32_t axes = 1; axes <= ways; ++axes)
-                if (items_.spare[i][axes] != no_cell)
-                    next = fetch_guests(items_.cells[items_.spare[i][axes]], axes, next);
-            cell.guests = next - cell.first_guest;
-        }
-    }
-
-    /// Those residents of the cell that go on over these axes.
-    std::uint32_t fetch_guests(const LayeredCell& from, std::uint32_t axes, std::uint32_t next) {
-        const std::uint32_t crossed = Format::fields(1u << Format::cell_bits, axes);
-        const std::uint32_t begins = Format::fields(Format::field, axes), flags = axes << Format::first_flag;
-        for (std::uint32_t place = from.first; place < from.first + from.residents; ++place) {
-            if ((items_.high[place] & crossed) != crossed) continue;
-            items_.guest_low[next] = (items_.low[place] & ~begins) | flags;
-            items_.guest_high[next] = items_.high[place] - crossed;
-            items_.guest_place[next] = place;
-            ++next;
-        }
-        return next;
     }
 
     void find_parents() {
@@ -271,7 +271,7 @@ private:
 template <int D>
 void LayeredItems<D>::reserve(std::size_t count) {
     boxes.reserve(count);
-    for (auto* row : {&index, &low, &high}) row->reserve(count);
+    for (auto* row : {&index, &low, &high}) row->reserve(count + guest_slack);
     for (auto* row : {&guest_low, &guest_high, &guest_place}) row->reserve(2 * count + 64);
     cells.reserve(count / 2 + 1024);
     spare.reserve(count / 2 + 1024);

@@ -14,6 +14,9 @@
 
 namespace abut {
 
+/// The guests' rows are longer by so many words, and those of the places: vectors are read and written whole.
+inline constexpr std::size_t guest_slack = 16;
+
 using SpareCell = std::array<std::uint32_t, 8>;
 static_assert(sizeof(SpareCell) == sizeof(LayeredCell));
 

@@ -66,7 +66,7 @@ public:
             count_pairs();
             choose_levels();
         } else {
-            plan_.offset = DVec<D>(LayeredPlan<D>::whole_numbers);
+            plan_.offset.fill(LayeredPlan<D>::whole_numbers);
         }
         number_layers();
         return plan_;
@@ -103,7 +103,8 @@ private:
         // from the borders of cells in every layer.
         const double third = std::floor(std::ldexp(1.0, Format::coordinate_bits - 1 + Format::cell_bits) / 3);
         for (int axis = 0; axis < D; ++axis)
-            plan_.offset[axis] = LayeredPlan<D>::whole_numbers + (third - std::floor(median[axis] * plan_.scale));
+            plan_.offset[static_cast<std::size_t>(axis)] =
+                LayeredPlan<D>::whole_numbers + (third - std::floor(median[axis] * plan_.scale));
     }
 
     struct Sample {
@@ -117,10 +118,10 @@ private:
             Sample& sample = samples_placed_[placed_];
             std::uint64_t edge = 0, range = 0;
             double edges = 0;
-            for (int axis = 0; axis < D; ++axis) {
-                const std::int64_t low = plan_.units(sample_[i].min[axis], axis);
-                const std::int64_t high = plan_.units(sample_[i].max[axis], axis);
-                sample.cell[static_cast<std::size_t>(axis)] = low >> Format::cell_bits;
+            for (std::size_t axis = 0; axis < D; ++axis) {
+                const std::int64_t low = plan_.units(sample_[i].min[static_cast<int>(axis)], axis);
+                const std::int64_t high = plan_.units(sample_[i].max[static_cast<int>(axis)], axis);
+                sample.cell[axis] = low >> Format::cell_bits;
                 edge |= static_cast<std::uint64_t>(high - low);
                 edges += static_cast<double>(high - low);
                 range |= plan_.magnitude(low) | plan_.magnitude(high);

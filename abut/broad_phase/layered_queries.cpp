@@ -8,15 +8,20 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 
 namespace abut {
 namespace {
 
-/// May be true of an empty box. Counts, for a branch on every side would cost more.
+/// Of boxes that are not empty. Counts, for a branch on every side would cost more.
 template <int D>
 bool meets(const Aabb<D>& a, const Aabb<D>& b) {
+    using Row = std::array<float, D>;
+    const Row a_min = std::bit_cast<Row>(a.min), a_max = std::bit_cast<Row>(a.max);
+    const Row b_min = std::bit_cast<Row>(b.min), b_max = std::bit_cast<Row>(b.max);
     int apart = 0;
-    for (int i = 0; i < D; ++i) apart += static_cast<int>(a.min[i] > b.max[i]) + static_cast<int>(b.min[i] > a.max[i]);
+    for (std::size_t i = 0; i < D; ++i)
+        apart += static_cast<int>(a_min[i] > b_max[i]) + static_cast<int>(b_min[i] > a_max[i]);
     return apart == 0;
 }
 
@@ -191,8 +196,7 @@ void LayeredGrid<D>::visit_pairs(const LayeredGrid& other, PairsCall visit) cons
         for (std::uint32_t begin = 0; begin < tree.count; begin += BoxRuns::width) {
             const std::uint32_t first = tree.first[0] + begin;
             const std::uint32_t last = tree.first[0] + std::min(begin + BoxRuns::width, tree.count);
-            Aabb<D> around = other.items_.boxes[first];
-            for (std::uint32_t i = first + 1; i < last; ++i) around = merged(around, other.items_.boxes[i]);
+            const Aabb<D> all = around(other.items_.boxes.data() + first, other.items_.boxes.data() + last);
             const auto tell = [&](std::uint32_t place) {
                 for (std::uint32_t i = first; i < last; ++i)
                     if (meets(items_.boxes[place], other.items_.boxes[i]) &&
@@ -200,7 +204,7 @@ void LayeredGrid<D>::visit_pairs(const LayeredGrid& other, PairsCall visit) cons
                         return false;
                 return true;
             };
-            if (!each_meeting(items_, around, tell)) return;
+            if (!each_meeting(items_, all, tell)) return;
         }
     pairs.flush();
 }
