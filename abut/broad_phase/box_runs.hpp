@@ -2,11 +2,11 @@
 
 // A tree over boxes that lie in a good order already: each node is around eight neighbours. Not for users.
 
+#include <abut/broad_phase/box_sides.hpp>
 #include <abut/math/aabb.hpp>
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -32,17 +32,9 @@ struct BoxRuns {
 /// The least box that holds these, of which there is one at least.
 template <int D>
 Aabb<D> around(const Aabb<D>* begin, const Aabb<D>* end) {
-    // As plain rows: glm chooses an axis by a switch, which compilers keep in loops.
-    using Row = std::array<float, D>;
-    Row min = std::bit_cast<Row>(begin->min), max = std::bit_cast<Row>(begin->max);
-    for (const Aabb<D>* box = begin + 1; box != end; ++box) {
-        const Row box_min = std::bit_cast<Row>(box->min), box_max = std::bit_cast<Row>(box->max);
-        for (std::size_t i = 0; i < D; ++i) {
-            min[i] = std::min(min[i], box_min[i]);
-            max[i] = std::max(max[i], box_max[i]);
-        }
-    }
-    return {std::bit_cast<Vec<D>>(min), std::bit_cast<Vec<D>>(max)};
+    BoxSides<D> result = BoxSides<D>::of(*begin);
+    for (const Aabb<D>* box = begin + 1; box != end; ++box) result.take_in(BoxSides<D>::of(*box));
+    return result.box();
 }
 
 /// The tree over `count` boxes from `first` on. Its nodes are added to the row of nodes.

@@ -1,50 +1,24 @@
 // How the boxes come into their cells. Three passes: over the boxes as they were given, to find the cells; over the
 // places, to write each box in the cell where it begins; over the cells, to fetch the guests from those before.
 
+#include <abut/broad_phase/box_sides.hpp>
 #include <abut/broad_phase/layered_guests.hpp>
 #include <abut/broad_phase/layered_items.hpp>
-#include <abut/math/assert.hpp>
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 
 namespace abut {
 namespace {
 
 constexpr std::uint32_t no_place = no_cell, stray = no_cell - 1;
 
-/// The sides of a box as plain rows: glm chooses an axis by a switch, which compilers keep in loops.
-template <int D>
-struct Sides {
-    std::array<float, D> min, max;
-
-    static Sides of(const Aabb<D>& box) {
-        static_assert(sizeof(Sides) == sizeof(Aabb<D>));
-        return std::bit_cast<Sides>(box);
-    }
-    bool holds_something() const {
-        bool result = true;
-        for (std::size_t i = 0; i < D; ++i) {
-            ABUT_ASSERT(!std::isnan(min[i]) && !std::isnan(max[i]));
-            result = result & (min[i] <= max[i]);
-        }
-        return result;
-    }
-    void take_in(const Sides& other) {
-        for (std::size_t i = 0; i < D; ++i) {
-            min[i] = std::min(min[i], other.min[i]);
-            max[i] = std::max(max[i], other.max[i]);
-        }
-    }
-};
-
 /// Where a box is in units.
 template <int D>
 struct Units {
     std::array<std::int64_t, D> low, high;
 
-    Units(const LayeredPlan<D>& plan, const Sides<D>& box) {
+    Units(const LayeredPlan<D>& plan, const BoxSides<D>& box) {
         for (std::size_t i = 0; i < D; ++i) {
             low[i] = plan.units(box.min[i], i);
             high[i] = plan.units(box.max[i], i);
@@ -92,9 +66,9 @@ private:
     void find_cells() {
         for (LayeredCell& cell : items_.cells) cell.residents = 0;
         cell_of_.resize(given_.size());
-        Sides<D> bounds = Sides<D>::of(Aabb<D>::empty());
+        BoxSides<D> bounds = BoxSides<D>::of(Aabb<D>::empty());
         for (std::size_t i = 0; i < given_.size(); ++i) {
-            const Sides<D> box = Sides<D>::of(given_[i]);
+            const BoxSides<D> box = BoxSides<D>::of(given_[i]);
             if (!box.holds_something()) {
                 cell_of_[i] = no_place;
                 continue;
@@ -112,7 +86,7 @@ private:
             ++items_.cells[cell].residents;
             cell_of_[i] = cell;
         }
-        items_.bounds = std::bit_cast<Aabb<D>>(bounds);
+        items_.bounds = bounds.box();
     }
 
     /// The new cells among the old ones, of which those are left out that have been empty since the last time.
@@ -193,12 +167,13 @@ private:
         constexpr std::uint32_t ahead = 24;
         const auto last = static_cast<std::uint32_t>(items_.index.size() - 1);
         const int shift = plan_.shift[CellKey<D>::layer(cell.key)];
+        static constexpr std::array<std::uint8_t, 8> guests_of{0, 1, 1, 3, 1, 3, 3, 7};  // by the axes gone over
         std::uint32_t result = 0;
         for (std::uint32_t place = cell.first; place < cell.first + cell.residents; ++place) {
             __builtin_prefetch(&given_[items_.index[std::min(place + ahead, last)]]);
             const Aabb<D> box = given_[items_.index[place]];
             items_.boxes[place] = box;
-            const Units<D> units(plan_, Sides<D>::of(box));
+            const Units<D> units(plan_, BoxSides<D>::of(box));
             std::uint32_t low = 0, high = 0, crossed = 0;
             for (std::size_t i = 0; i < D; ++i) {
                 const std::int64_t begins = units.low[i] >> shift, ends = units.high[i] >> shift;
@@ -211,7 +186,7 @@ private:
             items_.low[place] = low;
             items_.high[place] = high | Format::guards;
             result |= 1u << crossed;
-            guests_ += (1u << std::popcount(crossed)) - 1;
+            guests_ += guests_of[crossed];
         }
         return result;
     }

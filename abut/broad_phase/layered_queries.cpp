@@ -1,5 +1,6 @@
 // Questions to a LayeredGrid about what is where: down the trees over the layers, all of them side by side.
 
+#include <abut/broad_phase/box_sides.hpp>
 #include <abut/broad_phase/boxes.hpp>
 #include <abut/broad_phase/layered_grid.hpp>
 #include <abut/broad_phase/layered_pairs.hpp>
@@ -8,36 +9,24 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <bit>
 
 namespace abut {
 namespace {
-
-/// Of boxes that are not empty. Counts, for a branch on every side would cost more.
-template <int D>
-bool meets(const Aabb<D>& a, const Aabb<D>& b) {
-    using Row = std::array<float, D>;
-    const Row a_min = std::bit_cast<Row>(a.min), a_max = std::bit_cast<Row>(a.max);
-    const Row b_min = std::bit_cast<Row>(b.min), b_max = std::bit_cast<Row>(b.max);
-    int apart = 0;
-    for (std::size_t i = 0; i < D; ++i)
-        apart += static_cast<int>(a_min[i] > b_max[i]) + static_cast<int>(b_min[i] > a_max[i]);
-    return apart == 0;
-}
 
 /// Level by level, a node waits with its brothers.
 constexpr std::size_t most_waiting = BoxRuns::most_levels * (BoxRuns::width - 1) + 1;
 
 /// The places of the boxes of a tree that meet this one. Calls visit(place); returns false where that does.
 template <int D, class Visit>
-bool each_meeting(const LayeredItems<D>& items, const BoxRuns& tree, const Aabb<D>& box, const Visit& visit) {
+bool each_meeting(const LayeredItems<D>& items, const BoxRuns& tree, const BoxSides<D>& box, const Visit& visit) {
     struct Waiting {
         std::uint32_t node;
         int level;
     };
     std::array<Waiting, most_waiting> stack;
     std::size_t waiting = 0;
-    if (tree.levels > 0 && meets(*items.row(tree, tree.levels - 1), box)) stack[waiting++] = {0, tree.levels - 1};
+    if (tree.levels > 0 && box.meets(BoxSides<D>::of(*items.row(tree, tree.levels - 1))))
+        stack[waiting++] = {0, tree.levels - 1};
     while (waiting > 0) {
         const Waiting top = stack[--waiting];
         if (top.level == 0) {
@@ -50,7 +39,7 @@ bool each_meeting(const LayeredItems<D>& items, const BoxRuns& tree, const Aabb<
         const std::uint32_t end = std::min(begin + BoxRuns::width, tree.count_at(level));
         for (std::uint32_t i = end; i-- > begin;) {
             stack[waiting] = {i, level};
-            waiting += meets(below[i], box) ? 1 : 0;
+            waiting += box.meets(BoxSides<D>::of(below[i])) ? 1 : 0;
         }
     }
     return true;
@@ -59,7 +48,7 @@ bool each_meeting(const LayeredItems<D>& items, const BoxRuns& tree, const Aabb<
 template <int D, class Visit>
 bool each_meeting(const LayeredItems<D>& items, const Aabb<D>& box, const Visit& visit) {
     return std::all_of(items.runs.begin(), items.runs.end(),
-                       [&](const BoxRuns& tree) { return each_meeting(items, tree, box, visit); });
+                       [&](const BoxRuns& tree) { return each_meeting(items, tree, BoxSides<D>::of(box), visit); });
 }
 
 /// What is within reach, down all trees side by side: the next step is taken where the nearest waits.
@@ -102,7 +91,7 @@ private:
 
     void start(const BoxRuns& tree) {
         double measure = 0;
-        if (tree.levels == 0 || !reach_.measure(*items_.row(tree, tree.levels - 1), measure)) return;
+        if (tree.levels == 0 || !reach_.measure(BoxSides<D>::of(*items_.row(tree, tree.levels - 1)), measure)) return;
         Descent& descent = descent_[descents_++];
         descent.tree = &tree;
         descent.waiting = 1;
@@ -118,7 +107,7 @@ private:
         const std::size_t bottom = descent.waiting;
         for (std::uint32_t i = begin; i < end; ++i) {
             Waiting waiting{0, i, level};
-            if (!reach_.measure(below[i], waiting.measure)) continue;
+            if (!reach_.measure(BoxSides<D>::of(below[i]), waiting.measure)) continue;
             std::size_t at = descent.waiting++;
             for (; at > bottom && descent.stack[at - 1].measure < waiting.measure; --at)
                 descent.stack[at] = descent.stack[at - 1];
@@ -199,7 +188,7 @@ void LayeredGrid<D>::visit_pairs(const LayeredGrid& other, PairsCall visit) cons
             const Aabb<D> all = around(other.items_.boxes.data() + first, other.items_.boxes.data() + last);
             const auto tell = [&](std::uint32_t place) {
                 for (std::uint32_t i = first; i < last; ++i)
-                    if (meets(items_.boxes[place], other.items_.boxes[i]) &&
+                    if (overlaps(items_.boxes[place], other.items_.boxes[i]) &&
                         !pairs.add(items_.index[place], other.items_.index[i]))
                         return false;
                 return true;
