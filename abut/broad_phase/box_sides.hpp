@@ -6,17 +6,15 @@
 #include <abut/math/assert.hpp>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
-#include <cstddef>
 
 namespace abut {
 
 /// An Aabb for loops that have to be quick: glm chooses an axis by a switch, which compilers keep.
 template <int D>
 struct BoxSides {
-    std::array<float, D> min, max;
+    float min[D], max[D];
 
     static BoxSides of(const Aabb<D>& box) { return std::bit_cast<BoxSides>(box); }
     Aabb<D> box() const { return std::bit_cast<Aabb<D>>(*this); }
@@ -24,14 +22,14 @@ struct BoxSides {
     /// False also of a box with a NaN.
     bool holds_something() const {
         bool result = true;
-        for (std::size_t i = 0; i < D; ++i) {
+        for (int i = 0; i < D; ++i) {
             ABUT_ASSERT(!std::isnan(min[i]) && !std::isnan(max[i]));
             result = result & (min[i] <= max[i]);
         }
         return result;
     }
     void take_in(const BoxSides& other) {
-        for (std::size_t i = 0; i < D; ++i) {
+        for (int i = 0; i < D; ++i) {
             min[i] = std::min(min[i], other.min[i]);
             max[i] = std::max(max[i], other.max[i]);
         }
@@ -39,7 +37,7 @@ struct BoxSides {
     /// Of boxes that are not empty. Counts, for a branch on every side would cost more.
     bool meets(const BoxSides& other) const {
         int apart = 0;
-        for (std::size_t i = 0; i < D; ++i)
+        for (int i = 0; i < D; ++i)
             apart += static_cast<int>(min[i] > other.max[i]) + static_cast<int>(other.min[i] > max[i]);
         return apart == 0;
     }

@@ -29,18 +29,23 @@ struct CellFormat {
     static constexpr int range_bits = 47;  ///< of the largest coordinate in units of the finest layer
 
     /// The value in each of the fields whose axes are in the mask.
-    static constexpr std::uint32_t fields(std::uint32_t value, std::uint32_t axes = (1u << D) - 1) {
+    static constexpr std::uint32_t fields(std::uint32_t value, std::uint32_t axes) {
         std::uint32_t result = 0;
         for (int i = 0; i < D; ++i)
             if ((axes >> i & 1) != 0) result |= value << (i * field_bits);
         return result;
     }
+    static constexpr std::uint32_t all_axes = (1u << D) - 1;
     static constexpr std::uint32_t field = (1u << (cell_bits + 1)) - 1;
-    static constexpr std::uint32_t guards = fields(1u << (cell_bits + 1));
-    static constexpr std::uint32_t ones = fields(1);
-    static constexpr std::uint32_t crossing =
-        fields(1u << cell_bits);  ///< in `high`: the box goes on into the next cell
-    static constexpr std::uint32_t flags = ((1u << D) - 1) << first_flag;
+    static constexpr std::uint32_t flags = all_axes << first_flag;
+};
+
+/// What a CellFormat has in each of its fields.
+template <int D>
+struct CellWords {
+    using Format = CellFormat<D>;
+    static constexpr std::uint32_t guards = Format::fields(1u << (Format::cell_bits + 1), Format::all_axes);
+    static constexpr std::uint32_t ones = Format::fields(1, Format::all_axes);
 };
 
 static_assert(CellFormat<3>::first_flag + 3 <= 32 && CellFormat<2>::first_flag + 2 <= 32);

@@ -47,7 +47,7 @@ template <int D>
 class Filling {
 public:
     using Format = CellFormat<D>;
-    static constexpr std::uint32_t ways = (1u << D) - 1;  ///< sets of axes that a box may cross over
+    static constexpr std::uint32_t ways = Format::all_axes;  ///< sets of axes that a box may cross over
 
     Filling(LayeredItems<D>& items, const LayeredPlan<D>& plan, std::span<const Aabb<D>> given)
         : items_(items), plan_(plan), given_(given), cell_of_(items.low) {}
@@ -184,7 +184,7 @@ private:
                 crossed |= static_cast<std::uint32_t>((ends - border) >> Format::cell_bits) << i;
             }
             items_.low[place] = low;
-            items_.high[place] = high | Format::guards;
+            items_.high[place] = high | CellWords<D>::guards;
             result |= 1u << crossed;
             guests_ += guests_of[crossed];
         }

@@ -88,8 +88,8 @@ private:
     /// No box begins as far up as these, and none that begins at 0 gets so far.
     static void close(Block& block) {
         for (std::uint32_t i = 0; i < 16; i += lanes) {
-            hn::StoreU(hn::Set(d, Format::guards - Format::ones), d, block.low + block.count + i);
-            hn::StoreU(hn::Set(d, Format::guards), d, block.high + block.count + i);
+            hn::StoreU(hn::Set(d, CellWords<D>::guards - CellWords<D>::ones), d, block.low + block.count + i);
+            hn::StoreU(hn::Set(d, CellWords<D>::guards), d, block.high + block.count + i);
         }
     }
 
@@ -97,7 +97,7 @@ private:
     /// pair meets in the cell before as well.
     void meet(std::uint32_t low, std::uint32_t high, std::uint32_t number, const Block& block, std::uint32_t first) {
         const Vector box_low = hn::Set(d, low), box_high = hn::Set(d, high), box_number = hn::Set(d, number);
-        const Vector guards = hn::Set(d, Format::guards), flags = hn::Set(d, low & Format::flags);
+        const Vector guards = hn::Set(d, CellWords<D>::guards), flags = hn::Set(d, low & Format::flags);
         for (std::uint32_t i = first; i < block.count; i += lanes) {
             const Vector other_low = hn::LoadU(d, block.low + i), other_high = hn::LoadU(d, block.high + i);
             const Vector reached = hn::And(hn::Sub(box_high, other_low), hn::Sub(other_high, box_low));
@@ -151,7 +151,8 @@ private:
             if (number == 0) banned &= ~(1u << (Format::first_flag + static_cast<int>(i)));
             inside[i] = hn::Set(d, number << (Format::cell_bits - shift_units));
         }
-        const Vector bans = hn::Set(d, banned), flags = hn::Set(d, Format::flags), guards = hn::Set(d, Format::guards);
+        const Vector bans = hn::Set(d, banned), flags = hn::Set(d, Format::flags),
+                     guards = hn::Set(d, CellWords<D>::guards);
         const Vector field = hn::Set(d, Format::field);
         const auto lifted = [&](Vector words) {
             Vector result = hn::Zero(d);
@@ -184,10 +185,11 @@ private:
         meetings_.count = 0;
         for (std::uint32_t i = 0; i < count; ++i) {
             const std::uint32_t one = meetings_.one[i], other = meetings_.other[i];
-            const std::uint32_t sure = (block.high[one] - other_block.low[other] - Format::ones) &
-                                       (other_block.high[other] - block.low[one] - Format::ones) & Format::guards;
+            const std::uint32_t sure = (block.high[one] - other_block.low[other] - CellWords<D>::ones) &
+                                       (other_block.high[other] - block.low[one] - CellWords<D>::ones) &
+                                       CellWords<D>::guards;
             const std::uint32_t place = block.place[one], other_place = other_block.place[other];
-            if (sure != Format::guards && !overlaps(items_.boxes[place], items_.boxes[other_place])) continue;
+            if (sure != CellWords<D>::guards && !overlaps(items_.boxes[place], items_.boxes[other_place])) continue;
             const std::uint32_t a = items_.index[place], b = items_.index[other_place];
             if (!pairs_.add(std::min(a, b), std::max(a, b))) return false;
         }
