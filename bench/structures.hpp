@@ -4,8 +4,11 @@
 
 #include "bench.hpp"
 #include <abut/broad_phase/brute_force.hpp>
+#include <abut/broad_phase/bsp.hpp>
 #include <abut/broad_phase/bvh.hpp>
 #include <abut/broad_phase/grid.hpp>
+#include <abut/broad_phase/layered_grid.hpp>
+#include <abut/broad_phase/sweep_and_prune.hpp>
 
 #include <cstddef>
 #include <string>
@@ -37,7 +40,10 @@ template <int D, class Visit>
 void each_structure(Visit visit) {
     visit(Structure<BruteForce<D>>{"BruteForce", {.moving = 1000}});
     visit(Structure<Grid<D>>{"Grid"});
+    visit(Structure<LayeredGrid<D>>{"LayeredGrid"});
+    visit(Structure<SweepAndPrune<D>>{"SweepAndPrune"});
     visit(Structure<Bvh<D>>{"Bvh"});
+    visit(Structure<Bsp<D>>{"Bsp", {.moving = 10'000, .queries = 100'000}});
 }
 
 /// visit(structure, who) for the one chosen, and then for the others.

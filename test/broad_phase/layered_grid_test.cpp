@@ -1,0 +1,218 @@
+// What is the layered grid's own: all sizes at once, borders of cells, crowds, and the same order from all vector
+// units.
+
+#include "../../scenes/skewed_boxes.hpp"
+#include "../oracle/vector_units.hpp"
+#include "scenes.hpp"
+#include <abut/broad_phase/bvh.hpp>
+#include <abut/broad_phase/layered_cells.hpp>
+#include <abut/broad_phase/layered_grid.hpp>
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+namespace abut::test {
+namespace {
+
+using Pairs = std::vector<ItemPair>;
+
+template <class T>
+Pairs pairs_in_order(const T& phase) {
+    Pairs result;
+    phase.each_pair([&](std::uint32_t i, std::uint32_t j) { result.emplace_back(i, j); });
+    return result;
+}
+
+/// The grid's pairs, each once, are those of the tree. Returns how many there are.
+template <int D>
+std::size_t check_pairs(const LayeredGrid<D>& grid, std::span<const Aabb<D>> boxes) {
+    Bvh<D> tree;
+    tree.build(boxes);
+    Pairs expected, found = pairs_in_order(grid);
+    tree.sorted_pairs(expected);
+    std::sort(found.begin(), found.end());
+    EXPECT_EQ(found.size(), expected.size());
+    EXPECT_TRUE(found == expected);
+    return expected.size();
+}
+
+template <int D>
+void check_build_and_updates(std::vector<Aabb<D>> boxes, double step, oracle::Random& random, std::size_t least_pairs) {
+    LayeredGrid<D> grid;
+    grid.build(boxes);
+    EXPECT_GE(check_pairs<D>(grid, boxes), least_pairs) << "too few to prove anything";
+    for (int frame = 0; frame < 4; ++frame) {
+        for (Aabb<D>& box : boxes) {
+            const Vec<D> way(random.in_cube<D>() * step);
+            box = {box.min + way, box.max + way};
+        }
+        grid.update(boxes);
+        check_pairs<D>(grid, boxes);
+    }
+}
+
+/// Sizes over four decades and more, some of which hold all others.
+template <int D>
+std::vector<Aabb<D>> all_sizes(oracle::Random& random, std::size_t count, int low, int high, const DVec<D>& middle) {
+    const double world = std::ldexp(1.0, high);
+    std::vector<Aabb<D>> result;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double size = i % 500 == 0 ? 4 * world : random.power_of_two(low, high - 2);
+        const DVec<D> place = middle + random.in_cube<D>() * world;
+        result.push_back(box_at<D>(place, DVec<D>(0.5 * size) + 0.2 * size * random.in_cube<D>()));
+    }
+    return result;
+}
+
+template <class T>
+class Layered : public testing::Test {};
+template <int d>
+struct Dimension {
+    static constexpr int value = d;
+};
+using Both = testing::Types<Dimension<2>, Dimension<3>>;
+TYPED_TEST_SUITE(Layered, Both);
+
+TYPED_TEST(Layered, HoldsSizesOfManyDecades) {
+    constexpr int D = TypeParam::value;
+    const std::pair<int, int> ranges[] = {{-10, 4}, {-3, 10}, {-20, 3}};
+    for (const auto& [low, high] : ranges)
+        for (const double far : {0.0, 1e6, -1e6}) {
+            SCOPED_TRACE(testing::Message() << "seed 41, 2^" << low << " to 2^" << high << " at " << far);
+            oracle::Random random(41);
+            check_build_and_updates<D>(all_sizes<D>(random, 2000, low, high, DVec<D>(far)), 0.01, random, 2000);
+        }
+}
+
+TYPED_TEST(Layered, HoldsCrowds) {
+    constexpr int D = TypeParam::value;
+    scenes::SkewedBoxes<D> scene(5000, 42);
+    LayeredGrid<D> grid;
+    grid.build(scene.boxes());
+    for (int frame = 0; frame < 40; ++frame) {
+        scene.step();
+        grid.update(scene.boxes());
+        if (frame % 8 == 0) {
+            EXPECT_GT(check_pairs<D>(grid, scene.boxes()), 5000u) << "seed 42, frame " << frame;
+        }
+    }
+}
+
+TYPED_TEST(Layered, HoldsBoxesThatEndAtTheBordersOfCells) {
+    constexpr int D = TypeParam::value;
+    // Whatever cells there are, some borders go through multiples of their edges from where the plan begins to count.
+    oracle::Random random(43);
+    std::vector<Aabb<D>> boxes;
+    for (int i = 0; i < 1500; ++i) boxes.push_back(box_at<D>(random.in_cube<D>() * 16.0, DVec<D>(0.5)));
+    const LayeredPlan<D> plan = plan_layers<D>(boxes);
+    const double unit = 1 / plan.scale;
+    for (Aabb<D>& box : boxes)
+        for (int axis = 0; axis < D; ++axis) {
+            const double begin = (LayeredPlan<D>::whole_numbers - plan.offset[static_cast<std::size_t>(axis)]) * unit;
+            const double edge = unit * std::ldexp(1.0, CellFormat<D>::cell_bits + static_cast<int>(random.below(3)));
+            const double cell = std::floor((static_cast<double>(box.min[axis]) - begin) / edge);
+            box.min[axis] = static_cast<float>(begin + cell * edge);
+            box.max[axis] = static_cast<float>(begin + (cell + random.below(2)) * edge);
+        }
+    EXPECT_EQ(plan_layers<D>(boxes).layers > 0, true);
+    check_build_and_updates<D>(boxes, 0, random, 1500);
+    check_build_and_updates<D>(boxes, unit, random, 1500);
+}
+
+TYPED_TEST(Layered, IsNotSpoiledByOneThatFliesAway) {
+    constexpr int D = TypeParam::value;
+    oracle::Random random(44);
+    std::vector<Aabb<D>> boxes;
+    for (int i = 0; i < 3000; ++i) boxes.push_back(box_at<D>(random.in_cube<D>() * 20.0, DVec<D>(0.4)));
+    LayeredPlan<D> plan = plan_layers<D>(boxes);
+    const double edge = std::ldexp(1.0, plan.shift[0] + CellFormat<D>::cell_bits) / plan.scale;
+    boxes[7] = box_at<D>(DVec<D>(1e30), DVec<D>(1e23));
+    boxes[8] = box_at<D>(DVec<D>(-1e12), DVec<D>(1e5));
+    plan = plan_layers<D>(boxes);
+    EXPECT_EQ(std::ldexp(1.0, plan.shift[0] + CellFormat<D>::cell_bits) / plan.scale, edge);
+    LayeredGrid<D> grid;
+    for (double far = 10; far < 1e38; far *= 7) {
+        boxes[9] = box_at<D>(DVec<D>(far), DVec<D>(0.5));
+        if (far == 10)
+            grid.build(boxes);
+        else
+            grid.update(boxes);
+        check_pairs<D>(grid, boxes);
+        std::set<std::uint32_t> near;
+        grid.closest(
+            Vec<D>(static_cast<float>(far)), [&](std::uint32_t i) { near.insert(i); }, 1.0f);
+        EXPECT_TRUE(near.contains(9)) << far;
+    }
+}
+
+TYPED_TEST(Layered, PlansAgainWhereTheBoxesHaveChanged) {
+    constexpr int D = TypeParam::value;
+    oracle::Random random(45);
+    const auto wide = all_sizes<D>(random, 4000, 5, 12, DVec<D>(0.0));
+    auto small = all_sizes<D>(random, 4000, -8, 0, DVec<D>(100.0));
+    LayeredGrid<D> grid, fresh;
+    grid.build(wide);
+    grid.update(small);
+    grid.update(small);
+    fresh.build(small);
+    EXPECT_EQ(pairs_in_order(grid), pairs_in_order(fresh));
+    grid.update(wide);
+    check_pairs<D>(grid, wide);
+}
+
+TYPED_TEST(Layered, AsksFewAboutTheNearest) {
+    constexpr int D = TypeParam::value;
+    // Far apart, so that a walk through the cells between would never end.
+    std::vector<Aabb<D>> boxes;
+    for (int i = 0; i < 1000; ++i) boxes.push_back(box_at<D>(axis<D>(0) * (1e4 * i), DVec<D>(0.5)));
+    LayeredGrid<D> grid;
+    grid.build(boxes);
+    for (const float x : {-5e6f, 3e4f, 7.004e6f, 5e7f}) {
+        int near = 0, hits = 0;
+        grid.closest(Vec<D>(axis<D>(0)) * x, [&](std::uint32_t i) {
+            ++near;
+            return std::max({0.0f, boxes[i].min[0] - x, x - boxes[i].max[0]});
+        });
+        EXPECT_LE(near, 8) << x;
+        grid.raycast(Ray<D>{Vec<D>(axis<D>(0)) * x, Vec<D>(axis<D>(0))}, [&](std::uint32_t i) {
+            ++hits;
+            return std::max(0.0f, boxes[i].min[0] - x);
+        });
+        EXPECT_LE(hits, 8) << x;
+    }
+}
+
+class LayeredByVectorUnit : public oracle::ByVectorUnit {};
+
+TEST_P(LayeredByVectorUnit, ThePairsComeInTheSameOrder) {
+    const auto history = [] {
+        scenes::SkewedBoxes<3> space(3000, 46);
+        scenes::SkewedBoxes<2> plane(3000, 46);
+        LayeredGrid<3> in_space;
+        LayeredGrid<2> in_plane;
+        in_space.build(space.boxes());
+        in_plane.build(plane.boxes());
+        Pairs result;
+        for (int frame = 0; frame < 5; ++frame) {
+            space.step();
+            plane.step();
+            in_space.update(space.boxes());
+            in_plane.update(plane.boxes());
+            for (const Pairs& pairs : {pairs_in_order(in_space), pairs_in_order(in_plane)})
+                result.insert(result.end(), pairs.begin(), pairs.end());
+        }
+        return result;
+    };
+    const Pairs here = history();
+    TearDown();  // the best unit there is
+    EXPECT_TRUE(here == history());
+    EXPECT_GT(here.size(), 10000u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Units, LayeredByVectorUnit, oracle::vector_units(), oracle::name_of_unit);
+
+}  // namespace
+}  // namespace abut::test
