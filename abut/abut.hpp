@@ -3,10 +3,17 @@
 // All that a game links: abut::abut. Each header can be included by itself as well.
 
 #include <abut/broad_phase/brute_force.hpp>
+#include <abut/broad_phase/bsp.hpp>
 #include <abut/broad_phase/bvh.hpp>
+#include <abut/broad_phase/grid.hpp>
+#include <abut/broad_phase/k_nearest.hpp>
+#include <abut/broad_phase/layered_grid.hpp>
+#include <abut/broad_phase/sweep_and_prune.hpp>
+#include <abut/broad_phase/temporal.hpp>
 #include <abut/convex/features.hpp>
 #include <abut/math/aabb.hpp>
 #include <abut/math/assert.hpp>
+#include <abut/math/executor.hpp>
 #include <abut/math/pose.hpp>
 #include <abut/math/predicates.hpp>
 #include <abut/math/ray.hpp>
@@ -22,6 +29,7 @@
 #include <abut/query/overlaps.hpp>
 #include <abut/query/polytope.hpp>
 #include <abut/query/raycast.hpp>
+#include <abut/query/raycast_solid_bsp.hpp>
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/capsule.hpp>
@@ -32,5 +40,6 @@
 #include <abut/shape/polygon.hpp>
 #include <abut/shape/polyhedron.hpp>
 #include <abut/shape/segment.hpp>
+#include <abut/shape/solid_bsp.hpp>
 #include <abut/shape/triangle.hpp>
 #include <abut/world/world.hpp>

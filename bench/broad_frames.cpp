@@ -102,7 +102,7 @@ Job pairs_of_frames(const BoxFrames<D>& frames) {
     // So many are verified. They are the first too, in which peers that keep fattened boxes have least to do.
     const std::size_t first = frames.count <= 100'000 ? 8 : 2;
     Job job{.items = frames.count, .values = 1, .rounds = first, .frames = 10, .tolerance = 0, .sides = {}};
-    each_side<D>([&]<class Phase>(const Structure<Phase>& structure, std::string who) {
+    each_side<D, ForPairs<D>>([&]<class Phase>(const Structure<Phase>& structure, std::string who) {
         if (within(structure.limits, frames))
             job.sides.push_back(count_pairs<PhasePairs<Phase, D>>(std::move(who), frames.scene, frames.upkeep));
     });

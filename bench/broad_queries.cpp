@@ -90,7 +90,7 @@ template <class Query, class Answer>
 Job asked_of_all(const Boxes& scene, std::span<const Query> queries, double tolerance, Answer answer) {
     Job job{.items = query_count, .values = query_count, .tolerance = tolerance, .sides = {}};
     const auto boxes = std::make_shared<const std::vector<Aabb3>>(scene.boxes().begin(), scene.boxes().end());
-    each_side<3>([&]<class Phase>(const Structure<Phase>& structure, std::string who) {
+    each_side<3, ForQueries<3>>([&]<class Phase>(const Structure<Phase>& structure, std::string who) {
         if (boxes->size() > structure.limits.queries) return;
         const auto phase = std::make_shared<Phase>();
         phase->build(*boxes);

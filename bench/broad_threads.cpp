@@ -68,7 +68,7 @@ struct ThreadedPairs {
 
     CountingExecutor counting;
     Executor* executor;  ///< none: one thread alone
-    Chosen<3> phase;
+    ForQueries<3> phase;
 };
 
 Job moving_on_threads(std::size_t count) {

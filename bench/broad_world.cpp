@@ -77,7 +77,7 @@ Side overlaps_by_hand(std::size_t count) {
         MixedScene scene;
         std::vector<View<3>> views;
         std::vector<Aabb3> boxes;
-        Chosen<3> phase;
+        ForQueries<3> phase;
     };
     const auto state = std::make_shared<State>(count);
     const auto ask = [state](std::span<double> values) {

@@ -16,9 +16,11 @@
 
 namespace abut::bench {
 
-/// "abut" in the table, the side that all ratios are about: what a World takes.
+/// "abut" in the table, the side that all ratios are about: what docs/broad_phases.md says to take.
 template <int D>
-using Chosen = Bvh<D>;
+using ForPairs = Grid<D>;
+template <int D>
+using ForQueries = Bvh<D>;
 
 /// The most boxes that a side is given, so that a frame takes it less than a second, and the whole bench minutes.
 struct Limits {
@@ -46,13 +48,13 @@ void each_structure(Visit visit) {
     visit(Structure<Bsp<D>>{"Bsp", {.moving = 10'000, .queries = 100'000}});
 }
 
-/// visit(structure, who) for the one chosen, and then for the others.
-template <int D, class Visit>
+/// visit(structure, who) for the one that is "abut", and then for the others.
+template <int D, class Taken, class Visit>
 void each_side(Visit visit) {
-    visit(Structure<Chosen<D>>{""}, std::string("abut"));
+    visit(Structure<Taken>{""}, std::string("abut"));
     each_structure<D>([&](const auto& structure) {
         using Phase = typename std::remove_cvref_t<decltype(structure)>::Type;
-        if constexpr (!std::is_same_v<Phase, Chosen<D>>) visit(structure, std::string("abut ") + structure.name);
+        if constexpr (!std::is_same_v<Phase, Taken>) visit(structure, std::string("abut ") + structure.name);
     });
 }
 

@@ -14,7 +14,7 @@
 // clang-format off
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-#include <abut/broad_phase/bvh_lanes.hpp>
+#include <abut/broad_phase/bvh_lanes-inl.h>
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();

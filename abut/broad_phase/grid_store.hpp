@@ -17,8 +17,8 @@ struct GridRecord {
     std::uint32_t item;
 };
 
-/// The records of a cell lie in pages, of which all but the one begun last are full. Each cell has three pages of its own,
-/// beside those of the next cell; what they can't hold lies in pages that are handed out as they are needed.
+/// The records of a cell lie in pages, of which all but the one begun last are full. Each cell has three pages of its
+/// own, beside those of the next cell; what they can't hold lies in pages that are handed out as they are needed.
 struct GridStore {
     static constexpr std::uint32_t page_size = 16;
     static constexpr std::uint32_t own_pages = 3;
