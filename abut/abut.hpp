@@ -5,6 +5,7 @@
 #include <abut/broad_phase/brute_force.hpp>
 #include <abut/broad_phase/bsp.hpp>
 #include <abut/broad_phase/bvh.hpp>
+#include <abut/broad_phase/chosen_broad_phase.hpp>
 #include <abut/broad_phase/grid.hpp>
 #include <abut/broad_phase/k_nearest.hpp>
 #include <abut/broad_phase/layered_grid.hpp>

@@ -53,12 +53,6 @@ void BruteForce<D>::update(std::span<const Aabb<D>> boxes, Executor*) {
 }
 
 template <int D>
-void BruteForce<D>::sorted_pairs(std::vector<ItemPair>& out) const {
-    out.clear();
-    each_pair([&](std::uint32_t i, std::uint32_t j) { out.emplace_back(i, j); });
-}
-
-template <int D>
 Aabb<D> BruteForce<D>::bounds() const {
     Aabb<D> result = Aabb<D>::empty();
     const BoxRows<D> boxes = boxes_.rows();

@@ -3,14 +3,13 @@
 // Every box against every other: the oracle of the broad phases, and the best of them for a handful of boxes.
 
 #include <abut/broad_phase/box_table.hpp>
-#include <abut/broad_phase/visit.hpp>
+#include <abut/broad_phase/face.hpp>
 #include <abut/math/aabb.hpp>
 #include <abut/math/executor.hpp>
 #include <abut/math/ray.hpp>
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -19,44 +18,17 @@ namespace abut {
 /// A BroadPhase without a structure (concept.hpp tells what each function does). Visits in the order of the indices.
 /// Keeps a copy of the boxes, 16 of which are compared at a time: 24 bytes an item in 3D, 16 in 2D.
 template <int D>
-class BruteForce {
+class BruteForce : public BroadPhaseFace<BruteForce<D>, D> {
 public:
     void build(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
     void update(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
 
-    template <Visitor<std::uint32_t, std::uint32_t> F>
-    void each_pair(F&& visit, Executor* executor = nullptr) const {
-        visit_pairs(each_pair_to(visit), executor);
-    }
-    void sorted_pairs(std::vector<ItemPair>& out) const;
-
-    template <Visitor<std::uint32_t, std::uint32_t> F>
-    void each_overlapping_pair(const BruteForce& other, F&& visit) const {
-        visit_pairs(other, each_pair_to(visit));
-    }
-    template <Visitor<std::uint32_t> F>
-    void each_overlapping(const Aabb<D>& box, F&& visit) const {
-        visit_overlapping(box, go_on_after(visit));
-    }
-    template <ReachVisitor F>
-    void raycast(const Ray<D>& ray, F&& visit) const {
-        visit_along(ray, reach_after(visit));
-    }
-    template <ReachVisitor F>
-    void closest(const Aabb<D>& box, F&& visit, float reach = std::numeric_limits<float>::infinity()) const {
-        visit_near(box, reach, reach_after(visit));
-    }
-    template <ReachVisitor F>
-    void closest(const Vec<D>& point, F&& visit, float reach = std::numeric_limits<float>::infinity()) const {
-        visit_near(Aabb<D>{point, point}, reach, reach_after(visit));
-    }
-
     std::size_t size() const { return size_; }
-    bool empty() const { return size_ == 0; }
     /// Of all boxes together; Aabb::empty() where there is none.
     Aabb<D> bounds() const;
 
 private:
+    friend BroadPhaseFace<BruteForce<D>, D>;
     void visit_pairs(PairsCall visit, Executor* executor) const;
     void visit_pairs(const BruteForce& other, PairsCall visit) const;
     void visit_overlapping(const Aabb<D>& box, ItemCall visit) const;

@@ -106,13 +106,6 @@ void Bsp<D>::update(std::span<const Aabb<D>> boxes, Executor*) {
 }
 
 template <int D>
-void Bsp<D>::sorted_pairs(std::vector<ItemPair>& out) const {
-    out.clear();
-    each_pair([&](std::uint32_t i, std::uint32_t j) { out.emplace_back(i, j); });
-    std::sort(out.begin(), out.end());
-}
-
-template <int D>
 void Bsp<D>::visit_along(const Ray<D>& ray, ReachCall visit) const {
     struct Waiting {
         std::uint32_t node;

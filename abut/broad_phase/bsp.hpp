@@ -3,14 +3,13 @@
 // Planes that part space: the broad phase for what moves little or never.
 
 #include <abut/broad_phase/bsp_node.hpp>
-#include <abut/broad_phase/visit.hpp>
+#include <abut/broad_phase/face.hpp>
 #include <abut/math/aabb.hpp>
 #include <abut/math/executor.hpp>
 #include <abut/math/ray.hpp>
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -31,44 +30,17 @@ namespace abut {
 /// Up to 2^29 items. Memory: at most 64 bytes an item in 3D (56 in 2D): 28 for its box and index, 16 for nodes, 16 for
 /// lists, of which about a third is spare room, and 4 for its place.
 template <int D>
-class Bsp {
+class Bsp : public BroadPhaseFace<Bsp<D>, D> {
 public:
     void build(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
     void update(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
 
-    template <Visitor<std::uint32_t, std::uint32_t> F>
-    void each_pair(F&& visit, Executor* executor = nullptr) const {
-        visit_pairs(each_pair_to(visit), executor);
-    }
-    void sorted_pairs(std::vector<ItemPair>& out) const;
-
-    template <Visitor<std::uint32_t, std::uint32_t> F>
-    void each_overlapping_pair(const Bsp& other, F&& visit) const {
-        visit_pairs(other, each_pair_to(visit));
-    }
-    template <Visitor<std::uint32_t> F>
-    void each_overlapping(const Aabb<D>& box, F&& visit) const {
-        visit_overlapping(box, go_on_after(visit));
-    }
-    template <ReachVisitor F>
-    void raycast(const Ray<D>& ray, F&& visit) const {
-        visit_along(ray, reach_after(visit));
-    }
-    template <ReachVisitor F>
-    void closest(const Aabb<D>& box, F&& visit, float reach = std::numeric_limits<float>::infinity()) const {
-        visit_near(box, reach, reach_after(visit));
-    }
-    template <ReachVisitor F>
-    void closest(const Vec<D>& point, F&& visit, float reach = std::numeric_limits<float>::infinity()) const {
-        visit_near(Aabb<D>{point, point}, reach, reach_after(visit));
-    }
-
     std::size_t size() const { return tree_.items.size(); }
-    bool empty() const { return tree_.items.empty(); }
     /// Of all boxes together; Aabb::empty() where there is none.
     Aabb<D> bounds() const { return bounds_; }
 
 private:
+    friend BroadPhaseFace<Bsp<D>, D>;
     void visit_pairs(PairsCall visit, Executor* executor) const;
     void visit_pairs(const Bsp& other, PairsCall visit) const;
     void visit_overlapping(const Aabb<D>& box, ItemCall visit) const;

@@ -5,7 +5,6 @@
 #include <abut/broad_phase/concept.hpp>
 #include <abut/broad_phase/reach.hpp>
 
-#include <algorithm>
 #include <array>
 #include <atomic>
 
@@ -73,13 +72,6 @@ std::uint32_t Bvh<D>::insert(const Aabb<D>& box) {
 template <int D>
 void Bvh<D>::erase(std::uint32_t index) {
     tree_.erase(index);
-}
-
-template <int D>
-void Bvh<D>::sorted_pairs(std::vector<ItemPair>& out) const {
-    out.clear();
-    each_pair([&](std::uint32_t i, std::uint32_t j) { out.emplace_back(i, j); });
-    std::sort(out.begin(), out.end());
 }
 
 template <int D>

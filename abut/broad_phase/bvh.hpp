@@ -3,14 +3,13 @@
 // A tree of boxes: the broad phase for scenes of mixed sizes, for rays, and for what hardly moves.
 
 #include <abut/broad_phase/bvh_tree.hpp>
-#include <abut/broad_phase/visit.hpp>
+#include <abut/broad_phase/face.hpp>
 #include <abut/math/aabb.hpp>
 #include <abut/math/executor.hpp>
 #include <abut/math/ray.hpp>
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -27,7 +26,7 @@ namespace abut {
 /// Up to 2^31 items. Memory: 56 bytes an item in 3D (50 in 2D) where there are many; of that, up to 190 kilobytes are
 /// for work, and as much again for each thread more that builds.
 template <int D>
-class Bvh {
+class Bvh : public BroadPhaseFace<Bvh<D>, D> {
 public:
     void build(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
     void update(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
@@ -39,40 +38,13 @@ public:
     /// still, an empty one.
     void erase(std::uint32_t index);
 
-    template <Visitor<std::uint32_t, std::uint32_t> F>
-    void each_pair(F&& visit, Executor* executor = nullptr) const {
-        visit_pairs(each_pair_to(visit), executor);
-    }
-    void sorted_pairs(std::vector<ItemPair>& out) const;
-
-    template <Visitor<std::uint32_t, std::uint32_t> F>
-    void each_overlapping_pair(const Bvh& other, F&& visit) const {
-        visit_pairs(other, each_pair_to(visit));
-    }
-    template <Visitor<std::uint32_t> F>
-    void each_overlapping(const Aabb<D>& box, F&& visit) const {
-        visit_overlapping(box, go_on_after(visit));
-    }
-    template <ReachVisitor F>
-    void raycast(const Ray<D>& ray, F&& visit) const {
-        visit_along(ray, reach_after(visit));
-    }
-    /// The same for a box on its way; the visitor's reach is in lengths of its direction.
+    /// As raycast, for a box on its way; the visitor's reach is in lengths of its direction.
     template <ReachVisitor F>
     void sweep(const MovingBox<D>& box, F&& visit) const {
         visit_along(box, reach_after(visit));
     }
-    template <ReachVisitor F>
-    void closest(const Aabb<D>& box, F&& visit, float reach = std::numeric_limits<float>::infinity()) const {
-        visit_near(box, reach, reach_after(visit));
-    }
-    template <ReachVisitor F>
-    void closest(const Vec<D>& point, F&& visit, float reach = std::numeric_limits<float>::infinity()) const {
-        visit_near(Aabb<D>{point, point}, reach, reach_after(visit));
-    }
 
     std::size_t size() const { return tree_.size(); }
-    bool empty() const { return size() == 0; }
     /// Of all boxes together; Aabb::empty() where there is none.
     Aabb<D> bounds() const { return tree_.bounds(); }
     /// About how many nodes and leaves a ray through the bounds comes by: the sum of their areas, as parts of that of
@@ -80,6 +52,7 @@ public:
     double cost() const { return tree_.cost(); }
 
 private:
+    friend BroadPhaseFace<Bvh<D>, D>;
     void visit_pairs(PairsCall visit, Executor* executor) const;
     void visit_pairs(const Bvh& other, PairsCall visit) const;
     void visit_overlapping(const Aabb<D>& box, ItemCall visit) const;

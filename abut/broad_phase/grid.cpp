@@ -4,7 +4,6 @@
 #include <abut/broad_phase/grid_pairs.hpp>
 #include <abut/broad_phase/grid_plan.hpp>
 #include <abut/broad_phase/pair_buffer.hpp>
-#include <abut/broad_phase/sort_pairs.hpp>
 #include <abut/math/assert.hpp>
 
 #include <algorithm>
@@ -13,12 +12,6 @@
 namespace abut {
 namespace {
 
-constexpr double boxes_a_cell = 28;
-constexpr double edges_a_cell = 3;
-
-std::uint32_t most_cells(std::size_t boxes) {
-    return static_cast<std::uint32_t>(boxes / 28 + 64);
-}
 /// Room for two copies or three of each box. Where that doesn't do, cells are made larger.
 std::uint32_t most_pages(std::size_t boxes) {
     return static_cast<std::uint32_t>(boxes / 6) + (GridStore::own_pages + 1) * 64;
@@ -47,7 +40,7 @@ typename Grid<D>::Cost Grid<D>::cost() const {
 
 template <int D>
 void Grid<D>::set_edge(float edge) {
-    cells_ = cells_in(block_, edge, most_cells(boxes_.size()));
+    cells_ = cells_in(block_, edge, grid_most_cells(boxes_.size()));
 }
 
 template <int D>
@@ -66,7 +59,7 @@ void Grid<D>::build(std::span<const Aabb<D>> boxes, Executor*) {
     ABUT_ASSERT(boxes.size() <= std::size_t{1} << 27);
     boxes_.resize(boxes.size());
     large_.reserve(boxes.size());
-    store_.reserve(most_pages(boxes.size()), most_cells(boxes.size()), GridWords<D>::guards);
+    store_.reserve(most_pages(boxes.size()), grid_most_cells(boxes.size()), GridWords<D>::guards);
     plan(boxes);
 }
 
@@ -74,7 +67,7 @@ template <int D>
 void Grid<D>::plan(std::span<const Aabb<D>> boxes) {
     const GridScene<D> scene = scene_of(boxes);
     block_ = scene.block;
-    set_edge(wanted_edge_ > 0 ? wanted_edge_ : edge_for(scene, boxes_a_cell, edges_a_cell));
+    set_edge(wanted_edge_ > 0 ? wanted_edge_ : edge_for(scene, grid_boxes_a_cell, grid_edges_a_cell));
     fill_cells(boxes);
     planned_ = cost();
 }
@@ -95,13 +88,6 @@ Aabb<D> Grid<D>::bounds() const {
 }
 
 template <int D>
-void Grid<D>::sorted_pairs(std::vector<ItemPair>& out) const {
-    out.clear();
-    each_pair([&](std::uint32_t i, std::uint32_t j) { out.emplace_back(i, j); });
-    sort_pairs(out);
-}
-
-template <int D>
 bool Grid<D>::visit_large(PairsCall visit) const {
     PairBuffer pairs(visit);
     for (const std::uint32_t large : large_)
@@ -116,7 +102,7 @@ bool Grid<D>::visit_large(PairsCall visit) const {
 
 template <int D>
 void Grid<D>::visit_pairs(PairsCall visit, Executor* executor) const {
-    if (empty()) return;
+    if (size() == 0) return;
     if (executor == nullptr || size() < 1000) {
         if (visit_large(visit)) visit_cells(store_, boxes_.data(), 0, cells_.total, visit);
         return;
@@ -143,7 +129,7 @@ void Grid<D>::visit_pairs(const Grid& other, PairsCall visit) const {
     PairBuffer pairs(visit);
     bool more = true;
     for (std::uint32_t j = 0; j < other.size() && more; ++j)
-        each_overlapping(other.boxes_[j], [&](std::uint32_t i) { return more = pairs.add(i, j); });
+        this->each_overlapping(other.boxes_[j], [&](std::uint32_t i) { return more = pairs.add(i, j); });
     if (more) pairs.flush();
 }
 
@@ -151,7 +137,7 @@ template <int D>
 void Grid<D>::visit_overlapping(const Aabb<D>& box, ItemCall visit) const {
     using Words = GridWords<D>;
     const Aabb<D> query = usable(box);
-    if (empty() || is_empty(query)) return;
+    if (size() == 0 || is_empty(query)) return;
     for (const std::uint32_t large : large_)
         if (overlaps(boxes_[large], query) && !visit(large)) return;
     const GridSteps<D> steps = cells_.steps(query);

@@ -2,15 +2,14 @@
 
 // A uniform grid: the broad phase for boxes of like sizes that all move.
 
+#include <abut/broad_phase/face.hpp>
 #include <abut/broad_phase/grid_store.hpp>
-#include <abut/broad_phase/visit.hpp>
 #include <abut/math/aabb.hpp>
 #include <abut/math/executor.hpp>
 #include <abut/math/ray.hpp>
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -30,7 +29,7 @@ namespace abut {
 ///
 /// Up to 2^27 items. Memory: at most 62 bytes an item in 3D (54 in 2D), and 50 KB.
 template <int D>
-class Grid {
+class Grid : public BroadPhaseFace<Grid<D>, D> {
 public:
     Grid() = default;
     /// With cells of this edge; larger ones where memory would not do.
@@ -39,41 +38,14 @@ public:
     void build(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
     void update(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
 
-    template <Visitor<std::uint32_t, std::uint32_t> F>
-    void each_pair(F&& visit, Executor* executor = nullptr) const {
-        visit_pairs(each_pair_to(visit), executor);
-    }
-    void sorted_pairs(std::vector<ItemPair>& out) const;
-
-    template <Visitor<std::uint32_t, std::uint32_t> F>
-    void each_overlapping_pair(const Grid& other, F&& visit) const {
-        visit_pairs(other, each_pair_to(visit));
-    }
-    template <Visitor<std::uint32_t> F>
-    void each_overlapping(const Aabb<D>& box, F&& visit) const {
-        visit_overlapping(box, go_on_after(visit));
-    }
-    template <ReachVisitor F>
-    void raycast(const Ray<D>& ray, F&& visit) const {
-        visit_along(ray, reach_after(visit));
-    }
-    template <ReachVisitor F>
-    void closest(const Aabb<D>& box, F&& visit, float reach = std::numeric_limits<float>::infinity()) const {
-        visit_near(box, reach, reach_after(visit));
-    }
-    template <ReachVisitor F>
-    void closest(const Vec<D>& point, F&& visit, float reach = std::numeric_limits<float>::infinity()) const {
-        visit_near(Aabb<D>{point, point}, reach, reach_after(visit));
-    }
-
     std::size_t size() const { return boxes_.size(); }
-    bool empty() const { return size() == 0; }
     /// Of all boxes together; Aabb::empty() where there is none.
     Aabb<D> bounds() const;
     /// Of the cells, as it was given or chosen.
     float cell_edge() const { return cells_.edge; }
 
 private:
+    friend BroadPhaseFace<Grid<D>, D>;
     bool visit_large(PairsCall visit) const;
     void visit_pairs(PairsCall visit, Executor* executor) const;
     void visit_pairs(const Grid& other, PairsCall visit) const;

@@ -8,6 +8,13 @@
 
 namespace abut {
 
+/// What a Grid wants of its cells: so many boxes in each, edges no less than so many of the boxes' mean ones, and no
+/// more of them than memory has room for.
+inline constexpr double grid_boxes_a_cell = 28, grid_edges_a_cell = 3;
+inline std::uint32_t grid_most_cells(std::size_t boxes) {
+    return static_cast<std::uint32_t>(boxes / 28 + 64);
+}
+
 /// What there is to know of boxes in order to choose cells.
 template <int D>
 struct GridScene {

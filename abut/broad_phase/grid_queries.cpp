@@ -166,7 +166,7 @@ void Grid<D>::visit_along(const Ray<D>& ray, ReachCall visit) const {
         reach.shrink(visit(item));
         return !reach.over();
     };
-    if (empty() || reach.over()) return;
+    if (size() == 0 || reach.over()) return;
     for (const std::uint32_t item : large_)
         if (reach.measure(boxes_[item], enters) && !tell(item)) return;
     const RayLayers<D> layers(cells_, ray);
@@ -194,7 +194,7 @@ void Grid<D>::visit_near(const Aabb<D>& box, float reach_at_first, ReachCall vis
         reach.shrink(visit(item));
         return !reach.over();
     };
-    if (empty() || reach.over()) return;
+    if (size() == 0 || reach.over()) return;
     for (const std::uint32_t item : large_)
         if (reach.measure(boxes_[item], square) && !tell(item)) return;
     const CellRange<D> own = cells_.range(box);

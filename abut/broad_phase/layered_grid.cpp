@@ -2,7 +2,6 @@
 #include <abut/broad_phase/layered_grid.hpp>
 #include <abut/math/assert.hpp>
 
-#include <algorithm>
 
 namespace abut {
 
@@ -23,13 +22,6 @@ void LayeredGrid<D>::update(std::span<const Aabb<D>> boxes, Executor*) {
     if (boxes.size() != size_) return build(boxes);
     items_.fill(plan_, boxes);
     if (items_.work() > 1.5 * planned_work_ + 20 * static_cast<double>(size_)) build(boxes);
-}
-
-template <int D>
-void LayeredGrid<D>::sorted_pairs(std::vector<ItemPair>& out) const {
-    out.clear();
-    each_pair([&](std::uint32_t i, std::uint32_t j) { out.emplace_back(i, j); });
-    std::sort(out.begin(), out.end());
 }
 
 template class LayeredGrid<2>;

@@ -2,16 +2,15 @@
 
 // Grids over grids: the broad phase for boxes of all sizes, near together here and far apart there, that all move.
 
+#include <abut/broad_phase/face.hpp>
 #include <abut/broad_phase/layered_cells.hpp>
 #include <abut/broad_phase/layered_items.hpp>
-#include <abut/broad_phase/visit.hpp>
 #include <abut/math/aabb.hpp>
 #include <abut/math/executor.hpp>
 #include <abut/math/ray.hpp>
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -33,44 +32,17 @@ namespace abut {
 /// 40 for each cell: 55 to 64 in all for boxes that touch a few others. Room is kept for two more cells an item and
 /// half as many cells as items; a world so strewn about that it needs more makes an update allocate once.
 template <int D>
-class LayeredGrid {
+class LayeredGrid : public BroadPhaseFace<LayeredGrid<D>, D> {
 public:
     void build(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
     void update(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
 
-    template <Visitor<std::uint32_t, std::uint32_t> F>
-    void each_pair(F&& visit, Executor* executor = nullptr) const {
-        visit_pairs(each_pair_to(visit), executor);
-    }
-    void sorted_pairs(std::vector<ItemPair>& out) const;
-
-    template <Visitor<std::uint32_t, std::uint32_t> F>
-    void each_overlapping_pair(const LayeredGrid& other, F&& visit) const {
-        visit_pairs(other, each_pair_to(visit));
-    }
-    template <Visitor<std::uint32_t> F>
-    void each_overlapping(const Aabb<D>& box, F&& visit) const {
-        visit_overlapping(box, go_on_after(visit));
-    }
-    template <ReachVisitor F>
-    void raycast(const Ray<D>& ray, F&& visit) const {
-        visit_along(ray, reach_after(visit));
-    }
-    template <ReachVisitor F>
-    void closest(const Aabb<D>& box, F&& visit, float reach = std::numeric_limits<float>::infinity()) const {
-        visit_near(box, reach, reach_after(visit));
-    }
-    template <ReachVisitor F>
-    void closest(const Vec<D>& point, F&& visit, float reach = std::numeric_limits<float>::infinity()) const {
-        visit_near(Aabb<D>{point, point}, reach, reach_after(visit));
-    }
-
     std::size_t size() const { return size_; }
-    bool empty() const { return size_ == 0; }
     /// Of all boxes together; Aabb::empty() where there is none.
     Aabb<D> bounds() const { return items_.bounds; }
 
 private:
+    friend BroadPhaseFace<LayeredGrid<D>, D>;
     void visit_pairs(PairsCall visit, Executor* executor) const;
     void visit_pairs(const LayeredGrid& other, PairsCall visit) const;
     void visit_overlapping(const Aabb<D>& box, ItemCall visit) const;

@@ -2,16 +2,15 @@
 
 // Boxes in the order of where they begin along an axis: the broad phase for pairs among many that all move.
 
+#include <abut/broad_phase/face.hpp>
 #include <abut/broad_phase/sweep_plan.hpp>
 #include <abut/broad_phase/sweep_rows.hpp>
-#include <abut/broad_phase/visit.hpp>
 #include <abut/math/aabb.hpp>
 #include <abut/math/executor.hpp>
 #include <abut/math/ray.hpp>
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -30,46 +29,19 @@ namespace abut {
 ///
 /// Up to 2^30 items. Memory: at most 63 bytes an item in 3D (50 in 2D), and some hundred for each structure.
 template <int D>
-class SweepAndPrune {
+class SweepAndPrune : public BroadPhaseFace<SweepAndPrune<D>, D> {
 public:
     void build(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
     void update(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
 
-    template <Visitor<std::uint32_t, std::uint32_t> F>
-    void each_pair(F&& visit, Executor* executor = nullptr) const {
-        visit_pairs(each_pair_to(visit), executor);
-    }
-    void sorted_pairs(std::vector<ItemPair>& out) const;
-
-    template <Visitor<std::uint32_t, std::uint32_t> F>
-    void each_overlapping_pair(const SweepAndPrune& other, F&& visit) const {
-        visit_pairs(other, each_pair_to(visit));
-    }
-    template <Visitor<std::uint32_t> F>
-    void each_overlapping(const Aabb<D>& box, F&& visit) const {
-        visit_overlapping(box, go_on_after(visit));
-    }
-    template <ReachVisitor F>
-    void raycast(const Ray<D>& ray, F&& visit) const {
-        visit_along(ray, reach_after(visit));
-    }
-    template <ReachVisitor F>
-    void closest(const Aabb<D>& box, F&& visit, float reach = std::numeric_limits<float>::infinity()) const {
-        visit_near(box, reach, reach_after(visit));
-    }
-    template <ReachVisitor F>
-    void closest(const Vec<D>& point, F&& visit, float reach = std::numeric_limits<float>::infinity()) const {
-        visit_near(Aabb<D>{point, point}, reach, reach_after(visit));
-    }
-
     std::size_t size() const { return size_; }
-    bool empty() const { return size_ == 0; }
     /// Of all boxes together; Aabb::empty() where there is none.
     Aabb<D> bounds() const { return bounds_; }
     /// The axis and the columns it has chosen; for tests and for those who want to see.
     const SweepPlan<D>& plan() const { return plan_; }
 
 private:
+    friend BroadPhaseFace<SweepAndPrune<D>, D>;
     struct Place {
         std::uint32_t key;  ///< the lower bound along the axis, as a whole number of the same order
         std::uint32_t item;

@@ -3,7 +3,6 @@
 #include <abut/broad_phase/box_hits.hpp>
 #include <abut/broad_phase/boxes.hpp>
 #include <abut/broad_phase/pair_buffer.hpp>
-#include <abut/broad_phase/sort_pairs.hpp>
 #include <abut/broad_phase/sweep_and_prune.hpp>
 
 #include <algorithm>
@@ -45,18 +44,6 @@ private:
 };
 
 }  // namespace
-
-template <int D>
-void SweepAndPrune<D>::sorted_pairs(std::vector<ItemPair>& out) const {
-    out.clear();
-    visit_pairs(
-        [&out](std::span<const ItemPair> pairs) {
-            out.insert(out.end(), pairs.begin(), pairs.end());
-            return true;
-        },
-        nullptr);
-    sort_pairs(out);
-}
 
 template <int D>
 void SweepAndPrune<D>::visit_pairs(PairsCall visit, Executor* executor) const {
@@ -111,7 +98,6 @@ void SweepAndPrune<D>::visit_near(const Aabb<D>& box, float reach, ReachCall vis
 }
 
 #define ABUT_FOR_DIMENSION(D)                                                              \
-    template void SweepAndPrune<D>::sorted_pairs(std::vector<ItemPair>&) const;            \
     template void SweepAndPrune<D>::visit_pairs(PairsCall, Executor*) const;               \
     template void SweepAndPrune<D>::visit_pairs(const SweepAndPrune<D>&, PairsCall) const; \
     template void SweepAndPrune<D>::visit_overlapping(const Aabb<D>&, ItemCall) const;     \
