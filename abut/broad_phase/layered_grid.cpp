@@ -2,7 +2,6 @@
 #include <abut/broad_phase/layered_grid.hpp>
 #include <abut/math/assert.hpp>
 
-
 namespace abut {
 
 template <int D>
