@@ -29,8 +29,9 @@ namespace abut {
 /// the boxes have moved. Rays and the other queries go through a tree over the boxes in the order of their cells.
 ///
 /// Up to 2^31 items. Memory: 40 bytes an item in 3D (32 in 2D), 12 for each cell that it touches beyond the first, and
-/// 40 for each cell: 55 to 64 in all for boxes that touch a few others. Room is kept for two more cells an item and
-/// half as many cells as items; a world so strewn about that it needs more makes an update allocate once.
+/// 80 for each cell: about 64 in all for boxes that touch a few others, more where they are strewn thin. Room is kept
+/// for two more cells an item and half as many cells as items, 110 bytes an item in all; a world so strewn about that
+/// it needs more makes an update allocate once.
 template <int D>
 class LayeredGrid : public BroadPhaseFace<LayeredGrid<D>, D> {
 public:
