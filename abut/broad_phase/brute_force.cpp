@@ -4,10 +4,10 @@
 #include <abut/broad_phase/concept.hpp>
 #include <abut/broad_phase/pair_buffer.hpp>
 #include <abut/broad_phase/reach.hpp>
+#include <abut/broad_phase/tell_together.hpp>
 #include <abut/math/assert.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <bit>
 
 namespace abut {
@@ -64,25 +64,22 @@ Aabb<D> BruteForce<D>::bounds() const {
 template <int D>
 void BruteForce<D>::visit_pairs(PairsCall visit, Executor* executor) const {
     const BoxRows<D> boxes = boxes_.rows();
-    std::atomic<bool> go_on = true;
-    const auto visit_from = [&](std::size_t first, std::size_t last) {
-        PairBuffer pairs(visit);
-        const auto add = [&](std::span<const BoxHits> hits) {
-            if (go_on && !add_hits(hits, pairs)) go_on = false;
-            return go_on.load();
-        };
+    const auto visit_from = [&](std::size_t first, std::size_t last, PairsCall told) {
+        PairBuffer pairs(told);
+        bool go_on = true;
+        const auto add = [&](std::span<const BoxHits> hits) { return go_on = go_on && add_hits(hits, pairs); };
         each_hit(boxes, first, last, size_, add);
-        if (go_on && !pairs.flush()) go_on = false;
+        if (go_on) pairs.flush();
     };
     // Below this, starting a thread costs more than all there is to do.
     constexpr std::size_t few = 512;
-    if (executor == nullptr || size_ < few) return visit_from(0, size_);
+    if (executor == nullptr || size_ < few) return visit_from(0, size_, visit);
     // Box k meets those behind it: parts from both ends at once are of equal size.
     const std::size_t parts = std::min<std::size_t>(4 * std::size_t{executor->workers()}, size_ / 64),
                       halves = 2 * parts;
-    executor->run(static_cast<std::uint32_t>(parts), [&](std::uint32_t part) {
+    tell_together(*executor, static_cast<std::uint32_t>(parts), visit, [&](std::uint32_t part, PairsCall told) {
         for (const std::size_t half : {std::size_t{part}, halves - 1 - part})
-            visit_from(size_ * half / halves, size_ * (half + 1) / halves);
+            visit_from(size_ * half / halves, size_ * (half + 1) / halves, told);
     });
 }
 

@@ -4,10 +4,10 @@
 #include <abut/broad_phase/boxes.hpp>
 #include <abut/broad_phase/bsp.hpp>
 #include <abut/broad_phase/pair_buffer.hpp>
+#include <abut/broad_phase/tell_together.hpp>
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 
 namespace abut {
 namespace {
@@ -150,13 +150,8 @@ void Bsp<D>::visit_pairs(PairsCall visit, Executor* executor) const {
         return;
     }
     const Tasks<D> tasks(tree_, 16 * executor->workers(), bounds_.min);
-    std::atomic<bool> enough = false;
-    const auto tell = [&](std::span<const ItemPair> some) {
-        if (!enough.load(std::memory_order_relaxed) && !visit(some)) enough.store(true, std::memory_order_relaxed);
-        return !enough.load(std::memory_order_relaxed);
-    };
-    executor->run(tasks.count(), [&](std::uint32_t i) {
-        PairBuffer pairs(tell);
+    tell_together(*executor, tasks.count(), visit, [&](std::uint32_t i, PairsCall told) {
+        PairBuffer pairs(told);
         const PairWalk<D> walk(tree_, pairs);
         const Task<D>& task = tasks[i];
         if (task.alone ? walk.of_its_own(task.node, task.low) : walk.below(task.node, task.low)) pairs.flush();

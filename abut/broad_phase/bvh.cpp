@@ -4,9 +4,9 @@
 #include <abut/broad_phase/bvh_queries.hpp>
 #include <abut/broad_phase/concept.hpp>
 #include <abut/broad_phase/reach.hpp>
+#include <abut/broad_phase/tell_together.hpp>
 
 #include <array>
-#include <atomic>
 
 namespace abut {
 namespace {
@@ -85,12 +85,9 @@ void Bvh<D>::visit_pairs(PairsCall visit, Executor* executor) const {
         return;
     }
     tasks.cut(8 * executor->workers());
-    std::atomic<bool> enough = false;
-    executor->run(tasks.count(), [&](std::uint32_t i) {
-        if (enough.load(std::memory_order_relaxed)) return;
-        PairBuffer pairs(visit);
-        if (!find_pairs<D>(tree_, tree_, tasks[i], pairs) || !pairs.flush())
-            enough.store(true, std::memory_order_relaxed);
+    tell_together(*executor, tasks.count(), visit, [&](std::uint32_t i, PairsCall told) {
+        PairBuffer pairs(told);
+        if (find_pairs<D>(tree_, tree_, tasks[i], pairs)) pairs.flush();
     });
 }
 

@@ -4,10 +4,10 @@
 #include <abut/broad_phase/grid_pairs.hpp>
 #include <abut/broad_phase/grid_plan.hpp>
 #include <abut/broad_phase/pair_buffer.hpp>
+#include <abut/broad_phase/tell_together.hpp>
 #include <abut/math/assert.hpp>
 
 #include <algorithm>
-#include <atomic>
 
 namespace abut {
 namespace {
@@ -108,19 +108,12 @@ void Grid<D>::visit_pairs(PairsCall visit, Executor* executor) const {
         return;
     }
     const std::uint32_t parts = std::min(4 * executor->workers(), cells_.total);
-    std::atomic<bool> enough = false;
-    const auto visit_some = [&](std::span<const ItemPair> pairs) {
-        if (enough.load(std::memory_order_relaxed)) return false;
-        if (visit(pairs)) return true;
-        enough.store(true, std::memory_order_relaxed);
-        return false;
-    };
-    executor->run(parts + 1, [&](std::uint32_t part) {
+    tell_together(*executor, parts + 1, visit, [&](std::uint32_t part, PairsCall told) {
         const auto cell = [&](std::uint64_t i) { return static_cast<std::uint32_t>(i * cells_.total / parts); };
         if (part == 0)
-            visit_large(visit_some);
+            visit_large(told);
         else
-            visit_cells(store_, boxes_.data(), cell(part - 1), cell(part), visit_some);
+            visit_cells(store_, boxes_.data(), cell(part - 1), cell(part), told);
     });
 }
 

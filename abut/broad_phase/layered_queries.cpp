@@ -5,10 +5,10 @@
 #include <abut/broad_phase/layered_grid.hpp>
 #include <abut/broad_phase/layered_pairs.hpp>
 #include <abut/broad_phase/reach.hpp>
+#include <abut/broad_phase/tell_together.hpp>
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 
 namespace abut {
 namespace {
@@ -153,18 +153,10 @@ void LayeredGrid<D>::visit_pairs(PairsCall visit, Executor* executor) const {
     const std::uint32_t strays = places - items_.with_cell;
     // Enough parts for all to end at about the same time, none so small that its start costs more than its work.
     const std::uint32_t parts = executor == nullptr ? 1 : std::clamp(places / 512, 1u, 16 * executor->workers());
-    std::atomic<bool> stopped = false;
-    const auto told = [&](std::span<const ItemPair> some) {
-        if (stopped.load(std::memory_order_relaxed)) return false;
-        if (visit(some)) return true;
-        stopped.store(true, std::memory_order_relaxed);
-        return false;
-    };
     const auto share = [parts](std::uint32_t of, std::uint32_t part) {
         return static_cast<std::uint32_t>(std::uint64_t{of} * part / parts);
     };
-    const auto run = [&](std::uint32_t part) {
-        if (stopped.load(std::memory_order_relaxed)) return;
+    const auto run = [&](std::uint32_t part, PairsCall told) {
         PairBuffer pairs(told);
         if (pairs_of_cells(items_, plan_, share(cells, part), share(cells, part + 1), pairs) &&
             pairs_of_strays(items_, items_.with_cell + share(strays, part), items_.with_cell + share(strays, part + 1),
@@ -172,9 +164,9 @@ void LayeredGrid<D>::visit_pairs(PairsCall visit, Executor* executor) const {
             pairs.flush();
     };
     if (parts == 1)
-        run(0);
+        run(0, visit);
     else
-        executor->run(parts, run);
+        tell_together(*executor, parts, visit, run);
 }
 
 template <int D>

@@ -4,9 +4,9 @@
 #include <abut/broad_phase/boxes.hpp>
 #include <abut/broad_phase/pair_buffer.hpp>
 #include <abut/broad_phase/sweep_and_prune.hpp>
+#include <abut/broad_phase/tell_together.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <bit>
 
 namespace abut {
@@ -47,24 +47,25 @@ private:
 
 template <int D>
 void SweepAndPrune<D>::visit_pairs(PairsCall visit, Executor* executor) const {
-    std::atomic<bool> go_on = true;
-    const auto visit_from = [&](std::size_t first, std::size_t last) {
-        Told pairs(rows_.items(), visit);
+    const auto visit_from = [&](std::size_t first, std::size_t last, PairsCall told) {
+        Told pairs(rows_.items(), told);
+        bool go_on = true;
         const auto add = [&](std::span<const BoxHits> hits) {
             for (const BoxHits& hit : hits)
                 if (!pairs.add(hit)) return go_on = false;
-            return go_on.load(std::memory_order_relaxed);
+            return go_on;
         };
         each_sorted_hit(rows_.boxes(), first, last, add);
-        if (go_on && !pairs.flush()) go_on = false;
+        if (go_on) pairs.flush();
     };
     // Below this, starting a thread costs more than all there is to do.
     constexpr std::size_t few = 2048;
     const std::size_t count = rows_.count();
-    if (executor == nullptr || count < few) return visit_from(0, count);
+    if (executor == nullptr || count < few) return visit_from(0, count, visit);
     const std::size_t parts = std::min<std::size_t>(4 * std::size_t{executor->workers()}, count / 256);
-    executor->run(static_cast<std::uint32_t>(parts),
-                  [&](std::uint32_t part) { visit_from(count * part / parts, count * (part + 1) / parts); });
+    tell_together(*executor, static_cast<std::uint32_t>(parts), visit, [&](std::uint32_t part, PairsCall told) {
+        visit_from(count * part / parts, count * (part + 1) / parts, told);
+    });
 }
 
 template <int D>

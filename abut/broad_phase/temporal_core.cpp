@@ -1,10 +1,10 @@
 #include <abut/broad_phase/boxes.hpp>
+#include <abut/broad_phase/tell_together.hpp>
 #include <abut/broad_phase/temporal_core.hpp>
 #include <abut/broad_phase/temporal_reach-inl.h>
 #include <abut/math/assert.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -219,15 +219,8 @@ void TemporalCore<D>::visit_pairs(PairsCall visit, Executor* executor) const {
         tell(0, blocks, visit);
         return;
     }
-    std::atomic<bool> enough = false;
-    executor->run(static_cast<std::uint32_t>(parts), [&](std::uint32_t part) {
-        const auto until_enough = [&](std::span<const ItemPair> pairs) {
-            if (enough.load(std::memory_order_relaxed)) return false;
-            if (visit(pairs)) return true;
-            enough.store(true, std::memory_order_relaxed);
-            return false;
-        };
-        tell(blocks * part / parts, blocks * (part + 1) / parts, until_enough);
+    tell_together(*executor, static_cast<std::uint32_t>(parts), visit, [&](std::uint32_t part, PairsCall told) {
+        tell(blocks * part / parts, blocks * (part + 1) / parts, told);
     });
 }
 
