@@ -112,7 +112,7 @@ void Bvh<D>::visit_overlapping(const Aabb<D>& box, ItemCall visit) const {
 
 template <int D>
 void Bvh<D>::visit_along(const Ray<D>& ray, ReachCall visit) const {
-    find_within(tree_, RayReach<D>(ray), visit);
+    find_within(tree_, ray, visit);
 }
 
 template <int D>

@@ -12,7 +12,9 @@ namespace abut {
 void find_overlapping(const BvhTree<2>& tree, const Aabb<2>& box, ItemCall visit);
 void find_overlapping(const BvhTree<3>& tree, const Aabb<3>& box, ItemCall visit);
 
-/// Of two nodes, the nearer first.
+/// Roughly nearest first: of the parts of a node the nearest, the rest as they come.
+void find_within(const BvhTree<2>& tree, const Ray<2>& ray, ReachCall visit);
+void find_within(const BvhTree<3>& tree, const Ray<3>& ray, ReachCall visit);
 void find_within(const BvhTree<2>& tree, const RayReach<2>& reach, ReachCall visit);
 void find_within(const BvhTree<3>& tree, const RayReach<3>& reach, ReachCall visit);
 void find_within(const BvhTree<2>& tree, const BoxReach<2>& reach, ReachCall visit);

@@ -5,6 +5,7 @@
 #include <abut/query/write_answer.hpp>
 
 #include <optional>
+#include <utility>
 
 namespace abut {
 namespace {
@@ -77,7 +78,11 @@ private:
     template <class PartA, class PartB>
     void look_at(const PartA& part_a, std::uint32_t index_a, const PartB& part_b, std::uint32_t index_b) {
         const SignedDistance<D> distance = part_distance(part_a, part_b, options_);
-        if (any_ && !(distance.distance < least_.distance)) return;
+        // The lowest of several as near, so that it isn't up to the order of the visits.
+        if (any_ && !(distance.distance < least_.distance) &&
+            !(distance.distance == least_.distance &&
+              std::pair(index_a, index_b) < std::pair(found_.feature_a.part, found_.feature_b.part)))
+            return;
         any_ = true;
         least_ = distance;
         // Now, while the parts are there: a composite shape may make them up as it goes.

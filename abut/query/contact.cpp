@@ -4,6 +4,8 @@
 #include <abut/query/part_pairs.hpp>
 #include <abut/query/write_answer.hpp>
 
+#include <utility>
+
 namespace abut {
 namespace {
 
@@ -72,14 +74,17 @@ Contact<D> contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& op
     const double margin = static_cast<double>(options.margin);
     const SearchOptions<D> search = search_options(a, b, options);
     double least = margin;
+    std::pair<std::uint32_t, std::uint32_t> parts;
     each_part_pair(a, b, options.margin,
                    [&](const auto& part_a, std::uint32_t index_a, const auto& part_b, std::uint32_t index_b) {
                        PartContact<D> found;
                        if (!part_contact(part_a, part_b, least, margin, search, found)) return true;
                        const SignedDistance<D>& distance = found.distance;
-                       if (result && distance.distance == least) return true;
+                       // The lowest of several as deep, so that it isn't up to the order of the visits.
+                       if (result && distance.distance == least && std::pair(index_a, index_b) > parts) return true;
                        // Now, while the parts are there: a composite shape may make them up as it goes.
                        least = distance.distance;
+                       parts = {index_a, index_b};
                        write(found.distance, found.manifold, result);
                        name_features(part_a, part_b, distance, index_a, index_b, result);
                        return true;
