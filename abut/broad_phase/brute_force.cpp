@@ -95,6 +95,13 @@ void BruteForce<D>::visit_pairs(const BruteForce& other, PairsCall visit) const 
 }
 
 template <int D>
+void BruteForce<D>::visit_boxes(BoxCall<D> visit) const {
+    const BoxRows<D> boxes = boxes_.rows();
+    for (std::uint32_t i = 0; i < size_; ++i)
+        if (!is_empty(boxes[i]) && !visit(i, boxes[i])) return;
+}
+
+template <int D>
 void BruteForce<D>::visit_overlapping(const Aabb<D>& box, ItemCall visit) const {
     const Aabb<D> query = usable(box);
     if (!is_empty(query)) visit_hits(boxes_.rows(), size_, query, visit);

@@ -169,10 +169,17 @@ void Bsp<D>::visit_pairs(const Bsp& other, PairsCall visit) const {
     pairs.flush();
 }
 
+template <int D>
+void Bsp<D>::visit_boxes(BoxCall<D> visit) const {
+    for (const BspItem<D>& item : tree_.items)
+        if (!is_empty(item.box) && !visit(item.index, item.box)) return;
+}
+
 #define ABUT_INSTANTIATE(D)                                                  \
     template void Bsp<D>::visit_overlapping(const Aabb<D>&, ItemCall) const; \
     template void Bsp<D>::visit_pairs(PairsCall, Executor*) const;           \
-    template void Bsp<D>::visit_pairs(const Bsp&, PairsCall) const;
+    template void Bsp<D>::visit_pairs(const Bsp&, PairsCall) const;          \
+    template void Bsp<D>::visit_boxes(BoxCall<D>) const;
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

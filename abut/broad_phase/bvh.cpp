@@ -105,6 +105,27 @@ void Bvh<D>::visit_pairs(const Bvh& other, PairsCall visit) const {
 }
 
 template <int D>
+void Bvh<D>::visit_boxes(BoxCall<D> visit) const {
+    std::array<std::uint32_t, bvh_depth*(bvh_lanes - 1) + 1> stack;
+    for (const std::size_t kind : {0u, 1u}) {
+        std::size_t waiting = 0;
+        if (tree_.root(kind).ref != bvh_none) stack[waiting++] = tree_.root(kind).ref;
+        while (waiting > 0) {
+            const std::uint32_t ref = stack[--waiting];
+            if (is_leaf(ref)) {
+                const BvhLeaf<D>& leaf = tree_.leaf(ref);
+                for (std::uint32_t lane = 0, count = leaf.count(); lane < count; ++lane)
+                    if (!visit(leaf.index[lane], leaf.box(lane))) return;
+            } else {
+                const BvhNode<D>& node = tree_.node(ref);
+                for (std::uint32_t lane = 0, count = node.count(); lane < count; ++lane)
+                    stack[waiting++] = node.child[lane];
+            }
+        }
+    }
+}
+
+template <int D>
 void Bvh<D>::visit_overlapping(const Aabb<D>& box, ItemCall visit) const {
     const Aabb<D> query = usable(box);
     if (!is_empty(query)) find_overlapping(tree_, query, visit);

@@ -55,6 +55,7 @@ private:
     friend BroadPhaseFace<Bvh<D>, D>;
     void visit_pairs(PairsCall visit, Executor* executor) const;
     void visit_pairs(const Bvh& other, PairsCall visit) const;
+    void visit_boxes(BoxCall<D> visit) const;
     void visit_overlapping(const Aabb<D>& box, ItemCall visit) const;
     void visit_along(const Ray<D>& ray, ReachCall visit) const;
     void visit_along(const MovingBox<D>& box, ReachCall visit) const;

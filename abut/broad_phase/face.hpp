@@ -24,6 +24,8 @@ public:
     void each_pair(F&& visit, Executor* executor = nullptr) const {
         phase().visit_pairs(each_pair_to(visit), executor);
     }
+    /// The same, some pairs at a time: spares a call for each.
+    void each_pair(PairsCall visit, Executor* executor = nullptr) const { phase().visit_pairs(visit, executor); }
     void sorted_pairs(std::vector<ItemPair>& out) const {
         out.clear();
         const auto keep = [&out](std::span<const ItemPair> pairs) {
@@ -38,6 +40,8 @@ public:
     void each_overlapping_pair(const Phase& other, F&& visit) const {
         phase().visit_pairs(other, each_pair_to(visit));
     }
+    /// The same, some pairs at a time.
+    void each_overlapping_pair(const Phase& other, PairsCall visit) const { phase().visit_pairs(other, visit); }
     template <Visitor<std::uint32_t> F>
     void each_overlapping(const Aabb<D>& box, F&& visit) const {
         phase().visit_overlapping(box, go_on_after(visit));
@@ -53,6 +57,12 @@ public:
     template <ReachVisitor F>
     void closest(const Vec<D>& point, F&& visit, float reach = std::numeric_limits<float>::infinity()) const {
         phase().visit_near(Aabb<D>{point, point}, reach, reach_after(visit));
+    }
+
+    /// visit(i, box) for every item that isn't empty, in an order of the structure's own.
+    template <Visitor<std::uint32_t, const Aabb<D>&> F>
+    void each_box(F&& visit) const {
+        phase().visit_boxes(go_on_after(visit));
     }
 
     bool empty() const { return phase().size() == 0; }

@@ -127,6 +127,12 @@ void Grid<D>::visit_pairs(const Grid& other, PairsCall visit) const {
 }
 
 template <int D>
+void Grid<D>::visit_boxes(BoxCall<D> visit) const {
+    for (std::uint32_t i = 0; i < boxes_.size(); ++i)
+        if (!is_empty(boxes_[i]) && !visit(i, boxes_[i])) return;
+}
+
+template <int D>
 void Grid<D>::visit_overlapping(const Aabb<D>& box, ItemCall visit) const {
     using Words = GridWords<D>;
     const Aabb<D> query = usable(box);

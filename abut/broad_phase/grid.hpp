@@ -49,6 +49,7 @@ private:
     bool visit_large(PairsCall visit) const;
     void visit_pairs(PairsCall visit, Executor* executor) const;
     void visit_pairs(const Grid& other, PairsCall visit) const;
+    void visit_boxes(BoxCall<D> visit) const;
     void visit_overlapping(const Aabb<D>& box, ItemCall visit) const;
     void visit_along(const Ray<D>& ray, ReachCall visit) const;
     void visit_near(const Aabb<D>& box, float reach, ReachCall visit) const;

@@ -46,6 +46,7 @@ private:
     friend BroadPhaseFace<LayeredGrid<D>, D>;
     void visit_pairs(PairsCall visit, Executor* executor) const;
     void visit_pairs(const LayeredGrid& other, PairsCall visit) const;
+    void visit_boxes(BoxCall<D> visit) const;
     void visit_overlapping(const Aabb<D>& box, ItemCall visit) const;
     void visit_along(const Ray<D>& ray, ReachCall visit) const;
     void visit_near(const Aabb<D>& box, float reach, ReachCall visit) const;

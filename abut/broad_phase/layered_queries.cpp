@@ -191,6 +191,12 @@ void LayeredGrid<D>::visit_pairs(const LayeredGrid& other, PairsCall visit) cons
 }
 
 template <int D>
+void LayeredGrid<D>::visit_boxes(BoxCall<D> visit) const {
+    for (std::size_t place = 0; place < items_.index.size(); ++place)
+        if (!visit(items_.index[place], items_.boxes[place])) return;
+}
+
+template <int D>
 void LayeredGrid<D>::visit_overlapping(const Aabb<D>& box, ItemCall visit) const {
     const Aabb<D> query = usable(box);
     if (is_empty(query)) return;
@@ -211,6 +217,8 @@ template void LayeredGrid<2>::visit_pairs(PairsCall, Executor*) const;
 template void LayeredGrid<3>::visit_pairs(PairsCall, Executor*) const;
 template void LayeredGrid<2>::visit_pairs(const LayeredGrid&, PairsCall) const;
 template void LayeredGrid<3>::visit_pairs(const LayeredGrid&, PairsCall) const;
+template void LayeredGrid<2>::visit_boxes(BoxCall<2>) const;
+template void LayeredGrid<3>::visit_boxes(BoxCall<3>) const;
 template void LayeredGrid<2>::visit_overlapping(const Aabb<2>&, ItemCall) const;
 template void LayeredGrid<3>::visit_overlapping(const Aabb<3>&, ItemCall) const;
 template void LayeredGrid<2>::visit_along(const Ray<2>&, ReachCall) const;

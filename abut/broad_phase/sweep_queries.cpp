@@ -71,14 +71,21 @@ void SweepAndPrune<D>::visit_pairs(PairsCall visit, Executor* executor) const {
 template <int D>
 void SweepAndPrune<D>::visit_pairs(const SweepAndPrune& other, PairsCall visit) const {
     PairBuffer pairs(visit);
+    bool go_on = true;
+    visit_boxes([&](std::uint32_t i, const Aabb<D>& box) {
+        const auto add = [&](std::uint32_t j) { return pairs.add(i, j); };
+        return go_on = other.rows_.visit_overlapping(turned<D>(box, other.plan_.axis), add);
+    });
+    if (go_on) pairs.flush();
+}
+
+template <int D>
+void SweepAndPrune<D>::visit_boxes(BoxCall<D> visit) const {
     const BoxRows<D> boxes = rows_.boxes();
     for (std::size_t i = 0; i < rows_.count(); ++i) {
         const std::uint32_t item = rows_.items()[i];
-        if ((item & copy_bits) != 0) continue;
-        const Aabb<D> box = turned<D>(turned_back<D>(boxes[i], plan_.axis), other.plan_.axis);
-        if (!other.rows_.visit_overlapping(box, [&](std::uint32_t j) { return pairs.add(item, j); })) return;
+        if ((item & copy_bits) == 0 && !visit(item, turned_back<D>(boxes[i], plan_.axis))) return;
     }
-    pairs.flush();
 }
 
 template <int D>
@@ -101,6 +108,7 @@ void SweepAndPrune<D>::visit_near(const Aabb<D>& box, float reach, ReachCall vis
 #define ABUT_FOR_DIMENSION(D)                                                              \
     template void SweepAndPrune<D>::visit_pairs(PairsCall, Executor*) const;               \
     template void SweepAndPrune<D>::visit_pairs(const SweepAndPrune<D>&, PairsCall) const; \
+    template void SweepAndPrune<D>::visit_boxes(BoxCall<D>) const;                         \
     template void SweepAndPrune<D>::visit_overlapping(const Aabb<D>&, ItemCall) const;     \
     template void SweepAndPrune<D>::visit_along(const Ray<D>&, ReachCall) const;           \
     template void SweepAndPrune<D>::visit_near(const Aabb<D>&, float, ReachCall) const;

@@ -37,6 +37,7 @@ struct Checks {
         const Pairs expected = check_pairs(phase, oracle);
         EXPECT_EQ(phase.size(), boxes.size());
         if (phase.bounds() != oracle.bounds()) ADD_FAILURE() << "bounds";
+        check_boxes(phase, oracle);
 
         std::vector<Aabb<D>> others = boxes;
         others.resize(boxes.size() / 2);
@@ -61,6 +62,16 @@ struct Checks {
         std::sort(visited.begin(), visited.end());
         EXPECT_EQ(visited, expected);
         return expected;
+    }
+
+    static void check_boxes(const T& phase, const BruteForce<D>& oracle) {
+        const auto boxes_of = [](const auto& structure) {
+            std::vector<std::pair<std::uint32_t, Aabb<D>>> result;
+            structure.each_box([&](std::uint32_t i, const Aabb<D>& box) { result.emplace_back(i, box); });
+            std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+            return result;
+        };
+        EXPECT_EQ(boxes_of(phase), boxes_of(oracle));
     }
 
     static void check_other(const T& phase, const BruteForce<D>& oracle, const std::vector<Aabb<D>>& others) {
@@ -266,6 +277,23 @@ TYPED_TEST(BroadPhases, HaveTheSamePairsWithSeveralThreads) {
         }
 }
 
+/// One part of the work that has had enough is enough for all: no thread begins another, and those that are on their
+/// way end with what they are about to tell.
+TYPED_TEST(BroadPhases, OtherThreadsStopSoonAfterOneHasEnough) {
+    constexpr int D = dimension_of<TypeParam>;
+    oracle::Random random(41);
+    const auto boxes = make_scene<D>(Scene::uniform, 20000, random);
+    const auto phase = TestFixture::built(boxes);
+    ThreadExecutor executor(3);
+    std::atomic<std::size_t> all = 0, told = 0;
+    phase.each_pair([&](std::uint32_t, std::uint32_t) { ++all; }, &executor);
+    EXPECT_GT(all, 10000u);
+    // Who is told something after he has said so keeps still: it is not his answer that ends what the others do.
+    phase.each_pair([&](std::uint32_t, std::uint32_t) { return ++told != 100; }, &executor);
+    EXPECT_GE(told, 100u);
+    EXPECT_LT(told, all / 2);
+}
+
 TYPED_TEST(BroadPhases, EndlessBoxesPairWithAllTheyTouch) {
     constexpr int D = dimension_of<TypeParam>;
     constexpr float far = std::numeric_limits<float>::infinity();
@@ -290,15 +318,16 @@ TYPED_TEST(BroadPhases, StopWhenTheVisitorHasEnough) {
     const auto phase = TestFixture::built(std::vector<Aabb<D>>(20, {Vec<D>(0), Vec<D>(1)}));
     const Ray<D> ray{Vec<D>(0.5f), Vec<D>(axis<D>(0))};  // starts in all of them: a reach of 0 wouldn't stop it
     for (int enough = 1; enough < 15; ++enough) {
-        int pairs = 0, others = 0, boxes = 0, hits = 0, near = 0, pulled_in = 0;
+        int pairs = 0, others = 0, boxes = 0, hits = 0, near = 0, pulled_in = 0, all = 0;
         phase.each_pair([&](std::uint32_t, std::uint32_t) { return ++pairs < enough; });
         phase.each_overlapping_pair(phase, [&](std::uint32_t, std::uint32_t) { return ++others < enough; });
         phase.each_overlapping({Vec<D>(0), Vec<D>(1)}, [&](std::uint32_t) { return ++boxes < enough; });
         phase.raycast(ray, [&](std::uint32_t) { return ++hits < enough; });
         phase.closest(Vec<D>(0.5f), [&](std::uint32_t) { return ++near < enough; });
         phase.closest(Vec<D>(9), [&](std::uint32_t) { return ++pulled_in < enough ? 100.0f : 1.0f; });
-        EXPECT_EQ(std::tie(pairs, others, boxes, hits, near, pulled_in),
-                  std::tie(enough, enough, enough, enough, enough, enough));
+        phase.each_box([&](std::uint32_t, const Aabb<D>&) { return ++all < enough; });
+        EXPECT_EQ(std::tie(pairs, others, boxes, hits, near, pulled_in, all),
+                  std::tie(enough, enough, enough, enough, enough, enough, enough));
     }
 }
 

@@ -6,6 +6,7 @@
 #include <abut/broad_phase/chosen_broad_phase.hpp>
 
 #include <algorithm>
+#include <array>
 
 #include <gtest/gtest.h>
 
@@ -43,6 +44,8 @@ TYPED_TEST(Choices, FollowTheScene) {
     EXPECT_EQ(choice<D>(many.boxes()), BroadPhaseKind::grid);
     EXPECT_EQ(choice<D>(skewed.boxes()), BroadPhaseKind::grid);
     EXPECT_EQ(choice<D>(many.boxes(), {.asked = 0.1}), BroadPhaseKind::bvh);
+    EXPECT_EQ(choice<D>(few.boxes(), {.asked = 0.1}), BroadPhaseKind::brute_force);
+    EXPECT_EQ(choice<D>(few.boxes(), {.asked = 1}), BroadPhaseKind::bvh);
     EXPECT_EQ(choice<D>(heaps<D>(20000)), BroadPhaseKind::bvh);
     const std::vector<Aabb<D>> empty(500, Aabb<D>::empty());
     EXPECT_EQ(choice<D>(empty), BroadPhaseKind::grid);
@@ -61,7 +64,7 @@ TYPED_TEST(Choices, ChangeWithTheScene) {
         scene.step();
         if (frame == 80) phase.tell({.asked = 1});
         phase.update(scene.boxes());
-        EXPECT_EQ(phase.kind(), frame < 128 ? BroadPhaseKind::grid : BroadPhaseKind::bvh) << frame;
+        EXPECT_EQ(phase.kind(), frame < 80 ? BroadPhaseKind::grid : BroadPhaseKind::bvh) << frame;
         if (frame % 32 != 0) continue;
         oracle.build(scene.boxes());
         oracle.sorted_pairs(expected);
@@ -75,6 +78,87 @@ TYPED_TEST(Choices, ChangeWithTheScene) {
     phase.build({});
     EXPECT_EQ(phase.kind(), BroadPhaseKind::brute_force);
     EXPECT_TRUE(phase.empty());
+}
+
+/// Told of rays, it looks at the next update, not when the next look is due; told of about as many as before, it waits.
+TYPED_TEST(Choices, FollowTheQuestionsAtOnceAndDoNotWaver) {
+    constexpr int D = dimension_of<TypeParam>;
+    const scenes::MovingBoxes<D> scene(500, 3);
+    const auto update = [&](TypeParam& phase, double asked) {
+        phase.tell({.asked = asked});
+        phase.update(scene.boxes());
+        return phase.kind();
+    };
+    TypeParam phase;
+    phase.build(scene.boxes());
+    EXPECT_EQ(update(phase, 0), BroadPhaseKind::grid);
+    EXPECT_EQ(update(phase, 0.5), BroadPhaseKind::bvh);
+    EXPECT_EQ(update(phase, 0.4), BroadPhaseKind::bvh);
+    EXPECT_EQ(update(phase, 0), BroadPhaseKind::grid);
+    // Around the number at which both are as good.
+    double often = 1;
+    while (choice<D>(scene.boxes(), {.asked = often}) == BroadPhaseKind::bvh) often *= 0.99;
+    TypeParam wavering;
+    wavering.tell({.asked = often});
+    wavering.build(scene.boxes());
+    int changes = 0;
+    for (int frame = 1; frame < 64; ++frame) {
+        const BroadPhaseKind before = wavering.kind();
+        changes += update(wavering, frame % 2 == 0 ? often * 0.8 : often * 1.2) != before ? 1 : 0;
+    }
+    EXPECT_EQ(changes, 0);
+}
+
+constexpr std::array all_kinds{BroadPhaseKind::brute_force,     BroadPhaseKind::grid, BroadPhaseKind::layered_grid,
+                               BroadPhaseKind::sweep_and_prune, BroadPhaseKind::bvh,  BroadPhaseKind::bsp};
+
+/// Any two kinds together, whichever is the larger, with empty boxes and endless ones.
+TYPED_TEST(Choices, AnyTwoKindsFindTheirPairs) {
+    constexpr int D = dimension_of<TypeParam>;
+    oracle::Random random(7);
+    const auto many = make_scene<D>(Scene::holes_and_endless, 400, random);
+    const auto few = make_scene<D>(Scene::holes_and_endless, 30, random);
+    BruteForce<D> oracle, few_oracle;
+    oracle.build(many);
+    few_oracle.build(few);
+    std::vector<ItemPair> expected, found;
+    oracle.each_overlapping_pair(few_oracle, [&](std::uint32_t i, std::uint32_t j) { expected.emplace_back(i, j); });
+    EXPECT_GT(expected.size(), 100u);
+    for (const BroadPhaseKind kind : all_kinds)
+        for (const BroadPhaseKind other : all_kinds) {
+            SCOPED_TRACE(testing::Message() << static_cast<int>(kind) << " and " << static_cast<int>(other));
+            TypeParam phase(kind), few_phase(other);
+            phase.build(many);
+            few_phase.build(few);
+            EXPECT_EQ(phase.kind(), kind);
+            found.clear();
+            phase.each_overlapping_pair(few_phase, [&](std::uint32_t i, std::uint32_t j) { found.emplace_back(i, j); });
+            std::sort(found.begin(), found.end());
+            EXPECT_EQ(found, expected);
+            found.clear();
+            few_phase.each_overlapping_pair(phase, [&](std::uint32_t j, std::uint32_t i) { found.emplace_back(i, j); });
+            std::sort(found.begin(), found.end());
+            EXPECT_EQ(found, expected);
+            int told = 0;
+            phase.each_overlapping_pair(few_phase, [&](std::uint32_t, std::uint32_t) { return ++told < 5; });
+            EXPECT_EQ(told, 5);
+        }
+}
+
+/// A kind that was asked for stays, whatever the boxes are and however often they are asked for.
+TYPED_TEST(Choices, StayWhereTheyAreForced) {
+    constexpr int D = dimension_of<TypeParam>;
+    scenes::MovingBoxes<D> scene(300, 3);
+    for (const BroadPhaseKind kind : all_kinds) {
+        TypeParam phase(kind);
+        phase.build(scene.boxes());
+        phase.tell({.asked = 1});
+        for (int frame = 0; frame < 70; ++frame) {
+            scene.step();
+            phase.update(scene.boxes());
+            EXPECT_EQ(phase.kind(), kind);
+        }
+    }
 }
 
 }  // namespace

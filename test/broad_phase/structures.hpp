@@ -5,6 +5,7 @@
 #include <abut/broad_phase/brute_force.hpp>
 #include <abut/broad_phase/bsp.hpp>
 #include <abut/broad_phase/bvh.hpp>
+#include <abut/broad_phase/chosen_broad_phase.hpp>
 #include <abut/broad_phase/grid.hpp>
 #include <abut/broad_phase/layered_grid.hpp>
 #include <abut/broad_phase/sweep_and_prune.hpp>
@@ -19,6 +20,7 @@ using AllBroadPhases = testing::Types<   //
     LayeredGrid<2>, LayeredGrid<3>,      //
     SweepAndPrune<2>, SweepAndPrune<3>,  //
     Bvh<2>, Bvh<3>,                      //
-    Bsp<2>, Bsp<3>>;
+    Bsp<2>, Bsp<3>,                      //
+    ChosenBroadPhase<2>, ChosenBroadPhase<3>>;
 
 }  // namespace abut::test
