@@ -14,7 +14,8 @@ enum class BroadPhaseKind : std::uint8_t { brute_force, grid, layered_grid, swee
 /// What is known of how boxes are used.
 struct BroadPhaseHistory {
     double moved = 1;  ///< the share of the boxes that change from one update to the next
-    double asked = 0;  ///< rays, and searches for what is near, from one update to the next, for each box
+    /// Rays, and searches for what is near, from one update to the next, for each box; ten regions count as a ray.
+    double asked = 0;
 };
 
 /// The broad phase that soonest does what the history tells, by counts of a sample of the boxes and never by a clock:

@@ -1,4 +1,5 @@
-// Questions to a world. What has moved since the last update is looked at one by one, the rest through the trees.
+// Questions to a world. What has moved since the last update is looked at one by one, the rest through the broad
+// phases.
 
 #include <abut/broad_phase/boxes.hpp>
 #include <abut/math/assert.hpp>
@@ -40,13 +41,17 @@ bool World<D>::asked(std::uint32_t slot, const Filter& filter) const {
 template <int D>
 template <class F>
 void World<D>::each_near(const Aabb<D>& box, const Filter& filter, F&& visit) const {
+    asked_.add(region_weight);
     bool go_on = true;
-    const auto in_tree = [&](std::uint32_t slot) -> bool {
-        if (!items_[slot].pending && asked(slot, filter)) go_on = visit(slot);
-        return go_on;
+    const auto among = [&](const ItemBoxes<D>& items) {
+        items.phase().each_overlapping(box, [&](std::uint32_t place) -> bool {
+            const std::uint32_t slot = items.slot(place);
+            if (!items_[slot].pending && asked(slot, filter)) go_on = visit(slot);
+            return go_on;
+        });
     };
-    moving_tree_.each_overlapping(box, in_tree);
-    if (go_on) fixed_tree_.each_overlapping(box, in_tree);
+    among(moving_);
+    if (go_on) among(fixed_);
     for (std::size_t i = 0; go_on && i < pending_.size(); ++i)
         if (asked(pending_[i], filter) && overlaps(items_[pending_[i]].box, box)) go_on = visit(pending_[i]);
 }
@@ -56,15 +61,18 @@ template <int D>
 template <class F>
 void World<D>::each_near_ray(const Ray<D>& ray, const Filter& filter, F&& visit) const {
     if (!can_be_asked(ray)) return;
+    asked_.add(ray_weight);
     Ray<D> rest = ray;
     const auto any = [&](std::uint32_t slot) -> float {
         if (asked(slot, filter)) rest.length = std::min(rest.length, static_cast<float>(visit(slot)));
         return rest.length;
     };
     for (const std::uint32_t slot : pending_) any(slot);
-    const auto in_tree = [&](std::uint32_t slot) -> float { return items_[slot].pending ? rest.length : any(slot); };
-    moving_tree_.raycast(rest, in_tree);
-    fixed_tree_.raycast(rest, in_tree);
+    for (const ItemBoxes<D>* items : {&moving_, &fixed_})
+        items->phase().raycast(rest, [&](std::uint32_t place) -> float {
+            const std::uint32_t slot = items->slot(place);
+            return items_[slot].pending ? rest.length : any(slot);
+        });
 }
 
 template <int D>
@@ -99,6 +107,7 @@ template <int D>
 std::optional<WorldClosest<D>> World<D>::closest_to(const View<D>& shape, const Filter& filter) const {
     std::optional<WorldClosest<D>> nearest;
     if (!can_be_asked(shape)) return nearest;
+    asked_.add(ray_weight);
     float reach = std::numeric_limits<float>::infinity();
     const auto any = [&](std::uint32_t slot) -> float {
         const View<D>& placed = items_[slot].placed;
@@ -117,9 +126,14 @@ std::optional<WorldClosest<D>> World<D>::closest_to(const View<D>& shape, const 
     };
     for (const std::uint32_t slot : pending_) any(slot);
     const Aabb<D> box = bounds(shape);
-    const auto in_tree = [&](std::uint32_t slot) -> float { return items_[slot].pending ? reach : any(slot); };
-    moving_tree_.closest(box, in_tree, reach);
-    fixed_tree_.closest(box, in_tree, reach);
+    for (const ItemBoxes<D>* items : {&moving_, &fixed_})
+        items->phase().closest(
+            box,
+            [&](std::uint32_t place) -> float {
+                const std::uint32_t slot = items->slot(place);
+                return items_[slot].pending ? reach : any(slot);
+            },
+            reach);
     return nearest;
 }
 

@@ -8,23 +8,16 @@
 namespace abut {
 
 template <int D>
-void World<D>::refresh_trees() {
-    const bool grown_slots = fixed_boxes_.size() != items_.size();
-    fixed_boxes_.resize(items_.size(), Aabb<D>::empty());
-    moving_boxes_.resize(items_.size(), Aabb<D>::empty());
-    bool fixed_changed = grown_slots;
-    for (const std::uint32_t slot : pending_) {
-        const Item& item = items_[slot];
-        const Aabb<D> as_fixed = item.options.fixed ? item.box : Aabb<D>::empty();
-        fixed_changed = fixed_changed || !(as_fixed == fixed_boxes_[slot]);
-        fixed_boxes_[slot] = as_fixed;
-        moving_boxes_[slot] = item.options.fixed ? Aabb<D>::empty() : item.box;
-    }
-    if (grown_slots)
-        moving_tree_.build(moving_boxes_);
-    else
-        moving_tree_.update(moving_boxes_);
-    if (fixed_changed) fixed_tree_.build(fixed_boxes_);
+void World<D>::refresh_boxes() {
+    // A game that asks in every other update, or in every tenth, asks about as often all the time: the mean of many. So
+    // many questions are counted that it may ask all of a few updates' in one.
+    constexpr double remembered = 16;
+    const auto counted = static_cast<std::uint32_t>(ray_weight * (moving_.size() / 32 + 64));
+    const double asked = static_cast<double>(asked_.take(counted)) / ray_weight;
+    often_asked_ += (asked / static_cast<double>(std::max<std::size_t>(moving_.size(), 1)) - often_asked_) / remembered;
+    moving_.refresh(often_asked_);
+    // What is fixed changes seldom, and each item that moves asks it once an update.
+    if (fixed_.changed()) fixed_.refresh(1);
 }
 
 /// Keeps a pair whose boxes overlap, if the layers agree.
@@ -123,12 +116,12 @@ void World<D>::compare_with_last() {
 
 template <int D>
 Events World<D>::update() {
-    refresh_trees();
+    refresh_boxes();
 
     near_.clear();
-    const auto keep = [this](std::uint32_t i, std::uint32_t j) { consider(i, j); };
-    moving_tree_.each_pair(keep);
-    moving_tree_.each_overlapping_pair(fixed_tree_, keep);
+    moving_.phase().each_pair([this](std::uint32_t i, std::uint32_t j) { consider(moving_.slot(i), moving_.slot(j)); });
+    moving_.phase().each_overlapping_pair(
+        fixed_.phase(), [this](std::uint32_t i, std::uint32_t j) { consider(moving_.slot(i), fixed_.slot(j)); });
     std::sort(near_.begin(), near_.end());
 
     std::swap(touching_, touched_);

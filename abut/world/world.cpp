@@ -41,6 +41,7 @@ Id World<D>::add(std::unique_ptr<const detail::StoredShape<D>> stored, const Ite
     item.options = options;
     ++item.generation;
     ++count_;
+    item.place = boxes_of(item).add(slot);
     take(slot, std::move(stored));
     return id_of(slot);
 }
@@ -90,6 +91,7 @@ void World<D>::remove(Id id) {
     item->stored = nullptr;
     item->placed = View<D>();
     item->box = Aabb<D>::empty();
+    boxes_of(*item).remove(item->place);
     mark_pending(id.index - 1);
     free_.push_back(id.index - 1);
     --count_;
@@ -104,6 +106,7 @@ void World<D>::place(std::uint32_t slot) {
     const bool finite = is_finite(item.placed);
     ABUT_ASSERT(finite);
     item.box = finite ? box_for_questions(item.placed) : Aabb<D>::empty();
+    boxes_of(item).set(item.place, item.box);
     mark_pending(slot);
 }
 

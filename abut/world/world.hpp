@@ -3,14 +3,16 @@
 // A world for games: it keeps shapes by id, tells from update to update who touches whom, and answers questions about
 // them all. It moves nothing by itself.
 
-#include <abut/broad_phase/bvh.hpp>
+#include <abut/broad_phase/choose_broad_phase.hpp>
 #include <abut/query/closest.hpp>
 #include <abut/query/contact.hpp>
 #include <abut/query/raycast.hpp>
 #include <abut/shape/placed.hpp>
 #include <abut/world/bounding_ball.hpp>
 #include <abut/world/id.hpp>
+#include <abut/world/item_boxes.hpp>
 #include <abut/world/pretest.hpp>
+#include <abut/world/question_count.hpp>
 
 #include <memory>
 #include <optional>
@@ -30,8 +32,10 @@ struct ItemOptions {
     bool sensor = false;              ///< has events and no contacts; queries skip it unless they ask
 };
 
+/// No answer depends on them: for tests and measurements.
 struct WorldOptions {
-    Pretest pretest = Pretest::measured;  ///< no answer depends on it: for tests and measurements
+    Pretest pretest = Pretest::measured;
+    std::optional<BroadPhaseKind> broad_phase = std::nullopt;  ///< by default, whichever suits
 };
 
 /// Which items a question is about.
@@ -113,7 +117,8 @@ template <int D>
 class World {
 public:
     World() = default;
-    explicit World(const WorldOptions& options) : pretests_(options.pretest) {}
+    explicit World(const WorldOptions& options)
+        : fixed_(options.broad_phase), moving_(options.broad_phase), pretests_(options.pretest) {}
     World(World&&) noexcept = default;
     World& operator=(World&&) noexcept = default;
 
@@ -139,11 +144,15 @@ public:
 
     /// Finds who touches whom. Allocates nothing once it has seen a scene of this size. A pair of which neither moved
     /// since the last update isn't looked at again. Now and then looks at a clock, to learn for which types of shapes
-    /// it pays to ask their bounding balls first; the events and contacts are the same whatever it finds.
+    /// it pays to ask their bounding balls first; the events and contacts are the same whatever it finds. Counts how
+    /// much moves and how often it is asked, and may change to another broad phase (broad_phase() tells which): that
+    /// update takes about twice as long and allocates, and no answer depends on it.
     Events update();
     /// One for each pair that touches without a sensor, as of the last update.
     std::span<const WorldContact<D>> contacts() const { return contacts_; }
     UpdateCounts counts() const { return counts_; }
+    /// Over the items that move.
+    BroadPhaseKind broad_phase() const { return moving_.phase().kind(); }
 
     /// The first hit, as told at abut::raycast; of equally near ones, the one with the lowest id.
     std::optional<WorldHit<D>> raycast(const Ray<D>& ray, const Filter& filter = {}) const;
@@ -178,7 +187,8 @@ private:
         ItemOptions<D> options;
         std::uint32_t generation = 0;
         ShapeType type{};
-        bool pending = false;  // not yet in the trees as it is now
+        std::uint32_t place = 0;  // in fixed_ or moving_
+        bool pending = false;     // not yet in the broad phases as it is now
     };
 
     Id add(std::unique_ptr<const detail::StoredShape<D>> stored, const ItemOptions<D>& options);
@@ -187,11 +197,12 @@ private:
     const Item* find(Id id) const;
     Item* find(Id id);
     Id id_of(std::uint32_t slot) const { return {slot + 1, items_[slot].generation}; }
+    ItemBoxes<D>& boxes_of(const Item& item) { return item.options.fixed ? fixed_ : moving_; }
     void place(std::uint32_t slot);
     void mark_pending(std::uint32_t slot);
     bool asked(std::uint32_t slot, const Filter& filter) const;
 
-    void refresh_trees();
+    void refresh_boxes();
     void consider(std::uint32_t slot, std::uint32_t other);
     void look_at(const IdPair& pair);
     void repeat_last(const IdPair& pair);
@@ -214,8 +225,9 @@ private:
     std::vector<std::uint32_t> pending_;
     std::size_t count_ = 0;
 
-    Bvh<D> fixed_tree_, moving_tree_;
-    std::vector<Aabb<D>> fixed_boxes_, moving_boxes_;  // by slot; empty where the item is of the other kind
+    ItemBoxes<D> fixed_, moving_;
+    mutable QuestionCount asked_;  // since the last update
+    double often_asked_ = 0;       // from update to update of late, for each item that moves
 
     std::vector<IdPair> near_;
     std::vector<IdPair> touching_, touched_;  // now and at the last update
