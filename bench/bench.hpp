@@ -14,6 +14,9 @@ namespace abut::bench {
 /// timed.
 using Ask = std::function<void(std::span<double> values)>;
 
+/// The side that is whichever of abut's others it chooses.
+inline constexpr const char* chosen_side = "abut chosen";
+
 struct Side {
     std::string who;  ///< "abut" or the peer
     Ask ask;

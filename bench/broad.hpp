@@ -21,6 +21,7 @@ struct BoxFrames {
     MakeScene<D> scene = nullptr;
     Upkeep upkeep = Upkeep::update;
     bool skewed = false;
+    double moved = 1;  ///< the share of the boxes that do
 };
 
 /// A job that counts all pairs of each frame: by every structure of the library, by the lesson's grid and by every peer
@@ -31,6 +32,7 @@ Job pairs_of_frames(const BoxFrames<D>& frames);
 std::vector<Bench> frame_benches();
 std::vector<Bench> box_query_benches();
 std::vector<Bench> thread_benches();
+std::vector<Bench> temporal_benches();
 std::vector<Bench> world_benches();
 
 }  // namespace abut::bench

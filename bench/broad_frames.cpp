@@ -16,7 +16,10 @@ namespace {
 
 template <class Phase, int D>
 struct PhasePairs {
-    PhasePairs(std::span<const Aabb<D>> boxes, Upkeep how) : upkeep(how) { phase.build(boxes); }
+    PhasePairs(std::span<const Aabb<D>> boxes, Upkeep how, double moved) : upkeep(how) {
+        tell(phase, {.moved = moved, .asked = 0});
+        phase.build(boxes);
+    }
 
     std::size_t count(std::span<const Aabb<D>> boxes) {
         upkeep == Upkeep::update ? phase.update(boxes) : phase.build(boxes);
@@ -89,7 +92,10 @@ BoxFrames<3> from_scratch(BoxFrames<3> frames) {
     return frames;
 }
 BoxFrames<3> tenth_moving(std::size_t count) {
-    return {count, scene_of<3, scenes::MovingBoxes>(count, broad_seed, scenes::MovingBoxesOptions{.one_in_moves = 10})};
+    return {
+        .count = count,
+        .scene = scene_of<3, scenes::MovingBoxes>(count, broad_seed, scenes::MovingBoxesOptions{.one_in_moves = 10}),
+        .moved = 0.1};
 }
 BoxFrames<3> skewed(std::size_t count) {
     return {.count = count, .scene = scene_of<3, scenes::SkewedBoxes>(count, broad_seed), .skewed = true};
@@ -104,7 +110,8 @@ Job pairs_of_frames(const BoxFrames<D>& frames) {
     Job job{.items = frames.count, .values = 1, .rounds = first, .frames = 10, .tolerance = 0, .sides = {}};
     each_side<D, ForPairs<D>>([&]<class Phase>(const Structure<Phase>& structure, std::string who) {
         if (within(structure.limits, frames))
-            job.sides.push_back(count_pairs<PhasePairs<Phase, D>>(std::move(who), frames.scene, frames.upkeep));
+            job.sides.push_back(
+                count_pairs<PhasePairs<Phase, D>>(std::move(who), frames.scene, frames.upkeep, frames.moved));
     });
     if (within(plain_grid_limits, frames)) job.sides.push_back(plain_grid_pairs(frames.scene, frames.skewed));
     for (const Peer<D>& peer : peers(frames))
@@ -121,13 +128,14 @@ std::vector<Bench> frame_benches() {
         result.push_back(
             {"broad/" + name + "/" + std::to_string(frames.count), [frames] { return pairs_of_frames(frames); }});
     };
-    for (const std::size_t count : {1'000u, 10'000u, 100'000u, 1'000'000u}) add("moving/3d", moving<3>(count));
+    for (const std::size_t count : {60u, 120u, 1'000u, 10'000u, 100'000u, 1'000'000u})
+        add("moving/3d", moving<3>(count));
     for (const std::size_t count : {1'000u, 10'000u, 100'000u, 1'000'000u})
         add("scratch/3d", from_scratch(moving<3>(count)));
     for (const std::size_t count : {10'000u, 100'000u, 1'000'000u}) add("tenth/3d", tenth_moving(count));
     add("skewed/moving/3d", skewed(100'000));
     add("skewed/scratch/3d", from_scratch(skewed(100'000)));
-    for (const std::size_t count : {1'000u, 10'000u, 100'000u}) add("moving/2d", moving<2>(count));
+    for (const std::size_t count : {60u, 120u, 1'000u, 10'000u, 100'000u}) add("moving/2d", moving<2>(count));
     return result;
 }
 

@@ -93,6 +93,7 @@ Job asked_of_all(const Boxes& scene, std::span<const Query> queries, double tole
     each_side<3, ForQueries<3>>([&]<class Phase>(const Structure<Phase>& structure, std::string who) {
         if (boxes->size() > structure.limits.queries) return;
         const auto phase = std::make_shared<Phase>();
+        tell(*phase, {.moved = 0, .asked = 1});
         phase->build(*boxes);
         job.sides.push_back(each_query(std::move(who), queries, [phase, boxes, answer](const Query& query) {
             return answer(std::as_const(*phase), std::span<const Aabb3>(*boxes), query);
@@ -151,6 +152,8 @@ Job nearest(std::size_t count, std::size_t wanted) {
 std::vector<Bench> box_query_benches() {
     return {
         {"broad/region/3d/100000", [] { return regions(100'000); }},
+        {"broad/first_hit/3d/100", [] { return first_hits(100); }},
+        {"broad/nearest/3d/100", [] { return nearest(100, 1); }},
         {"broad/ray/3d/100000", [] { return rays(100'000); }},
         {"broad/first_hit/3d/100000", [] { return first_hits(100'000); }},
         {"broad/nearest/3d/100000", [] { return nearest(100'000, 1); }},

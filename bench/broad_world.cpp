@@ -7,25 +7,32 @@
 #include <abut/world/world.hpp>
 
 #include <memory>
+#include <optional>
+#include <string>
+#include <utility>
 #include <variant>
 
 namespace abut::bench {
 
 namespace {
 
-/// Boxes, capsules and hulls that drift about.
+enum class Shapes { mixed, balls };
+
+/// Boxes, capsules and hulls that drift about, or balls, which are cheap to tell apart.
 struct MixedScene {
     struct Item {
         scenes::AnyConvex<3> shape;
         glm::quat rotation;
     };
 
-    explicit MixedScene(std::size_t count) : boxes(count, broad_seed) {
+    explicit MixedScene(std::size_t count, Shapes shapes = Shapes::mixed) : boxes(count, broad_seed) {
         oracle::Random random(broad_seed);
         for (std::size_t i = 0; i < count; ++i) {
             Item& item = items.emplace_back();
             item.rotation = random.rotation<3>();
-            if (i % 3 == 0)
+            if (shapes == Shapes::balls)
+                item.shape = Sphere{{0, 0, 0}, random.uniform_float(0.25, 1)};
+            else if (i % 3 == 0)
                 item.shape = scenes::random_box<3>(random);
             else if (i % 3 == 1)
                 item.shape = scenes::random_capsule(random);
@@ -39,25 +46,43 @@ struct MixedScene {
     std::vector<Item> items;
 };
 
-/// Counts the pairs that touch, with all their contacts.
-Side world_update(std::size_t count) {
+/// What is asked of a world in each frame.
+struct WorldFrames {
+    std::size_t count = 0;
+    Shapes shapes = Shapes::mixed;
+    std::size_t rays = 0;  ///< each as long as 20 mean edges
+};
+
+/// Counts the pairs that touch, with all their contacts, and the rays that hit.
+Side world_update(std::string who, const WorldFrames& frames, std::optional<BroadPhaseKind> broad_phase = {}) {
     struct State {
-        explicit State(std::size_t n) : scene(n) {
-            for (std::size_t i = 0; i < n; ++i)
+        State(const WorldFrames& f, std::optional<BroadPhaseKind> kind)
+            : scene(f.count, f.shapes), world({.broad_phase = kind}) {
+            for (std::size_t i = 0; i < f.count; ++i)
                 ids.push_back(std::visit([&](const auto& s) { return world.add(s, {.pose = scene.pose(i)}); },
                                          scene.items[i].shape));
+            oracle::Random random(broad_seed);
+            const float side = scene.boxes.side();
+            while (rays.size() < f.rays) {
+                Vec3 origin;
+                for (int i = 0; i < 3; ++i) origin[i] = random.uniform_float(0, side);
+                rays.push_back({origin, to_float<3>(random.direction<3>()), 25});
+            }
         }
         MixedScene scene;
         World3 world;
         std::vector<Id> ids;
+        std::vector<Ray3> rays;
     };
-    const auto state = std::make_shared<State>(count);
+    const auto state = std::make_shared<State>(frames, broad_phase);
     const auto ask = [state](std::span<double> values) {
         for (std::size_t i = 0; i < state->ids.size(); ++i) state->world.move(state->ids[i], state->scene.pose(i));
         const Events events = state->world.update();
-        values[0] = static_cast<double>(events.began.size() + events.stayed.size());
+        std::size_t found = events.began.size() + events.stayed.size();
+        for (const Ray3& ray : state->rays) found += state->world.raycast(ray) ? 1u : 0u;
+        values[0] = static_cast<double>(found);
     };
-    return {"abut", ask, [state] { state->scene.boxes.step(); }};
+    return {std::move(who), ask, [state] { state->scene.boxes.step(); }};
 }
 
 /// Counts them without a World: a broad phase, and a yes or no for each pair of boxes.
@@ -98,13 +123,29 @@ Job world(std::size_t count) {
             .rounds = 8,
             .frames = 10,
             .tolerance = 1,  // a pair may touch to within the margin of doubt
-            .sides = {world_update(count), overlaps_by_hand(count)}};
+            .sides = {world_update("abut", {.count = count}), overlaps_by_hand(count)}};
+}
+
+/// With the broad phase that it chooses, and with each that it might have chosen.
+Job world_that_chooses(const WorldFrames& frames) {
+    return {.items = frames.count,
+            .values = 1,
+            .rounds = 80,  // until it has learnt how often it is asked
+            .frames = 10,
+            .tolerance = 0,
+            .sides = {world_update(chosen_side, frames), world_update("abut by Grid", frames, BroadPhaseKind::grid),
+                      world_update("abut by Bvh", frames, BroadPhaseKind::bvh)}};
 }
 
 }  // namespace
 
 std::vector<Bench> world_benches() {
-    return {{"broad/world/3d/2000", [] { return world(2000); }}};
+    return {
+        {"broad/world/3d/2000", [] { return world(2000); }},
+        {"broad/world/balls/3d/10000", [] { return world_that_chooses({.count = 10'000, .shapes = Shapes::balls}); }},
+        {"broad/world/asked/3d/10000",
+         [] { return world_that_chooses({.count = 10'000, .shapes = Shapes::balls, .rays = 2000}); }},
+    };
 }
 
 }  // namespace abut::bench

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <sstream>
 
@@ -155,7 +156,13 @@ std::vector<Row> measure(const Bench& bench) {
         const double seconds = job.frames > 0 ? mean(times) - median(collector.times(job.sides.size())) : median(times);
         rows[i].ns = 1e9 * seconds / static_cast<double>(job.items);
     }
-    for (Row& row : rows) row.ratio = rows[0].ns / row.ns;
+    double best = std::numeric_limits<double>::infinity();
+    for (const Row& row : rows)
+        if (row.who.starts_with("abut") && row.who != chosen_side) best = std::min(best, row.ns);
+    for (Row& row : rows) {
+        row.ratio = rows[0].ns / row.ns;
+        if (row.who == chosen_side) row.over_best = row.ns / best;
+    }
     return rows;
 }
 

@@ -44,6 +44,7 @@ void print_table_rows(std::ostream& out, std::span<const Row> rows) {
             << row.ratio << std::setw(16) << row.answer;
         if (row.is_mean && &row == &rows.front()) out << "  mean of all frames";
         if (row.on_the_wall && &row == &rows.front()) out << ", time on the wall";
+        if (row.over_best > 0) out << "  " << row.over_best << " of the best";
         if (!row.difference.empty()) out << (row.agrees ? "  (" : "  DISAGREES (") << row.difference << ')';
         out << '\n';
     }
@@ -57,6 +58,7 @@ void print_json(std::ostream& out, std::span<const Row> rows) {
         out << separator << R"(  {"bench": ")" << row.bench << R"(", "who": ")" << row.who << R"(", "ns": )" << row.ns
             << R"(, "ratio": )" << row.ratio << R"(, "answer": )";
         std::isfinite(row.answer) ? out << row.answer : out << "null";
+        if (row.over_best > 0) out << R"(, "over_best": )" << row.over_best;
         if (!row.agrees) out << R"(, "disagreement": ")" << row.difference << '"';
         out << '}';
         separator = ",\n";

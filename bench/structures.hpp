@@ -6,6 +6,7 @@
 #include <abut/broad_phase/brute_force.hpp>
 #include <abut/broad_phase/bsp.hpp>
 #include <abut/broad_phase/bvh.hpp>
+#include <abut/broad_phase/chosen_broad_phase.hpp>
 #include <abut/broad_phase/grid.hpp>
 #include <abut/broad_phase/layered_grid.hpp>
 #include <abut/broad_phase/sweep_and_prune.hpp>
@@ -46,6 +47,13 @@ void each_structure(Visit visit) {
     visit(Structure<SweepAndPrune<D>>{"SweepAndPrune"});
     visit(Structure<Bvh<D>>{"Bvh"});
     visit(Structure<Bsp<D>>{"Bsp", {.moving = 10'000, .queries = 100'000}});
+    visit(Structure<ChosenBroadPhase<D>>{"chosen"});
+}
+
+/// Tells the one that chooses how its boxes are used; the others don't care.
+template <class Phase>
+void tell(Phase& phase, const BroadPhaseHistory& history) {
+    if constexpr (requires { phase.tell(history); }) phase.tell(history);
 }
 
 /// visit(structure, who) for the one that is "abut", and then for the others.

@@ -16,15 +16,18 @@ namespace abut::scenes {
 struct MovingBoxesOptions {
     double overlaps = 2;           ///< how many others a box overlaps, about
     std::size_t one_in_moves = 1;  ///< the first of so many moves, the others rest
+    double speed = 0.1;            ///< the most a frame along each axis
+    double fineness = 1024;        ///< coordinates and steps are multiples of one part in so many: a power of two
 };
 
-/// Edges of 0.5 to 2, at most 0.1 a frame along each axis, and about one overlapping pair a box. Every coordinate is a
-/// multiple of 1/1024, so that no library rounds a box on its way in, and which boxes touch is the same to all.
+/// Edges of 0.5 to 2, and by default at most 0.1 a frame along each axis, and about one overlapping pair a box. Every
+/// coordinate is a multiple of 1/1024, so that no library rounds a box on its way in, and which boxes touch is the same
+/// to all.
 template <int D>
 class MovingBoxes {
 public:
     MovingBoxes(std::size_t count, std::uint64_t seed, const MovingBoxesOptions& options = {})
-        : boxes_(count), velocities_(count) {
+        : fineness_(options.fineness), boxes_(count), velocities_(count) {
         // A box overlaps those whose centres lie in a box of 2.5, two mean edges.
         const double volume = power(2.5) * static_cast<double>(count) / options.overlaps;
         while (power(side_) < volume) ++side_;
@@ -35,7 +38,7 @@ public:
                 const float center = on_grid(random.uniform(half, side_ - half));
                 boxes_[item].min[i] = center - half;
                 boxes_[item].max[i] = center + half;
-                velocities_[item][i] = on_grid(random.uniform(-0.1, 0.1));
+                velocities_[item][i] = on_grid(random.uniform(-options.speed, options.speed));
             }
             if (item % options.one_in_moves != 0) velocities_[item] = {};
         }
@@ -61,8 +64,9 @@ public:
 
 private:
     static double power(double x) { return D == 2 ? x * x : x * x * x; }
-    static float on_grid(double x) { return static_cast<float>(std::floor(x * 1024) / 1024); }
+    float on_grid(double x) const { return static_cast<float>(std::floor(x * fineness_) / fineness_); }
 
+    double fineness_;
     float side_ = 2;
     std::vector<Aabb<D>> boxes_;
     std::vector<Vec<D>> velocities_;
