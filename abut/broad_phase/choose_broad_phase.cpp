@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 namespace abut {
@@ -65,8 +66,11 @@ BroadPhaseKind choose_broad_phase(std::span<const Aabb<D>> boxes, const BroadPha
         return history.asked * longer_by_brute_force(count) > tree_frame_longer ? BroadPhaseKind::bvh
                                                                                 : BroadPhaseKind::brute_force;
     if (history.asked * grid_question_longer > tree_frame_longer) return BroadPhaseKind::bvh;
+    if (static_cast<double>(count) <= crowd) return BroadPhaseKind::grid;  // all in one cell are no more
+    // Where as many share a cell as matter, a thousand pairs of the sample do.
+    const auto wanted = static_cast<std::size_t>(2 * std::sqrt(static_cast<double>(count)));
     std::array<Aabb<D>, sample_size> sample;
-    const std::size_t taken = std::min(count, sample_size);
+    const std::size_t taken = std::min(wanted, sample_size);
     for (std::size_t i = 0; i < taken; ++i) sample[i] = boxes[i * count / taken];
     const double company = company_in_grid<D>({sample.data(), taken}, count);
     return company > crowd ? BroadPhaseKind::bvh : BroadPhaseKind::grid;

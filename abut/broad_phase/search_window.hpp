@@ -13,7 +13,7 @@ namespace abut {
 /// From time to time it tries again. Costs are counts, times about what each takes in nanoseconds; no clock has a say.
 class SearchWindow {
 public:
-    static constexpr double item_cost = 100, pair_cost = 20, look_cost = 20, held_cost = 0.2;
+    static constexpr double item_cost = 30, pair_cost = 15, look_cost = 20, held_cost = 0.2;
 
     /// From nothing, with a first guess.
     void begin(double margin);

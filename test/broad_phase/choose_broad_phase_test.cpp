@@ -51,6 +51,23 @@ TYPED_TEST(Choices, FollowTheScene) {
     EXPECT_EQ(choice<D>(empty), BroadPhaseKind::grid);
 }
 
+/// What suits the scenes of the bench, by its table.
+TYPED_TEST(Choices, SuitTheScenesOfTheBench) {
+    constexpr int D = dimension_of<TypeParam>;
+    const auto moving = [](std::size_t count, std::size_t one_in_moves = 1) {
+        return scenes::MovingBoxes<D>(count, 1, {.one_in_moves = one_in_moves});
+    };
+    EXPECT_EQ(choice<D>(moving(60).boxes()), BroadPhaseKind::brute_force);
+    EXPECT_EQ(choice<D>(moving(120).boxes()), BroadPhaseKind::grid);
+    for (const std::size_t count : {1'000u, 10'000u, 100'000u})
+        EXPECT_EQ(choice<D>(moving(count).boxes()), BroadPhaseKind::grid) << count;
+    for (const std::size_t count : {10'000u, 100'000u})
+        EXPECT_EQ(choice<D>(moving(count, 10).boxes(), {.moved = 0.1}), BroadPhaseKind::grid) << count;
+    EXPECT_EQ(choice<D>(scenes::SkewedBoxes<D>(100'000, 1).boxes()), BroadPhaseKind::grid);
+    for (const std::size_t count : {100u, 100'000u})
+        EXPECT_EQ(choice<D>(moving(count).boxes(), {.moved = 0, .asked = 1}), BroadPhaseKind::bvh) << count;
+}
+
 /// A scene that changes its nature, the right pairs all the time.
 TYPED_TEST(Choices, ChangeWithTheScene) {
     constexpr int D = dimension_of<TypeParam>;
