@@ -3,6 +3,7 @@
 #include <abut/broad_phase/grid.hpp>
 #include <abut/broad_phase/grid_pairs.hpp>
 #include <abut/broad_phase/grid_plan.hpp>
+#include <abut/broad_phase/grid_queries.hpp>
 #include <abut/broad_phase/pair_buffer.hpp>
 #include <abut/broad_phase/tell_together.hpp>
 #include <abut/math/assert.hpp>
@@ -134,26 +135,32 @@ void Grid<D>::visit_boxes(BoxCall<D> visit) const {
 
 template <int D>
 void Grid<D>::visit_overlapping(const Aabb<D>& box, ItemCall visit) const {
-    using Words = GridWords<D>;
     const Aabb<D> query = usable(box);
     if (size() == 0 || is_empty(query)) return;
     for (const std::uint32_t large : large_)
         if (overlaps(boxes_[large], query) && !visit(large)) return;
-    const GridSteps<D> steps = cells_.steps(query);
-    each_cell<D>(cells_.range(steps), [&](const std::array<std::uint32_t, D>& cell) {
-        const WordsInCell<D> own(steps, cell);
-        return store_.each_page(cells_.index(cell), [&](std::uint32_t first, std::uint32_t count) {
-            for (std::uint32_t i = first; i < first + count; ++i) {
-                const GridRecord& record = store_.records[i];
-                if (((record.high - own.low) & (own.high - record.low) & Words::guards) != Words::guards) continue;
-                if (!Words::surely_meet(own.low, own.high, record.low, record.high) &&
-                    !overlaps(boxes_[record.item], query))
-                    continue;
-                if (!visit(record.item)) return false;
-            }
-            return true;
-        });
-    });
+    find_overlapping<D>({cells_, store_, boxes_.data()}, query, visit);
+}
+
+template <int D>
+template <class Reach>
+void Grid<D>::visit_within(Reach reach, ReachCall visit) const {
+    if (size() == 0) return;
+    for (std::size_t i = 0; i < large_.size() && !reach.over(); ++i) {
+        double measure = 0;
+        if (reach.measure(boxes_[large_[i]], measure)) reach.shrink(visit(large_[i]));
+    }
+    if (!reach.over()) find_within<D>({cells_, store_, boxes_.data()}, reach, visit);
+}
+
+template <int D>
+void Grid<D>::visit_along(const Ray<D>& ray, ReachCall visit) const {
+    visit_within(RayReach<D>(ray), visit);
+}
+
+template <int D>
+void Grid<D>::visit_near(const Aabb<D>& box, float reach, ReachCall visit) const {
+    visit_within(BoxReach<D>(box, reach), visit);
 }
 
 template class Grid<2>;

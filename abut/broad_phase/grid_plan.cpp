@@ -1,5 +1,6 @@
 #include <abut/broad_phase/grid_plan.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -77,7 +78,9 @@ template <int D>
 GridCells<D> cells_in(const Aabb<D>& block, float edge, std::uint32_t most) {
     // A step is more than the last digit of the coordinates, or it would tell nothing; so many along an axis are exact.
     constexpr double most_along = 1 << 17;
-    double wide = std::max(static_cast<double>(edge), longest(block) / most_along * 2);
+    // With shorter edges there would be more steps a length than a float can tell.
+    constexpr double least_edge = 1e-32;
+    double wide = std::max({static_cast<double>(edge), least_edge, longest(block) / most_along * 2});
     while (count_of(block, wide) > most) wide /= finer;
     GridCells<D> result;
     result.edge = static_cast<float>(wide);

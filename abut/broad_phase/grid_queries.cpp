@@ -1,221 +1,307 @@
-// Rays through a Grid, and what is near: cells layer by layer. No item is told twice, though nothing is marked: it is
-// told in the first layer that has a cell of it, and there in the first of these cells.
+// Queries among the cells of a Grid. Sixteen boxes of a cell are looked at together, by the steps in their words: what
+// these may let in, the box itself decides, in double. No item is told twice, though nothing is marked: each is told in
+// one of its cells, which its box and the query determine.
+// Compiled once for each kind of vector unit by Highway, which takes the best of them when the program runs.
 
-#include <abut/broad_phase/grid.hpp>
-#include <abut/broad_phase/reach.hpp>
+#include <abut/broad_phase/grid_queries.hpp>
+#include <abut/broad_phase/grid_walk.hpp>
 
-#include <cmath>
-#include <optional>
-#include <utility>
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <limits>
 
-namespace abut {
-namespace {
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "abut/broad_phase/grid_queries.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
 
-constexpr double endless = std::numeric_limits<double>::infinity();
+HWY_BEFORE_NAMESPACE();
+namespace abut::HWY_NAMESPACE {
 
-/// Of a coordinate and of where a cell begins, both as large as that, more than all roundings between them.
-constexpr double rounding = 1e-5;
+namespace hn = hwy::HWY_NAMESPACE;
 
-/// Where cells begin along an axis.
-template <int D>
-double border(const GridCells<D>& cells, std::size_t axis, std::uint32_t cell) {
-    return static_cast<double>(cells.origin[axis]) +
-           cell * (static_cast<double>(GridWords<D>::steps) / static_cast<double>(cells.scale));
+using Lanes = hn::CappedTag<std::uint32_t, 16>;
+using Numbers = hn::RebindToSigned<Lanes>;
+using Floats = hn::RebindToFloat<Lanes>;
+constexpr Lanes d;
+constexpr Numbers di;
+constexpr Floats df;
+constexpr std::size_t lanes = hn::MaxLanes(d);
+constexpr std::uint32_t page_size = GridStore::page_size;
+
+inline std::uint32_t next_lane(std::uint32_t& bits) {
+    const auto result = static_cast<std::uint32_t>(std::countr_zero(bits));
+    bits &= bits - 1;
+    return result;
 }
 
-/// Of all borders of cells, and of another coordinate.
-template <int D>
-double doubt_of(const GridCells<D>& cells, std::size_t axis, double coordinate) {
-    return rounding *
-           (std::abs(coordinate) + std::abs(border(cells, axis, 0)) + std::abs(border(cells, axis, cells.count[axis])));
+inline std::uint32_t bits_of(hn::Mask<Lanes> mask) {
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(d, mask, bytes);
+    return static_cast<std::uint32_t>(bytes[0]) | static_cast<std::uint32_t>(bytes[1]) << 8;
 }
 
-/// Visits, in one cell, the items whose first cell among `these` it is, and none that has a cell among `before`.
-template <int D, class Visit>
-bool each_new_item(const GridCells<D>& cells, const GridStore& store, const std::vector<Aabb<D>>& boxes,
-                   const std::array<std::uint32_t, D>& cell, const CellRange<D>& these,
-                   const std::optional<CellRange<D>>& before, Visit visit) {
-    return store.each_page(cells.index(cell), [&](std::uint32_t first, std::uint32_t count) {
-        for (std::uint32_t k = first; k < first + count; ++k) {
-            const std::uint32_t item = store.records[k].item;
-            const bool go_on = visit(item, [&] {
-                const CellRange<D> range = cells.range(boxes[item]);
-                return first_cell(these, range) == cell && !(before && overlaps(*before, range));
-            });
-            if (!go_on) return false;
+/// Some records of a page.
+struct Words {
+    hn::Vec<Lanes> low, high;
+
+    explicit Words(const GridRecord* records) {
+        hn::Vec<Lanes> unused;
+        hn::LoadInterleaved3(d, &records->low, low, high, unused);
+    }
+
+    /// Those that meet a box by the steps of both; never the places of a page that hold no box.
+    template <int D>
+    hn::Mask<Lanes> meet(const WordsInCell<D>& box) const {
+        const auto guards = hn::Set(d, GridWords<D>::guards);
+        const auto stay = hn::And(hn::Sub(high, hn::Set(d, box.low)), hn::Sub(hn::Set(d, box.high), low));
+        return hn::Eq(hn::And(stay, guards), guards);
+    }
+
+    /// The steps along an axis, as numbers of fields.
+    template <int D>
+    static hn::Vec<Floats> field(hn::Vec<Lanes> words, std::size_t axis) {
+        const int i = static_cast<int>(axis);
+        const auto steps =
+            hn::And(hn::ShiftRightSame(words, GridWords<D>::field_shift[axis]), hn::Set(d, GridWords<D>::most(i)));
+        return hn::ConvertTo(df, hn::BitCast(di, steps));
+    }
+};
+
+/// The length of a field along an axis.
+template <int D>
+double field_length(const GridBorders<D>& borders, std::size_t axis) {
+    return borders.edge() / (GridWords<D>::most(static_cast<int>(axis)) + 1);
+}
+
+/// Rounded upwards; not so near the largest float that a square of less could be beyond it.
+inline float not_less(double number) {
+    return number < 1e37 ? static_cast<float>(number) * (1 + 1e-5f) + 1e-37f : std::numeric_limits<float>::infinity();
+}
+
+/// A ray on its way through one cell.
+template <int D>
+class RayInCell {
+public:
+    using Span = typename RayCells<D>::Span;
+
+    RayInCell(const RayCells<D>& ray, const GridCells<D>& cells, const GridCell<D>& cell, const Span& span)
+        : words_(steps(ray, cells, cell, span), cell), from_(span.from), to_(span.to) {
+        for (std::size_t i = 0; i < D; ++i) {
+            moves_[i] = ray.moves_along(i);
+            if (!moves_[i]) continue;
+            const double inverse = ray.inverse(i), step = field_length(ray.borders(), i) * inverse;
+            const double begin = (ray.borders().border(i, cell[i]) - ray.origin(i)) * inverse - from_;
+            const double edge = ray.borders().edge() * std::abs(inverse);
+            const double slack = ray.doubt(i) * std::abs(inverse) + 1e-6 * (std::abs(begin) + edge) +
+                                 1e-11 * (from_ + std::min(to_, 1e300));
+            up_[i] = ray.goes_up(i);
+            step_[i] = to_float(step);
+            in_[i] = to_float((up_[i] ? begin : begin + step) - slack);
+            out_[i] = to_float((up_[i] ? begin + step : begin) + slack);
+        }
+    }
+
+    /// How far it goes from where it comes in, no less.
+    float length(const RayReach<D>& reach) const { return not_less(std::min(to_, reach.reach()) - from_); }
+
+    /// Which of these the ray may touch before `length`, and where it comes in at the earliest.
+    std::uint32_t operator()(const Words& records, float length, float* measures) const {
+        const auto met = records.meet<D>(words_);
+        auto enters = hn::Zero(df), leaves = hn::Set(df, length);
+        for (std::size_t i = 0; i < D; ++i) {
+            if (!moves_[i]) continue;
+            const auto low = Words::field<D>(records.low, i), high = Words::field<D>(records.high, i);
+            const auto near = up_[i] ? low : high, far = up_[i] ? high : low;
+            // What ends where the cell ends may go on, in the next cell or beyond the block.
+            const float most = static_cast<float>(GridWords<D>::most(static_cast<int>(i)));
+            const auto near_end = hn::Set(df, up_[i] ? 0.0f : most), far_end = hn::Set(df, up_[i] ? most : 0.0f);
+            const auto step = hn::Set(df, step_[i]);
+            const auto in = hn::Add(hn::Mul(near, step), hn::Set(df, in_[i]));
+            const auto out = hn::Add(hn::Mul(far, step), hn::Set(df, out_[i]));
+            enters = hn::IfThenElse(hn::Eq(near, near_end), enters, hn::Max(enters, in));
+            leaves = hn::IfThenElse(hn::Eq(far, far_end), leaves, hn::Min(leaves, out));
+        }
+        hn::StoreU(enters, df, measures);
+        return bits_of(hn::And(met, hn::RebindMask(d, hn::Le(enters, leaves))));
+    }
+
+private:
+    /// Of the box around the way through the cell.
+    static GridSteps<D> steps(const RayCells<D>& ray, const GridCells<D>& cells, const GridCell<D>& cell,
+                              const Span& span) {
+        GridSteps<D> result;
+        for (std::size_t i = 0; i < D; ++i) {
+            const Span place = ray.coordinates(i, span);
+            const double base = ray.borders().border(i, cell[i]), scale = static_cast<double>(cells.scale);
+            const auto step = [&](double coordinate) {
+                const double steps = std::clamp((coordinate - base) * scale, 0.0, GridWords<D>::steps - 1.0);
+                return (cell[i] << GridWords<D>::step_bits) + static_cast<std::uint32_t>(steps);
+            };
+            result.low[i] = step(place.from);
+            result.high[i] = step(place.to);
+        }
+        return result;
+    }
+
+    WordsInCell<D> words_;
+    double from_, to_;
+    bool moves_[D], up_[D]{};
+    float step_[D]{}, in_[D]{}, out_[D]{};  ///< distances along the ray from where it comes into the cell
+};
+
+/// A box as seen from a cell, for distances.
+template <int D>
+class BoxByCell {
+public:
+    BoxByCell(const BoxCells<D>& box, const GridCell<D>& cell) {
+        for (std::size_t i = 0; i < D; ++i) {
+            const GridBorders<D>& borders = box.borders();
+            const double length = field_length(borders, i), base = borders.border(i, cell[i]);
+            step_[i] = to_float(length);
+            above_[i] = to_float(base - box.high(i) - box.doubt(i));
+            below_[i] = to_float(box.low(i) - base - length - box.doubt(i));
+            least_[i] = cell[i] == 0 ? 0.0f : -1.0f;
+            const auto most = static_cast<float>(GridWords<D>::most(static_cast<int>(i)));
+            most_[i] = cell[i] == borders.last(i) ? most : most + 1;
+        }
+    }
+
+    static float length(const BoxReach<D>& reach) { return not_less(reach.most()); }
+
+    /// Which of these may be nearer than the root of `most`, and how far away they are at least, squared. The places of
+    /// a page that hold no box may be among them.
+    std::uint32_t operator()(const Words& records, float most, float* measures) const {
+        auto sum = hn::Zero(df);
+        for (std::size_t i = 0; i < D; ++i) {
+            const auto low = Words::field<D>(records.low, i), high = Words::field<D>(records.high, i);
+            const auto step = hn::Set(df, step_[i]);
+            const auto above = hn::Add(hn::Mul(low, step), hn::Set(df, above_[i]));
+            const auto below = hn::Sub(hn::Set(df, below_[i]), hn::Mul(high, step));
+            // What ends where the block ends may go on beyond.
+            const auto gap = hn::Max(hn::IfThenElseZero(hn::Gt(low, hn::Set(df, least_[i])), above),
+                                     hn::IfThenElseZero(hn::Lt(high, hn::Set(df, most_[i])), below));
+            const auto positive = hn::Max(gap, hn::Zero(df));
+            sum = hn::Add(sum, hn::Mul(positive, positive));
+        }
+        hn::StoreU(sum, df, measures);
+        return bits_of(hn::RebindMask(d, hn::Le(sum, hn::Set(df, most))));
+    }
+
+private:
+    float step_[D], above_[D], below_[D];
+    float least_[D], most_[D];  ///< fields that tell where a box begins are more, those that tell where it ends less
+};
+
+/// Visits the items of a cell that are within reach and whose cell(range, measure) it is. False: the visitor has had
+/// enough.
+template <int D, class Reach, class InCell, class CellOf>
+bool visit_cell(const GridItems<D>& items, const GridCell<D>& cell, Reach& reach, const InCell& query, CellOf cell_of,
+                ReachCall visit) {
+    float most = query.length(reach), measures[page_size];
+    return items.store.each_page(items.cells.index(cell), [&](std::uint32_t first, std::uint32_t count) {
+        const GridRecord* records = items.store.records.data() + first;
+        std::uint32_t bits = 0;
+        for (std::size_t i = 0; i < page_size; i += lanes) bits |= query(Words(records + i), most, measures + i) << i;
+        bits &= (1u << count) - 1;
+        while (bits != 0) {
+            const std::uint32_t lane = next_lane(bits), item = records[lane].item;
+            double measure = 0;
+            if (measures[lane] > most || !reach.measure(items.boxes[item], measure)) continue;
+            if (cell_of(items.cells.range(items.boxes[item]), measure) != cell) continue;
+            reach.shrink(visit(item));
+            if (reach.over()) return false;
+            most = query.length(reach);
         }
         return true;
     });
 }
 
-/// The cells that a ray may touch, one layer across its main axis after the other.
 template <int D>
-class RayLayers {
-public:
-    RayLayers(const GridCells<D>& cells, const Ray<D>& ray) : cells_(cells), origin_(ray.origin), way_(ray.direction) {
-        double most = 0;
-        for (std::size_t i = 0; i < D; ++i) {
-            const double speed = std::abs(way_[static_cast<int>(i)]);
-            doubt_[i] = doubt_of(cells, i, origin_[static_cast<int>(i)]);
-            if (cells.count[i] == 1 || !(speed > most)) continue;
-            most = speed;
-            axis_ = i;
-            count_ = cells.count[i];
-        }
-    }
+void within(const GridItems<D>& items, RayReach<D> reach, ReachCall visit) {
+    const RayCells<D> ray(items.cells, reach);
+    ray.each(reach, [&](const GridCell<D>& cell, const typename RayCells<D>::Span& span) {
+        if (items.store.is_empty(items.cells.index(cell))) return true;
+        const RayInCell<D> query(ray, items.cells, cell, span);
+        const auto cell_of = [&](const CellRange<D>& range, double enters) { return ray.entry(range, enters); };
+        return visit_cell<D>(items, cell, reach, query, cell_of, visit);
+    });
+}
 
-    std::uint32_t count() const { return count_; }
+template <int D>
+void within(const GridItems<D>& items, BoxReach<D> reach, ReachCall visit) {
+    const BoxCells<D> box(items.cells, reach.box());
+    box.each(reach, [&](const GridCell<D>& cell) {
+        if (items.store.is_empty(items.cells.index(cell))) return true;
+        const auto cell_of = [&](const CellRange<D>& range, double) { return box.nearest(range); };
+        return visit_cell<D>(items, cell, reach, BoxByCell<D>(box, cell), cell_of, visit);
+    });
+}
 
-    /// Of layer k on the way, between which distances along the ray it is in there, no less.
-    std::pair<double, double> span(std::uint32_t k) const {
-        if (count_ == 1) return {0, endless};
-        const int axis = static_cast<int>(axis_);
-        const std::uint32_t cell = layer(k);
-        const double low = cell == 0 ? -endless : border(cells_, axis_, cell) - doubt_[axis_];
-        const double high = cell + 1 == count_ ? endless : border(cells_, axis_, cell + 1) + doubt_[axis_];
-        const double a = (low - origin_[axis]) / way_[axis], b = (high - origin_[axis]) / way_[axis];
-        return {std::max(std::min(a, b), 0.0), std::max(a, b)};
-    }
-
-    /// The cells of layer k that the ray may touch between two distances.
-    CellRange<D> range(std::uint32_t k, double from, double to) const {
-        CellRange<D> result;
-        for (std::size_t i = 0; i < D; ++i) {
-            if (i == axis_ && count_ > 1) {
-                result.low[i] = result.high[i] = layer(k);
-                continue;
+template <int D>
+void overlapping(const GridItems<D>& items, const Aabb<D>& box, ItemCall visit) {
+    const GridSteps<D> steps = items.cells.steps(box);
+    each_cell<D>(items.cells.range(steps), [&](const GridCell<D>& cell) {
+        // The flags of guests see to it that an item is told in the first cell that it shares with the box.
+        const WordsInCell<D> own(steps, cell);
+        return items.store.each_page(items.cells.index(cell), [&](std::uint32_t first, std::uint32_t) {
+            const GridRecord* records = items.store.records.data() + first;
+            std::uint32_t bits = 0;
+            for (std::size_t i = 0; i < page_size; i += lanes)
+                bits |= bits_of(Words(records + i).template meet<D>(own)) << i;
+            while (bits != 0) {
+                const GridRecord& record = records[next_lane(bits)];
+                if (!GridWords<D>::surely_meet(own.low, own.high, record.low, record.high) &&
+                    !overlaps(items.boxes[record.item], box))
+                    continue;
+                if (!visit(record.item)) return false;
             }
-            const double a = at(i, from), b = at(i, to);
-            const auto cell = [&](double x) {
-                return cells_.step(static_cast<float>(x), i) >> GridWords<D>::step_bits;
-            };
-            result.low[i] = cell(std::min(a, b) - doubt_[i]);
-            result.high[i] = cell(std::max(a, b) + doubt_[i]);
-        }
-        return result;
-    }
-
-private:
-    std::uint32_t layer(std::uint32_t k) const { return way_[static_cast<int>(axis_)] > 0 ? k : count_ - 1 - k; }
-
-    /// Nothing times an endless way is nothing.
-    double at(std::size_t axis, double distance) const {
-        const int i = static_cast<int>(axis);
-        return way_[i] == 0 ? origin_[i] : origin_[i] + way_[i] * distance;
-    }
-
-    const GridCells<D>& cells_;
-    DVec<D> origin_, way_;
-    std::array<double, D> doubt_{};
-    std::size_t axis_ = 0;     ///< across which the layers lie
-    std::uint32_t count_ = 1;  ///< 1: a layer of all cells
-};
-
-/// A range with so many more cells on each side, as far as there are any.
-template <int D>
-CellRange<D> grown(const GridCells<D>& cells, const CellRange<D>& range, std::uint32_t more) {
-    CellRange<D> result;
-    for (std::size_t i = 0; i < D; ++i) {
-        result.low[i] = range.low[i] - std::min(range.low[i], more);
-        result.high[i] = range.high[i] + std::min(cells.count[i] - 1 - range.high[i], more);
-    }
-    return result;
-}
-
-/// Visits the cells of `outer` that aren't in `inner`, which lies in it.
-template <int D, class Visit>
-bool each_cell_around(const CellRange<D>& inner, const CellRange<D>& outer, Visit visit) {
-    CellRange<D> part = outer;
-    for (std::size_t axis = D; axis-- > 0;) {
-        if (outer.low[axis] < inner.low[axis]) {
-            part.high[axis] = inner.low[axis] - 1;
-            if (!each_cell<D>(part, visit)) return false;
-            part.high[axis] = outer.high[axis];
-        }
-        if (outer.high[axis] > inner.high[axis]) {
-            part.low[axis] = inner.high[axis] + 1;
-            if (!each_cell<D>(part, visit)) return false;
-        }
-        part.low[axis] = inner.low[axis];
-        part.high[axis] = inner.high[axis];
-    }
-    return true;
-}
-
-/// No box that touches no cell of the range is nearer to the query. Endless where the range is all there is.
-template <int D>
-double least_distance_beyond(const GridCells<D>& cells, const CellRange<D>& range, const Aabb<D>& query) {
-    double result = endless;
-    for (std::size_t i = 0; i < D; ++i) {
-        const int axis = static_cast<int>(i);
-        const double low = static_cast<double>(query.min[axis]), high = static_cast<double>(query.max[axis]);
-        if (range.low[i] > 0) result = std::min(result, low - border(cells, i, range.low[i]) - doubt_of(cells, i, low));
-        if (range.high[i] + 1 < cells.count[i])
-            result = std::min(result, border(cells, i, range.high[i] + 1) - high - doubt_of(cells, i, high));
-    }
-    return std::max(result, 0.0);
-}
-
-}  // namespace
-
-template <int D>
-void Grid<D>::visit_along(const Ray<D>& ray, ReachCall visit) const {
-    RayReach<D> reach(ray);
-    double enters = 0;
-    const auto tell = [&](std::uint32_t item) {
-        reach.shrink(visit(item));
-        return !reach.over();
-    };
-    if (size() == 0 || reach.over()) return;
-    for (const std::uint32_t item : large_)
-        if (reach.measure(boxes_[item], enters) && !tell(item)) return;
-    const RayLayers<D> layers(cells_, ray);
-    std::optional<CellRange<D>> before;
-    for (std::uint32_t k = 0; k < layers.count(); ++k) {
-        const auto [from, to] = layers.span(k);
-        if (to < 0) continue;
-        if (!reach.within(from)) return;
-        const CellRange<D> range = layers.range(k, from, std::min(to, reach.reach()));
-        const bool more = each_cell<D>(range, [&](const std::array<std::uint32_t, D>& cell) {
-            return each_new_item<D>(cells_, store_, boxes_, cell, range, before, [&](std::uint32_t item, auto is_new) {
-                return !reach.measure(boxes_[item], enters) || !is_new() || tell(item);
-            });
+            return true;
         });
-        if (!more) return;
-        before = range;
-    }
+    });
 }
 
-template <int D>
-void Grid<D>::visit_near(const Aabb<D>& box, float reach_at_first, ReachCall visit) const {
-    BoxReach<D> reach(box, reach_at_first);
-    double square = 0;
-    const auto tell = [&](std::uint32_t item) {
-        reach.shrink(visit(item));
-        return !reach.over();
-    };
-    if (size() == 0 || reach.over()) return;
-    for (const std::uint32_t item : large_)
-        if (reach.measure(boxes_[item], square) && !tell(item)) return;
-    const CellRange<D> own = cells_.range(box);
-    std::optional<CellRange<D>> before;
-    for (std::uint32_t more = 0;; ++more) {
-        const CellRange<D> range = grown(cells_, own, more);
-        const auto look = [&](const std::array<std::uint32_t, D>& cell) {
-            return each_new_item<D>(cells_, store_, boxes_, cell, range, before, [&](std::uint32_t item, auto is_new) {
-                return !reach.measure(boxes_[item], square) || !is_new() || tell(item);
-            });
-        };
-        if (!(before ? each_cell_around<D>(*before, range, look) : each_cell<D>(range, look))) return;
-        const double beyond = least_distance_beyond(cells_, range, box);
-        if (beyond == endless || !reach.within(beyond * beyond)) return;
-        before = range;
+// Names that a table of functions can be made of.
+#define ABUT_FOR_DIMENSION(D)                                                              \
+    void overlapping_##D(const GridItems<D>& items, const Aabb<D>& box, ItemCall visit) {  \
+        overlapping(items, box, visit);                                                    \
+    }                                                                                      \
+    void along_##D(const GridItems<D>& items, const RayReach<D>& reach, ReachCall visit) { \
+        within(items, reach, visit);                                                       \
+    }                                                                                      \
+    void near_##D(const GridItems<D>& items, const BoxReach<D>& reach, ReachCall visit) {  \
+        within(items, reach, visit);                                                       \
     }
-}
+ABUT_FOR_DIMENSION(2)
+ABUT_FOR_DIMENSION(3)
+#undef ABUT_FOR_DIMENSION
 
-template void Grid<2>::visit_along(const Ray<2>&, ReachCall) const;
-template void Grid<3>::visit_along(const Ray<3>&, ReachCall) const;
-template void Grid<2>::visit_near(const Aabb<2>&, float, ReachCall) const;
-template void Grid<3>::visit_near(const Aabb<3>&, float, ReachCall) const;
+}  // namespace abut::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace abut {
+
+#define ABUT_FOR_DIMENSION(D)                                                                \
+    HWY_EXPORT(overlapping_##D);                                                             \
+    HWY_EXPORT(along_##D);                                                                   \
+    HWY_EXPORT(near_##D);                                                                    \
+    template <>                                                                              \
+    void find_overlapping(const GridItems<D>& items, const Aabb<D>& box, ItemCall visit) {   \
+        HWY_DYNAMIC_DISPATCH(overlapping_##D)(items, box, visit);                            \
+    }                                                                                        \
+    template <>                                                                              \
+    void find_within(const GridItems<D>& items, const RayReach<D>& reach, ReachCall visit) { \
+        HWY_DYNAMIC_DISPATCH(along_##D)(items, reach, visit);                                \
+    }                                                                                        \
+    template <>                                                                              \
+    void find_within(const GridItems<D>& items, const BoxReach<D>& reach, ReachCall visit) { \
+        HWY_DYNAMIC_DISPATCH(near_##D)(items, reach, visit);                                 \
+    }
+ABUT_FOR_DIMENSION(2)
+ABUT_FOR_DIMENSION(3)
+#undef ABUT_FOR_DIMENSION
 
 }  // namespace abut
+#endif

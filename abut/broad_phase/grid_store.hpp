@@ -52,6 +52,7 @@ struct GridStore {
         next[cell] = place + 1;
     }
 
+    bool is_empty(std::uint32_t cell) const { return next[cell] == 0; }
     std::uint32_t page_before(std::uint32_t first_record) const { return before[first_record / page_size]; }
 
     /// Calls visit(first record, how many) for each page of a cell, the one begun last first, until one says false.
