@@ -53,6 +53,7 @@ private:
 };
 thread_local std::size_t* CountingExecutor::current_ = nullptr;
 
+template <class Phase>
 struct ThreadedPairs {
     ThreadedPairs(std::span<const Aabb3> boxes, std::uint32_t threads)
         : counting(threads), executor(threads > 1 ? &counting : nullptr) {
@@ -68,7 +69,7 @@ struct ThreadedPairs {
 
     CountingExecutor counting;
     Executor* executor;  ///< none: one thread alone
-    ForQueries<3> phase;
+    Phase phase;
 };
 
 Job moving_on_threads(std::size_t count) {
@@ -79,8 +80,10 @@ Job moving_on_threads(std::size_t count) {
             .frames = 10,
             .on_the_wall = true,
             .tolerance = 0,
-            .sides = {count_pairs<ThreadedPairs>("abut", scene, std::uint32_t{1}),
-                      count_pairs<ThreadedPairs>("abut, 2 threads", scene, std::uint32_t{2})}};
+            .sides = {count_pairs<ThreadedPairs<ForPairs<3>>>("abut", scene, std::uint32_t{1}),
+                      count_pairs<ThreadedPairs<ForPairs<3>>>("abut, 2 threads", scene, std::uint32_t{2}),
+                      count_pairs<ThreadedPairs<Bvh<3>>>("abut Bvh", scene, std::uint32_t{1}),
+                      count_pairs<ThreadedPairs<Bvh<3>>>("abut Bvh, 2 threads", scene, std::uint32_t{2})}};
 }
 
 }  // namespace

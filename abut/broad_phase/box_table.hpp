@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace abut {
@@ -49,6 +50,14 @@ public:
         numbers_.assign(2 * D * stride_, std::numeric_limits<float>::quiet_NaN());
     }
     std::size_t room() const { return room_; }
+    /// The same, and the first `kept` boxes stay.
+    void grow(std::size_t count, std::size_t kept) {
+        BoxTable larger;
+        larger.reserve(count);
+        const BoxRows<D> boxes = rows();
+        for (std::size_t i = 0; i < kept; ++i) larger.set(i, boxes[i]);
+        *this = std::move(larger);
+    }
 
     void set(std::size_t i, const Aabb<D>& box) {
         float* number = numbers_.data() + i;

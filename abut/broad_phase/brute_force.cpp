@@ -36,20 +36,51 @@ bool visit_hits(const BoxRows<D>& boxes, std::size_t count, const Aabb<D>& box, 
 }  // namespace
 
 template <int D>
+void BruteForce<D>::set(std::size_t index, const Aabb<D>& box) {
+    const Aabb<D> holds = usable(box);
+    boxes_.set(index, is_empty(holds) ? no_box<D>() : holds);
+}
+
+template <int D>
+void BruteForce<D>::set_all(std::span<const Aabb<D>> boxes) {
+    for (std::size_t i = 0; i < boxes.size(); ++i) set(i, boxes[i]);
+}
+
+template <int D>
 void BruteForce<D>::build(std::span<const Aabb<D>> boxes, Executor*) {
     ABUT_ASSERT(boxes.size() < std::size_t{1} << 32);
     size_ = boxes.size();
     boxes_.reserve(size_);
-    for (std::size_t i = 0; i < size_; ++i) {
-        const Aabb<D> box = usable(boxes[i]);
-        boxes_.set(i, is_empty(box) ? no_box<D>() : box);
-    }
+    free_.clear();
+    set_all(boxes);
 }
 
 template <int D>
-void BruteForce<D>::update(std::span<const Aabb<D>> boxes, Executor*) {
+void BruteForce<D>::update(std::span<const Aabb<D>> boxes, Executor* executor) {
     ABUT_ASSERT(boxes.size() == size());
-    build(boxes);
+    if (boxes.size() != size()) return build(boxes, executor);
+    free_.keep_empty(boxes);
+    set_all(boxes);
+}
+
+template <int D>
+std::uint32_t BruteForce<D>::insert(const Aabb<D>& box) {
+    const std::uint32_t index = free_.take(static_cast<std::uint32_t>(size_));
+    if (index == size_) {
+        ABUT_ASSERT(size_ + 1 < std::size_t{1} << 32);
+        if (size_ == boxes_.room()) boxes_.grow(2 * size_ + box_lanes, size_);
+        ++size_;
+    }
+    set(index, box);
+    return index;
+}
+
+template <int D>
+void BruteForce<D>::erase(std::uint32_t index) {
+    ABUT_ASSERT(index < size());
+    if (index >= size() || free_.contains(index)) return;
+    boxes_.set(index, no_box<D>());
+    free_.add(index);
 }
 
 template <int D>

@@ -4,6 +4,7 @@
 
 #include <abut/broad_phase/box_table.hpp>
 #include <abut/broad_phase/face.hpp>
+#include <abut/broad_phase/free_items.hpp>
 #include <abut/math/aabb.hpp>
 #include <abut/math/executor.hpp>
 #include <abut/math/ray.hpp>
@@ -23,6 +24,13 @@ public:
     void build(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
     void update(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
 
+    /// A new item. Returns its index: the least of those that were erased, or else size(), which grows by one. The
+    /// indices of the others stay.
+    std::uint32_t insert(const Aabb<D>& box);
+    /// Makes an item empty; its index may be given to a new one. In the span of an update it has a box still, an empty
+    /// one.
+    void erase(std::uint32_t index);
+
     std::size_t size() const { return size_; }
     /// Of all boxes together; Aabb::empty() where there is none.
     Aabb<D> bounds() const;
@@ -36,11 +44,14 @@ private:
     void visit_along(const Ray<D>& ray, ReachCall visit) const;
     void visit_near(const Aabb<D>& box, float reach, ReachCall visit) const;
 
+    void set(std::size_t index, const Aabb<D>& box);
+    void set_all(std::span<const Aabb<D>> boxes);
     template <class Reach>
     void visit_within(Reach reach, ReachCall visit) const;
 
     std::size_t size_ = 0;
     BoxTable<D> boxes_;  // those that are empty are NaN
+    FreeItems free_;
 };
 
 extern template class BruteForce<2>;

@@ -1,6 +1,7 @@
 #include <abut/broad_phase/boxes.hpp>
 #include <abut/broad_phase/concept.hpp>
 #include <abut/broad_phase/grid.hpp>
+#include <abut/broad_phase/grid_jobs.hpp>
 #include <abut/broad_phase/grid_pairs.hpp>
 #include <abut/broad_phase/grid_plan.hpp>
 #include <abut/broad_phase/grid_queries.hpp>
@@ -9,6 +10,7 @@
 #include <abut/math/assert.hpp>
 
 #include <algorithm>
+#include <array>
 
 namespace abut {
 namespace {
@@ -22,21 +24,40 @@ std::uint32_t most_pages(std::size_t boxes) {
 
 template <int D>
 double Grid<D>::Cost::time() const {
-    return 12.0 * static_cast<double>(tiles) + 3.0 * static_cast<double>(copies);
+    return 12.0 * static_cast<double>(tiles) + 3.0 * static_cast<double>(copies) + static_cast<double>(single);
 }
 
 template <int D>
-typename Grid<D>::Cost Grid<D>::cost() const {
+typename Grid<D>::Cost Grid<D>::cost(Executor* executor) const {
+    std::array<Cost, parts_of_job> parts;
+    run_parts(executor, boxes_.size(), [&](std::uint32_t part) {
+        const auto [begin, end] = part_of(cells_.total, part);
+        Cost own;
+        for (auto cell = static_cast<std::uint32_t>(begin); cell < end; ++cell) {
+            std::uint64_t pages = 0;
+            store_.each_page(cell, [&](std::uint32_t, std::uint32_t count) {
+                own.copies += count;
+                own.tiles += ++pages;
+                return true;
+            });
+        }
+        parts[part] = own;
+    });
     Cost result;
-    for (std::uint32_t cell = 0; cell < cells_.total; ++cell) {
-        std::uint64_t pages = 0;
-        store_.each_page(cell, [&](std::uint32_t, std::uint32_t count) {
-            result.copies += count;
-            result.tiles += ++pages;
-            return true;
-        });
+    for (const Cost& part : parts) {
+        result.copies += part.copies;
+        result.tiles += part.tiles;
     }
+    result.single = std::uint64_t{large_.size()} * boxes_.size();
     return result;
+}
+
+template <int D>
+void Grid<D>::reserve(std::size_t count) {
+    if (count <= reserved_) return;
+    reserved_ = count;
+    large_.reserve(count);
+    store_.reserve(most_pages(count), grid_most_cells(count), GridWords<D>::guards);
 }
 
 template <int D>
@@ -45,40 +66,107 @@ void Grid<D>::set_edge(float edge) {
 }
 
 template <int D>
-void Grid<D>::fill_cells(std::span<const Aabb<D>> boxes) {
+void Grid<D>::fill_cells(std::span<const Aabb<D>> boxes, Executor* executor) {
+    if (executor != nullptr) marks_.resize(boxes.size());
     for (;;) {
         store_.clear(cells_.total);
         large_.clear();
-        fill(cells_, boxes, boxes_.data(), store_, large_);
-        if (!store_.is_full) return;
+        fill(cells_, boxes, boxes_.data(), store_, large_, marks_.data(), executor);
+        if (!store_.is_full()) break;
         set_edge(cells_.edge * 1.25f);
     }
+    cost_ = cost(executor);
 }
 
 template <int D>
-void Grid<D>::build(std::span<const Aabb<D>> boxes, Executor*) {
+void Grid<D>::build(std::span<const Aabb<D>> boxes, Executor* executor) {
     ABUT_ASSERT(boxes.size() <= std::size_t{1} << 27);
     boxes_.resize(boxes.size());
-    large_.reserve(boxes.size());
-    store_.reserve(most_pages(boxes.size()), grid_most_cells(boxes.size()), GridWords<D>::guards);
-    plan(boxes);
+    free_.clear();
+    plan(boxes, executor);
 }
 
 template <int D>
-void Grid<D>::plan(std::span<const Aabb<D>> boxes) {
-    const GridScene<D> scene = scene_of(boxes);
+void Grid<D>::plan(std::span<const Aabb<D>> boxes, Executor* executor) {
+    reserve(boxes.size());
+    const GridScene<D> scene = scene_of(boxes, executor);
     block_ = scene.block;
     set_edge(wanted_edge_ > 0 ? wanted_edge_ : edge_for(scene, grid_boxes_a_cell, grid_edges_a_cell));
-    fill_cells(boxes);
-    planned_ = cost();
+    fill_cells(boxes, executor);
+    planned_ = cost_;
 }
 
 template <int D>
 void Grid<D>::update(std::span<const Aabb<D>> boxes, Executor* executor) {
     ABUT_ASSERT(boxes.size() == size());
     if (boxes.size() != size()) return build(boxes, executor);
-    fill_cells(boxes);
-    if (cost().time() > 1.5 * planned_.time()) plan(boxes);
+    free_.keep_empty(boxes);
+    fill_cells(boxes, executor);
+    if (cost_.time() > 1.5 * planned_.time()) plan(boxes, executor);
+}
+
+template <int D>
+bool Grid<D>::put(std::uint32_t index) {
+    const GridSteps<D> steps = cells_.steps(boxes_[index]);
+    const CellRange<D> range = cells_.range(steps);
+    if (!fits_in_cells(range)) {
+        large_.insert(std::lower_bound(large_.begin(), large_.end(), index), index);
+        return true;
+    }
+    return each_cell<D>(range, [&](const std::array<std::uint32_t, D>& at) {
+        const WordsInCell<D> words(steps, at);
+        const std::uint32_t cell = cells_.index(at);
+        store_.add(cell, words.low, words.high, index);
+        ++cost_.copies;
+        if (store_.has_new_page(cell)) cost_.tiles += store_.page_count(cell);
+        return !store_.is_full();
+    });
+}
+
+template <int D>
+void Grid<D>::take_out(std::uint32_t index) {
+    const CellRange<D> range = cells_.range(boxes_[index]);
+    if (!fits_in_cells(range)) {
+        large_.erase(std::lower_bound(large_.begin(), large_.end(), index));
+        return;
+    }
+    each_cell<D>(range, [&](const std::array<std::uint32_t, D>& at) {
+        const std::uint32_t cell = cells_.index(at);
+        if (store_.has_new_page(cell)) cost_.tiles -= store_.page_count(cell);
+        --cost_.copies;
+        store_.remove(cell, index);
+        return true;
+    });
+}
+
+template <int D>
+std::uint32_t Grid<D>::insert(const Aabb<D>& box) {
+    const std::uint32_t index = free_.take(static_cast<std::uint32_t>(size()));
+    if (index == size()) {
+        ABUT_ASSERT(size() < std::size_t{1} << 27);
+        boxes_.emplace_back();
+    }
+    boxes_[index] = usable(box);
+    if (is_empty(boxes_[index])) return index;
+    const bool found_room = cells_.total > 0 && put(index);
+    cost_.single = std::uint64_t{large_.size()} * boxes_.size();
+    // While there are a few boxes only, any cells do.
+    constexpr double little = 1000;
+    if (!found_room || cost_.time() > 1.5 * planned_.time() + little) {
+        reserve(size() + size() / 2);
+        plan(boxes_, nullptr);
+    }
+    return index;
+}
+
+template <int D>
+void Grid<D>::erase(std::uint32_t index) {
+    ABUT_ASSERT(index < size());
+    if (index >= size() || free_.contains(index)) return;
+    if (!is_empty(boxes_[index])) take_out(index);
+    cost_.single = std::uint64_t{large_.size()} * boxes_.size();
+    boxes_[index] = Aabb<D>::empty();
+    free_.add(index);
 }
 
 template <int D>

@@ -3,6 +3,7 @@
 // A uniform grid: the broad phase for boxes of like sizes that all move.
 
 #include <abut/broad_phase/face.hpp>
+#include <abut/broad_phase/free_items.hpp>
 #include <abut/broad_phase/grid_store.hpp>
 #include <abut/math/aabb.hpp>
 #include <abut/math/executor.hpp>
@@ -38,11 +39,21 @@ public:
     void build(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
     void update(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
 
+    /// A new item. Returns its index: the least of those that were erased, or else size(), which grows by one. The
+    /// indices of the others stay. Cells are chosen anew whenever the boxes have come to cost half as much again: some
+    /// such call takes O(n), on average it is O(1).
+    std::uint32_t insert(const Aabb<D>& box);
+    /// Makes an item empty; its index may be given to a new one. In the span of an update it has a box still, an empty
+    /// one.
+    void erase(std::uint32_t index);
+
     std::size_t size() const { return boxes_.size(); }
     /// Of all boxes together; Aabb::empty() where there is none.
     Aabb<D> bounds() const;
     /// Of the cells, as it was given or chosen.
     float cell_edge() const { return cells_.edge; }
+    /// About what finding the pairs costs, by what is compared and copied. To compare grids of the same boxes by.
+    double pair_cost() const { return cost_.time(); }
 
 private:
     friend BroadPhaseFace<Grid<D>, D>;
@@ -60,13 +71,17 @@ private:
     struct Cost {
         std::uint64_t tiles = 0;  ///< sixteen boxes against sixteen
         std::uint64_t copies = 0;
+        std::uint64_t single = 0;  ///< large ones against all others
         double time() const;
     };
 
-    void plan(std::span<const Aabb<D>> boxes);
+    void reserve(std::size_t count);
+    void plan(std::span<const Aabb<D>> boxes, Executor* executor);
     void set_edge(float edge);
-    void fill_cells(std::span<const Aabb<D>> boxes);
-    Cost cost() const;
+    void fill_cells(std::span<const Aabb<D>> boxes, Executor* executor);
+    bool put(std::uint32_t index);
+    void take_out(std::uint32_t index);
+    Cost cost(Executor* executor) const;
 
     float wanted_edge_ = 0;
     GridCells<D> cells_;
@@ -74,7 +89,10 @@ private:
     GridStore store_;
     std::vector<Aabb<D>> boxes_;
     std::vector<std::uint32_t> large_;  ///< those that are in no cell
-    Cost planned_;
+    Cost planned_, cost_;               ///< when the cells were chosen, and now
+    std::size_t reserved_ = 0;          ///< there is room for so many boxes
+    FreeItems free_;
+    std::vector<std::uint8_t> marks_;  ///< for several threads that fill cells
 };
 
 extern template class Grid<2>;

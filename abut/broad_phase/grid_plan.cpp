@@ -1,6 +1,8 @@
+#include <abut/broad_phase/grid_jobs.hpp>
 #include <abut/broad_phase/grid_plan.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -29,38 +31,63 @@ double longest(const Aabb<D>& block) {
     return result;
 }
 
-}  // namespace
-
+/// What is counted of some boxes.
 template <int D>
-GridScene<D> scene_of(std::span<const Aabb<D>> boxes) {
-    GridScene<D> scene;
-    double sum[D] = {}, squares[D] = {}, edges = 0;
-    Aabb<D> around = Aabb<D>::empty();
-    constexpr float far = 1e37f;
-    for (const Aabb<D>& box : boxes) {
+struct Sums {
+    std::size_t count = 0;
+    double middles[D] = {}, squares[D] = {}, edges = 0;
+    Aabb<D> around = Aabb<D>::empty();  ///< of the middles
+
+    void add(const Aabb<D>& box) {
+        constexpr float far = 1e37f;
         bool counts = true;
         for (int i = 0; i < D; ++i)
             counts = counts && -far < box.min[i] && box.min[i] <= box.max[i] && box.max[i] < far;
-        if (!counts) continue;
-        ++scene.count;
+        if (!counts) return;
+        ++count;
         for (int i = 0; i < D; ++i) {
             const double low = static_cast<double>(box.min[i]), high = static_cast<double>(box.max[i]);
             const double middle = 0.5 * (low + high);
-            sum[i] += middle;
+            middles[i] += middle;
             squares[i] += middle * middle;
             edges += high - low;
             around.min[i] = std::min(around.min[i], static_cast<float>(middle));
             around.max[i] = std::max(around.max[i], static_cast<float>(middle));
         }
     }
+    void add(const Sums& other) {
+        count += other.count;
+        edges += other.edges;
+        around = merged(around, other.around);
+        for (int i = 0; i < D; ++i) {
+            middles[i] += other.middles[i];
+            squares[i] += other.squares[i];
+        }
+    }
+};
+
+}  // namespace
+
+template <int D>
+GridScene<D> scene_of(std::span<const Aabb<D>> boxes, Executor* executor) {
+    std::array<Sums<D>, parts_of_job> parts;
+    run_parts(executor, boxes.size(), [&](std::uint32_t part) {
+        const auto [begin, end] = part_of(boxes.size(), part);
+        for (std::size_t i = begin; i < end; ++i) parts[part].add(boxes[i]);
+    });
+    Sums<D> sums;
+    for (const Sums<D>& part : parts) sums.add(part);
+    GridScene<D> scene;
+    scene.count = sums.count;
     if (scene.count == 0) return scene;
     const double count = static_cast<double>(scene.count);
-    scene.mean_edge = edges / (count * D);
+    scene.mean_edge = sums.edges / (count * D);
     for (int i = 0; i < D; ++i) {
-        const double mean = sum[i] / count, variance = std::max(0.0, squares[i] / count - mean * mean);
+        const double mean = sums.middles[i] / count, variance = std::max(0.0, sums.squares[i] / count - mean * mean);
         const double most = 3 * std::sqrt(variance);
-        scene.block.min[i] = std::max(around.min[i], static_cast<float>(mean - most));
-        scene.block.max[i] = std::max(scene.block.min[i], std::min(around.max[i], static_cast<float>(mean + most)));
+        scene.block.min[i] = std::max(sums.around.min[i], static_cast<float>(mean - most));
+        scene.block.max[i] =
+            std::max(scene.block.min[i], std::min(sums.around.max[i], static_cast<float>(mean + most)));
     }
     return scene;
 }
@@ -98,8 +125,8 @@ GridCells<D> cells_in(const Aabb<D>& block, float edge, std::uint32_t most) {
     return result;
 }
 
-template GridScene<2> scene_of(std::span<const Aabb<2>>);
-template GridScene<3> scene_of(std::span<const Aabb<3>>);
+template GridScene<2> scene_of(std::span<const Aabb<2>>, Executor*);
+template GridScene<3> scene_of(std::span<const Aabb<3>>, Executor*);
 template float edge_for(const GridScene<2>&, double, double);
 template float edge_for(const GridScene<3>&, double, double);
 template GridCells<2> cells_in(const Aabb<2>&, float, std::uint32_t);

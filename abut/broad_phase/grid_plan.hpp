@@ -3,6 +3,7 @@
 // Which cells suit some boxes. For .cpp files.
 
 #include <abut/broad_phase/grid_cells.hpp>
+#include <abut/math/executor.hpp>
 
 #include <span>
 
@@ -23,7 +24,7 @@ struct GridScene {
     double mean_edge = 0;
 };
 template <int D>
-GridScene<D> scene_of(std::span<const Aabb<D>> boxes);
+GridScene<D> scene_of(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
 
 /// The edge of cells that hold about so many of the boxes, but no less than `least` of their mean edges. At least a
 /// normal float.

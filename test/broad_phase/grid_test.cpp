@@ -2,6 +2,7 @@
 
 #include "../oracle/random.hpp"
 #include "../oracle/vector_units.hpp"
+#include "executors.hpp"
 #include "scenes.hpp"
 #include <abut/broad_phase/brute_force.hpp>
 #include <abut/broad_phase/grid.hpp>
@@ -149,6 +150,89 @@ TYPED_TEST(Grids, AnyEdgeOfCells) {
     const auto boxes = make_scene<D>(Scene::mixed_sizes, 500, random);
     const Pairs expected = every_pair(boxes);
     for (const float edge : {1e-30f, 1e-3f, 1.0f, 30.0f, 1e5f, 1e30f}) EXPECT_EQ(grid_pairs(boxes, edge), expected);
+}
+
+TYPED_TEST(Grids, AreTheSameWithSeveralThreads) {
+    constexpr int D = dimension_of<TypeParam>;
+    for (const Scene scene : {Scene::uniform, Scene::clustered, Scene::mixed_sizes, Scene::holes_and_endless}) {
+        oracle::Random random(31);
+        auto boxes = make_scene<D>(scene, 9000, random);
+        if (scene == Scene::clustered)
+            for (std::size_t i = 0; i < boxes.size(); ++i)
+                boxes[i] = box_at<D>(DVec<D>(static_cast<double>(i % 5000)), DVec<D>(0.6));
+        TypeParam one, many[2];
+        ThreadExecutor two(2), seven(7);
+        one.build(boxes);
+        many[0].build(boxes, &two);
+        many[1].build(boxes, &seven);
+        const auto order = [](const TypeParam& grid) {
+            Pairs result;
+            grid.each_pair([&](std::uint32_t i, std::uint32_t j) { result.emplace_back(i, j); });
+            return result;
+        };
+        for (int frame = 0; frame < 3; ++frame) {
+            const Pairs expected = order(one);
+            EXPECT_GT(expected.size(), 2000u);
+            for (const TypeParam& grid : many) {
+                EXPECT_EQ(order(grid), expected) << "seed 31 frame " << frame;
+                EXPECT_EQ(grid.cell_edge(), one.cell_edge());
+            }
+            move_some(boxes, random);
+            one.update(boxes);
+            many[0].update(boxes, &two);
+            many[1].update(boxes, &seven);
+        }
+    }
+}
+
+/// Rays and points from where cells don't reach, along the borders of cells, and through corners of boxes.
+TYPED_TEST(Grids, RaysAlongBordersAndFromFarAway) {
+    constexpr int D = dimension_of<TypeParam>;
+    std::size_t found = 0;
+    for (std::uint64_t seed = 40; seed < 60; ++seed) {
+        SCOPED_TRACE(testing::Message() << "seed " << seed);
+        oracle::Random random(seed);
+        const auto place = [&](std::uint32_t most) { return 0.25f * static_cast<float>(random.below(4 * most + 1)); };
+        std::vector<Aabb<D>> boxes{{Vec<D>(0), Vec<D>(0)}, {Vec<D>(8), Vec<D>(8)}};
+        while (boxes.size() < 300) {
+            Aabb<D> box;
+            for (int i = 0; i < D; ++i) {
+                box.min[i] = place(8);
+                box.max[i] = box.min[i] + place(random.chance(0.1) ? 12 : 1);
+            }
+            if (random.chance(0.05)) box.max[0] = std::numeric_limits<float>::infinity();
+            boxes.push_back(box);
+        }
+        TypeParam grid(1.0f);
+        BruteForce<D> oracle;
+        grid.build(boxes);
+        oracle.build(boxes);
+        for (int query = 0; query < 200; ++query) {
+            Vec<D> origin, target;
+            for (int i = 0; i < D; ++i) {
+                origin[i] = place(8);
+                target[i] = random.chance(0.5) ? origin[i] : place(8);
+            }
+            if (random.chance(0.2)) origin[random.below(D)] = random.chance(0.5) ? -1e4f : 3e6f;
+            const auto ray = Ray<D>::between(origin, target);
+            const auto ordered = [](auto ask) {
+                std::vector<std::uint32_t> result;
+                ask([&](std::uint32_t i) { result.push_back(i); });
+                std::sort(result.begin(), result.end());
+                return result;
+            };
+            const auto along = ordered([&](auto visit) { oracle.raycast(ray, visit); });
+            EXPECT_EQ(ordered([&](auto visit) { grid.raycast(ray, visit); }), along);
+            const float reach = place(2);
+            const auto near = ordered([&](auto visit) { oracle.closest(origin, visit, reach); });
+            EXPECT_EQ(ordered([&](auto visit) { grid.closest(origin, visit, reach); }), near);
+            const Aabb<D> box{glm::min(origin, target), glm::max(origin, target)};
+            const auto around = ordered([&](auto visit) { oracle.closest(box, visit, reach); });
+            EXPECT_EQ(ordered([&](auto visit) { grid.closest(box, visit, reach); }), around);
+            found += along.size() + near.size();
+        }
+    }
+    EXPECT_GT(found, 20000u);
 }
 
 }  // namespace
