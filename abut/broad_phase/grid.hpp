@@ -28,7 +28,12 @@ namespace abut {
 /// do no harm; for many sizes take LayeredGrid. The edge of the cells is chosen from the data by counting: about thirty
 /// boxes a cell, and no less than three times their mean edge. docs/broad_phases.md has what other edges cost.
 ///
-/// Up to 2^27 items. Memory: at most 62 bytes an item in 3D (54 in 2D), and 50 KB.
+/// Rays and searches for what is near go from cell to cell, the first ones first, and look at sixteen boxes at a time.
+///
+/// With an executor `build` and `update` fill the cells on several threads; what lies in them is the same.
+///
+/// Up to 2^27 items. Memory: at most 62 bytes an item in 3D (54 in 2D), and 50 KB; one byte an item more with an
+/// executor, and up to twice as much once items were inserted, for those to come.
 template <int D>
 class Grid : public BroadPhaseFace<Grid<D>, D> {
 public:

@@ -49,8 +49,19 @@ struct GridPart {
 
     bool has(std::uint32_t cell) const { return begin <= cell && cell < end; }
 };
-/// A box that touches cells of a part has the bit of that part.
-inline constexpr std::uint32_t grid_parts = 8;
+/// All cells, in a few parts. A box that touches cells of a part has the bit of that part.
+struct GridParts {
+    static constexpr std::uint32_t most = 8;
+
+    /// So many that no thread waits long for the last one, and no more: each has to look for its boxes.
+    GridParts(std::uint32_t cells, std::uint32_t workers) : count(std::min(2 * workers, most)) {
+        const auto cell = [&](std::uint64_t part) { return static_cast<std::uint32_t>(cells * part / count); };
+        for (std::uint32_t i = 0; i < count; ++i) list[i] = {cell(i), cell(i + 1)};
+    }
+
+    std::uint32_t count;
+    std::array<GridPart, most> list;
+};
 
 }  // namespace abut
 #endif
@@ -158,14 +169,14 @@ void place_list(const GridCells<D>& cells, const Aabb<D>* boxes, const GridList&
 }
 
 /// The parts whose cells each box of a block touches, or perhaps touches where it lies in many cells.
-void mark_parts(const GridPart* parts, std::size_t count, GridBlock& block, std::uint8_t* marks) {
+void mark_parts(const GridParts& parts, std::size_t count, const GridBlock& block, std::uint8_t* marks) {
     alignas(64) std::uint32_t bits[grid_block];
     for (std::size_t i = 0; i < count; i += hn::Lanes(df)) {
         const auto first = hn::Load(du, block.cell + i), last = hn::Load(du, block.last_cell + i);
         auto touched = hn::Zero(du);
-        for (std::uint32_t part = 0; part < grid_parts; ++part) {
-            const auto begins_before = hn::Lt(first, hn::Set(du, parts[part].end));
-            const auto ends_before = hn::Lt(last, hn::Set(du, parts[part].begin));
+        for (std::uint32_t part = 0; part < parts.count; ++part) {
+            const auto begins_before = hn::Lt(first, hn::Set(du, parts.list[part].end));
+            const auto ends_before = hn::Lt(last, hn::Set(du, parts.list[part].begin));
             touched =
                 hn::Or(touched, hn::IfThenElseZero(hn::AndNot(ends_before, begins_before), hn::Set(du, 1u << part)));
         }
@@ -311,13 +322,7 @@ void fill_alone(const GridCells<D>& cells, std::span<const Aabb<D>> boxes, Aabb<
 template <int D>
 void fill_together(const GridCells<D>& cells, std::span<const Aabb<D>> boxes, Aabb<D>* own, GridStore& store,
                    std::vector<std::uint32_t>& large, std::uint8_t* marks, Executor& executor) {
-    std::array<GridPart, grid_parts> parts;
-    for (std::uint32_t i = 0; i < grid_parts; ++i) {
-        const auto cell = [&](std::uint64_t part) {
-            return static_cast<std::uint32_t>(cells.total * part / grid_parts);
-        };
-        parts[i] = {cell(i), cell(i + 1)};
-    }
+    const GridParts parts(cells.total, executor.workers());
     const std::size_t blocks = (boxes.size() + grid_block - 1) / grid_block;
     executor.run(parts_of_job, [&](std::uint32_t job) {
         GridBlock block;
@@ -327,7 +332,7 @@ void fill_together(const GridCells<D>& cells, std::span<const Aabb<D>> boxes, Aa
              begin += grid_block) {
             const std::size_t count = std::min(grid_block, boxes.size() - begin);
             place_all(cells, &boxes[begin], count, block, own + begin);
-            HWY_DYNAMIC_DISPATCH(mark_parts)(parts.data(), count, block, marks + begin);
+            HWY_DYNAMIC_DISPATCH(mark_parts)(parts, count, block, marks + begin);
             for (std::size_t i = 0; i < count; ++i) {
                 if (block.kind[i] != empty_kind<D>) continue;
                 own[begin + i] = usable(boxes[begin + i]);
@@ -336,18 +341,19 @@ void fill_together(const GridCells<D>& cells, std::span<const Aabb<D>> boxes, Aa
         }
     });
     std::mutex large_at_once;
-    executor.run(grid_parts, [&](std::uint32_t job) {
+    executor.run(parts.count, [&](std::uint32_t job) {
         GridBlock block;
         clear(block);
         GridList list;
-        Filler<D> filler(cells, parts[job], store);
+        Filler<D> filler(cells, parts.list[job], store);
         for (std::size_t begin = 0; begin < boxes.size() && !store.is_full(); begin += grid_block) {
             const std::size_t end = std::min(begin + grid_block, boxes.size());
-            list.length = 0;
+            std::uint32_t length = 0;
             for (std::size_t i = begin; i < end; ++i) {
-                list.item[list.length] = static_cast<std::uint32_t>(i);
-                list.length += marks[i] >> job & 1u;
+                list.item[length] = static_cast<std::uint32_t>(i);
+                length += marks[i] >> job & 1u;
             }
+            list.length = length;
             place_list(cells, own, list, block);
             const Kinds<D> kinds(block, list.length);
             filler.add(
