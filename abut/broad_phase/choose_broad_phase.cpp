@@ -18,7 +18,7 @@ constexpr std::size_t few = 110;
 /// By so much a box are an update of a tree and its pairs longer than those of the others.
 constexpr double tree_frame_longer = 45;
 /// By so much a ray, or a search for what is near, is longer in a grid than in a tree.
-constexpr double grid_question_longer = 5000;
+constexpr double grid_question_longer = 1000;
 /// The same by brute force, which looks at each box: soon a tree is better, unless it is asked for next to nothing.
 double longer_by_brute_force(std::size_t count) {
     return 5 * static_cast<double>(count) - 100;

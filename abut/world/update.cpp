@@ -12,7 +12,7 @@ void World<D>::refresh_boxes() {
     // A game that asks in every other update, or in every tenth, asks about as often all the time: the mean of many. So
     // many questions are counted that it may ask all of a few updates' in one.
     constexpr double remembered = 16;
-    const auto counted = static_cast<std::uint32_t>(ray_weight * (moving_.size() / 32 + 64));
+    const auto counted = static_cast<std::uint32_t>(ray_weight * (moving_.size() + 64));
     const double asked = static_cast<double>(asked_.take(counted)) / ray_weight;
     often_asked_ += (asked / static_cast<double>(std::max<std::size_t>(moving_.size(), 1)) - often_asked_) / remembered;
     moving_.refresh(often_asked_);

@@ -122,9 +122,9 @@ int changes_of_kind(int rays, int every, int frames, BroadPhaseKind last) {
 TEST(BroadPhaseOfAWorld, DoesNotWaverWithRaysNowAndThen) {
     EXPECT_EQ(changes_of_kind(0, 1, 300, BroadPhaseKind::grid), 0);
     EXPECT_EQ(changes_of_kind(1, 10, 300, BroadPhaseKind::grid), 0);
-    EXPECT_EQ(changes_of_kind(50, 1, 300, BroadPhaseKind::bvh), 1);
-    EXPECT_EQ(changes_of_kind(50, 2, 300, BroadPhaseKind::bvh), 1);
-    EXPECT_EQ(changes_of_kind(50, 4, 300, BroadPhaseKind::bvh), 1);
+    EXPECT_EQ(changes_of_kind(120, 1, 300, BroadPhaseKind::bvh), 1);
+    EXPECT_EQ(changes_of_kind(120, 2, 300, BroadPhaseKind::bvh), 1);
+    EXPECT_EQ(changes_of_kind(120, 4, 300, BroadPhaseKind::bvh), 1);
 }
 
 TEST(QuestionCount, IsTheSameFromManyThreads) {
