@@ -90,6 +90,16 @@ std::optional<WorldHit<D>> World<D>::raycast(const Ray<D>& ray, const Filter& fi
 }
 
 template <int D>
+bool World<D>::raycast_any(const Ray<D>& ray, const Filter& filter) const {
+    bool any = false;
+    each_near_ray(ray, filter, [&](std::uint32_t slot) {
+        any = any || abut::raycast(ray, items_[slot].placed);
+        return any ? -1.0f : ray.length;
+    });
+    return any;
+}
+
+template <int D>
 std::vector<WorldHit<D>> World<D>::raycast_all(const Ray<D>& ray, const Filter& filter) const {
     std::vector<WorldHit<D>> all;
     each_near_ray(ray, filter, [&](std::uint32_t slot) {

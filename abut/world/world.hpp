@@ -156,6 +156,8 @@ public:
 
     /// The first hit, as told at abut::raycast; of equally near ones, the one with the lowest id.
     std::optional<WorldHit<D>> raycast(const Ray<D>& ray, const Filter& filter = {}) const;
+    /// Whether the ray hits anything: stops at what it finds first, such as for a line of sight.
+    bool raycast_any(const Ray<D>& ray, const Filter& filter = {}) const;
     /// The first hit on each item, near to far.
     std::vector<WorldHit<D>> raycast_all(const Ray<D>& ray, const Filter& filter = {}) const;
 

@@ -100,6 +100,7 @@ void expect_questions_allocate_nothing(std::uint64_t seed) {
             const auto placed = at(shape, random_pose<D>(game.random(), Simulation<D>::extent));
             EXPECT_EQ(allocations_of([&] {
                           found += game.world.raycast(ray) ? 1 : 0;
+                          found += game.world.raycast_any(ray) ? 1 : 0;
                           found += game.world.closest(placed) ? 1 : 0;
                           found += game.world.closest(from) ? 1 : 0;
                           game.world.each_overlapping(placed, [&](Id) { ++found; });

@@ -35,6 +35,7 @@ TEST(Queries, EmptyWorldHasNoAnswers) {
     World2 world;
     before_and_after_update(world, [&] {
         EXPECT_FALSE(world.raycast(to_the_right));
+        EXPECT_FALSE(world.raycast_any(to_the_right));
         EXPECT_TRUE(world.raycast_all(to_the_right).empty());
         EXPECT_FALSE(world.closest(Vec2(0, 0)));
         EXPECT_TRUE(world.overlapping(unit).empty());
@@ -124,6 +125,7 @@ TEST(Queries, FilterPicksByLayersMaskSensorsAndId) {
             for (const WorldHit<2>& each : world.raycast_all(to_the_right, filter)) hit.push_back(each.id);
             EXPECT_EQ(hit, ids);
             EXPECT_EQ(world.raycast(to_the_right, filter).has_value(), !ids.empty());
+            EXPECT_EQ(world.raycast_any(to_the_right, filter), !ids.empty());
             const auto nearest = world.closest(unit, filter);
             EXPECT_EQ(nearest ? nearest->id : Id{}, ids.empty() ? Id{} : ids.front());
             return ids;

@@ -38,6 +38,7 @@ void check_rays(Simulation<D>& game, Seen& seen) {
     ASSERT_EQ(Bits(game.world.raycast_all(ray, filter)), Bits(expected));
     const auto first = expected.empty() ? std::nullopt : std::optional(expected.front());
     ASSERT_EQ(Bits(game.world.raycast(ray, filter)), Bits(first));
+    ASSERT_EQ(game.world.raycast_any(ray, filter), !expected.empty());
     seen.misses += expected.empty() ? 1 : 0;
     seen.hits += expected.empty() ? 0 : 1;
     seen.several_hits += expected.size() > 1 ? 1 : 0;
