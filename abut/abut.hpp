@@ -25,12 +25,14 @@
 #include <abut/query/contact.hpp>
 #include <abut/query/contains.hpp>
 #include <abut/query/early_out.hpp>
+#include <abut/query/hit.hpp>
 #include <abut/query/intersection.hpp>
 #include <abut/query/minkowski_sum.hpp>
 #include <abut/query/overlaps.hpp>
 #include <abut/query/polytope.hpp>
 #include <abut/query/raycast.hpp>
 #include <abut/query/raycast_solid_bsp.hpp>
+#include <abut/query/sweep.hpp>
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/capsule.hpp>

@@ -46,8 +46,17 @@ struct ClipStep {
     std::vector<Vec<D>> points;  ///< the face or polygon that the cut left; of a polyhedron the new face
 };
 
+/// A stop of a sweep, seen in the difference A - B as the two begin: as A moves on, the origin there goes back along a
+/// ray, and where that enters A - B the two touch.
 template <int D>
-using TraceStep = std::variant<GjkStep<D>, PenetrationStep<D>, AxisStep<D>, ClipStep<D>>;
+struct SweepStep {
+    Vec<D> position{};   ///< of the stop on the ray
+    Vec<D> normal{};     ///< of length 1, from A to B; A - B is behind a plane across it
+    float distance = 0;  ///< signed, of the two; of the plane from the stop
+};
+
+template <int D>
+using TraceStep = std::variant<GjkStep<D>, PenetrationStep<D>, AxisStep<D>, ClipStep<D>, SweepStep<D>>;
 
 /// Handed to a question by its options, it is filled with what happens there. It grows: clear it between questions.
 template <int D>

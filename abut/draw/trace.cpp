@@ -96,6 +96,18 @@ public:
         return middle_of(points);
     }
 
+    std::optional<Vec<D>> draw(const SweepStep<D>& step, const Style& style) {
+        if (!is_finite(step.position) || !is_finite(step.normal) || !std::isfinite(step.distance)) return {};
+        mark_origin();
+        const Vec<D> foot = along(step.position, step.normal, -static_cast<double>(step.distance));
+        const double offset = dot(DVec<D>(step.normal), DVec<D>(foot));
+        canvas_.line(Vec<D>(0), step.position, style);
+        canvas_.point(step.position, style);
+        canvas_.line(step.position, foot, dashed(style));
+        abut::draw(canvas_, HalfSpace<D>{step.normal, static_cast<float>(offset)}, dashed(style));
+        return along(step.position, step.normal, diagonal_ / 40);
+    }
+
 private:
     static Vec<D> along(const Vec<D>& from, const Vec<D>& direction, double far) {
         return to_float(DVec<D>(from) + DVec<D>(direction) * far);

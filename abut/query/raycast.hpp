@@ -3,24 +3,13 @@
 // Where does a ray meet a shape?
 
 #include <abut/math/ray.hpp>
-#include <abut/query/feature.hpp>
+#include <abut/query/hit.hpp>
 #include <abut/query/options.hpp>
 #include <abut/shape/view.hpp>
 
 #include <optional>
 
 namespace abut {
-
-/// Contact gained by a motion.
-template <int D>
-struct Hit {
-    float fraction = 0;           ///< of the motion, in [0, 1]; 0 for a ray of infinite length
-    float distance = 0;           ///< along the motion
-    Vec<D> point{};               ///< where they touch at that moment
-    Vec<D> normal{};              ///< of length 1, facing the mover or the ray's origin
-    bool started_inside = false;  ///< the motion started deeper in than rounding explains
-    Feature feature{};
-};
 
 template <int D>
 std::optional<Hit<D>> raycast(const Ray<D>& ray, const View<D>& shape, const QueryOptions<D>& options = {});

@@ -130,34 +130,49 @@ void each_part(const Composite<D>& composite, const Aabb<D>& box, PartVisitor<D>
 }
 
 template <int D>
-void each_part_along(const Composite<D>& composite, const DVec<D>& origin, const DVec<D>& direction,
-                     double length_of_ray, PartReachVisitor<D> visit) {
+void each_part_along(const Composite<D>& composite, const MovingBox<D>& box, PartReachVisitor<D> visit) {
     const Aabb<D> all = bounds(composite);
     if (!(all.min[0] <= all.max[0])) return;
     const double across = length(DVec<D>(all.max) - DVec<D>(all.min));
-    const double reach = std::min(length_of_ray, length(DVec<D>(center(all)) - origin) + across);
+    const double far = length(DVec<D>(center(all)) - box.center) + across + length(box.half);
+    const double reach = std::min(box.length, far);
     // Parts count that a search takes for hit: they are a little wider than their boxes.
     const double slack = 2e-7 * across;
     const double volume = determinant(composite.place);
     if (composite.each_part_along != nullptr && volume != 0) {
         const Affine<D> back = inverse(composite.place, volume);
-        MovingBox<D> box;
-        box.center = back.point(origin);
-        box.direction = back.vector(direction);
-        box.length = reach;
+        MovingBox<D> own;
+        own.center = back.point(box.center);
+        own.direction = back.vector(box.direction);
+        own.length = reach;
         for (int i = 0; i < D; ++i) {
-            double squares = 0;
-            for (const DVec<D>& column : back.column) squares += column[i] * column[i];
-            box.half[i] = std::sqrt(squares) * (composite.radius + slack) + composite.inner_radius;
+            double squares = 0, half = 0;
+            for (int j = 0; j < D; ++j) {
+                const double factor = back.column[static_cast<std::size_t>(j)][i];
+                squares += factor * factor;
+                half += std::abs(factor) * box.half[j];
+            }
+            own.half[i] = half + std::sqrt(squares) * (composite.radius + slack) + composite.inner_radius;
         }
-        composite.each_part_along(composite.object, box, [&](const Convex<D>& part, std::uint32_t index) -> float {
+        composite.each_part_along(composite.object, own, [&](const Convex<D>& part, std::uint32_t index) -> float {
             return visit(placed_part(part, composite), index);
         });
         return;
     }
-    const Vec<D> from = to_float(origin), to = to_float(origin + direction * reach);
-    each_part<D>(composite, grown(merged(Aabb<D>{from, from}, Aabb<D>{to, to}), static_cast<float>(slack)),
+    const DVec<D> end = box.center + box.direction * reach;
+    Aabb<D> way;
+    for (int i = 0; i < D; ++i) {
+        way.min[i] = static_cast<float>(std::min(box.center[i], end[i]) - box.half[i]);
+        way.max[i] = static_cast<float>(std::max(box.center[i], end[i]) + box.half[i]);
+    }
+    each_part<D>(composite, grown(way, static_cast<float>(slack)),
                  [&](const Convex<D>& part, std::uint32_t index) -> bool { return visit(part, index) >= 0; });
+}
+
+template <int D>
+void each_part_along(const Composite<D>& composite, const DVec<D>& origin, const DVec<D>& direction,
+                     double length_of_ray, PartReachVisitor<D> visit) {
+    each_part_along(composite, MovingBox<D>{origin, DVec<D>(0.0), direction, length_of_ray}, visit);
 }
 
 template <int D>
@@ -260,6 +275,7 @@ View<D> rounded(const View<D>& view, double radius) {
     template Aabb<D> bounds(const Composite<D>&);                                                                    \
     template Aabb<D> bounds(const View<D>&);                                                                         \
     template void each_part(const Composite<D>&, const Aabb<D>&, PartVisitor<D>);                                    \
+    template void each_part_along(const Composite<D>&, const MovingBox<D>&, PartReachVisitor<D>);                    \
     template void each_part_along(const Composite<D>&, const DVec<D>&, const DVec<D>&, double, PartReachVisitor<D>); \
     template void each_part_near(const Composite<D>&, const Aabb<D>&, PartReachVisitor<D>);                          \
     template bool contains_inside(const Composite<D>&, const Vec<D>&);                                               \

@@ -64,6 +64,11 @@ template <int D>
 void each_part_along(const Composite<D>& composite, const DVec<D>& origin, const DVec<D>& direction, double length,
                      PartReachVisitor<D> visit);
 
+/// Visits at least the parts that a box moving in the world meets within reach, which is in lengths of the way it goes,
+/// `box.direction`, of length 1; roughly the first first.
+template <int D>
+void each_part_along(const Composite<D>& composite, const MovingBox<D>& box, PartReachVisitor<D> visit);
+
 /// Visits at least the parts whose boxes are within reach of `box`, roughly the nearest first; box and parts in the
 /// world. A part may be visited more than once.
 template <int D>
