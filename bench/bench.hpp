@@ -44,5 +44,6 @@ struct Bench {
 
 std::vector<Bench> narrow_benches();
 std::vector<Bench> broad_benches();
+std::vector<Bench> motion_straight_benches();
 
 }  // namespace abut::bench

@@ -1,49 +1,19 @@
 // Box2D's narrow phase: b2Distance, the manifolds of polygons and circles, and rays. Polygons without their usual skin.
 
-#include "box2d.hpp"
+#include "box2d_shape.hpp"
 #include "each_pair.hpp"
 #include "peers.hpp"
 
 #include <algorithm>
 #include <memory>
 #include <utility>
-#include <variant>
 
-#include <box2d/b2_circle_shape.h>
 #include <box2d/b2_collision.h>
 #include <box2d/b2_distance.h>
-#include <box2d/b2_polygon_shape.h>
 
 namespace abut::bench {
 
 namespace {
-
-std::unique_ptr<b2Shape> shape_of(const Circle& circle) {
-    auto result = std::make_unique<b2CircleShape>();
-    result->m_radius = circle.radius;
-    return result;
-}
-std::unique_ptr<b2Shape> shape_of(const Box2& box) {
-    auto result = std::make_unique<b2PolygonShape>();
-    result->SetAsBox(box.half.x, box.half.y);
-    result->m_radius = 0;
-    return result;
-}
-std::unique_ptr<b2Shape> shape_of(const Polygon& polygon) {
-    std::vector<b2Vec2> points;
-    for (const Vec2& point : polygon.points()) points.push_back(to_box2d(point));
-    auto result = std::make_unique<b2PolygonShape>();
-    result->Set(points.data(), static_cast<int32>(points.size()));
-    result->m_radius = 0;
-    return result;
-}
-
-std::vector<std::unique_ptr<b2Shape>> shapes_of(const std::vector<scenes::AnyConvex<2>>& all) {
-    std::vector<std::unique_ptr<b2Shape>> result;
-    for (const scenes::AnyConvex<2>& shape : all)
-        result.push_back(std::visit([](const auto& s) { return shape_of(s); }, shape));
-    return result;
-}
 
 struct Pair {
     const b2Shape* a;
@@ -52,7 +22,7 @@ struct Pair {
 };
 
 struct Scene {
-    explicit Scene(const scenes::ConvexPairs<2>& scene) : shapes(shapes_of(scene.shapes)) {
+    explicit Scene(const scenes::ConvexPairs<2>& scene) : shapes(box2d::shapes_of(scene.shapes)) {
         for (const auto& [a, b] : scene.pairs) {
             Pair& pair = pairs.emplace_back();
             pair.a = shapes[a.shape].get();
@@ -132,7 +102,7 @@ Side box2d_raycast(const RayScene<2>& scene) {
         std::vector<std::unique_ptr<b2Shape>> shapes;
         std::vector<Cast> casts;
     };
-    const auto all = std::make_shared<Casts>(Casts{shapes_of(scene.shapes), {}});
+    const auto all = std::make_shared<Casts>(Casts{box2d::shapes_of(scene.shapes), {}});
     for (std::size_t i = 0; i < scene.rays.size(); ++i) {
         const Ray2& ray = scene.rays[i];
         all->casts.push_back(

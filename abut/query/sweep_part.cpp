@@ -1,3 +1,5 @@
+#include <abut/convex/ray_entry.hpp>
+#include <abut/convex/ray_portal.hpp>
 #include <abut/query/sweep_part.hpp>
 
 namespace abut {
@@ -11,6 +13,9 @@ constexpr double stride_part = 0.05;
 
 /// What slides goes in so slowly, if at all, that rounding explains it.
 constexpr double slide_slope = 1e-6;
+
+/// What comes out of a thin part on the other side is farther around its edge than this.
+constexpr double through_slope = 1e-7;
 
 /// The bound on looking for where what slides is deepest; each look halves what is left, or does better.
 constexpr int most_looks = 32;
@@ -43,12 +48,13 @@ double extent(const Solid<D>& part, const DVec<D>&) {
 
 /// What a part brings to the doubts about a pair.
 struct Reach {
-    double size;
+    double size;   ///< no more than its bounding radius
     double noise;  ///< by how much its support may be short of the farthest
 };
 template <int D>
 Reach reach_of(const Convex<D>& part) {
-    const double whole = size(part);
+    // `size` is up to so many times the radius of the least ball around the core.
+    const double whole = part.radius + (size(part) - part.radius) / std::sqrt(static_cast<double>(D));
     return {whole, part.core == Core::function ? 3e-7 * whole : 0};
 }
 template <int D>
@@ -67,7 +73,7 @@ struct Doubts {
         // 16 units in the last place of a float are 9e-7 of it at least; some coordinate is half as large as the size.
         margin = 1e-5 * smaller + 4.5e-7 * larger;
         touch = touch_part * margin + a.noise + b.noise + 1e-15 * length;
-        slide = slide_part * margin;
+        slide = slide_part * margin + 2e-15 * length;
         stride = std::max(stride_part * smaller, 16 * (slide + touch));
     }
 };
@@ -86,7 +92,7 @@ public:
             if constexpr (std::is_same_v<B, Convex<D>>) between = some_point(b) - origin_;
         }
         // Behind the other there is nothing to come to.
-        path_.length = std::min(path_.length, length(between) + 2 * (reach_a.size + reach_b.size));
+        path_.length = std::min(path_.length, length(between) + 4 * (reach_a.size + reach_b.size));
         doubts_ = Doubts(reach_a, reach_b, path_.length);
         put(a, -origin_, a_);
         put(b, -origin_, b_);
@@ -94,6 +100,99 @@ public:
     }
 
     bool run(std::uint32_t index, PartTouch<D>& touch) {
+        if constexpr (std::is_same_v<A, Convex<D>> && std::is_same_v<B, Convex<D>>)
+            if (options_.trace == nullptr) {
+                const Quick quick = is_ball(a_)   ? ball_at_part(touch)
+                                    : is_ball(b_) ? part_at_ball(touch)
+                                                  : polytopes(touch);
+                touch.feature.part = index;
+                if (quick != Quick::undecided) return quick == Quick::touches;
+            }
+        return search(index, touch);
+    }
+
+private:
+    // The quick ways. What starts in touch, or may slide, is left to the search.
+
+    enum class Quick : std::uint8_t { undecided, misses, touches };
+
+    static bool is_ball(const Convex<D>& part) {
+        return part.core == Core::points && part.count == 1 && part.inner_radius == 0 && part.radius > 0;
+    }
+    static DVec<D> center_of(const Convex<D>& ball) { return ball.place.point(DVec<D>(ball.vertices()[0])); }
+
+    /// Whether two that come together so fast get in for sure: around each point of the difference of the cores there
+    /// is a ball in the difference, and this is how deep a line comes into that.
+    bool enters_balls(double closing) const {
+        return 0.5 * closing * closing * (a_.radius + b_.radius) > doubts_.slide;
+    }
+
+    /// A ball is the ray of its center at the other part, grown by its radius. `out` is turned to where the ray comes
+    /// from; `from` is the center.
+    Quick ray(const Convex<D>& ball, const Convex<D>& other, const DVec<D>& direction, PartTouch<D>& touch,
+              DVec<D>& out) {
+        Convex<D> target = other;
+        target.radius += ball.radius;
+        const RayEntry<D> entry = ray_entry(target, Beam<D>{center_of(ball), direction, path_.length + doubts_.touch});
+        if (entry.answer == RayAnswer::undecided) return Quick::undecided;
+        if (entry.answer == RayAnswer::misses) return Quick::misses;
+        out = normalized(entry.normal);
+        const double closing = -dot(direction, out);
+        if (!(entry.along * closing > doubts_.touch && enters_balls(closing))) return Quick::undecided;
+        touch.along = std::min(entry.along, path_.length);
+        touch.started_inside = false;
+        touch.feature.kind = entry.kind;
+        touch.feature.index = entry.index;
+        return Quick::touches;
+    }
+    Quick ball_at_part(PartTouch<D>& touch) {
+        DVec<D> out;
+        const Quick quick = ray(a_, b_, path_.direction, touch, out);
+        if (quick != Quick::touches) return quick;
+        touch.normal = -out;
+        touch.point = origin_ + center_of(a_) + path_.direction * touch.along + touch.normal * a_.radius;
+        return quick;
+    }
+    Quick part_at_ball(PartTouch<D>& touch) {
+        DVec<D> out;
+        const Quick quick = ray(b_, a_, -path_.direction, touch, out);
+        if (quick != Quick::touches) return quick;
+        touch.normal = out;
+        touch.point = origin_ + center_of(b_) - out * b_.radius;
+        touch.feature.kind = FeatureKind::vertex;
+        touch.feature.index = 0;
+        return quick;
+    }
+
+    static bool is_polytope(const Convex<D>& part) {
+        return (part.core == Core::points || part.core == Core::box) && part.radius == 0 && part.inner_radius == 0;
+    }
+    Quick polytopes(PartTouch<D>& touch) {
+        if (!is_polytope(a_) || !is_polytope(b_)) return Quick::undecided;
+        const PortalHit<D> hit =
+            enter_difference(a_, b_, path_.direction, PortalNeeds{0.25 * doubts_.touch, 1.1 * doubts_.slide});
+        if (hit.answer == PortalAnswer::undecided) return Quick::undecided;
+        if (hit.answer == PortalAnswer::misses) return Quick::misses;
+        const double closing = dot(path_.direction, hit.normal);
+        if (!(hit.along * closing > doubts_.touch)) return is_behind() ? Quick::misses : Quick::undecided;
+        if ((hit.along - path_.length) * closing > doubts_.touch) return Quick::misses;
+        touch.along = std::min(hit.along, path_.length);
+        touch.normal = hit.normal;
+        touch.started_inside = false;
+        touch.point = origin_ + path_.direction * touch.along;
+        CornerNumbers<D> corners{};
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < D; ++i) {
+            touch.point += hit.corners[i].on_a * hit.weights[i];
+            if (hit.weights[i] > 1e-9) corners[count++] = hit.corners[i].index_b;
+        }
+        name_feature(b_, corners, count, -hit.normal, 0, touch.feature);
+        return Quick::touches;
+    }
+    /// Whether all of B lies behind all of A.
+    bool is_behind() const { return extent(a_, -path_.direction) + extent(b_, path_.direction) < -doubts_.touch; }
+
+    bool search(std::uint32_t index, PartTouch<D>& touch) {
         Moment now = moment_at(0);
         const bool starts_there = now.distance.distance <= doubts_.touch;
         if (starts_there ? !begins_to_go_in(now) : !approach(now)) return false;
@@ -106,7 +205,6 @@ public:
         return true;
     }
 
-private:
     /// The two as they are when A has come so far.
     struct Moment {
         double along = 0;
@@ -146,7 +244,7 @@ private:
             now = moment_at(std::min(along, path_.length));
             if (now.distance.distance > doubts_.touch) continue;
             tell(now);
-            if (slides_from(now)) return false;
+            if (!may_be_sure(now.closing) && slides_from(now, before.distance.normal)) return false;
             // At an edge there are several normals, and the one found may lie across the motion; the plane that was
             // come to is another.
             if (now.closing < 0.5 * before.closing) now.distance.normal = before.distance.normal;
@@ -157,28 +255,48 @@ private:
     /// Whether what touches or overlaps at the start goes further in.
     bool begins_to_go_in(const Moment& start) {
         tell(start);
-        if (start.distance.distance < -doubts_.slide) return start.closing > slide_slope;
-        if (!(start.closing > 0)) return false;
-        const Moment ahead = moment_at(doubts_.stride);
-        return ahead.distance.distance > doubts_.slide ? dips(start, ahead) : goes_in(start, ahead);
+        if (start.distance.distance < -doubts_.slide) {
+            if (start.closing > slide_slope) return true;
+            // What is slower matters where it leads from within the margin, which may be some times as much, to beyond
+            // it.
+            if (!(start.closing > 0) || start.distance.distance < -4 * doubts_.margin) return false;
+            const double room = std::max(start.distance.distance + doubts_.margin, 0.02 * doubts_.margin);
+            return goes_in(start, moment_at(doubts_.stride), {-start.distance.distance + 0.5 * room, 0.5 * room});
+        }
+        return start.closing > 0 && goes_in(start, moment_at(doubts_.stride), sliding());
+    }
+
+    bool may_be_sure([[maybe_unused]] double closing) const {
+        if constexpr (std::is_same_v<A, Convex<D>> && std::is_same_v<B, Convex<D>>)
+            return closing > 0 && enters_balls(closing);
+        return false;
     }
 
     /// Whether two that have come to touch go on in touch, and never deeper than doubt allows: along a face, or from
-    /// seam to seam of what is made of parts.
-    bool slides_from(const Moment& touch) {
+    /// seam to seam of what is made of parts. What has no inside is gone through without ever being deep in: it comes
+    /// out on the other side of the plane across `normal`, at which it came.
+    bool slides_from(const Moment& touch, const DVec<D>& normal) {
         const Moment ahead = moment_at(touch.along + doubts_.stride);
-        return ahead.distance.distance <= doubts_.slide && !goes_in(touch, ahead);
+        if (ahead.distance.distance > doubts_.slide || goes_in(touch, ahead, sliding())) return false;
+        const Moment last = moment_at(path_.length);
+        return last.distance.distance <= doubts_.slide || dot(last.distance.normal, normal) > -through_slope;
     }
 
-    /// Whether they get deeper in than what slides may be, from `here` on, where they touch, by way of `ahead`, where
-    /// they still do. A tangent of a convex function is nowhere above it, so where tangents aren't deep, nothing is.
-    bool goes_in(const Moment& here, Moment ahead) {
+    /// Deeper than `deep` is sure to be in; what stays less than `slack` beyond it needn't be looked at.
+    struct Depth {
+        double deep, slack;
+    };
+    Depth sliding() const { return {doubts_.slide, doubts_.slide}; }
+
+    /// Whether they get so deep in, from `here` on, where they touch, by way of `ahead`. A tangent of a convex function
+    /// is nowhere above it, so where tangents aren't deep, nothing is.
+    bool goes_in(const Moment& here, Moment ahead, const Depth& depth) {
         Moment before = here;
         const double end = std::max(path_.length, ahead.along);
         for (int look = 0; look < most_looks; ++look) {
-            if (ahead.distance.distance < -doubts_.slide) return true;
-            if (!(ahead.closing > 0)) return dips(before, ahead);
-            const double along = ahead.along + (ahead.distance.distance + 2 * doubts_.slide) / ahead.closing;
+            if (ahead.distance.distance < -depth.deep) return true;
+            if (!(ahead.closing > 0)) return dips(before, ahead, depth);
+            const double along = ahead.along + (ahead.distance.distance + depth.deep + depth.slack) / ahead.closing;
             if (along >= end) return false;
             before = ahead;
             ahead = moment_at(along);
@@ -187,16 +305,16 @@ private:
     }
 
     /// The same between a moment at which the distance falls, and one at which it does no longer.
-    bool dips(Moment falling, Moment rising) {
+    bool dips(Moment falling, Moment rising, const Depth& depth) {
         for (int look = 0; look < most_looks; ++look) {
-            if (!(falling.closing > 0) || rising.closing > 0) return false;
+            if (!(falling.closing > 0)) return false;
             const double height = falling.distance.distance - rising.distance.distance;
             const double way = rising.along - falling.along;
             const double along =
                 std::clamp((height - rising.closing * way) / (falling.closing - rising.closing), 0.0, way);
-            if (falling.distance.distance - along * falling.closing >= -2 * doubts_.slide) return false;
+            if (falling.distance.distance - along * falling.closing >= -depth.deep - depth.slack) return false;
             const Moment between = moment_at(falling.along + along);
-            if (between.distance.distance < -doubts_.slide) return true;
+            if (between.distance.distance < -depth.deep) return true;
             (between.closing > 0 ? falling : rising) = between;
         }
         return true;

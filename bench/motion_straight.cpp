@@ -1,0 +1,101 @@
+// One shape moves straight up to another, or past it.
+
+#include "narrow.hpp"
+#include "straight.hpp"
+#include <abut/query/sweep.hpp>
+
+#include <algorithm>
+
+namespace abut::bench {
+
+namespace {
+
+/// How near or deep they come, about.
+template <class A, class B>
+float least_distance(const A& a, const Pose<dimension<A>>& pose, const Vec<dimension<A>>& motion, const B& there) {
+    constexpr int moments = 64;
+    float least = std::numeric_limits<float>::infinity();
+    for (int i = 0; i <= moments; ++i) {
+        const Pose<dimension<A>> now{pose.position + motion * (static_cast<float>(i) / moments), pose.rotation};
+        least = std::min(least, closest(scenes::placed(a, now), there).distance);
+    }
+    return least;
+}
+
+/// From without, towards a point in or near the other shape and as far behind it; what grazes it is left out.
+template <class A, class B>
+StraightScene<dimension<A>> straight(const Kind<A>& kind_a, const Kind<B>& kind_b, std::size_t count = pair_count) {
+    constexpr int D = dimension<A>;
+    oracle::Random random(seed);
+    const std::vector<A> all_a = drawn(kind_a, random);
+    const std::vector<B> all_b = drawn(kind_b, random);
+    StraightScene<D> scene;
+    scene.pairs.shapes.assign(all_a.begin(), all_a.end());
+    scene.pairs.shapes.insert(scene.pairs.shapes.end(), all_b.begin(), all_b.end());
+    while (scene.motions.size() < count) {
+        const std::size_t a = random.below(static_cast<std::uint32_t>(all_a.size()));
+        const std::size_t b = random.below(static_cast<std::uint32_t>(all_b.size()));
+        const Pose<D> pose_b{to_float<D>(random.in_cube<D>() * 10.0), random.rotation<D>()};
+        const Pose<D> pose_a{pose_b.position + to_float<D>(random.direction<D>() * 5.0), random.rotation<D>()};
+        const Vec<D> through = pose_b.position + to_float<D>(random.in_cube<D>() * 2.0);
+        const Vec<D> motion = 2.0f * (through - pose_a.position);
+        const auto there = scenes::placed(all_b[b], pose_b);
+        if (closest(scenes::placed(all_a[a], pose_a), there).distance < 0.1f) continue;
+        if (std::abs(least_distance(all_a[a], pose_a, motion, there)) < 0.05f) continue;
+        scene.pairs.pairs.push_back({{a, pose_a}, {all_a.size() + b, pose_b}});
+        scene.motions.push_back(motion);
+    }
+    return scene;
+}
+
+template <class A, class B>
+Side abut_straight(const StraightScene<dimension<A>>& scene) {
+    auto own = std::make_shared<const OwnPairs<A, B>>(scene.pairs);
+    return {"abut", each_pair(std::move(own), [motions = scene.motions](const auto& pair, std::size_t place) {
+                const auto hit = sweep(pair.first, motions[place], pair.second);
+                return hit ? double{hit->distance} : no_touch;
+            })};
+}
+
+// The peers stop a little before the other shape, Box2D by 0.005 along the normal.
+
+Job job(std::vector<Side> sides) {
+    return {.items = pair_count, .values = pair_count, .tolerance = 0.05, .sides = std::move(sides)};
+}
+
+template <class A, class B>
+Job in_space(const Kind<A>& kind_a, const Kind<B>& kind_b) {
+    const StraightScene<3> scene = straight(kind_a, kind_b);
+    return job({abut_straight<A, B>(scene), straying(bullet_straight(scene), 0.1),
+                straying(bullet_straight_by_simplex(scene), 0.1), straying(bullet_straight_by_gjk(scene), 0.1)});
+}
+Job boxes_in_space() {
+    const StraightScene<3> scene = straight(boxes<3>, boxes<3>);
+    Job result = in_space(boxes<3>, boxes<3>);
+    result.sides.push_back(straying(fcl_straight(scene), 0.1));
+    return result;
+}
+template <class S>
+Job in_plane(const Kind<S>& kind) {
+    const StraightScene<2> scene = straight(kind, kind);
+    return job({abut_straight<S, S>(scene), straying(box2d_straight(scene), 0.05),
+                straying(box2d_straight_by_impact(scene), 0.05)});
+}
+
+}  // namespace
+
+std::vector<Bench> motion_straight_benches() {
+    return {
+        {"motion/sweep/box-box", boxes_in_space},
+        {"motion/sweep/capsule-box", [] { return in_space(capsules, boxes<3>); }},
+        {"motion/sweep/sphere-box", [] { return in_space(spheres, boxes<3>); }},
+        {"motion/sweep/capsule-capsule", [] { return in_space(capsules, capsules); }},
+        {"motion/sweep/hull32", [] { return in_space(hulls<32>, hulls<32>); }},
+        {"motion/sweep/hull256", [] { return in_space(hulls<256>, hulls<256>); }},
+        {"motion/sweep/box2-box2", [] { return in_plane(boxes<2>); }},
+        {"motion/sweep/polygon3-8", [] { return in_plane(polygons); }},
+        {"motion/sweep/circle-circle", [] { return in_plane(circles); }},
+    };
+}
+
+}  // namespace abut::bench

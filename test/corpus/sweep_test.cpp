@@ -1,0 +1,108 @@
+// Twenty thousand pairs set in motion, a million where the environment sets ABUT_LONG: none late, none missed, none hit
+// that isn't, outside the margin of doubt.
+
+#include "sweep_judge.hpp"
+
+#include <atomic>
+#include <mutex>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+namespace abut::corpus {
+namespace {
+
+struct SweepSummary {
+    std::uint64_t pairs = 0, hits = 0, touching = 0, late = 0, missed = 0, false_hits = 0, wrong = 0;
+    double worst = 0;
+    std::vector<std::string> stories;
+
+    void add(const Place& where, const SweepVerdict& verdict) {
+        ++pairs;
+        hits += verdict.hit ? 1 : 0;
+        touching += verdict.touches_at_start ? 1 : 0;
+        late += verdict.late ? 1 : 0;
+        missed += verdict.missed ? 1 : 0;
+        false_hits += verdict.false_hit ? 1 : 0;
+        worst = std::max(worst, verdict.worst);
+        if (verdict.story.empty()) return;
+        ++wrong;
+        if (stories.size() >= 20) return;
+        std::ostringstream story;
+        story << "  " << where.dimension << "D " << name_of(where.family) << " seed " << where.seed << '\n'
+              << verdict.story;
+        stories.push_back(story.str());
+    }
+    void add(const SweepSummary& other) {
+        pairs += other.pairs;
+        hits += other.hits;
+        touching += other.touching;
+        late += other.late;
+        missed += other.missed;
+        false_hits += other.false_hits;
+        wrong += other.wrong;
+        worst = std::max(worst, other.worst);
+        stories.insert(stories.end(), other.stories.begin(), other.stories.end());
+    }
+    std::string text() const {
+        std::string result = std::to_string(late) + " late, " + std::to_string(missed) + " missed, " +
+                             std::to_string(false_hits) + " false\n";
+        for (const std::string& story : stories) result += story;
+        return result;
+    }
+};
+
+template <int D>
+SweepVerdict judged_sweep(Family family, std::uint64_t seed) {
+    const MovingPair<D> pair = set_in_motion<D>(sample_pair<D>(family, seed), Random(~seed));
+    return SweepJudge<D>(pair).judge();
+}
+SweepVerdict judged_sweep(const Place& where) {
+    return where.dimension == 2 ? judged_sweep<2>(where.family, where.seed) : judged_sweep<3>(where.family, where.seed);
+}
+
+/// Of the pairs of the corpus that are polytopes with balls around them.
+SweepSummary judged_sweeps(std::uint64_t first, std::uint64_t last) {
+    constexpr std::uint64_t piece = 200;
+    std::atomic<std::uint64_t> next = first;
+    std::mutex mutex;
+    SweepSummary all;
+    const auto work = [&] {
+        SweepSummary own;
+        for (std::uint64_t from = next.fetch_add(piece); from < last; from = next.fetch_add(piece))
+            for (std::uint64_t number = from; number < std::min(from + piece, last); ++number) {
+                const Place where = place(number);
+                if (where.family != Family::half_space && where.family != Family::round)
+                    own.add(where, judged_sweep(where));
+            }
+        const std::lock_guard lock(mutex);
+        all.add(own);
+    };
+    std::vector<std::thread> threads;
+    for (unsigned i = std::max(1u, std::thread::hardware_concurrency()); i > 0; --i) threads.emplace_back(work);
+    for (std::thread& thread : threads) thread.join();
+    return all;
+}
+
+#ifdef NDEBUG
+constexpr int usual_sweeps = 20'000;
+#else
+constexpr int usual_sweeps = 2'000;
+#endif
+
+TEST(SweepCorpus, IsNeverLateNorMissedNorFalse) {
+    const auto pairs = static_cast<std::uint64_t>(std::min(oracle::amount(usual_sweeps), 1'100'000));
+    const SweepSummary all = judged_sweeps(0, pairs);
+    RecordProperty("pairs", std::to_string(all.pairs));
+    RecordProperty("hits", std::to_string(all.hits));
+    RecordProperty("touching_at_start", std::to_string(all.touching));
+    RecordProperty("worst_of_margin", std::to_string(all.worst));
+    EXPECT_EQ(all.wrong, 0u) << all.text();
+    const double hits = static_cast<double>(all.hits) / static_cast<double>(all.pairs);
+    EXPECT_GT(hits, 0.3);
+    EXPECT_LT(hits, 0.7);
+    EXPECT_GT(all.touching, all.pairs / 10) << "too little of this starts in touch";
+}
+
+}  // namespace
+}  // namespace abut::corpus
