@@ -156,10 +156,9 @@ private:
     bool goes_in(const PortalHit<D>& hit) {
         const DifferencePoint<D> last = support(-hit.normal);
         const double thick = dot(hit.normal, corners_[0].position - last.position);
-        if (!(thick > 4 * needs_.depth)) return false;
-        // A quarter of the way through, as seen across the portal: then it is as far from it as can't be far from the
-        // sides.
-        const DVec<D> place = direction_ * (-hit.along - 0.25 * thick / dot(hit.normal, direction_));
+        if (!(thick > 8 * needs_.depth)) return false;
+        // Not far behind the portal, which may be the widest there is.
+        const DVec<D> place = direction_ * (-hit.along - 4 * needs_.depth / dot(hit.normal, direction_));
         for (std::size_t i = 0; i < D; ++i) {
             const DVec<D>& opposite = corners_[i].position;
             DVec<D> across;

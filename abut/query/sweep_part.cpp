@@ -14,7 +14,7 @@ constexpr double stride_part = 0.05;
 /// What slides goes in so slowly, if at all, that rounding explains it.
 constexpr double slide_slope = 1e-6;
 
-/// What comes out of a thin part on the other side is farther around its edge than this.
+/// What is on one side of a thin part's plane is seen from it by more than this.
 constexpr double through_slope = 1e-7;
 
 /// The bound on looking for where what slides is deepest; each look halves what is left, or does better.
@@ -51,11 +51,39 @@ struct Reach {
     double size;   ///< no more than its bounding radius
     double noise;  ///< by how much its support may be short of the farthest
 };
+/// No more than the bounding radius, and not much less.
+template <int D>
+double least_size(const Convex<D>& part) {
+    if (part.similar && part.inner_radius == 0) {
+        if (part.core == Core::box) return part.radius + part.scale * length(DVec<D>(part.own[0]));
+        if (part.core == Core::points) {
+            // Half of the longest side of a box around them.
+            double longest = 0;
+            if (part.lanes != nullptr) {
+                for (int i = 0; i < 3; ++i) {
+                    const double reach = static_cast<double>(part.lanes->reach[i]);
+                    const double beside = std::abs(static_cast<double>(part.lanes->middle[i]));
+                    longest = std::max(longest, reach - beside - 2.4e-7 * reach);
+                }
+            } else {
+                const Vec<D>* points = part.vertices();
+                Vec<D> low = points[0], high = points[0];
+                for (std::uint32_t i = 1; i < part.count; ++i) {
+                    low = glm::min(low, points[i]);
+                    high = glm::max(high, points[i]);
+                }
+                longest = 0.5 * largest(DVec<D>(high) - DVec<D>(low));
+            }
+            return part.radius + part.scale * longest;
+        }
+    }
+    // `size` is up to so many times the radius of the least ball around the core.
+    return part.radius + (size(part) - part.radius) / std::sqrt(static_cast<double>(D));
+}
 template <int D>
 Reach reach_of(const Convex<D>& part) {
-    // `size` is up to so many times the radius of the least ball around the core.
-    const double whole = part.radius + (size(part) - part.radius) / std::sqrt(static_cast<double>(D));
-    return {whole, part.core == Core::function ? 3e-7 * whole : 0};
+    const double least = least_size(part);
+    return {least, part.core == Core::function ? 6e-7 * least : 0};
 }
 template <int D>
 Reach reach_of(const Solid<D>&) {
@@ -92,11 +120,10 @@ public:
             if constexpr (std::is_same_v<B, Convex<D>>) between = some_point(b) - origin_;
         }
         // Behind the other there is nothing to come to.
-        path_.length = std::min(path_.length, length(between) + 4 * (reach_a.size + reach_b.size));
+        path_.length = std::min(path_.length, length(between) + 8 * (reach_a.size + reach_b.size));
         doubts_ = Doubts(reach_a, reach_b, path_.length);
         put(a, -origin_, a_);
         put(b, -origin_, b_);
-        moving_ = a_;
     }
 
     bool run(std::uint32_t index, PartTouch<D>& touch) {
@@ -193,6 +220,7 @@ private:
     bool is_behind() const { return extent(a_, -path_.direction) + extent(b_, path_.direction) < -doubts_.touch; }
 
     bool search(std::uint32_t index, PartTouch<D>& touch) {
+        moving_ = a_;
         Moment now = moment_at(0);
         const bool starts_there = now.distance.distance <= doubts_.touch;
         if (starts_there ? !begins_to_go_in(now) : !approach(now)) return false;
@@ -273,13 +301,16 @@ private:
     }
 
     /// Whether two that have come to touch go on in touch, and never deeper than doubt allows: along a face, or from
-    /// seam to seam of what is made of parts. What has no inside is gone through without ever being deep in: it comes
-    /// out on the other side of the plane across `normal`, at which it came.
-    bool slides_from(const Moment& touch, const DVec<D>& normal) {
+    /// seam to seam of what is made of parts. What has no inside is gone through without ever being deep in: of the
+    /// plane along which they seem to slide, it comes from one side (`came` was the normal) and goes to the other.
+    bool slides_from(const Moment& touch, const DVec<D>& came) {
         const Moment ahead = moment_at(touch.along + doubts_.stride);
         if (ahead.distance.distance > doubts_.slide || goes_in(touch, ahead, sliding())) return false;
         const Moment last = moment_at(path_.length);
-        return last.distance.distance <= doubts_.slide || dot(last.distance.normal, normal) > -through_slope;
+        if (last.distance.distance <= doubts_.slide) return true;
+        const double before = dot(came, ahead.distance.normal),
+                     after = dot(last.distance.normal, ahead.distance.normal);
+        return std::min(std::abs(before), std::abs(after)) < through_slope || before * after > 0;
     }
 
     /// Deeper than `deep` is sure to be in; what stays less than `slack` beyond it needn't be looked at.

@@ -8,6 +8,7 @@
 #include <abut/query/contains.hpp>
 #include <abut/query/intersection.hpp>
 #include <abut/query/raycast.hpp>
+#include <abut/query/sweep.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/cylinder.hpp>
 #include <abut/shape/mesh.hpp>
@@ -68,6 +69,8 @@ long allocations_of_all_questions(const View<D>& a, const View<D>& b, const Ray<
     contains(a, ray.origin);
     closest(a, ray.origin);
     raycast(ray, a);
+    sweep(a, ray.direction, b);
+    sweep(b, ray.direction * ray.length, a, ray.direction);
     if (const auto* convex = std::get_if<Convex<D>>(&a); convex != nullptr && has_features(*convex))
         closest_feature(*convex, DVec<D>(ray.origin));
     return allocations - before;
@@ -128,6 +131,8 @@ long allocations_of_plain_questions(const A& a, const B& b) {
     contact(a, b);
     contact(a, b, {.cache = &cache, .margin = 1});
     raycast(ray, a);
+    sweep(a, ray.direction, b);
+    sweep(b, ray.direction * ray.length, a, ray.direction);
     closest(a, Vec<D>(3));
     return allocations - before;
 }

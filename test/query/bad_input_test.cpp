@@ -6,6 +6,7 @@
 #include <abut/query/contains.hpp>
 #include <abut/query/overlaps.hpp>
 #include <abut/query/raycast.hpp>
+#include <abut/query/sweep.hpp>
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/capsule.hpp>
@@ -53,6 +54,7 @@ void expect_harmless(const View<D>& bad, const View<D>& good) {
         const Contact<D> touch = contact(*a, *b);
         EXPECT_FALSE(touch);
         EXPECT_TRUE(oracle::is_unit(touch.normal));
+        EXPECT_FALSE(sweep(*a, Vec<D>(1), *b));
     }
     EXPECT_FALSE(contains(bad, Vec<D>(0)));
     EXPECT_FALSE(raycast(Ray<D>::between(Vec<D>(-5), Vec<D>(5)), bad));
@@ -116,6 +118,8 @@ TEST(BadInput, InPointsAndRaysIsHarmless) {
         EXPECT_EQ(closest(sphere, Vec3(0, bad, 0)).distance, infinity);
         EXPECT_FALSE(raycast(Ray3{{bad, 0, 0}, {1, 0, 0}, 10}, sphere));
         EXPECT_FALSE(raycast(Ray3{{-5, 0, 0}, {1, bad, 0}, 10}, sphere));
+        EXPECT_FALSE(sweep(sphere, Vec3(10, bad, 0), Sphere{{5, 0, 0}, 1}));
+        EXPECT_FALSE(sweep(sphere, Vec3(10, 0, 0), Sphere{{5, 0, 0}, 1}, Vec3(bad, 0, 0)));
     }
     EXPECT_FALSE(raycast(Ray3{{-5, 0, 0}, {1, 0, 0}, nan}, sphere));
 }
@@ -137,6 +141,7 @@ TEST(BadInput, FromAUsersSupportFunctionEnds) {
     closest(Broken(), Box3{{0, 0, 0}, {1, 1, 1}});
     contact(Broken(), Broken());
     raycast(Ray3{{-5, 0, 0}, {1, 0, 0}, 10}, Broken());
+    sweep(Broken(), Vec3(10, 0, 0), Box3{{5, 0, 0}, {1, 1, 1}});
 }
 
 }  // namespace

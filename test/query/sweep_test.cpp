@@ -3,6 +3,7 @@
 #include "../oracle/expect.hpp"
 #include <abut/query/closest.hpp>
 #include <abut/query/sweep.hpp>
+#include <abut/query/sweep_part.hpp>
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/capsule.hpp>
@@ -120,6 +121,20 @@ TEST(Sweep, SlidesOverTheSeamsOfAMesh) {
     EXPECT_NEAR(hit->point.y, 0, 1e-6);
 }
 
+TEST(Sweep, SlidesOverAPartThatItLeavesBehind) {
+    // Comes to it, along it and off it, all on one level.
+    const Triangle3 tile{{3, 0, -4}, {3, 0, 4}, {4, 0, -4}};
+    for (const float lift : {0.0f, 1e-6f, -1e-6f})
+        EXPECT_FALSE(sweep(Box3{{2, 0.5f + lift, 0.3f}, {0.5f, 0.5f, 0.5f}}, Vec3(14, 0, 0), tile)) << lift;
+}
+
+TEST(Sweep, GoesThroughWhatIsThinAtTheLeastSlope) {
+    const Triangle3 tile{{3, 0, -4}, {3, 0, 4}, {9, 0, -4}};
+    const auto hit = sweep(Segment<3>{{0, 2e-5f, 0}, {0.1f, 2e-5f, 0.1f}}, Vec3(14, -5e-5f, 0), tile);
+    ASSERT_TRUE(hit);
+    EXPECT_NEAR(hit->distance, 5.6, 1e-2);
+}
+
 TEST(Sweep, GoesOnBehindThePartsThatItLeaves) {
     // On the floor of a room of two walls: the floor is left alone, and the wall beyond is hit.
     const std::vector<Vec3> points{{-10, 0, -10}, {-10, 0, 10}, {10, 0, -10}, {10, 0, 10},
@@ -173,6 +188,34 @@ TEST(Sweep, OfRoundAndOfUsersShapes) {
     const auto egg = sweep(stretched(Sphere{{0, 0, 0}, 1}, Vec3(3, 1, 1)), Vec3(10, 0, 0), Sphere{{9, 0, 0}, 1});
     ASSERT_TRUE(egg);
     EXPECT_NEAR(egg->distance, 5, 1e-4);
+}
+
+TEST(Sweep, IsEarlyAndNotMissedWhereTheSearchGivesUp) {
+    const Capsule3 a{{-9, 0, 0}, {-8, 0.3f, 0.2f}, 0.5f}, b{{0, -2, 0}, {0, 2, 0.7f}, 0.5f};
+    const Path<3> path{normalized(DVec<3>(1, 0.01, 0.02)), 20};
+    PartTouch<3> whole, early;
+    ASSERT_TRUE(part_touch(view(a), path, view(b), 0, {}, whole));
+    double last = -1;
+    for (const int steps : {1, 2, 3}) {
+        ASSERT_TRUE(part_touch(view(a), path, view(b), 0, {.most_steps = steps}, early)) << steps;
+        EXPECT_GT(early.along, last);
+        EXPECT_LE(early.along, whole.along);
+        last = early.along;
+    }
+}
+
+TEST(Sweep, TellsATraceWhatItFindsWithoutOne) {
+    const Box2 mover{{-3, 1}, {0.7f, 0.5f}, Turn::by(0.35f)};
+    const Triangle2 wall{{1, -1}, {3, 0}, {1, 1}};
+    Trace<2> trace;
+    const auto told = sweep(mover, Vec2(6, -1), wall, {.trace = &trace}), quick = sweep(mover, Vec2(6, -1), wall);
+    ASSERT_TRUE(told && quick);
+    EXPECT_NEAR(told->fraction, quick->fraction, 1e-6);
+    EXPECT_TRUE(near(told->normal, quick->normal, 1e-5));
+    ASSERT_GE(trace.steps.size(), 2u);
+    const auto& last = std::get<SweepStep<2>>(trace.steps.back());
+    EXPECT_TRUE(near(last.position, Vec2(-6, 1) * told->fraction, 1e-5));
+    EXPECT_NEAR(last.distance, 0, 1e-5);
 }
 
 }  // namespace
