@@ -67,12 +67,12 @@ template <class A, class B>
 Job in_space(const Kind<A>& kind_a, const Kind<B>& kind_b) {
     const StraightScene<3> scene = straight(kind_a, kind_b);
     return job({abut_straight<A, B>(scene), straying(bullet_straight(scene), 0.1),
-                straying(bullet_straight_by_simplex(scene), 0.1), straying(bullet_straight_by_gjk(scene), 0.1)});
+                straying(bullet_straight_by_simplex(scene), 0.2), straying(bullet_straight_by_gjk(scene), 0.4)});
 }
 Job boxes_in_space() {
     const StraightScene<3> scene = straight(boxes<3>, boxes<3>);
     Job result = in_space(boxes<3>, boxes<3>);
-    result.sides.push_back(straying(fcl_straight(scene), 0.1));
+    result.sides.push_back(straying(fcl_straight(scene), 0.15));
     return result;
 }
 template <class S>

@@ -1,4 +1,4 @@
-#include <abut/convex/ray_entry.hpp>
+#include <abut/convex/ray_ball.hpp>
 #include <abut/convex/ray_portal.hpp>
 #include <abut/query/sweep_part.hpp>
 
@@ -57,7 +57,7 @@ double least_size(const Convex<D>& part) {
     if (part.similar && part.inner_radius == 0) {
         if (part.core == Core::box) return part.radius + part.scale * length(DVec<D>(part.own[0]));
         if (part.core == Core::points) {
-            // Half of the longest side of a box around them.
+            // Half of the longest side of a box around them, or of the way from one to the farthest.
             double longest = 0;
             if (part.lanes != nullptr) {
                 for (int i = 0; i < 3; ++i) {
@@ -66,13 +66,10 @@ double least_size(const Convex<D>& part) {
                     longest = std::max(longest, reach - beside - 2.4e-7 * reach);
                 }
             } else {
-                const Vec<D>* points = part.vertices();
-                Vec<D> low = points[0], high = points[0];
-                for (std::uint32_t i = 1; i < part.count; ++i) {
-                    low = glm::min(low, points[i]);
-                    high = glm::max(high, points[i]);
-                }
-                longest = 0.5 * largest(DVec<D>(high) - DVec<D>(low));
+                const DVec<D> first(part.vertices()[0]);
+                for (std::uint32_t i = 1; i < part.count; ++i)
+                    longest = std::max(longest, length_squared(DVec<D>(part.vertices()[i]) - first));
+                longest = 0.5 * std::sqrt(longest);
             }
             return part.radius + part.scale * longest;
         }
@@ -154,13 +151,20 @@ private:
         return 0.5 * closing * closing * (a_.radius + b_.radius) > doubts_.slide;
     }
 
+    static Convex<D> grown(const Convex<D>& part, double radius) {
+        Convex<D> result = part;
+        result.radius += radius;
+        return result;
+    }
+
     /// A ball is the ray of its center at the other part, grown by its radius. `out` is turned to where the ray comes
     /// from; `from` is the center.
     Quick ray(const Convex<D>& ball, const Convex<D>& other, const DVec<D>& direction, PartTouch<D>& touch,
               DVec<D>& out) {
-        Convex<D> target = other;
-        target.radius += ball.radius;
-        const RayEntry<D> entry = ray_entry(target, Beam<D>{center_of(ball), direction, path_.length + doubts_.touch});
+        const Beam<D> beam{center_of(ball), direction, path_.length + doubts_.touch};
+        const RayEntry<D> entry = is_ball(other)
+                                      ? enter_ball(beam, center_of(other) - beam.origin, other.radius + ball.radius)
+                                      : ray_entry(grown(other, ball.radius), beam);
         if (entry.answer == RayAnswer::undecided) return Quick::undecided;
         if (entry.answer == RayAnswer::misses) return Quick::misses;
         out = normalized(entry.normal);
