@@ -15,6 +15,7 @@
 #include <abut/math/aabb.hpp>
 #include <abut/math/assert.hpp>
 #include <abut/math/executor.hpp>
+#include <abut/math/motion.hpp>
 #include <abut/math/pose.hpp>
 #include <abut/math/predicates.hpp>
 #include <abut/math/ray.hpp>
@@ -33,6 +34,7 @@
 #include <abut/query/raycast.hpp>
 #include <abut/query/raycast_solid_bsp.hpp>
 #include <abut/query/sweep.hpp>
+#include <abut/query/sweep_turning.hpp>
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/capsule.hpp>

@@ -1,43 +1,12 @@
-#include <abut/math/assert.hpp>
 #include <abut/math/linear.hpp>
 #include <abut/math/pose.hpp>
 #include <abut/math/set_affine.hpp>
+#include <abut/math/sin_cos.hpp>
 
 #include <glm/ext/quaternion_double.hpp>
 
 namespace abut {
 namespace {
-
-struct SinCos {
-    double sin, cos;
-};
-
-// Taylor polynomials on [-pi/4, pi/4] after taking off quarter turns: right to 1e-15, which a float can't tell from
-// exact.
-SinCos sin_cos(double radians) {
-    ABUT_ASSERT(std::isfinite(radians));
-    if (!std::isfinite(radians)) return {0, 1};
-    constexpr double half_pi_high = 1.57079632673412561417e+00;  // the first 33 bits of pi / 2
-    constexpr double half_pi_low = 6.07710050650619224932e-11;   // what they leave
-    const double quarters = std::nearbyint(radians / (half_pi_high + half_pi_low));
-    const double x = (radians - quarters * half_pi_high) - quarters * half_pi_low;
-    const double xx = x * x;
-    double sine = 0, cosine = 0;
-    for (int n = 17; n >= 3; n -= 2) sine = (1 + sine) * (-xx / (n * (n - 1)));
-    for (int n = 16; n >= 2; n -= 2) cosine = (1 + cosine) * (-xx / (n * (n - 1)));
-    sine = x * (1 + sine);
-    cosine = 1 + cosine;
-    switch (static_cast<int>(quarters - 4 * std::floor(quarters / 4))) {
-        case 0:
-            return {sine, cosine};
-        case 1:
-            return {cosine, -sine};
-        case 2:
-            return {-sine, -cosine};
-        default:
-            return {-cosine, sine};
-    }
-}
 
 glm::dquat unit(const glm::quat& q) {
     const glm::dquat d(q);

@@ -1,0 +1,176 @@
+#include <abut/convex/turning_gap.hpp>
+
+namespace abut {
+namespace {
+
+/// The bound on the steps of one axis; a handful is usual.
+constexpr int most_steps = 32;
+
+/// The most of |(d x (d x n) + (d x w) x n) . y| for y of length 1 and any n that W turns; d = W - w. In the plane, and
+/// where all turn about one axis, n keeps its part along that axis.
+double bend_of(double spin, double own, const DVec<2>&) {
+    return (spin - own) * (spin - own);
+}
+double bend_of(const DVec<3>& spin, const DVec<3>& own, const DVec<3>& normal) {
+    const DVec<3> d = spin - own;
+    const double rate = length(d);
+    if (cross(d, spin) == DVec<3>(0.0)) return rate * length(cross(d, normal));
+    return rate * rate + length(cross(d, own));
+}
+
+}  // namespace
+
+template <int D>
+TurningGap<D>::TurningGap(TurningSet<D>& a, TurningSet<D>& b, const DVec<D>& normal, const Spin<D>& spin, double from)
+    : a_(a), b_(b), axis_(spin), normal_(axis_.of(normal)), spin_(spin), from_(from) {
+    const double speed = length(turned_by(spin, normal));
+    bend_of_sets_ = bend_of(spin, a.path().spin, normal) * a.reach() + bend_of(spin, b.path().spin, normal) * b.reach();
+    bend_by_distance_ = rate_of(spin) * speed;
+    bend_by_move_ = 2 * speed * length(b.path().move - a.path().move);
+}
+
+template <int D>
+typename TurningGap<D>::Value TurningGap<D>::at(double time) {
+    a_.go_to(time);
+    b_.go_to(time);
+    const DVec<D> n = axis_.rate == 0 ? normal_.even + normal_.fixed : normal_.at(sin_cos(axis_.rate * (time - from_)));
+    const Convex<D>&a = a_.here(), &b = b_.here();
+    const DVec<D> on_a = core_support(a, n).position, on_b = core_support(b, -n).position;
+    const DVec<D> across = on_b - on_a;
+    const DVec<D> speed = b_.path().velocity(time, on_b) - a_.path().velocity(time, on_a);
+    return {dot(n, across) - a.radius - b.radius, dot(n, speed) + dot(turned_by(spin_, n), across)};
+}
+
+template <int D>
+double TurningGap<D>::bend(double from, double to) const {
+    // A straight way is farthest from a point at one of its ends.
+    const auto distance = [&](double time) { return length(b_.path().pivot(time) - a_.path().pivot(time)); };
+    const double farthest = bend_by_distance_ > 0 ? std::max(distance(from), distance(to)) : 0;
+    return bend_of_sets_ + bend_by_move_ + bend_by_distance_ * farthest;
+}
+
+namespace {
+
+/// How far to go from a time at which the gap is open by `open` and changes by `rate`, in order to prove as much as the
+/// bend allows: up to g2 at the end, (sqrt(open) + sqrt(g2))^2 >= K h^2 / 2 leaves nothing closed between.
+double stride(double open, double rate, double bend, double most) {
+    double result = rate < 0 ? std::min(most, -open / rate) : most;
+    if (!(bend > 0)) return result;
+    const double root = std::sqrt(open), per_root = std::sqrt(2 / bend);
+    result = std::min(result, 2 * root * per_root);
+    const double expected = std::max(open + rate * result, 0.0);
+    return std::min(result, (root + std::sqrt(expected)) * per_root);
+}
+
+/// The first x at which g1 + (g2 - g1) x / h - K/2 x (h - x) is zero; h where it is nowhere below.
+double first_closed(double g1, double g2, double bend, double h) {
+    const double excess = 0.5 * bend * h * h - g1 - g2;
+    if (g2 >= 0 && (excess <= 0 || excess * excess <= 4 * g1 * g2)) return h;
+    const double slope = (g2 - g1) / h - 0.5 * bend * h;
+    const double discriminant = slope * slope - 2 * bend * g1;
+    if (!(slope < 0) || !(discriminant >= 0)) return h;
+    return std::min(h, 2 * g1 / (std::sqrt(discriminant) - slope));
+}
+
+}  // namespace
+
+template <int D>
+OpenUntil open_until(TurningGap<D>& gap, double from, double until, double level, double slack) {
+    double time = from, closed = until, closed_by = 0;
+    typename TurningGap<D>::Value now = gap.at(time);
+    for (int step = 0; step < most_steps; ++step) {
+        const double open = now.gap - level;
+        if (open <= slack || time >= until) break;
+        const double bend = gap.bend(time, closed);
+        // Into the middle of the slack; short of where it is known to be closed.
+        const double aim = open - 0.5 * slack;
+        double h = stride(aim, now.rate, bend, closed - time);
+        if (closed_by > 0) h = std::min(h, (closed - time) * aim / (open + closed_by));
+        const double then = time + h >= until ? until : time + h;
+        const typename TurningGap<D>::Value next = gap.at(then);
+        const double known = first_closed(open, next.gap - level, bend, then - time);
+        if (time + known >= then) {
+            if (then <= time) break;
+            time = then;
+            now = next;
+            continue;
+        }
+        if (next.gap < level) {
+            closed = then;
+            closed_by = level - next.gap;
+        }
+        if (time + known <= time) break;
+        time += known;
+        now = gap.at(time);
+    }
+    return {time, now.gap};
+}
+
+namespace {
+
+/// Up to three different corners of a core at which it is met.
+template <int D>
+struct Met {
+    std::array<std::uint32_t, 3> corner{};
+    int count = 0;
+    const Convex<D>& core;
+
+    Met(const Convex<D>& set, const CornerNumbers<D>& corners, std::size_t corner_count) : core(set) {
+        if (!has_corner(set, 0)) return;
+        for (std::size_t i = 0; i < corner_count && count < 3; ++i) {
+            bool seen = false;
+            for (int k = 0; k < count; ++k) seen = seen || corner[static_cast<std::size_t>(k)] == corners[i];
+            if (!seen && has_corner(set, corners[i])) corner[static_cast<std::size_t>(count++)] = corners[i];
+        }
+    }
+    DVec<D> edge() const { return core.place.vector(own_corner(core, corner[1]) - own_corner(core, corner[0])); }
+};
+
+/// What turns n at the rate n' = x e + y f, and about itself as fast as both sets do in the mean, which bends least.
+DVec<3> spin_of_axis(const DVec<3>& n, const DVec<3>& rate, const DVec<3>& spin_a, const DVec<3>& spin_b) {
+    return cross(n, rate) + n * (0.5 * dot(n, spin_a + spin_b));
+}
+
+/// The least n' that stays across an edge e: n' . e = (w x n) . e.
+DVec<3> rate_across(const DVec<3>& e, const DVec<3>& spin, const DVec<3>& n) {
+    return e * (dot(cross(spin, n), e) / dot(e, e));
+}
+
+}  // namespace
+
+template <>
+Spin<2> spin_across(const TurningSet<2>& a, const TurningSet<2>& b, const DVec<2>&, const MeetingCorners<2>& corners) {
+    if (Met<2>(a.here(), corners.a, corners.count).count > 1) return a.path().spin;
+    return Met<2>(b.here(), corners.b, corners.count).count > 1 ? b.path().spin : 0;
+}
+
+template <>
+Spin<3> spin_across(const TurningSet<3>& a, const TurningSet<3>& b, const DVec<3>& normal,
+                    const MeetingCorners<3>& corners) {
+    const DVec<3>&spin_a = a.path().spin, &spin_b = b.path().spin;
+    const Met<3> on_a(a.here(), corners.a, corners.count), on_b(b.here(), corners.b, corners.count);
+    if (on_a.count > 2) return spin_a;
+    if (on_b.count > 2) return spin_b;
+    if (on_a.count == 2 && on_b.count == 2) {
+        const DVec<3> e = on_a.edge(), f = on_b.edge();
+        const double ee = dot(e, e), ff = dot(f, f), ef = dot(e, f), area = ee * ff - ef * ef;
+        if (area > 1e-4 * ee * ff) {
+            const double along_e = dot(cross(spin_a, normal), e), along_f = dot(cross(spin_b, normal), f);
+            const DVec<3> rate =
+                e * ((along_e * ff - along_f * ef) / area) + f * ((along_f * ee - along_e * ef) / area);
+            return spin_of_axis(normal, rate, spin_a, spin_b);
+        }
+    }
+    if (on_a.count == 2) return spin_of_axis(normal, rate_across(on_a.edge(), spin_a, normal), spin_a, spin_b);
+    if (on_b.count == 2) return spin_of_axis(normal, rate_across(on_b.edge(), spin_b, normal), spin_a, spin_b);
+    return DVec<3>(0.0);
+}
+
+#define ABUT_INSTANTIATE(D)       \
+    template class TurningGap<D>; \
+    template OpenUntil open_until(TurningGap<D>&, double, double, double, double);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
+
+}  // namespace abut

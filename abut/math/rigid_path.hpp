@@ -1,0 +1,82 @@
+#pragma once
+
+// Motions in double, as the engines follow them. For .cpp files.
+
+#include <abut/math/linear.hpp>
+#include <abut/math/motion.hpp>
+#include <abut/math/sin_cos.hpp>
+
+namespace abut {
+
+/// How fast a thing turns, in radians for the whole of its motion; in 3D along the axis.
+template <int D>
+using Spin = std::conditional_t<D == 2, double, DVec<3>>;
+
+/// How fast a vector moves that turns with it: spin x v.
+inline DVec<2> turned_by(double spin, const DVec<2>& v) {
+    return {-spin * v.y, spin * v.x};
+}
+inline DVec<3> turned_by(const DVec<3>& spin, const DVec<3>& v) {
+    return cross(spin, v);
+}
+
+inline double rate_of(double spin) {
+    return std::abs(spin);
+}
+inline double rate_of(const DVec<3>& spin) {
+    return length(spin);
+}
+
+/// A vector that turns evenly: fixed + even cos(angle) + odd sin(angle), the angle growing by `rate` in the time 1.
+/// In 3D `fixed` is its part along the axis.
+template <int D>
+struct TurningVector {
+    DVec<D> fixed, even, odd;
+
+    DVec<D> at(const SinCos& s) const { return fixed + even * s.cos + odd * s.sin; }
+};
+
+/// About an axis of length 1, or in the plane about the third; the rate is that of the spin it comes from.
+struct TurningAxis2 {
+    explicit TurningAxis2(double spin) : rate(spin) {}
+    TurningVector<2> of(const DVec<2>& v) const { return {DVec<2>(0.0), v, DVec<2>(-v.y, v.x)}; }
+
+    double rate;
+};
+struct TurningAxis3 {
+    explicit TurningAxis3(const DVec<3>& spin) : rate(length(spin)), axis(rate > 0 ? spin / rate : DVec<3>(0.0)) {}
+    TurningVector<3> of(const DVec<3>& v) const {
+        const DVec<3> along = axis * dot(axis, v);
+        return {along, v - along, cross(axis, v)};
+    }
+
+    double rate;
+    DVec<3> axis;
+};
+template <int D>
+using TurningAxis = std::conditional_t<D == 2, TurningAxis2, TurningAxis3>;
+
+/// A motion in the time from 0 to 1.
+template <int D>
+struct RigidPath {
+    Affine<D> start;  ///< the pose at first; its offset is what the thing turns about
+    DVec<D> move{0.0};
+    Spin<D> spin{};
+
+    DVec<D> pivot(double time) const { return start.offset + move * time; }
+    /// Of a point of the thing that is at `place` at that time.
+    DVec<D> velocity(double time, const DVec<D>& place) const { return move + turned_by(spin, place - pivot(time)); }
+};
+
+RigidPath<2> rigid_path(const Motion2& motion);
+RigidPath<3> rigid_path(const Motion3& motion);
+
+/// Turning the short way, without the rounding of its angle to floats.
+RigidPath<2> rigid_path(const Pose2& from, const Pose2& to);
+RigidPath<3> rigid_path(const Pose3& from, const Pose3& to);
+
+/// Where the path has come to.
+template <int D>
+Affine<D> place_at(const RigidPath<D>& path, double time);
+
+}  // namespace abut

@@ -1,0 +1,112 @@
+#include <abut/math/assert.hpp>
+#include <abut/query/part_pairs.hpp>
+#include <abut/query/sweep_turning.hpp>
+#include <abut/query/turning_parts.hpp>
+
+namespace abut {
+namespace {
+
+template <int D>
+bool is_finite(const RigidPath<D>& path) {
+    double sum = rate_of(path.spin);
+    for (int i = 0; i < D; ++i) sum += path.start.offset[i] + path.move[i];
+    for (const DVec<D>& column : path.start.column)
+        for (int i = 0; i < D; ++i) sum += column[i];
+    return std::isfinite(sum);
+}
+
+/// The float at or below a time from 0 to 1.
+float rounded_down(double time) {
+    const float nearest = static_cast<float>(time);
+    return static_cast<double>(nearest) > time ? std::nextafter(nearest, 0.0f) : nearest;
+}
+
+/// `find` is asked for the first meeting, in a frame in which A's pivot stays at the origin: what is far from the
+/// world's keeps its digits.
+template <int D, class ShapeA, class ShapeB, class Find>
+std::optional<Hit<D>> find_hit(const ShapeA& a, RigidPath<D> path_a, const ShapeB& b, RigidPath<D> path_b,
+                               const Find& find) {
+    const bool finite = is_finite(a) && is_finite(b) && is_finite(path_a) && is_finite(path_b);
+    ABUT_ASSERT(finite);
+    if (!finite) return std::nullopt;
+    const RigidPath<D> world = path_a;
+    path_b.start.offset -= path_a.start.offset;
+    path_b.move -= path_a.move;
+    path_a.start.offset = path_a.move = DVec<D>(0.0);
+    Meeting<D> meeting;
+    if (!find(path_a, path_b, meeting)) return std::nullopt;
+    Hit<D> hit;
+    hit.fraction = rounded_down(meeting.time);
+    hit.distance = rounded_down(meeting.time) * static_cast<float>(length(path_b.move));
+    hit.point = to_float(meeting.point + world.pivot(meeting.time));
+    hit.normal = to_float(-meeting.normal);
+    hit.started_inside = meeting.started_inside;
+    hit.feature = meeting.feature;
+    return hit;
+}
+
+template <int D>
+std::optional<Hit<D>> between(const Convex<D>& a, const RigidPath<D>& path_a, const Convex<D>& b,
+                              const RigidPath<D>& path_b, const QueryOptions<D>& options) {
+    return find_hit(a, path_a, b, path_b, [&](const auto& way_a, const auto& way_b, Meeting<D>& meeting) {
+        return first_meeting<D>(a, way_a, b, way_b, TurningLimits{}, {options.cache, options.trace}, meeting);
+    });
+}
+
+template <int D>
+std::optional<Hit<D>> between(const View<D>& a, const RigidPath<D>& path_a, const View<D>& b,
+                              const RigidPath<D>& path_b, const QueryOptions<D>& options) {
+    return find_hit(a, path_a, b, path_b, [&](const auto& way_a, const auto& way_b, Meeting<D>& meeting) {
+        return first_meeting<D>(a, way_a, b, way_b, search_options(a, b, options), meeting);
+    });
+}
+
+}  // namespace
+
+template <int D>
+std::optional<Hit<D>> sweep(const Convex<D>& a, const Motion<D>& motion_a, const Convex<D>& b,
+                            const Motion<D>& motion_b, const QueryOptions<D>& options) {
+    return between(a, rigid_path(motion_a), b, rigid_path(motion_b), options);
+}
+template <int D>
+std::optional<Hit<D>> sweep(const Given<D>& a, const Motion<D>& motion_a, const Given<D>& b, const Motion<D>& motion_b,
+                            const QueryOptions<D>& options) {
+    return sweep(convex_of(a), motion_a, convex_of(b), motion_b, options);
+}
+template <int D>
+std::optional<Hit<D>> sweep(const View<D>& a, const Motion<D>& motion_a, const View<D>& b, const Motion<D>& motion_b,
+                            const QueryOptions<D>& options) {
+    return between(a, rigid_path(motion_a), b, rigid_path(motion_b), options);
+}
+
+template <int D>
+std::optional<Hit<D>> sweep(const Convex<D>& a, const Pose<D>& from_a, const Pose<D>& to_a, const Convex<D>& b,
+                            const Pose<D>& from_b, const Pose<D>& to_b, const QueryOptions<D>& options) {
+    return between(a, rigid_path(from_a, to_a), b, rigid_path(from_b, to_b), options);
+}
+template <int D>
+std::optional<Hit<D>> sweep(const Given<D>& a, const Pose<D>& from_a, const Pose<D>& to_a, const Given<D>& b,
+                            const Pose<D>& from_b, const Pose<D>& to_b, const QueryOptions<D>& options) {
+    return sweep(convex_of(a), from_a, to_a, convex_of(b), from_b, to_b, options);
+}
+template <int D>
+std::optional<Hit<D>> sweep(const View<D>& a, const Pose<D>& from_a, const Pose<D>& to_a, const View<D>& b,
+                            const Pose<D>& from_b, const Pose<D>& to_b, const QueryOptions<D>& options) {
+    return between(a, rigid_path(from_a, to_a), b, rigid_path(from_b, to_b), options);
+}
+
+#define ABUT_INSTANTIATE_FOR(D, S)                                                                           \
+    template std::optional<Hit<D>> sweep(const S&, const Motion<D>&, const S&, const Motion<D>&,             \
+                                         const QueryOptions<D>&);                                            \
+    template std::optional<Hit<D>> sweep(const S&, const Pose<D>&, const Pose<D>&, const S&, const Pose<D>&, \
+                                         const Pose<D>&, const QueryOptions<D>&);
+#define ABUT_INSTANTIATE(D)            \
+    ABUT_INSTANTIATE_FOR(D, View<D>)   \
+    ABUT_INSTANTIATE_FOR(D, Convex<D>) \
+    ABUT_INSTANTIATE_FOR(D, Given<D>)
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
+#undef ABUT_INSTANTIATE_FOR
+
+}  // namespace abut

@@ -1,0 +1,44 @@
+#pragma once
+
+// When two parts first meet, both on rigid paths. For .cpp files.
+
+#include <abut/convex/search_options.hpp>
+#include <abut/convex/support.hpp>
+#include <abut/math/rigid_path.hpp>
+#include <abut/query/feature.hpp>
+#include <abut/shape/half_space.hpp>
+
+namespace abut {
+
+/// As `Hit` has it, in the frame of the paths.
+template <int D>
+struct Meeting {
+    double time = 0;
+    DVec<D> point{0.0};
+    DVec<D> normal{0.0};  ///< of length 1, from A to B
+    bool started_inside = false;
+    Feature feature;  ///< on B; its part is for the caller to tell
+};
+
+/// The bound on how often the distance is asked for. A dozen is much; reaching the bound is told as a meeting there,
+/// which is early and never late.
+inline constexpr int turning_most_steps = 256;
+
+struct TurningLimits {
+    double until = 1;  ///< a time; what happens later is of no concern
+    int most_steps = turning_most_steps;
+};
+
+/// False, and `meeting` is as it was, where they don't meet until then. Both shapes are as they are in the frame that
+/// their path moves.
+template <int D>
+bool first_meeting(const Convex<D>& a, const RigidPath<D>& path_a, const Convex<D>& b, const RigidPath<D>& path_b,
+                   const TurningLimits& limits, const SearchOptions<D>& options, Meeting<D>& meeting);
+template <int D>
+bool first_meeting(const Convex<D>& a, const RigidPath<D>& path_a, const Solid<D>& b, const RigidPath<D>& path_b,
+                   const TurningLimits& limits, const SearchOptions<D>& options, Meeting<D>& meeting);
+template <int D>
+bool first_meeting(const Solid<D>& a, const RigidPath<D>& path_a, const Convex<D>& b, const RigidPath<D>& path_b,
+                   const TurningLimits& limits, const SearchOptions<D>& options, Meeting<D>& meeting);
+
+}  // namespace abut
