@@ -128,21 +128,34 @@ private:
     Solid<D> solid_;
 };
 
-/// Whether the motion goes further in at first: judged where they meet, by the speed of B along the way out. What would
-/// not get farther than rounding in the whole of the motion does not count.
+/// How fast the two come nearer at first along the way out, where they meet; zero or less where they don't.
 template <class Pair, int D>
-bool goes_in(const Pair& pair, const SignedDistance<D>& distance) {
+double speed_inwards(const Pair& pair, const SignedDistance<D>& distance) {
     const RigidPath<D>&path_a = pair.a.path(), &path_b = pair.b.path();
     const Manifold<D> meeting = pair.meeting_points(distance);
     const auto speed_at = [&](const DVec<D>& place) {
-        return dot(distance.normal, path_b.velocity(0, place) - path_a.velocity(0, place));
+        return dot(distance.normal, path_a.velocity(0, place) - path_b.velocity(0, place));
     };
-    double least = 0, deepest = -distance.distance;
+    if (meeting.count == 0) return speed_at(distance.on_a);
+    double most = 0;
     for (std::size_t i = 0; i < meeting.count; ++i)
-        if (meeting.points[i].depth >= deepest - pair.margin)
-            least = std::min(least, speed_at(meeting.points[i].position));
-    if (meeting.count == 0) least = speed_at(distance.on_a);
-    return least < -std::max(0.5 * pair.margin, 1e-6 * (pair.a.travel() + pair.b.travel()));
+        if (meeting.points[i].depth >= -distance.distance - pair.margin)
+            most = std::max(most, speed_at(meeting.points[i].position));
+    return most;
+}
+
+/// Whether the motion goes further in at once. What would not get farther than rounding in the whole of it does not
+/// count. A corner at a corner has many ways out, and of one that it moves against nothing follows: so it is looked at
+/// whether a margin later they are deeper indeed.
+template <class Pair, int D>
+bool goes_in(Pair& pair, const SignedDistance<D>& distance) {
+    const double speed = speed_inwards(pair, distance);
+    if (!(speed > std::max(0.5 * pair.margin, 1e-6 * (pair.a.travel() + pair.b.travel())))) return false;
+    const double soon = std::min(1.0, pair.margin / speed);
+    const bool deeper = pair.distance(soon).distance < distance.distance - 0.5 * soon * speed;
+    pair.a.go_to(0);
+    pair.b.go_to(0);
+    return deeper;
 }
 
 /// From time to time that is proven free, until they meet. The levels are chosen so that each comes with some way to go

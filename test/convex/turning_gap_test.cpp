@@ -1,0 +1,143 @@
+// What is told to be open must be open: gaps along turning axes, sampled as finely as one likes.
+
+#include "../oracle/check.hpp"
+#include "../oracle/pair.hpp"
+#include <abut/convex/turning_gap.hpp>
+
+namespace abut {
+namespace {
+
+template <int D>
+Spin<D> random_spin(oracle::Random& random, double most) {
+    if constexpr (D == 2)
+        return random.uniform(-most, most);
+    else
+        return random.direction<3>() * random.uniform(0, most);
+}
+
+template <int D>
+struct Case {
+    oracle::SamplePair<D> pair;
+    TurningSet<D> a, b;
+    DVec<D> normal;
+    Spin<D> spin;
+
+    explicit Case(oracle::Random& random)
+        : pair{oracle::Maker<D>(oracle::Random(random.bits()), random.in_cube<D>(), 1).make(kind(random)),
+               oracle::Maker<D>(oracle::Random(random.bits()), random.in_cube<D>(), 1).make(kind(random))},
+          a(std::get<Convex<D>>(pair.a.view), path(random, 0), 0),
+          b(std::get<Convex<D>>(pair.b.view), path(random, 6), 0),
+          normal(random.direction<D>()),
+          spin(random_spin<D>(random, 4)) {
+        // Half of the axes turn with one of the two.
+        if (random.chance(0.25)) spin = a.path().spin;
+        if (random.chance(0.25)) spin = b.path().spin;
+        if (random.chance(0.7)) {
+            const DVec<D> way = b.path().pivot(0) - a.path().pivot(0);
+            normal = normalized(way + random.in_cube<D>() * length(way));
+        }
+    }
+
+private:
+    static oracle::Kind kind(oracle::Random& random) {
+        return static_cast<oracle::Kind>(random.below(static_cast<std::uint32_t>(oracle::kind_count)));
+    }
+    static RigidPath<D> path(oracle::Random& random, double away) {
+        RigidPath<D> result = rigid_path(Motion<D>{{to_float(random.in_cube<D>() * away), random.rotation<D>()}});
+        result.move = random.in_cube<D>() * 2.0;
+        result.spin = random_spin<D>(random, random.chance(0.2) ? 0 : 7);
+        return result;
+    }
+};
+
+template <int D>
+void expect_bend_holds(std::uint64_t seed, double& sharpest) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    oracle::Random random(seed);
+    Case<D> c(random);
+    TurningGap<D> gap(c.a, c.b, c.normal, c.spin, 0);
+    // Of one corner of each, placed by hand.
+    const auto& core_a = c.a.here();
+    const auto& core_b = c.b.here();
+    c.a.go_to(0);
+    c.b.go_to(0);
+    const DVec<D> direction_a = random.direction<D>(), direction_b = random.direction<D>();
+    const DVec<D> on_a = core_support(core_a, direction_a).position - c.a.path().start.offset,
+                  on_b = core_support(core_b, direction_b).position - c.b.path().start.offset;
+    const TurningAxis<D> turn_a(c.a.path().spin), turn_b(c.b.path().spin), turn_n(c.spin);
+    const auto between = [&](double time) {
+        const DVec<D> b = c.b.path().pivot(time) + turn_b.of(on_b).at(sin_cos(turn_b.rate * time));
+        const DVec<D> a = c.a.path().pivot(time) + turn_a.of(on_a).at(sin_cos(turn_a.rate * time));
+        return dot(turn_n.of(c.normal).at(sin_cos(turn_n.rate * time)), b - a);
+    };
+    const double bend = gap.bend(0, 1), h = 1e-3;
+    for (int i = 1; i < 20; ++i) {
+        const double time = i / 20.0;
+        const double measured = (between(time + h) - 2 * between(time) + between(time - h)) / (h * h);
+        EXPECT_LE(std::abs(measured), bend * 1.0001 + 1e-5);
+        if (bend > 0) sharpest = std::max(sharpest, std::abs(measured) / bend);
+    }
+}
+
+TEST(TurningGap, BendsNoMoreThanTold) {
+    double sharpest = 0;
+    for (std::uint64_t seed = 1; seed <= 1000; ++seed) {
+        expect_bend_holds<2>(seed, sharpest);
+        expect_bend_holds<3>(seed, sharpest);
+    }
+    EXPECT_GT(sharpest, 0.9);
+}
+
+struct Tally {
+    int whole = 0, closed = 0, cut = 0;
+};
+
+template <int D>
+void expect_open(std::uint64_t seed, Tally& tally) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    oracle::Random random(seed);
+    Case<D> c(random);
+    TurningGap<D> gap(c.a, c.b, c.normal, c.spin, 0);
+    const double level = gap.at(0).gap - random.uniform(0.01, 2), slack = 1e-3;
+    const OpenUntil open = open_until(gap, 0, 1, level, slack);
+    ASSERT_GE(open.time, 0);
+    ASSERT_LE(open.time, 1);
+    EXPECT_EQ(open.gap, gap.at(open.time).gap);
+    for (int i = 0; i <= 500; ++i) EXPECT_GE(gap.at(open.time * i / 500).gap, level - 1e-12);
+    (open.time == 1 ? tally.whole : open.gap <= level + slack ? tally.closed : tally.cut) += 1;
+}
+
+TEST(TurningGap, IsOpenUntilToldAndFoundClosedThere) {
+    Tally tally;
+    for (std::uint64_t seed = 1; seed <= 2000; ++seed) {
+        expect_open<2>(seed, tally);
+        expect_open<3>(seed, tally);
+    }
+    EXPECT_GT(tally.whole, 400);
+    EXPECT_GT(tally.closed, 2000);
+    EXPECT_EQ(tally.cut, 0);  // the bound on steps is far off
+}
+
+TEST(TurningGap, ThatIsClosedIsNotFollowed) {
+    oracle::Random random(1);
+    Case<3> c(random);
+    TurningGap<3> gap(c.a, c.b, c.normal, c.spin, 0);
+    EXPECT_EQ(open_until(gap, 0.25, 1, gap.at(0.25).gap + 1, 0.1).time, 0.25);
+}
+
+/// The rate by which a gap goes on is that of the axis and the corners.
+TEST(TurningGap, TellsItsRate) {
+    int smooth = 0;
+    for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+        oracle::Random random(seed);
+        Case<3> c(random);
+        TurningGap<3> gap(c.a, c.b, c.normal, c.spin, 0);
+        const double time = random.uniform(0.1, 0.9), h = 1e-5;
+        const double before = gap.at(time - h).gap, after = gap.at(time + h).gap, rate = gap.at(time).rate;
+        smooth += std::abs((after - before) / (2 * h) - rate) < 1e-3 ? 1 : 0;
+    }
+    EXPECT_GT(smooth, 270);  // the rest changes corners there, or is a user's shape that answers in floats
+}
+
+}  // namespace
+}  // namespace abut

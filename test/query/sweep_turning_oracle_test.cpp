@@ -1,0 +1,229 @@
+// Turning sweeps against the exact distance in fine steps of time: nothing missed, nothing late, and what is told is
+// where they meet.
+
+#include "../oracle/check.hpp"
+#include "../oracle/pair.hpp"
+#include <abut/math/rigid_path.hpp>
+#include <abut/query/sweep_turning.hpp>
+
+namespace abut {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+template <int D>
+struct MovingPair {
+    oracle::SamplePair<D> pair;
+    Motion<D> motion_a, motion_b;
+    RigidPath<D> path_a, path_b;
+    double margin;
+    double speed;  ///< the most that two points of them come nearer in the whole motion
+
+    MovingPair(oracle::SamplePair<D> shapes, const Motion<D>& of_a, const Motion<D>& of_b)
+        : pair(std::move(shapes)),
+          motion_a(of_a),
+          motion_b(of_b),
+          path_a(rigid_path(of_a)),
+          path_b(rigid_path(of_b)),
+          margin(margin_of_doubt(pair.a.solid, pair.b.solid)),
+          speed(length(path_b.move - path_a.move) + swing(pair.a, path_a) + swing(pair.b, path_b)) {}
+
+    oracle::Truth<D> truth(double time) const {
+        // Seen from A, so that what is far from the origin keeps its digits.
+        Affine<D> place_a = place_at(path_a, time), place_b = place_at(path_b, time);
+        place_b.offset -= place_a.offset;
+        place_a.offset = DVec<D>(0.0);
+        return oracle::truth(mapped(pair.a.solid, place_a), mapped(pair.b.solid, place_b), oracle::Arithmetic::rough);
+    }
+    double distance(double time) const { return truth(time).distance; }
+
+    std::optional<Hit<D>> sweep() const { return abut::sweep(pair.a.view, motion_a, pair.b.view, motion_b); }
+
+private:
+    static double swing(const oracle::Sample<D>& shape, const RigidPath<D>& path) {
+        double reach = 0;
+        for (const DVec<D>& corner : corners_seen_from(shape.solid, DVec<D>(0.0)))
+            reach = std::max(reach, length(corner));
+        return rate_of(path.spin) * reach;
+    }
+};
+
+template <int D>
+Angle<D> random_turn(oracle::Random& random, double most) {
+    const double angle = random.uniform(-most, most);
+    if constexpr (D == 2)
+        return static_cast<float>(angle);
+    else
+        return to_float(random.direction<3>() * angle);
+}
+
+/// Shapes of all kinds, from compact ones to rods twenty times as long as wide, that turn about a point in or near them
+/// by up to a full turn, and pass one another closely enough that about half of them meet.
+template <int D>
+MovingPair<D> random_motion(oracle::Random& random) {
+    const double size = random.power_of_two(-10, 13);
+    const double away = random.chance(0.5) ? 0 : random.power_of_two(0, 14) * size;
+    oracle::SamplePair<D> pair;
+    for (oracle::Sample<D>* shape : {&pair.a, &pair.b}) {
+        const auto kind = static_cast<oracle::Kind>(random.below(static_cast<std::uint32_t>(oracle::kind_count)));
+        const DVec<D> off_pivot = random.chance(0.5) ? DVec<D>(0.0) : random.in_cube<D>() * size;
+        if (random.chance(0.25)) {
+            Vec<D> half(static_cast<float>(0.05 * size));
+            half[0] = static_cast<float>(size);
+            const Box<D> rod{to_float(off_pivot), half};
+            *shape =
+                oracle::sample<D>(oracle::Kind::box, rod, oracle::box_between(rod.center - half, rod.center + half));
+        } else {
+            *shape = oracle::Maker<D>(oracle::Random(random.bits()), off_pivot, size * random.power_of_two(-2, 1))
+                         .make(kind);
+        }
+    }
+    const double most = random.chance(0.5) ? 2 * pi : random.chance(0.5) ? pi / 4 : 0;
+    const DVec<D> from = random.direction<D>() * away, way = random.direction<D>() * (size * random.uniform(1, 5));
+    Motion<D> a{
+        {to_float(from), random.rotation<D>()}, to_float(random.in_cube<D>() * size), random_turn<D>(random, most)};
+    Motion<D> b{{to_float(from + way), random.rotation<D>()},
+                to_float(way * -random.uniform(0.6, 1.8) + random.in_cube<D>() * size),
+                random_turn<D>(random, random.chance(0.2) ? 0 : most)};
+    return {std::move(pair), a, b};
+}
+
+struct Tally {
+    int asked = 0, hits = 0;
+    double worst = 0;  ///< the largest distance at a hit, as a part of what is allowed
+};
+
+/// Nowhere before `end` are they deeper in one another than `floor`: in steps that no approach can be faster than, and
+/// where they are near one another at least a thousandth.
+template <int D>
+void expect_not_deeper(const MovingPair<D>& moving, double end, double floor, const char* what) {
+    for (double time = 0; time < end;) {
+        const double distance = moving.distance(time);
+        ASSERT_GE(distance, floor) << what << " at " << time << " of " << end;
+        time += std::max(0.9 * (distance - floor) / std::max(moving.speed, 1e-30), 1e-3);
+    }
+}
+
+template <int D>
+void check(const MovingPair<D>& moving, Tally& tally) {
+    if (moving.distance(0) <= moving.margin) return;
+    const std::optional<Hit<D>> hit = moving.sweep();
+    ++tally.asked;
+    expect_not_deeper(moving, hit ? static_cast<double>(hit->fraction) : 1, -moving.margin, hit ? "late" : "missed");
+    if (!hit) return;
+    ++tally.hits;
+    const oracle::Truth<D> there = moving.truth(static_cast<double>(hit->fraction));
+    const double allowed = moving.margin + 6e-8 * moving.speed;
+    EXPECT_LE(there.distance, allowed) << "not there yet";
+    EXPECT_GE(there.distance, -moving.margin) << "late";
+    tally.worst = std::max(tally.worst, std::abs(there.distance) / allowed);
+    EXPECT_FALSE(hit->started_inside);
+    // It faces A, and parts them there.
+    EXPECT_TRUE(std::abs(length(DVec<D>(hit->normal)) - 1) < 1e-6);
+    Affine<D> place_a = place_at(moving.path_a, static_cast<double>(hit->fraction)),
+              place_b = place_at(moving.path_b, static_cast<double>(hit->fraction));
+    const DVec<D> origin = place_a.offset;
+    place_b.offset -= origin;
+    place_a.offset = DVec<D>(0.0);
+    const auto solid_a = mapped(moving.pair.a.solid, place_a), solid_b = mapped(moving.pair.b.solid, place_b);
+    EXPECT_GE(oracle::rounded_gap_along(solid_a, solid_b, -DVec<D>(hit->normal)),
+              -moving.margin - 2e-7 * (oracle::size(solid_a) + oracle::size(solid_b)));
+    // The point is on B.
+    place_b.offset += origin;
+    EXPECT_LE(oracle::off_surface(mapped(moving.pair.b.solid, place_b), hit->point),
+              allowed + oracle::rounding_of(hit->point));
+}
+
+template <int D>
+void check_many(int count, std::uint64_t first_seed) {
+    Tally tally;
+    for (int i = 0; i < oracle::amount(count); ++i) {
+        const std::uint64_t seed = first_seed + static_cast<std::uint64_t>(i);
+        SCOPED_TRACE(testing::Message() << "seed " << seed);
+        oracle::Random random(seed);
+        check(random_motion<D>(random), tally);
+        if (testing::Test::HasFatalFailure()) return;
+    }
+    EXPECT_GT(tally.hits, tally.asked * 3 / 10);
+    EXPECT_LT(tally.hits, tally.asked * 7 / 10);
+    EXPECT_GT(tally.asked, oracle::amount(count) * 6 / 10);
+    testing::Test::RecordProperty("worst_of_margin", std::to_string(tally.worst));
+}
+
+TEST(SweepTurningOracle, InThePlane) {
+    check_many<2>(1000, 1);
+}
+TEST(SweepTurningOracle, InSpace) {
+    check_many<3>(1000, 1);
+}
+
+// Starts that touch: moved together along their nearest points. Nothing may sink in untold from there on.
+
+template <int D>
+MovingPair<D> touching(MovingPair<D> moving, bool backwards) {
+    // Most of them are on their way to one another, and here half of them should part.
+    if (backwards) {
+        moving.motion_b.move = -moving.motion_b.move;
+        moving.motion_a.move = -moving.motion_a.move;
+        moving.path_a = rigid_path(moving.motion_a);
+    }
+    for (int round = 0; round < 3; ++round) {
+        const oracle::Truth<D> now = moving.truth(0);
+        moving.motion_b.from.position -= to_float(now.normal * now.distance);
+        moving.path_b = rigid_path(moving.motion_b);
+    }
+    return moving;
+}
+
+struct TouchingTally {
+    int asked = 0, at_once = 0, later = 0;
+};
+
+template <int D>
+void check_touching(const MovingPair<D>& moving, TouchingTally& tally) {
+    const double first = moving.distance(0);
+    if (std::abs(first) > 0.4 * moving.margin) return;
+    const std::optional<Hit<D>> hit = moving.sweep();
+    ++tally.asked;
+    const double end = hit ? static_cast<double>(hit->fraction) : 1;
+    expect_not_deeper(moving, end, std::min(first, 0.0) - moving.margin, hit ? "late" : "missed");
+    if (!hit) return;
+    if (end > 0) {
+        ++tally.later;
+        EXPECT_LE(std::abs(moving.distance(end)), moving.margin * 1.4 + 6e-8 * moving.speed);
+        return;
+    }
+    // It goes further in at once.
+    ++tally.at_once;
+    const double soon = 1e-3 * oracle::size(moving.pair.a.solid) / moving.speed;
+    double least = first;
+    for (const double time : {0.001 * soon, 0.01 * soon, 0.1 * soon, soon})
+        least = std::min(least, moving.distance(std::min(time, 1.0)));
+    EXPECT_LT(least, first) << "hit at 0, but moves apart";
+}
+
+template <int D>
+void check_many_touching(int count) {
+    TouchingTally tally;
+    for (int i = 0; i < oracle::amount(count); ++i) {
+        const std::uint64_t seed = 5000 + static_cast<std::uint64_t>(i);
+        SCOPED_TRACE(testing::Message() << "seed " << seed);
+        oracle::Random random(seed);
+        check_touching(touching(random_motion<D>(random), i % 2 == 0), tally);
+        if (testing::Test::HasFatalFailure()) return;
+    }
+    EXPECT_GT(tally.asked, oracle::amount(count) / 4);
+    EXPECT_GT(tally.at_once, tally.asked * 3 / 10);
+    EXPECT_LT(tally.at_once, tally.asked * 8 / 10);
+    EXPECT_GT(tally.later, 0);
+}
+
+TEST(SweepTurningOracle, FromTouchingInThePlane) {
+    check_many_touching<2>(300);
+}
+TEST(SweepTurningOracle, FromTouchingInSpace) {
+    check_many_touching<3>(300);
+}
+
+}  // namespace
+}  // namespace abut
