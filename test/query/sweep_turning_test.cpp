@@ -1,0 +1,329 @@
+// Turning sweeps: examples worked out by hand, the words "hit" and "resting", every kind of shape, and the bound on
+// steps.
+
+#include "../oracle/expect.hpp"
+#include "../oracle/random.hpp"
+#include "../shape/meshes.hpp"
+#include <abut/query/closest.hpp>
+#include <abut/query/sweep_turning.hpp>
+#include <abut/query/turning_search.hpp>
+#include <abut/shape/box.hpp>
+#include <abut/shape/capsule.hpp>
+#include <abut/shape/cylinder.hpp>
+#include <abut/shape/placed.hpp>
+#include <abut/shape/segment.hpp>
+
+namespace abut {
+namespace {
+
+using oracle::near;
+
+constexpr float pi = 3.14159265f;
+
+// In the plane.
+
+TEST(SweepTurning, ARodThatTurnsOnceAroundMeetsAPost) {
+    // The rod's end reaches the post's near side, at a distance of 0.9 from the hub, with its lower edge at angle a:
+    // its half width 0.1 over that distance is below the post, sin a = 0.1 / 0.9.
+    const Box2 rod{{0, 0}, {1, 0.1f}};
+    const Circle post{{0, 1}, 0.1f};
+    const auto hit = sweep(rod, Motion2{{}, {}, 2 * pi}, post);
+    ASSERT_TRUE(hit);
+    // The rod's long side comes to the circle: the centre is at 1 from the hub, 0.2 off the middle line.
+    EXPECT_NEAR(hit->fraction * 2 * pi, std::acos(0.2), 1e-5);
+    EXPECT_FALSE(hit->started_inside);
+    EXPECT_EQ(hit->distance, 0);
+    // It faces the rod, and the point is on the circle.
+    EXPECT_NEAR(length(DVec<2>(hit->point) - DVec<2>(0, 1)), 0.1, 1e-5);
+    EXPECT_GT(hit->normal.x, 0.9f);
+    // Beyond the reach of the rod there is no hit, also not from five turns.
+    EXPECT_FALSE(sweep(rod, Motion2{{}, {}, 10 * pi}, Circle{{0, 1.2f}, 0.1f}));
+    // A motion between two equal poses stands still.
+    EXPECT_FALSE(sweep(rod, Pose2{}, Pose2{}, post, Pose2{}, Pose2{}));
+}
+
+TEST(SweepTurning, BothTurn) {
+    // Two gears' teeth that turn against one another at the same pace: their tips meet midway.
+    const Segment<2> tooth{{0, 0}, {1, 0}};
+    const auto later = sweep(tooth, Motion2{{{0, 0}, Turn::by(-pi / 2)}, {}, pi}, tooth,
+                             Motion2{{{1.2f, 0}, Turn::by(1.5f * pi)}, {}, -pi});
+    ASSERT_TRUE(later);
+    // At the angle below the line of centres at which half of 1.2 is the cosine.
+    EXPECT_NEAR(later->fraction * pi, pi / 2 - std::acos(0.6), 1e-4);
+    EXPECT_NEAR(later->point.x, 0.6, 1e-4);
+}
+
+TEST(SweepTurning, MovesAndTurns) {
+    // A square comes to a wall and stands on its corner there, 45 degrees further on.
+    const Box2 square{{0, 0}, {1, 1}};
+    const HalfSpace2 wall{{-1, 0}, -10};
+    const auto hit = sweep(square, Motion2{{{0, 0}}, {(10 - std::sqrt(2.0f)) * 2, 0}, pi / 2}, wall);
+    ASSERT_TRUE(hit);
+    EXPECT_NEAR(hit->fraction, 0.5, 1e-4);
+    EXPECT_TRUE(near(hit->normal, Vec2(-1, 0)));
+    EXPECT_NEAR(hit->distance, 10 - std::sqrt(2.0), 2e-3);
+    EXPECT_NEAR(hit->point.x, 10, 1e-4);
+}
+
+// At rest.
+
+TEST(SweepTurning, ABoxOnAFloorTurnsOnTheSpotAndSlides) {
+    const Box3 box{{0, 0, 1}, {1, 1, 1}};
+    const HalfSpace3 ground{{0, 0, 1}, 0};
+    const Box3 slab{{0, 0, -1}, {20, 20, 1}};
+    const auto plane = test::box_surface(Vec3(-20, -20, -1), Vec3(20, 20, 0)).mesh();
+    for (const Motion3& motion :
+         {Motion3{{}, {}, {0, 0, 2 * pi}}, Motion3{{}, {3, 1, 0}, {0, 0, -pi}}, Motion3{{}, {5, 0, 0}, {}}}) {
+        EXPECT_FALSE(sweep(box, motion, ground));
+        EXPECT_FALSE(sweep(box, motion, slab));
+        EXPECT_FALSE(sweep(box, motion, plane));
+        EXPECT_FALSE(sweep(slab, Motion3{}, box, motion));
+        EXPECT_FALSE(sweep(plane, Motion3{}, box, motion));
+    }
+}
+
+TEST(SweepTurning, ABoxPivotsAboutItsEdge) {
+    // Standing on the floor with an edge at the origin, about which it turns.
+    const Box3 box{{1, 0, 1}, {1, 1, 1}};
+    const HalfSpace3 ground{{0, 0, 1}, 0};
+    const Box3 slab{{0, 0, -1}, {20, 20, 1}};
+    const auto plane = test::box_surface(Vec3(-20, -20, -1), Vec3(20, 20, 0)).mesh();
+    const Motion3 up{{}, {}, {0, -0.45f * pi, 0}}, down{{}, {}, {0, 0.45f * pi, 0}}, over{{}, {}, {0, -0.75f * pi, 0}};
+    const auto expect = [&](const auto& floor) {
+        EXPECT_FALSE(sweep(box, up, floor));
+        const auto in = sweep(box, down, floor);
+        ASSERT_TRUE(in);
+        EXPECT_EQ(in->fraction, 0);
+        EXPECT_FALSE(in->started_inside);
+        EXPECT_TRUE(near(in->normal, Vec3(0, 0, 1)));
+        // Over the edge it falls on its side.
+        const auto fallen = sweep(box, over, floor);
+        ASSERT_TRUE(fallen);
+        EXPECT_NEAR(fallen->fraction, 2.0 / 3, 2e-5);
+        EXPECT_TRUE(near(fallen->normal, Vec3(0, 0, 1), 1e-3));
+    };
+    expect(ground);
+    expect(slab);
+    expect(plane);
+}
+
+TEST(SweepTurning, APlankOverAPostIsJudgedWhereTheyTouch) {
+    // The post is under one half of the plank: that half goes up, and the other down beside the post.
+    const Box2 plank{{0, 0.1f}, {2, 0.1f}};
+    const Box2 post{{1, -1}, {0.25f, 1}};
+    EXPECT_FALSE(sweep(plank, Motion2{{}, {}, pi / 4}, post));
+    const auto in = sweep(plank, Motion2{{}, {}, -pi / 4}, post);
+    ASSERT_TRUE(in);
+    EXPECT_EQ(in->fraction, 0);
+}
+
+TEST(SweepTurning, StartsThatOverlap) {
+    const Box2 box{{0, 0}, {1, 1}};
+    const auto from = [](float x) { return Pose2{{x, 0}}; };
+    // Further in, out, and along.
+    const auto in = sweep(box, Motion2{from(1.5f), {-1, 0}, 0.1f}, box);
+    ASSERT_TRUE(in);
+    EXPECT_EQ(in->fraction, 0);
+    EXPECT_TRUE(in->started_inside);
+    EXPECT_TRUE(near(in->normal, Vec2(1, 0)));
+    EXPECT_FALSE(sweep(box, Motion2{from(1.5f), {4, 0}, 0.1f}, box));
+    EXPECT_FALSE(sweep(box, Motion2{from(1.5f), {0, 1}, 0}, box));
+}
+
+TEST(SweepTurning, ComesBackToWhatItLeft) {
+    // A door that stands at its frame opens, goes around, and meets the other side of it.
+    const Box2 door{{1, 0.05f}, {1, 0.05f}};
+    const Box2 frame{{1.9f, -0.1f}, {0.1f, 0.1f}};
+    const auto hit = sweep(door, Motion2{{}, {}, 2 * pi}, frame);
+    ASSERT_TRUE(hit);
+    // Its upper side, 0.1 above the hinge's line, comes to the frame's lower corner next the hinge.
+    EXPECT_GT(hit->fraction, 0.9f);
+    EXPECT_LT(hit->fraction, 0.99f);
+    const Pose2 there = pose_at(Motion2{{}, {}, 2 * pi}, hit->fraction);
+    EXPECT_NEAR(closest(at(door, there), frame).distance, 0, 2e-6);
+}
+
+// Shapes that turn into themselves.
+
+TEST(SweepTurning, ABallThatSpinsGoesStraight) {
+    const Sphere ball{{0, 0, 0}, 1};
+    const HalfSpace3 ground{{0, 0, 1}, 0};
+    EXPECT_FALSE(sweep(ball, Motion3{{{0, 0, 1}}, {6, 0, 0}, {0, 100, 0}}, ground));
+    const Box3 wall{{5, 0, 0}, {1, 4, 4}};
+    const auto hit = sweep(ball, Motion3{{{0, 0, 1}}, {6, 0, 0}, {0, 100, 0}}, wall);
+    ASSERT_TRUE(hit);
+    EXPECT_NEAR(hit->fraction, 0.5, 1e-5);
+    const Cylinder wheel{{0, -0.2f, 0}, {0, 0.2f, 0}, 1};
+    const auto rolled = sweep(wheel, Motion3{{{0, 0, 1}}, {6, 0, 0}, {0, 100, 0}}, wall);
+    ASSERT_TRUE(rolled);
+    EXPECT_NEAR(rolled->fraction, 0.5, 1e-5);
+}
+
+// Shapes known by functions, composites, half-spaces that move.
+
+TEST(SweepTurning, ACylinderTipsOver) {
+    // About the edge of its base, onto a box as high as its radius: its wall comes down on the corner.
+    const Cylinder column{{1, 0, 0}, {1, 0, 6}, 1};
+    const HalfSpace3 ground{{0, 0, 1}, 0};
+    const Motion3 over{{}, {}, {0, -0.75f * pi, 0}};
+    const auto hit = sweep(column, over, ground);
+    ASSERT_TRUE(hit);
+    EXPECT_NEAR(hit->fraction, 2.0 / 3, 1e-4);
+    const Box3 slab{{0, 0, -1}, {20, 20, 1}};
+    const auto slab_hit = sweep(column, over, slab);
+    ASSERT_TRUE(slab_hit);
+    EXPECT_NEAR(slab_hit->fraction, 2.0 / 3, 1e-4);
+}
+
+TEST(SweepTurning, AHalfSpaceThatTurnsMeetsWhatStands) {
+    // A ramp that is raised, hinged at the origin, comes to a ball of radius 1 at (0, 0, 3) from below: never, since
+    // turning about the origin it keeps beside it until upright; a lid that falls on it does.
+    const HalfSpace3 lid{{1, 0, 0}, 0};
+    const Sphere ball{{4, 0, 2}, 1};
+    const auto hit = sweep(lid, Motion3{{}, {}, {0, pi, 0}}, ball);
+    ASSERT_TRUE(hit);
+    // The border passes through the origin; it comes to the ball where the distance of its centre is 1.
+    const Pose3 there = pose_at(Motion3{{}, {}, {0, pi, 0}}, hit->fraction);
+    EXPECT_NEAR(closest(at(lid, there), ball).distance, 0, 1e-5);
+    const auto other_way = sweep(ball, Motion3{}, lid, Motion3{{}, {}, {0, pi, 0}});
+    ASSERT_TRUE(other_way);
+    EXPECT_NEAR(other_way->fraction, hit->fraction, 2e-6);
+    EXPECT_TRUE(near(other_way->normal, -hit->normal, 1e-5));
+}
+
+TEST(SweepTurning, ARodThroughAGridOfPostsMeetsTheFirst) {
+    // As a mesh, and each post by itself.
+    test::Surface posts;
+    std::vector<Box3> boxes;
+    for (int i = 0; i < 6; ++i)
+        for (int j = 0; j < 6; ++j) {
+            const Vec3 middle(static_cast<float>(i) * 1.5f - 3, static_cast<float>(j) * 1.5f - 3, 0);
+            boxes.push_back({middle, {0.1f, 0.1f, 1}});
+            posts = test::joined(posts, test::box_surface(middle - boxes[0].half, middle + boxes[0].half));
+        }
+    const Mesh mesh = posts.mesh();
+    const Box3 rod{{0, 0, 0}, {1, 0.05f, 0.05f}};
+    int hits = 0;
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+        SCOPED_TRACE(testing::Message() << "seed " << seed);
+        oracle::Random random(seed);
+        const Motion3 motion{{to_float(random.in_cube<3>() * 5.0), random.rotation<3>()},
+                             to_float(random.in_cube<3>() * 3.0),
+                             to_float(random.direction<3>() * random.uniform(0, 6))};
+        const Motion3 of_mesh{{}, to_float(random.in_cube<3>() * 0.5), to_float(random.direction<3>() * 0.2)};
+        std::optional<Hit<3>> first;
+        bool starts_apart = true;
+        for (const Box3& post : boxes) {
+            starts_apart = starts_apart && closest(at(rod, motion.from), post).distance > 0.001f;
+            const auto hit = sweep(rod, motion, post, of_mesh);
+            if (hit && (!first || hit->fraction < first->fraction)) first = hit;
+        }
+        if (!starts_apart) continue;
+        const auto hit = sweep(rod, motion, mesh, of_mesh);
+        const auto turned_round = sweep(mesh, of_mesh, rod, motion);
+        ASSERT_EQ(hit.has_value(), first.has_value());
+        ASSERT_EQ(turned_round.has_value(), first.has_value());
+        if (!hit) continue;
+        ++hits;
+        EXPECT_NEAR(hit->fraction, first->fraction, 2e-5);
+        EXPECT_NEAR(turned_round->fraction, first->fraction, 2e-5);
+        EXPECT_LT(hit->feature.part, mesh.triangles().size());
+    }
+    EXPECT_GT(hits, 20);
+    EXPECT_LT(hits, 80);
+}
+
+// Laws.
+
+TEST(SweepTurning, IsTheSameFarFromTheOrigin) {
+    const Box3 rod{{0, 0, 0}, {1, 0.05f, 0.05f}};
+    const Motion3 a{{{0, 0, 0}}, {0.5f, 0, 0}, {1, 2, 3}},
+        b{{{1, 1, 0}, turn_about({0, 0, 1}, 1)}, {0, -0.5f, 0}, {0, 1, 0}};
+    const auto hit = sweep(rod, a, rod, b);
+    ASSERT_TRUE(hit);
+    Motion3 far_a = a, far_b = b;
+    const Vec3 away(65536, -131072, 8192);
+    far_a.from.position += away;
+    far_b.from.position += away;
+    const auto far = sweep(rod, far_a, rod, far_b);
+    ASSERT_TRUE(far);
+    EXPECT_EQ(far->fraction, hit->fraction);
+    EXPECT_EQ(far->normal, hit->normal);
+}
+
+TEST(SweepTurning, MeetsAtTheSameTimeWhicheverIsFirst) {
+    int hits = 0;
+    for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+        SCOPED_TRACE(testing::Message() << "seed " << seed);
+        oracle::Random random(seed);
+        const auto motion = [&] {
+            return Motion2{{to_float(random.in_cube<2>() * 2.0), random.rotation<2>()},
+                           to_float(random.in_cube<2>() * 2.0),
+                           random.uniform_float(-6, 6)};
+        };
+        const Box2 a{{0, 0}, {1, 0.1f}}, b{{0.3f, 0}, {0.4f, 0.5f}};
+        const Motion2 motion_a = motion(), motion_b = motion();
+        if (closest(at(a, motion_a.from), at(b, motion_b.from)).distance < 0.001f) continue;
+        const auto hit = sweep(a, motion_a, b, motion_b), other = sweep(b, motion_b, a, motion_a);
+        ASSERT_EQ(hit.has_value(), other.has_value());
+        if (!hit) continue;
+        ++hits;
+        EXPECT_NEAR(hit->fraction, other->fraction, 1e-5);
+        EXPECT_TRUE(near(hit->point, other->point, 1e-4));
+    }
+    EXPECT_GT(hits, 50);
+    EXPECT_LT(hits, 250);
+}
+
+// The bound on steps: what is told then is early.
+
+TEST(SweepTurning, TellsWhereItGaveUpAsAHitThatIsEarly) {
+    const Box3 rod{{0, 0, 0}, {1, 0.05f, 0.05f}};
+    int early = 0, hits = 0;
+    for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+        oracle::Random random(seed);
+        const auto path = [&](double away) {
+            return rigid_path(Motion3{{to_float(random.direction<3>() * away), random.rotation<3>()},
+                                      to_float(random.in_cube<3>()),
+                                      to_float(random.direction<3>() * 4.0)});
+        };
+        const RigidPath<3> a = path(0), b = path(1.2);
+        Meeting<3> whole, cut;
+        const bool meets = first_meeting<3>(convex(rod), a, convex(rod), b, {}, {}, whole);
+        for (const int steps : {1, 2, 3}) {
+            const bool told = first_meeting<3>(convex(rod), a, convex(rod), b, {.most_steps = steps}, {}, cut);
+            // Never "no hit" where there is one, and never later.
+            ASSERT_TRUE(told || !meets);
+            if (meets) {
+                EXPECT_LE(cut.time, whole.time);
+            }
+            early += told && (!meets || cut.time < whole.time) ? 1 : 0;
+        }
+        hits += meets ? 1 : 0;
+    }
+    EXPECT_GT(early, 50);
+    EXPECT_GT(hits, 50);
+}
+
+TEST(SweepTurning, NeedsFewSteps) {
+    const Box3 rod{{0, 0, 0}, {1, 0.05f, 0.05f}};
+    for (std::uint64_t seed = 1; seed <= 1000; ++seed) {
+        SCOPED_TRACE(testing::Message() << "seed " << seed);
+        oracle::Random random(seed);
+        const auto path = [&](double away) {
+            return rigid_path(Motion3{{to_float(random.direction<3>() * away), random.rotation<3>()},
+                                      to_float(random.in_cube<3>()),
+                                      to_float(random.direction<3>() * 6.28)});
+        };
+        const RigidPath<3> a = path(0), b = path(1.2);
+        Meeting<3> whole, cut;
+        const bool meets = first_meeting<3>(convex(rod), a, convex(rod), b, {}, {}, whole);
+        ASSERT_EQ(first_meeting<3>(convex(rod), a, convex(rod), b, {.most_steps = 40}, {}, cut), meets);
+        if (meets) {
+            EXPECT_EQ(cut.time, whole.time);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace abut
