@@ -45,5 +45,6 @@ struct Bench {
 std::vector<Bench> narrow_benches();
 std::vector<Bench> broad_benches();
 std::vector<Bench> motion_straight_benches();
+std::vector<Bench> motion_turning_benches();
 
 }  // namespace abut::bench

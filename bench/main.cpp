@@ -34,6 +34,7 @@ std::vector<Bench> all_benches() {
     std::vector<Bench> result = narrow_benches();
     std::ranges::move(broad_benches(), std::back_inserter(result));
     std::ranges::move(motion_straight_benches(), std::back_inserter(result));
+    std::ranges::move(motion_turning_benches(), std::back_inserter(result));
     return result;
 }
 

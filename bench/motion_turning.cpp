@@ -1,0 +1,113 @@
+// Boxes that turn on their way, from pose to pose: when do they meet?
+
+#include "../test/oracle/random.hpp"
+#include "each_pair.hpp"
+#include "turning.hpp"
+#include <abut/query/closest.hpp>
+#include <abut/query/sweep_turning.hpp>
+#include <abut/shape/placed.hpp>
+
+#include <memory>
+
+namespace abut::bench {
+
+namespace {
+
+constexpr std::size_t pair_count = 1024;
+constexpr double pi = 3.14159265358979323846;
+
+/// As wide as they like, or twenty times as long.
+enum class Form { any, rod };
+
+template <int D>
+Angle<D> turn_by(oracle::Random& random, double most) {
+    const double angle = random.uniform(-most, most);
+    if constexpr (D == 2)
+        return static_cast<float>(angle);
+    else
+        return to_float(random.direction<3>() * angle);
+}
+
+template <int D>
+Box<D> box_of(oracle::Random& random, Form form) {
+    Box<D> result;
+    for (int i = 0; i < D; ++i) result.half[i] = form == Form::rod ? 0.05f : random.uniform_float(0.2, 1);
+    if (form == Form::rod) result.half[0] = 1;
+    return result;
+}
+
+/// Two boxes that start apart and come near one another midway, each turning by up to `most`; about half of them meet.
+/// Those that barely do, or barely don't, are left out.
+template <int D>
+TurningScene<D> turning(Form form, double most) {
+    oracle::Random random(1);
+    TurningScene<D> scene;
+    const double near = form == Form::rod ? 0.5 : 1.5;
+    while (scene.pairs.size() < pair_count) {
+        TurningPair<D> pair;
+        Motion<D> motions[2];
+        const DVec<D> way = random.direction<D>() * random.uniform(2, 5);
+        TurningBox<D>* const both[2] = {&pair.a, &pair.b};
+        for (int i = 0; i < 2; ++i) {
+            const DVec<D> half = way * (i == 0 ? 0.5 : -0.5);
+            motions[i] = {{to_float(half), random.rotation<D>()},
+                          to_float(-2.0 * half + random.in_cube<D>() * near),
+                          turn_by<D>(random, most)};
+            *both[i] = {box_of<D>(random, form), motions[i].from, pose_at(motions[i], 1), motions[i].turn};
+        }
+        const auto& [a, b] = pair;
+        if (closest(at(a.box, a.from), at(b.box, b.from)).distance < 0.05f) continue;
+        const auto hit_of = [&](float grown) {
+            return sweep(rounded(a.box, grown), motions[0], b.box, motions[1]).has_value();
+        };
+        Box<D> less = a.box;
+        less.half -= Vec<D>(0.01f);
+        if (hit_of(0.01f) != sweep(less, motions[0], b.box, motions[1]).has_value()) continue;
+        scene.pairs.push_back(pair);
+    }
+    return scene;
+}
+
+template <int D>
+Side abut_turning(const TurningScene<D>& scene) {
+    return {"abut", each_pair(std::make_shared<const TurningScene<D>>(scene),
+                              [](const TurningPair<D>& pair, std::size_t) -> double {
+                                  const auto& [a, b] = pair;
+                                  const auto hit = sweep(a.box, a.from, a.to, b.box, b.from, b.to);
+                                  return hit ? hit->fraction : no_meeting;
+                              })};
+}
+
+Side straying(Side side, double share) {
+    side.strays = share;
+    return side;
+}
+
+Job job(std::vector<Side> sides) {
+    // Peers stop early, by a slop in space.
+    return {.items = pair_count, .values = pair_count, .tolerance = 0.02, .sides = std::move(sides)};
+}
+
+Job in_plane(double most) {
+    const TurningScene<2> scene = turning<2>(Form::any, most);
+    return job({abut_turning(scene), straying(box2d_turning(scene), 1)});
+}
+Job in_space(Form form, double most) {
+    const TurningScene<3> scene = turning<3>(form, most);
+    return job({abut_turning(scene), straying(bullet_turning(scene), 1), straying(fcl_turning(scene), 1)});
+}
+
+}  // namespace
+
+std::vector<Bench> motion_turning_benches() {
+    return {
+        {"motion/turning/2d/box/pi4", [] { return in_plane(pi / 4); }},
+        {"motion/turning/2d/box/pi", [] { return in_plane(pi); }},
+        {"motion/turning/3d/box/pi4", [] { return in_space(Form::any, pi / 4); }},
+        {"motion/turning/3d/box/pi", [] { return in_space(Form::any, pi); }},
+        {"motion/turning/3d/rod/pi4", [] { return in_space(Form::rod, pi / 4); }},
+        {"motion/turning/3d/rod/pi", [] { return in_space(Form::rod, pi); }},
+    };
+}
+
+}  // namespace abut::bench
