@@ -23,49 +23,60 @@ double bend_of(const DVec<3>& spin, const DVec<3>& own, const DVec<3>& normal) {
 template <int D>
 TurningGap<D>::TurningGap(TurningSet<D>& a, TurningSet<D>& b, const DVec<D>& normal, const Spin<D>& spin, double from)
     : a_(a), b_(b), axis_(spin), normal_(axis_.of(normal)), spin_(spin), from_(from) {
+    const RigidPath<D>&path_a = a.path(), &path_b = b.path();
+    bend_ = bend_of(spin, path_a.spin, normal) * a.reach() + bend_of(spin, path_b.spin, normal) * b.reach();
+    if (axis_.rate == 0) return;
+    // A straight way is farthest from a point at one of its ends.
+    const double farthest = std::sqrt(std::max(length_squared(path_b.pivot(from) - path_a.pivot(from)),
+                                               length_squared(path_b.pivot(1) - path_a.pivot(1))));
     const double speed = length(turned_by(spin, normal));
-    bend_of_sets_ = bend_of(spin, a.path().spin, normal) * a.reach() + bend_of(spin, b.path().spin, normal) * b.reach();
-    bend_by_distance_ = rate_of(spin) * speed;
-    bend_by_move_ = 2 * speed * length(b.path().move - a.path().move);
+    bend_ += speed * (rate_of(spin) * farthest + 2 * length(path_b.move - path_a.move));
 }
 
 template <int D>
-typename TurningGap<D>::Value TurningGap<D>::at(double time) {
+double TurningGap<D>::rate(double time, const DVec<D>& normal, const DVec<D>& on_a, const DVec<D>& on_b) const {
+    const DVec<D> speed = b_.path().velocity(time, on_b) - a_.path().velocity(time, on_a);
+    return dot(normal, speed) + dot(turned_by(spin_, normal), on_b - on_a);
+}
+
+template <int D>
+Gap TurningGap<D>::at(double time) {
     a_.go_to(time);
     b_.go_to(time);
     const DVec<D> n = axis_.rate == 0 ? normal_.even + normal_.fixed : normal_.at(sin_cos(axis_.rate * (time - from_)));
     const Convex<D>&a = a_.here(), &b = b_.here();
     const DVec<D> on_a = core_support(a, n).position, on_b = core_support(b, -n).position;
-    const DVec<D> across = on_b - on_a;
-    const DVec<D> speed = b_.path().velocity(time, on_b) - a_.path().velocity(time, on_a);
-    return {dot(n, across) - a.radius - b.radius, dot(n, speed) + dot(turned_by(spin_, n), across)};
+    return {dot(n, on_b - on_a) - a.radius - b.radius, rate(time, n, on_a, on_b)};
 }
 
 template <int D>
-double TurningGap<D>::bend(double from, double to) const {
-    // A straight way is farthest from a point at one of its ends.
-    const auto distance = [&](double time) { return length(b_.path().pivot(time) - a_.path().pivot(time)); };
-    const double farthest = bend_by_distance_ > 0 ? std::max(distance(from), distance(to)) : 0;
-    return bend_of_sets_ + bend_by_move_ + bend_by_distance_ * farthest;
+Gap TurningGap<D>::at_first(double gap, const DVec<D>& on_a, const DVec<D>& on_b) const {
+    return {gap, rate(from_, normal_.even + normal_.fixed, on_a, on_b)};
 }
 
 namespace {
 
-/// How far to go from a time at which the gap is open by `open` and changes by `rate`, in order to prove as much as the
-/// bend allows: up to g2 at the end, (sqrt(open) + sqrt(g2))^2 >= K h^2 / 2 leaves nothing closed between.
+/// Whether a gap that is `g1` and then `g2`, a time h apart, is nowhere closed between: (sqrt(g1) + sqrt(g2))^2 is at
+/// least K h^2 / 2.
+bool stays_open(double g1, double g2, double bend, double h) {
+    const double excess = 0.5 * bend * h * h - g1 - g2;
+    return excess <= 0 || excess * excess <= 4 * g1 * g2;
+}
+
+/// How far to go from a time at which the gap is open by `open` and changes by `rate`: as far as the bend allows to
+/// prove, if at the end it is as it now seems.
 double stride(double open, double rate, double bend, double most) {
-    double result = rate < 0 ? std::min(most, -open / rate) : most;
-    if (!(bend > 0)) return result;
+    const double wanted = rate < 0 ? std::min(most, -open / rate) : most;
+    if (stays_open(open, std::max(open + rate * wanted, 0.0), bend, wanted)) return wanted;
     const double root = std::sqrt(open), per_root = std::sqrt(2 / bend);
-    result = std::min(result, 2 * root * per_root);
-    const double expected = std::max(open + rate * result, 0.0);
-    return std::min(result, (root + std::sqrt(expected)) * per_root);
+    const double farthest = std::min(wanted, 2 * root * per_root);
+    const double expected = std::max(open + rate * farthest, 0.0);
+    return std::min(farthest, (root + std::sqrt(expected)) * per_root);
 }
 
 /// The first x at which g1 + (g2 - g1) x / h - K/2 x (h - x) is zero; h where it is nowhere below.
 double first_closed(double g1, double g2, double bend, double h) {
-    const double excess = 0.5 * bend * h * h - g1 - g2;
-    if (g2 >= 0 && (excess <= 0 || excess * excess <= 4 * g1 * g2)) return h;
+    if (g2 >= 0 && stays_open(g1, g2, bend, h)) return h;
     const double slope = (g2 - g1) / h - 0.5 * bend * h;
     const double discriminant = slope * slope - 2 * bend * g1;
     if (!(slope < 0) || !(discriminant >= 0)) return h;
@@ -75,19 +86,19 @@ double first_closed(double g1, double g2, double bend, double h) {
 }  // namespace
 
 template <int D>
-OpenUntil open_until(TurningGap<D>& gap, double from, double until, double level, double slack) {
+OpenUntil open_until(TurningGap<D>& gap, double from, double until, const Gap& first, double level, double slack) {
     double time = from, closed = until, closed_by = 0;
-    typename TurningGap<D>::Value now = gap.at(time);
+    Gap now = first;
+    const double bend = gap.bend();
     for (int step = 0; step < most_steps; ++step) {
         const double open = now.gap - level;
         if (open <= slack || time >= until) break;
-        const double bend = gap.bend(time, closed);
         // Into the middle of the slack; short of where it is known to be closed.
         const double aim = open - 0.5 * slack;
         double h = stride(aim, now.rate, bend, closed - time);
         if (closed_by > 0) h = std::min(h, (closed - time) * aim / (open + closed_by));
         const double then = time + h >= until ? until : time + h;
-        const typename TurningGap<D>::Value next = gap.at(then);
+        const Gap next = gap.at(then);
         const double known = first_closed(open, next.gap - level, bend, then - time);
         if (time + known >= then) {
             if (then <= time) break;
@@ -168,7 +179,7 @@ Spin<3> spin_across(const TurningSet<3>& a, const TurningSet<3>& b, const DVec<3
 
 #define ABUT_INSTANTIATE(D)       \
     template class TurningGap<D>; \
-    template OpenUntil open_until(TurningGap<D>&, double, double, double, double);
+    template OpenUntil open_until(TurningGap<D>&, double, double, const Gap&, double, double);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

@@ -25,29 +25,34 @@
 
 namespace abut {
 
+/// How wide a gap is at some time.
+struct Gap {
+    double gap;
+    double rate;  ///< how it goes on, of the places it is measured at: others may come nearer
+};
+
 template <int D>
 class TurningGap {
 public:
     /// The axis is `normal`, of length 1, from A to B, at the time `from`.
     TurningGap(TurningSet<D>& a, TurningSet<D>& b, const DVec<D>& normal, const Spin<D>& spin, double from);
 
-    struct Value {
-        double gap;
-        double rate;  ///< of the two corners it is measured at: how it goes on, unless others come nearer
-    };
     /// Takes both sets to that time.
-    Value at(double time);
+    Gap at(double time);
+    /// At the time `from`, of sets that have gone there, where the gap and a place on either side of it are known.
+    Gap at_first(double gap, const DVec<D>& on_a, const DVec<D>& on_b) const;
 
-    /// The most that |f''| is for any two corners from one time to another.
-    double bend(double from, double to) const;
+    /// The most that |f''| is for any two corners from then on.
+    double bend() const { return bend_; }
 
 private:
+    double rate(double time, const DVec<D>& normal, const DVec<D>& on_a, const DVec<D>& on_b) const;
+
     TurningSet<D>&a_, &b_;
     TurningAxis<D> axis_;
     TurningVector<D> normal_;
     Spin<D> spin_;
-    double from_;
-    double bend_of_sets_, bend_by_distance_, bend_by_move_;
+    double from_, bend_;
 };
 
 /// What is known of a gap.
@@ -56,10 +61,10 @@ struct OpenUntil {
     double gap;   ///< at that time
 };
 
-/// Follows the gap from a time at which it is open, until it is at most `level + slack`, or the time `until`, or the
+/// Follows the gap from a time at which it is `first`, until it is at most `level + slack`, or the time `until`, or the
 /// bound on steps: what is told is true in any case.
 template <int D>
-OpenUntil open_until(TurningGap<D>& gap, double from, double until, double level, double slack);
+OpenUntil open_until(TurningGap<D>& gap, double from, double until, const Gap& first, double level, double slack);
 
 /// What the axis across two features should turn by to stay across them: the edges, or faces, that the corners span.
 template <int D>

@@ -17,6 +17,8 @@ public:
 
     /// To a time from 0 to 1.
     void go_to(double time) {
+        if (time == time_) return;
+        time_ = time;
         if (axis_.rate == 0) {
             here_.place.offset = offset_.even + path_.pivot(time);
             return;
@@ -35,6 +37,7 @@ public:
 
 private:
     RigidPath<D> path_;
+    double time_ = -1;
     Convex<D> here_;
     double reach_;
     TurningAxis<D> axis_;

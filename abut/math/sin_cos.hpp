@@ -5,7 +5,6 @@
 
 #include <abut/math/assert.hpp>
 
-#include <array>
 #include <cmath>
 
 namespace abut {
@@ -14,20 +13,15 @@ struct SinCos {
     double sin, cos;
 };
 
-/// Of an angle that is less than a quarter turn either way off zero, by its Taylor polynomials: right to 1e-15.
+/// Of an angle that is at most an eighth of a turn off zero, by its Taylor polynomials: right to the last digit or two.
+/// The terms are added in pairs and pairs of pairs, so that they don't wait for one another.
 inline SinCos sin_cos_of_small(double x) {
-    // 1 / (n (n - 1)): what each term has more than the one before.
-    constexpr std::array<double, 8> odd{1 / 6.0,   1 / 20.0,  1 / 42.0,  1 / 72.0,
-                                        1 / 110.0, 1 / 156.0, 1 / 210.0, 1 / 272.0};
-    constexpr std::array<double, 8> even{1 / 2.0,  1 / 12.0,  1 / 30.0,  1 / 56.0,
-                                         1 / 90.0, 1 / 132.0, 1 / 182.0, 1 / 240.0};
-    const double xx = x * x;
-    double sine = 0, cosine = 0;
-    for (std::size_t i = 8; i-- > 0;) {
-        sine = (1 + sine) * (-xx * odd[i]);
-        cosine = (1 + cosine) * (-xx * even[i]);
-    }
-    return {x * (1 + sine), 1 + cosine};
+    const double z = x * x, zz = z * z, zzzz = zz * zz;
+    const double sine = ((-1 / 6.0 + z * (1 / 120.0)) + zz * (-1 / 5040.0 + z * (1 / 362880.0))) +
+                        zzzz * ((-1 / 39916800.0 + z * (1 / 6227020800.0)) + zz * (-1 / 1307674368000.0));
+    const double cosine = ((1 / 24.0 + z * (-1 / 720.0)) + zz * (1 / 40320.0 + z * (-1 / 3628800.0))) +
+                          zzzz * ((1 / 479001600.0 + z * (-1 / 87178291200.0)) + zz * (1 / 20922789888000.0));
+    return {x + x * (z * sine), 1 + (zz * cosine - 0.5 * z)};
 }
 
 /// Of an angle in radians, after taking off quarter turns. NaN and infinity trip ABUT_ASSERT, and count as zero.
@@ -53,7 +47,7 @@ inline SinCos sin_cos(double radians) {
 }
 
 /// The angle from -pi to pi of a vector of any length but zero. A first guess, right to 0.005, is set right by what its
-/// own sine and cosine leave of the vector; each time the error goes down to its third power.
+/// own sine and cosine leave of the vector; each time the error goes down to a sixth of its third power.
 inline double angle_of(double cosine, double sine) {
     constexpr double pi = 3.14159265358979323846;
     const double length = std::sqrt(cosine * cosine + sine * sine);
@@ -64,7 +58,7 @@ inline double angle_of(double cosine, double sine) {
     if (y >= x) angle = 0.5 * pi - angle;
     if (c < 0) angle = pi - angle;
     if (s < 0) angle = -angle;
-    for (int round = 0; round < 3; ++round) {
+    for (int round = 0; round < 2; ++round) {
         const SinCos at = sin_cos(angle);
         angle += s * at.cos - c * at.sin;
     }

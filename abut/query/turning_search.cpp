@@ -6,6 +6,9 @@
 namespace abut {
 namespace {
 
+/// From so many steps on each tries all it can.
+constexpr int quick_steps = 4;
+
 /// The bounding radius, for less than asking for all extents where the core tells it.
 template <int D>
 double radius_of(const Convex<D>& set) {
@@ -39,16 +42,15 @@ public:
         return manifold(a.here(), b.here(), distance, margin);
     }
 
-    /// How far the gap proves them apart, along the axis across the features that are nearest. Where that leads
-    /// nowhere, and of sets whose features aren't known, axes that stand still or turn with one of the two are tried as
-    /// well.
-    double open_to(double from, double until, double level, double slack, const SignedDistance<D>& now, bool apart) {
+    /// How far the gap proves them apart, along the axis across the features that are nearest. A thorough search, for
+    /// what touches and where that leads nowhere, tries axes that stand still or turn with one of the two as well.
+    double open_to(double from, double until, double level, double slack, const SignedDistance<D>& now, bool thorough) {
         const Spin<D> still{};
         const Spin<D> across = spin_across(a, b, now.normal, now.corners);
-        double time = follow(across, from, until, level, slack, now.normal);
-        if (time >= until || (apart && time - from > 0.01 * (until - from))) return time;
+        double time = follow(across, from, until, level, slack, now);
+        if (time >= until || !thorough) return time;
         for (const Spin<D>& spin : {still, a.path().spin, b.path().spin})
-            if (spin != across) time = std::max(time, follow(spin, from, until, level, slack, now.normal));
+            if (spin != across) time = std::max(time, follow(spin, from, until, level, slack, now));
         return time;
     }
 
@@ -62,9 +64,10 @@ public:
     TurningSet<D> a, b;
 
 private:
-    double follow(const Spin<D>& spin, double from, double until, double level, double slack, const DVec<D>& normal) {
-        TurningGap<D> gap(a, b, normal, spin, from);
-        return open_until(gap, from, until, level, slack).time;
+    double follow(const Spin<D>& spin, double from, double until, double level, double slack,
+                  const SignedDistance<D>& now) {
+        TurningGap<D> gap(a, b, now.normal, spin, from);
+        return open_until(gap, from, until, gap.at_first(now.distance, now.on_a, now.on_b()), level, slack).time;
     }
 
     SearchOptions<D> options_;
@@ -100,7 +103,7 @@ public:
     }
     double open_to(double from, double until, double level, double slack, const SignedDistance<D>& now, bool) {
         TurningGap<D> gap(a, b, now.normal, first_is_solid ? a.path().spin : b.path().spin, from);
-        return open_until(gap, from, until, level, slack).time;
+        return open_until(gap, from, until, gap.at_first(now.distance, now.on_a, now.on_b()), level, slack).time;
     }
     Feature feature_on_b(const SignedDistance<D>& distance) const {
         Feature result;
@@ -171,7 +174,7 @@ bool search(Pair& pair, const TurningLimits& limits, Meeting<D>& meeting) {
     for (int step = 0; !meets; ++step) {
         const double level = apart ? 0.2 * margin : highest - 0.5 * margin;
         const double slack = apart ? 0.2 * margin : 0.15 * margin;
-        time = pair.open_to(time, limits.until, level, slack, now, apart);
+        time = pair.open_to(time, limits.until, level, slack, now, !apart || step >= quick_steps);
         if (time >= limits.until) return false;
         now = pair.distance(time);
         meets = step + 1 >= limits.most_steps || now.distance <= (apart ? 0.5 * margin : highest - 0.3 * margin);

@@ -70,7 +70,7 @@ void expect_bend_holds(std::uint64_t seed, double& sharpest) {
         const DVec<D> a = c.a.path().pivot(time) + turn_a.of(on_a).at(sin_cos(turn_a.rate * time));
         return dot(turn_n.of(c.normal).at(sin_cos(turn_n.rate * time)), b - a);
     };
-    const double bend = gap.bend(0, 1), h = 1e-3;
+    const double bend = gap.bend(), h = 1e-3;
     for (int i = 1; i < 20; ++i) {
         const double time = i / 20.0;
         const double measured = (between(time + h) - 2 * between(time) + between(time - h)) / (h * h);
@@ -99,7 +99,7 @@ void expect_open(std::uint64_t seed, Tally& tally) {
     Case<D> c(random);
     TurningGap<D> gap(c.a, c.b, c.normal, c.spin, 0);
     const double level = gap.at(0).gap - random.uniform(0.01, 2), slack = 1e-3;
-    const OpenUntil open = open_until(gap, 0, 1, level, slack);
+    const OpenUntil open = open_until(gap, 0, 1, gap.at(0), level, slack);
     ASSERT_GE(open.time, 0);
     ASSERT_LE(open.time, 1);
     EXPECT_EQ(open.gap, gap.at(open.time).gap);
@@ -122,7 +122,7 @@ TEST(TurningGap, ThatIsClosedIsNotFollowed) {
     oracle::Random random(1);
     Case<3> c(random);
     TurningGap<3> gap(c.a, c.b, c.normal, c.spin, 0);
-    EXPECT_EQ(open_until(gap, 0.25, 1, gap.at(0.25).gap + 1, 0.1).time, 0.25);
+    EXPECT_EQ(open_until(gap, 0.25, 1, gap.at(0.25), gap.at(0.25).gap + 1, 0.1).time, 0.25);
 }
 
 /// The rate by which a gap goes on is that of the axis and the corners.
