@@ -22,10 +22,15 @@ double bend_of(const DVec<3>& spin, const DVec<3>& own, const DVec<3>& normal) {
 
 template <int D>
 TurningGap<D>::TurningGap(TurningSet<D>& a, TurningSet<D>& b, const DVec<D>& normal, const Spin<D>& spin, double from)
-    : a_(a), b_(b), axis_(spin), normal_(axis_.of(normal)), spin_(spin), from_(from) {
+    : a_(a), b_(b), axis_(spin), alike_(nullptr), normal_(axis_.of(normal)), spin_(spin), from_(from) {
     const RigidPath<D>&path_a = a.path(), &path_b = b.path();
     bend_ = bend_of(spin, path_a.spin, normal) * a.reach() + bend_of(spin, path_b.spin, normal) * b.reach();
     if (axis_.rate == 0) return;
+    if (spin == path_a.spin || spin == path_b.spin) {
+        alike_ = spin == path_a.spin ? &a : &b;
+        const SinCos turned = sin_cos(axis_.rate * from);
+        normal_ = axis_.of(normal_.at({-turned.sin, turned.cos}));
+    }
     // A straight way is farthest from a point at one of its ends.
     const double farthest = std::sqrt(std::max(length_squared(path_b.pivot(from) - path_a.pivot(from)),
                                                length_squared(path_b.pivot(1) - path_a.pivot(1))));
@@ -34,24 +39,48 @@ TurningGap<D>::TurningGap(TurningSet<D>& a, TurningSet<D>& b, const DVec<D>& nor
 }
 
 template <int D>
-double TurningGap<D>::rate(double time, const DVec<D>& normal, const DVec<D>& on_a, const DVec<D>& on_b) const {
-    const DVec<D> speed = b_.path().velocity(time, on_b) - a_.path().velocity(time, on_a);
-    return dot(normal, speed) + dot(turned_by(spin_, normal), on_b - on_a);
+Gap TurningGap<D>::measured(double time, const DVec<D>& n, double gap, const DVec<D>& on_a, const DVec<D>& on_b) const {
+    const RigidPath<D>&path_a = a_.path(), &path_b = b_.path();
+    const DVec<D> swing_a = turned_by(path_a.spin, on_a - path_a.pivot(time)),
+                  swing_b = turned_by(path_b.spin, on_b - path_b.pivot(time));
+    const DVec<D> across = on_b - on_a, speed = (path_b.move + swing_b) - (path_a.move + swing_a);
+    const DVec<D> turn = turned_by(spin_, n);
+    return {gap, dot(n, speed) + dot(turn, across),
+            dot(turned_by(spin_, turn), across) + 2 * dot(turn, speed) +
+                dot(n, turned_by(path_b.spin, swing_b) - turned_by(path_a.spin, swing_a))};
 }
+
+namespace {
+
+/// The farthest point of a core. Of a box it is told without a guess at any sign, each of which is another each time.
+template <int D>
+DVec<D> farthest(const Convex<D>& set, const DVec<D>& direction) {
+    if (set.core != Core::box || set.inner_radius > 0) return core_support(set, direction).position;
+    DVec<D> result = set.place.offset;
+    for (int i = 0; i < D; ++i) {
+        const DVec<D>& column = set.place.column[static_cast<std::size_t>(i)];
+        result += column * std::copysign(static_cast<double>(set.own[0][i]), dot(direction, column));
+    }
+    return result;
+}
+
+}  // namespace
 
 template <int D>
 Gap TurningGap<D>::at(double time) {
     a_.go_to(time);
     b_.go_to(time);
-    const DVec<D> n = axis_.rate == 0 ? normal_.even + normal_.fixed : normal_.at(sin_cos(axis_.rate * (time - from_)));
+    const DVec<D> n = axis_.rate == 0     ? normal_.even + normal_.fixed
+                      : alike_ != nullptr ? normal_.at(alike_->turned())
+                                          : normal_.at(sin_cos(axis_.rate * (time - from_)));
     const Convex<D>&a = a_.here(), &b = b_.here();
-    const DVec<D> on_a = core_support(a, n).position, on_b = core_support(b, -n).position;
-    return {dot(n, on_b - on_a) - a.radius - b.radius, rate(time, n, on_a, on_b)};
+    const DVec<D> on_a = farthest(a, n), on_b = farthest(b, -n);
+    return measured(time, n, dot(n, on_b - on_a) - a.radius - b.radius, on_a, on_b);
 }
 
 template <int D>
-Gap TurningGap<D>::at_first(double gap, const DVec<D>& on_a, const DVec<D>& on_b) const {
-    return {gap, rate(from_, normal_.even + normal_.fixed, on_a, on_b)};
+Gap TurningGap<D>::at_first(const DVec<D>& normal, double gap, const DVec<D>& on_a, const DVec<D>& on_b) const {
+    return measured(from_, normal, gap, on_a, on_b);
 }
 
 namespace {
@@ -63,15 +92,18 @@ bool stays_open(double g1, double g2, double bend, double h) {
     return excess <= 0 || excess * excess <= 4 * g1 * g2;
 }
 
-/// How far to go from a time at which the gap is open by `open` and changes by `rate`: as far as the bend allows to
-/// prove, if at the end it is as it now seems.
-double stride(double open, double rate, double bend, double most) {
-    const double wanted = rate < 0 ? std::min(most, -open / rate) : most;
-    if (stays_open(open, std::max(open + rate * wanted, 0.0), bend, wanted)) return wanted;
+/// How far to go from a time at which the gap is `now`: to where it seems to close to the level, or as far as the bend
+/// allows to prove if it does.
+double stride(const Gap& now, double level, double bend, double most) {
+    const double open = now.gap - level;
+    const double discriminant = now.rate * now.rate - 2 * open * now.acceleration;
+    const double speed = discriminant > 0 ? std::sqrt(discriminant) - now.rate : 0;
+    const double wanted = speed * most > 2 * open ? 2 * open / speed : most;
+    const auto expected = [&](double h) { return std::max(open + h * (now.rate + 0.5 * h * now.acceleration), 0.0); };
+    if (stays_open(open, expected(wanted), bend, wanted)) return wanted;
     const double root = std::sqrt(open), per_root = std::sqrt(2 / bend);
     const double farthest = std::min(wanted, 2 * root * per_root);
-    const double expected = std::max(open + rate * farthest, 0.0);
-    return std::min(farthest, (root + std::sqrt(expected)) * per_root);
+    return std::min(farthest, (root + std::sqrt(expected(farthest))) * per_root);
 }
 
 /// The first x at which g1 + (g2 - g1) x / h - K/2 x (h - x) is zero; h where it is nowhere below.
@@ -95,7 +127,7 @@ OpenUntil open_until(TurningGap<D>& gap, double from, double until, const Gap& f
         if (open <= slack || time >= until) break;
         // Into the middle of the slack; short of where it is known to be closed.
         const double aim = open - 0.5 * slack;
-        double h = stride(aim, now.rate, bend, closed - time);
+        double h = stride(now, level + 0.5 * slack, bend, closed - time);
         if (closed_by > 0) h = std::min(h, (closed - time) * aim / (open + closed_by));
         const double then = time + h >= until ? until : time + h;
         const Gap next = gap.at(then);

@@ -25,10 +25,10 @@
 
 namespace abut {
 
-/// How wide a gap is at some time.
+/// How wide a gap is at some time, and how it goes on, of the places it is measured at: others may come nearer.
 struct Gap {
     double gap;
-    double rate;  ///< how it goes on, of the places it is measured at: others may come nearer
+    double rate, acceleration;  ///< its first and second derivative
 };
 
 template <int D>
@@ -40,16 +40,19 @@ public:
     /// Takes both sets to that time.
     Gap at(double time);
     /// At the time `from`, of sets that have gone there, where the gap and a place on either side of it are known.
-    Gap at_first(double gap, const DVec<D>& on_a, const DVec<D>& on_b) const;
+    Gap at_first(const DVec<D>& normal, double gap, const DVec<D>& on_a, const DVec<D>& on_b) const;
 
     /// The most that |f''| is for any two corners from then on.
     double bend() const { return bend_; }
 
 private:
-    double rate(double time, const DVec<D>& normal, const DVec<D>& on_a, const DVec<D>& on_b) const;
+    Gap measured(double time, const DVec<D>& normal, double gap, const DVec<D>& on_a, const DVec<D>& on_b) const;
 
     TurningSet<D>&a_, &b_;
     TurningAxis<D> axis_;
+    /// One of the two that turns as fast as the axis, whose angle at any time is known; then the normal is told from
+    /// the beginning of its motion. Else null, and told from the time `from`.
+    const TurningSet<D>* alike_;
     TurningVector<D> normal_;
     Spin<D> spin_;
     double from_, bend_;

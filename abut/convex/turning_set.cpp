@@ -9,12 +9,10 @@ constexpr std::uint32_t many = 32;
 /// The farthest that a core placed relative to the pivot reaches from it, or a little more.
 template <int D>
 double reach_of(const Convex<D>& core) {
+    if (is_plain_box(core)) return length(core.place.offset) + length(DVec<D>(core.own[0])) * core.scale;
     double squared = 0;
     if (core.inner_radius == 0 && core.core == Core::points && core.count < many) {
         for (std::uint32_t i = 0; i < core.count; ++i)
-            squared = std::max(squared, length_squared(core.place.point(own_corner(core, i))));
-    } else if (core.inner_radius == 0 && core.core == Core::box) {
-        for (std::uint32_t i = 0; i < 1u << D; ++i)
             squared = std::max(squared, length_squared(core.place.point(own_corner(core, i))));
     } else {
         for (int i = 0; i < D; ++i) {
@@ -71,7 +69,7 @@ TurningSet<D>::TurningSet(const Convex<D>& set, const RigidPath<D>& path, double
     }
     for (std::size_t i = 0; i < columns_.size(); ++i) columns_[i] = axis_.of(here_.place.column[i]);
     offset_ = axis_.of(here_.place.offset);
-    go_to(0);
+    here_.place.offset += path.start.offset;
 }
 
 template class TurningSet<2>;

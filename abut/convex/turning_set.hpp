@@ -23,12 +23,14 @@ public:
             here_.place.offset = offset_.even + path_.pivot(time);
             return;
         }
-        const SinCos turned = sin_cos(axis_.rate * time);
-        for (std::size_t i = 0; i < static_cast<std::size_t>(D); ++i) here_.place.column[i] = columns_[i].at(turned);
-        here_.place.offset = offset_.at(turned) + path_.pivot(time);
+        turned_ = sin_cos(axis_.rate * time);
+        for (std::size_t i = 0; i < static_cast<std::size_t>(D); ++i) here_.place.column[i] = columns_[i].at(turned_);
+        here_.place.offset = offset_.at(turned_) + path_.pivot(time);
     }
 
     const Convex<D>& here() const { return here_; }
+    /// By how far it has turned there.
+    const SinCos& turned() const { return turned_; }
     const RigidPath<D>& path() const { return path_; }
 
     /// How far the core reaches from the pivot, and the most that a point of the set is displaced by the whole motion.
@@ -37,7 +39,8 @@ public:
 
 private:
     RigidPath<D> path_;
-    double time_ = -1;
+    double time_ = 0;  ///< at which `here_` is
+    SinCos turned_{0, 1};
     Convex<D> here_;
     double reach_;
     TurningAxis<D> axis_;

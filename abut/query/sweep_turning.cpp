@@ -24,41 +24,46 @@ float rounded_down(double time) {
 /// `find` is asked for the first meeting, in a frame in which A's pivot stays at the origin: what is far from the
 /// world's keeps its digits.
 template <int D, class ShapeA, class ShapeB, class Find>
-std::optional<Hit<D>> find_hit(const ShapeA& a, RigidPath<D> path_a, const ShapeB& b, RigidPath<D> path_b,
-                               const Find& find) {
+void find_hit(const ShapeA& a, RigidPath<D>& path_a, const ShapeB& b, RigidPath<D>& path_b, const Find& find,
+              std::optional<Hit<D>>& result) {
     const bool finite = is_finite(a) && is_finite(b) && is_finite(path_a) && is_finite(path_b);
     ABUT_ASSERT(finite);
-    if (!finite) return std::nullopt;
-    const RigidPath<D> world = path_a;
-    path_b.start.offset -= path_a.start.offset;
-    path_b.move -= path_a.move;
+    if (!finite) return;
+    const DVec<D> start = path_a.start.offset, move = path_a.move;
+    path_b.start.offset -= start;
+    path_b.move -= move;
     path_a.start.offset = path_a.move = DVec<D>(0.0);
     Meeting<D> meeting;
-    if (!find(path_a, path_b, meeting)) return std::nullopt;
-    Hit<D> hit;
+    if (!find(path_a, path_b, meeting)) return;
+    Hit<D>& hit = result.emplace();
     hit.fraction = rounded_down(meeting.time);
-    hit.distance = rounded_down(meeting.time) * static_cast<float>(length(path_b.move));
-    hit.point = to_float(meeting.point + world.pivot(meeting.time));
+    hit.distance = hit.fraction * static_cast<float>(length(path_b.move));
+    hit.point = to_float(meeting.point + start + move * meeting.time);
     hit.normal = to_float(-meeting.normal);
     hit.started_inside = meeting.started_inside;
     hit.feature = meeting.feature;
-    return hit;
 }
 
 template <int D>
-std::optional<Hit<D>> between(const Convex<D>& a, const RigidPath<D>& path_a, const Convex<D>& b,
-                              const RigidPath<D>& path_b, const QueryOptions<D>& options) {
-    return find_hit(a, path_a, b, path_b, [&](const auto& way_a, const auto& way_b, Meeting<D>& meeting) {
+std::optional<Hit<D>> between(const Convex<D>& a, RigidPath<D> path_a, const Convex<D>& b, RigidPath<D> path_b,
+                              const QueryOptions<D>& options) {
+    const auto find = [&](const auto& way_a, const auto& way_b, Meeting<D>& meeting) {
         return first_meeting<D>(a, way_a, b, way_b, TurningLimits{}, {options.cache, options.trace}, meeting);
-    });
+    };
+    std::optional<Hit<D>> result;
+    find_hit(a, path_a, b, path_b, find, result);
+    return result;
 }
 
 template <int D>
-std::optional<Hit<D>> between(const View<D>& a, const RigidPath<D>& path_a, const View<D>& b,
-                              const RigidPath<D>& path_b, const QueryOptions<D>& options) {
-    return find_hit(a, path_a, b, path_b, [&](const auto& way_a, const auto& way_b, Meeting<D>& meeting) {
+std::optional<Hit<D>> between(const View<D>& a, RigidPath<D> path_a, const View<D>& b, RigidPath<D> path_b,
+                              const QueryOptions<D>& options) {
+    const auto find = [&](const auto& way_a, const auto& way_b, Meeting<D>& meeting) {
         return first_meeting<D>(a, way_a, b, way_b, search_options(a, b, options), meeting);
-    });
+    };
+    std::optional<Hit<D>> result;
+    find_hit(a, path_a, b, path_b, find, result);
+    return result;
 }
 
 }  // namespace

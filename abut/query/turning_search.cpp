@@ -67,7 +67,8 @@ private:
     double follow(const Spin<D>& spin, double from, double until, double level, double slack,
                   const SignedDistance<D>& now) {
         TurningGap<D> gap(a, b, now.normal, spin, from);
-        return open_until(gap, from, until, gap.at_first(now.distance, now.on_a, now.on_b()), level, slack).time;
+        return open_until(gap, from, until, gap.at_first(now.normal, now.distance, now.on_a, now.on_b()), level, slack)
+            .time;
     }
 
     SearchOptions<D> options_;
@@ -103,7 +104,8 @@ public:
     }
     double open_to(double from, double until, double level, double slack, const SignedDistance<D>& now, bool) {
         TurningGap<D> gap(a, b, now.normal, first_is_solid ? a.path().spin : b.path().spin, from);
-        return open_until(gap, from, until, gap.at_first(now.distance, now.on_a, now.on_b()), level, slack).time;
+        return open_until(gap, from, until, gap.at_first(now.normal, now.distance, now.on_a, now.on_b()), level, slack)
+            .time;
     }
     Feature feature_on_b(const SignedDistance<D>& distance) const {
         Feature result;
