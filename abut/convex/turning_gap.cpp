@@ -152,13 +152,12 @@ OpenUntil open_until(TurningGap<D>& gap, double from, double until, const Gap& f
 namespace {
 
 /// Up to three different corners of a core at which it is met.
-template <int D>
 struct Met {
     std::array<std::uint32_t, 3> corner{};
     int count = 0;
-    const Convex<D>& core;
+    const Convex<3>& core;
 
-    Met(const Convex<D>& set, const CornerNumbers<D>& corners, std::size_t corner_count) : core(set) {
+    Met(const Convex<3>& set, const CornerNumbers<3>& corners, std::size_t corner_count) : core(set) {
         if (!has_corner(set, 0)) return;
         for (std::size_t i = 0; i < corner_count && count < 3; ++i) {
             bool seen = false;
@@ -166,7 +165,7 @@ struct Met {
             if (!seen && has_corner(set, corners[i])) corner[static_cast<std::size_t>(count++)] = corners[i];
         }
     }
-    DVec<D> edge() const { return core.place.vector(own_corner(core, corner[1]) - own_corner(core, corner[0])); }
+    DVec<3> edge() const { return core.place.vector(own_corner(core, corner[1]) - own_corner(core, corner[0])); }
 };
 
 /// What turns n at the rate n' = x e + y f, and about itself as fast as both sets do in the mean, which bends least.
@@ -179,19 +178,27 @@ DVec<3> rate_across(const DVec<3>& e, const DVec<3>& spin, const DVec<3>& n) {
     return e * (dot(cross(spin, n), e) / dot(e, e));
 }
 
+/// Whether a core of the plane is met along a side.
+bool met_along_side(const Convex<2>& set, const CornerNumbers<2>& corners, std::size_t count) {
+    if (!has_corner(set, 0)) return false;
+    bool differ = false;
+    for (std::size_t i = 1; i < count; ++i) differ = differ || corners[i] != corners[0];
+    return differ;
+}
+
 }  // namespace
 
 template <>
 Spin<2> spin_across(const TurningSet<2>& a, const TurningSet<2>& b, const DVec<2>&, const MeetingCorners<2>& corners) {
-    if (Met<2>(a.here(), corners.a, corners.count).count > 1) return a.path().spin;
-    return Met<2>(b.here(), corners.b, corners.count).count > 1 ? b.path().spin : 0;
+    if (met_along_side(a.here(), corners.a, corners.count)) return a.path().spin;
+    return met_along_side(b.here(), corners.b, corners.count) ? b.path().spin : 0;
 }
 
 template <>
 Spin<3> spin_across(const TurningSet<3>& a, const TurningSet<3>& b, const DVec<3>& normal,
                     const MeetingCorners<3>& corners) {
     const DVec<3>&spin_a = a.path().spin, &spin_b = b.path().spin;
-    const Met<3> on_a(a.here(), corners.a, corners.count), on_b(b.here(), corners.b, corners.count);
+    const Met on_a(a.here(), corners.a, corners.count), on_b(b.here(), corners.b, corners.count);
     if (on_a.count > 2) return spin_a;
     if (on_b.count > 2) return spin_b;
     if (on_a.count == 2 && on_b.count == 2) {

@@ -9,7 +9,6 @@ constexpr std::uint32_t many = 32;
 /// The farthest that a core placed relative to the pivot reaches from it, or a little more.
 template <int D>
 double reach_of(const Convex<D>& core) {
-    if (is_plain_box(core)) return length(core.place.offset) + length(DVec<D>(core.own[0])) * core.scale;
     double squared = 0;
     if (core.inner_radius == 0 && core.core == Core::points && core.count < many) {
         for (std::uint32_t i = 0; i < core.count; ++i)
@@ -60,16 +59,24 @@ double moved_by_turning(const Convex<D>& set, const TurningAxis<D>& turning) {
 template <int D>
 TurningSet<D>::TurningSet(const Convex<D>& set, const RigidPath<D>& path, double unseen)
     : path_(path), here_(set), axis_(path.spin) {
-    here_.place = path.start * set.place;
-    here_.place.offset -= path.start.offset;
-    reach_ = reach_of(here_);
-    if (axis_.rate != 0 && moved_by_turning(here_, axis_) <= unseen) {
-        path_.spin = Spin<D>{};
-        axis_ = TurningAxis<D>(path_.spin);
+    // By values at hand: what was just written in halves is slow to be read as a whole.
+    const DVec<D> offset = path.start.vector(set.place.offset);
+    std::array<DVec<D>, static_cast<std::size_t>(D)> columns;
+    for (std::size_t i = 0; i < columns.size(); ++i) columns[i] = path.start.vector(set.place.column[i]);
+    here_.place.column = columns;
+    if (is_plain_box(set)) {
+        reach_ = length(offset) + length(DVec<D>(set.own[0])) * set.scale;
+    } else {
+        here_.place.offset = offset;
+        reach_ = reach_of(here_);
+        if (axis_.rate != 0 && moved_by_turning(here_, axis_) <= unseen) {
+            path_.spin = Spin<D>{};
+            axis_ = TurningAxis<D>(path_.spin);
+        }
     }
-    for (std::size_t i = 0; i < columns_.size(); ++i) columns_[i] = axis_.of(here_.place.column[i]);
-    offset_ = axis_.of(here_.place.offset);
-    here_.place.offset += path.start.offset;
+    for (std::size_t i = 0; i < columns.size(); ++i) columns_[i] = axis_.of(columns[i]);
+    offset_ = axis_.of(offset);
+    here_.place.offset = offset + path.start.offset;
 }
 
 template class TurningSet<2>;
