@@ -18,23 +18,33 @@ double bend_of(const DVec<3>& spin, const DVec<3>& own, const DVec<3>& normal) {
     return rate * rate + length(cross(d, own));
 }
 
+/// Of an axis of length 1 that turns.
+double speed_of(double spin, const DVec<2>&) {
+    return std::abs(spin);
+}
+double speed_of(const DVec<3>& spin, const DVec<3>& normal) {
+    return length(cross(spin, normal));
+}
+
 }  // namespace
 
 template <int D>
 TurningGap<D>::TurningGap(TurningSet<D>& a, TurningSet<D>& b, const DVec<D>& normal, const Spin<D>& spin, double from)
     : a_(a), b_(b), axis_(spin), alike_(nullptr), normal_(axis_.of(normal)), spin_(spin), from_(from) {
+    a.go_to(from);
+    b.go_to(from);
     const RigidPath<D>&path_a = a.path(), &path_b = b.path();
     bend_ = bend_of(spin, path_a.spin, normal) * a.reach() + bend_of(spin, path_b.spin, normal) * b.reach();
     if (axis_.rate == 0) return;
     if (spin == path_a.spin || spin == path_b.spin) {
         alike_ = spin == path_a.spin ? &a : &b;
-        const SinCos turned = sin_cos(axis_.rate * from);
+        const SinCos& turned = alike_->turned();
         normal_ = axis_.of(normal_.at({-turned.sin, turned.cos}));
     }
     // A straight way is farthest from a point at one of its ends.
     const double farthest = std::sqrt(std::max(length_squared(path_b.pivot(from) - path_a.pivot(from)),
                                                length_squared(path_b.pivot(1) - path_a.pivot(1))));
-    const double speed = length(turned_by(spin, normal));
+    const double speed = speed_of(spin, normal);
     bend_ += speed * (rate_of(spin) * farthest + 2 * length(path_b.move - path_a.move));
 }
 
@@ -70,7 +80,7 @@ template <int D>
 Gap TurningGap<D>::at(double time) {
     a_.go_to(time);
     b_.go_to(time);
-    const DVec<D> n = axis_.rate == 0     ? normal_.even + normal_.fixed
+    const DVec<D> n = axis_.rate == 0     ? normal_.at({0, 1})
                       : alike_ != nullptr ? normal_.at(alike_->turned())
                                           : normal_.at(sin_cos(axis_.rate * (time - from_)));
     const Convex<D>&a = a_.here(), &b = b_.here();

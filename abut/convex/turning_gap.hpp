@@ -34,7 +34,7 @@ struct Gap {
 template <int D>
 class TurningGap {
 public:
-    /// The axis is `normal`, of length 1, from A to B, at the time `from`.
+    /// The axis is `normal`, of length 1, from A to B, at the time `from`, to which both sets are taken.
     TurningGap(TurningSet<D>& a, TurningSet<D>& b, const DVec<D>& normal, const Spin<D>& spin, double from);
 
     /// Takes both sets to that time.

@@ -20,7 +20,7 @@ public:
         if (time == time_) return;
         time_ = time;
         if (axis_.rate == 0) {
-            here_.place.offset = offset_.even + path_.pivot(time);
+            here_.place.offset = offset_.at({0, 1}) + path_.pivot(time);
             return;
         }
         turned_ = sin_cos(axis_.rate * time);

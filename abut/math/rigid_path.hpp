@@ -27,25 +27,32 @@ inline double rate_of(const DVec<3>& spin) {
     return length(spin);
 }
 
-/// A vector that turns evenly: fixed + even cos(angle) + odd sin(angle), the angle growing by `rate` in the time 1.
-/// In 3D `fixed` is its part along the axis.
-template <int D>
-struct TurningVector {
-    DVec<D> fixed, even, odd;
+/// A vector that turns evenly, told by how far it has turned.
+struct TurningVector2 {
+    DVec<2> first;
 
-    DVec<D> at(const SinCos& s) const { return fixed + even * s.cos + odd * s.sin; }
+    DVec<2> at(const SinCos& s) const { return {first.x * s.cos - first.y * s.sin, first.y * s.cos + first.x * s.sin}; }
 };
+/// In space: along the axis, and across it at the angle 0 and a quarter of a turn later.
+struct TurningVector3 {
+    DVec<3> along, even, odd;
 
-/// About an axis of length 1, or in the plane about the third; the rate is that of the spin it comes from.
+    DVec<3> at(const SinCos& s) const { return along + even * s.cos + odd * s.sin; }
+};
+template <int D>
+using TurningVector = std::conditional_t<D == 2, TurningVector2, TurningVector3>;
+
+/// What vectors turn about: in the plane the pivot, in space an axis of length 1; the angle grows by `rate` in the time
+/// from 0 to 1.
 struct TurningAxis2 {
     explicit TurningAxis2(double spin) : rate(spin) {}
-    TurningVector<2> of(const DVec<2>& v) const { return {DVec<2>(0.0), v, DVec<2>(-v.y, v.x)}; }
+    TurningVector2 of(const DVec<2>& v) const { return {v}; }
 
     double rate;
 };
 struct TurningAxis3 {
     explicit TurningAxis3(const DVec<3>& spin) : rate(length(spin)), axis(rate > 0 ? spin / rate : DVec<3>(0.0)) {}
-    TurningVector<3> of(const DVec<3>& v) const {
+    TurningVector3 of(const DVec<3>& v) const {
         const DVec<3> along = axis * dot(axis, v);
         return {along, v - along, cross(axis, v)};
     }
