@@ -42,7 +42,7 @@ template <int D>
 TurningScene<D> turning(Form form, double most) {
     oracle::Random random(1);
     TurningScene<D> scene;
-    const double near = form == Form::rod ? 0.5 : 1.5;
+    const double aside = form == Form::rod ? 1.5 : 4;
     while (scene.pairs.size() < pair_count) {
         TurningPair<D> pair;
         Motion<D> motions[2];
@@ -51,7 +51,7 @@ TurningScene<D> turning(Form form, double most) {
         for (int i = 0; i < 2; ++i) {
             const DVec<D> half = way * (i == 0 ? 0.5 : -0.5);
             motions[i] = {{to_float(half), random.rotation<D>()},
-                          to_float(-2.0 * half + random.in_cube<D>() * near),
+                          to_float(-2.0 * half + random.in_cube<D>() * aside),
                           turn_by<D>(random, most)};
             *both[i] = {box_of<D>(random, form), motions[i].from, pose_at(motions[i], 1), motions[i].turn};
         }

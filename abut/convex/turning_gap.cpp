@@ -109,7 +109,9 @@ double stride(const Gap& now, double level, double bend, double most) {
     const double discriminant = now.rate * now.rate - 2 * open * now.acceleration;
     const double speed = discriminant > 0 ? std::sqrt(discriminant) - now.rate : 0;
     const double wanted = speed * most > 2 * open ? 2 * open / speed : most;
-    const auto expected = [&](double h) { return std::max(open + h * (now.rate + 0.5 * h * now.acceleration), 0.0); };
+    // Not more than it opens evenly: what bends it open now may not last.
+    const double curve = 0.5 * std::min(now.acceleration, 0.0);
+    const auto expected = [&](double h) { return std::max(open + h * (now.rate + h * curve), 0.0); };
     if (stays_open(open, expected(wanted), bend, wanted)) return wanted;
     const double root = std::sqrt(open), per_root = std::sqrt(2 / bend);
     const double farthest = std::min(wanted, 2 * root * per_root);
@@ -129,16 +131,16 @@ double first_closed(double g1, double g2, double bend, double h) {
 
 template <int D>
 OpenUntil open_until(TurningGap<D>& gap, double from, double until, const Gap& first, double level, double slack) {
-    double time = from, closed = until, closed_by = 0;
+    double time = from, closed = until, closed_by = 0, longest = until;
     Gap now = first;
     const double bend = gap.bend();
     for (int step = 0; step < most_steps; ++step) {
         const double open = now.gap - level;
         if (open <= slack || time >= until) break;
         // Into the middle of the slack; short of where it is known to be closed.
-        const double aim = open - 0.5 * slack;
-        double h = stride(now, level + 0.5 * slack, bend, closed - time);
-        if (closed_by > 0) h = std::min(h, (closed - time) * aim / (open + closed_by));
+        const double rest = closed - time, aim = open - 0.5 * slack;
+        double h = std::min(stride(now, level + 0.5 * slack, bend, rest), longest);
+        if (closed_by > 0 && h >= rest) h = rest * aim / (open + closed_by);
         const double then = time + h >= until ? until : time + h;
         const Gap next = gap.at(then);
         const double known = first_closed(open, next.gap - level, bend, then - time);
@@ -146,8 +148,11 @@ OpenUntil open_until(TurningGap<D>& gap, double from, double until, const Gap& f
             if (then <= time) break;
             time = then;
             now = next;
+            longest = until;
             continue;
         }
+        // It went otherwise than it seemed.
+        longest = std::max(4 * known, 0.25 * h);
         if (next.gap < level) {
             closed = then;
             closed_by = level - next.gap;
