@@ -9,6 +9,7 @@
 #include <abut/query/intersection.hpp>
 #include <abut/query/raycast.hpp>
 #include <abut/query/sweep.hpp>
+#include <abut/query/sweep_turning.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/cylinder.hpp>
 #include <abut/shape/mesh.hpp>
@@ -71,6 +72,10 @@ long allocations_of_all_questions(const View<D>& a, const View<D>& b, const Ray<
     raycast(ray, a);
     sweep(a, ray.direction, b);
     sweep(b, ray.direction * ray.length, a, ray.direction);
+    Motion<D> turning{{ray.origin, no_rotation<D>}, -ray.origin};
+    turning.turn = Angle<D>(3);
+    sweep(a, turning, b, Motion<D>{}, {.cache = &cache});
+    sweep(b, Pose<D>{}, pose_at(turning, 1), a, Pose<D>{}, turning.from);
     if (const auto* convex = std::get_if<Convex<D>>(&a); convex != nullptr && has_features(*convex))
         closest_feature(*convex, DVec<D>(ray.origin));
     return allocations - before;

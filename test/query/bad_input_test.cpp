@@ -7,6 +7,7 @@
 #include <abut/query/overlaps.hpp>
 #include <abut/query/raycast.hpp>
 #include <abut/query/sweep.hpp>
+#include <abut/query/sweep_turning.hpp>
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/capsule.hpp>
@@ -56,6 +57,8 @@ void expect_harmless(const View<D>& bad, const View<D>& good) {
         EXPECT_TRUE(oracle::is_unit(touch.normal));
         EXPECT_FALSE(sweep(*a, Vec<D>(1), *b));
     }
+    EXPECT_FALSE(sweep(bad, Motion<D>{{}, {}, Angle<D>(1)}, good, Motion<D>{}));
+    EXPECT_FALSE(sweep(good, Pose<D>{}, Pose<D>{}, bad, Pose<D>{}, Pose<D>{}));
     EXPECT_FALSE(contains(bad, Vec<D>(0)));
     EXPECT_FALSE(raycast(Ray<D>::between(Vec<D>(-5), Vec<D>(5)), bad));
 }
@@ -124,6 +127,18 @@ TEST(BadInput, InPointsAndRaysIsHarmless) {
     EXPECT_FALSE(raycast(Ray3{{-5, 0, 0}, {1, 0, 0}, nan}, sphere));
 }
 
+TEST(BadInput, InMotionsIsHarmless) {
+    const ExpectAssertions expected;
+    const Sphere sphere{{0, 0, 0}, 1};
+    const Box3 box{{0, 0, 0}, {1, 1, 1}};
+    for (const float bad : {nan, infinity, -infinity}) {
+        EXPECT_FALSE(sweep(box, Motion3{{{bad, 0, 0}}, {}, {}}, sphere));
+        EXPECT_FALSE(sweep(box, Motion3{{}, {0, bad, 0}, {}}, sphere));
+        EXPECT_FALSE(sweep(box, Motion3{{}, {}, {0, 0, bad}}, sphere));
+        EXPECT_FALSE(sweep(sphere, Pose3{}, Pose3{{0, 0, 0}, glm::quat(bad, 0, 0, 0)}, box, Pose3{}, Pose3{}));
+    }
+}
+
 TEST(BadInput, OfTurnsWithoutLengthCountsAsNone) {
     EXPECT_FLOAT_EQ(closest(Box2{{0, 0}, {1, 1}, {0, 0}}, Vec2(3, 0)).distance, 2);
     EXPECT_FLOAT_EQ(closest(Box3{{0, 0, 0}, {1, 1, 1}, glm::quat(0, 0, 0, 0)}, Vec3(3, 0, 0)).distance, 2);
@@ -142,6 +157,7 @@ TEST(BadInput, FromAUsersSupportFunctionEnds) {
     contact(Broken(), Broken());
     raycast(Ray3{{-5, 0, 0}, {1, 0, 0}, 10}, Broken());
     sweep(Broken(), Vec3(10, 0, 0), Box3{{5, 0, 0}, {1, 1, 1}});
+    sweep(Broken(), Motion3{{{-5, 0, 0}}, {10, 0, 0}, {1, 2, 3}}, Box3{{0, 0, 0}, {1, 1, 1}});
 }
 
 }  // namespace
