@@ -54,6 +54,14 @@ public:
         return time;
     }
 
+    /// Whether it is clear at first sight that one direction alone leads out where they are nearest: of what is round,
+    /// and in the plane of what is met amid a side.
+    bool has_one_way_out(const SignedDistance<D>& now) const {
+        if (a.here().radius + b.here().radius > far * margin) return true;
+        return D == 2 &&
+               (is_amid_side(a.here(), now.corners.a, now.on_a) || is_amid_side(b.here(), now.corners.b, now.on_b()));
+    }
+
     Feature feature_on_b(const SignedDistance<D>& distance) const {
         Feature result;
         name_feature(b.here(), distance.corners.b, distance.corners.count, -distance.normal, 0, result);
@@ -64,6 +72,15 @@ public:
     TurningSet<D> a, b;
 
 private:
+    static constexpr double far = 10;  ///< from an end, in margins
+
+    bool is_amid_side(const Convex<D>& set, const CornerNumbers<D>& corners, const DVec<D>& place) const {
+        if (corners[0] == corners[1] || !has_corner(set, std::max(corners[0], corners[1]))) return false;
+        const double enough = far * far * margin * margin;
+        return length_squared(set.place.point(own_corner(set, corners[0])) - place) > enough &&
+               length_squared(set.place.point(own_corner(set, corners[1])) - place) > enough;
+    }
+
     double follow(const Spin<D>& spin, double from, double until, double level, double slack,
                   const SignedDistance<D>& now) {
         TurningGap<D> gap(a, b, now.normal, spin, from);
@@ -99,6 +116,7 @@ public:
         if (first_is_solid) turn_round(result);
         return result;
     }
+    bool has_one_way_out(const SignedDistance<D>&) const { return true; }
     Manifold<D> meeting_points(const SignedDistance<D>&) const {
         return manifold_with_plane(set(), solid_.normal, solid_.offset, margin);
     }
@@ -133,55 +151,74 @@ private:
     Solid<D> solid_;
 };
 
-/// How fast the two come nearer at first along the way out, where they meet; zero or less where they don't.
-template <class Pair, int D>
-double speed_inwards(const Pair& pair, const SignedDistance<D>& distance) {
-    const RigidPath<D>&path_a = pair.a.path(), &path_b = pair.b.path();
-    const Manifold<D> meeting = pair.meeting_points(distance);
-    const auto speed_at = [&](const DVec<D>& place) {
-        return dot(distance.normal, path_a.velocity(0, place) - path_b.velocity(0, place));
-    };
-    if (meeting.count == 0) return speed_at(distance.on_a);
-    double most = 0;
-    for (std::size_t i = 0; i < meeting.count; ++i)
-        if (meeting.points[i].depth >= -distance.distance - pair.margin)
-            most = std::max(most, speed_at(meeting.points[i].position));
-    return most;
-}
+/// Whether two that touch, or are about to, go further in at once.
+template <int D, class Pair>
+class Entry {
+public:
+    Entry(Pair& pair, double time, const SignedDistance<D>& now) : pair_(pair), time_(time), now_(now) {}
 
-/// Whether the motion goes further in at once. What would not get farther than rounding in the whole of it does not
-/// count. A corner at a corner has many ways out, and of one that it moves against nothing follows: so it is looked at
-/// whether a margin later they are deeper indeed.
-template <class Pair, int D>
-bool goes_in(Pair& pair, const SignedDistance<D>& distance) {
-    const double speed = speed_inwards(pair, distance);
-    if (!(speed > std::max(0.5 * pair.margin, 1e-6 * (pair.a.travel() + pair.b.travel())))) return false;
-    const double soon = std::min(1.0, pair.margin / speed);
-    const bool deeper = pair.distance(soon).distance < distance.distance - 0.5 * soon * speed;
-    pair.a.go_to(0);
-    pair.b.go_to(0);
-    return deeper;
-}
+    /// Judged where they are nearest, and if not there, then wherever they meet: of a face that tilts another place
+    /// goes in.
+    bool goes_in() const {
+        if (deepens_at(speed_at(now_.on_a))) return true;
+        const Manifold<D> meeting = pair_.meeting_points(now_);
+        double most = 0;
+        for (std::size_t i = 0; i < meeting.count; ++i)
+            if (meeting.points[i].depth >= -now_.distance - pair_.margin)
+                most = std::max(most, speed_at(meeting.points[i].position));
+        return deepens_at(most);
+    }
+
+private:
+    /// How fast the two come nearer there along the way out.
+    double speed_at(const DVec<D>& place) const {
+        return dot(now_.normal, pair_.a.path().velocity(time_, place) - pair_.b.path().velocity(time_, place));
+    }
+
+    /// What would not get farther than rounding in the whole of the motion does not count. A corner at a corner has
+    /// many ways out, and of one that it moves against nothing follows; nor does anything of a crate's edge that comes
+    /// to the next board of the floor it slides on. So it is looked at whether a margin later they are deeper indeed.
+    bool deepens_at(double speed) const {
+        if (!(speed > std::max(0.5 * pair_.margin, 1e-6 * (pair_.a.travel() + pair_.b.travel())))) return false;
+        if (pair_.has_one_way_out(now_)) return true;
+        if (pair_.distance(time_ + pair_.margin / speed).distance < now_.distance - 0.5 * pair_.margin) return true;
+        pair_.a.go_to(time_);
+        pair_.b.go_to(time_);
+        return false;
+    }
+
+    Pair& pair_;
+    double time_;
+    const SignedDistance<D>& now_;
+};
 
 /// From time to time that is proven free, until they meet. The levels are chosen so that each comes with some way to go
-/// to the next, whatever rounding does: apart, they are followed down to a gap of 0.2 to 0.4 margins, and meet at 0.5;
-/// what touches from the start may sink in by 0.5 of a margin at the most, and has at 0.3.
+/// to the next, whatever rounding does: apart, they are followed down to a gap of 0.2 to 0.4 margins, and touch at 0.5;
+/// what touches and doesn't go further in may sink by 0.5 of a margin at the most, and has at 0.3, below touching or
+/// where it was least deep since.
 template <int D, class Pair>
 bool search(Pair& pair, const TurningLimits& limits, Meeting<D>& meeting) {
     const double margin = pair.margin;
     SignedDistance<D> now = pair.distance(0);
     const bool started_inside = now.distance < -margin;
-    bool apart = now.distance > 0.5 * margin, meets = !apart && goes_in(pair, now);
-    double time = 0, highest = now.distance;
-    for (int step = 0; !meets; ++step) {
-        const double level = apart ? 0.2 * margin : highest - 0.5 * margin;
+    double time = 0, least_deep = 0;
+    bool apart = true;
+    for (int step = 0;; ++step) {
+        if (apart && now.distance <= 0.5 * margin) {
+            if (Entry<D, Pair>(pair, time, now).goes_in()) break;
+            apart = false;
+            least_deep = std::min(now.distance, 0.0);
+        } else if (!apart && now.distance <= least_deep - 0.3 * margin) {
+            break;
+        }
+        least_deep = std::max(least_deep, std::min(now.distance, 0.0));
+        apart = apart || now.distance > margin;
+        if (step >= limits.most_steps) break;
+        const double level = apart ? 0.2 * margin : least_deep - 0.5 * margin;
         const double slack = apart ? 0.2 * margin : 0.15 * margin;
         time = pair.open_to(time, limits.until, level, slack, now, !apart || step >= quick_steps);
         if (time >= limits.until) return false;
         now = pair.distance(time);
-        meets = step + 1 >= limits.most_steps || now.distance <= (apart ? 0.5 * margin : highest - 0.3 * margin);
-        highest = std::max(highest, now.distance);
-        apart = apart || highest > margin;
     }
     meeting = {time, now.on_b(), now.normal, started_inside, pair.feature_on_b(now)};
     return true;

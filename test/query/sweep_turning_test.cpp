@@ -82,6 +82,29 @@ TEST(SweepTurning, ABoxOnAFloorTurnsOnTheSpotAndSlides) {
     }
 }
 
+TEST(SweepTurning, ACrateSlidesAndTurnsOverTheSeamsOfItsFloor) {
+    const Box3 crate{{0, 0, 0.5f}, {0.5f, 0.5f, 0.5f}};
+    const Box3 next_board{{2, 0, -0.5f}, {1, 3, 0.5f}};
+    test::Surface tiles;
+    for (int i = 0; i < 10; ++i)
+        for (int j = 0; j < 10; ++j) {
+            const Vec3 corner(static_cast<float>(i) - 3, static_cast<float>(j) - 5, 0);
+            tiles.add_quad({corner, corner + Vec3(1, 0, 0), corner + Vec3(1, 1, 0), corner + Vec3(0, 1, 0)},
+                           i % 2 == 0);
+        }
+    const Mesh floor = tiles.mesh();
+    for (const float yaw : {0.0f, 0.3f})
+        for (const float turn : {0.0f, 0.5f, 3.0f}) {
+            const Motion3 motion{{{-1, 0, 0}, turn_about({0, 0, 1}, yaw)}, {6, 0.3f, 0}, {0, 0, turn}};
+            EXPECT_FALSE(sweep(crate, motion, next_board));
+            EXPECT_FALSE(sweep(crate, motion, floor));
+            // A board that stands out a little stops it.
+            Box3 higher = next_board;
+            higher.center.z += 0.001f;
+            EXPECT_TRUE(sweep(crate, motion, higher));
+        }
+}
+
 TEST(SweepTurning, ABoxPivotsAboutItsEdge) {
     // Standing on the floor with an edge at the origin, about which it turns.
     const Box3 box{{1, 0, 1}, {1, 1, 1}};
