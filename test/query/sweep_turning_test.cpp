@@ -4,6 +4,7 @@
 #include "../oracle/expect.hpp"
 #include "../oracle/random.hpp"
 #include "../shape/meshes.hpp"
+#include "hash.hpp"
 #include <abut/query/closest.hpp>
 #include <abut/query/sweep_turning.hpp>
 #include <abut/query/turning_search.hpp>
@@ -296,6 +297,34 @@ TEST(SweepTurning, MeetsAtTheSameTimeWhicheverIsFirst) {
     }
     EXPECT_GT(hits, 50);
     EXPECT_LT(hits, 250);
+}
+
+template <int D, class A, class B>
+void add_sweeps(Hash& hash, const A& a, const B& b) {
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+        oracle::Random random(seed);
+        const auto pose = [&] { return Pose<D>{to_float(random.in_cube<D>() * 3.0), random.rotation<D>()}; };
+        Motion<D> motion{pose(), to_float(random.in_cube<D>() * 5.0), {}};
+        if constexpr (D == 2)
+            motion.turn = random.uniform_float(-7, 7);
+        else
+            motion.turn = to_float(random.in_cube<3>() * 4.0);
+        for (const auto& hit : {sweep(a, motion, b, Motion<D>::between(pose(), pose())),
+                                sweep(a, pose(), pose_at(motion, 0.7f), b, pose(), pose())}) {
+            hash.add(std::uint64_t{hit.has_value()});
+            add_hit(hash, hit);
+        }
+    }
+}
+
+TEST(SweepTurning, GivesTheSameBitsEverywhere) {
+    Hash hash;
+    add_sweeps<2>(hash, Box2{{0, 0}, {1, 0.1f}}, Box2{{0.3f, 0}, {0.4f, 0.5f}});
+    add_sweeps<2>(hash, Capsule<2>{{-1, 0}, {1, 0}, 0.2f}, HalfSpace2{{0, 1}, -1});
+    add_sweeps<3>(hash, Box3{{0, 0, 0}, {1, 0.1f, 0.2f}}, Box3{{0.3f, 0, 0}, {0.4f, 0.5f, 0.6f}});
+    add_sweeps<3>(hash, Capsule<3>{{-1, 0, 0}, {1, 0, 0}, 0.2f}, Cylinder{{0, 0, 0}, {0, 0, 1}, 0.7f});
+    add_sweeps<3>(hash, Box3{{0, 0, 0}, {0.5f, 0.1f, 0.2f}}, test::box_surface(Vec3(-1), Vec3(1)).mesh());
+    EXPECT_EQ(hash.value(), 0xb502b8dcaf2954e6u);
 }
 
 // The bound on steps: what is told then is early.
