@@ -55,7 +55,7 @@ TurningScene<D> turning(Form form, double most) {
                           turn_by<D>(random, most)};
             *both[i] = {box_of<D>(random, form), motions[i].from, pose_at(motions[i], 1), motions[i].turn};
         }
-        const auto& [a, b] = pair;
+        const TurningBox<D>&a = pair.a, &b = pair.b;
         if (closest(at(a.box, a.from), at(b.box, b.from)).distance < 0.05f) continue;
         const auto hit_of = [&](float grown) {
             return sweep(rounded(a.box, grown), motions[0], b.box, motions[1]).has_value();

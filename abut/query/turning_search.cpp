@@ -58,8 +58,8 @@ public:
     /// and in the plane of what is met amid a side.
     bool has_one_way_out(const SignedDistance<D>& now) const {
         if (a.here().radius + b.here().radius > far * margin) return true;
-        return D == 2 &&
-               (is_amid_side(a.here(), now.corners.a, now.on_a) || is_amid_side(b.here(), now.corners.b, now.on_b()));
+        return D == 2 && (is_amid_side(a.here(), now.corners, now.corners.a, now.on_a) ||
+                          is_amid_side(b.here(), now.corners, now.corners.b, now.on_b()));
     }
 
     Feature feature_on_b(const SignedDistance<D>& distance) const {
@@ -74,11 +74,15 @@ public:
 private:
     static constexpr double far = 10;  ///< from an end, in margins
 
-    bool is_amid_side(const Convex<D>& set, const CornerNumbers<D>& corners, const DVec<D>& place) const {
-        if (corners[0] == corners[1] || !has_corner(set, std::max(corners[0], corners[1]))) return false;
-        const double enough = far * far * margin * margin;
-        return length_squared(set.place.point(own_corner(set, corners[0])) - place) > enough &&
-               length_squared(set.place.point(own_corner(set, corners[1])) - place) > enough;
+    /// On a core of corners, of which a place is made of some: far from each of them.
+    bool is_amid_side(const Convex<D>& set, const MeetingCorners<D>& meeting, const CornerNumbers<D>& corners,
+                      const DVec<D>& place) const {
+        if (corners[0] == corners[1] || meeting.count < 2) return false;
+        bool result = true;
+        for (std::size_t i = 0; i < meeting.count; ++i)
+            result = result && has_corner(set, corners[i]) &&
+                     length_squared(set.place.point(own_corner(set, corners[i])) - place) > far * far * margin * margin;
+        return result;
     }
 
     double follow(const Spin<D>& spin, double from, double until, double level, double slack,
