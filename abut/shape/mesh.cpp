@@ -1,6 +1,6 @@
-#include <abut/broad_phase/bvh.hpp>
 #include <abut/math/coincident.hpp>
 #include <abut/shape/mesh.hpp>
+#include <abut/shape/mesh_tree.hpp>
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@ namespace abut {
 struct Mesh::Data {
     std::vector<Vec3> points;
     std::vector<glm::uvec3> triangles;
-    Bvh<3> tree;
+    MeshTree tree;
     bool closed = false;
 };
 
@@ -24,17 +24,17 @@ bool before(const Vec3& a, const Vec3& b) {
     return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
 }
 
-bool is_closed(std::span<const Vec3> points, std::span<const glm::uvec3> triangles) {
+/// `same` names each point by the lowest one at its position.
+bool is_closed(std::span<const glm::uvec3> triangles, std::span<const std::uint32_t> same) {
     struct Edge {
         std::uint32_t low, high;
         int direction;
     };
-    const std::vector<std::uint32_t> first = first_coincident(points);
     std::vector<Edge> edges;
     edges.reserve(3 * triangles.size());
     for (const glm::uvec3& t : triangles)
         for (glm::length_t i = 0; i < 3; ++i) {
-            const std::uint32_t from = first[t[i]], to = first[t[(i + 1) % 3]];
+            const std::uint32_t from = same[t[i]], to = same[t[(i + 1) % 3]];
             if (from != to) edges.push_back({std::min(from, to), std::max(from, to), from < to ? 1 : -1});
         }
     std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
@@ -80,10 +80,6 @@ bool is_beyond(const Triangle3& t, const Vec3& point) {
     return normal[x] > 0 ? height < 0 : height > 0;
 }
 
-Aabb3 box_of(const Triangle3& t) {
-    return merged(merged(Aabb3{t.a, t.a}, Aabb3{t.b, t.b}), Aabb3{t.c, t.c});
-}
-
 }  // namespace
 
 Result<Mesh> Mesh::build(std::span<const Vec3> points, std::span<const glm::uvec3> triangles) {
@@ -102,12 +98,10 @@ Result<Mesh> Mesh::build(std::span<const Vec3> points, std::span<const glm::uvec
     auto data = std::make_shared<Data>();
     data->points.assign(points.begin(), points.end());
     data->triangles.assign(triangles.begin(), triangles.end());
-    data->closed = is_closed(points, triangles);
-    Mesh mesh(data);
-    std::vector<Aabb3> boxes(triangles.size());
-    for (std::uint32_t i = 0; i < boxes.size(); ++i) boxes[i] = box_of(mesh.triangle(i));
-    data->tree.build(boxes);
-    return mesh;
+    const std::vector<std::uint32_t> same = first_coincident(points);
+    data->closed = is_closed(triangles, same);
+    data->tree = build_mesh_tree(points, triangles, same);
+    return Mesh(std::move(data));
 }
 
 std::span<const Vec3> Mesh::points() const {
@@ -126,23 +120,26 @@ Triangle3 Mesh::triangle(std::uint32_t index) const {
 }
 
 Aabb3 bounds(const Mesh& mesh) {
-    return mesh.data_->tree.bounds();
+    return mesh.data_->tree.root(0).box;
 }
 
 void each_part(const Mesh& mesh, const Aabb3& box,
                FunctionRef<bool(const Triangle3& part, std::uint32_t index)> visit) {
-    mesh.data_->tree.each_overlapping(box,
-                                      [&](std::uint32_t index) -> bool { return visit(mesh.triangle(index), index); });
+    find_overlapping(mesh.data_->tree, box,
+                     [&](std::uint32_t index) -> bool { return visit(mesh.triangle(index), index); });
 }
 
 void each_part_along(const Mesh& mesh, const MovingBox<3>& box,
                      FunctionRef<float(const Triangle3& part, std::uint32_t index)> visit) {
-    mesh.data_->tree.sweep(box, [&](std::uint32_t index) -> float { return visit(mesh.triangle(index), index); });
+    find_within(mesh.data_->tree, RayReach<3>::of_box(box),
+                [&](std::uint32_t index) -> float { return visit(mesh.triangle(index), index); });
 }
 
 void each_part_near(const Mesh& mesh, const Aabb3& box,
                     FunctionRef<float(const Triangle3& part, std::uint32_t index)> visit) {
-    mesh.data_->tree.closest(box, [&](std::uint32_t index) -> float { return visit(mesh.triangle(index), index); });
+    constexpr float any = std::numeric_limits<float>::infinity();
+    find_within(mesh.data_->tree, BoxReach<3>(box, any),
+                [&](std::uint32_t index) -> float { return visit(mesh.triangle(index), index); });
 }
 
 bool solid_contains(const Mesh& mesh, const Vec3& point) {
@@ -150,10 +147,11 @@ bool solid_contains(const Mesh& mesh, const Vec3& point) {
     Aabb3 ahead{point, point};
     ahead.max.x = std::numeric_limits<float>::infinity();
     int turns = 0;
-    mesh.data_->tree.each_overlapping(ahead, [&](std::uint32_t index) {
+    find_overlapping(mesh.data_->tree, ahead, [&](std::uint32_t index) -> bool {
         const Triangle3 t = mesh.triangle(index);
         const int around = turns_around(t, point);
         if (around != 0 && is_beyond(t, point)) turns += around;
+        return true;
     });
     return turns != 0;
 }
