@@ -46,5 +46,7 @@ std::vector<Bench> narrow_benches();
 std::vector<Bench> broad_benches();
 std::vector<Bench> motion_straight_benches();
 std::vector<Bench> motion_turning_benches();
+/// Rays at meshes, and building for them.
+std::vector<Bench> ray_benches();
 
 }  // namespace abut::bench

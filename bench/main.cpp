@@ -35,6 +35,7 @@ std::vector<Bench> all_benches() {
     std::ranges::move(broad_benches(), std::back_inserter(result));
     std::ranges::move(motion_straight_benches(), std::back_inserter(result));
     std::ranges::move(motion_turning_benches(), std::back_inserter(result));
+    std::ranges::move(ray_benches(), std::back_inserter(result));
     return result;
 }
 

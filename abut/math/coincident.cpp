@@ -1,22 +1,34 @@
 #include <abut/math/coincident.hpp>
 
-#include <algorithm>
-#include <tuple>
+#include <bit>
+#include <cstddef>
 
 namespace abut {
+namespace {
 
+/// Of a position; -0 counts as 0.
+std::size_t hash_of(const Vec3& p) {
+    std::uint64_t hash = 0;
+    for (glm::length_t i = 0; i < 3; ++i) {
+        hash ^= std::bit_cast<std::uint32_t>(p[i] + 0.0f);
+        hash *= 0x9E3779B97F4A7C15u;
+        hash ^= hash >> 32;
+    }
+    return static_cast<std::size_t>(hash);
+}
+
+}  // namespace
+
+// Points come to a table in the order of their indices, so that the first of several there is the lowest.
 std::vector<std::uint32_t> first_coincident(std::span<const Vec3> points) {
-    const auto key = [&](std::uint32_t i) {
-        const Vec3& p = points[i];
-        return std::tuple(p.x, p.y, p.z, i);
-    };
-    std::vector<std::uint32_t> order(points.size());
-    for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) { return key(i) < key(j); });
-    std::vector<std::uint32_t> result(points.size());
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const bool same = i > 0 && points[order[i]] == points[order[i - 1]];
-        result[order[i]] = same ? result[order[i - 1]] : order[i];
+    constexpr std::uint32_t none = 0xFFFFFFFF;
+    const std::size_t mask = std::bit_ceil(2 * points.size() + 1) - 1;
+    std::vector<std::uint32_t> table(mask + 1, none), result(points.size());
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+        std::size_t place = hash_of(points[i]) & mask;
+        while (table[place] != none && points[table[place]] != points[i]) place = (place + 1) & mask;
+        if (table[place] == none) table[place] = i;
+        result[i] = table[place];
     }
     return result;
 }

@@ -19,6 +19,10 @@ struct QueryOptions {
 
     /// Contacts: points whose surfaces are up to this far apart count too, with a depth below zero.
     float margin = 0;
+
+    /// Rays: whether the back of a mesh's triangles counts, the side from which their corners go round clockwise. A
+    /// mesh that is mirrored keeps its front outside; one that is rounded has no back.
+    bool back_faces = true;
 };
 
 }  // namespace abut

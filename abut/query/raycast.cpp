@@ -1,6 +1,9 @@
 #include <abut/math/assert.hpp>
 #include <abut/query/raycast.hpp>
 #include <abut/query/raycast_part.hpp>
+#include <abut/query/raycast_triangles.hpp>
+
+#include <algorithm>
 
 namespace abut {
 namespace {
@@ -32,14 +35,16 @@ void tell(const Beam<D>& beam, const PartHit<D>& first, Hit<D>& hit) {
 }
 
 template <int D>
-bool first_hit(const Beam<D>& beam, const Composite<D>& composite, Trace<D>* trace, PartHit<D>& first) {
+bool first_hit(const Beam<D>& beam, const Composite<D>& composite, const QueryOptions<D>& options, PartHit<D>& first) {
     bool any = false;
+    if constexpr (D == 3)
+        if (first_triangle_hit(beam, composite, options, first, any)) return any;
     Beam<D> rest = beam;
     each_part_along<D>(composite, beam.origin, beam.direction, beam.length,
                        [&](const Convex<D>& part, std::uint32_t index) -> float {
                            PartHit<D> hit;
                            // The lowest of several at one place, so that it isn't up to the order of the visits.
-                           if (part_hit(rest, part, index, trace, hit) &&
+                           if (part_hit(rest, part, index, options.trace, hit) &&
                                (!any || hit.along < first.along || index < first.feature.part)) {
                                any = true;
                                first = hit;
@@ -69,7 +74,59 @@ void answer(const Ray<D>& ray, const Convex<D>& shape, const QueryOptions<D>& op
     find_first_hit(ray, shape, find, result);
 }
 
+/// Calls visit(hit) for each part that the beam meets; it returns the new reach.
+template <int D, class Visit>
+void visit_hits(const Beam<D>& beam, const View<D>& shape, const QueryOptions<D>& options, Visit visit) {
+    PartHit<D> hit;
+    if (const auto* convex = std::get_if<Convex<D>>(&shape)) {
+        if (part_hit(beam, *convex, 0, options.trace, hit)) visit(hit);
+        return;
+    }
+    if (const auto* solid = std::get_if<Solid<D>>(&shape)) {
+        if (part_hit(beam, *solid, hit)) visit(hit);
+        return;
+    }
+    const auto& composite = std::get<Composite<D>>(shape);
+    if constexpr (D == 3)
+        if (each_triangle_hit(beam, composite, options, visit)) return;
+    Beam<D> rest = beam;
+    each_part_along<D>(composite, beam.origin, beam.direction, beam.length,
+                       [&](const Convex<D>& part, std::uint32_t index) -> float {
+                           if (part_hit(rest, part, index, options.trace, hit)) rest.length = visit(hit);
+                           return static_cast<float>(rest.length);
+                       });
+}
+
 }  // namespace
+
+template <int D>
+void each_hit(const Ray<D>& ray, const View<D>& shape, FunctionRef<float(const Hit<D>&)> visit,
+              const QueryOptions<D>& options) {
+    const bool finite = is_finite(shape) && can_be_asked(ray);
+    ABUT_ASSERT(finite);
+    if (!finite) return;
+    const Beam<D> beam = beam_of(ray);
+    double reach = beam.length;
+    visit_hits(beam, shape, options, [&](const PartHit<D>& found) {
+        Hit<D> hit;
+        tell(beam, found, hit);
+        reach = std::min(reach, static_cast<double>(visit(hit)));
+        return reach;
+    });
+}
+
+template <int D>
+void raycast_all(const Ray<D>& ray, const View<D>& shape, std::vector<Hit<D>>& out, const QueryOptions<D>& options) {
+    out.clear();
+    const auto keep = [&out](const Hit<D>& hit) -> float {
+        out.push_back(hit);
+        return std::numeric_limits<float>::infinity();
+    };
+    each_hit<D>(ray, shape, keep, options);
+    std::sort(out.begin(), out.end(), [](const Hit<D>& a, const Hit<D>& b) {
+        return a.distance != b.distance ? a.distance < b.distance : a.feature.part < b.feature.part;
+    });
+}
 
 template <int D>
 std::optional<Hit<D>> raycast(const Ray<D>& ray, const Convex<D>& shape, const QueryOptions<D>& options) {
@@ -79,21 +136,31 @@ std::optional<Hit<D>> raycast(const Ray<D>& ray, const Convex<D>& shape, const Q
 }
 
 template <int D>
+std::optional<Hit<D>> raycast(const Ray<D>& ray, const Composite<D>& shape, const QueryOptions<D>& options) {
+    std::optional<Hit<D>> result;
+    const auto find = [&](const Beam<D>& beam, PartHit<D>& first) { return first_hit(beam, shape, options, first); };
+    find_first_hit(ray, static_cast<const Placement<D>&>(shape), find, result);
+    return result;
+}
+
+template <int D>
 std::optional<Hit<D>> raycast(const Ray<D>& ray, const View<D>& shape, const QueryOptions<D>& options) {
     if (const auto* convex = std::get_if<Convex<D>>(&shape)) return raycast(ray, *convex, options);
+    if (const auto* composite = std::get_if<Composite<D>>(&shape)) return raycast(ray, *composite, options);
     std::optional<Hit<D>> result;
     const auto find = [&](const Beam<D>& beam, PartHit<D>& first) {
-        const auto* composite = std::get_if<Composite<D>>(&shape);
-        return composite != nullptr ? first_hit(beam, *composite, options.trace, first)
-                                    : part_hit(beam, std::get<Solid<D>>(shape), first);
+        return part_hit(beam, std::get<Solid<D>>(shape), first);
     };
     find_first_hit(ray, shape, find, result);
     return result;
 }
 
-#define ABUT_INSTANTIATE(D)                                                                        \
-    template std::optional<Hit<D>> raycast(const Ray<D>&, const View<D>&, const QueryOptions<D>&); \
-    template std::optional<Hit<D>> raycast(const Ray<D>&, const Convex<D>&, const QueryOptions<D>&);
+#define ABUT_INSTANTIATE(D)                                                                                           \
+    template std::optional<Hit<D>> raycast(const Ray<D>&, const View<D>&, const QueryOptions<D>&);                    \
+    template std::optional<Hit<D>> raycast(const Ray<D>&, const Composite<D>&, const QueryOptions<D>&);               \
+    template std::optional<Hit<D>> raycast(const Ray<D>&, const Convex<D>&, const QueryOptions<D>&);                  \
+    template void each_hit(const Ray<D>&, const View<D>&, FunctionRef<float(const Hit<D>&)>, const QueryOptions<D>&); \
+    template void raycast_all(const Ray<D>&, const View<D>&, std::vector<Hit<D>>&, const QueryOptions<D>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

@@ -2,12 +2,17 @@
 
 // Where does a ray meet a shape?
 
+#include <abut/math/function_ref.hpp>
 #include <abut/math/ray.hpp>
 #include <abut/query/hit.hpp>
 #include <abut/query/options.hpp>
 #include <abut/shape/view.hpp>
 
+#include <concepts>
+#include <limits>
 #include <optional>
+#include <type_traits>
+#include <vector>
 
 namespace abut {
 
@@ -16,6 +21,8 @@ std::optional<Hit<D>> raycast(const Ray<D>& ray, const View<D>& shape, const Que
 template <int D>
 std::optional<Hit<D>> raycast(const Ray<D>& ray, const Convex<D>& shape, const QueryOptions<D>& options = {});
 template <int D>
+std::optional<Hit<D>> raycast(const Ray<D>& ray, const Composite<D>& shape, const QueryOptions<D>& options = {});
+template <int D>
 std::optional<Hit<D>> raycast(const Ray<D>& ray, const Given<D>& shape, const QueryOptions<D>& options = {});
 
 /// The first hit. A ray that starts inside or on the surface hits at 0 only if it goes further in; along the surface or
@@ -23,7 +30,48 @@ std::optional<Hit<D>> raycast(const Ray<D>& ray, const Given<D>& shape, const Qu
 template <Shape S>
 std::optional<Hit<dimension<S>>> raycast(const Ray<dimension<S>>& ray, const S& shape,
                                          const QueryOptions<dimension<S>>& options = {}) {
-    return raycast(ray, detail::view_beside<S, S>(shape), options);
+    if constexpr (detail::is_composite_view<detail::ViewOf<S>>)
+        return raycast(ray, view(shape), options);
+    else
+        return raycast(ray, detail::view_beside<S, S>(shape), options);
+}
+
+template <int D>
+void each_hit(const Ray<D>& ray, const View<D>& shape, FunctionRef<float(const Hit<D>&)> visit,
+              const QueryOptions<D>& options = {});
+template <int D>
+void raycast_all(const Ray<D>& ray, const View<D>& shape, std::vector<Hit<D>>& out,
+                 const QueryOptions<D>& options = {});
+
+/// Each part of the shape that the ray hits, as `raycast` tells it of that part alone, in no order: a convex shape is
+/// one part, so that it is told where the ray comes in and not where it leaves; through an edge that two triangles of a
+/// mesh share both are told. `visit(hit)` returns nothing (go on), bool (false stops) or float: how far along the ray
+/// hits are still wanted. Never allocates.
+template <Shape S, class Visit>
+requires std::invocable < Visit&, const Hit<dimension<S>>
+& > void each_hit(const Ray<dimension<S>>& ray, const S& shape, Visit&& visit,
+                  const QueryOptions<dimension<S>>& options = {}) {
+    constexpr int D = dimension<S>;
+    using Told = std::invoke_result_t<Visit&, const Hit<D>&>;
+    const auto reach_after = [&visit](const Hit<D>& hit) -> float {
+        constexpr float any = std::numeric_limits<float>::infinity();
+        if constexpr (std::is_void_v<Told>) {
+            visit(hit);
+            return any;
+        } else if constexpr (std::is_same_v<Told, bool>) {
+            return visit(hit) ? any : -1.0f;
+        } else {
+            return visit(hit);
+        }
+    };
+    each_hit<D>(ray, View<D>(view(shape)), FunctionRef<float(const Hit<D>&)>(reach_after), options);
+}
+
+/// The same hits in place of what was in `out`, the nearest first; of those at one distance, the lowest part.
+template <Shape S>
+void raycast_all(const Ray<dimension<S>>& ray, const S& shape, std::vector<Hit<dimension<S>>>& out,
+                 const QueryOptions<dimension<S>>& options = {}) {
+    raycast_all<dimension<S>>(ray, View<dimension<S>>(view(shape)), out, options);
 }
 
 }  // namespace abut

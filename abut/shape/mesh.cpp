@@ -24,29 +24,45 @@ bool before(const Vec3& a, const Vec3& b) {
     return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
 }
 
-/// `same` names each point by the lowest one at its position.
-bool is_closed(std::span<const glm::uvec3> triangles, std::span<const std::uint32_t> same) {
-    struct Edge {
-        std::uint32_t low, high;
-        int direction;
-    };
-    std::vector<Edge> edges;
-    edges.reserve(3 * triangles.size());
-    for (const glm::uvec3& t : triangles)
-        for (glm::length_t i = 0; i < 3; ++i) {
-            const std::uint32_t from = same[t[i]], to = same[t[(i + 1) % 3]];
-            if (from != to) edges.push_back({std::min(from, to), std::max(from, to), from < to ? 1 : -1});
-        }
-    std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-        return std::tie(a.low, a.high, a.direction) < std::tie(b.low, b.high, b.direction);
+/// An edge as one of its triangles has it: its higher point, and whether that one comes first.
+struct HalfEdge {
+    std::uint32_t high;
+    int direction;
+};
+
+/// Whether each edge from one point to higher ones is had equally often both ways.
+bool is_balanced(std::span<HalfEdge> edges) {
+    std::sort(edges.begin(), edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
+        return std::tie(a.high, a.direction) < std::tie(b.high, b.direction);
     });
     int balance = 0;
     for (std::size_t i = 0; i < edges.size(); ++i) {
         balance += edges[i].direction;
-        const bool last =
-            i + 1 == edges.size() || edges[i + 1].low != edges[i].low || edges[i + 1].high != edges[i].high;
+        const bool last = i + 1 == edges.size() || edges[i + 1].high != edges[i].high;
         if (last && balance != 0) return false;
     }
+    return true;
+}
+
+/// `same` names each point by the lowest one at its position. The edges are dealt out to their lower points, each of
+/// which has few.
+bool is_closed(std::span<const glm::uvec3> triangles, std::span<const std::uint32_t> same) {
+    const auto each_edge = [&](auto visit) {
+        for (const glm::uvec3& t : triangles)
+            for (glm::length_t i = 0; i < 3; ++i) {
+                const std::uint32_t from = same[t[i]], to = same[t[(i + 1) % 3]];
+                if (from != to) visit(std::min(from, to), HalfEdge{std::max(from, to), from < to ? 1 : -1});
+            }
+    };
+    std::vector<std::size_t> end(same.size() + 1);
+    each_edge([&](std::uint32_t low, const HalfEdge&) { ++end[low + 1]; });
+    for (std::size_t i = 1; i < end.size(); ++i) end[i] += end[i - 1];
+    std::vector<HalfEdge> edges(end.back());
+    // Filled from its beginning, a point's share ends where it should: one place on.
+    each_edge([&](std::uint32_t low, const HalfEdge& edge) { edges[end[low]++] = edge; });
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i < same.size(); begin = end[i++])
+        if (!is_balanced(std::span(edges).subspan(begin, end[i] - begin))) return false;
     return true;
 }
 
@@ -140,6 +156,11 @@ void each_part_near(const Mesh& mesh, const Aabb3& box,
     constexpr float any = std::numeric_limits<float>::infinity();
     find_within(mesh.data_->tree, BoxReach<3>(box, any),
                 [&](std::uint32_t index) -> float { return visit(mesh.triangle(index), index); });
+}
+
+bool each_triangle_on_line(const Mesh& mesh, const MovingBox<3>& point,
+                           FunctionRef<float(const Triangle3& triangle, const std::uint32_t& index)> visit) {
+    return find_on_line(mesh.data_->tree, point, visit);
 }
 
 bool solid_contains(const Mesh& mesh, const Vec3& point) {

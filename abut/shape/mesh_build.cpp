@@ -26,6 +26,20 @@ struct Range : BvhRange<3> {
     bool is_leaf;
 };
 
+/// A node of the tree of two children each that comes first, with what it costs to make it one of eight.
+struct Fork {
+    static constexpr std::size_t most = mesh_lanes - 1;
+
+    Aabb3 box;
+    std::uint32_t left, right;  ///< forks; of a leaf, its first item and the one after its last
+    bool is_leaf;
+    /// The least sum of the areas of all nodes that are made of what is below, if it hangs as at most i + 1 children on
+    /// the node above; and how many of these are left, 0 where it is a child by itself.
+    std::array<float, most> cost;
+    std::array<std::uint8_t, most> to_left;
+    std::uint8_t own_to_left;  ///< of the eight children that it has as a node
+};
+
 /// The box of a triangle, wider by what the search for a ray's hit may take for hit.
 BvhItem item_of(const Triangle3& t, std::uint32_t index) {
     BvhItem result{{0, 0, 0}, index, {0, 0, 0}, 0};
@@ -86,7 +100,9 @@ public:
         all.leaves = count;
         bounded_ = is_bounded(all.box);
         all.is_leaf = fits(all);
-        tree_.roots[0] = {all.is_leaf ? add_leaf(all) : add_node(all), exact};
+        forks_.reserve(count / 2 + 1);
+        const std::uint32_t root = grow(all);
+        tree_.roots[0] = {add(root), exact};
         tree_.leaves.shrink_to_fit();
         tree_.nodes.shrink_to_fit();
     }
@@ -97,43 +113,76 @@ private:
         return {points_[t.x], points_[t.y], points_[t.z]};
     }
 
-    std::uint32_t add_node(const Range& range) {
-        std::array<Range, mesh_lanes> child;
-        child[0] = range;
-        std::uint32_t count = 1;
-        for (std::uint32_t next = 0; next != bvh_none && count < mesh_lanes; ++count) {
-            std::copy_backward(child.begin() + next + 1, child.begin() + count, child.begin() + count + 1);
-            const Range parted = child[next];
-            part(parted, child[next], child[next + 1]);
-            next = largest(child, count + 1);
+    std::uint32_t grow(const Range& range) {
+        Fork fork{range.box, range.begin, range.end, range.is_leaf, {}, {}, 0};
+        if (!range.is_leaf) {
+            Range left, right;
+            part(range, left, right);
+            fork.left = grow(left);
+            fork.right = grow(right);
+            find_costs(fork);
         }
+        forks_.push_back(fork);
+        return static_cast<std::uint32_t>(forks_.size() - 1);
+    }
+
+    /// As Ylitie, Karras and Laine do, "Efficient incoherent ray traversal on GPUs through compressed wide BVHs", 2017.
+    /// The leaves are what they are; so only nodes cost anything.
+    void find_costs(Fork& fork) const {
+        const Fork &left = forks_[fork.left], &right = forks_[fork.right];
+        const auto shared = [&](std::size_t children, std::uint8_t& to_left) {
+            float least = std::numeric_limits<float>::infinity();
+            to_left = 1;
+            for (std::size_t i = 1; i < children; ++i) {
+                const float cost = left.cost[i - 1] + right.cost[children - i - 1];
+                if (!(cost < least)) continue;
+                least = cost;
+                to_left = static_cast<std::uint8_t>(i);
+            }
+            return least;
+        };
+        fork.cost[0] = shared(mesh_lanes, fork.own_to_left) + static_cast<float>(box_size(fork.box).area);
+        for (std::size_t i = 1; i < Fork::most; ++i) {
+            fork.cost[i] = shared(i + 1, fork.to_left[i]);
+            if (fork.cost[i] < fork.cost[i - 1]) continue;
+            fork.cost[i] = fork.cost[i - 1];
+            fork.to_left[i] = fork.to_left[i - 1];
+        }
+    }
+
+    struct Children {
+        std::array<std::uint32_t, mesh_lanes> fork;
+        std::uint32_t count = 0;
+    };
+    /// The children that a fork becomes, at most so many.
+    void collect(std::uint32_t which, std::uint32_t most, Children& children) const {
+        const Fork& fork = forks_[which];
+        const std::uint32_t to_left = fork.is_leaf ? 0 : fork.to_left[most - 1];
+        if (to_left == 0) {
+            children.fork[children.count++] = which;
+            return;
+        }
+        collect(fork.left, to_left, children);
+        collect(fork.right, most - to_left, children);
+    }
+
+    std::uint32_t add(std::uint32_t which) {
+        const Fork& fork = forks_[which];
+        if (fork.is_leaf) return add_leaf(fork.left, fork.right);
+        Children children;
+        collect(fork.left, fork.own_to_left, children);
+        collect(fork.right, mesh_lanes - fork.own_to_left, children);
         const auto result = static_cast<std::uint32_t>(tree_.nodes.size());
         tree_.nodes.emplace_back();
         for (std::uint32_t lane = 0; lane < mesh_lanes; ++lane) {
-            const std::uint32_t ref = lane >= count         ? bvh_none
-                                      : child[lane].is_leaf ? add_leaf(child[lane])
-                                                            : add_node(child[lane]);
+            const bool used = lane < children.count;
+            const std::uint32_t child = used ? add(children.fork[lane]) : bvh_none;
             MeshNode& node = tree_.nodes[result];
-            node.child[lane] = ref;
-            if (lane < count)
-                node.set(lane, child[lane].box);
+            node.child[lane] = child;
+            if (used)
+                node.set(lane, forks_[children.fork[lane]].box);
             else
                 node.clear(lane);
-        }
-        return result;
-    }
-
-    /// Of those that are to be parted, the one with the largest box.
-    static std::uint32_t largest(const std::array<Range, mesh_lanes>& ranges, std::uint32_t count) {
-        std::uint32_t result = bvh_none;
-        double most = -1;
-        for (std::uint32_t i = 0; i < count; ++i) {
-            if (ranges[i].is_leaf) continue;
-            const double area = box_size(ranges[i].box).area;
-            if (area > most) {
-                most = area;
-                result = i;
-            }
         }
         return result;
     }
@@ -249,10 +298,9 @@ private:
         return {{begin, end, 0, depth, box.box()}, false};
     }
 
-    std::uint32_t add_leaf(const Range& range) {
-        const std::uint32_t count = range.count();
-        std::sort(items_ + range.begin, items_ + range.end,
-                  [](const BvhItem& a, const BvhItem& b) { return a.index < b.index; });
+    std::uint32_t add_leaf(std::uint32_t begin, std::uint32_t end) {
+        const std::uint32_t count = end - begin;
+        std::sort(items_ + begin, items_ + end, [](const BvhItem& a, const BvhItem& b) { return a.index < b.index; });
         MeshLeaf& leaf = tree_.leaves.emplace_back();
         leaf.first = static_cast<std::uint32_t>(tree_.order.size());
         leaf.count = count;
@@ -262,7 +310,7 @@ private:
         for (std::uint32_t lane = 0; lane < mesh_lanes; ++lane) {
             leaf.triangle[lane] = 0;
             if (lane >= count) continue;
-            const std::uint32_t index = items_[range.begin + lane].index;
+            const std::uint32_t index = items_[begin + lane].index;
             tree_.order.push_back(index);
             std::uint32_t numbers = 0;
             for (glm::length_t k = 0; k < 3; ++k) {
@@ -295,6 +343,7 @@ private:
     std::unique_ptr<BvhItem[]> room_;
     BvhItem* items_ = nullptr;
     bool bounded_ = true;
+    std::vector<Fork> forks_;
 };
 
 }  // namespace

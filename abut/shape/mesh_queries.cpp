@@ -93,56 +93,56 @@ struct LeafBoxes {
     }
 };
 
-/// A line as the nodes are asked for it: numbers of each axis, and which side of a box it comes to first. A point that
-/// may be anywhere in a box reaches the first side from its near end and the other from its far one.
-struct LineLanes {
-    V near_origin[3], far_origin[3], near_inverse[3], far_inverse[3];
-    bool downwards[3];
-
-    explicit LineLanes(const RayReach<3>& reach) {
+/// A line as the nodes are asked for it. A point that may be anywhere in a box reaches the first side of another from
+/// its near end and the second from its far one.
+class LineLanes {
+public:
+    explicit LineLanes(const MovingBox<3>& point) {
         for (int i = 0; i < 3; ++i) {
-            const float low = not_above(reach.low()[i]), high = not_below(reach.high()[i]);
-            downwards[i] = reach.direction()[i] < 0;
             // Where it all but rests, no finite time is too late for it; and 0 times it is not NaN.
             constexpr double most = 1e30;
-            const double inverse = std::clamp(reach.inverse()[i], -most, most);
-            near_origin[i] = hn::Set(bvh_tag, downwards[i] ? low : high);
-            far_origin[i] = hn::Set(bvh_tag, downwards[i] ? high : low);
-            near_inverse[i] = hn::Set(bvh_tag, static_cast<float>(inverse * (1 - 4e-7)));
-            far_inverse[i] = hn::Set(bvh_tag, static_cast<float>(inverse * (1 + 4e-7)));
+            const double inverse = std::clamp(1 / point.direction[i], -most, most);
+            const bool downwards = inverse < 0;  // also of -0
+            const double low = point.center[i] - point.half[i], high = point.center[i] + point.half[i];
+            const float outer_low = static_cast<float>(low - std::abs(low) * outwards),
+                        outer_high = static_cast<float>(high + std::abs(high) * outwards);
+            near_origin_[i] = hn::Set(bvh_tag, downwards ? outer_low : outer_high);
+            far_origin_[i] = hn::Set(bvh_tag, downwards ? outer_high : outer_low);
+            near_inverse_[i] = hn::Set(bvh_tag, static_cast<float>(inverse * (1 - slack)));
+            far_inverse_[i] = hn::Set(bvh_tag, static_cast<float>(inverse * (1 + slack)));
+            near_row_[i] = static_cast<std::size_t>(downwards ? 3 + i : i) * mesh_lanes;
+            far_row_[i] = static_cast<std::size_t>(downwards ? i : 3 + i) * mesh_lanes;
         }
-    }
-
-    static float not_above(double x) {
-        const auto result = static_cast<float>(x);
-        return static_cast<double>(result) > x ? std::nextafter(result, -std::numeric_limits<float>::infinity())
-                                               : result;
-    }
-    static float not_below(double x) { return -not_above(-x); }
-
-    HWY_INLINE V first(const MeshNode& node, int axis, std::uint32_t lane) const {
-        const V side = hn::Load(bvh_tag, (downwards[axis] ? node.max : node.min)[axis] + lane);
-        return hn::Mul(hn::Sub(side, near_origin[axis]), near_inverse[axis]);
-    }
-    HWY_INLINE V last(const MeshNode& node, int axis, std::uint32_t lane) const {
-        const V side = hn::Load(bvh_tag, (downwards[axis] ? node.min : node.max)[axis] + lane);
-        return hn::Mul(hn::Sub(side, far_origin[axis]), far_inverse[axis]);
     }
 
     /// Which boxes it may meet, a bit each, and when.
     HWY_INLINE std::uint32_t operator()(const MeshNode& node, float most, float (&times)[mesh_lanes]) const {
         std::uint32_t result = 0;
         for (std::uint32_t lane = 0; lane < mesh_lanes; lane += bvh_step) {
-            const V x = first(node, 0, lane);
-            const V from = hn::Max(hn::Max(x, hn::Zero(bvh_tag)), hn::Max(first(node, 1, lane), first(node, 2, lane)));
-            const V to = hn::Min(hn::Min(last(node, 0, lane), hn::Set(bvh_tag, most)),
-                                 hn::Min(last(node, 1, lane), last(node, 2, lane)));
+            const float* rows = node.min[0] + lane;
+            const V x = first(rows, 0);
+            const V from = hn::Max(hn::Max(x, hn::Zero(bvh_tag)), hn::Max(first(rows, 1), first(rows, 2)));
+            const V to = hn::Min(hn::Min(last(rows, 0), hn::Set(bvh_tag, most)), hn::Min(last(rows, 1), last(rows, 2)));
             // An unused box is of NaN.
             result |= bits_of(hn::And(hn::Le(from, to), hn::Eq(x, x))) << lane;
             hn::StoreU(from, bvh_tag, times + lane);
         }
         return result;
     }
+
+private:
+    /// More than one rounding to float, and than three.
+    static constexpr double outwards = 0x1p-23, slack = 4e-7;
+
+    HWY_INLINE V first(const float* rows, int axis) const {
+        return hn::Mul(hn::Sub(hn::Load(bvh_tag, rows + near_row_[axis]), near_origin_[axis]), near_inverse_[axis]);
+    }
+    HWY_INLINE V last(const float* rows, int axis) const {
+        return hn::Mul(hn::Sub(hn::Load(bvh_tag, rows + far_row_[axis]), far_origin_[axis]), far_inverse_[axis]);
+    }
+
+    V near_origin_[3], far_origin_[3], near_inverse_[3], far_inverse_[3];
+    std::size_t near_row_[3], far_row_[3];
 };
 
 /// A line as the triangles are asked for it.
@@ -201,25 +201,37 @@ private:
     float astray_;  ///< how far the point may be from the origin, in parts of the doubt
 };
 
+/// What is to be looked at soon: the rest of memory is far.
+inline void fetch(const MeshTree& tree, std::uint32_t ref) {
+    if (is_leaf(ref)) {
+        const auto* lines = reinterpret_cast<const char*>(&tree.leaf(ref));
+        __builtin_prefetch(lines);
+        __builtin_prefetch(lines + 64);
+    } else {
+        const auto* lines = reinterpret_cast<const char*>(&tree.node(ref));
+        for (std::size_t at = 0; at < sizeof(MeshNode); at += 64) __builtin_prefetch(lines + at);
+    }
+}
+
 /// `point` goes a way of length 1; what is visited reckons in ways `unit` times as long.
 void on_line(const MeshTree& tree, const MovingBox<3>& point, double unit, MeshReachCall visit) {
-    auto reach = RayReach<3>::of_box(point);
-    if (reach.over()) return;
-    const LineLanes meets_boxes(reach);
+    if (!(point.length >= 0)) return;
+    double reach = point.length * reach_slack;
+    const LineLanes meets_boxes(point);
     const LineToTriangles meets(point);
     BvhFound stack[most_waiting];
     std::size_t waiting = 0;
     std::uint32_t ref = tree.root(0).ref;
-    float most = not_less(reach.most()), times[mesh_lanes];
+    float most = not_less(reach), times[mesh_lanes];
     for (;;) {
         if (is_leaf(ref)) {
             const MeshLeaf& leaf = tree.leaf(ref);
             for (std::uint32_t bits = meets(leaf, most); bits != 0;) {
                 const std::uint32_t lane = next_lane(bits);
                 const float wanted = visit(leaf.at(lane), tree.order[leaf.first + lane]);
-                reach.shrink(static_cast<float>(static_cast<double>(wanted) * unit));
-                if (reach.over()) return;
-                most = not_less(reach.most());
+                reach = std::min(reach, static_cast<double>(wanted) * unit * reach_slack);
+                if (reach < 0) return;
+                most = not_less(reach);
             }
         } else {
             const MeshNode& node = tree.node(ref);
@@ -229,6 +241,8 @@ void on_line(const MeshTree& tree, const MovingBox<3>& point, double unit, MeshR
                 ref = node.child[lane];
                 if (bits == 0) continue;
                 const std::uint32_t other = next_lane(bits);
+                fetch(tree, ref);
+                fetch(tree, node.child[other]);
                 if (bits == 0) {
                     const bool other_first = times[other] < times[lane];
                     stack[waiting++] =
@@ -236,6 +250,7 @@ void on_line(const MeshTree& tree, const MovingBox<3>& point, double unit, MeshR
                     if (other_first) ref = node.child[other];
                     continue;
                 }
+                for (std::uint32_t more = bits; more != 0;) fetch(tree, node.child[next_lane(more)]);
                 bits |= 1u << lane | 1u << other;
                 waiting += nearest_last(bits, times, node.child, stack + waiting);
                 ref = stack[--waiting].ref;
@@ -298,13 +313,19 @@ void find_within(const MeshTree& tree, const BoxReach<3>& reach, ReachCall visit
 }
 
 bool find_on_line(const MeshTree& tree, const MovingBox<3>& point, MeshReachCall visit) {
-    const double unit = length(point.direction);
+    const double squared = length_squared(point.direction);
+    const bool is_unit = std::abs(squared - 1) < 1e-6;
+    const double unit = is_unit ? 1.0 : std::sqrt(squared);
     if (!is_usual(tree, point, unit)) return false;
     const Aabb3& box = tree.root(0).box;
-    const DVec<3> low(box.min), high(box.max);
     // No farther than the mesh: bounds on roundings grow with the reach.
-    const double beyond = length((low + high) * 0.5 - point.center) + length(high - low);
-    const MovingBox<3> as_unit{point.center, point.half, point.direction / unit, std::min(point.length * unit, beyond)};
+    double beyond = 0;
+    for (int i = 0; i < 3; ++i)
+        beyond += std::max(std::abs(static_cast<double>(box.min[i]) - point.center[i]),
+                           std::abs(static_cast<double>(box.max[i]) - point.center[i]));
+    MovingBox<3> as_unit = point;
+    if (!is_unit) as_unit.direction = point.direction / unit;
+    as_unit.length = std::min(point.length * unit, 2 * beyond);
     HWY_DYNAMIC_DISPATCH(on_line)(tree, as_unit, unit, visit);
     return true;
 }

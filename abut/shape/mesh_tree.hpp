@@ -58,7 +58,7 @@ struct MeshTree {
 MeshTree build_mesh_tree(std::span<const Vec3> points, std::span<const glm::uvec3> triangles,
                          std::span<const std::uint32_t> same);
 
-using MeshReachCall = FunctionRef<float(const Triangle3& triangle, std::uint32_t index)>;
+using MeshReachCall = FunctionRef<float(const Triangle3& triangle, const std::uint32_t& index)>;
 
 /// The triangles whose boxes overlap the box.
 void find_overlapping(const MeshTree& tree, const Aabb3& box, ItemCall visit);

@@ -209,9 +209,17 @@ bool is_finite(const View<D>& view) {
     if (const auto* convex = std::get_if<Convex<D>>(&view)) return is_finite(*convex);
     if (const auto* solid = std::get_if<Solid<D>>(&view))
         return std::isfinite(length_squared(solid->normal) + solid->offset);
-    Convex<D> placement;
-    static_cast<Placement<D>&>(placement) = std::get<Composite<D>>(view);
-    return is_finite(placement);
+    return is_finite(static_cast<const Placement<D>&>(std::get<Composite<D>>(view)));
+}
+
+template <int D>
+bool is_finite(const Placement<D>& placement) {
+    double sum = placement.radius + placement.inner_radius;
+    for (int i = 0; i < D; ++i) {
+        sum += placement.place.offset[i];
+        for (const DVec<D>& column : placement.place.column) sum += column[i];
+    }
+    return std::isfinite(sum);
 }
 
 template <int D>
@@ -281,6 +289,7 @@ View<D> rounded(const View<D>& view, double radius) {
     template bool contains_inside(const Composite<D>&, const Vec<D>&);                                               \
     template double size(const View<D>&);                                                                            \
     template bool is_finite(const View<D>&);                                                                         \
+    template bool is_finite(const Placement<D>&);                                                                    \
     template Convex<D> mapped(const Convex<D>&, const Affine<D>&);                                                   \
     template Composite<D> mapped(const Composite<D>&, const Affine<D>&);                                             \
     template View<D> mapped(const View<D>&, const Affine<D>&);                                                       \
