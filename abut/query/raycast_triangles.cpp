@@ -101,6 +101,7 @@ bool first_triangle_hit(const Beam<3>& beam, const Composite<3>& composite, cons
         if (first_part == nullptr || hit.along < first.along || part < *first_part) {
             first = hit;
             first_part = &part;
+            __builtin_prefetch(first_part);
         }
         return first.along;
     };

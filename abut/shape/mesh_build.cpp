@@ -343,7 +343,7 @@ private:
     std::unique_ptr<BvhItem[]> room_;
     BvhItem* items_ = nullptr;
     bool bounded_ = true;
-    std::vector<Fork> forks_;
+    std::vector<Fork, LargePages<Fork>> forks_;
 };
 
 }  // namespace

@@ -201,18 +201,6 @@ private:
     float astray_;  ///< how far the point may be from the origin, in parts of the doubt
 };
 
-/// What is to be looked at soon: the rest of memory is far.
-inline void fetch(const MeshTree& tree, std::uint32_t ref) {
-    if (is_leaf(ref)) {
-        const auto* lines = reinterpret_cast<const char*>(&tree.leaf(ref));
-        __builtin_prefetch(lines);
-        __builtin_prefetch(lines + 64);
-    } else {
-        const auto* lines = reinterpret_cast<const char*>(&tree.node(ref));
-        for (std::size_t at = 0; at < sizeof(MeshNode); at += 64) __builtin_prefetch(lines + at);
-    }
-}
-
 /// `point` goes a way of length 1; what is visited reckons in ways `unit` times as long.
 void on_line(const MeshTree& tree, const MovingBox<3>& point, double unit, MeshReachCall visit) {
     if (!(point.length >= 0)) return;
@@ -241,8 +229,6 @@ void on_line(const MeshTree& tree, const MovingBox<3>& point, double unit, MeshR
                 ref = node.child[lane];
                 if (bits == 0) continue;
                 const std::uint32_t other = next_lane(bits);
-                fetch(tree, ref);
-                fetch(tree, node.child[other]);
                 if (bits == 0) {
                     const bool other_first = times[other] < times[lane];
                     stack[waiting++] =
@@ -250,7 +236,6 @@ void on_line(const MeshTree& tree, const MovingBox<3>& point, double unit, MeshR
                     if (other_first) ref = node.child[other];
                     continue;
                 }
-                for (std::uint32_t more = bits; more != 0;) fetch(tree, node.child[next_lane(more)]);
                 bits |= 1u << lane | 1u << other;
                 waiting += nearest_last(bits, times, node.child, stack + waiting);
                 ref = stack[--waiting].ref;

@@ -7,6 +7,7 @@
 #include <abut/broad_phase/visit.hpp>
 #include <abut/math/aabb.hpp>
 #include <abut/math/function_ref.hpp>
+#include <abut/math/large_pages.hpp>
 #include <abut/math/ray.hpp>
 #include <abut/shape/triangle.hpp>
 
@@ -44,8 +45,8 @@ struct alignas(32) MeshNode : BvhRows<3> {
 static_assert(sizeof(MeshLeaf) == 128 && sizeof(MeshNode) == 224);
 
 struct MeshTree {
-    std::vector<MeshNode> nodes;
-    std::vector<MeshLeaf> leaves;
+    std::vector<MeshNode, LargePages<MeshNode>> nodes;
+    std::vector<MeshLeaf, LargePages<MeshLeaf>> leaves;
     std::vector<std::uint32_t> order;  ///< the triangles of the input, as they follow one another in the leaves
     std::array<BvhRoot<3>, 2> roots;   ///< as a Bvh has them; the second of a mesh is empty
 

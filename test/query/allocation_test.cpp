@@ -76,6 +76,7 @@ long allocations_of_all_questions(const View<D>& a, const View<D>& b, const Ray<
     turning.turn = Angle<D>(3);
     sweep(a, turning, b, Motion<D>{}, {.cache = &cache});
     sweep(b, Pose<D>{}, pose_at(turning, 1), a, Pose<D>{}, turning.from);
+    each_hit(ray, a, [](const Hit<D>&) {});
     if (const auto* convex = std::get_if<Convex<D>>(&a); convex != nullptr && has_features(*convex))
         closest_feature(*convex, DVec<D>(ray.origin));
     return allocations - before;

@@ -1,0 +1,16 @@
+#include <abut/math/large_pages.hpp>
+
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
+
+namespace abut {
+
+void prefer_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
+#ifdef __linux__
+    // Where it is refused, small pages do as well, only slower.
+    [[maybe_unused]] const int refused = madvise(memory, bytes, MADV_HUGEPAGE);
+#endif
+}
+
+}  // namespace abut

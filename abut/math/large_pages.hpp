@@ -1,0 +1,42 @@
+#pragma once
+
+// An allocator for large arrays that are read here and there: it asks the system for large pages, where there are any.
+// With small ones, to find where a page lies takes as long as to fetch what is on it.
+
+#include <cstddef>
+#include <new>
+
+namespace abut {
+
+inline constexpr std::size_t large_page = std::size_t{1} << 21;
+
+/// The memory, aligned to `large_page`, is better held in large pages. A wish: nothing else changes by it.
+void prefer_large_pages(void* memory, std::size_t bytes);
+
+template <class T>
+struct LargePages {
+    using value_type = T;
+
+    LargePages() = default;
+    template <class U>
+    LargePages(const LargePages<U>&) {}
+
+    T* allocate(std::size_t count) {
+        const std::size_t bytes = count * sizeof(T);
+        void* memory = ::operator new(bytes, alignment(count));
+        if (is_large(count)) prefer_large_pages(memory, bytes);
+        return static_cast<T*>(memory);
+    }
+    void deallocate(T* memory, std::size_t count) { ::operator delete(memory, alignment(count)); }
+
+    friend bool operator==(const LargePages&, const LargePages&) { return true; }
+
+private:
+    /// What is left over at the end has small pages.
+    static bool is_large(std::size_t count) { return count * sizeof(T) >= large_page; }
+    static std::align_val_t alignment(std::size_t count) {
+        return std::align_val_t{is_large(count) ? large_page : alignof(T)};
+    }
+};
+
+}  // namespace abut

@@ -1,0 +1,33 @@
+// Arrays of all sizes, at the places that they ask for.
+
+#include <abut/math/large_pages.hpp>
+
+#include <cstdint>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace abut {
+namespace {
+
+struct alignas(64) Line {
+    std::uint64_t number = 0;
+};
+
+TEST(LargePages, HoldWhatIsWrittenAndAreAligned) {
+    for (const std::size_t count : {std::size_t{1}, large_page / sizeof(Line) - 1, large_page / sizeof(Line),
+                                    3 * large_page / sizeof(Line) + 5}) {
+        std::vector<Line, LargePages<Line>> lines(count);
+        EXPECT_EQ(reinterpret_cast<std::uintptr_t>(lines.data()) % alignof(Line), 0u);
+        if (count * sizeof(Line) >= large_page) {
+            EXPECT_EQ(reinterpret_cast<std::uintptr_t>(lines.data()) % large_page, 0u);
+        }
+        for (std::size_t i = 0; i < count; ++i) lines[i].number = i;
+        lines.push_back({count});
+        lines.shrink_to_fit();
+        for (std::size_t i = 0; i <= count; ++i) ASSERT_EQ(lines[i].number, i);
+    }
+}
+
+}  // namespace
+}  // namespace abut
