@@ -209,11 +209,16 @@ void on_line(const MeshTree& tree, const MovingBox<3>& point, double unit, MeshR
     const LineToTriangles meets(point);
     BvhFound stack[most_waiting];
     std::size_t waiting = 0;
-    std::uint32_t ref = tree.root(0).ref;
+    BvhFound next{0, tree.root(0).ref};
     float most = not_less(reach), times[mesh_lanes];
     for (;;) {
-        if (is_leaf(ref)) {
-            const MeshLeaf& leaf = tree.leaf(ref);
+        while (next.measure <= most && !is_leaf(next.ref)) {
+            const MeshNode& node = tree.node(next.ref);
+            hwy::Prefetch(node.child);
+            next = nearest_of(meets_boxes(node, most, times), times, node.child, stack, waiting);
+        }
+        if (next.measure <= most) {
+            const MeshLeaf& leaf = tree.leaf(next.ref);
             for (std::uint32_t bits = meets(leaf, most); bits != 0;) {
                 const std::uint32_t lane = next_lane(bits);
                 const float wanted = visit(leaf.at(lane), tree.order[leaf.first + lane]);
@@ -221,32 +226,9 @@ void on_line(const MeshTree& tree, const MovingBox<3>& point, double unit, MeshR
                 if (reach < 0) return;
                 most = not_less(reach);
             }
-        } else {
-            const MeshNode& node = tree.node(ref);
-            std::uint32_t bits = meets_boxes(node, most, times);
-            if (bits != 0) {
-                const std::uint32_t lane = next_lane(bits);
-                ref = node.child[lane];
-                if (bits == 0) continue;
-                const std::uint32_t other = next_lane(bits);
-                if (bits == 0) {
-                    const bool other_first = times[other] < times[lane];
-                    stack[waiting++] =
-                        other_first ? BvhFound{times[lane], ref} : BvhFound{times[other], node.child[other]};
-                    if (other_first) ref = node.child[other];
-                    continue;
-                }
-                bits |= 1u << lane | 1u << other;
-                waiting += nearest_last(bits, times, node.child, stack + waiting);
-                ref = stack[--waiting].ref;
-                continue;
-            }
         }
-        do {
-            if (waiting == 0) return;
-            --waiting;
-        } while (stack[waiting].measure > most);
-        ref = stack[waiting].ref;
+        if (waiting == 0) return;
+        next = stack[--waiting];
     }
 }
 
@@ -254,10 +236,10 @@ void overlapping_boxes(const MeshTree& tree, const Aabb3& box, ItemCall visit) {
     overlapping<3>(tree, LeafBoxes{tree}, box, visit);
 }
 void along_boxes(const MeshTree& tree, const RayReach<3>& reach, ReachCall visit) {
-    within_either<RayLanes>(tree, LeafBoxes{tree}, reach, visit);
+    along<3>(tree, LeafBoxes{tree}, reach, visit);
 }
 void near_boxes(const MeshTree& tree, const BoxReach<3>& reach, ReachCall visit) {
-    within_either<BoxLanes>(tree, LeafBoxes{tree}, reach, visit);
+    near<3>(tree, LeafBoxes{tree}, reach, visit);
 }
 
 }  // namespace abut::HWY_NAMESPACE
