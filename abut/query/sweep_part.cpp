@@ -207,6 +207,8 @@ private:
         const double closing = dot(path_.direction, hit.normal);
         if (!(hit.along * closing > doubts_.touch)) return is_behind() ? Quick::misses : Quick::undecided;
         if ((hit.along - path_.length) * closing > doubts_.touch) return Quick::misses;
+        // All but there at the end, they are nearest elsewhere than where they would touch.
+        if (hit.along - path_.length > doubts_.touch) return Quick::undecided;
         touch.along = std::min(hit.along, path_.length);
         touch.normal = hit.normal;
         touch.started_inside = false;

@@ -120,8 +120,10 @@ private:
         Moment result{fraction, now.distance, -dot(motion_, now.normal)};
         // Where they just touch, the direction between two points is rounding.
         const double step = (1e-5 * size_ + 1e-2 * margin_) / length(motion_);
-        if (std::abs(now.distance) < 0.01 * margin_ && step > 0)
-            result.slope = std::min(result.slope, (truth_at(fraction + step).distance - now.distance) / step);
+        if (std::abs(now.distance) < 0.01 * margin_ && step > 0) {
+            const double secant = (truth_at(fraction + step).distance - now.distance) / step;
+            result.slope = secant < 0 ? secant : std::min(result.slope, secant);
+        }
         return result;
     }
     Truth<D> truth_at(double fraction) const { return oracle::truth(a_at(fraction), pair_.b.solid, Arithmetic::rough); }
