@@ -21,6 +21,7 @@
 #include <abut/math/ray.hpp>
 #include <abut/math/result.hpp>
 #include <abut/math/vec.hpp>
+#include <abut/motion/laser.hpp>
 #include <abut/query/certify.hpp>
 #include <abut/query/closest.hpp>
 #include <abut/query/contact.hpp>
@@ -31,10 +32,12 @@
 #include <abut/query/minkowski_sum.hpp>
 #include <abut/query/overlaps.hpp>
 #include <abut/query/polytope.hpp>
+#include <abut/query/ray_through.hpp>
 #include <abut/query/raycast.hpp>
 #include <abut/query/raycast_solid_bsp.hpp>
 #include <abut/query/sweep.hpp>
 #include <abut/query/sweep_turning.hpp>
+#include <abut/query/reflect.hpp>
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/capsule.hpp>
