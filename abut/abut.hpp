@@ -22,6 +22,7 @@
 #include <abut/math/result.hpp>
 #include <abut/math/vec.hpp>
 #include <abut/motion/laser.hpp>
+#include <abut/motion/rearrange.hpp>
 #include <abut/motion/removal_order.hpp>
 #include <abut/query/certify.hpp>
 #include <abut/query/closest.hpp>

@@ -3,56 +3,15 @@
 
 #include <abut/broad_phase/bvh.hpp>
 #include <abut/motion/margin.hpp>
+#include <abut/motion/shadow.hpp>
 #include <abut/motion/waits.hpp>
 #include <abut/query/closest.hpp>
-#include <abut/shape/polygon.hpp>
 
 #include <algorithm>
 #include <memory>
 
 namespace abut {
 namespace {
-
-/// A shape as seen along the direction: a polygon with a ball around it, or what its support function tells.
-class Shadow {
-public:
-    Shadow(const Convex<3>& shape, const DVec<3>& x, const DVec<3>& y)
-        : shape_(&shape), origin_(reference_point(shape)), x_(x), y_(y) {
-        const bool has_corners = shape.inner_radius == 0 && (shape.core == Core::points || shape.core == Core::box);
-        if (has_corners) {
-            std::vector<Vec2> corners;
-            const std::uint32_t count = shape.core == Core::box ? 8 : shape.count;
-            for (std::uint32_t i = 0; i < count; ++i)
-                corners.push_back(to_float(seen(shape.place.point(own_corner(shape, i)) - origin_)));
-            polygon_ = *Polygon::build(corners);
-            outline_ = abut::convex(polygon_);
-            outline_.radius = shape.radius;
-        } else {
-            outline_.core = Core::function;
-            outline_.object = this;
-            outline_.function = [](const void* object, const Vec2& direction) {
-                return static_cast<const Shadow*>(object)->farthest(direction);
-            };
-        }
-        outline_.place.offset = seen(origin_);
-    }
-    Shadow(const Shadow&) = delete;
-    Shadow& operator=(const Shadow&) = delete;
-
-    const Convex<2>& outline() const { return outline_; }
-
-private:
-    DVec<2> seen(const DVec<3>& v) const { return {dot(v, x_), dot(v, y_)}; }
-    Vec2 farthest(const Vec2& direction) const {
-        const DVec<3> lifted = x_ * static_cast<double>(direction.x) + y_ * static_cast<double>(direction.y);
-        return to_float(seen(support(*shape_, lifted) - origin_));
-    }
-
-    const Convex<3>* shape_;
-    DVec<3> origin_, x_, y_;
-    Polygon polygon_;
-    Convex<2> outline_;
-};
 
 MovingBox<3> on_its_way(const Aabb3& box, const DVec<3>& up, double length) {
     const DVec<3> min(box.min), max(box.max);
@@ -78,8 +37,7 @@ std::vector<Wait> waits(std::span<const Convex<3>> shapes, const DVec<3>& up) {
     const auto waits_for = [&](std::uint32_t lower, std::uint32_t upper) {
         const Convex<3>&a = shapes[lower], &b = shapes[upper];
         if (!(dot(DVec<3>(closest(a, b).normal), up) > 0)) return false;
-        const Closest<2> aside = closest(shadows[lower]->outline(), shadows[upper]->outline());
-        return static_cast<double>(aside.distance) < -margin_of_doubt(a, b);
+        return depth_aside(*shadows[lower], *shadows[upper]) > margin_of_doubt(a, b);
     };
     std::vector<Wait> result;
     for (std::uint32_t i = 0; i < shapes.size(); ++i) {

@@ -3,6 +3,7 @@
 #include "arrangements.hpp"
 #include <abut/motion/margin.hpp>
 #include <abut/motion/removal_order.hpp>
+#include <abut/motion/shadow.hpp>
 #include <abut/query/closest.hpp>
 #include <abut/query/sweep.hpp>
 
@@ -51,15 +52,6 @@ TEST(RemovalOrder, UprightRodsAndPoints) {
     EXPECT_EQ(removal_order(things.views(), {0, -1}).order, (std::vector<std::uint32_t>{0, 1, 2, 3}));
 }
 
-/// How far a has to go aside for it to pass b.
-template <int D>
-double aside(const Convex<D>& a, const Convex<D>& b, const DVec<D>& across) {
-    const auto reach = [&](const Convex<D>& shape, double sign) {
-        return dot(support(shape, across * sign), across * sign);
-    };
-    return std::min(reach(a, 1) + reach(b, -1), reach(a, -1) + reach(b, 1));
-}
-
 /// Whether an order takes all away without one running into another that is there: judged by `sweep`.
 void expect_takes_apart(std::span<const Convex<2>> shapes, const Vec2& direction,
                         const std::vector<std::uint32_t>& order, std::uint64_t seed) {
@@ -74,7 +66,7 @@ void expect_takes_apart(std::span<const Convex<2>> shapes, const Vec2& direction
         gone[i] = true;
         for (std::uint32_t j = 0; j < shapes.size(); ++j)
             if (!gone[j] && sweep(shapes[i], far, shapes[j])) {
-                ASSERT_LE(aside(shapes[i], shapes[j], DVec<2>(up.y, -up.x)), margin_of_doubt(shapes[i], shapes[j]))
+                ASSERT_LE(depth_aside(shapes[i], shapes[j], up), margin_of_doubt(shapes[i], shapes[j]))
                     << i << " runs into " << j << ", seed " << seed;
             }
     }
@@ -85,7 +77,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> all_waits(std::span<const C
     std::vector<std::pair<std::uint32_t, std::uint32_t>> result;
     for (std::uint32_t i = 0; i < shapes.size(); ++i)
         for (std::uint32_t j = 0; j < shapes.size(); ++j)
-            if (i != j && aside(shapes[i], shapes[j], DVec<2>(up.y, -up.x)) > margin_of_doubt(shapes[i], shapes[j]) &&
+            if (i != j && depth_aside(shapes[i], shapes[j], up) > margin_of_doubt(shapes[i], shapes[j]) &&
                 dot(DVec<2>(closest(shapes[i], shapes[j]).normal), up) > 0)
                 result.emplace_back(i, j);
     return result;

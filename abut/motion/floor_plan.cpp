@@ -1,0 +1,68 @@
+#include <abut/motion/floor_plan.hpp>
+#include <abut/motion/margin.hpp>
+#include <abut/motion/shadow.hpp>
+#include <abut/query/closest.hpp>
+#include <abut/query/sweep.hpp>
+
+namespace abut {
+namespace {
+
+template <int D>
+double farthest_corner(const Aabb<D>& box) {
+    DVec<D> corner;
+    for (int i = 0; i < D; ++i) corner[i] = static_cast<double>(std::max(std::abs(box.min[i]), std::abs(box.max[i])));
+    return length(corner);
+}
+
+}  // namespace
+
+template <int D>
+FloorPlan<D>::FloorPlan(std::span<const Convex<D>> shapes, std::span<const Pose<D>> poses)
+    : shapes_(shapes), poses_(poses.begin(), poses.end()) {
+    for (std::uint32_t i = 0; i < size(); ++i) {
+        placed_.push_back(placed_at(i, poses_[i]));
+        boxes_.push_back(bounds(placed_.back()));
+        reach_.push_back(farthest_corner(bounds(shapes_[i])));
+    }
+}
+
+template <int D>
+void FloorPlan<D>::put(std::uint32_t shape, const Pose<D>& pose) {
+    poses_[shape] = pose;
+    placed_[shape] = placed_at(shape, pose);
+    boxes_[shape] = bounds(placed_[shape]);
+}
+
+template <int D>
+bool FloorPlan<D>::meets(const Convex<D>& start, const Vec<D>& motion, std::uint32_t other) const {
+    const Convex<D>& obstacle = placed_[other];
+    const std::optional<Hit<D>> hit = sweep(start, motion, obstacle);
+    if (!hit) return false;
+    // How much deeper in it would go up to the end; and it may just touch what it passes.
+    const double margin = margin_of_doubt(start, obstacle), way = length(DVec<D>(motion));
+    const double left = (1 - static_cast<double>(hit->fraction)) * -dot(DVec<D>(motion), DVec<D>(hit->normal));
+    return left > margin && depth_aside(start, obstacle, DVec<D>(motion) / way) > margin;
+}
+
+template <int D>
+std::optional<std::uint32_t> FloorPlan<D>::met(std::uint32_t shape, const Vec<D>& to) const {
+    const Vec<D> motion = to_float(DVec<D>(to) - DVec<D>(poses_[shape].position));
+    const Aabb<D> end = bounds(placed_at(shape, Pose<D>{to, poses_[shape].rotation}));
+    const Aabb<D> way = merged(boxes_[shape], end);
+    for (std::uint32_t other = 0; other < size(); ++other)
+        if (other != shape && overlaps(way, boxes_[other]) && meets(placed_[shape], motion, other)) return other;
+    return std::nullopt;
+}
+
+template <int D>
+std::optional<std::uint32_t> FloorPlan<D>::near(std::uint32_t shape) const {
+    const Ball<D> room{poses_[shape].position, static_cast<float>(reach_[shape])};
+    for (std::uint32_t other = 0; other < size(); ++other)
+        if (other != shape && !(closest(room, placed_[other]).distance > 0)) return other;
+    return std::nullopt;
+}
+
+template class FloorPlan<2>;
+template class FloorPlan<3>;
+
+}  // namespace abut
