@@ -7,7 +7,7 @@
 namespace abut::tool {
 namespace {
 
-constexpr std::size_t most_frames = 1'000'000;
+constexpr std::size_t most_frames = 1'000'000, most_bounces = 100'000;
 
 // True where all of the text is one number.
 template <class Number>
@@ -34,6 +34,23 @@ Result<std::size_t> parse_frames(const std::string& text) {
     if (!parse(text, frames) || frames < 1 || frames > most_frames)
         return bad(text, "a whole number from 1 to 1000000");
     return frames;
+}
+
+Result<Vec3> parse_point(const std::string& text) {
+    const std::size_t first = text.find(','), second = text.find(',', first == std::string::npos ? first : first + 1);
+    Vec3 point{};
+    const bool is_point = second != std::string::npos && parse(text.substr(0, first), point.x) &&
+                          parse(text.substr(first + 1, second - first - 1), point.y) &&
+                          parse(text.substr(second + 1), point.z) && is_finite(point);
+    if (!is_point) return bad(text, "a point, three numbers with commas between them: X,Y,Z");
+    return point;
+}
+
+Result<std::size_t> parse_bounces(const std::string& text) {
+    std::size_t bounces = 0;
+    if (!parse(text, bounces) || bounces < 1 || bounces > most_bounces)
+        return bad(text, "a whole number from 1 to 100000");
+    return bounces;
 }
 
 Result<PairPattern> parse_pair(const std::string& text) {

@@ -16,6 +16,12 @@ Result<float> parse_length(const std::string& text);
 /// A number of frames, 1 to a million.
 Result<std::size_t> parse_frames(const std::string& text);
 
+/// X,Y,Z: three finite numbers.
+Result<Vec3> parse_point(const std::string& text);
+
+/// How often a ray is thrown back, 1 to a hundred thousand.
+Result<std::size_t> parse_bounces(const std::string& text);
+
 /// Two patterns with one ':' between them.
 Result<PairPattern> parse_pair(const std::string& text);
 

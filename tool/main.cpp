@@ -49,6 +49,25 @@ void describe(CLI::App& verb, CheckArguments& arguments) {
     verb.add_flag("--skip-degenerate", arguments.request.skip_degenerate, "Leave out triangles of zero area");
 }
 
+// What was typed for `abut cast`.
+struct CastArguments {
+    CastRequest request;
+    std::optional<std::string> from, to, bounces;
+};
+
+void describe(CLI::App& verb, CastArguments& arguments) {
+    verb.add_option("SCENE", arguments.request.scene, "glTF 2.0, or anything else that Assimp reads")->required();
+    verb.add_option("--from", arguments.from, "Where the ray starts")->type_name("X,Y,Z")->required();
+    verb.add_option("--to", arguments.to, "Where it goes to; without --bounces it ends there")
+        ->type_name("X,Y,Z")
+        ->required();
+    verb.add_option("--bounces", arguments.bounces, "Go on beyond --to, thrown back N times: all things are mirrors")
+        ->type_name("N");
+    verb.add_option("-o,--output", arguments.request.picture, "Draw a picture too")->type_name("PICTURE.svg");
+    verb.add_flag("--json", arguments.request.json, "One JSON object in place of text");
+    verb.add_flag("--skip-degenerate", arguments.request.skip_degenerate, "Leave out triangles of zero area");
+}
+
 void describe(CLI::App& verb, InfoRequest& request) {
     verb.add_option("FILE", request.scene, "glTF 2.0, or anything else that Assimp reads")->required();
     verb.add_flag("--json", request.json, "One JSON object in place of text");
@@ -78,6 +97,15 @@ Result<ExitCode> run_check(CheckArguments& arguments) {
     return run_check(arguments.request);
 }
 
+Result<ExitCode> run_cast(CastArguments& arguments) {
+    CastOptions& options = arguments.request.options;
+    std::optional<std::string> problem = understand("--from", arguments.from, parse_point, options.from);
+    if (!problem) problem = understand("--to", arguments.to, parse_point, options.to);
+    if (!problem) problem = understand("--bounces", arguments.bounces, parse_bounces, options.bounces);
+    if (problem) return Problem{ProblemCode::bad_argument, *problem};
+    return run_cast(arguments.request);
+}
+
 int run(int count, char** words) {
     CLI::App app("Collision checks for scenes: who touches whom, where, how deep and when.", "abut");
     app.set_version_flag("--version", "abut " ABUT_VERSION);
@@ -87,6 +115,9 @@ int run(int count, char** words) {
     CheckArguments check;
     CLI::App& check_verb = *app.add_subcommand("check", "Which objects of a scene touch, where, how deep and when");
     describe(check_verb, check);
+    CastArguments cast;
+    CLI::App& cast_verb = *app.add_subcommand("cast", "What a ray hits, or a laser from mirror to mirror");
+    describe(cast_verb, cast);
     InfoRequest info;
     CLI::App& info_verb = *app.add_subcommand("info", "What is in a scene");
     describe(info_verb, info);
@@ -95,12 +126,14 @@ int run(int count, char** words) {
         app.parse(count, words);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
-        const bool has_verb = check_verb.parsed() || info_verb.parsed();
+        const bool has_verb = check_verb.parsed() || cast_verb.parsed() || info_verb.parsed();
         if (!has_verb && count > 1 && words[1][0] != '-')
             return fail("'" + std::string(words[1]) + "' is not a verb; abut --help lists them");
         return fail(error.what());
     }
-    const Result<ExitCode> code = check_verb.parsed() ? run_check(check) : run_info(info);
+    const Result<ExitCode> code = check_verb.parsed()  ? run_check(check)
+                                  : cast_verb.parsed() ? run_cast(cast)
+                                                       : run_info(info);
     return code ? static_cast<int>(*code) : fail(code.problem().message);
 }
 

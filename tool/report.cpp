@@ -1,5 +1,7 @@
 #include "report.hpp"
 
+#include "written.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -16,21 +18,6 @@ constexpr std::size_t most_pairs = 100;
 constexpr std::size_t most_moments = 5;
 
 using Moments = std::vector<const Finding*>;
-
-std::string number(double value) {
-    return fmt::format("{:.4g}", value);
-}
-
-// Coordinates that are nothing beside the largest one are written as 0.
-std::string vector(const Vec3& v) {
-    const float most = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-    const auto one = [&](float value) { return std::abs(value) < 1e-4f * most ? "0" : number(value); };
-    return fmt::format("({}, {}, {})", one(v.x), one(v.y), one(v.z));
-}
-
-std::string counted(std::size_t count, const char* one, const char* many) {
-    return fmt::format("{} {}", count, count == 1 ? one : many);
-}
 
 Vec3 middle(const std::vector<Vec3>& points) {
     Vec3 sum{};

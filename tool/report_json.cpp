@@ -1,18 +1,10 @@
 #include "report_json.hpp"
 
+#include "written.hpp"
 #include <abut/io/file_bytes.hpp>
-
-#include <nlohmann/json.hpp>
 
 namespace abut::tool {
 namespace {
-
-// Keys stay in the order they are written in.
-using Json = nlohmann::ordered_json;
-
-Json numbers(const Vec3& v) {
-    return {v.x, v.y, v.z};
-}
 
 Json contact(const Report& report, const Finding& finding) {
     Json points = Json::array();
@@ -36,11 +28,6 @@ std::size_t solids(const Objects& objects) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < objects.size(); ++i) count += objects[i].solid ? 1 : 0;
     return count;
-}
-
-// Names come from files, and files hold any bytes.
-std::string written(const Json& json) {
-    return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 // A contact of a report, if it has what is needed.

@@ -1,10 +1,10 @@
 #include "progress.hpp"
 #include "report.hpp"
 #include "report_json.hpp"
+#include "stopwatch.hpp"
 #include "verbs.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <map>
 #include <utility>
 #include <vector>
@@ -16,21 +16,6 @@ namespace {
 
 // Keys farther apart than this leave room for things to pass through one another unseen.
 constexpr double long_gap = 0.25;
-
-class Stopwatch {
-public:
-    /// Seconds since the last lap.
-    double lap() {
-        const auto now = Clock::now();
-        const std::chrono::duration<double> passed = now - last_;
-        last_ = now;
-        return passed.count();
-    }
-
-private:
-    using Clock = std::chrono::steady_clock;
-    Clock::time_point last_ = Clock::now();
-};
 
 // A pattern that names nothing is a mistake, and would make a check that can't fail.
 std::optional<Problem> check_patterns(const CheckRequest& request, const Objects& objects) {

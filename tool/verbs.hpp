@@ -3,6 +3,7 @@
 // The verbs of the tool. Each prints its report on stdout and returns what the program exits with; what goes wrong
 // comes back as the one line for stderr, without the "abut: " before it.
 
+#include "cast.hpp"
 #include "check.hpp"
 #include <abut/math/result.hpp>
 
@@ -24,6 +25,17 @@ struct CheckRequest {
 };
 
 Result<ExitCode> run_check(const CheckRequest& request);
+
+struct CastRequest {
+    std::string scene;
+    std::optional<std::string> picture;  ///< a file to write one to, as SVG
+    bool json = false;
+    bool skip_degenerate = false;
+    CastOptions options;
+};
+
+/// The scene is taken at its first moment.
+Result<ExitCode> run_cast(const CastRequest& request);
 
 struct InfoRequest {
     std::string scene;

@@ -1,0 +1,34 @@
+#pragma once
+
+// What a ray through a scene hits, and what it hits after that where things are mirrors.
+
+#include "objects.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace abut::tool {
+
+struct CastOptions {
+    Vec3 from{}, to{};
+    std::size_t bounces = 0;  ///< none: the ray ends at `to`. Else it goes on without end, thrown back so many times
+};
+
+struct CastHit {
+    std::size_t object = 0;
+    Ray3 ray;  ///< the straight piece that ends in it
+    Hit<3> hit;
+    double travelled = 0;  ///< from `from`
+};
+
+struct CastResult {
+    std::vector<CastHit> hits;  ///< in order; one more than bounces at most
+    std::optional<Vec3> end;    ///< where the ray ends; none where it leaves the scene and goes on without end
+    Ray3 last;                  ///< the piece that hits nothing, or ends in the last hit
+};
+
+/// The objects are where they were last taken to.
+CastResult cast(const Objects& objects, const CastOptions& options);
+
+}  // namespace abut::tool

@@ -1,0 +1,100 @@
+#include "cast_report.hpp"
+#include <abut/draw/draw.hpp>
+#include <abut/draw/projected.hpp>
+#include <abut/draw/svg.hpp>
+#include <abut/math/dvec.hpp>
+
+#include <algorithm>
+
+namespace abut::tool {
+namespace {
+
+constexpr Style plain{{148, 163, 184, 120}, 0.7f}, hit_thing{{37, 99, 235, 200}, 1, {37, 99, 235, 26}};
+constexpr Style beam{{225, 29, 72}, 2}, unreached{{225, 29, 72, 130}, 1.5f, transparent, true};
+constexpr Color background{248, 250, 252};
+constexpr double picture_width = 1200;  // pixels, or height where that is more
+
+// Of an object of more triangles the box is drawn: it would be a blot, and a file of many megabytes.
+constexpr std::size_t most_triangles = 5000;
+
+// All corners of the ray, and a piece of what goes on without end.
+std::vector<Vec3> corners(const CastReport& report) {
+    std::vector<Vec3> points{report.options.from, report.options.to};
+    for (const CastHit& hit : report.result.hits) points.push_back(hit.hit.point);
+    return points;
+}
+
+// What of the world is shown: the ray with some room about it.
+Aabb3 surroundings(const std::vector<Vec3>& points) {
+    Aabb3 box = Aabb3::empty();
+    for (const Vec3& point : points) box = merged(box, Aabb3{point, point});
+    return grown(box, 0.15f * static_cast<float>(length(DVec<3>(box.max) - DVec<3>(box.min))));
+}
+
+// From the side of the ray, so that it is seen at its whole length, and somewhat from above.
+Vec3 towards_eye(const CastOptions& options) {
+    const DVec<3> along = DVec<3>(options.to) - DVec<3>(options.from);
+    const DVec<3> level = normalized(DVec<3>(-along.z, 0, along.x), axis<3>(2));
+    return to_float(normalized(level + DVec<3>(0, 0.6, 0)));
+}
+
+class NoCanvas final : public Canvas<2> {
+public:
+    Aabb2 shown() const override { return Aabb2::empty(); }
+    void line(const Vec2&, const Vec2&, const Style&) override {}
+    void point(const Vec2&, const Style&) override {}
+};
+
+// The part of the plane on which a box of space is seen.
+Aabb2 seen(const Aabb3& box, const Vec3& eye) {
+    NoCanvas none;
+    const Projected view(none, box, eye, {0, 1, 0});
+    Aabb2 result = Aabb2::empty();
+    for (int i = 0; i < 8; ++i) {
+        const Vec2 corner = view({(i & 1) != 0 ? box.max.x : box.min.x, (i & 2) != 0 ? box.max.y : box.min.y,
+                                  (i & 4) != 0 ? box.max.z : box.min.z});
+        result = merged(result, Aabb2{corner, corner});
+    }
+    return result;
+}
+
+void draw_object(Canvas<3>& canvas, const Objects& objects, const Object& object, const Style& style) {
+    if (!object.present || !overlaps(object.box, canvas.shown())) return;
+    if (objects.model_of(object).surface.triangles.size() > most_triangles)
+        draw(canvas, object.box, style);
+    else
+        draw(canvas, object.placed, style);
+}
+
+void draw_ray(Canvas<3>& canvas, const CastReport& report) {
+    const CastResult& result = report.result;
+    for (const CastHit& hit : result.hits) draw(canvas, Ray3::between(hit.ray.origin, hit.hit.point), beam);
+    if (result.hits.empty() || !result.end) draw(canvas, result.last, beam);
+    if (report.options.bounces == 0 && !result.hits.empty())
+        canvas.line(result.hits.front().hit.point, report.options.to, unreached);
+    canvas.point(report.options.from, beam);
+    canvas.point(report.options.to, unreached);
+    for (const CastHit& hit : result.hits) draw(canvas, hit.hit, beam);
+}
+
+}  // namespace
+
+std::string picture(const CastReport& report) {
+    const Aabb3 shown = surroundings(corners(report));
+    const Vec3 eye = towards_eye(report.options);
+    const Aabb2 plane = seen(shown, eye);
+    const double extent =
+        std::max(static_cast<double>(plane.max.x - plane.min.x), static_cast<double>(plane.max.y - plane.min.y));
+    SvgCanvas paper(plane, static_cast<float>(picture_width / extent), background);
+    Projected view(paper, shown, eye, {0, 1, 0});
+
+    std::vector<bool> is_hit(report.objects.size(), false);
+    for (const CastHit& hit : report.result.hits) is_hit[hit.object] = true;
+    for (const bool hit : {false, true})
+        for (std::size_t i = 0; i < report.objects.size(); ++i)
+            if (is_hit[i] == hit) draw_object(view, report.objects, report.objects[i], hit ? hit_thing : plain);
+    draw_ray(view, report);
+    return paper.document();
+}
+
+}  // namespace abut::tool
