@@ -1,11 +1,19 @@
-// Pick what the mouse is over: the topmost of the things on a screen that hold the point.
+// Pick what the mouse is over: on a screen the topmost of the things that hold the point, by the game's own order; in
+// space the first thing that the ray through the mouse meets.
 #include <abut/abut.hpp>
 
 #include <cstdio>
+#include <optional>
 
-int main() {
-    enum Thing : std::uint64_t { nothing, window, button, badge };  // from back to front
+#include <glm/ext/matrix_clip_space.hpp>
+#include <glm/ext/matrix_transform.hpp>
+
+namespace {
+
+bool pick_on_a_screen() {
+    enum Thing : std::uint64_t { nothing, window, button, badge };
     const char* const names[] = {"nothing", "window", "button", "badge"};
+    const int layer[] = {-1, 0, 1, 1};  // what is drawn over what; of two on one layer, the one that came later
 
     abut::World2 screen;
     screen.add(abut::Box2{{400, 300}, {300, 200}}, {.user = window});
@@ -14,12 +22,36 @@ int main() {
 
     const auto under = [&](abut::Vec2 mouse) {
         std::uint64_t top = nothing;
-        for (const abut::Id id : screen.containing(mouse)) top = std::max(top, screen.user(id));
+        for (const abut::Id id : screen.containing(mouse))  // in the order in which they came
+            if (layer[screen.user(id)] >= layer[top]) top = screen.user(id);
         std::printf("at %g, %g: %s\n", mouse.x, mouse.y, names[top]);
         return top;
     };
-    const bool right = under({400, 200}) == button && under({468, 218}) == badge && under({120, 450}) == window &&
-                       under({331, 181}) == window &&  // the corner that isn't there
-                       under({50, 50}) == nothing;
-    return right ? 0 : 1;
+    return under({400, 200}) == button && under({468, 218}) == badge && under({120, 450}) == window &&
+           under({331, 181}) == window &&  // the corner that isn't there
+           under({50, 50}) == nothing;
+}
+
+bool pick_in_space() {
+    const glm::mat4 view = glm::lookAtRH(abut::Vec3(0, 2, 10), abut::Vec3(0), abut::Vec3(0, 1, 0));
+    const glm::mat4 projection = glm::perspectiveRH_ZO(1.0f, 800.0f / 600.0f, 0.1f, 100.0f);
+    const abut::Vec2 window(800, 600);
+
+    abut::World3 world;
+    const abut::Id crate = world.add(abut::Box3{{0, 0, 0}, {1, 1, 1}});
+    const abut::Id ball = world.add(abut::Sphere{{0, 0, -8}, 3});  // behind the crate, and larger
+
+    const auto under = [&](abut::Vec2 mouse) -> abut::Id {
+        const abut::Ray3 ray = abut::ray_through(mouse, window, projection * view, abut::clip_zero_to_one);
+        const auto hit = world.raycast(ray);
+        if (hit) std::printf("at %g, %g: item %u\n", mouse.x, mouse.y, hit->id.index);
+        return hit ? hit->id : abut::Id{};
+    };
+    return under({400, 300}) == crate && under({480, 240}) == ball && !under({10, 10});
+}
+
+}  // namespace
+
+int main() {
+    return pick_on_a_screen() && pick_in_space() ? 0 : 1;
 }

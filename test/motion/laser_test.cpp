@@ -134,16 +134,23 @@ void stays_in_the_room(Walls kind, bool with_ball, int rooms, std::uint64_t seed
 }
 
 TEST(Laser, StaysAmongHalfSpaces2) {
-    stays_in_the_room<2>(Walls::half_spaces, false, 200, 71);
+    stays_in_the_room<2>(Walls::half_spaces, false, 250, 71);
 }
 TEST(Laser, StaysAmongHalfSpaces3) {
-    stays_in_the_room<3>(Walls::half_spaces, false, 200, 72);
+    stays_in_the_room<3>(Walls::half_spaces, false, 250, 72);
 }
 TEST(Laser, StaysAmongBoxes2) {
-    stays_in_the_room<2>(Walls::boxes, true, 200, 73);
+    stays_in_the_room<2>(Walls::boxes, true, 250, 73);
 }
 TEST(Laser, StaysAmongBoxes3) {
-    stays_in_the_room<3>(Walls::boxes, true, 200, 74);
+    stays_in_the_room<3>(Walls::boxes, true, 250, 74);
+}
+
+TEST(Laser, StaysAmongSegments) {
+    stays_in_the_room<2>(Walls::thin, true, 250, 75);
+}
+TEST(Laser, StaysInAMesh) {
+    stays_in_the_room<3>(Walls::thin, true, 250, 76);
 }
 
 }  // namespace

@@ -1,86 +1,19 @@
 // The tool as its users see it: arguments in, stdout, stderr and an exit code out.
 
-#include "../io/gltf_builder.hpp"
+#include "tool_runs.hpp"
 
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
+#include <algorithm>
 #include <limits>
-#include <sstream>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
-#include <sys/wait.h>
 
 namespace abut {
 namespace {
 
-using Json = nlohmann::json;
 using test::box_triangles;
 using test::GltfBuilder;
+using test::Json;
+using test::Ran;
 
-struct Ran {
-    int code = -1;
-    std::string out, err;
-};
-
-class Tool : public test::SceneFiles {
-protected:
-    /// Each argument as one word, whatever is in it.
-    Ran run(const std::vector<std::string>& arguments) const {
-        std::string command = quoted(ABUT_TOOL_FILE);
-        for (const std::string& argument : arguments) command += " " + quoted(argument);
-        const std::filesystem::path out = folder() / "stdout";
-        const std::filesystem::path err = folder() / "stderr";
-        command += " >" + quoted(out.string()) + " 2>" + quoted(err.string());
-        const int status = std::system(command.c_str());
-        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(out), content(err)};
-    }
-
-    /// Bad input and bad usage look the same: nothing on stdout, one line on stderr, exit code 2.
-    std::string refusal(const std::vector<std::string>& arguments) const {
-        const Ran ran = run(arguments);
-        EXPECT_EQ(ran.code, 2);
-        EXPECT_EQ(ran.out, "");
-        EXPECT_TRUE(ran.err.starts_with("abut: ")) << ran.err;
-        EXPECT_TRUE(ran.err.ends_with("\n"));
-        EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
-        return ran.err.substr(0, ran.err.size() - (ran.err.empty() ? 0 : 1));
-    }
-    /// What the refusal of a file says behind its name.
-    std::string refusal_of(const std::string& name, std::string_view content) const {
-        const std::string file = write(name, content).string();
-        const std::string line = refusal({"check", file});
-        const std::string begins = "abut: " + file + ": ";
-        EXPECT_TRUE(line.starts_with(begins)) << line;
-        return line.substr(std::min(line.size(), begins.size()));
-    }
-
-    Json checked(const std::vector<std::string>& arguments, int code) const {
-        std::vector<std::string> all{"check", "--json"};
-        all.insert(all.end(), arguments.begin(), arguments.end());
-        const Ran ran = run(all);
-        EXPECT_EQ(ran.code, code) << ran.err;
-        EXPECT_EQ(ran.err, "");
-        return Json::parse(ran.out);
-    }
-
-    static std::string content(const std::filesystem::path& file) {
-        std::ostringstream text;
-        text << std::ifstream(file, std::ios::binary).rdbuf();
-        return text.str();
-    }
-
-private:
-    static std::string quoted(const std::string& word) {
-        std::string result = "'";
-        for (const char c : word) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-        return result + "'";
-    }
-};
+class Tool : public test::ToolRuns {};
 
 /// Boxes with edges of length 1 along x.
 std::string boxes_at(const std::vector<float>& xs) {
