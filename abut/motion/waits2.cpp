@@ -1,6 +1,7 @@
 // Guibas, Yao, "On translating a set of rectangles" (1980), for any convex shapes: a line parallel to the direction
-// sweeps over the plane, and knows in which order the shapes on it lie above one another. Two that become neighbours on
-// the line are told. Whatever lies above another at some place does so by a chain of such neighbours.
+// sweeps over the plane, and knows in which order the shapes on it lie above one another. A shape that begins is told
+// with its neighbours on the line. Whatever lies above another at some place does so by a chain of such pairs: one that
+// ends was above what is below it, and below what is above.
 
 #include <abut/motion/waits.hpp>
 
@@ -99,20 +100,15 @@ std::vector<Wait> waits(std::span<const Convex<2>> shapes, const DVec<2>& up) {
         if (here != on_line.begin()) result.push_back({*std::prev(here), shape});
         if (above != on_line.end()) result.push_back({shape, *above});
     };
-    const auto take = [&](std::uint32_t shape) {
-        const auto above = on_line.erase(place[shape]);
-        if (above != on_line.begin() && above != on_line.end()) result.push_back({*std::prev(above), *above});
-    };
-
     const std::vector<Event> events = events_of(spines);
     for (std::size_t i = 0; i < events.size(); ++i) {
         if (events[i].kind == EventKind::begins) put(events[i].shape);
-        if (events[i].kind == EventKind::ends) take(events[i].shape);
+        if (events[i].kind == EventKind::ends) on_line.erase(place[events[i].shape]);
         if (events[i].kind != EventKind::passes) continue;
         std::size_t end = i;
         while (end < events.size() && events[end].kind == EventKind::passes && events[end].x == events[i].x)
             put(events[end++].shape);
-        for (std::size_t j = i; j < end; ++j) take(events[j].shape);
+        for (std::size_t j = i; j < end; ++j) on_line.erase(place[events[j].shape]);
         i = end - 1;
     }
     return result;

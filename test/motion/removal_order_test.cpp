@@ -269,6 +269,27 @@ TEST(RemovalOrder, OfPackedBoxesAlongAnAxis) {
     }
 }
 
+TEST(RemovalOrder, OfPackedBoxesThatAreTurnedTogether) {
+    // They slide along one another but for rounding, which is not to make them wait for one another in a ring.
+    constexpr std::uint64_t seed = 68;
+    oracle::Random random(seed);
+    for (int repeat = 0; repeat < 100; ++repeat) {
+        const auto size = static_cast<float>(random.power_of_two(-6, 8));
+        const Pose3 pose{Vec3(random.in_cube<3>()) * (30 * size), random.rotation<3>()};
+        std::vector<Box3> boxes;
+        for (int i = 0; i < 64; ++i) {
+            // Like bricks: every other layer is moved by half a box.
+            const float shift = i / 16 % 2 == 0 ? 0 : 0.5f;
+            const Vec3 place(static_cast<float>(i % 4) + shift, static_cast<float>(i / 4 % 4) + shift,
+                             static_cast<float>(i / 16));
+            boxes.push_back({pose * (place * size), Vec3(0.5f * size), pose.rotation});
+        }
+        const Vec3 axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+        for (const Vec3& axis : axes)
+            ASSERT_TRUE(removal_order(boxes, rotate(pose.rotation, axis))) << "seed " << seed << ", repeat " << repeat;
+    }
+}
+
 TEST(RemovalOrder, OfThingsOfAllKindsInSpaceIsJudgedBySweeps) {
     constexpr std::uint64_t seed = 67;
     oracle::Random random(seed);
