@@ -36,7 +36,7 @@ int main(int count, char** arguments) {
     std::vector<abut::Pose2> to = square.poses;
     std::swap(to[0].position, to[4].position);
     std::swap(to[1].position, to[3].position);
-    for (const std::size_t corner : {0, 1, 3, 4}) to[corner].rotation = {-1, 0};
+    for (const std::size_t corner : {0u, 1u, 3u, 4u}) to[corner].rotation = {-1, 0};
 
     const abut::Rearrangement<2> plan = rearrange(square.pieces, square.poses, to);
     if (!plan) return 1;

@@ -1,5 +1,6 @@
 // Lasers between mirrors: they stay in the room, for a million bounces.
 
+#include "../broad_phase/allocations.hpp"
 #include "../oracle/random.hpp"
 #include <abut/motion/laser.hpp>
 #include <abut/shape/ball.hpp>
@@ -23,6 +24,11 @@ struct Room {
     std::vector<std::pair<DVec<D>, double>> walls;  ///< normal into the room, and offset
     double size = 0;
 
+    Vec<D> middle() const {
+        DVec<D> sum(0.0);
+        for (const auto& [normal, offset] : walls) sum += normal * (0.5 * offset);
+        return to_float(sum);
+    }
     /// The least height above a wall.
     double inside(const Vec<D>& point) const {
         double least = std::numeric_limits<double>::infinity();
@@ -99,12 +105,10 @@ void stays_in_the_room(Walls kind, bool with_ball, int rooms, std::uint64_t seed
     for (int r = 0; r < rooms; ++r) {
         const double size = random.power_of_two(-10, 14), far = size * random.power_of_two(-4, 9);
         Room<D> room = make_room<D>(random, kind, size, far);
-        DVec<D> sum(0.0);
-        for (const auto& [normal, offset] : room.walls) sum += normal * (0.5 * offset);
-        const Vec<D> middle = to_float(sum);
+        const Vec<D> middle = room.middle();
         if (with_ball) {
             const DVec<D> aside = random.direction<D>() * (0.02 * size);
-            room.world.add(Ball<D>{to_float(sum + aside), static_cast<float>(0.01 * size)});
+            room.world.add(Ball<D>{to_float(DVec<D>(middle) + aside), static_cast<float>(0.01 * size)});
         }
         const double margin = 1e-5 * size + 16 * 6e-8 * (far + 2 * size);
         int left = bounces, at_once = 0;
@@ -151,6 +155,38 @@ TEST(Laser, StaysAmongSegments) {
 }
 TEST(Laser, StaysInAMesh) {
     stays_in_the_room<3>(Walls::thin, true, 250, 76);
+}
+
+TEST(Laser, StopsWhereTheVisitorSaysAndWhereNothingIs) {
+    World2 world;
+    const Id mirror = world.add(Box2{{5, 0}, {1, 9}}), wall = world.add(Box2{{-5, 0}, {1, 9}});
+    std::vector<Id> hit;
+    const Ray2 start{{0, 0}, {1, 0}};
+    follow_laser(world, start, [&](const Ray2&, const WorldHit<2>& next) {
+        hit.push_back(next.id);
+        return next.id == mirror;
+    });
+    EXPECT_EQ(hit, (std::vector<Id>{mirror, wall}));
+    world.remove(wall);
+    const Ray2 last = follow_laser(world, start, [](const Ray2&, const WorldHit<2>&) { return true; });
+    EXPECT_EQ(last.direction, Vec2(-1, 0));
+    EXPECT_EQ(last.length, std::numeric_limits<float>::infinity());
+    // The length of the ray is that of all pieces together.
+    const Ray2 rest = follow_laser(world, {{0, 0}, {1, 0}, 10}, [](const Ray2&, const WorldHit<2>&) { return true; });
+    EXPECT_NEAR(rest.length, 6, 1e-4);
+    EXPECT_FALSE(Laser<2>(world, {{0, 0}, {0, 1}}).hit());
+}
+
+TEST(Laser, AllocatesNothing) {
+    oracle::Random random(77);
+    Room<3> room = make_room<3>(random, Walls::thin, 3, 5);
+    room.world.update();
+    int left = 1000;
+    const std::size_t before = test::allocations();
+    follow_laser(room.world, first_ray<3>(random, room, room.middle()),
+                 [&](const Ray3&, const WorldHit<3>&) { return --left > 0; });
+    EXPECT_EQ(test::allocations(), before);
+    EXPECT_EQ(left, 0);
 }
 
 }  // namespace
