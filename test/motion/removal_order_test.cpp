@@ -6,6 +6,7 @@
 #include <abut/motion/shadow.hpp>
 #include <abut/query/closest.hpp>
 #include <abut/query/sweep.hpp>
+#include <abut/shape/cylinder.hpp>
 
 #include <algorithm>
 #include <numeric>
@@ -287,6 +288,26 @@ TEST(RemovalOrder, OfPackedBoxesThatAreTurnedTogether) {
         const Vec3 axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
         for (const Vec3& axis : axes)
             ASSERT_TRUE(removal_order(boxes, rotate(pose.rotation, axis))) << "seed " << seed << ", repeat " << repeat;
+    }
+}
+
+TEST(RemovalOrder, OfCansOnAShelf) {
+    // Known by their support functions as they are seen from above or aside; they touch on all sides.
+    constexpr std::uint64_t seed = 69;
+    oracle::Random random(seed);
+    for (int repeat = 0; repeat < 20; ++repeat) {
+        const Pose3 pose{Vec3(random.in_cube<3>() * 5.0), repeat == 0 ? no_rotation<3> : random.rotation<3>()};
+        std::vector<Cylinder> cans;
+        for (int i = 0; i < 27; ++i) {
+            const Vec3 foot(static_cast<float>(i % 3), static_cast<float>(i / 3 % 3), static_cast<float>(i / 9) * 2);
+            cans.push_back({pose * foot, pose * (foot + Vec3(0, 0, 2)), 0.5f});
+        }
+        const RemovalOrder up = removal_order(cans, rotate(pose.rotation, Vec3(0, 0, 1)));
+        ASSERT_TRUE(up) << "seed " << seed << ", repeat " << repeat;
+        const auto is_above = [](std::uint32_t i, std::uint32_t j) { return i % 9 == j % 9 && i > j; };
+        expect_above_first(up.order, cans.size(), is_above);
+        EXPECT_TRUE(removal_order(cans, rotate(pose.rotation, Vec3(1, 0, 0))))
+            << "seed " << seed << ", repeat " << repeat;
     }
 }
 
