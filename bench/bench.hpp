@@ -48,5 +48,7 @@ std::vector<Bench> motion_straight_benches();
 std::vector<Bench> motion_turning_benches();
 /// Rays at meshes, and building for them.
 std::vector<Bench> ray_benches();
+/// In which order things can be taken away.
+std::vector<Bench> removal_benches();
 
 }  // namespace abut::bench

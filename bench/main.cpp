@@ -36,6 +36,7 @@ std::vector<Bench> all_benches() {
     std::ranges::move(motion_straight_benches(), std::back_inserter(result));
     std::ranges::move(motion_turning_benches(), std::back_inserter(result));
     std::ranges::move(ray_benches(), std::back_inserter(result));
+    std::ranges::move(removal_benches(), std::back_inserter(result));
     return result;
 }
 
