@@ -37,9 +37,9 @@
 #include <abut/query/ray_through.hpp>
 #include <abut/query/raycast.hpp>
 #include <abut/query/raycast_solid_bsp.hpp>
+#include <abut/query/reflect.hpp>
 #include <abut/query/sweep.hpp>
 #include <abut/query/sweep_turning.hpp>
-#include <abut/query/reflect.hpp>
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/capsule.hpp>

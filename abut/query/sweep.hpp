@@ -5,6 +5,7 @@
 #include <abut/math/ray.hpp>
 #include <abut/query/hit.hpp>
 #include <abut/query/options.hpp>
+#include <abut/query/sweep_turning.hpp>
 #include <abut/shape/view.hpp>
 
 #include <optional>
