@@ -144,6 +144,11 @@ void BruteForce<D>::visit_along(const Ray<D>& ray, ReachCall visit) const {
 }
 
 template <int D>
+void BruteForce<D>::visit_along(const MovingBox<D>& box, ReachCall visit) const {
+    visit_within(RayReach<D>::of_box(box), visit);
+}
+
+template <int D>
 void BruteForce<D>::visit_near(const Aabb<D>& box, float reach, ReachCall visit) const {
     visit_within(BoxReach<D>(box, reach), visit);
 }

@@ -1,9 +1,11 @@
 // Pairs: the lists of a node with one another, and what a node keeps with what is below it. The pair is told where the
-// lower corner of its overlap is; that corner is in some cell with both boxes, and in no other.
+// lower corner of its overlap is; that corner is in some cell with both boxes, and in no other. So are regions, and the
+// ways of boxes in pieces.
 
 #include <abut/broad_phase/boxes.hpp>
 #include <abut/broad_phase/bsp.hpp>
 #include <abut/broad_phase/pair_buffer.hpp>
+#include <abut/broad_phase/sweep_pieces.hpp>
 #include <abut/broad_phase/tell_together.hpp>
 
 #include <algorithm>
@@ -142,6 +144,17 @@ void Bsp<D>::visit_overlapping(const Aabb<D>& box, ItemCall visit) const {
 }
 
 template <int D>
+void Bsp<D>::visit_along(const MovingBox<D>& box, ReachCall visit) const {
+    // No cell is of a size that is like that of others.
+    double widest = 0;
+    for (int i = 0; i < D; ++i)
+        widest = std::max(widest, static_cast<double>(bounds_.max[i]) - static_cast<double>(bounds_.min[i]));
+    WayPieces<D>(box, bounds_, widest / 32).each(visit, [&](const Aabb<D>& piece, auto told) {
+        each_below(tree_, 0, bounds_.min, piece, [&](const BspItem<D>& item) { return told(item.index, item.box); });
+    });
+}
+
+template <int D>
 void Bsp<D>::visit_pairs(PairsCall visit, Executor* executor) const {
     if (is_empty(bounds_)) return;
     if (executor == nullptr || executor->workers() < 2) {
@@ -177,6 +190,7 @@ void Bsp<D>::visit_boxes(BoxCall<D> visit) const {
 
 #define ABUT_INSTANTIATE(D)                                                  \
     template void Bsp<D>::visit_overlapping(const Aabb<D>&, ItemCall) const; \
+    template void Bsp<D>::visit_along(const MovingBox<D>&, ReachCall) const; \
     template void Bsp<D>::visit_pairs(PairsCall, Executor*) const;           \
     template void Bsp<D>::visit_pairs(const Bsp&, PairsCall) const;          \
     template void Bsp<D>::visit_boxes(BoxCall<D>) const;

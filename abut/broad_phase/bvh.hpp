@@ -38,12 +38,6 @@ public:
     /// still, an empty one.
     void erase(std::uint32_t index);
 
-    /// As raycast, for a box on its way; the visitor's reach is in lengths of its direction.
-    template <ReachVisitor F>
-    void sweep(const MovingBox<D>& box, F&& visit) const {
-        visit_along(box, reach_after(visit));
-    }
-
     std::size_t size() const { return tree_.size(); }
     /// Of all boxes together; Aabb::empty() where there is none.
     Aabb<D> bounds() const { return tree_.bounds(); }

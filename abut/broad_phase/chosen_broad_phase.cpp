@@ -139,6 +139,11 @@ void ChosenBroadPhase<D>::visit_along(const Ray<D>& ray, ReachCall visit) const 
 }
 
 template <int D>
+void ChosenBroadPhase<D>::visit_along(const MovingBox<D>& box, ReachCall visit) const {
+    std::visit([&](const auto& phase) { phase.sweep(box, visit); }, phase_);
+}
+
+template <int D>
 void ChosenBroadPhase<D>::visit_near(const Aabb<D>& box, float reach, ReachCall visit) const {
     std::visit([&](const auto& phase) { phase.closest(box, visit, reach); }, phase_);
 }

@@ -29,12 +29,13 @@ namespace abut {
 /// - `each_overlapping_pair(other, visit)`: every `visit(i, j)` where item i of this overlaps item j of the other.
 /// - `raycast(ray, visit)`: the items whose box the ray touches, each once, roughly front to back; the reach is a
 ///   distance along the ray, at first its length.
+/// - `sweep(moving_box, visit)`: the same for a box on its way; the reach is in lengths of its direction.
 /// - `closest(point, visit, reach = infinity)`: the items whose box is no farther than the reach, each once, roughly
 ///   nearest first, from a point or from a box. The visitor works out the distance to its own item and may return it as
 ///   the new reach.
 ///
-/// `raycast` and `closest` may visit an item that they miss by rounding (one part in a million of the reach), and never
-/// leave out one that they touch: equal distances all come, so that an answer need not depend on the order.
+/// `raycast`, `sweep` and `closest` may visit an item that they miss by rounding (one part in a million of the reach),
+/// and never leave out one that they touch: equal distances all come, so that an answer need not depend on the order.
 /// What visitors may return is told at Visitor and ReachVisitor.
 ///
 /// A box may be without bound on any side. An empty box (min > max on some axis) is an item that is never visited. So
@@ -46,9 +47,10 @@ namespace abut {
 template <class T, int D>
 concept BroadPhase = std::semiregular<T> &&
     requires(T& changing, const T& phase, std::span<const Aabb<D>> boxes, const Aabb<D>& box, const Ray<D>& ray,
-             const Vec<D>& point, float reach, void (*each)(std::uint32_t), bool (*until)(std::uint32_t),
-             float (*within)(std::uint32_t), void (*each_pair)(std::uint32_t, std::uint32_t),
-             bool (*until_pair)(std::uint32_t, std::uint32_t), std::vector<ItemPair>& out, Executor* executor) {
+             const MovingBox<D>& moving, const Vec<D>& point, float reach, void (*each)(std::uint32_t),
+             bool (*until)(std::uint32_t), float (*within)(std::uint32_t),
+             void (*each_pair)(std::uint32_t, std::uint32_t), bool (*until_pair)(std::uint32_t, std::uint32_t),
+             std::vector<ItemPair>& out, Executor* executor) {
     changing.build(boxes);
     changing.build(boxes, executor);
     changing.update(boxes);
@@ -64,6 +66,9 @@ concept BroadPhase = std::semiregular<T> &&
     phase.raycast(ray, each);
     phase.raycast(ray, until);
     phase.raycast(ray, within);
+    phase.sweep(moving, each);
+    phase.sweep(moving, until);
+    phase.sweep(moving, within);
     phase.closest(point, each);
     phase.closest(point, until, reach);
     phase.closest(box, within, reach);

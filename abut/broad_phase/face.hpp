@@ -51,6 +51,10 @@ public:
         phase().visit_along(ray, reach_after(visit));
     }
     template <ReachVisitor F>
+    void sweep(const MovingBox<D>& box, F&& visit) const {
+        phase().visit_along(box, reach_after(visit));
+    }
+    template <ReachVisitor F>
     void closest(const Aabb<D>& box, F&& visit, float reach = std::numeric_limits<float>::infinity()) const {
         phase().visit_near(box, reach, reach_after(visit));
     }

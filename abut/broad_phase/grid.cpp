@@ -6,11 +6,13 @@
 #include <abut/broad_phase/grid_plan.hpp>
 #include <abut/broad_phase/grid_queries.hpp>
 #include <abut/broad_phase/pair_buffer.hpp>
+#include <abut/broad_phase/sweep_pieces.hpp>
 #include <abut/broad_phase/tell_together.hpp>
 #include <abut/math/assert.hpp>
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 namespace abut {
 namespace {
@@ -244,6 +246,16 @@ void Grid<D>::visit_within(Reach reach, ReachCall visit) const {
 template <int D>
 void Grid<D>::visit_along(const Ray<D>& ray, ReachCall visit) const {
     visit_within(RayReach<D>(ray), visit);
+}
+
+template <int D>
+void Grid<D>::visit_along(const MovingBox<D>& box, ReachCall visit) const {
+    // It takes a look at all boxes to know their bounds.
+    constexpr float far = std::numeric_limits<float>::infinity();
+    WayPieces<D> pieces(box, {Vec<D>(-far), Vec<D>(far)}, static_cast<double>(cells_.edge));
+    pieces.each(visit, [&](const Aabb<D>& piece, auto told) {
+        visit_overlapping(piece, [&](std::uint32_t index) { return told(index, boxes_[index]); });
+    });
 }
 
 template <int D>

@@ -49,6 +49,7 @@ private:
     void visit_boxes(BoxCall<D> visit) const;
     void visit_overlapping(const Aabb<D>& box, ItemCall visit) const;
     void visit_along(const Ray<D>& ray, ReachCall visit) const;
+    void visit_along(const MovingBox<D>& box, ReachCall visit) const;
     void visit_near(const Aabb<D>& box, float reach, ReachCall visit) const;
 
     std::size_t size_ = 0;

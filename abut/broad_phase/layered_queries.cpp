@@ -209,6 +209,11 @@ void LayeredGrid<D>::visit_along(const Ray<D>& ray, ReachCall visit) const {
 }
 
 template <int D>
+void LayeredGrid<D>::visit_along(const MovingBox<D>& box, ReachCall visit) const {
+    NearestFirst<D, RayReach<D>>(items_, RayReach<D>::of_box(box)).run(visit);
+}
+
+template <int D>
 void LayeredGrid<D>::visit_near(const Aabb<D>& box, float reach, ReachCall visit) const {
     NearestFirst<D, BoxReach<D>>(items_, BoxReach<D>(box, reach)).run(visit);
 }
@@ -222,7 +227,9 @@ template void LayeredGrid<3>::visit_boxes(BoxCall<3>) const;
 template void LayeredGrid<2>::visit_overlapping(const Aabb<2>&, ItemCall) const;
 template void LayeredGrid<3>::visit_overlapping(const Aabb<3>&, ItemCall) const;
 template void LayeredGrid<2>::visit_along(const Ray<2>&, ReachCall) const;
+template void LayeredGrid<2>::visit_along(const MovingBox<2>&, ReachCall) const;
 template void LayeredGrid<3>::visit_along(const Ray<3>&, ReachCall) const;
+template void LayeredGrid<3>::visit_along(const MovingBox<3>&, ReachCall) const;
 template void LayeredGrid<2>::visit_near(const Aabb<2>&, float, ReachCall) const;
 template void LayeredGrid<3>::visit_near(const Aabb<3>&, float, ReachCall) const;
 

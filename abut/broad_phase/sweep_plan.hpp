@@ -13,9 +13,9 @@
 namespace abut {
 
 /// The axes in turn, so that `first` becomes axis 0.
-template <int D>
-Vec<D> turned(const Vec<D>& v, int first) {
-    Vec<D> result;
+template <int D, class T>
+glm::vec<D, T> turned(const glm::vec<D, T>& v, int first) {
+    glm::vec<D, T> result;
     for (int i = 0; i < D; ++i) result[i] = v[(first + i) % D];
     return result;
 }

@@ -101,6 +101,13 @@ void SweepAndPrune<D>::visit_along(const Ray<D>& ray, ReachCall visit) const {
 }
 
 template <int D>
+void SweepAndPrune<D>::visit_along(const MovingBox<D>& box, ReachCall visit) const {
+    const MovingBox<D> here{turned<D>(box.center, plan_.axis), turned<D>(box.half, plan_.axis),
+                            turned<D>(box.direction, plan_.axis), box.length};
+    rows_.visit_within(RayReach<D>::of_box(here), visit);
+}
+
+template <int D>
 void SweepAndPrune<D>::visit_near(const Aabb<D>& box, float reach, ReachCall visit) const {
     rows_.visit_within(BoxReach<D>(turned<D>(box, plan_.axis), reach), visit);
 }
@@ -111,6 +118,7 @@ void SweepAndPrune<D>::visit_near(const Aabb<D>& box, float reach, ReachCall vis
     template void SweepAndPrune<D>::visit_boxes(BoxCall<D>) const;                         \
     template void SweepAndPrune<D>::visit_overlapping(const Aabb<D>&, ItemCall) const;     \
     template void SweepAndPrune<D>::visit_along(const Ray<D>&, ReachCall) const;           \
+    template void SweepAndPrune<D>::visit_along(const MovingBox<D>&, ReachCall) const;     \
     template void SweepAndPrune<D>::visit_near(const Aabb<D>&, float, ReachCall) const;
 ABUT_FOR_DIMENSION(2)
 ABUT_FOR_DIMENSION(3)

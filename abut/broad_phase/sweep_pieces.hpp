@@ -1,0 +1,88 @@
+#pragma once
+
+// What a moving box touches, found by boxes around pieces of its way: for structures that find regions only. For .cpp
+// files.
+
+#include <abut/broad_phase/reach.hpp>
+#include <abut/broad_phase/visit.hpp>
+
+#include <algorithm>
+#include <limits>
+
+namespace abut {
+
+/// The way of a moving box through `bounds`, in pieces of equal length. A long way across is one giant box; in pieces
+/// it is a row of small ones.
+template <int D>
+class WayPieces {
+public:
+    /// About as long as `edge`, or as the box where it is longer; so many at the most.
+    WayPieces(const MovingBox<D>& moving, const Aabb<D>& bounds, double edge)
+        : reach_(RayReach<D>::of_box(moving)), end_(reach_.reach()) {
+        if (reach_.over() || is_empty(bounds) || !reach_.measure(bounds, begin_)) return;
+        double stride = edge, speed = 0;
+        for (int i = 0; i < D; ++i) {
+            const double inverse = reach_.inverse()[i];
+            if (reach_.direction()[i] > 0) end_ = std::min(end_, (at_max(bounds, i) - reach_.low()[i]) * inverse);
+            if (reach_.direction()[i] < 0) end_ = std::min(end_, (at_min(bounds, i) - reach_.high()[i]) * inverse);
+            stride = std::max(stride, reach_.high()[i] - reach_.low()[i]);
+            speed = std::max(speed, std::abs(reach_.direction()[i]));
+        }
+        const double strides = (end_ - begin_) * speed / stride;
+        count_ = strides > 1 && std::isfinite(end_) ? static_cast<int>(std::min(strides, most - 1.0)) + 1 : 1;
+    }
+
+    /// Calls overlapping(box, told) for each piece, which calls told(index, its box) for all that overlaps, or until
+    /// that returns false. `visit` hears of each item once, in the piece in which the moving box comes to it.
+    template <class Overlapping>
+    void each(ReachCall visit, const Overlapping& overlapping) {
+        for (int piece = 0; piece < count_ && reach_.within(time(piece)); ++piece) {
+            const double from = piece == 0 ? 0 : time(piece);
+            const double until = piece + 1 == count_ ? std::numeric_limits<double>::infinity() : time(piece + 1);
+            overlapping(around(time(piece), std::min(until, reach_.reach())),
+                        [&](std::uint32_t index, const Aabb<D>& box) -> bool {
+                            double enters = 0;
+                            if (!reach_.measure(box, enters) || enters < from || enters >= until) return true;
+                            reach_.shrink(visit(index));
+                            return !reach_.over();
+                        });
+            if (reach_.over()) return;
+        }
+    }
+
+private:
+    static constexpr int most = 64;
+
+    static double at_min(const Aabb<D>& box, int axis) { return static_cast<double>(box.min[axis]); }
+    static double at_max(const Aabb<D>& box, int axis) { return static_cast<double>(box.max[axis]); }
+
+    /// The first begins where all does, though the way have no end.
+    double time(int piece) const { return piece == 0 ? begin_ : begin_ + (end_ - begin_) * piece / count_; }
+
+    /// A box around it from one time to another, rounded outwards.
+    Aabb<D> around(double from, double to) const {
+        constexpr float infinity = std::numeric_limits<float>::infinity();
+        Aabb<D> result;
+        for (int i = 0; i < D; ++i) {
+            const double speed = reach_.direction()[i];
+            const double first = speed == 0 ? 0 : speed * from, last = speed == 0 ? 0 : speed * to;
+            const double low = reach_.low()[i] + std::min(first, last), high = reach_.high()[i] + std::max(first, last);
+            // What is added up loses some of the last digits of the largest.
+            const double doubt = 1e-14 * (std::abs(reach_.low()[i]) + std::abs(reach_.high()[i]) + std::abs(first));
+            result.min[i] = std::nextafter(rounded(low - doubt), -infinity);
+            result.max[i] = std::nextafter(rounded(high + doubt), infinity);
+        }
+        return result;
+    }
+    static float rounded(double number) {
+        constexpr double largest_float = std::numeric_limits<float>::max();
+        if (std::abs(number) <= largest_float) return static_cast<float>(number);
+        return number < 0 ? -std::numeric_limits<float>::infinity() : std::numeric_limits<float>::infinity();
+    }
+
+    RayReach<D> reach_;
+    double begin_ = 0, end_;
+    int count_ = 0;
+};
+
+}  // namespace abut
