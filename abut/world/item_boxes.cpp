@@ -29,6 +29,12 @@ void ItemBoxes<D>::set(std::uint32_t place, const Aabb<D>& box) {
 }
 
 template <int D>
+void ItemBoxes<D>::widen(std::uint32_t place, const Aabb<D>& box) {
+    boxes_[place] = box;
+    changed_ = std::max<std::size_t>(changed_, 1);
+}
+
+template <int D>
 void ItemBoxes<D>::remove(std::uint32_t place) {
     set(place, Aabb<D>::empty());
     free_.push_back(place);

@@ -21,6 +21,8 @@ public:
     /// A place for the item of this slot, with an empty box.
     std::uint32_t add(std::uint32_t slot);
     void set(std::uint32_t place, const Aabb<D>& box);
+    /// A wider box for an item that has moved, of which `set` was told: it isn't counted again.
+    void widen(std::uint32_t place, const Aabb<D>& box);
     void remove(std::uint32_t place);
     /// The slot of the item that has the place, or had it last.
     std::uint32_t slot(std::uint32_t place) const { return slots_[place]; }

@@ -23,6 +23,7 @@ void World<D>::refresh_boxes() {
 /// Keeps a pair whose boxes overlap, if the layers agree.
 template <int D>
 void World<D>::consider(std::uint32_t slot, std::uint32_t other) {
+    if (!widened_.empty() && !come_near(slot, other)) return;
     const Item &a = items_[slot], &b = items_[other];
     if ((a.options.layers & b.options.mask) == 0 || (b.options.layers & a.options.mask) == 0) return;
     if (std::holds_alternative<Solid<D>>(a.placed) && std::holds_alternative<Solid<D>>(b.placed)) return;
@@ -35,13 +36,20 @@ void World<D>::look_at(const IdPair& pair) {
     const Item &a = items_[pair.a.index - 1], &b = items_[pair.b.index - 1];
     if (!a.pending && !b.pending) return repeat_last(pair);
     ++counts_.tested;
+    // By its way alone a pair may be near; whether it touches doesn't depend on that.
+    const bool touch = (widened_.empty() || overlaps(a.box, b.box)) && touch_now(pair);
+    if (a.options.continuous || b.options.continuous) look_between(pair, touch);
+}
+
+/// Keeps the pair if it does.
+template <int D>
+bool World<D>::touch_now(const IdPair& pair) {
+    const Item &a = items_[pair.a.index - 1], &b = items_[pair.b.index - 1];
     Pretests::Entry& entry = pretests_.of(a.type, b.type, a.options.sensor || b.options.sensor);
-    if (pretests_.due(entry))
-        measure(pair, entry);
-    else if (pretests_.asked(entry) && balls_apart(pair))
-        ++counts_.balls;
-    else
-        shapes_touch(pair);
+    if (pretests_.due(entry)) return measure(pair, entry);
+    if (!pretests_.asked(entry) || !balls_apart(pair)) return shapes_touch(pair);
+    ++counts_.balls;
+    return false;
 }
 
 template <int D>
@@ -79,7 +87,7 @@ bool World<D>::shapes_touch(const IdPair& pair) {
 /// less than looking at a clock, and once before: where they aren't in use, that time goes into fetching them from
 /// memory.
 template <int D>
-void World<D>::measure(const IdPair& pair, Pretests::Entry& entry) {
+bool World<D>::measure(const IdPair& pair, Pretests::Entry& entry) {
     constexpr int times = 16;
     bool meet = !balls_apart(pair);
     std::array<std::uint64_t, 4> clock{};
@@ -93,6 +101,7 @@ void World<D>::measure(const IdPair& pair, Pretests::Entry& entry) {
     for (std::size_t i = 0; i < 3; ++i) laps[i] = static_cast<double>(clock[i + 1] - clock[i]);
     laps[1] = laps[0] + (laps[1] - laps[0]) / times;
     pretests_.add(entry, laps, meet, touch);
+    return touch;
 }
 
 template <int D>
@@ -112,10 +121,20 @@ void World<D>::compare_with_last() {
             ++then;
         }
     }
+    // None of them is there already: what passes another touches it neither now nor at the last update.
+    const auto add = [](const std::vector<IdPair>& passed, std::vector<IdPair>& list) {
+        if (passed.empty()) return;
+        list.insert(list.end(), passed.begin(), passed.end());
+        std::sort(list.begin(), list.end());
+    };
+    add(passed_, began_);
+    add(last_passed_, ended_);
+    tell_fractions();
 }
 
 template <int D>
 Events World<D>::update() {
+    widen_boxes();
     refresh_boxes();
 
     near_.clear();
@@ -126,20 +145,29 @@ Events World<D>::update() {
 
     std::swap(touching_, touched_);
     std::swap(contacts_, last_contacts_);
+    std::swap(passed_, last_passed_);
     touching_.clear();
     contacts_.clear();
+    passed_.clear();
+    met_.clear();
     counts_ = {near_.size(), 0, 0};
     for (const IdPair& pair : near_) look_at(pair);
     pretests_.decide();
     // Room at once for whatever such a scene may bring: the lists change places, and all pairs may begin, stay or end.
     const std::size_t most = std::max(touching_.capacity(), touched_.capacity());
-    for (std::vector<IdPair>* list : {&touched_, &touching_, &began_, &stayed_, &ended_}) list->reserve(most);
+    for (std::vector<IdPair>* list : {&touched_, &touching_, &stayed_}) list->reserve(most);
+    for (std::vector<IdPair>* list : {&passed_, &last_passed_}) list->reserve(met_.capacity());
+    for (std::vector<IdPair>* list : {&began_, &ended_}) list->reserve(most + met_.capacity());
+    fractions_.reserve(began_.capacity());
     last_contacts_.reserve(contacts_.capacity());
     compare_with_last();
 
-    for (const std::uint32_t slot : pending_) items_[slot].pending = false;
+    for (const std::uint32_t slot : pending_) {
+        items_[slot].pending = courses_[slot].moved = false;
+        items_[slot].settled = true;
+    }
     pending_.clear();
-    return {began_, stayed_, ended_};
+    return {began_, stayed_, ended_, fractions_};
 }
 
 template class World<2>;

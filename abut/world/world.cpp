@@ -4,13 +4,14 @@
 namespace abut {
 namespace {
 
-/// A ray meets what it passes by no more than rounding (1e-7 of its size), and the box must not refuse it.
+/// A ray meets what it passes by no more than rounding (1e-7 of its size), and a sweep by no more than the margin of
+/// doubt, of which this is the part that grows with the larger of two shapes; the box must not refuse it.
 template <int D>
 Aabb<D> box_for_questions(const View<D>& view) {
     const Aabb<D> box = bounds(view);
     float widest = 0;
     for (int i = 0; i < D; ++i) widest = std::max(widest, box.max[i] - box.min[i]);
-    return widest > 0 && std::isfinite(widest) ? grown(box, 1e-7f * widest) : box;
+    return widest > 0 && std::isfinite(widest) ? grown(box, 1e-6f * widest) : box;
 }
 
 }  // namespace
@@ -33,6 +34,7 @@ Id World<D>::add(std::unique_ptr<const detail::StoredShape<D>> stored, const Ite
     if (free_.empty()) {
         items_.emplace_back();
         balls_.emplace_back();
+        courses_.emplace_back();
     } else {
         slot = free_.back();
         free_.pop_back();
@@ -41,6 +43,7 @@ Id World<D>::add(std::unique_ptr<const detail::StoredShape<D>> stored, const Ite
     item.options = options;
     ++item.generation;
     ++count_;
+    continuous_ += options.continuous ? 1 : 0;
     item.place = boxes_of(item).add(slot);
     take(slot, std::move(stored));
     return id_of(slot);
@@ -53,6 +56,7 @@ void World<D>::take(std::uint32_t slot, std::unique_ptr<const detail::StoredShap
     const View<D> own = item.stored->view();
     item.type = shape_type(own);
     item.own_ball = bounding_ball(own);
+    item.settled = courses_[slot].moved = false;
     place(slot);
 }
 
@@ -69,6 +73,8 @@ void World<D>::move(Id id, const Pose<D>& pose) {
     Item* item = find(id);
     ABUT_ASSERT(item != nullptr);
     if (item == nullptr || item->options.pose == pose) return;
+    Course& course = courses_[id.index - 1];
+    if (item->settled && !course.moved) course = {true, item->options.pose, {item->box, {}}};
     item->options.pose = pose;
     place(id.index - 1);
 }
@@ -92,6 +98,8 @@ void World<D>::remove(Id id) {
     item->placed = View<D>();
     item->box = Aabb<D>::empty();
     boxes_of(*item).remove(item->place);
+    continuous_ -= item->options.continuous ? 1 : 0;
+    courses_[id.index - 1].moved = false;
     mark_pending(id.index - 1);
     free_.push_back(id.index - 1);
     --count_;

@@ -4,6 +4,7 @@
 // them all. It moves nothing by itself.
 
 #include <abut/broad_phase/choose_broad_phase.hpp>
+#include <abut/math/motion.hpp>
 #include <abut/query/closest.hpp>
 #include <abut/query/contact.hpp>
 #include <abut/query/raycast.hpp>
@@ -13,6 +14,7 @@
 #include <abut/world/item_boxes.hpp>
 #include <abut/world/pretest.hpp>
 #include <abut/world/question_count.hpp>
+#include <abut/world/way.hpp>
 
 #include <memory>
 #include <optional>
@@ -30,6 +32,7 @@ struct ItemOptions {
     std::uint32_t mask = 0xffffffff;  ///< the layers it pairs with; both sides must agree
     bool fixed = false;               ///< hardly ever moves; two fixed items never pair
     bool sensor = false;              ///< has events and no contacts; queries skip it unless they ask
+    bool continuous = false;          ///< however fast, what it meets between two updates is in the events: bullets
 };
 
 /// No answer depends on them: for tests and measurements.
@@ -53,10 +56,20 @@ struct IdPair {
 };
 
 /// What changed with an update; each sorted. Valid until the next update.
+///
+/// Where one of two items is continuous, they also begin to touch where they met on the way from where they were at the
+/// last update to where they are now, though they may be past one another by then: the position straight, the rotation
+/// evenly and the short way. Such a pair that doesn't touch now has no contact, and is among those that ended in the
+/// next update whatever happens; where it meets anew, it is among those that began there as well. What was added since
+/// the last update, or has a new shape, rests where it is now. A pair that touched at the last update isn't asked for
+/// what happened since.
 struct Events {
     std::span<const IdPair> began;   ///< touch now and did not before
     std::span<const IdPair> stayed;  ///< touch now and did before
     std::span<const IdPair> ended;   ///< touched before and don't now, also because one was removed
+    /// When each of `began` first met, as a fraction of the way since the last update: 1 where that is known of now
+    /// alone, as where neither is continuous.
+    std::span<const float> fractions;
 };
 
 template <int D>
@@ -79,7 +92,7 @@ struct WorldClosest {
 
 /// What the last update did.
 struct UpdateCounts {
-    std::size_t near = 0;    ///< pairs whose boxes overlap and whose layers agree
+    std::size_t near = 0;  ///< pairs whose boxes overlap, or did on the way of a continuous one, and whose layers agree
     std::size_t tested = 0;  ///< those of them that were looked at again because one of the two had moved
     std::size_t balls = 0;   ///< those of them whose bounding balls were asked and settled it: depends on measurements
 };
@@ -147,6 +160,9 @@ public:
     /// it pays to ask their bounding balls first; the events and contacts are the same whatever it finds. Counts how
     /// much moves and how often it is asked, and may change to another broad phase (broad_phase() tells which): that
     /// update takes about twice as long and allocates, and no answer depends on it.
+    ///
+    /// While any item is continuous, the ways of all that have moved are looked at: what is only put elsewhere then
+    /// costs less if it is removed and added.
     Events update();
     /// One for each pair that touches without a sensor, as of the last update.
     std::span<const WorldContact<D>> contacts() const { return contacts_; }
@@ -160,6 +176,24 @@ public:
     bool raycast_any(const Ray<D>& ray, const Filter& filter = {}) const;
     /// The first hit on each item, near to far.
     std::vector<WorldHit<D>> raycast_all(const Ray<D>& ray, const Filter& filter = {}) const;
+
+    /// The first hit of a shape that moves straight, as told at abut::sweep; of equally early ones, the one with the
+    /// lowest id. What it touches at the start is hit only if it goes further in.
+    template <Shape S>
+    std::optional<WorldHit<D>> sweep(const S& shape, const Vec<D>& motion, const Filter& filter = {}) const {
+        return sweep_straight(View<D>(view(shape)), motion, filter);
+    }
+    /// The same of a shape that turns on the way; it is as it is in the frame that the motion moves.
+    template <Shape S>
+    std::optional<WorldHit<D>> sweep(const S& shape, const Motion<D>& motion, const Filter& filter = {}) const {
+        return sweep_turning(View<D>(view(shape)), motion, filter);
+    }
+    /// The same from pose to pose, turning the short way.
+    template <Shape S>
+    std::optional<WorldHit<D>> sweep(const S& shape, const Pose<D>& from, const Pose<D>& to,
+                                     const Filter& filter = {}) const {
+        return sweep_between(View<D>(view(shape)), from, to, filter);
+    }
 
     template <Shape S>
     std::optional<WorldClosest<D>> closest(const S& shape, const Filter& filter = {}) const {
@@ -191,6 +225,20 @@ private:
         ShapeType type{};
         std::uint32_t place = 0;  // in fixed_ or moving_
         bool pending = false;     // not yet in the broad phases as it is now
+        bool settled = false;     // was there at the last update, with this shape
+    };
+
+    /// Where an item was at the last update, of one that has moved since.
+    struct Course {
+        bool moved = false;
+        Pose<D> from;
+        Way<D> way;  // its box is that of the item then; in an update, it holds what turns
+    };
+
+    /// Two that met on their way.
+    struct Met {
+        IdPair pair;
+        float fraction;
     };
 
     Id add(std::unique_ptr<const detail::StoredShape<D>> stored, const ItemOptions<D>& options);
@@ -205,27 +253,44 @@ private:
     bool asked(std::uint32_t slot, const Filter& filter) const;
 
     void refresh_boxes();
+    bool has_way(std::uint32_t slot) const;
+    void widen_boxes();
+    Way<D> way_of(std::uint32_t slot) const;
+    bool come_near(std::uint32_t slot, std::uint32_t other) const;
     void consider(std::uint32_t slot, std::uint32_t other);
     void look_at(const IdPair& pair);
+    bool touch_now(const IdPair& pair);
+    void look_between(const IdPair& pair, bool touch);
+    std::optional<Hit<D>> sweep_pair(std::uint32_t slot, std::uint32_t other) const;
     void repeat_last(const IdPair& pair);
     bool balls_apart(const IdPair& pair) const;
     bool shapes_touch(const IdPair& pair);
-    void measure(const IdPair& pair, Pretests::Entry& entry);
+    bool measure(const IdPair& pair, Pretests::Entry& entry);
     void compare_with_last();
+    void tell_fractions();
 
     template <class F>
     void each_near(const Aabb<D>& box, const Filter& filter, F&& visit) const;
     template <class F>
     void each_near_ray(const Ray<D>& ray, const Filter& filter, F&& visit) const;
+    template <class F>
+    std::optional<WorldHit<D>> first_on_way(const View<D>& shape, const Way<D>& way, const Filter& filter,
+                                            F&& sweep_at) const;
+    std::optional<WorldHit<D>> sweep_straight(const View<D>& shape, const Vec<D>& motion, const Filter& filter) const;
+    std::optional<WorldHit<D>> sweep_turning(const View<D>& shape, const Motion<D>& motion, const Filter& filter) const;
+    std::optional<WorldHit<D>> sweep_between(const View<D>& shape, const Pose<D>& from, const Pose<D>& to,
+                                             const Filter& filter) const;
     std::optional<WorldClosest<D>> closest_to(const View<D>& shape, const Filter& filter) const;
     std::vector<Id> all_overlapping(const View<D>& shape, const Filter& filter) const;
     void visit_overlapping(const View<D>& shape, const Filter& filter, FunctionRef<bool(Id)> visit) const;
 
     std::vector<Item> items_;
     std::vector<BoundingBall<D>> balls_;  // by slot, where the items are
+    std::vector<Course> courses_;         // by slot
     std::vector<std::uint32_t> free_;
     std::vector<std::uint32_t> pending_;
-    std::size_t count_ = 0;
+    std::vector<std::uint32_t> widened_;  // those in the broad phases with a box around their way
+    std::size_t count_ = 0, continuous_ = 0;
 
     ItemBoxes<D> fixed_, moving_;
     mutable QuestionCount asked_;  // since the last update
@@ -234,7 +299,10 @@ private:
     std::vector<IdPair> near_;
     std::vector<IdPair> touching_, touched_;  // now and at the last update
     std::vector<WorldContact<D>> contacts_, last_contacts_;
+    std::vector<Met> met_;                      // continuous ones that didn't touch at the last update
+    std::vector<IdPair> passed_, last_passed_;  // those of them that don't touch now; the same at the last update
     std::vector<IdPair> began_, stayed_, ended_;
+    std::vector<float> fractions_;  // by place in began_
     UpdateCounts counts_;
     Pretests pretests_;
 };

@@ -97,10 +97,14 @@ void expect_questions_allocate_nothing(std::uint64_t seed) {
         const Vec<D> from = game.any_point(), to = game.any_point();
         const Ray<D> ray = Ray<D>::between(from, to);
         game.with_any_shape([&](const auto& shape) {
-            const auto placed = at(shape, random_pose<D>(game.random(), Simulation<D>::extent));
+            const Pose<D> there = random_pose<D>(game.random(), Simulation<D>::extent);
+            const auto placed = at(shape, there);
             EXPECT_EQ(allocations_of([&] {
                           found += game.world.raycast(ray) ? 1 : 0;
                           found += game.world.raycast_any(ray) ? 1 : 0;
+                          found += game.world.sweep(placed, to - from) ? 1 : 0;
+                          found += game.world.sweep(shape, there, {to, there.rotation}) ? 1 : 0;
+                          found += game.world.sweep(shape, Motion<D>::between(there, {from})) ? 1 : 0;
                           found += game.world.closest(placed) ? 1 : 0;
                           found += game.world.closest(from) ? 1 : 0;
                           game.world.each_overlapping(placed, [&](Id) { ++found; });

@@ -14,7 +14,7 @@ namespace {
 /// All that a world says in the course of a game; `balls` counts the pairs that were settled by their balls.
 template <int D>
 Bits record(std::uint64_t seed, Pretest pretest = Pretest::measured, int frames = 40, std::size_t* balls = nullptr) {
-    Simulation<D> game(seed, 30, false, pretest);
+    Simulation<D> game(seed, 30, false, {.pretest = pretest});
     Bits result;
     for (int frame = 0; frame < frames; ++frame) {
         const Events events = game.world.update();

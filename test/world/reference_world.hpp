@@ -5,6 +5,8 @@
 
 #include <abut/query/contains.hpp>
 #include <abut/query/overlaps.hpp>
+#include <abut/query/sweep.hpp>
+#include <abut/query/sweep_turning.hpp>
 #include <abut/world/world.hpp>
 
 #include <algorithm>
@@ -21,22 +23,25 @@ public:
         std::function<View<D>(const Pose<D>&)> placed;
         ItemOptions<D> options;
         bool changed = true;
+        bool settled = false;           ///< was there at the last update, as it is
+        std::optional<Pose<D>> before;  ///< at the last update, if it has moved since
 
         View<D> view() const { return placed(options.pose); }
     };
 
     template <class S>
     void add(Id id, const S& shape, const ItemOptions<D>& options) {
-        items_[id] = {placer(shape), options, true};
+        items_[id] = {placer(shape), options, true, false, std::nullopt};
     }
     template <class S>
     void set_shape(Id id, const S& shape) {
-        items_.at(id).placed = placer(shape);
-        items_.at(id).changed = true;
+        items_[id] = {placer(shape), items_.at(id).options, true, false, std::nullopt};
     }
     void move(Id id, const Pose<D>& pose) {
         Item& item = items_.at(id);
-        item.changed = item.changed || !(item.options.pose == pose);
+        if (item.options.pose == pose) return;
+        item.changed = true;
+        if (item.settled && !item.before) item.before = item.options.pose;
         item.options.pose = pose;
     }
     void set_filter(Id id, std::uint32_t layers, std::uint32_t mask) {
@@ -50,8 +55,11 @@ public:
     const std::map<Id, Item>& items() const { return items_; }
 
     void update() {
-        const std::vector<IdPair> before = std::move(touching_);
+        const std::vector<IdPair> before = std::move(touching_), passed_before = std::move(passed_);
+        touched_ = before;
         touching_.clear();
+        passed_.clear();
+        met_.clear();
         contacts.clear();
         least = most = {};
         for (auto a = items_.begin(); a != items_.end(); ++a)
@@ -61,7 +69,18 @@ public:
         stayed.clear();
         std::set_intersection(touching_.begin(), touching_.end(), before.begin(), before.end(),
                               std::back_inserter(stayed));
-        for (auto& [id, item] : items_) item.changed = false;
+        began.insert(began.end(), passed_.begin(), passed_.end());
+        ended.insert(ended.end(), passed_before.begin(), passed_before.end());
+        std::sort(began.begin(), began.end());
+        std::sort(ended.begin(), ended.end());
+        fractions.clear();
+        for (const IdPair& pair : began) fractions.push_back(met_.contains(pair) ? met_[pair] : 1);
+        passed = passed_.size();
+        for (auto& [id, item] : items_) {
+            item.changed = false;
+            item.settled = true;
+            item.before.reset();
+        }
     }
 
     std::vector<WorldHit<D>> raycast_all(const Ray<D>& ray, const Filter& filter) const {
@@ -100,7 +119,14 @@ public:
         return result;
     }
 
+    static bool asked(Id id, const Item& item, const Filter& filter) {
+        return (filter.layers & item.options.mask) != 0 && (item.options.layers & filter.mask) != 0 &&
+               (filter.sensors || !item.options.sensor) && id != filter.ignore;
+    }
+
     std::vector<IdPair> began, stayed, ended;
+    std::vector<float> fractions;
+    std::size_t passed = 0;  ///< of those that began, what doesn't touch
     std::vector<WorldContact<D>> contacts;
     UpdateCounts least, most;  ///< of what the world may count, whose boxes are a little wider than need be
 
@@ -113,11 +139,6 @@ private:
 
     static bool both_half_spaces(const View<D>& a, const View<D>& b) {
         return std::holds_alternative<Solid<D>>(a) && std::holds_alternative<Solid<D>>(b);
-    }
-
-    static bool asked(Id id, const Item& item, const Filter& filter) {
-        return (filter.layers & item.options.mask) != 0 && (item.options.layers & filter.mask) != 0 &&
-               (filter.sensors || !item.options.sensor) && id != filter.ignore;
     }
 
     static std::vector<IdPair> difference(const std::vector<IdPair>& a, const std::vector<IdPair>& b) {
@@ -140,16 +161,35 @@ private:
         const bool changed = a.second.changed || b.second.changed;
         count(overlaps(abut::bounds(view_a), abut::bounds(view_b)), changed, least);
         count(overlaps(widened(abut::bounds(view_a)), widened(abut::bounds(view_b))), changed, most);
+        const IdPair pair{a.first, b.first};
+        bool touch = false;
         if (p.sensor || q.sensor) {
-            if (overlaps(view_a, view_b)) touching_.push_back({a.first, b.first});
+            touch = overlaps(view_a, view_b);
         } else if (const Contact<D> found = contact(view_a, view_b)) {
-            touching_.push_back({a.first, b.first});
+            touch = true;
             contacts.push_back({a.first, b.first, found});
         }
+        if (touch) touching_.push_back(pair);
+        if ((!p.continuous && !q.continuous) || (!a.second.before && !b.second.before)) return;
+        if (changed && !touch) ++most.near, ++most.tested;
+        if (std::binary_search(touched_.begin(), touched_.end(), pair)) return;
+        const std::optional<Hit<D>> hit = sweep_between(a.second, b.second);
+        if (hit) met_[pair] = hit->fraction;
+        if (hit && !touch) passed_.push_back(pair);
+    }
+
+    static std::optional<Hit<D>> sweep_between(const Item& a, const Item& b) {
+        const Pose<D>&to_a = a.options.pose, &to_b = b.options.pose;
+        const Pose<D> from_a = a.before.value_or(to_a), from_b = b.before.value_or(to_b);
+        if (from_a.rotation == to_a.rotation && from_b.rotation == to_b.rotation)
+            return sweep(a.placed(from_a), to_a.position - from_a.position, b.placed(from_b),
+                         to_b.position - from_b.position);
+        return sweep(a.placed({}), from_a, to_a, b.placed({}), from_b, to_b);
     }
 
     std::map<Id, Item> items_;
-    std::vector<IdPair> touching_;
+    std::vector<IdPair> touching_, touched_, passed_;
+    std::map<IdPair, float> met_;
 };
 
 }  // namespace abut::test

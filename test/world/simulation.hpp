@@ -13,8 +13,9 @@ template <int D>
 class Simulation {
 public:
     /// On a lattice all is of unit size at whole coordinates, so that much touches exactly and many answers tie.
-    Simulation(std::uint64_t seed, int items, bool lattice = false, Pretest pretest = Pretest::measured)
-        : world({.pretest = pretest}), random_(seed), lattice_(lattice) {
+    Simulation(std::uint64_t seed, int items, bool lattice = false, const WorldOptions& options = {},
+               double continuous = 0)
+        : world(options), random_(seed), lattice_(lattice), continuous_(continuous) {
         for (int i = 0; i < items; ++i) add();
     }
 
@@ -68,6 +69,7 @@ public:
         if (random_.chance(0.3)) options.mask = random_bits();
         options.fixed = random_.chance(0.3);
         options.sensor = random_.chance(0.15);
+        options.continuous = continuous_ > 0 && random_.chance(continuous_);
         with_any_shape([&](const auto& shape) {
             const Id id = world.add(shape, options);
             reused += id.generation > 1 ? 1 : 0;
@@ -139,6 +141,7 @@ private:
 
     oracle::Random random_;
     bool lattice_;
+    double continuous_;  ///< the part of the items that are
     std::set<Id> given_;
 };
 

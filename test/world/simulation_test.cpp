@@ -15,6 +15,7 @@ namespace {
 
 /// How often each answer came out interesting: a test of questions that all say no proves nothing.
 struct Seen {
+    int passed = 0, on_the_way = 0;
     int began = 0, stayed = 0, ended = 0, contacts = 0, untested = 0;
     int hits = 0, several_hits = 0, misses = 0, gaps = 0, depths = 0, overlapping = 0, containing = 0, stopped = 0;
 };
@@ -23,8 +24,9 @@ std::ostream& operator<<(std::ostream& out, const Seen& seen) {
     return out << "began " << seen.began << ", stayed " << seen.stayed << ", ended " << seen.ended << ", contacts "
                << seen.contacts << ", untested " << seen.untested << "; hits " << seen.hits << ", several "
                << seen.several_hits << ", misses " << seen.misses << "; gaps " << seen.gaps << ", depths "
-               << seen.depths << "; overlapping " << seen.overlapping << ", containing " << seen.containing
-               << ", stopped " << seen.stopped;
+               << seen.depths << "; passed " << seen.passed << ", met on the way " << seen.on_the_way
+               << "; overlapping " << seen.overlapping << ", containing " << seen.containing << ", stopped "
+               << seen.stopped;
 }
 
 template <int D>
@@ -119,11 +121,14 @@ void check_update(Simulation<D>& game, Seen& seen) {
     ASSERT_EQ(Bits(events.began), Bits(game.reference.began));
     ASSERT_EQ(Bits(events.stayed), Bits(game.reference.stayed));
     ASSERT_EQ(Bits(events.ended), Bits(game.reference.ended));
+    ASSERT_EQ(Bits(events.fractions), Bits(game.reference.fractions));
     ASSERT_EQ(Bits(game.world.contacts()), Bits(game.reference.contacts));
     const UpdateCounts counts = game.world.counts(), least = game.reference.least, most = game.reference.most;
     ASSERT_TRUE(least.near <= counts.near && counts.near <= most.near) << least.near << " " << counts.near;
     ASSERT_TRUE(least.tested <= counts.tested && counts.tested <= most.tested) << least.tested << " " << counts.tested;
     seen.began += static_cast<int>(events.began.size());
+    seen.passed += static_cast<int>(game.reference.passed);
+    for (const float fraction : events.fractions) seen.on_the_way += fraction < 1 ? 1 : 0;
     seen.stayed += static_cast<int>(events.stayed.size());
     seen.ended += static_cast<int>(events.ended.size());
     seen.contacts += static_cast<int>(game.world.contacts().size());
@@ -132,9 +137,9 @@ void check_update(Simulation<D>& game, Seen& seen) {
 
 /// Plays one game, and adds what it saw.
 template <int D>
-void play(std::uint64_t seed, int items, int frames, bool lattice, Seen& seen) {
+void play(std::uint64_t seed, int items, int frames, bool lattice, Seen& seen, double continuous = 0) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    Simulation<D> game(seed, items, lattice);
+    Simulation<D> game(seed, items, lattice, {}, continuous);
     for (int frame = 0; frame < frames; ++frame) {
         SCOPED_TRACE("frame " + std::to_string(frame));
         ASSERT_NO_FATAL_FAILURE(check_queries(game, seen));
@@ -174,6 +179,27 @@ TEST(Simulation, PlaneOnALattice) {
 }
 TEST(Simulation, SpaceOnALattice) {
     play_all<3>(3001, true);
+}
+
+template <int D>
+void play_continuous(std::uint64_t seed) {
+    constexpr int frames = 100;
+    for (const bool lattice : {false, true}) {
+        Seen seen;
+        for (int game = 0; game < oracle::amount(1); ++game) {
+            play<D>(seed++, 30, frames, lattice, seen, 0.3);
+            play<D>(seed++, 10, frames, lattice, seen, 1);
+        }
+        for (const int count : {seen.began, seen.ended, seen.passed, seen.on_the_way - seen.passed})
+            EXPECT_GT(count, oracle::amount(frames / 6));
+    }
+}
+
+TEST(Simulation, PlaneWithContinuousItems) {
+    play_continuous<2>(4001);
+}
+TEST(Simulation, SpaceWithContinuousItems) {
+    play_continuous<3>(5001);
 }
 
 }  // namespace

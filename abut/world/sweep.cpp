@@ -1,0 +1,112 @@
+// Sweeps through a world. What has moved since the last update is looked at one by one, the rest through the broad
+// phases, in the order in which the box around the mover comes to it.
+
+#include <abut/broad_phase/boxes.hpp>
+#include <abut/broad_phase/reach.hpp>
+#include <abut/math/assert.hpp>
+#include <abut/query/sweep.hpp>
+#include <abut/query/sweep_turning.hpp>
+#include <abut/world/world.hpp>
+
+namespace abut {
+namespace {
+
+template <int D>
+bool is_finite(const Pose<D>& pose) {
+    float sum = 0;
+    for (int i = 0; i < D; ++i) sum += pose.position[i];
+    if constexpr (D == 2)
+        sum += pose.rotation.cos + pose.rotation.sin;
+    else
+        sum += pose.rotation.w + pose.rotation.x + pose.rotation.y + pose.rotation.z;
+    return std::isfinite(sum);
+}
+bool is_finite(float number) {
+    return std::isfinite(number);
+}
+
+bool can_be_asked(bool finite) {
+    ABUT_ASSERT(finite);
+    return finite;
+}
+
+template <int D>
+Way<D> way_of_shape(const View<D>& shape, const Motion<D>& motion) {
+    return turning_way(bounding_ball(shape), bounds(moved(shape, affine(motion.from))), motion);
+}
+
+}  // namespace
+
+/// The first hit on the way, of which `sweep_at(item)` tells the one on an item.
+template <int D>
+template <class F>
+std::optional<WorldHit<D>> World<D>::first_on_way(const View<D>& shape, const Way<D>& way, const Filter& filter,
+                                                  F&& sweep_at) const {
+    std::optional<WorldHit<D>> first;
+    if (is_empty(way.box)) return first;
+    asked_.add(ray_weight);
+    const MovingBox<D> moving = moving_box(way);
+    // Whatever a broad phase lets in by rounding is refused here: what is asked doesn't depend on which it is.
+    const RayReach<D> whole = RayReach<D>::of_box(moving);
+    float reach = 1;
+    const auto any = [&](std::uint32_t slot) -> float {
+        const Item& item = items_[slot];
+        double enters = 0;
+        if (!asked(slot, filter) || (!whole.over() && !whole.measure(item.box, enters))) return reach;
+        if (std::holds_alternative<Solid<D>>(shape) && std::holds_alternative<Solid<D>>(item.placed)) return reach;
+        const std::optional<Hit<D>> hit = sweep_at(item);
+        if (!hit || hit->fraction > reach) return reach;
+        const Id id = id_of(slot);
+        if (!first || hit->fraction < reach || id < first->id) first = WorldHit<D>{id, *hit};
+        return reach = first->hit.fraction;
+    };
+    for (const std::uint32_t slot : pending_) any(slot);
+    for (const ItemBoxes<D>* items : {&moving_, &fixed_}) {
+        const auto visit = [&](std::uint32_t place) -> float {
+            const std::uint32_t slot = items->slot(place);
+            return items_[slot].pending ? reach : any(slot);
+        };
+        if (whole.over()) {
+            // It has no bounds, such as a half-space.
+            constexpr float far = std::numeric_limits<float>::infinity();
+            items->phase().each_overlapping(Aabb<D>{Vec<D>(-far), Vec<D>(far)},
+                                            [&](std::uint32_t place) { visit(place); });
+        } else {
+            items->phase().sweep(moving, visit);
+        }
+    }
+    return first;
+}
+
+template <int D>
+std::optional<WorldHit<D>> World<D>::sweep_straight(const View<D>& shape, const Vec<D>& motion,
+                                                    const Filter& filter) const {
+    if (!can_be_asked(is_finite(shape) && is_finite(motion))) return std::nullopt;
+    return first_on_way(shape, straight_way(bounds(shape), motion), filter,
+                        [&](const Item& item) { return abut::sweep(shape, motion, item.placed, Vec<D>(0.0f)); });
+}
+
+template <int D>
+std::optional<WorldHit<D>> World<D>::sweep_turning(const View<D>& shape, const Motion<D>& motion,
+                                                   const Filter& filter) const {
+    const bool finite = is_finite(motion.from) && is_finite(motion.move) && is_finite(motion.turn);
+    if (!can_be_asked(is_finite(shape) && finite)) return std::nullopt;
+    return first_on_way(shape, way_of_shape(shape, motion), filter, [&](const Item& item) {
+        return abut::sweep(shape, motion, item.stored->view(), Motion<D>{.from = item.options.pose});
+    });
+}
+
+template <int D>
+std::optional<WorldHit<D>> World<D>::sweep_between(const View<D>& shape, const Pose<D>& from, const Pose<D>& to,
+                                                   const Filter& filter) const {
+    if (!can_be_asked(is_finite(shape) && is_finite(from) && is_finite(to))) return std::nullopt;
+    return first_on_way(shape, way_of_shape(shape, Motion<D>::between(from, to)), filter, [&](const Item& item) {
+        const Pose<D>& there = item.options.pose;
+        return abut::sweep(shape, from, to, item.stored->view(), there, there);
+    });
+}
+
+template class World<2>;
+template class World<3>;
+
+}  // namespace abut

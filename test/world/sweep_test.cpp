@@ -1,0 +1,271 @@
+// Sweeps through a world: examples worked out by hand, and every item asked by itself.
+
+#include "../oracle/pair.hpp"
+#include "bits.hpp"
+#include "simulation.hpp"
+#include <abut/query/sweep.hpp>
+#include <abut/query/sweep_turning.hpp>
+
+#include <array>
+#include <iostream>
+
+#include <gtest/gtest.h>
+
+namespace abut::test {
+namespace {
+
+constexpr std::array all_kinds{BroadPhaseKind::brute_force,     BroadPhaseKind::grid, BroadPhaseKind::layered_grid,
+                               BroadPhaseKind::sweep_and_prune, BroadPhaseKind::bvh,  BroadPhaseKind::bsp};
+
+const Circle unit{{0, 0}, 1};
+
+Pose2 place(float x, float y = 0) {
+    return {{x, y}};
+}
+
+/// Runs the checks on the world as it is, and once more after an update.
+template <int D, class Check>
+void before_and_after_update(World<D>& world, Check check) {
+    {
+        SCOPED_TRACE("before the update");
+        check();
+    }
+    world.update();
+    {
+        SCOPED_TRACE("after the update");
+        check();
+    }
+}
+
+TEST(WorldSweep, HitsTheFirstOnItsWay) {
+    World2 world;
+    world.add(unit, {.pose = place(8)});
+    const Id near = world.add(unit, {.pose = place(-4)});
+    world.add(unit, {.pose = place(2), .fixed = true});
+    before_and_after_update(world, [&] {
+        const auto hit = world.sweep(Circle{{-10, 0}, 1}, {8, 0});
+        ASSERT_TRUE(hit);
+        EXPECT_EQ(hit->id, near);
+        EXPECT_NEAR(hit->hit.fraction, 0.5f, 1e-5f);
+        EXPECT_NEAR(hit->hit.distance, 4, 1e-4f);
+        EXPECT_NEAR(hit->hit.normal.x, -1, 1e-6f);
+        EXPECT_NEAR(hit->hit.point.x, -5, 1e-4f);
+        EXPECT_FALSE(world.sweep(Circle{{-10, 0}, 1}, {3.9f, 0}));
+        EXPECT_FALSE(world.sweep(Circle{{-10, 3}, 0.5f}, {30, 0}));
+        EXPECT_FALSE(world.sweep(Circle{{-10, 0}, 1}, {0, 0}));
+    });
+}
+
+TEST(WorldSweep, OfEquallyEarlyTheLowestIdAnswers) {
+    for (const BroadPhaseKind kind : all_kinds) {
+        World2 world({.broad_phase = kind});
+        std::vector<Id> ids;
+        for (int i = 0; i < 40; ++i) ids.push_back(world.add(unit, {.pose = place(5), .fixed = i % 3 == 1}));
+        for (const std::size_t moved : {0u, 7u}) {
+            world.update();
+            for (std::size_t i = 0; i < moved; ++i) world.move(ids[i], {{5, 0}, {0, i % 2 == 0 ? 1.0f : -1.0f}});
+            EXPECT_EQ(world.sweep(unit, {20, 0})->id, ids[0]);
+            EXPECT_EQ(world.sweep(unit, {20, 0}, {.ignore = ids[0]})->id, ids[1]);
+            EXPECT_EQ(world.sweep(unit, Motion2{.move = {20, 0}, .turn = 1})->id, ids[0]);
+            EXPECT_EQ(world.sweep(unit, place(0), place(20))->id, ids[0]);
+        }
+    }
+}
+
+TEST(WorldSweep, RestingCrateSlidesAndIsStoppedBehindItsFloor) {
+    World2 world;
+    for (int i = 0; i < 10; ++i)
+        world.add(Box2{{static_cast<float>(i), -0.5f}, {0.5f, 0.5f}}, {.fixed = true});  // tiles with seams
+    const Id wall = world.add(Box2{{8, 1}, {0.5f, 1}}, {.fixed = true});
+    before_and_after_update(world, [&] {
+        const Box2 crate{{1, 0.5f}, {0.5f, 0.5f}};
+        const auto hit = world.sweep(crate, {12, 0});
+        ASSERT_TRUE(hit);
+        EXPECT_EQ(hit->id, wall);
+        EXPECT_NEAR(hit->hit.distance, 6, 1e-4f);
+        EXPECT_EQ(hit->hit.normal, Vec2(-1, 0));
+        EXPECT_FALSE(world.sweep(crate, {5.9f, 0}));
+        EXPECT_FALSE(world.sweep(crate, {0, 5})) << "apart is no hit";
+        EXPECT_EQ(world.sweep(crate, {0, -1})->hit.fraction, 0) << "further in is";
+    });
+}
+
+TEST(WorldSweep, FilterPicks) {
+    World2 world;
+    const Id ghost = world.add(unit, {.pose = place(4), .sensor = true}),
+             other = world.add(unit, {.pose = place(8), .layers = 2}), last = world.add(unit, {.pose = place(12)});
+    before_and_after_update(world, [&] {
+        const auto first = [&](const Filter& filter) {
+            const auto straight = world.sweep(unit, {20, 0}, filter);
+            const auto turning = world.sweep(unit, place(0), {{20, 0}, {0, 1}}, filter);
+            EXPECT_EQ(straight ? straight->id : Id{}, turning ? turning->id : Id{});
+            return straight ? straight->id : Id{};
+        };
+        EXPECT_EQ(first({}), other);
+        EXPECT_EQ(first({.sensors = true}), ghost);
+        EXPECT_EQ(first({.mask = 1}), last);
+        EXPECT_EQ(first({.ignore = other}), last);
+        EXPECT_EQ(first({.mask = 4}), Id{});
+    });
+}
+
+TEST(WorldSweep, HalfSpacesHaveNoBounds) {
+    World2 world;
+    const Id ground = world.add(HalfSpace2{{0, 1}, 0}, {.fixed = true}), ball = world.add(unit, {.pose = place(0, 5)});
+    before_and_after_update(world, [&] {
+        const auto down = world.sweep(Circle{{1e5f, 3}, 1}, {0, -4});
+        ASSERT_TRUE(down);
+        EXPECT_EQ(down->id, ground);
+        EXPECT_NEAR(down->hit.fraction, 0.5f, 1e-2f);
+        const auto ceiling = world.sweep(HalfSpace2{{0, -1}, -10}, {0, -8});
+        ASSERT_TRUE(ceiling);
+        EXPECT_EQ(ceiling->id, ball);
+        EXPECT_NEAR(ceiling->hit.fraction, 0.5f, 1e-5f);
+        const auto turned = world.sweep(HalfSpace2{{0, -1}, -10}, place(0), {{0, -8}, Turn::by(0.01f)});
+        ASSERT_TRUE(turned);
+        EXPECT_EQ(turned->id, ball);
+    });
+}
+
+TEST(WorldSweep, NothingIsTooThinOrTooFast) {
+    for (const BroadPhaseKind kind : all_kinds) {
+        SCOPED_TRACE(static_cast<int>(kind));
+        World3 world({.broad_phase = kind});
+        oracle::Random random(31);
+        const Id wall = world.add(Box3{{0, 0, 0}, {0.5e-3f, 50, 50}}, {.fixed = true});
+        for (int i = 0; i < 50; ++i)  // beside the way
+            world.add(Sphere{{0, 0, 0}, 1}, {.pose = {to_float(random.in_cube<3>() * 40.0) + Vec3(0, 0, 60)}});
+        world.update();
+        for (int i = 0; i < 200; ++i) {
+            const float size = random.uniform_float(1e-3, 1e-2);
+            const Vec3 from(random.uniform_float(-90, -1) * size * 100, random.uniform_float(-20, 20), 0);
+            const Vec3 motion(1e4f * size, random.uniform_float(-10, 10), random.uniform_float(-10, 10));
+            if (from.x + motion.x < 1) continue;
+            const auto hit = world.sweep(Sphere{from, 0.5f * size}, motion);
+            ASSERT_TRUE(hit) << i;
+            ASSERT_EQ(hit->id, wall);
+            ASSERT_NEAR(static_cast<double>(from.x + hit->hit.fraction * motion.x + 0.5f * size), -0.5e-3, 2e-5) << i;
+            const Box3 bullet{{0, 0, 0}, Vec3(0.5f * size)};
+            const auto turning = world.sweep(bullet, Motion3{{from}, motion, {3, 40, 1}});
+            ASSERT_TRUE(turning) << i;
+            ASSERT_EQ(turning->id, wall);
+        }
+    }
+}
+
+/// All that is asked of all items, one by one.
+template <int D, class SweepAt>
+std::optional<WorldHit<D>> first_of_all(const ReferenceWorld<D>& reference, const View<D>& shape, const Filter& filter,
+                                        SweepAt&& sweep_at) {
+    std::optional<WorldHit<D>> first;
+    for (const auto& [id, item] : reference.items()) {
+        const View<D> view = item.view();
+        const bool solids = std::holds_alternative<Solid<D>>(shape) && std::holds_alternative<Solid<D>>(view);
+        if (solids || !ReferenceWorld<D>::asked(id, item, filter)) continue;
+        const std::optional<Hit<D>> hit = sweep_at(item);
+        if (hit && (!first || hit->fraction < first->hit.fraction)) first = WorldHit<D>{id, *hit};
+    }
+    return first;
+}
+
+struct Seen {
+    int hits = 0, misses = 0, at_once = 0;
+};
+
+template <int D>
+void check_sweeps(Simulation<D>& game, Seen& seen) {
+    oracle::Random& random = game.random();
+    const Filter filter = game.filter();
+    const Pose<D> from = game.any_pose(), to = game.any_pose();
+    const Vec<D> motion = (to.position - from.position) * (random.chance(0.2) ? 0.1f : 1.0f);
+    Motion<D> turning = Motion<D>::between(from, to);
+    turning.turn *= random.chance(0.3) ? 7.0f : 1.0f;
+    const auto note = [&](const std::optional<WorldHit<D>>& hit) {
+        ++(hit ? seen.hits : seen.misses);
+        seen.at_once += hit && hit->hit.fraction == 0 ? 1 : 0;
+    };
+    game.with_any_shape([&](const auto& shape) {
+        const auto placed = at(shape, from);
+        const View<D> asked = view(placed), own = view(shape);
+        using Item = typename ReferenceWorld<D>::Item;
+        const auto straight = first_of_all<D>(game.reference, asked, filter, [&](const Item& item) {
+            return sweep(asked, motion, item.view(), Vec<D>(0.0f));
+        });
+        ASSERT_EQ(Bits(game.world.sweep(placed, motion, filter)), Bits(straight));
+        note(straight);
+        const auto spun = first_of_all<D>(game.reference, own, filter, [&](const Item& item) {
+            return sweep(own, turning, item.placed({}), Motion<D>{.from = item.options.pose});
+        });
+        ASSERT_EQ(Bits(game.world.sweep(shape, turning, filter)), Bits(spun));
+        note(spun);
+        const auto between = first_of_all<D>(game.reference, own, filter, [&](const Item& item) {
+            const Pose<D>& there = item.options.pose;
+            return sweep(own, from, to, item.placed({}), there, there);
+        });
+        ASSERT_EQ(Bits(game.world.sweep(shape, from, to, filter)), Bits(between));
+        note(between);
+    });
+}
+
+template <int D>
+void play(std::uint64_t seed, bool lattice) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Simulation<D> game(seed, 40, lattice);
+    Seen seen;
+    for (int frame = 0; frame < oracle::amount(40); ++frame) {
+        SCOPED_TRACE("frame " + std::to_string(frame));
+        for (int i = 0; i < 3; ++i) ASSERT_NO_FATAL_FAILURE(check_sweeps(game, seen));
+        game.world.update();
+        for (int i = 0; i < 3; ++i) ASSERT_NO_FATAL_FAILURE(check_sweeps(game, seen));
+        game.change();
+    }
+    std::cout << "seed " << seed << ": hits " << seen.hits << ", misses " << seen.misses << ", at once " << seen.at_once
+              << "\n";
+    EXPECT_GT(seen.hits, 100);
+    EXPECT_GT(seen.misses, 20);
+    EXPECT_GT(seen.at_once, 10);
+}
+
+TEST(WorldSweep, IsTheFirstOfAllItemsInThePlane) {
+    play<2>(41, false);
+    play<2>(42, true);
+}
+TEST(WorldSweep, IsTheFirstOfAllItemsInSpace) {
+    play<3>(43, false);
+    play<3>(44, true);
+}
+
+template <int D>
+Bits record(BroadPhaseKind kind) {
+    Bits said;
+    World<D> world({.pretest = Pretest::never, .broad_phase = kind});
+    oracle::Random random(51);
+    constexpr double extent = D == 2 ? 25 : 10;
+    int hits = 0;
+    for (int i = 0; i < 300; ++i)
+        with_random_shape<D>(random, random_kind<D>(random, 0.01), [&](const auto& shape) {
+            world.add(shape, {.pose = random_pose<D>(random, extent), .fixed = i % 4 == 0});
+        });
+    world.update();
+    for (int i = 0; i < 150; ++i)
+        with_random_shape<D>(random, random_kind<D>(random, 0), [&](const auto& shape) {
+            const Pose<D> from = random_pose<D>(random, extent), to = random_pose<D>(random, extent);
+            const auto straight = world.sweep(at(shape, from), to.position - from.position);
+            const auto turning = world.sweep(shape, from, to);
+            said.put(straight);
+            said.put(turning);
+            hits += (straight ? 1 : 0) + (turning ? 1 : 0);
+        });
+    EXPECT_GT(hits, 60);
+    return said;
+}
+
+TEST(WorldSweep, AnswersTheSameWhateverTheBroadPhase) {
+    for (const BroadPhaseKind kind : all_kinds) {
+        EXPECT_TRUE(record<2>(kind) == record<2>(BroadPhaseKind::brute_force)) << static_cast<int>(kind);
+        EXPECT_TRUE(record<3>(kind) == record<3>(BroadPhaseKind::brute_force)) << static_cast<int>(kind);
+    }
+}
+
+}  // namespace
+}  // namespace abut::test
