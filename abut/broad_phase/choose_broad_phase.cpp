@@ -14,7 +14,7 @@ constexpr std::size_t sample_size = 1024;
 // What follows was measured, in ns; docs/broad_phases.md has the rows.
 
 /// With fewer boxes, every box against every other takes no longer than a grid.
-constexpr std::size_t few = 110;
+constexpr std::size_t few = 150;
 /// By so much a box are an update of a tree and its pairs longer than those of the others.
 constexpr double tree_frame_longer = 45;
 /// By so much a ray, or a search for what is near, is longer in a grid than in a tree.

@@ -201,6 +201,19 @@ private:
     float astray_;  ///< how far the point may be from the origin, in parts of the doubt
 };
 
+/// Lists some of eight, the nearest last. Returns how many there are.
+inline std::size_t nearest_last(std::uint32_t bits, const float (&measures)[bvh_lanes],
+                                const std::uint32_t (&refs)[bvh_lanes], BvhFound* list) {
+    std::size_t count = 0;
+    while (bits != 0) {
+        const std::uint32_t lane = next_lane(bits);
+        std::size_t place = count++;
+        for (; place > 0 && list[place - 1].measure < measures[lane]; --place) list[place] = list[place - 1];
+        list[place] = {measures[lane], refs[lane]};
+    }
+    return count;
+}
+
 /// `point` goes a way of length 1; what is visited reckons in ways `unit` times as long.
 void on_line(const MeshTree& tree, const MovingBox<3>& point, double unit, MeshReachCall visit) {
     if (!(point.length >= 0)) return;
@@ -209,16 +222,11 @@ void on_line(const MeshTree& tree, const MovingBox<3>& point, double unit, MeshR
     const LineToTriangles meets(point);
     BvhFound stack[most_waiting];
     std::size_t waiting = 0;
-    BvhFound next{0, tree.root(0).ref};
+    std::uint32_t ref = tree.root(0).ref;
     float most = not_less(reach), times[mesh_lanes];
     for (;;) {
-        while (next.measure <= most && !is_leaf(next.ref)) {
-            const MeshNode& node = tree.node(next.ref);
-            hwy::Prefetch(node.child);
-            next = nearest_of(meets_boxes(node, most, times), times, node.child, stack, waiting);
-        }
-        if (next.measure <= most) {
-            const MeshLeaf& leaf = tree.leaf(next.ref);
+        if (is_leaf(ref)) {
+            const MeshLeaf& leaf = tree.leaf(ref);
             for (std::uint32_t bits = meets(leaf, most); bits != 0;) {
                 const std::uint32_t lane = next_lane(bits);
                 const float wanted = visit(leaf.at(lane), tree.order[leaf.first + lane]);
@@ -226,9 +234,32 @@ void on_line(const MeshTree& tree, const MovingBox<3>& point, double unit, MeshR
                 if (reach < 0) return;
                 most = not_less(reach);
             }
+        } else {
+            const MeshNode& node = tree.node(ref);
+            std::uint32_t bits = meets_boxes(node, most, times);
+            if (bits != 0) {
+                const std::uint32_t lane = next_lane(bits);
+                ref = node.child[lane];
+                if (bits == 0) continue;
+                const std::uint32_t other = next_lane(bits);
+                if (bits == 0) {
+                    const bool other_first = times[other] < times[lane];
+                    stack[waiting++] =
+                        other_first ? BvhFound{times[lane], ref} : BvhFound{times[other], node.child[other]};
+                    if (other_first) ref = node.child[other];
+                    continue;
+                }
+                bits |= 1u << lane | 1u << other;
+                waiting += nearest_last(bits, times, node.child, stack + waiting);
+                ref = stack[--waiting].ref;
+                continue;
+            }
         }
-        if (waiting == 0) return;
-        next = stack[--waiting];
+        do {
+            if (waiting == 0) return;
+            --waiting;
+        } while (stack[waiting].measure > most);
+        ref = stack[waiting].ref;
     }
 }
 

@@ -58,7 +58,7 @@ TYPED_TEST(Choices, SuitTheScenesOfTheBench) {
         return scenes::MovingBoxes<D>(count, 1, {.one_in_moves = one_in_moves});
     };
     EXPECT_EQ(choice<D>(moving(60).boxes()), BroadPhaseKind::brute_force);
-    EXPECT_EQ(choice<D>(moving(120).boxes()), BroadPhaseKind::grid);
+    EXPECT_EQ(choice<D>(moving(200).boxes()), BroadPhaseKind::grid);
     for (const std::size_t count : {1'000u, 10'000u, 100'000u})
         EXPECT_EQ(choice<D>(moving(count).boxes()), BroadPhaseKind::grid) << count;
     for (const std::size_t count : {10'000u, 100'000u})
