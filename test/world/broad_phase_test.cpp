@@ -21,9 +21,9 @@ template <int D>
 struct Script {
     explicit Script(const WorldOptions& options) : world(options) {
         play(10, 20, 0);
-        play(30, 150, 0);
-        play(30, 150, 40);
-        play(140, 150, 0);
+        play(30, 220, 0);
+        play(30, 220, 60);
+        play(140, 220, 0);
         EXPECT_GT(pairs, 10000u);
     }
 
