@@ -58,7 +58,7 @@ float float_most(const Reach& reach) {
 
 /// Whether floats can hold it and its inverse.
 inline bool is_usual_direction(double direction) {
-    return (std::abs(direction) > 1e-30) & (std::abs(direction) < 1e30);
+    return (std::abs(direction) > 1e-30) && (std::abs(direction) < 1e30);
 }
 
 /// Eight boxes against what goes straight: which are perhaps within reach, and from where on. `some_flat`: where it may
@@ -89,7 +89,7 @@ public:
     static bool suits(const Ray<D>& ray) {
         bool result = ray.length >= 0;
         for (int i = 0; i < D; ++i)
-            result = result & (std::abs(ray.origin[i]) < 1e30f) & is_usual_direction(ray.direction[i]);
+            result = result && (std::abs(ray.origin[i]) < 1e30f) && is_usual_direction(ray.direction[i]);
         return result;
     }
 
