@@ -3,6 +3,7 @@
 #include "box_queries.hpp"
 #include "broad_peers.hpp"
 #include "embree_boxes.hpp"
+#include "embree_ray.hpp"
 
 #include <cmath>
 #include <memory>
@@ -62,20 +63,7 @@ Side embree_first_hits(std::span<const Aabb3> boxes, std::span<const Ray3> rays)
     return each_query("embree", rays, [tree](const Ray3& ray) {
         Cast cast{{}, RayToBox(ray)};
         rtcInitIntersectContext(&cast.context);
-        RTCRayHit hit;
-        hit.ray = {ray.origin.x,
-                   ray.origin.y,
-                   ray.origin.z,
-                   0,
-                   ray.direction.x,
-                   ray.direction.y,
-                   ray.direction.z,
-                   0,
-                   ray.length,
-                   ~0u,
-                   0,
-                   0};
-        hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        RTCRayHit hit = to_embree(ray);
         rtcIntersect1(tree->boxes.scene(), &cast.context, &hit);
         return static_cast<double>(hit.ray.tfar);
     });

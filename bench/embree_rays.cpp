@@ -1,5 +1,6 @@
 // Embree's triangles: rtcIntersect1.
 
+#include "embree_ray.hpp"
 #include "motion_rays.hpp"
 
 #include <string>
@@ -37,20 +38,7 @@ public:
     double distance(const Ray3& ray) const {
         RTCIntersectContext context;
         rtcInitIntersectContext(&context);
-        RTCRayHit hit;
-        hit.ray = {ray.origin.x,
-                   ray.origin.y,
-                   ray.origin.z,
-                   0,
-                   ray.direction.x,
-                   ray.direction.y,
-                   ray.direction.z,
-                   0,
-                   ray.length,
-                   ~0u,
-                   0,
-                   0};
-        hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        RTCRayHit hit = to_embree(ray);
         rtcIntersect1(scene_, &context, &hit);
         return hit.hit.geomID == RTC_INVALID_GEOMETRY_ID ? -1.0 : static_cast<double>(hit.ray.tfar);
     }

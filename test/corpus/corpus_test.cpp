@@ -3,9 +3,7 @@
 
 #include "corpus.hpp"
 
-#include <atomic>
-#include <mutex>
-#include <thread>
+#include "by_all_threads.hpp"
 
 #include <gtest/gtest.h>
 
@@ -65,27 +63,11 @@ struct Summary {
     static constexpr std::uint64_t few_stories = 2;
 };
 
-/// The pairs of the numbers first to last - 1, by all threads of the machine. What each thread adds up doesn't depend
-/// on the others; only which stories are told does.
 Summary judged(std::uint64_t first, std::uint64_t last) {
-    constexpr std::uint64_t piece = 500;
-    std::atomic<std::uint64_t> next = first;
-    std::mutex mutex;
-    Summary all;
-    const auto work = [&] {
-        Summary own;
-        for (std::uint64_t from = next.fetch_add(piece); from < last; from = next.fetch_add(piece))
-            for (std::uint64_t number = from; number < std::min(from + piece, last); ++number) {
-                const Place where = place(number);
-                own.add(where, check_corpus_pair(where.dimension, where.family, where.seed));
-            }
-        const std::lock_guard lock(mutex);
-        all.add(own);
-    };
-    std::vector<std::thread> threads;
-    for (unsigned i = std::max(1u, std::thread::hardware_concurrency()); i > 0; --i) threads.emplace_back(work);
-    for (std::thread& thread : threads) thread.join();
-    return all;
+    return by_all_threads<Summary>(first, last, [](std::uint64_t number, Summary& sum) {
+        const Place where = place(number);
+        sum.add(where, check_corpus_pair(where.dimension, where.family, where.seed));
+    });
 }
 
 /// A tenth of them where nothing is optimised: those builds look for other mistakes.

@@ -1,11 +1,8 @@
 // Twenty thousand pairs set in motion, a million where the environment sets ABUT_LONG: none late, none missed, none hit
 // that isn't, outside the margin of doubt.
 
+#include "by_all_threads.hpp"
 #include "sweep_judge.hpp"
-
-#include <atomic>
-#include <mutex>
-#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -63,25 +60,10 @@ SweepVerdict judged_sweep(const Place& where) {
 
 /// Of the pairs of the corpus that are polytopes with balls around them.
 SweepSummary judged_sweeps(std::uint64_t first, std::uint64_t last) {
-    constexpr std::uint64_t piece = 200;
-    std::atomic<std::uint64_t> next = first;
-    std::mutex mutex;
-    SweepSummary all;
-    const auto work = [&] {
-        SweepSummary own;
-        for (std::uint64_t from = next.fetch_add(piece); from < last; from = next.fetch_add(piece))
-            for (std::uint64_t number = from; number < std::min(from + piece, last); ++number) {
-                const Place where = place(number);
-                if (where.family != Family::half_space && where.family != Family::round)
-                    own.add(where, judged_sweep(where));
-            }
-        const std::lock_guard lock(mutex);
-        all.add(own);
-    };
-    std::vector<std::thread> threads;
-    for (unsigned i = std::max(1u, std::thread::hardware_concurrency()); i > 0; --i) threads.emplace_back(work);
-    for (std::thread& thread : threads) thread.join();
-    return all;
+    return by_all_threads<SweepSummary>(first, last, [](std::uint64_t number, SweepSummary& sum) {
+        const Place where = place(number);
+        if (where.family != Family::half_space && where.family != Family::round) sum.add(where, judged_sweep(where));
+    });
 }
 
 #ifdef NDEBUG
