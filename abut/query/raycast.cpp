@@ -1,38 +1,13 @@
 #include <abut/math/assert.hpp>
 #include <abut/query/raycast.hpp>
 #include <abut/query/raycast_part.hpp>
+#include <abut/query/raycast_tell.hpp>
 #include <abut/query/raycast_triangles.hpp>
 
 #include <algorithm>
 
 namespace abut {
 namespace {
-
-template <int D>
-bool can_be_asked(const Ray<D>& ray) {
-    return is_finite(ray.origin) && is_finite(ray.direction) && !std::isnan(ray.length);
-}
-
-template <int D>
-Beam<D> beam_of(const Ray<D>& ray) {
-    return {DVec<D>(ray.origin), unit(DVec<D>(ray.direction)), static_cast<double>(ray.length)};
-}
-
-template <int D>
-inline void tell(const Beam<D>& beam, double along, const DVec<D>& normal, Hit<D>& hit) {
-    hit.distance = static_cast<float>(along);
-    hit.fraction = beam.length > 0 && beam.length <= static_cast<double>(std::numeric_limits<float>::max())
-                       ? std::min(1.0f, static_cast<float>(along / beam.length))
-                       : 0.0f;
-    hit.point = to_float(beam.at(along));
-    hit.normal = to_float(unit(normal));
-}
-template <int D>
-void tell(const Beam<D>& beam, const PartHit<D>& first, Hit<D>& hit) {
-    tell(beam, first.along, first.normal, hit);
-    hit.started_inside = first.started_inside;
-    hit.feature = first.feature;
-}
 
 template <int D>
 bool first_hit(const Beam<D>& beam, const Composite<D>& composite, const QueryOptions<D>& options, PartHit<D>& first) {

@@ -16,6 +16,8 @@
 
 namespace abut {
 
+class Mesh;
+
 template <int D>
 std::optional<Hit<D>> raycast(const Ray<D>& ray, const View<D>& shape, const QueryOptions<D>& options = {});
 template <int D>
@@ -24,6 +26,9 @@ template <int D>
 std::optional<Hit<D>> raycast(const Ray<D>& ray, const Composite<D>& shape, const QueryOptions<D>& options = {});
 template <int D>
 std::optional<Hit<D>> raycast(const Ray<D>& ray, const Given<D>& shape, const QueryOptions<D>& options = {});
+
+/// A mesh where it was made, without a view of it.
+std::optional<Hit<3>> raycast(const Ray<3>& ray, const Mesh& mesh, const QueryOptions<3>& options = {});
 
 /// The first hit. A ray that starts inside or on the surface hits at 0 only if it goes further in; along the surface or
 /// outwards is no hit, and the search goes on behind it.

@@ -1,5 +1,10 @@
-#include <abut/convex/ray_forms.hpp>
+#include <abut/convex/ray_triangle.hpp>
+#include <abut/math/assert.hpp>
+#include <abut/query/raycast.hpp>
+#include <abut/query/raycast_tell.hpp>
 #include <abut/query/raycast_triangles.hpp>
+#include <abut/shape/mesh.hpp>
+#include <abut/shape/mesh_rays.hpp>
 
 namespace abut {
 namespace {
@@ -9,115 +14,114 @@ bool is_unplaced(const Composite<3>& composite) {
     return composite.place.column == Affine<3>::identity() && composite.place.offset == DVec<3>(0.0);
 }
 
-/// The beam as a point on its way in the shape's own frame.
-MovingBox<3> seen_by(const Composite<3>& composite, const Beam<3>& beam, double volume) {
+/// A composite as the beam meets it.
+struct Target {
+    const Beam<3>& beam;
+    Beam<3> own{};
+    Affine<3> seen{};
+    bool placed = false;
+    double unit = 1, astray = 0, wanted_side = 0;
+
+    MeshBeam mesh_beam() const {
+        return {beam, placed ? own : beam, unit, astray, placed ? &seen : nullptr, wanted_side};
+    }
+};
+
+/// How far what is seen from a shape's own frame may be from where it is. Placed and seen again, a corner is where it
+/// was but for a few roundings of all numbers involved.
+double rounded_on_the_way(const Composite<3>& composite, const Affine<3>& back, const DVec<3>& origin) {
     const DVec<3> extent = DVec<3>(composite.bounds.max) - DVec<3>(composite.bounds.min);
-    const Affine<3> back = inverse(composite.place, volume);
-    MovingBox<3> point;
-    point.center = back.point(beam.origin);
-    point.direction = back.vector(beam.direction);
-    point.length = beam.length;
-    // Placed and seen again, a corner is where it was but for a few roundings of all numbers involved.
-    double astray = 1e-13 * (largest(point.center) + largest(extent));
+    double result = 1e-13 * (largest(origin) + largest(extent));
+    if (composite.similar) return result;
     // A search takes for hit what is a little beside a triangle, in its size as it is placed. What is stretched may be
     // large along another axis than the one on which it is beside.
-    if (!composite.similar) {
-        double squares = 0;
-        for (std::size_t i = 0; i < 3; ++i)
-            squares += length_squared(back.column[i]) * length_squared(composite.place.column[i]);
-        astray += 2e-7 * std::sqrt(squares) * largest(extent);
-    }
-    point.half = DVec<3>(astray);
-    return point;
+    double squares = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        squares += length_squared(back.column[i]) * length_squared(composite.place.column[i]);
+    return result + 2e-7 * std::sqrt(squares) * largest(extent);
 }
 
-/// Where the beam's origin sees the corners: of a shape that is placed, and of one that isn't.
-struct SeenPlaced {
-    Affine<3> place;
-
-    DVec<3> operator()(const Vec3& corner) const { return place.point(DVec<3>(corner)); }
-};
-struct SeenAsTheyAre {
-    DVec<3> origin;
-
-    DVec<3> operator()(const Vec3& corner) const { return DVec<3>(corner) - origin; }
-};
-
-/// `rest` is what is left of the beam.
-template <class Seen>
-bool triangle_hit(const Beam<3>& rest, const Seen& seen, const Triangle3& triangle, const Composite<3>& composite,
-                  const QueryOptions<3>& options, PartHit<3>& hit) {
-    const DVec<3> a = seen(triangle.a), b = seen(triangle.b), c = seen(triangle.c);
-    if (!options.back_faces) {
-        const double mirrored = determinant(composite.place) < 0 ? -1 : 1;
-        if (!(dot(cross(b - a, c - a), rest.direction) * mirrored < 0)) return false;
-    }
-    const RayEntry<3> entry = enter_triangle(rest, a, b, c);
-    if (entry.answer == RayAnswer::misses) return false;
-    if (entry.answer == RayAnswer::undecided)
-        return part_hit_by_advance(rest, placed(convex(triangle), composite), 0, options.trace, hit);
-    hit.along = entry.along;
-    hit.normal = entry.normal;
-    hit.started_inside = false;
-    hit.feature = {0, entry.index, entry.kind};
+/// False where it isn't known by its triangles, or by numbers that floats can hold.
+bool aim(const Composite<3>& composite, const QueryOptions<3>& options, Target& target) {
+    const bool thin = composite.radius == 0 && composite.inner_radius == 0;
+    if (composite.triangles == nullptr || !thin) return false;
+    target.wanted_side = options.back_faces ? 0 : 1;
+    if (is_unplaced(composite)) return true;
+    const double volume = determinant(composite.place);
+    if (volume == 0) return false;
+    if (volume < 0) target.wanted_side = -target.wanted_side;
+    target.placed = true;
+    target.seen = composite.place;
+    target.seen.offset -= target.beam.origin;
+    const Affine<3> back = inverse(composite.place, volume);
+    const DVec<3> along = back.vector(target.beam.direction);
+    target.unit = length(along);
+    if (!(target.unit > 1e-30 && target.unit < 1e30)) return false;
+    target.own = {back.point(target.beam.origin), along / target.unit, target.beam.length * target.unit};
+    target.astray = rounded_on_the_way(composite, back, target.own.origin);
     return true;
 }
 
-/// Calls visit(hit, part) for the triangles that the beam meets. It returns the new reach; the hit's feature lacks the
-/// part, which is far away in memory and seldom needed.
-template <class Seen, class Visit>
-bool visit_hits(const Beam<3>& beam, const Seen& seen, const MovingBox<3>& point, const Composite<3>& composite,
-                const QueryOptions<3>& options, Visit& visit) {
-    Beam<3> rest = beam;
+/// Where no closed form decides.
+bool hit_by_advance(const Beam<3>& beam, double most, const Convex<3>& triangle, Trace<3>* trace, RayEntry<3>& entry) {
     PartHit<3> hit;
-    const auto decide = [&](const Triangle3& triangle, const std::uint32_t& part) -> float {
-        if (triangle_hit(rest, seen, triangle, composite, options, hit)) rest.length = visit(hit, part);
-        return static_cast<float>(rest.length);
-    };
-    return composite.each_triangle_on_line(composite.object, point, decide);
+    if (!part_hit_by_advance({beam.origin, beam.direction, most}, triangle, 0, trace, hit)) return false;
+    entry = {RayAnswer::enters, hit.along, hit.normal, hit.feature.kind, hit.feature.index};
+    return true;
 }
 
-template <class Visit>
-bool visit_hits(const Beam<3>& beam, const Composite<3>& composite, const QueryOptions<3>& options, Visit visit) {
-    const bool thin = composite.radius == 0 && composite.inner_radius == 0;
-    if (composite.each_triangle_on_line == nullptr || !thin) return false;
-    if (is_unplaced(composite)) {
-        const MovingBox<3> point{beam.origin, DVec<3>(0.0), beam.direction, beam.length};
-        return visit_hits(beam, SeenAsTheyAre{beam.origin}, point, composite, options, visit);
-    }
-    const double volume = determinant(composite.place);
-    if (volume == 0) return false;
-    SeenPlaced seen{composite.place};
-    seen.place.offset -= beam.origin;
-    return visit_hits(beam, seen, seen_by(composite, beam, volume), composite, options, visit);
+PartHit<3> part_hit(const RayEntry<3>& entry, std::uint32_t triangle) {
+    return {entry.along, entry.normal, false, {triangle, entry.index, entry.kind}};
 }
 
 }  // namespace
 
 bool first_triangle_hit(const Beam<3>& beam, const Composite<3>& composite, const QueryOptions<3>& options,
                         PartHit<3>& first, bool& found) {
-    const std::uint32_t* first_part = nullptr;
-    const auto keep_first = [&](const PartHit<3>& hit, const std::uint32_t& part) {
-        if (first_part == nullptr || hit.along < first.along || part < *first_part) {
-            first = hit;
-            first_part = &part;
-            __builtin_prefetch(first_part);
-        }
-        return first.along;
+    Target target{beam};
+    if (!aim(composite, options, target)) return false;
+    const auto undecided = [&](const Triangle3& triangle, double most, RayEntry<3>& entry) {
+        return hit_by_advance(beam, most, placed(convex(triangle), composite), options.trace, entry);
     };
-    if (!visit_hits(beam, composite, options, keep_first)) return false;
-    found = first_part != nullptr;
-    if (found) first.feature.part = *first_part;
+    MeshHit hit;
+    if (!find_first_hit(*composite.triangles, target.mesh_beam(), UndecidedTriangle(undecided), hit)) return false;
+    found = hit.triangle != nullptr;
+    if (found) first = part_hit(hit.entry, *hit.triangle);
     return true;
 }
 
 bool each_triangle_hit(const Beam<3>& beam, const Composite<3>& composite, const QueryOptions<3>& options,
                        HitVisitor visit) {
-    return visit_hits(beam, composite, options, [&](const PartHit<3>& hit, const std::uint32_t& part) {
-        PartHit<3> named = hit;
-        named.feature.part = part;
-        return visit(named);
-    });
+    Target target{beam};
+    if (!aim(composite, options, target)) return false;
+    const auto undecided = [&](const Triangle3& triangle, double most, RayEntry<3>& entry) {
+        return hit_by_advance(beam, most, placed(convex(triangle), composite), options.trace, entry);
+    };
+    const auto tell = [&](const RayEntry<3>& entry, std::uint32_t triangle) {
+        return visit(part_hit(entry, triangle));
+    };
+    return find_each_hit(*composite.triangles, target.mesh_beam(), UndecidedTriangle(undecided), MeshHitCall(tell));
+}
+
+std::optional<Hit<3>> raycast(const Ray<3>& ray, const Mesh& mesh, const QueryOptions<3>& options) {
+    std::optional<Hit<3>> result;
+    const bool finite = can_be_asked(ray);
+    ABUT_ASSERT(finite);
+    if (!finite) return result;
+    const Beam<3> beam = beam_of(ray);
+    const auto undecided = [&](const Triangle3& triangle, double most, RayEntry<3>& entry) {
+        return hit_by_advance(beam, most, convex(triangle), options.trace, entry);
+    };
+    const MeshBeam seen{beam, beam, 1, 0, nullptr, options.back_faces ? 0.0 : 1.0};
+    MeshHit first;
+    if (!find_first_hit(triangle_tree(mesh), seen, UndecidedTriangle(undecided), first)) {
+        result = raycast(ray, view(mesh), options);
+    } else if (first.triangle != nullptr) {
+        Hit<3>& hit = result.emplace();
+        tell(beam, first.entry.along, first.entry.normal, hit);
+        hit.feature = {*first.triangle, first.entry.index, first.entry.kind};
+    }
+    return result;
 }
 
 }  // namespace abut

@@ -158,9 +158,8 @@ void each_part_near(const Mesh& mesh, const Aabb3& box,
                 [&](std::uint32_t index) -> float { return visit(mesh.triangle(index), index); });
 }
 
-bool each_triangle_on_line(const Mesh& mesh, const MovingBox<3>& point,
-                           FunctionRef<float(const Triangle3& triangle, const std::uint32_t& index)> visit) {
-    return find_on_line(mesh.data_->tree, point, visit);
+const MeshTree& triangle_tree(const Mesh& mesh) {
+    return mesh.data_->tree;
 }
 
 bool solid_contains(const Mesh& mesh, const Vec3& point) {

@@ -42,8 +42,7 @@ private:
                                 FunctionRef<float(const Triangle3& part, std::uint32_t index)> visit);
     friend void each_part_near(const Mesh& mesh, const Aabb3& box,
                                FunctionRef<float(const Triangle3& part, std::uint32_t index)> visit);
-    friend bool each_triangle_on_line(const Mesh& mesh, const MovingBox<3>& point,
-                                      FunctionRef<float(const Triangle3& triangle, const std::uint32_t& index)> visit);
+    friend const MeshTree& triangle_tree(const Mesh& mesh);
     friend bool solid_contains(const Mesh& mesh, const Vec3& point);
 
     std::shared_ptr<const Data> data_;
@@ -64,11 +63,8 @@ void each_part_along(const Mesh& mesh, const MovingBox<3>& box,
 void each_part_near(const Mesh& mesh, const Aabb3& box,
                     FunctionRef<float(const Triangle3& part, std::uint32_t index)> visit);
 
-/// Visits at least the triangles that the way of a point meets within reach, where the point may be anywhere in the
-/// moving box, a small one, and few others; roughly the first first. The visitor returns the new, shorter reach. False,
-/// and none was visited, where the numbers are so large or so small that floats can't tell.
-bool each_triangle_on_line(const Mesh& mesh, const MovingBox<3>& point,
-                           FunctionRef<float(const Triangle3& triangle, const std::uint32_t& index)> visit);
+/// For rays; not for users.
+const MeshTree& triangle_tree(const Mesh& mesh);
 
 /// Whether a closed mesh goes round the point; false for one that isn't closed. Points of the surface itself are told
 /// by the triangles.

@@ -27,10 +27,7 @@ using PartVisitor = FunctionRef<bool(const Convex<D>& part, std::uint32_t index)
 template <int D>
 using PartReachVisitor = FunctionRef<float(const Convex<D>& part, std::uint32_t index)>;
 
-/// The same of triangles, as they are in the shape's own frame. The number stays where it is as long as the shape does:
-/// few are asked for, and to look it up takes time.
-template <int D>
-using TriangleReachVisitor = FunctionRef<float(const Triangle<D>& triangle, const std::uint32_t& index)>;
+struct MeshTree;
 
 /// A composite shape: the union of its parts. Refers to the shape and must not outlive it.
 template <int D>
@@ -45,11 +42,8 @@ struct Composite : Placement<D> {
     /// Visits at least the parts whose boxes are within reach of `box`, roughly the nearest first. Null: they are asked
     /// for by wider and wider boxes.
     void (*each_part_near)(const void* object, const Aabb<D>& box, PartReachVisitor<D> visit) = nullptr;
-    /// All parts are triangles: visits at least those that the way of a point meets within reach, where the point may
-    /// be anywhere in the moving box, a small one; roughly the first first. False, and none was visited, where this
-    /// can't be told. Null: they are not triangles, or must be asked for by each_part_along.
-    bool (*each_triangle_on_line)(const void* object, const MovingBox<D>& point,
-                                  TriangleReachVisitor<D> visit) = nullptr;
+    /// Where all parts are the triangles of a tree; else null.
+    const MeshTree* triangles = nullptr;
     /// Whether a point of the shape's own frame is inside it; null where the shape is the union of its parts and no
     /// more.
     bool (*contains)(const void* object, const Vec<D>& point) = nullptr;
@@ -126,8 +120,8 @@ View<D> rounded(const View<D>& view, double radius);
 // `given(shape)`, which saves the view where both of a pair have it; a user's give `bounds(shape)`
 // and either `support(shape, direction)` or `each_part(shape, box, visit)`, found by argument-dependent lookup. A
 // composite one that has its parts in some order may also give `each_part_along(shape, moving_box, visit)` and
-// `each_part_near(shape, box, visit)`, for rays and distances, and one of triangles
-// `each_triangle_on_line(shape, moving_box, visit)`, for rays.
+// `each_part_near(shape, box, visit)`, for rays and distances; the library's own of triangles has
+// `triangle_tree(shape)`, for rays.
 
 namespace detail {
 
@@ -237,11 +231,10 @@ requires(!detail::HasConvex<S> && !detail::HasSupport<S> && detail::HasParts<S>)
             each_part_near(*static_cast<const S*>(object), box,
                            [&](const auto& part, std::uint32_t index) -> float { return visit(view(part), index); });
         };
-    if constexpr (requires { each_triangle_on_line(shape, MovingBox<D>(), detail::AnyPartReach<D>()); })
-        result.each_triangle_on_line = [](const void* object, const MovingBox<D>& point,
-                                          TriangleReachVisitor<D> visit) -> bool {
-            return each_triangle_on_line(*static_cast<const S*>(object), point, visit);
-        };
+    if constexpr (requires {
+                      { triangle_tree(shape) } -> std::same_as<const MeshTree&>;
+                  })
+        result.triangles = &triangle_tree(shape);
     if constexpr (requires {
                       { solid_contains(shape, Vec<D>()) } -> std::same_as<bool>;
                   })
