@@ -2,7 +2,7 @@
 
 namespace abut::tool {
 
-CastResult cast(const Objects& objects, const CastOptions& options) {
+CastResult cast(const Objects& objects, const CastOptions& options, ProgressCall progress) {
     World3 world;
     for (std::size_t i = 0; i < objects.size(); ++i)
         if (objects[i].present) world.add(objects[i].placed, {.user = i});
@@ -14,6 +14,7 @@ CastResult cast(const Objects& objects, const CastOptions& options) {
     result.last = follow_laser(world, ray, [&](const Ray3& piece, const WorldHit<3>& hit) {
         travelled += static_cast<double>(hit.hit.distance);
         result.hits.push_back({world.user(hit.id), piece, hit.hit, travelled});
+        progress(result.hits.size(), options.bounces + 1);
         return result.hits.size() <= options.bounces;
     });
     if (result.hits.size() > options.bounces)

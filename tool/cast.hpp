@@ -3,6 +3,7 @@
 // What a ray through a scene hits, and what it hits after that where things are mirrors.
 
 #include "objects.hpp"
+#include "progress.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -28,7 +29,7 @@ struct CastResult {
     Ray3 last;                  ///< the piece that hits nothing, or ends in the last hit
 };
 
-/// The objects are where they were last taken to.
-CastResult cast(const Objects& objects, const CastOptions& options);
+/// The objects are where they were last taken to. Progress is told in hits, of as many as there can be.
+CastResult cast(const Objects& objects, const CastOptions& options, ProgressCall progress);
 
 }  // namespace abut::tool

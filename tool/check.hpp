@@ -3,6 +3,7 @@
 // Which objects of a scene touch, where, how deep and when.
 
 #include "objects.hpp"
+#include "progress.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -42,11 +43,8 @@ struct CheckResult {
     std::uint64_t possible = 0;     ///< all pairs there are, over all frames
 };
 
-/// Called with frames done and frames in all.
-using ProgressCall = FunctionRef<void(std::size_t done, std::size_t all)>;
-
 /// Takes the objects through the times, which it expects them to be at the first of. A pair of which neither moved
-/// since the frame before isn't tested again. A Problem where an object can't be placed.
+/// since the frame before isn't tested again. Progress is told in frames. A Problem where an object can't be placed.
 Result<CheckResult> check(Objects& objects, const std::vector<double>& times, const CheckOptions& options,
                           ProgressCall progress);
 

@@ -104,7 +104,7 @@ Objects::Objects(const Scene& scene) : scene_(scene) {
     was_hidden_.assign(objects_.size(), false);
 }
 
-std::optional<Problem> Objects::go_to(double time) {
+std::optional<Problem> Objects::go_to(double time, ProgressCall progress) {
     world_matrices(scene_, time, matrices_);
     for (std::size_t i = 0; i < objects_.size(); ++i) {
         Object& object = objects_[i];
@@ -113,6 +113,7 @@ std::optional<Problem> Objects::go_to(double time) {
         if (object.moved)
             if (std::optional<Problem> problem = place(object, matrix)) return problem;
         if (!object.present) was_hidden_[i] = true;
+        progress(i + 1, objects_.size());
     }
     return std::nullopt;
 }

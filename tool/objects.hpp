@@ -3,6 +3,7 @@
 // The objects of a scene, each a shape in its place at a moment of the animation.
 
 #include "inside.hpp"
+#include "progress.hpp"
 #include <abut/abut.hpp>
 #include <abut/bake/weld.hpp>
 #include <abut/io/scene.hpp>
@@ -55,7 +56,11 @@ public:
     explicit Objects(const Scene& scene);
 
     /// Takes all objects to a moment, in seconds. A Problem where a transform takes one out of the range of floats.
-    std::optional<Problem> go_to(double time);
+    /// Progress is told in objects; the first time takes long, as all shapes are built.
+    std::optional<Problem> go_to(double time, ProgressCall progress);
+    std::optional<Problem> go_to(double time) {
+        return go_to(time, [](std::size_t, std::size_t) {});
+    }
 
     std::size_t size() const { return objects_.size(); }
     const Object& operator[](std::size_t i) const { return objects_[i]; }

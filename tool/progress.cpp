@@ -22,7 +22,7 @@ Progress::~Progress() {
     if (is_shown_) std::fputs("\r\x1b[K", stderr);
 }
 
-void Progress::show(std::size_t done, std::size_t all) {
+void Progress::operator()(std::size_t done, std::size_t all) {
     if (!is_terminal_ || all == 0 || Clock::now() < next_) return;
     next_ = Clock::now() + between_updates;
     is_shown_ = true;

@@ -2,11 +2,16 @@
 
 // A bar on stderr for work that takes long, if somebody is there to see it.
 
+#include <abut/math/function_ref.hpp>
+
 #include <chrono>
 #include <cstddef>
 #include <string>
 
 namespace abut::tool {
+
+/// Is told from time to time how much is done, and how much there is in all.
+using ProgressCall = FunctionRef<void(std::size_t done, std::size_t all)>;
 
 /// Shows itself after half a second, on a terminal only, and is gone without a trace when it goes out of scope.
 class Progress {
@@ -16,7 +21,7 @@ public:
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    void show(std::size_t done, std::size_t all);
+    void operator()(std::size_t done, std::size_t all);
 
 private:
     using Clock = std::chrono::steady_clock;

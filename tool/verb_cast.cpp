@@ -3,6 +3,7 @@
 #include "verbs.hpp"
 
 #include <fstream>
+#include <utility>
 
 namespace abut::tool {
 namespace {
@@ -25,12 +26,15 @@ Result<ExitCode> run_cast(const CastRequest& request) {
     if (!scene) return scene.problem();
     const double read_seconds = watch.lap();
     Objects objects(*scene);
-    if (const std::optional<Problem> problem = objects.go_to(key_times(*scene).front()))
+    if (const std::optional<Problem> problem = build(objects, key_times(*scene).front()))
         return Problem{problem->code, request.scene + ": " + problem->message};
     const double build_seconds = watch.lap();
 
-    CastReport report{
-        objects, request.options, cast(objects, request.options), scene->warnings, read_seconds, build_seconds, 0};
+    CastResult result = [&] {
+        Progress progress("casting");
+        return cast(objects, request.options, progress);
+    }();
+    CastReport report{objects, request.options, std::move(result), scene->warnings, read_seconds, build_seconds, 0};
     report.cast_seconds = watch.lap();
     if (request.picture)
         if (const std::optional<Problem> problem = write_file(*request.picture, picture(report))) return *problem;

@@ -81,13 +81,12 @@ Result<ExitCode> run_check(const CheckRequest& request) {
     };
     Objects objects(*scene);
     if (const std::optional<Problem> problem = check_patterns(request, objects)) return *problem;
-    if (const std::optional<Problem> problem = objects.go_to(times.front())) return with_file(*problem);
+    if (const std::optional<Problem> problem = build(objects, times.front())) return with_file(*problem);
     seconds.build = watch.lap();
 
     Result<CheckResult> result = [&] {
         Progress progress("checking");
-        return check(objects, times, request.options,
-                     [&](std::size_t done, std::size_t all) { progress.show(done, all); });
+        return check(objects, times, request.options, progress);
     }();
     if (!result) return with_file(result.problem());
     seconds.check = watch.lap();

@@ -48,7 +48,7 @@ Result<ExitCode> run_info(const InfoRequest& request) {
     if (!scene) return scene.problem();
     const std::vector<double> times = key_times(*scene);
     Objects objects(*scene);
-    if (const std::optional<Problem> problem = objects.go_to(times.front()))
+    if (const std::optional<Problem> problem = build(objects, times.front()))
         return Problem{problem->code, request.scene + ": " + problem->message};
     return print(request.json ? json_info(objects, *scene, times) : text_info(request.scene, *scene, objects, times),
                  fine);

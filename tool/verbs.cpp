@@ -15,6 +15,11 @@ Result<Scene> load(const std::string& file, bool skip_degenerate) {
     return problem;
 }
 
+std::optional<Problem> build(Objects& objects, double time) {
+    Progress progress("building");
+    return objects.go_to(time, progress);
+}
+
 Result<ExitCode> print(const std::string& text, ExitCode code) {
     const bool done = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
     if (!done) return Problem{ProblemCode::unreadable, "the report can't be written"};

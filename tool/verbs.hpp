@@ -48,6 +48,9 @@ Result<ExitCode> run_info(const InfoRequest& request);
 /// A scene as the verbs want it; the message of a Problem begins with the file.
 Result<Scene> load(const std::string& file, bool skip_degenerate);
 
+/// Takes the objects to the first moment that is asked about, with a bar where that takes long.
+std::optional<Problem> build(Objects& objects, double time);
+
 /// Everything at once on stdout.
 Result<ExitCode> print(const std::string& text, ExitCode code);
 

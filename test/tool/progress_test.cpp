@@ -1,0 +1,59 @@
+// What a bar is told while the work goes on.
+
+#include "scene_of.hpp"
+#include "tool/cast.hpp"
+#include "tool/check.hpp"
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace abut::tool {
+namespace {
+
+/// "1/3 2/3 3/3"
+struct Told {
+    std::string all;
+
+    void operator()(std::size_t done, std::size_t of) {
+        all += (all.empty() ? "" : " ") + std::to_string(done) + "/" + std::to_string(of);
+    }
+};
+
+/// Two boxes, the faces 3 apart.
+Scene two_boxes() {
+    Scene scene;
+    test::add_unit_box(scene, "left", {0, 0, 0});
+    test::add_unit_box(scene, "right", {4, 0, 0});
+    return scene;
+}
+
+TEST(Progress, OfPlacingIsInObjects) {
+    const Scene scene = two_boxes();
+    Objects objects(scene);
+    Told told;
+    ASSERT_FALSE(objects.go_to(0, told));
+    EXPECT_EQ(told.all, "1/2 2/2");
+}
+
+TEST(Progress, OfACheckIsInFrames) {
+    const Scene scene = two_boxes();
+    Objects objects(scene);
+    ASSERT_FALSE(objects.go_to(0));
+    Told told;
+    ASSERT_TRUE(check(objects, {0, 1, 2}, {}, told));
+    EXPECT_EQ(told.all, "1/3 2/3 3/3");
+}
+
+TEST(Progress, OfACastIsInHits) {
+    const Scene scene = two_boxes();
+    Objects objects(scene);
+    ASSERT_FALSE(objects.go_to(0));
+    Told told;
+    cast(objects, {.from = {1, 0, 0}, .to = {2, 0, 0}, .bounces = 2}, told);
+    EXPECT_EQ(told.all, "1/3 2/3 3/3");
+}
+
+}  // namespace
+}  // namespace abut::tool
