@@ -53,6 +53,12 @@ Result<std::size_t> parse_bounces(const std::string& text) {
     return bounces;
 }
 
+Result<double> parse_time(const std::string& text) {
+    double time = 0;
+    if (!parse(text, time) || !std::isfinite(time)) return bad(text, "a number of seconds");
+    return time;
+}
+
 Result<PairPattern> parse_pair(const std::string& text) {
     const std::size_t colon = text.find(':');
     if (colon == std::string::npos || text.find(':', colon + 1) != std::string::npos || colon == 0 ||

@@ -22,6 +22,9 @@ Result<Vec3> parse_point(const std::string& text);
 /// How often a ray is thrown back, 1 to a hundred thousand.
 Result<std::size_t> parse_bounces(const std::string& text);
 
+/// A moment in seconds, finite.
+Result<double> parse_time(const std::string& text);
+
 /// Two patterns with one ':' between them.
 Result<PairPattern> parse_pair(const std::string& text);
 

@@ -67,6 +67,7 @@ std::string json_report(const CastReport& report) {
          {"from", numbers(report.options.from)},
          {"to", numbers(report.options.to)},
          {"bounces", report.options.bounces},
+         {"time", report.time},
          {"clear", report.result.hits.empty()},
          {"hits", std::move(hits)},
          {"end", std::move(end)},

@@ -12,6 +12,7 @@ namespace abut::tool {
 struct CastReport {
     const Objects& objects;
     const CastOptions& options;
+    double time = 0;  ///< the moment at which the objects are, in seconds
     CastResult result;
     std::vector<std::string> notes;
     double read_seconds = 0, build_seconds = 0, cast_seconds = 0;

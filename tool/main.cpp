@@ -52,7 +52,7 @@ void describe(CLI::App& verb, CheckArguments& arguments) {
 // What was typed for `abut cast`.
 struct CastArguments {
     CastRequest request;
-    std::optional<std::string> from, to, bounces;
+    std::optional<std::string> from, to, bounces, time;
 };
 
 void describe(CLI::App& verb, CastArguments& arguments) {
@@ -63,6 +63,9 @@ void describe(CLI::App& verb, CastArguments& arguments) {
         ->required();
     verb.add_option("--bounces", arguments.bounces, "Go on beyond --to, thrown back N times: all things are mirrors")
         ->type_name("N");
+    verb.add_option("--time", arguments.time,
+                    "The moment of the animation, as `abut check` tells it; without it the first")
+        ->type_name("SECONDS");
     verb.add_option("-o,--output", arguments.request.picture, "Draw a picture too")->type_name("PICTURE.svg");
     verb.add_flag("--json", arguments.request.json, "One JSON object in place of text");
     verb.add_flag("--skip-degenerate", arguments.request.skip_degenerate, "Leave out triangles of zero area");
@@ -102,6 +105,7 @@ Result<ExitCode> run_cast(CastArguments& arguments) {
     std::optional<std::string> problem = understand("--from", arguments.from, parse_point, options.from);
     if (!problem) problem = understand("--to", arguments.to, parse_point, options.to);
     if (!problem) problem = understand("--bounces", arguments.bounces, parse_bounces, options.bounces);
+    if (!problem) problem = understand("--time", arguments.time, parse_time, arguments.request.time);
     if (problem) return Problem{ProblemCode::bad_argument, *problem};
     return run_cast(arguments.request);
 }

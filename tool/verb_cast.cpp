@@ -1,9 +1,14 @@
 #include "cast_report.hpp"
 #include "stopwatch.hpp"
 #include "verbs.hpp"
+#include "written.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace abut::tool {
 namespace {
@@ -16,6 +21,22 @@ std::optional<Problem> write_file(const std::string& file, const std::string& co
     return Problem{ProblemCode::unreadable, file + ": can't be written"};
 }
 
+/// Reports write moments with four digits, and what they write can be asked about.
+constexpr double rounded_off = 5e-4;
+
+/// The moment at which the scene is taken.
+Result<double> moment(const Scene& scene, const std::optional<double>& asked) {
+    const std::vector<double> keys = key_times(scene);
+    const double first = keys.front(), last = keys.back();
+    if (!asked) return first;
+    const double slack = rounded_off * std::max(std::abs(first), std::abs(last));
+    if (*asked >= first - slack && *asked <= last + slack) return std::clamp(*asked, first, last);
+    const std::string why = first < last ? fmt::format("{} s is not in the animation, which is from {} s to {} s",
+                                                       number(*asked), number(first), number(last))
+                                         : "nothing moves, so the first moment is the only one";
+    return Problem{ProblemCode::bad_argument, "--time: " + why};
+}
+
 }  // namespace
 
 Result<ExitCode> run_cast(const CastRequest& request) {
@@ -26,7 +47,9 @@ Result<ExitCode> run_cast(const CastRequest& request) {
     if (!scene) return scene.problem();
     const double read_seconds = watch.lap();
     Objects objects(*scene);
-    if (const std::optional<Problem> problem = build(objects, key_times(*scene).front()))
+    const Result<double> time = moment(*scene, request.time);
+    if (!time) return Problem{time.problem().code, request.scene + ": " + time.problem().message};
+    if (const std::optional<Problem> problem = build(objects, *time))
         return Problem{problem->code, request.scene + ": " + problem->message};
     const double build_seconds = watch.lap();
 
@@ -34,7 +57,8 @@ Result<ExitCode> run_cast(const CastRequest& request) {
         Progress progress("casting");
         return cast(objects, request.options, progress);
     }();
-    CastReport report{objects, request.options, std::move(result), scene->warnings, read_seconds, build_seconds, 0};
+    CastReport report{objects,         request.options, *time,         std::move(result),
+                      scene->warnings, read_seconds,    build_seconds, 0};
     report.cast_seconds = watch.lap();
     if (request.picture)
         if (const std::optional<Problem> problem = write_file(*request.picture, picture(report))) return *problem;

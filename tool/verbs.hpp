@@ -29,12 +29,12 @@ Result<ExitCode> run_check(const CheckRequest& request);
 struct CastRequest {
     std::string scene;
     std::optional<std::string> picture;  ///< a file to write one to, as SVG
+    std::optional<double> time;          ///< none: the first moment
     bool json = false;
     bool skip_degenerate = false;
     CastOptions options;
 };
 
-/// The scene is taken at its first moment.
 Result<ExitCode> run_cast(const CastRequest& request);
 
 struct InfoRequest {

@@ -21,6 +21,12 @@ TEST(Arguments, Frames) {
         EXPECT_FALSE(parse_frames(bad)) << bad;
 }
 
+TEST(Arguments, Times) {
+    EXPECT_EQ(*parse_time("3.562"), 3.562);
+    EXPECT_EQ(*parse_time("-1"), -1.0);
+    for (const char* bad : {"", "nan", "inf", "1e999", "3s", "1:30", " 1"}) EXPECT_FALSE(parse_time(bad)) << bad;
+}
+
 TEST(Arguments, Pairs) {
     const Result<PairPattern> pair = parse_pair("Player*:*/Walls/*");
     ASSERT_TRUE(pair);

@@ -102,6 +102,34 @@ TEST_F(Cast, BouncesBetweenMirrorsAndGoesOnBeyondTheTarget) {
     cast({file, "--from", "2,2,0", "--to", "2,3,0", "--bounces", "9"}, 0);
 }
 
+TEST_F(Cast, IsAtTheMomentAskedFor) {
+    // A door across the x axis goes up by 4 in a third of 10 seconds.
+    GltfBuilder builder;
+    const int node = builder.add_node("Door", builder.add_mesh("Door", box_triangles({0.5f, 0.5f, 0.5f})), {0, 0, 0});
+    builder.add_motion(node, "open", {0, 3.3333333f}, {{0, 0, 0}, {0, 4, 0}});
+    const std::string file = write("door.gltf", builder.text()).string();
+    const auto line = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> all{file, "--from", "-3,0,0", "--to", "3,0,0"};
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    };
+    EXPECT_EQ(cast(line({}), 1)["time"], 0) << "the first moment";
+    EXPECT_EQ(cast(line({"--time", "0.25"}), 1)["time"], 0.25);
+    EXPECT_EQ(cast(line({"--time", "2"}), 0)["time"], 2);
+    EXPECT_NEAR(cast(line({"--time", "3.334"}), 0)["time"].get<double>(), 3.3333333, 1e-6) << "as reports round it";
+    const auto refused = [&](const std::string& from, const std::string& time) {
+        return refusal({"cast", from, "--from", "-3,0,0", "--to", "3,0,0", "--time", time});
+    };
+    EXPECT_EQ(refused(file, "4"),
+              "abut: " + file + ": --time: 4 s is not in the animation, which is from 0 s to 3.333 s");
+    EXPECT_EQ(refused(file, "-1"),
+              "abut: " + file + ": --time: -1 s is not in the animation, which is from 0 s to 3.333 s");
+    EXPECT_EQ(refused(file, "now"), "abut: --time: 'now' is not a number of seconds");
+    const std::string still = write("row.gltf", row()).string();
+    EXPECT_EQ(refused(still, "1"), "abut: " + still + ": --time: nothing moves, so the first moment is the only one");
+    EXPECT_EQ(cast({still, "--from", "-3,0,0", "--to", "9,0,0", "--time", "0"}, 1)["time"], 0);
+}
+
 TEST_F(Cast, DrawsAPicture) {
     const std::string file = write("row.gltf", row()).string(), picture = (folder() / "picture.svg").string();
     cast({file, "--from", "-3,0,0", "--to", "9,0,0", "-o", picture}, 1);
