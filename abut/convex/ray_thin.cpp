@@ -11,7 +11,7 @@ RayEntry<2> enter_segment(const Beam<2>& beam, const DVec<2>& a, const DVec<2>& 
     const double along = height / sinks;
     const double part = dot(beam.direction * along - a, along_it) / size;
     if (part < -doubt || part > size + doubt) return ray_misses<2>();
-    if (std::abs(height) <= ray_start_doubt * size) return {};
+    if (std::abs(height) <= ray_start_doubt * scale) return {};
     if (along < 0 || along > beam.length) return ray_misses<2>();
     return {RayAnswer::enters, along, sinks > 0 ? normal : -normal, FeatureKind::edge, edge_index(0, 1)};
 }

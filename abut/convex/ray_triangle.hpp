@@ -10,8 +10,8 @@
 
 namespace abut {
 
-/// A beam that starts so near to the line or plane of a thin part, in sizes of the part, may be leaving it.
-inline constexpr double ray_start_doubt = 1e-5;
+/// A beam that starts so near to the line or plane of a thin part, in parts of the numbers seen, may be leaving it.
+inline constexpr double ray_start_doubt = 16 * 0x1p-24;
 
 /// A beam that passes an edge so near, in parts of the numbers seen, may meet it: neighbours leave no crack.
 inline constexpr double ray_edge_doubt = 1e-12;
@@ -40,7 +40,7 @@ inline bool ray_stays_clear(double height, double scale) {
     const double to_ac = side * dot(ac, turned), to_ab = -side * dot(ab, turned), whole = side * sinks;
     const double beyond = std::max({-to_ac, -to_ab, to_ac + to_ab - whole});
     if (beyond > ray_edge_doubt * scale * size) return RayAnswer::misses;
-    if (std::abs(height) <= ray_start_doubt * size * area) return RayAnswer::undecided;
+    if (std::abs(height) <= ray_start_doubt * scale * area) return RayAnswer::undecided;
     const double along = height / sinks;
     if (along < 0 || along > most) return RayAnswer::misses;
     // Where it skims, or past a sharp corner, a little outside of the edges may be far.

@@ -10,8 +10,8 @@
 namespace abut {
 namespace {
 
-/// A raycast that starts nearer to a thin part than this, in parts of its size, may say that it leaves it. It is 1e-5
-/// of a size measured otherwise.
+/// A raycast that starts nearer to a thin part than this, in parts of its size, may say that it leaves it. It is 1e-6
+/// of the part's own size; here the size is guessed, and the part may be so much larger.
 constexpr double near_part = 4e-5;
 
 /// What two roundings of a place, and the step back that `reflect` takes, may move it by.

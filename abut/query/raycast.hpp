@@ -31,7 +31,9 @@ std::optional<Hit<D>> raycast(const Ray<D>& ray, const Given<D>& shape, const Qu
 std::optional<Hit<3>> raycast(const Ray<3>& ray, const Mesh& mesh, const QueryOptions<3>& options = {});
 
 /// The first hit. A ray that starts inside or on the surface hits at 0 only if it goes further in; along the surface or
-/// outwards is no hit, and the search goes on behind it.
+/// outwards is no hit, and the search goes on behind it. What has no inside, a segment of the plane or a triangle, is
+/// left by a ray that starts on it, whichever way it goes: within 16 units in the last place of the largest coordinate
+/// seen from there, a millionth of it.
 template <Shape S>
 std::optional<Hit<dimension<S>>> raycast(const Ray<dimension<S>>& ray, const S& shape,
                                          const QueryOptions<dimension<S>>& options = {}) {

@@ -22,6 +22,16 @@ bool thin(const Convex<D>& part) {
            part.inner_radius == 0;
 }
 
+/// How near to a thin part it may be rounding on which side a beam starts: 16 units in the last place of the largest
+/// coordinate that it sees. A beam has no size, of which some part would be doubted too.
+template <int D>
+double start_doubt(const Convex<D>& part, const DVec<D>& start) {
+    double farthest = 0;
+    for (std::uint32_t i = 0; i < part.count; ++i)
+        farthest = std::max(farthest, largest(part.place.point(DVec<D>(part.vertices()[i])) - start));
+    return 16 * 0x1p-24 * farthest;
+}
+
 }  // namespace
 
 /// The plane is never behind the surface, so nothing is passed (conservative advancement; Mirtich, "Impulse-based
@@ -39,7 +49,7 @@ bool part_hit_by_advance(const Beam<D>& beam, const Convex<D>& part, std::uint32
         const double approach = -dot(beam.direction, distance.normal);
         const bool there = distance.distance <= doubt;
         // Every way is a way out of a thin part: what starts on one leaves it, whichever side rounding put it on.
-        if (along == 0 && thin(part) && distance.distance <= 100 * doubt) return false;
+        if (along == 0 && thin(part) && distance.distance <= start_doubt(part, beam.origin)) return false;
         if ((along == 0 || !there) && !(approach > 0)) return false;
         if (there || step + 1 == most_steps) {
             // At an edge there are several ways out, and the one found may lie across the ray.
