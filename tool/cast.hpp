@@ -14,17 +14,18 @@ namespace abut::tool {
 struct CastOptions {
     Vec3 from{}, to{};
     std::size_t bounces = 0;  ///< none: the ray ends at `to`. Else it goes on without end, thrown back so many times
+    bool all = false;         ///< without bounces: it goes through what is in the way
 };
 
 struct CastHit {
     std::size_t object = 0;
-    Ray3 ray;  ///< the straight piece that ends in it
-    Hit<3> hit;
+    Ray3 ray;              ///< the straight piece that ends in it, from `from` or the hit before
+    Hit<3> hit;            ///< its distance is the length of that piece
     double travelled = 0;  ///< from `from`
 };
 
 struct CastResult {
-    std::vector<CastHit> hits;  ///< in order; one more than bounces at most
+    std::vector<CastHit> hits;  ///< in order; one more than bounces at most, or the first on each thing
     std::optional<Vec3> end;    ///< where the ray ends; none where it leaves the scene and goes on without end
     Ray3 last;                  ///< the piece that hits nothing, or ends in the last hit
 };

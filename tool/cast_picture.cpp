@@ -71,7 +71,7 @@ void draw_ray(Canvas<3>& canvas, const CastReport& report) {
     for (const CastHit& hit : result.hits) draw(canvas, Ray3::between(hit.ray.origin, hit.hit.point), beam);
     if (result.hits.empty() || !result.end) draw(canvas, result.last, beam);
     if (report.options.bounces == 0 && !result.hits.empty())
-        canvas.line(result.hits.front().hit.point, report.options.to, unreached);
+        canvas.line(result.hits.back().hit.point, report.options.to, unreached);
     canvas.point(report.options.from, beam);
     canvas.point(report.options.to, unreached);
     for (const CastHit& hit : result.hits) draw(canvas, hit.hit, beam);

@@ -23,8 +23,10 @@ std::string verdict(const CastReport& report) {
     if (options.bounces == 0 && hits.empty())
         return fmt::format("CLEAR: nothing between {} and {}\n", vector(options.from), vector(options.to));
     if (options.bounces == 0)
-        return fmt::format("HIT: {} is in the way, {} from {}\n", report.objects[hits.front().object].path,
-                           number(hits.front().travelled), vector(options.from));
+        return fmt::format(
+            "HIT: {} is in the way, {} from {}{}\n", report.objects[hits.front().object].path,
+            number(hits.front().travelled), vector(options.from),
+            hits.size() > 1 ? ", and " + counted(hits.size() - 1, "thing", "things") + " behind it" : "");
     if (hits.empty()) return "CLEAR: nothing is hit\n";
     const std::string all = "HIT: " + counted(hits.size(), "thing, one", "things, one");
     if (report.result.end)

@@ -61,8 +61,11 @@ void describe(CLI::App& verb, CastArguments& arguments) {
     verb.add_option("--to", arguments.to, "Where it goes to; without --bounces it ends there")
         ->type_name("X,Y,Z")
         ->required();
-    verb.add_option("--bounces", arguments.bounces, "Go on beyond --to, thrown back N times: all things are mirrors")
-        ->type_name("N");
+    CLI::Option* bounces = verb.add_option("--bounces", arguments.bounces,
+                                           "Go on beyond --to, thrown back N times: all things are mirrors")
+                               ->type_name("N");
+    verb.add_flag("--all", arguments.request.options.all, "All things in the way, near to far, not only the first")
+        ->excludes(bounces);
     verb.add_option("--time", arguments.time,
                     "The moment of the animation, as `abut check` tells it; without it the first")
         ->type_name("SECONDS");

@@ -75,6 +75,30 @@ TEST_F(Cast, OfAMeshNamesTheTriangle) {
     EXPECT_EQ(hit["normal"], Json({1.0, 0.0, 0.0})) << "towards where the ray comes from";
 }
 
+TEST_F(Cast, TellsAllThatIsInTheWay) {
+    const std::string file = write("row.gltf", row()).string();
+    const Json json = cast({file, "--from", "-3,0.25,0", "--to", "9,0.25,0", "--all"}, 1);
+    ASSERT_EQ(json["hits"].size(), 3u) << "each thing once, though the ray comes out of the boxes too";
+    const char* names[] = {"Left", "Right", "Sheet"};
+    const double travelled[] = {2.5, 6.5, 11}, distances[] = {2.5, 4, 4.5}, xs[] = {-0.5, 3.5, 8};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Json& hit = json["hits"][i];
+        EXPECT_EQ(hit["object"], names[i]);
+        EXPECT_EQ(hit["travelled"], travelled[i]);
+        EXPECT_EQ(hit["distance"], distances[i]) << "from the hit before";
+        EXPECT_EQ(hit["point"], Json({xs[i], 0.25, 0.0}));
+    }
+    EXPECT_EQ(json["end"], Json({9.0, 0.25, 0.0})) << "nothing stops it";
+    EXPECT_EQ(cast({file, "--from", "-3,0.25,0", "--to", "7,0.25,0", "--all"}, 1)["hits"].size(), 2u);
+    EXPECT_EQ(cast({file, "--from", "1,0,0", "--to", "3,0,0", "--all"}, 0)["clear"], true);
+    const Ran ran = run({"cast", file, "--from", "-3,0.25,0", "--to", "9,0.25,0", "--all"});
+    EXPECT_NE(ran.out.find("HIT: Left is in the way, 2.5 from (-3, 0.25, 0), and 2 things behind it"),
+              std::string::npos)
+        << ran.out;
+    EXPECT_EQ(refusal({"cast", file, "--from", "-3,0,0", "--to", "9,0,0", "--all", "--bounces", "3"}),
+              "abut: --bounces excludes --all");
+}
+
 TEST_F(Cast, FromInsideSaysSo) {
     const std::string file = write("row.gltf", row()).string();
     const Json hit = cast({file, "--from", "-0.25,0,0", "--to", "1,0,0"}, 1)["hits"][0];
