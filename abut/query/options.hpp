@@ -25,4 +25,12 @@ struct QueryOptions {
     bool back_faces = true;
 };
 
+namespace detail {
+
+/// What `{}` is taken for where it could be options or something else of a question. No conversion makes a scalar of
+/// it, so of several functions the one that takes this is the best (C++20, [over.ics.list]).
+enum class EmptyBraces : unsigned char {};
+
+}  // namespace detail
+
 }  // namespace abut

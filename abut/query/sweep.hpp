@@ -44,5 +44,10 @@ requires Pair<A, B> std::optional<Hit<dimension<A>>> sweep(const A& a, const Vec
                                                            const QueryOptions<dimension<A>>& options = {}) {
     return sweep(a, motion, b, Vec<dimension<A>>(0.0f), options);
 }
+template <class A, class B>
+requires Pair<A, B> std::optional<Hit<dimension<A>>> sweep(const A& a, const Vec<dimension<A>>& motion, const B& b,
+                                                           detail::EmptyBraces) {
+    return sweep(a, motion, b);
+}
 
 }  // namespace abut

@@ -51,6 +51,11 @@ requires Pair<A, B> std::optional<Hit<dimension<A>>> sweep(const A& a, const Mot
                                                            const QueryOptions<dimension<A>>& options = {}) {
     return sweep(a, motion, b, Motion<dimension<A>>{}, options);
 }
+template <class A, class B>
+requires Pair<A, B> std::optional<Hit<dimension<A>>> sweep(const A& a, const Motion<dimension<A>>& motion, const B& b,
+                                                           detail::EmptyBraces) {
+    return sweep(a, motion, b);
+}
 
 /// The same from pose to pose, turning the short way (`Motion::between`).
 template <class A, class B>

@@ -56,6 +56,23 @@ TEST(Sweep, TellsThePointInTheWorldWhenBothMove) {
     EXPECT_TRUE(near(hit->point, Vec3(6, 2, 0)));
 }
 
+// `{}` could be a motion of B too, or options: no options, and B rests.
+TEST(Sweep, TakesEmptyBracesForOptions) {
+    const Sphere a{{0, 0, 0}, 1}, b{{7, 0, 0}, 1};
+    const Vec3 way(10, 0, 0);
+    EXPECT_EQ(sweep(a, way, b, {})->fraction, 0.5f);
+    EXPECT_EQ(sweep(a, {10, 0, 0}, b, {})->fraction, 0.5f);
+    EXPECT_EQ(sweep(View<3>(view(a)), way, View<3>(view(b)), {})->fraction, 0.5f);
+    EXPECT_EQ(sweep(a, way, b, {}, {})->fraction, 0.5f);
+    EXPECT_EQ(sweep(a, way, b, {-10, 0, 0})->fraction, 0.25f) << "a motion in braces stays one";
+    Cache cache;
+    EXPECT_EQ(sweep(a, way, b, {.cache = &cache})->fraction, 0.5f) << "and options with something in them";
+    EXPECT_EQ(sweep(Circle{{0, 0}, 1}, Vec2(10, 0), Circle{{7, 0}, 1}, {})->fraction, 0.5f);
+    const Motion3 turning{{}, way, {0, 1, 0}};
+    EXPECT_NEAR(sweep(a, turning, b, {})->fraction, 0.5f, 1e-5f);
+    EXPECT_NEAR(sweep(a, turning, b, {{}, {-10, 0, 0}})->fraction, 0.25f, 1e-5f);
+}
+
 TEST(Sweep, OfABoxUpToItsEndIsAHit) {
     const auto hit = sweep(Box2{{0, 3}, {1, 1}}, Vec2(0, -2), HalfSpace2{{0, 1}, 0});
     ASSERT_TRUE(hit);
