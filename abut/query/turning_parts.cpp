@@ -1,11 +1,21 @@
 #include <abut/math/assert.hpp>
 #include <abut/query/turning_parts.hpp>
 
+#include <optional>
+#include <tuple>
+
 namespace abut {
 namespace {
 
-/// A composite's parts are asked for by boxes around so many pieces of the motion, the first first.
+/// The motion is cut into so many pieces. In one after the other all parts are searched that are near then, and the
+/// earliest meeting of the first piece in which there is any is the earliest of all. Each part is searched by itself,
+/// so that no bit of it is up to the order of the parts.
 constexpr int pieces = 16;
+
+/// Of the motion, as times.
+struct Piece {
+    double from = 0, to = 1;
+};
 
 /// A ball around a shape, in the frame that its path moves.
 template <int D>
@@ -36,10 +46,10 @@ public:
         bend_ = w * w * farthest + 2 * w * length(path.move - frame.move) + both * both * length(ball.center);
     }
 
-    /// A box around it from one time to another, rounded outwards.
-    Aabb<D> box(double from, double to) const {
-        const DVec<D> first = center(from), last = center(to);
-        const double wide = ball_.radius + bend_ * (to - from) * (to - from) / 8;
+    /// A box around it and a margin, rounded outwards.
+    Aabb<D> box(const Piece& piece, double margin) const {
+        const DVec<D> first = center(piece.from), last = center(piece.to);
+        const double time = piece.to - piece.from, wide = ball_.radius + margin + bend_ * time * time / 8;
         const double rounding = 1e-6 * (wide + std::max(largest(first), largest(last)));
         Aabb<D> result;
         for (int i = 0; i < D; ++i) {
@@ -66,29 +76,43 @@ Aabb<D> everywhere() {
     return {Vec<D>(-infinity), Vec<D>(infinity)};
 }
 
-/// Calls visit(part, index, until) for at least all parts of `composite` that `other` may meet before the time that
-/// `visit` returned last.
-template <int D, class Other, class Visit>
-void each_part_on_the_way(const Composite<D>& composite, const RigidPath<D>& path, const Other& other,
-                          const RigidPath<D>& path_of_other, double until, Visit&& visit) {
-    const auto look = [&](const Aabb<D>& box, double end) {
-        each_part<D>(composite, box, [&](const Convex<D>& part, std::uint32_t index) -> bool {
-            until = std::min(until, visit(part, index, std::min(until, end)));
-            return true;
-        });
-    };
-    if constexpr (std::is_same_v<Other, Solid<D>>) {
-        look(everywhere<D>(), 1);
-    } else {
-        const Aabb<D> box = bounds(other);
-        if (!(box.min[0] <= box.max[0])) return;
-        const SeenMoving<D> seen(around(box), path_of_other, path);
-        for (int i = 0; i < pieces && static_cast<double>(i) / pieces <= until; ++i) {
-            const double from = static_cast<double>(i) / pieces, to = static_cast<double>(i + 1) / pieces;
-            look(seen.box(from, to), to);
+/// Which parts of a composite come near to another shape.
+template <int D, class Other>
+class PartsNear {
+public:
+    PartsNear(const Composite<D>& composite, const RigidPath<D>& path, const Other& other,
+              const RigidPath<D>& path_of_other)
+        : composite_(composite) {
+        if constexpr (!is_solid) {
+            const Aabb<D> box = bounds(other);
+            is_empty_ = !(box.min[0] <= box.max[0]);
+            if (is_empty_) return;
+            const Around<D> ball = around(box);
+            seen_.emplace(ball, path_of_other, path);
+            // No less than what two that have met may be apart: half of the margin of doubt.
+            margin_ = 1e-5 * ball.radius + 1e-6 * around(bounds(composite)).radius;
         }
     }
-}
+
+    /// Calls visit(part, index) for at least all parts that may meet it in that piece.
+    template <class Visit>
+    void each(const Piece& piece, Visit&& visit) const {
+        if (is_empty_) return;
+        each_part<D>(composite_, is_solid ? everywhere<D>() : seen_->box(piece, margin_),
+                     [&](const Convex<D>& part, std::uint32_t index) -> bool {
+                         visit(part, index);
+                         return true;
+                     });
+    }
+
+private:
+    static constexpr bool is_solid = std::is_same_v<Other, Solid<D>>;
+
+    const Composite<D>& composite_;
+    bool is_empty_ = false;
+    std::optional<SeenMoving<D>> seen_;
+    double margin_ = 0;
+};
 
 template <int D>
 class EarliestMeeting {
@@ -99,56 +123,67 @@ public:
     template <class PartA, class PartB>
     void look_at(const PartA& a, const PartB& b) {
         [[maybe_unused]] constexpr bool two_half_spaces_pair = false;
-        if constexpr (std::is_same_v<PartA, Solid<D>> && std::is_same_v<PartB, Solid<D>>)
+        if constexpr (std::is_same_v<PartA, Solid<D>> && std::is_same_v<PartB, Solid<D>>) {
             ABUT_ASSERT(two_half_spaces_pair);
-        else if constexpr (std::is_same_v<PartB, Composite<D>>)
-            each_part_on_the_way(b, path_b_, a, path_a_, until(),
-                                 [&](const Convex<D>& part, std::uint32_t index, double end) {
-                                     look_at_part(a, part, index, end);
-                                     return until();
-                                 });
-        else if constexpr (std::is_same_v<PartA, Composite<D>>)
-            each_part_on_the_way(a, path_a_, b, path_b_, until(),
-                                 [&](const Convex<D>& part, std::uint32_t, double end) {
-                                     look_at_pair(part, b, 0, end);
-                                     return until();
-                                 });
-        else
-            look_at_pair(a, b, 0, 1);
+        } else if constexpr (std::is_same_v<PartB, Composite<D>>) {
+            const PartsNear<D, PartA> near(b, path_b_, a, path_a_);
+            each_piece<PartA>([&](const Piece& piece) {
+                near.each(piece,
+                          [&](const Convex<D>& part, std::uint32_t index) { look_at_part(a, part, index, piece); });
+            });
+        } else if constexpr (std::is_same_v<PartA, Composite<D>>) {
+            const PartsNear<D, PartB> near(a, path_a_, b, path_b_);
+            each_piece<PartB>([&](const Piece& piece) {
+                near.each(piece,
+                          [&](const Convex<D>& part, std::uint32_t index) { look_at_pair(part, index, b, 0, piece); });
+            });
+        } else {
+            look_at_pair(a, 0, b, 0, {});
+        }
     }
 
     bool any = false;
     Meeting<D> first;
 
 private:
-    double until() const { return any ? first.time : 1; }
+    /// What has no end is near to all parts all the time.
+    template <class Other, class Visit>
+    void each_piece(Visit&& visit) {
+        constexpr int count = std::is_same_v<Other, Solid<D>> ? 1 : pieces;
+        for (int i = 0; i < count && !any; ++i)
+            visit(Piece{static_cast<double>(i) / count, static_cast<double>(i + 1) / count});
+    }
 
     /// A whole shape A at one part of B.
     template <class PartA>
-    void look_at_part(const PartA& a, const Convex<D>& b, std::uint32_t index, double end) {
+    void look_at_part(const PartA& a, const Convex<D>& b, std::uint32_t index, const Piece& piece) {
         if constexpr (std::is_same_v<PartA, Composite<D>>)
-            each_part_on_the_way(a, path_a_, b, path_b_, end,
-                                 [&](const Convex<D>& part, std::uint32_t, double until_then) {
-                                     look_at_pair(part, b, index, until_then);
-                                     return until();
-                                 });
+            PartsNear<D, Convex<D>>(a, path_a_, b, path_b_)
+                .each(piece, [&](const Convex<D>& part, std::uint32_t index_a) {
+                    look_at_pair(part, index_a, b, index, piece);
+                });
         else
-            look_at_pair(a, b, index, end);
+            look_at_pair(a, 0, b, index, piece);
     }
 
     template <class PartA, class PartB>
-    void look_at_pair(const PartA& a, const PartB& b, std::uint32_t index, double end) {
+    void look_at_pair(const PartA& a, std::uint32_t index_a, const PartB& b, std::uint32_t index_b,
+                      const Piece& piece) {
         Meeting<D> found;
-        if (!first_meeting<D>(a, path_a_, b, path_b_, {.until = end}, options_, found)) return;
+        const TurningLimits limits{.from = piece.from, .until = piece.to, .reach = any ? first.time : piece.to};
+        if (!first_meeting<D>(a, path_a_, b, path_b_, limits, options_, found)) return;
         // The lowest of several at one time, so that it isn't up to the order of the visits.
-        if (any && (found.time > first.time || (found.time == first.time && index >= first.feature.part))) return;
+        if (any && std::tuple(found.time, index_b, index_a) >= std::tuple(first.time, first.feature.part, index_a_))
+            return;
         any = true;
         first = found;
-        first.feature.part = index;
+        first.feature.part = index_b;
+        index_a_ = index_a;
     }
 
     const RigidPath<D>&path_a_, &path_b_;
     SearchOptions<D> options_;
+    std::uint32_t index_a_ = 0;  ///< of the part of A that meets first
 };
 
 }  // namespace

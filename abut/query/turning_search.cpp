@@ -203,9 +203,11 @@ private:
 template <int D, class Pair>
 bool search(Pair& pair, const TurningLimits& limits, Meeting<D>& meeting) {
     const double margin = pair.margin;
-    SignedDistance<D> now = pair.distance(0);
+    double time = limits.from, least_deep = 0;
+    SignedDistance<D> now = pair.distance(time);
+    // What has been sliding is looked at from where it began to.
+    if (time > 0 && now.distance <= margin) now = pair.distance(time = 0);
     const bool started_inside = now.distance < -margin;
-    double time = 0, least_deep = 0;
     bool apart = true;
     for (int step = 0;; ++step) {
         if (apart && now.distance <= 0.5 * margin) {
@@ -221,7 +223,7 @@ bool search(Pair& pair, const TurningLimits& limits, Meeting<D>& meeting) {
         const double level = apart ? 0.2 * margin : least_deep - 0.5 * margin;
         const double slack = apart ? 0.2 * margin : 0.15 * margin;
         time = pair.open_to(time, limits.until, level, slack, now, !apart || step >= quick_steps);
-        if (time >= limits.until) return false;
+        if (time >= limits.until || time > limits.reach) return false;
         now = pair.distance(time);
     }
     meeting = {time, now.on_b(), now.normal, started_inside, pair.feature_on_b(now)};

@@ -24,8 +24,11 @@ struct Meeting {
 /// which is early and never late.
 inline constexpr int turning_most_steps = 256;
 
+/// Times. Where they meet is the same to the last bit whatever the reach.
 struct TurningLimits {
-    double until = 1;  ///< a time; what happens later is of no concern
+    double from = 0;   ///< until then they are known not to meet
+    double until = 1;  ///< what happens later is of no concern
+    double reach = 1;  ///< nor what happens later than this
     int most_steps = turning_most_steps;
 };
 
