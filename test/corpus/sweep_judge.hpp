@@ -86,6 +86,17 @@ struct SweepVerdict {
     bool hit = false, touches_at_start = false, missed = false, late = false, false_hit = false;
     double worst = 0;   ///< distance at the fraction, as a part of the margin
     std::string story;  ///< what was wrong; empty: nothing
+
+    void expect(bool right, const char* what, double value) {
+        if (right) return;
+        std::ostringstream line;
+        line << "    " << what << ": " << value << '\n';
+        story += line.str();
+    }
+    void fail(bool& kind, bool wrong, const char* what, double value) {
+        kind = kind || wrong;
+        expect(!wrong, what, value);
+    }
 };
 
 template <int D>
@@ -229,16 +240,8 @@ private:
         return std::abs(oracle::truth(solid, oracle::hull_of<D>({point}), Arithmetic::rough).distance);
     }
 
-    void fail(bool& kind, const char* what, double value) {
-        kind = true;
-        expect(false, what, value);
-    }
-    void expect(bool right, const char* what, double value) {
-        if (right) return;
-        std::ostringstream line;
-        line << "    " << what << ": " << value << '\n';
-        verdict_.story += line.str();
-    }
+    void fail(bool& kind, const char* what, double value) { verdict_.fail(kind, true, what, value); }
+    void expect(bool right, const char* what, double value) { verdict_.expect(right, what, value); }
 
     const MovingPair<D>& pair_;
     DVec<D> motion_;

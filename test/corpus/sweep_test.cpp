@@ -1,8 +1,8 @@
 // Twenty thousand pairs set in motion, a million where the environment sets ABUT_LONG: none late, none missed, none hit
-// that isn't, outside the margin of doubt.
+// that isn't, outside the margin of doubt. Besides, eight thousand at half-spaces and of round shapes, or 400,000.
 
 #include "by_all_threads.hpp"
-#include "sweep_judge.hpp"
+#include "sweep_by_planes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -66,6 +66,21 @@ SweepSummary judged_sweeps(std::uint64_t first, std::uint64_t last) {
     });
 }
 
+/// One half at half-spaces, one half of round shapes; a half of each in the plane.
+SweepVerdict judged_sweep_by_planes(std::uint64_t number) {
+    const Random random(number);
+    switch (number % 4) {
+        case 0:
+            return judged_sweep_at_half_space<2>(random);
+        case 1:
+            return judged_sweep_at_half_space<3>(random);
+        case 2:
+            return judged_round_sweep<2>(random);
+        default:
+            return judged_round_sweep<3>(random);
+    }
+}
+
 #ifdef NDEBUG
 constexpr int usual_sweeps = 20'000;
 #else
@@ -84,6 +99,35 @@ TEST(SweepCorpus, IsNeverLateNorMissedNorFalse) {
     EXPECT_GT(hits, 0.3);
     EXPECT_LT(hits, 0.7);
     EXPECT_GT(all.touching, all.pairs / 10) << "too little of this starts in touch";
+}
+
+#ifdef NDEBUG
+constexpr int usual_sweeps_by_planes = 8'000;
+#else
+constexpr int usual_sweeps_by_planes = 1'000;
+#endif
+
+TEST(SweepCorpus, OfHalfSpacesAndRoundShapesIsNeverLateNorMissedNorFalse) {
+    const auto pairs = static_cast<std::uint64_t>(std::min(oracle::amount(usual_sweeps_by_planes), 400'000));
+    SweepSummary all;
+    for (std::uint64_t kind = 0; kind < 4; ++kind) {
+        const SweepSummary one =
+            by_all_threads<SweepSummary>(0, pairs / 4, [kind](std::uint64_t number, SweepSummary& sum) {
+                const std::uint64_t seed = 4 * number + kind;
+                sum.add({kind % 2 == 0 ? 2 : 3, kind < 2 ? Family::half_space : Family::round, seed},
+                        judged_sweep_by_planes(seed));
+            });
+        const double hits = static_cast<double>(one.hits) / static_cast<double>(one.pairs);
+        EXPECT_GT(hits, 0.3) << "kind " << kind;
+        EXPECT_LT(hits, 0.7) << "kind " << kind;
+        EXPECT_GT(one.touching, one.pairs / 10) << "too little of this starts in touch, kind " << kind;
+        all.add(one);
+    }
+    RecordProperty("pairs", std::to_string(all.pairs));
+    RecordProperty("hits", std::to_string(all.hits));
+    RecordProperty("touching_at_start", std::to_string(all.touching));
+    RecordProperty("worst_of_margin", std::to_string(all.worst));
+    EXPECT_EQ(all.wrong, 0u) << all.text();
 }
 
 }  // namespace
