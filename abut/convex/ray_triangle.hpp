@@ -3,6 +3,7 @@
 // Where a beam goes through a triangle, written where it is wanted: a mesh asks it of its triangles one after the
 // other, in the middle of a search. For .cpp files.
 
+#include <abut/convex/margin.hpp>
 #include <abut/convex/ray_forms.hpp>
 
 #include <algorithm>
@@ -11,7 +12,7 @@
 namespace abut {
 
 /// A beam that starts so near to the line or plane of a thin part, in parts of the numbers seen, may be leaving it.
-inline constexpr double ray_start_doubt = 16 * 0x1p-24;
+inline constexpr double ray_start_doubt = sixteen_ulp;
 
 /// A beam that passes an edge so near, in parts of the numbers seen, may meet it: neighbours leave no crack.
 inline constexpr double ray_edge_doubt = 1e-12;

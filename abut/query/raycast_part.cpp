@@ -1,3 +1,4 @@
+#include <abut/convex/margin.hpp>
 #include <abut/query/part_pairs.hpp>
 #include <abut/query/raycast_part.hpp>
 
@@ -22,14 +23,14 @@ bool thin(const Convex<D>& part) {
            part.inner_radius == 0;
 }
 
-/// How near to a thin part it may be rounding on which side a beam starts: 16 units in the last place of the largest
-/// coordinate that it sees. A beam has no size, of which some part would be doubted too.
+/// How near to a thin part it may be rounding on which side a beam starts. A beam is the smaller of the two, without
+/// any size.
 template <int D>
 double start_doubt(const Convex<D>& part, const DVec<D>& start) {
     double farthest = 0;
     for (std::uint32_t i = 0; i < part.count; ++i)
         farthest = std::max(farthest, largest(part.place.point(DVec<D>(part.vertices()[i])) - start));
-    return 16 * 0x1p-24 * farthest;
+    return margin_of_doubt(0, farthest);
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include <abut/convex/margin.hpp>
 #include <abut/convex/ray_ball.hpp>
 #include <abut/convex/ray_portal.hpp>
 #include <abut/query/sweep_part.hpp>
@@ -95,8 +96,9 @@ struct Doubts {
     Doubts(const Reach& a, const Reach& b, double length) {
         const double smaller = std::min(a.size, b.size);
         const double larger = std::isfinite(a.size) && std::isfinite(b.size) ? std::max(a.size, b.size) : smaller;
-        // 16 units in the last place of a float are 9e-7 of it at least; some coordinate is half as large as the size.
-        margin = 1e-5 * smaller + 4.5e-7 * larger;
+        // Where they touch, some coordinate is all but half as large as the size. (9e-7 of that is 16 ulp.)
+        constexpr double all_but_half = 4.5e-7 / sixteen_ulp;
+        margin = margin_of_doubt(smaller, all_but_half * larger);
         touch = touch_part * margin + a.noise + b.noise + 1e-15 * length;
         slide = slide_part * margin + 2e-15 * length;
         stride = std::max(stride_part * smaller, 16 * (slide + touch));

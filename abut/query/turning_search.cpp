@@ -1,4 +1,5 @@
 #include <abut/convex/manifold.hpp>
+#include <abut/convex/margin.hpp>
 #include <abut/convex/turning_gap.hpp>
 #include <abut/query/part_pairs.hpp>
 #include <abut/query/turning_search.hpp>
@@ -16,9 +17,9 @@ double radius_of(const Convex<D>& set) {
     return size(set);
 }
 
-/// DESIGN's margin of doubt, with the least that rounding can be.
+/// With the least that rounding can be: of coordinates as large as the larger of the two.
 double margin_of(double size_a, double size_b) {
-    return 1e-5 * std::min(size_a, size_b) + 16 * 0x1p-24 * std::max(size_a, size_b);
+    return margin_of_doubt(std::min(size_a, size_b), std::max(size_a, size_b));
 }
 
 template <int D>
