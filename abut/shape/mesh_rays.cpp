@@ -150,7 +150,8 @@ private:
 using Waiting = std::uint64_t;
 
 HWY_INLINE Waiting waiting(float time, std::uint32_t ref) {
-    return static_cast<Waiting>(std::bit_cast<std::uint32_t>(time)) << 32 | ref;
+    constexpr std::uint32_t all_but_sign = 0x7FFFFFFF;  // that of a zero may be set
+    return static_cast<Waiting>(std::bit_cast<std::uint32_t>(time) & all_but_sign) << 32 | ref;
 }
 /// By arithmetic: which is first can't be guessed, and compilers make a branch of a choice.
 HWY_INLINE void put_first(Waiting& first, Waiting& second) {
