@@ -7,92 +7,35 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "abut/convex/side_gaps.cpp"
 #include <hwy/foreach_target.h>
+// After foreach_target.h, which includes this file again for each kind.
+#include <abut/convex/side_lanes-inl.h>
+
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE {
 
-namespace hn = hwy::HWY_NAMESPACE;
+using namespace rows_of_sides;
 
-using Lanes = hn::CappedTag<double, side_lanes>;
-using Vector = hn::Vec<Lanes>;
-constexpr Lanes d;
-constexpr std::size_t lanes = hn::MaxLanes(d);
+/// Keeps all gaps, and lane by lane the widest.
+struct Widest {
+    HWY_ALIGN double gaps[most_sides];
+    Vector widest;
 
-/// Rows of numbers, as long as the rows of Sides.
-struct Points {
-    HWY_ALIGN double x[most_sides];
-    HWY_ALIGN double y[most_sides];
-};
-
-void place(const Sides& sides, const Rigid2& seen, Points& points) {
-    const Vector cos = hn::Set(d, seen.cos), sin = hn::Set(d, seen.sin);
-    const Vector offset_x = hn::Set(d, seen.x), offset_y = hn::Set(d, seen.y);
-    for (std::size_t i = 0; i < sides.room; i += lanes) {
-        const Vector x = hn::LoadU(d, sides.x + i), y = hn::LoadU(d, sides.y + i);
-        hn::Store(hn::Add(hn::Sub(hn::Mul(cos, x), hn::Mul(sin, y)), offset_x), d, points.x + i);
-        hn::Store(hn::Add(hn::Add(hn::Mul(sin, x), hn::Mul(cos, y)), offset_y), d, points.y + i);
-    }
-}
-
-/// Of `groups` vectors of sides, from `first` on, the gaps in front of them; returns the widest, lane by lane.
-template <std::size_t groups>
-Vector gaps_of(const Sides& sides, std::size_t first, const double* x, const double* y, std::uint32_t count,
-               double* gaps) {
-    Vector normal_x[groups], normal_y[groups], least[groups];
-    const Vector x0 = hn::Set(d, x[0]), y0 = hn::Set(d, y[0]);
-    for (std::size_t g = 0; g < groups; ++g) {
-        normal_x[g] = hn::LoadU(d, sides.normal_x + first + g * lanes);
-        normal_y[g] = hn::LoadU(d, sides.normal_y + first + g * lanes);
-        least[g] = hn::Add(hn::Mul(normal_x[g], x0), hn::Mul(normal_y[g], y0));
-    }
-    for (std::uint32_t k = 1; k < count; ++k) {
-        const Vector xk = hn::Set(d, x[k]), yk = hn::Set(d, y[k]);
-        for (std::size_t g = 0; g < groups; ++g)
-            least[g] = hn::Min(least[g], hn::Add(hn::Mul(normal_x[g], xk), hn::Mul(normal_y[g], yk)));
-    }
-    Vector widest = hn::Set(d, -1e300);
-    for (std::size_t g = 0; g < groups; ++g) {
-        const Vector gap = hn::Sub(least[g], hn::LoadU(d, sides.offset + first + g * lanes));
-        hn::Store(gap, d, gaps + first + g * lanes);
+    HWY_INLINE Widest() : widest(hn::Set(d, -1e300)) {}
+    HWY_INLINE void visit(Vector gap, Vector, Vector, std::size_t i) {
+        hn::Store(gap, d, gaps + i);
         widest = hn::Max(widest, gap);
     }
-    return widest;
-}
-
-/// The first of the numbers that equals the largest or least of them, which is in every lane of `value`.
-std::uint32_t first_of(const double* numbers, std::size_t room, Vector value) {
-    for (std::size_t i = 0; i < room; i += lanes) {
-        const auto same = hn::Eq(hn::Load(d, numbers + i), value);
-        if (!hn::AllFalse(d, same))
-            return static_cast<std::uint32_t>(i + static_cast<std::size_t>(hn::FindFirstTrue(d, same)));
-    }
-    return 0;
-}
+};
 
 /// The widest gap, and the first side that has it. A structure would be read as a whole after it was written in parts,
 /// for which machines have to wait.
-double widest_of(const Sides& sides, const double* x, const double* y, std::uint32_t count, std::uint32_t& side) {
-    HWY_ALIGN double gaps[most_sides];
-    const bool many = sides.room >= 8;
-    Vector widest =
-        many ? gaps_of<8 / lanes>(sides, 0, x, y, count, gaps) : gaps_of<4 / lanes>(sides, 0, x, y, count, gaps);
-    for (std::size_t first = 8; first < sides.room; first += 4)
-        widest = hn::Max(widest, gaps_of<4 / lanes>(sides, first, x, y, count, gaps));
-    side = first_of(gaps, sides.room, hn::MaxOfLanes(d, widest));
-    return gaps[side];
-}
-
-std::uint32_t lowest(const Points& points, std::size_t room, double normal_x, double normal_y) {
-    HWY_ALIGN double heights[most_sides];
-    const Vector x = hn::Set(d, normal_x), y = hn::Set(d, normal_y);
-    Vector least = hn::Set(d, 1e300);
-    for (std::size_t i = 0; i < room; i += lanes) {
-        const Vector height = hn::Add(hn::Mul(x, hn::Load(d, points.x + i)), hn::Mul(y, hn::Load(d, points.y + i)));
-        hn::Store(height, d, heights + i);
-        least = hn::Min(least, height);
-    }
-    return first_of(heights, room, hn::MinOfLanes(d, least));
+double widest_of(const Sides& sides, const Points& points, std::uint32_t count, std::uint32_t& side) {
+    Widest found;
+    tell_gaps(sides, points, count, found);
+    side = first_of(found.gaps, sides.room, hn::MaxOfLanes(d, found.widest));
+    return found.gaps[side];
 }
 
 void widest_gap_of_two(const Sides& a, const Sides& b, const Rigid2 (&seen)[2], double enough, double doubt,
@@ -100,11 +43,11 @@ void widest_gap_of_two(const Sides& a, const Sides& b, const Rigid2 (&seen)[2], 
     Points points[2];  // of B as seen from A, of A as seen from B
     place(b, seen[0], points[0]);
     std::uint32_t of = 0, side = 0;
-    double gap = widest_of(a, points[0].x, points[0].y, b.count, side);
+    double gap = widest_of(a, points[0], b.count, side);
     if (!(gap > enough)) {
         place(a, seen[1], points[1]);
         std::uint32_t other_side = 0;
-        const double other = widest_of(b, points[1].x, points[1].y, a.count, other_side);
+        const double other = widest_of(b, points[1], a.count, other_side);
         of = other > gap + doubt ? 1 : 0;
         gap = of == 1 ? other : gap;
         side = of == 1 ? other_side : side;

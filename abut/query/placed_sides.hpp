@@ -30,6 +30,7 @@ public:
     /// The number that the shape gives a corner; and back.
     std::uint32_t number(std::uint32_t i) const { return i; }
     std::uint32_t after(std::uint32_t i) const { return sides_.after(i); }
+    std::uint32_t before(std::uint32_t i) const { return sides_.before(i); }
     Both corner(std::uint32_t i) const { return lanes::both(sides_.x[i], sides_.y[i]); }
     Both normal(std::uint32_t side) const { return lanes::both(sides_.normal_x[side], sides_.normal_y[side]); }
     double offset(std::uint32_t side) const { return sides_.offset[side]; }
@@ -92,6 +93,7 @@ public:
     std::uint32_t count() const { return 4; }
     std::uint32_t number(std::uint32_t i) const { return i ^ i >> 1; }
     std::uint32_t after(std::uint32_t i) const { return (i + 1) & 3; }
+    std::uint32_t before(std::uint32_t i) const { return (i + 3) & 3; }
     Both corner(std::uint32_t i) const { return half_ * quadrant(i); }
     Both normal(std::uint32_t side) const {
         alignas(16) static constexpr double normals[8] = {0, 1, -1, 0, 0, -1, 1, 0};
@@ -129,6 +131,7 @@ public:
     bool has_area() const { return lanes::bits(half_ > Both{0, 0}) == 3; }
     double extent() const { return half_[0] + half_[1]; }
     DVec<2> half() const { return {half_[0], half_[1]}; }
+    Both half_lanes() const { return half_; }
 
 private:
     static Both quadrant(std::uint32_t i) {

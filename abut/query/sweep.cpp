@@ -1,4 +1,5 @@
 #include <abut/math/assert.hpp>
+#include <abut/query/direct_sweep.hpp>
 #include <abut/query/sweep.hpp>
 #include <abut/query/sweep_part.hpp>
 
@@ -126,6 +127,12 @@ void find_first_touch(const Shapes& a, const Vec<D>& motion_a, const Shapes& b, 
     if (find(motions.path, first)) tell(motions, first, result.emplace());
 }
 
+/// Kept out of what is hot, where it would take up room.
+[[gnu::noinline]] void sweep_views(const Given<2>& a, const Vec2& motion_a, const Given<2>& b, const Vec2& motion_b,
+                                   const QueryOptions<2>& options, std::optional<Hit<2>>& result) {
+    result = sweep(convex_of(a), motion_a, convex_of(b), motion_b, options);
+}
+
 }  // namespace
 
 template <int D>
@@ -139,9 +146,17 @@ std::optional<Hit<D>> sweep(const Convex<D>& a, const Vec<D>& motion_a, const Co
     return result;
 }
 
-template <int D>
-std::optional<Hit<D>> sweep(const Given<D>& a, const Vec<D>& motion_a, const Given<D>& b, const Vec<D>& motion_b,
-                            const QueryOptions<D>& options) {
+template <>
+std::optional<Hit<2>> sweep(const Given<2>& a, const Vec2& motion_a, const Given<2>& b, const Vec2& motion_b,
+                            const QueryOptions<2>& options) {
+    std::optional<Hit<2>> result;
+    if (options.trace != nullptr || direct_sweep(a, motion_a, b, motion_b, result) == DirectAnswer::unknown)
+        sweep_views(a, motion_a, b, motion_b, options, result);
+    return result;
+}
+template <>
+std::optional<Hit<3>> sweep(const Given<3>& a, const Vec3& motion_a, const Given<3>& b, const Vec3& motion_b,
+                            const QueryOptions<3>& options) {
     return sweep(convex_of(a), motion_a, convex_of(b), motion_b, options);
 }
 
@@ -164,8 +179,6 @@ std::optional<Hit<D>> sweep(const View<D>& a, const Vec<D>& motion_a, const View
     template std::optional<Hit<D>> sweep(const View<D>&, const Vec<D>&, const View<D>&, const Vec<D>&,     \
                                          const QueryOptions<D>&);                                          \
     template std::optional<Hit<D>> sweep(const Convex<D>&, const Vec<D>&, const Convex<D>&, const Vec<D>&, \
-                                         const QueryOptions<D>&);                                          \
-    template std::optional<Hit<D>> sweep(const Given<D>&, const Vec<D>&, const Given<D>&, const Vec<D>&,   \
                                          const QueryOptions<D>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

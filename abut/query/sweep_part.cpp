@@ -1,16 +1,10 @@
-#include <abut/convex/margin.hpp>
 #include <abut/convex/ray_ball.hpp>
 #include <abut/convex/ray_portal.hpp>
+#include <abut/query/sweep_doubts.hpp>
 #include <abut/query/sweep_part.hpp>
 
 namespace abut {
 namespace {
-
-/// What part of the margin of doubt may be lost where they are said to touch, and how deep in what slides may be.
-constexpr double touch_part = 1.0 / 16, slide_part = 0.45;
-
-/// How far ahead is looked to tell sliding from going in, in parts of the size of the smaller part.
-constexpr double stride_part = 0.05;
 
 /// What slides goes in so slowly, if at all, that rounding explains it.
 constexpr double slide_slope = 1e-6;
@@ -47,11 +41,6 @@ double extent(const Solid<D>& part, const DVec<D>&) {
     return part.offset;
 }
 
-/// What a part brings to the doubts about a pair.
-struct Reach {
-    double size;   ///< no more than its bounding radius
-    double noise;  ///< by how much its support may be short of the farthest
-};
 /// No more than the bounding radius, and not much less.
 template <int D>
 double least_size(const Convex<D>& part) {
@@ -87,23 +76,6 @@ template <int D>
 Reach reach_of(const Solid<D>&) {
     return {std::numeric_limits<double>::infinity(), 0};
 }
-
-/// What may be rounding, of a pair as it is where the two touch.
-struct Doubts {
-    double margin = 0, touch = 0, slide = 0, stride = 0;
-
-    Doubts() = default;
-    Doubts(const Reach& a, const Reach& b, double length) {
-        const double smaller = std::min(a.size, b.size);
-        const double larger = std::isfinite(a.size) && std::isfinite(b.size) ? std::max(a.size, b.size) : smaller;
-        // Where they touch, some coordinate is all but half as large as the size. (9e-7 of that is 16 ulp.)
-        constexpr double all_but_half = 4.5e-7 / sixteen_ulp;
-        margin = margin_of_doubt(smaller, all_but_half * larger);
-        touch = touch_part * margin + a.noise + b.noise + 1e-15 * length;
-        slide = slide_part * margin + 2e-15 * length;
-        stride = std::max(stride_part * smaller, 16 * (slide + touch));
-    }
-};
 
 template <int D, class A, class B>
 class Approach {
@@ -202,8 +174,8 @@ private:
     }
     Quick polytopes(PartTouch<D>& touch) {
         if (!is_polytope(a_) || !is_polytope(b_)) return Quick::undecided;
-        const PortalHit<D> hit =
-            enter_difference(a_, b_, path_.direction, PortalNeeds{0.25 * doubts_.touch, 1.1 * doubts_.slide});
+        const PortalHit<D> hit = enter_difference(a_, b_, path_.direction,
+                                                  PortalNeeds{0.25 * doubts_.touch, beyond_sliding * doubts_.slide});
         if (hit.answer == PortalAnswer::undecided) return Quick::undecided;
         if (hit.answer == PortalAnswer::misses) return Quick::misses;
         const double closing = dot(path_.direction, hit.normal);

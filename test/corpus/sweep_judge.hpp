@@ -108,8 +108,8 @@ public:
           size_(smaller_size(pair.a, pair.b)),
           margin_(oracle::margin_of_doubt(pair.a.solid, pair.b.solid)) {}
 
-    SweepVerdict judge() {
-        const std::optional<Hit<D>> hit = sweep(pair_.a.view, pair_.motion, pair_.b.view);
+    /// Of what `sweep` says of the pair.
+    SweepVerdict judge(const std::optional<Hit<D>>& hit) {
         verdict_.hit = hit.has_value();
         const Moment start = at(0);
         verdict_.touches_at_start = start.distance <= margin_;

@@ -2,7 +2,9 @@
 // that isn't, outside the margin of doubt. Besides, eight thousand at half-spaces and of round shapes, or 400,000.
 
 #include "by_all_threads.hpp"
+#include "plain_shape.hpp"
 #include "sweep_by_planes.hpp"
+#include "sweep_judge.hpp"
 
 #include <gtest/gtest.h>
 
@@ -52,17 +54,27 @@ struct SweepSummary {
 template <int D>
 SweepVerdict judged_sweep(Family family, std::uint64_t seed) {
     const MovingPair<D> pair = set_in_motion<D>(sample_pair<D>(family, seed), Random(~seed));
-    return SweepJudge<D>(pair).judge();
+    return SweepJudge<D>(pair).judge(sweep(pair.a.view, pair.motion, pair.b.view));
 }
 SweepVerdict judged_sweep(const Place& where) {
     return where.dimension == 2 ? judged_sweep<2>(where.family, where.seed) : judged_sweep<3>(where.family, where.seed);
 }
 
+/// In the plane, of plain shapes without their views.
+SweepVerdict judged_plain_sweep(Family family, std::uint64_t seed) {
+    const MovingPair<2> moving = set_in_motion<2>(sample_pair<2>(family, seed), Random(~seed));
+    Random random(seed);
+    const PlainSample a = plain(moving.a, random), b = plain(moving.b, random);
+    const MovingPair<2> pair{a.sample, b.sample, moving.motion};
+    return SweepJudge<2>(pair).judge(sweep(a.given, pair.motion, b.given, Vec2(0)));
+}
+
 /// Of the pairs of the corpus that are polytopes with balls around them.
-SweepSummary judged_sweeps(std::uint64_t first, std::uint64_t last) {
-    return by_all_threads<SweepSummary>(first, last, [](std::uint64_t number, SweepSummary& sum) {
+template <class Judge>
+SweepSummary judged_sweeps(std::uint64_t pairs, const Judge& judge) {
+    return by_all_threads<SweepSummary>(0, pairs, [&](std::uint64_t number, SweepSummary& sum) {
         const Place where = place(number);
-        if (where.family != Family::half_space && where.family != Family::round) sum.add(where, judged_sweep(where));
+        if (where.family != Family::half_space && where.family != Family::round) sum.add(where, judge(where));
     });
 }
 
@@ -87,18 +99,26 @@ constexpr int usual_sweeps = 20'000;
 constexpr int usual_sweeps = 2'000;
 #endif
 
-TEST(SweepCorpus, IsNeverLateNorMissedNorFalse) {
-    const auto pairs = static_cast<std::uint64_t>(std::min(oracle::amount(usual_sweeps), 1'100'000));
-    const SweepSummary all = judged_sweeps(0, pairs);
-    RecordProperty("pairs", std::to_string(all.pairs));
-    RecordProperty("hits", std::to_string(all.hits));
-    RecordProperty("touching_at_start", std::to_string(all.touching));
-    RecordProperty("worst_of_margin", std::to_string(all.worst));
+void expect_right(const SweepSummary& all) {
+    testing::Test::RecordProperty("pairs", std::to_string(all.pairs));
+    testing::Test::RecordProperty("hits", std::to_string(all.hits));
+    testing::Test::RecordProperty("touching_at_start", std::to_string(all.touching));
+    testing::Test::RecordProperty("worst_of_margin", std::to_string(all.worst));
     EXPECT_EQ(all.wrong, 0u) << all.text();
     const double hits = static_cast<double>(all.hits) / static_cast<double>(all.pairs);
     EXPECT_GT(hits, 0.3);
     EXPECT_LT(hits, 0.7);
     EXPECT_GT(all.touching, all.pairs / 10) << "too little of this starts in touch";
+}
+
+TEST(SweepCorpus, IsNeverLateNorMissedNorFalse) {
+    const auto pairs = static_cast<std::uint64_t>(std::min(oracle::amount(usual_sweeps), 1'100'000));
+    expect_right(judged_sweeps(pairs, [](const Place& where) { return judged_sweep(where); }));
+}
+
+TEST(SweepCorpus, OfPlainShapesIsNeverLateNorMissedNorFalse) {
+    const auto pairs = static_cast<std::uint64_t>(std::min(oracle::amount(usual_sweeps), 1'100'000));
+    expect_right(judged_sweeps(pairs, [](const Place& where) { return judged_plain_sweep(where.family, where.seed); }));
 }
 
 #ifdef NDEBUG

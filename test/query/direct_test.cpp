@@ -2,6 +2,7 @@
 
 #include "../oracle/pair.hpp"
 #include "../oracle/random.hpp"
+#include "drawn_shapes.hpp"
 #include <abut/query/certify.hpp>
 #include <abut/query/closest.hpp>
 #include <abut/query/contact.hpp>
@@ -91,75 +92,6 @@ void compare(const A& a, const B& b, float margin, Told& told) {
     expect_near(closest(a, b, {.trace = nullptr}), closest(view_a, view_b));
 }
 
-template <int D>
-using Polytope = std::conditional_t<D == 2, Polygon, Polyhedron>;
-
-/// Some in places that numbers hold exactly, so that much is aligned, parallel or equally far.
-template <int D>
-class Shapes {
-public:
-    explicit Shapes(Random& random) : random_(random), on_grid_(random.chance(0.3)) {}
-
-    float number(double most) {
-        const double x = random_.uniform(-most, most);
-        return static_cast<float>(on_grid_ ? std::round(2 * x) / 2 : x);
-    }
-    float size() {
-        return on_grid_ ? 0.5f + 0.5f * static_cast<float>(random_.below(3)) : random_.uniform_float(0.1, 1.5);
-    }
-    Vec<D> point(double most) {
-        Vec<D> result;
-        for (int i = 0; i < D; ++i) result[i] = number(most);
-        return result;
-    }
-    Vec<D> half() {
-        Vec<D> result;
-        for (int i = 0; i < D; ++i) result[i] = size();
-        return result;
-    }
-    Rotation<D> rotation() { return on_grid_ && random_.chance(0.7) ? no_rotation<D> : random_.rotation<D>(); }
-
-    /// visit(shape), the shape as it is or placed by a pose.
-    template <class Visit>
-    void draw(const Visit& visit) {
-        const std::uint32_t kind = random_.below(6);
-        const bool placed = random_.chance(0.5);
-        const Pose<D> pose{point(0.5), rotation()};
-        const auto tell = [&](const auto& shape) {
-            if (placed)
-                visit(at(shape, pose));
-            else
-                visit(shape);
-        };
-        constexpr double spread = D == 2 ? 1.5 : 1;
-        const Vec<D> a = point(spread), b = point(spread), c = point(spread);
-        const float radius = random_.chance(0.1) ? 0 : 0.5f * size();
-        switch (kind) {
-            case 0:
-                return tell(Ball<D>{a, radius});
-            case 1:
-                return tell(Capsule<D>{a, b, radius});
-            case 2:
-                return tell(Segment<D>{a, b});
-            case 3:
-                return tell(Triangle<D>{a, b, c});
-            case 4: {
-                const Vec<D> half_extents = half();
-                return tell(Box<D>{a, half_extents, rotation()});
-            }
-            default: {
-                std::vector<Vec<D>> points(D == 2 && random_.chance(0.1) ? 60 : 2 + random_.below(9));
-                for (Vec<D>& p : points) p = point(spread);
-                return tell(*Polytope<D>::build(points));
-            }
-        }
-    }
-
-private:
-    Random& random_;
-    bool on_grid_;
-};
-
 template <class D>
 class Direct : public testing::Test {
 protected:
@@ -169,7 +101,7 @@ protected:
         for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(oracle::amount(8000)); ++seed) {
             SCOPED_TRACE(seed);
             Random random(seed);
-            Shapes<D::value> shapes(random);
+            DrawnShapes<D::value> shapes(random);
             ask(random, shapes);
             if (HasFatalFailure()) return;
         }
@@ -181,7 +113,7 @@ TYPED_TEST_SUITE(Direct, Dimensions);
 TYPED_TEST(Direct, AnswersOfPairsAreThoseOfTheirViews) {
     constexpr int D = TypeParam::value;
     Told told;
-    this->for_each_seed([&](Random& random, Shapes<D>& shapes) {
+    this->for_each_seed([&](Random& random, DrawnShapes<D>& shapes) {
         const float margin = random.uniform_float(0, 0.5);
         shapes.draw([&](const auto& a) { shapes.draw([&](const auto& b) { compare(a, b, margin, told); }); });
     });
@@ -192,7 +124,7 @@ TYPED_TEST(Direct, AnswersOfPairsAreThoseOfTheirViews) {
 TYPED_TEST(Direct, RaysAndPointsTooAreThoseOfTheViews) {
     constexpr int D = TypeParam::value;
     Told told;
-    this->for_each_seed([&](Random&, Shapes<D>& shapes) {
+    this->for_each_seed([&](Random&, DrawnShapes<D>& shapes) {
         shapes.draw([&](const auto& shape) {
             const View<D> as_view(view(shape));
             const Vec<D> from = shapes.point(4), to = shapes.point(0.5);
@@ -235,7 +167,7 @@ void expect_same_from(Cache& cache, const auto& a, const auto& b, Told& told) {
 TYPED_TEST(Direct, AnswersFromACacheAreThoseAnew) {
     constexpr int D = TypeParam::value;
     Told told;
-    this->for_each_seed([&](Random& random, Shapes<D>& shapes) {
+    this->for_each_seed([&](Random& random, DrawnShapes<D>& shapes) {
         Cache cache;
         if (random.chance(0.2)) {
             cache.count = 1 + random.below(2);
@@ -257,7 +189,7 @@ TYPED_TEST(Direct, AnswersFromACacheAreThoseAnew) {
             std::vector<Vec<D>> of_a(4 + random.below(6)), of_b(4 + random.below(6));
             for (Vec<D>& p : of_a) p = shapes.point(1);
             for (Vec<D>& p : of_b) p = shapes.point(1);
-            const Polytope<D> a = *Polytope<D>::build(of_a), b = *Polytope<D>::build(of_b);
+            const BuiltHull<D> a = *BuiltHull<D>::build(of_a), b = *BuiltHull<D>::build(of_b);
             Pose<D> pose{shapes.point(1.5), shapes.rotation()};
             for (int i = 0; i < 8; ++i, pose.position += step) {
                 if (i == 4) pose.rotation = turned;
