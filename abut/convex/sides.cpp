@@ -87,7 +87,7 @@ bool set_outline(const Convex<2>& convex, Outline& outline) {
         return true;
     }
     if (convex.core == Core::box) {
-        outline.set_box(convex.own[0]);
+        outline.set_box(DVec<2>(convex.own[0]));
         return true;
     }
     if (convex.core != Core::points) return false;

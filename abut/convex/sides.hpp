@@ -124,7 +124,7 @@ struct Outline {
 
     bool is_point() const { return sides.count == 1; }
 
-    void set_box(const Vec2& half);
+    void set_box(const DVec<2>& half);
     /// False where it has no length.
     bool set_segment(const Vec2& a, const Vec2& b);
     /// False where it is so thin that its area may be rounding.
@@ -154,9 +154,9 @@ inline void Sides::refer_to(const double* numbers, std::uint32_t number) {
     area = numbers[std::size_t{5} * rows + 1];
 }
 
-inline void Outline::set_box(const Vec2& half) {
+inline void Outline::set_box(const DVec<2>& half) {
     static constexpr double normals_x[4] = {0, -1, 0, 1}, normals_y[4] = {1, 0, -1, 0};
-    const double x = static_cast<double>(half.x), y = static_cast<double>(half.y);
+    const double x = half.x, y = half.y;
     double* numbers = room.numbers;
     numbers[0] = numbers[3] = numbers[9] = numbers[11] = x;
     numbers[1] = numbers[2] = -x;

@@ -1,75 +1,30 @@
 #include <abut/convex/plane_pair.hpp>
 #include <abut/convex/plane_point.hpp>
-#include <abut/math/set_affine.hpp>
 #include <abut/query/direct.hpp>
+#include <abut/query/given_outline.hpp>
 #include <abut/query/part_pairs.hpp>
 #include <abut/query/polygons2.hpp>
 #include <abut/query/write_answer.hpp>
 #include <abut/shape/ball.hpp>
-#include <abut/shape/box.hpp>
-#include <abut/shape/capsule.hpp>
 #include <abut/shape/polygon.hpp>
-#include <abut/shape/segment.hpp>
-#include <abut/shape/triangle.hpp>
 
 namespace abut {
 namespace {
 
-inline Rigid2 place_of(const Given<2>& given) {
-    return given.pose != nullptr ? rigid(*given.pose) : Rigid2{1, 0, 0, 0};
-}
-
-/// As `convex(box, pose)` places it.
-inline Rigid2 place_of_box(const Box2& box, const Pose2* pose) {
-    if (pose == nullptr) return rigid({box.center, box.rotation});
-    const Affine<2> place = convex(box, *pose).place;
-    return {place.column[0].x, place.column[0].y, place.offset.x, place.offset.y};
-}
-
-/// Of one kind, so that what is asked of it can be compiled for that kind.
-template <ShapeKind kind>
-inline bool set_outline(const Given<2>& given, Outline& outline) {
-    if constexpr (kind != ShapeKind::box && kind != ShapeKind::ball) outline.place = place_of(given);
-    outline.radius = 0;
-    if constexpr (kind == ShapeKind::ball) {
-        const Circle& circle = given.as<Circle>();
-        outline.radius = static_cast<double>(circle.radius);
-        outline.set_point(place_of(given).point(DVec<2>(circle.center)));
-    } else if constexpr (kind == ShapeKind::capsule) {
-        const Capsule2& capsule = given.as<Capsule2>();
-        outline.radius = static_cast<double>(capsule.radius);
-        return outline.set_segment(capsule.a, capsule.b);
-    } else if constexpr (kind == ShapeKind::segment) {
-        const Segment2& segment = given.as<Segment2>();
-        return outline.set_segment(segment.a, segment.b);
-    } else if constexpr (kind == ShapeKind::triangle) {
-        const Triangle2& triangle = given.as<Triangle2>();
-        return outline.set_triangle(triangle.a, triangle.b, triangle.c);
-    } else if constexpr (kind == ShapeKind::box) {
-        outline.place = place_of_box(given.as<Box2>(), given.pose);
-        outline.set_box(given.as<Box2>().half);
-    } else {
-        const Polygon& polygon = given.as<Polygon>();
-        if (polygon.sides() == nullptr) return false;
-        outline.sides.refer_to(polygon.sides(), polygon.side_count());
-    }
-    return true;
-}
-
 bool set_outline(const Given<2>& given, Outline& outline) {
     switch (given.kind) {
         case ShapeKind::ball:
-            return set_outline<ShapeKind::ball>(given, outline);
+            return set_outline_of<ShapeKind::ball>(given, outline);
         case ShapeKind::capsule:
-            return set_outline<ShapeKind::capsule>(given, outline);
+            return set_outline_of<ShapeKind::capsule>(given, outline);
         case ShapeKind::segment:
-            return set_outline<ShapeKind::segment>(given, outline);
+            return set_outline_of<ShapeKind::segment>(given, outline);
         case ShapeKind::triangle:
-            return set_outline<ShapeKind::triangle>(given, outline);
+            return set_outline_of<ShapeKind::triangle>(given, outline);
         case ShapeKind::box:
-            return set_outline<ShapeKind::box>(given, outline);
+            return set_outline_of<ShapeKind::box>(given, outline);
         default:
-            return set_outline<ShapeKind::polytope>(given, outline);
+            return set_outline_of<ShapeKind::polytope>(given, outline);
     }
 }
 
@@ -93,8 +48,9 @@ inline Answer ask_of(const Given<2>& a, const Given<2>& b, const Ask& ask, Answe
 template <class Ask, class Answer>
 Answer ask_of_outlines(const Given<2>& a, const Given<2>& b, const Ask& ask, Answer otherwise) {
     if (a.kind == b.kind && a.kind == ShapeKind::polytope)
-        return ask_of(a, b, ask, otherwise, set_outline<ShapeKind::polytope>);
-    if (a.kind == b.kind && a.kind == ShapeKind::box) return ask_of(a, b, ask, otherwise, set_outline<ShapeKind::box>);
+        return ask_of(a, b, ask, otherwise, set_outline_of<ShapeKind::polytope>);
+    if (a.kind == b.kind && a.kind == ShapeKind::box)
+        return ask_of(a, b, ask, otherwise, set_outline_of<ShapeKind::box>);
     return ask_of(a, b, ask, otherwise,
                   [](const Given<2>& given, Outline& outline) { return set_outline(given, outline); });
 }

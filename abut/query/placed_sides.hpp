@@ -24,6 +24,7 @@ enum class Beside : std::uint32_t { within = 0, past_end = 1, before_start = 2, 
 class PolygonCore {
 public:
     using Shape = Polygon;
+    explicit PolygonCore(const Sides& sides) : sides_(sides) {}
     explicit PolygonCore(const Polygon& polygon) { sides_.refer_to(polygon.sides(), polygon.side_count()); }
 
     std::uint32_t count() const { return sides_.count; }
@@ -149,6 +150,8 @@ struct Placing {
     Both scale;
 
     Placing(const Polygon&, const Pose2* pose) : Placing(pose_or_none(pose)) {}
+    explicit Placing(const Rigid2& place)
+        : position(lanes::both(place.x, place.y)), turn(lanes::both(place.cos, place.sin)) {}
     Placing(const Box2& box, const Pose2*)
         : position(lanes::loaded(&box.center.x)), turn(lanes::loaded(&box.rotation.cos)) {}
 
@@ -181,6 +184,7 @@ struct Placed {
 
     explicit Placed(const Given<2>& given) : Placed(given.as<typename Core::Shape>(), given.pose) {}
     Placed(const typename Core::Shape& shape, const Pose2* pose) : core(shape), place(shape, pose) {}
+    Placed(const Core& known, const Rigid2& where) : core(known), place(where) {}
 };
 
 inline constexpr double without_end = std::numeric_limits<double>::infinity();

@@ -98,8 +98,121 @@ TEST(DirectSweep, AnswersAreThoseOfTheViews) {
     RecordProperty("hits", told.hits);
     EXPECT_GT(told.hits, told.pairs * 3 / 10);
     EXPECT_LT(told.hits, told.pairs * 7 / 10);
+    EXPECT_GT(told.direct, told.pairs * 3 / 4);
     EXPECT_LT(told.elsewhere, told.pairs / 100);
     EXPECT_GT(told.alike, told.hits * 9 / 10);
+}
+
+/// That it is told, and told without views.
+template <class A, class B>
+std::optional<Hit<2>> direct_hit(const A& a, const Vec2& motion, const B& b) {
+    std::optional<Hit<2>> result;
+    EXPECT_EQ(direct_sweep(given(a), motion, given(b), Vec2(0), result), DirectAnswer::yes);
+    return result;
+}
+
+TEST(DirectSweep, FaceToFaceIsToldWithoutViews) {
+    // The corners that are found lie beyond the other's sides.
+    const Box2 wide{{0, 5}, {3, 1}}, narrow{{0, 0}, {1, 1}}, beside{{2, 0}, {1.5f, 1}};
+    for (const auto& [a, b] : {std::pair(wide, narrow), std::pair(wide, beside)}) {
+        const auto down = direct_hit(a, Vec2(0, -6), b), up = direct_hit(b, Vec2(0, 6), a);
+        ASSERT_TRUE(down && up);
+        EXPECT_FLOAT_EQ(down->fraction, 0.5f);
+        EXPECT_FLOAT_EQ(up->fraction, 0.5f);
+        EXPECT_TRUE(near(down->normal, Vec2(0, 1)));
+        EXPECT_TRUE(near(up->normal, Vec2(0, -1)));
+        EXPECT_FLOAT_EQ(down->point.y, 1);
+        EXPECT_FLOAT_EQ(up->point.y, 4);
+        EXPECT_LE(std::abs(down->point.x - b.center.x), b.half.x);
+        EXPECT_LE(std::abs(down->point.x), a.half.x);
+    }
+    const Polygon square = *Polygon::build(std::vector<Vec2>{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}});
+    const auto hit = direct_hit(at(square, Pose2{{0.5f, 5}}), Vec2(0, -6), square);
+    ASSERT_TRUE(hit);
+    EXPECT_FLOAT_EQ(hit->fraction, 0.5f);
+    EXPECT_FLOAT_EQ(hit->point.y, 1);
+    const auto stick = direct_hit(Capsule2{{-3, 5}, {3, 5}, 0.5f}, Vec2(0, -7), narrow);
+    ASSERT_TRUE(stick);
+    EXPECT_FLOAT_EQ(stick->fraction, 0.5f);
+    EXPECT_TRUE(near(stick->normal, Vec2(0, 1)));
+    EXPECT_FLOAT_EQ(stick->point.y, 1);
+}
+
+TEST(DirectSweep, RoundAboutACornerIsToldWithoutViews) {
+    // 3, 4, 5: the circle's center stops over the corner (1, 1) at (1 + 3, 1 + 4).
+    const Circle circle{{4, 15}, 5};
+    const Box2 box{{0, 0}, {1, 1}};
+    for (const bool circle_moves : {true, false}) {
+        const auto hit = circle_moves ? direct_hit(circle, Vec2(0, -20), box) : direct_hit(box, Vec2(0, 20), circle);
+        ASSERT_TRUE(hit);
+        EXPECT_FLOAT_EQ(hit->fraction, 0.5f);
+        EXPECT_TRUE(near(hit->normal, Vec2(0.6f, 0.8f) * (circle_moves ? 1.0f : -1.0f)));
+        EXPECT_TRUE(near(hit->point, circle_moves ? Vec2(1, 1) : Vec2(1, 11)));
+        EXPECT_EQ(hit->feature.kind, FeatureKind::vertex);
+        EXPECT_EQ(hit->feature.index, 0u);
+    }
+    const auto end = direct_hit(Capsule2{{-9, 0}, {-5, 0}, 1}, Vec2(8, 0), Capsule2{{0, 0}, {4, 0}, 1});
+    ASSERT_TRUE(end);
+    EXPECT_FLOAT_EQ(end->distance, 3);
+    EXPECT_TRUE(near(end->point, Vec2(-1, 0)));
+}
+
+TEST(DirectSweep, OfWhatRestsOnAFloorIsNoHitButOfAWallIs) {
+    const Box2 floor{{0, -1}, {50, 1}}, crate{{0, 0.5f}, {0.5f, 0.5f}}, wall{{9, 1}, {0.5f, 1}};
+    for (const float lift : {0.0f, 1e-6f, -1e-6f}) {
+        const Box2 lifted{crate.center + Vec2(0, lift), crate.half};
+        EXPECT_FALSE(sweep(lifted, Vec2(20, 0), floor)) << lift;
+        EXPECT_FALSE(sweep(lifted, Vec2(20, 1), floor)) << lift;
+        EXPECT_TRUE(sweep(lifted, Vec2(20, -1), floor)) << lift;
+        const auto hit = direct_hit(lifted, Vec2(20, 0), wall);
+        ASSERT_TRUE(hit);
+        EXPECT_FLOAT_EQ(hit->distance, 8);
+    }
+    const auto ball = sweep(Circle{{0, 0.5f}, 0.5f}, Vec2(20, 0), floor);
+    EXPECT_FALSE(ball);
+}
+
+TEST(DirectSweep, SlidesOverTheSeamsOfAFloor) {
+    const Polygon block =
+        *Polygon::build(std::vector<Vec2>{{-0.5f, -0.5f}, {0.5f, -0.5f}, {0.5f, 0.5f}, {-0.5f, 0.5f}});
+    for (const float lift : {0.0f, 1e-6f, -1e-6f}) {
+        const Vec2 middle(0, 0.5f + lift);
+        for (float x = 2; x < 9; x += 2) {
+            const Box2 tile{{x, -1}, {1, 1}};
+            EXPECT_FALSE(sweep(Box2{middle, {0.5f, 0.5f}}, Vec2(20, 0), tile)) << lift;
+            EXPECT_FALSE(sweep(at(block, Pose2{middle}), Vec2(20, 0), tile)) << lift;
+            EXPECT_FALSE(sweep(Circle{middle, 0.5f}, Vec2(20, 0), tile)) << lift;
+        }
+    }
+    // A step is none.
+    EXPECT_TRUE(sweep(Box2{{0, 0.49f}, {0.5f, 0.5f}}, Vec2(20, 0), Box2{{2, -1}, {1, 1}}));
+    EXPECT_TRUE(sweep(Circle{{0, 0.49f}, 0.5f}, Vec2(20, 0), Box2{{2, -1}, {1, 1}}));
+}
+
+TEST(DirectSweep, OfWhatIsFastAndThinDoesntTunnel) {
+    const Box2 wall{{1.25f, 0}, {5e-4f, 4}};
+    const Segment2 line{{1.25f, -9}, {1.25f, 9}};
+    const Polygon slug = *Polygon::build(std::vector<Vec2>{{-0.5f, -0.1f}, {0.5f, -0.1f}, {0.5f, 0.1f}});
+    for (const float length : {5e3f, 1e8f, 1e30f}) {
+        const auto circle = sweep(Circle{{-3000, 0.2f}, 0.5f}, Vec2(length, 0), wall);
+        ASSERT_TRUE(circle);
+        EXPECT_NEAR(circle->distance, 3000.7495, 1e-3);
+        const auto box = sweep(Box2{{-3000, 0.2f}, {0.5f, 0.1f}}, Vec2(length, 0), wall);
+        ASSERT_TRUE(box);
+        EXPECT_NEAR(box->distance, 3000.7495, 1e-3);
+        const auto polygon = sweep(at(slug, Pose2{{-3000, 0.2f}}), Vec2(length, 0), line);
+        ASSERT_TRUE(polygon);
+        EXPECT_NEAR(polygon->distance, 3000.75, 1e-3);
+        EXPECT_FALSE(sweep(Box2{{-3000, 0.2f}, {0.5f, 0.1f}}, Vec2(-length, 0), wall));
+        EXPECT_FALSE(sweep(Circle{{-3000, 4.6f}, 0.5f}, Vec2(length, 0), wall));
+    }
+}
+
+TEST(DirectSweep, OfNoMotionIsNoHit) {
+    const Box2 box{{0, 0}, {1, 1}}, other{{1, 1}, {1, 1}};
+    EXPECT_FALSE(sweep(box, Vec2(0, 0), other));
+    EXPECT_FALSE(sweep(box, Vec2(3, 1), other, Vec2(3, 1)));
+    EXPECT_FALSE(sweep(Circle{{0, 0}, 1}, Vec2(0, 0), Circle{{2, 0}, 1}));
 }
 
 }  // namespace

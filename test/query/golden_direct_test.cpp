@@ -5,6 +5,7 @@
 #include "../oracle/vector_units.hpp"
 #include "hash.hpp"
 #include <abut/query/overlaps.hpp>
+#include <abut/query/sweep.hpp>
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/capsule.hpp>
@@ -55,12 +56,12 @@ public:
         }
     }
 
-    /// visit(shape), the shape as it is or placed by a pose.
+    /// visit(shape), the shape as it is or placed by a pose, about some place.
     template <class Visit>
-    void draw(const Visit& visit) {
+    void draw(const Visit& visit, const Vec<D>& about = Vec<D>(0.0f)) {
         const std::uint32_t kind = random_.below(6);
         const bool placed = random_.below(2) == 0;
-        const Vec<D> position = point(128);
+        const Vec<D> position = about + point(128), shift = placed ? Vec<D>(0.0f) : about;
         const Pose<D> pose{position, rotation()};
         const auto tell = [&](const auto& shape) {
             if (placed)
@@ -68,7 +69,7 @@ public:
             else
                 visit(shape);
         };
-        const Vec<D> a = point(192), b = point(192), c = point(192);
+        const Vec<D> a = shift + point(192), b = shift + point(192), c = shift + point(192);
         const float radius = size();
         switch (kind) {
             case 0:
@@ -86,7 +87,7 @@ public:
             }
             default: {
                 std::vector<Vec<D>> points(4 + random_.below(9));
-                for (Vec<D>& p : points) p = point(128);
+                for (Vec<D>& p : points) p = shift + point(128);
                 return tell(*Polytope::build(points));
             }
         }
@@ -121,6 +122,22 @@ std::uint64_t hash_of_answers() {
     return hash.value();
 }
 
+/// Of pairs in the plane that come from some sizes away, from both sides.
+std::uint64_t hash_of_sweeps() {
+    Hash hash;
+    for (std::uint64_t seed = 0; seed < 100000; ++seed) {
+        PlainShapes<2> shapes(seed);
+        const Vec2 from = shapes.point(512), to = shapes.point(128), motion_b = shapes.point(128);
+        const Vec2 motion_a = to - from + motion_b;
+        const auto ask = [&](const auto& a, const auto& b) {
+            add_hit(hash, sweep(a, motion_a, b, motion_b));
+            add_hit(hash, sweep(b, motion_b, a, motion_a));
+        };
+        shapes.draw([&](const auto& a) { shapes.draw([&](const auto& b) { ask(a, b); }); }, from);
+    }
+    return hash.value();
+}
+
 class GoldenDirect : public oracle::ByVectorUnit {};
 
 TEST_P(GoldenDirect, AnswersInThePlaneHaveTheSameBitsEverywhere) {
@@ -128,6 +145,9 @@ TEST_P(GoldenDirect, AnswersInThePlaneHaveTheSameBitsEverywhere) {
 }
 TEST_P(GoldenDirect, AnswersInSpaceHaveTheSameBitsEverywhere) {
     EXPECT_EQ(hash_of_answers<3>(), 13129329665538695646u);
+}
+TEST_P(GoldenDirect, SweepsInThePlaneHaveTheSameBitsEverywhere) {
+    EXPECT_EQ(hash_of_sweeps(), 11923179436133139510u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, GoldenDirect, oracle::vector_units(), oracle::name_of_unit);
