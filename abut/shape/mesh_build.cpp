@@ -70,6 +70,7 @@ public:
         tree_.roots[0] = {add(root), exact};
         const DVec<3> low(exact.min), high(exact.max);
         tree_.middle = (low + high) * 0.5;
+        tree_.off_center = std::abs(tree_.middle.x) + std::abs(tree_.middle.y) + std::abs(tree_.middle.z);
         tree_.spread = std::max(largest(low), largest(high)) < mesh_most
                            ? (high.x - low.x + high.y - low.y + high.z - low.z) * (0.5 + 1e-9)
                            : std::numeric_limits<double>::infinity();
@@ -171,7 +172,7 @@ private:
             if (used)
                 node.set(lane, forks_[children.fork[lane]].box);
             else
-                node.clear_unused(lane);
+                node.clear(lane);
         }
         return result;
     }

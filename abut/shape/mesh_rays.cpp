@@ -19,39 +19,17 @@
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE {
 
-/// A line as the nodes are asked for it. A point that may be astray reaches the first side of a box from its near end
-/// and the second from its far one.
-class LineLanes {
+/// A line as the nodes are asked for it, whose boxes are made wider by what its origin may be astray.
+class LineToBoxes {
 public:
-    HWY_INLINE LineLanes(const Beam<3>& line, double astray) {
-        const hn::CappedTag<float, 4> tag;
-        constexpr std::size_t step = hn::MaxLanes(tag);
-        HWY_ALIGN float origins[4], ways[4], near_origins[4], far_origins[4], near_inverses[4], far_inverses[4];
+    HWY_INLINE LineToBoxes(const Beam<3>& line, double astray) {
         for (int i = 0; i < 3; ++i) {
-            origins[i] = static_cast<float>(line.origin[i]);
-            ways[i] = static_cast<float>(line.direction[i]);
-        }
-        origins[3] = ways[3] = 1;
-        const auto out = hn::Set(tag, static_cast<float>(astray));
-        for (std::size_t i = 0; i < 4; i += step) {
-            const auto origin = hn::Load(tag, origins + i), way = hn::Load(tag, ways + i);
+            const float origin = static_cast<float>(line.origin[i]), way = static_cast<float>(line.direction[i]);
+            const float wider = static_cast<float>(astray) + std::abs(origin) * 0x1p-23f;
+            to_low_[i] = hn::Set(bvh_tag, origin + wider);
+            to_high_[i] = hn::Set(bvh_tag, origin - wider);
             // Where it all but rests, no finite time is too late for it; and 0 times it is not NaN.
-            const auto direction = hn::CopySign(hn::Max(hn::Abs(way), hn::Set(tag, 1e-30f)), way);
-            const auto inverse = hn::Div(hn::Set(tag, 1), direction);
-            const auto outwards = hn::CopySign(hn::Add(hn::Mul(hn::Abs(origin), hn::Set(tag, 0x1p-23f)), out), way);
-            hn::Store(hn::Add(origin, outwards), tag, near_origins + i);
-            hn::Store(hn::Sub(origin, outwards), tag, far_origins + i);
-            hn::Store(hn::Mul(inverse, hn::Set(tag, 1 - slack)), tag, near_inverses + i);
-            hn::Store(hn::Mul(inverse, hn::Set(tag, 1 + slack)), tag, far_inverses + i);
-        }
-        for (std::uint32_t i = 0; i < 3; ++i) {
-            near_origin_[i] = hn::Set(bvh_tag, near_origins[i]);
-            far_origin_[i] = hn::Set(bvh_tag, far_origins[i]);
-            near_inverse_[i] = hn::Set(bvh_tag, near_inverses[i]);
-            far_inverse_[i] = hn::Set(bvh_tag, far_inverses[i]);
-            const std::uint32_t downwards = std::bit_cast<std::uint32_t>(ways[i]) >> 31;  // also of -0
-            near_row_[i] = (3 * downwards + i) * mesh_lanes;
-            far_row_[i] = (3 - 3 * downwards + i) * mesh_lanes;
+            back_[i] = hn::Set(bvh_tag, -1 / std::copysign(std::max(std::abs(way), 1e-30f), way));
         }
     }
 
@@ -59,28 +37,34 @@ public:
     HWY_INLINE std::uint32_t operator()(const MeshNode& node, float most, float (&times)[mesh_lanes]) const {
         std::uint32_t result = 0;
         for (std::uint32_t lane = 0; lane < mesh_lanes; lane += bvh_step) {
-            const float* rows = node.min[0] + lane;
-            const V from = hn::Max(hn::Max(first(rows, 0), hn::Zero(bvh_tag)), hn::Max(first(rows, 1), first(rows, 2)));
-            const V to = hn::Min(hn::Min(last(rows, 0), hn::Set(bvh_tag, most)), hn::Min(last(rows, 1), last(rows, 2)));
-            result |= bits_of(hn::Le(from, to)) << lane;
+            const V x[2] = {low(node, 0, lane), high(node, 0, lane)}, y[2] = {low(node, 1, lane), high(node, 1, lane)},
+                    z[2] = {low(node, 2, lane), high(node, 2, lane)};
+            const V from = hn::Max(hn::Max(hn::Min(x[0], x[1]), hn::Zero(bvh_tag)),
+                                   hn::Max(hn::Min(y[0], y[1]), hn::Min(z[0], z[1])));
+            const V to = hn::Min(hn::Min(hn::Max(x[0], x[1]), hn::Set(bvh_tag, most)),
+                                 hn::Min(hn::Max(y[0], y[1]), hn::Max(z[0], z[1])));
+            const auto children = hn::Load(child_tag, node.child + lane);
+            const auto used = hn::RebindMask(bvh_tag, hn::Ne(children, hn::Set(child_tag, bvh_none)));
+            result |= bits_of(hn::And(used, hn::Le(from, hn::Mul(to, hn::Set(bvh_tag, slack))))) << lane;
             hn::StoreU(from, bvh_tag, times + lane);
         }
         return result;
     }
 
 private:
-    /// More than five roundings to float.
-    static constexpr float slack = 5e-7f;
+    static constexpr hn::RebindToUnsigned<BvhVectorTag> child_tag{};
 
-    HWY_INLINE V first(const float* rows, int axis) const {
-        return hn::Mul(hn::Sub(hn::Load(bvh_tag, rows + near_row_[axis]), near_origin_[axis]), near_inverse_[axis]);
+    /// More than twice five roundings to float.
+    static constexpr float slack = 1 + 1e-6f;
+
+    HWY_INLINE V low(const MeshNode& node, int axis, std::uint32_t lane) const {
+        return hn::Mul(hn::Sub(to_low_[axis], hn::Load(bvh_tag, node.min[axis] + lane)), back_[axis]);
     }
-    HWY_INLINE V last(const float* rows, int axis) const {
-        return hn::Mul(hn::Sub(hn::Load(bvh_tag, rows + far_row_[axis]), far_origin_[axis]), far_inverse_[axis]);
+    HWY_INLINE V high(const MeshNode& node, int axis, std::uint32_t lane) const {
+        return hn::Mul(hn::Sub(to_high_[axis], hn::Load(bvh_tag, node.max[axis] + lane)), back_[axis]);
     }
 
-    V near_origin_[3], far_origin_[3], near_inverse_[3], far_inverse_[3];
-    std::size_t near_row_[3], far_row_[3];
+    V to_low_[3], to_high_[3], back_[3];  ///< back: the other way, a step each
 };
 
 /// A line as the triangles are asked for it: it goes through a triangle if it does where all are seen along it, as
@@ -88,41 +72,37 @@ private:
 /// roundings.
 class LineToTriangles {
 public:
-    HWY_INLINE LineToTriangles(const Beam<3>& line, double astray) {
-        const Vec3 from = to_float(line.origin);
-        origin_ = all_lanes(from);
-        // Two axes across the line (Duff and others, "Building an orthonormal basis, revisited", 2017).
-        const DVec<3>& d = line.direction;
-        const double sign = std::copysign(1.0, d.z), a = -1 / (sign + d.z), b = d.x * d.y * a;
-        across_[0] = all_lanes(to_float(DVec<3>(1 + sign * d.x * d.x * a, sign * b, -sign * d.x)));
-        across_[1] = all_lanes(to_float(DVec<3>(b, sign + d.y * d.y * a, -d.y)));
-        // What float takes off the origin, too.
-        const double rounded = std::abs(static_cast<double>(from.x) - line.origin.x) +
-                               std::abs(static_cast<double>(from.y) - line.origin.y) +
-                               std::abs(static_cast<double>(from.z) - line.origin.z);
-        astray_ = static_cast<float>((3 * astray + rounded) * (1 + 1e-6));
+    /// No corner is farther from its beginning than `beyond`, as a sum of magnitudes, and it was rounded by `rounded`
+    /// along each axis.
+    HWY_INLINE LineToTriangles(const Beam<3>& line, double beyond, double rounded) {
+        const double origin[3] = {line.origin.x, line.origin.y, line.origin.z};
+        const double direction[3] = {line.direction.x, line.direction.y, line.direction.z};
+        // The axis that it goes along most, by arithmetic as it can't be guessed, and the other two.
+        const double x = std::abs(direction[0]), y = std::abs(direction[1]), z = std::abs(direction[2]);
+        const auto beyond_x = static_cast<unsigned>(y > x), is_z = static_cast<unsigned>(z > std::max(x, y));
+        row_[2] = beyond_x + (2 - beyond_x) * is_z;
+        row_[0] = row_[2] + 1 - 3 * (row_[2] >> 1);
+        row_[1] = 3 - row_[0] - row_[2];
+        for (int i = 0; i < 3; ++i) origin_[i] = hn::Set(bvh_tag, static_cast<float>(origin[row_[i]]));
+        const double inverse = 1 / direction[row_[2]];
+        for (int i = 0; i < 2; ++i) slope_[i] = hn::Set(bvh_tag, static_cast<float>(direction[row_[i]] * inverse));
+        off_ = static_cast<float>(8 * 0x1p-24 * beyond + 2 * rounded);
     }
 
     /// Which triangles of a leaf it may go through, a bit each; wherever on the line.
     ///
-    /// With u = 2^-24 and |.| the sum of the coordinates' magnitudes, a corner is seen in its place but for 5 u |corner
+    /// With u = 2^-24 and |.| the sum of the coordinates' magnitudes, a corner is seen in its place but for 4 u |corner
     /// - origin|. The line comes by the leaf's box, so that no corner is seen farther from it than the box is wide; the
     /// products of two such places are off by less than six times the one times the other.
     HWY_INLINE std::uint32_t operator()(const MeshLeaf& leaf) const {
         std::uint32_t result = 0;
         HWY_ALIGN float places[2][mesh_lanes];
-        float scale = 0;
         for (std::uint32_t lane = 0; lane < mesh_lanes; lane += bvh_step) {
-            const V3 corner = minus({hn::Load(bvh_tag, leaf.corner[0] + lane), hn::Load(bvh_tag, leaf.corner[1] + lane),
-                                     hn::Load(bvh_tag, leaf.corner[2] + lane)},
-                                    origin_);
-            hn::Store(dot(corner, across_[0]), bvh_tag, places[0] + lane);
-            hn::Store(dot(corner, across_[1]), bvh_tag, places[1] + lane);
-            if (lane == 0)
-                scale = hn::GetLane(hn::Add(hn::Add(hn::Abs(corner.x), hn::Abs(corner.y)), hn::Abs(corner.z)));
+            const V along = from_origin(leaf, 2, lane);
+            for (int i = 0; i < 2; ++i)
+                hn::Store(hn::Sub(from_origin(leaf, i, lane), hn::Mul(along, slope_[i])), bvh_tag, places[i] + lane);
         }
-        const float off = 8 * 0x1p-24f * (scale + leaf.extent) + astray_;
-        const V least = hn::Set(bvh_tag, -8 * off * (leaf.extent + off)), most = hn::Neg(least);
+        const V most = hn::Set(bvh_tag, 8 * off_ * (leaf.extent + off_)), least = hn::Neg(most);
         for (std::uint32_t lane = 0; lane < mesh_lanes; lane += bvh_step) {
             const LeafNumbers numbers(leaf, lane);
             const V2 a = numbers.pick<0>(places), b = numbers.pick<1>(places), c = numbers.pick<2>(places);
@@ -136,13 +116,14 @@ public:
     }
 
 private:
-    static HWY_INLINE V3 all_lanes(const Vec3& v) {
-        return {hn::Set(bvh_tag, v.x), hn::Set(bvh_tag, v.y), hn::Set(bvh_tag, v.z)};
+    HWY_INLINE V from_origin(const MeshLeaf& leaf, int i, std::uint32_t lane) const {
+        return hn::Sub(hn::Load(bvh_tag, leaf.corner[row_[i]] + lane), origin_[i]);
     }
     static HWY_INLINE V turned(const V2& a, const V2& b) { return hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x)); }
 
-    V3 origin_, across_[2];
-    float astray_;  ///< how far the point may be from the origin
+    unsigned row_[3];  ///< of the corners: the two axes across and the one along
+    V origin_[3], slope_[2];
+    float off_;  ///< how far from where it is a corner may be seen
 };
 
 /// What waits to be visited: when it is reached in the upper half, as of floats not below zero their bits tell the
@@ -213,8 +194,8 @@ bool down(const MeshTree& tree, const MeshBeam& beam, Meet meet) {
     const double reach = std::min(beam.own.length, 2 * beyond);
     if (!(reach >= 0)) return true;
     const double unit = beam.unit * reach_slack;
-    const LineLanes meets_boxes(beam.own, beam.astray);
-    const LineToTriangles meets(beam.own, beam.astray);
+    const LineToBoxes meets_boxes(beam.own, beam.astray);
+    const LineToTriangles meets(beam.own, beyond, beam.astray + 0x1p-24 * (beyond + tree.off_center));
     Waiting waits[most_waiting];
     Waiting* stack = waits;
     float most = not_less(reach * reach_slack), times[mesh_lanes];

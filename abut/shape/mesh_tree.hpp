@@ -14,7 +14,6 @@
 
 #include <bit>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -45,14 +44,6 @@ struct alignas(64) MeshLeaf {
 /// Its boxes are a little wider than what is in them.
 struct alignas(32) MeshNode : BvhRows<3> {
     std::uint32_t child[mesh_lanes];  ///< bvh_none where unused
-
-    /// The numbers are NaN, so that it overlaps nothing; but along x it begins after the end of any line and ends
-    /// before its beginning.
-    void clear_unused(std::uint32_t lane) {
-        clear(lane);
-        min[0][lane] = std::numeric_limits<float>::infinity();
-        max[0][lane] = -std::numeric_limits<float>::infinity();
-    }
 };
 
 static_assert(sizeof(MeshLeaf) == 128 && sizeof(MeshNode) == 224);
@@ -63,9 +54,11 @@ inline constexpr double mesh_most = 1e12;
 struct MeshTree {
     std::vector<MeshNode, LargePages<MeshNode>> nodes;
     std::vector<MeshLeaf, LargePages<MeshLeaf>> leaves;
-    std::vector<std::uint32_t> order;  ///< the triangles of the input, as they follow one another in the leaves
-    std::array<BvhRoot<3>, 2> roots;   ///< as a Bvh has them; the second of a mesh is empty
-    DVec<3> middle{0.0};               ///< of the whole
+    /// The triangles of the input, as they follow one another in the leaves.
+    std::vector<std::uint32_t, LargePages<std::uint32_t>> order;
+    std::array<BvhRoot<3>, 2> roots;  ///< as a Bvh has them; the second of a mesh is empty
+    DVec<3> middle{0.0};              ///< of the whole
+    double off_center = 0;            ///< |x| + |y| + |z| of the middle
     /// |x| + |y| + |z| from there to its farthest corner; infinite where a coordinate is larger than floats multiply.
     double spread = 0;
 
