@@ -227,6 +227,7 @@ bool down(const MeshTree& tree, const MeshBeam& beam, Meet meet) {
             --stack;
         } while (*stack > beyond_reach);
         ref = static_cast<std::uint32_t>(*stack);
+        if (stack != waits) fetch(tree, stack[-1]);
     }
 }
 
