@@ -128,6 +128,17 @@ Placement<D> mapped(const Placement<D>& placement, const Affine<D>& map) {
 }
 
 template <int D>
+DVec<D> front(const Convex<D>& part) {
+    const double side = determinant(part.place) < 0 ? -1 : 1;
+    const auto corner = [&part](std::size_t i) { return part.place.point(DVec<D>(part.vertices()[i])); };
+    const DVec<D> along = corner(1) - corner(0);
+    if constexpr (D == 2)
+        return DVec<2>(along.y, -along.x) * side;
+    else
+        return cross(along, corner(2) - corner(0)) * side;
+}
+
+template <int D>
 Convex<D> placed(const Convex<D>& convex, const Placement<D>& placement) {
     Placement<D> own = convex;
     own.radius += placement.inner_radius;
@@ -180,6 +191,7 @@ double size(const Convex<D>& convex) {
 #define ABUT_INSTANTIATE(D)                                                \
     template Convex<D> round_points(std::initializer_list<Vec<D>>, float); \
     template Placement<D> mapped(const Placement<D>&, const Affine<D>&);   \
+    template DVec<D> front(const Convex<D>&);                              \
     template Convex<D> placed(const Convex<D>&, const Placement<D>&);      \
     template CorePoint<D> core_support(const Convex<D>&, const DVec<D>&);  \
     template DVec<D> support(const Convex<D>&, const DVec<D>&);            \

@@ -46,6 +46,9 @@ Placement<D> mapped(const Placement<D>& placement, const Affine<D>& map);
 template <int D>
 struct Convex : Placement<D> {
     Core core = Core::points;
+    /// A segment of the plane, or a triangle in space: rays, sweeps and contacts meet it from its front alone, as
+    /// `front` tells. What overlaps it and how far it is doesn't depend on sides.
+    bool one_sided = false;
     std::uint32_t count = 1;  ///< of points
     /// Up to three points; box: [0] the half extents; discs: [0], [1] their centres.
     std::array<Vec<D>, 3> own{};
@@ -125,6 +128,12 @@ bool has_corner(const Convex<D>& convex, std::uint32_t index) {
     if (convex.core == Core::points) return index < convex.count;
     return convex.core == Core::box && index < 1u << D;
 }
+
+/// Where a part that is one-sided looks, of any length: of a segment to the right of the way from its first point to
+/// its second, of a triangle to where it is counter-clockwise. What is mirrored keeps its front on the same side of
+/// itself.
+template <int D>
+DVec<D> front(const Convex<D>& part);
 
 /// The farthest point of the core and its inner ball (without the outer ball) along `direction`, which has any length
 /// but zero. Where several are equally far, the one of the lowest index.

@@ -1,6 +1,7 @@
 #include <abut/convex/manifold.hpp>
 #include <abut/query/contact.hpp>
 #include <abut/query/direct.hpp>
+#include <abut/query/one_sided.hpp>
 #include <abut/query/part_pairs.hpp>
 #include <abut/query/write_answer.hpp>
 
@@ -32,6 +33,7 @@ void answer(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& optio
     const double margin = static_cast<double>(options.margin);
     PartContact<D> found;
     if (!finite || !part_contact(a, b, margin, margin, {options.cache, options.trace}, found)) return;
+    if (!meet_at_fronts(a, b, found.distance.normal)) return;
     write(found.distance, found.manifold, result);
     name_features(a, b, found.distance, 0, 0, result);
 }
@@ -80,6 +82,7 @@ Contact<D> contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& op
                        PartContact<D> found;
                        if (!part_contact(part_a, part_b, least, margin, search, found)) return true;
                        const SignedDistance<D>& distance = found.distance;
+                       if (!meet_at_fronts(part_a, part_b, distance.normal)) return true;
                        // The lowest of several as deep, so that it isn't up to the order of the visits.
                        if (result && distance.distance == least && std::pair(index_a, index_b) > parts) return true;
                        // Now, while the parts are there: a composite shape may make them up as it goes.

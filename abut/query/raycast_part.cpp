@@ -1,4 +1,5 @@
 #include <abut/convex/margin.hpp>
+#include <abut/query/one_sided.hpp>
 #include <abut/query/part_pairs.hpp>
 #include <abut/query/raycast_part.hpp>
 
@@ -69,6 +70,7 @@ bool part_hit_by_advance(const Beam<D>& beam, const Convex<D>& part, std::uint32
 
 template <int D>
 bool part_hit(const Beam<D>& beam, const Convex<D>& part, std::uint32_t index, Trace<D>* trace, PartHit<D>& hit) {
+    if (!goes_at_front(part, beam.direction)) return false;
     const RayEntry<D> entry = ray_entry(part, beam);
     if (entry.answer == RayAnswer::undecided) return part_hit_by_advance(beam, part, index, trace, hit);
     if (entry.answer == RayAnswer::misses) return false;

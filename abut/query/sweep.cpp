@@ -1,5 +1,6 @@
 #include <abut/math/assert.hpp>
 #include <abut/query/direct_sweep.hpp>
+#include <abut/query/one_sided.hpp>
 #include <abut/query/sweep.hpp>
 #include <abut/query/sweep_part.hpp>
 
@@ -28,6 +29,15 @@ void tell(const Motions<D>& motions, const PartTouch<D>& first, Hit<D>& hit) {
     hit.normal = to_float(-first.normal);
     hit.started_inside = first.started_inside;
     hit.feature = first.feature;
+}
+
+/// The first touch of two parts at their fronts. Whatever overlap there is on a straight way is one stretch of it, so
+/// that what first touches at a back doesn't touch at a front after it.
+template <int D, class PartA, class PartB>
+bool front_touch(const PartA& a, const Path<D>& path, const PartB& b, std::uint32_t index,
+                 const SweepOptions<D>& options, PartTouch<D>& touch) {
+    return goes_at_front(b, path.direction) && goes_at_front(a, -path.direction) &&
+           part_touch(a, path, b, index, options, touch) && meet_at_fronts(a, b, touch.normal);
 }
 
 /// The box around a part on its way along the path.
@@ -96,7 +106,7 @@ private:
     template <class PartA, class PartB>
     void look_at(const PartA& part_a, std::uint32_t index_a, const PartB& part_b, std::uint32_t index_b) {
         PartTouch<D> touch;
-        if (!part_touch(part_a, Path<D>{path_.direction, path_.length}, part_b, index_b, options_, touch)) return;
+        if (!front_touch(part_a, path_, part_b, index_b, options_, touch)) return;
         // The lowest of several at one place, so that it isn't up to the order of the visits.
         if (any_ &&
             (touch.along > first_.along ||
@@ -140,7 +150,7 @@ std::optional<Hit<D>> sweep(const Convex<D>& a, const Vec<D>& motion_a, const Co
                             const QueryOptions<D>& options) {
     std::optional<Hit<D>> result;
     const auto find = [&](const Path<D>& path, PartTouch<D>& first) {
-        return part_touch(a, path, b, 0, SweepOptions<D>{options.cache, options.trace}, first);
+        return front_touch(a, path, b, 0, SweepOptions<D>{options.cache, options.trace}, first);
     };
     find_first_touch(a, motion_a, b, motion_b, find, result);
     return result;

@@ -1,4 +1,5 @@
 #include <abut/math/assert.hpp>
+#include <abut/query/one_sided.hpp>
 #include <abut/query/turning_parts.hpp>
 
 #include <optional>
@@ -170,8 +171,11 @@ private:
     void look_at_pair(const PartA& a, std::uint32_t index_a, const PartB& b, std::uint32_t index_b,
                       const Piece& piece) {
         Meeting<D> found;
-        const TurningLimits limits{.from = piece.from, .until = piece.to, .reach = any ? first.time : piece.to};
+        // What has gone in at a back is told of nowhere on its way out: what has a front is searched from the beginning.
+        const double from = is_one_sided(a, b) ? 0 : piece.from;
+        const TurningLimits limits{.from = from, .until = piece.to, .reach = any ? first.time : piece.to};
         if (!first_meeting<D>(a, path_a_, b, path_b_, limits, options_, found)) return;
+        if (!meet_at_fronts(a, path_a_, b, path_b_, found.time, found.normal)) return;
         // The lowest of several at one time, so that it isn't up to the order of the visits.
         if (any && std::tuple(found.time, index_b, index_a) >= std::tuple(first.time, first.feature.part, index_a_))
             return;

@@ -10,6 +10,7 @@
 #include <abut/math/ray.hpp>
 #include <abut/shape/given.hpp>
 #include <abut/shape/half_space.hpp>
+#include <abut/shape/neighbour.hpp>
 #include <abut/shape/triangle.hpp>
 
 #include <concepts>
@@ -47,6 +48,8 @@ struct Composite : Placement<D> {
     /// Whether a point of the shape's own frame is inside it; null where the shape is the union of its parts and no
     /// more.
     bool (*contains)(const void* object, const Vec<D>& point) = nullptr;
+    /// What is beyond a side of a part, as neighbour.hpp tells. Null where that is not known.
+    std::uint32_t (*neighbour)(const void* object, std::uint32_t part, std::uint32_t side) = nullptr;
 };
 
 /// Any shape.
@@ -121,7 +124,8 @@ View<D> rounded(const View<D>& view, double radius);
 // and either `support(shape, direction)` or `each_part(shape, box, visit)`, found by argument-dependent lookup. A
 // composite one that has its parts in some order may also give `each_part_along(shape, moving_box, visit)` and
 // `each_part_near(shape, box, visit)`, for rays and distances; the library's own of triangles has
-// `triangle_tree(shape)`, for rays.
+// `triangle_tree(shape)`, for rays. `solid_contains(shape, point)` makes it solid in `contains`, and
+// `part_neighbour(shape, part, side)` tells which of its parts meet in a seam.
 
 namespace detail {
 
@@ -240,6 +244,12 @@ requires(!detail::HasConvex<S> && !detail::HasSupport<S> && detail::HasParts<S>)
                   })
         result.contains = [](const void* object, const Vec<D>& point) {
             return solid_contains(*static_cast<const S*>(object), point);
+        };
+    if constexpr (requires {
+                      { part_neighbour(shape, 0u, 0u) } -> std::same_as<std::uint32_t>;
+                  })
+        result.neighbour = [](const void* object, std::uint32_t part, std::uint32_t side) {
+            return part_neighbour(*static_cast<const S*>(object), part, side);
         };
     return result;
 }

@@ -1,0 +1,127 @@
+#include <abut/broad_phase/bvh.hpp>
+#include <abut/math/assert.hpp>
+#include <abut/math/predicates.hpp>
+#include <abut/shape/chain.hpp>
+
+#include <vector>
+
+namespace abut {
+
+struct Chain::Data {
+    std::vector<Vec2> points;
+    bool closed = false;
+    bool one_sided = false;
+    Bvh<2> tree;  ///< of the segments
+
+    std::uint32_t size() const { return static_cast<std::uint32_t>(closed ? points.size() : points.size() - 1); }
+    Segment2 segment(std::uint32_t index) const {
+        return {points[index], points[index + 1 == points.size() ? 0 : index + 1]};
+    }
+    Convex<2> part(std::uint32_t index) const {
+        Convex<2> result = convex(segment(index));
+        result.one_sided = one_sided;
+        return result;
+    }
+};
+
+namespace {
+
+Aabb2 box_of(const Segment2& s) {
+    return merged(Aabb2{s.a, s.a}, Aabb2{s.b, s.b});
+}
+
+}  // namespace
+
+Result<Chain> Chain::build(std::span<const Vec2> points, bool closed, const ChainOptions& options) {
+    const std::size_t least = closed ? 3 : 2;
+    if (points.size() < least)
+        return Problem{ProblemCode::empty_input,
+                       std::string(closed ? "a closed" : "an open") + " chain needs at least " + std::to_string(least) +
+                           " points, and there are " + std::to_string(points.size()),
+                       points.size()};
+    for (std::size_t i = 0; i < points.size(); ++i)
+        if (!is_finite(points[i]))
+            return Problem{ProblemCode::not_finite,
+                           "point " + std::to_string(i) + " has a coordinate that is not finite", i};
+    auto data = std::make_shared<Data>();
+    data->points.assign(points.begin(), points.end());
+    data->closed = closed;
+    data->one_sided = options.one_sided;
+    std::vector<Aabb2> boxes;
+    boxes.reserve(data->size());
+    for (std::uint32_t i = 0; i < data->size(); ++i) {
+        const Segment2 segment = data->segment(i);
+        if (segment.a == segment.b)
+            return Problem{ProblemCode::degenerate,
+                           "segment " + std::to_string(i) + " has no length: its two points are at the same place", i};
+        boxes.push_back(box_of(segment));
+    }
+    data->tree.build(boxes);
+    return Chain(std::move(data));
+}
+
+Result<Chain> Chain::build(std::initializer_list<Vec2> points, bool closed, const ChainOptions& options) {
+    return build(std::span<const Vec2>(points.begin(), points.size()), closed, options);
+}
+
+std::span<const Vec2> Chain::points() const {
+    return data_->points;
+}
+bool Chain::closed() const {
+    return data_->closed;
+}
+bool Chain::one_sided() const {
+    return data_->one_sided;
+}
+std::uint32_t Chain::size() const {
+    return data_->size();
+}
+
+Segment2 Chain::segment(std::uint32_t index) const {
+    ABUT_ASSERT(index < size());
+    return data_->segment(index);
+}
+
+std::uint32_t Chain::neighbour(std::uint32_t segment, std::uint32_t end) const {
+    const std::uint32_t count = size();
+    ABUT_ASSERT(segment < count && end < 2);
+    if (end == 0) return segment > 0 ? segment - 1 : data_->closed ? count - 1 : no_neighbour;
+    return segment + 1 < count ? segment + 1 : data_->closed ? 0 : no_neighbour;
+}
+
+Aabb2 bounds(const Chain& chain) {
+    return chain.data_->tree.bounds();
+}
+
+void each_part(const Chain& chain, const Aabb2& box, PartVisitor<2> visit) {
+    const Chain::Data& data = *chain.data_;
+    data.tree.each_overlapping(box, [&](std::uint32_t index) -> bool { return visit(data.part(index), index); });
+}
+
+void each_part_along(const Chain& chain, const MovingBox<2>& box, PartReachVisitor<2> visit) {
+    const Chain::Data& data = *chain.data_;
+    data.tree.sweep(box, [&](std::uint32_t index) -> float { return visit(data.part(index), index); });
+}
+
+void each_part_near(const Chain& chain, const Aabb2& box, PartReachVisitor<2> visit) {
+    const Chain::Data& data = *chain.data_;
+    data.tree.closest(box, [&](std::uint32_t index) -> float { return visit(data.part(index), index); });
+}
+
+bool solid_contains(const Chain& chain, const Vec2& point) {
+    if (!chain.closed()) return false;
+    // How often the segments that cross the way from the point along x go round it: Sunday, "Inclusion of a point in a
+    // polygon" (2001).
+    Aabb2 ahead{point, point};
+    ahead.max.x = std::numeric_limits<float>::infinity();
+    int turns = 0;
+    chain.data_->tree.each_overlapping(ahead, [&](std::uint32_t index) {
+        const Segment2 s = chain.data_->segment(index);
+        const bool from_below = s.a.y <= point.y, to_below = s.b.y <= point.y;
+        if (from_below && !to_below && orientation(s.a, s.b, point) > 0) ++turns;
+        if (!from_below && to_below && orientation(s.a, s.b, point) < 0) --turns;
+    });
+    return turns != 0;
+}
+
+}  // namespace abut
