@@ -20,7 +20,7 @@ bool World<D>::has_way(std::uint32_t slot) const {
 template <int D>
 void World<D>::widen_boxes() {
     for (const std::uint32_t slot : widened_)
-        if (items_[slot].stored != nullptr) boxes_of(items_[slot]).set(items_[slot].place, items_[slot].box);
+        if (items_[slot].stored) boxes_of(items_[slot]).set(items_[slot].place, items_[slot].box);
     widened_.clear();
     if (continuous_ == 0) return;
     for (const std::uint32_t slot : pending_) {

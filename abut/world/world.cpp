@@ -20,7 +20,7 @@ template <int D>
 const typename World<D>::Item* World<D>::find(Id id) const {
     if (id.index == 0 || id.index > items_.size()) return nullptr;
     const Item& item = items_[id.index - 1];
-    return item.stored != nullptr && item.generation == id.generation ? &item : nullptr;
+    return item.stored && item.generation == id.generation ? &item : nullptr;
 }
 
 template <int D>
@@ -29,7 +29,7 @@ typename World<D>::Item* World<D>::find(Id id) {
 }
 
 template <int D>
-Id World<D>::add(std::unique_ptr<const detail::StoredShape<D>> stored, const ItemOptions<D>& options) {
+Id World<D>::add_shape(const AnyShape<D>& shape, const ItemOptions<D>& options) {
     std::uint32_t slot = static_cast<std::uint32_t>(items_.size());
     if (free_.empty()) {
         items_.emplace_back();
@@ -45,14 +45,14 @@ Id World<D>::add(std::unique_ptr<const detail::StoredShape<D>> stored, const Ite
     ++count_;
     continuous_ += options.continuous ? 1 : 0;
     item.place = boxes_of(item).add(slot);
-    take(slot, std::move(stored));
+    take(slot, shape);
     return id_of(slot);
 }
 
 template <int D>
-void World<D>::take(std::uint32_t slot, std::unique_ptr<const detail::StoredShape<D>> stored) {
+void World<D>::take(std::uint32_t slot, const AnyShape<D>& shape) {
     Item& item = items_[slot];
-    item.stored = std::move(stored);
+    item.stored = shape;
     const View<D> own = item.stored->view();
     item.type = shape_type(own);
     item.own_ball = bounding_ball(own);
@@ -61,11 +61,11 @@ void World<D>::take(std::uint32_t slot, std::unique_ptr<const detail::StoredShap
 }
 
 template <int D>
-void World<D>::set_shape(Id id, std::unique_ptr<const detail::StoredShape<D>> stored) {
+void World<D>::set_any_shape(Id id, const AnyShape<D>& shape) {
     Item* item = find(id);
     ABUT_ASSERT(item != nullptr);
     if (item == nullptr) return;
-    take(id.index - 1, std::move(stored));
+    take(id.index - 1, shape);
 }
 
 template <int D>
@@ -94,7 +94,7 @@ void World<D>::remove(Id id) {
     Item* item = find(id);
     ABUT_ASSERT(item != nullptr);
     if (item == nullptr) return;
-    item->stored = nullptr;
+    item->stored.reset();
     item->placed = View<D>();
     item->box = Aabb<D>::empty();
     boxes_of(*item).remove(item->place);

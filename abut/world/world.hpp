@@ -8,7 +8,7 @@
 #include <abut/query/closest.hpp>
 #include <abut/query/contact.hpp>
 #include <abut/query/raycast.hpp>
-#include <abut/shape/placed.hpp>
+#include <abut/shape/any_shape.hpp>
 #include <abut/world/bounding_ball.hpp>
 #include <abut/world/id.hpp>
 #include <abut/world/item_boxes.hpp>
@@ -16,7 +16,6 @@
 #include <abut/world/question_count.hpp>
 #include <abut/world/way.hpp>
 
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -97,31 +96,6 @@ struct UpdateCounts {
     std::size_t balls = 0;   ///< those of them whose bounding balls were asked and settled it: depends on measurements
 };
 
-namespace detail {
-
-/// A shape of any type, owned.
-template <int D>
-struct StoredShape {
-    virtual ~StoredShape() = default;
-    virtual View<D> view() const = 0;
-};
-
-template <int D, class S>
-struct StoredShapeOf final : StoredShape<D> {
-    explicit StoredShapeOf(S s) : shape(std::move(s)) {}
-    View<D> view() const override { return abut::view(shape); }
-
-    S shape;
-};
-
-template <int D, class S>
-std::unique_ptr<const StoredShape<D>> store(const S& shape) {
-    auto kept = owned(shape);
-    return std::make_unique<StoredShapeOf<D, decltype(kept)>>(std::move(kept));
-}
-
-}  // namespace detail
-
 /// All lists are sorted by id, and no answer depends on the order in which items were added but for the ids.
 /// Questions see every item where it is now, moved since the last update or not; they are const and may run on many
 /// threads at once, those that return no list without allocating. A stale id trips ABUT_ASSERT; in release it is
@@ -138,12 +112,10 @@ public:
     /// Takes a copy of the shape, and of what it refers to.
     template <class S>
     requires(Shape<S>&& dimension<S> == D) Id add(const S& shape, const ItemOptions<D>& options = {}) {
-        return add(detail::store<D>(shape), options);
+        return add_shape(shape, options);
     }
     template <class S>
-    requires(Shape<S>&& dimension<S> == D) void set_shape(Id id, const S& shape) {
-        set_shape(id, detail::store<D>(shape));
-    }
+    requires(Shape<S>&& dimension<S> == D) void set_shape(Id id, const S& shape) { set_any_shape(id, shape); }
     void move(Id id, const Pose<D>& pose);
     void set_filter(Id id, std::uint32_t layers, std::uint32_t mask);
     void remove(Id id);
@@ -216,7 +188,7 @@ public:
 
 private:
     struct Item {
-        std::unique_ptr<const detail::StoredShape<D>> stored;  // null: a free slot
+        std::optional<AnyShape<D>> stored;  // none: a free slot
         View<D> placed;
         Aabb<D> box = Aabb<D>::empty();
         BoundingBall<D> own_ball;  // in the shape's own frame
@@ -241,9 +213,9 @@ private:
         float fraction;
     };
 
-    Id add(std::unique_ptr<const detail::StoredShape<D>> stored, const ItemOptions<D>& options);
-    void take(std::uint32_t slot, std::unique_ptr<const detail::StoredShape<D>> stored);
-    void set_shape(Id id, std::unique_ptr<const detail::StoredShape<D>> stored);
+    Id add_shape(const AnyShape<D>& shape, const ItemOptions<D>& options);
+    void take(std::uint32_t slot, const AnyShape<D>& shape);
+    void set_any_shape(Id id, const AnyShape<D>& shape);
     const Item* find(Id id) const;
     Item* find(Id id);
     Id id_of(std::uint32_t slot) const { return {slot + 1, items_[slot].generation}; }

@@ -1,0 +1,132 @@
+#include <abut/broad_phase/bvh.hpp>
+#include <abut/math/assert.hpp>
+#include <abut/shape/compound.hpp>
+
+#include <vector>
+
+namespace abut {
+
+template <int D>
+struct Compound<D>::Data {
+    std::vector<AnyShape<D>> children;
+    Bvh<D> tree;
+};
+
+namespace {
+
+template <int D>
+Problem problem_of(std::size_t index, ProblemCode code, const char* what) {
+    return {code, "child " + std::to_string(index) + what, index};
+}
+
+/// The same way by a direction of length 1, `unit` of which make one of the box's own; no farther than the reach, which
+/// is in those.
+template <int D>
+MovingBox<D> by_unit(const MovingBox<D>& box, double unit, double reach) {
+    MovingBox<D> result = box;
+    result.direction = box.direction / unit;
+    result.length = std::min(box.length, reach) * unit;
+    return result;
+}
+
+}  // namespace
+
+template <int D>
+Result<Compound<D>> Compound<D>::build(std::span<const AnyShape<D>> children) {
+    if (children.empty()) return Problem{ProblemCode::empty_input, "a compound needs at least one child", 0};
+    auto data = std::make_shared<Data>();
+    std::vector<Aabb<D>> boxes;
+    boxes.reserve(children.size());
+    for (std::size_t i = 0; i < children.size(); ++i) {
+        const View<D>& child = children[i].view();
+        if (std::holds_alternative<Solid<D>>(child))
+            return problem_of<D>(i, ProblemCode::bad_argument, " is a half-space, which has no bounds");
+        const Aabb<D> box = abut::bounds(child);
+        const bool has_parts = box.min[0] <= box.max[0];
+        if (!is_finite(child) || (has_parts && !(is_finite(box.min) && is_finite(box.max))))
+            return problem_of<D>(i, ProblemCode::not_finite, " has a coordinate that is not finite");
+        boxes.push_back(box);
+    }
+    data->children.assign(children.begin(), children.end());
+    data->tree.build(boxes);
+    return Compound(std::move(data));
+}
+
+template <int D>
+std::uint32_t Compound<D>::size() const {
+    return static_cast<std::uint32_t>(data_->children.size());
+}
+
+template <int D>
+const View<D>& Compound<D>::child(std::uint32_t index) const {
+    ABUT_ASSERT(index < size());
+    return data_->children[index].view();
+}
+
+template <int D>
+Aabb<D> Compound<D>::bounds() const {
+    return data_->tree.bounds();
+}
+
+template <int D>
+void Compound<D>::each_part(const Aabb<D>& box, PartVisitor<D> visit) const {
+    data_->tree.each_overlapping(box, [&](std::uint32_t index) -> bool {
+        const View<D>& one = child(index);
+        if (const auto* part = std::get_if<Convex<D>>(&one)) return visit(*part, index);
+        bool go_on = true;
+        abut::each_part<D>(std::get<Composite<D>>(one), box,
+                           [&](const Convex<D>& part, std::uint32_t) { return go_on = visit(part, index); });
+        return go_on;
+    });
+}
+
+template <int D>
+void Compound<D>::each_part_along(const MovingBox<D>& box, PartReachVisitor<D> visit) const {
+    const double unit = length(box.direction);
+    if (!(unit > 0)) return;
+    double reach = box.length;
+    data_->tree.sweep(box, [&](std::uint32_t index) -> float {
+        const auto look_at = [&](const Convex<D>& part, std::uint32_t) -> float {
+            reach = std::min(reach, static_cast<double>(visit(part, index)));
+            return static_cast<float>(reach * unit);
+        };
+        const View<D>& one = child(index);
+        if (const auto* part = std::get_if<Convex<D>>(&one))
+            look_at(*part, index);
+        else
+            abut::each_part_along<D>(std::get<Composite<D>>(one), by_unit(box, unit, reach), look_at);
+        return static_cast<float>(reach);
+    });
+}
+
+template <int D>
+void Compound<D>::each_part_near(const Aabb<D>& box, PartReachVisitor<D> visit) const {
+    float reach = std::numeric_limits<float>::infinity();
+    data_->tree.closest(box, [&](std::uint32_t index) -> float {
+        const auto look_at = [&](const Convex<D>& part, std::uint32_t) -> float {
+            return reach = std::min(reach, visit(part, index));
+        };
+        const View<D>& one = child(index);
+        if (const auto* part = std::get_if<Convex<D>>(&one))
+            look_at(*part, index);
+        else
+            abut::each_part_near<D>(std::get<Composite<D>>(one), box, look_at);
+        return reach;
+    });
+}
+
+template <int D>
+bool Compound<D>::solid_contains(const Vec<D>& point) const {
+    bool found = false;
+    data_->tree.each_overlapping(Aabb<D>{point, point}, [&](std::uint32_t index) -> bool {
+        const auto* composite = std::get_if<Composite<D>>(&child(index));
+        found = composite != nullptr && contains_inside(*composite, point);
+        return !found;
+    });
+    return found;
+}
+
+template class Compound<2>;
+template class Compound<3>;
+
+}  // namespace abut
