@@ -1,5 +1,7 @@
+#include <abut/math/assert.hpp>
 #include <abut/math/coincident.hpp>
 #include <abut/shape/mesh.hpp>
+#include <abut/shape/mesh_adjacency.hpp>
 #include <abut/shape/mesh_tree.hpp>
 
 #include <algorithm>
@@ -13,7 +15,7 @@ struct Mesh::Data {
     std::vector<Vec3> points;
     std::vector<glm::uvec3> triangles;
     MeshTree tree;
-    bool closed = false;
+    MeshAdjacency adjacency;
 };
 
 namespace {
@@ -22,48 +24,6 @@ constexpr glm::length_t x = 0, y = 1, z = 2;
 
 bool before(const Vec3& a, const Vec3& b) {
     return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
-}
-
-/// An edge as one of its triangles has it: its higher point, and whether that one comes first.
-struct HalfEdge {
-    std::uint32_t high;
-    int direction;
-};
-
-/// Whether each edge from one point to higher ones is had equally often both ways.
-bool is_balanced(std::span<HalfEdge> edges) {
-    std::sort(edges.begin(), edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
-        return std::tie(a.high, a.direction) < std::tie(b.high, b.direction);
-    });
-    int balance = 0;
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-        balance += edges[i].direction;
-        const bool last = i + 1 == edges.size() || edges[i + 1].high != edges[i].high;
-        if (last && balance != 0) return false;
-    }
-    return true;
-}
-
-/// `same` names each point by the lowest one at its position. The edges are dealt out to their lower points, each of
-/// which has few.
-bool is_closed(std::span<const glm::uvec3> triangles, std::span<const std::uint32_t> same) {
-    const auto each_edge = [&](auto visit) {
-        for (const glm::uvec3& t : triangles)
-            for (glm::length_t i = 0; i < 3; ++i) {
-                const std::uint32_t from = same[t[i]], to = same[t[(i + 1) % 3]];
-                if (from != to) visit(std::min(from, to), HalfEdge{std::max(from, to), from < to ? 1 : -1});
-            }
-    };
-    std::vector<std::size_t> end(same.size() + 1);
-    each_edge([&](std::uint32_t low, const HalfEdge&) { ++end[low + 1]; });
-    for (std::size_t i = 1; i < end.size(); ++i) end[i] += end[i - 1];
-    std::vector<HalfEdge> edges(end.back());
-    // Filled from its beginning, a point's share ends where it should: one place on.
-    each_edge([&](std::uint32_t low, const HalfEdge& edge) { edges[end[low]++] = edge; });
-    std::size_t begin = 0;
-    for (std::size_t i = 0; i < same.size(); begin = end[i++])
-        if (!is_balanced(std::span(edges).subspan(begin, end[i] - begin))) return false;
-    return true;
 }
 
 /// On which side of the line from a to b the point is, seen along x: above zero on the left. An edge gives the same
@@ -115,7 +75,7 @@ Result<Mesh> Mesh::build(std::span<const Vec3> points, std::span<const glm::uvec
     data->points.assign(points.begin(), points.end());
     data->triangles.assign(triangles.begin(), triangles.end());
     const std::vector<std::uint32_t> same = first_coincident(points);
-    data->closed = is_closed(triangles, same);
+    data->adjacency = build_mesh_adjacency(triangles, same);
     data->tree = build_mesh_tree(points, triangles, same);
     return Mesh(std::move(data));
 }
@@ -127,7 +87,12 @@ std::span<const glm::uvec3> Mesh::triangles() const {
     return data_->triangles;
 }
 bool Mesh::closed() const {
-    return data_->closed;
+    return data_->adjacency.closed;
+}
+
+std::uint32_t Mesh::neighbour(std::uint32_t triangle, std::uint32_t edge) const {
+    ABUT_ASSERT(triangle < data_->triangles.size() && edge < 3);
+    return data_->adjacency.neighbours[triangle][edge];
 }
 
 Triangle3 Mesh::triangle(std::uint32_t index) const {

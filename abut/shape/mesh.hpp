@@ -15,8 +15,8 @@ namespace abut {
 
 /// The union of its triangles, each of zero thickness and the same from both sides; part i is triangle i of the input.
 /// Only `contains` takes a closed mesh as solid. Immutable: copies share the data, so one mesh at many poses costs one
-/// tree. Memory: the input, and 34 to 39 bytes a triangle for the tree where neighbours have corners at the same
-/// positions, about 90 where none have.
+/// tree. Memory: the input, 12 bytes a triangle for its neighbours, and 34 to 39 for the tree where neighbours have
+/// corners at the same positions, about 90 where none have.
 class Mesh {
 public:
     /// Any number of triangles but zero, also flat, doubled or crossing ones. A Problem where a coordinate is not
@@ -30,6 +30,11 @@ public:
     /// Whether the triangles bound a volume: each edge is shared by equally many triangles in both directions, points
     /// at the same position counted as one.
     bool closed() const;
+
+    /// The triangle that shares the edge from a corner to the next, points at the same position counted as one;
+    /// no_neighbour at the border, and where another triangle's edge only lies along it; many_neighbours where more
+    /// than two share it. Whether the two go round it in opposite ways, as those of a surface do, is not looked at.
+    std::uint32_t neighbour(std::uint32_t triangle, std::uint32_t edge) const;
 
 private:
     struct Data;
@@ -69,5 +74,9 @@ const MeshTree& triangle_tree(const Mesh& mesh);
 /// Whether a closed mesh goes round the point; false for one that isn't closed. Points of the surface itself are told
 /// by the triangles.
 bool solid_contains(const Mesh& mesh, const Vec3& point);
+
+inline std::uint32_t part_neighbour(const Mesh& mesh, std::uint32_t part, std::uint32_t side) {
+    return mesh.neighbour(part, side);
+}
 
 }  // namespace abut
