@@ -1,0 +1,270 @@
+#pragma once
+
+// Level shapes of every kind with their parts one by one, so that all can be tried.
+
+#include "../oracle/random.hpp"
+#include "../shape/meshes.hpp"
+#include <abut/shape/ball.hpp>
+#include <abut/shape/box.hpp>
+#include <abut/shape/capsule.hpp>
+#include <abut/shape/chain.hpp>
+#include <abut/shape/compound.hpp>
+#include <abut/shape/cylinder.hpp>
+#include <abut/shape/half_space.hpp>
+#include <abut/shape/height_field.hpp>
+#include <abut/shape/polygon.hpp>
+#include <abut/shape/polyhedron.hpp>
+#include <abut/shape/segment.hpp>
+#include <abut/shape/tile_map.hpp>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace abut::test {
+
+/// How a level stands in the world.
+template <int D>
+struct Placing {
+    Vec<D> scale{1.0f};
+    Pose<D> pose{};
+    float radius = 0;
+
+    View<D> operator()(const View<D>& shape) const {
+        const View<D> stands = moved(mapped(shape, scaling(scale)), affine(pose));
+        return radius > 0 ? rounded(stands, static_cast<double>(radius)) : stands;
+    }
+};
+
+template <int D>
+struct LevelPart {
+    View<D> view;
+    std::uint32_t index;
+};
+
+template <int D>
+struct Level {
+    AnyShape<D> shape;
+    std::vector<LevelPart<D>> parts;  ///< in the shape's own frame, to which they may refer
+};
+
+/// Where a level and its parts are after they have been placed.
+template <int D>
+struct PlacedLevel {
+    PlacedLevel(Level<D> of, const Placing<D>& placing) : level(std::move(of)), view(placing(level.shape.view())) {
+        for (LevelPart<D> part : level.parts) {
+            part.view = placing(part.view);
+            parts.push_back(part);
+        }
+    }
+
+    Level<D> level;
+    View<D> view;
+    std::vector<LevelPart<D>> parts;
+};
+
+template <int D>
+Vec<D> random_point(oracle::Random& random, double extent) {
+    return to_float(random.in_cube<D>() * extent);
+}
+template <int D>
+Pose<D> random_pose(oracle::Random& random, double extent) {
+    return {random_point<D>(random, extent), random.rotation<D>()};
+}
+
+/// As it is, or turned, stretched (mirrored at times) and rounded.
+template <int D>
+Placing<D> random_placing(oracle::Random& random) {
+    Placing<D> result;
+    if (random.chance(0.3)) return result;
+    result.pose = random_pose<D>(random, 2);
+    if (random.chance(0.5))
+        for (int i = 0; i < D; ++i)
+            result.scale[i] = random.uniform_float(0.5, 2) * (random.chance(0.3) ? -1.0f : 1.0f);
+    if (random.chance(0.2)) result.radius = random.uniform_float(0.01, 0.3);
+    return result;
+}
+
+inline AnyShape<2> random_convex(oracle::Random& random, std::integral_constant<int, 2>, double extent, double size) {
+    const auto at_random = [&] { return random_point<2>(random, extent); };
+    const auto length = [&] { return random.uniform_float(0.1 * size, size); };
+    const Vec2 center = at_random();
+    const auto beside = [&] { return center + random_point<2>(random, size); };
+    switch (random.below(6)) {
+        case 0:
+            return Circle{center, length()};
+        case 1:
+            return Capsule<2>{center, beside(), 0.3f * length()};
+        case 2:
+            return Box2{center, {length(), length()}, random.rotation<2>()};
+        case 3:
+            return *Polygon::build({beside(), beside(), beside(), beside(), beside()});
+        case 4:
+            return Segment2{center, beside()};
+        default:
+            return stretched(Circle{center, length()}, Vec2(1, 0.5f));
+    }
+}
+inline AnyShape<3> random_convex(oracle::Random& random, std::integral_constant<int, 3>, double extent, double size) {
+    const auto at_random = [&] { return random_point<3>(random, extent); };
+    const auto length = [&] { return random.uniform_float(0.1 * size, size); };
+    const Vec3 center = at_random();
+    const auto beside = [&] { return center + random_point<3>(random, size); };
+    switch (random.below(7)) {
+        case 0:
+            return Sphere{center, length()};
+        case 1:
+            return Capsule<3>{center, beside(), 0.3f * length()};
+        case 2:
+            return Box3{center, {length(), length(), length()}, random.rotation<3>()};
+        case 3:
+            return *Polyhedron::build({beside(), beside(), beside(), beside(), beside(), beside()});
+        case 4:
+            return Segment3{center, beside()};
+        case 5:
+            return Triangle3{center, beside(), beside()};
+        default:
+            return Cylinder{center, beside(), length()};
+    }
+}
+
+inline Level<2> level_of(const Chain& chain) {
+    Level<2> result{chain, {}};
+    for (std::uint32_t i = 0; i < chain.size(); ++i) {
+        Convex<2> part = convex(chain.segment(i));
+        part.one_sided = chain.one_sided();
+        result.parts.push_back({part, i});
+    }
+    return result;
+}
+inline Level<2> level_of(const TileMap& map) {
+    Level<2> result{map, {}};
+    for (std::uint32_t i = 0; i < map.size(); ++i)
+        if (map.tile(i) != Tile::empty) result.parts.push_back({map.part(i), i});
+    return result;
+}
+inline Level<3> level_of(const HeightField& field) {
+    Level<3> result{field, {}};
+    for (std::uint32_t i = 0; i < field.size(); ++i)
+        if (!field.is_hole(i / 2)) result.parts.push_back({convex(field.triangle(i)), i});
+    return result;
+}
+inline Level<3> level_of(const Mesh& mesh) {
+    Level<3> result{mesh, {}};
+    for (std::uint32_t i = 0; i < mesh.triangles().size(); ++i) result.parts.push_back({convex(mesh.triangle(i)), i});
+    return result;
+}
+
+/// A walk in steps of random length and direction, or around, or over ground from left to right.
+inline Level<2> random_chain(oracle::Random& random) {
+    const bool closed = random.chance(0.5);
+    const std::uint32_t count = 3 + random.below(40);
+    std::vector<Vec2> points;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        if (closed) {
+            const DVec<2> way = random.direction<2>();
+            points.push_back(to_float(way * random.uniform(0.5, 3)));
+        } else {
+            points.emplace_back(-3 + 6 * static_cast<float>(i) / static_cast<float>(count),
+                                random.uniform_float(-1, 1));
+        }
+    }
+    return level_of(*Chain::build(points, closed, {.one_sided = random.chance(0.3)}));
+}
+
+inline Level<2> random_tile_map(oracle::Random& random) {
+    const std::uint32_t columns = 1 + random.below(12), rows = 1 + random.below(12);
+    const double filled = random.uniform(0.1, 0.9);
+    std::vector<Tile> tiles;
+    for (std::uint32_t i = 0; i < columns * rows; ++i)
+        tiles.push_back(random.chance(filled) ? static_cast<Tile>(1 + random.below(13)) : Tile::empty);
+    return level_of(*TileMap::build(tiles, columns, Vec2(random.uniform_float(0.2, 1), random.uniform_float(0.2, 1))));
+}
+
+inline Level<3> random_height_field(oracle::Random& random) {
+    const std::uint32_t columns = 2 + random.below(9), rows = 2 + random.below(9);
+    std::vector<float> heights;
+    for (std::uint32_t i = 0; i < columns * rows; ++i) heights.push_back(random.uniform_float(-1, 1));
+    std::vector<std::uint32_t> holes;
+    if (random.chance(0.5))
+        for (std::uint32_t i = 0; i < (columns - 1) * (rows - 1); ++i)
+            if (random.chance(0.2)) holes.push_back(i);
+    const Vec2 cell(random.uniform_float(0.2, 1), random.uniform_float(0.2, 1));
+    return level_of(*HeightField::build(heights, columns, cell, {.holes = holes}));
+}
+
+/// Slivers, triangles of no area, doubled faces, corners on others' edges, and gaps of 1e-6.
+inline Surface degenerate_surface(oracle::Random& random) {
+    Surface result = random_soup(random, 12, 2, 1);
+    const Surface plain = result;
+    const auto add = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+        const auto first = static_cast<std::uint32_t>(result.points.size());
+        result.points.insert(result.points.end(), {a, b, c});
+        result.triangles.emplace_back(first, first + 1, first + 2);
+    };
+    for (const glm::uvec3& t : plain.triangles) {
+        const Vec3 a = plain.points[t.x], b = plain.points[t.y], c = plain.points[t.z], middle = (a + b) * 0.5f;
+        switch (random.below(6)) {
+            case 0:
+                add(a, b, middle);
+                break;
+            case 1:
+                add(a, b, middle + (c - middle) * 1e-5f);
+                break;
+            case 2:
+                result.triangles.push_back(random.chance(0.5) ? t : glm::uvec3(t.z, t.y, t.x));
+                break;
+            case 3:
+                add(a, middle, middle + random_point<3>(random, 1));
+                break;
+            case 4:
+                add(a + random_point<3>(random, 1e-6), b, a + random_point<3>(random, 1));
+                break;
+            default:
+                result.triangles.emplace_back(t.x, t.x, random.chance(0.5) ? t.x : t.y);
+        }
+    }
+    return result;
+}
+
+inline Level<3> random_mesh(oracle::Random& random) {
+    if (random.chance(0.3)) return level_of(degenerate_surface(random).mesh());
+    if (random.chance(0.5)) return level_of(random_soup(random, 40, 2, 1).mesh());
+    return level_of(random_terrain(random, 5, 1.5).surface().mesh());
+}
+
+template <int D>
+Level<D> random_level(oracle::Random& random, std::uint32_t kind);
+
+/// Convex children, and one that is a level itself.
+template <int D>
+Level<D> random_compound(oracle::Random& random) {
+    std::vector<AnyShape<D>> children;
+    std::vector<LevelPart<D>> parts;
+    const std::uint32_t count = 1 + random.below(6);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        children.push_back(random_convex(random, std::integral_constant<int, D>(), 2, 1));
+        parts.push_back({children.back().view(), i});
+    }
+    if (random.chance(0.7)) {
+        const Pose<D> pose = random_pose<D>(random, 1);
+        const Level<D> inner = random_level<D>(random, random.below(3));
+        const auto stands = at(stretched(inner.shape, Vec<D>(random.uniform_float(0.3, 1.5))), pose);
+        children.push_back(stands);
+        const Placing<D> placing{stands.shape.scale, pose, 0};
+        for (const LevelPart<D>& part : inner.parts) parts.push_back({placing(part.view), count});
+    }
+    return {*Compound<D>::build(children), parts};
+}
+
+/// Of all kinds of the dimension: 0 and 1 are plain, 2 is a compound.
+template <int D>
+Level<D> random_level(oracle::Random& random, std::uint32_t kind) {
+    if (kind == 2) return random_compound<D>(random);
+    if constexpr (D == 2)
+        return kind == 0 ? random_chain(random) : random_tile_map(random);
+    else
+        return kind == 0 ? random_height_field(random) : random_mesh(random);
+}
+
+}  // namespace abut::test

@@ -1,0 +1,258 @@
+// Every question about level shapes of every kind, against their parts tried one by one: a convex shape and a level, a
+// level and a convex shape, a half-space, two levels.
+
+#include "../oracle/pair.hpp"
+#include "levels.hpp"
+#include <abut/query/closest.hpp>
+#include <abut/query/contact.hpp>
+#include <abut/query/contains.hpp>
+#include <abut/query/overlaps.hpp>
+#include <abut/query/raycast.hpp>
+#include <abut/query/sweep.hpp>
+
+#include <optional>
+
+#include <gtest/gtest.h>
+
+namespace abut::test {
+namespace {
+
+/// Both ways find the same numbers, but for a few roundings: parts may be asked for from another frame.
+constexpr float rounding = 2e-5f;
+
+template <int D>
+struct Other {
+    AnyShape<D> keeper;
+    View<D> view;
+    std::vector<LevelPart<D>> parts;
+};
+
+/// A place that a question may be about.
+template <int D>
+Vec<D> near_some_part(oracle::Random& random, const PlacedLevel<D>& level) {
+    if (level.parts.empty()) return Vec<D>(0.0f);
+    const auto some = random.below(static_cast<std::uint32_t>(level.parts.size()));
+    return center(bounds(level.parts[some].view));
+}
+
+template <int D>
+Other<D> random_other(oracle::Random& random, const PlacedLevel<D>& level) {
+    const Pose<D> pose{near_some_part(random, level) + random_point<D>(random, random.uniform(0, 1.5)),
+                       random.rotation<D>()};
+    if (random.chance(0.2)) {
+        const PlacedLevel<D> other(random_level<D>(random, random.below(3)), {Vec<D>(0.5f), pose, 0});
+        return {other.level.shape, other.view, other.parts};
+    }
+    if (random.chance(0.1)) {
+        HalfSpace<D> side{to_float(random.direction<D>()), 0};
+        side.offset = dot(side.normal, pose.position);
+        return {Ball<D>{}, View<D>(view(side)), {{View<D>(view(side)), 0}}};
+    }
+    const AnyShape<D> shape = random_convex(random, std::integral_constant<int, D>(), 0.1, 1);
+    const View<D> stands = moved(shape.view(), affine(pose));
+    return {shape, stands, {{stands, 0}}};
+}
+
+/// Calls visit(part of a, part of b).
+template <int D, class Visit>
+void each_pair(const std::vector<LevelPart<D>>& a, const std::vector<LevelPart<D>>& b, Visit&& visit) {
+    for (const LevelPart<D>& part_a : a)
+        for (const LevelPart<D>& part_b : b) visit(part_a, part_b);
+}
+
+struct Counts {
+    int asked = 0, overlapping = 0, contacts = 0, hits = 0;
+};
+
+template <int D>
+void check_touch(const View<D>& a, const std::vector<LevelPart<D>>& parts_a, const View<D>& b,
+                 const std::vector<LevelPart<D>>& parts_b, Counts& counts) {
+    float least = std::numeric_limits<float>::infinity(), deepest = -least;
+    bool overlap = false;
+    each_pair(parts_a, parts_b, [&](const LevelPart<D>& part_a, const LevelPart<D>& part_b) {
+        least = std::min(least, closest(part_a.view, part_b.view).distance);
+        overlap = overlap || overlaps(part_a.view, part_b.view);
+        if (const Contact<D> found = contact(part_a.view, part_b.view)) deepest = std::max(deepest, found.depth);
+    });
+    const bool in_doubt = std::abs(least) < rounding;
+    const Closest<D> found = closest(a, b);
+    if (std::isinf(least)) {
+        EXPECT_EQ(found.distance, least);
+    } else {
+        EXPECT_NEAR(found.distance, least, rounding);
+        EXPECT_NEAR(length(DVec<D>(found.normal)), 1, 1e-6);
+        // The parts told are as near as that.
+        float told = std::numeric_limits<float>::infinity();
+        each_pair(parts_a, parts_b, [&](const LevelPart<D>& part_a, const LevelPart<D>& part_b) {
+            if (part_a.index == found.feature_a.part && part_b.index == found.feature_b.part)
+                told = std::min(told, closest(part_a.view, part_b.view).distance);
+        });
+        EXPECT_NEAR(told, least, rounding);
+    }
+    const Contact<D> touch = contact(a, b);
+    if (!in_doubt) {
+        EXPECT_EQ(overlaps(a, b), overlap);
+        // Of one-sided parts those that are left by their backs have none; which way that is, is at times in doubt.
+        EXPECT_EQ(static_cast<bool>(touch), !std::isinf(deepest)) << least;
+    }
+    if (touch && !std::isinf(deepest)) {
+        EXPECT_NEAR(touch.depth, deepest, rounding);
+        float told = -std::numeric_limits<float>::infinity();
+        each_pair(parts_a, parts_b, [&](const LevelPart<D>& part_a, const LevelPart<D>& part_b) {
+            if (part_a.index != touch.feature_a.part || part_b.index != touch.feature_b.part) return;
+            if (const Contact<D> one = contact(part_a.view, part_b.view)) told = std::max(told, one.depth);
+        });
+        EXPECT_NEAR(told, deepest, rounding);
+    }
+    ++counts.asked;
+    counts.overlapping += overlap ? 1 : 0;
+    counts.contacts += touch ? 1 : 0;
+}
+
+/// Two answers about the first hit; both may miss.
+template <int D>
+void expect_same_hit(const std::optional<Hit<D>>& found, const std::optional<Hit<D>>& expected, float way,
+                     const char* what) {
+    ASSERT_EQ(found.has_value(), expected.has_value()) << what;
+    if (!found) return;
+    EXPECT_NEAR(found->fraction * way, expected->fraction * way, rounding) << what;
+    EXPECT_NEAR(length(DVec<D>(found->normal)), 1, 1e-6) << what;
+}
+
+template <int D>
+void check_sweeps(oracle::Random& random, const View<D>& a, const std::vector<LevelPart<D>>& parts_a, const View<D>& b,
+                  const std::vector<LevelPart<D>>& parts_b, Counts& counts) {
+    const Vec<D> motion_a = random_point<D>(random, 3), motion_b = random_point<D>(random, 1);
+    std::optional<Hit<D>> first;
+    each_pair(parts_a, parts_b, [&](const LevelPart<D>& part_a, const LevelPart<D>& part_b) {
+        std::optional<Hit<D>> hit = sweep(part_a.view, motion_a, part_b.view, motion_b);
+        if (!hit || (first && first->fraction <= hit->fraction)) return;
+        hit->feature.part = part_b.index;
+        first = hit;
+    });
+    const std::optional<Hit<D>> found = sweep(a, motion_a, b, motion_b);
+    expect_same_hit(found, first, static_cast<float>(length(DVec<D>(motion_a) - DVec<D>(motion_b))), "straight");
+    counts.hits += found ? 1 : 0;
+    if (!found) return;
+    // The part told is hit there.
+    float told = 2;
+    each_pair(parts_a, parts_b, [&](const LevelPart<D>& part_a, const LevelPart<D>& part_b) {
+        if (part_b.index != found->feature.part) return;
+        if (const auto hit = sweep(part_a.view, motion_a, part_b.view, motion_b)) told = std::min(told, hit->fraction);
+    });
+    EXPECT_NEAR(told, found->fraction, rounding);
+}
+
+template <int D>
+void check_turning(oracle::Random& random, const View<D>& a, const std::vector<LevelPart<D>>& parts_a, const View<D>& b,
+                   const std::vector<LevelPart<D>>& parts_b) {
+    const Pose<D> from_a{}, to_a{random_point<D>(random, 2), random.rotation<D>()}, from_b{},
+        to_b{random_point<D>(random, 0.5), random.rotation<D>()};
+    std::optional<Hit<D>> first;
+    each_pair(parts_a, parts_b, [&](const LevelPart<D>& part_a, const LevelPart<D>& part_b) {
+        const std::optional<Hit<D>> hit = sweep(part_a.view, from_a, to_a, part_b.view, from_b, to_b);
+        if (hit && (!first || hit->fraction < first->fraction)) first = hit;
+    });
+    // Where they graze, the margin of a meeting is much of the time: to a hundredth of that.
+    const std::optional<Hit<D>> found = sweep(a, from_a, to_a, b, from_b, to_b);
+    expect_same_hit(found, first, 0.02f, "turning");
+}
+
+template <int D>
+void check_rays(oracle::Random& random, const PlacedLevel<D>& level, Counts& counts) {
+    const View<D>& a = level.view;
+    const std::vector<LevelPart<D>>& parts = level.parts;
+    const Vec<D> aim = near_some_part(random, level), from = aim + random_point<D>(random, 6);
+    const Vec<D> to = aim + (aim - from) * random.uniform_float(-0.5, 1) + random_point<D>(random, 0.6);
+    Ray<D> ray = Ray<D>::between(from, to);
+    if (random.chance(0.3)) ray.length = std::numeric_limits<float>::infinity();
+    std::vector<Hit<D>> expected;
+    for (const LevelPart<D>& part : parts)
+        if (std::optional<Hit<D>> hit = raycast(ray, part.view)) {
+            hit->feature.part = part.index;
+            expected.push_back(*hit);
+        }
+    std::sort(expected.begin(), expected.end(),
+              [](const Hit<D>& p, const Hit<D>& q) { return p.distance < q.distance; });
+    const std::optional<Hit<D>> found = raycast(ray, a);
+    ASSERT_EQ(found.has_value(), !expected.empty());
+    std::vector<Hit<D>> all;
+    raycast_all<D>(ray, a, all);
+    EXPECT_EQ(all.size(), expected.size());
+    for (std::size_t i = 0; i < std::min(all.size(), expected.size()); ++i)
+        EXPECT_NEAR(all[i].distance, expected[i].distance, rounding);
+    if (!found) return;
+    ++counts.hits;
+    EXPECT_NEAR(found->distance, expected[0].distance, rounding);
+    bool is_told = false;
+    for (const Hit<D>& hit : expected)
+        is_told = is_told || (hit.feature.part == found->feature.part && hit.distance <= found->distance + rounding);
+    EXPECT_TRUE(is_told);
+}
+
+template <int D>
+void check_points(oracle::Random& random, const PlacedLevel<D>& level) {
+    const View<D>& a = level.view;
+    const std::vector<LevelPart<D>>& parts = level.parts;
+    const Vec<D> point = near_some_part(random, level) + random_point<D>(random, 2);
+    float least = std::numeric_limits<float>::infinity();
+    bool inside = false;
+    for (const LevelPart<D>& part : parts) {
+        least = std::min(least, closest(part.view, point).distance);
+        inside = inside || contains(part.view, point);
+    }
+    const Closest<D> found = closest(a, point);
+    if (std::isinf(least)) {
+        EXPECT_EQ(found.distance, least);
+        return;
+    }
+    EXPECT_NEAR(found.distance, least, rounding);
+    if (inside && std::abs(least) > rounding) {
+        EXPECT_TRUE(contains(a, point));
+    }
+}
+
+template <int D>
+void check_levels(std::uint32_t kind, int rounds) {
+    Counts touches, sweeps, rays;
+    for (int round = 0; round < rounds; ++round) {
+        SCOPED_TRACE("seed " + std::to_string(round) + ", kind " + std::to_string(kind));
+        oracle::Random random(static_cast<std::uint64_t>(round) * 3 + kind);
+        const PlacedLevel<D> level(random_level<D>(random, kind), random_placing<D>(random));
+        const Other<D> other = random_other<D>(random, level);
+        check_touch<D>(level.view, level.parts, other.view, other.parts, touches);
+        check_touch<D>(other.view, other.parts, level.view, level.parts, touches);
+        check_sweeps<D>(random, level.view, level.parts, other.view, other.parts, sweeps);
+        check_sweeps<D>(random, other.view, other.parts, level.view, level.parts, sweeps);
+        check_turning<D>(random, other.view, other.parts, level.view, level.parts);
+        for (int i = 0; i < 4; ++i) check_rays<D>(random, level, rays);
+        for (int i = 0; i < 4; ++i) check_points<D>(random, level);
+        if (testing::Test::HasFatalFailure() || testing::Test::HasNonfatalFailure()) return;
+    }
+    // Not vacuous: something of each.
+    for (const int part : {touches.overlapping, touches.contacts, sweeps.hits})
+        EXPECT_TRUE(part > 0.15 * touches.asked && part < 0.85 * touches.asked) << part << " of " << touches.asked;
+    EXPECT_TRUE(rays.hits > 0.2 * 4 * rounds && rays.hits < 0.95 * 4 * rounds) << rays.hits << " of " << 4 * rounds;
+}
+
+TEST(LevelQuestions, OfChainsAgreeWithTryingAllSegments) {
+    check_levels<2>(0, oracle::amount(150));
+}
+TEST(LevelQuestions, OfTileMapsAgreeWithTryingAllTiles) {
+    check_levels<2>(1, oracle::amount(100));
+}
+TEST(LevelQuestions, OfCompoundsOfThePlaneAgreeWithTryingAllParts) {
+    check_levels<2>(2, oracle::amount(100));
+}
+TEST(LevelQuestions, OfHeightFieldsAgreeWithTryingAllTriangles) {
+    check_levels<3>(0, oracle::amount(60));
+}
+TEST(LevelQuestions, OfMeshesAgreeWithTryingAllTriangles) {
+    check_levels<3>(1, oracle::amount(60));
+}
+TEST(LevelQuestions, OfCompoundsInSpaceAgreeWithTryingAllParts) {
+    check_levels<3>(2, oracle::amount(60));
+}
+
+}  // namespace
+}  // namespace abut::test
