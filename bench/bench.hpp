@@ -50,5 +50,7 @@ std::vector<Bench> motion_turning_benches();
 std::vector<Bench> ray_benches();
 /// In which order things can be taken away.
 std::vector<Bench> removal_benches();
+/// Shapes at the ground of a level.
+std::vector<Bench> level_benches();
 
 }  // namespace abut::bench
