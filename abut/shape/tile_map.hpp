@@ -30,8 +30,8 @@ enum class Tile : std::uint8_t {
 
 /// The union of its tiles, each of them solid but the one-way ones, which are one-sided segments (ChainOptions tells
 /// what that means). Tile (column, row) has the number column + row * columns, its part's, and reaches from
-/// (column, row) to (column + 1, row + 1), times the size of a cell. Immutable: copies share the data. Memory: about
-/// 1.1 bytes a tile.
+/// (column, row) to (column + 1, row + 1), times the size of a cell. Immutable: copies share the data. Memory: the
+/// tiles, and about 1.1 bytes for each.
 class TileMap {
 public:
     /// Rows one after the other, that of low y first. A Problem where there are no tiles, the last row isn't whole, a
