@@ -117,6 +117,16 @@ TEST(Chain, OneSidedIsMetFromItsFrontAlone) {
     EXPECT_NEAR(closest(chain, Vec2(1, 1.5f)).distance, 0.5, 1e-6);
 }
 
+/// At its end: what goes along it, or at its front but below it, passes.
+TEST(Chain, OneSidedIsPassedAtItsEnds) {
+    const Chain platform = *Chain::build({{1, 0}, {-1, 0}}, false, {.one_sided = true});
+    EXPECT_FALSE(sweep(Circle{{-3, 0.1f}, 0.25f}, Vec2(6, 0), platform));
+    EXPECT_TRUE(sweep(Circle{{-3, 0.1f}, 0.25f}, Vec2(6, -0.05f), platform));
+    EXPECT_FALSE(sweep(Circle{{-3, -0.05f}, 0.25f}, Vec2(6, -0.05f), platform));
+    const Chain both = *Chain::build({{1, 0}, {-1, 0}}, false);
+    EXPECT_TRUE(sweep(Circle{{-3, -0.05f}, 0.25f}, Vec2(6, -0.05f), both));
+}
+
 TEST(Chain, OneSidedKeepsItsFrontWhereItIsMirroredOrTurned) {
     const Chain chain = square({.one_sided = true});
     const auto mirrored = stretched(chain, Vec2(-1, 1));
