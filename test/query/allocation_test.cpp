@@ -11,11 +11,15 @@
 #include <abut/query/sweep.hpp>
 #include <abut/query/sweep_turning.hpp>
 #include <abut/shape/box.hpp>
+#include <abut/shape/chain.hpp>
+#include <abut/shape/compound.hpp>
 #include <abut/shape/cylinder.hpp>
+#include <abut/shape/height_field.hpp>
 #include <abut/shape/mesh.hpp>
 #include <abut/shape/placed.hpp>
 #include <abut/shape/polygon.hpp>
 #include <abut/shape/polyhedron.hpp>
+#include <abut/shape/tile_map.hpp>
 
 #include <atomic>
 #include <cstdlib>
@@ -123,6 +127,31 @@ TEST(Allocation, OfQuestionsAboutMeshesAndRoundShapesIsNone) {
     EXPECT_EQ(allocations_of_all_questions<3>(view(mesh), view(cylinder), ray), 0);
     EXPECT_EQ(allocations_of_all_questions<3>(view(cone), view(cylinder), ray), 0);
     EXPECT_EQ(allocations_of_all_questions<3>(view(mesh), view(at(mesh, Pose3{{0.5f, 0, 0}})), ray), 0);
+}
+
+TEST(Allocation, OfQuestionsAboutLevelsIsNone) {
+    oracle::Random random(6);
+    std::vector<Vec2> corners;
+    std::vector<Tile> tiles;
+    std::vector<float> heights;
+    for (std::uint32_t i = 0; i < 400; ++i) {
+        corners.push_back(to_float(random.in_cube<2>() * 3.0));
+        tiles.push_back(static_cast<Tile>(random.below(14)));
+        heights.push_back(random.uniform_float(-1, 1));
+    }
+    const Chain chain = *Chain::build(corners, true);
+    const TileMap map = *TileMap::build(tiles, 20, 0.3f);
+    const Compound2 both = *Compound2::build({chain, at(map, Pose2{{1, 1}}), Circle{{0, 0}, 1}});
+    const HeightField field = *HeightField::build(heights, 20, 0.2f);
+    const Compound3 ground = *Compound3::build({field, at(field, Pose3{{0, 0, 1}}), Sphere{{0, 0, 0}, 1}});
+    const Ray2 ray = Ray2::between({-3, -2}, {4, 3});
+    for (const View<2>& level : {View<2>(view(chain)), View<2>(view(map)), View<2>(view(both))})
+        for (const View<2>& other : {View<2>(view(Box2{{2, 2}, {1, 1}})), View<2>(view(HalfSpace2{{0, 1}, 0.5f}))})
+            EXPECT_EQ(allocations_of_all_questions<2>(level, other, ray), 0);
+    EXPECT_EQ(allocations_of_all_questions<2>(view(chain), view(map), ray), 0);
+    const Ray3 in_space = Ray3::between({-3, -2, -1}, {5, 5, 1});
+    for (const View<3>& level : {View<3>(view(field)), View<3>(view(ground))})
+        EXPECT_EQ(allocations_of_all_questions<3>(level, view(Box3{{2, 2, 0}, {1, 1, 1}}), in_space), 0);
 }
 
 template <class A, class B>

@@ -11,12 +11,16 @@
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/capsule.hpp>
+#include <abut/shape/chain.hpp>
+#include <abut/shape/compound.hpp>
 #include <abut/shape/cylinder.hpp>
+#include <abut/shape/height_field.hpp>
 #include <abut/shape/mesh.hpp>
 #include <abut/shape/placed.hpp>
 #include <abut/shape/polygon.hpp>
 #include <abut/shape/polyhedron.hpp>
 #include <abut/shape/segment.hpp>
+#include <abut/shape/tile_map.hpp>
 #include <abut/shape/triangle.hpp>
 
 namespace {
@@ -111,6 +115,43 @@ TEST(BadInput, InShapesOfSpaceIsHarmless) {
         expect_harmless("border", HalfSpace3{{0, 1, 0}, bad});
         expect_harmless("direction", HalfSpace3{{bad, bad, bad}, 0});
     }
+}
+
+/// What is asked of a level.
+template <class S>
+void expect_harmless_to(const char* name, const S& level) {
+    constexpr int D = dimension<S>;
+    SCOPED_TRACE(name);
+    for (const float bad : {nan, infinity, -infinity}) {
+        Vec<D> place(0);
+        place[1] = bad;
+        expect_harmless<D>(View<D>(view(Ball<D>{place, 1})), View<D>(view(level)));
+        const ExpectAssertions expected;
+        EXPECT_FALSE(contains(level, place));
+        EXPECT_EQ(closest(level, place).distance, infinity);
+        EXPECT_FALSE(raycast(Ray<D>{place, Vec<D>(1), 10}, level));
+        EXPECT_FALSE(sweep(Ball<D>{Vec<D>(0), 1}, place, level));
+        expect_harmless("placed", at(level, Pose<D>{place}));
+    }
+}
+
+TEST(BadInput, ToLevelsIsHarmless) {
+    const Chain chain = *Chain::build({{-1, -1}, {1, -1}, {0, 1}}, true);
+    const TileMap map = *TileMap::build(std::vector<Tile>(9, Tile::full), 3, 1.0f);
+    const HeightField field = *HeightField::build(std::vector<float>(9, 0.0f), 3, 1.0f);
+    expect_harmless_to("chain", chain);
+    expect_harmless_to("tile map", map);
+    expect_harmless_to("height field", field);
+    expect_harmless_to("compound", *Compound2::build({chain, map, Circle{{0, 0}, 1}}));
+    expect_harmless_to("compound in space", *Compound3::build({field, Sphere{{0, 0, 0}, 1}}));
+    // Without bounds, they are harmless and no mistake.
+    int seen = 0;
+    const Aabb3 everywhere{Vec3(-infinity), Vec3(infinity)};
+    const auto count = [&seen](const Triangle3&, std::uint32_t) { return ++seen > 0; };
+    each_part(field, everywhere, count);
+    EXPECT_EQ(seen, 8);
+    EXPECT_TRUE(raycast(Ray3{{0.5f, 0.7f, 9}, {0, 0, -1}, infinity}, field));
+    EXPECT_TRUE(raycast(Ray2{{0.5f, 9}, {0, -1}, infinity}, map));
 }
 
 TEST(BadInput, InPointsAndRaysIsHarmless) {
