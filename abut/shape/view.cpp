@@ -48,6 +48,13 @@ Aabb<D> unplaced_box(const Aabb<D>& box, const Placement<D>& placement) {
     return grown(mapped_box(wide, back), static_cast<float>(placement.inner_radius));
 }
 
+/// The composite where it was made: its parts are where they are shown.
+template <int D>
+bool is_unplaced(const Placement<D>& placement) {
+    return placement.similar && placement.scale == 1 && placement.radius == 0 && placement.inner_radius == 0 &&
+           placement.place.offset == DVec<D>(0.0) && placement.place.column == Affine<D>().column;
+}
+
 /// A part of a composite, placed. Most parts have no placement of their own, so that there is nothing to find out about
 /// the two together.
 template <int D>
@@ -122,6 +129,8 @@ Aabb<D> bounds(const View<D>& view) {
 
 template <int D>
 void each_part(const Composite<D>& composite, const Aabb<D>& box, PartVisitor<D> visit) {
+    // Levels mostly are, and each part is more to copy than to ask.
+    if (is_unplaced<D>(composite)) return composite.each_part(composite.object, box, visit);
     const auto place_and_visit = [&](const Convex<D>& part, std::uint32_t index) -> bool {
         return visit(placed_part(part, composite), index);
     };
