@@ -1,30 +1,16 @@
-#include <abut/convex/manifold.hpp>
 #include <abut/query/contact.hpp>
 #include <abut/query/direct.hpp>
+#include <abut/query/each_contact.hpp>
+#include <abut/query/felt_contact.hpp>
 #include <abut/query/one_sided.hpp>
 #include <abut/query/part_pairs.hpp>
 #include <abut/query/write_answer.hpp>
 
+#include <tuple>
 #include <utility>
 
 namespace abut {
 namespace {
-
-template <int D>
-bool part_contact(const Convex<D>& a, const Solid<D>& b, double reach, double margin, const SearchOptions<D>&,
-                  PartContact<D>& contact) {
-    contact.distance = part_distance(a, b);
-    if (contact.distance.distance > reach) return false;
-    contact.manifold = manifold_with_plane(a, b.normal, b.offset, margin);
-    return true;
-}
-template <int D>
-bool part_contact(const Solid<D>& a, const Convex<D>& b, double reach, double margin, const SearchOptions<D>& options,
-                  PartContact<D>& contact) {
-    if (!part_contact(b, a, reach, margin, options, contact)) return false;
-    turn_round(contact.distance);
-    return true;
-}
 
 template <int D>
 void answer(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options, Contact<D>& result) {
@@ -36,6 +22,21 @@ void answer(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& optio
     if (!meet_at_fronts(a, b, found.distance.normal)) return;
     write(found.distance, found.manifold, result);
     name_features(a, b, found.distance, 0, 0, result);
+}
+
+/// Whether the contact of the deepest pair is felt by the whole shapes.
+template <int D>
+bool is_felt(const View<D>& a, const View<D>& b, const std::pair<std::uint32_t, std::uint32_t>& parts,
+             const SignedDistance<D>& distance, float margin) {
+    bool felt = true;
+    const FeltPair<D> pair(a, b);
+    each_part_pair(a, b, margin,
+                   [&](const auto& part_a, std::uint32_t index_a, const auto& part_b, std::uint32_t index_b) {
+                       if (std::pair(index_a, index_b) != parts) return true;
+                       felt = pair.is_felt(part_a, part_b, distance);
+                       return false;
+                   });
+    return felt;
 }
 
 /// Kept out of what is hot, where it would take up room.
@@ -77,6 +78,7 @@ Contact<D> contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& op
     const SearchOptions<D> search = search_options(a, b, options);
     double least = margin;
     std::pair<std::uint32_t, std::uint32_t> parts;
+    SignedDistance<D> deepest{};
     each_part_pair(a, b, options.margin,
                    [&](const auto& part_a, std::uint32_t index_a, const auto& part_b, std::uint32_t index_b) {
                        PartContact<D> found;
@@ -88,11 +90,20 @@ Contact<D> contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& op
                        // Now, while the parts are there: a composite shape may make them up as it goes.
                        least = distance.distance;
                        parts = {index_a, index_b};
+                       deepest = distance;
                        write(found.distance, found.manifold, result);
                        name_features(part_a, part_b, distance, index_a, index_b, result);
                        return true;
                    });
-    return result;
+    if (!result || is_felt(a, b, parts, deepest, options.margin)) return result;
+    // The deepest of those that are felt; of equals, the lowest.
+    Contact<D> felt;
+    each_contact_of<D>(a, b, options, [&](const Contact<D>& found) {
+        const auto order = [](const Contact<D>& c) { return std::tuple(-c.depth, c.feature_a.part, c.feature_b.part); };
+        if (!felt || order(found) < order(felt)) felt = found;
+        return true;
+    });
+    return felt ? felt : result;
 }
 
 template Contact<2> contact(const View<2>&, const View<2>&, const QueryOptions<2>&);

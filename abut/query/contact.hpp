@@ -67,7 +67,7 @@ Contact<D> contact(const Given<D>& a, const Given<D>& b, const QueryOptions<D>& 
 template <>
 Contact<2> contact(const Given<2>& a, const Given<2>& b, const QueryOptions<2>& options);
 
-/// The contact of two touching or overlapping shapes; of composite ones, of their deepest pair of parts.
+/// The contact of two touching or overlapping shapes; of composite ones, the deepest that each_contact tells.
 /// With a margin, of shapes up to so far apart as well.
 template <class A, class B>
 requires Pair<A, B> Contact<dimension<A>> contact(const A& a, const B& b,

@@ -22,6 +22,23 @@ SignedDistance<D> part_distance(const Solid<D>& a, const Convex<D>& b, const Sea
     return result;
 }
 
+template <int D>
+bool part_contact(const Convex<D>& a, const Solid<D>& b, double reach, double margin, const SearchOptions<D>&,
+                  PartContact<D>& contact) {
+    contact.distance = part_distance(a, b);
+    if (contact.distance.distance > reach) return false;
+    contact.manifold = manifold_with_plane(a, b.normal, b.offset, margin);
+    return true;
+}
+
+template <int D>
+bool part_contact(const Solid<D>& a, const Convex<D>& b, double reach, double margin, const SearchOptions<D>& options,
+                  PartContact<D>& contact) {
+    if (!part_contact(b, a, reach, margin, options, contact)) return false;
+    turn_round(contact.distance);
+    return true;
+}
+
 namespace {
 
 /// Of a box, whose corners tell by their bits what they span. Without guesses at which it is: it is another each time.
@@ -96,6 +113,10 @@ void name_feature(const Solid<D>&, const CornerNumbers<D>&, std::size_t, const D
 #define ABUT_INSTANTIATE(D)                                                                                           \
     template SignedDistance<D> part_distance(const Convex<D>&, const Solid<D>&, const SearchOptions<D>&);             \
     template SignedDistance<D> part_distance(const Solid<D>&, const Convex<D>&, const SearchOptions<D>&);             \
+    template bool part_contact(const Convex<D>&, const Solid<D>&, double, double, const SearchOptions<D>&,            \
+                               PartContact<D>&);                                                                      \
+    template bool part_contact(const Solid<D>&, const Convex<D>&, double, double, const SearchOptions<D>&,            \
+                               PartContact<D>&);                                                                      \
     template void name_feature(const Convex<D>&, const CornerNumbers<D>&, std::size_t, const DVec<D>&, std::uint32_t, \
                                Feature&);                                                                             \
     template void name_feature(const Solid<D>&, const CornerNumbers<D>&, std::size_t, const DVec<D>&, std::uint32_t,  \

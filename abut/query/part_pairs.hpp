@@ -47,6 +47,14 @@ SignedDistance<D> part_distance(const Convex<D>& a, const Solid<D>& b, const Sea
 template <int D>
 SignedDistance<D> part_distance(const Solid<D>& a, const Convex<D>& b, const SearchOptions<D>& options = {});
 
+/// The contact of a convex set and a half-space, as that of two convex parts.
+template <int D>
+bool part_contact(const Convex<D>& a, const Solid<D>& b, double reach, double margin, const SearchOptions<D>& options,
+                  PartContact<D>& contact);
+template <int D>
+bool part_contact(const Solid<D>& a, const Convex<D>& b, double reach, double margin, const SearchOptions<D>& options,
+                  PartContact<D>& contact);
+
 /// What the engines are told for each pair of parts: a cache is of one pair, so only of shapes that are a part
 /// themselves.
 template <int D>

@@ -1,5 +1,6 @@
 #include <abut/math/assert.hpp>
 #include <abut/query/direct_sweep.hpp>
+#include <abut/query/felt_hit.hpp>
 #include <abut/query/one_sided.hpp>
 #include <abut/query/sweep.hpp>
 #include <abut/query/sweep_part.hpp>
@@ -182,6 +183,18 @@ std::optional<Hit<D>> sweep(const View<D>& a, const Vec<D>& motion_a, const View
         return touches.found();
     };
     find_first_touch(a, motion_a, b, motion_b, find, result);
+    if (result && std::holds_alternative<Composite<D>>(b)) {
+        // As it is where B began.
+        const DVec<D> moved_b = DVec<D>(motion_b) * static_cast<double>(result->fraction);
+        const DVec<D> moved_a = DVec<D>(motion_a) * static_cast<double>(result->fraction);
+        const Vec<D> point = result->point;
+        result->point = to_float(DVec<D>(point) - moved_b);
+        const auto feet = [&](const DVec<D>& from, double within, FunctionRef<void(const Foot<D>&)> visit) {
+            each_foot_on(b, from, within, visit);
+        };
+        feel_hit<D>(a, moved_a - moved_b, b, feet, *result);
+        result->point = point;
+    }
     return result;
 }
 

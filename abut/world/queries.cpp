@@ -158,6 +158,12 @@ void World<D>::visit_overlapping(const View<D>& shape, const Filter& filter, Fun
 }
 
 template <int D>
+void World<D>::visit_in_box(const Aabb<D>& box, const Filter& filter,
+                            FunctionRef<bool(Id, const View<D>&)> visit) const {
+    each_near(box, filter, [&](std::uint32_t slot) { return visit(id_of(slot), items_[slot].placed); });
+}
+
+template <int D>
 std::vector<Id> World<D>::all_overlapping(const View<D>& shape, const Filter& filter) const {
     std::vector<Id> result;
     visit_overlapping(shape, filter, [&](Id id) {

@@ -4,6 +4,7 @@
 #include <abut/broad_phase/boxes.hpp>
 #include <abut/broad_phase/reach.hpp>
 #include <abut/math/assert.hpp>
+#include <abut/query/felt_hit.hpp>
 #include <abut/query/sweep.hpp>
 #include <abut/query/sweep_turning.hpp>
 #include <abut/world/world.hpp>
@@ -82,8 +83,23 @@ template <int D>
 std::optional<WorldHit<D>> World<D>::sweep_straight(const View<D>& shape, const Vec<D>& motion,
                                                     const Filter& filter) const {
     if (!can_be_asked(is_finite(shape) && is_finite(motion))) return std::nullopt;
-    return first_on_way(shape, straight_way(bounds(shape), motion), filter,
-                        [&](const Item& item) { return abut::sweep(shape, motion, item.placed, Vec<D>(0.0f)); });
+    std::optional<WorldHit<D>> first =
+        first_on_way(shape, straight_way(bounds(shape), motion), filter,
+                     [&](const Item& item) { return abut::sweep(shape, motion, item.placed, Vec<D>(0.0f)); });
+    if (first) {
+        // Of all that is there, seams between items are as little felt as those inside one.
+        const auto feet = [&](const DVec<D>& from, double within, FunctionRef<void(const Foot<D>&)> visit) {
+            const Vec<D> point = to_float(from);
+            visit_in_box(grown(Aabb<D>{point, point}, static_cast<float>(within)), filter,
+                         [&](Id, const View<D>& item) {
+                             each_foot_on(item, from, within, visit);
+                             return true;
+                         });
+        };
+        feel_hit<D>(shape, DVec<D>(motion) * static_cast<double>(first->hit.fraction), this->shape(first->id), feet,
+                    first->hit);
+    }
+    return first;
 }
 
 template <int D>

@@ -186,6 +186,13 @@ public:
     }
     std::vector<Id> containing(const Vec<D>& point, const Filter& filter = {}) const;
 
+    /// visit(id, shape) for the items whose boxes overlap a box, each shape where it is, in no order that is promised;
+    /// returns nothing, or false to stop. For questions that aren't asked here.
+    template <Visitor<Id, const View<D>&> F>
+    void each_in_box(const Aabb<D>& box, F&& visit, const Filter& filter = {}) const {
+        visit_in_box(box, filter, go_on_after(visit));
+    }
+
 private:
     struct Item {
         std::optional<AnyShape<D>> stored;  // none: a free slot
@@ -255,6 +262,7 @@ private:
     std::optional<WorldClosest<D>> closest_to(const View<D>& shape, const Filter& filter) const;
     std::vector<Id> all_overlapping(const View<D>& shape, const Filter& filter) const;
     void visit_overlapping(const View<D>& shape, const Filter& filter, FunctionRef<bool(Id)> visit) const;
+    void visit_in_box(const Aabb<D>& box, const Filter& filter, FunctionRef<bool(Id, const View<D>&)> visit) const;
 
     std::vector<Item> items_;
     std::vector<BoundingBall<D>> balls_;  // by slot, where the items are

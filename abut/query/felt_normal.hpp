@@ -1,0 +1,102 @@
+#pragma once
+
+// Which normals of a surface made of parts are felt from outside. For .cpp files.
+//
+// A floor of tiles has edges inside it, where tile meets tile. What slides over it may touch such an edge, and of that
+// tile alone the edge's normal is right: it catches there. Of the floor as a whole it is wrong. The surface of a union
+// has at a point p the normals n for which
+//
+//     p is the point of the union nearest to p + s n,    s small,
+//
+// so a normal of one part is felt iff no other part is nearer to p + s n than that part. It takes no adjacency, so the
+// parts may as well be separate shapes of a world, with gaps, T-junctions and small differences in height. What is
+// lower than about s isn't felt as an edge.
+//
+// Others: ghost vertices of Box2D's chains and the inner edges that Bullet's btInternalEdgeUtility and Jolt's
+// InternalEdgeRemovingCollector leave out know one mesh's edges, or its triangles near.
+
+#include <abut/query/part_pairs.hpp>
+
+#include <optional>
+
+namespace abut {
+
+/// s above, in parts of the size of what feels the surface.
+inline constexpr double felt_scale = 1e-3;
+
+/// The place of a surface nearest to a point.
+template <int D>
+struct Foot {
+    double distance = std::numeric_limits<double>::infinity();  ///< below zero inside a part
+    DVec<D> point{0.0};
+};
+
+/// Tells the feet on all parts that are at most `within` from the point.
+template <int D>
+using EachFoot = FunctionRef<void(const DVec<D>& point, double within, FunctionRef<void(const Foot<D>&)> visit)>;
+
+/// Of all parts; none, with an infinite distance, where all are farther than `within`.
+template <int D>
+Foot<D> nearest_foot(EachFoot<D> each_foot, const DVec<D>& point, double within);
+
+template <int D>
+Foot<D> foot_on(const Convex<D>& part, const DVec<D>& point);
+template <int D>
+Foot<D> foot_on(const Solid<D>& part, const DVec<D>& point);
+
+/// Of a shape.
+template <int D>
+void each_foot_on(const View<D>& shape, const DVec<D>& point, double within, FunctionRef<void(const Foot<D>&)> visit);
+
+/// A place on the surface of a part, the way out of the part there (of length 1), and where what feels it has its
+/// middle.
+template <int D>
+struct FeltPlace {
+    DVec<D> point, out, middle;
+    double scale = 0;  ///< s
+};
+
+/// Whether the way out is one of the union's. In a corner, where the parts beside are as near, the same is asked a
+/// little farther along the part. A part's edge that stands out from another part by no more than rounding explains,
+/// 1e-5 of the size, isn't felt.
+template <int D, class Part>
+bool is_felt(const Part& part, const FeltPlace<D>& place, EachFoot<D> each_foot);
+
+/// A plane that the union is felt by.
+template <int D>
+struct FeltPlane {
+    DVec<D> normal, point;
+};
+
+/// Near a place whose normal is not felt, as seen from there towards the middle of what feels it, which has come from
+/// there; of surfaces equally near, the part's own. None where all that way is inside.
+template <int D, class Part>
+std::optional<FeltPlane<D>> felt_plane(const Part& part, const FeltPlace<D>& place, EachFoot<D> each_foot);
+
+/// Whether a contact of this normal and depth tells of another one as well: of about the same normal, and so deep that
+/// for something of this size the other one isn't much deeper.
+template <int D>
+bool tells_of(const DVec<D>& normal, double depth, const DVec<D>& other, double other_depth, double size) {
+    const double cosine = dot(normal, other);
+    if (cosine < 0.99) return false;
+    return depth > other_depth - size * (felt_scale + std::sqrt(std::max(0.0, 2 * (1 - cosine))));
+}
+
+/// The middle of the box around a part; of a half-space, the point beside it.
+template <int D>
+DVec<D> middle_of(const Convex<D>& part, const DVec<D>&) {
+    return DVec<D>(center(bounds(part)));
+}
+template <int D>
+DVec<D> middle_of(const Solid<D>&, const DVec<D>& beside) {
+    return beside;
+}
+
+/// s for a pair: by the first, or where that has no bounds, by the second.
+template <int D>
+double felt_scale_of(const View<D>& feels, const View<D>& other) {
+    const double own = size(feels);
+    return felt_scale * (std::isfinite(own) ? own : size(other));
+}
+
+}  // namespace abut

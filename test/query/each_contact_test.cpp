@@ -1,0 +1,281 @@
+// Contacts of all parts, and that the edges inside a floor aren't felt while real ones are.
+
+#include "../oracle/expect.hpp"
+#include "../oracle/random.hpp"
+#include <abut/query/each_contact.hpp>
+#include <abut/shape/ball.hpp>
+#include <abut/shape/box.hpp>
+#include <abut/shape/capsule.hpp>
+#include <abut/shape/cylinder.hpp>
+#include <abut/shape/mesh.hpp>
+#include <abut/shape/placed.hpp>
+#include <abut/shape/polygon.hpp>
+#include <abut/shape/segment.hpp>
+
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace abut {
+
+/// Several shapes as one.
+template <class S>
+struct Pieces {
+    std::vector<S> pieces;
+};
+template <class S>
+auto bounds(const Pieces<S>& shape) {
+    using Box = decltype(bounds(convex(shape.pieces[0])));
+    Box box = Box::empty();
+    for (const S& piece : shape.pieces) box = merged(box, bounds(convex(piece)));
+    return box;
+}
+template <class S, class Box, class Visit>
+void each_part(const Pieces<S>& shape, const Box& box, Visit&& visit) {
+    for (std::uint32_t i = 0; i < shape.pieces.size(); ++i)
+        if (overlaps(bounds(convex(shape.pieces[i])), box) && !visit(shape.pieces[i], i)) return;
+}
+
+namespace {
+
+using oracle::Random;
+
+constexpr std::uint64_t seed = 20260722;
+constexpr int tiles = 8;  // a floor has so many along each axis, each 1 wide, from 0 on; its surface is at height 0
+
+/// What float arithmetic makes of heights and seams.
+float about(float number, Random* random) {
+    return random != nullptr ? number + random->uniform_float(-1e-6, 1e-6) : number;
+}
+
+Mesh level_mesh(Random* random) {
+    std::vector<Vec3> points;
+    std::vector<glm::uvec3> triangles;
+    for (int z = 0; z <= tiles; ++z)
+        for (int x = 0; x <= tiles; ++x) points.push_back({x, about(0, random), z});
+    const auto at = [&](int x, int z) { return static_cast<std::uint32_t>(z * (tiles + 1) + x); };
+    for (int z = 0; z < tiles; ++z)
+        for (int x = 0; x < tiles; ++x) {
+            triangles.push_back({at(x, z), at(x, z + 1), at(x + 1, z)});
+            triangles.push_back({at(x + 1, z), at(x, z + 1), at(x + 1, z + 1)});
+        }
+    return *Mesh::build(points, triangles);
+}
+
+/// Triangles with nothing in common: T-junctions, gaps, and each one twice.
+Mesh broken_mesh(Random* random) {
+    std::vector<Vec3> points;
+    std::vector<glm::uvec3> triangles;
+    const auto add = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+        for (int twice = 0; twice < 2; ++twice) {
+            const auto first = static_cast<std::uint32_t>(points.size());
+            for (const Vec3& p : {a, b, c})
+                points.push_back({about(p.x, random), about(p.y, random), about(p.z, random)});
+            triangles.push_back({first, first + 1, first + 2});
+        }
+    };
+    for (int z = 0; z < tiles; ++z) {
+        const float shift = z % 2 == 0 ? 0 : -0.37f, low = static_cast<float>(z);
+        for (int i = 0; i <= tiles; ++i) {
+            const float x = static_cast<float>(i) + shift;
+            add({x, 0, low}, {x, 0, low + 1}, {x + 1, 0, low});
+            add({x + 1, 0, low}, {x, 0, low + 1}, {x + 1, 0, low + 1});
+        }
+    }
+    return *Mesh::build(points, triangles);
+}
+
+Pieces<Box3> boxes_in_space(Random* random) {
+    Pieces<Box3> result;
+    for (int z = 0; z < tiles; ++z)
+        for (int x = 0; x < tiles; ++x)
+            result.pieces.push_back(
+                {{about(static_cast<float>(x) + 0.5f, random), about(-0.5f, random), static_cast<float>(z) + 0.5f},
+                 {0.5f, 0.5f, 0.5f}});
+    return result;
+}
+Pieces<Box2> boxes_of_the_plane(Random* random) {
+    Pieces<Box2> result;
+    for (int x = 0; x < tiles; ++x)
+        result.pieces.push_back({{about(static_cast<float>(x) + 0.5f, random), about(-0.5f, random)}, {0.5f, 0.5f}});
+    return result;
+}
+Pieces<Segment2> segments(Random* random) {
+    Pieces<Segment2> result;
+    std::vector<Vec2> points;
+    for (int x = 0; x <= tiles; ++x) points.push_back({x, about(0, random)});
+    for (std::size_t x = 0; x < tiles; ++x) result.pieces.push_back({points[x], points[x + 1]});
+    return result;
+}
+
+template <int D>
+Pose<D> turned_about_up(double radians, const Vec<D>& position) {
+    if constexpr (D == 2)
+        return {position, no_rotation<2>};
+    else
+        return {position, turn_about({0, 1, 0}, static_cast<float>(radians))};
+}
+
+/// How far normals and depths may be off: on a floor whose coordinates are off by 1e-6 there are real edges, and a
+/// normal that is put in place of another is only as right as they are.
+struct Tolerance {
+    double aside = 1e-3, depth = 1e-5;
+};
+Tolerance tolerance(const Random* random) {
+    return random != nullptr ? Tolerance{1.2e-2, 5e-3} : Tolerance{};
+}
+
+/// Puts the shape, which has its lowest point at height -`reach`, down on the floor here and there, and looks at what
+/// pushes it sideways.
+template <int D, class S, class Floor>
+void expect_only_up(const char* name, const S& shape, float reach, const Floor& floor, const Tolerance& tolerance) {
+    Random random(seed);
+    double most_aside = 0, least_deep = 1, most_deep = -1;
+    int contacts = 0;
+    for (int i = 0; i < 150; ++i) {
+        const double depth = random.uniform(-0.01, 0.05);
+        Vec<D> position(0.0f);
+        for (int axis = 0; axis < D; ++axis) position[axis] = random.uniform_float(1.5, tiles - 1.5);
+        // On a seam every other time.
+        if (random.chance(0.5)) position[0] = std::round(position[0]);
+        if (D == 3 && random.chance(0.3)) position[2 % D] = std::round(position[2 % D]);
+        position[1] = reach - static_cast<float>(depth);
+        const double angle = random.chance(0.3) ? 0 : random.uniform(0, 6.28);
+        const auto placed = at(shape, turned_about_up<D>(angle, position));
+        double deep = -1;
+        each_contact(placed, floor,
+                     [&](const Contact<D>& contact) {
+                         ++contacts;
+                         DVec<D> aside(contact.normal);
+                         EXPECT_LT(aside[1], 0) << name << ' ' << i;
+                         aside[1] = 0;
+                         most_aside = std::max(most_aside, length(aside));
+                         deep = std::max(deep, static_cast<double>(contact.depth));
+                     },
+                     {.margin = 0.02f});
+        least_deep = std::min(least_deep, deep - depth);
+        most_deep = std::max(most_deep, deep - depth);
+        const Contact<D> one = contact(placed, floor, {.margin = 0.02f});
+        EXPECT_NEAR(static_cast<double>(one.normal[1]), -1, tolerance.aside) << name << ' ' << i;
+        EXPECT_NEAR(static_cast<double>(one.depth), depth, tolerance.depth) << name << ' ' << i;
+        if (testing::Test::HasFailure()) return;
+    }
+    EXPECT_GT(contacts, 150) << name;
+    EXPECT_LT(most_aside, tolerance.aside) << name;
+    EXPECT_GT(least_deep, -tolerance.depth) << name;
+    EXPECT_LT(most_deep, tolerance.depth) << name;
+}
+
+template <class Floor>
+void expect_level_in_space(const char* name, const Floor& floor, const Tolerance& tolerance) {
+    SCOPED_TRACE(name);
+    expect_only_up<3>("box", Box3{{0, 0, 0}, {0.4f, 0.3f, 0.6f}}, 0.3f, floor, tolerance);
+    expect_only_up<3>("small box", Box3{{0, 0, 0}, {0.1f, 0.3f, 0.1f}}, 0.3f, floor, tolerance);
+    expect_only_up<3>("long box", Box3{{0, 0, 0}, {1.4f, 0.3f, 0.1f}}, 0.3f, floor, tolerance);
+    expect_only_up<3>("ball", Sphere{{0, 0, 0}, 0.3f}, 0.3f, floor, tolerance);
+    expect_only_up<3>("standing capsule", Capsule3{{0, -0.2f, 0}, {0, 0.2f, 0}, 0.3f}, 0.5f, floor, tolerance);
+    expect_only_up<3>("lying capsule", Capsule3{{-1, 0, 0}, {1, 0, 0}, 0.3f}, 0.3f, floor, tolerance);
+    expect_only_up<3>("cylinder", Cylinder{{0, -0.3f, 0}, {0, 0.3f, 0}, 0.4f}, 0.3f, floor, tolerance);
+}
+
+TEST(EachContact, OfALevelFloorIsUpAlone) {
+    Random noise(seed);
+    for (Random* random : {static_cast<Random*>(nullptr), &noise}) {
+        expect_level_in_space("mesh", level_mesh(random), tolerance(random));
+        expect_level_in_space("broken mesh", broken_mesh(random), tolerance(random));
+        expect_level_in_space("boxes", boxes_in_space(random), tolerance(random));
+        {
+            const Tolerance off = tolerance(random);
+            expect_only_up<2>("box", Box2{{0, 0}, {0.4f, 0.3f}}, 0.3f, boxes_of_the_plane(random), off);
+            expect_only_up<2>("small box", Box2{{0, 0}, {0.1f, 0.3f}}, 0.3f, boxes_of_the_plane(random), off);
+            expect_only_up<2>("ball", Circle{{0, 0}, 0.3f}, 0.3f, boxes_of_the_plane(random), off);
+            expect_only_up<2>("box", Box2{{0, 0}, {0.4f, 0.3f}}, 0.3f, segments(random), off);
+            expect_only_up<2>("small box", Box2{{0, 0}, {0.1f, 0.3f}}, 0.3f, segments(random), off);
+            expect_only_up<2>("capsule", Capsule2{{-1, 0}, {1, 0}, 0.3f}, 0.3f, segments(random), off);
+        }
+    }
+}
+
+template <int D, class A, class B>
+std::vector<Contact<D>> contacts_of(const A& a, const B& b, float margin = 0) {
+    std::vector<Contact<D>> result;
+    each_contact(a, b, [&](const Contact<D>& contact) { result.push_back(contact); }, {.margin = margin});
+    return result;
+}
+
+TEST(EachContact, FeelsWallsAndTheFloorBeforeThem) {
+    // A floor of boxes at height 0, and on it a wall of boxes from 4 on.
+    Pieces<Box2> level = boxes_of_the_plane(nullptr);
+    for (int y = 0; y < 4; ++y) level.pieces.push_back({{4.5f, static_cast<float>(y) + 0.5f}, {0.5f, 0.5f}});
+    const auto contacts = contacts_of<2>(Box2{{3.51f, 0.99f}, {0.5f, 1.0f}}, level);
+    int up = 0, aside = 0;
+    for (const Contact<2>& contact : contacts) {
+        up += contact.normal.y < -0.9999f ? 1 : 0;
+        aside += contact.normal.x > 0.9999f ? 1 : 0;
+        EXPECT_NEAR(contact.depth, 0.01, 1e-5);
+    }
+    EXPECT_GT(up, 0);
+    EXPECT_GT(aside, 0);
+    EXPECT_EQ(static_cast<std::size_t>(up + aside), contacts.size());
+}
+
+TEST(EachContact, FeelsACornerThatPointsIntoACorner) {
+    const Pieces<Segment2> corner{{{{-3, 0}, {0, 0}}, {{0, 0}, {0, 3}}}};
+    // Its tip touches both.
+    const Polygon wedge = *Polygon::build(std::vector<Vec2>{{0, 0}, {-0.6f, 0.2f}, {-0.2f, 0.6f}});
+    const auto contacts = contacts_of<2>(wedge, corner, 1e-3f);
+    ASSERT_EQ(contacts.size(), 2u);
+    for (const Contact<2>& contact : contacts)
+        EXPECT_TRUE(contact.normal.y < -0.999f || contact.normal.x > 0.999f) << contact.normal.x;
+}
+
+TEST(EachContact, FeelsRealEdges) {
+    // The end of the floor, and a ball that hangs over it.
+    const auto over_end = contacts_of<2>(Circle{{-0.3f, 0.38f}, 0.5f}, segments(nullptr));
+    ASSERT_EQ(over_end.size(), 1u);
+    EXPECT_NEAR(over_end[0].normal.x, 0.6199, 1e-3);
+
+    // A ridge of two slopes, and a ball on top, and on one side.
+    const Pieces<Segment2> ridge{{{{-2, -2}, {0, 0}}, {{0, 0}, {2, -2}}}};
+    const auto on_top = contacts_of<2>(Circle{{0.05f, 0.49f}, 0.5f}, ridge);
+    for (const Contact<2>& contact : on_top) EXPECT_NEAR(contact.normal.x, -0.1015, 1e-3);
+    EXPECT_GE(on_top.size(), 1u);
+    const auto on_side = contacts_of<2>(Circle{{0.5f, 0.2f}, 0.5f}, ridge);
+    ASSERT_EQ(on_side.size(), 1u);
+    EXPECT_NEAR(on_side[0].normal.x, -0.70710678, 1e-4);
+
+    // A step twenty times as high as what isn't felt.
+    Pieces<Box2> step = boxes_of_the_plane(nullptr);
+    step.pieces.push_back({{4.5f, -0.49f}, {0.5f, 0.5f}});
+    bool aside = false;
+    for (const Contact<2>& contact : contacts_of<2>(Box2{{3.502f, 0.5f}, {0.5f, 0.5f}}, step))
+        aside = aside || contact.normal.x > 0.99f;
+    EXPECT_TRUE(aside);
+}
+
+TEST(EachContact, OfConvexShapesIsTheirContact) {
+    const Box3 a{{0, 0, 0}, {1, 1, 1}}, b{{1.9f, 0.2f, 0}, {1, 1, 1}};
+    const auto contacts = contacts_of<3>(a, b);
+    ASSERT_EQ(contacts.size(), 1u);
+    EXPECT_EQ(contacts[0].normal, contact(a, b).normal);
+    EXPECT_EQ(contacts[0].depth, contact(a, b).depth);
+    EXPECT_TRUE(contacts_of<3>(a, Box3{{3, 0, 0}, {0.9f, 1, 1}}).empty());
+}
+
+TEST(EachContact, StopsWhenTheVisitorSaysSo) {
+    int count = 0;
+    each_contact(Box3{{4, 0.29f, 4}, {2, 0.3f, 2}}, level_mesh(nullptr),
+                 [&](const Contact<3>&) { return ++count < 3; });
+    EXPECT_EQ(count, 3);
+}
+
+TEST(EachContact, FromTheOtherSideIsTheSameTurnedRound) {
+    const Box3 box{{4, 0.29f, 4}, {0.7f, 0.3f, 0.7f}};
+    const Mesh floor = level_mesh(nullptr);
+    const auto one = contacts_of<3>(box, floor), other = contacts_of<3>(floor, box);
+    EXPECT_EQ(one.size(), other.size());
+    for (const Contact<3>& contact : other) EXPECT_NEAR(contact.normal.y, 1, 1e-5);
+}
+
+}  // namespace
+}  // namespace abut
