@@ -21,13 +21,16 @@
 #include <abut/math/ray.hpp>
 #include <abut/math/result.hpp>
 #include <abut/math/vec.hpp>
+#include <abut/motion/depenetrate.hpp>
 #include <abut/motion/laser.hpp>
+#include <abut/motion/mover.hpp>
 #include <abut/motion/rearrange.hpp>
 #include <abut/motion/removal_order.hpp>
 #include <abut/query/certify.hpp>
 #include <abut/query/closest.hpp>
 #include <abut/query/contact.hpp>
 #include <abut/query/contains.hpp>
+#include <abut/query/each_contact.hpp>
 #include <abut/query/early_out.hpp>
 #include <abut/query/hit.hpp>
 #include <abut/query/intersection.hpp>
