@@ -52,5 +52,7 @@ std::vector<Bench> ray_benches();
 std::vector<Bench> removal_benches();
 /// Shapes at the ground of a level.
 std::vector<Bench> level_benches();
+/// Characters that walk over levels.
+std::vector<Bench> levels_mover_benches();
 
 }  // namespace abut::bench

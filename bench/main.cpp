@@ -39,6 +39,7 @@ std::vector<Bench> all_benches() {
     std::ranges::move(ray_benches(), std::back_inserter(result));
     std::ranges::move(removal_benches(), std::back_inserter(result));
     std::ranges::move(level_benches(), std::back_inserter(result));
+    std::ranges::move(levels_mover_benches(), std::back_inserter(result));
     return result;
 }
 
