@@ -119,10 +119,10 @@ Pose<D> turned_about_up(double radians, const Vec<D>& position) {
 /// How far normals and depths may be off: on a floor whose coordinates are off by 1e-6 there are real edges, and a
 /// normal that is put in place of another is only as right as they are.
 struct Tolerance {
-    double aside = 1e-3, depth = 1e-5;
+    double aside = 1e-6, depth = 1e-5;
 };
 Tolerance tolerance(const Random* random) {
-    return random != nullptr ? Tolerance{1.2e-2, 5e-3} : Tolerance{};
+    return random != nullptr ? Tolerance{1e-3, 1e-5} : Tolerance{};
 }
 
 /// Puts the shape, which has its lowest point at height -`reach`, down on the floor here and there, and looks at what
