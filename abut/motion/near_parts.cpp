@@ -18,6 +18,7 @@ void NearParts<D>::forget() {
     boxes_.clear();
     kept_.clear();
     points_.clear();
+    has_one_sided_ = false;
 }
 
 template <int D>
@@ -29,6 +30,7 @@ void NearParts<D>::gather(const World<D>& world, const Aabb<D>& box, const Filte
         [&](Id id, const View<D>& shape) {
             const auto place = static_cast<std::uint32_t>(kept_.size());
             if (const auto* convex = std::get_if<Convex<D>>(&shape)) {
+                has_one_sided_ = has_one_sided_ || convex->one_sided;
                 kept_.push_back({*convex});
                 order_.push_back({{id, 0}, place, bounds(*convex)});
             } else if (const auto* solid = std::get_if<Solid<D>>(&shape)) {
@@ -58,6 +60,7 @@ template <int D>
 void NearParts<D>::take(const PartName& name, const Convex<D>& part, const View<D>& shape) {
     const Aabb<D> box_of_part = bounds(part);
     if (!overlaps(box_of_part, box_)) return;
+    has_one_sided_ = has_one_sided_ || part.one_sided;
     Kept kept{part};
     kept.made_up = part.core == Core::function || part.facets != nullptr;
     kept.shape = &shape;

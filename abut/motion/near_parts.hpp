@@ -26,6 +26,8 @@ public:
     /// The box that was asked for.
     const Aabb<D>& box() const { return box_; }
     std::size_t size() const { return order_.size(); }
+    /// Whether some part may be met from its front alone.
+    bool has_one_sided() const { return has_one_sided_; }
 
     /// visit(name, part) for those whose boxes overlap this one; a part is a Convex or a Solid.
     template <class Visit>
@@ -66,6 +68,7 @@ private:
     std::vector<Aabb<D>> boxes_;  // in that order, together
     std::vector<Kept> kept_;
     std::vector<Vec<D>> points_;
+    bool has_one_sided_ = false;
 };
 
 extern template class NearParts<2>;

@@ -1,10 +1,14 @@
 #include <abut/motion/near_surface.hpp>
-#include <abut/query/sweep_part.hpp>
+#include <abut/query/front_touch.hpp>
 
 #include <algorithm>
 
 namespace abut {
 namespace {
+
+/// What is in a one-sided part, and behind its front by more than this part of its size, is on its way through. What is
+/// behind it by less has come to stand on it, such as on a platform that rises.
+constexpr double way_through = 0.05;
 
 template <int D>
 Aabb<D> moved_box(const Aabb<D>& box, const DVec<D>& move) {
@@ -26,6 +30,7 @@ void NearSurface<D>::begin(const World<D>& world, const Filter& filter, const Co
     scale_ = felt_scale * size_;
     parts_.forget();
     passed_.clear();
+    passed_fronts_.clear();
     contacts_known_ = false;
 }
 
@@ -62,9 +67,44 @@ void NearSurface<D>::each_foot(const DVec<D>& point, double within, FunctionRef<
     parts_.each(grown(Aabb<D>{middle, middle}, static_cast<float>(within)),
                 [&](const PartName& name, const auto& part) {
                     if (!passed_.empty() && is_passed(name)) return;
+                    if (!passed_fronts_.empty() && is_passed_front(name)) return;
                     const Foot<D> foot = foot_on(part, point);
                     if (foot.distance <= within) visit(foot);
                 });
+}
+
+template <int D>
+void NearSurface<D>::find_passed_fronts(const Convex<D>& shape, const Aabb<D>& box) {
+    passed_fronts_.clear();
+    if (!parts_.has_one_sided()) return;
+    parts_.each(box, [&](const PartName& name, const auto& part) {
+        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(part)>, Convex<D>>) {
+            if (!part.one_sided) return;
+            const SignedDistance<D> distance = part_distance(shape, part, {});
+            if (!(distance.distance < 0)) return;
+            const DVec<D> out = normalized(front(part));
+            const double depth = dot(out, distance.on_b() - support(shape, -out));
+            if (depth > way_through * size_) passed_fronts_.push_back(name);
+        }
+    });
+}
+
+template <int D>
+bool NearSurface<D>::is_passed_front(const PartName& name) const {
+    return std::find(passed_fronts_.begin(), passed_fronts_.end(), name) != passed_fronts_.end();
+}
+
+/// Also of another part, where the two meet in a seam.
+template <int D>
+bool NearSurface<D>::is_on_passed_front(const DVec<D>& point) const {
+    if (passed_fronts_.empty()) return false;
+    bool result = false;
+    const Vec<D> middle = to_float(point);
+    parts_.each(grown(Aabb<D>{middle, middle}, static_cast<float>(scale_)),
+                [&](const PartName& name, const auto& part) {
+                    result = result || (is_passed_front(name) && foot_on(part, point).distance <= scale_);
+                });
+    return result;
 }
 
 /// Remembers what is passed, so that it covers nothing.
@@ -90,9 +130,11 @@ std::span<const NearContact<D>> NearSurface<D>::contacts(const DVec<D>& at, doub
     const Convex<D> shape = shape_at(at);
     const Aabb<D> box = grown(bounds(shape), static_cast<float>(reach));
     need(box);
+    find_passed_fronts(shape, box);
     const auto contact_with = [&](const PartName& name, const auto& part) -> std::optional<NearContact<D>> {
         const SignedDistance<D> distance = part_distance(shape, part, {});
-        if (!(distance.distance <= reach)) return std::nullopt;
+        if (!(distance.distance <= reach) || !meet_at_fronts(shape, part, distance.normal)) return std::nullopt;
+        if (is_one_sided(shape, part) && is_on_passed_front(distance.on_b())) return std::nullopt;
         NearContact<D> contact{name, -distance.normal, distance.on_b(), distance.distance, {}, false};
         name_feature(part, distance.corners.b, distance.corners.count, -distance.normal, name.part, contact.feature);
         return contact;
@@ -148,6 +190,7 @@ std::optional<FirstTouch<D>> NearSurface<D>::first_touch(const DVec<D>& at, cons
     // A touch may be told where the two are apart by the margin of doubt.
     const Aabb<D> box = grown(merged(first_box, moved_box(first_box, move)), static_cast<float>(1e-4 * size_));
     need(box);
+    find_passed_fronts(shape_at(at), grown(bounds(shape_at(at)), static_cast<float>(1e-4 * size_)));
     Path<D> path{move / way, way};
     if (passes_ != nullptr) {
         passed_.clear();
@@ -155,8 +198,9 @@ std::optional<FirstTouch<D>> NearSurface<D>::first_touch(const DVec<D>& at, cons
     }
     parts_.each(box, [&](const PartName& name, const auto& part) {
         PartTouch<D> touch;
-        if (!part_touch(shape, path, part, name.part, SweepOptions<D>{}, touch)) return;
+        if (!front_touch(shape, path, part, name.part, SweepOptions<D>{}, touch)) return;
         if (result && touch.along >= path.length) return;
+        if (is_one_sided(shape, part) && (is_passed_front(name) || is_on_passed_front(touch.point))) return;
         NearContact<D> contact{name, -touch.normal, touch.point, 0, touch.feature, false};
         if (passes(part, contact)) return;
         path.length = touch.along;
@@ -172,7 +216,7 @@ std::optional<DVec<D>> NearSurface<D>::normal_above(const DVec<D>& point, const 
     const auto feet = [this](const DVec<D>& from, double within, FunctionRef<void(const Foot<D>&)> visit) {
         each_foot(from, within, visit);
     };
-    const Foot<D> foot = nearest_foot<D>(feet, above, 2 * scale_);
+    const Foot<D> foot = nearest_foot<D>(feet, above, 2 * scale_, scale_);
     if (!(foot.distance > clear * scale_) || !std::isfinite(foot.distance)) return std::nullopt;
     return normalized(above - foot.point);
 }

@@ -57,6 +57,11 @@ private:
     template <class Part>
     bool passes(const Part& part, NearContact<D>& contact);
     bool is_passed(const PartName& name) const;
+    /// Finds the one-sided parts that the shape is on its way through, there.
+    void find_passed_fronts(const Convex<D>& shape, const Aabb<D>& box);
+    bool is_passed_front(const PartName& name) const;
+    /// Whether a place of a one-sided part lies on one of those as well.
+    bool is_on_passed_front(const DVec<D>& point) const;
     void tell_ghosts(const Convex<D>& shape, double reach);
 
     struct Ghost {
@@ -73,7 +78,8 @@ private:
     NearParts<D> parts_;
     std::vector<NearContact<D>> contacts_;
     std::vector<Ghost> ghosts_;
-    std::vector<PartName> passed_;  // at the place that was asked about last
+    std::vector<PartName> passed_;         // at the place that was asked about last
+    std::vector<PartName> passed_fronts_;  // there, by their sides
     bool contacts_known_ = false;
     DVec<D> contacts_at_{0.0};
     double contacts_reach_ = 0;

@@ -67,8 +67,8 @@ Contact<D> contact(const Given<D>& a, const Given<D>& b, const QueryOptions<D>& 
 template <>
 Contact<2> contact(const Given<2>& a, const Given<2>& b, const QueryOptions<2>& options);
 
-/// The contact of two touching or overlapping shapes; of composite ones, the deepest that each_contact tells.
-/// With a margin, of shapes up to so far apart as well.
+/// The contact of two touching or overlapping shapes; of composite ones, of their deepest pair of parts, or, where that
+/// isn't felt, the deepest that each_contact tells. With a margin, of shapes up to so far apart as well.
 template <class A, class B>
 requires Pair<A, B> Contact<dimension<A>> contact(const A& a, const B& b,
                                                   const QueryOptions<dimension<A>>& options = {}) {

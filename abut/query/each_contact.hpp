@@ -18,7 +18,7 @@ void each_contact_of(const View<D>& a, const View<D>& b, const QueryOptions<D>& 
 /// Normals are those of the surfaces as they are felt from outside, not those of edges where part meets part: what lies
 /// on a floor of tiles is pushed up alone. Where a pair's own normal is such an edge's, the pair is left out if another
 /// tells the truth there, or else told with the normal and depth of the surface, and one point. Edges lower than about
-/// a thousandth of A's size aren't felt.
+/// a thousandth of the smaller one's size aren't felt.
 template <class A, class B, Visitor<Contact<dimension<A>>> F>
 requires Pair<A, B>
 void each_contact(const A& a, const B& b, F&& visit, const QueryOptions<dimension<A>>& options = {}) {

@@ -46,6 +46,12 @@ bool is_face(const Part& part, const FeltPlace<D>& place, const DVec<D>& beside,
     return std::abs(foot_on(part, farther).distance - own) <= 3 * face_turned_by * place.scale;
 }
 
+/// Whether a part is met from its front alone, and not from there. What is about on it is at its front.
+template <int D>
+bool is_behind(const Foot<D>& foot, double scale) {
+    return foot.behind > rounding * scale;
+}
+
 /// Whether the part, which is `own` from p + s n, is what is nearest to there. Where rounding leaves that open, a face
 /// is, and an edge isn't.
 template <int D, class Part>
@@ -54,6 +60,7 @@ bool is_free(const Part& part, const FeltPlace<D>& place, const DVec<D>& beside,
     const double surely_nearer = own - rounding * place.scale;
     bool covered = false, doubtful = false;
     each_foot(beside, own + rounding * place.scale, [&](const Foot<D>& foot) {
+        if (is_behind(foot, place.scale)) return;
         covered = covered || foot.distance < surely_nearer;
         // Another normal, about as near.
         const DVec<D> to_foot = beside - foot.point;
@@ -68,7 +75,9 @@ bool is_free(const Part& part, const FeltPlace<D>& place, const DVec<D>& beside,
 template <int D>
 Foot<D> foot_on(const Convex<D>& part, const DVec<D>& point) {
     const SignedDistance<D> distance = part_distance<D>(point_part(point), part, {});
-    return {distance.distance, distance.on_b()};
+    Foot<D> result{distance.distance, distance.on_b()};
+    if (part.one_sided) result.behind = dot(normalized(front(part)), result.point - point);
+    return result;
 }
 template <int D>
 Foot<D> foot_on(const Solid<D>& part, const DVec<D>& point) {
@@ -77,10 +86,10 @@ Foot<D> foot_on(const Solid<D>& part, const DVec<D>& point) {
 }
 
 template <int D>
-Foot<D> nearest_foot(EachFoot<D> each_foot, const DVec<D>& point, double within) {
+Foot<D> nearest_foot(EachFoot<D> each_foot, const DVec<D>& point, double within, double scale) {
     Foot<D> result;
     each_foot(point, within, [&](const Foot<D>& foot) {
-        if (foot.distance < result.distance) result = foot;
+        if (foot.distance < result.distance && !is_behind(foot, scale)) result = foot;
     });
     return result;
 }
@@ -114,10 +123,11 @@ template <int D, class Part>
 std::optional<FeltPlane<D>> felt_plane(const Part& part, const FeltPlace<D>& place, EachFoot<D> each_foot) {
     const double clear = clear_of * place.scale;
     const auto seen_from = [&](const DVec<D>& point, double within) -> std::optional<FeltPlane<D>> {
-        Foot<D> foot = nearest_foot(each_foot, point, within);
+        Foot<D> foot = nearest_foot(each_foot, point, within, place.scale);
         if (!(foot.distance > clear) || !std::isfinite(foot.distance)) return std::nullopt;
         const Foot<D> own = foot_on(part, point);
-        if (own.distance <= foot.distance + nearer_by * place.scale) foot = own;
+        const bool is_nearest = own.distance <= foot.distance + nearer_by * place.scale;
+        if (is_nearest && !is_behind(own, place.scale)) foot = own;
         return FeltPlane<D>{normalized(point - foot.point), foot.point};
     };
     const DVec<D> to_middle = place.middle - place.point;
@@ -130,7 +140,7 @@ std::optional<FeltPlane<D>> felt_plane(const Part& part, const FeltPlace<D>& pla
 #define ABUT_INSTANTIATE(D)                                                                                \
     template Foot<D> foot_on(const Convex<D>&, const DVec<D>&);                                            \
     template Foot<D> foot_on(const Solid<D>&, const DVec<D>&);                                             \
-    template Foot<D> nearest_foot(EachFoot<D>, const DVec<D>&, double);                                    \
+    template Foot<D> nearest_foot(EachFoot<D>, const DVec<D>&, double, double);                            \
     template void each_foot_on(const View<D>&, const DVec<D>&, double, FunctionRef<void(const Foot<D>&)>); \
     template bool is_felt(const Convex<D>&, const FeltPlace<D>&, EachFoot<D>);                             \
     template bool is_felt(const Solid<D>&, const FeltPlace<D>&, EachFoot<D>);                              \

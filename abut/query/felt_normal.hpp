@@ -29,15 +29,17 @@ template <int D>
 struct Foot {
     double distance = std::numeric_limits<double>::infinity();  ///< below zero inside a part
     DVec<D> point{0.0};
+    double behind = 0;  ///< how far the point is behind a part that is met from its front alone; else 0 or less
 };
 
 /// Tells the feet on all parts that are at most `within` from the point.
 template <int D>
 using EachFoot = FunctionRef<void(const DVec<D>& point, double within, FunctionRef<void(const Foot<D>&)> visit)>;
 
-/// Of all parts; none, with an infinite distance, where all are farther than `within`.
+/// Of all parts that the point isn't behind; none, with an infinite distance, where all are farther than `within`.
+/// `scale` is s.
 template <int D>
-Foot<D> nearest_foot(EachFoot<D> each_foot, const DVec<D>& point, double within);
+Foot<D> nearest_foot(EachFoot<D> each_foot, const DVec<D>& point, double within, double scale);
 
 template <int D>
 Foot<D> foot_on(const Convex<D>& part, const DVec<D>& point);
@@ -56,9 +58,9 @@ struct FeltPlace {
     double scale = 0;  ///< s
 };
 
-/// Whether the way out is one of the union's. In a corner, where the parts beside are as near, the same is asked a
-/// little farther along the part. A part's edge that stands out from another part by no more than rounding explains,
-/// 1e-5 of the size, isn't felt.
+/// Whether the way out is one of the union's. What is met from its front alone covers nothing behind it. In a corner,
+/// where the parts beside are as near, the same is asked a little farther along the part. A part's edge that stands out
+/// from another part by no more than rounding explains, 1e-5 of the size, isn't felt.
 template <int D, class Part>
 bool is_felt(const Part& part, const FeltPlace<D>& place, EachFoot<D> each_foot);
 
@@ -92,11 +94,10 @@ DVec<D> middle_of(const Solid<D>&, const DVec<D>& beside) {
     return beside;
 }
 
-/// s for a pair: by the first, or where that has no bounds, by the second.
+/// s for a pair: by the smaller, for which the other is a level.
 template <int D>
-double felt_scale_of(const View<D>& feels, const View<D>& other) {
-    const double own = size(feels);
-    return felt_scale * (std::isfinite(own) ? own : size(other));
+double felt_scale_of(const View<D>& a, const View<D>& b) {
+    return felt_scale * std::min(size(a), size(b));
 }
 
 }  // namespace abut

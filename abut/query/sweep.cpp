@@ -1,9 +1,8 @@
 #include <abut/math/assert.hpp>
 #include <abut/query/direct_sweep.hpp>
 #include <abut/query/felt_hit.hpp>
-#include <abut/query/one_sided.hpp>
+#include <abut/query/front_touch.hpp>
 #include <abut/query/sweep.hpp>
-#include <abut/query/sweep_part.hpp>
 
 namespace abut {
 namespace {
@@ -30,15 +29,6 @@ void tell(const Motions<D>& motions, const PartTouch<D>& first, Hit<D>& hit) {
     hit.normal = to_float(-first.normal);
     hit.started_inside = first.started_inside;
     hit.feature = first.feature;
-}
-
-/// The first touch of two parts at their fronts. Whatever overlap there is on a straight way is one stretch of it, so
-/// that what first touches at a back doesn't touch at a front after it.
-template <int D, class PartA, class PartB>
-bool front_touch(const PartA& a, const Path<D>& path, const PartB& b, std::uint32_t index,
-                 const SweepOptions<D>& options, PartTouch<D>& touch) {
-    return goes_at_front(b, path.direction) && goes_at_front(a, -path.direction) &&
-           part_touch(a, path, b, index, options, touch) && meet_at_fronts(a, b, touch.normal);
 }
 
 /// The box around a part on its way along the path.

@@ -171,7 +171,8 @@ private:
     void look_at_pair(const PartA& a, std::uint32_t index_a, const PartB& b, std::uint32_t index_b,
                       const Piece& piece) {
         Meeting<D> found;
-        // What has gone in at a back is told of nowhere on its way out: what has a front is searched from the beginning.
+        // What has gone in at a back is told of nowhere on its way out: what has a front is searched from the
+        // beginning.
         const double from = is_one_sided(a, b) ? 0 : piece.from;
         const TurningLimits limits{.from = from, .until = piece.to, .reach = any ? first.time : piece.to};
         if (!first_meeting<D>(a, path_a_, b, path_b_, limits, options_, found)) return;

@@ -267,4 +267,38 @@ Level<D> random_level(oracle::Random& random, std::uint32_t kind) {
         return kind == 0 ? random_height_field(random) : random_mesh(random);
 }
 
+/// What is asked about beside a level, with its parts.
+template <int D>
+struct Other {
+    AnyShape<D> keeper;
+    View<D> view;
+    std::vector<LevelPart<D>> parts;
+};
+
+/// A place that a question may be about.
+template <int D>
+Vec<D> near_some_part(oracle::Random& random, const PlacedLevel<D>& level) {
+    if (level.parts.empty()) return Vec<D>(0.0f);
+    const auto some = random.below(static_cast<std::uint32_t>(level.parts.size()));
+    return center(bounds(level.parts[some].view));
+}
+
+template <int D>
+Other<D> random_other(oracle::Random& random, const PlacedLevel<D>& level) {
+    const Pose<D> pose{near_some_part(random, level) + random_point<D>(random, random.uniform(0, 1.5)),
+                       random.rotation<D>()};
+    if (random.chance(0.2)) {
+        const PlacedLevel<D> other(random_level<D>(random, random.below(3)), {Vec<D>(0.5f), pose, 0});
+        return {other.level.shape, other.view, other.parts};
+    }
+    if (random.chance(0.1)) {
+        HalfSpace<D> side{to_float(random.direction<D>()), 0};
+        side.offset = dot(side.normal, pose.position);
+        return {Ball<D>{}, View<D>(view(side)), {{View<D>(view(side)), 0}}};
+    }
+    const AnyShape<D> shape = random_convex(random, std::integral_constant<int, D>(), 0.1, 1);
+    const View<D> stands = moved(shape.view(), affine(pose));
+    return {shape, stands, {{stands, 0}}};
+}
+
 }  // namespace abut::test

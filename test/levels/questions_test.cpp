@@ -3,9 +3,11 @@
 
 #include "../oracle/pair.hpp"
 #include "levels.hpp"
+#include <abut/math/rigid_path.hpp>
 #include <abut/query/closest.hpp>
 #include <abut/query/contact.hpp>
 #include <abut/query/contains.hpp>
+#include <abut/query/each_contact.hpp>
 #include <abut/query/overlaps.hpp>
 #include <abut/query/raycast.hpp>
 #include <abut/query/sweep.hpp>
@@ -20,39 +22,6 @@ namespace {
 /// Both ways find the same numbers, but for a few roundings: parts may be asked for from another frame.
 constexpr float rounding = 2e-5f;
 
-template <int D>
-struct Other {
-    AnyShape<D> keeper;
-    View<D> view;
-    std::vector<LevelPart<D>> parts;
-};
-
-/// A place that a question may be about.
-template <int D>
-Vec<D> near_some_part(oracle::Random& random, const PlacedLevel<D>& level) {
-    if (level.parts.empty()) return Vec<D>(0.0f);
-    const auto some = random.below(static_cast<std::uint32_t>(level.parts.size()));
-    return center(bounds(level.parts[some].view));
-}
-
-template <int D>
-Other<D> random_other(oracle::Random& random, const PlacedLevel<D>& level) {
-    const Pose<D> pose{near_some_part(random, level) + random_point<D>(random, random.uniform(0, 1.5)),
-                       random.rotation<D>()};
-    if (random.chance(0.2)) {
-        const PlacedLevel<D> other(random_level<D>(random, random.below(3)), {Vec<D>(0.5f), pose, 0});
-        return {other.level.shape, other.view, other.parts};
-    }
-    if (random.chance(0.1)) {
-        HalfSpace<D> side{to_float(random.direction<D>()), 0};
-        side.offset = dot(side.normal, pose.position);
-        return {Ball<D>{}, View<D>(view(side)), {{View<D>(view(side)), 0}}};
-    }
-    const AnyShape<D> shape = random_convex(random, std::integral_constant<int, D>(), 0.1, 1);
-    const View<D> stands = moved(shape.view(), affine(pose));
-    return {shape, stands, {{stands, 0}}};
-}
-
 /// Calls visit(part of a, part of b).
 template <int D, class Visit>
 void each_pair(const std::vector<LevelPart<D>>& a, const std::vector<LevelPart<D>>& b, Visit&& visit) {
@@ -61,7 +30,7 @@ void each_pair(const std::vector<LevelPart<D>>& a, const std::vector<LevelPart<D
 }
 
 struct Counts {
-    int asked = 0, overlapping = 0, contacts = 0, hits = 0;
+    int asked = 0, overlapping = 0, contacts = 0, deepest = 0, hits = 0;
 };
 
 template <int D>
@@ -96,13 +65,18 @@ void check_touch(const View<D>& a, const std::vector<LevelPart<D>>& parts_a, con
         EXPECT_EQ(static_cast<bool>(touch), !std::isinf(deepest)) << least;
     }
     if (touch && !std::isinf(deepest)) {
-        EXPECT_NEAR(touch.depth, deepest, rounding);
         float told = -std::numeric_limits<float>::infinity();
         each_pair(parts_a, parts_b, [&](const LevelPart<D>& part_a, const LevelPart<D>& part_b) {
             if (part_a.index != touch.feature_a.part || part_b.index != touch.feature_b.part) return;
             if (const Contact<D> one = contact(part_a.view, part_b.view)) told = std::max(told, one.depth);
         });
-        EXPECT_NEAR(told, deepest, rounding);
+        // The deepest pair, or where that isn't felt, the deepest of those that are.
+        const bool is_deepest = std::abs(told - deepest) <= rounding && std::abs(touch.depth - deepest) <= rounding;
+        float felt = -std::numeric_limits<float>::infinity();
+        each_contact(a, b, [&](const Contact<D>& one) { felt = std::max(felt, one.depth); });
+        EXPECT_TRUE(is_deepest || touch.depth == felt);
+        EXPECT_FALSE(std::isinf(told));
+        counts.deepest += is_deepest ? 1 : 0;
     }
     ++counts.asked;
     counts.overlapping += overlap ? 1 : 0;
@@ -153,9 +127,15 @@ void check_turning(oracle::Random& random, const View<D>& a, const std::vector<L
         const std::optional<Hit<D>> hit = sweep(part_a.view, from_a, to_a, part_b.view, from_b, to_b);
         if (hit && (!first || hit->fraction < first->fraction)) first = hit;
     });
-    // Where they graze, the margin of a meeting is much of the time: to a hundredth of that.
     const std::optional<Hit<D>> found = sweep(a, from_a, to_a, b, from_b, to_b);
-    expect_same_hit(found, first, 0.02f, "turning");
+    ASSERT_EQ(found.has_value(), first.has_value());
+    if (!found) return;
+    // Where they graze, the margin of a meeting is much of the time: then they touch at the earlier one.
+    if (std::abs(found->fraction - first->fraction) < 1e-3f) return;
+    const auto time = static_cast<double>(std::min(found->fraction, first->fraction));
+    const View<D> a_then = moved(a, place_at(rigid_path(from_a, to_a), time));
+    const View<D> b_then = moved(b, place_at(rigid_path(from_b, to_b), time));
+    EXPECT_NEAR(closest(a_then, b_then).distance, 0, rounding);
 }
 
 template <int D>
@@ -229,6 +209,8 @@ void check_levels(std::uint32_t kind, int rounds) {
         for (int i = 0; i < 4; ++i) check_points<D>(random, level);
         if (testing::Test::HasFatalFailure() || testing::Test::HasNonfatalFailure()) return;
     }
+    // Most are deepest where they are felt.
+    EXPECT_GT(touches.deepest, 0.5 * touches.contacts) << touches.contacts;
     // Not vacuous: something of each.
     for (const int part : {touches.overlapping, touches.contacts, sweeps.hits})
         EXPECT_TRUE(part > 0.15 * touches.asked && part < 0.85 * touches.asked) << part << " of " << touches.asked;

@@ -5,6 +5,7 @@
 #include "meshes.hpp"
 #include <abut/query/closest.hpp>
 #include <abut/query/contact.hpp>
+#include <abut/query/each_contact.hpp>
 #include <abut/query/overlaps.hpp>
 #include <abut/query/raycast.hpp>
 
@@ -17,7 +18,7 @@ namespace {
 
 /// How often the answers were of each kind.
 struct Seen {
-    int gaps = 0, depths = 0, hits = 0, misses = 0;
+    int gaps = 0, depths = 0, unfelt = 0, hits = 0, misses = 0;
 };
 
 /// All triangles of a mesh, each placed as the mesh is.
@@ -74,7 +75,14 @@ void check_closest(const View<3>& mesh, const Parts& parts, const View<3>& other
     const Contact<3> touch = contact(mesh, other);
     ASSERT_EQ(static_cast<bool>(touch), touches) << expected;
     if (!touches) return;
-    EXPECT_EQ(touch.depth, -expected);
+    if (touch.depth != -expected) {
+        // The deepest triangle isn't felt there: then it is the deepest of those that are.
+        float deepest = -std::numeric_limits<float>::infinity();
+        each_contact(mesh, other, [&](const Contact<3>& one) { deepest = std::max(deepest, one.depth); });
+        EXPECT_EQ(touch.depth, deepest);
+        ++seen.unfelt;
+        return;
+    }
     const Contact<3> part_touch = contact(parts.views.at(touch.feature_a.part), other);
     EXPECT_EQ(part_touch.depth, touch.depth) << "part " << touch.feature_a.part;
     EXPECT_EQ(part_touch.normal, touch.normal);
@@ -151,11 +159,12 @@ void check_mesh(oracle::Random& random, const Mesh& mesh, Seen& seen) {
 }
 
 void expect_both_kinds(const Seen& seen) {
-    std::cout << "gaps " << seen.gaps << ", depths " << seen.depths << ", hits " << seen.hits << ", misses "
-              << seen.misses << "\n";
+    std::cout << "gaps " << seen.gaps << ", depths " << seen.depths << ", unfelt " << seen.unfelt << ", hits "
+              << seen.hits << ", misses " << seen.misses << "\n";
     const int pairs = seen.gaps + seen.depths, rays = seen.hits + seen.misses;
     EXPECT_GT(seen.gaps, pairs / 5);
     EXPECT_GT(seen.depths, pairs / 5);
+    EXPECT_LT(seen.unfelt, seen.depths / 2);
     EXPECT_GT(seen.hits, rays / 5);
     EXPECT_GT(seen.misses, rays / 10);
 }
@@ -265,8 +274,8 @@ TEST(MeshQuery, TerrainOfTwentyThousandTriangles) {
         const Vec3 from{random.uniform_float(-60, 60), random.uniform_float(-60, 60), random.uniform_float(3, 10)};
         check_raycast(view(placed), parts, {from, to_float(random.direction<3>()), 100}, seen);
     }
-    std::cout << "gaps " << seen.gaps << ", depths " << seen.depths << ", hits " << seen.hits << ", misses "
-              << seen.misses << "\n";
+    std::cout << "gaps " << seen.gaps << ", depths " << seen.depths << ", unfelt " << seen.unfelt << ", hits "
+              << seen.hits << ", misses " << seen.misses << "\n";
     EXPECT_GT(seen.gaps, 3);
     EXPECT_GT(seen.depths, 3);
     EXPECT_GT(seen.hits, 1);

@@ -1,0 +1,182 @@
+// Contacts of all parts with levels of every kind, against their parts one by one.
+
+#include "../oracle/pair.hpp"
+#include "levels.hpp"
+#include <abut/query/closest.hpp>
+#include <abut/query/each_contact.hpp>
+
+#include <gtest/gtest.h>
+
+namespace abut::test {
+
+/// The parts of a level without any order, each of them looked at.
+template <int D>
+struct OneByOne {
+    std::vector<LevelPart<D>> parts;
+};
+template <int D>
+Aabb<D> bounds(const OneByOne<D>& shape) {
+    Aabb<D> result = Aabb<D>::empty();
+    for (const LevelPart<D>& part : shape.parts) result = merged(result, bounds(part.view));
+    return result;
+}
+template <int D, class Visit>
+void each_part(const OneByOne<D>& shape, const Aabb<D>& box, Visit&& visit) {
+    for (const LevelPart<D>& part : shape.parts) {
+        const auto& convex = std::get<Convex<D>>(part.view);
+        if (overlaps(bounds(convex), box) && !visit(convex, part.index)) return;
+    }
+}
+
+namespace {
+
+constexpr float rounding = 2e-5f;
+
+template <int D>
+std::vector<Contact<D>> contacts_of(const View<D>& a, const View<D>& b, float margin) {
+    std::vector<Contact<D>> result;
+    each_contact(a, b, [&](const Contact<D>& contact) { result.push_back(contact); }, {.margin = margin});
+    return result;
+}
+
+template <int D>
+bool has_same_parts(const Contact<D>& one, const Contact<D>& other) {
+    return one.feature_a.part == other.feature_a.part && one.feature_b.part == other.feature_b.part;
+}
+/// The same contact, but for a few roundings.
+template <int D>
+bool is_same(const Contact<D>& one, const Contact<D>& other) {
+    return std::abs(one.depth - other.depth) < rounding && length(DVec<D>(one.normal) - DVec<D>(other.normal)) < 1e-3;
+}
+
+struct Counts {
+    int asked = 0, touching = 0, told = 0, own = 0, missed = 0, felt = 0, covered = 0, told_though_covered = 0;
+};
+
+/// Each contact of either list is in the other, of the same parts if it is one that the parts have by themselves. What
+/// is told in place of others may be told by another of them.
+template <int D>
+void expect_same(const std::vector<Contact<D>>& found, const std::vector<Contact<D>>& others, Counts& counts) {
+    for (const Contact<D>& contact : found) {
+        ++counts.told;
+        const bool has_it =
+            std::any_of(others.begin(), others.end(), [&](const Contact<D>& other) { return is_same(contact, other); });
+        counts.missed += has_it ? 0 : 1;
+    }
+}
+
+template <int D>
+void check_lists(const View<D>& level, const View<D>& one_by_one, const std::vector<LevelPart<D>>& parts,
+                 const View<D>& other, float margin, Counts& counts) {
+    const std::vector<Contact<D>> found = contacts_of(level, other, margin);
+    const std::vector<Contact<D>> expected = contacts_of(one_by_one, other, margin);
+    expect_same(found, expected, counts);
+    expect_same(expected, found, counts);
+    // What is told is of parts that touch, most with their own normal and depth.
+    for (const Contact<D>& contact : found) {
+        bool touches = false, own = false;
+        for (const LevelPart<D>& part : parts) {
+            if (part.index != contact.feature_a.part) continue;
+            const Contact<D> alone = abut::contact(part.view, other, {.margin = margin});
+            touches = touches || alone;
+            own = own || (alone && is_same(contact, alone));
+        }
+        EXPECT_TRUE(touches);
+        counts.own += own ? 1 : 0;
+    }
+    // Turned round there are as many.
+    if (!std::holds_alternative<Composite<D>>(other)) {
+        EXPECT_EQ(contacts_of(other, level, margin).size(), found.size());
+    }
+    ++counts.asked;
+    counts.touching += found.empty() ? 0 : 1;
+}
+
+/// Of a ball that has its center outside of all parts: by the words of the promise. A part's own normal is felt iff no
+/// other part is nearer to a point a thousandth of the size beside the surface.
+template <int D>
+void check_ball(const View<D>& level, const std::vector<LevelPart<D>>& parts, const Ball<D>& ball, Counts& counts) {
+    const auto distance_to = [&](const LevelPart<D>& part, const Vec<D>& point) {
+        return closest(part.view, point).distance;
+    };
+    for (const LevelPart<D>& part : parts)
+        if (distance_to(part, ball.center) < 0.05f * ball.radius) return;
+    const std::vector<Contact<D>> found = contacts_of(level, View<D>(view(ball)), 0);
+    const float s = 1e-3f * ball.radius;
+    for (const LevelPart<D>& part : parts) {
+        const Contact<D> alone = contact(part.view, ball);
+        if (!alone) continue;
+        const Vec<D> beside = closest(part.view, ball.center).on_a + alone.normal * s;
+        const float own = distance_to(part, beside);
+        // What is one-sided covers nothing behind it.
+        float others = std::numeric_limits<float>::infinity(), two_sided = others;
+        for (const LevelPart<D>& beyond : parts) {
+            if (&beyond == &part) continue;
+            const float distance = distance_to(beyond, beside);
+            others = std::min(others, distance);
+            if (!std::get<Convex<D>>(beyond.view).one_sided) two_sided = std::min(two_sided, distance);
+        }
+        const bool is_told = std::any_of(found.begin(), found.end(), [&](const Contact<D>& one) {
+            return one.feature_a.part == part.index && is_same(one, alone);
+        });
+        if (others > own + 0.1f * s) {
+            EXPECT_TRUE(is_told);
+            ++counts.felt;
+        } else if (two_sided < own - 0.1f * s) {
+            ++counts.covered;
+            // By chance, what is told in place of it may be the same.
+            counts.told_though_covered += is_told ? 1 : 0;
+        }
+    }
+}
+
+template <int D>
+void check_levels(std::uint32_t kind, int rounds) {
+    Counts counts;
+    for (int round = 0; round < rounds; ++round) {
+        SCOPED_TRACE("seed " + std::to_string(round) + ", kind " + std::to_string(kind));
+        oracle::Random random(static_cast<std::uint64_t>(round) * 5 + kind);
+        const Placing<D> placing = random_placing<D>(random);
+        const PlacedLevel<D> level(random_level<D>(random, kind), placing);
+        const OneByOne<D> one_by_one{level.level.parts};
+        const View<D> unordered = placing(View<D>(view(one_by_one)));
+        const Other<D> other = random_other<D>(random, level);
+        const float margin = random.chance(0.5) ? 0 : 0.05f;
+        check_lists<D>(level.view, unordered, level.parts, other.view, margin, counts);
+        for (int i = 0; i < 3; ++i) {
+            const Vec<D> center = near_some_part(random, level) + random_point<D>(random, 0.5);
+            check_ball<D>(level.view, level.parts, {center, random.uniform_float(0.1, 0.6)}, counts);
+        }
+        if (testing::Test::HasFatalFailure() || testing::Test::HasNonfatalFailure()) return;
+    }
+    // Where several tell of what isn't felt, which of them is told is up to the order.
+    EXPECT_LE(counts.missed, 0.01 * counts.told) << counts.told;
+    EXPECT_LE(counts.told_though_covered, 0.05 * counts.covered) << counts.covered;
+    // Not vacuous.
+    EXPECT_GT(counts.touching, 0.5 * counts.asked) << counts.asked;
+    EXPECT_GT(counts.own, 0.25 * counts.told) << counts.told;
+    EXPECT_GT(counts.felt, counts.asked);
+    EXPECT_GT(counts.covered, 0.4 * counts.asked) << counts.asked;
+}
+
+TEST(LevelContacts, OfChainsAgreeWithTryingAllSegments) {
+    check_levels<2>(0, oracle::amount(150));
+}
+TEST(LevelContacts, OfTileMapsAgreeWithTryingAllTiles) {
+    check_levels<2>(1, oracle::amount(100));
+}
+TEST(LevelContacts, OfCompoundsOfThePlaneAgreeWithTryingAllParts) {
+    check_levels<2>(2, oracle::amount(100));
+}
+TEST(LevelContacts, OfHeightFieldsAgreeWithTryingAllTriangles) {
+    check_levels<3>(0, oracle::amount(60));
+}
+TEST(LevelContacts, OfMeshesAgreeWithTryingAllTriangles) {
+    check_levels<3>(1, oracle::amount(60));
+}
+TEST(LevelContacts, OfCompoundsInSpaceAgreeWithTryingAllParts) {
+    check_levels<3>(2, oracle::amount(60));
+}
+
+}  // namespace
+}  // namespace abut::test
