@@ -11,23 +11,6 @@
 namespace abut {
 namespace {
 
-bool set_outline(const Given<2>& given, Outline& outline) {
-    switch (given.kind) {
-        case ShapeKind::ball:
-            return set_outline_of<ShapeKind::ball>(given, outline);
-        case ShapeKind::capsule:
-            return set_outline_of<ShapeKind::capsule>(given, outline);
-        case ShapeKind::segment:
-            return set_outline_of<ShapeKind::segment>(given, outline);
-        case ShapeKind::triangle:
-            return set_outline_of<ShapeKind::triangle>(given, outline);
-        case ShapeKind::box:
-            return set_outline_of<ShapeKind::box>(given, outline);
-        default:
-            return set_outline_of<ShapeKind::polytope>(given, outline);
-    }
-}
-
 /// A sum is finite only where all its terms are; the rest of an outline follows from these.
 inline double sum_of(const Outline& outline, ShapeKind kind) {
     const Rigid2& place = outline.place;

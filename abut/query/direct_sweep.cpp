@@ -37,13 +37,13 @@ private:
 };
 
 template <class Core>
-struct Mover {
+struct Moving {
     Placed<Core> shape;
     Both motion;
     double radius = 0;
 
-    Mover(const Given<2>& given, const Vec2& moves) : shape(given), motion(lanes::loaded(&moves.x)) {}
-    Mover(ShapeKind kind, const Outline& outline, const Vec2& moves)
+    Moving(const Given<2>& given, const Vec2& moves) : shape(given), motion(lanes::loaded(&moves.x)) {}
+    Moving(ShapeKind kind, const Outline& outline, const Vec2& moves)
         : shape(Core(kind, outline.sides), outline.place), motion(lanes::loaded(&moves.x)), radius(outline.radius) {}
 
     Both arm(std::uint32_t corner) const { return shape.place.vector(shape.core.corner(corner)) * shape.place.scale; }
@@ -129,7 +129,7 @@ inline void write(double time, const Way& way, Both point, Both normal, Hit<2>& 
 template <class Core>
 class SideTouch {
 public:
-    SideTouch(const Mover<Core>& reference, const Mover<Core>& other, const Passage& passage, const Way& way)
+    SideTouch(const Moving<Core>& reference, const Moving<Core>& other, const Passage& passage, const Way& way)
         : reference_(reference), other_(other), passage_(passage), way_(way) {}
 
     DirectAnswer tell(std::optional<Hit<2>>& result) const {
@@ -169,7 +169,7 @@ private:
         return out * lanes::both(towards_b[passage_.of]);
     }
     /// By the two corners, or the one told twice, of a place on B.
-    static void name(const Mover<Core>& b, std::uint32_t i, std::uint32_t j, Hit<2>& hit) {
+    static void name(const Moving<Core>& b, std::uint32_t i, std::uint32_t j, Hit<2>& hit) {
         name_end_or_edge<2>({b.shape.core.number(i), b.shape.core.number(j)}, 0, hit.feature);
     }
 
@@ -224,13 +224,13 @@ private:
         return DirectAnswer::yes;
     }
 
-    const Mover<Core>&reference_, &other_;
+    const Moving<Core>&reference_, &other_;
     const Passage& passage_;
     const Way& way_;
 };
 
 template <class Core>
-DirectAnswer sweep_movers(Mover<Core>& a, Mover<Core>& b, std::optional<Hit<2>>& result) {
+DirectAnswer sweep_moving(Moving<Core>& a, Moving<Core>& b, std::optional<Hit<2>>& result) {
     if (!set_scales(a.shape.place, b.shape.place)) return DirectAnswer::unknown;
     Rigid2 seen[2];
     set_seen(a.shape, b.shape, seen);
@@ -255,8 +255,8 @@ DirectAnswer sweep_movers(Mover<Core>& a, Mover<Core>& b, std::optional<Hit<2>>&
 template <class Core>
 DirectAnswer sweep_cores(const Given<2>& given_a, const Vec2& motion_a, const Given<2>& given_b, const Vec2& motion_b,
                          std::optional<Hit<2>>& result) {
-    Mover<Core> a(given_a, motion_a), b(given_b, motion_b);
-    return sweep_movers(a, b, result);
+    Moving<Core> a(given_a, motion_a), b(given_b, motion_b);
+    return sweep_moving(a, b, result);
 }
 
 /// A box of no width about a segment, or of no size about a point.
@@ -286,12 +286,8 @@ bool set_moving_outline(const Given<2>& given, Outline& outline) {
             set_stick(place_of(given).point(DVec<2>(segment.a)), place_of(given).point(DVec<2>(segment.b)), outline);
             return true;
         }
-        case ShapeKind::triangle:
-            return set_outline_of<ShapeKind::triangle>(given, outline);
-        case ShapeKind::box:
-            return set_outline_of<ShapeKind::box>(given, outline);
         default:
-            return set_outline_of<ShapeKind::polytope>(given, outline);
+            return set_outline(given, outline);
     }
 }
 
@@ -300,8 +296,8 @@ DirectAnswer sweep_outlines(const Given<2>& given_a, const Vec2& motion_a, const
     Outline outline_a, outline_b;
     if (!set_moving_outline(given_a, outline_a) || !set_moving_outline(given_b, outline_b))
         return DirectAnswer::unknown;
-    Mover<OutlineCore> a(given_a.kind, outline_a, motion_a), b(given_b.kind, outline_b, motion_b);
-    return sweep_movers(a, b, result);
+    Moving<OutlineCore> a(given_a.kind, outline_a, motion_a), b(given_b.kind, outline_b, motion_b);
+    return sweep_moving(a, b, result);
 }
 
 inline Both center_of(const Given<2>& given) {

@@ -54,4 +54,22 @@ inline bool set_outline_of(const Given<2>& given, Outline& outline) {
     return true;
 }
 
+/// Of any kind. False where it has none.
+inline bool set_outline(const Given<2>& given, Outline& outline) {
+    switch (given.kind) {
+        case ShapeKind::ball:
+            return set_outline_of<ShapeKind::ball>(given, outline);
+        case ShapeKind::capsule:
+            return set_outline_of<ShapeKind::capsule>(given, outline);
+        case ShapeKind::segment:
+            return set_outline_of<ShapeKind::segment>(given, outline);
+        case ShapeKind::triangle:
+            return set_outline_of<ShapeKind::triangle>(given, outline);
+        case ShapeKind::box:
+            return set_outline_of<ShapeKind::box>(given, outline);
+        default:
+            return set_outline_of<ShapeKind::polytope>(given, outline);
+    }
+}
+
 }  // namespace abut

@@ -62,12 +62,20 @@ bool aim(const Composite<3>& composite, const QueryOptions<3>& options, Target& 
     return true;
 }
 
-/// Where no closed form decides.
-bool hit_by_advance(const Beam<3>& beam, double most, const Convex<3>& triangle, Trace<3>* trace, RayEntry<3>& entry) {
-    PartHit<3> hit;
-    if (!part_hit_by_advance({beam.origin, beam.direction, most}, triangle, 0, trace, hit)) return false;
-    entry = {RayAnswer::enters, hit.along, hit.normal, hit.feature.kind, hit.feature.index};
-    return true;
+/// Decides where no closed form does; `part_of` places a triangle in the world.
+template <class PartOf>
+auto by_advance(const Beam<3>& beam, const PartOf& part_of, Trace<3>* trace) {
+    return [&beam, part_of, trace](const Triangle3& triangle, double most, RayEntry<3>& entry) {
+        PartHit<3> hit;
+        if (!part_hit_by_advance({beam.origin, beam.direction, most}, part_of(triangle), 0, trace, hit)) return false;
+        entry = {RayAnswer::enters, hit.along, hit.normal, hit.feature.kind, hit.feature.index};
+        return true;
+    };
+}
+
+/// The triangles of a composite.
+auto parts_of(const Composite<3>& composite) {
+    return [&composite](const Triangle3& triangle) { return placed(convex(triangle), composite); };
 }
 
 PartHit<3> part_hit(const RayEntry<3>& entry, std::uint32_t triangle) {
@@ -80,9 +88,7 @@ bool first_triangle_hit(const Beam<3>& beam, const Composite<3>& composite, cons
                         PartHit<3>& first, bool& found) {
     Target target{beam};
     if (!aim(composite, options, target)) return false;
-    const auto undecided = [&](const Triangle3& triangle, double most, RayEntry<3>& entry) {
-        return hit_by_advance(beam, most, placed(convex(triangle), composite), options.trace, entry);
-    };
+    const auto undecided = by_advance(beam, parts_of(composite), options.trace);
     MeshHit hit;
     if (!find_first_hit(*composite.triangles, target.mesh_beam(), UndecidedTriangle(undecided), hit)) return false;
     found = hit.triangle != nullptr;
@@ -94,9 +100,7 @@ bool each_triangle_hit(const Beam<3>& beam, const Composite<3>& composite, const
                        HitVisitor visit) {
     Target target{beam};
     if (!aim(composite, options, target)) return false;
-    const auto undecided = [&](const Triangle3& triangle, double most, RayEntry<3>& entry) {
-        return hit_by_advance(beam, most, placed(convex(triangle), composite), options.trace, entry);
-    };
+    const auto undecided = by_advance(beam, parts_of(composite), options.trace);
     const auto tell = [&](const RayEntry<3>& entry, std::uint32_t triangle) {
         return visit(part_hit(entry, triangle));
     };
@@ -109,9 +113,8 @@ std::optional<Hit<3>> raycast(const Ray<3>& ray, const Mesh& mesh, const QueryOp
     ABUT_ASSERT(finite);
     if (!finite) return result;
     const Beam<3> beam = beam_of(ray);
-    const auto undecided = [&](const Triangle3& triangle, double most, RayEntry<3>& entry) {
-        return hit_by_advance(beam, most, convex(triangle), options.trace, entry);
-    };
+    const auto undecided = by_advance(
+        beam, [](const Triangle3& triangle) { return convex(triangle); }, options.trace);
     const MeshBeam seen{beam, beam, 1, 0, nullptr, options.back_faces ? 0.0 : 1.0};
     MeshHit first;
     if (!find_first_hit(triangle_tree(mesh), seen, UndecidedTriangle(undecided), first)) {

@@ -1,6 +1,7 @@
 // Questions to a world, with answers worked out by hand; each asked before the update that takes the items into the
 // trees, and again after it.
 
+#include "before_and_after.hpp"
 #include "bits.hpp"
 #include "random_shapes.hpp"
 #include <abut/world/world.hpp>
@@ -9,20 +10,6 @@
 
 namespace abut::test {
 namespace {
-
-/// Runs the checks on the world as it is, and once more after an update.
-template <int D, class Check>
-void before_and_after_update(World<D>& world, Check check) {
-    {
-        SCOPED_TRACE("before the update");
-        check();
-    }
-    world.update();
-    {
-        SCOPED_TRACE("after the update");
-        check();
-    }
-}
 
 Pose2 place(float x, float y = 0) {
     return {{x, y}};

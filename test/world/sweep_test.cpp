@@ -1,6 +1,7 @@
 // Sweeps through a world: examples worked out by hand, and every item asked by itself.
 
 #include "../oracle/pair.hpp"
+#include "before_and_after.hpp"
 #include "bits.hpp"
 #include "simulation.hpp"
 #include <abut/query/sweep.hpp>
@@ -21,20 +22,6 @@ const Circle unit{{0, 0}, 1};
 
 Pose2 place(float x, float y = 0) {
     return {{x, y}};
-}
-
-/// Runs the checks on the world as it is, and once more after an update.
-template <int D, class Check>
-void before_and_after_update(World<D>& world, Check check) {
-    {
-        SCOPED_TRACE("before the update");
-        check();
-    }
-    world.update();
-    {
-        SCOPED_TRACE("after the update");
-        check();
-    }
 }
 
 TEST(WorldSweep, HitsTheFirstOnItsWay) {
