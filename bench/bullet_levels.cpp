@@ -40,19 +40,25 @@ struct BulletLevel {
         for (const Pose3& pose : scene.poses) poses.push_back(to_bullet(pose));
     }
 
-    bool touches(std::size_t i) {
-        struct Any final : btCollisionWorld::ContactResultCallback {
-            btScalar addSingleResult(btManifoldPoint& point, const btCollisionObjectWrapper*, int, int,
-                                     const btCollisionObjectWrapper*, int, int) override {
-                found = found || point.getDistance() <= 0;
+    /// How many triangles it touches. The points of one follow one another.
+    int touched(std::size_t i) {
+        struct Count final : btCollisionWorld::ContactResultCallback {
+            explicit Count(const btCollisionObject* of) : ground(of) {}
+            btScalar addSingleResult(btManifoldPoint& point, const btCollisionObjectWrapper* first, int, int of_first,
+                                     const btCollisionObjectWrapper*, int, int of_second) override {
+                const int triangle = first->getCollisionObject() == ground ? of_first : of_second;
+                if (point.getDistance() > 0 || triangle == last) return 0;
+                last = triangle;
+                ++found;
                 return 0;
             }
-            bool found = false;
+            const btCollisionObject* ground;
+            int found = 0, last = -1;
         };
         thing.setWorldTransform(poses[i]);
-        Any any;
-        world.contactPairTest(&thing, &ground, any);
-        return any.found;
+        Count count(&ground);
+        world.contactPairTest(&thing, &ground, count);
+        return count.found;
     }
 
     std::vector<Vec3> points;
@@ -72,7 +78,12 @@ struct BulletLevel {
 
 Side bullet_level_overlaps(const SharedLevelScene& scene) {
     return {"bullet", [level = std::make_shared<BulletLevel>(*scene)](std::span<double> values) {
-                for (std::size_t i = 0; i < values.size(); ++i) values[i] = level->touches(i) ? 1 : 0;
+                for (std::size_t i = 0; i < values.size(); ++i) values[i] = level->touched(i) > 0 ? 1 : 0;
+            }};
+}
+Side bullet_level_contacts(const SharedLevelScene& scene) {
+    return {"bullet", [level = std::make_shared<BulletLevel>(*scene)](std::span<double> values) {
+                for (std::size_t i = 0; i < values.size(); ++i) values[i] = level->touched(i);
             }};
 }
 

@@ -36,25 +36,40 @@ struct FclLevel {
         for (const Pose3& pose : scene.poses) poses.push_back(to_fcl(pose) * own_frame);
     }
 
-    bool touches(std::size_t i) const {
-        const fcl::CollisionRequestd request(1, false);
-        fcl::CollisionResultd result;
-        return fcl::collide<double>(model.get(), fcl::Transform3d::Identity(), shape.get(), poses[i], request, result) >
-               0;
+    /// How many triangles it touches; no more are looked for than `most`.
+    std::size_t touched(std::size_t i, std::size_t most, bool with_places) {
+        const fcl::CollisionRequestd request(most, with_places);
+        result.clear();
+        return fcl::collide<double>(model.get(), fcl::Transform3d::Identity(), shape.get(), poses[i], request, result);
     }
 
+    fcl::CollisionResultd result;  ///< its memory stays
     std::shared_ptr<Model> model;
     std::shared_ptr<fcl::CollisionGeometryd> shape;
     fcl::Transform3d own_frame;
     std::vector<fcl::Transform3d> poses;
 };
 
+/// More than there are to find.
+constexpr std::size_t all = 1000000;
+
+Side touching(const SharedLevelScene& scene, std::size_t most, bool with_places) {
+    return {"fcl", [level = std::make_shared<FclLevel>(*scene), most, with_places](std::span<double> values) {
+                for (std::size_t i = 0; i < values.size(); ++i)
+                    values[i] = static_cast<double>(level->touched(i, most, with_places));
+            }};
+}
+
 }  // namespace
 
 Side fcl_level_overlaps(const SharedLevelScene& scene) {
-    return {"fcl", [level = std::make_shared<FclLevel>(*scene)](std::span<double> values) {
-                for (std::size_t i = 0; i < values.size(); ++i) values[i] = level->touches(i) ? 1 : 0;
-            }};
+    return touching(scene, 1, false);
+}
+Side fcl_level_contacts(const SharedLevelScene& scene) {
+    return touching(scene, all, true);
+}
+Side fcl_level_touched(const SharedLevelScene& scene) {
+    return touching(scene, all, false);
 }
 
 }  // namespace abut::bench

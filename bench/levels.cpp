@@ -1,11 +1,17 @@
-// A box and a capsule at a terrain of a hundred thousand triangles: does it touch anything? Half of them do.
+// A box and a capsule at a terrain of a hundred thousand triangles: does it touch anything, and what, and where? Half
+// of them touch something.
 
 #include "levels.hpp"
 
 #include "../scenes/terrain.hpp"
+#include <abut/query/contact.hpp>
+#include <abut/query/each_contact.hpp>
 #include <abut/query/overlaps.hpp>
 #include <abut/shape/mesh.hpp>
 #include <abut/shape/placed.hpp>
+
+#include <algorithm>
+#include <limits>
 
 namespace abut::bench {
 
@@ -44,18 +50,80 @@ Job overlaps_at_all(const SharedLevelScene& scene) {
     return {.items = query_count, .values = query_count, .sides = {ours, bullet, fcl}};
 }
 
+/// Visits the triangles that it touches one by one, whatever is told of their surface as a whole.
+template <class Shape, class Visit>
+void each_touched(const Shape& shape, const Mesh& mesh, Visit&& visit) {
+    each_part(mesh, bounds(shape), [&](const Triangle3& triangle, std::uint32_t index) {
+        if (overlaps(shape, triangle)) visit(index);
+        return true;
+    });
+}
+
+/// How many of the triangles touched each_contact leaves out: those that the peers tell of and it doesn't, as their
+/// normals are not the ground's. NaN, which nothing agrees with, where it tells of one that isn't touched, or twice.
+template <class Shape>
+double ghosts_of(const Shape& shape, const Mesh& mesh) {
+    std::vector<std::uint32_t> touched;
+    each_touched(shape, mesh, [&](std::uint32_t index) { touched.push_back(index); });
+    bool all_are_touched = true;
+    each_contact(shape, mesh, [&](const Contact<3>& contact) {
+        all_are_touched = all_are_touched && std::erase(touched, contact.feature_b.part) == 1;
+    });
+    return all_are_touched ? static_cast<double>(touched.size()) : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// All contacts, with places, normals and depths. Every side tells how many triangles are touched; abut has its ghosts,
+/// which were counted before, added to what it finds.
+Job contacts(const SharedLevelScene& scene) {
+    const Mesh mesh = *Mesh::build(scene->points, scene->triangles);
+    std::vector<double> ghosts;
+    std::visit(
+        [&](const auto& shape) {
+            for (const Pose3& pose : scene->poses) ghosts.push_back(ghosts_of(at(shape, pose), mesh));
+        },
+        scene->shape);
+    const Side ours{"abut", [scene, mesh, ghosts = std::move(ghosts)](std::span<double> values) {
+                        const auto ask = [&](const auto& shape) {
+                            for (std::size_t i = 0; i < values.size(); ++i) {
+                                values[i] = ghosts[i];
+                                each_contact(at(shape, scene->poses[i]), mesh, [&](const Contact<3>&) { ++values[i]; });
+                            }
+                        };
+                        std::visit(ask, scene->shape);
+                    }};
+    Side bullet = bullet_level_contacts(scene), fcl = fcl_level_contacts(scene);
+    bullet.strays = fcl.strays = few;
+    return {.items = query_count, .values = query_count, .sides = {ours, bullet, fcl}};
+}
+
+/// Which triangles are touched, and no more.
+Job touched(const SharedLevelScene& scene) {
+    const Side ours{"abut", [scene, mesh = *Mesh::build(scene->points, scene->triangles)](std::span<double> values) {
+                        const auto ask = [&](const auto& shape) {
+                            for (std::size_t i = 0; i < values.size(); ++i) {
+                                values[i] = 0;
+                                each_touched(at(shape, scene->poses[i]), mesh, [&](std::uint32_t) { ++values[i]; });
+                            }
+                        };
+                        std::visit(ask, scene->shape);
+                    }};
+    Side fcl = fcl_level_touched(scene);
+    fcl.strays = few;
+    return {.items = query_count, .values = query_count, .sides = {ours, fcl}};
+}
+
 }  // namespace
 
 std::vector<Bench> level_benches() {
+    const auto box = [] { return scene_of(Box3{{0, 0, 0}, {1, 0.75f, 0.5f}}); };
+    const auto capsule = [] { return scene_of(Capsule3{{0, -0.5f, 0}, {0, 0.5f, 0}, 0.5f}); };
     return {
-        {"levels/overlaps/terrain/100k/box",
-         [] {
-             return overlaps_at_all(scene_of(Box3{{0, 0, 0}, {1, 0.75f, 0.5f}}));
-         }},
-        {"levels/overlaps/terrain/100k/capsule",
-         [] {
-             return overlaps_at_all(scene_of(Capsule3{{0, -0.5f, 0}, {0, 0.5f, 0}, 0.5f}));
-         }},
+        {"levels/overlaps/terrain/100k/box", [=] { return overlaps_at_all(box()); }},
+        {"levels/overlaps/terrain/100k/capsule", [=] { return overlaps_at_all(capsule()); }},
+        {"levels/touched/terrain/100k/box", [=] { return touched(box()); }},
+        {"levels/touched/terrain/100k/capsule", [=] { return touched(capsule()); }},
+        {"levels/contacts/terrain/100k/box", [=] { return contacts(box()); }},
+        {"levels/contacts/terrain/100k/capsule", [=] { return contacts(capsule()); }},
     };
 }
 

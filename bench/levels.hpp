@@ -29,4 +29,11 @@ Side bullet_level_overlaps(const SharedLevelScene& scene);
 /// One contact, without its place.
 Side fcl_level_overlaps(const SharedLevelScene& scene);
 
+/// All contacts with their places, as contactPairTest tells them; how many triangles have some.
+Side bullet_level_contacts(const SharedLevelScene& scene);
+/// All contacts, one a triangle.
+Side fcl_level_contacts(const SharedLevelScene& scene);
+/// The same without their places.
+Side fcl_level_touched(const SharedLevelScene& scene);
+
 }  // namespace abut::bench
