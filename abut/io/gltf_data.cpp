@@ -1,3 +1,4 @@
+#include <abut/io/base64.hpp>
 #include <abut/io/file_bytes.hpp>
 #include <abut/io/gltf_data.hpp>
 
@@ -80,15 +81,6 @@ std::string text(const char* array, std::uint32_t index) {
     return std::string(array) + "[" + std::to_string(index) + "]";
 }
 
-int digit(char c) {
-    if (c >= 'A' && c <= 'Z') return c - 'A';
-    if (c >= 'a' && c <= 'z') return c - 'a' + 26;
-    if (c >= '0' && c <= '9') return c - '0' + 52;
-    if (c == '+' || c == '-') return 62;
-    if (c == '/' || c == '_') return 63;
-    return -1;
-}
-
 int hex_digit(char c) {
     if (c >= '0' && c <= '9') return c - '0';
     if (c >= 'a' && c <= 'f') return c - 'a' + 10;
@@ -124,25 +116,6 @@ Result<std::vector<std::byte>> fetch(const std::string& uri, const std::filesyst
 }
 
 }  // namespace
-
-Result<std::vector<std::byte>> decode_base64(std::string_view text) {
-    while (!text.empty() && text.back() == '=') text.remove_suffix(1);
-    std::vector<std::byte> bytes;
-    bytes.reserve(text.size() / 4 * 3 + 3);
-    std::uint32_t held = 0;
-    int bits = 0;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const int value = digit(text[i]);
-        if (value < 0) return Problem{ProblemCode::bad_format, "base64: bad character at byte " + std::to_string(i), i};
-        held = (held << 6 | static_cast<std::uint32_t>(value)) & 0xffff;
-        bits += 6;
-        if (bits >= 8) {
-            bits -= 8;
-            bytes.push_back(static_cast<std::byte>(held >> bits & 0xff));
-        }
-    }
-    return bytes;
-}
 
 Data::Data(const Document& document, std::filesystem::path folder)
     : document_(document),

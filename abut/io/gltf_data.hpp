@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
-#include <string_view>
 #include <vector>
 
 namespace abut::gltf {
@@ -40,8 +39,5 @@ private:
     std::vector<std::vector<std::byte>> fetched_;
     std::vector<bool> is_fetched_;
 };
-
-/// The bytes of base64 text.
-Result<std::vector<std::byte>> decode_base64(std::string_view text);
 
 }  // namespace abut::gltf

@@ -1,0 +1,72 @@
+#include <abut/io/file_bytes.hpp>
+#include <abut/io/inflate.hpp>
+#include <abut/io/read_level.hpp>
+#include <abut/io/read_svg.hpp>
+#include <abut/io/read_tiled.hpp>
+
+#include <string>
+#include <system_error>
+#include <vector>
+
+namespace abut {
+namespace {
+
+// A text of so many bytes becomes a tree of ten times as many.
+constexpr std::size_t most_bytes = std::size_t{256} << 20;
+
+std::string lower(std::string text) {
+    for (char& c : text)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return text;
+}
+
+Problem too_large(std::uintmax_t bytes) {
+    return {ProblemCode::too_large,
+            "has " + std::to_string(bytes >> 20) + " MB; the limit is " + std::to_string(most_bytes >> 20) + " MB"};
+}
+
+Result<std::vector<std::byte>> limited_file_bytes(const std::filesystem::path& file) {
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(file, error);
+    if (!error && size > most_bytes) return too_large(size);
+    return file_bytes(file);
+}
+
+bool is_gzip(std::span<const std::byte> bytes) {
+    return bytes.size() > 2 && bytes[0] == std::byte{0x1f} && bytes[1] == std::byte{0x8b};
+}
+
+}  // namespace
+
+bool is_level(const std::filesystem::path& file) {
+    const std::string extension = lower(file.extension().string());
+    for (const char* known : {".tmx", ".tmj", ".json", ".svg", ".svgz"})
+        if (extension == known) return true;
+    return false;
+}
+
+Result<Level> read_level(std::span<const std::byte> bytes, std::string_view extension, tiled::OpenFile open,
+                         const LevelOptions& options) {
+    const std::string ending = lower(std::string(extension));
+    if (bytes.empty()) return Problem{ProblemCode::empty_input, "is empty"};
+    if (bytes.size() > most_bytes) return too_large(bytes.size());
+    if (options.tolerance && !(*options.tolerance > 0))
+        return Problem{ProblemCode::bad_argument, "the tolerance must be above zero"};
+    if (ending == ".tmx" || ending == ".tmj" || ending == ".json") return read_tiled(bytes, open);
+    if (ending != ".svg" && ending != ".svgz")
+        return Problem{ProblemCode::bad_format, "'" + ending + "' is not a known format of levels"};
+    if (!is_gzip(bytes)) return read_svg(bytes, options.tolerance);
+    const Result<std::vector<std::byte>> whole = inflated(bytes, most_bytes);
+    if (!whole) return whole.problem();
+    return read_svg(*whole, options.tolerance);
+}
+
+Result<Level> read_level(const std::filesystem::path& file, const LevelOptions& options) {
+    const Result<std::vector<std::byte>> bytes = limited_file_bytes(file);
+    if (!bytes) return bytes.problem();
+    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+    const auto open = [&](const std::string& name) { return limited_file_bytes(folder / name); };
+    return read_level(*bytes, file.extension().string(), open, options);
+}
+
+}  // namespace abut
