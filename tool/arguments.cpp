@@ -36,15 +36,22 @@ Result<std::size_t> parse_frames(const std::string& text) {
     return frames;
 }
 
-Result<Vec3> parse_point(const std::string& text) {
-    const std::size_t first = text.find(','), second = text.find(',', first == std::string::npos ? first : first + 1);
-    Vec3 point{};
-    const bool is_point = second != std::string::npos && parse(text.substr(0, first), point.x) &&
-                          parse(text.substr(first + 1, second - first - 1), point.y) &&
-                          parse(text.substr(second + 1), point.z) && is_finite(point);
-    if (!is_point) return bad(text, "a point, three numbers with commas between them: X,Y,Z");
-    return point;
+template <int D>
+Result<Vec<D>> parse_point(const std::string& text) {
+    Vec<D> point{};
+    std::size_t first = 0;
+    bool is_point = true;
+    for (int i = 0; i < D; ++i) {
+        const std::size_t comma = i + 1 < D ? text.find(',', first) : text.size();
+        is_point = is_point && comma != std::string::npos && parse(text.substr(first, comma - first), point[i]);
+        first = is_point ? comma + 1 : 0;
+    }
+    if (is_point && is_finite(point)) return point;
+    return bad(text, D == 2 ? "a point of a level, two numbers with a comma between them: X,Y"
+                            : "a point, three numbers with commas between them: X,Y,Z");
 }
+template Result<Vec<2>> parse_point<2>(const std::string& text);
+template Result<Vec<3>> parse_point<3>(const std::string& text);
 
 Result<std::size_t> parse_bounces(const std::string& text) {
     std::size_t bounces = 0;

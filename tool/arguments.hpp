@@ -16,8 +16,9 @@ Result<float> parse_length(const std::string& text);
 /// A number of frames, 1 to a million.
 Result<std::size_t> parse_frames(const std::string& text);
 
-/// X,Y,Z: three finite numbers.
-Result<Vec3> parse_point(const std::string& text);
+/// X,Y or X,Y,Z: as many finite numbers as there are dimensions.
+template <int D>
+Result<Vec<D>> parse_point(const std::string& text);
 
 /// How often a ray is thrown back, 1 to a hundred thousand.
 Result<std::size_t> parse_bounces(const std::string& text);

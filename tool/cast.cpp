@@ -4,11 +4,12 @@ namespace abut::tool {
 namespace {
 
 /// The first hit on each thing, while the ray goes on to its end.
-CastResult go_through(const World3& world, const Ray3& ray) {
-    CastResult result;
+template <int D>
+CastResult<D> go_through(const World<D>& world, const Ray<D>& ray) {
+    CastResult<D> result;
     result.last = ray;
     float come = 0;
-    for (WorldHit<3>& hit : world.raycast_all(ray)) {
+    for (WorldHit<D>& hit : world.raycast_all(ray)) {
         const float travelled = hit.hit.distance;
         result.last.length = hit.hit.distance = travelled - come;
         result.hits.push_back({world.user(hit.id), result.last, hit.hit, static_cast<double>(travelled)});
@@ -19,10 +20,11 @@ CastResult go_through(const World3& world, const Ray3& ray) {
 }
 
 /// From hit to hit, thrown back by each.
-CastResult bounce(const World3& world, const Ray3& ray, std::size_t bounces, ProgressCall progress) {
-    CastResult result;
+template <int D>
+CastResult<D> bounce(const World<D>& world, const Ray<D>& ray, std::size_t bounces, ProgressCall progress) {
+    CastResult<D> result;
     double travelled = 0;
-    result.last = follow_laser(world, ray, [&](const Ray3& piece, const WorldHit<3>& hit) {
+    result.last = follow_laser(world, ray, [&](const Ray<D>& piece, const WorldHit<D>& hit) {
         travelled += static_cast<double>(hit.hit.distance);
         result.hits.push_back({world.user(hit.id), piece, hit.hit, travelled});
         progress(result.hits.size(), bounces + 1);
@@ -33,19 +35,22 @@ CastResult bounce(const World3& world, const Ray3& ray, std::size_t bounces, Pro
 
 }  // namespace
 
-CastResult cast(const Objects& objects, const CastOptions& options, ProgressCall progress) {
-    World3 world;
+template <int D>
+CastResult<D> cast(const Objects<D>& objects, const CastOptions<D>& options, ProgressCall progress) {
+    World<D> world;
     for (std::size_t i = 0; i < objects.size(); ++i)
         if (objects[i].present) world.add(objects[i].placed, {.user = i});
 
-    Ray3 ray = Ray3::between(options.from, options.to);
+    Ray<D> ray = Ray<D>::between(options.from, options.to);
     if (options.bounces > 0) ray.length = std::numeric_limits<float>::infinity();
-    CastResult result = options.all ? go_through(world, ray) : bounce(world, ray, options.bounces, progress);
+    CastResult<D> result = options.all ? go_through(world, ray) : bounce(world, ray, options.bounces, progress);
     if (!options.all && result.hits.size() > options.bounces)
         result.end = result.hits.back().hit.point;
     else if (options.bounces == 0)
         result.end = options.to;
     return result;
 }
+template CastResult<2> cast(const Objects<2>& objects, const CastOptions<2>& options, ProgressCall progress);
+template CastResult<3> cast(const Objects<3>& objects, const CastOptions<3>& options, ProgressCall progress);
 
 }  // namespace abut::tool

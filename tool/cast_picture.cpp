@@ -14,25 +14,27 @@ constexpr Style beam{{225, 29, 72}, 2}, unreached{{225, 29, 72, 130}, 1.5f, tran
 constexpr Color background{248, 250, 252};
 constexpr double picture_width = 1200;  // pixels, or height where that is more
 
-// Of an object of more triangles the box is drawn: it would be a blot, and a file of many megabytes.
-constexpr std::size_t most_triangles = 5000;
+// Of an object of more parts the box is drawn: it would be a blot, and a file of many megabytes.
+constexpr std::size_t most_parts = 5000;
 
 // All corners of the ray, and a piece of what goes on without end.
-std::vector<Vec3> corners(const CastReport& report) {
-    std::vector<Vec3> points{report.options.from, report.options.to};
-    for (const CastHit& hit : report.result.hits) points.push_back(hit.hit.point);
+template <int D>
+std::vector<Vec<D>> corners(const CastReport<D>& report) {
+    std::vector<Vec<D>> points{report.options.from, report.options.to};
+    for (const CastHit<D>& hit : report.result.hits) points.push_back(hit.hit.point);
     return points;
 }
 
 // What of the world is shown: the ray with some room about it.
-Aabb3 surroundings(const std::vector<Vec3>& points) {
-    Aabb3 box = Aabb3::empty();
-    for (const Vec3& point : points) box = merged(box, Aabb3{point, point});
-    return grown(box, 0.15f * static_cast<float>(length(DVec<3>(box.max) - DVec<3>(box.min))));
+template <int D>
+Aabb<D> surroundings(const std::vector<Vec<D>>& points) {
+    Aabb<D> box = Aabb<D>::empty();
+    for (const Vec<D>& point : points) box = merged(box, Aabb<D>{point, point});
+    return grown(box, 0.15f * static_cast<float>(length(DVec<D>(box.max) - DVec<D>(box.min))));
 }
 
 // From the side of the ray, so that it is seen at its whole length, and somewhat from above.
-Vec3 towards_eye(const CastOptions& options) {
+Vec3 towards_eye(const CastOptions<3>& options) {
     const DVec<3> along = DVec<3>(options.to) - DVec<3>(options.from);
     const DVec<3> level = normalized(DVec<3>(-along.z, 0, along.x), axis<3>(2));
     return to_float(normalized(level + DVec<3>(0, 0.6, 0)));
@@ -58,42 +60,83 @@ Aabb2 seen(const Aabb3& box, const Vec3& eye) {
     return result;
 }
 
-void draw_object(Canvas<3>& canvas, const Objects& objects, const Object& object, const Style& style) {
+template <int D>
+void draw_object(Canvas<D>& canvas, const Object<D>& object, const Style& style) {
     if (!object.present || !overlaps(object.box, canvas.shown())) return;
-    if (objects.model_of(object).surface.triangles.size() > most_triangles)
+    if (object.parts > most_parts)
         draw(canvas, object.box, style);
     else
         draw(canvas, object.placed, style);
 }
 
-void draw_ray(Canvas<3>& canvas, const CastReport& report) {
-    const CastResult& result = report.result;
-    for (const CastHit& hit : result.hits) draw(canvas, Ray3::between(hit.ray.origin, hit.hit.point), beam);
+template <int D>
+void draw_ray(Canvas<D>& canvas, const CastReport<D>& report) {
+    const CastResult<D>& result = report.result;
+    for (const CastHit<D>& hit : result.hits) draw(canvas, Ray<D>::between(hit.ray.origin, hit.hit.point), beam);
     if (result.hits.empty() || !result.end) draw(canvas, result.last, beam);
     if (report.options.bounces == 0 && !result.hits.empty())
         canvas.line(result.hits.back().hit.point, report.options.to, unreached);
     canvas.point(report.options.from, beam);
     canvas.point(report.options.to, unreached);
-    for (const CastHit& hit : result.hits) draw(canvas, hit.hit, beam);
+    for (const CastHit<D>& hit : result.hits) draw(canvas, hit.hit, beam);
+}
+
+template <int D>
+void draw_all(Canvas<D>& canvas, const CastReport<D>& report) {
+    std::vector<bool> is_hit(report.objects.size(), false);
+    for (const CastHit<D>& hit : report.result.hits) is_hit[hit.object] = true;
+    for (const bool hit : {false, true})
+        for (std::size_t i = 0; i < report.objects.size(); ++i)
+            if (is_hit[i] == hit) draw_object(canvas, report.objects[i], hit ? hit_thing : plain);
+    draw_ray(canvas, report);
+}
+
+// Paper whose y points down, for levels.
+class Flipped final : public Canvas<2> {
+public:
+    explicit Flipped(Canvas<2>& paper) : paper_(paper) {}
+
+    Aabb2 shown() const override { return flipped(paper_.shown()); }
+    void line(const Vec2& a, const Vec2& b, const Style& style) override { paper_.line(flipped(a), flipped(b), style); }
+    void point(const Vec2& position, const Style& style) override { paper_.point(flipped(position), style); }
+    void polygon(std::span<const Vec2> points, const Style& style) override {
+        std::vector<Vec2> turned;
+        for (const Vec2& p : points) turned.push_back(flipped(p));
+        std::reverse(turned.begin(), turned.end());
+        paper_.polygon(turned, style);
+    }
+    void ball(const Vec2& center, float radius, const Style& style) override {
+        paper_.ball(flipped(center), radius, style);
+    }
+
+    static Vec2 flipped(const Vec2& p) { return {p.x, -p.y}; }
+    static Aabb2 flipped(const Aabb2& box) { return {{box.min.x, -box.max.y}, {box.max.x, -box.min.y}}; }
+
+private:
+    Canvas<2>& paper_;
+};
+
+SvgCanvas paper_for(const Aabb2& plane) {
+    const double extent =
+        std::max(static_cast<double>(plane.max.x - plane.min.x), static_cast<double>(plane.max.y - plane.min.y));
+    return {plane, static_cast<float>(picture_width / extent), background};
 }
 
 }  // namespace
 
-std::string picture(const CastReport& report) {
+std::string picture(const CastReport<3>& report) {
     const Aabb3 shown = surroundings(corners(report));
     const Vec3 eye = towards_eye(report.options);
-    const Aabb2 plane = seen(shown, eye);
-    const double extent =
-        std::max(static_cast<double>(plane.max.x - plane.min.x), static_cast<double>(plane.max.y - plane.min.y));
-    SvgCanvas paper(plane, static_cast<float>(picture_width / extent), background);
+    SvgCanvas paper = paper_for(seen(shown, eye));
     Projected view(paper, shown, eye, {0, 1, 0});
+    draw_all(view, report);
+    return paper.document();
+}
 
-    std::vector<bool> is_hit(report.objects.size(), false);
-    for (const CastHit& hit : report.result.hits) is_hit[hit.object] = true;
-    for (const bool hit : {false, true})
-        for (std::size_t i = 0; i < report.objects.size(); ++i)
-            if (is_hit[i] == hit) draw_object(view, report.objects, report.objects[i], hit ? hit_thing : plain);
-    draw_ray(view, report);
+std::string picture(const CastReport<2>& report) {
+    SvgCanvas paper = paper_for(Flipped::flipped(surroundings(corners(report))));
+    Flipped view(paper);
+    draw_all(view, report);
     return paper.document();
 }
 

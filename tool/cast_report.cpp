@@ -9,17 +9,19 @@ namespace {
 
 constexpr std::size_t most_hits = 100;
 
-std::string place(const CastReport& report, const CastHit& hit) {
-    const Object& object = report.objects[hit.object];
+template <int D>
+std::string place(const CastReport<D>& report, const CastHit<D>& hit) {
+    const Object<D>& object = report.objects[hit.object];
     std::string text = fmt::format("at {}, normal {}", vector(hit.hit.point), vector(hit.hit.normal));
-    if (!object.solid) text += fmt::format(", triangle {}", hit.hit.feature.part);
+    if (!object.solid) text += fmt::format(", {} {}", object.part_name, hit.hit.feature.part);
     if (hit.hit.started_inside) text += ", from inside of it";
     return text;
 }
 
-std::string verdict(const CastReport& report) {
-    const CastOptions& options = report.options;
-    const std::vector<CastHit>& hits = report.result.hits;
+template <int D>
+std::string verdict(const CastReport<D>& report) {
+    const CastOptions<D>& options = report.options;
+    const std::vector<CastHit<D>>& hits = report.result.hits;
     if (options.bounces == 0 && hits.empty())
         return fmt::format("CLEAR: nothing between {} and {}\n", vector(options.from), vector(options.to));
     if (options.bounces == 0)
@@ -36,9 +38,10 @@ std::string verdict(const CastReport& report) {
 
 }  // namespace
 
-std::string text_report(const CastReport& report, const std::string& scene_name) {
+template <int D>
+std::string text_report(const CastReport<D>& report, const std::string& scene_name) {
     std::string text = scene_name + "\n\n";
-    const std::vector<CastHit>& hits = report.result.hits;
+    const std::vector<CastHit<D>>& hits = report.result.hits;
     for (std::size_t i = 0; i < hits.size() && i < most_hits; ++i)
         text += fmt::format("{:4}. {}\n        after {}, {}\n", i + 1, report.objects[hits[i].object].path,
                             number(hits[i].travelled), place(report, hits[i]));
@@ -52,9 +55,10 @@ std::string text_report(const CastReport& report, const std::string& scene_name)
     return text + "\n" + verdict(report);
 }
 
-std::string json_report(const CastReport& report) {
+template <int D>
+std::string json_report(const CastReport<D>& report) {
     Json hits = Json::array();
-    for (const CastHit& hit : report.result.hits)
+    for (const CastHit<D>& hit : report.result.hits)
         hits.push_back({{"object", report.objects[hit.object].path},
                         {"distance", hit.hit.distance},
                         {"travelled", hit.travelled},
@@ -76,5 +80,10 @@ std::string json_report(const CastReport& report) {
          {"warnings", report.notes},
          {"seconds", {{"read", report.read_seconds}, {"build", report.build_seconds}, {"cast", report.cast_seconds}}}});
 }
+
+template std::string text_report(const CastReport<2>& report, const std::string& scene_name);
+template std::string text_report(const CastReport<3>& report, const std::string& scene_name);
+template std::string json_report(const CastReport<2>& report);
+template std::string json_report(const CastReport<3>& report);
 
 }  // namespace abut::tool

@@ -9,22 +9,27 @@
 
 namespace abut::tool {
 
+template <int D>
 struct CastReport {
-    const Objects& objects;
-    const CastOptions& options;
+    const Objects<D>& objects;
+    const CastOptions<D>& options;
     double time = 0;  ///< the moment at which the objects are, in seconds
-    CastResult result;
+    CastResult<D> result;
     std::vector<std::string> notes;
     double read_seconds = 0, build_seconds = 0, cast_seconds = 0;
 };
 
 /// For a person: the hits in order, and a verdict in the last line.
-std::string text_report(const CastReport& report, const std::string& scene_name);
+template <int D>
+std::string text_report(const CastReport<D>& report, const std::string& scene_name);
 
 /// One object; numbers unrounded.
-std::string json_report(const CastReport& report);
+template <int D>
+std::string json_report(const CastReport<D>& report);
 
-/// As SVG: the ray from the side and somewhat from above (y is up), with what of the scene is about it.
-std::string picture(const CastReport& report);
+/// As SVG, the ray with what is about it: of a scene from the side and somewhat from above (y is up), of a level as its
+/// editor shows it (y is down).
+std::string picture(const CastReport<3>& report);
+std::string picture(const CastReport<2>& report);
 
 }  // namespace abut::tool

@@ -1,7 +1,8 @@
 #pragma once
 
-// Which objects of a scene touch, where, how deep and when.
+// Which objects of a scene or a level touch, where, how deep and when.
 
+#include "glob.hpp"
 #include "objects.hpp"
 #include "progress.hpp"
 
@@ -27,28 +28,34 @@ struct CheckOptions {
 };
 
 /// One pair, over one unbroken interval of frames, at its deepest moment.
+template <int D>
 struct Finding {
     std::size_t a = 0, b = 0;                                 ///< objects; a < b, in the order of their paths
     std::size_t first = 0, last = 0, deepest = 0;             ///< frames
     float distance = std::numeric_limits<float>::infinity();  ///< signed
     float allow = 0;                                          ///< what was allowed of this pair then
-    Vec3 normal{};                                            ///< from a to b
-    std::vector<Vec3> points;
+    Vec<D> normal{};                                          ///< from a to b
+    std::vector<Vec<D>> points;
     bool inside = false;  ///< a body is inside of the other, whose surface it meets nowhere, or no deeper than allowed
 };
 
+template <int D>
 struct CheckResult {
-    std::vector<Finding> findings;  ///< sorted by pair and time
-    std::uint64_t tested = 0;       ///< pairs looked at, over all frames
-    std::uint64_t possible = 0;     ///< all pairs there are, over all frames
+    std::vector<Finding<D>> findings;  ///< sorted by pair and time
+    std::uint64_t tested = 0;          ///< pairs looked at, over all frames
+    std::uint64_t possible = 0;        ///< all pairs there are, over all frames
 };
 
 /// Takes the objects through the times, which it expects them to be at the first of. A pair of which neither moved
 /// since the frame before isn't tested again. Progress is told in frames. A Problem where an object can't be placed.
-Result<CheckResult> check(Objects& objects, const std::vector<double>& times, const CheckOptions& options,
-                          ProgressCall progress);
+template <int D>
+Result<CheckResult<D>> check(Objects<D>& objects, const std::vector<double>& times, const CheckOptions& options,
+                             ProgressCall progress);
 
 /// Whether a pattern describes the object: its path, or its own name alone.
-bool describes(std::string_view pattern, const Object& object);
+template <int D>
+bool describes(std::string_view pattern, const Object<D>& object) {
+    return matches(pattern, object.path) || matches(pattern, object.name);
+}
 
 }  // namespace abut::tool

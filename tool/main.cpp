@@ -21,6 +21,9 @@ int fail(std::string line) {
     return unusable;
 }
 
+constexpr const char* files =
+    "In 3D glTF 2.0, or anything else that Assimp reads; in 2D a Tiled map (.tmx, .tmj) or a drawing (.svg)";
+
 // What was typed for `abut check`, numbers and patterns as text.
 struct CheckArguments {
     CheckRequest request;
@@ -29,7 +32,7 @@ struct CheckArguments {
 };
 
 void describe(CLI::App& verb, CheckArguments& arguments) {
-    verb.add_option("SCENE", arguments.request.scene, "glTF 2.0, or anything else that Assimp reads")->required();
+    verb.add_option("SCENE", arguments.request.scene, files)->required();
     verb.add_option("--clearance", arguments.clearance,
                     "Report pairs closer than D too, unless they rest on one another")
         ->type_name("D");
@@ -52,19 +55,21 @@ void describe(CLI::App& verb, CheckArguments& arguments) {
 // What was typed for `abut cast`.
 struct CastArguments {
     CastRequest request;
-    std::optional<std::string> from, to, bounces, time;
+    std::optional<std::string> bounces, time;
 };
 
 void describe(CLI::App& verb, CastArguments& arguments) {
-    verb.add_option("SCENE", arguments.request.scene, "glTF 2.0, or anything else that Assimp reads")->required();
-    verb.add_option("--from", arguments.from, "Where the ray starts")->type_name("X,Y,Z")->required();
-    verb.add_option("--to", arguments.to, "Where it goes to; without --bounces it ends there")
+    verb.add_option("SCENE", arguments.request.scene, files)->required();
+    verb.add_option("--from", arguments.request.from, "Where the ray starts; in 2D X,Y")
+        ->type_name("X,Y,Z")
+        ->required();
+    verb.add_option("--to", arguments.request.to, "Where it goes to; without --bounces it ends there")
         ->type_name("X,Y,Z")
         ->required();
     CLI::Option* bounces = verb.add_option("--bounces", arguments.bounces,
                                            "Go on beyond --to, thrown back N times: all things are mirrors")
                                ->type_name("N");
-    verb.add_flag("--all", arguments.request.options.all, "All things in the way, near to far, not only the first")
+    verb.add_flag("--all", arguments.request.all, "All things in the way, near to far, not only the first")
         ->excludes(bounces);
     verb.add_option("--time", arguments.time,
                     "The moment of the animation, as `abut check` tells it; without it the first")
@@ -75,7 +80,7 @@ void describe(CLI::App& verb, CastArguments& arguments) {
 }
 
 void describe(CLI::App& verb, InfoRequest& request) {
-    verb.add_option("FILE", request.scene, "glTF 2.0, or anything else that Assimp reads")->required();
+    verb.add_option("FILE", request.scene, files)->required();
     verb.add_flag("--json", request.json, "One JSON object in place of text");
     verb.add_flag("--skip-degenerate", request.skip_degenerate, "Leave out triangles of zero area");
 }
@@ -104,29 +109,28 @@ Result<ExitCode> run_check(CheckArguments& arguments) {
 }
 
 Result<ExitCode> run_cast(CastArguments& arguments) {
-    CastOptions& options = arguments.request.options;
-    std::optional<std::string> problem = understand("--from", arguments.from, parse_point, options.from);
-    if (!problem) problem = understand("--to", arguments.to, parse_point, options.to);
-    if (!problem) problem = understand("--bounces", arguments.bounces, parse_bounces, options.bounces);
+    std::optional<std::string> problem =
+        understand("--bounces", arguments.bounces, parse_bounces, arguments.request.bounces);
     if (!problem) problem = understand("--time", arguments.time, parse_time, arguments.request.time);
     if (problem) return Problem{ProblemCode::bad_argument, *problem};
     return run_cast(arguments.request);
 }
 
 int run(int count, char** words) {
-    CLI::App app("Collision checks for scenes: who touches whom, where, how deep and when.", "abut");
+    CLI::App app("Collision checks for scenes and levels: who touches whom, where, how deep and when.", "abut");
     app.set_version_flag("--version", "abut " ABUT_VERSION);
     app.require_subcommand(1);
     app.footer("Exits with 0 if all is fine, 1 if something was found, 2 for bad input or usage.");
 
     CheckArguments check;
-    CLI::App& check_verb = *app.add_subcommand("check", "Which objects of a scene touch, where, how deep and when");
+    CLI::App& check_verb =
+        *app.add_subcommand("check", "Which objects of a scene or a level touch, where, how deep and when");
     describe(check_verb, check);
     CastArguments cast;
     CLI::App& cast_verb = *app.add_subcommand("cast", "What a ray hits, or a laser from mirror to mirror");
     describe(cast_verb, cast);
     InfoRequest info;
-    CLI::App& info_verb = *app.add_subcommand("info", "What is in a scene");
+    CLI::App& info_verb = *app.add_subcommand("info", "What is in a scene or a level");
     describe(info_verb, info);
 
     try {

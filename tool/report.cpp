@@ -17,41 +17,48 @@ namespace {
 constexpr std::size_t most_pairs = 100;
 constexpr std::size_t most_moments = 5;
 
-using Moments = std::vector<const Finding*>;
+template <int D>
+using Moments = std::vector<const Finding<D>*>;
 
-Vec3 middle(const std::vector<Vec3>& points) {
-    Vec3 sum{};
-    for (const Vec3& point : points) sum += point / static_cast<float>(points.size());
+template <int D>
+Vec<D> middle(const std::vector<Vec<D>>& points) {
+    Vec<D> sum{};
+    for (const Vec<D>& point : points) sum += point / static_cast<float>(points.size());
     return sum;
 }
 
-bool collides(const Finding& finding) {
+template <int D>
+bool collides(const Finding<D>& finding) {
     return finding.distance < 0;
 }
 
 // The moments of each pair, the pair with the worst one first.
-std::vector<Moments> by_pair(const std::vector<Finding>& findings) {
-    std::map<std::pair<std::size_t, std::size_t>, Moments> pairs;
-    for (const Finding& finding : findings) pairs[{finding.a, finding.b}].push_back(&finding);
-    std::vector<Moments> result;
+template <int D>
+std::vector<Moments<D>> by_pair(const std::vector<Finding<D>>& findings) {
+    std::map<std::pair<std::size_t, std::size_t>, Moments<D>> pairs;
+    for (const Finding<D>& finding : findings) pairs[{finding.a, finding.b}].push_back(&finding);
+    std::vector<Moments<D>> result;
     for (auto& [pair, moments] : pairs) {
-        std::sort(moments.begin(), moments.end(), [](const Finding* x, const Finding* y) {
+        std::sort(moments.begin(), moments.end(), [](const Finding<D>* x, const Finding<D>* y) {
             return std::tie(x->distance, x->first) < std::tie(y->distance, y->first);
         });
         result.push_back(std::move(moments));
     }
-    std::stable_sort(result.begin(), result.end(),
-                     [](const Moments& x, const Moments& y) { return x.front()->distance < y.front()->distance; });
+    std::stable_sort(result.begin(), result.end(), [](const Moments<D>& x, const Moments<D>& y) {
+        return x.front()->distance < y.front()->distance;
+    });
     return result;
 }
 
-std::string how(const Finding& finding) {
+template <int D>
+std::string how(const Finding<D>& finding) {
     if (finding.inside) return fmt::format("one inside the other, {} to get out", number(-finding.distance));
     if (collides(finding)) return fmt::format("{} deep", number(-finding.distance));
     return fmt::format("{} apart", number(finding.distance));
 }
 
-std::string when(const Report& report, const Finding& finding) {
+template <int D>
+std::string when(const Report<D>& report, const Finding<D>& finding) {
     const auto time = [&](std::size_t frame) { return number(report.times[frame]); };
     if (report.times.size() == 1) return {};
     if (finding.first == finding.last) return fmt::format(" at {} s (frame {})", time(finding.first), finding.first);
@@ -61,7 +68,8 @@ std::string when(const Report& report, const Finding& finding) {
                        finding.first, finding.last);
 }
 
-std::string moment(const Report& report, const Finding& finding) {
+template <int D>
+std::string moment(const Report<D>& report, const Finding<D>& finding) {
     std::string line =
         fmt::format("        {}{}, near {}", how(finding), when(report, finding), vector(middle(finding.points)));
     // Of a mesh it is one triangle that is moved out, not all of it.
@@ -72,8 +80,9 @@ std::string moment(const Report& report, const Finding& finding) {
     return line + "\n";
 }
 
-std::string pair(const Report& report, const Moments& moments, std::size_t rank) {
-    const Finding& worst = *moments.front();
+template <int D>
+std::string pair(const Report<D>& report, const Moments<D>& moments, std::size_t rank) {
+    const Finding<D>& worst = *moments.front();
     std::string text =
         fmt::format("{:4}. {}  and  {}\n", rank, report.objects[worst.a].path, report.objects[worst.b].path);
     for (std::size_t i = 0; i < moments.size() && i < most_moments; ++i) text += moment(report, *moments[i]);
@@ -82,15 +91,15 @@ std::string pair(const Report& report, const Moments& moments, std::size_t rank)
     return text;
 }
 
-std::string summary(const Report& report, std::size_t pairs) {
-    std::size_t solids = 0;
-    for (std::size_t i = 0; i < report.objects.size(); ++i) solids += report.objects[i].solid ? 1 : 0;
-    const CheckResult& result = report.result;
+template <int D>
+std::string summary(const Report<D>& report, std::size_t pairs) {
+    const std::size_t solids = report.objects.count_solids();
+    const CheckResult<D>& result = report.result;
     const double share =
         result.possible == 0 ? 0 : 100.0 * static_cast<double>(result.tested) / static_cast<double>(result.possible);
     std::string text;
-    text += fmt::format("objects   {}: {} taken as convex solids, {} as meshes\n", report.objects.size(), solids,
-                        report.objects.size() - solids);
+    text += fmt::format("objects   {}: {} taken as convex solids, {} as {}\n", report.objects.size(), solids,
+                        report.objects.size() - solids, not_solids<D>);
     text += fmt::format("frames    {}", report.times.size());
     if (report.times.size() > 1)
         text += fmt::format(", from {} s to {} s", number(report.times.front()), number(report.times.back()));
@@ -102,10 +111,11 @@ std::string summary(const Report& report, std::size_t pairs) {
     return text;
 }
 
-std::string verdict(const Report& report, const std::vector<Moments>& pairs) {
+template <int D>
+std::string verdict(const Report<D>& report, const std::vector<Moments<D>>& pairs) {
     const char* anew = report.has_baseline ? " that didn't before" : "";
     std::size_t colliding = 0;
-    for (const Moments& moments : pairs) colliding += collides(*moments.front()) ? 1 : 0;
+    for (const Moments<D>& moments : pairs) colliding += collides(*moments.front()) ? 1 : 0;
     const std::size_t near = pairs.size() - colliding;
     if (pairs.empty()) return fmt::format("CLEAN: no pair collides{}\n", anew);
     std::string text = "FAULTS FOUND: ";
@@ -117,8 +127,9 @@ std::string verdict(const Report& report, const std::vector<Moments>& pairs) {
 
 }  // namespace
 
-std::string text_report(const Report& report, const std::string& scene_name) {
-    const std::vector<Moments> pairs = by_pair(report.result.findings);
+template <int D>
+std::string text_report(const Report<D>& report, const std::string& scene_name) {
+    const std::vector<Moments<D>> pairs = by_pair(report.result.findings);
     std::string text = scene_name + "\n\n";
     for (std::size_t i = 0; i < pairs.size() && i < most_pairs; ++i) text += pair(report, pairs[i], i + 1);
     if (pairs.size() > most_pairs)
@@ -128,5 +139,8 @@ std::string text_report(const Report& report, const std::string& scene_name) {
     if (!report.notes.empty()) text += "\n";
     return text + summary(report, pairs.size()) + "\n" + verdict(report, pairs);
 }
+
+template std::string text_report(const Report<2>& report, const std::string& scene_name);
+template std::string text_report(const Report<3>& report, const std::string& scene_name);
 
 }  // namespace abut::tool

@@ -17,10 +17,11 @@ struct Seconds {
 };
 
 /// Everything a report is made of.
+template <int D>
 struct Report {
-    const Objects& objects;
+    const Objects<D>& objects;
     const std::vector<double>& times;
-    CheckResult result;
+    CheckResult<D> result;
     std::vector<std::string> notes;
     Seconds seconds;
     bool has_baseline = false;
@@ -28,6 +29,11 @@ struct Report {
 };
 
 /// For a person: the findings, worst first, what was looked at, and a verdict in the last line.
-std::string text_report(const Report& report, const std::string& scene_name);
+template <int D>
+std::string text_report(const Report<D>& report, const std::string& scene_name);
+
+/// What objects are called that aren't convex solids.
+template <int D>
+inline constexpr const char* not_solids = D == 2 ? "composites" : "meshes";
 
 }  // namespace abut::tool

@@ -6,9 +6,10 @@
 namespace abut::tool {
 namespace {
 
-Json contact(const Report& report, const Finding& finding) {
+template <int D>
+Json contact(const Report<D>& report, const Finding<D>& finding) {
     Json points = Json::array();
-    for (const Vec3& point : finding.points) points.push_back(numbers(point));
+    for (const Vec<D>& point : finding.points) points.push_back(numbers(point));
     Json result = {{"a", report.objects[finding.a].path},
                    {"b", report.objects[finding.b].path},
                    {"frame", finding.first},
@@ -22,12 +23,6 @@ Json contact(const Report& report, const Finding& finding) {
                    {"deepest_time", report.times[finding.deepest]}};
     if (finding.inside) result["inside"] = true;
     return result;
-}
-
-std::size_t solids(const Objects& objects) {
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < objects.size(); ++i) count += objects[i].solid ? 1 : 0;
-    return count;
 }
 
 // A contact of a report, if it has what is needed.
@@ -44,13 +39,14 @@ bool read_known(const nlohmann::json& json, KnownFinding& known) {
 
 }  // namespace
 
-std::string json_report(const Report& report) {
+template <int D>
+std::string json_report(const Report<D>& report) {
     Json contacts = Json::array();
-    for (const Finding& finding : report.result.findings) contacts.push_back(contact(report, finding));
+    for (const Finding<D>& finding : report.result.findings) contacts.push_back(contact(report, finding));
     Json json = {
         {"objects", report.objects.size()},
-        {"solids", solids(report.objects)},
-        {"meshes", report.objects.size() - solids(report.objects)},
+        {"solids", report.objects.count_solids()},
+        {not_solids<D>, report.objects.size() - report.objects.count_solids()},
         {"frames", report.times.size()},
         {"pairs", report.result.tested},
         {"possible_pairs", report.result.possible},
@@ -60,6 +56,8 @@ std::string json_report(const Report& report) {
     if (report.has_baseline) json["known"] = report.known;
     return written(json);
 }
+template std::string json_report(const Report<2>& report);
+template std::string json_report(const Report<3>& report);
 
 Result<std::vector<KnownFinding>> read_baseline(const std::filesystem::path& file) {
     const Result<std::vector<std::byte>> bytes = file_bytes(file);
@@ -74,29 +72,6 @@ Result<std::vector<KnownFinding>> read_baseline(const std::filesystem::path& fil
             return Problem{ProblemCode::bad_format,
                            no_report.message + ": contacts[" + std::to_string(result.size() - 1) + "]"};
     return result;
-}
-
-std::string json_info(const Objects& objects, const Scene& scene, const std::vector<double>& times) {
-    Json list = Json::array();
-    for (std::size_t i = 0; i < objects.size(); ++i) {
-        const Object& object = objects[i];
-        Json entry = {{"name", object.path},
-                      {"kind", object.solid ? "solid" : "mesh"},
-                      {"triangles", objects.model_of(object).surface.triangles.size()}};
-        if (object.present) {
-            entry["min"] = numbers(object.box.min);
-            entry["max"] = numbers(object.box.max);
-        }
-        list.push_back(std::move(entry));
-    }
-    Json animations = Json::array();
-    for (const Animation& animation : scene.animations)
-        animations.push_back({{"name", animation.name}, {"start", animation.start}, {"length", animation.length}});
-    return written({{"nodes", scene.nodes.size()},
-                    {"objects", std::move(list)},
-                    {"animations", std::move(animations)},
-                    {"frames", times.size()},
-                    {"warnings", scene.warnings}});
 }
 
 }  // namespace abut::tool

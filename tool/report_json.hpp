@@ -13,7 +13,8 @@
 namespace abut::tool {
 
 /// One object; numbers unrounded.
-std::string json_report(const Report& report);
+template <int D>
+std::string json_report(const Report<D>& report);
 
 /// A finding of an earlier report.
 struct KnownFinding {
@@ -24,8 +25,5 @@ struct KnownFinding {
 
 /// The findings of a file that `abut check --json` wrote. The message of a Problem doesn't name the file.
 Result<std::vector<KnownFinding>> read_baseline(const std::filesystem::path& file);
-
-/// What `abut info` tells.
-std::string json_info(const Objects& objects, const Scene& scene, const std::vector<double>& times);
 
 }  // namespace abut::tool

@@ -1,3 +1,4 @@
+#include "arguments.hpp"
 #include "cast_report.hpp"
 #include "stopwatch.hpp"
 #include "verbs.hpp"
@@ -6,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -25,8 +27,9 @@ std::optional<Problem> write_file(const std::string& file, const std::string& co
 constexpr double rounded_off = 5e-4;
 
 /// The moment at which the scene is taken.
-Result<double> moment(const Scene& scene, const std::optional<double>& asked) {
-    const std::vector<double> keys = key_times(scene);
+template <class File>
+Result<double> moment(const File& file, const std::optional<double>& asked) {
+    const std::vector<double> keys = key_times(file);
     const double first = keys.front(), last = keys.back();
     if (!asked) return first;
     const double slack = rounded_off * std::max(std::abs(first), std::abs(last));
@@ -37,33 +40,53 @@ Result<double> moment(const Scene& scene, const std::optional<double>& asked) {
     return Problem{ProblemCode::bad_argument, "--time: " + why};
 }
 
-}  // namespace
+// Where the ray starts and where it goes to.
+template <int D>
+Result<CastOptions<D>> understood(const CastRequest& request) {
+    CastOptions<D> options;
+    options.bounces = request.bounces;
+    options.all = request.all;
+    for (const auto& [option, text, point] :
+         {std::tuple("--from", &request.from, &options.from), std::tuple("--to", &request.to, &options.to)}) {
+        const Result<Vec<D>> parsed = parse_point<D>(*text);
+        if (!parsed) return Problem{parsed.problem().code, std::string(option) + ": " + parsed.problem().message};
+        *point = *parsed;
+    }
+    if (options.from == options.to) return Problem{ProblemCode::bad_argument, "--from and --to are the same place"};
+    return options;
+}
 
-Result<ExitCode> run_cast(const CastRequest& request) {
-    if (request.options.from == request.options.to)
-        return Problem{ProblemCode::bad_argument, "--from and --to are the same place"};
+template <int D>
+Result<ExitCode> run(const CastRequest& request) {
+    const Result<CastOptions<D>> options = understood<D>(request);
+    if (!options) return options.problem();
     Stopwatch watch;
-    const Result<Scene> scene = load(request.scene, request.skip_degenerate);
-    if (!scene) return scene.problem();
+    const Result<File<D>> file = load<D>(request.scene, request.skip_degenerate);
+    if (!file) return file.problem();
     const double read_seconds = watch.lap();
-    Objects objects(*scene);
-    const Result<double> time = moment(*scene, request.time);
+    ObjectsOf<D> objects(*file);
+    const Result<double> time = moment(*file, request.time);
     if (!time) return Problem{time.problem().code, request.scene + ": " + time.problem().message};
-    if (const std::optional<Problem> problem = build(objects, *time))
+    if (const std::optional<Problem> problem = build<D>(objects, *time))
         return Problem{problem->code, request.scene + ": " + problem->message};
     const double build_seconds = watch.lap();
 
-    CastResult result = [&] {
+    CastResult<D> result = [&] {
         Progress progress("casting");
-        return cast(objects, request.options, progress);
+        return cast<D>(objects, *options, progress);
     }();
-    CastReport report{objects,         request.options, *time,         std::move(result),
-                      scene->warnings, read_seconds,    build_seconds, 0};
+    CastReport<D> report{objects, *options, *time, std::move(result), file->warnings, read_seconds, build_seconds, 0};
     report.cast_seconds = watch.lap();
     if (request.picture)
         if (const std::optional<Problem> problem = write_file(*request.picture, picture(report))) return *problem;
     return print(request.json ? json_report(report) : text_report(report, request.scene),
                  report.result.hits.empty() ? fine : found);
+}
+
+}  // namespace
+
+Result<ExitCode> run_cast(const CastRequest& request) {
+    return in_dimension_of(request.scene, [&](auto dimension) { return run<dimension()>(request); });
 }
 
 }  // namespace abut::tool

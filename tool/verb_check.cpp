@@ -18,7 +18,8 @@ namespace {
 constexpr double long_gap = 0.25;
 
 // A pattern that names nothing is a mistake, and would make a check that can't fail.
-std::optional<Problem> check_patterns(const CheckRequest& request, const Objects& objects) {
+template <int D>
+std::optional<Problem> check_patterns(const CheckRequest& request, const Objects<D>& objects) {
     for (const PairPattern& pattern : request.options.pairs)
         for (const std::string& side : {pattern.a, pattern.b}) {
             bool any = false;
@@ -31,10 +32,12 @@ std::optional<Problem> check_patterns(const CheckRequest& request, const Objects
 }
 
 // Leaves what an earlier report doesn't have: pairs that touch at other moments, or deeper by more than is allowed.
-std::size_t drop_known(std::vector<Finding>& findings, const std::vector<KnownFinding>& known, const Objects& objects) {
+template <int D>
+std::size_t drop_known(std::vector<Finding<D>>& findings, const std::vector<KnownFinding>& known,
+                       const Objects<D>& objects) {
     std::map<std::pair<std::string, std::string>, std::vector<const KnownFinding*>> of_pair;
     for (const KnownFinding& old : known) of_pair[{old.a, old.b}].push_back(&old);
-    return std::erase_if(findings, [&](const Finding& finding) {
+    return std::erase_if(findings, [&](const Finding<D>& finding) {
         const auto olds = of_pair.find({objects[finding.a].path, objects[finding.b].path});
         return olds != of_pair.end() &&
                std::any_of(olds->second.begin(), olds->second.end(), [&](const KnownFinding* old) {
@@ -44,9 +47,10 @@ std::size_t drop_known(std::vector<Finding>& findings, const std::vector<KnownFi
     });
 }
 
-std::vector<std::string> notes_of(const Scene& scene, const Objects& objects, const std::vector<double>& times,
+template <int D>
+std::vector<std::string> notes_of(const File<D>& file, const Objects<D>& objects, const std::vector<double>& times,
                                   bool chose_frames) {
-    std::vector<std::string> notes = scene.warnings;
+    std::vector<std::string> notes = file.warnings;
     const std::vector<std::string> hidden = objects.hidden();
     if (!hidden.empty())
         notes.push_back(fmt::format("{} shrunk to nothing at some moments and left out there, such as '{}'",
@@ -60,9 +64,8 @@ std::vector<std::string> notes_of(const Scene& scene, const Objects& objects, co
     return notes;
 }
 
-}  // namespace
-
-Result<ExitCode> run_check(const CheckRequest& request) {
+template <int D>
+Result<ExitCode> run(const CheckRequest& request) {
     std::vector<KnownFinding> known;
     if (request.baseline) {
         Result<std::vector<KnownFinding>> read = read_baseline(*request.baseline);
@@ -70,37 +73,43 @@ Result<ExitCode> run_check(const CheckRequest& request) {
         known = *std::move(read);
     }
     Stopwatch watch;
-    const Result<Scene> scene = load(request.scene, request.skip_degenerate);
-    if (!scene) return scene.problem();
+    const Result<File<D>> file = load<D>(request.scene, request.skip_degenerate);
+    if (!file) return file.problem();
     Seconds seconds;
     seconds.read = watch.lap();
 
-    const std::vector<double> times = request.frames ? frame_times(*scene, *request.frames) : key_times(*scene);
+    const std::vector<double> times = request.frames ? frame_times(*file, *request.frames) : key_times(*file);
     const auto with_file = [&](const Problem& problem) {
         return Problem{problem.code, request.scene + ": " + problem.message};
     };
-    Objects objects(*scene);
-    if (const std::optional<Problem> problem = check_patterns(request, objects)) return *problem;
-    if (const std::optional<Problem> problem = build(objects, times.front())) return with_file(*problem);
+    ObjectsOf<D> objects(*file);
+    if (const std::optional<Problem> problem = check_patterns<D>(request, objects)) return *problem;
+    if (const std::optional<Problem> problem = build<D>(objects, times.front())) return with_file(*problem);
     seconds.build = watch.lap();
 
-    Result<CheckResult> result = [&] {
+    Result<CheckResult<D>> result = [&] {
         Progress progress("checking");
-        return check(objects, times, request.options, progress);
+        return check<D>(objects, times, request.options, progress);
     }();
     if (!result) return with_file(result.problem());
     seconds.check = watch.lap();
 
-    const std::size_t dropped = drop_known(result->findings, known, objects);
-    const Report report{objects,
-                        times,
-                        *std::move(result),
-                        notes_of(*scene, objects, times, request.frames.has_value()),
-                        seconds,
-                        request.baseline.has_value(),
-                        dropped};
+    const std::size_t dropped = drop_known<D>(result->findings, known, objects);
+    const Report<D> report{objects,
+                           times,
+                           *std::move(result),
+                           notes_of<D>(*file, objects, times, request.frames.has_value()),
+                           seconds,
+                           request.baseline.has_value(),
+                           dropped};
     return print(request.json ? json_report(report) : text_report(report, request.scene),
                  report.result.findings.empty() ? fine : found);
+}
+
+}  // namespace
+
+Result<ExitCode> run_check(const CheckRequest& request) {
+    return in_dimension_of(request.scene, [&](auto dimension) { return run<dimension()>(request); });
 }
 
 }  // namespace abut::tool

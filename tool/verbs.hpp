@@ -3,8 +3,8 @@
 // The verbs of the tool. Each prints its report on stdout and returns what the program exits with; what goes wrong
 // comes back as the one line for stderr, without the "abut: " before it.
 
-#include "cast.hpp"
 #include "check.hpp"
+#include "files.hpp"
 #include <abut/math/result.hpp>
 
 #include <cstddef>
@@ -32,7 +32,9 @@ struct CastRequest {
     std::optional<double> time;          ///< none: the first moment
     bool json = false;
     bool skip_degenerate = false;
-    CastOptions options;
+    std::string from, to;  ///< X,Y,Z, or X,Y in a level
+    std::size_t bounces = 0;
+    bool all = false;
 };
 
 Result<ExitCode> run_cast(const CastRequest& request);
@@ -44,12 +46,6 @@ struct InfoRequest {
 };
 
 Result<ExitCode> run_info(const InfoRequest& request);
-
-/// A scene as the verbs want it; the message of a Problem begins with the file.
-Result<Scene> load(const std::string& file, bool skip_degenerate);
-
-/// Takes the objects to the first moment that is asked about, with a bar where that takes long.
-std::optional<Problem> build(Objects& objects, double time);
 
 /// Everything at once on stdout.
 Result<ExitCode> print(const std::string& text, ExitCode code);

@@ -13,7 +13,12 @@ namespace abut::tool {
 /// Keys stay in the order they are written in.
 using Json = nlohmann::ordered_json;
 
-Json numbers(const Vec3& v);
+template <int D>
+Json numbers(const Vec<D>& v) {
+    Json result = Json::array();
+    for (int i = 0; i < D; ++i) result.push_back(v[i]);
+    return result;
+}
 
 /// On one line.
 std::string written(const Json& json);
@@ -22,7 +27,8 @@ std::string written(const Json& json);
 std::string number(double value);
 
 /// To four digits; coordinates that are nothing beside the largest one are written as 0.
-std::string vector(const Vec3& v);
+template <int D>
+std::string vector(const Vec<D>& v);
 
 /// "1 pair", "2 pairs".
 std::string counted(std::size_t count, const char* one, const char* many);

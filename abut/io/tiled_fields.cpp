@@ -50,7 +50,7 @@ void read_map(const Fields& fields, Map& map, Defects& defects) {
     const std::string orientation = fields.has("orientation") ? fields.text("orientation") : "orthogonal";
     if (orientation != "orthogonal")
         defects.fail(ProblemCode::bad_argument,
-                     fields.where() + "an " + orientation + " map; only orthogonal ones are read");
+                     fields.where() + "the map is " + orientation + "; only orthogonal ones are read");
     map.columns = fields.count("width", 0, defects);
     map.rows = fields.count("height", 0, defects);
     map.cell = {fields.number("tilewidth", 0, defects), fields.number("tileheight", 0, defects)};

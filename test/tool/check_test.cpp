@@ -1,17 +1,18 @@
 #include "tool/check.hpp"
 
 #include "scene_of.hpp"
+#include "tool/scene_objects.hpp"
 
 #include <gtest/gtest.h>
 
 namespace abut::tool {
 namespace {
 
-CheckResult check_scene(const Scene& scene, const CheckOptions& options = {}) {
-    Objects objects(scene);
+CheckResult<3> check_scene(const Scene& scene, const CheckOptions& options = {}) {
+    SceneObjects objects(scene);
     const std::vector<double> times = key_times(scene);
     EXPECT_FALSE(objects.go_to(times.front()));
-    Result<CheckResult> result = check(objects, times, options, [](std::size_t, std::size_t) {});
+    Result<CheckResult<3>> result = check<3>(objects, times, options, [](std::size_t, std::size_t) {});
     EXPECT_TRUE(result);
     return *std::move(result);
 }
@@ -21,9 +22,9 @@ TEST(Check, ToldByHand) {
     test::add_unit_box(scene, "a", {0, 0, 0});
     test::add_unit_box(scene, "b", {0.75, 0, 0});
     test::add_unit_box(scene, "c", {5, 0, 0});
-    const CheckResult result = check_scene(scene);
+    const CheckResult<3> result = check_scene(scene);
     ASSERT_EQ(result.findings.size(), 1u);
-    const Finding& finding = result.findings[0];
+    const Finding<3>& finding = result.findings[0];
     EXPECT_EQ(finding.a, 0u);
     EXPECT_EQ(finding.b, 1u);
     EXPECT_FLOAT_EQ(finding.distance, -0.25f);
@@ -53,7 +54,7 @@ TEST(Check, ClearanceFindsGapsButNotWhatRests) {
     test::add_unit_box(scene, "c", {0, 1, 0});
     EXPECT_TRUE(check_scene(scene).findings.empty());
     EXPECT_TRUE(check_scene(scene, {.clearance = 0.2f}).findings.empty());
-    const CheckResult result = check_scene(scene, {.clearance = 0.3f});
+    const CheckResult<3> result = check_scene(scene, {.clearance = 0.3f});
     ASSERT_EQ(result.findings.size(), 2u) << "a and b, and across the corner b and c";
     EXPECT_FLOAT_EQ(result.findings[0].distance, 0.25f);
     EXPECT_FLOAT_EQ(result.findings[1].distance, 0.25f);
@@ -65,7 +66,7 @@ TEST(Check, OneFindingForEachUnbrokenInterval) {
     const std::uint32_t walker = test::add_unit_box(scene, "walker", {0, 0, 0});
     // In, deeper, out, out, in again until the end.
     test::add_slide(scene, walker, {-3, -0.9, -0.5, -3, 3, 0.75, 0.8});
-    const CheckResult result = check_scene(scene);
+    const CheckResult<3> result = check_scene(scene);
     ASSERT_EQ(result.findings.size(), 2u);
     EXPECT_EQ(result.findings[0].first, 1u);
     EXPECT_EQ(result.findings[0].last, 2u);
@@ -85,7 +86,7 @@ TEST(Check, WhatStandsStillIsTestedOnce) {
     test::add_unit_box(scene, "c", {0.5, 0.5, 0});
     const std::uint32_t walker = test::add_unit_box(scene, "walker", {0, 0, 0});
     test::add_slide(scene, walker, {9, 8, 7, 7, 7, 0.25});
-    const CheckResult result = check_scene(scene);
+    const CheckResult<3> result = check_scene(scene);
     EXPECT_EQ(result.tested, 3u + 3u);
     ASSERT_EQ(result.findings.size(), 6u);
     EXPECT_EQ(result.findings[0].first, 0u);
@@ -104,7 +105,7 @@ TEST(Check, AShapeThatGoesEndsItsFindings) {
     animation.motions[0].scale.values = {{1, 1, 1}, {0, 0, 0}, {0, 0, 0}, {1, 1, 1}};
     scene.animations.push_back(animation);
     schedule(scene);
-    const CheckResult result = check_scene(scene);
+    const CheckResult<3> result = check_scene(scene);
     ASSERT_EQ(result.findings.size(), 2u);
     EXPECT_EQ(result.findings[0].last, 0u);
     EXPECT_EQ(result.findings[1].first, 3u);
@@ -114,7 +115,7 @@ TEST(Check, OnlyThePairsThatAreAskedFor) {
     Scene scene;
     for (const char* name : {"Player", "Wall 1", "Wall 2", "Crate"}) test::add_unit_box(scene, name, {0, 0, 0});
     EXPECT_EQ(check_scene(scene).findings.size(), 6u);
-    const CheckResult result = check_scene(scene, {.pairs = {{"Wall*", "Player"}}});
+    const CheckResult<3> result = check_scene(scene, {.pairs = {{"Wall*", "Player"}}});
     EXPECT_EQ(result.findings.size(), 2u);
     EXPECT_EQ(result.tested, 2u);
     EXPECT_EQ(result.possible, 2u);
@@ -123,7 +124,7 @@ TEST(Check, OnlyThePairsThatAreAskedFor) {
 }
 
 TEST(Check, PatternsAreForPathsAndForNames) {
-    Object object;
+    Object<3> object;
     object.path = "Level/Walls/North";
     object.name = "North";
     for (const char* pattern : {"North", "N*", "Level/Walls/North", "*/North", "Level*"})
@@ -137,7 +138,7 @@ TEST(Check, ABodyInsideOfAnotherThatIsNotConvex) {
     Scene scene;
     test::add_object(scene, "Wall", test::corner_triangles(4));
     test::add_unit_box(scene, "Crate", {-0.5, 0, 0});
-    const CheckResult result = check_scene(scene);
+    const CheckResult<3> result = check_scene(scene);
     ASSERT_EQ(result.findings.size(), 1u);
     EXPECT_TRUE(result.findings[0].inside);
     EXPECT_FLOAT_EQ(result.findings[0].distance, -2);
@@ -162,7 +163,7 @@ TEST(Check, TheSameMeshPlacedTwice) {
     Scene scene;
     test::add_object(scene, "Wall", test::corner_triangles(4));
     test::add_object(scene, "Wall copy", test::corner_triangles(4));
-    const CheckResult result = check_scene(scene);
+    const CheckResult<3> result = check_scene(scene);
     ASSERT_EQ(result.findings.size(), 1u);
     EXPECT_TRUE(result.findings[0].inside);
     EXPECT_LE(result.findings[0].distance, -2);

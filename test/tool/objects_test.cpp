@@ -1,6 +1,5 @@
-#include "tool/objects.hpp"
-
 #include "scene_of.hpp"
+#include "tool/scene_objects.hpp"
 
 #include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
@@ -16,7 +15,7 @@ TEST(Objects, AreSortedByPath) {
     test::add_unit_box(scene, "c", {0, 0, 0});
     test::add_unit_box(scene, "a", {0, 0, 0});
     scene.nodes[2].parent = 1;
-    const Objects objects(scene);
+    const SceneObjects objects(scene);
     ASSERT_EQ(objects.size(), 3u);
     EXPECT_EQ(objects[0].path, "b");
     EXPECT_EQ(objects[1].path, "c");
@@ -36,7 +35,7 @@ TEST(Objects, TellBodiesFromSurfaces) {
     test::add_object(scene, "5 mirrored", test::inside_out(box_triangles({1, 2, 3})),
                      glm::scale(glm::dmat4(1.0), {-1, 1, 1}));
     test::add_object(scene, "6 mirrored", box_triangles({1, 2, 3}), glm::scale(glm::dmat4(1.0), {-1, 1, 1}));
-    Objects objects(scene);
+    SceneObjects objects(scene);
     ASSERT_FALSE(objects.go_to(0));
     const bool solid[] = {true, false, false, false, false, true};
     const bool filled[] = {false, false, true, false, false, false};
@@ -56,7 +55,7 @@ TEST(Objects, PrimitivesOfOneNodeAreOneBody) {
     test::add_object(scene, "box", half);
     scene.geometries.push_back({"rest", box.points, box.triangles});
     scene.nodes[0].geometries.push_back(1);
-    Objects objects(scene);
+    SceneObjects objects(scene);
     ASSERT_FALSE(objects.go_to(0));
     EXPECT_TRUE(objects[0].solid);
 }
@@ -72,7 +71,7 @@ TEST(Objects, ShearIsBakedIn) {
     const std::uint32_t child = test::add_object(scene, "child", box_triangles({1, 1, 1}),
                                                  glm::rotate(glm::dmat4(1.0), glm::radians(45.0), {0, 0, 1}));
     scene.nodes[child].parent = 0;
-    Objects objects(scene);
+    SceneObjects objects(scene);
     ASSERT_FALSE(objects.go_to(0));
     EXPECT_TRUE(objects[0].solid);
     const float root = std::sqrt(2.0f);
@@ -93,9 +92,9 @@ TEST(Objects, TurningKeepsTheShapeStretchingDoesNot) {
     animation.motions[0].scale.values = {{1, 1, 1}, {1, 4, 1}};
     scene.animations.push_back(animation);
     schedule(scene);
-    Objects objects(scene);
+    SceneObjects objects(scene);
     ASSERT_FALSE(objects.go_to(0));
-    const auto points = [&] { return std::get<Polyhedron>(objects[0].shape).points().data(); };
+    const auto points = [&] { return std::get<Polyhedron>(objects.shape(0)).points().data(); };
     const Vec3* const before = points();
     ASSERT_FALSE(objects.go_to(1));
     EXPECT_EQ(points(), before);
@@ -118,7 +117,7 @@ TEST(Objects, AreAwayWhileShrunkToNothing) {
     animation.motions[0].scale.values = {{1, 1, 1}, {0, 0, 0}, {1, 1, 1}};
     scene.animations.push_back(animation);
     schedule(scene);
-    Objects objects(scene);
+    SceneObjects objects(scene);
     ASSERT_FALSE(objects.go_to(0));
     EXPECT_TRUE(objects[0].present);
     EXPECT_TRUE(objects.hidden().empty());
@@ -133,7 +132,7 @@ TEST(Objects, AreAwayWhileShrunkToNothing) {
 TEST(Objects, FlattenedToAPlaneTheyStay) {
     Scene scene;
     test::add_object(scene, "floor", box_triangles({1, 1, 1}), glm::scale(glm::dmat4(1.0), {5, 0, 5}));
-    Objects objects(scene);
+    SceneObjects objects(scene);
     ASSERT_FALSE(objects.go_to(0));
     EXPECT_TRUE(objects[0].present);
     EXPECT_FALSE(objects[0].solid);
@@ -149,7 +148,7 @@ TEST(Objects, OutOfRangeIsAProblem) {
         scene.nodes.push_back(scene.nodes[parent]);
         scene.nodes[1].parent = parent;
         scene.nodes[0].geometries.clear();
-        Objects objects(scene);
+        SceneObjects objects(scene);
         const std::optional<Problem> problem = objects.go_to(0);
         ASSERT_TRUE(problem) << scale;
         EXPECT_EQ(problem->message, "object 'big/big': its transform takes it out of the range of floats");

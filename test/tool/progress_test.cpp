@@ -3,6 +3,7 @@
 #include "scene_of.hpp"
 #include "tool/cast.hpp"
 #include "tool/check.hpp"
+#include "tool/scene_objects.hpp"
 
 #include <string>
 #include <vector>
@@ -31,7 +32,7 @@ Scene two_boxes() {
 
 TEST(Progress, OfPlacingIsInObjects) {
     const Scene scene = two_boxes();
-    Objects objects(scene);
+    SceneObjects objects(scene);
     Told told;
     ASSERT_FALSE(objects.go_to(0, told));
     EXPECT_EQ(told.all, "1/2 2/2");
@@ -39,7 +40,7 @@ TEST(Progress, OfPlacingIsInObjects) {
 
 TEST(Progress, OfACheckIsInFrames) {
     const Scene scene = two_boxes();
-    Objects objects(scene);
+    SceneObjects objects(scene);
     ASSERT_FALSE(objects.go_to(0));
     Told told;
     ASSERT_TRUE(check(objects, {0, 1, 2}, {}, told));
@@ -48,7 +49,7 @@ TEST(Progress, OfACheckIsInFrames) {
 
 TEST(Progress, OfACastIsInHits) {
     const Scene scene = two_boxes();
-    Objects objects(scene);
+    SceneObjects objects(scene);
     ASSERT_FALSE(objects.go_to(0));
     Told told;
     cast(objects, {.from = {1, 0, 0}, .to = {2, 0, 0}, .bounces = 2}, told);

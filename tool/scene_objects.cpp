@@ -1,4 +1,4 @@
-#include "objects.hpp"
+#include "scene_objects.hpp"
 
 #include <abut/bake/solid.hpp>
 
@@ -76,42 +76,47 @@ float bounding_radius(std::span<const Vec3> points) {
     return static_cast<float>(radius);
 }
 
-Problem out_of_range(const Object& object) {
+Problem out_of_range(const Object<3>& object) {
     return {ProblemCode::not_finite, "object '" + object.path + "': its transform takes it out of the range of floats"};
 }
 
 }  // namespace
 
-Objects::Objects(const Scene& scene) : scene_(scene) {
+SceneObjects::SceneObjects(const Scene& scene) : scene_(scene) {
+    std::vector<std::pair<std::string, std::uint32_t>> order;
+    for (std::uint32_t i = 0; i < scene.nodes.size(); ++i)
+        if (!scene.nodes[i].geometries.empty()) order.emplace_back(path(scene, i), i);
+    std::sort(order.begin(), order.end());
+
     std::map<std::vector<std::uint32_t>, std::size_t> model_of_geometries;
-    for (std::uint32_t i = 0; i < scene.nodes.size(); ++i) {
+    for (auto& [path, i] : order) {
         const SceneNode& node = scene.nodes[i];
-        if (node.geometries.empty()) continue;
         const auto [place, is_new] = model_of_geometries.try_emplace(node.geometries, models_.size());
         if (is_new) {
             Model model{surface_of(scene, node.geometries)};
             model.solid = is_convex_solid(model.surface.points, model.surface.triangles);
             models_.push_back(std::move(model));
         }
-        Object object;
-        object.path = path(scene, i);
+        Object<3> object;
+        object.path = std::move(path);
         object.name = node.name;
-        object.node = i;
-        object.model = place->second;
+        object.parts = models_[place->second].surface.triangles.size();
         objects_.push_back(std::move(object));
+        Node& from = nodes_.emplace_back();
+        from.node = i;
+        from.model = place->second;
     }
-    std::sort(objects_.begin(), objects_.end(), [](const Object& a, const Object& b) { return a.path < b.path; });
     was_hidden_.assign(objects_.size(), false);
 }
 
-std::optional<Problem> Objects::go_to(double time, ProgressCall progress) {
+std::optional<Problem> SceneObjects::go_to(double time, ProgressCall progress) {
     world_matrices(scene_, time, matrices_);
     for (std::size_t i = 0; i < objects_.size(); ++i) {
-        Object& object = objects_[i];
-        const glm::dmat4& matrix = matrices_[object.node];
-        object.moved = object.matrix != matrix;
+        Object<3>& object = objects_[i];
+        const glm::dmat4& matrix = matrices_[nodes_[i].node];
+        object.moved = nodes_[i].matrix != matrix;
         if (object.moved)
-            if (std::optional<Problem> problem = place(object, matrix)) return problem;
+            if (std::optional<Problem> problem = place(i, matrix)) return problem;
         if (!object.present) was_hidden_[i] = true;
         progress(i + 1, objects_.size());
     }
@@ -119,29 +124,33 @@ std::optional<Problem> Objects::go_to(double time, ProgressCall progress) {
 }
 
 // A shape is kept as long as its node only turns and moves.
-std::optional<Problem> Objects::place(Object& object, const glm::dmat4& matrix) {
-    object.matrix = matrix;
+std::optional<Problem> SceneObjects::place(std::size_t i, const glm::dmat4& matrix) {
+    Object<3>& object = objects_[i];
+    Node& node = nodes_[i];
+    node.matrix = matrix;
     object.box = Aabb3::empty();
     if (!is_finite(matrix)) return out_of_range(object);
     const glm::dmat3 linear(matrix);
     object.present = !vanishes(linear);
     if (!object.present) return std::nullopt;
 
-    std::optional<glm::dmat3> turn = turn_since(object.baked, linear);
+    std::optional<glm::dmat3> turn = turn_since(node.baked, linear);
     if (!turn) {
-        if (std::optional<Problem> problem = bake(object, linear)) return problem;
+        if (std::optional<Problem> problem = bake(i, linear)) return problem;
         turn = glm::dmat3(1.0);
     }
     object.pose.position = Vec3(matrix[3]);
     object.pose.rotation = glm::qua<float>(glm::normalize(glm::quat_cast(*turn)));
-    object.placed = std::visit([&](const auto& shape) { return View<3>(view(at(shape, object.pose))); }, object.shape);
+    object.placed = std::visit([&](const auto& shape) { return View<3>(view(at(shape, object.pose))); }, node.shape);
     object.box = bounds(object.placed);
     if (!abut::is_finite(object.box.min) || !abut::is_finite(object.box.max)) return out_of_range(object);
     return std::nullopt;
 }
 
-std::optional<Problem> Objects::bake(Object& object, const glm::dmat3& linear) {
-    const Model& model = models_[object.model];
+std::optional<Problem> SceneObjects::bake(std::size_t i, const glm::dmat3& linear) {
+    Object<3>& object = objects_[i];
+    Node& node = nodes_[i];
+    const Model& model = models_[node.model];
     std::vector<Vec3> points;
     points.reserve(model.surface.points.size());
     for (const Vec3& p : model.surface.points) points.emplace_back(linear * glm::dvec3(p));
@@ -149,26 +158,28 @@ std::optional<Problem> Objects::bake(Object& object, const glm::dmat3& linear) {
     if (glm::determinant(linear) < 0)
         for (glm::uvec3& t : triangles) std::swap(t.y, t.z);
 
-    object.baked = linear;
+    node.baked = linear;
     object.radius = bounding_radius(points);
     object.solid = model.solid && (is_similarity(linear) || is_convex_solid(points, triangles));
+    object.kind = object.solid ? "solid" : "mesh";
+    object.part_name = object.solid ? "" : "triangle";
     object.filled = false;
     if (object.solid) {
         Result<Polyhedron> built = Polyhedron::build(points);
         if (!built) return out_of_range(object);
         object.inside = inside_point(*built);
-        object.shape = *std::move(built);
+        node.shape = *std::move(built);
     } else {
         Result<Mesh> built = Mesh::build(points, triangles);
         if (!built) return out_of_range(object);
         object.filled = built->closed() && signed_volume(points, triangles) > 0;
         object.inside = inside_point(*built, object.filled);
-        object.shape = *std::move(built);
+        node.shape = *std::move(built);
     }
     return std::nullopt;
 }
 
-std::vector<std::string> Objects::hidden() const {
+std::vector<std::string> SceneObjects::hidden() const {
     std::vector<std::string> paths;
     for (std::size_t i = 0; i < objects_.size(); ++i)
         if (was_hidden_[i]) paths.push_back(objects_[i].path);

@@ -1,0 +1,62 @@
+#pragma once
+
+// The objects of a scene: its nodes with geometry, over its animation.
+
+#include "objects.hpp"
+#include <abut/bake/weld.hpp>
+#include <abut/io/scene.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <glm/ext/matrix_double3x3.hpp>
+#include <glm/ext/matrix_double4x4.hpp>
+
+namespace abut::tool {
+
+class SceneObjects final : public Objects<3> {
+public:
+    /// Refers to the scene.
+    explicit SceneObjects(const Scene& scene);
+
+    /// A Problem where a transform takes an object out of the range of floats.
+    std::optional<Problem> go_to(double time, ProgressCall progress) override;
+    using Objects<3>::go_to;
+
+    std::vector<std::string> hidden() const override;
+
+    /// What the node's transform does beyond turning and moving is baked into it.
+    using Shape = std::variant<Polyhedron, Mesh>;
+    const Shape& shape(std::size_t object) const { return nodes_[object].shape; }
+
+private:
+    /// Triangles as they stand in the file: of one mesh, shared by all objects that are made of it.
+    struct Model {
+        Welded surface;
+        bool solid = false;  ///< convex, closed and wound outwards
+    };
+    /// Where an object comes from.
+    struct Node {
+        std::uint32_t node = 0;
+        std::size_t model = 0;
+        Shape shape;
+        glm::dmat4 matrix{std::numeric_limits<double>::quiet_NaN()};  ///< into the world
+        glm::dmat3 baked{0.0};                                        ///< the part of a matrix that is in the shape
+    };
+
+    std::optional<Problem> place(std::size_t i, const glm::dmat4& matrix);
+    std::optional<Problem> bake(std::size_t i, const glm::dmat3& linear);
+
+    const Scene& scene_;
+    std::vector<Model> models_;
+    std::vector<Node> nodes_;  ///< of the object with the same number
+    std::vector<bool> was_hidden_;
+    std::vector<glm::dmat4> matrices_;
+};
+
+}  // namespace abut::tool
