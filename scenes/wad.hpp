@@ -1,18 +1,14 @@
 #pragma once
 
-// The maps of a Doom WAD: walls in the plane, and how many nodes its own tree of planes has.
+// The maps of a Doom WAD as levels of the plane, seen from above.
 
-#include <abut/math/result.hpp>
+#include "little_endian.hpp"
 #include <abut/math/vec.hpp>
 
 #include <array>
 #include <cctype>
-#include <cstdint>
-#include <fstream>
-#include <iterator>
-#include <string>
-#include <string_view>
-#include <vector>
+#include <cmath>
+#include <optional>
 
 #include <glm/ext/vector_uint2.hpp>
 
@@ -23,32 +19,16 @@ struct WadMap {
     std::vector<Vec2> points;
     std::vector<glm::uvec2> one_sided;  ///< walls: the void is to the left of each
     std::vector<glm::uvec2> lines;      ///< of all kinds
+    std::vector<glm::uvec2> barriers;   ///< between two places, and passed by no player
+    std::vector<glm::uvec2> ledges;     ///< passed from the left to the right alone: a step down, too high to climb
+    std::optional<Vec2> start;          ///< of the first player
     std::size_t nodes = 0;              ///< of the map's own tree, of all lines
 };
 
 namespace detail {
 
-class WadBytes {
-public:
-    explicit WadBytes(std::vector<char> bytes) : bytes_(std::move(bytes)) {}
-
-    bool holds(std::size_t at, std::size_t count) const { return at <= bytes_.size() && count <= bytes_.size() - at; }
-    std::uint32_t byte(std::size_t at) const { return static_cast<unsigned char>(bytes_[at]); }
-    std::uint32_t u16(std::size_t at) const { return byte(at) | byte(at + 1) << 8; }
-    std::uint32_t u32(std::size_t at) const { return u16(at) | u16(at + 2) << 16; }
-    float i16(std::size_t at) const { return static_cast<float>(static_cast<std::int16_t>(u16(at))); }
-    std::string name(std::size_t at) const {
-        const std::string_view text(bytes_.data() + at, 8);
-        return std::string(text.substr(0, text.find('\0')));
-    }
-
-private:
-    std::vector<char> bytes_;
-};
-
 struct WadLump {
-    std::size_t at, size;
-    std::string name;
+    std::size_t at = 0, size = 0;
 };
 
 /// E1M1 or MAP01.
@@ -58,15 +38,90 @@ inline bool names_a_map(const std::string& name) {
            (name.size() == 5 && name.substr(0, 3) == "MAP" && digit(3) && digit(4));
 }
 
+/// The lumps of one map.
+struct WadMapLumps {
+    enum Kind { things, lines, sides, points, sectors, nodes, kinds };
+    static constexpr std::array<const char*, kinds> names{"THINGS",   "LINEDEFS", "SIDEDEFS",
+                                                          "VERTEXES", "SECTORS",  "NODES"};
+    static constexpr std::array<std::size_t, kinds> sizes{10, 14, 30, 4, 26, 28};  // of a record
+
+    std::string name;
+    std::array<std::optional<WadLump>, kinds> lumps;
+
+    std::size_t count(Kind kind) const { return lumps[kind] ? lumps[kind]->size / sizes[kind] : 0; }
+    std::size_t place(Kind kind, std::size_t i) const { return lumps[kind]->at + i * sizes[kind]; }
+};
+
+/// As a player of the game is: no step up is higher than that, and no opening lower.
+constexpr int wad_step = 24, wad_height = 56;
+
+struct WadFloor {
+    int floor = 0, ceiling = 0;
+};
+
+/// Of the sector that a side of a line looks at; none where the numbers name nothing.
+inline std::optional<WadFloor> floor_beside(const LittleEndian& bytes, const WadMapLumps& map, std::uint32_t side) {
+    if (side >= map.count(WadMapLumps::sides)) return std::nullopt;
+    const std::uint32_t sector = bytes.u16(map.place(WadMapLumps::sides, side) + 28);
+    if (sector >= map.count(WadMapLumps::sectors)) return std::nullopt;
+    const std::size_t at = map.place(WadMapLumps::sectors, sector);
+    return WadFloor{bytes.i16(at), bytes.i16(at + 2)};
+}
+
+/// False where a line names points or places that aren't there.
+inline bool read_lines(const LittleEndian& bytes, const WadMapLumps& lumps, WadMap& map) {
+    constexpr std::uint32_t none = 0xffff, blocks = 1;
+    for (std::size_t i = 0; i < lumps.count(WadMapLumps::lines); ++i) {
+        const std::size_t at = lumps.place(WadMapLumps::lines, i);
+        const glm::uvec2 line(bytes.u16(at), bytes.u16(at + 2));
+        if (line.x >= map.points.size() || line.y >= map.points.size()) return false;
+        map.lines.push_back(line);
+        const std::uint32_t flags = bytes.u16(at + 4), does = bytes.u16(at + 6), left = bytes.u16(at + 12);
+        if (left == none) {
+            map.one_sided.push_back(line);
+            continue;
+        }
+        const auto on_right = floor_beside(bytes, lumps, bytes.u16(at + 10)),
+                   on_left = floor_beside(bytes, lumps, left);
+        if (!on_right || !on_left) return false;
+        if (flags & blocks) map.barriers.push_back(line);
+        // Doors and lifts are such lines: they are taken for open.
+        if (flags & blocks || does != 0) continue;
+        const int step = on_left->floor - on_right->floor;
+        const int opening = std::min(on_left->ceiling, on_right->ceiling) - std::max(on_left->floor, on_right->floor);
+        if (opening < wad_height)
+            map.barriers.push_back(line);
+        else if (std::abs(step) > wad_step)
+            map.ledges.push_back(step > 0 ? line : glm::uvec2(line.y, line.x));
+    }
+    return true;
+}
+
+inline std::optional<WadMap> read_map(const LittleEndian& bytes, const WadMapLumps& lumps) {
+    WadMap map;
+    map.name = lumps.name;
+    map.nodes = lumps.count(WadMapLumps::nodes);
+    const auto point = [&](std::size_t at) {
+        return Vec2(static_cast<float>(bytes.i16(at)), static_cast<float>(bytes.i16(at + 2)));
+    };
+    for (std::size_t i = 0; i < lumps.count(WadMapLumps::points); ++i)
+        map.points.push_back(point(lumps.place(WadMapLumps::points, i)));
+    constexpr std::uint32_t first_player = 1;
+    for (std::size_t i = 0; i < lumps.count(WadMapLumps::things); ++i) {
+        const std::size_t at = lumps.place(WadMapLumps::things, i);
+        if (bytes.u16(at + 6) == first_player) map.start = point(at);
+    }
+    if (!read_lines(bytes, lumps, map)) return std::nullopt;
+    return map;
+}
+
 }  // namespace detail
 
 /// In the order of the file.
-inline Result<std::vector<WadMap>> read_wad(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file) return Problem{ProblemCode::not_found, path + ": no such file"};
-    const detail::WadBytes bytes({std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()});
+inline Result<std::vector<WadMap>> wad_maps(const std::string& name, std::vector<char> content) {
+    const LittleEndian bytes(std::move(content));
     constexpr std::size_t entry_size = 16;
-    const Problem bad{ProblemCode::bad_format, path + ": not a WAD"};
+    const Problem bad{ProblemCode::bad_format, name + ": not a WAD"};
     if (!bytes.holds(0, 12)) return bad;
     const std::string_view kind = "WAD";
     for (std::size_t i = 0; i < kind.size(); ++i)
@@ -74,27 +129,31 @@ inline Result<std::vector<WadMap>> read_wad(const std::string& path) {
     const std::size_t count = bytes.u32(4), directory = bytes.u32(8);
     if (!bytes.holds(directory, count * entry_size)) return bad;
 
-    std::vector<WadMap> maps;
+    std::vector<detail::WadMapLumps> found;
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t entry = directory + i * entry_size;
-        const detail::WadLump lump{bytes.u32(entry), bytes.u32(entry + 4), bytes.name(entry + 8)};
-        if (!bytes.holds(lump.at, lump.size)) return bad;
-        if (detail::names_a_map(lump.name)) {
-            maps.push_back({lump.name, {}, {}, {}, 0});
-        } else if (!maps.empty() && lump.name == "LINEDEFS" && maps.back().lines.empty()) {
-            constexpr std::size_t size = 14, none = 0xffff;
-            for (std::size_t at = lump.at; at + size <= lump.at + lump.size; at += size) {
-                maps.back().lines.emplace_back(bytes.u16(at), bytes.u16(at + 2));
-                if (bytes.u16(at + 12) == none) maps.back().one_sided.push_back(maps.back().lines.back());
-            }
-        } else if (!maps.empty() && lump.name == "VERTEXES" && maps.back().points.empty()) {
-            for (std::size_t at = lump.at; at + 4 <= lump.at + lump.size; at += 4)
-                maps.back().points.emplace_back(bytes.i16(at), bytes.i16(at + 2));
-        } else if (!maps.empty() && lump.name == "NODES") {
-            maps.back().nodes = lump.size / 28;
-        }
+        const detail::WadLump lump{bytes.u32(entry), bytes.u32(entry + 4)};
+        const std::string lump_name = bytes.text(entry + 8, 8);
+        if (!bytes.holds(lump.at, lump.size))
+            return Problem{ProblemCode::bad_format, name + ": " + lump_name + " is beyond its end", entry};
+        if (detail::names_a_map(lump_name)) found.push_back({lump_name, {}});
+        for (std::size_t k = 0; k < detail::WadMapLumps::kinds; ++k)
+            if (!found.empty() && lump_name == detail::WadMapLumps::names[k] && !found.back().lumps[k])
+                found.back().lumps[k] = lump;
+    }
+    std::vector<WadMap> maps;
+    for (const detail::WadMapLumps& lumps : found) {
+        std::optional<WadMap> map = detail::read_map(bytes, lumps);
+        if (!map)
+            return Problem{ProblemCode::index_out_of_range, name + ": a line of " + lumps.name + " names nothing"};
+        maps.push_back(*std::move(map));
     }
     return maps;
+}
+inline Result<std::vector<WadMap>> read_wad(const std::string& path) {
+    Result<std::vector<char>> bytes = read_bytes(path);
+    if (!bytes) return bytes.problem();
+    return wad_maps(path, *std::move(bytes));
 }
 
 }  // namespace abut::scenes
