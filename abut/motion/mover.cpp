@@ -55,10 +55,10 @@ Mover<D>& Mover<D>::operator=(Mover&&) noexcept = default;
 
 template <int D>
 void Mover<D>::set_options(const MoverOptions<D>& options) {
-    const bool has_up = is_finite(options.up) && options.up != Vec<D>(0.0f);
-    ABUT_ASSERT(has_up);
+    const bool finite = is_finite(options.up);
+    ABUT_ASSERT(finite);
     options_ = options;
-    if (!has_up) options_.up = MoverOptions<D>{}.up;
+    if (!finite) options_.up = MoverOptions<D>{}.up;
 }
 
 template <int D>
@@ -78,7 +78,7 @@ Moved<D> Mover<D>::move_convex(const World<D>& world, const Convex<D>& shape, co
     near.begin(world, options_.filter, shape, DVec<D>(position), passes != nullptr ? &asks : nullptr);
 
     WalkRules<D> rules;
-    rules.up = normalized(DVec<D>(options_.up));
+    rules.up = normalized(DVec<D>(options_.up), DVec<D>(0.0));
     rules.step_height = static_cast<double>(options_.step_height);
     rules.stick = static_cast<double>(options_.stick);
     rules.least_rise = least_rise(options_.steepest);

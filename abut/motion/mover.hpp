@@ -12,7 +12,7 @@ namespace abut {
 /// Lengths are of the world, angles in radians.
 template <int D>
 struct MoverOptions {
-    Vec<D> up = second_axis();  ///< of any length but zero
+    Vec<D> up = second_axis();  ///< of any length; 0: there is none, such as seen from above or in water, and no ground
     float step_height = 0.3f;   ///< steps and edges up to so high are climbed
     float steepest = 0.87f;     ///< slopes that rise by at most this angle are ground; what is steeper is a wall
     float stick = 0.3f;         ///< on its way it is kept to ground that sinks by up to so much, for each move

@@ -50,6 +50,7 @@ const NearContact<D>* Walk<D>::ground() {
 template <int D>
 const NearContact<D>* Walk<D>::groove() {
     bool wall = false;
+    if (rules_.up == DVec<D>(0.0)) return nullptr;
     const DVec<D> down = rules_.up * -rules_.skin;
     if (length(allowed_by_planes(down, wall)) > 1e-3 * rules_.skin) return nullptr;
     const std::span<const NearContact<D>> all = contacts();

@@ -11,7 +11,7 @@ namespace abut {
 /// The options of a mover as the arithmetic takes them.
 template <int D>
 struct WalkRules {
-    DVec<D> up;
+    DVec<D> up;  ///< of length 1, or 0: then nothing is ground, and no slope too steep
     double step_height = 0, least_rise = 0, stick = 0, skin = 0;  ///< least_rise: of a normal along `up`, on ground
 };
 

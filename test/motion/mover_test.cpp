@@ -1,6 +1,7 @@
 // A character that walks: what it does on floors, walls, slopes, steps and platforms worked out by hand.
 
 #include "../oracle/expect.hpp"
+#include "../oracle/random.hpp"
 #include <abut/motion/depenetrate.hpp>
 #include <abut/motion/mover.hpp>
 #include <abut/query/overlaps.hpp>
@@ -321,6 +322,37 @@ TEST(Mover, TakesAnyWayUp) {
         position = mover.move(world, Sphere{{0, 0, 0}, 0.5f}, position, Vec3(0.1f, 0, -0.05f)).position;
     EXPECT_NEAR(position.z, 0.5, 0.02);
     EXPECT_NEAR(position.x, 10, 0.02);
+}
+
+/// With an up, a wall that faces it a little is too steep to climb, and seen from above that held whoever went along
+/// it.
+TYPED_TEST(MoverIn, SlidesAlongEveryWallAlikeWhereThereIsNoUp) {
+    static constexpr int N = TestFixture::D;
+    oracle::Random random(20260924);
+    this->mover.set_options({.up = Vec<N>(0.0f)});
+    int met = 0;
+    for (int i = 0; i < 200; ++i) {
+        World<N> room;
+        const DVec<N> normal = random.template direction<N>();
+        room.add(HalfSpace<N>{to_float(normal), 0}, {.fixed = true});
+        Vec<N> place = to_float(normal * 0.5100);
+        const DVec<N> motion = random.template direction<N>() * 0.1;
+        DVec<N> wanted(place);
+        for (int k = 0; k < 10; ++k) {
+            const Moved<N> now = this->mover.move(room, Ball<N>{Vec<N>(0.0f), 0.5f}, place, to_float(motion));
+            ASSERT_FALSE(now.grounded) << i;
+            place = now.position;
+        }
+        const double into = std::min(dot(motion, normal), 0.0);
+        wanted += (motion - normal * into) * 10.0;
+        met += into < 0 ? 1 : 0;
+        // It begins 0.01 from the wall, and comes to half of the skin before it.
+        EXPECT_LT(length(DVec<N>(place) - wanted), 0.008) << i;
+    }
+    EXPECT_GT(met, 60);
+    // Free on all sides, and in a corner that leaves no way, there is nothing to stand on either.
+    World<N> none;
+    EXPECT_FALSE(this->mover.move(none, Ball<N>{Vec<N>(0.0f), 0.5f}, Vec<N>(0.0f), Vec<N>(0.0f)).grounded);
 }
 
 TEST(Mover, ComesToRestInCornersOfAnyAngle) {
