@@ -1,7 +1,6 @@
 #include <abut/query/contact.hpp>
+#include <abut/query/contact_among.hpp>
 #include <abut/query/direct.hpp>
-#include <abut/query/each_contact.hpp>
-#include <abut/query/felt_contact.hpp>
 #include <abut/query/one_sided.hpp>
 #include <abut/query/part_pairs.hpp>
 #include <abut/query/write_answer.hpp>
@@ -24,19 +23,68 @@ void answer(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& optio
     name_features(a, b, found.distance, 0, 0, result);
 }
 
+/// The deepest pair of parts.
+template <int D>
+struct Deepest {
+    Contact<D> contact;
+    std::pair<std::uint32_t, std::uint32_t> parts;
+    PartContact<D> found;
+};
+
+template <int D>
+Deepest<D> deepest_of(const View<D>& a, const View<D>& b, const QueryOptions<D>& options) {
+    const double margin = static_cast<double>(options.margin);
+    const SearchOptions<D> search = search_options(a, b, options);
+    Deepest<D> result;
+    result.contact.normal[0] = 1;
+    double least = margin;
+    each_part_pair(a, b, options.margin,
+                   [&](const auto& part_a, std::uint32_t index_a, const auto& part_b, std::uint32_t index_b) {
+                       PartContact<D> found;
+                       if (!part_contact(part_a, part_b, least, margin, search, found)) return true;
+                       const SignedDistance<D>& distance = found.distance;
+                       if (!meet_at_fronts(part_a, part_b, distance.normal)) return true;
+                       const std::pair parts(index_a, index_b);
+                       // The lowest of several as deep, so that it isn't up to the order of the visits.
+                       if (result.contact && distance.distance == least && parts > result.parts) return true;
+                       // Now, while the parts are there: a composite shape may make them up as it goes.
+                       least = distance.distance;
+                       result.parts = parts;
+                       result.found = found;
+                       write(found.distance, found.manifold, result.contact);
+                       name_features(part_a, part_b, distance, index_a, index_b, result.contact);
+                       return true;
+                   });
+    return result;
+}
+
 /// Whether the contact of the deepest pair is felt by the whole shapes.
 template <int D>
-bool is_felt(const View<D>& a, const View<D>& b, const std::pair<std::uint32_t, std::uint32_t>& parts,
-             const SignedDistance<D>& distance, float margin) {
+bool is_felt(const View<D>& a, const View<D>& b, const Deepest<D>& deepest, float margin, const Others<D>& others) {
     bool felt = true;
-    const FeltPair<D> pair(a, b);
+    const FeltPair<D> pair(a, b, others);
     each_part_pair(a, b, margin,
                    [&](const auto& part_a, std::uint32_t index_a, const auto& part_b, std::uint32_t index_b) {
-                       if (std::pair(index_a, index_b) != parts) return true;
-                       felt = pair.is_felt(part_a, part_b, distance);
+                       if (std::pair(index_a, index_b) != deepest.parts) return true;
+                       felt = static_cast<bool>(pair.felt_by(part_a, part_b, deepest.found));
                        return false;
                    });
     return felt;
+}
+
+/// The deepest of those that are felt; of equals, the lowest.
+template <int D>
+ContactAmong<D> deepest_felt(const View<D>& a, const View<D>& b, const QueryOptions<D>& options,
+                             const Others<D>& others) {
+    ContactAmong<D> result;
+    each_contact_among<D>(a, b, options, others, [&](const Contact<D>& found, const FeltBy& felt) {
+        const auto order = [](const Contact<D>& c) { return std::tuple(-c.depth, c.feature_a.part, c.feature_b.part); };
+        if (result.contact && order(found) >= order(result.contact)) return true;
+        result.contact = found;
+        result.felt = felt;
+        return true;
+    });
+    return result;
 }
 
 /// Kept out of what is hot, where it would take up room.
@@ -71,41 +119,33 @@ Contact<D> contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& op
     if (convex_a != nullptr && convex_b != nullptr) return contact(*convex_a, *convex_b, options);
     const bool finite = is_finite(a) && is_finite(b);
     ABUT_ASSERT(finite);
-    Contact<D> result;
-    result.normal[0] = 1;
-    if (!finite) return result;
-    const double margin = static_cast<double>(options.margin);
-    const SearchOptions<D> search = search_options(a, b, options);
-    double least = margin;
-    std::pair<std::uint32_t, std::uint32_t> parts;
-    SignedDistance<D> deepest{};
-    each_part_pair(a, b, options.margin,
-                   [&](const auto& part_a, std::uint32_t index_a, const auto& part_b, std::uint32_t index_b) {
-                       PartContact<D> found;
-                       if (!part_contact(part_a, part_b, least, margin, search, found)) return true;
-                       const SignedDistance<D>& distance = found.distance;
-                       if (!meet_at_fronts(part_a, part_b, distance.normal)) return true;
-                       // The lowest of several as deep, so that it isn't up to the order of the visits.
-                       if (result && distance.distance == least && std::pair(index_a, index_b) > parts) return true;
-                       // Now, while the parts are there: a composite shape may make them up as it goes.
-                       least = distance.distance;
-                       parts = {index_a, index_b};
-                       deepest = distance;
-                       write(found.distance, found.manifold, result);
-                       name_features(part_a, part_b, distance, index_a, index_b, result);
-                       return true;
-                   });
-    if (!result || is_felt(a, b, parts, deepest, options.margin)) return result;
-    // The deepest of those that are felt; of equals, the lowest.
-    Contact<D> felt;
-    each_contact_of<D>(a, b, options, [&](const Contact<D>& found) {
-        const auto order = [](const Contact<D>& c) { return std::tuple(-c.depth, c.feature_a.part, c.feature_b.part); };
-        if (!felt || order(found) < order(felt)) felt = found;
-        return true;
-    });
-    return felt ? felt : result;
+    Deepest<D> deepest;
+    deepest.contact.normal[0] = 1;
+    if (!finite) return deepest.contact;
+    deepest = deepest_of(a, b, options);
+    if (!deepest.contact || is_felt<D>(a, b, deepest, options.margin, {})) return deepest.contact;
+    const ContactAmong<D> felt = deepest_felt<D>(a, b, options, {});
+    return felt.contact ? felt.contact : deepest.contact;
 }
 
+template <int D>
+ContactAmong<D> contact_among(const View<D>& a, const View<D>& b, const Others<D>& others) {
+    ContactAmong<D> result;
+    const bool finite = is_finite(a) && is_finite(b);
+    ABUT_ASSERT(finite);
+    if (!finite) return result;
+    const Deepest<D> deepest = deepest_of<D>(a, b, {});
+    if (!deepest.contact) return result;
+    if (is_felt(a, b, deepest, 0, others))
+        result.contact = deepest.contact;
+    else
+        result = deepest_felt<D>(a, b, {}, others);
+    result.touch = true;
+    return result;
+}
+
+template ContactAmong<2> contact_among(const View<2>&, const View<2>&, const Others<2>&);
+template ContactAmong<3> contact_among(const View<3>&, const View<3>&, const Others<3>&);
 template Contact<2> contact(const View<2>&, const View<2>&, const QueryOptions<2>&);
 template Contact<3> contact(const View<3>&, const View<3>&, const QueryOptions<3>&);
 template Contact<2> contact(const Convex<2>&, const Convex<2>&, const QueryOptions<2>&);

@@ -1,78 +1,144 @@
+#include <abut/query/contact_among.hpp>
 #include <abut/query/each_contact.hpp>
-#include <abut/query/felt_contact.hpp>
 #include <abut/query/one_sided.hpp>
+#include <abut/query/told_contacts.hpp>
 #include <abut/query/write_answer.hpp>
 
 namespace abut {
 namespace {
 
-/// What has been told of, as far as there is room: what is left out for it is told of twice.
+/// So often the parts are looked at again for the ghosts that come next in their order; what is left then is told in
+/// the order of the parts.
+constexpr int most_looks = 16;
+
+/// What is felt as it is, in the order of the parts; then what stands in for the rest and isn't told by that, in an
+/// order of its own, so that it doesn't matter how the parts are numbered.
 template <int D>
-class ToldNormals {
+class Telling {
 public:
-    void add(const DVec<D>& normal, double depth) {
-        if (count_ < told_.size()) told_[count_++] = {normal, depth};
-    }
-    /// Whether that tells of this one as well.
-    bool has(const DVec<D>& normal, double depth, double size) const {
-        return std::any_of(told_.begin(), told_.begin() + static_cast<std::ptrdiff_t>(count_),
-                           [&](const Told& told) { return tells_of(told.normal, told.depth, normal, depth, size); });
+    Telling(const View<D>& a, const View<D>& b, const QueryOptions<D>& options, const Others<D>& others,
+            FunctionRef<bool(const Contact<D>&, const FeltBy&)> visit)
+        : a_(a), b_(b), options_(options), pair_(a, b, others), visit_(visit) {}
+
+    void tell() {
+        look(
+            [&](const PartContact<D>& found, const Contact<D>& contact) {
+                felt_.add(found.distance.normal, -found.distance.distance);
+                return go_on_ = visit_(contact, FeltBy{});
+            },
+            [&](const Ghost<D>& ghost) {
+                if (!is_told(ghost)) first_.add(ghost);
+                return true;
+            });
+        for (int looks = 0; go_on_ && !first_.all().empty(); ++looks) {
+            if (felt_.is_full()) mark_told();
+            tell_first();
+            if (!go_on_ || !first_.has_left_out()) return;
+            if (looks == most_looks) return tell_all_after(first_.all().back());
+            find_next(Ghost<D>(first_.all().back()));
+        }
     }
 
 private:
-    struct Told {
-        DVec<D> normal;
-        double depth;
-    };
-    std::array<Told, 16> told_;
-    std::size_t count_ = 0;
+    /// at_felt(found, contact) or at_ghost(ghost) for each pair of parts; they return false to stop.
+    template <class AtFelt, class AtGhost>
+    void look(AtFelt&& at_felt, AtGhost&& at_ghost) const {
+        const double margin = static_cast<double>(options_.margin);
+        const SearchOptions<D> search = search_options(a_, b_, options_);
+        each_part_pair(a_, b_, options_.margin,
+                       [&](const auto& part_a, std::uint32_t index_a, const auto& part_b, std::uint32_t index_b) {
+                           PartContact<D> found;
+                           if (!part_contact(part_a, part_b, margin, margin, search, found)) return true;
+                           if (!meet_at_fronts(part_a, part_b, found.distance.normal)) return true;
+                           const auto write_to = [&](Contact<D>& contact) {
+                               write(found.distance, found.manifold, contact);
+                               name_features(part_a, part_b, found.distance, index_a, index_b, contact);
+                           };
+                           const FeltBy by = pair_.felt_by(part_a, part_b, found);
+                           if (by) {
+                               Contact<D> contact;
+                               write_to(contact);
+                               return at_felt(found, contact);
+                           }
+                           pair_.replace(part_a, part_b, by, found);
+                           if (found.distance.distance > margin) return true;
+                           Ghost<D> ghost{{}, by, found.distance.normal, -found.distance.distance, false};
+                           write_to(ghost.contact);
+                           return at_ghost(ghost);
+                       });
+    }
+
+    bool is_told(const Ghost<D>& ghost) const {
+        return felt_.has(ghost.normal, ghost.depth, pair_.size()) ||
+               instead_.has(ghost.normal, ghost.depth, pair_.size());
+    }
+    bool tell(const Ghost<D>& ghost) {
+        if (ghost.told || is_told(ghost)) return true;
+        instead_.add(ghost.normal, ghost.depth);
+        return go_on_ = visit_(ghost.contact, ghost.felt);
+    }
+    void tell_first() {
+        for (const Ghost<D>& ghost : first_.all())
+            if (!tell(ghost)) return;
+    }
+
+    /// By what is felt and was not kept.
+    void mark_told() {
+        look(
+            [&](const PartContact<D>& found, const Contact<D>&) {
+                const SignedDistance<D>& distance = found.distance;
+                for (Ghost<D>& ghost : first_.all())
+                    ghost.told = ghost.told ||
+                                 tells_of(distance.normal, -distance.distance, ghost.normal, ghost.depth, pair_.size());
+                return true;
+            },
+            [](const Ghost<D>&) { return true; });
+    }
+    void find_next(const Ghost<D>& last) {
+        first_.clear();
+        look([](const PartContact<D>&, const Contact<D>&) { return true; },
+             [&](const Ghost<D>& ghost) {
+                 if (comes_before(last, ghost) && !is_told(ghost)) first_.add(ghost);
+                 return true;
+             });
+    }
+    void tell_all_after(const Ghost<D>& last) {
+        look([](const PartContact<D>&, const Contact<D>&) { return true; },
+             [&](const Ghost<D>& ghost) { return !comes_before(last, ghost) || tell(ghost); });
+    }
+
+    const View<D>&a_, &b_;
+    const QueryOptions<D>& options_;
+    FeltPair<D> pair_;
+    FunctionRef<bool(const Contact<D>&, const FeltBy&)> visit_;
+    ToldNormals<D> felt_, instead_;
+    FirstGhosts<D> first_;
+    bool go_on_ = true;
 };
 
 }  // namespace
 
 template <int D>
-void each_contact_of(const View<D>& a, const View<D>& b, const QueryOptions<D>& options,
-                     FunctionRef<bool(const Contact<D>&)> visit) {
+void each_contact_among(const View<D>& a, const View<D>& b, const QueryOptions<D>& options, const Others<D>& others,
+                        FunctionRef<bool(const Contact<D>&, const FeltBy&)> visit) {
     const bool finite = is_finite(a) && is_finite(b);
     ABUT_ASSERT(finite);
-    if (!finite) return;
-    const double margin = static_cast<double>(options.margin);
-    const SearchOptions<D> search = search_options(a, b, options);
-    const FeltPair<D> felt(a, b);
-    ToldNormals<D> told;
-    bool go_on = true;
-    std::size_t ghosts = 0;
-    // First what is felt as it is; then, if there are others, what those stand for.
-    const auto look = [&](bool at_ghosts) {
-        each_part_pair(
-            a, b, options.margin,
-            [&](const auto& part_a, std::uint32_t index_a, const auto& part_b, std::uint32_t index_b) {
-                PartContact<D> found;
-                if (!part_contact(part_a, part_b, margin, margin, search, found)) return true;
-                if (!meet_at_fronts(part_a, part_b, found.distance.normal)) return true;
-                const bool is_ghost = !felt.is_felt(part_a, part_b, found.distance);
-                if (is_ghost && !at_ghosts) ++ghosts;
-                if (is_ghost != at_ghosts) return true;
-                if (is_ghost) {
-                    felt.replace(part_a, part_b, found);
-                    const SignedDistance<D>& distance = found.distance;
-                    if (distance.distance > margin || told.has(distance.normal, -distance.distance, felt.size()))
-                        return true;
-                }
-                told.add(found.distance.normal, -found.distance.distance);
-                Contact<D> contact;
-                write(found.distance, found.manifold, contact);
-                name_features(part_a, part_b, found.distance, index_a, index_b, contact);
-                return go_on = visit(contact);
-            });
-    };
-    look(false);
-    if (go_on && ghosts > 0) look(true);
+    if (finite) Telling<D>(a, b, options, others, visit).tell();
 }
 
-template void each_contact_of(const View<2>&, const View<2>&, const QueryOptions<2>&,
-                              FunctionRef<bool(const Contact<2>&)>);
-template void each_contact_of(const View<3>&, const View<3>&, const QueryOptions<3>&,
-                              FunctionRef<bool(const Contact<3>&)>);
+template <int D>
+void each_contact_of(const View<D>& a, const View<D>& b, const QueryOptions<D>& options,
+                     FunctionRef<bool(const Contact<D>&)> visit) {
+    each_contact_among<D>(a, b, options, {}, [&](const Contact<D>& contact, const FeltBy&) { return visit(contact); });
+}
+
+#define ABUT_INSTANTIATE(D)                                                                                    \
+    template void each_contact_among(const View<D>&, const View<D>&, const QueryOptions<D>&, const Others<D>&, \
+                                     FunctionRef<bool(const Contact<D>&, const FeltBy&)>);                     \
+    template void each_contact_of(const View<D>&, const View<D>&, const QueryOptions<D>&,                      \
+                                  FunctionRef<bool(const Contact<D>&)>);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
 
 }  // namespace abut

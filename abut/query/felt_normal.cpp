@@ -22,6 +22,10 @@ constexpr double rounding = 1e-2, turned_by_rounding = 1e-3;
 /// A face may look turned by this much where a point just beside it is taken for one on it.
 constexpr double face_turned_by = 1e-5;
 
+/// How far along a part its normal is looked for where it is covered by others, in parts of s: so far at first, and so
+/// many times as far each time, up to the middle of what feels it.
+constexpr double first_reach = 3, next_reach = 4;
+
 /// A point within the part and off all its edges, as far as it has an inside.
 template <int D>
 DVec<D> inner_point(const Convex<D>& part, const DVec<D>& beside) {
@@ -42,7 +46,7 @@ bool is_face(const Part& part, const FeltPlace<D>& place, const DVec<D>& beside,
     const DVec<D> along = to_middle - place.out * dot(to_middle, place.out);
     const double way = length(along);
     if (!(way > nearer_by * place.scale)) return true;
-    const DVec<D> farther = beside + along * (std::min(3 * place.scale, way) / way);
+    const DVec<D> farther = beside + along * (std::min(first_reach * place.scale, way) / way);
     return std::abs(foot_on(part, farther).distance - own) <= 3 * face_turned_by * place.scale;
 }
 
@@ -70,6 +74,14 @@ bool is_free(const Part& part, const FeltPlace<D>& place, const DVec<D>& beside,
     return !covered && (!doubtful || is_face(part, place, beside, own));
 }
 
+/// Of two feet equally near, whatever the order in which they are told.
+template <int D>
+bool is_before(const DVec<D>& a, const DVec<D>& b) {
+    for (int i = 0; i < D; ++i)
+        if (a[i] != b[i]) return a[i] < b[i];
+    return false;
+}
+
 }  // namespace
 
 template <int D>
@@ -89,7 +101,8 @@ template <int D>
 Foot<D> nearest_foot(EachFoot<D> each_foot, const DVec<D>& point, double within, double scale) {
     Foot<D> result;
     each_foot(point, within, [&](const Foot<D>& foot) {
-        if (foot.distance < result.distance && !is_behind(foot, scale)) result = foot;
+        if (is_behind(foot, scale) || foot.distance > result.distance) return;
+        if (foot.distance < result.distance || is_before(foot.point, result.point)) result = foot;
     });
     return result;
 }
@@ -113,10 +126,14 @@ bool is_felt(const Part& part, const FeltPlace<D>& place, EachFoot<D> each_foot)
     const DVec<D> along = to_middle - place.out * dot(to_middle, place.out);
     const double way = length(along);
     if (!(way > place.scale)) return false;
-    // The same normal there: the surface goes on without a bend.
-    const DVec<D> farther = beside + along * (std::min(3 * place.scale, way) / way);
-    const double own_there = foot_on(part, farther).distance;
-    return std::abs(own_there - own) <= nearer_by * place.scale && is_free(part, place, farther, own_there, each_foot);
+    for (double reach = first_reach * place.scale;; reach *= next_reach) {
+        const DVec<D> farther = beside + along * (std::min(reach, way) / way);
+        const double own_there = foot_on(part, farther).distance;
+        // Another normal there: the surface has a bend.
+        if (!(std::abs(own_there - own) <= nearer_by * place.scale)) return false;
+        if (is_free(part, place, farther, own_there, each_foot)) return true;
+        if (!(reach < way)) return false;
+    }
 }
 
 template <int D, class Part>

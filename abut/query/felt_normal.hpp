@@ -36,8 +36,8 @@ struct Foot {
 template <int D>
 using EachFoot = FunctionRef<void(const DVec<D>& point, double within, FunctionRef<void(const Foot<D>&)> visit)>;
 
-/// Of all parts that the point isn't behind; none, with an infinite distance, where all are farther than `within`.
-/// `scale` is s.
+/// Of all parts that the point isn't behind, in whatever order they are told; none, with an infinite distance, where
+/// all are farther than `within`. `scale` is s.
 template <int D>
 Foot<D> nearest_foot(EachFoot<D> each_foot, const DVec<D>& point, double within, double scale);
 
@@ -59,7 +59,8 @@ struct FeltPlace {
 };
 
 /// Whether the way out is one of the union's. What is met from its front alone covers nothing behind it. In a corner,
-/// where the parts beside are as near, the same is asked a little farther along the part. A part's edge that stands out
+/// where the parts beside are as near, or the place is in one of them, the same is asked farther and farther along the
+/// part, as long as that has the same way out, up to beside the middle of what feels it. A part's edge that stands out
 /// from another part by no more than rounding explains, 1e-5 of the size, isn't felt.
 template <int D, class Part>
 bool is_felt(const Part& part, const FeltPlace<D>& place, EachFoot<D> each_foot);

@@ -229,6 +229,35 @@ TEST(EachContact, FeelsACornerThatPointsIntoACorner) {
         EXPECT_TRUE(contact.normal.y < -0.999f || contact.normal.x > 0.999f) << contact.normal.x;
 }
 
+/// Its tip is in both by far more than what isn't felt.
+TEST(EachContact, FeelsACornerThatIsDeepInACorner) {
+    const Pieces<Box2> level{{{{4, -0.5f}, {4, 0.5f}}, {{4.5f, 2}, {0.5f, 2}}}};
+    for (const float depth : {0.005f, 0.02f, 0.05f}) {
+        const Vec2 tip(4 + depth, -depth);
+        const Polygon wedge = *Polygon::build(std::vector<Vec2>{tip, tip + Vec2(-0.6f, 0.2f), tip + Vec2(-0.2f, 0.6f)});
+        const auto contacts = contacts_of<2>(wedge, level);
+        int up = 0, aside = 0;
+        for (const Contact<2>& contact : contacts) {
+            up += contact.normal.y < -0.999f ? 1 : 0;
+            aside += contact.normal.x > 0.999f ? 1 : 0;
+            EXPECT_NEAR(contact.depth, depth, 1e-5);
+        }
+        EXPECT_GT(up, 0) << depth;
+        EXPECT_GT(aside, 0) << depth;
+        EXPECT_EQ(static_cast<std::size_t>(up + aside), contacts.size()) << depth;
+    }
+}
+
+/// Planks side by side on a floor: the area in which they meet has all its corners in floor and ceiling.
+TEST(EachContact, FeelsAWallBetweenFloorAndCeiling) {
+    const Pieces<Box3> level{
+        {{{0, -1, 0}, {20, 1, 20}}, {{0, 1.2f, 0}, {20, 1, 20}}, {{0.5f, 0.1f, 0}, {0.5f, 0.1f, 9}}}};
+    const Box3 plank{{-0.49f, 0.1f, 0.3f}, {0.5f, 0.102f, 9}};
+    int aside = 0;
+    for (const Contact<3>& contact : contacts_of<3>(plank, level)) aside += contact.normal.x > 0.999f ? 1 : 0;
+    EXPECT_EQ(aside, 1);
+}
+
 TEST(EachContact, FeelsRealEdges) {
     // The end of the floor, and a ball that hangs over it.
     const auto over_end = contacts_of<2>(Circle{{-0.3f, 0.38f}, 0.5f}, segments(nullptr));
