@@ -6,6 +6,8 @@
 #include <abut/math/motion.hpp>
 #include <abut/math/sin_cos.hpp>
 
+#include <algorithm>
+
 namespace abut {
 
 /// How fast a thing turns, in radians for the whole of its motion; in 3D along the axis.
@@ -74,6 +76,25 @@ struct RigidPath {
     /// Of a point of the thing that is at `place` at that time.
     DVec<D> velocity(double time, const DVec<D>& place) const { return move + turned_by(spin, place - pivot(time)); }
 };
+
+/// The most that a point moves and bends, |x'| and |x''|, in the time from 0 to 1.
+struct SeenMotion {
+    double speed, bend;
+};
+
+/// Of the points of a thing on a path that are at most `reach` from its pivot, as the frame of another path sees them.
+/// There, with p from the frame's pivot to the thing's and y from that to the point, x = R^T (p + y), so that
+///
+///     |x'|  <= |p'| + w |p| + (v + w) |y|,
+///     |x''| <= 2 w |p'| + w^2 |p| + (v + w)^2 |y|,    w, v the rates of the frame and of the path.
+template <int D>
+SeenMotion seen_motion(const RigidPath<D>& path, const RigidPath<D>& frame, double reach) {
+    const double w = rate_of(frame.spin), both = w + rate_of(path.spin);
+    // A straight way is farthest from a point at one of its ends.
+    const double p = std::max(length(path.pivot(0) - frame.pivot(0)), length(path.pivot(1) - frame.pivot(1)));
+    const double speed = length(path.move - frame.move);
+    return {speed + w * p + both * reach, 2 * w * speed + w * w * p + both * both * reach};
+}
 
 RigidPath<2> rigid_path(const Motion2& motion);
 RigidPath<3> rigid_path(const Motion3& motion);

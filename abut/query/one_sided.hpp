@@ -2,7 +2,6 @@
 
 // Parts that are met from their front alone: a chain's segments, one-way platforms. For .cpp files.
 
-#include <abut/math/rigid_path.hpp>
 #include <abut/shape/view.hpp>
 
 namespace abut {
@@ -39,14 +38,6 @@ bool is_one_sided(const PartA& a, const PartB& b) {
 template <int D, class PartA, class PartB>
 bool meet_at_fronts(const PartA& a, const PartB& b, const DVec<D>& normal) {
     return leaves_by_front(a, normal) && leaves_by_front(b, -normal);
-}
-
-/// The same of parts that are on their ways, at the time they meet.
-template <int D, class PartA, class PartB>
-bool meet_at_fronts(const PartA& a, const RigidPath<D>& path_a, const PartB& b, const RigidPath<D>& path_b, double time,
-                    const DVec<D>& normal) {
-    if (!is_one_sided(a, b)) return true;
-    return meet_at_fronts(moved(a, place_at(path_a, time)), moved(b, place_at(path_b, time)), normal);
 }
 
 }  // namespace abut

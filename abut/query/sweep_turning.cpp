@@ -1,5 +1,4 @@
 #include <abut/math/assert.hpp>
-#include <abut/query/one_sided.hpp>
 #include <abut/query/part_pairs.hpp>
 #include <abut/query/sweep_turning.hpp>
 #include <abut/query/turning_parts.hpp>
@@ -49,8 +48,7 @@ template <int D>
 std::optional<Hit<D>> between(const Convex<D>& a, RigidPath<D> path_a, const Convex<D>& b, RigidPath<D> path_b,
                               const QueryOptions<D>& options) {
     const auto find = [&](const auto& way_a, const auto& way_b, Meeting<D>& meeting) {
-        return first_meeting<D>(a, way_a, b, way_b, TurningLimits{}, {options.cache, options.trace}, meeting) &&
-               meet_at_fronts<D>(a, way_a, b, way_b, meeting.time, meeting.normal);
+        return first_meeting<D>(a, way_a, b, way_b, TurningLimits{}, {options.cache, options.trace}, meeting);
     };
     std::optional<Hit<D>> result;
     find_hit(a, path_a, b, path_b, find, result);

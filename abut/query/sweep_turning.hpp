@@ -35,9 +35,10 @@ std::optional<Hit<D>> sweep(const Given<D>& a, const Pose<D>& from_a, const Pose
 /// `distance` is that fraction of the straight way that A goes relative to B; `normal` faces A, `point` is on B, and
 /// the feature is B's.
 ///
-/// Shapes that touch or overlap at first hit at 0 only if the motion goes further in at once, judged where they touch;
-/// what slides, turns on the spot or moves apart is no hit then, but is one as soon as it does sink in by more than
-/// half of the margin, or meets anew.
+/// Shapes that touch or overlap at first hit at 0 only if the motion goes further in at once, judged where they touch.
+/// What slides, turns on the spot or moves apart is no hit then, but is one as soon as two parts are deeper in one
+/// another than they were at first, by more than the margin (half of it where they only touched), or as they touch
+/// anew after they have been apart.
 template <class A, class B>
 requires Pair<A, B> std::optional<Hit<dimension<A>>> sweep(const A& a, const Motion<dimension<A>>& motion_a, const B& b,
                                                            const Motion<dimension<A>>& motion_b,

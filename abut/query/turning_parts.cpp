@@ -1,5 +1,4 @@
 #include <abut/math/assert.hpp>
-#include <abut/query/one_sided.hpp>
 #include <abut/query/turning_parts.hpp>
 
 #include <optional>
@@ -30,22 +29,13 @@ Around<D> around(const Aabb<D>& box) {
     return {(low + high) * 0.5, 0.5 * length(high - low)};
 }
 
-/// Where a moving ball comes to, as the frame of another path sees it. Its center x there, R^T (p + y) with p from that
-/// frame's pivot to its own and y from its own pivot, bends by
-///
-///     |x''| <= w^2 |p| + 2 w |p'| + (v + w)^2 |y|,    w, v the rates of the frame and of the ball's path,
-///
-/// so between two times h apart it is within |x''| h^2 / 8 of the straight line.
+/// Where a moving ball comes to, as the frame of another path sees it. Between two times h apart its center x is within
+/// |x''| h^2 / 8 of the straight line.
 template <int D>
 class SeenMoving {
 public:
     SeenMoving(const Around<D>& ball, const RigidPath<D>& path, const RigidPath<D>& frame)
-        : ball_(ball), path_(path), frame_(frame) {
-        const double w = rate_of(frame.spin), both = w + rate_of(path.spin);
-        const double farthest =
-            std::max(length(path.pivot(0) - frame.pivot(0)), length(path.pivot(1) - frame.pivot(1)));
-        bend_ = w * w * farthest + 2 * w * length(path.move - frame.move) + both * both * length(ball.center);
-    }
+        : ball_(ball), path_(path), frame_(frame), bend_(seen_motion(path, frame, length(ball.center)).bend) {}
 
     /// A box around it and a margin, rounded outwards.
     Aabb<D> box(const Piece& piece, double margin) const {
@@ -171,12 +161,8 @@ private:
     void look_at_pair(const PartA& a, std::uint32_t index_a, const PartB& b, std::uint32_t index_b,
                       const Piece& piece) {
         Meeting<D> found;
-        // What has gone in at a back is told of nowhere on its way out: what has a front is searched from the
-        // beginning.
-        const double from = is_one_sided(a, b) ? 0 : piece.from;
-        const TurningLimits limits{.from = from, .until = piece.to, .reach = any ? first.time : piece.to};
+        const TurningLimits limits{.from = piece.from, .until = piece.to, .reach = any ? first.time : piece.to};
         if (!first_meeting<D>(a, path_a_, b, path_b_, limits, options_, found)) return;
-        if (!meet_at_fronts(a, path_a_, b, path_b_, found.time, found.normal)) return;
         // The lowest of several at one time, so that it isn't up to the order of the visits.
         if (any && std::tuple(found.time, index_b, index_a) >= std::tuple(first.time, first.feature.part, index_a_))
             return;

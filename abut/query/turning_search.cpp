@@ -1,8 +1,10 @@
 #include <abut/convex/manifold.hpp>
 #include <abut/convex/margin.hpp>
 #include <abut/convex/turning_gap.hpp>
+#include <abut/query/one_sided.hpp>
 #include <abut/query/part_pairs.hpp>
 #include <abut/query/turning_search.hpp>
+#include <abut/query/turning_together.hpp>
 
 namespace abut {
 namespace {
@@ -22,6 +24,13 @@ double margin_of(double size_a, double size_b) {
     return margin_of_doubt(std::min(size_a, size_b), std::max(size_a, size_b));
 }
 
+/// By how much a depth that is told may be above the least.
+template <int D>
+double depth_doubt(const Convex<D>& set) {
+    const bool exact = set.inner_radius == 0 && (set.core == Core::points || set.core == Core::box);
+    return exact ? 0 : 1e-3 * radius_of(set);
+}
+
 template <int D>
 class ConvexPair {
 public:
@@ -30,13 +39,13 @@ public:
         : margin(margin_of(radius_of(set_a), radius_of(set_b))),
           a(set_a, path_a, 0.02 * margin),
           b(set_b, path_b, 0.02 * margin),
+          doubt(depth_doubt(set_a) + depth_doubt(set_b)),
           options_(options) {
         if (options_.cache == nullptr) options_.cache = &cache_;
     }
 
     SignedDistance<D> distance(double time) {
-        a.go_to(time);
-        b.go_to(time);
+        go_to(time);
         return part_distance(a.here(), b.here(), options_);
     }
     Manifold<D> meeting_points(const SignedDistance<D>& distance) const {
@@ -55,6 +64,15 @@ public:
         return time;
     }
 
+    void go_to(double time) {
+        a.go_to(time);
+        b.go_to(time);
+    }
+    const Convex<D>& here_a() const { return a.here(); }
+    const Convex<D>& here_b() const { return b.here(); }
+    double reach_a() const { return a.reach(); }
+    double reach_b() const { return b.reach(); }
+
     /// Whether it is clear at first sight that one direction alone leads out where they are nearest: of what is round,
     /// and in the plane of what is met amid a side.
     bool has_one_way_out(const SignedDistance<D>& now) const {
@@ -71,6 +89,7 @@ public:
 
     double margin;
     TurningSet<D> a, b;
+    double doubt;  ///< by how much a depth may be above the least
 
 private:
     static constexpr double far = 10;  ///< from an end, in margins
@@ -109,14 +128,12 @@ public:
             first_is_solid ? never : 0.02 * margin),
           b(first_is_solid ? convex : foot_of(solid), first_is_solid ? path_of_set : path_of_solid,
             first_is_solid ? 0.02 * margin : never),
+          doubt(depth_doubt(convex)),
           turning_(path_of_solid.spin),
           normal_(turning_.of(path_of_solid.start.vector(solid.normal))) {}
 
     SignedDistance<D> distance(double time) {
-        a.go_to(time);
-        b.go_to(time);
-        solid_.normal = normal_.at(sin_cos(turning_.rate * time));
-        solid_.offset = dot(solid_.normal, foot().place.offset);
+        go_to(time);
         SignedDistance<D> result = part_distance(set(), solid_);
         if (first_is_solid) turn_round(result);
         return result;
@@ -130,6 +147,26 @@ public:
         return open_until(gap, from, until, gap.at_first(now.normal, now.distance, now.on_a, now.on_b()), level, slack)
             .time;
     }
+    void go_to(double time) {
+        a.go_to(time);
+        b.go_to(time);
+        solid_.normal = normal_.at(sin_cos(turning_.rate * time));
+        solid_.offset = dot(solid_.normal, foot().place.offset);
+    }
+    const auto& here_a() const {
+        if constexpr (first_is_solid)
+            return solid_;
+        else
+            return a.here();
+    }
+    const auto& here_b() const {
+        if constexpr (first_is_solid)
+            return b.here();
+        else
+            return solid_;
+    }
+    double reach_a() const { return first_is_solid ? std::numeric_limits<double>::infinity() : a.reach(); }
+    double reach_b() const { return first_is_solid ? b.reach() : std::numeric_limits<double>::infinity(); }
     Feature feature_on_b(const SignedDistance<D>& distance) const {
         Feature result;
         if (first_is_solid)
@@ -139,6 +176,7 @@ public:
 
     double margin;
     TurningSet<D> a, b;
+    double doubt;  ///< by how much a depth may be above the least
 
 private:
     static constexpr double never = -1;
@@ -187,8 +225,7 @@ private:
         if (!(speed > std::max(0.5 * pair_.margin, 1e-6 * (pair_.a.travel() + pair_.b.travel())))) return false;
         if (pair_.has_one_way_out(now_)) return true;
         if (pair_.distance(time_ + pair_.margin / speed).distance < now_.distance - 0.5 * pair_.margin) return true;
-        pair_.a.go_to(time_);
-        pair_.b.go_to(time_);
+        pair_.go_to(time_);
         return false;
     }
 
@@ -200,36 +237,78 @@ private:
 /// From time to time that is proven free, until they meet. The levels are chosen so that each comes with some way to go
 /// to the next, whatever rounding does: apart, they are followed down to a gap of 0.2 to 0.4 margins, and touch at 0.5;
 /// what touches and doesn't go further in may sink by 0.5 of a margin at the most, and has at 0.3, below touching or
-/// where it was least deep since.
+/// where it began. What is deeper than the margin isn't seen to come apart in between by the axes that prove that it
+/// sinks no deeper, so it is followed from both sides: surely not apart by a margin, and apart at half of one.
 template <int D, class Pair>
-bool search(Pair& pair, const TurningLimits& limits, Meeting<D>& meeting) {
-    const double margin = pair.margin;
-    double time = limits.from, least_deep = 0;
-    SignedDistance<D> now = pair.distance(time);
-    // What has been sliding is looked at from where it began to.
-    if (time > 0 && now.distance <= margin) now = pair.distance(time = 0);
-    const bool started_inside = now.distance < -margin;
-    bool apart = true;
-    for (int step = 0;; ++step) {
-        if (apart && now.distance <= 0.5 * margin) {
-            if (Entry<D, Pair>(pair, time, now).goes_in()) break;
-            apart = false;
-            least_deep = std::min(now.distance, 0.0);
-        } else if (!apart && now.distance <= least_deep - 0.3 * margin) {
-            break;
+class Search {
+public:
+    Search(Pair& pair, const TurningLimits& limits) : pair_(pair), limits_(limits), margin_(pair.margin) {}
+
+    bool run(Meeting<D>& meeting) {
+        time_ = limits_.from;
+        now_ = pair_.distance(time_);
+        // What has been sliding is looked at from where it began to.
+        if (time_ > 0 && now_.distance <= margin_) now_ = pair_.distance(time_ = 0);
+        const double from = time_;
+        bool started_inside = now_.distance < -margin_;
+        for (int step = 0;; ++step) {
+            if (has_met() || step >= limits_.most_steps) break;
+            time_ = free_until(step >= quick_steps);
+            if (time_ >= limits_.until || time_ > limits_.reach) return false;
+            now_ = pair_.distance(time_);
         }
-        least_deep = std::max(least_deep, std::min(now.distance, 0.0));
-        apart = apart || now.distance > margin;
-        if (step >= limits.most_steps) break;
-        const double level = apart ? 0.2 * margin : least_deep - 0.5 * margin;
-        const double slack = apart ? 0.2 * margin : 0.15 * margin;
-        time = pair.open_to(time, limits.until, level, slack, now, !apart || step >= quick_steps);
-        if (time >= limits.until || time > limits.reach) return false;
-        now = pair.distance(time);
+        const Feature feature = pair_.feature_on_b(now_);
+        if (from > 0) started_inside = pair_.distance(0).distance < -margin_;
+        meeting = {time_, now_.on_b(), now_.normal, started_inside, feature};
+        return true;
     }
-    meeting = {time, now.on_b(), now.normal, started_inside, pair.feature_on_b(now)};
-    return true;
-}
+
+private:
+    /// Looks at them as they are now.
+    bool has_met() {
+        bool goes_in = false;
+        if (apart_ && now_.distance <= 0.5 * margin_) {
+            goes_in = Entry<D, Pair>(pair_, time_, now_).goes_in();
+            apart_ = false;
+            floor_ = std::min(now_.distance, 0.0);
+            if (is_deep()) floor_ -= pair_.doubt;
+        } else if (!apart_) {
+            goes_in = now_.distance <= floor_ - 0.3 * margin_;
+        }
+        if (goes_in) {
+            pair_.go_to(time_);
+            if (meet_at_fronts(pair_.here_a(), pair_.here_b(), now_.normal)) return true;
+            // By a back it goes in as deep as it likes, and is met when it has come out.
+            floor_ = -std::numeric_limits<double>::infinity();
+            no_deeper_until_ = limits_.until;
+        }
+        apart_ = apart_ || now_.distance > (is_deep() ? 0.5 : 1) * margin_;
+        return false;
+    }
+
+    double free_until(bool thorough) {
+        if (apart_) {
+            no_deeper_until_ = 0;
+            return pair_.open_to(time_, limits_.until, 0.2 * margin_, 0.2 * margin_, now_, thorough);
+        }
+        if (time_ >= no_deeper_until_)
+            no_deeper_until_ = pair_.open_to(time_, limits_.until, floor_ - 0.5 * margin_, 0.15 * margin_, now_, true);
+        if (!is_deep()) return no_deeper_until_;
+        return Together<D, Pair>(pair_).until({time_, no_deeper_until_}, now_.distance);
+    }
+
+    /// Whether they may be in one another by more than the margin.
+    bool is_deep() const { return floor_ < -margin_; }
+
+    Pair& pair_;
+    const TurningLimits& limits_;
+    const double margin_;
+    double time_ = 0;
+    SignedDistance<D> now_;
+    bool apart_ = true;
+    double floor_ = 0;            ///< while they aren't apart: what is deeper than that has gone in
+    double no_deeper_until_ = 0;  ///< while they aren't apart
+};
 
 }  // namespace
 
@@ -237,21 +316,21 @@ template <int D>
 bool first_meeting(const Convex<D>& a, const RigidPath<D>& path_a, const Convex<D>& b, const RigidPath<D>& path_b,
                    const TurningLimits& limits, const SearchOptions<D>& options, Meeting<D>& meeting) {
     ConvexPair<D> pair(a, path_a, b, path_b, options);
-    return search(pair, limits, meeting);
+    return Search<D, decltype(pair)>(pair, limits).run(meeting);
 }
 
 template <int D>
 bool first_meeting(const Convex<D>& a, const RigidPath<D>& path_a, const Solid<D>& b, const RigidPath<D>& path_b,
                    const TurningLimits& limits, const SearchOptions<D>&, Meeting<D>& meeting) {
     SolidPair<D, false> pair(b, path_b, a, path_a);
-    return search(pair, limits, meeting);
+    return Search<D, decltype(pair)>(pair, limits).run(meeting);
 }
 
 template <int D>
 bool first_meeting(const Solid<D>& a, const RigidPath<D>& path_a, const Convex<D>& b, const RigidPath<D>& path_b,
                    const TurningLimits& limits, const SearchOptions<D>&, Meeting<D>& meeting) {
     SolidPair<D, true> pair(a, path_a, b, path_b);
-    return search(pair, limits, meeting);
+    return Search<D, decltype(pair)>(pair, limits).run(meeting);
 }
 
 #define ABUT_INSTANTIATE(D)                                                                                   \

@@ -20,9 +20,9 @@ struct Meeting {
     Feature feature;  ///< on B; its part is for the caller to tell
 };
 
-/// The bound on how often the distance is asked for. A dozen is much; reaching the bound is told as a meeting there,
-/// which is early and never late.
-inline constexpr int turning_most_steps = 256;
+/// The bound on steps from one time to the next. A dozen is much for what starts apart, and a hundred for what leaves
+/// something it was inside of; reaching the bound is told as a meeting there, which is early and never late.
+inline constexpr int turning_most_steps = 1024;
 
 /// Times. Where they meet is the same to the last bit whatever the reach.
 struct TurningLimits {
@@ -32,8 +32,18 @@ struct TurningLimits {
     int most_steps = turning_most_steps;
 };
 
-/// False, and `meeting` is as it was, where they don't meet until then. Both shapes are as they are in the frame that
-/// their path moves.
+/// With d the signed distance and m the margin of doubt, the parts meet at the first time at which
+///
+/// - they touch, d <= m, for the first time or after they have been apart, d > m, and go further in at once;
+/// - they touch since some time without having gone further in then, and d < min(d then, 0) - m. (So what starts inside
+///   is met where it gets deeper than it was at first, or when it comes back from having been apart.)
+///
+/// What goes in at the back of what is met from its front alone does so unmet, until they have been apart. Each of
+/// these may be decided either way within m, so nothing depends on the moments at which the search looks. Of shapes
+/// known by a support function, of which depths are right to a thousandth of the size, "deeper" is by more than that.
+///
+/// False, and `meeting` is as it was, where they don't meet until the limits' end. Both shapes are as they are in the
+/// frame that their path moves.
 template <int D>
 bool first_meeting(const Convex<D>& a, const RigidPath<D>& path_a, const Convex<D>& b, const RigidPath<D>& path_b,
                    const TurningLimits& limits, const SearchOptions<D>& options, Meeting<D>& meeting);

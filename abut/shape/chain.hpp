@@ -15,8 +15,8 @@ namespace abut {
 struct ChainOptions {
     /// Rays, sweeps and contacts meet a segment only from the right of the way from its first point to its second: from
     /// outside, where a closed chain runs counter-clockwise. Which side that is of something in a segment, the least
-    /// way out tells. A sweep that turns is told of the first meeting with a segment only: where that is at its back,
-    /// the segment is passed. `overlaps`, `closest` and `contains` know no sides.
+    /// way out tells. What goes in at the back of a segment is met by it again after they have been apart. `overlaps`,
+    /// `closest` and `contains` know no sides.
     bool one_sided = false;
 };
 

@@ -218,6 +218,90 @@ void check_many_touching(int count) {
     EXPECT_GT(tally.later, 0);
 }
 
+// Starts inside: deeper than at first, or back after having been apart, is told, and nothing else is.
+
+template <int D>
+MovingPair<D> inside(MovingPair<D> moving, double depth, bool on_the_spot) {
+    moving.motion_b.from.position -= to_float(moving.truth(0).normal * depth);
+    // Of those that only turn more come back.
+    if (on_the_spot) moving.motion_b.move = moving.motion_a.move;
+    moving.path_b = rigid_path(moving.motion_b);
+    return moving;
+}
+
+/// By how much what is deeper by support functions may be taken for no deeper.
+template <int D>
+double depth_doubt(const oracle::Sample<D>& shape) {
+    return std::get<Convex<D>>(shape.view).core == Core::function ? 2e-3 * oracle::size(shape.solid) : 0;
+}
+
+struct InsideTally {
+    int asked = 0, at_once = 0, deeper = 0, back = 0;
+};
+
+template <int D>
+void check_inside(const MovingPair<D>& moving, InsideTally& tally) {
+    const double first = moving.distance(0), margin = moving.margin;
+    const double doubt = depth_doubt(moving.pair.a) + depth_doubt(moving.pair.b);
+    if (first > -2 * margin) return;
+    const std::optional<Hit<D>> hit = moving.sweep();
+    ++tally.asked;
+    const double end = hit ? static_cast<double>(hit->fraction) : 1;
+    double most = first;
+    for (double time = 0; time < end;) {
+        const double distance = moving.distance(time);
+        most = std::max(most, distance);
+        const double floor = (most > margin ? 0 : first - doubt) - margin;
+        ASSERT_GE(distance, floor) << (hit ? "late" : "missed") << " at " << time << " of " << end;
+        const double free = std::min(distance - floor, most > margin ? distance - floor : margin - distance);
+        time += std::max(0.9 * free / std::max(moving.speed, 1e-30), 1e-3);
+    }
+    if (!hit) return;
+    EXPECT_TRUE(hit->started_inside);
+    if (end > 0) {
+        const double there = moving.distance(end), allowed = 1.4 * margin + 6e-8 * moving.speed;
+        const bool deeper = std::abs(there - first) <= allowed + doubt, back = std::abs(there) <= allowed;
+        EXPECT_TRUE(deeper || back) << there / margin << " margins, at first " << first / margin;
+        // It has been apart, as far as these looks could see.
+        if (!deeper) {
+            EXPECT_GT(most + 1e-3 * moving.speed, 0.4 * margin);
+        }
+        ++(deeper ? tally.deeper : tally.back);
+        return;
+    }
+    ++tally.at_once;
+    const double soon = 1e-3 * oracle::size(moving.pair.a.solid) / moving.speed;
+    double least = first;
+    for (const double time : {0.001 * soon, 0.01 * soon, 0.1 * soon, soon})
+        least = std::min(least, moving.distance(std::min(time, 1.0)));
+    EXPECT_LT(least, first) << "hit at 0, but moves out";
+}
+
+template <int D>
+void check_many_inside(int count) {
+    InsideTally tally;
+    for (int i = 0; i < oracle::amount(count); ++i) {
+        const std::uint64_t seed = 9000 + static_cast<std::uint64_t>(i);
+        SCOPED_TRACE(testing::Message() << "seed " << seed);
+        oracle::Random random(seed);
+        const MovingPair<D> beside = touching(random_motion<D>(random), i % 2 == 0);
+        const double size = std::min(oracle::size(beside.pair.a.solid), oracle::size(beside.pair.b.solid));
+        check_inside(inside(beside, size * random.power_of_two(-15, -1), random.chance(0.7)), tally);
+        if (testing::Test::HasFatalFailure()) return;
+    }
+    EXPECT_GT(tally.asked, oracle::amount(count) / 2);
+    EXPECT_GT(tally.at_once, tally.asked * 2 / 10);
+    EXPECT_GT(tally.deeper, tally.asked / 100);
+    EXPECT_GT(tally.back, tally.asked / 50);
+}
+
+TEST(SweepTurningOracle, FromInsideInThePlane) {
+    check_many_inside<2>(300);
+}
+TEST(SweepTurningOracle, FromInsideInSpace) {
+    check_many_inside<3>(150);
+}
+
 TEST(SweepTurningOracle, FromTouchingInThePlane) {
     check_many_touching<2>(300);
 }
