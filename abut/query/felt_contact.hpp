@@ -2,6 +2,7 @@
 
 // Contacts of parts of two shapes, as the whole shapes feel them, and others beside them. For .cpp files.
 
+#include <abut/query/felt_by.hpp>
 #include <abut/query/felt_normal.hpp>
 
 namespace abut {
@@ -11,13 +12,6 @@ template <int D>
 struct Others {
     const EachFoot<D>* of_a = nullptr;  ///< what A feels beside B
     const EachFoot<D>* of_b = nullptr;  ///< what B feels beside A
-};
-
-/// Whether the normal of a contact is felt, by either shape.
-struct FeltBy {
-    bool a = true, b = true;
-
-    explicit operator bool() const { return a && b; }
 };
 
 /// Of two shapes, which are not copied: a part's surface is the shape's where that is composite, with that of the
@@ -94,7 +88,9 @@ private:
         for (std::size_t i = 0; i < manifold.count; ++i)
             sum += manifold.points[i].position + normal * (to_surface * manifold.points[i].depth);
         place.point = sum / static_cast<double>(manifold.count);
-        return abut::is_felt<D>(part, place, feet);
+        // If the part has its surface there.
+        const double own = foot_on(part, place.point + place.out * place.scale).distance;
+        return own > 0.99 * place.scale && abut::is_felt<D>(part, place, feet);
     }
 
     /// Whether no other is as near to p + s n as a part that has p, by far more than rounding.

@@ -52,15 +52,17 @@ bool World<D>::touch_now(const IdPair& pair) {
     return false;
 }
 
+/// Of a pair of which neither has moved; its contact may depend on others beside them.
 template <int D>
 void World<D>::repeat_last(const IdPair& pair) {
     if (!std::binary_search(touched_.begin(), touched_.end(), pair)) return;
     touching_.push_back(pair);
-    const auto last = std::lower_bound(last_contacts_.begin(), last_contacts_.end(), pair,
-                                       [](const WorldContact<D>& c, const IdPair& p) {
-                                           return IdPair{c.a, c.b} < p;
-                                       });
-    if (last != last_contacts_.end() && last->a == pair.a && last->b == pair.b) contacts_.push_back(*last);
+    const Found* last = find_found(last_found_, pair);
+    if (last == nullptr) return;
+    if (is_disturbed(pair))
+        find_contact(pair);
+    else
+        found_.push_back(*last);
 }
 
 template <int D>
@@ -74,10 +76,8 @@ bool World<D>::shapes_touch(const IdPair& pair) {
     const Item &a = items_[pair.a.index - 1], &b = items_[pair.b.index - 1];
     if (a.options.sensor || b.options.sensor) {
         if (!overlaps(a.placed, b.placed)) return false;
-    } else {
-        const Contact<D> found = contact(a.placed, b.placed);
-        if (!found) return false;
-        contacts_.push_back({pair.a, pair.b, found});
+    } else if (!find_contact(pair)) {
+        return false;
     }
     touching_.push_back(pair);
     return true;
@@ -137,21 +137,25 @@ Events World<D>::update() {
     widen_boxes();
     refresh_boxes();
 
+    std::swap(near_, last_near_);
     near_.clear();
     moving_.phase().each_pair([this](std::uint32_t i, std::uint32_t j) { consider(moving_.slot(i), moving_.slot(j)); });
     moving_.phase().each_overlapping_pair(
         fixed_.phase(), [this](std::uint32_t i, std::uint32_t j) { consider(moving_.slot(i), fixed_.slot(j)); });
     std::sort(near_.begin(), near_.end());
+    find_partners();
 
     std::swap(touching_, touched_);
-    std::swap(contacts_, last_contacts_);
+    std::swap(found_, last_found_);
     std::swap(passed_, last_passed_);
     touching_.clear();
+    found_.clear();
     contacts_.clear();
     passed_.clear();
     met_.clear();
     counts_ = {near_.size(), 0, 0};
     for (const IdPair& pair : near_) look_at(pair);
+    tell_contacts();
     pretests_.decide();
     // Room at once for whatever such a scene may bring: the lists change places, and all pairs may begin, stay or end.
     const std::size_t most = std::max(touching_.capacity(), touched_.capacity());
@@ -159,7 +163,9 @@ Events World<D>::update() {
     for (std::vector<IdPair>* list : {&passed_, &last_passed_}) list->reserve(met_.capacity());
     for (std::vector<IdPair>* list : {&began_, &ended_}) list->reserve(most + met_.capacity());
     fractions_.reserve(began_.capacity());
-    last_contacts_.reserve(contacts_.capacity());
+    last_found_.reserve(found_.capacity());
+    contacts_.reserve(found_.capacity());
+    last_near_.reserve(near_.capacity());
     compare_with_last();
 
     for (const std::uint32_t slot : pending_) {

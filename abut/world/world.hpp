@@ -7,11 +7,13 @@
 #include <abut/math/motion.hpp>
 #include <abut/query/closest.hpp>
 #include <abut/query/contact.hpp>
+#include <abut/query/felt_by.hpp>
 #include <abut/query/raycast.hpp>
 #include <abut/shape/any_shape.hpp>
 #include <abut/world/bounding_ball.hpp>
 #include <abut/world/id.hpp>
 #include <abut/world/item_boxes.hpp>
+#include <abut/world/partners.hpp>
 #include <abut/world/pretest.hpp>
 #include <abut/world/question_count.hpp>
 #include <abut/world/way.hpp>
@@ -21,6 +23,9 @@
 #include <vector>
 
 namespace abut {
+
+template <int D>
+struct Foot;
 
 /// How a shape takes part in a world.
 template <int D>
@@ -220,6 +225,13 @@ private:
         float fraction;
     };
 
+    /// The contact of a pair that touches.
+    struct Found {
+        WorldContact<D> told;
+        FeltBy felt;        // not, where the contact stands in for a normal that isn't felt
+        bool kept = false;  // it is among those that are told
+    };
+
     Id add_shape(const AnyShape<D>& shape, const ItemOptions<D>& options);
     void take(std::uint32_t slot, const AnyShape<D>& shape);
     void set_any_shape(Id id, const AnyShape<D>& shape);
@@ -245,6 +257,16 @@ private:
     bool balls_apart(const IdPair& pair) const;
     bool shapes_touch(const IdPair& pair);
     bool measure(const IdPair& pair, Pretests::Entry& entry);
+    bool feels(std::uint32_t slot) const;
+    bool are_solid(std::uint32_t slot, std::uint32_t other) const;
+    void find_partners();
+    bool is_disturbed(const IdPair& pair) const;
+    void each_foot_beside(std::uint32_t slot, std::uint32_t other, const DVec<D>& point, double within,
+                          FunctionRef<void(const Foot<D>&)> visit) const;
+    bool find_contact(const IdPair& pair);
+    static Found* find_found(std::vector<Found>& list, const IdPair& pair);
+    bool is_told(const Found& ghost, const Id& feeler);
+    void tell_contacts();
     void compare_with_last();
     void tell_fractions();
 
@@ -276,9 +298,12 @@ private:
     mutable QuestionCount asked_;  // since the last update
     double often_asked_ = 0;       // from update to update of late, for each item that moves
 
-    std::vector<IdPair> near_;
+    std::vector<IdPair> near_, last_near_;
+    Partners<D> partners_;
+    std::vector<char> disturbed_;             // by slot: something near it isn't as it was at the last update
     std::vector<IdPair> touching_, touched_;  // now and at the last update
-    std::vector<WorldContact<D>> contacts_, last_contacts_;
+    std::vector<Found> found_, last_found_;
+    std::vector<WorldContact<D>> contacts_;
     std::vector<Met> met_;                      // continuous ones that didn't touch at the last update
     std::vector<IdPair> passed_, last_passed_;  // those of them that don't touch now; the same at the last update
     std::vector<IdPair> began_, stayed_, ended_;

@@ -3,6 +3,7 @@
 // What a World must answer, in the plainest way: every item against every other, nothing kept from frame to frame but
 // who touched.
 
+#include <abut/query/contact_among.hpp>
 #include <abut/query/contains.hpp>
 #include <abut/query/overlaps.hpp>
 #include <abut/query/sweep.hpp>
@@ -61,9 +62,11 @@ public:
         passed_.clear();
         met_.clear();
         contacts.clear();
+        found_.clear();
         least = most = {};
         for (auto a = items_.begin(); a != items_.end(); ++a)
             for (auto b = std::next(a); b != items_.end(); ++b) look_at(*a, *b);
+        tell_contacts();
         began = difference(touching_, before);
         ended = difference(before, touching_);
         stayed.clear();
@@ -128,7 +131,8 @@ public:
     std::vector<float> fractions;
     std::size_t passed = 0;  ///< of those that began, what doesn't touch
     std::vector<WorldContact<D>> contacts;
-    UpdateCounts least, most;  ///< of what the world may count, whose boxes are a little wider than need be
+    std::size_t ghosts = 0, left_out = 0;  ///< so far: normals that aren't felt, and those of them without a contact
+    UpdateCounts least, most;              ///< of what the world may count, whose boxes are a little wider than need be
 
 private:
     template <class S>
@@ -165,9 +169,13 @@ private:
         bool touch = false;
         if (p.sensor || q.sensor) {
             touch = overlaps(view_a, view_b);
-        } else if (const Contact<D> found = contact(view_a, view_b)) {
-            touch = true;
-            contacts.push_back({a.first, b.first, found});
+        } else {
+            const auto others_of_a = others(a, b), others_of_b = others(b, a);
+            const EachFoot<D> of_a(others_of_a), of_b(others_of_b);
+            const ContactAmong<D> among =
+                contact_among<D>(view_a, view_b, {p.fixed ? nullptr : &of_a, q.fixed ? nullptr : &of_b});
+            touch = among.touch;
+            if (among.contact) found_.push_back({{a.first, b.first, among.contact}, among.felt});
         }
         if (touch) touching_.push_back(pair);
         if ((!p.continuous && !q.continuous) || (!a.second.before && !b.second.before)) return;
@@ -176,6 +184,58 @@ private:
         const std::optional<Hit<D>> hit = sweep_between(a.second, b.second);
         if (hit) met_[pair] = hit->fraction;
         if (hit && !touch) passed_.push_back(pair);
+    }
+
+    using Entry = std::pair<const Id, Item>;
+
+    /// All that an item feels beside another one: what pairs with it, is no sensor, and has a box that overlaps its
+    /// own.
+    auto others(const Entry& feeler, const Entry& but) const {
+        return [this, &feeler, &but](const DVec<D>& point, double within, FunctionRef<void(const Foot<D>&)> visit) {
+            const ItemOptions<D>& p = feeler.second.options;
+            const View<D> own = feeler.second.view();
+            for (const Entry& other : items_) {
+                const ItemOptions<D>& q = other.second.options;
+                const View<D> view = other.second.view();
+                if (other.first == feeler.first || other.first == but.first || q.sensor) continue;
+                if ((p.layers & q.mask) == 0 || (q.layers & p.mask) == 0 || both_half_spaces(own, view)) continue;
+                if (overlaps(abut::bounds(own), abut::bounds(view))) each_foot_on(view, point, within, visit);
+            }
+        };
+    }
+
+    /// What isn't felt is told where no other contact of who doesn't feel it tells of it: no felt one, and none that is
+    /// told in the place of another and comes before.
+    void tell_contacts() {
+        std::vector<bool> told;
+        for (const Found& found : found_) told.push_back(static_cast<bool>(found.felt));
+        for (std::size_t i = 0; i < found_.size(); ++i) {
+            const Found& ghost = found_[i];
+            if (ghost.felt) continue;
+            told[i] = true;
+            const double size =
+                std::min(abut::size(items_.at(ghost.told.a).view()), abut::size(items_.at(ghost.told.b).view()));
+            for (const auto& [feeler, feels] :
+                 {std::pair(ghost.told.a, ghost.felt.a), std::pair(ghost.told.b, ghost.felt.b)}) {
+                if (feels || items_.at(feeler).options.fixed) continue;
+                const auto normal = [id = feeler](const WorldContact<D>& c) {
+                    return DVec<D>(c.contact.normal) * (c.a == id ? 1.0 : -1.0);
+                };
+                for (std::size_t k = 0; k < found_.size(); ++k) {
+                    const WorldContact<D>& other = found_[k].told;
+                    const bool shares = k != i && (other.a == feeler || other.b == feeler);
+                    if (shares && told[k] &&
+                        tells_of<D>(normal(other), static_cast<double>(other.contact.depth), normal(ghost.told),
+                                    static_cast<double>(ghost.told.contact.depth), size))
+                        told[i] = false;
+                }
+            }
+        }
+        for (std::size_t i = 0; i < found_.size(); ++i) {
+            if (told[i]) contacts.push_back(found_[i].told);
+            ghosts += found_[i].felt ? 0 : 1;
+            left_out += told[i] ? 0 : 1;
+        }
     }
 
     static std::optional<Hit<D>> sweep_between(const Item& a, const Item& b) {
@@ -190,6 +250,11 @@ private:
     std::map<Id, Item> items_;
     std::vector<IdPair> touching_, touched_, passed_;
     std::map<IdPair, float> met_;
+    struct Found {
+        WorldContact<D> told;
+        FeltBy felt;
+    };
+    std::vector<Found> found_;
 };
 
 }  // namespace abut::test

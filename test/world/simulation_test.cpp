@@ -15,7 +15,7 @@ namespace {
 
 /// How often each answer came out interesting: a test of questions that all say no proves nothing.
 struct Seen {
-    int passed = 0, on_the_way = 0;
+    int passed = 0, on_the_way = 0, ghosts = 0, left_out = 0;
     int began = 0, stayed = 0, ended = 0, contacts = 0, untested = 0;
     int hits = 0, several_hits = 0, misses = 0, gaps = 0, depths = 0, overlapping = 0, containing = 0, stopped = 0;
 };
@@ -24,9 +24,9 @@ std::ostream& operator<<(std::ostream& out, const Seen& seen) {
     return out << "began " << seen.began << ", stayed " << seen.stayed << ", ended " << seen.ended << ", contacts "
                << seen.contacts << ", untested " << seen.untested << "; hits " << seen.hits << ", several "
                << seen.several_hits << ", misses " << seen.misses << "; gaps " << seen.gaps << ", depths "
-               << seen.depths << "; passed " << seen.passed << ", met on the way " << seen.on_the_way
-               << "; overlapping " << seen.overlapping << ", containing " << seen.containing << ", stopped "
-               << seen.stopped;
+               << seen.depths << "; ghosts " << seen.ghosts << ", left out " << seen.left_out << "; passed "
+               << seen.passed << ", met on the way " << seen.on_the_way << "; overlapping " << seen.overlapping
+               << ", containing " << seen.containing << ", stopped " << seen.stopped;
 }
 
 template <int D>
@@ -150,10 +150,13 @@ void play(std::uint64_t seed, int items, int frames, bool lattice, Seen& seen, d
     }
     EXPECT_TRUE(game.fresh_ids);
     EXPECT_GT(game.reused, frames / 10);
+    seen.ghosts += static_cast<int>(game.reference.ghosts);
+    seen.left_out += static_cast<int>(game.reference.left_out);
     std::cout << "seed " << seed << ", so far: " << seen << "\n";
 }
 
-/// A crowd, and a few that meet now and then.
+/// A crowd, a few that meet now and then, and for a short while so many that some have more others near them than are
+/// looked at one by one.
 template <int D>
 void play_all(std::uint64_t seed, bool lattice) {
     constexpr int frames = 150;
@@ -161,10 +164,11 @@ void play_all(std::uint64_t seed, bool lattice) {
     for (int game = 0; game < oracle::amount(1); ++game) {
         play<D>(seed++, 40, frames, lattice, seen);
         play<D>(seed++, 12, frames, lattice, seen);
+        play<D>(seed++, 100, 12, lattice, seen);
     }
     for (const int count :
          {seen.began, seen.stayed, seen.ended, seen.contacts, seen.untested, seen.hits, seen.several_hits, seen.misses,
-          seen.gaps, seen.depths, seen.overlapping, seen.containing, seen.stopped})
+          seen.gaps, seen.depths, seen.ghosts, seen.left_out, seen.overlapping, seen.containing, seen.stopped})
         EXPECT_GT(count, oracle::amount(frames / 2));
 }
 

@@ -1,0 +1,153 @@
+// Contacts of pairs, with the normals of all that an item touches as one surface: seams between items are as little
+// felt as those inside one.
+
+#include <abut/broad_phase/boxes.hpp>
+#include <abut/query/contact_among.hpp>
+#include <abut/world/world.hpp>
+
+#include <algorithm>
+
+namespace abut {
+namespace {
+
+/// Of more partners than these the broad phases are asked.
+constexpr std::size_t few = 48;
+
+}  // namespace
+
+/// What hardly ever moves isn't pushed, and feels nothing.
+template <int D>
+bool World<D>::feels(std::uint32_t slot) const {
+    return !items_[slot].options.fixed;
+}
+
+/// Whether two are parts of one surface for what pairs with both: sensors aren't.
+template <int D>
+bool World<D>::are_solid(std::uint32_t slot, std::uint32_t other) const {
+    return !items_[slot].options.sensor && !items_[other].options.sensor;
+}
+
+template <int D>
+void World<D>::find_partners() {
+    const auto each = [this](auto&& add) {
+        for (const IdPair& pair : near_) {
+            const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
+            if (!are_solid(a, b) || (!widened_.empty() && !overlaps(items_[a].box, items_[b].box))) continue;
+            const auto partner = [this](std::uint32_t slot) {
+                return [this, slot]() -> typename Partners<D>::Partner { return {items_[slot].box, slot}; };
+            };
+            if (feels(a)) add(a, partner(b));
+            if (feels(b)) add(b, partner(a));
+        }
+    };
+    partners_.build(items_.size(), each);
+    // A contact isn't what it was where another item near one of the two has come, gone or moved.
+    disturbed_.assign(items_.size(), false);
+    for (const std::vector<IdPair>* pairs : {&near_, &last_near_})
+        for (const IdPair& pair : *pairs) {
+            const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
+            if (items_[a].pending) disturbed_[b] = true;
+            if (items_[b].pending) disturbed_[a] = true;
+        }
+}
+
+template <int D>
+bool World<D>::is_disturbed(const IdPair& pair) const {
+    const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
+    return (feels(a) && disturbed_[a]) || (feels(b) && disturbed_[b]);
+}
+
+/// Of what the item of the first slot feels beside that of the other.
+template <int D>
+void World<D>::each_foot_beside(std::uint32_t slot, std::uint32_t other, const DVec<D>& point, double within,
+                                FunctionRef<void(const Foot<D>&)> visit) const {
+    const Vec<D> middle = to_float(point);
+    const Aabb<D> box = grown(Aabb<D>{middle, middle}, static_cast<float>(within));
+    const std::span<const typename Partners<D>::Partner> partners = partners_.of(slot);
+    if (partners.size() <= few) {
+        for (const auto& partner : partners)
+            if (partner.slot != other && overlaps(partner.box, box))
+                each_foot_on(items_[partner.slot].placed, point, within, visit);
+        return;
+    }
+    const Item& item = items_[slot];
+    const Filter filter{.layers = item.options.layers, .mask = item.options.mask};
+    for (const ItemBoxes<D>* items : {&moving_, &fixed_})
+        items->phase().each_overlapping(box, [&](std::uint32_t place) {
+            const std::uint32_t found = items->slot(place);
+            const Item& beside = items_[found];
+            if (found == slot || found == other || !asked(found, filter)) return;
+            if (!overlaps(beside.box, box) || !overlaps(beside.box, item.box)) return;
+            if (std::holds_alternative<Solid<D>>(beside.placed) && std::holds_alternative<Solid<D>>(item.placed))
+                return;
+            each_foot_on(beside.placed, point, within, visit);
+        });
+}
+
+/// Keeps the contact of two items that may touch; false where they don't.
+template <int D>
+bool World<D>::find_contact(const IdPair& pair) {
+    const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
+    const View<D>&placed_a = items_[a].placed, &placed_b = items_[b].placed;
+    const bool others_of_a = partners_.of(a).size() > 1, others_of_b = partners_.of(b).size() > 1;
+    if (!others_of_a && !others_of_b) {
+        const Contact<D> contact = abut::contact(placed_a, placed_b);
+        if (contact) found_.push_back({{pair.a, pair.b, contact}, {}, true});
+        return static_cast<bool>(contact);
+    }
+    const auto beside = [this](std::uint32_t slot, std::uint32_t other) {
+        return [this, slot, other](const DVec<D>& point, double within, FunctionRef<void(const Foot<D>&)> visit) {
+            each_foot_beside(slot, other, point, within, visit);
+        };
+    };
+    const auto beside_b = beside(a, b), beside_a = beside(b, a);
+    const EachFoot<D> of_a(beside_b), of_b(beside_a);
+    const ContactAmong<D> among =
+        contact_among<D>(placed_a, placed_b, {others_of_a ? &of_a : nullptr, others_of_b ? &of_b : nullptr});
+    if (among.touch) found_.push_back({{pair.a, pair.b, among.contact}, among.felt, static_cast<bool>(among.contact)});
+    return among.touch;
+}
+
+template <int D>
+typename World<D>::Found* World<D>::find_found(std::vector<Found>& list, const IdPair& pair) {
+    const auto place = std::lower_bound(list.begin(), list.end(), pair, [](const Found& found, const IdPair& p) {
+        return IdPair{found.told.a, found.told.b} < p;
+    });
+    return place != list.end() && place->told.a == pair.a && place->told.b == pair.b ? &*place : nullptr;
+}
+
+/// Whether what stands in for a normal that the item doesn't feel is told by another of its contacts.
+template <int D>
+bool World<D>::is_told(const Found& ghost, const Id& feeler) {
+    const auto seen_by = [&](const WorldContact<D>& told) {
+        return DVec<D>(told.contact.normal) * (told.a == feeler ? 1.0 : -1.0);
+    };
+    const WorldContact<D>& told = ghost.told;
+    const double size = std::min(abut::size(shape(told.a)), abut::size(shape(told.b)));
+    const auto partners = partners_.of(feeler.index - 1);
+    return std::any_of(partners.begin(), partners.end(), [&](const auto& partner) {
+        const Id id = id_of(partner.slot);
+        const Found* other = find_found(found_, {std::min(feeler, id), std::max(feeler, id)});
+        return other != nullptr && other != &ghost && other->kept &&
+               tells_of<D>(seen_by(other->told), static_cast<double>(other->told.contact.depth), seen_by(told),
+                           static_cast<double>(told.contact.depth), size);
+    });
+}
+
+/// First those that are felt, then, in the order of their ids, what stands in for others and isn't told yet.
+template <int D>
+void World<D>::tell_contacts() {
+    for (Found& found : found_)
+        if (!found.felt) found.kept = false;
+    for (Found& found : found_) {
+        if (found.felt || !found.told.contact) continue;
+        found.kept = (found.felt.a || !is_told(found, found.told.a)) && (found.felt.b || !is_told(found, found.told.b));
+    }
+    for (const Found& found : found_)
+        if (found.kept) contacts_.push_back(found.told);
+}
+
+template class World<2>;
+template class World<3>;
+
+}  // namespace abut
