@@ -1,0 +1,201 @@
+// The tool on levels, as its users see it.
+
+#include "tool_runs.hpp"
+
+namespace abut {
+namespace {
+
+using test::Json;
+using test::Ran;
+
+class ToolOnLevels : public test::ToolRuns {
+protected:
+    static std::string bundled(const std::string& name) { return ABUT_SOURCE_FOLDER "/scenes/" + name; }
+
+    Json json_of(std::vector<std::string> arguments, int code) const {
+        arguments.insert(arguments.begin() + 1, "--json");
+        const Ran ran = run(arguments);
+        EXPECT_EQ(ran.code, code) << ran.err;
+        EXPECT_EQ(ran.err, "");
+        return Json::parse(ran.out);
+    }
+};
+
+std::string map_of(const std::string& objects) {
+    return "<map orientation='orthogonal' width='1' height='1' tilewidth='8' tileheight='8'><objectgroup name='L'>" +
+           objects + "</objectgroup></map>";
+}
+std::string box(const std::string& name, const std::string& x) {
+    return "<object name='" + name + "' x='" + x + "' y='0' width='10' height='10'/>";
+}
+
+TEST_F(ToolOnLevels, CheckFindsTheFaultsOfTheBundledLevel) {
+    for (const char* name : {"plateau.tmj", "plateau.tmx"}) {
+        const Json json = json_of({"check", bundled(name)}, 1);
+        EXPECT_EQ(json["objects"], 8);
+        EXPECT_EQ(json["solids"], 6);
+        EXPECT_EQ(json["composites"], 2);
+        EXPECT_EQ(json["frames"], 1);
+        ASSERT_EQ(json["contacts"].size(), 2u) << json["contacts"];
+        const Json &barrel = json["contacts"][0], &crate = json["contacts"][1];
+        EXPECT_EQ(barrel["a"], "Things/Barrel");
+        EXPECT_EQ(barrel["b"], "World/Ground");
+        EXPECT_NEAR(barrel["distance"].get<double>(), -2, 1e-5);
+        EXPECT_EQ(barrel["normal"], Json({1.0, 0.0}));
+        EXPECT_EQ(crate["a"], "Things/Sunk crate");
+        EXPECT_NEAR(crate["distance"].get<double>(), -3, 1e-5);
+        EXPECT_EQ(crate["normal"], Json({0.0, 1.0})) << "y points down";
+        EXPECT_EQ(crate["points"].size(), 2u);
+    }
+    const Ran ran = run({"check", bundled("plateau.tmj")});
+    for (const char* line :
+         {"   1. Things/Sunk crate  and  World/Ground\n        3 deep, near (346, 161.5)\n",
+          "note: 1 text is left out: 'Things/sign 9'\n", "objects   8: 6 taken as convex solids, 2 as composites\n",
+          "frames    1\n", "FAULTS FOUND: 2 pairs collide\n"})
+        EXPECT_NE(ran.out.find(line), std::string::npos) << line << ran.out;
+}
+
+TEST_F(ToolOnLevels, CheckFindsTheFaultOfTheBundledDrawing) {
+    const Json json = json_of({"check", bundled("cave.svg")}, 1);
+    ASSERT_EQ(json["contacts"].size(), 1u) << json["contacts"];
+    EXPECT_EQ(json["contacts"][0]["a"], "Rock/Mountain");
+    EXPECT_EQ(json["contacts"][0]["b"], "Things/Crate_2/crate");
+    EXPECT_NEAR(json["contacts"][0]["distance"].get<double>(), -4, 1e-4);
+}
+
+TEST_F(ToolOnLevels, OptionsOfCheck) {
+    const std::string file = write("row.tmx", map_of(box("a", "0") + box("b", "7") + box("c", "20"))).string();
+    EXPECT_EQ(json_of({"check", file}, 1)["contacts"].size(), 1u);
+    EXPECT_EQ(json_of({"check", file, "--allow", "4"}, 0)["contacts"].size(), 0u);
+    EXPECT_EQ(json_of({"check", file, "--allow", "4", "--clearance", "5"}, 1)["contacts"][0]["distance"], 3.0);
+    EXPECT_EQ(json_of({"check", file, "--pairs", "a:c"}, 0)["pairs"], 0);
+    EXPECT_EQ(json_of({"check", file, "--frames", "9"}, 1)["frames"], 1) << "nothing moves";
+    const std::string old = write("old.json", run({"check", "--json", file}).out).string();
+    EXPECT_EQ(json_of({"check", file, "--baseline", old}, 0)["known"], 1);
+    const Ran ran = run({"check", file});
+    EXPECT_NE(ran.out.find("3 deep, near (8.5, 5); moving b by (3, 0) parts them"), std::string::npos) << ran.out;
+}
+
+TEST_F(ToolOnLevels, CheckKnowsTheInsideOfWhatIsNotConvex) {
+    const auto with = [&](const std::string& thing) {
+        return write("l.svg", "<svg><path id='L' d='M0 0H300V100H100V300H0z'/>" + thing + "</svg>").string();
+    };
+    const Json json = json_of({"check", with("<circle id='c' cx='50' cy='50' r='10'/>")}, 1);
+    ASSERT_EQ(json["contacts"].size(), 1u);
+    EXPECT_EQ(json["contacts"][0]["inside"], true);
+    EXPECT_NEAR(json["contacts"][0]["distance"].get<double>(), -60, 1e-3) << "50 to the surface, and its radius";
+    json_of({"check", with("<circle id='c' cx='200' cy='200' r='50'/>")}, 0);
+    json_of({"check", with("<path id='M' d='M0 0H300V100H100V300H0z'/>")}, 1);
+    const std::string lines = write("lines.svg",
+                                    "<svg><g fill='none'><path id='L' d='M0 0H300V100H100V300H0z'/></g>"
+                                    "<circle id='c' cx='50' cy='50' r='10'/></svg>")
+                                  .string();
+    json_of({"check", lines}, 0);
+    const std::string hole = write("hole.svg",
+                                   "<svg><path id='wall' fill-rule='evenodd' d='M0 0H99V99H0zM20 20H80V80H20z'/>"
+                                   "<circle id='in the hole' cx='50' cy='50' r='10'/>"
+                                   "<circle id='in the wall' cx='10' cy='50' r='4'/></svg>")
+                                 .string();
+    const Json walled = json_of({"check", hole}, 1);
+    ASSERT_EQ(walled["contacts"].size(), 1u) << walled;
+    EXPECT_EQ(walled["contacts"][0]["a"], "in the wall");
+}
+
+TEST_F(ToolOnLevels, CastInTheFilesOwnCoordinates) {
+    const std::string file = bundled("plateau.tmj");
+    const Json json = json_of({"cast", file, "--from", "320,150", "--to", "400,150"}, 1);
+    ASSERT_EQ(json["hits"].size(), 1u);
+    EXPECT_EQ(json["hits"][0]["object"], "Things/Sunk crate");
+    EXPECT_EQ(json["hits"][0]["point"], Json({340.0, 150.0}));
+    EXPECT_EQ(json["hits"][0]["normal"], Json({-1.0, 0.0}));
+    EXPECT_EQ(json["from"], Json({320.0, 150.0}));
+    // Down through the platform, which lets pass what comes from below.
+    EXPECT_EQ(json_of({"cast", file, "--from", "190,70", "--to", "190,100"}, 1)["hits"][0]["point"],
+              Json({190.0, 80.0}));
+    EXPECT_EQ(json_of({"cast", file, "--from", "190,100", "--to", "190,70"}, 0)["clear"], true);
+    const Json all = json_of({"cast", file, "--from", "40,150", "--to", "440,150", "--all"}, 1);
+    EXPECT_EQ(all["hits"].size(), 5u);
+    const Json laser =
+        json_of({"cast", bundled("cave.svg"), "--from", "80,150", "--to", "410,120", "--bounces", "6"}, 1);
+    EXPECT_EQ(laser["hits"].size(), 7u);
+    EXPECT_EQ(laser["hits"][0]["object"], "Rock/Mountain");
+    const Ran ran = run({"cast", bundled("cave.svg"), "--from", "80,150", "--to", "410,120"});
+    EXPECT_NE(ran.out.find(", segment "), std::string::npos) << ran.out;
+    EXPECT_NE(ran.out.find("HIT: Rock/Mountain is in the way"), std::string::npos) << ran.out;
+}
+
+TEST_F(ToolOnLevels, CastDrawsWithYDown) {
+    const std::string file =
+        write("two.tmx", map_of(box("a", "40") + "<object name='low' x='40' y='90' width='10' height='10'/>")).string();
+    const std::string picture = (folder() / "picture.svg").string();
+    EXPECT_EQ(run({"cast", file, "--from", "0,5", "--to", "90,95", "-o", picture}).code, 0);
+    // From the upper left to the lower right, as in the editor.
+    const std::string drawn = content(picture);
+    const std::size_t line = drawn.find("<line ");
+    ASSERT_NE(line, std::string::npos);
+    const auto number = [&](const std::string& key) {
+        const std::size_t at = drawn.find(key + "=\"", line);
+        return std::stod(drawn.substr(at + key.size() + 2));
+    };
+    EXPECT_LT(number("x1"), number("x2"));
+    EXPECT_LT(number("y1"), number("y2"));
+}
+
+TEST_F(ToolOnLevels, InfoTellsWhatIsThere) {
+    const Json json = json_of({"info", bundled("plateau.tmx")}, 0);
+    ASSERT_EQ(json["objects"].size(), 8u);
+    EXPECT_EQ(json["objects"][0]["name"], "Things/Barrel");
+    EXPECT_EQ(json["objects"][0]["kind"], "capsule");
+    EXPECT_EQ(json["objects"][0]["properties"], Json({{"explodes", "true"}, {"mass", "12.5"}}));
+    EXPECT_EQ(json["objects"][7]["kind"], "compound");
+    ASSERT_EQ(json["points"].size(), 2u);
+    EXPECT_EQ(json["points"][0]["name"], "Things/Start");
+    EXPECT_EQ(json["points"][0]["type"], "spawn");
+    EXPECT_EQ(json["points"][0]["position"], Json({40.0, 150.0}));
+    const Ran ran = run({"info", bundled("plateau.tmx")});
+    EXPECT_EQ(ran.code, 0);
+    for (const char* line :
+         {"  point             (40, 150)  Things/Start (spawn)\n", "  chain            2 segments  Things/Rope\n",
+          "objects     8: 6 convex solids, 2 composites\npoints      2\n", "size        480 x 192, from (0, 0) on\n"})
+        EXPECT_NE(ran.out.find(line), std::string::npos) << line << ran.out;
+}
+
+TEST_F(ToolOnLevels, BadInputIsNamed) {
+    EXPECT_EQ(refusal_of("hex.tmx", "<map orientation='hexagonal' tilewidth='1' tileheight='1'/>"),
+              "line 1: the map is hexagonal; only orthogonal ones are read");
+    EXPECT_EQ(refusal_of("cut.svg", "<svg>\n<rect"), "line 2: XML: error parsing start element tag");
+    EXPECT_EQ(refusal_of("none.tmj", "{}"), "not a Tiled map: it has no layers and tilewidth");
+    EXPECT_EQ(refusal_of("set.tmx", "<map tilewidth='1' tileheight='1'>\n<tileset source='a.tsx'/></map>"),
+              "line 2: 'a.tsx': no such file");
+    EXPECT_EQ(refusal_of("empty.svg", "<svg/>"), "no shapes in it: 0 objects");
+    const std::string file = bundled("plateau.tmj");
+    EXPECT_EQ(refusal({"cast", file, "--from", "1,2,3", "--to", "4,5"}),
+              "abut: --from: '1,2,3' is not a point of a level, two numbers with a comma between them: X,Y");
+    EXPECT_EQ(refusal({"cast", file, "--from", "1,2", "--to", "4,"}),
+              "abut: --to: '4,' is not a point of a level, two numbers with a comma between them: X,Y");
+    EXPECT_EQ(refusal({"cast", file, "--from", "1,2", "--to", "1,2"}), "abut: --from and --to are the same place");
+    EXPECT_EQ(refusal({"cast", file, "--from", "1,2", "--to", "4,2", "--time", "3"}),
+              "abut: " + file + ": --time: nothing moves, so the first moment is the only one");
+    EXPECT_EQ(refusal({"check", file, "--pairs", "Start:*"}),
+              "abut: " + file + ": --pairs: no object is named 'Start'");
+}
+
+// Levels by themselves: what is beside them is read, and what isn't there is named by what refers to it.
+TEST_F(ToolOnLevels, TilesetsAreLookedForBesideTheMap) {
+    std::filesystem::create_directories(folder() / "maps");
+    std::filesystem::create_directories(folder() / "sets");
+    write("sets/t.tsx",
+          "<tileset tilewidth='8' tileheight='8'><tile id='0'><objectgroup><object width='8' height='4'/>"
+          "</objectgroup></tile></tileset>");
+    const std::string file = write("maps/m.tmx",
+                                   "<map tilewidth='8' tileheight='8' width='1' height='1'>"
+                                   "<tileset firstgid='1' source='../sets/t.tsx'/><layer name='L'>"
+                                   "<data encoding='csv'>1</data></layer></map>")
+                                 .string();
+    const Json json = json_of({"info", file}, 0);
+    ASSERT_EQ(json["objects"].size(), 1u);
+    EXPECT_EQ(json["objects"][0]["kind"], "tiles");
+}
+
+}  // namespace
+}  // namespace abut
