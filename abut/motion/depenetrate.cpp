@@ -1,5 +1,5 @@
 #include <abut/motion/depenetrate.hpp>
-#include <abut/motion/get_out.hpp>
+#include <abut/motion/shortest_way.hpp>
 
 namespace abut {
 
@@ -9,12 +9,10 @@ Depenetration<D> depenetrate_convex(const Convex<D>& shape, const World<D>& worl
     const bool finite = is_finite(shape);
     ABUT_ASSERT(finite);
     if (!finite) return result;
-    NearSurface<D> near;
-    near.begin(world, filter, shape, DVec<D>(0.0), nullptr);
-    const double touching = 1e-5 * near.size();
-    const WayOut<D> way = way_out(near, DVec<D>(0.0), 0.0, 10 * touching, 10 * touching);
+    const double touching = 1e-5 * abut::size(shape);
+    const ShortestWay<D> way = shortest_way_out(shape, world, filter, 10 * touching);
     result.push = to_float(way.push);
-    result.depth = way.depth > touching ? static_cast<float>(way.depth) : 0;
+    result.depth = way.found || way.depth <= touching ? 0 : static_cast<float>(way.depth);
     return result;
 }
 
