@@ -9,8 +9,8 @@ namespace abut {
 template <int D>
 bool contains(const View<D>& shape, const Vec<D>& point);
 
-/// True inside and on the surface. A closed Mesh is solid here; of an open one, and of other composites, the points of
-/// the parts count.
+/// True inside and on the surface. A closed Mesh or Chain and a SolidBsp are solid here; of open ones, and of other
+/// composites, the points of the parts count.
 template <Shape S>
 bool contains(const S& shape, const Vec<dimension<S>>& point) {
     return contains(View<dimension<S>>(view(shape)), point);

@@ -39,15 +39,42 @@ DVec<D> inner_point(const Solid<D>&, const DVec<D>& beside) {
     return beside;
 }
 
-/// Whether the part has a face there, and not an edge: seen from a bit farther along it, it is as far.
+/// Whether all its places are on flat faces and their edges.
+template <int D>
+bool is_flat_sided(const Convex<D>& part) {
+    return (part.core == Core::points || part.core == Core::box) && part.radius == 0 && part.inner_radius == 0;
+}
+template <int D>
+bool is_flat_sided(const Solid<D>&) {
+    return true;
+}
+
+/// Whether the part has a face there, and not an edge: seen from a bit farther along it, it is as far. A face has some
+/// width as well: from a bit aside of there it is as far, to one side or the other. So along no edge, and over nothing
+/// as narrow as what is left between two pieces that should have met.
 template <int D, class Part>
 bool is_face(const Part& part, const FeltPlace<D>& place, const DVec<D>& beside, double own) {
+    const auto is_as_far = [&](const DVec<D>& point) {
+        return std::abs(foot_on(part, point).distance - own) <= 3 * face_turned_by * place.scale;
+    };
+    const auto has_width = [&](const DVec<D>& point, const DVec<D>& way) {
+        const DVec<D> step = normalized(way) * (0.3 * place.scale);
+        return is_as_far(point + step) || is_as_far(point - step);
+    };
     const DVec<D> to_middle = inner_point(part, beside) - beside;
-    const DVec<D> along = to_middle - place.out * dot(to_middle, place.out);
+    DVec<D> along = to_middle - place.out * dot(to_middle, place.out);
+    DVec<D> farther = beside;
     const double way = length(along);
-    if (!(way > nearer_by * place.scale)) return true;
-    const DVec<D> farther = beside + along * (std::min(first_reach * place.scale, way) / way);
-    return std::abs(foot_on(part, farther).distance - own) <= 3 * face_turned_by * place.scale;
+    if (way > nearer_by * place.scale) {
+        farther += along * (std::min(first_reach * place.scale, way) / way);
+        if (!is_as_far(farther)) return false;
+    } else {
+        along = perpendicular(place.out);
+    }
+    if (!is_flat_sided(part)) return true;
+    if constexpr (D == 3)
+        if (!has_width(farther, cross(place.out, along))) return false;
+    return has_width(farther, along);
 }
 
 /// Whether a part is met from its front alone, and not from there. What is about on it is at its front.

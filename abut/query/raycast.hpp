@@ -17,6 +17,8 @@
 namespace abut {
 
 class Mesh;
+template <int D>
+class SolidBsp;
 
 template <int D>
 std::optional<Hit<D>> raycast(const Ray<D>& ray, const View<D>& shape, const QueryOptions<D>& options = {});
@@ -29,6 +31,10 @@ std::optional<Hit<D>> raycast(const Ray<D>& ray, const Given<D>& shape, const Qu
 
 /// A mesh where it was made, without a view of it.
 std::optional<Hit<3>> raycast(const Ray<3>& ray, const Mesh& mesh, const QueryOptions<3>& options = {});
+
+/// A solid level where it was made, by its tree: query/raycast_solid_bsp.hpp tells what the answer means.
+template <int D>
+std::optional<Hit<D>> raycast(const Ray<D>& ray, const SolidBsp<D>& level, const QueryOptions<D>& options = {});
 
 /// The first hit. A ray that starts inside or on the surface hits at 0 only if it goes further in; along the surface or
 /// outwards is no hit, and the search goes on behind it. What has no inside, a segment of the plane or a triangle, is

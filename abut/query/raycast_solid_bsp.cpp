@@ -8,7 +8,7 @@
 namespace abut {
 
 template <int D>
-std::optional<Hit<D>> raycast(const Ray<D>& ray, const SolidBsp<D>& level) {
+std::optional<Hit<D>> raycast(const Ray<D>& ray, const SolidBsp<D>& level, const QueryOptions<D>&) {
     const bool finite = is_finite(ray.origin) && is_finite(ray.direction) && !std::isnan(ray.length);
     ABUT_ASSERT(finite);
     if (!finite) return std::nullopt;
@@ -33,7 +33,7 @@ std::optional<Hit<D>> raycast(const Ray<D>& ray, const SolidBsp<D>& level) {
     return hit;
 }
 
-template std::optional<Hit<2>> raycast(const Ray<2>&, const SolidBsp<2>&);
-template std::optional<Hit<3>> raycast(const Ray<3>&, const SolidBsp<3>&);
+template std::optional<Hit<2>> raycast(const Ray<2>&, const SolidBsp<2>&, const QueryOptions<2>&);
+template std::optional<Hit<3>> raycast(const Ray<3>&, const SolidBsp<3>&, const QueryOptions<3>&);
 
 }  // namespace abut

@@ -48,7 +48,7 @@ public:
     double margin() const { return margin_; }
 
     /// The faces of a lump, none where it has no volume. False where it has no bound.
-    bool add_faces(std::size_t brush, std::vector<SolidFragment<D>>& fragments) {
+    bool add_faces(std::size_t brush, std::vector<SolidFragment<D>>& fragments, SolidParts<D>& parts) {
         double farthest = 0;
         for (std::uint32_t i = begin(brush); i < ends_[brush]; ++i)
             farthest = std::max(farthest, std::abs(planes_[i].offset) / length(planes_[i].normal));
@@ -72,6 +72,10 @@ public:
             box = Aabb<D>::empty();
         }
         boxes_.push_back(box);
+        std::vector<DVec<D>> corners;
+        for (std::size_t i = first; i < fragments.size(); ++i)
+            for (const SolidCorner<D>& corner : fragments[i].corners) corners.push_back(corner.position);
+        parts.add(corners, static_cast<std::uint32_t>(brush));
         return true;
     }
 
@@ -107,12 +111,11 @@ private:
 
     /// Of several sides in one plane the first has the face.
     SolidFragment<D> face_of(std::size_t brush, std::uint32_t side, double reach, double margin) const {
-        const SolidTree<D> no_points;
         SolidFragment<D> face = large_face<D>(side, planes_[side], reach);
         CutFragment<D> parts;
         for (std::uint32_t i = begin(brush); i < ends_[brush] && !face.corners.empty(); ++i) {
             if (i == side) continue;
-            cut(no_points, planes_[i], margin, std::move(face), parts);
+            cut(no_points_, planes_[i], margin, std::move(face), parts);
             face = std::move(parts.back);
             if (!parts.in_plane) continue;
             face = std::move(parts.front);
@@ -121,6 +124,7 @@ private:
         return face;
     }
 
+    const SolidTree<D> no_points_;
     std::span<const std::uint32_t> ends_;
     std::vector<SolidPlane<D>> planes_;
     std::vector<Aabb<D>> boxes_;
@@ -154,12 +158,13 @@ Result<SolidBsp<D>> SolidBsp<D>::from_brushes(std::span<const HalfSpace<D>> side
                                               std::span<const std::uint32_t> ends) {
     if (auto problem = problem_of<D>(sides, ends)) return *std::move(problem);
     Brushes<D> brushes(sides, ends);
+    auto tree = std::make_shared<SolidTree<D>>();
     std::vector<SolidFragment<D>> fragments;
     for (std::size_t i = 0; i < ends.size(); ++i)
-        if (!brushes.add_faces(i, fragments))
+        if (!brushes.add_faces(i, fragments, tree->parts))
             return Problem{ProblemCode::bad_argument, "lump " + std::to_string(i) + " has no bound", i};
     brushes.index();
-    auto tree = std::make_shared<SolidTree<D>>();
+    tree->parts.finish();
     const auto plane = [&](std::uint32_t side) { return brushes.plane(side); };
     const auto beside = [&](const DVec<D>& place, const SolidPlane<D>& at) { return brushes.beside(place, at); };
     build_tree<D>(*tree, {std::move(fragments), brushes.margin(), plane, beside});

@@ -1,6 +1,7 @@
 #include <abut/math/assert.hpp>
 #include <abut/math/predicates.hpp>
 #include <abut/shape/solid_bsp.hpp>
+#include <abut/shape/solid_cells.hpp>
 #include <abut/shape/solid_tree.hpp>
 #include <abut/shape/solid_winding.hpp>
 
@@ -97,6 +98,8 @@ Result<SolidBsp<D>> SolidBsp<D>::build(std::span<const Vec<D>> points, std::span
         return winding.closed() ? winding.beside(place, at) : SolidSides();
     };
     build_tree<D>(*tree, {std::move(fragments), margin, plane, sides});
+    add_cells<D>(*tree, margin);
+    tree->parts.finish();
     return SolidBsp(std::move(tree));
 }
 
@@ -121,6 +124,26 @@ Aabb<D> SolidBsp<D>::bounds() const {
     return tree_->bounds;
 }
 template <int D>
+void SolidBsp<D>::each_part(const Aabb<D>& box, PartVisitor<D> visit) const {
+    tree_->parts.each_part(box, visit);
+}
+template <int D>
+void SolidBsp<D>::each_part_along(const MovingBox<D>& box, PartReachVisitor<D> visit) const {
+    tree_->parts.each_part_along(box, visit);
+}
+template <int D>
+void SolidBsp<D>::each_part_near(const Aabb<D>& box, PartReachVisitor<D> visit) const {
+    tree_->parts.each_part_near(box, visit);
+}
+template <int D>
+Aabb<D> SolidBsp<D>::part_bounds() const {
+    return tree_->parts.bounds();
+}
+template <int D>
+std::size_t SolidBsp<D>::part_count() const {
+    return tree_->parts.size();
+}
+template <int D>
 std::size_t SolidBsp<D>::node_count() const {
     return tree_->nodes.size();
 }
@@ -138,6 +161,11 @@ std::size_t SolidBsp<D>::piece_count() const {
     template bool SolidBsp<D>::contains(const Vec<D>&) const;                                                     \
     template void SolidBsp<D>::visit_from(const Vec<D>&, SolidBsp<D>::PieceCall) const;                           \
     template Aabb<D> SolidBsp<D>::bounds() const;                                                                 \
+    template void SolidBsp<D>::each_part(const Aabb<D>&, PartVisitor<D>) const;                                   \
+    template void SolidBsp<D>::each_part_along(const MovingBox<D>&, PartReachVisitor<D>) const;                   \
+    template void SolidBsp<D>::each_part_near(const Aabb<D>&, PartReachVisitor<D>) const;                         \
+    template Aabb<D> SolidBsp<D>::part_bounds() const;                                                            \
+    template std::size_t SolidBsp<D>::part_count() const;                                                         \
     template std::size_t SolidBsp<D>::node_count() const;                                                         \
     template std::size_t SolidBsp<D>::depth() const;                                                              \
     template std::size_t SolidBsp<D>::piece_count() const;

@@ -1,11 +1,12 @@
 #pragma once
 
-// The parts of a SolidBsp, and how they are put together. For .cpp files.
+// What a SolidBsp is made of, and how they are put together. For .cpp files.
 
 #include <abut/math/aabb.hpp>
 #include <abut/math/dvec.hpp>
 #include <abut/math/function_ref.hpp>
 #include <abut/shape/half_space.hpp>
+#include <abut/shape/solid_parts.hpp>
 
 #include <cstdint>
 #include <optional>
@@ -50,6 +51,7 @@ struct SolidTree {
     std::uint32_t root = open_leaf;
     std::size_t depth = 0;
     Aabb<D> bounds = Aabb<D>::empty();
+    SolidParts<D> parts;
 };
 
 /// 1 in front of the plane, -1 behind it, 0 on it: exact where it is that of a face or across an axis, else to the

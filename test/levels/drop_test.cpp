@@ -158,6 +158,41 @@ TEST(Drop, Turning) {
     EXPECT_EQ(rounds, oracle::amount(60));
 }
 
+/// Ground with an underside, as a solid level: of its faces, whose cells meet at T-junctions of their own, and of
+/// columns with a slope on top.
+TEST(Drop, OnSolids) {
+    oracle::Random random(8);
+    int falls = 0;
+    for (int round = 0; round < 3; ++round) {
+        const Terrain terrain = random_terrain(random, 6, 1);
+        const Surface faces = terrain.solid(-3), above = terrain.surface();
+        std::vector<HalfSpace3> sides;
+        std::vector<std::uint32_t> ends;
+        for (const glm::uvec3& t : above.triangles) {
+            const DVec<3> a(above.points[t.x]), b(above.points[t.y]), c(above.points[t.z]);
+            const auto add = [&](const DVec<3>& out, const DVec<3>& on) {
+                const DVec<3> normal = normalized(out);
+                sides.push_back({to_float(normal), static_cast<float>(dot(normal, on))});
+            };
+            const DVec<3> up(0, 0, 1);
+            add(cross(b - a, c - a), a);
+            for (const auto& [from, to] : {std::pair{a, b}, {b, c}, {c, a}}) add(cross(to - from, up), from);
+            sides.push_back({{0, 0, -1}, 3});
+            ends.push_back(static_cast<std::uint32_t>(sides.size()));
+        }
+        for (const SolidBsp3& solid :
+             {*SolidBsp3::build(faces.points, faces.triangles), *SolidBsp3::from_brushes(sides, ends)})
+            for (const glm::uvec3& t : above.triangles) {
+                const Vec3 a = above.points[t.x], b = above.points[t.y], c = above.points[t.z];
+                for (const Vec3& place :
+                     {a, b, c, (a + b) * 0.5f, (b + c) * 0.5f, (c + a) * 0.5f, (a + b + c) * (1 / 3.0f)})
+                    for (const Sphere& one : {ball, small_ball}) falls += drop(view(solid), place, one);
+                if (HasFailure()) return;
+            }
+    }
+    EXPECT_EQ(falls, 3 * 2 * 72 * 7 * 2 * 3);
+}
+
 /// The same with the other grounds.
 TEST(Drop, OnAHeightFieldAndAChain) {
     oracle::Random random(7);

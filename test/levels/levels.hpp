@@ -15,6 +15,7 @@
 #include <abut/shape/polygon.hpp>
 #include <abut/shape/polyhedron.hpp>
 #include <abut/shape/segment.hpp>
+#include <abut/shape/solid_bsp.hpp>
 #include <abut/shape/tile_map.hpp>
 
 #include <functional>
@@ -155,6 +156,17 @@ inline Level<3> level_of(const Mesh& mesh) {
     return result;
 }
 
+template <int D>
+Level<D> level_of(const SolidBsp<D>& solid) {
+    Level<D> result{solid, {}};
+    constexpr float most = std::numeric_limits<float>::max();
+    each_part(solid, Aabb<D>{Vec<D>(-most), Vec<D>(most)}, [&](const Convex<D>& part, std::uint32_t index) -> bool {
+        result.parts.push_back({part, index});
+        return true;
+    });
+    return result;
+}
+
 /// A walk in steps of random length and direction, or around, or over ground from left to right.
 inline Level<2> random_chain(oracle::Random& random) {
     const bool closed = random.chance(0.5);
@@ -233,6 +245,64 @@ inline Level<3> random_mesh(oracle::Random& random) {
     return level_of(random_terrain(random, 5, 1.5).surface().mesh());
 }
 
+/// Boxes with corners cut off, here and there over one another, and some of no volume.
+template <int D>
+Level<D> random_brushes(oracle::Random& random) {
+    std::vector<HalfSpace<D>> sides;
+    std::vector<std::uint32_t> ends;
+    const std::uint32_t count = 1 + random.below(12);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const Vec<D> center = random_point<D>(random, 2);
+        const auto add = [&](const DVec<D>& out, double height) {
+            const Vec<D> normal = to_float(out);
+            sides.push_back({normal, dot(normal, center) + static_cast<float>(height)});
+        };
+        for (int axis = 0; axis < D; ++axis)
+            for (const double end : {-1.0, 1.0}) add(abut::axis<D>(axis, end), random.uniform(0.05, 0.8));
+        for (std::uint32_t k = random.below(4); k > 0; --k)
+            add(random.direction<D>(), random.uniform(random.chance(0.05) ? -1.5 : 0.05, 0.8));
+        ends.push_back(static_cast<std::uint32_t>(sides.size()));
+    }
+    return level_of(*SolidBsp<D>::from_brushes(sides, ends));
+}
+
+/// Outlines over one another, at times turned round: then the solid is outside, without end.
+inline Level<2> random_solid(oracle::Random& random, std::integral_constant<int, 2>) {
+    std::vector<Vec2> points;
+    std::vector<glm::uvec2> faces;
+    const bool room = random.chance(0.1);
+    const std::uint32_t outlines = 1 + random.below(3);
+    for (std::uint32_t k = 0; k < outlines; ++k) {
+        const auto first = static_cast<std::uint32_t>(points.size());
+        const std::uint32_t count = 3 + random.below(20);
+        const DVec<2> center = random.in_cube<2>();
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const double angle = 6.28 * i / count;
+            points.push_back(to_float(center + DVec<2>(std::cos(angle), std::sin(angle)) * random.uniform(0.5, 2)));
+            const std::uint32_t from = first + i, to = first + (i + 1) % count;
+            faces.push_back(room ? glm::uvec2(to, from) : glm::uvec2(from, to));
+        }
+    }
+    return level_of(*SolidBsp2::build(points, faces));
+}
+
+/// Cells of a grid, boxes over one another, or ground with an underside; at times with a room around it all.
+inline Level<3> random_solid(oracle::Random& random, std::integral_constant<int, 3>) {
+    const std::uint32_t what = random.below(3);
+    Surface surface = random_terrain(random, 4, 1).solid(-1);
+    if (what == 0) surface = cell_surface(3, [&](int, int, int) { return random.chance(0.4); });
+    if (what == 1) {
+        surface = {};
+        for (std::uint32_t i = 1 + random.below(5); i > 0; --i) {
+            const Vec3 low = random_point<3>(random, 1.5);
+            surface = joined(surface, box_surface(low, low + Vec3(0.1f) + (random_point<3>(random, 1) + Vec3(1))));
+        }
+    }
+    if (surface.triangles.empty()) surface = box_surface(Vec3(-1), Vec3(1));
+    if (random.chance(0.1)) surface = joined(surface, reversed(box_surface(Vec3(-2.5f), Vec3(4.5f))));
+    return level_of(*SolidBsp3::build(surface.points, surface.triangles));
+}
+
 template <int D>
 Level<D> random_level(oracle::Random& random, std::uint32_t kind);
 
@@ -248,7 +318,7 @@ Level<D> random_compound(oracle::Random& random) {
     }
     if (random.chance(0.7)) {
         const Pose<D> pose = random_pose<D>(random, 1);
-        const Level<D> inner = random_level<D>(random, random.below(3));
+        const Level<D> inner = random_level<D>(random, random.below(4));
         const auto stands = at(stretched(inner.shape, Vec<D>(random.uniform_float(0.3, 1.5))), pose);
         children.push_back(stands);
         const Placing<D> placing{stands.shape.scale, pose, 0};
@@ -257,10 +327,14 @@ Level<D> random_compound(oracle::Random& random) {
     return {*Compound<D>::build(children), parts};
 }
 
-/// Of all kinds of the dimension: 0 and 1 are plain, 2 is a compound.
+/// Of all kinds of the dimension: 0 and 1 are plain, 2 is a compound, 3 is solid.
 template <int D>
 Level<D> random_level(oracle::Random& random, std::uint32_t kind) {
     if (kind == 2) return random_compound<D>(random);
+    if (kind == 3) {
+        if (random.chance(0.5)) return random_brushes<D>(random);
+        return random_solid(random, std::integral_constant<int, D>());
+    }
     if constexpr (D == 2)
         return kind == 0 ? random_chain(random) : random_tile_map(random);
     else
@@ -275,12 +349,17 @@ struct Other {
     std::vector<LevelPart<D>> parts;
 };
 
-/// A place that a question may be about.
+/// A place that a question may be about: in the middle of a part, or at a corner of its box, which of a solid one is
+/// where its surface is.
 template <int D>
 Vec<D> near_some_part(oracle::Random& random, const PlacedLevel<D>& level) {
     if (level.parts.empty()) return Vec<D>(0.0f);
     const auto some = random.below(static_cast<std::uint32_t>(level.parts.size()));
-    return center(bounds(level.parts[some].view));
+    const Aabb<D> box = bounds(level.parts[some].view);
+    Vec<D> place = center(box);
+    if (random.chance(0.5))
+        for (int i = 0; i < D; ++i) place[i] = random.chance(0.5) ? box.min[i] : box.max[i];
+    return place;
 }
 
 template <int D>
@@ -288,7 +367,7 @@ Other<D> random_other(oracle::Random& random, const PlacedLevel<D>& level) {
     const Pose<D> pose{near_some_part(random, level) + random_point<D>(random, random.uniform(0, 1.5)),
                        random.rotation<D>()};
     if (random.chance(0.2)) {
-        const PlacedLevel<D> other(random_level<D>(random, random.below(3)), {Vec<D>(0.5f), pose, 0});
+        const PlacedLevel<D> other(random_level<D>(random, random.below(4)), {Vec<D>(0.5f), pose, 0});
         return {other.level.shape, other.view, other.parts};
     }
     if (random.chance(0.1)) {

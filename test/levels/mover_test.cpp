@@ -283,5 +283,51 @@ TEST(MoverOnLevels, WalksOverHillsOfAHeightField) {
     }
 }
 
+/// Of the faces of hills with an underside, whose cells meet in T-junctions of their own.
+TEST(MoverOnLevels, WalksOverHillsOfASolid) {
+    oracle::Random random(11);
+    const Surface ground = random_terrain(random, 24, 0.3).solid(-2);
+    const SolidBsp3 solid = *SolidBsp3::build(ground.points, ground.triangles);
+    World3 world;
+    const Vec3 middle = center(bounds(solid));
+    world.add(at(solid, Pose3{{-middle.x, -middle.y, 0}}), {.fixed = true});
+    for (int run = 0; run < 6; ++run) {
+        Walker<3> walker(world, 2);
+        walker.position = {0, 0, 2};
+        walker.fall(hero<3>(2), 80);
+        const DVec<2> along = random.direction<2>() * 0.1;
+        const Vec3 way{static_cast<float>(along.x), static_cast<float>(along.y), -gravity};
+        for (int i = 0; i < 100; ++i) {
+            const Vec3 before = walker.position;
+            walker.go(hero<3>(2), way);
+            ASSERT_TRUE(walker.moved.grounded) << run << ' ' << i;
+            ASSERT_GT(dot(DVec<3>(walker.position - before), DVec<3>(along.x, along.y, 0)), 0.005) << run << ' ' << i;
+            ASSERT_TRUE(world.overlapping(at(hero<3>(2), Pose3{walker.position})).empty()) << run << ' ' << i;
+        }
+    }
+}
+
+/// Of boxes side by side, every other row of them shifted: corners meet sides.
+TEST(MoverOnLevels, FeelsNoSeamsOfASolid) {
+    oracle::Random random(12);
+    Surface tiles;
+    for (int y = -8; y < 8; ++y)
+        for (int x = -8; x < 8; ++x) {
+            const Vec3 low(static_cast<float>(x) + (y % 2 == 0 ? 0.0f : 0.37f), y, -1);
+            tiles = joined(tiles, box_surface(low, low + Vec3(1)));
+        }
+    World3 world;
+    world.add(*SolidBsp3::build(tiles.points, tiles.triangles), {.fixed = true});
+    for (const float speed : {0.02f, 0.1f, 0.4f})
+        for (int run = 0; run < 8; ++run) {
+            const DVec<2> along = run < 2 ? DVec<2>{1.0 - run, 1.0 * run} : random.direction<2>();
+            Walker<3> walker(world, 2);
+            walker.position = {0, 0, 1.05f};
+            walker.fall(hero<3>(2), 20);
+            const Vec3 way{static_cast<float>(along.x) * speed, static_cast<float>(along.y) * speed, 0};
+            expect_no_catch<3>(walker, hero<3>(2), way, std::min(60, static_cast<int>(6 / speed)), 1e-5);
+        }
+}
+
 }  // namespace
 }  // namespace abut::test

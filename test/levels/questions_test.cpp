@@ -233,6 +233,9 @@ TEST(LevelQuestions, OfTileMapsAgreeWithTryingAllTiles) {
 TEST(LevelQuestions, OfCompoundsOfThePlaneAgreeWithTryingAllParts) {
     check_levels<2>(2, oracle::amount(100));
 }
+TEST(LevelQuestions, OfSolidsOfThePlaneAgreeWithTryingAllParts) {
+    check_levels<2>(3, oracle::amount(100));
+}
 TEST(LevelQuestions, OfHeightFieldsAgreeWithTryingAllTriangles) {
     check_levels<3>(0, oracle::amount(60));
 }
@@ -241,6 +244,9 @@ TEST(LevelQuestions, OfMeshesAgreeWithTryingAllTriangles) {
 }
 TEST(LevelQuestions, OfCompoundsInSpaceAgreeWithTryingAllParts) {
     check_levels<3>(2, oracle::amount(60));
+}
+TEST(LevelQuestions, OfSolidsInSpaceAgreeWithTryingAllParts) {
+    check_levels<3>(3, oracle::amount(60));
 }
 
 }  // namespace

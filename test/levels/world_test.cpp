@@ -35,7 +35,7 @@ Scene<D> random_scene(oracle::Random& random) {
     for (std::uint32_t i = 0; i < 10; ++i) {
         const Pose<D> pose = random_pose<D>(random, extent<D>);
         if (i < 5)
-            scene.ids.push_back(scene.world.add(random_level<D>(random, i % 3).shape, {.pose = pose, .fixed = i < 3}));
+            scene.ids.push_back(scene.world.add(random_level<D>(random, i % 4).shape, {.pose = pose, .fixed = i < 3}));
         else
             scene.ids.push_back(
                 scene.world.add(random_convex(random, std::integral_constant<int, D>(), 0.1, 1), {.pose = pose}));

@@ -11,6 +11,7 @@
 #include <abut/shape/mesh.hpp>
 #include <abut/shape/placed.hpp>
 #include <abut/shape/segment.hpp>
+#include <abut/shape/solid_bsp.hpp>
 
 #include <vector>
 
@@ -58,6 +59,39 @@ void add_segments(World2& world, Random* random) {
     std::vector<Vec2> points;
     for (int x = -8; x <= 8; ++x) points.push_back({x, about(0, random)});
     for (std::size_t x = 0; x < tiles; ++x) world.add(Segment2{points[x], points[x + 1]}, {.fixed = true});
+}
+
+/// The boxes as one solid level of lumps.
+template <int D>
+void add_solid(World<D>& world, Random* random) {
+    std::vector<HalfSpace<D>> sides;
+    std::vector<std::uint32_t> ends;
+    for (int z = -8; z < (D == 3 ? 8 : -7); ++z)
+        for (int x = -8; x < 8; ++x) {
+            Vec<D> center(static_cast<float>(z) + 0.5f);
+            center[0] = about(static_cast<float>(x) + 0.5f, random);
+            center[1] = about(-0.5f, random);
+            for (int axis = 0; axis < D; ++axis) {
+                Vec<D> normal(0.0f);
+                normal[axis] = 1;
+                sides.push_back({normal, center[axis] + 0.5f});
+                sides.push_back({-normal, 0.5f - center[axis]});
+            }
+            ends.push_back(static_cast<std::uint32_t>(sides.size()));
+        }
+    world.add(*SolidBsp<D>::from_brushes(sides, ends), {.fixed = true});
+}
+void add_solid_of_faces(World2& world, Random* random) {
+    std::vector<Vec2> points;
+    std::vector<glm::uvec2> faces;
+    for (int x = -8; x < 8; ++x) {
+        const auto first = static_cast<std::uint32_t>(points.size());
+        const Vec2 low(about(static_cast<float>(x), random), -1),
+            high(about(static_cast<float>(x + 1), random), about(0, random));
+        points.insert(points.end(), {low, {high.x, low.y}, high, {low.x, high.y}});
+        for (std::uint32_t i = 0; i < 4; ++i) faces.emplace_back(first + i, first + (i + 1) % 4);
+    }
+    world.add(*SolidBsp2::build(points, faces), {.fixed = true});
 }
 
 template <int D>
@@ -109,9 +143,9 @@ void expect_no_catch(const char* name, const World<D>& world, const S& shape, fl
 TEST(MoverFloors, NothingCatchesInSpace) {
     Random noise(seed);
     for (Random* random : {static_cast<Random*>(nullptr), &noise}) {
-        for (const bool boxes : {true, false}) {
+        for (const auto& add : {static_cast<void (*)(World3&, Random*)>(add_boxes), add_mesh, add_solid<3>}) {
             World3 world;
-            boxes ? add_boxes(world, random) : add_mesh(world, random);
+            add(world, random);
             const double off = random != nullptr ? 1e-3 : 1e-5;
             expect_no_catch<3>("box", world, Box3{{0, 0, 0}, {0.4f, 0.5f, 0.6f}}, 0.5f, off);
             expect_no_catch<3>("capsule", world, Capsule3{{0, -0.5f, 0}, {0, 0.5f, 0}, 0.4f}, 0.9f, off);
@@ -124,9 +158,10 @@ TEST(MoverFloors, NothingCatchesInSpace) {
 TEST(MoverFloors, NothingCatchesInThePlane) {
     Random noise(seed);
     for (Random* random : {static_cast<Random*>(nullptr), &noise}) {
-        for (const bool boxes : {true, false}) {
+        for (const auto& add :
+             {static_cast<void (*)(World2&, Random*)>(add_boxes), add_segments, add_solid<2>, add_solid_of_faces}) {
             World2 world;
-            boxes ? add_boxes(world, random) : add_segments(world, random);
+            add(world, random);
             const double off = random != nullptr ? 1e-3 : 1e-5;
             expect_no_catch<2>("box", world, Box2{{0, 0}, {0.4f, 0.5f}}, 0.5f, off);
             expect_no_catch<2>("capsule", world, Capsule2{{0, -0.5f}, {0, 0.5f}, 0.4f}, 0.9f, off);

@@ -2,6 +2,7 @@
 
 #include "../oracle/expect.hpp"
 #include "../oracle/random.hpp"
+#include "../shape/meshes.hpp"
 #include <abut/query/each_contact.hpp>
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
@@ -11,6 +12,7 @@
 #include <abut/shape/placed.hpp>
 #include <abut/shape/polygon.hpp>
 #include <abut/shape/segment.hpp>
+#include <abut/shape/solid_bsp.hpp>
 
 #include <vector>
 
@@ -108,6 +110,41 @@ Pieces<Segment2> segments(Random* random) {
     return result;
 }
 
+
+/// The same tiles as one solid level: each a lump, or by the faces of them all.
+template <int D>
+SolidBsp<D> solid_of_lumps(const Pieces<Box<D>>& boxes) {
+    std::vector<HalfSpace<D>> sides;
+    std::vector<std::uint32_t> ends;
+    for (const Box<D>& box : boxes.pieces) {
+        for (int i = 0; i < D; ++i) {
+            Vec<D> normal(0.0f);
+            normal[i] = 1;
+            sides.push_back({normal, box.center[i] + box.half[i]});
+            sides.push_back({-normal, box.half[i] - box.center[i]});
+        }
+        ends.push_back(static_cast<std::uint32_t>(sides.size()));
+    }
+    return *SolidBsp<D>::from_brushes(sides, ends);
+}
+SolidBsp3 solid_of_faces(const Pieces<Box3>& boxes) {
+    test::Surface surface;
+    for (const Box3& box : boxes.pieces)
+        surface = joined(surface, test::box_surface(box.center - box.half, box.center + box.half));
+    return *SolidBsp3::build(surface.points, surface.triangles);
+}
+SolidBsp2 solid_of_faces(const Pieces<Box2>& boxes) {
+    std::vector<Vec2> points;
+    std::vector<glm::uvec2> faces;
+    for (const Box2& box : boxes.pieces) {
+        const auto first = static_cast<std::uint32_t>(points.size());
+        for (const Vec2& corner : {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)})
+            points.push_back(box.center + box.half * corner);
+        for (std::uint32_t i = 0; i < 4; ++i) faces.emplace_back(first + i, first + (i + 1) % 4);
+    }
+    return *SolidBsp2::build(points, faces);
+}
+
 template <int D>
 Pose<D> turned_about_up(double radians, const Vec<D>& position) {
     if constexpr (D == 2)
@@ -184,6 +221,13 @@ TEST(EachContact, OfALevelFloorIsUpAlone) {
         expect_level_in_space("mesh", level_mesh(random), tolerance(random));
         expect_level_in_space("broken mesh", broken_mesh(random), tolerance(random));
         expect_level_in_space("boxes", boxes_in_space(random), tolerance(random));
+        expect_level_in_space("solid lumps", solid_of_lumps(boxes_in_space(random)), tolerance(random));
+        expect_level_in_space("solid of faces", solid_of_faces(boxes_in_space(random)), tolerance(random));
+        for (const SolidBsp2& solid :
+             {solid_of_lumps(boxes_of_the_plane(random)), solid_of_faces(boxes_of_the_plane(random))}) {
+            expect_only_up<2>("box on a solid", Box2{{0, 0}, {0.4f, 0.3f}}, 0.3f, solid, tolerance(random));
+            expect_only_up<2>("ball on a solid", Circle{{0, 0}, 0.3f}, 0.3f, solid, tolerance(random));
+        }
         {
             const Tolerance off = tolerance(random);
             expect_only_up<2>("box", Box2{{0, 0}, {0.4f, 0.3f}}, 0.3f, boxes_of_the_plane(random), off);
