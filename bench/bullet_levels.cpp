@@ -1,6 +1,6 @@
-// Bullet's mesh, asked through its dispatcher as btCollisionWorld::contactPairTest does.
+// Bullet's mesh, or compound of hulls, asked through its dispatcher as btCollisionWorld::contactPairTest does.
 
-#include "bullet.hpp"
+#include "bullet_convex.hpp"
 #include "levels.hpp"
 
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
@@ -8,39 +8,56 @@
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 #include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
-#include <BulletCollision/CollisionShapes/btBoxShape.h>
 #include <BulletCollision/CollisionShapes/btBvhTriangleMeshShape.h>
-#include <BulletCollision/CollisionShapes/btCapsuleShape.h>
+#include <BulletCollision/CollisionShapes/btCompoundShape.h>
 #include <BulletCollision/CollisionShapes/btTriangleIndexVertexArray.h>
 
 namespace abut::bench {
 
 namespace {
 
-struct BulletLevel {
+struct BulletMesh {
     /// Its arrays are not const, though nothing is written to them.
-    explicit BulletLevel(const LevelScene& scene)
+    explicit BulletMesh(const LevelScene& scene)
         : points(scene.points),
           triangles(scene.triangles),
           arrays(static_cast<int>(triangles.size()), reinterpret_cast<int*>(triangles.data()), sizeof(glm::uvec3),
                  static_cast<int>(points.size()), &points[0].x, sizeof(Vec3)),
-          mesh(&arrays, true),
-          dispatcher(&configuration),
-          world(&dispatcher, &broad_phase, &configuration) {
-        mesh.setMargin(0);
-        if (const auto* box = std::get_if<Box3>(&scene.shape)) {
-            shape = std::make_unique<btBoxShape>(to_bullet(box->half));
-            shape->setMargin(0);
-        } else {
-            const Capsule3& capsule = std::get<Capsule3>(scene.shape);
-            shape = std::make_unique<btCapsuleShape>(capsule.radius, capsule.b.y - capsule.a.y);
+          shape(&arrays, true) {
+        shape.setMargin(0);
+    }
+
+    std::vector<Vec3> points;
+    std::vector<glm::uvec3> triangles;
+    btTriangleIndexVertexArray arrays;
+    btBvhTriangleMeshShape shape;
+};
+
+/// In a tree of boxes.
+struct BulletLumps {
+    explicit BulletLumps(const LevelScene& scene) {
+        for (const Polyhedron& lump : scene.lumps) {
+            hulls.push_back(bullet::shape_of(lump));
+            shape.addChildShape(btTransform::getIdentity(), hulls.back().get());
         }
-        ground.setCollisionShape(&mesh);
+        shape.createAabbTreeFromChildren();
+    }
+
+    std::vector<std::unique_ptr<btConvexShape>> hulls;
+    btCompoundShape shape;
+};
+
+template <class Ground>
+struct BulletLevel {
+    explicit BulletLevel(const LevelScene& scene)
+        : level(scene), dispatcher(&configuration), world(&dispatcher, &broad_phase, &configuration) {
+        shape = std::visit([](const auto& s) { return bullet::shape_of(s); }, scene.shape);
+        ground.setCollisionShape(&level.shape);
         thing.setCollisionShape(shape.get());
         for (const Pose3& pose : scene.poses) poses.push_back(to_bullet(pose));
     }
 
-    /// How many triangles it touches. The points of one follow one another.
+    /// How many triangles or hulls it touches. The points of one follow one another.
     int touched(std::size_t i) {
         struct Count final : btCollisionWorld::ContactResultCallback {
             explicit Count(const btCollisionObject* of) : ground(of) {}
@@ -61,10 +78,7 @@ struct BulletLevel {
         return count.found;
     }
 
-    std::vector<Vec3> points;
-    std::vector<glm::uvec3> triangles;
-    btTriangleIndexVertexArray arrays;
-    btBvhTriangleMeshShape mesh;
+    Ground level;
     std::unique_ptr<btConvexShape> shape;
     btCollisionObject ground, thing;
     std::vector<btTransform> poses;
@@ -74,15 +88,20 @@ struct BulletLevel {
     btCollisionWorld world;
 };
 
-}  // namespace
-
-Side bullet_level_overlaps(const SharedLevelScene& scene) {
-    return {"bullet", [level = std::make_shared<BulletLevel>(*scene)](std::span<double> values) {
+template <class Ground>
+Side overlaps_with(const SharedLevelScene& scene) {
+    return {"bullet", [level = std::make_shared<BulletLevel<Ground>>(*scene)](std::span<double> values) {
                 for (std::size_t i = 0; i < values.size(); ++i) values[i] = level->touched(i) > 0 ? 1 : 0;
             }};
 }
+
+}  // namespace
+
+Side bullet_level_overlaps(const SharedLevelScene& scene) {
+    return scene->lumps.empty() ? overlaps_with<BulletMesh>(scene) : overlaps_with<BulletLumps>(scene);
+}
 Side bullet_level_contacts(const SharedLevelScene& scene) {
-    return {"bullet", [level = std::make_shared<BulletLevel>(*scene)](std::span<double> values) {
+    return {"bullet", [level = std::make_shared<BulletLevel<BulletMesh>>(*scene)](std::span<double> values) {
                 for (std::size_t i = 0; i < values.size(); ++i) values[i] = level->touched(i);
             }};
 }

@@ -1,5 +1,5 @@
-// A box and a capsule at a terrain of a hundred thousand triangles: does it touch anything, and what, and where? Half
-// of them touch something.
+// A box and a capsule at a terrain of a hundred thousand triangles: does it touch anything, and what, and where? And in
+// a solid level of three thousand lumps: does it touch anything? Half of them touch something.
 
 #include "levels.hpp"
 
@@ -9,6 +9,7 @@
 #include <abut/query/overlaps.hpp>
 #include <abut/shape/mesh.hpp>
 #include <abut/shape/placed.hpp>
+#include <abut/shape/solid_bsp.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -19,6 +20,7 @@ namespace {
 
 constexpr std::size_t query_count = 8192;
 constexpr std::uint32_t columns = 224;
+constexpr std::size_t lump_count = 3000;
 constexpr std::uint64_t seed = 1;
 
 /// The peers calculate with tolerances, Bullet in floats: of what just touches or just doesn't, some say otherwise.
@@ -28,7 +30,7 @@ SharedLevelScene scene_of(const std::variant<Box3, Capsule3>& shape) {
     oracle::Random random(seed);
     scenes::Terrain ground = scenes::random_terrain(columns, random);
     auto result =
-        std::make_shared<LevelScene>(LevelScene{std::move(ground.points), std::move(ground.triangles), shape, {}});
+        std::make_shared<LevelScene>(LevelScene{std::move(ground.points), std::move(ground.triangles), {}, shape, {}});
     const double half = 0.49 * columns;
     for (std::size_t i = 0; i < query_count; ++i) {
         const float x = random.uniform_float(-half, half), y = random.uniform_float(-0.5, 2.5);
@@ -37,17 +39,56 @@ SharedLevelScene scene_of(const std::variant<Box3, Capsule3>& shape) {
     return result;
 }
 
+template <class Level>
+Side overlaps_by_abut(const SharedLevelScene& scene, const Level& level) {
+    return {"abut", [scene, level](std::span<double> values) {
+                const auto ask = [&](const auto& shape) {
+                    for (std::size_t i = 0; i < values.size(); ++i)
+                        values[i] = overlaps(at(shape, scene->poses[i]), level) ? 1 : 0;
+                };
+                std::visit(ask, scene->shape);
+            }};
+}
+
 Job overlaps_at_all(const SharedLevelScene& scene) {
-    const Side ours{"abut", [scene, mesh = *Mesh::build(scene->points, scene->triangles)](std::span<double> values) {
-                        const auto ask = [&](const auto& shape) {
-                            for (std::size_t i = 0; i < values.size(); ++i)
-                                values[i] = overlaps(at(shape, scene->poses[i]), mesh) ? 1 : 0;
-                        };
-                        std::visit(ask, scene->shape);
-                    }};
     Side bullet = bullet_level_overlaps(scene), fcl = fcl_level_overlaps(scene);
     bullet.strays = fcl.strays = few;
-    return {.items = query_count, .values = query_count, .sides = {ours, bullet, fcl}};
+    return {.items = query_count,
+            .values = query_count,
+            .sides = {overlaps_by_abut(scene, *Mesh::build(scene->points, scene->triangles)), bullet, fcl}};
+}
+
+/// Boxes of 1 to 4 with corners cut off, here and there over one another.
+Job overlaps_in_solid(const std::variant<Box3, Capsule3>& shape) {
+    oracle::Random random(seed);
+    constexpr double half = 30;
+    std::vector<HalfSpace3> sides;
+    std::vector<std::uint32_t> ends;
+    for (std::size_t i = 0; i < lump_count; ++i) {
+        const Vec3 center(random.in_cube<3>() * half);
+        const auto add = [&](const DVec<3>& out, double height) {
+            const Vec3 normal = to_float(out);
+            sides.push_back({normal, dot(normal, center) + static_cast<float>(height)});
+        };
+        for (int axis = 0; axis < 3; ++axis)
+            for (const double end : {-1.0, 1.0}) add(abut::axis<3>(axis, end), random.uniform(0.5, 2));
+        for (int k = 0; k < 3; ++k) add(random.direction<3>(), random.uniform(0.5, 2));
+        ends.push_back(static_cast<std::uint32_t>(sides.size()));
+    }
+    const SolidBsp3 solid = *SolidBsp3::from_brushes(sides, ends);
+    auto scene = std::make_shared<LevelScene>(LevelScene{{}, {}, {}, shape, {}});
+    each_part(solid, bounds(solid), [&](const Convex<3>& part, std::uint32_t) -> bool {
+        std::vector<Vec3> corners;
+        for (std::uint32_t i = 0; i < part.count; ++i)
+            corners.push_back(to_float(part.place.point(DVec<3>(part.vertices()[i]))));
+        scene->lumps.push_back(*Polyhedron::build(corners));
+        return true;
+    });
+    for (std::size_t i = 0; i < query_count; ++i)
+        scene->poses.push_back({Vec3(random.in_cube<3>() * half), random.rotation<3>()});
+    Side bullet = bullet_level_overlaps(scene);
+    bullet.strays = few;
+    return {.items = query_count, .values = query_count, .sides = {overlaps_by_abut(scene, solid), bullet}};
 }
 
 /// Visits the triangles that it touches one by one, whatever is told of their surface as a whole.
@@ -115,15 +156,17 @@ Job touched(const SharedLevelScene& scene) {
 }  // namespace
 
 std::vector<Bench> level_benches() {
-    const auto box = [] { return scene_of(Box3{{0, 0, 0}, {1, 0.75f, 0.5f}}); };
-    const auto capsule = [] { return scene_of(Capsule3{{0, -0.5f, 0}, {0, 0.5f, 0}, 0.5f}); };
+    const Box3 box{{0, 0, 0}, {1, 0.75f, 0.5f}};
+    const Capsule3 capsule{{0, -0.5f, 0}, {0, 0.5f, 0}, 0.5f};
     return {
-        {"levels/overlaps/terrain/100k/box", [=] { return overlaps_at_all(box()); }},
-        {"levels/overlaps/terrain/100k/capsule", [=] { return overlaps_at_all(capsule()); }},
-        {"levels/touched/terrain/100k/box", [=] { return touched(box()); }},
-        {"levels/touched/terrain/100k/capsule", [=] { return touched(capsule()); }},
-        {"levels/contacts/terrain/100k/box", [=] { return contacts(box()); }},
-        {"levels/contacts/terrain/100k/capsule", [=] { return contacts(capsule()); }},
+        {"levels/overlaps/terrain/100k/box", [=] { return overlaps_at_all(scene_of(box)); }},
+        {"levels/overlaps/terrain/100k/capsule", [=] { return overlaps_at_all(scene_of(capsule)); }},
+        {"levels/overlaps/solid/3000/box", [=] { return overlaps_in_solid(box); }},
+        {"levels/overlaps/solid/3000/capsule", [=] { return overlaps_in_solid(capsule); }},
+        {"levels/touched/terrain/100k/box", [=] { return touched(scene_of(box)); }},
+        {"levels/touched/terrain/100k/capsule", [=] { return touched(scene_of(capsule)); }},
+        {"levels/contacts/terrain/100k/box", [=] { return contacts(scene_of(box)); }},
+        {"levels/contacts/terrain/100k/capsule", [=] { return contacts(scene_of(capsule)); }},
     };
 }
 

@@ -1,11 +1,13 @@
 #pragma once
 
-// Shapes at a terrain of a hundred thousand triangles, and what the peers make of it: one file a peer.
+// Shapes at a terrain of a hundred thousand triangles, or among convex lumps, and what the peers make of it: one file a
+// peer.
 
 #include "bench.hpp"
 #include <abut/math/pose.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/capsule.hpp>
+#include <abut/shape/polyhedron.hpp>
 
 #include <cstdint>
 #include <memory>
@@ -19,14 +21,16 @@ namespace abut::bench {
 struct LevelScene {
     std::vector<Vec3> points;
     std::vector<glm::uvec3> triangles;
+    std::vector<Polyhedron> lumps;       ///< in place of triangles
     std::variant<Box3, Capsule3> shape;  ///< about the origin; a capsule along y
     std::vector<Pose3> poses;
 };
 using SharedLevelScene = std::shared_ptr<const LevelScene>;
 
-/// Whether it touches anything, 1 or 0: Bullet's contactPairTest of a mesh of its own, which finds all there is.
+/// Whether it touches anything, 1 or 0: Bullet's contactPairTest of a mesh of its own, or a compound of hulls, which
+/// finds all there is.
 Side bullet_level_overlaps(const SharedLevelScene& scene);
-/// One contact, without its place.
+/// One contact with triangles, without its place.
 Side fcl_level_overlaps(const SharedLevelScene& scene);
 
 /// All contacts with their places, as contactPairTest tells them; how many triangles have some.
