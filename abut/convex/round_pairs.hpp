@@ -75,6 +75,13 @@ bool box_segment(const Convex<3>& box, const Convex<3>& segment, SignedDistance<
 bool triangle_point(const Convex<3>& triangle, const Convex<3>& point, SignedDistance<3>& result);
 bool triangle_segment(const Convex<3>& triangle, const Convex<3>& segment, SignedDistance<3>& result);
 
+enum class TriangleFoot : std::uint8_t { found, beyond, unknown };
+
+/// The place of a triangle, with the ball around it, that is nearest to a point, and how far it is. `beyond` where that
+/// is farther than `within`, and nothing is told; unknown for slivers, and for a point in the core if there is a ball.
+TriangleFoot foot_on_triangle(const Convex<3>& triangle, const DVec<3>& point, double within, double& distance,
+                              DVec<3>& foot);
+
 /// An answer where the point is inside the polyhedron.
 bool hull_point(const Convex<3>& hull, const Convex<3>& point, SignedDistance<3>& result);
 

@@ -163,6 +163,31 @@ bool triangle_point(const Convex<3>& triangle, const Convex<3>& point, SignedDis
     return true;
 }
 
+TriangleFoot foot_on_triangle(const Convex<3>& triangle, const DVec<3>& point, double within, double& distance,
+                              DVec<3>& foot) {
+    const SeenTriangle t(triangle);
+    if (t.is_thin()) return TriangleFoot::unknown;
+    const DVec<3> seen = point - t.origin;
+    const double height = dot(t.area, seen), reach = within + triangle.radius;
+    // Written so that one just within reach isn't lost to rounding.
+    if (height * height > reach * reach * t.square * (1 + 1e-9)) return TriangleFoot::beyond;
+    Place place;
+    if (nearest_beside(t, seen, place)) {
+        distance = length(seen - place.point);
+    } else {
+        const double one = 1 / std::sqrt(t.square);
+        place.point = seen - t.area * (height * one * one);
+        distance = std::abs(height) * one;
+    }
+    foot = t.origin + place.point;
+    if (triangle.radius > 0) {
+        if (!(distance > 0)) return TriangleFoot::unknown;
+        foot += (seen - place.point) * (triangle.radius / distance);
+        distance -= triangle.radius;
+    }
+    return TriangleFoot::found;
+}
+
 bool triangle_segment(const Convex<3>& triangle, const Convex<3>& segment, SignedDistance<3>& result) {
     const SeenTriangle t(triangle);
     if (t.is_thin()) return false;

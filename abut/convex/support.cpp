@@ -167,6 +167,22 @@ template <int D>
 Aabb<D> bounds(const Convex<D>& convex) {
     Aabb<D> result;
     constexpr float infinity = std::numeric_limits<float>::infinity();
+    if (convex.core == Core::points && convex.points == nullptr && convex.inner_radius == 0) {
+        // Of so few all are placed for less than is asked for them.
+        DVec<D> low = convex.place.point(DVec<D>(convex.own[0])), high = low;
+        for (std::uint32_t i = 1; i < convex.count; ++i) {
+            const DVec<D> corner = convex.place.point(DVec<D>(convex.own[i]));
+            for (int j = 0; j < D; ++j) {
+                low[j] = std::min(low[j], corner[j]);
+                high[j] = std::max(high[j], corner[j]);
+            }
+        }
+        for (int i = 0; i < D; ++i) {
+            result.min[i] = rounded_outwards(low[i] - convex.radius, -infinity);
+            result.max[i] = rounded_outwards(high[i] + convex.radius, infinity);
+        }
+        return result;
+    }
     for (int i = 0; i < D; ++i) {
         result.min[i] = rounded_outwards(core_support(convex, axis<D>(i, -1)).position[i] - convex.radius, -infinity);
         result.max[i] = rounded_outwards(core_support(convex, axis<D>(i, 1)).position[i] + convex.radius, infinity);

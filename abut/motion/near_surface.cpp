@@ -68,8 +68,8 @@ void NearSurface<D>::each_foot(const DVec<D>& point, double within, FunctionRef<
                 [&](const PartName& name, const auto& part) {
                     if (!passed_.empty() && is_passed(name)) return;
                     if (!passed_fronts_.empty() && is_passed_front(name)) return;
-                    const Foot<D> foot = foot_on(part, point);
-                    if (foot.distance <= within) visit(foot);
+                    Foot<D> foot;
+                    if (find_foot(part, point, within, foot)) visit(foot);
                 });
 }
 
@@ -144,6 +144,7 @@ std::span<const NearContact<D>> NearSurface<D>::contacts(const DVec<D>& at, doub
             if (std::optional<NearContact<D>> contact = contact_with(name, part)) passes(part, *contact);
         });
     const DVec<D> middle = middle_of(shape, at);
+    SeenFromMiddle<D> seen;
     const auto feet = [this](const DVec<D>& point, double within, FunctionRef<void(const Foot<D>&)> visit) {
         each_foot(point, within, visit);
     };
@@ -155,7 +156,7 @@ std::span<const NearContact<D>> NearSurface<D>::contacts(const DVec<D>& at, doub
         if (is_felt<D>(part, place, feet))
             contacts_.push_back(*contact);
         else if (contact->gap < scale_)
-            ghosts_.push_back({*contact, felt_plane<D>(part, place, feet)});
+            ghosts_.push_back({*contact, felt_plane<D>(part, place, feet, seen)});
     });
     tell_ghosts(shape, reach);
     return contacts_;

@@ -63,12 +63,14 @@ template <int D>
 bool is_felt(const View<D>& a, const View<D>& b, const Deepest<D>& deepest, float margin, const Others<D>& others) {
     bool felt = true;
     const FeltPair<D> pair(a, b, others);
-    each_part_pair(a, b, margin,
-                   [&](const auto& part_a, std::uint32_t index_a, const auto& part_b, std::uint32_t index_b) {
-                       if (std::pair(index_a, index_b) != deepest.parts) return true;
-                       felt = static_cast<bool>(pair.felt_by(part_a, part_b, deepest.found));
-                       return false;
-                   });
+    each_part_pair(
+        a, b, margin, [&](const auto& part_a, std::uint32_t index_a, const auto& part_b, std::uint32_t index_b) {
+            if (std::pair(index_a, index_b) != deepest.parts) return true;
+            const PartContact<D>& found = deepest.found;
+            felt = static_cast<bool>(
+                pair.felt_by(part_a, part_b, found.distance, [&]() -> const Manifold<D>& { return found.manifold; }));
+            return false;
+        });
     return felt;
 }
 

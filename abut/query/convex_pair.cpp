@@ -1,4 +1,5 @@
 #include <abut/convex/box_pair.hpp>
+#include <abut/convex/box_triangle.hpp>
 #include <abut/convex/plane_pair.hpp>
 #include <abut/convex/round_manifold.hpp>
 #include <abut/query/closed_form.hpp>
@@ -22,17 +23,33 @@ void any_distance(const Convex<D>& a, const Convex<D>& b, const SearchOptions<D>
 }
 
 template <int D>
-bool any_contact(const Convex<D>& a, const Convex<D>& b, double reach, double margin, const SearchOptions<D>& options,
-                 PartContact<D>& contact) {
+bool any_touch(const Convex<D>& a, const Convex<D>& b, double reach, const SearchOptions<D>& options,
+               PartContact<D>& contact) {
     any_distance(a, b, options, contact.distance);
-    if (contact.distance.distance > reach) return false;
-    if constexpr (D == 3) {
-        // The clipping that it saves is told where somebody watches.
-        if (options.trace != nullptr) manifold(a, b, contact.distance, margin, options.trace);
-        if (round_manifold(a, b, contact.distance, margin, contact.manifold)) return true;
-    }
-    contact.manifold = manifold(a, b, contact.distance, margin, D == 3 ? nullptr : options.trace);
-    return true;
+    contact.manifold.count = 0;
+    return contact.distance.distance <= reach;
+}
+
+}  // namespace
+
+// A box at a triangle, whichever is A. Who watches is shown the search.
+
+namespace {
+
+BoxTriangle triangle_overlap(const Convex<3>& a, const Convex<3>& b, const SearchOptions<3>& options) {
+    if (options.trace != nullptr) return BoxTriangle::unknown;
+    if (are_box_and_triangle(a, b)) return box_triangle_overlap(a, b);
+    return are_box_and_triangle(b, a) ? box_triangle_overlap(b, a) : BoxTriangle::unknown;
+}
+
+BoxTriangle triangle_distance(const Convex<3>& a, const Convex<3>& b, double reach, const SearchOptions<3>& options,
+                              SignedDistance<3>& result) {
+    if (options.trace != nullptr) return BoxTriangle::unknown;
+    if (are_box_and_triangle(a, b)) return box_triangle_distance(a, b, reach, result);
+    if (!are_box_and_triangle(b, a)) return BoxTriangle::unknown;
+    const BoxTriangle answer = box_triangle_distance(b, a, reach, result);
+    if (answer == BoxTriangle::meeting) turn_round(result);
+    return answer;
 }
 
 }  // namespace
@@ -63,7 +80,9 @@ bool part_overlaps(const Convex<2>& a, const Convex<2>& b, const SearchOptions<2
 }
 template <>
 bool part_overlaps(const Convex<3>& a, const Convex<3>& b, const SearchOptions<3>& options) {
-    return are_plain_boxes(a, b) ? boxes_overlap(a, b, options) : any_overlap(a, b, options);
+    if (are_plain_boxes(a, b)) return boxes_overlap(a, b, options);
+    const BoxTriangle answer = triangle_overlap(a, b, options);
+    return answer == BoxTriangle::unknown ? any_overlap(a, b, options) : answer == BoxTriangle::meeting;
 }
 
 template <>
@@ -82,30 +101,62 @@ template <>
 SignedDistance<3> part_distance(const Convex<3>& a, const Convex<3>& b, const SearchOptions<3>& options) {
     if (are_plain_boxes(a, b)) return distance_of_boxes(a, b, options);
     SignedDistance<3> result;
-    any_distance(a, b, options, result);
+    constexpr double any = std::numeric_limits<double>::infinity();
+    if (triangle_distance(a, b, any, options, result) == BoxTriangle::unknown) any_distance(a, b, options, result);
     return result;
 }
 
 template <>
-bool part_contact(const Convex<2>& a, const Convex<2>& b, double reach, double margin, const SearchOptions<2>& options,
-                  PartContact<2>& contact) {
+bool part_touch(const Convex<2>& a, const Convex<2>& b, double reach, double margin, const SearchOptions<2>& options,
+                PartContact<2>& contact) {
     const Outlines outlines(a, b);
     const PlaneAnswer answer = outlines.known ? plane_contact(outlines.a, outlines.b, reach, margin, options.cache,
                                                               contact.distance, contact.manifold)
                                               : PlaneAnswer::unknown;
-    if (answer == PlaneAnswer::unknown) return any_contact(a, b, reach, margin, options, contact);
+    if (answer == PlaneAnswer::unknown) return any_touch(a, b, reach, options, contact);
     if (options.trace != nullptr) {
         PartContact<2> searched;
-        any_contact<2>(a, b, reach, margin, {nullptr, options.trace}, searched);
+        if (any_touch<2>(a, b, reach, {nullptr, options.trace}, searched))
+            add_points<2>(a, b, margin, {nullptr, options.trace}, searched);
     }
     return answer == PlaneAnswer::within;
 }
 template <>
-bool part_contact(const Convex<3>& a, const Convex<3>& b, double reach, double margin, const SearchOptions<3>& options,
-                  PartContact<3>& contact) {
+bool part_touch(const Convex<3>& a, const Convex<3>& b, double reach, double margin, const SearchOptions<3>& options,
+                PartContact<3>& contact) {
     if (are_plain_boxes(a, b))
         return contact_of_boxes(a, b, reach, margin, options, contact.distance, contact.manifold);
-    return any_contact(a, b, reach, margin, options, contact);
+    const BoxTriangle answer = triangle_distance(a, b, reach, options, contact.distance);
+    if (answer == BoxTriangle::unknown) return any_touch(a, b, reach, options, contact);
+    contact.manifold.count = 0;
+    return answer == BoxTriangle::meeting && contact.distance.distance <= reach;
 }
+
+template <int D>
+void add_points(const Convex<D>& a, const Convex<D>& b, double margin, const SearchOptions<D>& options,
+                PartContact<D>& contact) {
+    if (contact.manifold.count > 0) return;
+    if constexpr (D == 3) {
+        // The clipping that it saves is told where somebody watches.
+        if (options.trace != nullptr) manifold(a, b, contact.distance, margin, options.trace);
+        if (round_manifold(a, b, contact.distance, margin, contact.manifold)) return;
+    }
+    contact.manifold = manifold(a, b, contact.distance, margin, D == 3 ? nullptr : options.trace);
+}
+
+template <int D>
+bool part_contact(const Convex<D>& a, const Convex<D>& b, double reach, double margin, const SearchOptions<D>& options,
+                  PartContact<D>& contact) {
+    if (!part_touch(a, b, reach, margin, options, contact)) return false;
+    add_points(a, b, margin, options, contact);
+    return true;
+}
+
+template void add_points(const Convex<2>&, const Convex<2>&, double, const SearchOptions<2>&, PartContact<2>&);
+template void add_points(const Convex<3>&, const Convex<3>&, double, const SearchOptions<3>&, PartContact<3>&);
+template bool part_contact(const Convex<2>&, const Convex<2>&, double, double, const SearchOptions<2>&,
+                           PartContact<2>&);
+template bool part_contact(const Convex<3>&, const Convex<3>&, double, double, const SearchOptions<3>&,
+                           PartContact<3>&);
 
 }  // namespace abut

@@ -23,8 +23,18 @@ struct PartContact {
     Manifold<D> manifold;
 };
 
-/// False, and `contact` is of no use, where they are farther apart than `reach`. Points count that are at most `margin`
-/// apart.
+/// Whether they are at most `reach` apart, and then how far; the points are for `add_points`, where they aren't found
+/// at once. `contact` is of no use otherwise.
+template <int D>
+bool part_touch(const Convex<D>& a, const Convex<D>& b, double reach, double margin, const SearchOptions<D>& options,
+                PartContact<D>& contact);
+
+/// The points of two parts that touch, of those that are at most `margin` apart.
+template <int D>
+void add_points(const Convex<D>& a, const Convex<D>& b, double margin, const SearchOptions<D>& options,
+                PartContact<D>& contact);
+
+/// Both.
 template <int D>
 bool part_contact(const Convex<D>& a, const Convex<D>& b, double reach, double margin, const SearchOptions<D>& options,
                   PartContact<D>& contact);

@@ -3,7 +3,7 @@
 // Contacts of parts of two shapes, as the whole shapes feel them, and others beside them. For .cpp files.
 
 #include <abut/query/felt_by.hpp>
-#include <abut/query/felt_normal.hpp>
+#include <abut/query/kept_parts.hpp>
 
 namespace abut {
 
@@ -20,68 +20,83 @@ template <int D>
 class FeltPair {
 public:
     FeltPair(const View<D>& a, const View<D>& b, const Others<D>& others = {})
-        : a_(a), b_(b), others_(others), scale_(felt_scale_of(a, b)) {}
+        : a_(a), b_(b), others_(others), scale_(felt_scale_of(a, b)) {
+        if (const auto* convex = std::get_if<Convex<D>>(&a)) middle_of_a_ = middle_of(*convex, {});
+        if (const auto* convex = std::get_if<Convex<D>>(&b)) middle_of_b_ = middle_of(*convex, {});
+    }
+
+    /// From now on it looks among these parts first, of the one of them that is composite.
+    void look_among(const KeptParts<D>& kept) { kept_ = &kept; }
+    /// So far from where the two touch it looks for what is felt there, mostly.
+    double sight() const { return 5 * scale_; }
 
     /// Of what feels the surface.
     double size() const { return scale_ / felt_scale; }
 
     /// Who feels the normal between two of the parts: at the deepest point, or where that lies in a corner, in the
-    /// middle of the area in which they meet.
-    template <class PartA, class PartB>
-    FeltBy felt_by(const PartA& part_a, const PartB& part_b, const PartContact<D>& contact) const {
-        const SignedDistance<D>& distance = contact.distance;
+    /// middle of the area in which they meet. manifold_of() tells that, where it is asked for.
+    template <class PartA, class PartB, class Manifolds>
+    FeltBy felt_by(const PartA& part_a, const PartB& part_b, const SignedDistance<D>& distance,
+                   const Manifolds& manifold_of) const {
         FeltBy result;
         if (is_composite(b_) || others_.of_a != nullptr)
-            result.a = feels(part_b, place_on_b(part_a, distance), -0.5, contact.manifold, b_, others_.of_a);
+            result.a = feels(part_b, place_on_b(part_a, distance), -0.5, manifold_of, b_, others_.of_a);
         if (is_composite(a_) || others_.of_b != nullptr)
-            result.b = feels(part_a, place_on_a(part_b, distance), 0.5, contact.manifold, a_, others_.of_b);
+            result.b = feels(part_a, place_on_a(part_b, distance), 0.5, manifold_of, a_, others_.of_b);
         return result;
     }
 
-    /// Puts the plane that is felt there in place of a normal that is not, by those who don't feel it: of two such
-    /// planes that which is left sooner, so that it is the same from either side. Where none is found, the normal
-    /// stays.
+    /// Puts the plane that is felt there, and its point, in place of a normal that is not, by those who don't feel it:
+    /// of two such planes that which is left sooner, so that it is the same from either side. False where none is
+    /// found, and all stays as it is.
     template <class PartA, class PartB>
-    void replace(const PartA& part_a, const PartB& part_b, const FeltBy& by, PartContact<D>& contact) const {
+    bool replace(const PartA& part_a, const PartB& part_b, const FeltBy& by, PartContact<D>& contact) {
         std::optional<PartContact<D>> for_a, for_b;
         if (!by.a) {
+            SeenFromMiddle<D> anew;
             const FeltPlace<D> place = place_on_b(part_a, contact.distance);
-            if (const auto plane = felt_plane<D>(part_b, place, feet_on(b_, others_.of_a)))
-                rest_on(part_a, *plane, for_a.emplace(contact));
+            const auto plane =
+                felt_plane<D>(part_b, place, feet_on(b_, others_.of_a), is_composite(a_) ? anew : seen_by_a_);
+            if (plane && !rest_on(part_a, *plane, for_a.emplace(contact))) for_a.reset();
         }
         if (!by.b) {
+            SeenFromMiddle<D> anew;
             const FeltPlace<D> place = place_on_a(part_b, contact.distance);
-            if (const auto plane = felt_plane<D>(part_a, place, feet_on(a_, others_.of_b))) {
+            const auto plane =
+                felt_plane<D>(part_a, place, feet_on(a_, others_.of_b), is_composite(b_) ? anew : seen_by_b_);
+            if (plane) {
                 turn_round(for_b.emplace(contact).distance);
-                rest_on(part_b, *plane, *for_b);
+                const bool rests = rest_on(part_b, *plane, *for_b);
                 turn_round(for_b->distance);
+                if (!rests) for_b.reset();
             }
         }
-        if (for_a && (!for_b || for_a->distance.distance >= for_b->distance.distance))
-            contact = *for_a;
-        else if (for_b)
-            contact = *for_b;
+        if (!for_a && !for_b) return false;
+        contact = for_a && (!for_b || for_a->distance.distance >= for_b->distance.distance) ? *for_a : *for_b;
+        return true;
     }
 
 private:
     static bool is_composite(const View<D>& view) { return std::holds_alternative<Composite<D>>(view); }
 
     /// Of a shape and what is felt beside it.
-    static auto feet_on(const View<D>& view, const EachFoot<D>* others) {
-        return [&view, others](const DVec<D>& point, double within, FunctionRef<void(const Foot<D>&)> visit) {
-            each_foot_on(view, point, within, visit);
+    auto feet_on(const View<D>& view, const EachFoot<D>* others) const {
+        const KeptParts<D>* const kept = is_composite(view) ? kept_ : nullptr;
+        return [&view, others, kept](const DVec<D>& point, double within, FunctionRef<void(const Foot<D>&)> visit) {
+            if (kept == nullptr || !kept->each_foot(point, within, visit)) each_foot_on(view, point, within, visit);
             if (others != nullptr) (*others)(point, within, visit);
         };
     }
 
     /// Whether the normal of a part of `shape` is felt. The points of the manifold lie midway between two surfaces;
     /// `to_surface` of their depths along the normal brings them to this one.
-    template <class Part>
-    static bool feels(const Part& part, FeltPlace<D> place, double to_surface, const Manifold<D>& manifold,
-                      const View<D>& shape, const EachFoot<D>* others) {
+    template <class Part, class Manifolds>
+    bool feels(const Part& part, FeltPlace<D> place, double to_surface, const Manifolds& manifold_of,
+               const View<D>& shape, const EachFoot<D>* others) const {
         if (!is_composite(shape) && is_alone(place, *others)) return true;
         const auto feet = feet_on(shape, others);
         if (abut::is_felt<D>(part, place, feet)) return true;
+        const Manifold<D>& manifold = manifold_of();
         if (manifold.count < 2) return false;
         const DVec<D> normal = to_surface < 0 ? -place.out : place.out;
         DVec<D> sum(0.0);
@@ -100,18 +115,26 @@ private:
         return alone;
     }
 
+    /// Of a part that is the whole shape it was found before.
+    template <class Part>
+    static DVec<D> middle_beside(const Part& part, const View<D>& shape, const DVec<D>& middle, const DVec<D>& beside) {
+        if constexpr (std::is_same_v<Part, Convex<D>>)
+            if (!is_composite(shape)) return middle;
+        return middle_of(part, beside);
+    }
+
     template <class PartA>
     FeltPlace<D> place_on_b(const PartA& part_a, const SignedDistance<D>& distance) const {
         const DVec<D> point = distance.on_b();
-        return {point, -distance.normal, middle_of(part_a, point), scale_};
+        return {point, -distance.normal, middle_beside(part_a, a_, middle_of_a_, point), scale_};
     }
     template <class PartB>
     FeltPlace<D> place_on_a(const PartB& part_b, const SignedDistance<D>& distance) const {
-        return {distance.on_a, distance.normal, middle_of(part_b, distance.on_a), scale_};
+        return {distance.on_a, distance.normal, middle_beside(part_b, b_, middle_of_b_, distance.on_a), scale_};
     }
 
     /// The contact of a part with what lies behind a plane; its normal is out of the part.
-    static void rest_on(const Convex<D>& part, const FeltPlane<D>& plane, PartContact<D>& contact) {
+    static bool rest_on(const Convex<D>& part, const FeltPlane<D>& plane, PartContact<D>& contact) {
         SignedDistance<D>& distance = contact.distance;
         distance.normal = -plane.normal;
         const CorePoint<D> deepest = core_support(part, distance.normal);
@@ -122,13 +145,17 @@ private:
         contact.manifold.count = 1;
         contact.manifold.points[0] = {distance.on_a + distance.normal * (0.5 * distance.distance), -distance.distance,
                                       0};
+        return true;
     }
     /// A half-space has its own.
-    static void rest_on(const Solid<D>&, const FeltPlane<D>&, PartContact<D>&) {}
+    static bool rest_on(const Solid<D>&, const FeltPlane<D>&, PartContact<D>&) { return false; }
 
     const View<D>&a_, &b_;
     Others<D> others_;
     double scale_;
+    DVec<D> middle_of_a_{0.0}, middle_of_b_{0.0};
+    const KeptParts<D>* kept_ = nullptr;
+    SeenFromMiddle<D> seen_by_a_, seen_by_b_;
 };
 
 }  // namespace abut

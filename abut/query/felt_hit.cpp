@@ -12,7 +12,8 @@ void feel_hit(const View<D>& mover, const DVec<D>& came, const View<D>& shape, E
                    [&](const auto& part, std::uint32_t index) {
                        if (index != hit.feature.part) return true;
                        if (is_felt<D>(part, place, each_foot)) return false;
-                       const std::optional<FeltPlane<D>> plane = felt_plane<D>(part, place, each_foot);
+                       SeenFromMiddle<D> seen;
+                       const std::optional<FeltPlane<D>> plane = felt_plane<D>(part, place, each_foot, seen);
                        if (plane && dot(plane->normal, came) < 0) hit.normal = to_float(plane->normal);
                        return false;
                    });

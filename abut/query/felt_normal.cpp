@@ -1,3 +1,4 @@
+#include <abut/convex/round_pairs.hpp>
 #include <abut/query/felt_normal.hpp>
 
 namespace abut {
@@ -112,10 +113,27 @@ bool is_before(const DVec<D>& a, const DVec<D>& b) {
 }  // namespace
 
 template <int D>
-Foot<D> foot_on(const Convex<D>& part, const DVec<D>& point) {
+bool find_foot(const Convex<D>& part, const DVec<D>& point, double within, Foot<D>& foot) {
+    if constexpr (D == 3) {
+        if (is_round_points(part, 3)) {
+            const TriangleFoot answer = foot_on_triangle(part, point, within, foot.distance, foot.point);
+            if (answer == TriangleFoot::beyond) return false;
+            if (answer == TriangleFoot::found) {
+                foot.behind = part.one_sided ? dot(normalized(front(part)), foot.point - point) : 0;
+                return foot.distance <= within;
+            }
+        }
+    }
     const SignedDistance<D> distance = part_distance<D>(point_part(point), part, {});
-    Foot<D> result{distance.distance, distance.on_b()};
-    if (part.one_sided) result.behind = dot(normalized(front(part)), result.point - point);
+    foot = {distance.distance, distance.on_b()};
+    if (part.one_sided) foot.behind = dot(normalized(front(part)), foot.point - point);
+    return foot.distance <= within;
+}
+
+template <int D>
+Foot<D> foot_on(const Convex<D>& part, const DVec<D>& point) {
+    Foot<D> result;
+    find_foot(part, point, std::numeric_limits<double>::infinity(), result);
     return result;
 }
 template <int D>
@@ -138,8 +156,8 @@ template <int D>
 void each_foot_on(const View<D>& shape, const DVec<D>& point, double within, FunctionRef<void(const Foot<D>&)> visit) {
     const Convex<D> as_part = point_part(point);
     each_part_near(shape, as_part, static_cast<float>(within), [&](const auto& part, std::uint32_t) {
-        const Foot<D> foot = foot_on(part, point);
-        if (foot.distance <= within) visit(foot);
+        Foot<D> foot;
+        if (find_foot(part, point, within, foot)) visit(foot);
         return true;
     });
 }
@@ -164,10 +182,10 @@ bool is_felt(const Part& part, const FeltPlace<D>& place, EachFoot<D> each_foot)
 }
 
 template <int D, class Part>
-std::optional<FeltPlane<D>> felt_plane(const Part& part, const FeltPlace<D>& place, EachFoot<D> each_foot) {
+std::optional<FeltPlane<D>> felt_plane(const Part& part, const FeltPlace<D>& place, EachFoot<D> each_foot,
+                                       SeenFromMiddle<D>& seen) {
     const double clear = clear_of * place.scale;
-    const auto seen_from = [&](const DVec<D>& point, double within) -> std::optional<FeltPlane<D>> {
-        Foot<D> foot = nearest_foot(each_foot, point, within, place.scale);
+    const auto plane_at = [&](const DVec<D>& point, Foot<D> foot) -> std::optional<FeltPlane<D>> {
         if (!(foot.distance > clear) || !std::isfinite(foot.distance)) return std::nullopt;
         const Foot<D> own = foot_on(part, point);
         const bool is_nearest = own.distance <= foot.distance + nearer_by * place.scale;
@@ -177,19 +195,29 @@ std::optional<FeltPlane<D>> felt_plane(const Part& part, const FeltPlace<D>& pla
     const DVec<D> to_middle = place.middle - place.point;
     const double way = length(to_middle);
     if (!(way > place.scale)) return std::nullopt;
-    if (const auto plane = seen_from(place.point + to_middle * (place.scale / way), 2 * place.scale)) return plane;
-    return seen_from(place.middle, 1.001 * way);
+    const DVec<D> beside = place.point + to_middle * (place.scale / way);
+    if (const auto plane = plane_at(beside, nearest_foot(each_foot, beside, 2 * place.scale, place.scale)))
+        return plane;
+    const double within = 1.001 * way;
+    if (!std::isfinite(seen.foot.distance) && within > seen.within) {
+        seen.foot = nearest_foot(each_foot, place.middle, within, place.scale);
+        seen.within = within;
+    }
+    return plane_at(place.middle, seen.foot.distance <= within ? seen.foot : Foot<D>());
 }
 
 #define ABUT_INSTANTIATE(D)                                                                                \
+    template bool find_foot(const Convex<D>&, const DVec<D>&, double, Foot<D>&);                           \
     template Foot<D> foot_on(const Convex<D>&, const DVec<D>&);                                            \
     template Foot<D> foot_on(const Solid<D>&, const DVec<D>&);                                             \
     template Foot<D> nearest_foot(EachFoot<D>, const DVec<D>&, double, double);                            \
     template void each_foot_on(const View<D>&, const DVec<D>&, double, FunctionRef<void(const Foot<D>&)>); \
     template bool is_felt(const Convex<D>&, const FeltPlace<D>&, EachFoot<D>);                             \
     template bool is_felt(const Solid<D>&, const FeltPlace<D>&, EachFoot<D>);                              \
-    template std::optional<FeltPlane<D>> felt_plane(const Convex<D>&, const FeltPlace<D>&, EachFoot<D>);   \
-    template std::optional<FeltPlane<D>> felt_plane(const Solid<D>&, const FeltPlace<D>&, EachFoot<D>);
+    template std::optional<FeltPlane<D>> felt_plane(const Convex<D>&, const FeltPlace<D>&, EachFoot<D>,    \
+                                                    SeenFromMiddle<D>&);                                   \
+    template std::optional<FeltPlane<D>> felt_plane(const Solid<D>&, const FeltPlace<D>&, EachFoot<D>,     \
+                                                    SeenFromMiddle<D>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

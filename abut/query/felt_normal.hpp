@@ -46,6 +46,15 @@ Foot<D> foot_on(const Convex<D>& part, const DVec<D>& point);
 template <int D>
 Foot<D> foot_on(const Solid<D>& part, const DVec<D>& point);
 
+/// False, and what `foot` tells is of no use, where it is farther than `within`: mostly found out for less than where.
+template <int D>
+bool find_foot(const Convex<D>& part, const DVec<D>& point, double within, Foot<D>& foot);
+template <int D>
+bool find_foot(const Solid<D>& part, const DVec<D>& point, double within, Foot<D>& foot) {
+    foot = foot_on(part, point);
+    return foot.distance <= within;
+}
+
 /// Of a shape.
 template <int D>
 void each_foot_on(const View<D>& shape, const DVec<D>& point, double within, FunctionRef<void(const Foot<D>&)> visit);
@@ -71,10 +80,18 @@ struct FeltPlane {
     DVec<D> normal, point;
 };
 
+/// What is nearest to the middle of what feels a surface: the same for all places, and found where first asked for.
+template <int D>
+struct SeenFromMiddle {
+    Foot<D> foot;
+    double within = -1;  ///< where there is no foot, there is none so near
+};
+
 /// Near a place whose normal is not felt, as seen from there towards the middle of what feels it, which has come from
 /// there; of surfaces equally near, the part's own. None where all that way is inside.
 template <int D, class Part>
-std::optional<FeltPlane<D>> felt_plane(const Part& part, const FeltPlace<D>& place, EachFoot<D> each_foot);
+std::optional<FeltPlane<D>> felt_plane(const Part& part, const FeltPlace<D>& place, EachFoot<D> each_foot,
+                                       SeenFromMiddle<D>& seen);
 
 /// Whether a contact of this normal and depth tells of another one as well: of about the same normal, and so deep that
 /// for something of this size the other one isn't much deeper.

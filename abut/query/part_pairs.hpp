@@ -55,6 +55,22 @@ template <int D>
 bool part_contact(const Solid<D>& a, const Convex<D>& b, double reach, double margin, const SearchOptions<D>& options,
                   PartContact<D>& contact);
 
+/// There it is found in one step.
+template <int D>
+bool part_touch(const Convex<D>& a, const Solid<D>& b, double reach, double margin, const SearchOptions<D>& options,
+                PartContact<D>& contact) {
+    return part_contact(a, b, reach, margin, options, contact);
+}
+template <int D>
+bool part_touch(const Solid<D>& a, const Convex<D>& b, double reach, double margin, const SearchOptions<D>& options,
+                PartContact<D>& contact) {
+    return part_contact(a, b, reach, margin, options, contact);
+}
+template <int D>
+void add_points(const Convex<D>&, const Solid<D>&, double, const SearchOptions<D>&, PartContact<D>&) {}
+template <int D>
+void add_points(const Solid<D>&, const Convex<D>&, double, const SearchOptions<D>&, PartContact<D>&) {}
+
 /// What the engines are told for each pair of parts: a cache is of one pair, so only of shapes that are a part
 /// themselves.
 template <int D>

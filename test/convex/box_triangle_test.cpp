@@ -1,0 +1,168 @@
+// A box at a triangle by their axes against the searches that take any pair, and a triangle's foot against its
+// distance.
+
+#include "../oracle/random.hpp"
+#include <abut/convex/box_triangle.hpp>
+#include <abut/query/felt_normal.hpp>
+#include <abut/shape/box.hpp>
+#include <abut/shape/placed.hpp>
+#include <abut/shape/triangle.hpp>
+
+#include <gtest/gtest.h>
+
+namespace abut {
+namespace {
+
+using oracle::Random;
+
+/// How the two lie.
+enum class Family { any, flush, corners_on_a_grid, sliver, large_triangle };
+constexpr int family_count = 5;
+
+struct Pair {
+    Box3 box;
+    Triangle3 triangle;
+    double size;  ///< of the smaller
+};
+
+float whole(Random& random) {
+    return 0.25f * static_cast<float>(static_cast<int>(random.below(17)) - 8);
+}
+
+Pair random_pair(Random& random, Family family) {
+    const double size = random.power_of_two(-8, 9);
+    const double reach = family == Family::large_triangle ? 64 * size : size * random.power_of_two(-1, 1);
+    Pair pair{{Vec3(0), Vec3(0), random.rotation<3>()}, {}, 0};
+    for (int i = 0; i < 3; ++i) pair.box.half[i] = static_cast<float>(size * random.uniform(0.2, 1));
+    const auto corner = [&] { return to_float(random.in_cube<3>() * reach); };
+    pair.triangle = {corner(), corner(), corner()};
+    const Vec3 aside = to_float(random.in_cube<3>() * (0.7 * size));
+    for (Vec3* point : {&pair.triangle.a, &pair.triangle.b, &pair.triangle.c}) *point += aside;
+    if (family == Family::large_triangle) {
+        // Through the box, or all but.
+        const Vec3 middle = (pair.triangle.a + pair.triangle.b + pair.triangle.c) / 3.0f;
+        for (Vec3* point : {&pair.triangle.a, &pair.triangle.b, &pair.triangle.c}) *point += aside - middle;
+    }
+    if (family == Family::flush || family == Family::corners_on_a_grid) pair.box.rotation = no_rotation<3>;
+    if (family == Family::flush) {
+        // A floor with sides along those of the box.
+        const float height = random.chance(0.5) ? -pair.box.half.y : random.uniform_float(-0.5, 0.2) * pair.box.half.y;
+        pair.triangle.b = {pair.triangle.a.x, height, pair.triangle.b.z};
+        pair.triangle.c = {pair.triangle.c.x, height, pair.triangle.a.z};
+        pair.triangle.a.y = height;
+    }
+    if (family == Family::corners_on_a_grid) {
+        for (int i = 0; i < 3; ++i) {
+            pair.box.half[i] = std::abs(whole(random)) + 0.25f;
+            pair.triangle.a[i] = whole(random);
+            pair.triangle.b[i] = whole(random);
+            pair.triangle.c[i] = whole(random);
+        }
+    }
+    if (family == Family::sliver)
+        pair.triangle.c = pair.triangle.a + (pair.triangle.b - pair.triangle.a) * random.uniform_float(-1, 2);
+    pair.size = std::min(abut::size(convex(pair.box)), abut::size(convex(pair.triangle)));
+    return pair;
+}
+
+/// How far apart they are along a direction out of A: below zero, how far B must go.
+double gap_along(const Convex<3>& a, const Convex<3>& b, const DVec<3>& out) {
+    return dot(out, support(b, -out) - support(a, out));
+}
+
+class BoxTriangleFamily : public testing::TestWithParam<int> {};
+
+TEST_P(BoxTriangleFamily, AnswersAsTheSearches) {
+    const auto family = static_cast<Family>(GetParam());
+    constexpr int count = 3000;
+    int meeting = 0, apart = 0, unknown = 0;
+    for (std::uint64_t seed = 0; seed < count; ++seed) {
+        SCOPED_TRACE(testing::Message() << "family " << GetParam() << " seed " << seed);
+        Random random(seed);
+        const Pair pair = random_pair(random, family);
+        Convex<3> box = convex(pair.box);
+        const Convex<3> triangle = convex(pair.triangle);
+        if (random.chance(0.2))
+            box = moved(box, affine(Pose3{to_float(random.in_cube<3>() * 0.01), random.rotation<3>()}));
+        if (random.chance(0.2)) box.radius = 0.1 * pair.size;
+        const double margin = 1e-9 * (size(box) + size(triangle) + largest(triangle.place.offset));
+        const SignedDistance<3> truth = signed_distance(box, triangle);
+        SignedDistance<3> found;
+        const BoxTriangle answer = box_triangle_distance(box, triangle, 0, found);
+        const BoxTriangle overlap = box_triangle_overlap(box, triangle);
+        if (overlap != BoxTriangle::unknown && std::abs(truth.distance) > margin) {
+            EXPECT_EQ(overlap, truth.distance < 0 ? BoxTriangle::meeting : BoxTriangle::apart);
+        }
+        if (answer == BoxTriangle::apart) {
+            EXPECT_GT(truth.distance, -margin);
+        }
+        apart += answer == BoxTriangle::apart ? 1 : 0;
+        unknown += answer == BoxTriangle::unknown ? 1 : 0;
+        if (answer != BoxTriangle::meeting) continue;
+        ++meeting;
+        EXPECT_NEAR(found.distance, truth.distance, margin + 1e-7 * pair.size);
+        EXPECT_NEAR(length(found.normal), 1, 1e-12);
+        EXPECT_NEAR(gap_along(box, triangle, found.normal), found.distance, margin);
+        // The places are those of both that meet first when they come together along the normal.
+        EXPECT_NEAR(dot(found.normal, support(box, found.normal) - found.on_a), 0, margin);
+        EXPECT_LE(signed_distance(box, round_points<3>({to_float(found.on_a)}, 0)).distance, 1e-5 * pair.size + margin);
+        EXPECT_LE(foot_on(triangle, found.on_b()).distance, 1e-5 * pair.size + margin);
+        for (std::size_t i = 0; i < found.corners.count; ++i) {
+            EXPECT_LT(found.corners.a[i], 8u);
+            EXPECT_LT(found.corners.b[i], 3u);
+        }
+    }
+    if (family == Family::sliver) {
+        EXPECT_GT(unknown, count / 4);
+        return;
+    }
+    EXPECT_GT(meeting, count / 5);
+    EXPECT_GT(apart, count / 20);
+    EXPECT_LT(unknown, count / 10);
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, BoxTriangleFamily, testing::Range(0, family_count));
+
+// Worked out by hand: a cube of edge 2 stands 0.25 deep in a floor, of which the triangle is one half of a tile.
+TEST(BoxTriangle, OfABoxOnAFloor) {
+    const Box3 box{{0, 0.75f, 0}, {1, 1, 1}};
+    const Triangle3 floor{{-4, 0, -4}, {-4, 0, 8}, {8, 0, -4}};
+    SignedDistance<3> found;
+    ASSERT_EQ(box_triangle_distance(convex(box), convex(floor), 0, found), BoxTriangle::meeting);
+    EXPECT_EQ(found.distance, -0.25);
+    EXPECT_EQ(found.normal, DVec<3>(0, -1, 0));
+    EXPECT_EQ(found.on_a.y, -0.25);
+    EXPECT_EQ(found.on_b().y, 0);
+    EXPECT_EQ(found.corners.count, 3u);
+}
+
+TEST(TriangleFoot, IsThatOfTheDistance) {
+    int beyond = 0, found_some = 0;
+    for (std::uint64_t seed = 0; seed < 20000; ++seed) {
+        SCOPED_TRACE(testing::Message() << "seed " << seed);
+        Random random(seed);
+        const double size = random.power_of_two(-8, 9);
+        const auto corner = [&] { return to_float(random.in_cube<3>() * size); };
+        Convex<3> triangle = convex(Triangle3{corner(), corner(), corner()});
+        if (random.chance(0.3)) triangle.radius = 0.1 * size;
+        const Vec3 point = corner();
+        const SignedDistance<3> truth = signed_distance(round_points<3>({point}, 0), triangle);
+        const double margin = 1e-9 * size, within = size * random.uniform(0, 1);
+        double distance = 0;
+        DVec<3> foot;
+        const TriangleFoot answer = foot_on_triangle(triangle, DVec<3>(point), within, distance, foot);
+        if (answer == TriangleFoot::beyond) {
+            ++beyond;
+            EXPECT_GT(truth.distance, within - margin);
+        }
+        if (answer != TriangleFoot::found) continue;
+        ++found_some;
+        EXPECT_NEAR(distance, truth.distance, margin);
+        EXPECT_LE(length(foot - truth.on_b()), 1e-6 * size);
+    }
+    EXPECT_GT(beyond, 1000);
+    EXPECT_GT(found_some, 10000);
+}
+
+}  // namespace
+}  // namespace abut
