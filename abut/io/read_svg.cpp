@@ -21,7 +21,7 @@ using pugi::xml_node;
 
 constexpr int deepest = 256;
 // <use> of <use> of <use> grows without bound.
-constexpr std::size_t most_elements = 1'000'000;
+constexpr std::size_t most_copies = 100'000;
 
 std::string_view tag(const xml_node& node) {
     const std::string_view name = node.name();
@@ -41,6 +41,7 @@ struct Inherited {
     DVec<2> viewport{0};  ///< what percentages are of
     std::string path;     ///< of the groups, with a '/' at its end
     int depth = 0;
+    bool copied = false;  ///< by <use>
 };
 
 class Reader {
@@ -77,7 +78,7 @@ private:
     const Xml& xml_;
     std::optional<double> tolerance_;
     std::unordered_map<std::string_view, xml_node> ids_;
-    std::size_t elements_ = 0;
+    std::size_t copies_ = 0;  ///< elements drawn by <use>
     Level level_;
     LeftOut left_out_;
     std::optional<Problem> problem_;
@@ -160,7 +161,8 @@ void Reader::children(const xml_node& node, const Inherited& from) {
 
 void Reader::element(const xml_node& node, const Inherited& outer) {
     const std::string_view name = tag(node);
-    if (++elements_ > most_elements) return fail(node, ProblemCode::too_large, "more than 1000000 elements are drawn");
+    if (outer.copied && ++copies_ > most_copies)
+        return fail(node, ProblemCode::too_large, "more than 100000 elements are drawn by <use>");
     if (style(node, "display") == "none") return;
     if (name == "style") return left_out_.add("style sheet is", "style sheets are", "not read", name_of(node));
     const bool groups = is_one_of(name, {"g", "a", "svg", "switch", "use"});
@@ -220,6 +222,7 @@ void Reader::use(const xml_node& node, Inherited from) {
         return left_out_.add("<use> is", "<use>s are", "left out, for what it shows isn't in the file",
                              from.path + (name.empty() ? std::string(target) : name));
     if (from.depth > deepest) return fail(node, ProblemCode::too_large, "elements in one another over 256 deep");
+    from.copied = true;
     from.map = from.map * shifted(lengths(node, "x", "y", from.viewport));
     if (!name.empty()) from.path += name + "/";
     const xml_node shown = found->second;

@@ -7,6 +7,7 @@
 #include <abut/math/result.hpp>
 
 #include <cstdint>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
