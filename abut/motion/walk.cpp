@@ -108,6 +108,25 @@ DVec<D> Walk<D>::allowed_by_planes(const DVec<D>& wanted, bool& wall) {
     return move;
 }
 
+/// Edges that are low enough to step on are slid over. A slope goes on, but the plane of an edge does so where the edge
+/// has ended: no more of it is of use than takes the lowest point up to the highest of them.
+template <int D>
+double Walk<D>::part_to_edges(const DVec<D>& move, const DVec<D>& asked) {
+    const double rises = dot(move - asked, rules_.up);
+    if (!(rises > rules_.skin)) return 1;
+    const double lowest = lowest_at(at_);
+    double highest = -1;
+    for (const NearContact<D>& contact : contacts()) {
+        const double rise = dot(contact.normal, rules_.up);
+        if (rise > 1 - 1e-9 || !(dot(level(contact.normal), move) < 0) || !is_ground(contact, lowest)) continue;
+        highest = std::max({highest, dot(rules_.up, contact.point) - lowest, 0.0});
+        if (rises <= highest + rules_.skin) return 1;
+        const std::optional<DVec<D>> above = near_.normal_above(contact.point, rules_.up);
+        if (!above || dot(*above, rules_.up) < rise + 1e-3) return 1;
+    }
+    return highest < 0 ? 1 : (highest + rules_.skin) / rises;
+}
+
 template <int D>
 void Walk<D>::slide(const DVec<D>& motion) {
     const double still = no_way * rules_.skin;
@@ -118,7 +137,7 @@ void Walk<D>::slide(const DVec<D>& motion) {
         const bool on_ground = stands_on != nullptr;
         const DVec<D> wanted = on_ground ? along_ground(rest, *stands_on) : rest;
         bool wall = false;
-        const DVec<D> move = allowed_by_planes(wanted, wall);
+        DVec<D> move = allowed_by_planes(wanted, wall);
         if (on_ground && wall) {
             const DVec<D> ahead = level(rest);
             const double asked = length(ahead), goes = asked > 0 ? dot(move, ahead) / asked : 0;
@@ -129,17 +148,20 @@ void Walk<D>::slide(const DVec<D>& motion) {
                 continue;
             }
         }
+        const double part = walks ? part_to_edges(move, rest) : 1;
+        move *= part;
         const double way = length(move);
         if (way <= still) break;
         const std::optional<FirstTouch<D>> stop = near_.first_touch(at_, move, swept_skin * rules_.skin);
         if (!stop) {
             at_ += move;
+            rest *= 1 - part;
             extra_.reset();
-            break;
+            continue;
         }
         tell(stop->contact);
         at_ += move * stop->fraction;
-        rest *= 1 - stop->fraction;
+        rest *= 1 - stop->fraction * part;
         extra_.reset();
         if (stop->fraction * way <= still) extra_ = MovePlane<D>{stop->contact.normal, 0.0};
     }

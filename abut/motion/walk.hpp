@@ -52,6 +52,8 @@ private:
     DVec<D> along_ground(const DVec<D>& motion, const NearContact<D>& ground) const;
     /// The nearest move that the planes allow; walls in the way of `wanted` are told.
     DVec<D> allowed_by_planes(const DVec<D>& wanted, bool& wall);
+    /// How much of a move that the planes allow there is to be gone at once.
+    double part_to_edges(const DVec<D>& move, const DVec<D>& asked);
     bool climb(const DVec<D>& ahead, double without);
     void tell(const NearContact<D>& contact);
 

@@ -1,9 +1,12 @@
 // NaN, infinity and lists that don't fit: an assertion where there are any, and harmless answers.
 
+#include <abut/motion/depenetrate.hpp>
+#include <abut/motion/mover.hpp>
 #include <abut/motion/rearrange.hpp>
 #include <abut/query/reflect.hpp>
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
+#include <abut/shape/half_space.hpp>
 
 #include <gtest/gtest.h>
 
@@ -47,6 +50,48 @@ TEST(BadInput, IsThrownBackNowhere) {
     EXPECT_EQ(reflect(Ray2{{0, 0}, {1, 0}}, hit).length, 0);
     hit.point = {1, 1};
     EXPECT_EQ(reflect(Ray2{{nan, 0}, {1, 0}}, hit).length, 0);
+}
+
+/// What isn't finite stays where it is, stands on nothing, and is forgotten: the next move is as ever.
+template <int D>
+void expect_unmoved() {
+    World<D> world;
+    Vec<D> up(0.0f), down(0.0f), place(0.0f);
+    up[1] = 1;
+    down[1] = -0.1f;
+    place[1] = 0.55f;
+    world.add(HalfSpace<D>{up, 0}, {.fixed = true});
+    const Ball<D> ball{Vec<D>(0.0f), 0.5f};
+    Mover<D> mover;
+    for (const float bad : {nan, infinity, -infinity}) {
+        Vec<D> nowhere = place;
+        nowhere[0] = bad;
+        const int before = assertions;
+        for (const Moved<D>& moved : {mover.move(world, ball, place, nowhere), mover.move(world, ball, nowhere, down),
+                                      mover.move(world, Ball<D>{nowhere, 0.5f}, place, down),
+                                      mover.move(world, Ball<D>{Vec<D>(0.0f), bad}, place, down)}) {
+            EXPECT_FALSE(moved.grounded);
+            EXPECT_FALSE(moved.crushed);
+            EXPECT_EQ(moved.motion, Vec<D>(0.0f));
+            EXPECT_TRUE(moved.touches.empty());
+            EXPECT_EQ(moved.position[1], place[1]);
+        }
+        EXPECT_FALSE(depenetrate(Ball<D>{nowhere, 0.5f}, world).push != Vec<D>(0.0f));
+#ifndef NDEBUG
+        EXPECT_EQ(assertions, before + 5);
+#else
+        EXPECT_EQ(assertions, before);
+#endif
+        EXPECT_TRUE(mover.move(world, ball, place, down).grounded);
+    }
+    // An up that isn't finite is the usual one.
+    mover.set_options({.up = Vec<D>(nan)});
+    EXPECT_TRUE(mover.move(world, ball, place, down).grounded);
+}
+
+TEST(BadInput, MovesNowhere) {
+    expect_unmoved<2>();
+    expect_unmoved<3>();
 }
 
 }  // namespace
