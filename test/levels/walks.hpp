@@ -165,8 +165,9 @@ private:
         if (depth > rounding)
             walked_.fault("is in something by " + std::to_string(depth) + ", from " + text_of<D>(before) + " by " +
                           text_of<D>(motion));
-        // Where nothing was met it went straight.
-        if (asked > size && moved_.touches.empty() && length(DVec<D>(moved_.carried + moved_.pushed)) == 0) {
+        // What came to where it was asked to went straight.
+        if (asked > size && length(gone - DVec<D>(motion)) < rounding &&
+            length(DVec<D>(moved_.carried + moved_.pushed)) == 0) {
             Walking<D> way = shape_;
             if (way.shape.a == way.shape.b) {
                 way.shape.a += before - position_;
