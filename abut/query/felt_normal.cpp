@@ -40,19 +40,20 @@ DVec<D> inner_point(const Solid<D>&, const DVec<D>& beside) {
     return beside;
 }
 
-/// Whether all its places are on flat faces and their edges.
+/// Whether it is solid with flat sides, which may be narrow.
 template <int D>
-bool is_flat_sided(const Convex<D>& part) {
-    return (part.core == Core::points || part.core == Core::box) && part.radius == 0 && part.inner_radius == 0;
+bool has_flat_sides(const Convex<D>& part) {
+    if (part.radius > 0 || part.inner_radius > 0) return false;
+    return part.core == Core::box || (part.core == Core::points && part.count > static_cast<std::uint32_t>(D));
 }
 template <int D>
-bool is_flat_sided(const Solid<D>&) {
-    return true;
+bool has_flat_sides(const Solid<D>&) {
+    return false;
 }
 
-/// Whether the part has a face there, and not an edge: seen from a bit farther along it, it is as far. A face has some
-/// width as well: from a bit aside of there it is as far, to one side or the other. So along no edge, and over nothing
-/// as narrow as what is left between two pieces that should have met.
+/// Whether the part has a face there, and not an edge: seen from a bit farther along it, it is as far. A solid one's
+/// has some width as well: from a bit aside of there it is as far, to one side or the other. So it is along no edge,
+/// and over nothing as narrow as what is left between two pieces that should have met.
 template <int D, class Part>
 bool is_face(const Part& part, const FeltPlace<D>& place, const DVec<D>& beside, double own) {
     const auto is_as_far = [&](const DVec<D>& point) {
@@ -72,7 +73,7 @@ bool is_face(const Part& part, const FeltPlace<D>& place, const DVec<D>& beside,
     } else {
         along = perpendicular(place.out);
     }
-    if (!is_flat_sided(part)) return true;
+    if (!has_flat_sides(part)) return true;
     if constexpr (D == 3)
         if (!has_width(farther, cross(place.out, along))) return false;
     return has_width(farther, along);
