@@ -13,7 +13,8 @@ void each_contact_of(const View<D>& a, const View<D>& b, const QueryOptions<D>& 
                      FunctionRef<bool(const Contact<D>&)> visit);
 
 /// visit(contact) for each pair of parts that touch, in no order that is promised; it returns nothing, or false to
-/// stop. With a margin, for parts up to so far apart as well. The features tell which parts.
+/// stop. The set of contacts is the same however the parts are numbered. With a margin, for parts up to so far apart as
+/// well. The features tell which parts.
 ///
 /// Normals are those of the surfaces as they are felt from outside, not those of edges where part meets part: what lies
 /// on a floor of tiles is pushed up alone. Where a pair's own normal is such an edge's, the pair is left out if another

@@ -33,8 +33,8 @@ public:
     /// Of what feels the surface.
     double size() const { return scale_ / felt_scale; }
 
-    /// Who feels the normal between two of the parts: at the deepest point, or where that lies in a corner, in the
-    /// middle of the area in which they meet. manifold_of() tells that, where it is asked for.
+    /// Who feels the normal between two of the parts: in the middle of the area in which they meet, or at the deepest
+    /// point. manifold_of() tells that area.
     template <class PartA, class PartB, class Manifolds>
     FeltBy felt_by(const PartA& part_a, const PartB& part_b, const SignedDistance<D>& distance,
                    const Manifolds& manifold_of) const {
@@ -93,19 +93,21 @@ private:
     template <class Part, class Manifolds>
     bool feels(const Part& part, FeltPlace<D> place, double to_surface, const Manifolds& manifold_of,
                const View<D>& shape, const EachFoot<D>* others) const {
-        if (!is_composite(shape) && is_alone(place, *others)) return true;
         const auto feet = feet_on(shape, others);
-        if (abut::is_felt<D>(part, place, feet)) return true;
+        const bool is_one_part = !is_composite(shape);
         const Manifold<D>& manifold = manifold_of();
-        if (manifold.count < 2) return false;
-        const DVec<D> normal = to_surface < 0 ? -place.out : place.out;
-        DVec<D> sum(0.0);
-        for (std::size_t i = 0; i < manifold.count; ++i)
-            sum += manifold.points[i].position + normal * (to_surface * manifold.points[i].depth);
-        place.point = sum / static_cast<double>(manifold.count);
-        // If the part has its surface there.
-        const double own = foot_on(part, place.point + place.out * place.scale).distance;
-        return own > 0.99 * place.scale && abut::is_felt<D>(part, place, feet);
+        if (manifold.count > 1) {
+            const DVec<D> normal = to_surface < 0 ? -place.out : place.out;
+            DVec<D> sum(0.0);
+            for (std::size_t i = 0; i < manifold.count; ++i)
+                sum += manifold.points[i].position + normal * (to_surface * manifold.points[i].depth);
+            FeltPlace<D> middle = place;
+            middle.point = sum / static_cast<double>(manifold.count);
+            if (is_one_part && is_alone(middle, *others) ? has_normal<D>(part, middle)
+                                                         : is_felt_there<D>(part, middle, feet))
+                return true;
+        }
+        return (is_one_part && is_alone(place, *others)) || abut::is_felt<D>(part, place, feet);
     }
 
     /// Whether no other is as near to p + s n as a part that has p, by far more than rounding.

@@ -25,7 +25,7 @@ constexpr double face_turned_by = 1e-5;
 
 /// How far along a part its normal is looked for where it is covered by others, in parts of s: so far at first, and so
 /// many times as far each time, up to the middle of what feels it.
-constexpr double first_reach = 3, next_reach = 4;
+constexpr double first_reach = 3, next_reach = 8;
 
 /// A point within the part and off all its edges, as far as it has an inside.
 template <int D>
@@ -155,6 +155,11 @@ Foot<D> nearest_foot(EachFoot<D> each_foot, const DVec<D>& point, double within,
 
 template <int D>
 void each_foot_on(const View<D>& shape, const DVec<D>& point, double within, FunctionRef<void(const Foot<D>&)> visit) {
+    if (const auto* convex = std::get_if<Convex<D>>(&shape)) {
+        const Foot<D> foot = foot_on(*convex, point);
+        if (foot.distance <= within) visit(foot);
+        return;
+    }
     const Convex<D> as_part = point_part(point);
     each_part_near(shape, as_part, static_cast<float>(within), [&](const auto& part, std::uint32_t) {
         Foot<D> foot;
@@ -180,6 +185,18 @@ bool is_felt(const Part& part, const FeltPlace<D>& place, EachFoot<D> each_foot)
         if (is_free(part, place, farther, own_there, each_foot)) return true;
         if (!(reach < way)) return false;
     }
+}
+
+template <int D, class Part>
+bool has_normal(const Part& part, const FeltPlace<D>& place) {
+    return foot_on(part, place.point + place.out * place.scale).distance > (1 - rounding) * place.scale;
+}
+
+template <int D, class Part>
+bool is_felt_there(const Part& part, const FeltPlace<D>& place, EachFoot<D> each_foot) {
+    const DVec<D> beside = place.point + place.out * place.scale;
+    const double own = foot_on(part, beside).distance;
+    return own > (1 - rounding) * place.scale && is_free(part, place, beside, own, each_foot);
 }
 
 template <int D, class Part>
@@ -213,6 +230,10 @@ std::optional<FeltPlane<D>> felt_plane(const Part& part, const FeltPlace<D>& pla
     template Foot<D> foot_on(const Solid<D>&, const DVec<D>&);                                             \
     template Foot<D> nearest_foot(EachFoot<D>, const DVec<D>&, double, double);                            \
     template void each_foot_on(const View<D>&, const DVec<D>&, double, FunctionRef<void(const Foot<D>&)>); \
+    template bool has_normal(const Convex<D>&, const FeltPlace<D>&);                                       \
+    template bool has_normal(const Solid<D>&, const FeltPlace<D>&);                                        \
+    template bool is_felt_there(const Convex<D>&, const FeltPlace<D>&, EachFoot<D>);                       \
+    template bool is_felt_there(const Solid<D>&, const FeltPlace<D>&, EachFoot<D>);                        \
     template bool is_felt(const Convex<D>&, const FeltPlace<D>&, EachFoot<D>);                             \
     template bool is_felt(const Solid<D>&, const FeltPlace<D>&, EachFoot<D>);                              \
     template std::optional<FeltPlane<D>> felt_plane(const Convex<D>&, const FeltPlace<D>&, EachFoot<D>,    \

@@ -74,6 +74,14 @@ struct FeltPlace {
 template <int D, class Part>
 bool is_felt(const Part& part, const FeltPlace<D>& place, EachFoot<D> each_foot);
 
+/// Whether the part has that way out at a place that is near its surface.
+template <int D, class Part>
+bool has_normal(const Part& part, const FeltPlace<D>& place);
+
+/// Whether it has, and no other is nearer there: is_felt without looking farther along the part.
+template <int D, class Part>
+bool is_felt_there(const Part& part, const FeltPlace<D>& place, EachFoot<D> each_foot);
+
 /// A plane that the union is felt by.
 template <int D>
 struct FeltPlane {

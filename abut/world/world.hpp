@@ -141,7 +141,7 @@ public:
     /// While any item is continuous, the ways of all that have moved are looked at: what is only put elsewhere then
     /// costs less if it is removed and added.
     Events update();
-    /// One for each pair that touches without a sensor, as of the last update.
+    /// As of the last update, of pairs without a sensor, with normals as felt by who touches several: docs/ghosts.md.
     std::span<const WorldContact<D>> contacts() const { return contacts_; }
     UpdateCounts counts() const { return counts_; }
     /// Over the items that move.
