@@ -133,7 +133,7 @@ TEST(ReadSvg, UseShowsThingsAgain) {
         for (int k = 0; k < 10; ++k) laughs += "<use href='#l" + std::to_string(i + 1) + "'/>";
         laughs += "</g>";
     }
-    EXPECT_EQ(read(laughs), "PROBLEM: line 1: <circle>: more than 100000 elements are drawn by <use>\n");
+    EXPECT_EQ(read(laughs), "PROBLEM: line 1: <use>: more than 100000 elements are drawn by <use>\n");
 }
 
 TEST(ReadSvg, UnitsAndViewBox) {
