@@ -1,5 +1,5 @@
 // A box and a capsule at a terrain of a hundred thousand triangles: does it touch anything, and what, and where? And in
-// a solid level of three thousand lumps: does it touch anything? Half of them touch something.
+// a solid level of three thousand lumps: does it touch anything? About half of them touch something.
 
 #include "levels.hpp"
 
