@@ -110,7 +110,6 @@ Pieces<Segment2> segments(Random* random) {
     return result;
 }
 
-
 /// The same tiles as one solid level: each a lump, or by the faces of them all.
 template <int D>
 SolidBsp<D> solid_of_lumps(const Pieces<Box<D>>& boxes) {
