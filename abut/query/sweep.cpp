@@ -182,7 +182,7 @@ std::optional<Hit<D>> sweep(const View<D>& a, const Vec<D>& motion_a, const View
         const auto feet = [&](const DVec<D>& from, double within, FunctionRef<void(const Foot<D>&)> visit) {
             each_foot_on(b, from, within, visit);
         };
-        feel_hit<D>(a, moved_a - moved_b, b, feet, *result);
+        feel_hit<D>(straight_arrival<D>(a, moved_a - moved_b), b, feet, *result);
         result->point = point;
     }
     return result;

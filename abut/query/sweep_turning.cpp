@@ -1,4 +1,5 @@
 #include <abut/math/assert.hpp>
+#include <abut/query/felt_hit.hpp>
 #include <abut/query/part_pairs.hpp>
 #include <abut/query/sweep_turning.hpp>
 #include <abut/query/turning_parts.hpp>
@@ -21,10 +22,30 @@ float rounded_down(double time) {
     return static_cast<double>(nearest) > time ? std::nextafter(nearest, 0.0f) : nearest;
 }
 
+/// The normal of a meeting with a shape of many parts, as it is felt.
+template <int D>
+void feel(const View<D>& a, const RigidPath<D>& path_a, const View<D>& b, const RigidPath<D>& path_b,
+          const Meeting<D>& meeting, Hit<D>& hit) {
+    if (!std::holds_alternative<Composite<D>>(b)) return;
+    const View<D> there = moved(b, place_at(path_b, meeting.time));
+    const auto feet = [&](const DVec<D>& from, double within, FunctionRef<void(const Foot<D>&)> visit) {
+        each_foot_on(there, from, within, visit);
+    };
+    Arrival<D> mover = turning_arrival(a, path_a, meeting.time, meeting.point);
+    mover.way -= path_b.velocity(meeting.time, meeting.point);
+    Hit<D> felt = hit;
+    felt.point = to_float(meeting.point);
+    feel_hit<D>(mover, there, feet, felt);
+    hit.normal = felt.normal;
+}
+/// There are no seams in one part.
+template <int D>
+void feel(const Convex<D>&, const RigidPath<D>&, const Convex<D>&, const RigidPath<D>&, const Meeting<D>&, Hit<D>&) {}
+
 /// `find` is asked for the first meeting, in a frame in which A's pivot stays at the origin: what is far from the
 /// world's keeps its digits.
-template <int D, class ShapeA, class ShapeB, class Find>
-void find_hit(const ShapeA& a, RigidPath<D>& path_a, const ShapeB& b, RigidPath<D>& path_b, const Find& find,
+template <int D, class Shape, class Find>
+void find_hit(const Shape& a, RigidPath<D>& path_a, const Shape& b, RigidPath<D>& path_b, const Find& find,
               std::optional<Hit<D>>& result) {
     const bool finite = is_finite(a) && is_finite(b) && is_finite(path_a) && is_finite(path_b);
     ABUT_ASSERT(finite);
@@ -42,6 +63,7 @@ void find_hit(const ShapeA& a, RigidPath<D>& path_a, const ShapeB& b, RigidPath<
     hit.normal = to_float(-meeting.normal);
     hit.started_inside = meeting.started_inside;
     hit.feature = meeting.feature;
+    feel(a, path_a, b, path_b, meeting, hit);
 }
 
 template <int D>

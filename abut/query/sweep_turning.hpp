@@ -33,7 +33,7 @@ std::optional<Hit<D>> sweep(const Given<D>& a, const Pose<D>& from_a, const Pose
 /// At `fraction` of both motions they are apart by at most the margin of doubt, and before that never deeper in one
 /// another than that margin. It is rounded down to a float, so what is fast is met early by up to 6e-8 of its way.
 /// `distance` is that fraction of the straight way that A goes relative to B; `normal` faces A, `point` is on B, and
-/// the feature is B's.
+/// the feature is B's. At a composite B the normal is that of the surface as it is felt: no part's edge inside a floor.
 ///
 /// Shapes that touch or overlap at first hit at 0 only if the motion goes further in at once, judged where they touch.
 /// What slides, turns on the spot or moves apart is no hit then, but is one as soon as two parts are deeper in one

@@ -36,6 +36,11 @@ Way<D> way_of_shape(const View<D>& shape, const Motion<D>& motion) {
     return turning_way(bounding_ball(shape), bounds(moved(shape, affine(motion.from))), motion);
 }
 
+template <int D>
+Arrival<D> arrival_of(const View<D>& shape, const RigidPath<D>& path, const Hit<D>& hit) {
+    return turning_arrival(shape, path, static_cast<double>(hit.fraction), DVec<D>(hit.point));
+}
+
 }  // namespace
 
 /// The first hit on the way, of which `sweep_at(item)` tells the one on an item.
@@ -79,6 +84,19 @@ std::optional<WorldHit<D>> World<D>::first_on_way(const View<D>& shape, const Wa
     return first;
 }
 
+/// Of all that is there, seams between items are as little felt as those inside one.
+template <int D>
+void World<D>::feel(const Arrival<D>& mover, const Filter& filter, WorldHit<D>& hit) const {
+    const auto feet = [&](const DVec<D>& from, double within, FunctionRef<void(const Foot<D>&)> visit) {
+        const Vec<D> point = to_float(from);
+        visit_in_box(grown(Aabb<D>{point, point}, static_cast<float>(within)), filter, [&](Id, const View<D>& item) {
+            each_foot_on(item, from, within, visit);
+            return true;
+        });
+    };
+    feel_hit<D>(mover, shape(hit.id), feet, hit.hit);
+}
+
 template <int D>
 std::optional<WorldHit<D>> World<D>::sweep_straight(const View<D>& shape, const Vec<D>& motion,
                                                     const Filter& filter) const {
@@ -86,19 +104,8 @@ std::optional<WorldHit<D>> World<D>::sweep_straight(const View<D>& shape, const 
     std::optional<WorldHit<D>> first =
         first_on_way(shape, straight_way(bounds(shape), motion), filter,
                      [&](const Item& item) { return abut::sweep(shape, motion, item.placed, Vec<D>(0.0f)); });
-    if (first) {
-        // Of all that is there, seams between items are as little felt as those inside one.
-        const auto feet = [&](const DVec<D>& from, double within, FunctionRef<void(const Foot<D>&)> visit) {
-            const Vec<D> point = to_float(from);
-            visit_in_box(grown(Aabb<D>{point, point}, static_cast<float>(within)), filter,
-                         [&](Id, const View<D>& item) {
-                             each_foot_on(item, from, within, visit);
-                             return true;
-                         });
-        };
-        feel_hit<D>(shape, DVec<D>(motion) * static_cast<double>(first->hit.fraction), this->shape(first->id), feet,
-                    first->hit);
-    }
+    if (first)
+        feel(straight_arrival<D>(shape, DVec<D>(motion) * static_cast<double>(first->hit.fraction)), filter, *first);
     return first;
 }
 
@@ -107,19 +114,24 @@ std::optional<WorldHit<D>> World<D>::sweep_turning(const View<D>& shape, const M
                                                    const Filter& filter) const {
     const bool finite = is_finite(motion.from) && is_finite(motion.move) && is_finite(motion.turn);
     if (!can_be_asked(is_finite(shape) && finite)) return std::nullopt;
-    return first_on_way(shape, way_of_shape(shape, motion), filter, [&](const Item& item) {
+    std::optional<WorldHit<D>> first = first_on_way(shape, way_of_shape(shape, motion), filter, [&](const Item& item) {
         return abut::sweep(shape, motion, item.stored->view(), Motion<D>{.from = item.options.pose});
     });
+    if (first) feel(arrival_of(shape, rigid_path(motion), first->hit), filter, *first);
+    return first;
 }
 
 template <int D>
 std::optional<WorldHit<D>> World<D>::sweep_between(const View<D>& shape, const Pose<D>& from, const Pose<D>& to,
                                                    const Filter& filter) const {
     if (!can_be_asked(is_finite(shape) && is_finite(from) && is_finite(to))) return std::nullopt;
-    return first_on_way(shape, way_of_shape(shape, Motion<D>::between(from, to)), filter, [&](const Item& item) {
-        const Pose<D>& there = item.options.pose;
-        return abut::sweep(shape, from, to, item.stored->view(), there, there);
-    });
+    std::optional<WorldHit<D>> first =
+        first_on_way(shape, way_of_shape(shape, Motion<D>::between(from, to)), filter, [&](const Item& item) {
+            const Pose<D>& there = item.options.pose;
+            return abut::sweep(shape, from, to, item.stored->view(), there, there);
+        });
+    if (first) feel(arrival_of(shape, rigid_path(from, to), first->hit), filter, *first);
+    return first;
 }
 
 template class World<2>;

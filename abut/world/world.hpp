@@ -25,6 +25,8 @@
 namespace abut {
 
 template <int D>
+struct Arrival;
+template <int D>
 struct Foot;
 
 /// How a shape takes part in a world.
@@ -277,6 +279,7 @@ private:
     template <class F>
     std::optional<WorldHit<D>> first_on_way(const View<D>& shape, const Way<D>& way, const Filter& filter,
                                             F&& sweep_at) const;
+    void feel(const Arrival<D>& mover, const Filter& filter, WorldHit<D>& hit) const;
     std::optional<WorldHit<D>> sweep_straight(const View<D>& shape, const Vec<D>& motion, const Filter& filter) const;
     std::optional<WorldHit<D>> sweep_turning(const View<D>& shape, const Motion<D>& motion, const Filter& filter) const;
     std::optional<WorldHit<D>> sweep_between(const View<D>& shape, const Pose<D>& from, const Pose<D>& to,

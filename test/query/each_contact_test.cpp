@@ -1,17 +1,15 @@
 // Contacts of all parts, and that the edges inside a floor aren't felt while real ones are.
 
 #include "../oracle/expect.hpp"
-#include "../oracle/random.hpp"
 #include "../shape/meshes.hpp"
+#include "floors.hpp"
 #include <abut/query/each_contact.hpp>
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/capsule.hpp>
 #include <abut/shape/cylinder.hpp>
-#include <abut/shape/mesh.hpp>
 #include <abut/shape/placed.hpp>
 #include <abut/shape/polygon.hpp>
-#include <abut/shape/segment.hpp>
 #include <abut/shape/solid_bsp.hpp>
 
 #include <vector>
@@ -19,96 +17,12 @@
 #include <gtest/gtest.h>
 
 namespace abut {
-
-/// Several shapes as one.
-template <class S>
-struct Pieces {
-    std::vector<S> pieces;
-};
-template <class S>
-auto bounds(const Pieces<S>& shape) {
-    using Box = decltype(bounds(convex(shape.pieces[0])));
-    Box box = Box::empty();
-    for (const S& piece : shape.pieces) box = merged(box, bounds(convex(piece)));
-    return box;
-}
-template <class S, class Box, class Visit>
-void each_part(const Pieces<S>& shape, const Box& box, Visit&& visit) {
-    for (std::uint32_t i = 0; i < shape.pieces.size(); ++i)
-        if (overlaps(bounds(convex(shape.pieces[i])), box) && !visit(shape.pieces[i], i)) return;
-}
-
 namespace {
 
 using oracle::Random;
+using namespace test;
 
 constexpr std::uint64_t seed = 20260722;
-constexpr int tiles = 8;  // a floor has so many along each axis, each 1 wide, from 0 on; its surface is at height 0
-
-/// What float arithmetic makes of heights and seams.
-float about(float number, Random* random) {
-    return random != nullptr ? number + random->uniform_float(-1e-6, 1e-6) : number;
-}
-
-Mesh level_mesh(Random* random) {
-    std::vector<Vec3> points;
-    std::vector<glm::uvec3> triangles;
-    for (int z = 0; z <= tiles; ++z)
-        for (int x = 0; x <= tiles; ++x) points.push_back({x, about(0, random), z});
-    const auto at = [&](int x, int z) { return static_cast<std::uint32_t>(z * (tiles + 1) + x); };
-    for (int z = 0; z < tiles; ++z)
-        for (int x = 0; x < tiles; ++x) {
-            triangles.push_back({at(x, z), at(x, z + 1), at(x + 1, z)});
-            triangles.push_back({at(x + 1, z), at(x, z + 1), at(x + 1, z + 1)});
-        }
-    return *Mesh::build(points, triangles);
-}
-
-/// Triangles with nothing in common: T-junctions, gaps, and each one twice.
-Mesh broken_mesh(Random* random) {
-    std::vector<Vec3> points;
-    std::vector<glm::uvec3> triangles;
-    const auto add = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
-        for (int twice = 0; twice < 2; ++twice) {
-            const auto first = static_cast<std::uint32_t>(points.size());
-            for (const Vec3& p : {a, b, c})
-                points.push_back({about(p.x, random), about(p.y, random), about(p.z, random)});
-            triangles.push_back({first, first + 1, first + 2});
-        }
-    };
-    for (int z = 0; z < tiles; ++z) {
-        const float shift = z % 2 == 0 ? 0 : -0.37f, low = static_cast<float>(z);
-        for (int i = 0; i <= tiles; ++i) {
-            const float x = static_cast<float>(i) + shift;
-            add({x, 0, low}, {x, 0, low + 1}, {x + 1, 0, low});
-            add({x + 1, 0, low}, {x, 0, low + 1}, {x + 1, 0, low + 1});
-        }
-    }
-    return *Mesh::build(points, triangles);
-}
-
-Pieces<Box3> boxes_in_space(Random* random) {
-    Pieces<Box3> result;
-    for (int z = 0; z < tiles; ++z)
-        for (int x = 0; x < tiles; ++x)
-            result.pieces.push_back(
-                {{about(static_cast<float>(x) + 0.5f, random), about(-0.5f, random), static_cast<float>(z) + 0.5f},
-                 {0.5f, 0.5f, 0.5f}});
-    return result;
-}
-Pieces<Box2> boxes_of_the_plane(Random* random) {
-    Pieces<Box2> result;
-    for (int x = 0; x < tiles; ++x)
-        result.pieces.push_back({{about(static_cast<float>(x) + 0.5f, random), about(-0.5f, random)}, {0.5f, 0.5f}});
-    return result;
-}
-Pieces<Segment2> segments(Random* random) {
-    Pieces<Segment2> result;
-    std::vector<Vec2> points;
-    for (int x = 0; x <= tiles; ++x) points.push_back({x, about(0, random)});
-    for (std::size_t x = 0; x < tiles; ++x) result.pieces.push_back({points[x], points[x + 1]});
-    return result;
-}
 
 /// The same tiles as one solid level: each a lump, or by the faces of them all.
 template <int D>

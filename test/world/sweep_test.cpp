@@ -4,6 +4,7 @@
 #include "before_and_after.hpp"
 #include "bits.hpp"
 #include "simulation.hpp"
+#include <abut/math/rigid_path.hpp>
 #include <abut/query/sweep.hpp>
 #include <abut/query/sweep_turning.hpp>
 
@@ -163,14 +164,16 @@ struct Seen {
 /// is expected of it here.
 template <int D>
 void expect_same_but_for_seams(const std::optional<WorldHit<D>>& found, std::optional<WorldHit<D>> expected,
-                               const ReferenceWorld<D>& reference, const View<D>& mover, const Vec<D>& motion) {
+                               const ReferenceWorld<D>& reference, const View<D>& mover, const DVec<D>& motion) {
     if (found && expected && found->hit.normal != expected->hit.normal) {
         int near = 0;
         for (const auto& [id, item] : reference.items())
             near += closest(item.view(), found->hit.point).distance < 3 * 1e-3 * size(mover) ? 1 : 0;
-        EXPECT_GT(near, 1);
+        // What one item has felt of itself is rounded when it is felt once more.
+        const double off = length(DVec<D>(found->hit.normal) - DVec<D>(expected->hit.normal));
+        EXPECT_TRUE(near > 1 || off < 1e-6) << off;
         EXPECT_NEAR(length(DVec<D>(found->hit.normal)), 1, 1e-6);
-        EXPECT_LT(dot(DVec<D>(found->hit.normal), DVec<D>(motion)), 0);
+        EXPECT_LT(dot(DVec<D>(found->hit.normal), motion), 0);
         expected->hit.normal = found->hit.normal;
     }
     ASSERT_EQ(Bits(found), Bits(expected));
@@ -195,19 +198,29 @@ void check_sweeps(Simulation<D>& game, Seen& seen) {
         const auto straight = first_of_all<D>(game.reference, asked, filter, [&](const Item& item) {
             return sweep(asked, motion, item.view(), Vec<D>(0.0f));
         });
-        expect_same_but_for_seams<D>(game.world.sweep(placed, motion, filter), straight, game.reference, asked, motion);
+        expect_same_but_for_seams<D>(game.world.sweep(placed, motion, filter), straight, game.reference, asked,
+                                     DVec<D>(motion));
         ASSERT_FALSE(testing::Test::HasFatalFailure());
         note(straight);
         const auto spun = first_of_all<D>(game.reference, own, filter, [&](const Item& item) {
             return sweep(own, turning, item.placed({}), Motion<D>{.from = item.options.pose});
         });
-        ASSERT_EQ(Bits(game.world.sweep(shape, turning, filter)), Bits(spun));
+        const auto expect_same_on = [&](const std::optional<WorldHit<D>>& found,
+                                        const std::optional<WorldHit<D>>& expected, const RigidPath<D>& path) {
+            const DVec<D> way = found
+                                    ? path.velocity(static_cast<double>(found->hit.fraction), DVec<D>(found->hit.point))
+                                    : DVec<D>(0.0);
+            expect_same_but_for_seams<D>(found, expected, game.reference, own, way);
+        };
+        expect_same_on(game.world.sweep(shape, turning, filter), spun, rigid_path(turning));
+        ASSERT_FALSE(testing::Test::HasFatalFailure());
         note(spun);
         const auto between = first_of_all<D>(game.reference, own, filter, [&](const Item& item) {
             const Pose<D>& there = item.options.pose;
             return sweep(own, from, to, item.placed({}), there, there);
         });
-        ASSERT_EQ(Bits(game.world.sweep(shape, from, to, filter)), Bits(between));
+        expect_same_on(game.world.sweep(shape, from, to, filter), between, rigid_path(from, to));
+        ASSERT_FALSE(testing::Test::HasFatalFailure());
         note(between);
     });
 }
