@@ -10,6 +10,7 @@
 //
 // and so far are the two apart at the most. It is the proof of turning_gap.hpp turned round.
 
+#include <abut/math/rigid_path.hpp>
 #include <abut/query/felt_normal.hpp>
 #include <abut/query/part_pairs.hpp>
 
