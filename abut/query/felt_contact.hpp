@@ -21,8 +21,8 @@ class FeltPair {
 public:
     FeltPair(const View<D>& a, const View<D>& b, const Others<D>& others = {})
         : a_(a), b_(b), others_(others), scale_(felt_scale_of(a, b)) {
-        if (const auto* convex = std::get_if<Convex<D>>(&a)) middle_of_a_ = middle_of(*convex, {});
-        if (const auto* convex = std::get_if<Convex<D>>(&b)) middle_of_b_ = middle_of(*convex, {});
+        if (!std::holds_alternative<Solid<D>>(a)) middle_of_a_ = DVec<D>(center(bounds(a)));
+        if (!std::holds_alternative<Solid<D>>(b)) middle_of_b_ = DVec<D>(center(bounds(b)));
     }
 
     /// From now on it looks among these parts first, of the one of them that is composite.
@@ -46,20 +46,22 @@ public:
         return result;
     }
 
-    /// Puts the plane that is felt there, and its point, in place of a normal that is not, by those who don't feel it:
-    /// of two such planes that which is left sooner, so that it is the same from either side. False where none is
-    /// found, and all stays as it is.
+    /// Puts the plane that is felt there, and its point, in place of a normal that is not, by those who don't feel it;
+    /// of two composite shapes by the smaller, for which the other is a level. Of two such planes that which is left
+    /// sooner, so that it is the same from either side. False where none is found, and all stays as it is.
     template <class PartA, class PartB>
     bool replace(const PartA& part_a, const PartB& part_b, const FeltBy& by, PartContact<D>& contact) {
         std::optional<PartContact<D>> for_a, for_b;
-        if (!by.a) {
+        const bool by_size = is_composite(a_) && is_composite(b_);
+        const double larger = by_size ? abut::size(a_) - abut::size(b_) : 0;
+        if (by_size ? larger <= 0 : !by.a) {
             SeenFromMiddle<D> anew;
             const FeltPlace<D> place = place_on_b(part_a, contact.distance);
             const auto plane =
                 felt_plane<D>(part_b, place, feet_on(b_, others_.of_a), is_composite(a_) ? anew : seen_by_a_);
             if (plane && !rest_on(part_a, *plane, for_a.emplace(contact))) for_a.reset();
         }
-        if (!by.b) {
+        if (by_size ? larger >= 0 : !by.b) {
             SeenFromMiddle<D> anew;
             const FeltPlace<D> place = place_on_a(part_b, contact.distance);
             const auto plane =
@@ -117,11 +119,12 @@ private:
         return alone;
     }
 
-    /// Of a part that is the whole shape it was found before.
-    template <class Part>
-    static DVec<D> middle_beside(const Part& part, const View<D>& shape, const DVec<D>& middle, const DVec<D>& beside) {
-        if constexpr (std::is_same_v<Part, Convex<D>>)
-            if (!is_composite(shape)) return middle;
+    /// Of a part that is the whole shape it was found before. A flat part of a shape has none of its own.
+    static DVec<D> middle_beside(const Convex<D>& part, const View<D>& shape, const DVec<D>& of_shape, const DVec<D>&) {
+        const bool flat = part.core == Core::points && part.count <= D && part.radius == 0;
+        return flat || !is_composite(shape) ? of_shape : middle_of(part, {});
+    }
+    static DVec<D> middle_beside(const Solid<D>& part, const View<D>&, const DVec<D>&, const DVec<D>& beside) {
         return middle_of(part, beside);
     }
 

@@ -263,5 +263,38 @@ TEST(EachContact, FromTheOtherSideIsTheSameTurnedRound) {
     for (const Contact<3>& contact : other) EXPECT_NEAR(contact.normal.y, 1, 1e-5);
 }
 
+/// A wall of triangles with a corner, which stands on a floor of triangles that share none of its own. Of the triangles
+/// in its sole some meet the floor's in a corner alone, with normals along the floor: the plane that was put in place
+/// of those was the wall's own side, and made the floor 0.3 deep in it.
+TEST(EachContact, AWallStandsOnItsFloorWhicheverIsFirst) {
+    const std::vector<Vec2> outline{{6, 2}, {3, 2}, {3, 2.3f}, {5.7f, 2.3f}, {5.7f, 5}, {6, 5}};
+    const std::vector<glm::uvec3> sole{{2, 3, 0}, {2, 0, 1}, {3, 4, 5}, {3, 5, 0}};
+    for (const float up : {1.0f, -1.0f}) {
+        std::vector<Vec3> points;
+        std::vector<glm::uvec3> triangles;
+        for (const float height : {0.0f, 1.2f * up})
+            for (const Vec2& p : outline) points.emplace_back(p.x, height, p.y);
+        for (const glm::uvec3& t : sole) {
+            triangles.push_back(t);
+            triangles.emplace_back(t.x + 6, t.z + 6, t.y + 6);
+        }
+        for (std::uint32_t i = 0; i < 6; ++i) {
+            const std::uint32_t next = (i + 1) % 6;
+            triangles.emplace_back(i, i + 6, next + 6);
+            triangles.emplace_back(i, next + 6, next);
+        }
+        const Mesh wall = *Mesh::build(points, triangles), floor = level_mesh(nullptr);
+        for (const Contact<3>& found : {contact(wall, floor), contact(floor, wall)}) {
+            ASSERT_TRUE(found);
+            EXPECT_LT(found.depth, 1e-6f);
+        }
+        const auto is_on_it = [](const Contact<3>& found) {
+            EXPECT_LT(found.depth, 1e-6f) << found.feature_a.part << " " << found.feature_b.part;
+        };
+        each_contact(wall, floor, is_on_it);
+        each_contact(floor, wall, is_on_it);
+    }
+}
+
 }  // namespace
 }  // namespace abut
