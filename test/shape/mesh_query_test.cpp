@@ -83,6 +83,8 @@ void check_closest(const View<3>& mesh, const Parts& parts, const View<3>& other
         ++seen.unfelt;
         return;
     }
+    // A composite shape may feel a triangle alone by another plane than one among others.
+    if (std::holds_alternative<Composite<3>>(other)) return;
     const Contact<3> part_touch = contact(parts.views.at(touch.feature_a.part), other);
     EXPECT_EQ(part_touch.depth, touch.depth) << "part " << touch.feature_a.part;
     EXPECT_EQ(part_touch.normal, touch.normal);
