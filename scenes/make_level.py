@@ -85,6 +85,7 @@ MESHES = {
                            for r in (1.6, 1.2)), -0.2, 0.2)),
     "Tyre": mesh_of(torus(0.45, 0.15), smooth=True),
     "Ground": mesh_of(yard_ground(), smooth=True),
+    "Tank": mesh_of(lathe([(0.5, 0), (0.5, 1.2)], 24)[:-1]),  # one of its faces is missing
 }
 
 
@@ -241,6 +242,7 @@ def yard(ground):
     ground.add("Crate_By_Matrix", "Cube", "crate", matrix=(
         cosine, 0, -sine, 0, 0, 0.6, 0, 0, sine, 0, cosine, 0, 6.5, 0.3, 3.6, 1))
 
+    ground.add("Tank", "Tank", "iron", at=(7.8, 0, 7))
     balloon = ground.add("Balloon", "Sphere", "red", at=(-4, 2.5, 11), scale=(0.4, 0.4, 0.4))
     places = ((-4, 2.5, 11), (-1, 4.5, 12), (2, 5, 10))
     tangents = ((0, 0, 0), (1.5, 0.6, 0), (0, 0, 0))
@@ -252,6 +254,9 @@ def fill(root):
     """One storehouse with its yard and player."""
     storehouse(root.node("Storehouse"))
     yard(root.node("Yard"))
+    starts = root.node("Player_Starts")
+    starts.add("Player_Start_1", at=(-2.5, 0, 7))
+    starts.add("Player_Start_2", at=(-6.4, 0.25, 2.2))  # in a boulder
     player = root.add("Player", "Player", "player", at=(-0.4, 0, 3.5))
     times = [i * FRAME for i in range(FRAMES + 1)]
     player.animate("translation", times, [(-0.4, 0, 3.5 - 2.5 * t) for t in times])

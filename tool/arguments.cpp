@@ -66,6 +66,37 @@ Result<double> parse_time(const std::string& text) {
     return time;
 }
 
+Result<Character> parse_character(const std::string& text) {
+    const std::size_t comma = text.find(',');
+    Character character;
+    const bool is_character = comma != std::string::npos && parse(text.substr(0, comma), character.radius) &&
+                              parse(text.substr(comma + 1), character.height) && std::isfinite(character.height) &&
+                              character.radius > 0 && character.height >= 2 * character.radius;
+    if (!is_character) return bad(text, "a radius above 0 and a height of at least twice as much: RADIUS,HEIGHT");
+    return character;
+}
+
+Result<GapRange> parse_gap(const std::string& text) {
+    const std::size_t comma = text.find(',');
+    GapRange range;
+    const bool has_least = comma != std::string::npos;
+    const bool is_range = (!has_least || parse(text.substr(0, comma), range.least)) &&
+                          parse(text.substr(has_least ? comma + 1 : 0), range.width) && std::isfinite(range.width) &&
+                          range.least >= 0 && range.width > range.least;
+    if (!is_range) return bad(text, "a width above 0, or two of which the second is greater: LEAST,WIDTH");
+    if (!has_least) range.least = default_least_gap * range.width;
+    return range;
+}
+
+Result<UpDirection> parse_up(const std::string& text) {
+    if (text == "none") return UpDirection{-1, 1};
+    const bool has_sign = text.size() == 2 && (text[0] == '-' || text[0] == '+');
+    const char axis = text.empty() ? ' ' : text.back();
+    if ((text.size() != 1 && !has_sign) || axis < 'x' || axis > 'z')
+        return bad(text, "one of x, -x, y, -y, z, -z and none");
+    return UpDirection{axis - 'x', text[0] == '-' ? -1.0f : 1.0f};
+}
+
 Result<PairPattern> parse_pair(const std::string& text) {
     const std::size_t colon = text.find(':');
     if (colon == std::string::npos || text.find(':', colon + 1) != std::string::npos || colon == 0 ||

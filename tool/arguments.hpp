@@ -3,6 +3,7 @@
 // Arguments as they are typed, and what they mean.
 
 #include "check.hpp"
+#include "faults.hpp"
 #include <abut/math/result.hpp>
 
 #include <cstddef>
@@ -25,6 +26,15 @@ Result<std::size_t> parse_bounces(const std::string& text);
 
 /// A moment in seconds, finite.
 Result<double> parse_time(const std::string& text);
+
+/// RADIUS,HEIGHT: a radius above 0, and a height of at least twice as much.
+Result<Character> parse_character(const std::string& text);
+
+/// WIDTH, or LEAST,WIDTH: from 0 up, and the width above the least. Without LEAST it is a tenth of the width.
+Result<GapRange> parse_gap(const std::string& text);
+
+/// x, y or z, with or without a sign before it, or none.
+Result<UpDirection> parse_up(const std::string& text);
 
 /// Two patterns with one ':' between them.
 Result<PairPattern> parse_pair(const std::string& text);

@@ -23,41 +23,6 @@ struct Meeting {
     bool inside = false;
 };
 
-// The pairs that the patterns describe.
-class Selection {
-public:
-    template <int D>
-    Selection(const Objects<D>& objects, const std::vector<PairPattern>& patterns) {
-        for (const PairPattern& pattern : patterns) {
-            Sides sides;
-            for (std::size_t i = 0; i < objects.size(); ++i) {
-                sides.a.push_back(describes(pattern.a, objects[i]));
-                sides.b.push_back(describes(pattern.b, objects[i]));
-            }
-            sides_.push_back(std::move(sides));
-        }
-    }
-
-    bool has(std::size_t i, std::size_t j) const {
-        return sides_.empty() || std::any_of(sides_.begin(), sides_.end(),
-                                             [&](const Sides& s) { return (s.a[i] && s.b[j]) || (s.a[j] && s.b[i]); });
-    }
-    std::uint64_t count(std::size_t objects) const {
-        std::uint64_t result = objects < 2 ? 0 : std::uint64_t{objects} * (objects - 1) / 2;
-        if (sides_.empty()) return result;
-        result = 0;
-        for (std::size_t i = 0; i < objects; ++i)
-            for (std::size_t j = i + 1; j < objects; ++j) result += has(i, j) ? 1 : 0;
-        return result;
-    }
-
-private:
-    struct Sides {
-        std::vector<bool> a, b;
-    };
-    std::vector<Sides> sides_;
-};
-
 // Whether a point from inside of one body is inside of the other, a mesh that is filled. What the point is under of
 // both surfaces together is how far they must move to come apart by the shortest way there: at least, and exact for
 // balls and for things placed twice.

@@ -2,24 +2,17 @@
 
 // Which objects of a scene or a level touch, where, how deep and when.
 
-#include "glob.hpp"
 #include "objects.hpp"
 #include "progress.hpp"
+#include "selection.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <string>
-#include <string_view>
 #include <vector>
 
 namespace abut::tool {
-
-/// Two patterns for names, one for each side of a pair.
-struct PairPattern {
-    std::string a, b;
-};
 
 struct CheckOptions {
     float clearance = 0;              ///< pairs closer than this are found as well, unless they rest on one another
@@ -51,11 +44,5 @@ struct CheckResult {
 template <int D>
 Result<CheckResult<D>> check(Objects<D>& objects, const std::vector<double>& times, const CheckOptions& options,
                              ProgressCall progress);
-
-/// Whether a pattern describes the object: its path, or its own name alone.
-template <int D>
-bool describes(std::string_view pattern, const Object<D>& object) {
-    return matches(pattern, object.path) || matches(pattern, object.name);
-}
 
 }  // namespace abut::tool

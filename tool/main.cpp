@@ -27,7 +27,7 @@ constexpr const char* files =
 // What was typed for `abut check`, numbers and patterns as text.
 struct CheckArguments {
     CheckRequest request;
-    std::optional<std::string> clearance, allow, frames;
+    std::optional<std::string> clearance, allow, frames, character, up, gap;
     std::vector<std::string> pairs;
 };
 
@@ -48,6 +48,29 @@ void describe(CLI::App& verb, CheckArguments& arguments) {
                     "Only pairs of an object that A describes and one that B does, path or name, with * and ?")
         ->type_name("A:B")
         ->allow_extra_args(false);
+    verb.add_option("--spawn", arguments.request.faults.spawns,
+                    "Where characters enter: nodes, path or name, with * and ?. Without it those with 'spawn' or "
+                    "'player_start' in their name, in capitals or not")
+        ->type_name("PATTERN")
+        ->allow_extra_args(false);
+    verb.add_option("--character", arguments.character,
+                    "A standing capsule, its lowest point at the spawn: it must have room there, and pass everywhere")
+        ->type_name("RADIUS,HEIGHT");
+    verb.add_option("--up", arguments.up, "Which way it stands: x, -x, y, -y, z, -z or none; y where nobody says")
+        ->type_name("AXIS");
+    verb.add_option("--gap", arguments.gap,
+                    "Report passages narrower than WIDTH, and wider than LEAST, a tenth of it if left out; without it "
+                    "what a --character doesn't fit through")
+        ->type_name("[LEAST,]WIDTH");
+    verb.add_option("--closed", arguments.request.faults.closed,
+                    "Objects whose meshes are to have no hole at all; without it, small holes of all are reported")
+        ->type_name("PATTERN")
+        ->allow_extra_args(false);
+    verb.footer(
+        "Of the first moment it also tells spawns that are inside of something, under a ground or above nothing; "
+        "passages that are too narrow (--gap); objects and triangles that are there twice; and leaks: holes, cracks, "
+        "edges of three triangles, triangles that face the wrong way. --pairs leaves of these only gaps and doubled "
+        "objects, and what --spawn and --closed ask for.");
     verb.add_flag("--json", arguments.request.json, "One JSON object in place of text");
     verb.add_flag("--skip-degenerate", arguments.request.skip_degenerate, "Leave out triangles of zero area");
 }
@@ -102,6 +125,10 @@ Result<ExitCode> run_check(CheckArguments& arguments) {
         understand("--clearance", arguments.clearance, parse_length, options.clearance);
     if (!problem) problem = understand("--allow", arguments.allow, parse_length, options.allow);
     if (!problem) problem = understand("--frames", arguments.frames, parse_frames, arguments.request.frames);
+    FaultOptions& faults = arguments.request.faults;
+    if (!problem) problem = understand("--character", arguments.character, parse_character, faults.character);
+    if (!problem) problem = understand("--up", arguments.up, parse_up, faults.up);
+    if (!problem) problem = understand("--gap", arguments.gap, parse_gap, faults.gap);
     for (const std::string& text : arguments.pairs)
         if (!problem) problem = understand("--pairs", text, parse_pair, options.pairs.emplace_back());
     if (problem) return Problem{ProblemCode::bad_argument, *problem};
@@ -123,8 +150,8 @@ int run(int count, char** words) {
     app.footer("Exits with 0 if all is fine, 1 if something was found, 2 for bad input or usage.");
 
     CheckArguments check;
-    CLI::App& check_verb =
-        *app.add_subcommand("check", "Which objects of a scene or a level touch, where, how deep and when");
+    CLI::App& check_verb = *app.add_subcommand(
+        "check", "Which objects of a scene or a level touch, where, how deep and when, and what else is wrong with it");
     describe(check_verb, check);
     CastArguments cast;
     CLI::App& cast_verb = *app.add_subcommand("cast", "What a ray hits, or a laser from mirror to mirror");

@@ -1,5 +1,6 @@
 #include "report.hpp"
 
+#include "faults_report.hpp"
 #include "written.hpp"
 
 #include <algorithm>
@@ -106,8 +107,9 @@ std::string summary(const Report<D>& report, std::size_t pairs) {
     text += fmt::format("\npairs     {} tested of {} possible ({} %)\n", result.tested, result.possible, number(share));
     text += fmt::format("contacts  {} between {}", result.findings.size(), counted(pairs, "pair", "pairs"));
     if (report.has_baseline) text += fmt::format(", and {} that the baseline has", report.known);
-    text += fmt::format("\nseconds   read {:.3f}, build {:.3f}, check {:.3f}\n", report.seconds.read,
-                        report.seconds.build, report.seconds.check);
+    text += "\n" + summary_of(report.faults);
+    text += fmt::format("seconds   read {:.3f}, build {:.3f}, check {:.3f}, level {:.3f}\n", report.seconds.read,
+                        report.seconds.build, report.seconds.check, report.seconds.level);
     return text;
 }
 
@@ -117,12 +119,12 @@ std::string verdict(const Report<D>& report, const std::vector<Moments<D>>& pair
     std::size_t colliding = 0;
     for (const Moments<D>& moments : pairs) colliding += collides(*moments.front()) ? 1 : 0;
     const std::size_t near = pairs.size() - colliding;
-    if (pairs.empty()) return fmt::format("CLEAN: no pair collides{}\n", anew);
-    std::string text = "FAULTS FOUND: ";
-    if (colliding > 0) text += counted(colliding, "pair collides", "pairs collide");
-    if (colliding > 0 && near > 0) text += ", ";
-    if (near > 0) text += counted(near, "pair comes too near", "pairs come too near");
-    return text + anew + "\n";
+    std::vector<std::string> parts;
+    if (colliding > 0) parts.push_back(counted(colliding, "pair collides", "pairs collide"));
+    if (near > 0) parts.push_back(counted(near, "pair comes too near", "pairs come too near"));
+    for (std::string& part : verdicts_of(report.faults)) parts.push_back(std::move(part));
+    if (parts.empty()) return fmt::format("CLEAN: no pair collides{}\n", anew);
+    return fmt::format("FAULTS FOUND: {}{}\n", fmt::join(parts, ", "), anew);
 }
 
 }  // namespace
@@ -135,6 +137,7 @@ std::string text_report(const Report<D>& report, const std::string& scene_name) 
     if (pairs.size() > most_pairs)
         text += fmt::format("      and {} more pairs (--json lists them all)\n", pairs.size() - most_pairs);
     if (!pairs.empty()) text += "\n";
+    text += text_of(report.faults, report.level);
     for (const std::string& note : report.notes) text += "note: " + note + "\n";
     if (!report.notes.empty()) text += "\n";
     return text + summary(report, pairs.size()) + "\n" + verdict(report, pairs);

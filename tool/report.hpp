@@ -3,6 +3,7 @@
 // What `abut check` has to say.
 
 #include "check.hpp"
+#include "faults.hpp"
 
 #include <cstddef>
 #include <string>
@@ -14,6 +15,7 @@ struct Seconds {
     double read = 0;
     double build = 0;
     double check = 0;
+    double level = 0;  ///< spawns, gaps, duplicates and leaks
 };
 
 /// Everything a report is made of.
@@ -26,9 +28,11 @@ struct Report {
     Seconds seconds;
     bool has_baseline = false;
     std::size_t known = 0;  ///< findings left out because the baseline has them
+    LevelView<D> level;     ///< at the first moment
+    LevelFaults<D> faults;  ///< of that
 };
 
-/// For a person: the findings, worst first, what was looked at, and a verdict in the last line.
+/// For a person: the contacts, worst first, what else is at fault, what was looked at, and a verdict in the last line.
 template <int D>
 std::string text_report(const Report<D>& report, const std::string& scene_name);
 

@@ -1,5 +1,6 @@
 #include "report_json.hpp"
 
+#include "faults_report.hpp"
 #include "written.hpp"
 #include <abut/io/file_bytes.hpp>
 
@@ -26,7 +27,7 @@ Json contact(const Report<D>& report, const Finding<D>& finding) {
 }
 
 // A contact of a report, if it has what is needed.
-bool read_known(const nlohmann::json& json, KnownFinding& known) {
+bool read_known(const Json& json, KnownFinding& known) {
     if (!json.is_object()) return false;
     for (const char* key : {"a", "b", "frame", "last_frame", "distance"})
         if (!json.contains(key)) return false;
@@ -43,34 +44,39 @@ template <int D>
 std::string json_report(const Report<D>& report) {
     Json contacts = Json::array();
     for (const Finding<D>& finding : report.result.findings) contacts.push_back(contact(report, finding));
-    Json json = {
-        {"objects", report.objects.size()},
-        {"solids", report.objects.count_solids()},
-        {not_solids<D>, report.objects.size() - report.objects.count_solids()},
-        {"frames", report.times.size()},
-        {"pairs", report.result.tested},
-        {"possible_pairs", report.result.possible},
-        {"contacts", std::move(contacts)},
-        {"warnings", report.notes},
-        {"seconds", {{"read", report.seconds.read}, {"build", report.seconds.build}, {"check", report.seconds.check}}}};
-    if (report.has_baseline) json["known"] = report.known;
+    Json json = {{"objects", report.objects.size()},
+                 {"solids", report.objects.count_solids()},
+                 {not_solids<D>, report.objects.size() - report.objects.count_solids()},
+                 {"frames", report.times.size()},
+                 {"pairs", report.result.tested},
+                 {"possible_pairs", report.result.possible},
+                 {"contacts", std::move(contacts)},
+                 {"warnings", report.notes},
+                 {"seconds",
+                  {{"read", report.seconds.read},
+                   {"build", report.seconds.build},
+                   {"check", report.seconds.check},
+                   {"level", report.seconds.level}}}};
+    json.update(json_of(report.faults, report.level));
+    if (report.has_baseline) json["known"] = report.known + report.faults.known;
     return written(json);
 }
 template std::string json_report(const Report<2>& report);
 template std::string json_report(const Report<3>& report);
 
-Result<std::vector<KnownFinding>> read_baseline(const std::filesystem::path& file) {
+Result<Baseline> read_baseline(const std::filesystem::path& file) {
     const Result<std::vector<std::byte>> bytes = file_bytes(file);
     if (!bytes) return bytes.problem();
     const auto* text = reinterpret_cast<const char*>(bytes->data());
-    const nlohmann::json json = nlohmann::json::parse(text, text + bytes->size(), nullptr, false);
+    Json json = Json::parse(text, text + bytes->size(), nullptr, false);
     const Problem no_report{ProblemCode::bad_format, "is no report of `abut check --json`"};
     if (!json.is_object() || !json.contains("contacts") || !json["contacts"].is_array()) return no_report;
-    std::vector<KnownFinding> result;
-    for (const nlohmann::json& entry : json["contacts"])
-        if (!read_known(entry, result.emplace_back()))
+    Baseline result;
+    for (const Json& entry : json["contacts"])
+        if (!read_known(entry, result.contacts.emplace_back()))
             return Problem{ProblemCode::bad_format,
-                           no_report.message + ": contacts[" + std::to_string(result.size() - 1) + "]"};
+                           no_report.message + ": contacts[" + std::to_string(result.contacts.size() - 1) + "]"};
+    result.report = std::move(json);
     return result;
 }
 

@@ -3,6 +3,7 @@
 // The report as JSON, and what is to be known of an earlier one.
 
 #include "report.hpp"
+#include "written.hpp"
 #include <abut/math/result.hpp>
 
 #include <cstddef>
@@ -23,7 +24,13 @@ struct KnownFinding {
     double distance = 0;
 };
 
+/// An earlier report: its contacts, and all of it, where what else it found is looked up.
+struct Baseline {
+    std::vector<KnownFinding> contacts;
+    Json report = Json::object();
+};
+
 /// The findings of a file that `abut check --json` wrote. The message of a Problem doesn't name the file.
-Result<std::vector<KnownFinding>> read_baseline(const std::filesystem::path& file);
+Result<Baseline> read_baseline(const std::filesystem::path& file);
 
 }  // namespace abut::tool

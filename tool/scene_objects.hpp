@@ -34,6 +34,12 @@ public:
     using Shape = std::variant<Polyhedron, Mesh>;
     const Shape& shape(std::size_t object) const { return nodes_[object].shape; }
 
+    /// The triangles that it is made of, as they stand in the file; objects with the same model share them.
+    std::size_t model(std::size_t object) const { return nodes_[object].model; }
+    const Welded& surface(std::size_t object) const { return models_[model(object)].surface; }
+    /// From there into the world, at the moment that was asked for last.
+    const glm::dmat4& matrix(std::size_t object) const { return nodes_[object].matrix; }
+
 private:
     /// Triangles as they stand in the file: of one mesh, shared by all objects that are made of it.
     struct Model {

@@ -1,3 +1,4 @@
+#include "faults_report.hpp"
 #include "progress.hpp"
 #include "report.hpp"
 #include "report_json.hpp"
@@ -64,11 +65,19 @@ std::vector<std::string> notes_of(const File<D>& file, const Objects<D>& objects
     return notes;
 }
 
+// What is asked of contacts holds for the level's other faults too.
+FaultOptions fault_options(const CheckRequest& request) {
+    FaultOptions options = request.faults;
+    options.allow = request.options.allow;
+    options.pairs = request.options.pairs;
+    return options;
+}
+
 template <int D>
 Result<ExitCode> run(const CheckRequest& request) {
-    std::vector<KnownFinding> known;
+    Baseline known;
     if (request.baseline) {
-        Result<std::vector<KnownFinding>> read = read_baseline(*request.baseline);
+        Result<Baseline> read = read_baseline(*request.baseline);
         if (!read) return Problem{read.problem().code, *request.baseline + ": " + read.problem().message};
         known = *std::move(read);
     }
@@ -87,6 +96,12 @@ Result<ExitCode> run(const CheckRequest& request) {
     if (const std::optional<Problem> problem = build<D>(objects, times.front())) return with_file(*problem);
     seconds.build = watch.lap();
 
+    LevelView<D> level = level_view(*file, objects, times.front());
+    Result<LevelFaults<D>> faults = find_faults(level, fault_options(request));
+    if (!faults) return with_file(faults.problem());
+    drop_known(*faults, level, known.report);
+    seconds.level = watch.lap();
+
     Result<CheckResult<D>> result = [&] {
         Progress progress("checking");
         return check<D>(objects, times, request.options, progress);
@@ -94,16 +109,18 @@ Result<ExitCode> run(const CheckRequest& request) {
     if (!result) return with_file(result.problem());
     seconds.check = watch.lap();
 
-    const std::size_t dropped = drop_known<D>(result->findings, known, objects);
+    const std::size_t dropped = drop_known<D>(result->findings, known.contacts, objects);
     const Report<D> report{objects,
                            times,
                            *std::move(result),
                            notes_of<D>(*file, objects, times, request.frames.has_value()),
                            seconds,
                            request.baseline.has_value(),
-                           dropped};
+                           dropped,
+                           std::move(level),
+                           *std::move(faults)};
     return print(request.json ? json_report(report) : text_report(report, request.scene),
-                 report.result.findings.empty() ? fine : found);
+                 report.result.findings.empty() && report.faults.count() == 0 ? fine : found);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 // comes back as the one line for stderr, without the "abut: " before it.
 
 #include "check.hpp"
+#include "faults.hpp"
 #include "files.hpp"
 #include <abut/math/result.hpp>
 
@@ -22,6 +23,7 @@ struct CheckRequest {
     bool json = false;
     bool skip_degenerate = false;
     CheckOptions options;
+    FaultOptions faults;  ///< without what the other options tell as well
 };
 
 Result<ExitCode> run_check(const CheckRequest& request);

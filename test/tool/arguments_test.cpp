@@ -35,5 +35,29 @@ TEST(Arguments, Pairs) {
     for (const char* bad : {"", ":", "Player", "Player:", ":Wall", "a:b:c"}) EXPECT_FALSE(parse_pair(bad)) << bad;
 }
 
+TEST(Arguments, WhatLevelsAreCheckedWith) {
+    const Result<Character> character = parse_character("0.3,1.8");
+    ASSERT_TRUE(character);
+    EXPECT_EQ(character->radius, 0.3f);
+    EXPECT_EQ(character->height, 1.8f);
+    EXPECT_TRUE(parse_character("1,2"));
+    for (const char* bad : {"", "1", "1,1.9", "0,2", "-1,2", "1,2,3", "nan,2", "1,inf", "1,"})
+        EXPECT_FALSE(parse_character(bad)) << bad;
+
+    const Result<GapRange> gap = parse_gap("0.5");
+    ASSERT_TRUE(gap);
+    EXPECT_EQ(gap->width, 0.5f);
+    EXPECT_FLOAT_EQ(gap->least, 0.05f);
+    EXPECT_EQ(parse_gap("0,2")->least, 0);
+    for (const char* bad : {"", "0", "-1", "2,1", "1,1", "nan", "1,inf", ",1", "1,2,3"})
+        EXPECT_FALSE(parse_gap(bad)) << bad;
+
+    EXPECT_EQ(parse_up("-z")->axis, 2);
+    EXPECT_EQ(parse_up("-z")->sign, -1);
+    EXPECT_EQ(parse_up("x")->axis, 0);
+    EXPECT_LT(parse_up("none")->axis, 0);
+    for (const char* bad : {"", "w", "-", "y-", "--y", "up"}) EXPECT_FALSE(parse_up(bad)) << bad;
+}
+
 }  // namespace
 }  // namespace abut::tool

@@ -32,7 +32,8 @@ TEST_F(Tool, HelpAndVersion) {
     }
     const Ran check = run({"check", "--help"});
     EXPECT_EQ(check.code, 0);
-    for (const char* option : {"--clearance", "--allow", "--baseline", "--frames", "--pairs", "--json"})
+    for (const char* option : {"--clearance", "--allow", "--baseline", "--frames", "--pairs", "--json", "--spawn",
+                               "--character", "--up", "--gap", "--closed"})
         EXPECT_NE(check.out.find(option), std::string::npos) << option;
 }
 
@@ -224,6 +225,93 @@ TEST_F(Tool, FramesLookBetweenTheKeys) {
     EXPECT_EQ(json["contacts"][0]["deepest_time"], 0.5);
 }
 
+/// A crate to start in, a passage of 0.5, a crate that is there twice and an open one.
+std::string faulty_level() {
+    GltfBuilder builder;
+    const int box = builder.add_mesh("Box", box_triangles({0.5f, 0.5f, 0.5f}));
+    test::Triangles open = box_triangles({0.5f, 0.5f, 0.5f});
+    open.triangles.pop_back();
+    builder.add_node("A", box, {0, 0.5f, 0});
+    builder.add_node("B", box, {1.5f, 0.5f, 0});
+    builder.add_node("B copy", box, {1.5f, 0.5f, 0});
+    builder.add_node("Open", builder.add_mesh("Open", open), {9, 0.5f, 0});
+    builder.add_node("Spawn", ",\"translation\":[0.25,0.25,0]");
+    return builder.text();
+}
+
+TEST_F(Tool, TellsSpawnsGapsDuplicatesAndLeaks) {
+    const std::string file = write("level.gltf", faulty_level()).string();
+    const Json json = checked({file, "--gap", "0.7", "--closed", "Open"}, 1);
+    EXPECT_EQ(json["spawn_points"], 1);
+    ASSERT_EQ(json["spawns"].size(), 1u);
+    EXPECT_EQ(json["spawns"][0]["name"], "Spawn");
+    EXPECT_EQ(json["spawns"][0]["fault"], "inside");
+    EXPECT_EQ(json["spawns"][0]["object"], "A");
+    EXPECT_NEAR(json["spawns"][0]["depth"].get<double>(), 0.25, 1e-6);
+    EXPECT_EQ(json["spawns"][0]["free"].size(), 3u);
+    ASSERT_GE(json["gaps"].size(), 1u);
+    EXPECT_EQ(json["gaps"][0]["a"], "A");
+    EXPECT_NEAR(json["gaps"][0]["width"].get<double>(), 0.5, 1e-6);
+    EXPECT_EQ(json["gaps"][0]["points"].size(), 2u);
+    ASSERT_EQ(json["duplicates"].size(), 1u);
+    EXPECT_EQ(json["duplicates"][0]["objects"], Json({"B", "B copy"}));
+    ASSERT_EQ(json["leaks"].size(), 1u);
+    EXPECT_EQ(json["leaks"][0]["object"], "Open");
+    EXPECT_EQ(json["leaks"][0]["kind"], "hole");
+    EXPECT_EQ(json["leaks"][0]["edges"], 3);
+    EXPECT_EQ(json["contacts"].size(), 1u) << "what is there twice touches, as it always did";
+
+    const Ran text = run({"check", file, "--gap", "0.7", "--closed", "O*"});
+    for (const char* part : {"spawns\n", "gaps narrower than 0.7\n", "duplicates\n", "leaks\n", "again as B copy",
+                             "is 0.25 deep in A; free at", "0.5 wide at", "a hole of 3 edges",
+                             "FAULTS FOUND: 1 pair collides, 1 spawn is no place to be"})
+        EXPECT_NE(text.out.find(part), std::string::npos) << part << " in\n" << text.out;
+
+    // Somebody as wide as that looks for the same passages.
+    EXPECT_EQ(checked({file, "--character", "0.35,1"}, 1)["gaps"], json["gaps"]);
+    EXPECT_EQ(checked({file}, 1)["gaps"].size(), 0u);
+}
+
+TEST_F(Tool, LevelFaultsAloneAreFoundToo) {
+    const std::string file = write("open.gltf",
+                                   [] {
+                                       GltfBuilder builder;
+                                       test::Triangles open = box_triangles({1, 1, 1});
+                                       open.triangles.pop_back();
+                                       builder.add_node("Open", builder.add_mesh("Open", open));
+                                       return builder.text();
+                                   }())
+                                 .string();
+    const Json json = checked({file, "--closed", "Open"}, 1);
+    EXPECT_EQ(json["leaks"].size(), 1u);
+    EXPECT_EQ(json["contacts"].size(), 0u);
+    // What a baseline has isn't told again.
+    const std::string old = write("old.json", json.dump()).string();
+    EXPECT_EQ(checked({file, "--closed", "Open", "--baseline", old}, 0)["known"], 1);
+}
+
+TEST_F(Tool, AskedForPairsItTellsNothingElse) {
+    const std::string file = write("level.gltf", faulty_level()).string();
+    const Json json = checked({file, "--gap", "0.7", "--pairs", "A:B"}, 1);
+    EXPECT_EQ(json["gaps"].size(), 1u);
+    for (const char* kind : {"contacts", "spawns", "duplicates", "leaks"}) EXPECT_EQ(json[kind].size(), 0u) << kind;
+    const Json asked = checked({file, "--pairs", "A:Open", "--closed", "Open", "--spawn", "Sp*"}, 1);
+    EXPECT_EQ(asked["leaks"].size(), 1u);
+    EXPECT_EQ(asked["spawns"].size(), 1u);
+}
+
+TEST_F(Tool, BadUsageOfLevelChecksIsRefused) {
+    const std::string file = write("level.gltf", faulty_level()).string();
+    EXPECT_EQ(refusal({"check", file, "--spawn", "Nobody"}), "abut: " + file + ": --spawn: nothing is named 'Nobody'");
+    EXPECT_EQ(refusal({"check", file, "--closed", "Spawn"}),
+              "abut: " + file + ": --closed: no object is named 'Spawn'");
+    EXPECT_EQ(refusal({"check", file, "--character", "1"}),
+              "abut: --character: '1' is not a radius above 0 and a height of at least twice as much: RADIUS,HEIGHT");
+    EXPECT_EQ(refusal({"check", file, "--gap", "0"}),
+              "abut: --gap: '0' is not a width above 0, or two of which the second is greater: LEAST,WIDTH");
+    EXPECT_EQ(refusal({"check", file, "--up", "w"}), "abut: --up: 'w' is not one of x, -x, y, -y, z, -z and none");
+}
+
 TEST_F(Tool, InfoTellsWhatIsThere) {
     GltfBuilder builder;
     builder.add_node("Crate", builder.add_mesh("Box", box_triangles({1, 2, 3})));
@@ -266,6 +354,13 @@ TEST_F(Tool, FindsTheFaultsOfTheBundledLevel) {
         EXPECT_NEAR((*found)["last_time"].get<double>(), fault["to"].get<double>(), 1e-6) << fault;
         EXPECT_NEAR((*found)["distance"].get<double>(), -fault["depth"].get<double>(), 0.005) << fault;
     }
+    ASSERT_EQ(json["spawns"].size(), 1u);
+    EXPECT_EQ(json["spawns"][0]["name"], "Level/Player_Starts/Player_Start_2");
+    EXPECT_EQ(json["spawns"][0]["object"], "Level/Yard/Boulder");
+    EXPECT_EQ(json["duplicates"].size(), 6u) << "a chair of six parts";
+    ASSERT_EQ(json["leaks"].size(), 1u);
+    EXPECT_EQ(json["leaks"][0]["object"], "Level/Yard/Tank");
+    EXPECT_EQ(json["leaks"][0]["edges"], 4);
 }
 
 }  // namespace

@@ -1,0 +1,156 @@
+#include "mesh_border.hpp"
+
+#include "groups.hpp"
+#include <abut/broad_phase/bvh.hpp>
+#include <abut/math/dvec.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <tuple>
+#include <utility>
+
+namespace abut::tool {
+namespace {
+
+// Runs of elements that are equal in a key.
+template <class T, class Key, class Visit>
+void each_run(const std::vector<T>& sorted, Key key, Visit visit) {
+    for (std::size_t begin = 0; begin < sorted.size();) {
+        std::size_t end = begin + 1;
+        while (end < sorted.size() && key(sorted[end]) == key(sorted[begin])) ++end;
+        visit(begin, end);
+        begin = end;
+    }
+}
+
+std::pair<std::uint32_t, std::uint32_t> ends_of(const BorderEdge& edge) {
+    return edge.ends();
+}
+
+void sort_by_ends(std::vector<BorderEdge>& edges) {
+    std::sort(edges.begin(), edges.end(), [](const BorderEdge& a, const BorderEdge& b) {
+        return std::tuple(ends_of(a), a.triangle, a.from) < std::tuple(ends_of(b), b.triangle, b.from);
+    });
+}
+
+std::vector<std::uint32_t> without_doubles(const std::vector<Surface<3>::Facet>& facets) {
+    std::vector<std::pair<Surface<3>::Facet, std::uint32_t>> all;
+    for (std::uint32_t i = 0; i < facets.size(); ++i) {
+        all.emplace_back(facets[i], i);
+        std::sort(all.back().first.begin(), all.back().first.end());
+    }
+    std::sort(all.begin(), all.end());
+    std::vector<std::uint32_t> result;
+    each_run(
+        all, [](const auto& entry) { return entry.first; },
+        [&](std::size_t begin, std::size_t) { result.push_back(all[begin].second); });
+    std::sort(result.begin(), result.end());
+    return result;
+}
+
+// The points of a border, with a tree of their places.
+class BorderPoints {
+public:
+    BorderPoints(const Surface<3>& surface, const std::vector<BorderEdge>& border, float tolerance)
+        : surface_(surface), tolerance_(tolerance) {
+        for (const BorderEdge& edge : border) points_.insert(points_.end(), {edge.from, edge.to});
+        std::sort(points_.begin(), points_.end());
+        points_.erase(std::unique(points_.begin(), points_.end()), points_.end());
+        std::vector<Aabb3> boxes;
+        for (const std::uint32_t point : points_) boxes.push_back({surface.points[point], surface.points[point]});
+        tree_.build(boxes);
+        Groups groups(points_.size());
+        for (std::uint32_t i = 0; i < points_.size(); ++i)
+            tree_.each_overlapping(grown(boxes[i], tolerance), [&](std::uint32_t j) {
+                if (length(place(points_[i]) - place(points_[j])) <= static_cast<double>(tolerance)) groups.join(i, j);
+            });
+        for (std::size_t i = 0; i < points_.size(); ++i) stands_for_.push_back(points_[groups.lowest(i)]);
+    }
+
+    /// The point that stands for this one and all that are as good as at its place.
+    std::uint32_t operator[](std::uint32_t point) const {
+        const auto found = std::lower_bound(points_.begin(), points_.end(), point);
+        return stands_for_[static_cast<std::size_t>(found - points_.begin())];
+    }
+
+    /// The points that lie on an edge, but for its ends, from one to the other.
+    std::vector<std::uint32_t> on(std::uint32_t from, std::uint32_t to) const {
+        const DVec<3> start = place(from), way = place(to) - start;
+        const Aabb3 box = merged(Aabb3{surface_.points[from], surface_.points[from]},
+                                 Aabb3{surface_.points[to], surface_.points[to]});
+        std::vector<std::pair<double, std::uint32_t>> found;
+        tree_.each_overlapping(grown(box, tolerance_), [&](std::uint32_t i) {
+            const std::uint32_t point = points_[i];
+            if (stands_for_[i] != point || point == from || point == to) return;
+            const DVec<3> to_point = place(point) - start;
+            const double fraction = dot(to_point, way) / dot(way, way);
+            if (fraction > 0 && fraction < 1 && length(to_point - way * fraction) <= static_cast<double>(tolerance_))
+                found.emplace_back(fraction, point);
+        });
+        std::sort(found.begin(), found.end());
+        std::vector<std::uint32_t> result;
+        for (const auto& [fraction, point] : found) result.push_back(point);
+        return result;
+    }
+
+private:
+    DVec<3> place(std::uint32_t point) const { return DVec<3>(surface_.points[point]); }
+
+    const Surface<3>& surface_;
+    float tolerance_;
+    std::vector<std::uint32_t> points_, stands_for_;
+    Bvh<3> tree_;
+};
+
+}  // namespace
+
+EdgesOfSurface edges_of(const Surface<3>& surface) {
+    EdgesOfSurface result;
+    result.triangles = without_doubles(surface.facets);
+    std::vector<BorderEdge> all;
+    for (const std::uint32_t triangle : result.triangles)
+        for (std::size_t side = 0; side < 3; ++side) {
+            const auto& corners = surface.facets[triangle];
+            all.push_back({corners[side], corners[(side + 1) % 3], triangle});
+        }
+    sort_by_ends(all);
+    each_run(all, ends_of, [&](std::size_t begin, std::size_t end) {
+        const BorderEdge &first = all[begin], &second = all[end - 1];
+        if (end - begin == 1) {
+            result.border.push_back(first);
+        } else if (end - begin == 2) {
+            result.shared.push_back({first.triangle, second.triangle, first.from != second.from});
+        } else {
+            const auto upwards = std::count_if(all.begin() + static_cast<std::ptrdiff_t>(begin),
+                                               all.begin() + static_cast<std::ptrdiff_t>(end),
+                                               [](const BorderEdge& edge) { return edge.from < edge.to; });
+            if (2 * static_cast<std::size_t>(upwards) != end - begin) result.crowded.push_back(first);
+        }
+    });
+    return result;
+}
+
+MendedBorder mended(const Surface<3>& surface, const std::vector<BorderEdge>& border, float tolerance) {
+    const BorderPoints points(surface, border, tolerance);
+    std::vector<BorderEdge> pieces;
+    for (const BorderEdge& edge : border) {
+        std::uint32_t from = points[edge.from];
+        const std::uint32_t to = points[edge.to];
+        if (from == to) continue;
+        for (const std::uint32_t between : points.on(from, to)) {
+            pieces.push_back({from, between, edge.triangle});
+            from = between;
+        }
+        pieces.push_back({from, to, edge.triangle});
+    }
+    sort_by_ends(pieces);
+    MendedBorder result;
+    each_run(pieces, ends_of, [&](std::size_t begin, std::size_t end) {
+        std::vector<BorderEdge>& to = end - begin == 1 ? result.open : result.cracked;
+        to.insert(to.end(), pieces.begin() + static_cast<std::ptrdiff_t>(begin),
+                  pieces.begin() + static_cast<std::ptrdiff_t>(end));
+    });
+    return result;
+}
+
+}  // namespace abut::tool
