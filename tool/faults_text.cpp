@@ -166,7 +166,10 @@ std::vector<std::string> verdicts_of(const LevelFaults<D>& faults) {
     add(faults.spawns.size(), "spawn is no place to be", "spawns are no places to be");
     add(faults.gaps.size(), "passage is too narrow", "passages are too narrow");
     add(faults.duplicates.groups.size(), "object is there again", "objects are there again");
-    add(faults.duplicates.facets.size(), "mesh has doubled triangles", "meshes have doubled triangles");
+    if (D == 3)
+        add(faults.duplicates.facets.size(), "mesh has doubled triangles", "meshes have doubled triangles");
+    else
+        add(faults.duplicates.facets.size(), "object has doubled segments", "objects have doubled segments");
     add(faults.leaks.size(), "leak", "leaks");
     return result;
 }

@@ -2,6 +2,7 @@
 
 #include "groups.hpp"
 #include <abut/abut.hpp>
+#include <abut/math/dvec.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -63,8 +64,7 @@ std::vector<Edge> edges_of(const View<2>& shape) {
     return edges;
 }
 
-// The edges with corners that they share; of those that run both ways between two corners none, for both sides of
-// these are the shape.
+// The edges with corners that they share.
 class Outline {
 public:
     Outline(const std::vector<Edge>& edges, float tolerance) {
@@ -89,6 +89,8 @@ public:
         find_inner(edges);
     }
 
+    /// Of those of parts with an area that run both ways between two corners all are inner, for both sides of these are
+    /// the shape; of those that run one way all but one.
     bool is_inner(std::size_t edge) const { return ends_[edge][0] == ends_[edge][1] || inner_[edge]; }
     const Surface<2>::Facet& ends(std::size_t edge) const { return ends_[edge]; }
 
@@ -105,7 +107,7 @@ private:
         for (std::size_t begin = 0, end = 0; begin < areas.size(); begin = end) {
             while (end < areas.size() && std::get<0>(areas[end]) == std::get<0>(areas[begin])) ++end;
             const bool both_ways = std::get<1>(areas[begin]) != std::get<1>(areas[end - 1]);
-            for (std::size_t i = begin; both_ways && i < end; ++i) inner_[std::get<2>(areas[i])] = true;
+            for (std::size_t i = both_ways ? begin : begin + 1; i < end; ++i) inner_[std::get<2>(areas[i])] = true;
         }
     }
 
@@ -113,30 +115,77 @@ private:
     std::vector<bool> inner_;
 };
 
-// Whether there is nothing of the shape beside an edge, in the middle of it.
-class Beside {
-public:
-    explicit Beside(const View<2>& shape) : shape_(shape) {}
+std::vector<Edge> without_inner(const std::vector<Edge>& edges, float tolerance) {
+    const Outline outline(edges, tolerance);
+    std::vector<Edge> result;
+    for (std::size_t i = 0; i < edges.size(); ++i)
+        if (!outline.is_inner(i)) result.push_back(edges[i]);
+    return result;
+}
 
-    bool is_free(const Edge& edge, float fraction, float side) const {
-        const Vec2 along = edge.to - edge.from, right(along.y, -along.x);
-        const float most = largest_coordinate(merged(Aabb2{edge.from, edge.from}, Aabb2{edge.to, edge.to}));
-        const float away =
-            std::max(beside * edge.length(), least_ulps_beside * std::numeric_limits<float>::epsilon() * most);
-        return !contains(shape_, edge.from + fraction * along + right * (side * away / edge.length()));
+// Where an edge meets the ends of another one, or crosses it: fractions of its length.
+void add_cuts(const Edge& edge, const Edge& other, double tolerance, std::vector<double>& cuts) {
+    const DVec<2> from(edge.from), along = DVec<2>(edge.to) - from;
+    const DVec<2> other_from(other.from), other_along = DVec<2>(other.to) - other_from;
+    const double length = abut::length(along);
+    for (const DVec<2>& end : {other_from, DVec<2>(other.to)})
+        if (std::abs(cross(along, end - from)) <= tolerance * length)
+            cuts.push_back(dot(end - from, along) / (length * length));
+    const double turned = cross(along, other_along);
+    if (turned == 0) return;
+    const double on_other = cross(other_from - from, along) / turned;
+    if (on_other > 0 && on_other < 1) cuts.push_back(cross(other_from - from, other_along) / turned);
+}
+
+// What runs along others, or through them, in pieces that have the same on each of their sides all along.
+std::vector<Edge> cut(const std::vector<Edge>& edges, float tolerance) {
+    std::vector<Aabb2> boxes;
+    for (const Edge& edge : edges)
+        boxes.push_back(grown(merged(Aabb2{edge.from, edge.from}, Aabb2{edge.to, edge.to}), tolerance));
+    Bvh<2> tree;
+    tree.build(boxes);
+    std::vector<std::vector<double>> cuts(edges.size());
+    tree.each_pair([&](std::uint32_t i, std::uint32_t j) {
+        add_cuts(edges[i], edges[j], static_cast<double>(tolerance), cuts[i]);
+        add_cuts(edges[j], edges[i], static_cast<double>(tolerance), cuts[j]);
+    });
+    std::vector<Edge> pieces;
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        const Edge& edge = edges[i];
+        const double least = static_cast<double>(tolerance / edge.length());
+        std::sort(cuts[i].begin(), cuts[i].end());
+        double begin = 0;
+        Vec2 from = edge.from;
+        for (const double fraction : cuts[i]) {
+            if (!(fraction > begin + least) || !(fraction < 1 - least)) continue;
+            const DVec<2> start(edge.from);
+            const Vec2 to(start + (DVec<2>(edge.to) - start) * fraction);
+            pieces.push_back({from, to, edge.is_line});
+            from = to;
+            begin = fraction;
+        }
+        pieces.push_back({from, edge.to, edge.is_line});
     }
+    return pieces;
+}
 
-private:
-    const View<2>& shape_;
-};
+// Whether the middle of one of the sides of an edge, its right one or with -1 its left one, isn't in the shape.
+bool is_free(const View<2>& shape, const Edge& edge, float side) {
+    const Vec2 along = edge.to - edge.from, right(along.y, -along.x);
+    const float most = largest_coordinate(merged(Aabb2{edge.from, edge.from}, Aabb2{edge.to, edge.to}));
+    const float away =
+        std::max(beside * edge.length(), least_ulps_beside * std::numeric_limits<float>::epsilon() * most);
+    return !contains(shape, edge.from + 0.5f * along + right * (side * away / edge.length()));
+}
 
 }  // namespace
 
 Surface<2> surface_of(const View<2>& shape, bool filled) {
-    const std::vector<Edge> edges = edges_of(shape);
-    Outline outline(edges, ulps_apart * std::numeric_limits<float>::epsilon() * largest_coordinate(bounds(shape)));
+    const float tolerance = ulps_apart * std::numeric_limits<float>::epsilon() * largest_coordinate(bounds(shape));
     const bool is_convex = std::holds_alternative<Convex<2>>(shape);
-    const Beside beside_edge(shape);
+    std::vector<Edge> edges = edges_of(shape);
+    if (filled && !is_convex) edges = cut(without_inner(edges, tolerance), tolerance);
+    Outline outline(edges, tolerance);
     Surface<2> surface;
     const auto add = [&](const Surface<2>::Facet& facet, bool two_sided) {
         surface.facets.push_back(facet);
@@ -146,13 +195,9 @@ Surface<2> surface_of(const View<2>& shape, bool filled) {
         if (outline.is_inner(i)) continue;
         const Edge& edge = edges[i];
         const auto [from, to] = outline.ends(i);
-        if (!edge.is_line) {
-            const auto is_free = [&](float fraction) { return beside_edge.is_free(edge, fraction, 1); };
-            if (is_convex || is_free(0.5f) || is_free(0.25f) || is_free(0.75f)) add({from, to}, false);
-            continue;
-        }
-        const bool right = !filled || beside_edge.is_free(edge, 0.5f, 1);
-        const bool left = !filled || beside_edge.is_free(edge, 0.5f, -1);
+        const bool is_open = edge.is_line && !filled;
+        const bool right = is_open || is_convex || is_free(shape, edge, 1);
+        const bool left = is_open || (edge.is_line && is_free(shape, edge, -1));
         if (right) add({from, to}, left);
         if (left && !right) add({to, from}, false);
     }

@@ -49,27 +49,32 @@ void describe(CLI::App& verb, CheckArguments& arguments) {
         ->type_name("A:B")
         ->allow_extra_args(false);
     verb.add_option("--spawn", arguments.request.faults.spawns,
-                    "Where characters enter: nodes, path or name, with * and ?. Without it those with 'spawn' or "
-                    "'player_start' in their name, in capitals or not")
+                    "Where characters enter: nodes or points by path, name or class, with * and ?. Without it those "
+                    "with 'spawn' or 'player_start' in their name or class, in capitals or not")
         ->type_name("PATTERN")
         ->allow_extra_args(false);
     verb.add_option("--character", arguments.character,
-                    "A standing capsule, its lowest point at the spawn: it must have room there, and pass everywhere")
+                    "A standing capsule, its lowest point at the spawn; where nothing is up, a ball around it. It must "
+                    "have room there, and pass everywhere")
         ->type_name("RADIUS,HEIGHT");
-    verb.add_option("--up", arguments.up, "Which way it stands: x, -x, y, -y, z, -z or none; y where nobody says")
+    verb.add_option(
+            "--up", arguments.up,
+            "Which way it stands: x, -x, y, -y, z, -z or none. Without it y in 3D, and none in 2D; a level seen "
+            "from the side has -y, as y points down in its file")
         ->type_name("AXIS");
     verb.add_option("--gap", arguments.gap,
                     "Report passages narrower than WIDTH, and wider than LEAST, a tenth of it if left out; without it "
                     "what a --character doesn't fit through")
         ->type_name("[LEAST,]WIDTH");
     verb.add_option("--closed", arguments.request.faults.closed,
-                    "Objects whose meshes are to have no hole at all; without it, small holes of all are reported")
+                    "In 3D, objects whose meshes are to have no hole at all; without it, small holes of all are "
+                    "reported")
         ->type_name("PATTERN")
         ->allow_extra_args(false);
     verb.footer(
         "Of the first moment it also tells spawns that are inside of something, under a ground or above nothing; "
-        "passages that are too narrow (--gap); objects and triangles that are there twice; and leaks: holes, cracks, "
-        "edges of three triangles, triangles that face the wrong way. --pairs leaves of these only gaps and doubled "
+        "passages that are too narrow (--gap); what is there twice; and in 3D leaks: holes, cracks, edges of three "
+        "triangles, triangles that face the wrong way. --pairs leaves of these only gaps and doubled "
         "objects, and what --spawn and --closed ask for.");
     verb.add_flag("--json", arguments.request.json, "One JSON object in place of text");
     verb.add_flag("--skip-degenerate", arguments.request.skip_degenerate, "Leave out triangles of zero area");

@@ -36,6 +36,8 @@ TEST_F(ToolOnLevels, CheckFindsTheFaultsOfTheBundledLevel) {
         EXPECT_EQ(json["solids"], 6);
         EXPECT_EQ(json["composites"], 2);
         EXPECT_EQ(json["frames"], 1);
+        EXPECT_EQ(json["spawn_points"], 1);
+        for (const char* none : {"spawns", "gaps", "duplicates", "leaks"}) EXPECT_TRUE(json[none].empty()) << none;
         ASSERT_EQ(json["contacts"].size(), 2u) << json["contacts"];
         const Json &barrel = json["contacts"][0], &crate = json["contacts"][1];
         EXPECT_EQ(barrel["a"], "Things/Barrel");
@@ -99,6 +101,102 @@ TEST_F(ToolOnLevels, CheckKnowsTheInsideOfWhatIsNotConvex) {
     const Json walled = json_of({"check", hole}, 1);
     ASSERT_EQ(walled["contacts"].size(), 1u) << walled;
     EXPECT_EQ(walled["contacts"][0]["a"], "in the wall");
+}
+
+// A room of tiles with a wall across it, in which there is a door of 8, and the objects that are given.
+std::string room_with(const std::string& objects) {
+    return "<map orientation='orthogonal' width='6' height='4' tilewidth='16' tileheight='16'><tileset firstgid='1' "
+           "tilewidth='16' tileheight='16' tilecount='2'><tile id='0'><objectgroup><object width='16' height='16'/>"
+           "</objectgroup></tile><tile id='1'><objectgroup><object width='16' "
+           "height='8'/></objectgroup></tile></tileset>"
+           "<layer name='Walls' width='6' height='4'><data encoding='csv'>1,1,1,1,1,1,1,0,1,0,0,1,1,0,2,0,0,1,1,1,1,1,"
+           "1,1</data></layer><objectgroup name='Things'>" +
+           objects + "</objectgroup></map>";
+}
+std::string point(const std::string& name, const std::string& type, int x, int y) {
+    return "<object name='" + name + "' type='" + type + "' x='" + std::to_string(x) + "' y='" + std::to_string(y) +
+           "'><point/></object>";
+}
+
+TEST_F(ToolOnLevels, CheckTellsSpawnsInWalls) {
+    // Free, in a wall, too near to one for somebody who isn't a point, and no spawn.
+    const std::string points = point("a", "spawn", 24, 32) + point("Player_Start 2", "", 40, 20) +
+                               point("c", "enemy spawn", 24, 20) + point("exit", "", 40, 20);
+    const std::string file = write("room.tmx", room_with(points)).string();
+    const Json json = json_of({"check", file}, 1);
+    EXPECT_EQ(json["spawn_points"], 3);
+    ASSERT_EQ(json["spawns"].size(), 1u) << json["spawns"];
+    EXPECT_EQ(json["spawns"][0]["name"], "Things/Player_Start 2");
+    EXPECT_EQ(json["spawns"][0]["fault"], "inside");
+    EXPECT_EQ(json["spawns"][0]["object"], "Walls");
+    EXPECT_EQ(json["spawns"][0]["position"], Json({40.0, 20.0}));
+    const Json wide = json_of({"check", file, "--character", "6,12", "--gap", "1"}, 1);
+    ASSERT_EQ(wide["spawns"].size(), 2u) << wide["spawns"];
+    EXPECT_EQ(wide["spawns"][1]["name"], "Things/c");
+    EXPECT_NEAR(wide["spawns"][1]["depth"].get<double>(), 2, 1e-4);
+    EXPECT_NEAR(wide["spawns"][1]["free"][1].get<double>(), 22, 0.1);
+    // By class, by name; and an up that y doesn't have.
+    EXPECT_EQ(json_of({"check", file, "--spawn", "exit"}, 1)["spawns"].size(), 1u);
+    EXPECT_EQ(json_of({"check", file, "--spawn", "enemy*"}, 0)["spawn_points"], 1);
+    EXPECT_EQ(refusal({"check", file, "--spawn", "nobody"}), "abut: " + file + ": --spawn: nothing is named 'nobody'");
+    EXPECT_EQ(refusal({"check", file, "--up", "z"}), "abut: " + file + ": --up: a map of the plane has no such axis");
+    EXPECT_EQ(refusal({"check", file, "--closed", "Walls"}),
+              "abut: " + file + ": --closed: leaks are looked for in scenes of space alone");
+}
+
+TEST_F(ToolOnLevels, CheckTellsSpawnsUnderTheGround) {
+    // Where up is -y the lowest point of the character is at the spawn, and below it nothing but the ground.
+    const std::string objects = "<object name='ground' x='0' y='40' width='90' height='10'/>";
+    const std::string file = write("ground.tmx", map_of(objects + point("spawn", "", 20, 40))).string();
+    json_of({"check", file, "--character", "3,10", "--up", "-y"}, 0);
+    EXPECT_EQ(json_of({"check", file, "--character", "3,10"}, 1)["spawns"].size(), 1u) << "seen from above";
+    const std::string below = write("below.tmx", map_of(objects + point("spawn", "", 20, 80))).string();
+    const Json json = json_of({"check", below, "--character", "3,10", "--up", "-y"}, 1);
+    ASSERT_EQ(json["spawns"].size(), 1u);
+    EXPECT_EQ(json["spawns"][0]["fault"], "no ground");
+}
+
+TEST_F(ToolOnLevels, CheckTellsPassagesThatAreTooNarrow) {
+    const std::string file = write("room.tmx", room_with("")).string();
+    const Json json = json_of({"check", file, "--gap", "12"}, 1);
+    ASSERT_EQ(json["gaps"].size(), 1u) << json["gaps"];
+    EXPECT_EQ(json["gaps"][0]["a"], "Walls");
+    EXPECT_EQ(json["gaps"][0]["b"], "Walls");
+    EXPECT_NEAR(json["gaps"][0]["width"].get<double>(), 8, 1e-5);
+    EXPECT_NEAR(json["gaps"][0]["position"][0].get<double>(), 40, 1e-4);
+    EXPECT_NEAR(json["gaps"][0]["position"][1].get<double>(), 44, 1e-4);
+    json_of({"check", file, "--character", "3.9,8"}, 0);
+    const Ran ran = run({"check", file, "--character", "5,10"});
+    for (const char* line : {"gaps narrower than 10\n   1. within Walls\n        8 wide at (40, 44)\n",
+                             "FAULTS FOUND: 1 passage is too narrow\n"})
+        EXPECT_NE(ran.out.find(line), std::string::npos) << line << ran.out;
+    // Between curved things, by the distance between them.
+    const std::string drawing =
+        write("two.svg", "<svg><circle id='a' cx='0' cy='0' r='9'/><circle id='b' cx='20' cy='0' r='9'/></svg>")
+            .string();
+    const Json round = json_of({"check", drawing, "--gap", "3"}, 1);
+    ASSERT_EQ(round["gaps"].size(), 1u);
+    EXPECT_NEAR(round["gaps"][0]["width"].get<double>(), 2, 4 * 18e-4);
+}
+
+TEST_F(ToolOnLevels, CheckTellsWhatIsThereTwice) {
+    const std::string rope = "<object name='rope' x='60' y='20'><polyline points='0,0 4,9 2,20'/></object>";
+    const std::string file =
+        write("twice.tmx", map_of(box("a", "0") + box("b", "20") + box("a again", "0") + rope + rope)).string();
+    const Json json = json_of({"check", file}, 1);
+    ASSERT_EQ(json["duplicates"].size(), 2u) << json["duplicates"];
+    EXPECT_EQ(json["duplicates"][0]["objects"], Json({"L/a", "L/a again"}));
+    EXPECT_EQ(json["duplicates"][0]["apart"], 0.0);
+    EXPECT_EQ(json["duplicates"][1]["objects"].size(), 2u);
+    EXPECT_TRUE(json["leaks"].empty());
+    const std::string old = write("old.json", run({"check", "--json", file}).out).string();
+    EXPECT_EQ(json_of({"check", file, "--baseline", old}, 0)["duplicates"].size(), 0u);
+    const std::string there_and_back =
+        write("back.svg", "<svg><path id='p' fill='none' d='M0 0L9 0L0 0L5 5'/></svg>").string();
+    const Ran ran = run({"check", there_and_back});
+    EXPECT_NE(ran.out.find("1 segment is there again, the first is number 1, at (4.5, 0)"), std::string::npos)
+        << ran.out;
+    EXPECT_NE(ran.out.find("FAULTS FOUND: 1 object has doubled segments"), std::string::npos) << ran.out;
 }
 
 TEST_F(ToolOnLevels, CastInTheFilesOwnCoordinates) {
