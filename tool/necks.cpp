@@ -180,19 +180,22 @@ Neck<D> NeckSearch<D>::neck_of(const std::vector<std::size_t>& group) const {
         cloud.insert(cloud.end(), patch.facing.middles.begin(), patch.facing.middles.end());
         free.insert(free.end(), patch.free.begin(), patch.free.end());
     }
-    const Patch<D>& first = patches_[group.front()];
+    const Patch<D>& narrowest =
+        patches_[*std::min_element(group.begin(), group.end(), [&](std::size_t i, std::size_t j) {
+            return patches_[i].facing.width < patches_[j].facing.width;
+        })];
     const DVec<D> middle = total > 0 ? weighted / total : plain / static_cast<double>(group.size());
-    Neck<D> neck{facets_[first.a].object,
-                 facets_[first.b].object,
-                 first.facing.across,
-                 first.facing.width,
+    Neck<D> neck{facets_[narrowest.a].object,
+                 facets_[narrowest.b].object,
+                 narrowest.facing.across,
+                 narrowest.facing.width,
                  middle,
-                 axes_of(cloud, middle, first.facing.across)};
+                 axes_of(cloud, middle, narrowest.facing.across)};
     // In the very middle there may be something else, or nothing on both sides.
     const double half = 0.5 * neck.width;
     const auto is_neck = [&](const DVec<D>& place) {
         return facets_.has_within(place - neck.across * half, slack * neck.width) &&
-               facets_.has_within(place + neck.across * half, slack * neck.width) && is_free(place, first);
+               facets_.has_within(place + neck.across * half, slack * neck.width) && is_free(place, narrowest);
     };
     if (is_neck(middle)) return neck;
     const auto nearer = [&](const DVec<D>& a, const DVec<D>& b) {
