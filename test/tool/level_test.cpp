@@ -154,6 +154,13 @@ TEST_F(ToolOnLevels, CheckTellsSpawnsUnderTheGround) {
     const Json json = json_of({"check", below, "--character", "3,10", "--up", "-y"}, 1);
     ASSERT_EQ(json["spawns"].size(), 1u);
     EXPECT_EQ(json["spawns"][0]["fault"], "no ground");
+    // A line overhead is no ground from below, whichever way it is drawn.
+    for (const char* ends : {"0,0 40,0", "40,0 0,0"}) {
+        const std::string rope =
+            "<object name='rope' x='0' y='10'><polyline points='" + std::string(ends) + "'/></object>";
+        const std::string under = write("under.tmx", map_of(objects + rope + point("spawn", "", 20, 40))).string();
+        json_of({"check", under, "--character", "3,10", "--up", "-y"}, 0);
+    }
 }
 
 TEST_F(ToolOnLevels, CheckTellsPassagesThatAreTooNarrow) {
@@ -170,6 +177,12 @@ TEST_F(ToolOnLevels, CheckTellsPassagesThatAreTooNarrow) {
     for (const char* line : {"gaps narrower than 10\n   1. within Walls\n        8 wide at (40, 44)\n",
                              "FAULTS FOUND: 1 passage is too narrow\n"})
         EXPECT_NE(ran.out.find(line), std::string::npos) << line << ran.out;
+    // Lines are met from both sides, whichever way they are drawn.
+    for (const char* way : {"M0 0H40", "M40 0H0"}) {
+        const std::string lines =
+            "<svg><g fill='none'><path d='" + std::string(way) + "'/><path d='M40 5H0'/></g></svg>";
+        EXPECT_EQ(json_of({"check", write("lines.svg", lines).string(), "--gap", "8"}, 1)["gaps"].size(), 1u) << way;
+    }
     // Between curved things, by the distance between them.
     const std::string drawing =
         write("two.svg", "<svg><circle id='a' cx='0' cy='0' r='9'/><circle id='b' cx='20' cy='0' r='9'/></svg>")
