@@ -152,9 +152,9 @@ void check_levels(std::uint32_t kind, int rounds) {
         }
         if (testing::Test::HasFatalFailure() || testing::Test::HasNonfatalFailure()) return;
     }
-    // Where several tell of what isn't felt, which of them is told is up to the order.
-    // The level and its parts are placed by other roundings, which decide what is just about felt.
-    EXPECT_LE(counts.missed, 1e-3 * counts.told) << counts.told;
+    // The level and its parts are placed by other roundings, which decide what is just about felt, and have other
+    // boxes, by whose sizes and middles it goes what two level shapes feel in place of that.
+    EXPECT_LE(counts.missed, 5e-3 * counts.told) << counts.told;
     EXPECT_LE(counts.told_though_covered, 0.05 * counts.covered) << counts.covered;
     // Not vacuous.
     EXPECT_GT(counts.touching, 0.5 * counts.asked) << counts.asked;
