@@ -58,14 +58,14 @@ public:
             SeenFromMiddle<D> anew;
             const FeltPlace<D> place = place_on_b(part_a, contact.distance);
             const auto plane =
-                felt_plane<D>(part_b, place, feet_on(b_, others_.of_a), is_composite(a_) ? anew : seen_by_a_);
+                felt_plane<D>(part_b, place, feet_on(b_, others_.of_a), has_own_middle(part_a, a_) ? anew : seen_by_a_);
             if (plane && !rest_on(part_a, *plane, for_a.emplace(contact))) for_a.reset();
         }
         if (by_size ? larger >= 0 : !by.b) {
             SeenFromMiddle<D> anew;
             const FeltPlace<D> place = place_on_a(part_b, contact.distance);
             const auto plane =
-                felt_plane<D>(part_a, place, feet_on(a_, others_.of_b), is_composite(b_) ? anew : seen_by_b_);
+                felt_plane<D>(part_a, place, feet_on(a_, others_.of_b), has_own_middle(part_b, b_) ? anew : seen_by_b_);
             if (plane) {
                 turn_round(for_b.emplace(contact).distance);
                 const bool rests = rest_on(part_b, *plane, *for_b);
@@ -119,10 +119,15 @@ private:
         return alone;
     }
 
-    /// Of a part that is the whole shape it was found before. A flat part of a shape has none of its own.
-    static DVec<D> middle_beside(const Convex<D>& part, const View<D>& shape, const DVec<D>& of_shape, const DVec<D>&) {
+    /// Not one that is the whole shape, nor a flat part of a shape, which looks from the middle of the whole.
+    static bool has_own_middle(const Convex<D>& part, const View<D>& shape) {
         const bool flat = part.core == Core::points && part.count <= D && part.radius == 0;
-        return flat || !is_composite(shape) ? of_shape : middle_of(part, {});
+        return !flat && is_composite(shape);
+    }
+    static bool has_own_middle(const Solid<D>&, const View<D>&) { return true; }
+
+    static DVec<D> middle_beside(const Convex<D>& part, const View<D>& shape, const DVec<D>& of_shape, const DVec<D>&) {
+        return has_own_middle(part, shape) ? middle_of(part, {}) : of_shape;
     }
     static DVec<D> middle_beside(const Solid<D>& part, const View<D>&, const DVec<D>&, const DVec<D>& beside) {
         return middle_of(part, beside);
