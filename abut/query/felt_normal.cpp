@@ -27,6 +27,9 @@ constexpr double face_turned_by = 1e-5;
 /// many times as far each time, up to the middle of what feels it.
 constexpr double first_reach = 3, next_reach = 8;
 
+/// So often at most, which is much farther than to the middle of a thing that a level is large for.
+constexpr int most_reaches = 12;
+
 /// A point within the part and off all its edges, as far as it has an inside.
 template <int D>
 DVec<D> inner_point(const Convex<D>& part, const DVec<D>& beside) {
@@ -177,7 +180,8 @@ bool is_felt(const Part& part, const FeltPlace<D>& place, EachFoot<D> each_foot)
     const DVec<D> along = to_middle - place.out * dot(to_middle, place.out);
     const double way = length(along);
     if (!(way > place.scale)) return false;
-    for (double reach = first_reach * place.scale;; reach *= next_reach) {
+    double reach = first_reach * place.scale;
+    for (int i = 0; i < most_reaches; ++i, reach *= next_reach) {
         const DVec<D> farther = beside + along * (std::min(reach, way) / way);
         const double own_there = foot_on(part, farther).distance;
         // Another normal there: the surface has a bend.
@@ -185,6 +189,7 @@ bool is_felt(const Part& part, const FeltPlace<D>& place, EachFoot<D> each_foot)
         if (is_free(part, place, farther, own_there, each_foot)) return true;
         if (!(reach < way)) return false;
     }
+    return false;
 }
 
 template <int D, class Part>

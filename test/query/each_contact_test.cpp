@@ -296,5 +296,23 @@ TEST(EachContact, AWallStandsOnItsFloorWhicheverIsFirst) {
     }
 }
 
+/// What has no size looks no farther however often it looks: a point that isn't quite where its box has its middle went
+/// on for ever.
+TEST(EachContact, OfWhatHasNoSizeComesToAnEnd) {
+    Random random(seed);
+    const Pieces<Box3> boxes = boxes_in_space(&random);
+    for (int i = 0; i < 2000; ++i) {
+        SCOPED_TRACE("seed " + std::to_string(seed) + ", number " + std::to_string(i));
+        const Pose3 pose{Vec3(random.in_cube<3>()), random.rotation<3>()};
+        const Vec3 place = pose * (Vec3(4, -0.5f, 4) + Vec3(random.in_cube<3>()) * Vec3(3, 0.4f, 3));
+        const std::vector<Vec3> points{place, place, place};
+        const Mesh dot = *Mesh::build(points, std::vector<glm::uvec3>{{0, 1, 2}});
+        const auto floor = at(boxes, pose);
+        EXPECT_GT(contact(dot, floor).depth, 0);
+        EXPECT_GT(contact(floor, dot).depth, 0);
+        EXPECT_GT(contact(Sphere{place, 0}, floor).depth, 0);
+    }
+}
+
 }  // namespace
 }  // namespace abut
