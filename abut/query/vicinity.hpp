@@ -26,9 +26,11 @@ public:
         seen.offset -= middle_;
         std::array<DVec<D>, 3> corners;
         Simplex<D> simplex;
-        for (; simplex.count < part.count; ++simplex.count)
-            simplex.points[simplex.count].position = corners[simplex.count] =
-                seen.point(DVec<D>(part.vertices()[simplex.count]));
+        for (; simplex.count < part.count; ++simplex.count) {
+            const DVec<D> corner = seen.point(DVec<D>(part.vertices()[simplex.count]));
+            corners[simplex.count] = corner;
+            simplex.points[simplex.count] = {corner, corner, DVec<D>(0.0), 0, 0};
+        }
         const DVec<D> way = reduce_to_closest(simplex);
         const double length_of_way = length(way);
         if (!(length_of_way > enough)) return false;

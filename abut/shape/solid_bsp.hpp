@@ -168,10 +168,10 @@ void each_part_near(const SolidBsp<D>& level, const Aabb<D>& box, std::type_iden
     level.each_part_near(box, visit);
 }
 
-/// Whether the point is in the solid, by the tree.
+/// Whether the point is in the solid, by the tree, as far as the parts go: solid around a room is endless to the tree.
 template <int D>
 bool solid_contains(const SolidBsp<D>& level, const Vec<D>& point) {
-    return level.contains(point);
+    return contains(bounds(level), point) && level.contains(point);
 }
 
 }  // namespace abut

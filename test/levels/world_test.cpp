@@ -117,7 +117,7 @@ void check_world(int rounds) {
         touching += static_cast<int>(pairs.size());
         // A pair may overlap and have no contact: at the back of what is one-sided, and where another tells of it.
         EXPECT_TRUE(std::includes(pairs.begin(), pairs.end(), told.begin(), told.end()));
-        EXPECT_GE(told.size() + 5, pairs.size());
+        EXPECT_GE(3 * told.size() + 6, 2 * pairs.size());
         if (testing::Test::HasFailure()) return;
     }
     EXPECT_TRUE(hits > 0.2 * asked && hits < 0.95 * asked) << hits << " of " << asked;

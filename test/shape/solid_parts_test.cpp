@@ -284,5 +284,17 @@ TEST(SolidParts, InACompoundAndAWorldAreItsOwn) {
     EXPECT_EQ(world.raycast(Ray3::between({7, 2, 20}, {7, 2, 4}))->id, ball);
 }
 
+/// A world finds nothing beyond the bounds of a shape, where the tree of a room said "inside" of all there is.
+TEST(SolidParts, SolidAroundARoomContainsWhatItsPartsDo) {
+    const std::vector<Vec2> points{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+    const std::vector<glm::uvec2> faces{{1, 0}, {2, 1}, {3, 2}, {0, 3}};
+    const SolidBsp2 room = *SolidBsp2::build(points, faces);
+    EXPECT_FALSE(contains(room, Vec2(0, 0)));
+    EXPECT_TRUE(contains(room, Vec2(1.5f, 0)));
+    EXPECT_TRUE(room.contains({1000, 0}));
+    EXPECT_FALSE(contains(room, Vec2(1000, 0)));
+    EXPECT_FALSE(overlaps(room, Circle{{1000, 0}, 1}));
+}
+
 }  // namespace
 }  // namespace abut::test
