@@ -176,7 +176,7 @@ TEST(SolidParts, OfARoomGoOnBeyondItsWalls) {
     EXPECT_NEAR(closest(room, Vec3(1, 1, 1.25f)).distance, 0.75, 1e-6);
     EXPECT_NEAR(contact(room, Sphere{{1, 1, 2.5f}, 0.25f}).depth, 0.75, 1e-6);
     EXPECT_NEAR(sweep(Sphere{{1, 1, 1}, 0.5f}, Vec3(0, 0, -9), room)->fraction, 0.5 / 9, 1e-6);
-    EXPECT_TRUE(contains(room, Vec3(100)));
+    EXPECT_TRUE(room.contains(Vec3(100)));
     // Open geometry is solid behind, as far.
     const SolidBsp2 wall = *SolidBsp2::build(std::vector<Vec2>{{0, 0}, {4, 0}}, std::vector<glm::uvec2>{{0, 1}});
     EXPECT_EQ(bounds(wall), (Aabb2{{-4, 0}, {8, 4}}));
