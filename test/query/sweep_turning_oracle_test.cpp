@@ -175,6 +175,16 @@ MovingPair<D> touching(MovingPair<D> moving, bool backwards) {
     return moving;
 }
 
+/// What was hit at 0 is soon deeper than at first.
+template <int D>
+void expect_goes_in_at_once(const MovingPair<D>& moving, double first) {
+    const double soon = 1e-3 * oracle::size(moving.pair.a.solid) / moving.speed;
+    double least = first;
+    for (const double time : {0.001 * soon, 0.01 * soon, 0.1 * soon, soon})
+        least = std::min(least, moving.distance(std::min(time, 1.0)));
+    EXPECT_LT(least, first) << "hit at 0, but moves apart or out";
+}
+
 struct TouchingTally {
     int asked = 0, at_once = 0, later = 0;
 };
@@ -195,11 +205,7 @@ void check_touching(const MovingPair<D>& moving, TouchingTally& tally) {
     }
     // It goes further in at once.
     ++tally.at_once;
-    const double soon = 1e-3 * oracle::size(moving.pair.a.solid) / moving.speed;
-    double least = first;
-    for (const double time : {0.001 * soon, 0.01 * soon, 0.1 * soon, soon})
-        least = std::min(least, moving.distance(std::min(time, 1.0)));
-    EXPECT_LT(least, first) << "hit at 0, but moves apart";
+    expect_goes_in_at_once(moving, first);
 }
 
 template <int D>
@@ -270,11 +276,7 @@ void check_inside(const MovingPair<D>& moving, InsideTally& tally) {
         return;
     }
     ++tally.at_once;
-    const double soon = 1e-3 * oracle::size(moving.pair.a.solid) / moving.speed;
-    double least = first;
-    for (const double time : {0.001 * soon, 0.01 * soon, 0.1 * soon, soon})
-        least = std::min(least, moving.distance(std::min(time, 1.0)));
-    EXPECT_LT(least, first) << "hit at 0, but moves out";
+    expect_goes_in_at_once(moving, first);
 }
 
 template <int D>

@@ -25,15 +25,9 @@ public:
         const Result<Polygon> built = Polygon::build(outline);
         ASSERT_TRUE(built);
         polygons_.push_back(*built);
-        tool::StandingObject<2> object;
-        object.path = object.name = name;
-        object.model = level_.objects.size();
-        object.shape = View<2>(view(polygons_.back()));
-        object.box = bounds(object.shape);
-        object.radius = static_cast<float>(size(object.shape));
+        tool::StandingObject<2> object = standing(name, view(polygons_.back()), outline);
         object.filled = true;
         object.convex = true;
-        object.surface.points = outline;
         for (std::uint32_t i = 0; i < outline.size(); ++i)
             object.surface.facets.push_back({i, (i + 1) % static_cast<std::uint32_t>(outline.size())});
         level_.objects.push_back(std::move(object));
@@ -44,13 +38,7 @@ public:
         const Result<Chain> built = Chain::build(points, false);
         ASSERT_TRUE(built);
         chains_.push_back(*built);
-        tool::StandingObject<2> object;
-        object.path = object.name = name;
-        object.model = level_.objects.size();
-        object.shape = View<2>(view(chains_.back()));
-        object.box = bounds(object.shape);
-        object.radius = static_cast<float>(size(object.shape));
-        object.surface.points = points;
+        tool::StandingObject<2> object = standing(name, view(chains_.back()), points);
         for (std::uint32_t i = 0; i + 1 < points.size(); ++i) object.surface.facets.push_back({i, i + 1});
         object.surface.two_sided.assign(object.surface.facets.size(), true);
         level_.objects.push_back(std::move(object));
@@ -60,6 +48,19 @@ public:
     const tool::LevelView<2>& view_of() const { return level_; }
 
 private:
+    template <class Shape>
+    tool::StandingObject<2> standing(const std::string& name, const Shape& shape,
+                                     const std::vector<Vec2>& points) const {
+        tool::StandingObject<2> object;
+        object.path = object.name = name;
+        object.model = level_.objects.size();
+        object.shape = View<2>(shape);
+        object.box = bounds(object.shape);
+        object.radius = static_cast<float>(size(object.shape));
+        object.surface.points = points;
+        return object;
+    }
+
     std::deque<Polygon> polygons_;
     std::deque<Chain> chains_;
     tool::LevelView<2> level_;
