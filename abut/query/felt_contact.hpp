@@ -20,7 +20,12 @@ template <int D>
 class FeltPair {
 public:
     FeltPair(const View<D>& a, const View<D>& b, const Others<D>& others = {})
-        : a_(a), b_(b), others_(others), scale_(felt_scale_of(a, b)) {
+        : a_(a),
+          b_(b),
+          others_(others),
+          scale_(felt_scale_of(a, b)),
+          by_size_(is_composite(a) && is_composite(b)),
+          larger_(by_size_ ? abut::size(a) - abut::size(b) : 0) {
         if (!std::holds_alternative<Solid<D>>(a)) middle_of_a_ = DVec<D>(center(bounds(a)));
         if (!std::holds_alternative<Solid<D>>(b)) middle_of_b_ = DVec<D>(center(bounds(b)));
     }
@@ -52,16 +57,14 @@ public:
     template <class PartA, class PartB>
     bool replace(const PartA& part_a, const PartB& part_b, const FeltBy& by, PartContact<D>& contact) {
         std::optional<PartContact<D>> for_a, for_b;
-        const bool by_size = is_composite(a_) && is_composite(b_);
-        const double larger = by_size ? abut::size(a_) - abut::size(b_) : 0;
-        if (by_size ? larger <= 0 : !by.a) {
+        if (by_size_ ? larger_ <= 0 : !by.a) {
             SeenFromMiddle<D> anew;
             const FeltPlace<D> place = place_on_b(part_a, contact.distance);
             const auto plane =
                 felt_plane<D>(part_b, place, feet_on(b_, others_.of_a), has_own_middle(part_a, a_) ? anew : seen_by_a_);
             if (plane && !rest_on(part_a, *plane, for_a.emplace(contact))) for_a.reset();
         }
-        if (by_size ? larger >= 0 : !by.b) {
+        if (by_size_ ? larger_ >= 0 : !by.b) {
             SeenFromMiddle<D> anew;
             const FeltPlace<D> place = place_on_a(part_b, contact.distance);
             const auto plane =
@@ -163,6 +166,8 @@ private:
     const View<D>&a_, &b_;
     Others<D> others_;
     double scale_;
+    bool by_size_;   ///< of two composite shapes the smaller feels
+    double larger_;  ///< by how much A then is
     DVec<D> middle_of_a_{0.0}, middle_of_b_{0.0};
     const KeptParts<D>* kept_ = nullptr;
     SeenFromMiddle<D> seen_by_a_, seen_by_b_;
