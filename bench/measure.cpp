@@ -16,6 +16,7 @@ namespace {
 constexpr int repetitions = 25;
 constexpr double seconds_each = 0.008;     // at least; a call that takes longer is made once
 constexpr double seconds_of_frames = 0.3;  // about, a side: where frames are long, there are fewer repetitions
+constexpr double seconds_of_calls = 1;     // the same where one call is long; three are made at least
 
 struct Answers {
     std::vector<double> values;
@@ -138,7 +139,7 @@ std::vector<Row> measure(const Bench& bench) {
             registered->Iterations(effort.frames);
             registered->Repetitions(effort.repetitions);
         } else {
-            registered->Repetitions(repetitions);
+            registered->Repetitions(static_cast<int>(std::clamp(seconds_of_calls / seconds, 3.0, 1.0 * repetitions)));
             registered->MinTime(seconds_each);
         }
     };
