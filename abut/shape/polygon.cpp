@@ -1,4 +1,5 @@
 #include <abut/convex/hull.hpp>
+#include <abut/convex/limited_hull.hpp>
 #include <abut/convex/sides.hpp>
 #include <abut/math/dvec.hpp>
 #include <abut/math/set_affine.hpp>
@@ -61,7 +62,11 @@ bool is_outline(std::span<const Vec2> loop, double thick) {
 }  // namespace
 
 Result<Polygon> Polygon::build(std::span<const Vec2> points) {
-    Result<Hull2> built = hull(points);
+    return build(points, HullOptions());
+}
+
+Result<Polygon> Polygon::build(std::span<const Vec2> points, const HullOptions& options) {
+    Result<Hull2> built = limited_hull(points, options);
     if (!built) return built.problem();
     Polygon result;
     result.points_ = std::move(built->points);

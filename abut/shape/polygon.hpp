@@ -2,6 +2,7 @@
 
 // The convex polygon: the hull of any points of the plane, as a value.
 
+#include <abut/convex/hull_options.hpp>
 #include <abut/math/result.hpp>
 #include <abut/shape/given.hpp>
 
@@ -21,6 +22,12 @@ public:
     /// is NaN or infinite (`not_finite`, with its index).
     static Result<Polygon> build(std::span<const Vec2> points);
     static Result<Polygon> build(std::initializer_list<Vec2> points);
+
+    /// The same with no more corners than `options.max_vertices`. Where the hull has more, this is a larger polygon
+    /// with corners of its own, by as little area as is found: it has every point of the input within it, exactly.
+    /// Otherwise it is the hull, bit by bit. A Problem as well where the limit is below 3 (`bad_argument`), or such
+    /// corners are beyond the range of floats (`too_large`). See docs/limited_hulls.md.
+    static Result<Polygon> build(std::span<const Vec2> points, const HullOptions& options);
 
     /// The corners, counter-clockwise from the lexicographically least, none of them between two others on a straight
     /// line. They are points of the input, and don't depend on its order.

@@ -1,4 +1,5 @@
 #include <abut/convex/hull.hpp>
+#include <abut/convex/limited_hull.hpp>
 #include <abut/math/dvec.hpp>
 #include <abut/shape/polyhedron.hpp>
 
@@ -30,7 +31,11 @@ struct Polyhedron::Data {
 };
 
 Result<Polyhedron> Polyhedron::build(std::span<const Vec3> points) {
-    Result<Hull3> built = hull(points);
+    return build(points, HullOptions());
+}
+
+Result<Polyhedron> Polyhedron::build(std::span<const Vec3> points, const HullOptions& options) {
+    Result<Hull3> built = limited_hull(points, options);
     if (!built) return built.problem();
     Polyhedron result;
     result.data_ = std::make_shared<const Data>(*std::move(built));

@@ -3,6 +3,7 @@
 // The convex polyhedron: the hull of any points of space with its faces, as a value.
 
 #include <abut/convex/bounding_ball.hpp>
+#include <abut/convex/hull_options.hpp>
 #include <abut/math/result.hpp>
 #include <abut/shape/given.hpp>
 
@@ -26,7 +27,15 @@ public:
     static Result<Polyhedron> build(std::span<const Vec3> points);
     static Result<Polyhedron> build(std::initializer_list<Vec3> points);
 
-    /// The corners, in lexicographical order. They are points of the input, and don't depend on its order.
+    /// The same with no more corners than `options.max_vertices`. Where the hull has more, this is a larger polyhedron
+    /// with corners of its own, by as little volume as is found: it has every point of the input within the convex hull
+    /// of its corners, exactly. Points that lie in a plane stay in it, and are held as seen along the axis nearest to
+    /// its normal. Otherwise it is the hull, bit by bit. A Problem as well where the limit is below 4 (`bad_argument`),
+    /// or such corners are beyond the range of floats (`too_large`). See docs/limited_hulls.md.
+    static Result<Polyhedron> build(std::span<const Vec3> points, const HullOptions& options);
+
+    /// The corners, in lexicographical order. They are points of the input, unless a limit made others, and don't
+    /// depend on its order.
     std::span<const Vec3> points() const;
 
     /// The faces, in lexicographical order of their loops, each from its lowest point number. Every edge belongs to two

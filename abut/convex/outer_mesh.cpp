@@ -1,0 +1,318 @@
+// Taking out corners.
+
+#include <abut/convex/outer_mesh.hpp>
+#include <abut/math/dvec.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace abut {
+namespace {
+
+/// The triangles of a face, in a strip, so that no corner belongs to more of them than it has to.
+template <class Visit>
+void each_triangle(std::span<const std::uint32_t> loop, Visit visit) {
+    std::size_t low = 0, high = loop.size() - 1;
+    while (high - low >= 2) {
+        visit(loop[low], loop[low + 1], loop[high]);
+        ++low;
+        if (high - low < 2) return;
+        visit(loop[low], loop[high - 1], loop[high]);
+        --high;
+    }
+}
+
+/// One a half-edge, by the ends that it shares with its twin.
+std::vector<std::uint32_t> twins_of(std::span<const std::uint32_t> origin) {
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> keys;
+    keys.reserve(origin.size());
+    for (std::uint32_t h = 0; h < origin.size(); ++h) {
+        const auto [low, high] = std::minmax(origin[h], origin[following(h)]);
+        keys.emplace_back(std::uint64_t{low} << 32 | high, h);
+    }
+    std::sort(keys.begin(), keys.end());
+    std::vector<std::uint32_t> result(origin.size());
+    for (std::size_t i = 0; i < keys.size(); i += 2) {
+        result[keys[i].second] = keys[i + 1].second;
+        result[keys[i + 1].second] = keys[i].second;
+    }
+    return result;
+}
+
+}  // namespace
+
+OuterMesh::OuterMesh(const Hull3& hull, const DVec<3>& origin)
+    : leaving_(hull.points.size(), none), count_(hull.points.size()), mark_(hull.points.size(), 0) {
+    points_.reserve(hull.points.size());
+    for (const Vec3& point : hull.points) points_.push_back(DVec<3>(point) - origin);
+    std::size_t begin = 0;
+    for (std::size_t face = 0; face < hull.normals.size(); ++face) {
+        const DVec<3> normal(hull.normals[face]);
+        const double inverse = 1 / length(normal);
+        const Plane<3> plane{normal * inverse, (hull.offsets[face] - dot(normal, origin)) * inverse};
+        const std::size_t end = hull.loop_ends[face];
+        each_triangle(std::span(hull.loops).subspan(begin, end - begin),
+                      [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+                          origin_.insert(origin_.end(), {a, b, c});
+                          planes_.push_back(plane);
+                      });
+        begin = end;
+    }
+    twin_ = twins_of(origin_);
+    for (std::uint32_t h = 0; h < origin_.size(); ++h) leaving_[origin_[h]] = h;
+}
+
+void OuterMesh::scale(double factor, const DVec<3>& from) {
+    for (DVec<3>& point : points_) point = point * factor - from;
+    for (Plane<3>& plane : planes_) plane.offset = plane.offset * factor - dot(plane.normal, from);
+}
+
+void OuterMesh::gather_ring(std::uint32_t half_edge) {
+    const std::uint32_t a = origin_[half_edge], b = origin_[twin_[half_edge]];
+    const std::uint32_t left = half_edge / 3, right = twin_[half_edge] / 3;
+    middle_ = (points_[a] + points_[b]) * 0.5;
+    ring_.clear();
+    star_.clear();
+    each_leaving(a, [&](std::uint32_t h) {
+        star_.push_back(h / 3);
+        if (h / 3 != left && h / 3 != right) ring_.push_back(following(h));
+    });
+    each_leaving(b, [&](std::uint32_t h) {
+        if (h / 3 == left || h / 3 == right) return;
+        star_.push_back(h / 3);
+        ring_.push_back(following(h));
+    });
+    finish_ring();
+}
+
+void OuterMesh::gather_ring_of_point(std::uint32_t point) {
+    middle_ = points_[point];
+    ring_.clear();
+    star_.clear();
+    each_leaving(point, [&](std::uint32_t h) {
+        star_.push_back(h / 3);
+        ring_.push_back(following(h));
+    });
+    finish_ring();
+}
+
+void OuterMesh::finish_ring() {
+    slope_ = DVec<3>(0.0);
+    size_ = 0;
+    for (const std::uint32_t h : ring_) {
+        const DVec<3> from = points_[origin_[h]] - middle_, to = points_[origin_[following(h)]] - middle_;
+        slope_ += cross(from, to);
+        size_ = std::max(size_, length_squared(from));
+    }
+    size_ = std::sqrt(size_);
+}
+
+/// Six times the volume between the ring's cone to `apex`, seen from the middle, and that to the middle.
+double OuterMesh::volume_to(const DVec<3>& apex) const {
+    return dot(slope_, apex);
+}
+
+/// How far out two neighbours have to go along the mean of their faces' normals, as a volume.
+double OuterMesh::quick_cost(std::uint32_t half_edge) {
+    gather_ring(half_edge);
+    DVec<3> way(0.0);
+    double old = 0;
+    for (const std::uint32_t triangle : star_) {
+        way += planes_[triangle].normal;
+        const DVec<3> a = points_[corner(triangle, 0)] - middle_, b = points_[corner(triangle, 1)] - middle_,
+                      c = points_[corner(triangle, 2)] - middle_;
+        old += dot(cross(a, b), c);
+    }
+    way = normalized(way);
+    double out = 0;
+    for (const std::uint32_t triangle : star_) {
+        const double rise = dot(planes_[triangle].normal, way);
+        const double need = planes_[triangle].offset - dot(planes_[triangle].normal, middle_);
+        if (!(rise > 1e-3)) return std::numeric_limits<double>::max();
+        out = std::max(out, need / rise);
+    }
+    return volume_to(way * out) - old;
+}
+
+std::optional<OuterMesh::Merge> OuterMesh::merge_at(std::uint32_t half_edge) {
+    gather_ring(half_edge);
+    limits_.clear();
+    const auto local = [&](const Plane<3>& plane) {
+        return Plane<3>{plane.normal, plane.offset - dot(plane.normal, middle_)};
+    };
+    double old = 0;
+    for (const std::uint32_t triangle : star_) {
+        limits_.push_back(local(planes_[triangle]));
+        const DVec<3> a = points_[corner(triangle, 0)] - middle_, b = points_[corner(triangle, 1)] - middle_,
+                      c = points_[corner(triangle, 2)] - middle_;
+        old += dot(cross(a, b), c);
+    }
+    for (const std::uint32_t h : ring_) limits_.push_back(flipped(local(planes_[twin_[h] / 3])));
+    const std::optional<DVec<3>> apex = lowest_above(limits_, slope_, size_);
+    if (!apex) return std::nullopt;
+    return Merge{*apex + middle_, volume_to(*apex) - old};
+}
+
+/// Two neighbours that have a third in common beside those of their two triangles would fold the surface.
+bool OuterMesh::can_merge(std::uint32_t half_edge) {
+    if (count_ <= 4) return false;
+    ++search_;
+    each_leaving(origin_[half_edge], [&](std::uint32_t h) { mark_[origin_[twin_[h]]] = search_; });
+    std::size_t common = 0;
+    each_leaving(origin_[twin_[half_edge]],
+                 [&](std::uint32_t h) { common += mark_[origin_[twin_[h]]] == search_ ? 1u : 0u; });
+    return common == 2;
+}
+
+void OuterMesh::set_plane(std::uint32_t triangle) {
+    const DVec<3>&a = points_[corner(triangle, 0)], &b = points_[corner(triangle, 1)],
+          &c = points_[corner(triangle, 2)];
+    const DVec<3> u = b - a, v = c - a, normal = cross(u, v);
+    const double area = length(normal), longest = std::max(length_squared(u), length_squared(v));
+    if (!(area > 1e-10 * longest)) return;
+    planes_[triangle].normal = normal / area;
+    planes_[triangle].offset = std::max(
+        {dot(planes_[triangle].normal, a), dot(planes_[triangle].normal, b), dot(planes_[triangle].normal, c)});
+}
+
+/// The first end of the half-edge goes to `point`, the other one is gone, and so are their two triangles.
+void OuterMesh::merge(std::uint32_t half_edge, const DVec<3>& point) {
+    gather_ring(half_edge);
+    const std::uint32_t a = origin_[half_edge], b = origin_[twin_[half_edge]];
+    each_leaving(b, [&](std::uint32_t h) { origin_[h] = a; });
+    points_[a] = point;
+    leaving_[b] = none;
+    for (const std::uint32_t side : {half_edge, twin_[half_edge]}) {
+        const std::uint32_t first = following(side), second = following(first);
+        const std::uint32_t one = twin_[first], other = twin_[second];
+        leaving_[origin_[one]] = one;
+        leaving_[origin_[other]] = other;
+        twin_[one] = other;
+        twin_[other] = one;
+    }
+    // A triangle so thin that it has no plane of its own takes that of its neighbour over the ring.
+    for (const std::uint32_t h : ring_) {
+        planes_[h / 3] = planes_[twin_[h] / 3];
+        set_plane(h / 3);
+    }
+    for (const std::uint32_t side : {half_edge, twin_[half_edge]})
+        for (const std::uint32_t h : {side, following(side), following(following(side))}) origin_[h] = none;
+    --count_;
+}
+
+void OuterMesh::push(std::uint32_t half_edge) {
+    if (twin_[half_edge] < half_edge) half_edge = twin_[half_edge];
+    const double cost = quick_cost(half_edge);
+    if (cost == std::numeric_limits<double>::max()) return;
+    heap_.push_back({cost, half_edge});
+}
+
+namespace {
+
+constexpr auto later = [](const auto& a, const auto& b) {
+    return a.cost != b.cost ? a.cost > b.cost : a.half_edge > b.half_edge;
+};
+
+}  // namespace
+
+void OuterMesh::push_all() {
+    heap_.clear();
+    for (std::uint32_t h = 0; h < origin_.size(); ++h)
+        if (origin_[h] != none && h < twin_[h]) push(h);
+    std::make_heap(heap_.begin(), heap_.end(), later);
+}
+
+void OuterMesh::simplify(std::size_t count) {
+    bool fresh = false;
+    while (count_ > count) {
+        if (heap_.empty()) {
+            if (fresh) return;
+            push_all();
+            fresh = true;
+            if (heap_.empty()) return;
+        }
+        std::pop_heap(heap_.begin(), heap_.end(), later);
+        const Waiting next = heap_.back();
+        heap_.pop_back();
+        if (origin_[next.half_edge] == none || !can_merge(next.half_edge)) continue;
+        const std::optional<Merge> found = merge_at(next.half_edge);
+        if (!found) continue;
+        if (!heap_.empty() && found->added > heap_.front().cost && found->added > next.cost) {
+            heap_.push_back({found->added, next.half_edge});
+            std::push_heap(heap_.begin(), heap_.end(), later);
+            continue;
+        }
+        const std::uint32_t kept = origin_[next.half_edge];
+        merge(next.half_edge, found->point);
+        fresh = false;
+        std::vector<std::uint32_t> again;
+        each_leaving(kept, [&](std::uint32_t h) {
+            again.push_back(h);
+            again.push_back(following(h));
+        });
+        for (const std::uint32_t h : again) {
+            const std::size_t before = heap_.size();
+            push(h);
+            if (heap_.size() > before) std::push_heap(heap_.begin(), heap_.end(), later);
+        }
+    }
+}
+
+bool OuterMesh::convex_around(std::uint32_t point, const DVec<3>& at) const {
+    bool result = true;
+    each_leaving(point, [&](std::uint32_t h) {
+        // Over the edge h: the third corner of the triangle on its other side.
+        const DVec<3> b = points_[origin_[following(h)]], c = points_[origin_[following(following(h))]],
+                      d = points_[origin_[following(following(twin_[h]))]];
+        const DVec<3> u = b - at, v = c - at, w = d - at, normal = cross(u, v);
+        const double height = dot(normal, w);
+        if (height > 1e-11 * length(normal) * length(w)) result = false;
+    });
+    return result;
+}
+
+void OuterMesh::tighten(std::span<const DVec<3>> inside, int rounds) {
+    for (int round = 0; round < rounds; ++round)
+        for (std::uint32_t point = 0; point < points_.size(); ++point) {
+            if (!has_point(point)) continue;
+            gather_ring_of_point(point);
+            limits_.clear();
+            for (const std::uint32_t h : ring_) {
+                const Plane<3> outer = planes_[twin_[h] / 3];
+                const DVec<3> from = points_[origin_[h]], along = points_[origin_[following(h)]] - from;
+                const DVec<3> u = normalized(cross(outer.normal, along));
+                // By how much the plane has to turn about the edge until something is in the way.
+                double best_x = -1, best_y = 1e-9;
+                const double near = 1e-12 * length_squared(along);
+                for (const DVec<3>& p : inside) {
+                    const DVec<3> seen = p - from;
+                    const double x = dot(u, seen), y = std::max(0.0, -dot(outer.normal, seen));
+                    if (x * x + y * y <= near) continue;
+                    if (x * best_y - y * best_x > 0) {
+                        best_x = x;
+                        best_y = y;
+                    }
+                }
+                const double inverse = 1 / std::sqrt(best_x * best_x + best_y * best_y);
+                const DVec<3> normal = (outer.normal * best_x + u * best_y) * inverse;
+                const DVec<3> local = from - middle_;
+                limits_.push_back({normal, dot(normal, local)});
+                limits_.push_back(flipped<3>({outer.normal, dot(outer.normal, local)}));
+            }
+            const std::optional<DVec<3>> found = lowest_above(limits_, slope_, size_);
+            if (!found || !(volume_to(*found) < 0)) continue;
+            DVec<3> step = *found;
+            for (int i = 0; i < 5; ++i, step *= 0.5)
+                if (convex_around(point, middle_ + step)) {
+                    points_[point] = middle_ + step;
+                    for (const std::uint32_t h : ring_) {
+                        planes_[h / 3] = planes_[twin_[h] / 3];
+                        set_plane(h / 3);
+                    }
+                    break;
+                }
+        }
+}
+
+}  // namespace abut

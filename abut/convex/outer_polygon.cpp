@@ -1,0 +1,258 @@
+#include <abut/convex/outer_polygon.hpp>
+#include <abut/math/dvec.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <queue>
+
+namespace abut {
+namespace {
+
+constexpr int most_rounds = 40;
+
+/// One of the lines that are left, in a ring.
+struct Line {
+    DVec<2> direction{0.0};             ///< of length 1, the inner loop to its left
+    DVec<2> start{0.0};                 ///< where it meets the line before
+    std::uint32_t first = 0, last = 0;  ///< the corners of the inner loop that lie on it: two neighbours, or one
+    std::uint32_t before = 0, after = 0;
+    std::uint32_t version = 0;
+    bool alive = true;
+};
+
+class OuterPolygon {
+public:
+    explicit OuterPolygon(std::span<const DVec<2>> inner) : inner_(inner), lines_(inner.size()), count_(inner.size()) {
+        const auto size = static_cast<std::uint32_t>(inner.size());
+        for (std::uint32_t i = 0; i < size; ++i) {
+            const std::uint32_t end = next(i);
+            lines_[i] = {normalized(inner[end] - inner[i]), inner[i], i, end, i == 0 ? size - 1 : i - 1, end};
+        }
+    }
+
+    void reduce(std::size_t count);
+    void tighten();
+    std::vector<DVec<2>> corners() const;
+
+private:
+    struct Removal {
+        double area;
+        std::uint32_t line, version;
+    };
+    struct Dearer {
+        bool operator()(const Removal& a, const Removal& b) const {
+            return a.area != b.area ? a.area > b.area : a.line > b.line;
+        }
+    };
+    /// In which direction along the inner loop a line has to roll on.
+    enum class Way { back, here, on };
+    /// A line between two others, and where it ends.
+    struct Cut {
+        Line line;
+        Way way;
+        DVec<2> to{0.0};
+    };
+
+    std::uint32_t next(std::uint32_t i) const { return i + 1 == inner_.size() ? 0 : i + 1; }
+    std::uint32_t some_line() const;
+    std::optional<DVec<2>> apex_over(std::uint32_t line) const;
+    void push(std::uint32_t line);
+    void take_out(std::uint32_t line, const DVec<2>& apex);
+    void find_touched(Line& line) const;
+    void make_triangle();
+    Cut cut_along(const Line& before, const Line& after, std::uint32_t edge) const;
+    double put_best(std::uint32_t line);
+
+    std::span<const DVec<2>> inner_;
+    std::vector<Line> lines_;
+    std::size_t count_;
+    std::priority_queue<Removal, std::vector<Removal>, Dearer> waiting_;
+};
+
+std::uint32_t OuterPolygon::some_line() const {
+    std::uint32_t result = 0;
+    while (!lines_[result].alive) ++result;
+    return result;
+}
+
+/// Where the neighbours of a line meet beyond it; nothing where they don't.
+std::optional<DVec<2>> OuterPolygon::apex_over(std::uint32_t line) const {
+    const Line &before = lines_[lines_[line].before], &after = lines_[lines_[line].after];
+    const DVec<2>&a = lines_[line].start, &b = after.start;
+    const double turn = cross(before.direction, after.direction);
+    const double rise = cross(b - a, after.direction);
+    // Where all three are the same line but for rounding, any point will do.
+    if (std::abs(turn) < 1e-14 && dot(before.direction, after.direction) > 0) return (a + b) * 0.5;
+    if (!(turn > 1e-9) && !(dot(before.direction, after.direction) > 0 && turn > 0)) return std::nullopt;
+    return a + before.direction * std::max(0.0, rise / turn);
+}
+
+void OuterPolygon::push(std::uint32_t line) {
+    ++lines_[line].version;
+    const std::optional<DVec<2>> apex = apex_over(line);
+    if (!apex) return;
+    const DVec<2>&a = lines_[line].start, &b = lines_[lines_[line].after].start;
+    waiting_.push({std::abs(cross(*apex - a, b - a)), line, lines_[line].version});
+}
+
+void OuterPolygon::take_out(std::uint32_t line, const DVec<2>& apex) {
+    Line& gone = lines_[line];
+    gone.alive = false;
+    lines_[gone.before].after = gone.after;
+    lines_[gone.after].before = gone.before;
+    lines_[gone.after].start = apex;
+    --count_;
+}
+
+void OuterPolygon::reduce(std::size_t count) {
+    for (std::uint32_t i = 0; i < lines_.size(); ++i) push(i);
+    while (count_ > count && count_ > 4 && !waiting_.empty()) {
+        const Removal next = waiting_.top();
+        waiting_.pop();
+        const Line& line = lines_[next.line];
+        if (!line.alive || line.version != next.version) continue;
+        take_out(next.line, *apex_over(next.line));
+        for (const std::uint32_t changed :
+             {line.before, line.after, lines_[line.before].before, lines_[line.after].after})
+            push(changed);
+    }
+    if (count_ > count) make_triangle();
+}
+
+/// The corner of the inner loop that is farthest out of a line, or the edge that lies along it.
+void OuterPolygon::find_touched(Line& line) const {
+    std::uint32_t touched = 0;
+    for (std::uint32_t i = 1; i < inner_.size(); ++i)
+        if (cross(line.direction, inner_[i] - inner_[touched]) < 0) touched = i;
+    const auto along = [&](std::uint32_t from, std::uint32_t to) {
+        const DVec<2> edge = inner_[to] - inner_[from];
+        return std::abs(cross(line.direction, edge)) <= 1e-12 * length(edge);
+    };
+    const std::uint32_t before = touched == 0 ? static_cast<std::uint32_t>(inner_.size()) - 1 : touched - 1;
+    line.first = along(before, touched) ? before : touched;
+    line.last = along(touched, next(touched)) ? next(touched) : touched;
+}
+
+/// From four corners to three: two neighbouring sides stay, and the third side has the opposite corner as its middle,
+/// or goes along one of the other two sides; whichever has the least area.
+void OuterPolygon::make_triangle() {
+    const std::vector<DVec<2>> quad = corners();
+    double least = std::numeric_limits<double>::max();
+    std::array<DVec<2>, 3> best{};
+    const auto offer = [&](const DVec<2>& a, const DVec<2>& b, const DVec<2>& c) {
+        const double area = cross(b - a, c - a);
+        if (!(area < least)) return;
+        least = area;
+        best = {a, b, c};
+    };
+    for (std::size_t i = 0; i < 4; ++i) {
+        const DVec<2>& a = quad[i];
+        const DVec<2> b = quad[(i + 1) % 4] - a, c = quad[(i + 2) % 4] - a, d = quad[(i + 3) % 4] - a;
+        const double x = cross(c, d) / cross(b, d), y = cross(b, c) / cross(b, d);  // c = b x + d y
+        if (x >= 0.5 && y >= 0.5) offer(a, a + b * (2 * x), a + d * (2 * y));
+        const double turn = cross(b, c - d), along = cross(d, c - d) / turn;
+        if (turn < 0 && along < std::numeric_limits<double>::max()) offer(a, a + b * along, a + d);
+    }
+    lines_.assign(3, {});
+    for (std::uint32_t i = 0; i < 3; ++i) {
+        const DVec<2> direction = normalized(best[(i + 1) % 3] - best[i]);
+        lines_[i] = {direction, best[i], 0, 0, (i + 2) % 3, (i + 1) % 3};
+        find_touched(lines_[i]);
+    }
+    count_ = 3;
+}
+
+/// The line along an edge of the inner loop, between its two neighbours.
+OuterPolygon::Cut OuterPolygon::cut_along(const Line& before, const Line& after, std::uint32_t edge) const {
+    const DVec<2>& origin = inner_[edge];
+    const DVec<2> direction = inner_[next(edge)] - origin;
+    const double in = cross(before.direction, direction), out = cross(direction, after.direction);
+    if (!(in > 0)) return {{}, Way::back};
+    if (!(out > 0)) return {{}, Way::on};
+    const DVec<2> from = before.start + before.direction * (cross(origin - before.start, direction) / in);
+    const DVec<2> to = origin + direction * (cross(after.start - origin, after.direction) / out);
+    const double middle = dot((from + to) * 0.5 - origin, direction);
+    const Way way = middle < 0 ? Way::back : middle > length_squared(direction) ? Way::on : Way::here;
+    return {{normalized(direction), from, edge, next(edge)}, way, to};
+}
+
+/// Puts a line between its neighbours where the area is least, and tells by how much it became less.
+double OuterPolygon::put_best(std::uint32_t line) {
+    Line& here = lines_[line];
+    Line &before = lines_[here.before], &after = lines_[here.after];
+    const double turn = cross(before.direction, after.direction);
+    if (std::abs(turn) < 1e-9) return 0;
+    const DVec<2> apex = before.start + before.direction * (cross(after.start - before.start, after.direction) / turn);
+
+    // The line rolls along the inner loop until its middle is where it touches.
+    const auto size = static_cast<std::uint32_t>(inner_.size());
+    std::uint32_t low = 0, high = (after.first + size - before.last) % size;
+    std::optional<Cut> found;
+    while (low < high && !found) {
+        const std::uint32_t middle = low + (high - low) / 2;
+        const Cut cut = cut_along(before, after, (before.last + middle) % size);
+        if (cut.way == Way::here) found = cut;
+        if (cut.way == Way::back) high = middle;
+        if (cut.way == Way::on) low = middle + 1;
+    }
+    if (!found) {
+        const std::uint32_t touched = (before.last + low) % size;
+        const DVec<2> seen = inner_[touched] - apex;  // before.direction x + after.direction y
+        const double x = cross(seen, after.direction) / turn, y = cross(before.direction, seen) / turn;
+        const DVec<2> from = apex + before.direction * (2 * x), to = apex + after.direction * (2 * y);
+        const DVec<2>&previous = inner_[(touched + size - 1) % size], &at = inner_[touched];
+        if (from == to || !(cross(at - previous, to - from) >= 0) ||
+            !(cross(to - from, inner_[next(touched)] - at) >= 0))
+            return 0;
+        found = Cut{{normalized(to - from), from, touched, touched}, Way::here, to};
+    }
+    const double gain =
+        cross(after.start - apex, here.start - apex) * -1 - cross(found->to - apex, found->line.start - apex) * -1;
+    if (!(gain > 0)) return 0;
+    here.direction = found->line.direction;
+    here.start = found->line.start;
+    here.first = found->line.first;
+    here.last = found->line.last;
+    after.start = found->to;
+    return gain;
+}
+
+void OuterPolygon::tighten() {
+    for (int round = 0; round < most_rounds; ++round) {
+        double gain = 0, size = 0;
+        const std::uint32_t first = some_line();
+        std::uint32_t line = first;
+        do {
+            gain += put_best(line);
+            size = std::max(size, length_squared(lines_[line].start - lines_[first].start));
+            line = lines_[line].after;
+        } while (line != first);
+        if (!(gain > 1e-6 * size)) return;
+    }
+}
+
+std::vector<DVec<2>> OuterPolygon::corners() const {
+    std::vector<DVec<2>> result;
+    const std::uint32_t first = some_line();
+    std::uint32_t line = first;
+    do {
+        result.push_back(lines_[line].start);
+        line = lines_[line].after;
+    } while (line != first);
+    return result;
+}
+
+}  // namespace
+
+std::vector<DVec<2>> outer_polygon(std::span<const DVec<2>> loop, std::size_t count) {
+    OuterPolygon outer(loop);
+    outer.reduce(count);
+    outer.tighten();
+    return outer.corners();
+}
+
+}  // namespace abut
