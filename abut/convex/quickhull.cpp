@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace abut {
 namespace {
@@ -19,67 +20,119 @@ double distance_squared_to_segment(const DVec<3>& p, const DVec<3>& a, const DVe
     return length_squared(p - a - along * weight);
 }
 
+/// What rounding can make of a height at most, in steps of the grid: six roundings of a plane's normal and offset and
+/// five of the point's own terms, 2^-53 each, of sums below sqrt(3) 2^28.
+constexpr double doubt = 0x1p-20;
+
+/// Points above a plane: dot(normal, p) > offset.
+struct Plane {
+    DVec<3> normal;  ///< of length 1
+    double offset = 0;
+};
+
 class Quickhull {
 public:
-    Quickhull(std::span<const GridPoint> points, double tolerance)
-        : points_(points), tolerance_(tolerance), next_outside_(points.size(), none), leaving_(points.size(), none) {}
+    Quickhull(std::span<const GridPoint> points, double tolerance);
 
     void run(std::array<std::uint32_t, 4> start);
     TriangleSurface surface() const;
 
 private:
     struct Facet {
+        Plane plane;
         std::array<std::uint32_t, 3> corner{};  ///< half-edge i runs from corner i to corner i + 1
         std::array<std::uint32_t, 3> twin{};
-        GridPoint normal{0};
-        double inverse_length = 0;     ///< of the normal
-        std::uint32_t outside = none;  ///< the first of the points above it, linked by next_outside_
-        std::uint32_t farthest = none;
-        double height = 0;  ///< of the farthest
-        bool alive = true;
+        std::uint32_t outside = none;   ///< the first of the points above it, linked by next_outside_
+        std::uint32_t farthest = none;  ///< of those
+    };
+    /// A facet that waits for its turn, unless its place was given to another since.
+    struct Turn {
+        std::uint32_t facet, born;
     };
 
     std::uint32_t add_facet(std::uint32_t a, std::uint32_t b, std::uint32_t c);
+    bool alive(std::uint32_t facet) const { return facets_[facet].corner[0] != none; }
+    double rounded_height(const Plane& plane, std::uint32_t point) const {
+        return dot(plane.normal, seats_[point]) - plane.offset;
+    }
+    double exact_height(const Facet& facet, std::uint32_t point) const;
     double height(const Facet& facet, std::uint32_t point) const;
     double distance(const Facet& facet, std::uint32_t point) const;
     double farthest_left_out(const Facet& facet) const;
     std::uint32_t next_eye(const Facet& facet) const;
-    void assign(std::uint32_t point, std::uint32_t first_facet);
+    void see(std::uint32_t eye, std::uint32_t seen);
+    void raise_cone(std::uint32_t eye);
+    void take_orphans(std::uint32_t eye);
+    void assign_orphans();
     void insert(std::uint32_t eye, std::uint32_t seen);
     std::uint32_t origin(std::uint32_t half_edge) const { return facets_[half_edge / 3].corner[half_edge % 3]; }
 
     std::span<const GridPoint> points_;
+    std::vector<DVec<3>> seats_;  ///< the same in doubles, exactly
     double tolerance_;
     std::vector<Facet> facets_;
+    std::vector<std::uint32_t> born_;  ///< one a facet: when
+    std::uint32_t births_ = 0;
+    std::vector<std::uint32_t> free_;          ///< places of facets that are gone
+    std::vector<Turn> turns_;                  ///< of the facets that had points above them, in the order of birth
     std::vector<std::uint32_t> next_outside_;  ///< one a point
     std::vector<std::uint32_t> leaving_;       ///< one a point: the new facet on the edge of the horizon that leaves it
-    std::vector<std::uint32_t> visible_;       ///< the facets that the new point sees
-    std::vector<std::uint32_t> horizon_;       ///< half-edges of the facets behind the horizon
+    // For one insertion.
+    std::vector<std::uint32_t> visible_;  ///< the facets that the new point sees
+    std::vector<std::uint32_t> horizon_;  ///< half-edges of the facets behind the horizon
+    std::vector<std::uint32_t> cone_;     ///< the new facets
+    std::vector<double> cone_height_;     ///< of the farthest above each
+    std::vector<std::uint32_t> orphans_;  ///< points that were above what is gone
+    std::vector<double> orphan_[3];       ///< their coordinates,
+    std::vector<double> most_, best_;     ///< and how high each is above which of the new facets
 };
 
+Quickhull::Quickhull(std::span<const GridPoint> points, double tolerance)
+    : points_(points), tolerance_(tolerance), next_outside_(points.size(), none), leaving_(points.size(), none) {
+    seats_.reserve(points.size());
+    for (const GridPoint& point : points) seats_.emplace_back(point);
+}
+
 std::uint32_t Quickhull::add_facet(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    Facet facet;
+    std::uint32_t place = static_cast<std::uint32_t>(facets_.size());
+    if (free_.empty()) {
+        facets_.emplace_back();
+        born_.emplace_back();
+    } else {
+        place = free_.back();
+        free_.pop_back();
+    }
+    Facet& facet = facets_[place];
     facet.corner = {a, b, c};
-    facet.normal = grid_normal(points_[a], points_[b], points_[c]);
-    facet.inverse_length = 1 / length(DVec<3>(facet.normal));
-    facets_.push_back(facet);
-    return static_cast<std::uint32_t>(facets_.size() - 1);
+    facet.plane.normal = normalized(DVec<3>(grid_normal(points_[a], points_[b], points_[c])));
+    facet.plane.offset = dot(facet.plane.normal, seats_[a]);
+    facet.outside = facet.farthest = none;
+    born_[place] = births_++;
+    return place;
+}
+
+/// Of the exact sign.
+double Quickhull::exact_height(const Facet& facet, std::uint32_t point) const {
+    const auto& [a, b, c] = facet.corner;
+    const GridPoint normal = grid_normal(points_[a], points_[b], points_[c]);
+    return grid_dot(normal, points_[point] - points_[a]) / length(DVec<3>(normal));
 }
 
 /// Above the facet, in steps of the grid; of the exact sign.
 double Quickhull::height(const Facet& facet, std::uint32_t point) const {
-    return grid_dot(facet.normal, points_[point] - points_[facet.corner[0]]) * facet.inverse_length;
+    const double rounded = rounded_height(facet.plane, point);
+    return std::abs(rounded) > doubt ? rounded : exact_height(facet, point);
 }
 
 /// From a point above the facet to the triangle itself, not to its plane alone: beyond a sharp corner a point can be
 /// low above every facet and still far from all of them.
 double Quickhull::distance(const Facet& facet, std::uint32_t point) const {
-    const DVec<3> p(points_[point]), normal(facet.normal);
+    const DVec<3>& p = seats_[point];
     bool over = true;
     double to_edge_squared = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < 3; ++i) {
-        const DVec<3> a(points_[facet.corner[i]]), b(points_[facet.corner[(i + 1) % 3]]);
-        over = over && dot(cross(normal, b - a), p - a) >= 0;
+        const DVec<3>&a = seats_[facet.corner[i]], &b = seats_[facet.corner[(i + 1) % 3]];
+        over = over && dot(cross(facet.plane.normal, b - a), p - a) >= 0;
         to_edge_squared = std::min(to_edge_squared, distance_squared_to_segment(p, a, b));
     }
     return over ? height(facet, point) : std::sqrt(to_edge_squared);
@@ -88,7 +141,7 @@ double Quickhull::distance(const Facet& facet, std::uint32_t point) const {
 /// The point above the facet to go on with; none where all are near enough to be left out. A hull only grows, so they
 /// stay near enough.
 std::uint32_t Quickhull::next_eye(const Facet& facet) const {
-    if (facet.outside == none || facet.height > tolerance_) return facet.farthest;
+    if (facet.outside == none || height(facet, facet.farthest) > tolerance_) return facet.farthest;
     std::uint32_t result = none;
     double most = 0;
     for (std::uint32_t point = facet.outside; point != none; point = next_outside_[point]) {
@@ -101,65 +154,110 @@ std::uint32_t Quickhull::next_eye(const Facet& facet) const {
     return result;
 }
 
-/// Puts the point on the list of the facet that it is highest above, of those from `first_facet` on; a point above none
-/// of them is inside.
-void Quickhull::assign(std::uint32_t point, std::uint32_t first_facet) {
-    std::uint32_t best = none;
-    double most = 0;
-    for (std::uint32_t f = first_facet; f < facets_.size(); ++f) {
-        const double above = height(facets_[f], point);
-        if (above > most) {
-            most = above;
-            best = f;
+/// Finds the facets that the eye sees, one of them known, and their outline. What a facet is seen by is exact, so they
+/// are one piece without holes, and the outline passes each of its points once.
+void Quickhull::see(std::uint32_t eye, std::uint32_t seen) {
+    const auto take = [&](std::uint32_t facet) {
+        facets_[facet].corner[0] = none;
+        visible_.push_back(facet);
+    };
+    visible_.clear();
+    horizon_.clear();
+    take(seen);
+    for (std::size_t i = 0; i < visible_.size(); ++i) {
+        const std::array<std::uint32_t, 3> twins = facets_[visible_[i]].twin;
+        for (const std::uint32_t twin : twins) {
+            const std::uint32_t neighbor = twin / 3;
+            if (!alive(neighbor)) continue;
+            if (height(facets_[neighbor], eye) > 0)
+                take(neighbor);
+            else
+                horizon_.push_back(twin);
         }
-    }
-    if (best == none) return;
-    Facet& facet = facets_[best];
-    next_outside_[point] = facet.outside;
-    facet.outside = point;
-    if (most > facet.height) {
-        facet.height = most;
-        facet.farthest = point;
     }
 }
 
-/// Replaces the facets that the eye sees, one of them known, by the cone from the eye over their outline. What a facet
-/// is seen by is exact, so they are one piece without holes, and the outline passes each of its points once.
-void Quickhull::insert(std::uint32_t eye, std::uint32_t seen) {
-    visible_.assign(1, seen);
-    horizon_.clear();
-    facets_[seen].alive = false;
-    for (std::size_t i = 0; i < visible_.size(); ++i)
-        for (const std::uint32_t twin : facets_[visible_[i]].twin) {
-            Facet& neighbor = facets_[twin / 3];
-            if (!neighbor.alive) continue;
-            if (height(neighbor, eye) > 0) {
-                neighbor.alive = false;
-                visible_.push_back(twin / 3);
-            } else {
-                horizon_.push_back(twin);
-            }
-        }
+/// What was above the facets that are gone, but for the eye.
+void Quickhull::take_orphans(std::uint32_t eye) {
+    orphans_.clear();
+    for (const std::uint32_t old : visible_) {
+        for (std::uint32_t point = facets_[old].outside; point != none; point = next_outside_[point])
+            if (point != eye) orphans_.push_back(point);
+        free_.push_back(old);
+    }
+}
 
-    const auto first_new = static_cast<std::uint32_t>(facets_.size());
+/// A facet from the eye over each edge of the outline.
+void Quickhull::raise_cone(std::uint32_t eye) {
+    cone_.clear();
     for (const std::uint32_t behind : horizon_) {
         const std::uint32_t from = origin(following(behind));
         const std::uint32_t facet = add_facet(from, origin(behind), eye);
         facets_[facet].twin[0] = behind;
         facets_[behind / 3].twin[behind % 3] = 3 * facet;
         leaving_[from] = facet;
+        cone_.push_back(facet);
     }
-    for (std::uint32_t facet = first_new; facet < facets_.size(); ++facet) {
+    for (const std::uint32_t facet : cone_) {
         const std::uint32_t neighbor = leaving_[facets_[facet].corner[1]];
         facets_[facet].twin[1] = 3 * neighbor + 2;
         facets_[neighbor].twin[2] = 3 * facet + 1;
     }
+}
 
-    for (const std::uint32_t old : visible_)
-        for (std::uint32_t point = facets_[old].outside, next; point != none; point = next) {
-            next = next_outside_[point];
-            if (point != eye) assign(point, first_new);
+/// Puts each orphan on the list of the new facet that it is highest above; one above none of them is inside.
+void Quickhull::assign_orphans() {
+    const std::size_t count = orphans_.size();
+    for (int i = 0; i < 3; ++i) {
+        orphan_[i].resize(count);
+        for (std::size_t k = 0; k < count; ++k) orphan_[i][k] = seats_[orphans_[k]][i];
+    }
+    most_.assign(count, -std::numeric_limits<double>::infinity());
+    best_.resize(count);
+    for (std::size_t f = 0; f < cone_.size(); ++f) {
+        const Plane plane = facets_[cone_[f]].plane;
+        const double number = static_cast<double>(f);
+        const double *x = orphan_[0].data(), *y = orphan_[1].data(), *z = orphan_[2].data();
+        double *most = most_.data(), *best = best_.data();
+        for (std::size_t k = 0; k < count; ++k) {
+            const double here = plane.normal.x * x[k] + plane.normal.y * y[k] + plane.normal.z * z[k] - plane.offset;
+            best[k] = here > most[k] ? number : best[k];
+            most[k] = here > most[k] ? here : most[k];
         }
+    }
+    cone_height_.assign(cone_.size(), 0.0);
+    for (std::size_t k = 0; k < count; ++k) {
+        if (most_[k] < -doubt) continue;
+        auto best = static_cast<std::size_t>(best_[k]);
+        double above = most_[k];
+        if (above <= doubt) {
+            above = 0;
+            for (std::size_t f = 0; f < cone_.size(); ++f) {
+                const double here = height(facets_[cone_[f]], orphans_[k]);
+                if (here <= above) continue;
+                above = here;
+                best = f;
+            }
+            if (above <= 0) continue;
+        }
+        Facet& facet = facets_[cone_[best]];
+        next_outside_[orphans_[k]] = facet.outside;
+        facet.outside = orphans_[k];
+        if (above > cone_height_[best]) {
+            cone_height_[best] = above;
+            facet.farthest = orphans_[k];
+        }
+    }
+    for (const std::uint32_t facet : cone_)
+        if (facets_[facet].outside != none) turns_.push_back({facet, born_[facet]});
+}
+
+/// Replaces the facets that the eye sees, one of them known, by the cone from the eye over their outline.
+void Quickhull::insert(std::uint32_t eye, std::uint32_t seen) {
+    see(eye, seen);
+    take_orphans(eye);
+    raise_cone(eye);
+    assign_orphans();
 }
 
 void Quickhull::run(std::array<std::uint32_t, 4> start) {
@@ -172,13 +270,17 @@ void Quickhull::run(std::array<std::uint32_t, 4> start) {
     facets_[front].twin = {3 * back + 2, 3 * back + 1, 3 * back};
     facets_[back].twin = {3 * front + 2, 3 * front + 1, 3 * front};
     insert(start[3], front);
-    for (std::uint32_t point = 0; point < points_.size(); ++point) assign(point, back);
+    cone_.insert(cone_.begin(), back);
+    orphans_.resize(points_.size());
+    std::iota(orphans_.begin(), orphans_.end(), 0u);
+    assign_orphans();
 
     // Each turn takes a point into the hull or leaves the facet for good.
-    for (std::uint32_t f = 0; f < facets_.size(); ++f) {
-        if (!facets_[f].alive) continue;
-        const std::uint32_t eye = next_eye(facets_[f]);
-        if (eye != none) insert(eye, f);
+    for (std::size_t i = 0; i < turns_.size(); ++i) {
+        const auto [facet, born] = turns_[i];
+        if (!alive(facet) || born_[facet] != born) continue;
+        const std::uint32_t eye = next_eye(facets_[facet]);
+        if (eye != none) insert(eye, facet);
     }
 }
 
@@ -190,16 +292,24 @@ double Quickhull::farthest_left_out(const Facet& facet) const {
 }
 
 TriangleSurface Quickhull::surface() const {
-    std::vector<std::uint32_t> number(facets_.size(), none);
-    std::uint32_t count = 0;
-    for (std::size_t f = 0; f < facets_.size(); ++f)
-        if (facets_[f].alive) number[f] = count++;
+    // In the order of birth, wherever they have their places.
+    std::vector<std::uint32_t> in_order(births_, none);
+    for (std::uint32_t f = 0; f < facets_.size(); ++f)
+        if (alive(f)) in_order[born_[f]] = f;
+    std::erase(in_order, none);
+    std::vector<std::uint32_t> number(facets_.size());
+    for (std::uint32_t i = 0; i < in_order.size(); ++i) number[in_order[i]] = i;
+
     TriangleSurface result;
-    for (const Facet& facet : facets_) {
-        if (!facet.alive) continue;
-        result.origin.insert(result.origin.end(), facet.corner.begin(), facet.corner.end());
+    result.origin.reserve(3 * in_order.size());
+    result.twin.reserve(3 * in_order.size());
+    result.normals.reserve(in_order.size());
+    for (const std::uint32_t f : in_order) {
+        const Facet& facet = facets_[f];
+        const auto& [a, b, c] = facet.corner;
+        result.origin.insert(result.origin.end(), {a, b, c});
         for (const std::uint32_t twin : facet.twin) result.twin.push_back(3 * number[twin / 3] + twin % 3);
-        result.normals.push_back(facet.normal);
+        result.normals.push_back(grid_normal(points_[a], points_[b], points_[c]));
         result.left_out = std::max(result.left_out, farthest_left_out(facet));
     }
     return result;
