@@ -1,15 +1,16 @@
 // The hull in space: how flat the points are, the quickhull of those that aren't, and the result in floats.
 
 #include <abut/convex/hull.hpp>
+#include <abut/convex/hull_core.hpp>
 #include <abut/convex/hull_faces.hpp>
 #include <abut/convex/hull_grid.hpp>
 #include <abut/convex/hull_input.hpp>
 #include <abut/convex/hull_planes.hpp>
+#include <abut/convex/hull_spread.hpp>
 #include <abut/convex/quickhull.hpp>
 #include <abut/math/dvec.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -17,60 +18,10 @@ namespace abut {
 namespace {
 
 std::vector<Vec3> sorted_without_copies(std::span<const Vec3> points) {
-    std::vector<Vec3> result;
-    result.reserve(points.size());
-    for (const Vec3& point : points) result.push_back(without_negative_zero(point));
+    std::vector<Vec3> result = without_core(points);
+    for (Vec3& point : result) point = without_negative_zero(point);
     std::sort(result.begin(), result.end(), [](const Vec3& a, const Vec3& b) { return less(a, b); });
     result.erase(std::unique(result.begin(), result.end()), result.end());
-    return result;
-}
-
-/// The point for which `measure` is greatest, the first of them if there are several.
-template <class Measure>
-std::uint32_t farthest(const std::vector<GridPoint>& points, Measure measure) {
-    std::uint32_t best = 0;
-    double most = measure(points[0]);
-    for (std::uint32_t i = 1; i < points.size(); ++i) {
-        const double value = measure(points[i]);
-        if (value > most) {
-            most = value;
-            best = i;
-        }
-    }
-    return best;
-}
-
-/// Rank + 1 points that span the set: two that are far apart, the one farthest from their line, the one farthest from
-/// the plane of the three. What is no farther than the tolerance doesn't count.
-struct Span {
-    std::array<std::uint32_t, 4> points{};
-    int rank = 0;
-};
-
-Span spanning(const Grid& grid) {
-    const std::vector<GridPoint>& points = grid.points;
-    const auto distance_from = [&](std::uint32_t from) {
-        return [&points, from](const GridPoint& p) { return length(DVec<3>(p - points[from])); };
-    };
-    Span result;
-    std::uint32_t& a = result.points[0];
-    std::uint32_t& b = result.points[1];
-    std::uint32_t& c = result.points[2];
-    std::uint32_t& d = result.points[3];
-    a = farthest(points, distance_from(0));
-    b = farthest(points, distance_from(a));
-    result.rank = 1;
-
-    const double base = length(DVec<3>(points[b] - points[a]));
-    const auto twice_area = [&](const GridPoint& p) { return length(DVec<3>(grid_normal(points[a], points[b], p))); };
-    c = farthest(points, twice_area);
-    if (twice_area(points[c]) <= grid.tolerance * base) return result;
-    result.rank = 2;
-
-    const GridPoint normal = grid_normal(points[a], points[b], points[c]);
-    const auto volume = [&](const GridPoint& p) { return std::abs(grid_dot(normal, p - points[a])); };
-    d = farthest(points, volume);
-    if (volume(points[d]) > grid.tolerance * length(DVec<3>(normal))) result.rank = 3;
     return result;
 }
 
@@ -186,18 +137,18 @@ std::vector<std::uint32_t> triangles_of(const HullFaces& faces) {
 }
 
 /// Where the points aren't all on a line.
-Hull3 hull_with_faces(std::span<const Vec3> points, const Grid& grid, const Span& span) {
+Hull3 hull_with_faces(std::span<const Vec3> points, const Grid& grid, const Spread& spread) {
     Hull3 result;
-    result.rank = span.rank;
-    if (span.rank == 2) {
-        const auto& [a, b, c, d] = span.points;
+    result.rank = spread.rank;
+    if (spread.rank == 2) {
+        const auto& [a, b, c, d] = spread.points;
         HullFaces faces = flat_faces(points, DVec<3>(grid_normal(grid.points[a], grid.points[b], grid.points[c])));
         measure(result, grid, triangles_of(faces));
         const double offsets[] = {offset_across(faces.normals[0], points), offset_across(faces.normals[1], points)};
         take_faces(result, points, std::move(faces), offsets);
         return result;
     }
-    const TriangleSurface surface = quickhull(grid.points, span.points, grid.tolerance);
+    const TriangleSurface surface = quickhull(grid.points, spread.points, grid.tolerance);
     measure(result, grid, surface.origin);
     HullFaces faces = hull_faces(grid.points, surface, grid.tolerance, grid.flatness);
     const std::vector<double> offsets = plane_offsets(faces, points, grid, surface);
@@ -213,9 +164,9 @@ Result<Hull3> hull(std::span<const Vec3> points) {
     Hull3 result;
     if (sorted.size() > 1) {
         const Grid grid = on_grid(sorted);
-        const Span span = spanning(grid);
-        if (span.rank > 1) return hull_with_faces(sorted, grid, span);
-        const auto [low, high] = std::minmax(span.points[0], span.points[1]);
+        const Spread spread = spread_of(grid, grid.tolerance);
+        if (spread.rank > 1) return hull_with_faces(sorted, grid, spread);
+        const auto [low, high] = std::minmax(spread.points[0], spread.points[1]);
         result.points = {sorted[low], sorted[high]};
         result.rank = 1;
     } else {
