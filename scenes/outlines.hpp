@@ -1,0 +1,52 @@
+#pragma once
+
+// Outlines that are hard to take apart: stars, combs, plates full of holes. Same numbers on every machine.
+
+#include "../test/oracle/random.hpp"
+#include "bumpy_ball.hpp"
+#include <abut/math/dvec.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace abut::scenes {
+
+struct Outline {
+    std::vector<Vec2> ring;
+    std::vector<std::vector<Vec2>> holes;
+};
+
+/// Around a point at even angles, each corner at a random distance from `inner` x `radius` to `radius`.
+/// Counter-clockwise.
+inline std::vector<Vec2> star(std::uint32_t corners, double inner, std::uint64_t seed, DVec<2> middle = DVec<2>(0.0),
+                              double radius = 1) {
+    oracle::Random random(seed);
+    std::vector<Vec2> result;
+    for (std::uint32_t i = 0; i < corners; ++i)
+        result.push_back(to_float(middle + on_circle(4.0 * i / corners) * (radius * random.uniform(inner, 1))));
+    return result;
+}
+
+/// A bar with teeth upwards, 4 corners each, all of whose roots lie on one line. Counter-clockwise.
+inline std::vector<Vec2> comb(std::uint32_t teeth) {
+    std::vector<Vec2> result{{0, -1}, {static_cast<float>(2 * teeth - 1), -1}};
+    for (std::uint32_t i = teeth; i-- > 0;) {
+        const auto left = static_cast<float>(2 * i), right = static_cast<float>(2 * i + 1);
+        if (i + 1 < teeth) result.emplace_back(right, 0.0f);
+        result.emplace_back(right, 5.0f);
+        result.emplace_back(left, 5.0f);
+        if (i > 0) result.emplace_back(left, 0.0f);
+    }
+    return result;
+}
+
+/// A square of `rows` x `rows` stars of `corners` corners as holes.
+inline Outline plate(std::uint32_t rows, std::uint32_t corners, std::uint64_t seed) {
+    const auto side = static_cast<float>(rows);
+    Outline result{{{0, 0}, {side, 0}, {side, side}, {0, side}}, {}};
+    for (std::uint32_t i = 0; i < rows * rows; ++i)
+        result.holes.push_back(star(corners, 0.4, seed + i, DVec<2>(i % rows + 0.5, i / rows + 0.5), 0.45));
+    return result;
+}
+
+}  // namespace abut::scenes
