@@ -2,5 +2,6 @@
 
 // All of abut::bake: slow work before the game starts.
 
+#include <abut/bake/decompose_outline.hpp>
 #include <abut/bake/solid.hpp>
 #include <abut/bake/weld.hpp>

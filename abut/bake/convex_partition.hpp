@@ -21,6 +21,7 @@ public:
     std::vector<std::uint32_t> faces() const;
     std::uint32_t next(std::uint32_t half_edge) const { return next_[half_edge]; }
     std::uint32_t origin(std::uint32_t half_edge) const { return origins_[half_edge]; }
+    const Vec2& point(std::uint32_t number) const { return points_[number]; }
 
 private:
     const Vec2& at(std::uint32_t half_edge) const { return points_[origins_[half_edge]]; }
