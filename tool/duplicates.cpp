@@ -1,6 +1,6 @@
 #include "duplicates.hpp"
 
-#include "groups.hpp"
+#include <abut/bake/groups.hpp>
 #include <abut/broad_phase/bvh.hpp>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "flat_surface.hpp"
 
-#include "groups.hpp"
+#include <abut/bake/groups.hpp>
 #include <abut/abut.hpp>
 #include <abut/math/dvec.hpp>
 

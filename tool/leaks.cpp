@@ -1,7 +1,7 @@
 #include "leaks.hpp"
 
-#include "groups.hpp"
 #include "mesh_border.hpp"
+#include <abut/bake/groups.hpp>
 #include <abut/math/dvec.hpp>
 
 #include <algorithm>

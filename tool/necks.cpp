@@ -1,7 +1,7 @@
 #include "necks.hpp"
 
-#include "groups.hpp"
 #include <abut/abut.hpp>
+#include <abut/bake/groups.hpp>
 #include <abut/math/dvec.hpp>
 
 #include <algorithm>

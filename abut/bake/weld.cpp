@@ -1,19 +1,111 @@
 #include <abut/bake/weld.hpp>
 #include <abut/math/coincident.hpp>
+#include <abut/math/dvec.hpp>
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
 #include <cstdint>
 #include <limits>
+#include <tuple>
+#include <unordered_map>
 
 namespace abut {
 namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
+/// Cubes of space that are found by where they are.
+using Cell = std::array<double, 3>;
+
+struct CellHash {
+    std::size_t operator()(const Cell& cell) const {
+        std::uint64_t hash = 0;
+        for (const double coordinate : cell) {
+            hash = (hash ^ std::bit_cast<std::uint64_t>(coordinate + 0.0)) * 0x9E3779B97F4A7C15u;
+            hash ^= hash >> 32;
+        }
+        return static_cast<std::size_t>(hash);
+    }
+};
+
+/// Points that are farther apart than a distance; a few at most share a cell whose edges are as long.
+class KeptPoints {
+public:
+    KeptPoints(std::span<const Vec3> points, double distance)
+        : points_(points),
+          distance_(distance),
+          edge_(std::max(1.0001 * distance, least_edge)),
+          next_(points.size(), none) {}
+
+    /// The nearest one within the distance, of several the first; none where there is none.
+    std::uint32_t nearest(std::uint32_t point) const {
+        const DVec<3> at(points_[point]);
+        const Cell middle = cell_of(at);
+        std::uint32_t best = none;
+        double least = 0;
+        for (int i = 0; i < 27; ++i) {
+            const auto found =
+                first_.find({middle[0] + (i % 3 - 1), middle[1] + (i / 3 % 3 - 1), middle[2] + (i / 9 - 1)});
+            if (found == first_.end()) continue;
+            for (std::uint32_t other = found->second; other != none; other = next_[other]) {
+                const double apart = length(DVec<3>(points_[other]) - at);
+                if (apart > distance_ || (best != none && std::tie(least, best) <= std::tie(apart, other))) continue;
+                best = other;
+                least = apart;
+            }
+        }
+        return best;
+    }
+
+    void keep(std::uint32_t point) {
+        const auto [place, is_new] = first_.try_emplace(cell_of(DVec<3>(points_[point])), point);
+        if (is_new) return;
+        next_[point] = place->second;
+        place->second = point;
+    }
+
+private:
+    // No two floats are nearer, and no float divided by it is infinite.
+    static constexpr double least_edge = 1e-50;
+
+    Cell cell_of(const DVec<3>& p) const {
+        return {std::floor(p.x / edge_), std::floor(p.y / edge_), std::floor(p.z / edge_)};
+    }
+
+    std::span<const Vec3> points_;
+    double distance_, edge_;
+    std::unordered_map<Cell, std::uint32_t, CellHash> first_;
+    std::vector<std::uint32_t> next_;  // of those in the same cell
+};
+
+std::vector<std::uint32_t> first_near(std::span<const Vec3> points, double distance) {
+    std::vector<std::uint32_t> result = first_coincident(points);
+    if (distance == 0) return result;
+    KeptPoints kept(points, distance);
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+        if (result[i] != i) {
+            result[i] = result[result[i]];
+            continue;
+        }
+        const std::uint32_t nearest = kept.nearest(i);
+        if (nearest == none)
+            kept.keep(i);
+        else
+            result[i] = nearest;
+    }
+    return result;
+}
+
 }  // namespace
 
 Welded weld(std::span<const Vec3> points, std::span<const glm::uvec3> triangles) {
-    const std::vector<std::uint32_t> stands_for = first_coincident(points);
+    return weld(points, triangles, 0);
+}
+
+Welded weld(std::span<const Vec3> points, std::span<const glm::uvec3> triangles, double distance) {
+    const std::vector<std::uint32_t> stands_for = first_near(points, distance);
     std::vector<std::uint32_t> number(points.size(), none);
     Welded result;
     const auto use = [&](std::uint32_t corner) {

@@ -21,4 +21,9 @@ struct Welded {
 /// in range, coordinates not NaN. O(n log n).
 Welded weld(std::span<const Vec3> points, std::span<const glm::uvec3> triangles);
 
+/// The same where points at most `distance` apart, finite and not below 0, count as one: each in the order of the
+/// points becomes the nearest of those that were kept before it, or is kept itself. So no point is moved farther than
+/// the distance, and those left are farther apart than that. O(n) but for points that are chosen to collide.
+Welded weld(std::span<const Vec3> points, std::span<const glm::uvec3> triangles, double distance);
+
 }  // namespace abut

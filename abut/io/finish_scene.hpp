@@ -2,6 +2,7 @@
 
 // What every reader's scene goes through: the checks that don't depend on the format, names, the clock.
 
+#include <abut/bake/zero_area.hpp>
 #include <abut/io/scene.hpp>
 #include <abut/math/result.hpp>
 
@@ -11,9 +12,6 @@ struct ReadOptions {
     /// Leave out triangles of zero area and say so in a warning, in place of refusing the file.
     bool skip_degenerate = false;
 };
-
-/// True where the corners have no area: two are equal, or all three lie on a line to within 1e-12 of the longest edge.
-bool has_zero_area(const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// Checks what a reader made of a file and makes it good to use: geometry without triangles goes, paths become unique
 /// ("Crate", "Crate#2"), rotations get length 1, the animations their start. A Problem, with the mesh, node or

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-namespace abut::tool {
+namespace abut {
 
 /// 0..n-1, each at first in a group of its own.
 class Groups {
@@ -38,4 +38,4 @@ private:
     std::vector<std::size_t> parent_;
 };
 
-}  // namespace abut::tool
+}  // namespace abut

@@ -1,0 +1,53 @@
+#include <abut/bake/half_edges.hpp>
+
+#include <algorithm>
+#include <tuple>
+
+namespace abut {
+
+std::vector<HalfEdge> sorted_half_edges(std::span<const glm::uvec3> triangles) {
+    std::vector<HalfEdge> result;
+    result.reserve(3 * triangles.size());
+    for (std::uint32_t side = 0; side < 3 * triangles.size(); ++side) {
+        const std::uint32_t from = start_of(triangles, side), to = end_of(triangles, side);
+        result.push_back({std::min(from, to), std::max(from, to), side, from < to});
+    }
+    std::sort(result.begin(), result.end(), [](const HalfEdge& a, const HalfEdge& b) {
+        return std::tie(a.low, a.high, a.side) < std::tie(b.low, b.high, b.side);
+    });
+    return result;
+}
+
+bool has_edge(std::span<const HalfEdge> sorted, std::uint32_t a, std::uint32_t b) {
+    const std::pair ends(std::min(a, b), std::max(a, b));
+    const auto found = std::lower_bound(sorted.begin(), sorted.end(), ends,
+                                        [](const HalfEdge& edge, const auto& sought) { return edge.ends() < sought; });
+    return found != sorted.end() && found->ends() == ends;
+}
+
+std::vector<std::uint32_t> twins(std::span<const HalfEdge> sorted) {
+    std::vector<std::uint32_t> result(sorted.size(), no_side);
+    each_edge(sorted, [&](std::span<const HalfEdge> edge) {
+        if (edge.size() != 2 || edge[0].upwards == edge[1].upwards) return;
+        result[edge[0].side] = edge[1].side;
+        result[edge[1].side] = edge[0].side;
+    });
+    return result;
+}
+
+EdgeFaults edge_faults(std::span<const glm::uvec3> triangles) {
+    EdgeFaults result;
+    result.closed = !triangles.empty();
+    const std::vector<HalfEdge> sorted = sorted_half_edges(triangles);
+    each_edge(sorted, [&](std::span<const HalfEdge> edge) {
+        const auto upwards = static_cast<std::size_t>(
+            std::count_if(edge.begin(), edge.end(), [](const HalfEdge& side) { return side.upwards; }));
+        result.open += edge.size() == 1;
+        result.crowded += edge.size() > 2;
+        result.disagreeing += edge.size() == 2 && upwards != 1;
+        result.closed = result.closed && 2 * upwards == edge.size();
+    });
+    return result;
+}
+
+}  // namespace abut

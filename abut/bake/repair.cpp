@@ -1,0 +1,123 @@
+#include <abut/bake/fill_holes.hpp>
+#include <abut/bake/half_edges.hpp>
+#include <abut/bake/repair.hpp>
+#include <abut/bake/tidy.hpp>
+#include <abut/bake/weld.hpp>
+#include <abut/bake/wind.hpp>
+#include <abut/math/coincident.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace abut {
+namespace {
+
+constexpr std::uint32_t most_hole_edges = 1000;
+
+std::optional<Problem> problem_of(std::span<const Vec3> points, std::span<const glm::uvec3> triangles,
+                                  const RepairOptions& options) {
+    if (!std::isfinite(options.weld_distance) || options.weld_distance < 0)
+        return Problem{ProblemCode::bad_argument, "the weld distance is not a finite number of at least 0"};
+    if (!(options.hole_area >= 0 && options.hole_area <= 1))
+        return Problem{ProblemCode::bad_argument, "the share of area of holes is not from 0 to 1"};
+    if (options.hole_edges > most_hole_edges)
+        return Problem{ProblemCode::bad_argument, "holes to fill have more than 1000 edges"};
+    if (triangles.empty()) return Problem{ProblemCode::empty_input, "no triangles"};
+    for (std::size_t i = 0; i < points.size(); ++i)
+        if (!is_finite(points[i]))
+            return Problem{ProblemCode::not_finite, "point " + std::to_string(i) + " is not finite", i};
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+        for (int k = 0; k < 3; ++k)
+            if (triangles[i][k] >= points.size())
+                return Problem{ProblemCode::index_out_of_range,
+                               "triangle " + std::to_string(i) + " has corner " + std::to_string(triangles[i][k]) +
+                                   " of " + std::to_string(points.size()) + " points",
+                               i};
+    return std::nullopt;
+}
+
+void count_points(std::span<const Vec3> points, std::span<const glm::uvec3> triangles, const Welded& surface,
+                  Repairs& repairs) {
+    const std::vector<std::uint32_t> first = first_coincident(points);
+    std::vector<bool> is_used(points.size(), false);
+    for (const glm::uvec3& t : triangles)
+        for (int k = 0; k < 3; ++k) is_used[t[k]] = true;
+    repairs.points_unused = static_cast<std::size_t>(std::count(is_used.begin(), is_used.end(), false));
+    std::vector<bool> is_place(points.size(), false);
+    for (std::size_t i = 0; i < points.size(); ++i)
+        if (is_used[i]) is_place[first[i]] = true;
+    const auto places = static_cast<std::size_t>(std::count(is_place.begin(), is_place.end(), true));
+    repairs.points_joined = points.size() - repairs.points_unused - places;
+    repairs.points_welded = places - surface.points.size();
+}
+
+}  // namespace
+
+Result<Repaired> repair(std::span<const Vec3> points, std::span<const glm::uvec3> triangles,
+                        const RepairOptions& options) {
+    if (std::optional<Problem> problem = problem_of(points, triangles, options)) return *std::move(problem);
+
+    Repaired result;
+    Repairs& repairs = result.repairs;
+    Welded surface = weld(points, triangles, options.weld_distance);
+    count_points(points, triangles, surface, repairs);
+    repairs.triangles_lost = triangles.size() - surface.triangles.size();
+    repairs.triangles_double = drop_doubles(surface);
+
+    const std::vector<glm::uvec3> as_it_came = surface.triangles;
+    Patches patches = wind_alike(surface);
+    const FilledHoles filled = fill_holes(surface, patches, options.hole_edges, options.hole_area);
+    repairs.holes_filled = filled.holes;
+    repairs.triangles_added = filled.triangles;
+    repairs.cavities = face_outwards(surface, patches);
+    for (std::size_t i = 0; i < as_it_came.size(); ++i)
+        repairs.triangles_turned += surface.triangles[i] != as_it_came[i];
+    repairs.triangles_lost += drop_slivers(surface);
+    if (surface.triangles.empty()) return Problem{ProblemCode::degenerate, "no triangle has an area"};
+
+    // Corners of what went may be used no more.
+    surface = weld(surface.points, surface.triangles);
+    const EdgeFaults faults = edge_faults(surface.triangles);
+    repairs.open_edges = faults.open;
+    repairs.crowded_edges = faults.crowded;
+    repairs.disagreeing_edges = faults.disagreeing;
+    result.closed = faults.closed;
+    result.points = std::move(surface.points);
+    result.triangles = std::move(surface.triangles);
+    return result;
+}
+
+bool changed(const Repairs& repairs) {
+    return repairs.points_welded + repairs.triangles_lost + repairs.triangles_double + repairs.triangles_turned +
+               repairs.holes_filled >
+           0;
+}
+
+std::string described(const Repairs& repairs) {
+    std::string text;
+    const auto add = [&](std::size_t count, const char* one, const char* many, const char* what) {
+        if (count == 0) return;
+        if (!text.empty() && !text.ends_with("; ")) text += ", ";
+        text += std::to_string(count) + " " + (count == 1 ? one : many) + what;
+    };
+    add(repairs.points_welded, "point", "points", " welded");
+    add(repairs.triangles_lost, "triangle", "triangles", " without area dropped");
+    add(repairs.triangles_double, "double triangle", "double triangles", " dropped");
+    add(repairs.triangles_turned, "triangle", "triangles", " turned");
+    add(repairs.holes_filled, "hole", "holes", " filled");
+    if (text.empty()) text = "nothing to repair";
+    text += "; ";
+    const std::size_t before = text.size();
+    add(repairs.open_edges, "open edge", "open edges", "");
+    add(repairs.crowded_edges, "edge", "edges", " of more than two triangles");
+    add(repairs.disagreeing_edges, "edge", "edges", " whose triangles can't agree");
+    if (text.size() == before)
+        text.resize(before - 2);
+    else
+        text += " left";
+    return text;
+}
+
+}  // namespace abut

@@ -1,0 +1,85 @@
+// Mesh repair on any triangles: a surface whose numbers are right, or a Problem with a message.
+
+#include <abut/bake/half_edges.hpp>
+#include <abut/bake/repair.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <vector>
+
+namespace {
+
+using namespace abut;
+
+void require(bool condition) {
+    if (!condition) std::abort();
+}
+
+/// Numbers until the bytes end; then 0.
+class Bytes {
+public:
+    Bytes(const std::uint8_t* data, std::size_t size) : data_(data), left_(size) {}
+
+    bool empty() const { return left_ == 0; }
+    std::uint8_t byte() {
+        if (left_ == 0) return 0;
+        --left_;
+        return *data_++;
+    }
+    /// Mostly small whole ones, so that points coincide and lie on lines; behind 0xff any bits at all.
+    float coordinate() {
+        const std::uint8_t first = byte();
+        if (first != 0xff) return static_cast<float>(first % 8);
+        std::uint8_t bits[sizeof(float)];
+        for (std::uint8_t& b : bits) b = byte();
+        float result = 0;
+        std::memcpy(&result, bits, sizeof result);
+        return result;
+    }
+
+private:
+    const std::uint8_t* data_;
+    std::size_t left_;
+};
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    Bytes bytes(data, size);
+    RepairOptions options;
+    options.weld_distance = static_cast<double>(bytes.byte() % 4) * 0.5;
+    options.hole_edges = bytes.byte() % 32u;
+    options.hole_area = bytes.byte() / 255.0;
+    const std::uint32_t point_count = bytes.byte() % 64u;
+    std::vector<Vec3> points;
+    for (std::uint32_t i = 0; i < point_count; ++i) {
+        const float x = bytes.coordinate(), y = bytes.coordinate(), z = bytes.coordinate();
+        points.emplace_back(x, y, z);
+    }
+    std::vector<glm::uvec3> triangles;
+    while (!bytes.empty()) {
+        const std::uint8_t a = bytes.byte(), b = bytes.byte(), c = bytes.byte();
+        triangles.emplace_back(a, b, c);
+    }
+
+    const Result<Repaired> result = repair(points, triangles, options);
+    if (!result) {
+        require(!result.problem().message.empty());
+        return 0;
+    }
+    require(!result->triangles.empty());
+    std::vector<bool> is_used(result->points.size(), false);
+    for (const glm::uvec3& t : result->triangles)
+        for (int k = 0; k < 3; ++k) {
+            require(t[k] < result->points.size());
+            is_used[t[k]] = true;
+        }
+    for (const bool used : is_used) require(used);
+    const EdgeFaults faults = edge_faults(result->triangles);
+    require(faults.closed == result->closed && faults.open == result->repairs.open_edges &&
+            faults.crowded == result->repairs.crowded_edges && faults.disagreeing == result->repairs.disagreeing_edges);
+    require(!described(result->repairs).empty());
+    return 0;
+}
