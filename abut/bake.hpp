@@ -3,6 +3,7 @@
 // All of abut::bake: slow work before the game starts.
 
 #include <abut/bake/decompose_outline.hpp>
+#include <abut/bake/fit.hpp>
 #include <abut/bake/repair.hpp>
 #include <abut/bake/solid.hpp>
 #include <abut/bake/weld.hpp>
