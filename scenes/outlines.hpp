@@ -27,6 +27,17 @@ inline std::vector<Vec2> star(std::uint32_t corners, double inner, std::uint64_t
     return result;
 }
 
+/// Points and notches in turn: the points at random distances from 0.7 to 1 of the origin, the notches from 0.3 to 0.6.
+/// Counter-clockwise; half of the corners are reflex.
+inline std::vector<Vec2> spiky_star(std::uint32_t corners, std::uint64_t seed) {
+    oracle::Random random(seed);
+    std::vector<Vec2> result;
+    for (std::uint32_t i = 0; i < corners; ++i)
+        result.push_back(to_float(on_circle(4.0 * i / corners) *
+                                  (i % 2 == 0 ? random.uniform(0.7, 1) : random.uniform(0.3, 0.6))));
+    return result;
+}
+
 /// A bar with teeth upwards, 4 corners each, all of whose roots lie on one line. Counter-clockwise.
 inline std::vector<Vec2> comb(std::uint32_t teeth) {
     std::vector<Vec2> result{{0, -1}, {static_cast<float>(2 * teeth - 1), -1}};

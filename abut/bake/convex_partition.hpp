@@ -28,6 +28,7 @@ private:
     bool convex_without(std::uint32_t half_edge) const;
     void remove(std::uint32_t half_edge);
     std::vector<std::uint8_t> uses() const;
+    std::vector<bool> pairs(const std::vector<std::uint8_t>& use, std::vector<bool>& paired) const;
 
     const std::vector<Vec2>& points_;
     std::vector<std::uint32_t> origins_, twins_, next_, before_;
