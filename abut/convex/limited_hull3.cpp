@@ -5,10 +5,12 @@
 #include <abut/convex/outer_mesh.hpp>
 #include <abut/convex/round_out.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/math/linear.hpp>
 #include <abut/math/predicates.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -55,18 +57,54 @@ Triangles triangles_of(const OuterMesh& mesh, std::span<const Vec3> corners) {
     return result;
 }
 
-/// The corners of the mesh, which are seen from `origin`, as floats: outside of the planes of their triangles by
+/// Takes what is round to the hull: seen the other way, its volume reaches equally far in all directions.
+Affine<3> from_round(const Hull3& hull) {
+    const DVec<3> origin(hull.centroid);
+    DVec<3> diagonal(0.0), off(0.0);  // of the sum of p p^T over its volume: xx, yy, zz and yz, zx, xy
+    const auto add = [&](const DVec<3>& p, double weight) {
+        diagonal += DVec<3>(p.x * p.x, p.y * p.y, p.z * p.z) * weight;
+        off += DVec<3>(p.y * p.z, p.z * p.x, p.x * p.y) * weight;
+    };
+    double volume = 0;
+    for (const auto& [a, b, c] : triangles_of(hull)) {
+        const DVec<3> u = DVec<3>(a) - origin, v = DVec<3>(b) - origin, w = DVec<3>(c) - origin;
+        const double part = dot(cross(u, v), w);
+        volume += part;
+        for (const DVec<3>& p : {u, v, w, u + v + w}) add(p, part);
+    }
+    // The root of that, by Cholesky.
+    diagonal /= volume;
+    off /= volume;
+    const double least = 1e-15 * largest(diagonal);
+    const double xx = std::sqrt(std::max(diagonal.x, least)), xy = off.z / xx, xz = off.y / xx;
+    const double yy = std::sqrt(std::max(diagonal.y - xy * xy, least)), yz = (off.x - xy * xz) / yy;
+    const double zz = std::sqrt(std::max(diagonal.z - xz * xz - yz * yz, least));
+    Affine<3> result;
+    result.column = {DVec<3>(xx, xy, xz), DVec<3>(0, yy, yz), DVec<3>(0, 0, zz)};
+    result.offset = origin;
+    return result;
+}
+
+Affine<3> inverse(const Affine<3>& map) {
+    return inverse(map, dot(map.column[0], cross(map.column[1], map.column[2])));
+}
+
+/// The corners of the mesh, which `map` takes to the world, as floats: outside of the planes of their triangles by
 /// `margin`, after these were moved out to the points that they leave out. Nothing where one leaves the range of
 /// floats.
-std::optional<std::vector<Vec3>> rounded_corners(const OuterMesh& mesh, const DVec<3>& origin,
-                                                 std::span<const DVec<3>> inside, double margin) {
+std::optional<std::vector<Vec3>> rounded_corners(const OuterMesh& mesh, const Affine<3>& map,
+                                                 std::span<const Vec3> points, double margin) {
+    const Affine<3> back = inverse(map);
     std::vector<Plane<3>> planes(mesh.triangle_count());
     for (std::uint32_t triangle = 0; triangle < planes.size(); ++triangle) {
         if (!mesh.has_triangle(triangle)) continue;
+        const Plane<3>& seen = mesh.plane(triangle);
+        const DVec<3> normal = back.transposed(seen.normal);
+        const double inverse_length = 1 / length(normal);
         Plane<3>& plane = planes[triangle];
-        plane = mesh.plane(triangle);
-        for (const DVec<3>& point : inside) plane.offset = std::max(plane.offset, dot(plane.normal, point));
-        plane.offset += margin + dot(plane.normal, origin);
+        plane = {normal * inverse_length, (seen.offset - dot(seen.normal, back.offset)) * inverse_length};
+        for (const Vec3& point : points) plane.offset = std::max(plane.offset, dot(plane.normal, DVec<3>(point)));
+        plane.offset += margin;
     }
     std::vector<Vec3> result(mesh.points().size());
     std::vector<Plane<3>> around;
@@ -74,7 +112,7 @@ std::optional<std::vector<Vec3>> rounded_corners(const OuterMesh& mesh, const DV
         if (!mesh.has_point(point)) continue;
         around.clear();
         mesh.each_triangle_around(point, [&](std::uint32_t triangle) { around.push_back(planes[triangle]); });
-        const std::optional<Vec3> corner = rounded_out<3>(mesh.points()[point] + origin, around);
+        const std::optional<Vec3> corner = rounded_out<3>(map.point(mesh.points()[point]), around);
         if (!corner) return std::nullopt;
         result[point] = *corner;
     }
@@ -82,11 +120,11 @@ std::optional<std::vector<Vec3>> rounded_corners(const OuterMesh& mesh, const DV
 }
 
 /// The hull of the mesh's corners, rounded to floats no farther out than it takes to hold the points.
-std::optional<Hull3> rounded_hull(const OuterMesh& mesh, const DVec<3>& origin, std::span<const Vec3> points,
-                                  std::span<const DVec<3>> seen, double extent) {
+std::optional<Hull3> rounded_hull(const OuterMesh& mesh, const Affine<3>& map, std::span<const Vec3> points) {
+    const double side = extent<3>(points);
     double margin = 0;
     for (int i = 0; i < most_margins; ++i) {
-        const std::optional<std::vector<Vec3>> corners = rounded_corners(mesh, origin, seen, margin);
+        const std::optional<std::vector<Vec3>> corners = rounded_corners(mesh, map, points, margin);
         if (!corners) return std::nullopt;
         std::vector<Vec3> used;
         for (std::uint32_t point = 0; point < corners->size(); ++point)
@@ -102,7 +140,7 @@ std::optional<Hull3> rounded_hull(const OuterMesh& mesh, const DVec<3>& origin, 
             if ((lost_nothing && surely_holds(triangles_of(mesh, *corners), points)) || surely_holds(surface, points))
                 return result;
         }
-        margin = margin == 0 ? 0x1p-24 * extent : 2 * margin;
+        margin = margin == 0 ? 0x1p-24 * side : 2 * margin;
     }
     return std::nullopt;
 }
@@ -139,32 +177,19 @@ Problem out_of_range() {
     return {ProblemCode::too_large, "so few corners that hold all points are beyond the range of floats", 0};
 }
 
-/// Around the points from fewer corners of their own than the mesh has, which then grow until they hold all.
-OuterMesh grown(const Hull3& full, std::size_t limit, const DVec<3>& origin, std::span<const DVec<3>> inside) {
-    const Hull3 some = hull_of_some(full, limit);
-    const DVec<3> middle(some.centroid);
-    OuterMesh result(some, middle);
-    double factor = 1;
-    for (std::uint32_t triangle = 0; triangle < result.triangle_count(); ++triangle) {
-        const Plane<3>& plane = result.plane(triangle);
-        for (const DVec<3>& point : inside)
-            factor = std::max(factor, dot(plane.normal, point + (origin - middle)) / plane.offset);
-    }
-    result.scale(factor, origin - middle);
-    return result;
-}
-
 Result<Hull3> limited_solid(const Hull3& full, std::span<const Vec3> points, std::size_t limit) {
-    const DVec<3> origin(full.centroid);
-    std::vector<DVec<3>> seen, corners;
-    seen.reserve(points.size());
-    for (const Vec3& point : points) seen.push_back(DVec<3>(point) - origin);
-    for (const Vec3& point : full.points) corners.push_back(DVec<3>(point) - origin);
-    OuterMesh mesh(full, origin);
+    const Affine<3> map = from_round(full), seen_by = inverse(map);
+    std::vector<DVec<3>> inside;
+    for (const Vec3& point : full.points) inside.push_back(seen_by.point(DVec<3>(point)));
+    OuterMesh mesh(full, seen_by);
     mesh.simplify(limit);
-    if (mesh.count() > limit) mesh = grown(full, limit, origin, corners);
-    mesh.tighten(corners, tightening_rounds);
-    const std::optional<Hull3> result = rounded_hull(mesh, origin, points, seen, extent<3>(points));
+    if (mesh.count() > limit) {
+        const Hull3 some = hull_of_some(full, limit);
+        mesh = OuterMesh(some, seen_by);
+        mesh.grow(seen_by.point(DVec<3>(some.centroid)), inside);
+    }
+    mesh.tighten(inside, tightening_rounds);
+    const std::optional<Hull3> result = rounded_hull(mesh, map, points);
     if (!result || result->points.size() > limit) return out_of_range();
     return *result;
 }

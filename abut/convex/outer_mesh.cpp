@@ -4,11 +4,15 @@
 #include <abut/math/dvec.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
 namespace abut {
 namespace {
+
+constexpr int most_turns = 4, most_halvings = 5;
+constexpr double least_gain = 1e-4;
 
 /// The triangles of a face, in a strip, so that no corner belongs to more of them than it has to.
 template <class Visit>
@@ -42,15 +46,16 @@ std::vector<std::uint32_t> twins_of(std::span<const std::uint32_t> origin) {
 
 }  // namespace
 
-OuterMesh::OuterMesh(const Hull3& hull, const DVec<3>& origin)
+OuterMesh::OuterMesh(const Hull3& hull, const Affine<3>& map)
     : leaving_(hull.points.size(), none), count_(hull.points.size()), mark_(hull.points.size(), 0) {
+    const Affine<3> back = inverse(map, dot(map.column[0], cross(map.column[1], map.column[2])));
     points_.reserve(hull.points.size());
-    for (const Vec3& point : hull.points) points_.push_back(DVec<3>(point) - origin);
+    for (const Vec3& point : hull.points) points_.push_back(map.point(DVec<3>(point)));
     std::size_t begin = 0;
     for (std::size_t face = 0; face < hull.normals.size(); ++face) {
-        const DVec<3> normal(hull.normals[face]);
-        const double inverse = 1 / length(normal);
-        const Plane<3> plane{normal * inverse, (hull.offsets[face] - dot(normal, origin)) * inverse};
+        const DVec<3> normal(hull.normals[face]), seen = back.transposed(normal);
+        const double inverse_length = 1 / length(seen);
+        const Plane<3> plane{seen * inverse_length, (hull.offsets[face] - dot(normal, back.offset)) * inverse_length};
         const std::size_t end = hull.loop_ends[face];
         each_triangle(std::span(hull.loops).subspan(begin, end - begin),
                       [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
@@ -60,12 +65,22 @@ OuterMesh::OuterMesh(const Hull3& hull, const DVec<3>& origin)
         begin = end;
     }
     twin_ = twins_of(origin_);
+    version_.resize(origin_.size(), 0);
     for (std::uint32_t h = 0; h < origin_.size(); ++h) leaving_[origin_[h]] = h;
 }
 
-void OuterMesh::scale(double factor, const DVec<3>& from) {
-    for (DVec<3>& point : points_) point = point * factor - from;
-    for (Plane<3>& plane : planes_) plane.offset = plane.offset * factor - dot(plane.normal, from);
+void OuterMesh::grow(const DVec<3>& middle, std::span<const DVec<3>> inside) {
+    double factor = 1;
+    for (const Plane<3>& plane : planes_) {
+        const double inner = dot(plane.normal, middle);
+        for (const DVec<3>& point : inside)
+            factor = std::max(factor, (dot(plane.normal, point) - inner) / (plane.offset - inner));
+    }
+    for (DVec<3>& point : points_) point = middle + (point - middle) * factor;
+    for (Plane<3>& plane : planes_) {
+        const double inner = dot(plane.normal, middle);
+        plane.offset = inner + (plane.offset - inner) * factor;
+    }
 }
 
 void OuterMesh::gather_ring(std::uint32_t half_edge) {
@@ -205,7 +220,7 @@ void OuterMesh::push(std::uint32_t half_edge) {
     if (twin_[half_edge] < half_edge) half_edge = twin_[half_edge];
     const double cost = quick_cost(half_edge);
     if (cost == std::numeric_limits<double>::max()) return;
-    heap_.push_back({cost, half_edge});
+    heap_.push_back({cost, half_edge, ++version_[half_edge]});
 }
 
 namespace {
@@ -235,11 +250,12 @@ void OuterMesh::simplify(std::size_t count) {
         std::pop_heap(heap_.begin(), heap_.end(), later);
         const Waiting next = heap_.back();
         heap_.pop_back();
-        if (origin_[next.half_edge] == none || !can_merge(next.half_edge)) continue;
+        if (origin_[next.half_edge] == none || version_[next.half_edge] != next.version) continue;
+        if (!can_merge(next.half_edge)) continue;
         const std::optional<Merge> found = merge_at(next.half_edge);
         if (!found) continue;
         if (!heap_.empty() && found->added > heap_.front().cost && found->added > next.cost) {
-            heap_.push_back({found->added, next.half_edge});
+            heap_.push_back({found->added, next.half_edge, next.version});
             std::push_heap(heap_.begin(), heap_.end(), later);
             continue;
         }
@@ -247,10 +263,7 @@ void OuterMesh::simplify(std::size_t count) {
         merge(next.half_edge, found->point);
         fresh = false;
         std::vector<std::uint32_t> again;
-        each_leaving(kept, [&](std::uint32_t h) {
-            again.push_back(h);
-            again.push_back(following(h));
-        });
+        each_leaving(kept, [&](std::uint32_t h) { again.push_back(h); });
         for (const std::uint32_t h : again) {
             const std::size_t before = heap_.size();
             push(h);
@@ -272,47 +285,111 @@ bool OuterMesh::convex_around(std::uint32_t point, const DVec<3>& at) const {
     return result;
 }
 
+void OuterMesh::move(std::uint32_t point, const DVec<3>& to) {
+    points_[point] = to;
+    for (const std::uint32_t h : ring_) {
+        planes_[h / 3] = planes_[twin_[h] / 3];
+        set_plane(h / 3);
+    }
+}
+
+/// The other diagonal of the two triangles of an edge, where they lie in a plane and it is inside of them.
+bool OuterMesh::flip(std::uint32_t half_edge) {
+    const std::uint32_t h = half_edge, h1 = following(h), h2 = following(h1);
+    const std::uint32_t g = twin_[h], g1 = following(g), g2 = following(g1);
+    const std::uint32_t c = origin_[h], d = origin_[g], v = origin_[h2], w = origin_[g2];
+    const DVec<3>& normal = planes_[g / 3].normal;
+    const DVec<3> across = points_[w] - points_[v], to_c = points_[c] - points_[v], to_d = points_[d] - points_[v];
+    const double doubt = 1e-9 * length_squared(across);
+    if (std::abs(dot(normal, points_[v] - points_[w])) > 1e-9 * length(across)) return false;
+    if (!(dot(normal, cross(to_c, across)) > doubt) || !(dot(normal, cross(across, to_d)) > doubt)) return false;
+    std::size_t at_c = 0, at_d = 0;
+    bool neighbours = false;
+    each_leaving(c, [&](std::uint32_t) { ++at_c; });
+    each_leaving(d, [&](std::uint32_t) { ++at_d; });
+    each_leaving(v, [&](std::uint32_t from) { neighbours = neighbours || origin_[twin_[from]] == w; });
+    if (at_c < 4 || at_d < 4 || neighbours) return false;
+
+    const std::uint32_t over_dv = twin_[h1], over_vc = twin_[h2], over_cw = twin_[g1], over_wd = twin_[g2];
+    const auto link = [&](std::uint32_t one, std::uint32_t from, std::uint32_t other) {
+        origin_[one] = from;
+        twin_[one] = other;
+        twin_[other] = one;
+    };
+    link(h, w, g);
+    link(h1, v, over_vc);
+    link(h2, c, over_cw);
+    link(g, v, h);
+    link(g1, w, over_wd);
+    link(g2, d, over_dv);
+    leaving_[v] = h1;
+    leaving_[c] = h2;
+    leaving_[w] = g1;
+    leaving_[d] = g2;
+    planes_[h / 3] = planes_[g / 3];
+    set_plane(h / 3);
+    set_plane(g / 3);
+    return true;
+}
+
+/// More triangles around a corner, from over flat edges.
+bool OuterMesh::widen(std::uint32_t point) {
+    bool result = false;
+    for (const std::uint32_t h : std::vector<std::uint32_t>(ring_))
+        if (origin_[following(following(h))] == point && flip(h)) result = true;
+    return result;
+}
+
+/// Above what a corner has to stay, so that all is still inside: for each edge of the ring, the plane through it that
+/// touches what is inside; and below which planes, so that the surface stays convex: those over the ring.
+void OuterMesh::cut_around(std::uint32_t point, std::span<const DVec<3>> inside) {
+    gather_ring_of_point(point);
+    limits_.clear();
+    for (const std::uint32_t h : ring_) {
+        const Plane<3>& outer = planes_[twin_[h] / 3];
+        const DVec<3> from = points_[origin_[h]], along = points_[origin_[following(h)]] - from;
+        const DVec<3> on = normalized(cross(outer.normal, along));
+        // The outer plane turns about the edge until something is in the way; it begins upside down.
+        double best_x = -1, best_y = 1e-9;
+        const double near = 1e-24 * length_squared(along);
+        for (const DVec<3>& p : inside) {
+            const DVec<3> seen = p - from;
+            const double x = dot(on, seen), y = std::max(0.0, -dot(outer.normal, seen));
+            if (x * best_y - y * best_x > 0 && x * x + y * y > near) {
+                best_x = x;
+                best_y = y;
+            }
+        }
+        const DVec<3> normal = normalized(outer.normal * best_x + on * best_y), local = from - middle_;
+        limits_.push_back({normal, dot(normal, local)});
+        limits_.push_back(flipped<3>({outer.normal, dot(outer.normal, local)}));
+    }
+}
+
 void OuterMesh::tighten(std::span<const DVec<3>> inside, int rounds) {
-    for (int round = 0; round < rounds; ++round)
+    for (int round = 0; round < rounds; ++round) {
+        double gain = 0, size = 0;
         for (std::uint32_t point = 0; point < points_.size(); ++point) {
             if (!has_point(point)) continue;
-            gather_ring_of_point(point);
-            limits_.clear();
-            for (const std::uint32_t h : ring_) {
-                const Plane<3> outer = planes_[twin_[h] / 3];
-                const DVec<3> from = points_[origin_[h]], along = points_[origin_[following(h)]] - from;
-                const DVec<3> u = normalized(cross(outer.normal, along));
-                // By how much the plane has to turn about the edge until something is in the way.
-                double best_x = -1, best_y = 1e-9;
-                const double near = 1e-12 * length_squared(along);
-                for (const DVec<3>& p : inside) {
-                    const DVec<3> seen = p - from;
-                    const double x = dot(u, seen), y = std::max(0.0, -dot(outer.normal, seen));
-                    if (x * x + y * y <= near) continue;
-                    if (x * best_y - y * best_x > 0) {
-                        best_x = x;
-                        best_y = y;
-                    }
+            for (int turn = 0; turn < most_turns; ++turn) {
+                cut_around(point, inside);
+                size = std::max(size, size_);
+                const std::optional<DVec<3>> found = lowest_above(limits_, slope_, size_);
+                if (!found || !(volume_to(*found) < 0)) break;
+                DVec<3> step = *found;
+                int halvings = 0;
+                while (halvings < most_halvings && !convex_around(point, middle_ + step)) {
+                    ++halvings;
+                    step *= 0.5;
                 }
-                const double inverse = 1 / std::sqrt(best_x * best_x + best_y * best_y);
-                const DVec<3> normal = (outer.normal * best_x + u * best_y) * inverse;
-                const DVec<3> local = from - middle_;
-                limits_.push_back({normal, dot(normal, local)});
-                limits_.push_back(flipped<3>({outer.normal, dot(outer.normal, local)}));
+                if (halvings == most_halvings) break;
+                gain -= volume_to(step);
+                move(point, middle_ + step);
+                if (!widen(point)) break;
             }
-            const std::optional<DVec<3>> found = lowest_above(limits_, slope_, size_);
-            if (!found || !(volume_to(*found) < 0)) continue;
-            DVec<3> step = *found;
-            for (int i = 0; i < 5; ++i, step *= 0.5)
-                if (convex_around(point, middle_ + step)) {
-                    points_[point] = middle_ + step;
-                    for (const std::uint32_t h : ring_) {
-                        planes_[h / 3] = planes_[twin_[h] / 3];
-                        set_plane(h / 3);
-                    }
-                    break;
-                }
         }
+        if (!(gain > least_gain * size * size * size)) return;
+    }
 }
 
 }  // namespace abut

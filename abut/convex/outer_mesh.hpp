@@ -5,6 +5,7 @@
 #include <abut/convex/hull.hpp>
 #include <abut/convex/lowest_point.hpp>
 #include <abut/convex/quickhull.hpp>
+#include <abut/math/linear.hpp>
 
 #include <cstdint>
 #include <optional>
@@ -14,11 +15,11 @@
 namespace abut {
 
 /// A closed convex surface in half-edges, numbered like those of `TriangleSurface`. Corners and triangles that were
-/// taken out keep their numbers. Coordinates are seen from a point in the middle, in double; convex up to rounding.
+/// taken out keep their numbers. Convex up to the rounding of doubles.
 class OuterMesh {
 public:
-    /// Of a solid hull, seen from `origin`.
-    OuterMesh(const Hull3& hull, const DVec<3>& origin);
+    /// Of a solid hull, seen by a map that keeps left and right apart.
+    OuterMesh(const Hull3& hull, const Affine<3>& map);
 
     /// Takes out corners until there are `count`: two neighbours become one point outside of all the faces that they
     /// had, the least volume first (Sander, Gu, Gortler, Hoppe, Snyder: "Silhouette clipping", 2000). May end with
@@ -37,8 +38,8 @@ public:
 
     const Plane<3>& plane(std::uint32_t triangle) const { return planes_[triangle]; }
 
-    /// Grows about the origin; from then on seen from `from`.
-    void scale(double factor, const DVec<3>& from);
+    /// Grows about a point inside until it holds all of the others.
+    void grow(const DVec<3>& middle, std::span<const DVec<3>> inside);
 
     /// Calls visit(triangle) for those around a corner.
     template <class Visit>
@@ -74,6 +75,10 @@ private:
     bool can_merge(std::uint32_t half_edge);
     void merge(std::uint32_t half_edge, const DVec<3>& point);
     void set_plane(std::uint32_t triangle);
+    void cut_around(std::uint32_t point, std::span<const DVec<3>> inside);
+    void move(std::uint32_t point, const DVec<3>& to);
+    bool flip(std::uint32_t half_edge);
+    bool widen(std::uint32_t point);
     bool convex_around(std::uint32_t point, const DVec<3>& at) const;
     void push(std::uint32_t half_edge);
     void push_all();
@@ -86,10 +91,11 @@ private:
 
     struct Waiting {
         double cost;
-        std::uint32_t half_edge;
+        std::uint32_t half_edge, version;
     };
     std::vector<Waiting> heap_;
-    std::vector<std::uint32_t> mark_;  ///< one a point: the last search that came by
+    std::vector<std::uint32_t> version_;  ///< one a half-edge: of the last of those that wait for it
+    std::vector<std::uint32_t> mark_;     ///< one a point: the last search that came by
     std::uint32_t search_ = 0;
 
     // Around an edge or a point, seen from `middle_`.
