@@ -6,3 +6,7 @@
 #include <abut/io/read_level.hpp>
 #include <abut/io/read_scene.hpp>
 #include <abut/io/scene.hpp>
+#include <abut/io/write_file.hpp>
+#include <abut/io/write_gltf.hpp>
+#include <abut/io/write_mesh.hpp>
+#include <abut/io/write_obj.hpp>

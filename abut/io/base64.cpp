@@ -1,5 +1,6 @@
 #include <abut/io/base64.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 
@@ -34,6 +35,20 @@ Result<std::vector<std::byte>> decode_base64(std::string_view text) {
         }
     }
     return bytes;
+}
+
+std::string encode_base64(std::span<const std::byte> bytes) {
+    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    text.reserve((bytes.size() + 2) / 3 * 4);
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+        std::uint32_t three = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            three = three << 8 | (k < count ? std::to_integer<std::uint32_t>(bytes[i + k]) : 0);
+        for (std::size_t k = 0; k < 4; ++k) text += k > count ? '=' : digits[three >> (18 - 6 * k) & 63];
+    }
+    return text;
 }
 
 }  // namespace abut
