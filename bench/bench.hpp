@@ -54,5 +54,7 @@ std::vector<Bench> removal_benches();
 std::vector<Bench> level_benches();
 /// Characters that walk over levels.
 std::vector<Bench> levels_mover_benches();
+/// Convex hulls in space.
+std::vector<Bench> convex_hull_benches();
 
 }  // namespace abut::bench
