@@ -1,33 +1,35 @@
+#include <abut/convex/buckets.hpp>
 #include <abut/convex/facets.hpp>
 
 #include <algorithm>
-#include <tuple>
 
 namespace abut {
 
 std::vector<FacetEdge> facet_edges(std::span<const std::uint32_t> loops, std::span<const std::uint32_t> loop_ends) {
-    struct Side {
-        std::uint32_t low, high, face;
-        bool rising;
-    };
-    std::vector<Side> sides;
-    sides.reserve(loops.size());
-    std::size_t begin = 0;
-    for (std::uint32_t face = 0; face < loop_ends.size(); ++face) {
-        const std::size_t end = loop_ends[face];
-        for (std::size_t i = begin; i < end; ++i) {
-            const std::uint32_t from = loops[i], to = loops[i + 1 == end ? begin : i + 1];
-            sides.push_back({std::min(from, to), std::max(from, to), face, from < to});
+    if (loops.empty()) return {};
+    // In the bucket of its lower end: the higher one, then which way it runs, then the face.
+    constexpr std::uint64_t falling = std::uint64_t{1} << 32, high_unit = falling << 1;
+    const auto each_side = [&](auto visit) {
+        std::size_t begin = 0;
+        for (std::uint32_t face = 0; face < loop_ends.size(); ++face) {
+            const std::size_t end = loop_ends[face];
+            for (std::size_t i = begin; i < end; ++i) {
+                const std::uint32_t from = loops[i], to = loops[i + 1 == end ? begin : i + 1];
+                visit(std::min(from, to), std::max(from, to) * high_unit + (from < to ? 0 : falling) + face);
+            }
+            begin = end;
         }
-        begin = end;
-    }
-    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-        return std::tuple(a.low, a.high, !a.rising) < std::tuple(b.low, b.high, !b.rising);
-    });
+    };
+    const Buckets sides = in_buckets(std::size_t{*std::max_element(loops.begin(), loops.end())} + 1, each_side);
+
     std::vector<FacetEdge> result;
-    result.reserve(sides.size() / 2);
-    for (std::size_t i = 0; i + 1 < sides.size(); i += 2)
-        result.push_back({sides[i].low, sides[i].high, sides[i].face, sides[i + 1].face});
+    result.reserve(sides.keys.size() / 2);
+    for (std::uint32_t low = 0; low < sides.ends.size(); ++low) {
+        const std::span<const std::uint64_t> bucket = sides.bucket(low);
+        for (std::size_t i = 0; i + 1 < bucket.size(); i += 2)
+            result.push_back({low, static_cast<std::uint32_t>(bucket[i] / high_unit),
+                              static_cast<std::uint32_t>(bucket[i]), static_cast<std::uint32_t>(bucket[i + 1])});
+    }
     return result;
 }
 

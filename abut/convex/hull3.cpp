@@ -1,5 +1,6 @@
 // The hull in space: how flat the points are, the quickhull of those that aren't, and the result in floats.
 
+#include <abut/convex/buckets.hpp>
 #include <abut/convex/hull.hpp>
 #include <abut/convex/hull_core.hpp>
 #include <abut/convex/hull_faces.hpp>
@@ -48,37 +49,49 @@ HullFaces flat_faces(std::span<const Vec3> points, const DVec<3>& normal) {
     return result;
 }
 
-/// Keeps the points that occur in loops, with new numbers, and begins every loop with its lowest.
-void number_points(Hull3& hull, std::span<const Vec3> points, HullFaces& faces) {
+/// The faces in the lexicographical order of their loops, each from its lowest point number: two points next to each
+/// other tell loops apart.
+HullFaces in_order(const HullFaces& faces, std::size_t point_count) {
+    const auto first_of = [](std::span<const std::uint32_t> loop) {
+        return std::min_element(loop.begin(), loop.end());
+    };
+    const Buckets order = in_buckets(point_count, [&](auto visit) {
+        for (std::uint32_t face = 0; face < faces.normals.size(); ++face) {
+            const std::span<const std::uint32_t> loop = faces.loop(face);
+            const auto first = first_of(loop), second = first + 1 == loop.end() ? loop.begin() : first + 1;
+            visit(*first, std::uint64_t{*second} << 32 | face);
+        }
+    });
+    HullFaces result;
+    result.normals.reserve(faces.normals.size());
+    result.loops.reserve(faces.loops.size());
+    result.loop_ends.reserve(faces.normals.size());
+    for (const std::uint64_t key : order.keys) {
+        const auto face = static_cast<std::uint32_t>(key);
+        const std::span<const std::uint32_t> loop = faces.loop(face);
+        const auto first = first_of(loop);
+        result.normals.push_back(faces.normals[face]);
+        result.loops.insert(result.loops.end(), first, loop.end());
+        result.loops.insert(result.loops.end(), loop.begin(), first);
+        result.loop_ends.push_back(static_cast<std::uint32_t>(result.loops.size()));
+    }
+    return result;
+}
+
+/// Keeps the points that occur in loops, with new numbers.
+void take_faces(Hull3& result, std::span<const Vec3> points, HullFaces faces) {
     std::vector<std::uint32_t> number(points.size(), 0);
     for (const std::uint32_t point : faces.loops) number[point] = 1;
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (number[i] == 0) continue;
-        number[i] = static_cast<std::uint32_t>(hull.points.size());
-        hull.points.push_back(points[i]);
+        number[i] = static_cast<std::uint32_t>(result.points.size());
+        result.points.push_back(points[i]);
     }
-    for (std::uint32_t& point : faces.loops) point = number[point];
-    auto begin = faces.loops.begin();
-    for (const std::uint32_t loop_end : faces.loop_ends) {
-        const auto end = faces.loops.begin() + loop_end;
-        std::rotate(begin, std::min_element(begin, end), end);
-        begin = end;
-    }
-}
-
-/// The faces in the lexicographical order of their loops: two points next to each other tell them apart.
-std::vector<std::uint32_t> order_of(const HullFaces& faces) {
-    std::vector<std::pair<std::uint64_t, std::uint32_t>> keys;
-    keys.reserve(faces.normals.size());
-    for (std::uint32_t face = 0; face < faces.normals.size(); ++face) {
-        const std::span<const std::uint32_t> loop = faces.loop(face);
-        keys.emplace_back(std::uint64_t{loop[0]} << 32 | loop[1], face);
-    }
-    std::sort(keys.begin(), keys.end());
-    std::vector<std::uint32_t> result;
-    result.reserve(keys.size());
-    for (const auto& [key, face] : keys) result.push_back(face);
-    return result;
+    result.normals = std::move(faces.normals);
+    result.loops = std::move(faces.loops);
+    result.loop_ends = std::move(faces.loop_ends);
+    for (std::uint32_t& point : result.loops) point = number[point];
+    result.edges = facet_edges(result.loops, result.loop_ends);
 }
 
 /// The least offset of a plane across the normal that no point is above.
@@ -87,22 +100,6 @@ double offset_across(const Vec3& normal, std::span<const Vec3> points) {
     double result = along(points[0]);
     for (const Vec3& point : points) result = std::max(result, along(point));
     return result;
-}
-
-void take_faces(Hull3& result, std::span<const Vec3> points, HullFaces faces, std::span<const double> offsets) {
-    number_points(result, points, faces);
-    result.normals.reserve(faces.normals.size());
-    result.offsets.reserve(faces.normals.size());
-    result.loops.reserve(faces.loops.size());
-    result.loop_ends.reserve(faces.normals.size());
-    for (const std::uint32_t face : order_of(faces)) {
-        const std::span<const std::uint32_t> loop = faces.loop(face);
-        result.normals.push_back(faces.normals[face]);
-        result.offsets.push_back(offsets[face]);
-        result.loops.insert(result.loops.end(), loop.begin(), loop.end());
-        result.loop_ends.push_back(static_cast<std::uint32_t>(result.loops.size()));
-    }
-    result.edges = facet_edges(result.loops, result.loop_ends);
 }
 
 /// Volume, area and centroid, from triangles that cover the surface (three corners each). Joined faces aren't quite
@@ -142,17 +139,18 @@ Hull3 hull_with_faces(std::span<const Vec3> points, const Grid& grid, const Spre
     result.rank = spread.rank;
     if (spread.rank == 2) {
         const auto& [a, b, c, d] = spread.points;
-        HullFaces faces = flat_faces(points, DVec<3>(grid_normal(grid.points[a], grid.points[b], grid.points[c])));
-        measure(result, grid, triangles_of(faces));
-        const double offsets[] = {offset_across(faces.normals[0], points), offset_across(faces.normals[1], points)};
-        take_faces(result, points, std::move(faces), offsets);
+        const HullFaces flat = flat_faces(points, DVec<3>(grid_normal(grid.points[a], grid.points[b], grid.points[c])));
+        measure(result, grid, triangles_of(flat));
+        HullFaces faces = in_order(flat, points.size());
+        for (const Vec3& normal : faces.normals) result.offsets.push_back(offset_across(normal, points));
+        take_faces(result, points, std::move(faces));
         return result;
     }
     const TriangleSurface surface = quickhull(grid.points, spread.points, grid.tolerance);
     measure(result, grid, surface.origin);
-    HullFaces faces = hull_faces(grid.points, surface, grid.tolerance, grid.flatness);
-    const std::vector<double> offsets = plane_offsets(faces, points, grid, surface);
-    take_faces(result, points, std::move(faces), offsets);
+    HullFaces faces = in_order(hull_faces(grid.points, surface, grid.tolerance, grid.flatness), points.size());
+    result.offsets = plane_offsets(faces, points, grid, surface);
+    take_faces(result, points, std::move(faces));
     return result;
 }
 

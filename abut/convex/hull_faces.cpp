@@ -1,9 +1,11 @@
 // Joining faces in a mesh of half-edges.
 
+#include <abut/convex/buckets.hpp>
 #include <abut/convex/hull_faces.hpp>
 #include <abut/math/dvec.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace abut {
 namespace {
@@ -34,6 +36,7 @@ private:
     bool flat_together(std::uint32_t h, const DVec<3>& normal) const;
     bool joinable(std::uint32_t h);
     void join(std::uint32_t h);
+    void grow(std::uint32_t face, std::vector<bool>& done);
 
     std::span<const GridPoint> points_;
     const std::vector<GridPoint>& triangle_normals_;
@@ -66,8 +69,13 @@ void FaceMesh::link(std::uint32_t before, std::uint32_t after) {
 
 /// Whether the triangle behind the half-edge lies in the plane of the given one; exact.
 bool FaceMesh::coplanar(std::uint32_t triangle, std::uint32_t half_edge) const {
+    const GridPoint& normal = triangle_normals_[triangle];
     const std::uint32_t apex = origin_[following(following(twin_[half_edge]))];
-    return grid_dot(triangle_normals_[triangle], points_[apex] - points_[origin_[half_edge]]) == 0;
+    const GridPoint way = points_[apex] - points_[origin_[half_edge]];
+    // Below 2^28 on every axis, so that six roundings of 2^-53 come to less than this.
+    const DVec<3> n(normal);
+    const double doubt = 0x1p-22 * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
+    return std::abs(dot(n, DVec<3>(way))) <= doubt && grid_dot(normal, way) == 0;
 }
 
 void FaceMesh::join_coplanar() {
@@ -160,10 +168,16 @@ bool FaceMesh::flat_together(std::uint32_t h, const DVec<3>& normal) const {
 
 bool FaceMesh::joinable(std::uint32_t h) {
     const std::uint32_t other = twin_[h];
-    const DVec<3>&area = area_[face_[h]], &other_area = area_[face_[other]];
+    const DVec<3>&area = area_[face_[h]], &other_area = area_[face_[other]], both = area + other_area;
+    // Most edges of a round body are as steep as this, and done.
+    const double least_squared = flatness_ * flatness_ * length_squared(both);
+    for (const std::uint32_t side : {h, other}) {
+        const double height = dot(both, point(previous_[side]) - point(side));
+        if (height * height > least_squared) return false;
+    }
     const double cosine = dot(area, other_area) / (length(area) * length(other_area));
     if (!(cosine >= least_cosine)) return false;
-    const DVec<3> normal = normalized(area + other_area);
+    const DVec<3> normal = normalized(both);
     return convex_with(previous_[h], next_[other], normal) && convex_with(previous_[other], next_[h], normal) &&
            flat_together(h, normal) && share_two_corners(h);
 }
@@ -180,20 +194,38 @@ void FaceMesh::join(std::uint32_t h) {
     next_[h] = next_[other] = none;
 }
 
-void FaceMesh::join_flat() {
-    // Each time round there is a face less. Two faces are looked at again where one of them has grown since.
-    std::vector<std::uint32_t> grown_in(start_.size(), 0);
-    bool changed = true;
-    for (std::uint32_t round = 1; changed; ++round) {
-        changed = false;
-        const auto grown = [&](std::uint32_t h) { return grown_in[face_[h]] + 1 >= round; };
-        for (std::uint32_t h = 0; h < origin_.size(); ++h)
-            if (alive(h) && h < twin_[h] && (grown(h) || grown(twin_[h])) && joinable(h)) {
-                grown_in[face_[h]] = round;
-                join(h);
-                changed = true;
-            }
+/// Joins to a face what can be, going round it until nothing more can. Of neighbours that are done only those are asked
+/// again that asked when this one was smaller.
+void FaceMesh::grow(std::uint32_t face, std::vector<bool>& done) {
+    std::uint32_t h = start_[face], last = h;
+    bool grown = false, round_begins = true;
+    while (round_begins || h != last) {
+        round_begins = (grown || !done[face_[twin_[h]]]) && joinable(h);
+        if (round_begins) {
+            grown = true;
+            last = next_[twin_[h]];
+            join(h);
+            h = last;
+        } else {
+            h = next_[h];
+        }
     }
+    done[face] = true;
+}
+
+void FaceMesh::join_flat() {
+    // Large faces first: they know their planes best. By the exponent of their area, which is below 2^58.
+    constexpr std::uint32_t exponents = 60;
+    const Buckets order = in_buckets(exponents, [&](auto visit) {
+        for (std::uint32_t face = 0; face < start_.size(); ++face) {
+            int exponent = 0;
+            std::frexp(largest(area_[face]), &exponent);
+            visit(exponents - 1 - static_cast<std::uint32_t>(exponent), face);
+        }
+    });
+    std::vector<bool> done(start_.size(), false);
+    for (const std::uint64_t face : order.keys)
+        if (start_[face] != none) grow(static_cast<std::uint32_t>(face), done);
 }
 
 HullFaces FaceMesh::faces() const {

@@ -1,6 +1,7 @@
 // Quickhull (Barber, Dobkin, Huhdanpaa: "The quickhull algorithm for convex hulls", 1996), farthest point first, with
 // the points outside of each facet in a list of its own.
 
+#include <abut/convex/buckets.hpp>
 #include <abut/convex/quickhull.hpp>
 #include <abut/math/dvec.hpp>
 
@@ -74,7 +75,7 @@ private:
     std::vector<std::uint32_t> born_;  ///< one a facet: when
     std::uint32_t births_ = 0;
     std::vector<std::uint32_t> free_;          ///< places of facets that are gone
-    std::vector<Turn> turns_;                  ///< of the facets that had points above them, in the order of birth
+    std::vector<Turn> turns_;                  ///< of facets with points above them
     std::vector<std::uint32_t> next_outside_;  ///< one a point
     std::vector<std::uint32_t> leaving_;       ///< one a point: the new facet on the edge of the horizon that leaves it
     // For one insertion.
@@ -276,8 +277,9 @@ void Quickhull::run(std::array<std::uint32_t, 4> start) {
     assign_orphans();
 
     // Each turn takes a point into the hull or leaves the facet for good.
-    for (std::size_t i = 0; i < turns_.size(); ++i) {
-        const auto [facet, born] = turns_[i];
+    while (!turns_.empty()) {
+        const auto [facet, born] = turns_.back();
+        turns_.pop_back();
         if (!alive(facet) || born_[facet] != born) continue;
         const std::uint32_t eye = next_eye(facets_[facet]);
         if (eye != none) insert(eye, facet);
@@ -292,23 +294,38 @@ double Quickhull::farthest_left_out(const Facet& facet) const {
 }
 
 TriangleSurface Quickhull::surface() const {
-    // In the order of birth, wherever they have their places.
-    std::vector<std::uint32_t> in_order(births_, none);
-    for (std::uint32_t f = 0; f < facets_.size(); ++f)
-        if (alive(f)) in_order[born_[f]] = f;
-    std::erase(in_order, none);
-    std::vector<std::uint32_t> number(facets_.size());
-    for (std::uint32_t i = 0; i < in_order.size(); ++i) number[in_order[i]] = i;
+    // In the lexicographical order of their corners, each from its lowest: whatever way the hull was found, the numbers
+    // are the same, and neighbours lie near each other.
+    const auto lowest = [](const Facet& facet) {
+        return static_cast<std::uint32_t>(std::min_element(facet.corner.begin(), facet.corner.end()) -
+                                          facet.corner.begin());
+    };
+    const Buckets order = in_buckets(points_.size(), [&](auto visit) {
+        for (std::uint32_t f = 0; f < facets_.size(); ++f) {
+            if (!alive(f)) continue;
+            const std::uint32_t first = lowest(facets_[f]);
+            visit(facets_[f].corner[first], std::uint64_t{facets_[f].corner[(first + 1) % 3]} << 32 | f);
+        }
+    });
+    std::vector<std::uint32_t> half_edge(3 * facets_.size());
+    for (std::uint32_t i = 0; i < order.keys.size(); ++i) {
+        const auto f = static_cast<std::uint32_t>(order.keys[i]);
+        const std::uint32_t first = lowest(facets_[f]);
+        for (std::uint32_t k = 0; k < 3; ++k) half_edge[3 * f + (first + k) % 3] = 3 * i + k;
+    }
 
     TriangleSurface result;
-    result.origin.reserve(3 * in_order.size());
-    result.twin.reserve(3 * in_order.size());
-    result.normals.reserve(in_order.size());
-    for (const std::uint32_t f : in_order) {
-        const Facet& facet = facets_[f];
+    result.origin.reserve(3 * order.keys.size());
+    result.twin.reserve(3 * order.keys.size());
+    result.normals.reserve(order.keys.size());
+    for (const std::uint64_t key : order.keys) {
+        const Facet& facet = facets_[static_cast<std::uint32_t>(key)];
+        const std::uint32_t first = lowest(facet);
+        for (std::uint32_t k = first; k < first + 3; ++k) {
+            result.origin.push_back(facet.corner[k % 3]);
+            result.twin.push_back(half_edge[facet.twin[k % 3]]);
+        }
         const auto& [a, b, c] = facet.corner;
-        result.origin.insert(result.origin.end(), {a, b, c});
-        for (const std::uint32_t twin : facet.twin) result.twin.push_back(3 * number[twin / 3] + twin % 3);
         result.normals.push_back(grid_normal(points_[a], points_[b], points_[c]));
         result.left_out = std::max(result.left_out, farthest_left_out(facet));
     }
