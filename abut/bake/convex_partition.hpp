@@ -2,6 +2,7 @@
 
 // Convex parts of a triangulated region, as the triangles' edges without those that are not needed.
 
+#include <abut/bake/optimal_partition.hpp>
 #include <abut/bake/outline_sweep.hpp>
 
 namespace abut::outline {
@@ -17,6 +18,10 @@ public:
     /// (1983) with an order.
     void merge_all();
 
+    /// Solves patches of neighbouring faces anew, with as few faces as can be: all of them once a round, as long as it
+    /// pays, and at most `rounds` times. A patch has up to `corners` corners.
+    void improve(std::uint32_t corners, int rounds);
+
     /// One half-edge a face.
     std::vector<std::uint32_t> faces() const;
     std::uint32_t next(std::uint32_t half_edge) const { return next_[half_edge]; }
@@ -24,6 +29,24 @@ public:
     const Vec2& point(std::uint32_t number) const { return points_[number]; }
 
 private:
+    /// Faces that are one without the edges between them.
+    struct Patch {
+        std::vector<std::uint32_t> loop;   ///< the half-edges around it
+        std::vector<std::uint32_t> inner;  ///< and those in it
+        std::vector<std::uint32_t> faces;
+    };
+    /// The number of the face at each half-edge, and one of its half-edges.
+    struct FaceNumbers {
+        std::vector<std::uint32_t> of, first;
+        std::vector<bool> done;
+    };
+
+    void grow(Patch& patch, std::uint32_t face, std::uint32_t corners, const FaceNumbers& numbers) const;
+    std::uint32_t common_edges(const Patch& patch, std::uint32_t half_edge, const FaceNumbers& numbers) const;
+    void solve(const Patch& patch, OptimalPartition& solver) const;
+    void recut(const Patch& patch, const OptimalPartition& parts, FaceNumbers& numbers);
+    FaceNumbers number_faces() const;
+
     const Vec2& at(std::uint32_t half_edge) const { return points_[origins_[half_edge]]; }
     bool convex_without(std::uint32_t half_edge) const;
     void remove(std::uint32_t half_edge);

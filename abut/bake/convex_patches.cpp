@@ -1,0 +1,143 @@
+#include <abut/bake/convex_partition.hpp>
+
+#include <algorithm>
+
+namespace abut::outline {
+
+Partition::FaceNumbers Partition::number_faces() const {
+    FaceNumbers result;
+    result.first = faces();
+    result.of.assign(origins_.size(), none);
+    for (std::uint32_t face = 0; face < result.first.size(); ++face) {
+        std::uint32_t edge = result.first[face];
+        do {
+            result.of[edge] = face;
+            edge = next_[edge];
+        } while (edge != result.first[face]);
+    }
+    result.done.assign(result.first.size(), false);
+    return result;
+}
+
+/// How many edges the half-edge's face shares with the patch; none where it is a part of it.
+std::uint32_t Partition::common_edges(const Patch& patch, std::uint32_t half_edge, const FaceNumbers& numbers) const {
+    if (std::ranges::find(patch.faces, numbers.of[half_edge]) != patch.faces.end()) return 0;
+    std::uint32_t result = 0, edge = half_edge;
+    do {
+        if (twins_[edge] != none && std::ranges::find(patch.faces, numbers.of[twins_[edge]]) != patch.faces.end())
+            ++result;
+        edge = next_[edge];
+    } while (edge != half_edge);
+    return result;
+}
+
+void Partition::grow(Patch& patch, std::uint32_t face, std::uint32_t corners, const FaceNumbers& numbers) const {
+    patch.loop.clear();
+    patch.inner.clear();
+    patch.faces.assign(1, face);
+    std::uint32_t edge = numbers.first[face];
+    do {
+        patch.loop.push_back(edge);
+        edge = next_[edge];
+    } while (edge != numbers.first[face]);
+
+    std::vector<std::uint32_t> added;
+    for (std::size_t i = 0; i < patch.loop.size();) {
+        const std::uint32_t out = patch.loop[i], twin = twins_[out];
+        ++i;
+        if (twin == none || common_edges(patch, twin, numbers) != 1) continue;
+        added.clear();
+        for (edge = next_[twin]; edge != twin; edge = next_[edge]) added.push_back(edge);
+        if (patch.loop.size() + added.size() - 1 > corners) continue;
+        const auto place = patch.loop.begin() + static_cast<std::ptrdiff_t>(i);
+        // What lies beyond this face is looked at in the next turn around.
+        std::rotate(patch.loop.begin(), place, patch.loop.end());
+        patch.loop.back() = added.front();
+        patch.loop.insert(patch.loop.end(), added.begin() + 1, added.end());
+        patch.inner.push_back(out);
+        patch.inner.push_back(twin);
+        patch.faces.push_back(numbers.of[twin]);
+        i = 0;
+    }
+}
+
+void Partition::solve(const Patch& patch, OptimalPartition& solver) const {
+    std::vector<Vec2> corners;
+    std::vector<std::uint8_t> may_be_straight;
+    for (const std::uint32_t edge : patch.loop) {
+        corners.push_back(at(edge));
+        if (!conforming_) continue;
+        std::uint32_t faces_in_patch = 1;
+        for (const std::uint32_t inner : patch.inner) faces_in_patch += origins_[inner] == origins_[edge] ? 1 : 0;
+        may_be_straight.push_back(faces_at_[origins_[edge]] == faces_in_patch ? 1 : 0);
+    }
+    solver.solve(corners, may_be_straight);
+}
+
+void Partition::recut(const Patch& patch, const OptimalPartition& parts, FaceNumbers& numbers) {
+    struct Cut {
+        std::uint32_t from, to, half_edge;
+    };
+    std::vector<Cut> cuts;
+    std::size_t used = 0;
+    for (const std::uint32_t edge : patch.inner) {
+        --faces_at_[origins_[edge]];
+        next_[edge] = none;
+    }
+    const auto half_edge = [&](std::uint32_t from, std::uint32_t to) {
+        if (to == from + 1 || (to == 0 && from + 1 == patch.loop.size())) return patch.loop[from];
+        const auto found = std::ranges::find_if(cuts, [&](const Cut& cut) { return cut.from == from && cut.to == to; });
+        if (found != cuts.end()) return found->half_edge;
+        const std::uint32_t there = patch.inner[used++], back = patch.inner[used++];
+        cuts.push_back({from, to, there});
+        cuts.push_back({to, from, back});
+        origins_[there] = origins_[patch.loop[from]];
+        origins_[back] = origins_[patch.loop[to]];
+        twins_[there] = back;
+        twins_[back] = there;
+        ++faces_at_[origins_[there]];
+        ++faces_at_[origins_[back]];
+        return there;
+    };
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const std::span<const std::uint32_t> part = parts.part(i);
+        const std::uint32_t face = patch.faces[i];
+        std::uint32_t last = half_edge(part.back(), part.front());
+        numbers.first[face] = last;
+        for (std::size_t j = 0; j < part.size(); ++j) {
+            const std::uint32_t edge =
+                j + 1 < part.size() ? half_edge(part[j], part[j + 1]) : numbers.first[face];
+            next_[last] = edge;
+            before_[edge] = last;
+            numbers.of[edge] = face;
+            last = edge;
+        }
+    }
+    for (std::size_t i = parts.size(); i < patch.faces.size(); ++i) numbers.first[patch.faces[i]] = none;
+}
+
+void Partition::improve(std::uint32_t corners, int rounds) {
+    FaceNumbers numbers = number_faces();
+    OptimalPartition solver;
+    Patch patch;
+    for (int round = 0; round < rounds; ++round) {
+        std::size_t saved = 0, left = 0;
+        std::fill(numbers.done.begin(), numbers.done.end(), false);
+        for (std::uint32_t i = 0; i < numbers.first.size(); ++i) {
+            const auto face = round % 2 == 0 ? i : static_cast<std::uint32_t>(numbers.first.size() - 1 - i);
+            if (numbers.first[face] == none) continue;
+            ++left;
+            if (numbers.done[face]) continue;
+            grow(patch, face, corners, numbers);
+            for (const std::uint32_t covered : patch.faces) numbers.done[covered] = true;
+            if (patch.faces.size() < 2) continue;
+            solve(patch, solver);
+            if (solver.size() > patch.faces.size()) continue;
+            saved += patch.faces.size() - solver.size();
+            recut(patch, solver, numbers);
+        }
+        if (saved * 200 < left) break;
+    }
+}
+
+}  // namespace abut::outline
