@@ -1,0 +1,350 @@
+#include <abut/bake/piece.hpp>
+#include <abut/math/dvec.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+namespace abut {
+namespace {
+
+constexpr std::uint32_t none = 0xffffffffu;
+
+/// One side of a cut in the making, with the numbers of the whole piece's points.
+struct Side {
+    std::vector<glm::uvec3> triangles;
+    std::vector<CapEdge> cap_edges;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> rim;  ///< of the new cap: its edges, some there and back
+};
+
+class Cutter {
+public:
+    Cutter(const Piece& piece, const CutPlane& plane, double margin) : piece_(piece), points_(piece.points) {
+        heights_.reserve(points_.size());
+        for (const DVec<3>& p : points_) {
+            const double height = dot(plane.normal, p) - plane.offset;
+            heights_.push_back(std::abs(height) <= margin ? 0 : height);
+        }
+        for (const glm::uvec3& triangle : piece.triangles) cut_triangle(triangle, plane);
+        if (piece.closed) cut_caps(plane);
+    }
+
+    Piece side(int which, const CutPlane& plane) {
+        Side& from = sides_[static_cast<std::size_t>(which)];
+        Piece result;
+        result.points = points_;
+        result.triangles = std::move(from.triangles);
+        result.closed = piece_.closed;
+        result.thickness = piece_.thickness;
+        if (!piece_.closed) return result;
+        result.cap_edges = std::move(from.cap_edges);
+        result.cap_origins = piece_.cap_origins;
+        result.cap_normals = piece_.cap_normals;
+        const auto cap = static_cast<std::uint32_t>(result.cap_origins.size());
+        for (const auto& [a, b] : uncancelled(from.rim)) result.cap_edges.push_back({a, b, cap});
+        if (!from.rim.empty()) {
+            result.cap_origins.push_back(points_[from.rim.front().first]);
+            result.cap_normals.push_back(which == 0 ? plane.normal : -plane.normal);
+        }
+        return result;
+    }
+
+private:
+    using Rim = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+    static Rim uncancelled(Rim rim) {
+        const auto key = [](const std::pair<std::uint32_t, std::uint32_t>& edge) {
+            const auto [low, high] = std::minmax(edge.first, edge.second);
+            return std::tuple(low, high, edge.first);
+        };
+        std::sort(rim.begin(), rim.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
+        Rim result;
+        for (const auto& edge : rim) {
+            if (!result.empty() && result.back() == std::pair(edge.second, edge.first))
+                result.pop_back();
+            else
+                result.push_back(edge);
+        }
+        return result;
+    }
+
+    /// Where the plane cuts an edge: the same point whichever way the edge runs.
+    std::uint32_t between(std::uint32_t a, std::uint32_t b) {
+        if (a > b) std::swap(a, b);
+        const auto [found, is_new] = cuts_.try_emplace({a, b}, static_cast<std::uint32_t>(points_.size()));
+        if (is_new) {
+            const double share = heights_[a] / (heights_[a] - heights_[b]);
+            points_.push_back(points_[a] + (points_[b] - points_[a]) * share);
+        }
+        return found->second;
+    }
+
+    void cut_triangle(const glm::uvec3& triangle, const CutPlane& plane) {
+        int below = 0, above = 0;
+        for (int i = 0; i < 3; ++i) {
+            below += heights_[triangle[i]] < 0;
+            above += heights_[triangle[i]] > 0;
+        }
+        if (below == 0 && above == 0) {
+            const DVec<3>&a = points_[triangle.x], &b = points_[triangle.y], &c = points_[triangle.z];
+            const bool up = dot(cross(b - a, c - a), plane.normal) > 0;
+            Side& side = sides_[up ? 0 : 1];
+            side.triangles.push_back(triangle);
+            for (int i = 0; i < 3; ++i) side.rim.emplace_back(triangle[(i + 1) % 3], triangle[i]);
+        } else if (below == 0 || above == 0) {
+            Side& side = sides_[below > 0 ? 0 : 1];
+            side.triangles.push_back(triangle);
+            for (int i = 0; i < 3; ++i) {
+                const std::uint32_t from = triangle[i], to = triangle[(i + 1) % 3];
+                if (heights_[from] == 0 && heights_[to] == 0) side.rim.emplace_back(to, from);
+            }
+        } else {
+            split(triangle);
+        }
+    }
+
+    void split(const glm::uvec3& triangle) {
+        std::array<std::array<std::uint32_t, 4>, 2> loops{};
+        std::array<std::size_t, 2> counts{};
+        std::uint32_t down = none, up = none;  // where the outline goes down through the plane, and up
+        for (int i = 0; i < 3; ++i) {
+            const std::uint32_t from = triangle[i], to = triangle[(i + 1) % 3];
+            const double at = heights_[from], next = heights_[to];
+            if (at <= 0) loops[0][counts[0]++] = from;
+            if (at >= 0) loops[1][counts[1]++] = from;
+            if (at == 0) (next > 0 ? up : down) = from;
+            if ((at < 0 && next > 0) || (at > 0 && next < 0)) {
+                const std::uint32_t middle = between(from, to);
+                loops[0][counts[0]++] = middle;
+                loops[1][counts[1]++] = middle;
+                (next > 0 ? up : down) = middle;
+            }
+        }
+        for (std::size_t side = 0; side < 2; ++side)
+            for (std::size_t i = 2; i < counts[side]; ++i)
+                sides_[side].triangles.emplace_back(loops[side][0], loops[side][i - 1], loops[side][i]);
+        sides_[0].rim.emplace_back(down, up);  // the triangle below runs from up to down along the plane
+        sides_[1].rim.emplace_back(up, down);
+    }
+
+    /// Caps that the plane meets are cut along a line. Points of the plane count as below, which leaves no special
+    /// case.
+    void cut_caps(const CutPlane& plane) {
+        struct Crossing {
+            double along;
+            std::uint32_t point;
+            int way;  // how often the outline goes up there
+        };
+        std::vector<std::vector<Crossing>> crossings(piece_.cap_origins.size());
+        for (const CapEdge& edge : piece_.cap_edges) {
+            const double from = heights_[edge.from], to = heights_[edge.to];
+            if (from <= 0 && to <= 0) {
+                sides_[0].cap_edges.push_back(edge);
+                if (from == 0 && to == 0) sides_[0].rim.emplace_back(edge.to, edge.from);
+                continue;
+            }
+            if (from > 0 && to > 0) {
+                sides_[1].cap_edges.push_back(edge);
+                continue;
+            }
+            const std::uint32_t middle = from == 0 ? edge.from : to == 0 ? edge.to : between(edge.from, edge.to);
+            const bool up = to > 0;
+            if (middle != edge.from) sides_[up ? 0 : 1].cap_edges.push_back({edge.from, middle, edge.cap});
+            if (middle != edge.to) sides_[up ? 1 : 0].cap_edges.push_back({middle, edge.to, edge.cap});
+            const DVec<3> line = cross(plane.normal, piece_.cap_normals[edge.cap]);
+            crossings[edge.cap].push_back({dot(line, points_[middle]), middle, up ? 1 : -1});
+        }
+        for (std::uint32_t cap = 0; cap < crossings.size(); ++cap) {
+            std::vector<Crossing>& at = crossings[cap];
+            std::sort(at.begin(), at.end(), [](const Crossing& a, const Crossing& b) {
+                return std::tie(a.along, a.point, a.way) < std::tie(b.along, b.point, b.way);
+            });
+            int winding = 0;
+            for (std::size_t i = 0; i + 1 < at.size(); ++i) {
+                winding += at[i].way;
+                // What goes up here comes down farther along, or the other way round: closed along the line below.
+                const std::uint32_t from = winding > 0 ? at[i].point : at[i + 1].point;
+                const std::uint32_t to = winding > 0 ? at[i + 1].point : at[i].point;
+                if (from == to) continue;
+                for (int turn = 0; turn < std::abs(winding); ++turn) {
+                    // Below, the outline arrives at `from` and goes on from `to`; above the other way.
+                    sides_[0].cap_edges.push_back({from, to, cap});
+                    sides_[0].rim.emplace_back(to, from);
+                    sides_[1].cap_edges.push_back({to, from, cap});
+                    sides_[1].rim.emplace_back(from, to);
+                }
+            }
+        }
+    }
+
+    const Piece& piece_;
+    std::vector<DVec<3>> points_;
+    std::vector<double> heights_;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> cuts_;
+    std::array<Side, 2> sides_;
+};
+
+struct Extent {
+    DVec<3> least, greatest;
+};
+
+Extent extent_of(const Piece& piece) {
+    Extent result{piece.points.front(), piece.points.front()};
+    for (const DVec<3>& p : piece.points)
+        for (int i = 0; i < 3; ++i) {
+            result.least[i] = std::min(result.least[i], p[i]);
+            result.greatest[i] = std::max(result.greatest[i], p[i]);
+        }
+    return result;
+}
+
+bool within(const Extent& inner, const Extent& outer) {
+    for (int i = 0; i < 3; ++i)
+        if (inner.least[i] < outer.least[i] || inner.greatest[i] > outer.greatest[i]) return false;
+    return true;
+}
+
+/// How often the piece winds around a point, by what a ray crosses. Neighbours see their edge alike, so that the ray
+/// slips through no seam.
+int winding(const Piece& piece, const DVec<3>& point) {
+    const DVec<3> ray(1, 0.0271828, 0.0141421);  // across nothing that people make level
+    int result = 0;
+    for (const SignedTriangle& t : signed_triangles(piece)) {
+        const DVec<3> a = t.a - point, b = t.b - point, c = t.c - point;
+        const bool ab = dot(ray, cross(a, b)) > 0, bc = dot(ray, cross(b, c)) > 0, ca = dot(ray, cross(c, a)) > 0;
+        if (ab != bc || bc != ca) continue;
+        const bool outwards = ab;
+        if ((dot(a, cross(b, c)) > 0) == outwards) result += outwards ? 1 : -1;
+    }
+    return result;
+}
+
+void append(Piece& body, const Piece& hollow) {
+    const auto points = static_cast<std::uint32_t>(body.points.size());
+    const auto caps = static_cast<std::uint32_t>(body.cap_origins.size());
+    body.points.insert(body.points.end(), hollow.points.begin(), hollow.points.end());
+    body.cap_origins.insert(body.cap_origins.end(), hollow.cap_origins.begin(), hollow.cap_origins.end());
+    body.cap_normals.insert(body.cap_normals.end(), hollow.cap_normals.begin(), hollow.cap_normals.end());
+    for (const glm::uvec3& t : hollow.triangles) body.triangles.push_back(t + glm::uvec3(points));
+    for (const CapEdge& edge : hollow.cap_edges)
+        body.cap_edges.push_back({edge.from + points, edge.to + points, edge.cap + caps});
+    body.volume += hollow.volume;
+}
+
+}  // namespace
+
+void give_hollows(std::vector<Piece>& pieces) {
+    std::vector<Extent> extents;
+    for (const Piece& piece : pieces) extents.push_back(extent_of(piece));
+    std::vector<std::size_t> around(pieces.size());
+    std::iota(around.begin(), around.end(), std::size_t{0});
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        if (!pieces[i].closed || pieces[i].volume >= 0) continue;
+        for (std::size_t j = 0; j < pieces.size(); ++j)
+            if (pieces[j].closed && pieces[j].volume > -pieces[i].volume && within(extents[i], extents[j]) &&
+                (around[i] == i || pieces[j].volume < pieces[around[i]].volume) &&
+                winding(pieces[j], pieces[i].points.front()) > 0)
+                around[i] = j;
+    }
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+        if (around[i] != i) append(pieces[around[i]], pieces[i]);
+    std::vector<Piece> result;
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+        if (around[i] == i) result.push_back(std::move(pieces[i]));
+    pieces = std::move(result);
+}
+
+double measured_volume(const Piece& piece) {
+    if (piece.points.empty()) return 0;
+    const DVec<3>& origin = piece.points.front();
+    double six_volumes = 0, two_areas = 0;
+    for (const SignedTriangle& t : signed_triangles(piece)) {
+        const DVec<3> area = cross(t.b - t.a, t.c - t.a);
+        six_volumes += dot(t.a - origin, area);
+        two_areas += length(area);
+    }
+    return piece.closed ? six_volumes / 6 : piece.thickness * two_areas / 2;
+}
+
+std::vector<SignedTriangle> signed_triangles(const Piece& piece) {
+    std::vector<SignedTriangle> result;
+    result.reserve(piece.triangles.size() + piece.cap_edges.size());
+    for (const glm::uvec3& t : piece.triangles)
+        result.push_back({piece.points[t.x], piece.points[t.y], piece.points[t.z]});
+    for (const CapEdge& edge : piece.cap_edges)
+        result.push_back({piece.cap_origins[edge.cap], piece.points[edge.from], piece.points[edge.to]});
+    return result;
+}
+
+std::vector<Piece> connected(const Piece& piece) {
+    std::vector<std::uint32_t> parent(piece.points.size());
+    std::iota(parent.begin(), parent.end(), 0u);
+    const auto root = [&](std::uint32_t at) {
+        while (parent[at] != at) at = parent[at] = parent[parent[at]];
+        return at;
+    };
+    const auto join = [&](std::uint32_t a, std::uint32_t b) {
+        const std::uint32_t first = root(a), second = root(b);
+        parent[std::max(first, second)] = std::min(first, second);
+    };
+    for (const glm::uvec3& t : piece.triangles) {
+        join(t.x, t.y);
+        join(t.y, t.z);
+    }
+    for (const CapEdge& edge : piece.cap_edges) join(edge.from, edge.to);
+
+    std::vector<std::uint32_t> number(piece.points.size(), none), renamed(piece.points.size(), none);
+    std::vector<Piece> result;
+    const auto piece_of = [&](std::uint32_t point) -> Piece& {
+        std::uint32_t& place = number[root(point)];
+        if (place == none) {
+            place = static_cast<std::uint32_t>(result.size());
+            Piece& fresh = result.emplace_back();
+            fresh.closed = piece.closed;
+            fresh.thickness = piece.thickness;
+        }
+        return result[place];
+    };
+    const auto take = [&](Piece& into, std::uint32_t point) {
+        if (renamed[point] == none) {
+            renamed[point] = static_cast<std::uint32_t>(into.points.size());
+            into.points.push_back(piece.points[point]);
+        }
+        return renamed[point];
+    };
+    for (const glm::uvec3& t : piece.triangles) {
+        Piece& into = piece_of(t.x);
+        const std::uint32_t a = take(into, t.x), b = take(into, t.y), c = take(into, t.z);
+        into.triangles.emplace_back(a, b, c);
+    }
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> caps;  // by piece and old number
+    for (const CapEdge& edge : piece.cap_edges) {
+        Piece& into = piece_of(edge.from);
+        const std::uint32_t from = take(into, edge.from), to = take(into, edge.to);
+        const auto [cap, is_new] =
+            caps.try_emplace({number[root(edge.from)], edge.cap}, static_cast<std::uint32_t>(into.cap_origins.size()));
+        if (is_new) {
+            into.cap_origins.push_back(into.points[from]);
+            into.cap_normals.push_back(piece.cap_normals[edge.cap]);
+        }
+        into.cap_edges.push_back({from, to, cap->second});
+    }
+    for (Piece& part : result) part.volume = measured_volume(part);
+    if (piece.closed) give_hollows(result);
+    return result;
+}
+
+std::vector<Piece> cut(const Piece& piece, const CutPlane& plane, double margin) {
+    Cutter cutter(piece, plane, margin);
+    std::vector<Piece> result;
+    for (const int which : {0, 1})
+        for (Piece& part : connected(cutter.side(which, plane)))
+            if (!part.triangles.empty() || part.volume > 0) result.push_back(std::move(part));
+    return result;
+}
+
+}  // namespace abut
