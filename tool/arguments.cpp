@@ -8,6 +8,7 @@ namespace abut::tool {
 namespace {
 
 constexpr std::size_t most_frames = 1'000'000, most_bounces = 100'000;
+constexpr std::uint32_t most_vertices = 1'000'000, most_parts = 100'000;
 
 // True where all of the text is one number.
 template <class Number>
@@ -21,6 +22,13 @@ Problem bad(const std::string& text, const char* expected) {
     return {ProblemCode::bad_argument, "'" + text + "' is not " + expected};
 }
 
+template <class Number>
+Result<Number> parse_whole(const std::string& text, Number least, Number most) {
+    Number number = 0;
+    if (parse(text, number) && number >= least && number <= most) return number;
+    return bad(text, ("a whole number from " + std::to_string(least) + " to " + std::to_string(most)).c_str());
+}
+
 }  // namespace
 
 Result<float> parse_length(const std::string& text) {
@@ -30,10 +38,7 @@ Result<float> parse_length(const std::string& text) {
 }
 
 Result<std::size_t> parse_frames(const std::string& text) {
-    std::size_t frames = 0;
-    if (!parse(text, frames) || frames < 1 || frames > most_frames)
-        return bad(text, "a whole number from 1 to 1000000");
-    return frames;
+    return parse_whole<std::size_t>(text, 1, most_frames);
 }
 
 template <int D>
@@ -54,10 +59,21 @@ template Result<Vec<2>> parse_point<2>(const std::string& text);
 template Result<Vec<3>> parse_point<3>(const std::string& text);
 
 Result<std::size_t> parse_bounces(const std::string& text) {
-    std::size_t bounces = 0;
-    if (!parse(text, bounces) || bounces < 1 || bounces > most_bounces)
-        return bad(text, "a whole number from 1 to 100000");
-    return bounces;
+    return parse_whole<std::size_t>(text, 1, most_bounces);
+}
+
+Result<std::uint32_t> parse_vertices(const std::string& text) {
+    return parse_whole<std::uint32_t>(text, 4, most_vertices);
+}
+
+Result<std::uint32_t> parse_parts(const std::string& text) {
+    return parse_whole<std::uint32_t>(text, 1, most_parts);
+}
+
+Result<double> parse_share(const std::string& text) {
+    double share = 0;
+    if (!parse(text, share) || !(share >= 0 && share <= 1)) return bad(text, "a number from 0 to 1");
+    return share;
 }
 
 Result<double> parse_time(const std::string& text) {

@@ -7,6 +7,7 @@
 #include <abut/math/result.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 namespace abut::tool {
@@ -23,6 +24,15 @@ Result<Vec<D>> parse_point(const std::string& text);
 
 /// How often a ray is thrown back, 1 to a hundred thousand.
 Result<std::size_t> parse_bounces(const std::string& text);
+
+/// The most corners of a convex part, 4 to a million.
+Result<std::uint32_t> parse_vertices(const std::string& text);
+
+/// The most parts of a mesh, 1 to a hundred thousand.
+Result<std::uint32_t> parse_parts(const std::string& text);
+
+/// A share, from 0 to 1.
+Result<double> parse_share(const std::string& text);
 
 /// A moment in seconds, finite.
 Result<double> parse_time(const std::string& text);

@@ -1,7 +1,6 @@
 #include "cast_report.hpp"
+#include "paper.hpp"
 #include <abut/draw/draw.hpp>
-#include <abut/draw/projected.hpp>
-#include <abut/draw/svg.hpp>
 #include <abut/math/dvec.hpp>
 
 #include <algorithm>
@@ -11,8 +10,6 @@ namespace {
 
 constexpr Style plain{{148, 163, 184, 120}, 0.7f}, hit_thing{{37, 99, 235, 200}, 1, {37, 99, 235, 26}};
 constexpr Style beam{{225, 29, 72}, 2}, unreached{{225, 29, 72, 130}, 1.5f, transparent, true};
-constexpr Color background{248, 250, 252};
-constexpr double picture_width = 1200;  // pixels, or height where that is more
 
 // Of an object of more parts the box is drawn: it would be a blot, and a file of many megabytes.
 constexpr std::size_t most_parts = 5000;
@@ -38,26 +35,6 @@ Vec3 towards_eye(const CastOptions<3>& options) {
     const DVec<3> along = DVec<3>(options.to) - DVec<3>(options.from);
     const DVec<3> level = normalized(DVec<3>(-along.z, 0, along.x), axis<3>(2));
     return to_float(normalized(level + DVec<3>(0, 0.6, 0)));
-}
-
-class NoCanvas final : public Canvas<2> {
-public:
-    Aabb2 shown() const override { return Aabb2::empty(); }
-    void line(const Vec2&, const Vec2&, const Style&) override {}
-    void point(const Vec2&, const Style&) override {}
-};
-
-// The part of the plane on which a box of space is seen.
-Aabb2 seen(const Aabb3& box, const Vec3& eye) {
-    NoCanvas none;
-    const Projected view(none, box, eye, {0, 1, 0});
-    Aabb2 result = Aabb2::empty();
-    for (int i = 0; i < 8; ++i) {
-        const Vec2 corner = view({(i & 1) != 0 ? box.max.x : box.min.x, (i & 2) != 0 ? box.max.y : box.min.y,
-                                  (i & 4) != 0 ? box.max.z : box.min.z});
-        result = merged(result, Aabb2{corner, corner});
-    }
-    return result;
 }
 
 template <int D>
@@ -115,12 +92,6 @@ public:
 private:
     Canvas<2>& paper_;
 };
-
-SvgCanvas paper_for(const Aabb2& plane) {
-    const double extent =
-        std::max(static_cast<double>(plane.max.x - plane.min.x), static_cast<double>(plane.max.y - plane.min.y));
-    return {plane, static_cast<float>(picture_width / extent), background};
-}
 
 }  // namespace
 

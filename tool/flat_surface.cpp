@@ -1,7 +1,7 @@
 #include "flat_surface.hpp"
 
-#include <abut/bake/groups.hpp>
 #include <abut/abut.hpp>
+#include <abut/bake/groups.hpp>
 #include <abut/math/dvec.hpp>
 
 #include <algorithm>

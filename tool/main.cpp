@@ -107,6 +107,26 @@ void describe(CLI::App& verb, CastArguments& arguments) {
     verb.add_flag("--skip-degenerate", arguments.request.skip_degenerate, "Leave out triangles of zero area");
 }
 
+constexpr const char *mesh_files = "glTF 2.0, or anything else that Assimp reads",
+                     *mesh_output = "Where to write it: .gltf, .glb or .obj";
+
+// What was typed for `abut hull`.
+struct HullArguments {
+    HullRequest request;
+    std::optional<std::string> vertices;
+};
+
+void describe(CLI::App& verb, HullArguments& arguments) {
+    verb.add_option("MESH", arguments.request.mesh, mesh_files)->required();
+    verb.add_option("-o,--output", arguments.request.output, mesh_output)->type_name("OUT")->required();
+    verb.add_option("--max-vertices", arguments.vertices,
+                    "At most N corners: a larger hull, which holds all that the hull does; 4 or more")
+        ->type_name("N");
+    verb.add_flag("--each", arguments.request.each, "One hull for each object, in place of one around all of them");
+    verb.add_flag("--json", arguments.request.json, "One JSON object in place of text");
+    verb.footer("Objects are taken where they stand at the first moment.");
+}
+
 void describe(CLI::App& verb, InfoRequest& request) {
     verb.add_option("FILE", request.scene, files)->required();
     verb.add_flag("--json", request.json, "One JSON object in place of text");
@@ -148,8 +168,18 @@ Result<ExitCode> run_cast(CastArguments& arguments) {
     return run_cast(arguments.request);
 }
 
+Result<ExitCode> run_hull(HullArguments& arguments) {
+    if (const std::optional<std::string> problem =
+            understand("--max-vertices", arguments.vertices, parse_vertices, arguments.request.max_vertices))
+        return Problem{ProblemCode::bad_argument, *problem};
+    return run_hull(arguments.request);
+}
+
 int run(int count, char** words) {
-    CLI::App app("Collision checks for scenes and levels: who touches whom, where, how deep and when.", "abut");
+    CLI::App app(
+        "Collision checks for scenes and levels: who touches whom, where, how deep and when; and convex parts for "
+        "meshes.",
+        "abut");
     app.set_version_flag("--version", "abut " ABUT_VERSION);
     app.require_subcommand(1);
     app.footer("Exits with 0 if all is fine, 1 if something was found, 2 for bad input or usage.");
@@ -161,6 +191,9 @@ int run(int count, char** words) {
     CastArguments cast;
     CLI::App& cast_verb = *app.add_subcommand("cast", "What a ray hits, or a laser from mirror to mirror");
     describe(cast_verb, cast);
+    HullArguments hull;
+    CLI::App& hull_verb = *app.add_subcommand("hull", "The convex hull of a mesh");
+    describe(hull_verb, hull);
     InfoRequest info;
     CLI::App& info_verb = *app.add_subcommand("info", "What is in a scene or a level");
     describe(info_verb, info);
@@ -169,13 +202,13 @@ int run(int count, char** words) {
         app.parse(count, words);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
-        const bool has_verb = check_verb.parsed() || cast_verb.parsed() || info_verb.parsed();
-        if (!has_verb && count > 1 && words[1][0] != '-')
+        if (app.get_subcommands().empty() && count > 1 && words[1][0] != '-')
             return fail("'" + std::string(words[1]) + "' is not a verb; abut --help lists them");
         return fail(error.what());
     }
     const Result<ExitCode> code = check_verb.parsed()  ? run_check(check)
                                   : cast_verb.parsed() ? run_cast(cast)
+                                  : hull_verb.parsed() ? run_hull(hull)
                                                        : run_info(info);
     return code ? static_cast<int>(*code) : fail(code.problem().message);
 }

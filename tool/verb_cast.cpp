@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <tuple>
 #include <utility>
 
@@ -14,14 +13,6 @@
 
 namespace abut::tool {
 namespace {
-
-std::optional<Problem> write_file(const std::string& file, const std::string& content) {
-    std::ofstream out(file, std::ios::binary);
-    out << content;
-    out.close();
-    if (out) return std::nullopt;
-    return Problem{ProblemCode::unreadable, file + ": can't be written"};
-}
 
 /// Reports write moments with four digits, and what they write can be asked about.
 constexpr double rounded_off = 5e-4;
@@ -78,7 +69,7 @@ Result<ExitCode> run(const CastRequest& request) {
     CastReport<D> report{objects, *options, *time, std::move(result), file->warnings, read_seconds, build_seconds, 0};
     report.cast_seconds = watch.lap();
     if (request.picture)
-        if (const std::optional<Problem> problem = write_file(*request.picture, picture(report))) return *problem;
+        if (const std::optional<Problem> problem = write_picture(*request.picture, picture(report))) return *problem;
     return print(request.json ? json_report(report) : text_report(report, request.scene),
                  report.result.hits.empty() ? fine : found);
 }

@@ -9,6 +9,7 @@
 #include <abut/math/result.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -48,6 +49,29 @@ struct InfoRequest {
 };
 
 Result<ExitCode> run_info(const InfoRequest& request);
+
+struct HullRequest {
+    std::string mesh, output;
+    std::uint32_t max_vertices = 0;  ///< of each hull; 0: no limit
+    bool each = false;               ///< one hull an object
+    bool json = false;
+};
+
+Result<ExitCode> run_hull(const HullRequest& request);
+
+struct DecomposeRequest {
+    std::string mesh, output;
+    std::optional<std::string> picture;  ///< a file to write one to, as SVG
+    std::uint32_t max_parts = 32;
+    double concavity = 0.05;
+    std::uint32_t max_vertices = 64;  ///< of each part
+    bool json = false;
+};
+
+Result<ExitCode> run_decompose(const DecomposeRequest& request);
+
+/// A whole file, or what is wrong with it, beginning with the file.
+std::optional<Problem> write_picture(const std::string& file, const std::string& document);
 
 /// Everything at once on stdout.
 Result<ExitCode> print(const std::string& text, ExitCode code);

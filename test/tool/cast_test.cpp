@@ -164,7 +164,7 @@ TEST_F(Cast, DrawsAPicture) {
     cast({file, "--from", "-3,0,0", "--to", "9,0,0", "-o", picture}, 1);
     EXPECT_EQ(content(picture), svg) << "the same bytes";
     EXPECT_EQ(refusal({"cast", file, "--from", "-3,0,0", "--to", "9,0,0", "-o", folder().string()}),
-              "abut: " + folder().string() + ": can't be written");
+              "abut: " + folder().string() + ": can't be written: it is a directory");
 }
 
 TEST_F(Cast, BadUsageIsRefused) {

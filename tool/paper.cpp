@@ -1,0 +1,38 @@
+#include "paper.hpp"
+
+#include <algorithm>
+
+namespace abut::tool {
+namespace {
+
+constexpr Color background{248, 250, 252};
+constexpr double picture_width = 1200;
+
+class NoCanvas final : public Canvas<2> {
+public:
+    Aabb2 shown() const override { return Aabb2::empty(); }
+    void line(const Vec2&, const Vec2&, const Style&) override {}
+    void point(const Vec2&, const Style&) override {}
+};
+
+}  // namespace
+
+Aabb2 seen(const Aabb3& box, const Vec3& towards_eye) {
+    NoCanvas none;
+    const Projected view(none, box, towards_eye, {0, 1, 0});
+    Aabb2 result = Aabb2::empty();
+    for (int i = 0; i < 8; ++i) {
+        const Vec2 corner = view({(i & 1) != 0 ? box.max.x : box.min.x, (i & 2) != 0 ? box.max.y : box.min.y,
+                                  (i & 4) != 0 ? box.max.z : box.min.z});
+        result = merged(result, Aabb2{corner, corner});
+    }
+    return result;
+}
+
+SvgCanvas paper_for(const Aabb2& plane) {
+    const double extent =
+        std::max(static_cast<double>(plane.max.x - plane.min.x), static_cast<double>(plane.max.y - plane.min.y));
+    return {plane, static_cast<float>(picture_width / extent), background};
+}
+
+}  // namespace abut::tool
