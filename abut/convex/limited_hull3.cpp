@@ -1,6 +1,7 @@
 // A hull of few corners in space.
 
 #include <abut/convex/hull_input.hpp>
+#include <abut/convex/inner_hull.hpp>
 #include <abut/convex/limited_hull.hpp>
 #include <abut/convex/outer_mesh.hpp>
 #include <abut/convex/round_out.hpp>
@@ -17,6 +18,8 @@
 namespace abut {
 namespace {
 
+constexpr std::size_t few_corners = 32, pool_corners = 4, least_pool = 64;
+constexpr double depth_for_sure = 1e-4;  ///< of a point inside, where the body reaches about 0.45 from its middle
 constexpr int tightening_rounds = 8, most_margins = 24;
 
 using Triangles = std::vector<std::array<Vec3, 3>>;
@@ -24,14 +27,13 @@ using Triangles = std::vector<std::array<Vec3, 3>>;
 /// Whether a closed surface, wound outwards, surely has the points in the convex hull of its corners: none is above a
 /// triangle. Then the surface goes around each of them, as all its triangles are seen from their inner sides.
 bool surely_holds(const Triangles& triangles, std::span<const Vec3> points) {
+    if (points.empty()) return true;
+    const DVec<3> low = least_corner<3>(points), high = greatest_corner<3>(points);
     for (const auto& [a, b, c] : triangles) {
         const DVec<3> origin(a), u = DVec<3>(b) - origin, v = DVec<3>(c) - origin, normal = cross(u, v);
-        const double doubt = 1e-14 * length(u) * length(v);
-        for (const Vec3& point : points) {
-            const DVec<3> seen = DVec<3>(point) - origin;
-            if (dot(normal, seen) < -doubt * length(seen)) continue;
-            if (orientation(a, b, c, point) > 0) return false;
-        }
+        const double doubt = 1e-14 * length(u) * length(v) * (length(low - origin) + length(high - low));
+        for (const Vec3& point : points)
+            if (!(dot(normal, DVec<3>(point) - origin) < -doubt) && orientation(a, b, c, point) > 0) return false;
     }
     return true;
 }
@@ -85,16 +87,12 @@ Affine<3> from_round(const Hull3& hull) {
     return result;
 }
 
-Affine<3> inverse(const Affine<3>& map) {
-    return inverse(map, dot(map.column[0], cross(map.column[1], map.column[2])));
-}
-
 /// The corners of the mesh, which `map` takes to the world, as floats: outside of the planes of their triangles by
 /// `margin`, after these were moved out to the points that they leave out. Nothing where one leaves the range of
 /// floats.
 std::optional<std::vector<Vec3>> rounded_corners(const OuterMesh& mesh, const Affine<3>& map,
                                                  std::span<const Vec3> points, double margin) {
-    const Affine<3> back = inverse(map);
+    const Affine<3> back = inverse(map, determinant(map));
     std::vector<Plane<3>> planes(mesh.triangle_count());
     for (std::uint32_t triangle = 0; triangle < planes.size(); ++triangle) {
         if (!mesh.has_triangle(triangle)) continue;
@@ -120,8 +118,8 @@ std::optional<std::vector<Vec3>> rounded_corners(const OuterMesh& mesh, const Af
 }
 
 /// The hull of the mesh's corners, rounded to floats no farther out than it takes to hold the points.
-std::optional<Hull3> rounded_hull(const OuterMesh& mesh, const Affine<3>& map, std::span<const Vec3> points) {
-    const double side = extent<3>(points);
+std::optional<Hull3> rounded_hull(const OuterMesh& mesh, const Affine<3>& map, std::span<const Vec3> points,
+                                  double side) {
     double margin = 0;
     for (int i = 0; i < most_margins; ++i) {
         const std::optional<std::vector<Vec3>> corners = rounded_corners(mesh, map, points, margin);
@@ -145,51 +143,71 @@ std::optional<Hull3> rounded_hull(const OuterMesh& mesh, const Affine<3>& map, s
     return std::nullopt;
 }
 
-/// The hull of `count` of the corners of a solid one, by the farthest from what is there first.
-Hull3 hull_of_some(const Hull3& all, std::size_t count) {
-    std::vector<Vec3> chosen{all.points.front(), all.points.back()};
-    for (;;) {
-        Hull3 result = *hull(chosen);
-        if (chosen.size() >= count) return result;
-        double farthest = -1;
-        Vec3 next = chosen[0];
-        for (const Vec3& point : all.points) {
-            const DVec<3> p(point);
-            double distance = 0;
-            if (result.rank == 3) {
-                for (std::size_t face = 0; face < result.normals.size(); ++face)
-                    distance = std::max(distance, dot(DVec<3>(result.normals[face]), p) - result.offsets[face]);
-            } else if (result.rank == 2) {
-                distance = std::abs(dot(DVec<3>(result.normals[0]), p) - result.offsets[0]);
-            } else {
-                distance = length(cross(p - DVec<3>(chosen[0]), DVec<3>(chosen[1]) - DVec<3>(chosen[0])));
-            }
-            if (distance > farthest) {
-                farthest = distance;
-                next = point;
-            }
-        }
-        chosen.push_back(next);
-    }
-}
-
 Problem out_of_range() {
     return {ProblemCode::too_large, "so few corners that hold all points are beyond the range of floats", 0};
 }
 
-Result<Hull3> limited_solid(const Hull3& full, std::span<const Vec3> points, std::size_t limit) {
-    const Affine<3> map = from_round(full), seen_by = inverse(map);
-    std::vector<DVec<3>> inside;
-    for (const Vec3& point : full.points) inside.push_back(seen_by.point(DVec<3>(point)));
-    OuterMesh mesh(full, seen_by);
+/// Around all, with corners that are too near.
+OuterMesh grown(const Hull3& inner, const InnerPoints& inside) {
+    OuterMesh result(inner, Affine<3>());
+    result.grow(DVec<3>(inner.centroid), inside);
+    return result;
+}
+
+/// The corners where planes around the origin meet. They are the planes of a hull, that of the points at 1 / offset
+/// along their normals.
+std::vector<Vec3> corners_of_planes(const Hull3& polar) {
+    std::vector<Vec3> result;
+    for (std::size_t face = 0; face < polar.normals.size(); ++face)
+        if (polar.offsets[face] > 0) result.push_back(to_float(DVec<3>(polar.normals[face]) / polar.offsets[face]));
+    return result;
+}
+
+/// The least of several meshes of so few corners around all that is inside, seen from its middle.
+OuterMesh least_mesh(OuterMesh mesh, const InnerPoints& inside, std::size_t limit) {
+    mesh.simplify(std::max(pool_corners * limit, least_pool));
+    std::vector<Vec3> points, polar;
+    for (const DVec<3>& point : inside.points()) points.push_back(to_float(point));
+    for (std::uint32_t triangle = 0; triangle < mesh.triangle_count(); ++triangle)
+        if (mesh.has_triangle(triangle))
+            polar.push_back(to_float(mesh.plane(triangle).normal / mesh.plane(triangle).offset));
     mesh.simplify(limit);
-    if (mesh.count() > limit) {
-        const Hull3 some = hull_of_some(full, limit);
-        mesh = OuterMesh(some, seen_by);
-        mesh.grow(seen_by.point(DVec<3>(some.centroid)), inside);
-    }
     mesh.tighten(inside, tightening_rounds);
-    const std::optional<Hull3> result = rounded_hull(mesh, map, points);
+    if (mesh.count() <= limit && limit > few_corners) return mesh;
+    const auto offer = [&](const Hull3& inner) {
+        if (inner.rank < 3 || inner.points.size() > limit) return;
+        OuterMesh other = grown(inner, inside);
+        other.tighten(inside, tightening_rounds);
+        if (mesh.count() > limit || other.volume() < mesh.volume()) mesh = std::move(other);
+    };
+    offer(inner_hull(points, limit));
+    const Hull3 planes = inner_hull(polar, limit / 2 + 2);
+    if (planes.rank == 3) offer(*hull(corners_of_planes(planes)));
+    return mesh;
+}
+
+/// The points that aren't far inside of the mesh.
+std::vector<Vec3> near_surface(const OuterMesh& mesh, const Affine<3>& seen_by, std::span<const Vec3> points) {
+    std::vector<Plane<3>> planes;
+    for (std::uint32_t triangle = 0; triangle < mesh.triangle_count(); ++triangle)
+        if (mesh.has_triangle(triangle)) planes.push_back(mesh.plane(triangle));
+    std::vector<Vec3> result;
+    for (const Vec3& point : points) {
+        const DVec<3> seen = seen_by.point(DVec<3>(point));
+        for (const Plane<3>& plane : planes) {
+            if (!(dot(plane.normal, seen) > plane.offset - depth_for_sure)) continue;
+            result.push_back(point);
+            break;
+        }
+    }
+    return result;
+}
+
+Result<Hull3> limited_solid(const Hull3& full, std::span<const Vec3> points, std::size_t limit) {
+    const Affine<3> map = from_round(full), seen_by = inverse(map, determinant(map));
+    const OuterMesh mesh = least_mesh(OuterMesh(full, seen_by), InnerPoints(full, seen_by), limit);
+    const std::optional<Hull3> result =
+        rounded_hull(mesh, map, near_surface(mesh, seen_by, points), extent<3>(full.points));
     if (!result || result->points.size() > limit) return out_of_range();
     return *result;
 }

@@ -48,7 +48,7 @@ std::vector<std::uint32_t> twins_of(std::span<const std::uint32_t> origin) {
 
 OuterMesh::OuterMesh(const Hull3& hull, const Affine<3>& map)
     : leaving_(hull.points.size(), none), count_(hull.points.size()), mark_(hull.points.size(), 0) {
-    const Affine<3> back = inverse(map, dot(map.column[0], cross(map.column[1], map.column[2])));
+    const Affine<3> back = inverse(map, determinant(map));
     points_.reserve(hull.points.size());
     for (const Vec3& point : hull.points) points_.push_back(map.point(DVec<3>(point)));
     std::size_t begin = 0;
@@ -61,6 +61,7 @@ OuterMesh::OuterMesh(const Hull3& hull, const Affine<3>& map)
                       [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
                           origin_.insert(origin_.end(), {a, b, c});
                           planes_.push_back(plane);
+                          areas_.push_back(length(cross(points_[b] - points_[a], points_[c] - points_[a])));
                       });
         begin = end;
     }
@@ -69,18 +70,37 @@ OuterMesh::OuterMesh(const Hull3& hull, const Affine<3>& map)
     for (std::uint32_t h = 0; h < origin_.size(); ++h) leaving_[origin_[h]] = h;
 }
 
-void OuterMesh::grow(const DVec<3>& middle, std::span<const DVec<3>> inside) {
+std::vector<DVec<3>> OuterMesh::corners() const {
+    std::vector<DVec<3>> result;
+    for (std::uint32_t point = 0; point < points_.size(); ++point)
+        if (has_point(point)) result.push_back(points_[point]);
+    return result;
+}
+
+double OuterMesh::volume() const {
+    double six_times = 0;
+    for (std::uint32_t t = 0; t < planes_.size(); ++t)
+        if (has_triangle(t))
+            six_times += dot(cross(points_[corner(t, 0)], points_[corner(t, 1)]), points_[corner(t, 2)]);
+    return six_times / 6;
+}
+
+void OuterMesh::grow(const DVec<3>& middle, const InnerPoints& inside) {
     double factor = 1;
-    for (const Plane<3>& plane : planes_) {
+    std::uint32_t highest = 0;
+    for (std::uint32_t triangle = 0; triangle < planes_.size(); ++triangle) {
+        if (!has_triangle(triangle)) continue;
+        const Plane<3>& plane = planes_[triangle];
         const double inner = dot(plane.normal, middle);
-        for (const DVec<3>& point : inside)
-            factor = std::max(factor, (dot(plane.normal, point) - inner) / (plane.offset - inner));
+        highest = inside.highest(plane.normal, highest);
+        factor = std::max(factor, (dot(plane.normal, inside.points()[highest]) - inner) / (plane.offset - inner));
     }
     for (DVec<3>& point : points_) point = middle + (point - middle) * factor;
     for (Plane<3>& plane : planes_) {
         const double inner = dot(plane.normal, middle);
         plane.offset = inner + (plane.offset - inner) * factor;
     }
+    for (double& area : areas_) area *= factor * factor;
 }
 
 void OuterMesh::gather_ring(std::uint32_t half_edge) {
@@ -128,26 +148,32 @@ double OuterMesh::volume_to(const DVec<3>& apex) const {
     return dot(slope_, apex);
 }
 
-/// How far out two neighbours have to go along the mean of their faces' normals, as a volume.
+/// How far out two neighbours have to go along the mean of their faces' normals, as six times a volume.
 double OuterMesh::quick_cost(std::uint32_t half_edge) {
-    gather_ring(half_edge);
-    DVec<3> way(0.0);
+    const std::uint32_t a = origin_[half_edge], b = origin_[twin_[half_edge]];
+    const std::uint32_t left = half_edge / 3, right = twin_[half_edge] / 3;
+    star_.clear();
+    each_leaving(a, [&](std::uint32_t h) { star_.push_back(h / 3); });
+    each_leaving(b, [&](std::uint32_t h) {
+        if (h / 3 != left && h / 3 != right) star_.push_back(h / 3);
+    });
+    const DVec<3> middle = (points_[a] + points_[b]) * 0.5;
+    DVec<3> way(0.0), slope(0.0);
     double old = 0;
     for (const std::uint32_t triangle : star_) {
-        way += planes_[triangle].normal;
-        const DVec<3> a = points_[corner(triangle, 0)] - middle_, b = points_[corner(triangle, 1)] - middle_,
-                      c = points_[corner(triangle, 2)] - middle_;
-        old += dot(cross(a, b), c);
+        const Plane<3>& plane = planes_[triangle];
+        way += plane.normal;
+        slope += plane.normal * areas_[triangle];
+        old += areas_[triangle] * (plane.offset - dot(plane.normal, middle));
     }
-    way = normalized(way);
     double out = 0;
     for (const std::uint32_t triangle : star_) {
-        const double rise = dot(planes_[triangle].normal, way);
-        const double need = planes_[triangle].offset - dot(planes_[triangle].normal, middle_);
+        const Plane<3>& plane = planes_[triangle];
+        const double rise = dot(plane.normal, way), need = plane.offset - dot(plane.normal, middle);
         if (!(rise > 1e-3)) return std::numeric_limits<double>::max();
-        out = std::max(out, need / rise);
+        if (need > out * rise) out = need / rise;
     }
-    return volume_to(way * out) - old;
+    return dot(slope, way) * out - old;
 }
 
 std::optional<OuterMesh::Merge> OuterMesh::merge_at(std::uint32_t half_edge) {
@@ -184,7 +210,9 @@ void OuterMesh::set_plane(std::uint32_t triangle) {
     const DVec<3>&a = points_[corner(triangle, 0)], &b = points_[corner(triangle, 1)],
           &c = points_[corner(triangle, 2)];
     const DVec<3> u = b - a, v = c - a, normal = cross(u, v);
-    const double area = length(normal), longest = std::max(length_squared(u), length_squared(v));
+    const double area = length(normal);
+    areas_[triangle] = area;
+    const double longest = std::max(length_squared(u), length_squared(v));
     if (!(area > 1e-10 * longest)) return;
     planes_[triangle].normal = normal / area;
     planes_[triangle].offset = std::max(
@@ -342,31 +370,23 @@ bool OuterMesh::widen(std::uint32_t point) {
 
 /// Above what a corner has to stay, so that all is still inside: for each edge of the ring, the plane through it that
 /// touches what is inside; and below which planes, so that the surface stays convex: those over the ring.
-void OuterMesh::cut_around(std::uint32_t point, std::span<const DVec<3>> inside) {
+void OuterMesh::cut_around(std::uint32_t point, const InnerPoints& inside) {
     gather_ring_of_point(point);
     limits_.clear();
     for (const std::uint32_t h : ring_) {
         const Plane<3>& outer = planes_[twin_[h] / 3];
         const DVec<3> from = points_[origin_[h]], along = points_[origin_[following(h)]] - from;
         const DVec<3> on = normalized(cross(outer.normal, along));
-        // The outer plane turns about the edge until something is in the way; it begins upside down.
-        double best_x = -1, best_y = 1e-9;
-        const double near = 1e-24 * length_squared(along);
-        for (const DVec<3>& p : inside) {
-            const DVec<3> seen = p - from;
-            const double x = dot(on, seen), y = std::max(0.0, -dot(outer.normal, seen));
-            if (x * best_y - y * best_x > 0 && x * x + y * y > near) {
-                best_x = x;
-                best_y = y;
-            }
-        }
-        const DVec<3> normal = normalized(outer.normal * best_x + on * best_y), local = from - middle_;
+        touched_ = inside.first_touched(from, on, outer.normal, 1e-12 * length(along), touched_);
+        const DVec<3> seen = inside.points()[touched_] - from;
+        const double x = dot(on, seen), y = std::max(0.0, -dot(outer.normal, seen));
+        const DVec<3> normal = normalized(outer.normal * x + on * y), local = from - middle_;
         limits_.push_back({normal, dot(normal, local)});
         limits_.push_back(flipped<3>({outer.normal, dot(outer.normal, local)}));
     }
 }
 
-void OuterMesh::tighten(std::span<const DVec<3>> inside, int rounds) {
+void OuterMesh::tighten(const InnerPoints& inside, int rounds) {
     for (int round = 0; round < rounds; ++round) {
         double gain = 0, size = 0;
         for (std::uint32_t point = 0; point < points_.size(); ++point) {

@@ -3,6 +3,7 @@
 // A convex surface of triangles that stays around what it is around while it loses corners.
 
 #include <abut/convex/hull.hpp>
+#include <abut/convex/inner_points.hpp>
 #include <abut/convex/lowest_point.hpp>
 #include <abut/convex/quickhull.hpp>
 #include <abut/math/linear.hpp>
@@ -27,8 +28,11 @@ public:
     void simplify(std::size_t count);
 
     /// Moves corner after corner to where the volume is least while all `inside` stay so, a number of times.
-    void tighten(std::span<const DVec<3>> inside, int rounds);
+    void tighten(const InnerPoints& inside, int rounds);
 
+    double volume() const;
+    /// The corners that are left.
+    std::vector<DVec<3>> corners() const;
     std::size_t count() const { return count_; }
     std::span<const DVec<3>> points() const { return points_; }
     bool has_point(std::uint32_t point) const { return leaving_[point] != none; }
@@ -39,7 +43,7 @@ public:
     const Plane<3>& plane(std::uint32_t triangle) const { return planes_[triangle]; }
 
     /// Grows about a point inside until it holds all of the others.
-    void grow(const DVec<3>& middle, std::span<const DVec<3>> inside);
+    void grow(const DVec<3>& middle, const InnerPoints& inside);
 
     /// Calls visit(triangle) for those around a corner.
     template <class Visit>
@@ -75,7 +79,7 @@ private:
     bool can_merge(std::uint32_t half_edge);
     void merge(std::uint32_t half_edge, const DVec<3>& point);
     void set_plane(std::uint32_t triangle);
-    void cut_around(std::uint32_t point, std::span<const DVec<3>> inside);
+    void cut_around(std::uint32_t point, const InnerPoints& inside);
     void move(std::uint32_t point, const DVec<3>& to);
     bool flip(std::uint32_t half_edge);
     bool widen(std::uint32_t point);
@@ -87,6 +91,7 @@ private:
     std::vector<std::uint32_t> leaving_;        ///< one a point: a half-edge that leaves it
     std::vector<std::uint32_t> origin_, twin_;  ///< one a half-edge
     std::vector<Plane<3>> planes_;              ///< one a triangle
+    std::vector<double> areas_;                 ///< one a triangle, twice
     std::size_t count_ = 0;
 
     struct Waiting {
@@ -105,6 +110,7 @@ private:
     std::vector<Plane<3>> limits_;
     DVec<3> slope_{0.0};  ///< of the volume under the ring's cone, by its apex
     double size_ = 0;
+    std::uint32_t touched_ = 0;  ///< the last of what is inside that a plane came upon
 };
 
 }  // namespace abut

@@ -1,0 +1,79 @@
+#include <abut/convex/hull_input.hpp>
+#include <abut/convex/inner_hull.hpp>
+#include <abut/math/dvec.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+namespace abut {
+namespace {
+
+constexpr int most_rounds = 8;
+
+std::size_t greatest(std::span<const double> values) {
+    return static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
+}
+
+/// The one farthest from the middle, and then always the one that is farthest from all before.
+std::vector<Vec3> far_apart(std::span<const Vec3> points, std::size_t count) {
+    DVec<3> sum(0.0);
+    for (const Vec3& point : points) sum += DVec<3>(point);
+    const DVec<3> middle = sum / static_cast<double>(points.size());
+    std::vector<double> squares;
+    for (const Vec3& point : points) squares.push_back(length_squared(DVec<3>(point) - middle));
+    std::vector<Vec3> result{points[greatest(squares)]};
+    std::fill(squares.begin(), squares.end(), std::numeric_limits<double>::max());
+    while (result.size() < count) {
+        const DVec<3> last(result.back());
+        for (std::size_t i = 0; i < points.size(); ++i)
+            squares[i] = std::min(squares[i], length_squared(DVec<3>(points[i]) - last));
+        result.push_back(points[greatest(squares)]);
+    }
+    return result;
+}
+
+/// One a corner: how the volume grows where it moves, as long as the faces stay what they are.
+std::vector<DVec<3>> slopes(const Hull3& hull) {
+    std::vector<DVec<3>> result(hull.points.size(), DVec<3>(0.0));
+    std::size_t begin = 0;
+    for (const std::uint32_t end : hull.loop_ends) {
+        for (std::size_t i = begin + 1; i + 1 < end; ++i) {
+            const std::uint32_t numbers[] = {hull.loops[begin], hull.loops[i], hull.loops[i + 1]};
+            for (std::size_t j = 0; j < 3; ++j)
+                result[numbers[j]] += cross(DVec<3>(hull.points[numbers[(j + 1) % 3]] - hull.points[0]),
+                                            DVec<3>(hull.points[numbers[(j + 2) % 3]] - hull.points[0]));
+        }
+        begin = end;
+    }
+    return result;
+}
+
+const Vec3& highest(std::span<const Vec3> points, const DVec<3>& way) {
+    std::size_t best = 0;
+    double most = dot(way, DVec<3>(points[0]));
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const double height = dot(way, DVec<3>(points[i]));
+        if (height <= most) continue;
+        most = height;
+        best = i;
+    }
+    return points[best];
+}
+
+}  // namespace
+
+Hull3 inner_hull(std::span<const Vec3> points, std::size_t count) {
+    Hull3 result = *hull(far_apart(points, count));
+    for (int round = 0; round < most_rounds && result.rank == 3; ++round) {
+        const std::vector<DVec<3>> ways = slopes(result);
+        std::vector<Vec3> moved;
+        for (const DVec<3>& way : ways) moved.push_back(highest(points, way));
+        Hull3 next = *hull(moved);
+        if (!(next.volume > result.volume)) break;
+        result = std::move(next);
+    }
+    return result;
+}
+
+}  // namespace abut

@@ -1,0 +1,63 @@
+#include <abut/convex/inner_points.hpp>
+#include <abut/math/dvec.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace abut {
+
+InnerPoints::InnerPoints(const Hull3& hull, const Affine<3>& map) : neighbours_(2 * hull.edges.size()) {
+    points_.reserve(hull.points.size());
+    for (const Vec3& point : hull.points) points_.push_back(map.point(DVec<3>(point)));
+    ends_.assign(points_.size() + 1, 0);
+    for (const FacetEdge& edge : hull.edges) {
+        ++ends_[edge.from + 1];
+        ++ends_[edge.to + 1];
+    }
+    std::partial_sum(ends_.begin(), ends_.end(), ends_.begin());
+    for (const FacetEdge& edge : hull.edges) {
+        neighbours_[ends_[edge.from]++] = edge.to;
+        neighbours_[ends_[edge.to]++] = edge.from;
+    }
+}
+
+/// better(i) tells whether point i is better than the best one before, and then it is the best one. Never comes back
+/// to a point.
+template <class Better>
+std::uint32_t InnerPoints::walk(std::uint32_t start, Better better) const {
+    better(start);
+    for (std::uint32_t at = start;;) {
+        std::uint32_t next = at;
+        for (std::uint32_t i = at == 0 ? 0 : ends_[at - 1]; i < ends_[at]; ++i)
+            if (better(neighbours_[i])) next = neighbours_[i];
+        if (next == at) return at;
+        at = next;
+    }
+}
+
+std::uint32_t InnerPoints::highest(const DVec<3>& direction, std::uint32_t start) const {
+    double most = -std::numeric_limits<double>::infinity();
+    return walk(start, [&](std::uint32_t i) {
+        const double height = dot(direction, points_[i]);
+        if (!(height > most)) return false;
+        most = height;
+        return true;
+    });
+}
+
+std::uint32_t InnerPoints::first_touched(const DVec<3>& from, const DVec<3>& on, const DVec<3>& normal, double near,
+                                         std::uint32_t start) const {
+    // As seen along the line: the plane begins upside down.
+    double best_x = -1, best_y = 1e-9;
+    return walk(start, [&](std::uint32_t i) {
+        const DVec<3> seen = points_[i] - from;
+        const double x = dot(on, seen), y = std::max(0.0, -dot(normal, seen));
+        if (!(x * best_y - y * best_x > 0) || x * x + y * y <= near * near) return false;
+        best_x = x;
+        best_y = y;
+        return true;
+    });
+}
+
+}  // namespace abut
