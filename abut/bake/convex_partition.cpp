@@ -38,13 +38,19 @@ void Partition::remove(std::uint32_t half_edge) {
     for (const std::uint32_t edge : {half_edge, twins_[half_edge]}) next_[edge] = none;
 }
 
+/// Of a half-edge of the boundary: the last one from the same corner around the inside.
+std::uint32_t Partition::last_around(std::uint32_t first) const {
+    std::uint32_t last = first;
+    while (twins_[before_[last]] != none) last = twins_[before_[last]];
+    return last;
+}
+
 std::vector<std::uint8_t> Partition::uses() const {
     std::vector<std::uint8_t> result(origins_.size(), 0);
     for (std::uint32_t first = 0; first < origins_.size(); ++first) {
         if (twins_[first] != none) continue;
         const Vec2 &corner = at(first), &after = at(next_[first]);
-        std::uint32_t last = first;
-        while (twins_[before_[last]] != none) last = twins_[before_[last]];
+        const std::uint32_t last = last_around(first);
         const Vec2& before = at(before_[last]);
         if (last == first || orientation(before, corner, after) >= 0) continue;
         for (std::uint32_t edge = first; edge != last;) {
@@ -119,9 +125,31 @@ void Partition::merge_all() {
     for (int round = 0; round < 4; ++round)
         for (std::uint32_t edge = 0; edge < origins_.size(); ++edge) {
             if (twins_[edge] == none || twins_[edge] < edge || next_[edge] == none) continue;
-            const int needed = chosen[edge] ? 3 : std::max(0, use[edge] - paired[origins_[edge]] - paired[origins_[twins_[edge]]]);
+            const int needed =
+                chosen[edge] ? 3 : std::max(0, use[edge] - paired[origins_[edge]] - paired[origins_[twins_[edge]]]);
             if (needed == round && convex_without(edge)) remove(edge);
         }
+}
+
+std::size_t Partition::corners() const {
+    return static_cast<std::size_t>(std::ranges::count(twins_, none));
+}
+
+std::size_t Partition::reflex_corners() const {
+    std::size_t result = 0;
+    for (std::uint32_t first = 0; first < origins_.size(); ++first) {
+        if (twins_[first] != none) continue;
+        const std::uint32_t last = last_around(first);
+        if (last != first && orientation(at(before_[last]), at(first), at(next_[first])) < 0) ++result;
+    }
+    return result;
+}
+
+std::int64_t Partition::pieces_less_holes() const {
+    std::int64_t faces_less_cuts = 0;
+    for (std::uint32_t i = 0; i < origins_.size(); ++i)
+        if (twins_[i] != none && next_[i] != none) --faces_less_cuts;
+    return faces_less_cuts / 2 + static_cast<std::int64_t>(faces().size());
 }
 
 std::vector<std::uint32_t> Partition::faces() const {

@@ -19,8 +19,19 @@ public:
     void merge_all();
 
     /// Solves patches of neighbouring faces anew, with as few faces as can be: all of them once a round, as long as it
-    /// pays, and at most `rounds` times. A patch has up to `corners` corners.
-    void improve(std::uint32_t corners, int rounds);
+    /// pays, and at most `rounds` times. A patch has up to `corners` corners. True where every patch was all that hangs
+    /// together and had no holes: then there are no fewer faces.
+    bool improve(std::uint32_t corners, int rounds);
+
+    /// Takes away edges for as long as no corner of a face lies deeper than `concavity` behind the edge of its hull
+    /// that goes around it, those first that make least of a notch.
+    void merge_shallow(double concavity);
+
+    /// How many corners the region has, and how many of them turn right.
+    std::size_t corners() const;
+    std::size_t reflex_corners() const;
+    /// Pieces of the region that don't hang together, less the holes in them: faces less cuts, whatever the faces.
+    std::int64_t pieces_less_holes() const;
 
     /// One half-edge a face.
     std::vector<std::uint32_t> faces() const;
@@ -41,15 +52,19 @@ private:
         std::vector<bool> done;
     };
 
-    void grow(Patch& patch, std::uint32_t face, std::uint32_t corners, const FaceNumbers& numbers) const;
-    std::uint32_t common_edges(const Patch& patch, std::uint32_t half_edge, const FaceNumbers& numbers) const;
+    bool may_join(const Patch& patch, std::uint32_t half_edge, std::uint32_t corners, const FaceNumbers& numbers,
+                  std::vector<std::uint32_t>& added) const;
+    bool grow(Patch& patch, std::uint32_t face, std::uint32_t corners, const FaceNumbers& numbers) const;
+    std::size_t least_pieces(const Patch& patch) const;
     void solve(const Patch& patch, OptimalPartition& solver) const;
     void recut(const Patch& patch, const OptimalPartition& parts, FaceNumbers& numbers);
     FaceNumbers number_faces() const;
 
     const Vec2& at(std::uint32_t half_edge) const { return points_[origins_[half_edge]]; }
+    double depth_without(std::uint32_t half_edge) const;
     bool convex_without(std::uint32_t half_edge) const;
     void remove(std::uint32_t half_edge);
+    std::uint32_t last_around(std::uint32_t first) const;
     std::vector<std::uint8_t> uses() const;
     std::vector<bool> pairs(const std::vector<std::uint8_t>& use, std::vector<bool>& paired) const;
 

@@ -1,8 +1,15 @@
 #include <abut/bake/convex_partition.hpp>
+#include <abut/math/predicates.hpp>
 
 #include <algorithm>
 
 namespace abut::outline {
+namespace {
+
+/// Another round is made where the last one saved one face in so many.
+constexpr std::size_t worthwhile = 20;
+
+}  // namespace
 
 Partition::FaceNumbers Partition::number_faces() const {
     FaceNumbers result;
@@ -19,46 +26,60 @@ Partition::FaceNumbers Partition::number_faces() const {
     return result;
 }
 
-/// How many edges the half-edge's face shares with the patch; none where it is a part of it.
-std::uint32_t Partition::common_edges(const Patch& patch, std::uint32_t half_edge, const FaceNumbers& numbers) const {
-    if (std::ranges::find(patch.faces, numbers.of[half_edge]) != patch.faces.end()) return 0;
-    std::uint32_t result = 0, edge = half_edge;
-    do {
-        if (twins_[edge] != none && std::ranges::find(patch.faces, numbers.of[twins_[edge]]) != patch.faces.end())
-            ++result;
-        edge = next_[edge];
-    } while (edge != half_edge);
-    return result;
+/// Whether the face beyond a half-edge of the patch has this one edge in common with it and leaves it with up to so
+/// many corners; then `added` is the rest of that face's half-edges.
+bool Partition::may_join(const Patch& patch, std::uint32_t half_edge, std::uint32_t corners, const FaceNumbers& numbers,
+                         std::vector<std::uint32_t>& added) const {
+    const std::uint32_t twin = twins_[half_edge];
+    const auto in_patch = [&](std::uint32_t edge) {
+        return std::ranges::find(patch.faces, numbers.of[edge]) != patch.faces.end();
+    };
+    if (twin == none || in_patch(twin)) return false;
+    added.clear();
+    for (std::uint32_t edge = next_[twin]; edge != twin; edge = next_[edge]) {
+        added.push_back(edge);
+        if (patch.loop.size() + added.size() - 1 > corners) return false;
+        if (twins_[edge] != none && in_patch(twins_[edge])) return false;
+    }
+    return true;
 }
 
-void Partition::grow(Patch& patch, std::uint32_t face, std::uint32_t corners, const FaceNumbers& numbers) const {
+bool Partition::grow(Patch& patch, std::uint32_t face, std::uint32_t corners, const FaceNumbers& numbers) const {
     patch.loop.clear();
     patch.inner.clear();
     patch.faces.assign(1, face);
     std::uint32_t edge = numbers.first[face];
     do {
+        if (patch.loop.size() == corners) return false;
         patch.loop.push_back(edge);
         edge = next_[edge];
     } while (edge != numbers.first[face]);
 
     std::vector<std::uint32_t> added;
     for (std::size_t i = 0; i < patch.loop.size();) {
-        const std::uint32_t out = patch.loop[i], twin = twins_[out];
-        ++i;
-        if (twin == none || common_edges(patch, twin, numbers) != 1) continue;
-        added.clear();
-        for (edge = next_[twin]; edge != twin; edge = next_[edge]) added.push_back(edge);
-        if (patch.loop.size() + added.size() - 1 > corners) continue;
-        const auto place = patch.loop.begin() + static_cast<std::ptrdiff_t>(i);
+        const std::uint32_t out = patch.loop[i++];
+        if (!may_join(patch, out, corners, numbers, added)) continue;
         // What lies beyond this face is looked at in the next turn around.
-        std::rotate(patch.loop.begin(), place, patch.loop.end());
+        std::rotate(patch.loop.begin(), patch.loop.begin() + static_cast<std::ptrdiff_t>(i), patch.loop.end());
         patch.loop.back() = added.front();
         patch.loop.insert(patch.loop.end(), added.begin() + 1, added.end());
         patch.inner.push_back(out);
-        patch.inner.push_back(twin);
-        patch.faces.push_back(numbers.of[twin]);
+        patch.inner.push_back(twins_[out]);
+        patch.faces.push_back(numbers.of[twins_[out]]);
         i = 0;
     }
+    return true;
+}
+
+/// The fewest pieces that it can become: an edge splits two reflex corners at best.
+std::size_t Partition::least_pieces(const Patch& patch) const {
+    std::size_t reflex = 0;
+    for (std::size_t i = 0; i < patch.loop.size(); ++i) {
+        const std::uint32_t last = patch.loop[i == 0 ? patch.loop.size() - 1 : i - 1];
+        const std::uint32_t edge = patch.loop[i], after = patch.loop[i + 1 == patch.loop.size() ? 0 : i + 1];
+        reflex += orientation(at(last), at(edge), at(after)) < 0 ? 1 : 0;
+    }
+    return (reflex + 1) / 2 + 1;
 }
 
 void Partition::solve(const Patch& patch, OptimalPartition& solver) const {
@@ -105,8 +126,7 @@ void Partition::recut(const Patch& patch, const OptimalPartition& parts, FaceNum
         std::uint32_t last = half_edge(part.back(), part.front());
         numbers.first[face] = last;
         for (std::size_t j = 0; j < part.size(); ++j) {
-            const std::uint32_t edge =
-                j + 1 < part.size() ? half_edge(part[j], part[j + 1]) : numbers.first[face];
+            const std::uint32_t edge = j + 1 < part.size() ? half_edge(part[j], part[j + 1]) : numbers.first[face];
             next_[last] = edge;
             before_[edge] = last;
             numbers.of[edge] = face;
@@ -116,10 +136,11 @@ void Partition::recut(const Patch& patch, const OptimalPartition& parts, FaceNum
     for (std::size_t i = parts.size(); i < patch.faces.size(); ++i) numbers.first[patch.faces[i]] = none;
 }
 
-void Partition::improve(std::uint32_t corners, int rounds) {
+bool Partition::improve(std::uint32_t corners, int rounds) {
     FaceNumbers numbers = number_faces();
     OptimalPartition solver;
     Patch patch;
+    bool all_closed = true;
     for (int round = 0; round < rounds; ++round) {
         std::size_t saved = 0, left = 0;
         std::fill(numbers.done.begin(), numbers.done.end(), false);
@@ -128,16 +149,19 @@ void Partition::improve(std::uint32_t corners, int rounds) {
             if (numbers.first[face] == none) continue;
             ++left;
             if (numbers.done[face]) continue;
-            grow(patch, face, corners, numbers);
+            const bool grown = grow(patch, face, corners, numbers);
             for (const std::uint32_t covered : patch.faces) numbers.done[covered] = true;
-            if (patch.faces.size() < 2) continue;
+            all_closed = all_closed && (patch.faces.size() == 1 || grown) &&
+                         std::ranges::all_of(patch.loop, [&](std::uint32_t edge) { return twins_[edge] == none; });
+            if (!grown || patch.faces.size() <= least_pieces(patch)) continue;
             solve(patch, solver);
             if (solver.size() > patch.faces.size()) continue;
             saved += patch.faces.size() - solver.size();
             recut(patch, solver, numbers);
         }
-        if (saved * 200 < left) break;
+        if (all_closed || saved * worthwhile < left) break;
     }
+    return all_closed;
 }
 
 }  // namespace abut::outline

@@ -1,6 +1,8 @@
 #include <abut/bake/convex_partition.hpp>
 #include <abut/bake/decompose_outline.hpp>
+#include <abut/bake/outline_flips.hpp>
 #include <abut/bake/outline_sweep.hpp>
+#include <abut/convex/hull_input.hpp>
 #include <abut/math/dvec.hpp>
 #include <abut/math/predicates.hpp>
 
@@ -12,6 +14,11 @@ namespace abut {
 namespace {
 
 using outline::Partition;
+
+/// Up to so many corners are solved as one.
+constexpr std::size_t solved_at_once = 128;
+/// Up to so many in larger patches.
+constexpr std::size_t few_corners = 2000;
 
 /// Of the loop of a piece, as a part of it has it: straight corners left out, from the least.
 class PartMaker {
@@ -34,12 +41,14 @@ public:
             const Vec2& after = partition.point(corners_[i + 1 == corners_.size() ? 0 : i + 1]);
             if (orientation(before, corner, after) != 0) loop_.push_back(corner);
         }
-        report_.area += area_of_loop();
+        const double area = area_of_loop();
         Polygon part;
         if (!part.set_outline(loop_)) {
             part = *Polygon::build(loop_);
             if (part.rank() < 2) ++report_.thin_pieces;
         }
+        report_.area += area;
+        report_.area_added += std::max(0.0, part.area() - area);
         return part;
     }
 
@@ -66,6 +75,30 @@ std::optional<Problem> problem_with(std::span<const Vec2> outline, const Outline
     return std::nullopt;
 }
 
+/// The holes, without the points of those that are to be filled.
+std::vector<std::vector<Vec2>> open_holes(double width, std::span<const std::vector<Vec2>> holes,
+                                          OutlineReport& report) {
+    std::vector<std::vector<Vec2>> result(holes.begin(), holes.end());
+    for (std::vector<Vec2>& hole : result) {
+        if (hole.empty() || !std::ranges::all_of(hole, is_finite<2>) || extent<2>(hole) > width) continue;
+        hole.clear();
+        ++report.filled_holes;
+    }
+    return result;
+}
+
+/// Into few convex pieces.
+void cut(Partition& partition, OutlineReport& report) {
+    report.reflex_corners = partition.reflex_corners();
+    const std::size_t corners = partition.corners();
+    partition.merge_all();
+    const std::size_t patch = corners <= solved_at_once ? solved_at_once : corners <= few_corners ? 32 : 16;
+    report.optimal = partition.improve(static_cast<std::uint32_t>(patch), 3);
+    const auto cuts = static_cast<std::int64_t>((report.reflex_corners + 1) / 2);
+    report.least_pieces = static_cast<std::size_t>(std::max<std::int64_t>(1, partition.pieces_less_holes() + cuts));
+    report.optimal = report.optimal || partition.faces().size() == report.least_pieces;
+}
+
 }  // namespace
 
 Result<std::vector<Polygon>> decompose(std::span<const Vec2> outline, std::span<const std::vector<Vec2>> holes,
@@ -74,7 +107,9 @@ Result<std::vector<Polygon>> decompose(std::span<const Vec2> outline, std::span<
     OutlineReport& report = options.report != nullptr ? *options.report : unread;
     report = {};
     if (auto problem = problem_with(outline, options)) return *problem;
-    const Result<outline::Triangulation> triangles = outline::triangulate(outline, holes);
+    Result<outline::Triangulation> triangles =
+        options.concavity > 0 ? outline::triangulate(outline, open_holes(options.concavity, holes, report))
+                              : outline::triangulate(outline, holes);
     if (!triangles) return triangles.problem();
     if (triangles->origins.empty()) return Problem{ProblemCode::degenerate, "the outline has nothing inside", 0};
     report.repeated_points = triangles->repeated_points;
@@ -82,8 +117,10 @@ Result<std::vector<Polygon>> decompose(std::span<const Vec2> outline, std::span<
     report.cancelled_edges = triangles->cancelled_edges;
     report.idle_holes = triangles->idle_holes;
 
+    outline::shorten_edges(*triangles);
     Partition partition(*triangles, options.conforming);
-    partition.merge_all();
+    cut(partition, report);
+    if (options.concavity > 0) partition.merge_shallow(options.concavity);
     const std::vector<std::uint32_t> faces = partition.faces();
     report.pieces = faces.size();
     std::vector<Polygon> parts;

@@ -10,8 +10,8 @@
 
 namespace abut::outline {
 
-/// Cuts a polygon between its corners into as few convex parts as there can be, as Keil and Snoeyink (2002) do: for each
-/// chord the fewest cuts of what is on its right, and of those that need no more the parts at the chord with the
+/// Cuts a polygon between its corners into as few convex parts as there can be, as Keil and Snoeyink (2002) do: for
+/// each chord the fewest cuts of what is on its right, and of those that need no more the parts at the chord with the
 /// narrowest corners. They take O(n + r^2 min(r^2, n)) for r reflex corners; this is their table for all corners,
 /// O(n^3), which straight corners are no exceptions to.
 class OptimalPartition {

@@ -290,7 +290,8 @@ std::optional<Problem> Sweep::run() {
     Chains chains(result_);
     for (std::uint32_t point = 0; point < points_.size(); ++point)
         if (auto problem = visit(point, status, chains)) return problem;
-    result_.idle_holes = static_cast<std::size_t>(std::count(works_.begin() + 1, works_.end(), false));
+    for (std::size_t hole = 1; hole < rings_.size(); ++hole)
+        if (!works_[hole] && !rings_[hole].empty()) ++result_.idle_holes;
     return std::nullopt;
 }
 

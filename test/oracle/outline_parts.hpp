@@ -1,0 +1,176 @@
+#pragma once
+
+// Whether convex parts are exactly what an outline has inside, in whole numbers of any size.
+
+#include <abut/math/predicates.hpp>
+#include <abut/shape/polygon.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <set>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <boost/multiprecision/cpp_int.hpp>
+
+namespace abut::oracle {
+
+using Whole = boost::multiprecision::cpp_int;
+
+/// A float as a whole number of 2^-149.
+inline Whole whole(float value) {
+    int exponent = 0;
+    const auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(static_cast<double>(value), &exponent), 24));
+    const int shift = exponent - 24 + 149;
+    return shift >= 0 ? Whole(mantissa) << shift : Whole(mantissa >> -shift);
+}
+
+/// Twice the area a ring goes around, in units of 2^-298: above zero where it is counter-clockwise.
+inline Whole twice_area(std::span<const Vec2> ring) {
+    Whole sum = 0;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+        const Vec2 &a = ring[i], &b = ring[i + 1 == ring.size() ? 0 : i + 1];
+        sum += whole(a.x) * whole(b.y) - whole(a.y) * whole(b.x);
+    }
+    return sum;
+}
+
+/// Of a simple outline with holes that lie apart in it.
+inline Whole twice_area(std::span<const Vec2> outline, std::span<const std::vector<Vec2>> holes) {
+    Whole result = abs(twice_area(outline));
+    for (const std::vector<Vec2>& hole : holes) result -= abs(twice_area(hole));
+    return result;
+}
+
+/// The parts of an outline with holes, looked at one by one. Each check returns what is wrong, or nothing.
+class OutlineParts {
+public:
+    OutlineParts(std::span<const Vec2> outline, std::span<const std::vector<Vec2>> holes,
+                 std::span<const Polygon> parts) {
+        rings_.emplace_back(outline.begin(), outline.end());
+        rings_.insert(rings_.end(), holes.begin(), holes.end());
+        for (const Polygon& part : parts)
+            if (part.rank() == 2) parts_.push_back({part.points(), box_of(part.points())});
+        std::ranges::sort(parts_, {}, [](const Part& part) { return part.box.min.x; });
+    }
+
+    Whole twice_area() const {
+        Whole sum = 0;
+        for (const Part& part : parts_) sum += oracle::twice_area(part.loop);
+        return sum;
+    }
+
+    /// Corners of the input, each a turn to the left.
+    std::string fault_of_corners() const {
+        std::set<std::pair<float, float>> given;
+        for (const std::vector<Vec2>& ring : rings_)
+            for (const Vec2& point : ring) given.emplace(point.x + 0.0f, point.y + 0.0f);
+        for (const Part& part : parts_)
+            for (std::size_t i = 0; i < part.loop.size(); ++i) {
+                const std::size_t next = (i + 1) % part.loop.size(), after = (i + 2) % part.loop.size();
+                if (!given.contains({part.loop[i].x, part.loop[i].y})) return "a corner that isn't in the input";
+                if (orientation(part.loop[i], part.loop[next], part.loop[after]) <= 0) return "not convex";
+            }
+        return {};
+    }
+
+    std::string fault_of_overlaps() const {
+        for (std::size_t i = 0; i < parts_.size(); ++i)
+            for (std::size_t j = i + 1; j < parts_.size() && parts_[j].box.min.x < parts_[i].box.max.x; ++j)
+                if (overlaps(parts_[i].box, parts_[j].box) && !apart(parts_[i].loop, parts_[j].loop))
+                    return "parts overlap";
+        return {};
+    }
+
+    /// No ring runs through a part, and all parts are inside by the number of edges below a point of theirs.
+    std::string fault_of_inside() const {
+        for (const std::vector<Vec2>& ring : rings_)
+            for (std::size_t i = 0; i < ring.size(); ++i) {
+                const Vec2 edge[] = {ring[i], ring[i + 1 == ring.size() ? 0 : i + 1]};
+                const Aabb2 box = box_of(edge);
+                for (const Part& part : parts_) {
+                    if (part.box.min.x >= box.max.x && box.max.x > box.min.x) break;
+                    if (overlaps(part.box, box) && !apart(part.loop, edge)) return "a ring runs through a part";
+                }
+            }
+        for (const Part& part : parts_) {
+            bool in_hole = false;
+            for (std::size_t ring = 1; ring < rings_.size(); ++ring)
+                in_hole = in_hole || around(rings_[ring], part.loop);
+            if (in_hole || !around(rings_[0], part.loop)) return "a part that isn't inside";
+        }
+        return {};
+    }
+
+    /// Corners within an edge of another part.
+    std::string fault_of_junctions() const {
+        for (const Part& part : parts_)
+            for (std::size_t i = 0; i < part.loop.size(); ++i) {
+                const Vec2 &a = part.loop[i], &b = part.loop[i + 1 == part.loop.size() ? 0 : i + 1];
+                const Aabb2 box = box_of(std::vector<Vec2>{a, b});
+                for (const Part& other : parts_) {
+                    if (!overlaps(other.box, box)) continue;
+                    for (const Vec2& p : other.loop)
+                        if (p != a && p != b && contains(box, p) && orientation(a, b, p) == 0)
+                            return "a corner within an edge";
+                }
+            }
+        return {};
+    }
+
+    /// All of these but the last; `expected` is twice the area.
+    std::string fault(const Whole& expected) const {
+        for (const std::string& found : {fault_of_corners(), fault_of_overlaps(), fault_of_inside()})
+            if (!found.empty()) return found;
+        return twice_area() == expected ? "" : "the area is another one";
+    }
+
+private:
+    struct Part {
+        std::span<const Vec2> loop;
+        Aabb2 box;
+    };
+
+    static Aabb2 box_of(std::span<const Vec2> points) {
+        Aabb2 result = Aabb2::empty();
+        for (const Vec2& point : points) result = merged(result, Aabb2{point, point});
+        return result;
+    }
+
+    /// Whether the insides of two convex loops have nothing in common: then the line of an edge is between them. A
+    /// segment is a loop of two.
+    static bool apart(std::span<const Vec2> a, std::span<const Vec2> b) {
+        const auto divides = [](std::span<const Vec2> loop, std::span<const Vec2> other) {
+            for (std::size_t i = 0; i < loop.size(); ++i) {
+                const Vec2 &from = loop[i], &to = loop[i + 1 == loop.size() ? 0 : i + 1];
+                if (std::ranges::all_of(other, [&](const Vec2& p) { return orientation(from, to, p) <= 0; }))
+                    return true;
+            }
+            return false;
+        };
+        return divides(a, b) || divides(b, a);
+    }
+
+    /// Whether the ring goes an odd number of times around the middle of the first triangle of a loop.
+    static bool around(std::span<const Vec2> ring, std::span<const Vec2> loop) {
+        const Whole x = whole(loop[0].x) + whole(loop[1].x) + whole(loop[2].x);
+        const Whole y = whole(loop[0].y) + whole(loop[1].y) + whole(loop[2].y);
+        bool result = false;
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+            const Vec2 &a = ring[i], &b = ring[i + 1 == ring.size() ? 0 : i + 1];
+            const Whole ax = 3 * whole(a.x), ay = 3 * whole(a.y), bx = 3 * whole(b.x), by = 3 * whole(b.y);
+            if ((ax <= x) == (bx <= x)) continue;
+            const Whole turn = (bx - ax) * (y - ay) - (by - ay) * (x - ax);
+            if ((turn > 0) == (bx > ax)) result = !result;
+        }
+        return result;
+    }
+
+    std::vector<std::vector<Vec2>> rings_;
+    std::vector<Part> parts_;
+};
+
+}  // namespace abut::oracle
