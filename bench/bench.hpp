@@ -56,5 +56,7 @@ std::vector<Bench> level_benches();
 std::vector<Bench> levels_mover_benches();
 /// Convex hulls in space.
 std::vector<Bench> convex_hull_benches();
+/// Meshes cut into convex parts.
+std::vector<Bench> convex_solid_benches();
 
 }  // namespace abut::bench

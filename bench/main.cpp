@@ -41,6 +41,7 @@ std::vector<Bench> all_benches() {
     std::ranges::move(level_benches(), std::back_inserter(result));
     std::ranges::move(levels_mover_benches(), std::back_inserter(result));
     std::ranges::move(convex_hull_benches(), std::back_inserter(result));
+    std::ranges::move(convex_solid_benches(), std::back_inserter(result));
     return result;
 }
 

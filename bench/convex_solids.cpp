@@ -1,0 +1,64 @@
+// Meshes cut into convex parts, beside Bullet's HACD at the same number of parts. The parts differ, so what is told is
+// how much solid they add, in hundredths of the mesh's own; abut's cover the surface, or it tells none. HACD's are
+// hulls of fewer corners that leave some of it out, up to 2 % of the diagonal here, and are let off.
+
+#include "../scenes/solid_meshes.hpp"
+#include "../test/oracle/part_quality.hpp"
+#include "bench.hpp"
+#include "bullet_hacd.hpp"
+#include <abut/bake/decompose.hpp>
+#include <abut/bake/weld.hpp>
+
+#include <limits>
+#include <memory>
+#include <optional>
+
+namespace abut::bench {
+namespace {
+
+constexpr std::uint32_t corners = 64, samples = 20'000;
+
+/// Decomposes each time; how good the parts are is found once, they are always the same.
+template <class Decompose>
+Side side(const char* who, const std::shared_ptr<const Welded>& mesh, std::uint32_t parts, bool covers,
+          Decompose decompose) {
+    const auto told = std::make_shared<std::optional<double>>();
+    return {who, [=](std::span<double> values) {
+                const std::vector<Polyhedron> found = decompose(*mesh);
+                if (!*told) {
+                    const oracle::PartQuality quality =
+                        oracle::quality_of(mesh->points, mesh->triangles, found, samples, 1);
+                    const bool right = found.size() <= parts && (!covers || quality.uncovered == 0);
+                    *told = right ? 100 * quality.extra : std::numeric_limits<double>::quiet_NaN();
+                }
+                values[0] = **told;
+            }};
+}
+
+Job solid_job(const scenes::SolidMesh& solid, std::uint32_t parts) {
+    const auto mesh = std::make_shared<const Welded>(weld(solid.points, solid.triangles));
+    Job job;
+    job.items = mesh->triangles.size();
+    job.values = 1;
+    job.tolerance = std::numeric_limits<double>::infinity();
+    job.sides.push_back(side("abut", mesh, parts, true, [parts](const Welded& welded) {
+        return *decompose(welded.points, welded.triangles, {.max_parts = parts, .max_vertices = corners});
+    }));
+    job.sides.push_back(side("Bullet HACD", mesh, parts, false, [parts](const Welded& welded) {
+        std::vector<Polyhedron> result;
+        for (const std::vector<Vec3>& hull : hacd_parts(welded.points, welded.triangles, parts, corners))
+            result.push_back(*Polyhedron::build(hull));
+        return result;
+    }));
+    return job;
+}
+
+}  // namespace
+
+std::vector<Bench> convex_solid_benches() {
+    return {{"convex/solid/house/16", [] { return solid_job(scenes::house(), 16); }},
+            {"convex/solid/knot 768/16", [] { return solid_job(scenes::knotted_tube(48, 8), 16); }},
+            {"convex/solid/knot 6144/32", [] { return solid_job(scenes::knotted_tube(192, 16), 32); }}};
+}
+
+}  // namespace abut::bench
