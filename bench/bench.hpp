@@ -58,5 +58,7 @@ std::vector<Bench> levels_mover_benches();
 std::vector<Bench> convex_hull_benches();
 /// Meshes cut into convex parts.
 std::vector<Bench> convex_solid_benches();
+/// Outlines as convex parts.
+std::vector<Bench> convex_plane_benches();
 
 }  // namespace abut::bench

@@ -8,28 +8,27 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Partition_traits_2.h>
+#include <CGAL/Polygon_2_algorithms.h>
 #include <CGAL/partition_2.h>
 
 namespace abut::bench {
 namespace {
 
-using Traits = CGAL::Partition_traits_2<CGAL::Exact_predicates_inexact_constructions_kernel>;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Traits = CGAL::Partition_traits_2<Kernel>;
 using Parts = std::list<Traits::Polygon_2>;
 
 template <class Cut>
 Side cgal(const char* who, const std::vector<Vec2>& outline, Cut cut) {
-    return {who, [outline, cut](std::span<double> values) {
+    return {who, [outline, cut, expected = area_of(outline)](std::span<double> values) {
                 Traits::Polygon_2 polygon;
                 for (const Vec2& point : outline) polygon.push_back({point.x, point.y});
                 Parts parts;
                 cut(polygon, parts);
-                std::vector<std::vector<Vec2>> corners;
-                for (const Traits::Polygon_2& part : parts) {
-                    corners.emplace_back();
-                    for (auto i = part.vertices_begin(); i != part.vertices_end(); ++i)
-                        corners.back().emplace_back(static_cast<float>(i->x()), static_cast<float>(i->y()));
-                }
-                values[0] = count_if_covered(corners, outline, {});
+                double area = 0;
+                for (const Traits::Polygon_2& part : parts)
+                    area += CGAL::polygon_area_2(part.vertices_begin(), part.vertices_end(), Kernel());
+                values[0] = count_if_covered(parts.size(), area, expected);
             }};
 }
 

@@ -5,7 +5,10 @@
 #include "../test/oracle/random.hpp"
 #include "bumpy_ball.hpp"
 #include <abut/math/dvec.hpp>
+#include <abut/math/predicates.hpp>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -33,8 +36,8 @@ inline std::vector<Vec2> spiky_star(std::uint32_t corners, std::uint64_t seed) {
     oracle::Random random(seed);
     std::vector<Vec2> result;
     for (std::uint32_t i = 0; i < corners; ++i)
-        result.push_back(to_float(on_circle(4.0 * i / corners) *
-                                  (i % 2 == 0 ? random.uniform(0.7, 1) : random.uniform(0.3, 0.6))));
+        result.push_back(
+            to_float(on_circle(4.0 * i / corners) * (i % 2 == 0 ? random.uniform(0.7, 1) : random.uniform(0.3, 0.6))));
     return result;
 }
 
@@ -58,6 +61,36 @@ inline Outline plate(std::uint32_t rows, std::uint32_t corners, std::uint64_t se
     for (std::uint32_t i = 0; i < rows * rows; ++i)
         result.holes.push_back(star(corners, 0.4, seed + i, DVec<2>(i % rows + 0.5, i / rows + 0.5), 0.45));
     return result;
+}
+
+/// Through all of the points, each once, without touching itself: edges that cross are exchanged for ones that don't
+/// until there are none. Empty where that doesn't come to an end. Few points: each step looks at all pairs of edges.
+inline std::vector<Vec2> simple_ring(std::vector<Vec2> points) {
+    const std::size_t count = points.size();
+    const auto corner = [&](std::size_t i) { return points[i % count]; };
+    const auto on = [](const Vec2& a, const Vec2& b, const Vec2& p) {
+        return orientation(a, b, p) == 0 && std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x) &&
+               std::min(a.y, b.y) <= p.y && p.y <= std::max(a.y, b.y);
+    };
+    const auto meet = [&](std::size_t i, std::size_t j) {
+        const Vec2 a = corner(i), b = corner(i + 1), c = corner(j), d = corner(j + 1);
+        if (j == i + 1) return on(a, b, d) || on(c, d, a);
+        if ((j + 1) % count == i) return on(a, b, c) || on(c, d, b);
+        if (on(a, b, c) || on(a, b, d) || on(c, d, a) || on(c, d, b)) return true;
+        return orientation(a, b, c) * orientation(a, b, d) < 0 && orientation(c, d, a) * orientation(c, d, b) < 0;
+    };
+    for (std::size_t steps = 0; steps < 20 * count; ++steps) {
+        bool met = false;
+        for (std::size_t i = 0; i < count && !met; ++i)
+            for (std::size_t j = i + 1; j < count && !met; ++j)
+                if (meet(i, j)) {
+                    met = true;
+                    std::reverse(points.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                                 points.begin() + static_cast<std::ptrdiff_t>(j) + 1);
+                }
+        if (!met) return points;
+    }
+    return {};
 }
 
 }  // namespace abut::scenes

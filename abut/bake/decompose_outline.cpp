@@ -80,7 +80,8 @@ std::vector<std::vector<Vec2>> open_holes(double width, std::span<const std::vec
                                           OutlineReport& report) {
     std::vector<std::vector<Vec2>> result(holes.begin(), holes.end());
     for (std::vector<Vec2>& hole : result) {
-        if (hole.empty() || !std::ranges::all_of(hole, is_finite<2>) || extent<2>(hole) > width) continue;
+        const bool finite = std::ranges::all_of(hole, [](const Vec2& point) { return is_finite(point); });
+        if (hole.empty() || !finite || extent<2>(hole) > width) continue;
         hole.clear();
         ++report.filled_holes;
     }

@@ -52,6 +52,9 @@ public:
                  std::span<const Polygon> parts) {
         rings_.emplace_back(outline.begin(), outline.end());
         rings_.insert(rings_.end(), holes.begin(), holes.end());
+        for (const std::vector<Vec2>& ring : rings_)
+            for (WholeRing& whole_ring = whole_rings_.emplace_back(); const Vec2& point : ring)
+                whole_ring.emplace_back(3 * whole(point.x), 3 * whole(point.y));
         for (const Polygon& part : parts)
             if (part.rank() == 2) parts_.push_back({part.points(), box_of(part.points())});
         std::ranges::sort(parts_, {}, [](const Part& part) { return part.box.min.x; });
@@ -99,8 +102,8 @@ public:
         for (const Part& part : parts_) {
             bool in_hole = false;
             for (std::size_t ring = 1; ring < rings_.size(); ++ring)
-                in_hole = in_hole || around(rings_[ring], part.loop);
-            if (in_hole || !around(rings_[0], part.loop)) return "a part that isn't inside";
+                in_hole = in_hole || around(whole_rings_[ring], part.loop);
+            if (in_hole || !around(whole_rings_[0], part.loop)) return "a part that isn't inside";
         }
         return {};
     }
@@ -129,6 +132,7 @@ public:
     }
 
 private:
+    using WholeRing = std::vector<std::pair<Whole, Whole>>;
     struct Part {
         std::span<const Vec2> loop;
         Aabb2 box;
@@ -154,22 +158,22 @@ private:
         return divides(a, b) || divides(b, a);
     }
 
-    /// Whether the ring goes an odd number of times around the middle of the first triangle of a loop.
-    static bool around(std::span<const Vec2> ring, std::span<const Vec2> loop) {
+    /// Whether the ring goes an odd number of times around the middle of the first triangle of a loop: all times 3.
+    static bool around(const WholeRing& ring, std::span<const Vec2> loop) {
         const Whole x = whole(loop[0].x) + whole(loop[1].x) + whole(loop[2].x);
         const Whole y = whole(loop[0].y) + whole(loop[1].y) + whole(loop[2].y);
         bool result = false;
         for (std::size_t i = 0; i < ring.size(); ++i) {
-            const Vec2 &a = ring[i], &b = ring[i + 1 == ring.size() ? 0 : i + 1];
-            const Whole ax = 3 * whole(a.x), ay = 3 * whole(a.y), bx = 3 * whole(b.x), by = 3 * whole(b.y);
-            if ((ax <= x) == (bx <= x)) continue;
-            const Whole turn = (bx - ax) * (y - ay) - (by - ay) * (x - ax);
-            if ((turn > 0) == (bx > ax)) result = !result;
+            const auto &a = ring[i], &b = ring[i + 1 == ring.size() ? 0 : i + 1];
+            if ((a.first <= x) == (b.first <= x)) continue;
+            const Whole turn = (b.first - a.first) * (y - a.second) - (b.second - a.second) * (x - a.first);
+            if ((turn > 0) == (b.first > a.first)) result = !result;
         }
         return result;
     }
 
     std::vector<std::vector<Vec2>> rings_;
+    std::vector<WholeRing> whole_rings_;
     std::vector<Part> parts_;
 };
 
