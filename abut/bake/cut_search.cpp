@@ -11,6 +11,9 @@
 namespace abut {
 namespace {
 
+/// Weighs what halves differ by: where a body has to be cut twice before anything is gained, it had better be halved.
+constexpr double unlike_halves = 0.02;
+
 /// What hulls may leave out that only rank cuts: less where there are few points, which is quick anyway.
 double roughness(const Piece& piece) {
     constexpr std::size_t few = 600;
@@ -91,11 +94,16 @@ public:
             }
         }
         const std::size_t begin = result.size();
-        for (std::size_t i = 0; i < count; ++i) result.push_back({{normal, offsets[i]}, -piece_.volume});
+        for (std::size_t i = 0; i < count; ++i) result.push_back({{normal, offsets[i]}, 0, 0});
         gathered_.clear();
-        for (std::size_t i = 0; i < count; ++i) result[begin + i].extra += grown(below_[i], on_[i]);
+        for (std::size_t i = 0; i < count; ++i) result[begin + i].extra = grown(below_[i], on_[i]);
         gathered_.clear();
-        for (std::size_t i = count; i-- > 0;) result[begin + i].extra += grown(above_[i + 1], on_[i]);
+        for (std::size_t i = count; i-- > 0;) {
+            RatedCut& cut = result[begin + i];
+            const double below = cut.extra, above = grown(above_[i + 1], on_[i]);
+            cut.extra = below + above - piece_.volume;
+            cut.rating = cut.extra + unlike_halves * std::abs(below - above);
+        }
     }
 
 private:
@@ -195,7 +203,7 @@ std::pair<double, double> range_of(const Piece& piece, const DVec<3>& normal) {
 
 bool better(const RatedCut& a, const RatedCut& b) {
     const auto key = [](const RatedCut& cut) {
-        return std::tuple(cut.extra, cut.plane.normal.x, cut.plane.normal.y, cut.plane.normal.z, cut.plane.offset);
+        return std::tuple(cut.rating, cut.plane.normal.x, cut.plane.normal.y, cut.plane.normal.z, cut.plane.offset);
     };
     return key(a) < key(b);
 }
@@ -204,7 +212,7 @@ bool better(const RatedCut& a, const RatedCut& b) {
 
 double cut_margin(const Piece& piece) {
     const Extent extent = extent_of(piece.points);
-    return 1e-6 * largest(extent.greatest - extent.least);
+    return 1e-5 * largest(extent.greatest - extent.least);
 }
 
 void measure_hull(Piece& piece, RoughHull& hull) {
@@ -238,7 +246,7 @@ std::vector<RatedCut> rated_cuts(const Piece& piece, RoughHull& hull, std::size_
             *std::min_element(cuts.begin() + static_cast<std::ptrdiff_t>(begin), cuts.end(), better));
     }
     std::sort(best_of_sweeps.begin(), best_of_sweeps.end(), better);
-    constexpr std::size_t refined = 2;
+    const std::size_t refined = offsets_a_sweep > 6 ? 2 : 0;
     for (std::size_t i = 0; i < std::min(refined, best_of_sweeps.size()); ++i) {
         const CutPlane& plane = best_of_sweeps[i].plane;
         const auto [low, high] = range_of(piece, plane.normal);
@@ -251,15 +259,18 @@ std::vector<RatedCut> rated_cuts(const Piece& piece, RoughHull& hull, std::size_
 
     std::sort(cuts.begin(), cuts.end(), better);
     const Extent extent = extent_of(piece.points);
-    const double near = 0.04 * largest(extent.greatest - extent.least);
+    // The best across each direction first: that is where cuts differ most.
     std::vector<RatedCut> result;
-    for (const RatedCut& cut : cuts) {
-        if (result.size() >= count) break;
-        const bool alike = std::any_of(result.begin(), result.end(), [&](const RatedCut& other) {
-            return std::abs(dot(cut.plane.normal, other.plane.normal)) > 0.995 &&
-                   std::abs(cut.plane.offset - other.plane.offset) < near;
-        });
-        if (!alike) result.push_back(cut);
+    for (const double least_distance : {2.0, 0.04}) {
+        const double near = least_distance * largest(extent.greatest - extent.least);
+        for (const RatedCut& cut : cuts) {
+            if (result.size() >= count) break;
+            const bool alike = std::any_of(result.begin(), result.end(), [&](const RatedCut& other) {
+                return std::abs(dot(cut.plane.normal, other.plane.normal)) > 0.995 &&
+                       std::abs(cut.plane.offset - other.plane.offset) < near;
+            });
+            if (!alike) result.push_back(cut);
+        }
     }
     return result;
 }

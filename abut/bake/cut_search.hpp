@@ -11,7 +11,8 @@ namespace abut {
 
 struct RatedCut {
     CutPlane plane;
-    double extra;  ///< what the hulls of both sides have beyond the piece; less is better
+    double extra;   ///< what the hulls of both sides have beyond the piece
+    double rating;  ///< less is better: the same, and a little for halves that aren't alike
 };
 
 /// The most promising planes, best first, no two nearly alike. Sweeps of parallel planes across the axes of space and

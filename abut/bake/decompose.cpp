@@ -96,7 +96,38 @@ private:
     std::vector<Piece> cut_by(const Piece& piece, const CutPlane& plane) {
         std::vector<Piece> parts = cut(piece, plane, cut_margin(piece));
         for (Piece& part : parts) measure_hull(part, hull_);
+        join_slivers(parts, piece.hull_volume);
         return parts;
+    }
+
+    /// What is flat but for rounding goes to the part that it makes least larger.
+    void join_slivers(std::vector<Piece>& parts, double whole) {
+        constexpr double share = 1e-9;
+        const auto is_sliver = [&](const Piece& part) { return part.hull_volume <= share * whole; };
+        std::vector<Piece> slivers;
+        for (Piece& part : parts)
+            if (is_sliver(part)) slivers.push_back(part);
+        if (slivers.empty() || slivers.size() == parts.size()) return;
+        std::erase_if(parts, is_sliver);
+        for (Piece& sliver : slivers) {
+            std::size_t best = parts.size();
+            double least = whole * 1e-4;
+            for (std::size_t i = 0; i < parts.size(); ++i) {
+                Piece trial = parts[i];
+                append(trial, sliver);
+                measure_hull(trial, hull_);
+                const double growth = trial.hull_volume - parts[i].hull_volume;
+                if (growth >= least) continue;
+                least = growth;
+                best = i;
+            }
+            if (best == parts.size()) {
+                parts.push_back(std::move(sliver));
+            } else {
+                append(parts[best], sliver);
+                measure_hull(parts[best], hull_);
+            }
+        }
     }
 
     /// What the hulls will have beyond the piece when each part is cut once more.
@@ -112,13 +143,18 @@ private:
 
     void cut_up(std::size_t number) {
         constexpr int offsets = 11;
-        constexpr std::size_t large = 4000, small = 1000;
+        constexpr std::size_t large = 1500, small = 500;
         Candidate& candidate = candidates_[number];
         const std::size_t points = candidate.piece.points.size();
-        const std::size_t looks = points > large ? 1 : points > small ? 2 : 4;
+        constexpr std::size_t most_looks = 4;
+        constexpr double clear_gain = 0.3;
+        std::vector<RatedCut> cuts = rated_cuts(candidate.piece, hull_, most_looks, offsets);
+        std::size_t looks = points > large ? 1 : points > small ? 2 : most_looks;
+        if (!cuts.empty() && cuts.front().extra > (1 - clear_gain) * candidate.piece.extra()) looks = most_looks;
+        if (cuts.size() > looks) cuts.resize(looks);
         std::vector<Piece> best;
         double least = 0;
-        for (const RatedCut& rated : rated_cuts(candidate.piece, hull_, looks, offsets)) {
+        for (const RatedCut& rated : cuts) {
             std::vector<Piece> parts = cut_by(candidate.piece, rated.plane);
             if (parts.size() < 2) continue;
             const double left = looks == 1 ? rated.extra : extra_after_cuts(parts);

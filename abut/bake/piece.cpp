@@ -188,26 +188,6 @@ private:
     std::array<Side, 2> sides_;
 };
 
-struct Extent {
-    DVec<3> least, greatest;
-};
-
-Extent extent_of(const Piece& piece) {
-    Extent result{piece.points.front(), piece.points.front()};
-    for (const DVec<3>& p : piece.points)
-        for (int i = 0; i < 3; ++i) {
-            result.least[i] = std::min(result.least[i], p[i]);
-            result.greatest[i] = std::max(result.greatest[i], p[i]);
-        }
-    return result;
-}
-
-bool within(const Extent& inner, const Extent& outer) {
-    for (int i = 0; i < 3; ++i)
-        if (inner.least[i] < outer.least[i] || inner.greatest[i] > outer.greatest[i]) return false;
-    return true;
-}
-
 /// How often the piece winds around a point, by what a ray crosses. Neighbours see their edge alike, so that the ray
 /// slips through no seam.
 int winding(const Piece& piece, const DVec<3>& point) {
@@ -223,31 +203,43 @@ int winding(const Piece& piece, const DVec<3>& point) {
     return result;
 }
 
-void append(Piece& body, const Piece& hollow) {
-    const auto points = static_cast<std::uint32_t>(body.points.size());
-    const auto caps = static_cast<std::uint32_t>(body.cap_origins.size());
-    body.points.insert(body.points.end(), hollow.points.begin(), hollow.points.end());
-    body.cap_origins.insert(body.cap_origins.end(), hollow.cap_origins.begin(), hollow.cap_origins.end());
-    body.cap_normals.insert(body.cap_normals.end(), hollow.cap_normals.begin(), hollow.cap_normals.end());
-    for (const glm::uvec3& t : hollow.triangles) body.triangles.push_back(t + glm::uvec3(points));
-    for (const CapEdge& edge : hollow.cap_edges)
-        body.cap_edges.push_back({edge.from + points, edge.to + points, edge.cap + caps});
-    body.volume += hollow.volume;
+/// The middle of the largest triangle: a point of the surface that is on no cap.
+DVec<3> point_of_surface(const Piece& piece) {
+    DVec<3> result = piece.points.front();
+    double most = 0;
+    for (const glm::uvec3& t : piece.triangles) {
+        const DVec<3>&a = piece.points[t.x], &b = piece.points[t.y], &c = piece.points[t.z];
+        const double area = length_squared(cross(b - a, c - a));
+        if (area <= most) continue;
+        most = area;
+        result = (a + b + c) / 3.0;
+    }
+    return result;
 }
 
 }  // namespace
 
+void append(Piece& body, const Piece& other) {
+    const auto points = static_cast<std::uint32_t>(body.points.size());
+    const auto caps = static_cast<std::uint32_t>(body.cap_origins.size());
+    body.points.insert(body.points.end(), other.points.begin(), other.points.end());
+    body.cap_origins.insert(body.cap_origins.end(), other.cap_origins.begin(), other.cap_origins.end());
+    body.cap_normals.insert(body.cap_normals.end(), other.cap_normals.begin(), other.cap_normals.end());
+    for (const glm::uvec3& t : other.triangles) body.triangles.push_back(t + glm::uvec3(points));
+    for (const CapEdge& edge : other.cap_edges)
+        body.cap_edges.push_back({edge.from + points, edge.to + points, edge.cap + caps});
+    body.volume += other.volume;
+}
+
 void give_hollows(std::vector<Piece>& pieces) {
-    std::vector<Extent> extents;
-    for (const Piece& piece : pieces) extents.push_back(extent_of(piece));
     std::vector<std::size_t> around(pieces.size());
     std::iota(around.begin(), around.end(), std::size_t{0});
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         if (!pieces[i].closed || pieces[i].volume >= 0) continue;
+        const DVec<3> inside = point_of_surface(pieces[i]);
         for (std::size_t j = 0; j < pieces.size(); ++j)
-            if (pieces[j].closed && pieces[j].volume > -pieces[i].volume && within(extents[i], extents[j]) &&
-                (around[i] == i || pieces[j].volume < pieces[around[i]].volume) &&
-                winding(pieces[j], pieces[i].points.front()) > 0)
+            if (pieces[j].closed && pieces[j].volume > -pieces[i].volume &&
+                (around[i] == i || pieces[j].volume < pieces[around[i]].volume) && winding(pieces[j], inside) > 0)
                 around[i] = j;
     }
     for (std::size_t i = 0; i < pieces.size(); ++i)
