@@ -25,6 +25,23 @@ double distance_squared_to_segment(const DVec<3>& p, const DVec<3>& a, const DVe
 /// five of the point's own terms, 2^-53 each, of sums below sqrt(3) 2^28.
 constexpr double doubt = 0x1p-20;
 
+/// Facets have their turn in the order of how high the points above them reach, the highest first: so corners that
+/// matter come before those that only rounding made. Great heights are told apart by quarters of a power of 2, those
+/// below 2^-8 of the extent, of which there are more, by powers of 4. Among those of a level the last facet comes
+/// first: near each other in space, such facets are near in memory.
+constexpr int great_octaves = 9, great_levels = 4 * great_octaves, small_octaves = grid_bits + 1 - great_octaves;
+constexpr int levels = great_levels + small_octaves / 2 + 1;
+
+/// From 0, the highest.
+std::size_t level_of(double height) {
+    int exponent = 0;
+    const double mantissa = std::frexp(height, &exponent);  // from 1/2 on, below 1
+    const int octave = grid_bits + 1 - exponent;            // from 0, the highest
+    const int level = octave < great_octaves ? 4 * octave + static_cast<int>(8 * (1 - mantissa))
+                                             : great_levels + (octave - great_octaves) / 2;
+    return static_cast<std::size_t>(std::clamp(level, 0, levels - 1));
+}
+
 /// Points above a plane: dot(normal, p) > offset.
 struct Plane {
     DVec<3> normal;  ///< of length 1
@@ -74,10 +91,10 @@ private:
     std::vector<Facet> facets_;
     std::vector<std::uint32_t> born_;  ///< one a facet: when
     std::uint32_t births_ = 0;
-    std::vector<std::uint32_t> free_;          ///< places of facets that are gone
-    std::vector<Turn> turns_;                  ///< of facets with points above them
-    std::vector<std::uint32_t> next_outside_;  ///< one a point
-    std::vector<std::uint32_t> leaving_;       ///< one a point: the new facet on the edge of the horizon that leaves it
+    std::vector<std::uint32_t> free_;              ///< places of facets that are gone
+    std::array<std::vector<Turn>, levels> turns_;  ///< of facets with points above them, by how high those reach
+    std::vector<std::uint32_t> next_outside_;      ///< one a point
+    std::vector<std::uint32_t> leaving_;  ///< one a point: the new facet on the edge of the horizon that leaves it
     // For one insertion.
     std::vector<std::uint32_t> visible_;  ///< the facets that the new point sees
     std::vector<std::uint32_t> horizon_;  ///< half-edges of the facets behind the horizon
@@ -249,8 +266,8 @@ void Quickhull::assign_orphans() {
             facet.farthest = orphans_[k];
         }
     }
-    for (const std::uint32_t facet : cone_)
-        if (facets_[facet].outside != none) turns_.push_back({facet, born_[facet]});
+    for (std::size_t f = 0; f < cone_.size(); ++f)
+        if (cone_height_[f] > 0) turns_[level_of(cone_height_[f])].push_back({cone_[f], born_[cone_[f]]});
 }
 
 /// Replaces the facets that the eye sees, one of them known, by the cone from the eye over their outline.
@@ -277,9 +294,10 @@ void Quickhull::run(std::array<std::uint32_t, 4> start) {
     assign_orphans();
 
     // Each turn takes a point into the hull or leaves the facet for good.
-    while (!turns_.empty()) {
-        const auto [facet, born] = turns_.back();
-        turns_.pop_back();
+    const auto next = [&] { return std::find_if(turns_.begin(), turns_.end(), [](auto& t) { return !t.empty(); }); };
+    for (auto turns = next(); turns != turns_.end(); turns = next()) {
+        const auto [facet, born] = turns->back();
+        turns->pop_back();
         if (!alive(facet) || born_[facet] != born) continue;
         const std::uint32_t eye = next_eye(facets_[facet]);
         if (eye != none) insert(eye, facet);
