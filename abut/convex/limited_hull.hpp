@@ -4,6 +4,9 @@
 
 #include <abut/convex/hull.hpp>
 #include <abut/convex/hull_options.hpp>
+#include <abut/math/function_ref.hpp>
+
+#include <optional>
 
 namespace abut {
 
@@ -15,5 +18,16 @@ Result<Hull2> limited_hull(std::span<const Vec2> points, const HullOptions& opti
 /// The same in space. Points that lie in a plane stay there: then each lies in the result as seen along the axis
 /// nearest to the plane's normal, exactly, and is off it by no more than those of `hull` are.
 Result<Hull3> limited_hull(std::span<const Vec3> points, const HullOptions& options);
+
+/// Around the corners of a hull with an area (as `Hull2` has them), one of at most `limit` corners, 3 or more, that
+/// holds them, and that `accept` has nothing against: offered are larger and larger ones. Nothing where such corners
+/// are beyond the range of floats, or none was accepted.
+std::optional<Hull2> outline_of(std::span<const Vec2> hull_points, std::size_t limit,
+                                FunctionRef<bool(const Hull2&)> accept);
+
+/// What is wrong then.
+inline Problem beyond_floats() {
+    return {ProblemCode::too_large, "so few corners that hold all points are beyond the range of floats", 0};
+}
 
 }  // namespace abut

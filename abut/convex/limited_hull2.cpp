@@ -51,6 +51,24 @@ std::optional<std::vector<Vec2>> rounded(std::span<const DVec<2>> loop, const DV
 
 }  // namespace
 
+std::optional<Hull2> outline_of(std::span<const Vec2> hull_points, std::size_t limit,
+                                FunctionRef<bool(const Hull2&)> accept) {
+    const DVec<2> origin(hull_points[0]);
+    std::vector<DVec<2>> inner;
+    for (const Vec2& point : hull_points) inner.push_back(DVec<2>(point) - origin);
+    const std::vector<DVec<2>> outer = outer_polygon(inner, limit);
+    const double side = extent<2>(hull_points);
+    double margin = 0;
+    for (int i = 0; i < most_margins; ++i) {
+        const std::optional<std::vector<Vec2>> corners = rounded(outer, origin, margin);
+        if (!corners) return std::nullopt;
+        Result<Hull2> result = hull(*corners);
+        if (result && result->rank == 2 && holds(result->points, hull_points) && accept(*result)) return *result;
+        margin = margin == 0 ? 0x1p-50 * side : 4 * margin;
+    }
+    return std::nullopt;
+}
+
 Result<Hull2> limited_hull(std::span<const Vec2> points, const HullOptions& options) {
     if (options.added != nullptr) *options.added = 0;
     if (options.max_vertices != 0 && options.max_vertices < 3)
@@ -59,24 +77,10 @@ Result<Hull2> limited_hull(std::span<const Vec2> points, const HullOptions& opti
             "max_vertices is " + std::to_string(options.max_vertices) + ", and an area has 3 corners or more", 0};
     Result<Hull2> full = hull(points);
     if (!full || options.max_vertices == 0 || full->points.size() <= options.max_vertices) return full;
-
-    const DVec<2> origin = DVec<2>(full->points[0]);
-    std::vector<DVec<2>> inner;
-    for (const Vec2& point : full->points) inner.push_back(DVec<2>(point) - origin);
-    const std::vector<DVec<2>> outer = outer_polygon(inner, options.max_vertices);
-    const double side = extent<2>(full->points);
-    double margin = 0;
-    for (int i = 0; i < most_margins; ++i) {
-        const std::optional<std::vector<Vec2>> corners = rounded(outer, origin, margin);
-        if (!corners) break;
-        Result<Hull2> result = hull(*corners);
-        if (result->rank == 2 && holds(result->points, full->points)) {
-            if (options.added != nullptr) *options.added = area_of(result->points) - area_of(full->points);
-            return result;
-        }
-        margin = margin == 0 ? 0x1p-50 * side : 4 * margin;
-    }
-    return Problem{ProblemCode::too_large, "so few corners that hold all points are beyond the range of floats", 0};
+    std::optional<Hull2> result = outline_of(full->points, options.max_vertices, [](const Hull2&) { return true; });
+    if (!result) return beyond_floats();
+    if (options.added != nullptr) *options.added = area_of(result->points) - area_of(full->points);
+    return *std::move(result);
 }
 
 }  // namespace abut

@@ -143,10 +143,6 @@ std::optional<Hull3> rounded_hull(const OuterMesh& mesh, const Affine<3>& map, s
     return std::nullopt;
 }
 
-Problem out_of_range() {
-    return {ProblemCode::too_large, "so few corners that hold all points are beyond the range of floats", 0};
-}
-
 /// Around all, with corners that are too near.
 OuterMesh grown(const Hull3& inner, const InnerPoints& inside) {
     OuterMesh result(inner, Affine<3>());
@@ -208,8 +204,48 @@ Result<Hull3> limited_solid(const Hull3& full, std::span<const Vec3> points, std
     const OuterMesh mesh = least_mesh(OuterMesh(full, seen_by), InnerPoints(full, seen_by), limit);
     const std::optional<Hull3> result =
         rounded_hull(mesh, map, near_surface(mesh, seen_by, points), extent<3>(full.points));
-    if (!result || result->points.size() > limit) return out_of_range();
+    if (!result || result->points.size() > limit) return beyond_floats();
     return *result;
+}
+
+/// In its plane: the outline as seen along the axis nearest to the normal, with corners of its own that are put back
+/// into the plane.
+Result<Hull3> limited_flat(const Hull3& full, std::span<const Vec3> points, std::size_t limit) {
+    const DVec<3> normal(full.normals[0]);
+    const double middle = 0.5 * (full.offsets[0] - full.offsets[1]);
+    const DVec<3> steep{std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};
+    const int up = steep.x >= steep.y && steep.x >= steep.z ? 0 : (steep.y >= steep.z ? 1 : 2);
+    const int right = (up + 1) % 3, front = (up + 2) % 3;
+    const auto shadow = [&](const Vec3& point) { return Vec2(point[right], point[front]); };
+    const bool level =
+        std::all_of(points.begin(), points.end(), [&](const Vec3& point) { return point[up] == points[0][up]; });
+    const auto lifted = [&](const Vec2& point) {
+        Vec3 result;
+        result[right] = point.x;
+        result[front] = point.y;
+        const double rest = normal[right] * static_cast<double>(point.x) + normal[front] * static_cast<double>(point.y);
+        result[up] = level ? points[0][up] : static_cast<float>((middle - rest) / normal[up]);
+        return result;
+    };
+    std::vector<Vec2> outline;
+    for (const Vec3& point : points) outline.push_back(shadow(point));
+    const std::vector<std::uint32_t> loop = hull_loop(outline);
+    std::vector<Vec2> inner;
+    for (const std::uint32_t i : loop) inner.push_back(outline[i]);
+
+    std::optional<Hull3> result;
+    outline_of(inner, limit, [&](const Hull2& outer) {
+        std::vector<Vec3> corners;
+        for (const Vec2& corner : outer.points) corners.push_back(lifted(corner));
+        if (!std::all_of(corners.begin(), corners.end(), [](const Vec3& corner) { return is_finite(corner); }))
+            return false;
+        Result<Hull3> built = hull(corners);
+        if (!built || built->points.size() < corners.size()) return false;
+        result = *std::move(built);
+        return true;
+    });
+    if (!result) return beyond_floats();
+    return *std::move(result);
 }
 
 }  // namespace
@@ -222,8 +258,11 @@ Result<Hull3> limited_hull(std::span<const Vec3> points, const HullOptions& opti
             "max_vertices is " + std::to_string(options.max_vertices) + ", and a solid has 4 corners or more", 0};
     Result<Hull3> full = hull(points);
     if (!full || options.max_vertices == 0 || full->points.size() <= options.max_vertices) return full;
-    Result<Hull3> result = limited_solid(*full, points, options.max_vertices);
-    if (result && options.added != nullptr) *options.added = result->volume - full->volume;
+    const bool flat = full->rank == 2;
+    Result<Hull3> result =
+        flat ? limited_flat(*full, points, options.max_vertices) : limited_solid(*full, points, options.max_vertices);
+    if (result && options.added != nullptr)
+        *options.added = flat ? result->area - full->area : result->volume - full->volume;
     return result;
 }
 
