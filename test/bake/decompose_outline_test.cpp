@@ -232,6 +232,56 @@ TEST(DecomposeOutline, TakesCellsOutOfASquare) {
     }
 }
 
+/// Random rings on a small grid, which touch themselves and each other in every way where they don't cross.
+TEST(DecomposeOutline, TakesRingsThatTouchAnyhow) {
+    std::size_t taken = 0, touching = 0, refused = 0;
+    const std::uint64_t samples = std::getenv("ABUT_LONG") != nullptr ? 200'000 : 5000;
+    for (std::uint64_t seed = 0; seed < samples; ++seed) {
+        SCOPED_TRACE(seed);
+        oracle::Random random(seed);
+        const std::uint32_t cells = 3 + random.below(4);
+        Rings rings(1 + random.below(4));
+        for (Ring& ring : rings) {
+            // Steps to neighbours on the grid cross only in corners; longer ones may not.
+            Vec2 at(static_cast<float>(random.below(cells)), static_cast<float>(random.below(cells)));
+            const Vec2 first = at;
+            const bool in_steps = random.chance(0.8);
+            for (std::uint32_t i = 0, count = 3 + random.below(24); i < count; ++i) {
+                ring.push_back(at);
+                const auto step = [&] { return static_cast<float>(random.below(3)) - 1; };
+                at = in_steps ? (random.chance(0.5) ? at + Vec2(step(), 0) : at + Vec2(0, step()))
+                              : Vec2(static_cast<float>(random.below(cells)), static_cast<float>(random.below(cells)));
+            }
+            if (in_steps) ring.emplace_back(at.x, first.y);
+        }
+        const Ring outline = rings.back();
+        rings.pop_back();
+        OutlineReport report;
+        const bool conforming = random.chance(0.5);
+        const auto parts = decompose(outline, rings, {.conforming = conforming, .report = &report});
+        if (!parts) {
+            refused += parts.problem().code == ProblemCode::bad_argument ? 1u : 0u;
+            EXPECT_TRUE(parts.problem().code == ProblemCode::bad_argument ||
+                        parts.problem().code == ProblemCode::degenerate);
+            continue;
+        }
+        ++taken;
+        touching += report.touching_points > 0 ? 1u : 0u;
+        const OutlineParts oracle(outline, rings, *parts);
+        EXPECT_EQ(oracle.fault_of_corners(), "");
+        EXPECT_EQ(oracle.fault_of_overlaps(), "");
+        EXPECT_EQ(oracle.fault_of_middles(), "");
+        if (conforming) {
+            EXPECT_EQ(oracle.fault_of_junctions(), "");
+        }
+        for (int i = 0; i < 20; ++i)
+            EXPECT_EQ(oracle.fault_at({random.uniform_float(-2, 8), random.uniform_float(-2, 8)}), "");
+    }
+    EXPECT_GT(taken, samples / 3);
+    EXPECT_GT(touching, samples / 4);
+    EXPECT_GT(refused, samples / 20);
+}
+
 TEST(DecomposeOutline, DoesNotDependOnWhereARingBegins) {
     const Ring ring = scenes::star(300, 0.2, 5);
     const std::vector<Polygon> parts = checked(ring);

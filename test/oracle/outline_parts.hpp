@@ -2,10 +2,12 @@
 
 // Whether convex parts are exactly what an outline has inside, in whole numbers of any size.
 
+#include <abut/math/aabb.hpp>
 #include <abut/math/predicates.hpp>
 #include <abut/shape/polygon.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <set>
@@ -99,13 +101,31 @@ public:
                     if (overlaps(part.box, box) && !apart(part.loop, edge)) return "a ring runs through a part";
                 }
             }
-        for (const Part& part : parts_) {
-            bool in_hole = false;
-            for (std::size_t ring = 1; ring < rings_.size(); ++ring)
-                in_hole = in_hole || around(whole_rings_[ring], part.loop);
-            if (in_hole || !around(whole_rings_[0], part.loop)) return "a part that isn't inside";
-        }
+        return fault_of_middles();
+    }
+
+    /// Also of rings with spikes, and that lie in one another.
+    std::string fault_of_middles() const {
+        for (const Part& part : parts_)
+            if (!inside(part.loop)) return "a part that isn't inside";
         return {};
+    }
+
+    /// A place is covered if it is inside; on a ring it may be either.
+    std::string fault_at(const Vec2& place) const {
+        for (const std::vector<Vec2>& ring : rings_)
+            for (std::size_t i = 0; i < ring.size(); ++i) {
+                const Vec2 edge[] = {ring[i], ring[i + 1 == ring.size() ? 0 : i + 1]};
+                if (contains(box_of(edge), place) && orientation(edge[0], edge[1], place) == 0) return {};
+            }
+        const bool covered = std::ranges::any_of(parts_, [&](const Part& part) {
+            for (std::size_t i = 0; i < part.loop.size(); ++i)
+                if (orientation(part.loop[i], part.loop[(i + 1) % part.loop.size()], place) < 0) return false;
+            return true;
+        });
+        const Vec2 three[] = {place, place, place};
+        if (inside(three) == covered) return {};
+        return covered ? "a place outside is covered" : "a place inside isn't covered";
     }
 
     /// Corners within an edge of another part.
@@ -164,12 +184,18 @@ private:
         const Whole y = whole(loop[0].y) + whole(loop[1].y) + whole(loop[2].y);
         bool result = false;
         for (std::size_t i = 0; i < ring.size(); ++i) {
-            const auto &a = ring[i], &b = ring[i + 1 == ring.size() ? 0 : i + 1];
+            // From left to right, so that a line there and back counts alike also where the place is on it.
+            const auto [a, b] = std::minmax(ring[i], ring[i + 1 == ring.size() ? 0 : i + 1]);
             if ((a.first <= x) == (b.first <= x)) continue;
-            const Whole turn = (b.first - a.first) * (y - a.second) - (b.second - a.second) * (x - a.first);
-            if ((turn > 0) == (b.first > a.first)) result = !result;
+            if ((b.first - a.first) * (y - a.second) > (b.second - a.second) * (x - a.first)) result = !result;
         }
         return result;
+    }
+
+    bool inside(std::span<const Vec2> loop) const {
+        for (std::size_t ring = 1; ring < whole_rings_.size(); ++ring)
+            if (around(whole_rings_[ring], loop)) return false;
+        return around(whole_rings_[0], loop);
     }
 
     std::vector<std::vector<Vec2>> rings_;
