@@ -127,6 +127,32 @@ void describe(CLI::App& verb, HullArguments& arguments) {
     verb.footer("Objects are taken where they stand at the first moment.");
 }
 
+// What was typed for `abut decompose`.
+struct DecomposeArguments {
+    DecomposeRequest request;
+    std::optional<std::string> parts, concavity, vertices;
+};
+
+void describe(CLI::App& verb, DecomposeArguments& arguments) {
+    verb.add_option("MESH", arguments.request.mesh, mesh_files)->required();
+    verb.add_option("-o,--output", arguments.request.output, mesh_output)->type_name("OUT")->required();
+    verb.add_option("--parts", arguments.parts, "At most N parts; without it 32")->type_name("N");
+    verb.add_option("--concavity", arguments.concavity,
+                    "How far from convex a part may be, as a share of half the longest side of the mesh's box: 0 to 1, "
+                    "without it 0.05. Smaller means more parts")
+        ->type_name("C");
+    verb.add_option("--max-vertices", arguments.vertices, "At most N corners a part, 4 or more; without it 64")
+        ->type_name("N");
+    verb.add_flag("--rooms", arguments.request.rooms,
+                  "Leave closed surfaces that are seen from inside as they are: walls without a thickness. Without it "
+                  "they are taken for solids that are inside out");
+    verb.add_option("--picture", arguments.request.picture, "Draw the parts too")->type_name("FILE.svg");
+    verb.add_flag("--json", arguments.request.json, "One JSON object in place of text");
+    verb.footer(
+        "All objects are taken together, where they stand at the first moment, and repaired first: points in one place "
+        "become one, triangles are made to agree which way round they are, small holes are filled.");
+}
+
 void describe(CLI::App& verb, InfoRequest& request) {
     verb.add_option("FILE", request.scene, files)->required();
     verb.add_flag("--json", request.json, "One JSON object in place of text");
@@ -175,6 +201,15 @@ Result<ExitCode> run_hull(HullArguments& arguments) {
     return run_hull(arguments.request);
 }
 
+Result<ExitCode> run_decompose(DecomposeArguments& arguments) {
+    DecomposeRequest& request = arguments.request;
+    std::optional<std::string> problem = understand("--parts", arguments.parts, parse_parts, request.max_parts);
+    if (!problem) problem = understand("--concavity", arguments.concavity, parse_share, request.concavity);
+    if (!problem) problem = understand("--max-vertices", arguments.vertices, parse_vertices, request.max_vertices);
+    if (problem) return Problem{ProblemCode::bad_argument, *problem};
+    return run_decompose(request);
+}
+
 int run(int count, char** words) {
     CLI::App app(
         "Collision checks for scenes and levels: who touches whom, where, how deep and when; and convex parts for "
@@ -194,6 +229,9 @@ int run(int count, char** words) {
     HullArguments hull;
     CLI::App& hull_verb = *app.add_subcommand("hull", "The convex hull of a mesh");
     describe(hull_verb, hull);
+    DecomposeArguments decompose;
+    CLI::App& decompose_verb = *app.add_subcommand("decompose", "Convex parts that stand for a mesh");
+    describe(decompose_verb, decompose);
     InfoRequest info;
     CLI::App& info_verb = *app.add_subcommand("info", "What is in a scene or a level");
     describe(info_verb, info);
@@ -206,10 +244,11 @@ int run(int count, char** words) {
             return fail("'" + std::string(words[1]) + "' is not a verb; abut --help lists them");
         return fail(error.what());
     }
-    const Result<ExitCode> code = check_verb.parsed()  ? run_check(check)
-                                  : cast_verb.parsed() ? run_cast(cast)
-                                  : hull_verb.parsed() ? run_hull(hull)
-                                                       : run_info(info);
+    const Result<ExitCode> code = check_verb.parsed()       ? run_check(check)
+                                  : cast_verb.parsed()      ? run_cast(cast)
+                                  : hull_verb.parsed()      ? run_hull(hull)
+                                  : decompose_verb.parsed() ? run_decompose(decompose)
+                                                            : run_info(info);
     return code ? static_cast<int>(*code) : fail(code.problem().message);
 }
 

@@ -65,6 +65,7 @@ struct DecomposeRequest {
     std::uint32_t max_parts = 32;
     double concavity = 0.05;
     std::uint32_t max_vertices = 64;  ///< of each part
+    bool rooms = false;               ///< surfaces that are seen from inside stay as they are
     bool json = false;
 };
 

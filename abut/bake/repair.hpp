@@ -20,7 +20,10 @@ struct RepairOptions {
     std::uint32_t hole_edges = 64;  ///< holes with more edges stay open; 0 leaves all, 1000 is the limit
     /// Holes that need more area than this share of the connected surface around them stay open: the mouth of a cup,
     /// the border of a sheet. 0 closes only cracks, whatever their length.
-    double hole_area = 0.05;
+    double hole_area = 0.1;
+    /// Closed surfaces are made to face outwards, cavities inwards. Without it they stay as most of their area is: a
+    /// room or a sky box that is seen from inside stays one.
+    bool face_outwards = true;
 };
 
 /// What was found and changed, and what is left.
@@ -61,7 +64,8 @@ struct Repaired {
 ///    Surfaces are connected by edges of exactly two triangles: at edges of more, each of those that meet there is
 ///    wound for itself.
 /// 4. Small holes are filled (see the options), flat where their border is.
-/// 5. Closed surfaces are made to face outwards, cavities inwards. What is inside of another one is a cavity where the
+/// 5. Closed surfaces are made to face outwards, cavities inwards (if `face_outwards`). What is inside of another one
+/// is a cavity where the
 ///    file has the two opposite ways round, or either all mixed up; else they are two solids, one in the other.
 ///    Surfaces with a border stay as they are.
 /// 6. Triangles without area go, neighbours being cut so that nothing opens.

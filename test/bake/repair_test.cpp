@@ -144,6 +144,7 @@ TEST(Repair, WeldsWithinADistance) {
 TEST(Repair, FacesOutwards) {
     const SolidMesh house = scenes::house();
     EXPECT_EQ(volume(repaired(inside_out(house))), volume(house));
+    EXPECT_EQ(volume(repaired(inside_out(house), {.face_outwards = false})), -volume(house)) << "a room";
     // Boxes that share an edge, four triangles at it, one of the two inside out.
     SolidMesh two = box({0, 0, 0}, {1, 1, 1});
     add(two, inside_out(box({1, 1, 0}, {2, 2, 1})));
