@@ -59,6 +59,12 @@ struct Candidate {
     double outside = 0;  ///< the most that the part is
 };
 
+/// The middle one of its half edges.
+double breadth_of(const Box<3>& box) {
+    const Vec3& half = box.half;
+    return static_cast<double>(std::max(std::min(half.x, half.y), std::min(std::max(half.x, half.y), half.z)));
+}
+
 using Round = std::optional<Candidate<Capsule<3>>>;
 
 /// How good a candidate is, once it is as large as it has to be.
@@ -86,9 +92,9 @@ Round best_capsule(const Polyhedron& part, const Axes& axes, bool hold) {
 std::optional<Fit> fit(const Polyhedron& part, const FitOptions& options) {
     if (part.rank() < 2) return std::nullopt;
     const bool is_solid = part.rank() == 3;
-    const double size = part.ball().radius, tolerance = options.tolerance * size;
     const Axes principal = principal_axes(part);
     const Candidate<Box<3>> box(part, box_about(part, principal));
+    const double size = part.ball().radius, tolerance = options.tolerance * breadth_of(box.shape);
     const Round capsule = is_solid ? best_capsule(part, principal, options.hold) : std::nullopt;
     const Round ball = is_solid ? rated(part, ball_near(part), options.hold) : std::nullopt;
 

@@ -13,8 +13,9 @@
 namespace abut {
 
 struct FitOptions {
-    /// How far off the shape may be, as a share of the part's size (its bounding radius).
-    double tolerance = 0.03;
+    /// How far off the shape may be, as a share of the part's breadth: half the middle one of the three edges of a
+    /// tight box about it, so that a long rod is as good as its thickness asks for.
+    double tolerance = 0.05;
     /// Grow the shape until it holds the whole part. Boxes always do.
     bool hold = false;
 };
