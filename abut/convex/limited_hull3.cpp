@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -19,7 +20,8 @@ namespace abut {
 namespace {
 
 constexpr std::size_t few_corners = 32, pool_corners = 4, least_pool = 64;
-constexpr double depth_for_sure = 1e-4;  ///< of a point inside, where the body reaches about 0.45 from its middle
+// Where the body reaches about 0.45 from its middle: how deep a point is surely inside, and how near no plane comes.
+constexpr double depth_for_sure = 1e-4, least_offset = 1e-3;
 constexpr int tightening_rounds = 8, most_margins = 24;
 
 using Triangles = std::vector<std::array<Vec3, 3>>;
@@ -143,43 +145,78 @@ std::optional<Hull3> rounded_hull(const OuterMesh& mesh, const Affine<3>& map, s
     return std::nullopt;
 }
 
-/// Around all, with corners that are too near.
-OuterMesh grown(const Hull3& inner, const InnerPoints& inside) {
-    OuterMesh result(inner, Affine<3>());
-    result.grow(DVec<3>(inner.centroid), inside);
-    return result;
-}
-
 /// The corners where planes around the origin meet. They are the planes of a hull, that of the points at 1 / offset
 /// along their normals.
 std::vector<Vec3> corners_of_planes(const Hull3& polar) {
     std::vector<Vec3> result;
     for (std::size_t face = 0; face < polar.normals.size(); ++face)
-        if (polar.offsets[face] > 0) result.push_back(to_float(DVec<3>(polar.normals[face]) / polar.offsets[face]));
+        if (polar.offsets[face] > least_offset)
+            result.push_back(to_float(DVec<3>(polar.normals[face]) / polar.offsets[face]));
     return result;
 }
 
-/// The least of several meshes of so few corners around all that is inside, seen from its middle.
-OuterMesh least_mesh(OuterMesh mesh, const InnerPoints& inside, std::size_t limit) {
+/// The least of several meshes of so few corners around all that is inside, seen from its middle. Nothing where
+/// rounding undid them all.
+std::optional<OuterMesh> least_mesh(OuterMesh mesh, const InnerPoints& inside, std::size_t limit) {
+    std::optional<OuterMesh> result;
+    double least = 0;
+    const auto offer = [&](OuterMesh& offered) {
+        if (offered.count() > limit) return;
+        offered.tighten(inside, tightening_rounds);
+        const double volume = offered.volume();
+        if (!offered.holds(inside) || (result && !(volume < least))) return;
+        result = offered;
+        least = volume;
+    };
+    const auto offer_grown = [&](const Hull3& inner) {
+        if (inner.rank < 3) return;
+        OuterMesh grown(inner, Affine<3>());
+        grown.grow(DVec<3>(inner.centroid), inside);
+        offer(grown);
+    };
+
     mesh.simplify(std::max(pool_corners * limit, least_pool));
-    std::vector<Vec3> points, polar;
-    for (const DVec<3>& point : inside.points()) points.push_back(to_float(point));
+    std::vector<Vec3> polar;
     for (std::uint32_t triangle = 0; triangle < mesh.triangle_count(); ++triangle)
-        if (mesh.has_triangle(triangle))
+        if (mesh.has_triangle(triangle) && mesh.plane(triangle).offset > least_offset)
             polar.push_back(to_float(mesh.plane(triangle).normal / mesh.plane(triangle).offset));
     mesh.simplify(limit);
-    mesh.tighten(inside, tightening_rounds);
-    if (mesh.count() <= limit && limit > few_corners) return mesh;
-    const auto offer = [&](const Hull3& inner) {
-        if (inner.rank < 3 || inner.points.size() > limit) return;
-        OuterMesh other = grown(inner, inside);
-        other.tighten(inside, tightening_rounds);
-        if (mesh.count() > limit || other.volume() < mesh.volume()) mesh = std::move(other);
-    };
-    offer(inner_hull(points, limit));
-    const Hull3 planes = inner_hull(polar, limit / 2 + 2);
-    if (planes.rank == 3) offer(*hull(corners_of_planes(planes)));
-    return mesh;
+    offer(mesh);
+    if (result && limit > few_corners) return result;
+
+    std::vector<Vec3> points;
+    for (const DVec<3>& point : inside.points()) points.push_back(to_float(point));
+    offer_grown(inner_hull(points, limit));
+    if (polar.size() < 4) return result;
+    const std::vector<Vec3> corners = corners_of_planes(inner_hull(polar, limit / 2 + 2));
+    if (corners.size() >= 4) offer_grown(*hull(corners));
+    return result;
+}
+
+/// Corners around all points that need no search: of their box, or of the tetrahedron at its lowest corner. Nothing
+/// where they leave the range of floats.
+std::optional<Hull3> hull_of_box(std::span<const Vec3> points, std::size_t limit) {
+    const DVec<3> low = least_corner<3>(points), high = greatest_corner<3>(points);
+    std::vector<Vec3> corners;
+    if (limit >= 8) {
+        for (unsigned i = 0; i < 8; ++i)
+            corners.push_back(to_float(DVec<3>((i & 1u) != 0 ? high.x : low.x, (i & 2u) != 0 ? high.y : low.y,
+                                               (i & 4u) != 0 ? high.z : low.z)));
+    } else {
+        const DVec<3> sides = high - low;
+        corners.push_back(to_float(low));
+        for (int i = 0; i < 3; ++i) {
+            Vec3 corner = corners[0];
+            const auto far = static_cast<float>(low[i] + 1.000001 * (sides.x + sides.y + sides.z));
+            corner[i] = std::nextafter(far, std::numeric_limits<float>::infinity());
+            corners.push_back(corner);
+        }
+    }
+    for (const Vec3& corner : corners)
+        if (!is_finite(corner)) return std::nullopt;
+    const Hull3 result = *hull(corners);
+    if (result.rank < 3 || !surely_holds(triangles_of(result), points)) return std::nullopt;
+    return result;
 }
 
 /// The points that aren't far inside of the mesh.
@@ -201,11 +238,12 @@ std::vector<Vec3> near_surface(const OuterMesh& mesh, const Affine<3>& seen_by, 
 
 Result<Hull3> limited_solid(const Hull3& full, std::span<const Vec3> points, std::size_t limit) {
     const Affine<3> map = from_round(full), seen_by = inverse(map, determinant(map));
-    const OuterMesh mesh = least_mesh(OuterMesh(full, seen_by), InnerPoints(full, seen_by), limit);
-    const std::optional<Hull3> result =
-        rounded_hull(mesh, map, near_surface(mesh, seen_by, points), extent<3>(full.points));
-    if (!result || result->points.size() > limit) return beyond_floats();
-    return *result;
+    const std::optional<OuterMesh> mesh = least_mesh(OuterMesh(full, seen_by), InnerPoints(full, seen_by), limit);
+    std::optional<Hull3> result;
+    if (mesh) result = rounded_hull(*mesh, map, near_surface(*mesh, seen_by, points), extent<3>(full.points));
+    if (!result) result = hull_of_box(points, limit);
+    if (!result) return beyond_floats();
+    return *std::move(result);
 }
 
 /// In its plane: the outline as seen along the axis nearest to the normal, with corners of its own that are put back

@@ -85,6 +85,19 @@ double OuterMesh::volume() const {
     return six_times / 6;
 }
 
+bool OuterMesh::holds(const InnerPoints& inside) const {
+    std::uint32_t highest = 0;
+    for (std::uint32_t triangle = 0; triangle < planes_.size(); ++triangle) {
+        if (!has_triangle(triangle)) continue;
+        const Plane<3>& plane = planes_[triangle];
+        highest = inside.highest(plane.normal, highest);
+        const double depth = plane.offset - dot(plane.normal, inside.points()[highest]);
+        const double corner = plane.offset - dot(plane.normal, points_[origin_[3 * triangle]]);
+        if (!(depth > -1e-6) || !(std::abs(corner) < 1e-5 * (1 + largest(points_[origin_[3 * triangle]])))) return false;
+    }
+    return true;
+}
+
 void OuterMesh::grow(const DVec<3>& middle, const InnerPoints& inside) {
     double factor = 1;
     std::uint32_t highest = 0;
@@ -192,7 +205,10 @@ std::optional<OuterMesh::Merge> OuterMesh::merge_at(std::uint32_t half_edge) {
     for (const std::uint32_t h : ring_) limits_.push_back(flipped(local(planes_[twin_[h] / 3])));
     const std::optional<DVec<3>> apex = lowest_above(limits_, slope_, size_);
     if (!apex) return std::nullopt;
-    return Merge{*apex + middle_, volume_to(*apex) - old};
+    // Less than before, beyond rounding, where the surface would be turned inside out.
+    const double added = volume_to(*apex) - old;
+    if (added < -1e-9 * size_ * size_ * size_) return std::nullopt;
+    return Merge{*apex + middle_, added};
 }
 
 /// Two neighbours that have a third in common beside those of their two triangles would fold the surface.
@@ -300,15 +316,19 @@ void OuterMesh::simplify(std::size_t count) {
     }
 }
 
-bool OuterMesh::convex_around(std::uint32_t point, const DVec<3>& at) const {
+/// Whether a corner may go to a place: the triangles around it then hold what is inside, and stay convex.
+bool OuterMesh::fits(std::uint32_t point, const DVec<3>& at, const InnerPoints& inside) {
     bool result = true;
     each_leaving(point, [&](std::uint32_t h) {
+        if (!result) return;
         // Over the edge h: the third corner of the triangle on its other side.
         const DVec<3> b = points_[origin_[following(h)]], c = points_[origin_[following(following(h))]],
                       d = points_[origin_[following(following(twin_[h]))]];
         const DVec<3> u = b - at, v = c - at, w = d - at, normal = cross(u, v);
-        const double height = dot(normal, w);
-        if (height > 1e-11 * length(normal) * length(w)) result = false;
+        const double area = length(normal);
+        touched_ = inside.highest(normal, touched_);
+        result = dot(normal, w) <= 1e-11 * area * length(w) &&
+                 dot(normal, inside.points()[touched_] - at) <= 1e-11 * area * size_;
     });
     return result;
 }
@@ -398,7 +418,7 @@ void OuterMesh::tighten(const InnerPoints& inside, int rounds) {
                 if (!found || !(volume_to(*found) < 0)) break;
                 DVec<3> step = *found;
                 int halvings = 0;
-                while (halvings < most_halvings && !convex_around(point, middle_ + step)) {
+                while (halvings < most_halvings && !fits(point, middle_ + step, inside)) {
                     ++halvings;
                     step *= 0.5;
                 }

@@ -31,6 +31,8 @@ public:
     void tighten(const InnerPoints& inside, int rounds);
 
     double volume() const;
+    /// Whether nothing that is inside is above a triangle by more than 1e-6, and the corners are where the planes are.
+    bool holds(const InnerPoints& inside) const;
     /// The corners that are left.
     std::vector<DVec<3>> corners() const;
     std::size_t count() const { return count_; }
@@ -83,7 +85,7 @@ private:
     void move(std::uint32_t point, const DVec<3>& to);
     bool flip(std::uint32_t half_edge);
     bool widen(std::uint32_t point);
-    bool convex_around(std::uint32_t point, const DVec<3>& at) const;
+    bool fits(std::uint32_t point, const DVec<3>& at, const InnerPoints& inside);
     void push(std::uint32_t half_edge);
     void push_all();
 

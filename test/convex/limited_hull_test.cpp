@@ -129,6 +129,7 @@ TEST(LimitedHull, HoldsEveryPointExactly) {
                     for (Vec3& point : points) point = to_float(DVec<3>(point) * scale + offset);
                     const Limited result = limited(points, limit);
                     if (result.full.points.size() <= limit) continue;
+                    ASSERT_FALSE(result.hull.points.empty());
                     ++ranks[result.hull.rank];
                     ++all;
                     at_the_limit += result.hull.points.size() == limit ? 1 : 0;
