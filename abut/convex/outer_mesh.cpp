@@ -11,6 +11,9 @@
 namespace abut {
 namespace {
 
+/// How far the surface may be from convex, and from holding what is inside: the corners of a hull's face needn't lie in
+/// a plane more exactly.
+constexpr double flatness = 1e-6;
 constexpr int most_turns = 4, most_halvings = 5;
 constexpr double least_gain = 1e-4;
 
@@ -93,7 +96,8 @@ bool OuterMesh::holds(const InnerPoints& inside) const {
         highest = inside.highest(plane.normal, highest);
         const double depth = plane.offset - dot(plane.normal, inside.points()[highest]);
         const double corner = plane.offset - dot(plane.normal, points_[origin_[3 * triangle]]);
-        if (!(depth > -1e-6) || !(std::abs(corner) < 1e-5 * (1 + largest(points_[origin_[3 * triangle]])))) return false;
+        if (!(depth > -2 * flatness) || !(std::abs(corner) < 1e-5 * (1 + largest(points_[origin_[3 * triangle]]))))
+            return false;
     }
     return true;
 }
@@ -202,7 +206,11 @@ std::optional<OuterMesh::Merge> OuterMesh::merge_at(std::uint32_t half_edge) {
                       c = points_[corner(triangle, 2)] - middle_;
         old += dot(cross(a, b), c);
     }
-    for (const std::uint32_t h : ring_) limits_.push_back(flipped(local(planes_[twin_[h] / 3])));
+    for (const std::uint32_t h : ring_) {
+        Plane<3> outer = local(planes_[twin_[h] / 3]);
+        outer.offset += flatness;
+        limits_.push_back(flipped(outer));
+    }
     const std::optional<DVec<3>> apex = lowest_above(limits_, slope_, size_);
     if (!apex) return std::nullopt;
     // Less than before, beyond rounding, where the surface would be turned inside out.
@@ -327,8 +335,8 @@ bool OuterMesh::fits(std::uint32_t point, const DVec<3>& at, const InnerPoints& 
         const DVec<3> u = b - at, v = c - at, w = d - at, normal = cross(u, v);
         const double area = length(normal);
         touched_ = inside.highest(normal, touched_);
-        result = dot(normal, w) <= 1e-11 * area * length(w) &&
-                 dot(normal, inside.points()[touched_] - at) <= 1e-11 * area * size_;
+        result =
+            dot(normal, w) <= 2 * flatness * area && dot(normal, inside.points()[touched_] - at) <= flatness * area;
     });
     return result;
 }
@@ -402,7 +410,7 @@ void OuterMesh::cut_around(std::uint32_t point, const InnerPoints& inside) {
         const double x = dot(on, seen), y = std::max(0.0, -dot(outer.normal, seen));
         const DVec<3> normal = normalized(outer.normal * x + on * y), local = from - middle_;
         limits_.push_back({normal, dot(normal, local)});
-        limits_.push_back(flipped<3>({outer.normal, dot(outer.normal, local)}));
+        limits_.push_back(flipped<3>({outer.normal, dot(outer.normal, local) + flatness}));
     }
 }
 

@@ -16,7 +16,7 @@
 namespace abut {
 
 /// A closed convex surface in half-edges, numbered like those of `TriangleSurface`. Corners and triangles that were
-/// taken out keep their numbers. Convex up to the rounding of doubles.
+/// taken out keep their numbers. The body is some 1 across; the surface is convex to within 2e-6.
 class OuterMesh {
 public:
     /// Of a solid hull, seen by a map that keeps left and right apart.
