@@ -1,12 +1,12 @@
 // The hull in the plane: a monotone chain of exact turns.
 
 #include <abut/convex/hull.hpp>
+#include <abut/convex/hull_columns.hpp>
 #include <abut/convex/hull_input.hpp>
 #include <abut/math/dvec.hpp>
 #include <abut/math/predicates.hpp>
 
 #include <algorithm>
-#include <numeric>
 
 namespace abut {
 namespace {
@@ -35,30 +35,27 @@ void flatten(std::vector<Vec2>& loop) {
 }  // namespace
 
 std::vector<std::uint32_t> hull_loop(std::span<const Vec2> points) {
-    std::vector<std::uint32_t> order(points.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
-        return points[i] == points[j] ? i < j : less(points[i], points[j]);
-    });
-    const auto same = [&](std::uint32_t i, std::uint32_t j) { return points[i] == points[j]; };
-    order.erase(std::unique(order.begin(), order.end(), same), order.end());
-    if (order.size() == 1) return order;
+    const std::vector<HullColumn> columns = hull_columns(points);
+    const std::uint32_t least = columns.front().lowest, greatest = columns.back().highest;
+    if (points[least] == points[greatest]) return {least};
 
     // Along the lower chain from the least point to the greatest, and back along the upper one. Each leaves out its
     // last point, where the other begins.
-    std::vector<std::uint32_t> loop;
-    const auto append_chain = [&](auto begin, auto end) {
-        const std::size_t first = loop.size();
-        for (auto i = begin; i != end; ++i) {
-            while (loop.size() >= first + 2 &&
-                   orientation(points[loop[loop.size() - 2]], points[loop.back()], points[*i]) <= 0)
-                loop.pop_back();
-            loop.push_back(*i);
-        }
-        loop.pop_back();
+    std::vector<std::uint32_t> loop{least};
+    std::size_t first = 0;
+    const auto append = [&](std::uint32_t i) {
+        if (i == loop.back()) return;
+        while (loop.size() >= first + 2 &&
+               orientation(points[loop[loop.size() - 2]], points[loop.back()], points[i]) <= 0)
+            loop.pop_back();
+        loop.push_back(i);
     };
-    append_chain(order.begin(), order.end());
-    append_chain(order.rbegin(), order.rend());
+    for (const HullColumn& column : columns) append(column.lowest);
+    append(greatest);
+    first = loop.size() - 1;
+    for (auto column = columns.rbegin(); column != columns.rend(); ++column) append(column->highest);
+    append(least);
+    loop.pop_back();
     return loop;
 }
 

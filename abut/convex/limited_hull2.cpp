@@ -61,12 +61,17 @@ std::optional<Hull2> outline_of(std::span<const Vec2> hull_points, std::size_t l
     double margin = 0;
     for (int i = 0; i < most_margins; ++i) {
         const std::optional<std::vector<Vec2>> corners = rounded(outer, origin, margin);
-        if (!corners) return std::nullopt;
+        if (!corners) break;
         Result<Hull2> result = hull(*corners);
         if (result && result->rank == 2 && holds(result->points, hull_points) && accept(*result)) return *result;
         margin = margin == 0 ? 0x1p-50 * side : 4 * margin;
     }
-    return std::nullopt;
+    // Where its tips are so sharp that no float is in them.
+    const std::vector<Vec2> corners = corners_of_box<2>(hull_points, limit);
+    if (corners.empty()) return std::nullopt;
+    Result<Hull2> result = hull(corners);
+    if (!holds(result->points, hull_points) || !accept(*result)) return std::nullopt;
+    return *result;
 }
 
 Result<Hull2> limited_hull(std::span<const Vec2> points, const HullOptions& options) {

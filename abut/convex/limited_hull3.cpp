@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 
@@ -193,28 +192,11 @@ std::optional<OuterMesh> least_mesh(OuterMesh mesh, const InnerPoints& inside, s
     return result;
 }
 
-/// Corners around all points that need no search: of their box, or of the tetrahedron at its lowest corner. Nothing
-/// where they leave the range of floats.
+/// Larger than it needs to be.
 std::optional<Hull3> hull_of_box(std::span<const Vec3> points, std::size_t limit) {
-    const DVec<3> low = least_corner<3>(points), high = greatest_corner<3>(points);
-    std::vector<Vec3> corners;
-    if (limit >= 8) {
-        for (unsigned i = 0; i < 8; ++i)
-            corners.push_back(to_float(DVec<3>((i & 1u) != 0 ? high.x : low.x, (i & 2u) != 0 ? high.y : low.y,
-                                               (i & 4u) != 0 ? high.z : low.z)));
-    } else {
-        const DVec<3> sides = high - low;
-        corners.push_back(to_float(low));
-        for (int i = 0; i < 3; ++i) {
-            Vec3 corner = corners[0];
-            const auto far = static_cast<float>(low[i] + 1.000001 * (sides.x + sides.y + sides.z));
-            corner[i] = std::nextafter(far, std::numeric_limits<float>::infinity());
-            corners.push_back(corner);
-        }
-    }
-    for (const Vec3& corner : corners)
-        if (!is_finite(corner)) return std::nullopt;
-    const Hull3 result = *hull(corners);
+    const std::vector<Vec3> corners = corners_of_box<3>(points, limit);
+    if (corners.empty()) return std::nullopt;
+    Hull3 result = *hull(corners);
     if (result.rank < 3 || !surely_holds(triangles_of(result), points)) return std::nullopt;
     return result;
 }

@@ -13,6 +13,7 @@ namespace abut {
 namespace {
 
 constexpr int most_rounds = 40;
+constexpr std::size_t few_edges = 12, pool = 32;
 
 /// One of the lines that are left, in a ring.
 struct Line {
@@ -35,8 +36,10 @@ public:
     }
 
     void reduce(std::size_t count);
+    void choose(std::size_t count);
     void tighten();
     std::vector<DVec<2>> corners() const;
+    std::size_t count() const { return count_; }
 
 private:
     struct Removal {
@@ -109,7 +112,8 @@ void OuterPolygon::take_out(std::uint32_t line, const DVec<2>& apex) {
 }
 
 void OuterPolygon::reduce(std::size_t count) {
-    for (std::uint32_t i = 0; i < lines_.size(); ++i) push(i);
+    for (std::uint32_t i = 0; i < lines_.size(); ++i)
+        if (lines_[i].alive) push(i);
     while (count_ > count && count_ > 4 && !waiting_.empty()) {
         const Removal next = waiting_.top();
         waiting_.pop();
@@ -120,7 +124,72 @@ void OuterPolygon::reduce(std::size_t count) {
              {line.before, line.after, lines_[line.before].before, lines_[line.after].after})
             push(changed);
     }
-    if (count_ > count) make_triangle();
+    if (count == 3 && count_ == 4) make_triangle();
+}
+
+/// Of the lines, which all go along edges of the inner loop, those `count` around the least area, if there are such:
+/// the cheapest way around, from each line that may be the first one.
+void OuterPolygon::choose(std::size_t count) {
+    constexpr double never = std::numeric_limits<double>::max();
+    std::vector<std::uint32_t> numbers;
+    for (std::uint32_t i = 0; i < lines_.size(); ++i)
+        if (lines_[i].alive) numbers.push_back(i);
+    const std::size_t size = numbers.size();
+    const auto line = [&](std::size_t i) -> const Line& { return lines_[numbers[i % size]]; };
+
+    // What lies between two lines and the inner loop, twice.
+    std::vector<double> around(inner_.size() + 1, 0);
+    for (std::uint32_t i = 0; i < inner_.size(); ++i) around[i + 1] = around[i] + cross(inner_[i], inner_[next(i)]);
+    std::vector<double> between(size * size, never);
+    for (std::size_t i = 0; i < size; ++i)
+        for (std::size_t j = i + 1; j < i + size; ++j) {
+            const DVec<2>&a = inner_[line(i).last], &b = inner_[line(j).first];
+            const double turn = cross(line(i).direction, line(j).direction);
+            if (!(turn > 1e-9)) continue;
+            const DVec<2> apex = a + line(i).direction * (cross(b - a, line(j).direction) / turn);
+            double outline = around[line(j).first] - around[line(i).last];
+            if (line(j).first < line(i).last) outline += around.back();
+            between[i * size + j % size] = cross(a, apex) + cross(apex, b) - outline;
+        }
+
+    double least = never;
+    std::vector<std::size_t> best;
+    std::vector<double> cost(count * size);
+    std::vector<std::size_t> from(count * size);
+    for (std::size_t start = 0; start + count <= size; ++start) {
+        std::fill(cost.begin(), cost.end(), never);
+        cost[start] = 0;
+        for (std::size_t step = 1; step < count; ++step)
+            for (std::size_t i = start; i < size; ++i) {
+                const double so_far = cost[(step - 1) * size + i];
+                if (!(so_far < least)) continue;
+                for (std::size_t j = i + 1; j < size; ++j) {
+                    const double more = between[i * size + j];
+                    if (more == never || !(so_far + more < cost[step * size + j])) continue;
+                    cost[step * size + j] = so_far + more;
+                    from[step * size + j] = i;
+                }
+            }
+        for (std::size_t last = start; last < size; ++last) {
+            const double so_far = cost[(count - 1) * size + last], more = between[last * size + start];
+            if (so_far == never || more == never || !(so_far + more < least)) continue;
+            least = so_far + more;
+            best.assign(count, last);
+            for (std::size_t step = count - 1; step > 0; --step) best[step - 1] = from[step * size + best[step]];
+        }
+    }
+    if (best.empty()) return;
+    std::vector<bool> kept(lines_.size(), false);
+    for (const std::size_t i : best) kept[numbers[i]] = true;
+    for (const std::uint32_t number : numbers)
+        if (!kept[number]) take_out(number, lines_[number].start);
+    for (const std::size_t i : best) {
+        Line& here = lines_[numbers[i]];
+        const Line& before = lines_[here.before];
+        const DVec<2> way = inner_[here.first] - inner_[before.last];
+        here.start = inner_[before.last] +
+                     before.direction * (cross(way, here.direction) / cross(before.direction, here.direction));
+    }
 }
 
 /// The corner of the inner loop that is farthest out of a line, or the edge that lies along it.
@@ -250,6 +319,10 @@ std::vector<DVec<2>> OuterPolygon::corners() const {
 
 std::vector<DVec<2>> outer_polygon(std::span<const DVec<2>> loop, std::size_t count) {
     OuterPolygon outer(loop);
+    if (count <= few_edges) {
+        outer.reduce(std::max<std::size_t>(pool, count));
+        if (outer.count() > count) outer.choose(count);
+    }
     outer.reduce(count);
     outer.tighten();
     return outer.corners();

@@ -78,6 +78,31 @@ std::optional<Vec<D>> rounded_out(const DVec<D>& corner, std::span<const Plane<D
     return std::nullopt;
 }
 
+template <int D>
+std::vector<Vec<D>> corners_of_box(std::span<const Vec<D>> points, std::size_t limit) {
+    const DVec<D> low = least_corner<D>(points), high = greatest_corner<D>(points);
+    std::vector<Vec<D>> result;
+    if (limit >= std::size_t{1} << D) {
+        for (unsigned choice = 0; choice < 1u << D; ++choice) {
+            DVec<D> corner = low;
+            for (int i = 0; i < D; ++i)
+                if ((choice >> i & 1u) != 0) corner[i] = high[i];
+            result.push_back(to_float(corner));
+        }
+        return result;
+    }
+    result.push_back(to_float(low));
+    for (int i = 0; i < D; ++i) {
+        Vec<D> corner = result[0];
+        corner[i] = std::nextafter(static_cast<float>(low[i] + D * 1.000001 * (high[i] - low[i])), infinity);
+        if (!is_finite<D>(corner)) return {};
+        result.push_back(corner);
+    }
+    return result;
+}
+
+template std::vector<Vec2> corners_of_box(std::span<const Vec2>, std::size_t);
+template std::vector<Vec3> corners_of_box(std::span<const Vec3>, std::size_t);
 template std::optional<Vec2> rounded_out(const DVec<2>&, std::span<const Plane<2>>);
 template std::optional<Vec3> rounded_out(const DVec<3>&, std::span<const Plane<3>>);
 

@@ -4,8 +4,10 @@
 
 #include <abut/convex/lowest_point.hpp>
 
+#include <cstddef>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace abut {
 
@@ -15,5 +17,10 @@ namespace abut {
 /// rounding of doubles.
 template <int D>
 std::optional<Vec<D>> rounded_out(const DVec<D>& corner, std::span<const Plane<D>> planes);
+
+/// Corners around all points that need no search: those of their box where `limit` allows for them, else of the simplex
+/// that has the box in the corner of its legs. None where they leave the range of floats.
+template <int D>
+std::vector<Vec<D>> corners_of_box(std::span<const Vec<D>> points, std::size_t limit);
 
 }  // namespace abut

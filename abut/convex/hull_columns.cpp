@@ -1,0 +1,148 @@
+#include <abut/convex/hull_columns.hpp>
+#include <abut/math/dvec.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+
+namespace abut {
+namespace {
+
+constexpr std::size_t worth_filtering = 64, worth_counting = 2048;
+
+/// Eight points far out, and what is surely between them.
+class Octagon {
+public:
+    explicit Octagon(std::span<const Vec2> points);
+
+    bool surely_inside(const Vec2& point) const {
+        const DVec<2> p(point);
+        if (p.x > box_low_.x && p.x < box_high_.x && p.y > box_low_.y && p.y < box_high_.y) return true;
+        return count_ >= 3 && left_of_all(p);
+    }
+
+private:
+    struct Edge {
+        DVec<2> from{0.0}, along{0.0};
+        double doubt = 0;  ///< of the cross product with a way to any point
+    };
+
+    bool left_of_all(const DVec<2>& p) const {
+        for (std::size_t i = 0; i < count_; ++i) {
+            const Edge& edge = edges_[i];
+            if (!(edge.along.x * (p.y - edge.from.y) - edge.along.y * (p.x - edge.from.x) > edge.doubt)) return false;
+        }
+        return true;
+    }
+
+    std::array<Edge, 8> edges_;
+    std::size_t count_ = 0;
+    DVec<2> box_low_{0.0}, box_high_{0.0};  ///< a box inside, without its sides; empty where none was found
+};
+
+Octagon::Octagon(std::span<const Vec2> points) {
+    // Counter-clockwise from the lowest. Which point of several is as good as another.
+    std::array<DVec<2>, 8> corners;
+    corners.fill(DVec<2>(points[0]));
+    std::array<double, 8> reach;
+    const auto reaches = [](const DVec<2>& p) {
+        return std::array{-p.y, p.x - p.y, p.x, p.x + p.y, p.y, p.y - p.x, -p.x, -p.x - p.y};
+    };
+    reach = reaches(corners[0]);
+    for (const Vec2& point : points) {
+        const DVec<2> p(point);
+        const std::array<double, 8> found = reaches(p);
+        for (std::size_t i = 0; i < 8; ++i)
+            if (found[i] > reach[i]) {
+                reach[i] = found[i];
+                corners[i] = p;
+            }
+    }
+    const double width = reach[2] + reach[6], height = reach[4] + reach[0];
+    for (std::size_t i = 0; i < 8; ++i) {
+        const DVec<2> along = corners[(i + 1) % 8] - corners[i];
+        if (along == DVec<2>(0.0)) continue;
+        // Each product has three roundings of 2^-53, their difference one more; twice that.
+        const double doubt = 0x1p-50 * (std::abs(along.x) * height + std::abs(along.y) * width);
+        edges_[count_++] = {corners[i], along, doubt};
+    }
+    // The box between the slanting corners.
+    const DVec<2> low(std::max(corners[7].x, corners[5].x), std::max(corners[7].y, corners[1].y));
+    const DVec<2> high(std::min(corners[1].x, corners[3].x), std::min(corners[3].y, corners[5].y));
+    if (count_ >= 3 && low.x < high.x && low.y < high.y && left_of_all(low) && left_of_all(high) &&
+        left_of_all({low.x, high.y}) && left_of_all({high.x, low.y})) {
+        box_low_ = low;
+        box_high_ = high;
+    }
+}
+
+struct Candidate {
+    std::uint32_t key;  ///< in the order of x
+    std::uint32_t index;
+};
+
+/// Whole numbers in the order of floats; 0 and -0 have the same.
+std::uint32_t key_of(float value) {
+    const auto bits = std::bit_cast<std::uint32_t>(value + 0.0f);
+    return (bits & 0x80000000u) != 0 ? ~bits : bits | 0x80000000u;
+}
+
+/// By key, and those of one key by index, as they are given.
+void sort(std::vector<Candidate>& candidates) {
+    if (candidates.size() < worth_counting) {
+        std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+            return a.key != b.key ? a.key < b.key : a.index < b.index;
+        });
+        return;
+    }
+    constexpr unsigned digit_bits = 11, digits = 3;
+    constexpr std::uint32_t mask = (1u << digit_bits) - 1;
+    std::array<std::vector<std::uint32_t>, digits> starts;
+    for (auto& start : starts) start.assign(mask + 2, 0);
+    for (const Candidate& candidate : candidates)
+        for (unsigned digit = 0; digit < digits; ++digit)
+            ++starts[digit][(candidate.key >> digit * digit_bits & mask) + 1];
+    std::vector<Candidate> other(candidates.size());
+    for (unsigned digit = 0; digit < digits; ++digit) {
+        std::vector<std::uint32_t>& start = starts[digit];
+        for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
+        for (const Candidate& candidate : candidates)
+            other[start[candidate.key >> digit * digit_bits & mask]++] = candidate;
+        candidates.swap(other);
+    }
+}
+
+std::vector<Candidate> candidates_of(std::span<const Vec2> points) {
+    std::vector<Candidate> result;
+    const auto add = [&](std::uint32_t i) { result.push_back({key_of(points[i].x), i}); };
+    if (points.size() < worth_filtering) {
+        for (std::uint32_t i = 0; i < points.size(); ++i) add(i);
+        return result;
+    }
+    const Octagon octagon(points);
+    for (std::uint32_t i = 0; i < points.size(); ++i)
+        if (!octagon.surely_inside(points[i])) add(i);
+    return result;
+}
+
+}  // namespace
+
+std::vector<HullColumn> hull_columns(std::span<const Vec2> points) {
+    std::vector<Candidate> candidates = candidates_of(points);
+    sort(candidates);
+    std::vector<HullColumn> result;
+    for (std::size_t begin = 0, end = 0; begin < candidates.size(); begin = end) {
+        HullColumn column{candidates[begin].index, candidates[begin].index};
+        for (end = begin + 1; end < candidates.size() && candidates[end].key == candidates[begin].key; ++end) {
+            const std::uint32_t i = candidates[end].index;
+            if (points[i].y < points[column.lowest].y) column.lowest = i;
+            if (points[i].y > points[column.highest].y) column.highest = i;
+        }
+        result.push_back(column);
+    }
+    return result;
+}
+
+}  // namespace abut

@@ -1,0 +1,22 @@
+#pragma once
+
+// The points of the plane that a hull has to look at, in order.
+
+#include <abut/math/vec.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace abut {
+
+/// The points of one x that can be corners: the lowest and the highest, of copies the first. They may be the same.
+struct HullColumn {
+    std::uint32_t lowest = 0, highest = 0;
+};
+
+/// Columns by growing x, left out those that are surely strictly inside of eight points far out (Akl, Toussaint: "A
+/// fast convex hull algorithm", 1978). The points are finite; there is at least one. O(n).
+std::vector<HullColumn> hull_columns(std::span<const Vec2> points);
+
+}  // namespace abut
