@@ -33,7 +33,7 @@ public:
             edge = partition.next(edge);
         } while (edge != face);
         // Points are numbered in lexicographical order.
-        std::ranges::rotate(corners_, std::ranges::min_element(corners_));
+        std::rotate(corners_.begin(), std::ranges::min_element(corners_), corners_.end());
         loop_.clear();
         for (std::size_t i = 0; i < corners_.size(); ++i) {
             const Vec2& before = partition.point(corners_[i == 0 ? corners_.size() - 1 : i - 1]);

@@ -224,7 +224,7 @@ TEST(DecomposeOutline, TakesCellsOutOfASquare) {
             for (int x = 0; x < size; ++x)
                 if (random.chance(share) && left > 1) {
                     Ring hole = square(static_cast<float>(x), static_cast<float>(y), 1);
-                    std::ranges::rotate(hole, hole.begin() + random.below(4));
+                    std::rotate(hole.begin(), hole.begin() + random.below(4), hole.end());
                     holes.push_back(random.chance(0.5) ? hole : reversed(hole));
                     --left;
                 }
@@ -286,7 +286,7 @@ TEST(DecomposeOutline, DoesNotDependOnWhereARingBegins) {
     const Ring ring = scenes::star(300, 0.2, 5);
     const std::vector<Polygon> parts = checked(ring);
     Ring other = reversed(ring);
-    std::ranges::rotate(other, other.begin() + 77);
+    std::rotate(other.begin(), other.begin() + 77, other.end());
     const std::vector<Polygon> others = checked(other);
     ASSERT_EQ(parts.size(), others.size());
     for (std::size_t i = 0; i < parts.size(); ++i)
