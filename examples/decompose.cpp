@@ -27,12 +27,12 @@ Platform platform() {
         for (const float y : {0.0f, 1.0f}) result.points.emplace_back(corner.x, y, corner.y);
     for (std::uint32_t i = 0; i < count; ++i) {
         const std::uint32_t a = 2 * i, b = 2 * ((i + 1) % count);
-        result.triangles.insert(result.triangles.end(), {{a, a + 1, b}, {b, a + 1, b + 1}});
+        result.triangles.insert(result.triangles.end(), {{a, b, a + 1}, {b, b + 1, a + 1}});
     }
     constexpr std::uint32_t from = 3;
     for (std::uint32_t i = 1; i + 1 < count; ++i) {
         const std::uint32_t a = 2 * from, b = 2 * ((from + i) % count), c = 2 * ((from + i + 1) % count);
-        result.triangles.insert(result.triangles.end(), {{a, b, c}, {a + 1, c + 1, b + 1}});
+        result.triangles.insert(result.triangles.end(), {{a, c, b}, {a + 1, b + 1, c + 1}});
     }
     return result;
 }

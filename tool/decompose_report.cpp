@@ -53,6 +53,7 @@ Json json_of(const Repairs& repairs) {
             {"holes_filled", repairs.holes_filled},
             {"triangles_added", repairs.triangles_added},
             {"cavities", repairs.cavities},
+            {"rooms", repairs.rooms},
             {"open_edges", repairs.open_edges},
             {"crowded_edges", repairs.crowded_edges},
             {"disagreeing_edges", repairs.disagreeing_edges}};

@@ -145,7 +145,7 @@ void describe(CLI::App& verb, DecomposeArguments& arguments) {
         ->type_name("N");
     verb.add_flag("--rooms", arguments.request.rooms,
                   "Leave closed surfaces that are seen from inside as they are: walls without a thickness. Without it "
-                  "they are taken for solids that are inside out");
+                  "they are taken for solids that are inside out, unless they are around several others");
     verb.add_option("--picture", arguments.request.picture, "Draw the parts too")->type_name("FILE.svg");
     verb.add_flag("--json", arguments.request.json, "One JSON object in place of text");
     verb.footer(

@@ -71,7 +71,11 @@ Result<Repaired> repair(std::span<const Vec3> points, std::span<const glm::uvec3
     const FilledHoles filled = fill_holes(surface, patches, options.hole_edges, options.hole_area);
     repairs.holes_filled = filled.holes;
     repairs.triangles_added = filled.triangles;
-    if (options.face_outwards) repairs.cavities = face_outwards(surface, patches);
+    if (options.face_outwards) {
+        const Insides insides = face_outwards(surface, patches);
+        repairs.cavities = insides.cavities;
+        repairs.rooms = insides.rooms;
+    }
     for (std::size_t i = 0; i < as_it_came.size(); ++i)
         repairs.triangles_turned += surface.triangles[i] != as_it_came[i];
     repairs.triangles_lost += drop_slivers(surface);

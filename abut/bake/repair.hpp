@@ -21,8 +21,8 @@ struct RepairOptions {
     /// Holes that need more area than this share of the connected surface around them stay open: the mouth of a cup,
     /// the border of a sheet. 0 closes only cracks, whatever their length.
     double hole_area = 0.1;
-    /// Closed surfaces are made to face outwards, cavities inwards. Without it they stay as most of their area is: a
-    /// room or a sky box that is seen from inside stays one.
+    /// Closed surfaces are made to face outwards, cavities inwards. Without it they stay as most of their area is,
+    /// also an empty room that is seen from inside.
     bool face_outwards = true;
 };
 
@@ -37,6 +37,7 @@ struct Repairs {
     std::size_t holes_filled = 0;
     std::size_t triangles_added = 0;    ///< in holes
     std::size_t cavities = 0;           ///< closed surfaces inside of a solid that are no part of it
+    std::size_t rooms = 0;              ///< closed surfaces around solids, left to face inwards
     std::size_t open_edges = 0;         ///< left: of one triangle
     std::size_t crowded_edges = 0;      ///< left: of more than two
     std::size_t disagreeing_edges = 0;  ///< left: of two that can't be made to agree, as on a Moebius strip

@@ -50,7 +50,7 @@ struct Shell {
     Aabb3 box = Aabb3::empty();
     std::optional<Mesh> mesh;     ///< of those that some other may be inside of
     std::uint32_t around = none;  ///< the least shell that it is inside of
-    bool is_cavity = false;
+    bool faces_inwards = false;   ///< as it ends
 };
 
 std::vector<Shell> closed_shells(const Welded& surface, const Patches& patches) {
@@ -112,6 +112,15 @@ void find_what_is_around(const Welded& surface, std::vector<Shell>& shells) {
     }
 }
 
+/// Whether an outermost shell came seen from inside, with two or more in it that came seen from outside.
+bool is_room(const std::vector<Shell>& shells, std::uint32_t outer, const Patches& patches) {
+    if (shells[outer].outwards || !patches.agreed[shells[outer].patch]) return false;
+    const auto is_in_it = [&](const Shell& shell) {
+        return shell.around == outer && shell.outwards && patches.agreed[shell.patch];
+    };
+    return std::count_if(shells.begin(), shells.end(), is_in_it) >= 2;
+}
+
 }  // namespace
 
 Patches wind_alike(Welded& surface) {
@@ -147,11 +156,11 @@ Patches wind_alike(Welded& surface) {
     return patches;
 }
 
-std::size_t face_outwards(Welded& surface, const Patches& patches) {
+Insides face_outwards(Welded& surface, const Patches& patches) {
     std::vector<Shell> shells = closed_shells(surface, patches);
     find_what_is_around(surface, shells);
     std::vector<bool> turns(patches.count(), false);
-    std::size_t cavities = 0;
+    Insides result;
     // From large to small: what is around a shell is larger than it.
     std::vector<std::uint32_t> order(shells.size());
     for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -159,18 +168,21 @@ std::size_t face_outwards(Welded& surface, const Patches& patches) {
                      [&](std::uint32_t a, std::uint32_t b) { return shells[a].volume > shells[b].volume; });
     for (const std::uint32_t i : order) {
         Shell& shell = shells[i];
-        if (shell.around != none) {
+        if (shell.around == none) {
+            shell.faces_inwards = is_room(shells, i, patches);
+            result.rooms += shell.faces_inwards;
+        } else {
             const Shell& outer = shells[shell.around];
             const bool is_told = patches.agreed[shell.patch] && patches.agreed[outer.patch];
             const bool is_alike = is_told && shell.outwards == outer.outwards;
-            shell.is_cavity = is_alike == outer.is_cavity;
+            shell.faces_inwards = is_alike == outer.faces_inwards;
+            result.cavities += shell.faces_inwards;
         }
-        cavities += shell.is_cavity;
-        turns[shell.patch] = shell.outwards == shell.is_cavity;
+        turns[shell.patch] = shell.outwards == shell.faces_inwards;
     }
     for (std::size_t i = 0; i < surface.triangles.size(); ++i)
         if (turns[patches.of[i]]) turn(surface.triangles[i]);
-    return cavities;
+    return result;
 }
 
 }  // namespace abut

@@ -187,6 +187,18 @@ TEST(Repair, TellsCavitiesFromSolids) {
     EXPECT_DOUBLE_EQ(volume(repaired(both(outer, inside_out(box({3, 1, 1}, {5, 2, 2}))))), 64 + 2);
 }
 
+TEST(Repair, LeavesRoomsAroundThings) {
+    SolidMesh level = inside_out(box({0, 0, 0}, {9, 9, 9}));
+    add(level, box({1, 1, 1}, {2, 2, 2}));
+    add(level, box({4, 4, 4}, {6, 6, 6}));
+    add(level, inside_out(box({4.5f, 4.5f, 4.5f}, {5, 5, 5})));
+    const Repaired result = repaired(level);
+    EXPECT_FALSE(changed(result.repairs));
+    EXPECT_EQ(result.repairs.rooms, 1u);
+    EXPECT_EQ(result.repairs.cavities, 1u);
+    EXPECT_DOUBLE_EQ(volume(result), -729 + 1 + 8 - 0.125);
+}
+
 TEST(Repair, FillsSmallHolesAlone) {
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
         SCOPED_TRACE(seed);
