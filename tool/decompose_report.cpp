@@ -17,8 +17,13 @@ const char* kind_of(const Fit& fit) {
     return kinds[fit.shape.index()];
 }
 
-std::string nearly(const std::optional<Fit>& fit) {
-    return fit ? fmt::format("{}, {} off", kind_of(*fit), number(fit->error)) : "";
+/// ": a box", or ": nearly a box, 0.01 off".
+std::string likeness(const PartReport& report) {
+    constexpr double rounding = 1e-5;
+    if (!report.fit) return "";
+    const bool is_one = report.fit->error <= rounding * report.part.ball().radius;
+    return is_one ? fmt::format(": a {}", kind_of(*report.fit))
+                  : fmt::format(": nearly a {}, {} off", kind_of(*report.fit), number(report.fit->error));
 }
 
 void add(Json& json, const Ball<3>& ball) {
@@ -77,9 +82,10 @@ std::string text_report(const DecomposeRequest& request, const DecomposeOutcome&
     std::string text = fmt::format("{} -> {}\n\n  {:>8}  {:>6}  {:>10}  {:>9}\n", request.mesh, request.output,
                                    "vertices", "faces", "volume", "concavity");
     for (std::size_t i = 0; i < outcome.parts.size() && i < most_parts; ++i) {
-        const auto& [name, part, concavity, fit] = outcome.parts[i];
-        text += fmt::format("  {:8}  {:6}  {:>10}  {:>9}  {}{}{}\n", part.points().size(), part.facets().normals.size(),
-                            number(part.volume()), number(concavity), name, fit ? ": nearly a " : "", nearly(fit));
+        const PartReport& report = outcome.parts[i];
+        text += fmt::format("  {:8}  {:6}  {:>10}  {:>9}  {}{}\n", report.part.points().size(),
+                            report.part.facets().normals.size(), number(report.part.volume()), number(report.concavity),
+                            report.name, likeness(report));
     }
     if (outcome.parts.size() > most_parts)
         text += fmt::format("  and {} more (--json lists them all)\n", outcome.parts.size() - most_parts);
