@@ -56,11 +56,17 @@ public:
     TriangleSurface surface() const;
 
 private:
-    struct Facet {
+    /// A point, seen from the first, in the list of a facet.
+    struct Seat {
+        glm::vec<3, std::int32_t> place;
+        std::uint32_t next_outside = none;  ///< the next that is above the same facet
+    };
+    /// Fills a line of the cache.
+    struct alignas(64) Facet {
         Plane plane;
         std::array<std::uint32_t, 3> corner{};  ///< half-edge i runs from corner i to corner i + 1
         std::array<std::uint32_t, 3> twin{};
-        std::uint32_t outside = none;   ///< the first of the points above it, linked by next_outside_
+        std::uint32_t outside = none;   ///< the first of the points above it, linked by their seats
         std::uint32_t farthest = none;  ///< of those
     };
     /// A facet that waits for its turn, unless its place was given to another since.
@@ -70,8 +76,13 @@ private:
 
     std::uint32_t add_facet(std::uint32_t a, std::uint32_t b, std::uint32_t c);
     bool alive(std::uint32_t facet) const { return facets_[facet].corner[0] != none; }
+    GridPoint grid_place(std::uint32_t point) const { return GridPoint(seats_[point].place); }
+    DVec<3> position(std::uint32_t point) const { return DVec<3>(seats_[point].place); }
+    GridPoint normal_of(const Facet& facet) const {
+        return grid_normal(grid_place(facet.corner[0]), grid_place(facet.corner[1]), grid_place(facet.corner[2]));
+    }
     double rounded_height(const Plane& plane, std::uint32_t point) const {
-        return dot(plane.normal, seats_[point]) - plane.offset;
+        return dot(plane.normal, position(point)) - plane.offset;
     }
     double exact_height(const Facet& facet, std::uint32_t point) const;
     double height(const Facet& facet, std::uint32_t point) const;
@@ -85,15 +96,13 @@ private:
     void insert(std::uint32_t eye, std::uint32_t seen);
     std::uint32_t origin(std::uint32_t half_edge) const { return facets_[half_edge / 3].corner[half_edge % 3]; }
 
-    std::span<const GridPoint> points_;
-    std::vector<DVec<3>> seats_;  ///< the same in doubles, exactly
+    std::vector<Seat> seats_;  ///< one a point
     double tolerance_;
     std::vector<Facet> facets_;
     std::vector<std::uint32_t> born_;  ///< one a facet: when
     std::uint32_t births_ = 0;
     std::vector<std::uint32_t> free_;              ///< places of facets that are gone
     std::array<std::vector<Turn>, levels> turns_;  ///< of facets with points above them, by how high those reach
-    std::vector<std::uint32_t> next_outside_;      ///< one a point
     std::vector<std::uint32_t> leaving_;  ///< one a point: the new facet on the edge of the horizon that leaves it
     // For one insertion.
     std::vector<std::uint32_t> visible_;  ///< the facets that the new point sees
@@ -106,9 +115,9 @@ private:
 };
 
 Quickhull::Quickhull(std::span<const GridPoint> points, double tolerance)
-    : points_(points), tolerance_(tolerance), next_outside_(points.size(), none), leaving_(points.size(), none) {
+    : tolerance_(tolerance), leaving_(points.size(), none) {
     seats_.reserve(points.size());
-    for (const GridPoint& point : points) seats_.emplace_back(point);
+    for (const GridPoint& point : points) seats_.push_back({glm::vec<3, std::int32_t>(point - points[0])});
 }
 
 std::uint32_t Quickhull::add_facet(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
@@ -122,8 +131,9 @@ std::uint32_t Quickhull::add_facet(std::uint32_t a, std::uint32_t b, std::uint32
     }
     Facet& facet = facets_[place];
     facet.corner = {a, b, c};
-    facet.plane.normal = normalized(DVec<3>(grid_normal(points_[a], points_[b], points_[c])));
-    facet.plane.offset = dot(facet.plane.normal, seats_[a]);
+    const DVec<3> normal(normal_of(facet));
+    facet.plane.normal = normal * (1 / length(normal));
+    facet.plane.offset = dot(facet.plane.normal, position(a));
     facet.outside = facet.farthest = none;
     born_[place] = births_++;
     return place;
@@ -131,9 +141,8 @@ std::uint32_t Quickhull::add_facet(std::uint32_t a, std::uint32_t b, std::uint32
 
 /// Of the exact sign.
 double Quickhull::exact_height(const Facet& facet, std::uint32_t point) const {
-    const auto& [a, b, c] = facet.corner;
-    const GridPoint normal = grid_normal(points_[a], points_[b], points_[c]);
-    return grid_dot(normal, points_[point] - points_[a]) / length(DVec<3>(normal));
+    const GridPoint normal = normal_of(facet);
+    return grid_dot(normal, grid_place(point) - grid_place(facet.corner[0])) / length(DVec<3>(normal));
 }
 
 /// Above the facet, in steps of the grid; of the exact sign.
@@ -145,11 +154,11 @@ double Quickhull::height(const Facet& facet, std::uint32_t point) const {
 /// From a point above the facet to the triangle itself, not to its plane alone: beyond a sharp corner a point can be
 /// low above every facet and still far from all of them.
 double Quickhull::distance(const Facet& facet, std::uint32_t point) const {
-    const DVec<3>& p = seats_[point];
+    const DVec<3> p = position(point);
     bool over = true;
     double to_edge_squared = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < 3; ++i) {
-        const DVec<3>&a = seats_[facet.corner[i]], &b = seats_[facet.corner[(i + 1) % 3]];
+        const DVec<3> a = position(facet.corner[i]), b = position(facet.corner[(i + 1) % 3]);
         over = over && dot(cross(facet.plane.normal, b - a), p - a) >= 0;
         to_edge_squared = std::min(to_edge_squared, distance_squared_to_segment(p, a, b));
     }
@@ -162,7 +171,7 @@ std::uint32_t Quickhull::next_eye(const Facet& facet) const {
     if (facet.outside == none || height(facet, facet.farthest) > tolerance_) return facet.farthest;
     std::uint32_t result = none;
     double most = 0;
-    for (std::uint32_t point = facet.outside; point != none; point = next_outside_[point]) {
+    for (std::uint32_t point = facet.outside; point != none; point = seats_[point].next_outside) {
         const double above = height(facet, point);
         if (above > most && distance(facet, point) > tolerance_) {
             most = above;
@@ -199,7 +208,7 @@ void Quickhull::see(std::uint32_t eye, std::uint32_t seen) {
 void Quickhull::take_orphans(std::uint32_t eye) {
     orphans_.clear();
     for (const std::uint32_t old : visible_) {
-        for (std::uint32_t point = facets_[old].outside; point != none; point = next_outside_[point])
+        for (std::uint32_t point = facets_[old].outside; point != none; point = seats_[point].next_outside)
             if (point != eye) orphans_.push_back(point);
         free_.push_back(old);
     }
@@ -226,9 +235,10 @@ void Quickhull::raise_cone(std::uint32_t eye) {
 /// Puts each orphan on the list of the new facet that it is highest above; one above none of them is inside.
 void Quickhull::assign_orphans() {
     const std::size_t count = orphans_.size();
-    for (int i = 0; i < 3; ++i) {
-        orphan_[i].resize(count);
-        for (std::size_t k = 0; k < count; ++k) orphan_[i][k] = seats_[orphans_[k]][i];
+    for (std::vector<double>& coordinates : orphan_) coordinates.resize(count);
+    for (std::size_t k = 0; k < count; ++k) {
+        const DVec<3> orphan = position(orphans_[k]);
+        for (int i = 0; i < 3; ++i) orphan_[i][k] = orphan[i];
     }
     most_.assign(count, -std::numeric_limits<double>::infinity());
     best_.resize(count);
@@ -259,7 +269,7 @@ void Quickhull::assign_orphans() {
             if (above <= 0) continue;
         }
         Facet& facet = facets_[cone_[best]];
-        next_outside_[orphans_[k]] = facet.outside;
+        seats_[orphans_[k]].next_outside = facet.outside;
         facet.outside = orphans_[k];
         if (above > cone_height_[best]) {
             cone_height_[best] = above;
@@ -280,8 +290,8 @@ void Quickhull::insert(std::uint32_t eye, std::uint32_t seen) {
 
 void Quickhull::run(std::array<std::uint32_t, 4> start) {
     // A triangle with two sides, of which the fourth point sees the front, makes the first tetrahedron.
-    if (grid_dot(grid_normal(points_[start[0]], points_[start[1]], points_[start[2]]),
-                 points_[start[3]] - points_[start[0]]) < 0)
+    const GridPoint first = grid_place(start[0]);
+    if (grid_dot(grid_normal(first, grid_place(start[1]), grid_place(start[2])), grid_place(start[3]) - first) < 0)
         std::swap(start[1], start[2]);
     const std::uint32_t front = add_facet(start[0], start[1], start[2]);
     const std::uint32_t back = add_facet(start[0], start[2], start[1]);
@@ -289,7 +299,7 @@ void Quickhull::run(std::array<std::uint32_t, 4> start) {
     facets_[back].twin = {3 * front + 2, 3 * front + 1, 3 * front};
     insert(start[3], front);
     cone_.insert(cone_.begin(), back);
-    orphans_.resize(points_.size());
+    orphans_.resize(seats_.size());
     std::iota(orphans_.begin(), orphans_.end(), 0u);
     assign_orphans();
 
@@ -306,7 +316,7 @@ void Quickhull::run(std::array<std::uint32_t, 4> start) {
 
 double Quickhull::farthest_left_out(const Facet& facet) const {
     double result = 0;
-    for (std::uint32_t point = facet.outside; point != none; point = next_outside_[point])
+    for (std::uint32_t point = facet.outside; point != none; point = seats_[point].next_outside)
         result = std::max(result, distance(facet, point));
     return result;
 }
@@ -318,7 +328,7 @@ TriangleSurface Quickhull::surface() const {
         return static_cast<std::uint32_t>(std::min_element(facet.corner.begin(), facet.corner.end()) -
                                           facet.corner.begin());
     };
-    const Buckets order = in_buckets(points_.size(), [&](auto visit) {
+    const Buckets order = in_buckets(seats_.size(), [&](auto visit) {
         for (std::uint32_t f = 0; f < facets_.size(); ++f) {
             if (!alive(f)) continue;
             const std::uint32_t first = lowest(facets_[f]);
@@ -343,8 +353,7 @@ TriangleSurface Quickhull::surface() const {
             result.origin.push_back(facet.corner[k % 3]);
             result.twin.push_back(half_edge[facet.twin[k % 3]]);
         }
-        const auto& [a, b, c] = facet.corner;
-        result.normals.push_back(grid_normal(points_[a], points_[b], points_[c]));
+        result.normals.push_back(normal_of(facet));
         result.left_out = std::max(result.left_out, farthest_left_out(facet));
     }
     return result;
