@@ -144,10 +144,8 @@ Vec3 plane_above(const std::array<double, 4>& gauge, const DVec<3>& low_corner, 
     DVec<3> plane;
     plane[right] = ((gauge[2] - gauge[0]) + (gauge[3] - gauge[1])) / (2 * width);
     plane[ahead] = ((gauge[1] - gauge[0]) + (gauge[3] - gauge[2])) / (2 * width);
-    double level = gauge[0];
-    level = std::max(level, gauge[1] - plane[ahead] * width);
-    level = std::max(level, gauge[2] - plane[right] * width);
-    level = std::max(level, gauge[3] - plane[ahead] * width - plane[right] * width);
+    // With these slopes the corners across from each other are as far off the plane.
+    const double level = std::max(gauge[0], gauge[1] - plane[ahead] * width);
     plane[up] = low_corner[up] * (level - plane[right] * low_corner[right] - plane[ahead] * low_corner[ahead]);
     return to_float(plane);
 }

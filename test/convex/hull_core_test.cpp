@@ -61,6 +61,15 @@ const std::vector<Kind> clouds{
          const float xy = thin(random);
          return turned(stretched(points, {xy, xy, 1}), random);
      }},
+    // Of many corners in few cells of the map only one each is its farthest.
+    {"flint",
+     [](Random& random) {
+         std::vector<Vec3> points = on_a_sphere(random, 2500);
+         for (Vec3& point : points)
+             if (random.chance(0.9)) point *= static_cast<float>(random.uniform(0.9, 1));
+         const float y = random.uniform_float(0.02, 0.5), z = random.uniform_float(0.02, 0.5);
+         return turned(stretched(points, {1, y, z}), random);
+     }},
     {"lattice",
      [](Random& random) {
          std::vector<Vec3> points;
