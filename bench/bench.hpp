@@ -60,5 +60,7 @@ std::vector<Bench> convex_hull_benches();
 std::vector<Bench> convex_solid_benches();
 /// Outlines as convex parts.
 std::vector<Bench> convex_plane_benches();
+/// Convex hulls in the plane, and those of few corners.
+std::vector<Bench> convex_hull_plane_benches();
 
 }  // namespace abut::bench

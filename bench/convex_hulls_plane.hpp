@@ -1,0 +1,33 @@
+#pragma once
+
+// Points of the plane whose hull is asked for, and what the peers make of them: one file a peer. Two values a hull: its
+// area and its circumference.
+
+#include "bench.hpp"
+#include <abut/math/dvec.hpp>
+
+#include <memory>
+#include <vector>
+
+namespace abut::bench {
+
+using SharedPoints2 = std::shared_ptr<const std::vector<Vec2>>;
+
+/// Tells the values of a closed loop, of one direction all along.
+template <class At>
+void tell_loop(std::size_t count, At at, std::span<double> values) {
+    values[0] = values[1] = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const DVec<2> a = at(i) - at(0), b = at(i + 1 == count ? 0 : i + 1) - at(0);
+        values[0] += 0.5 * cross(a, b);
+        values[1] += length(b - a);
+    }
+}
+
+/// libqhull_r, on doubles, its corners put in order by their neighbours.
+Side qhull_hull_2(const SharedPoints2& points);
+/// convex_hull_2 and ch_akl_toussaint, with exact predicates; the points are already its own.
+Side cgal_hull_2(const SharedPoints2& points);
+Side cgal_akl_toussaint(const SharedPoints2& points);
+
+}  // namespace abut::bench
