@@ -64,71 +64,13 @@ std::vector<std::uint8_t> Partition::uses() const {
     return result;
 }
 
-/// Edges that split two corners each, no corner twice: such edges spare one. Corners with one edge to choose from come
-/// first (Karp and Sipser 1981).
-std::vector<bool> Partition::pairs(const std::vector<std::uint8_t>& use, std::vector<bool>& paired) const {
-    std::vector<std::uint32_t> choices(points_.size(), 0), first(points_.size() + 1, 0), edges;
-    const auto is_choice = [&](std::uint32_t edge) { return twins_[edge] != none && use[edge] == 2; };
-    for (std::uint32_t edge = 0; edge < origins_.size(); ++edge)
-        if (is_choice(edge)) ++first[origins_[edge] + 1];
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-        choices[i] = first[i + 1];
-        first[i + 1] += first[i];
-    }
-    edges.resize(first.back());
-    std::vector<std::uint32_t> filled(first.begin(), first.end() - 1);
-    for (std::uint32_t edge = 0; edge < origins_.size(); ++edge)
-        if (is_choice(edge)) edges[filled[origins_[edge]]++] = edge;
-
-    std::vector<bool> result(origins_.size(), false);
-    paired.assign(points_.size(), false);
-    std::vector<std::uint32_t> single;
-    const auto pair_at = [&](std::uint32_t point) {
-        if (paired[point]) return;
-        std::uint32_t best = none, fewest = none;
-        for (std::uint32_t i = first[point]; i < first[point + 1]; ++i) {
-            const std::uint32_t other = origins_[twins_[edges[i]]];
-            if (!paired[other] && choices[other] < fewest) {
-                fewest = choices[other];
-                best = edges[i];
-            }
-        }
-        if (best == none) return;
-        result[best] = result[twins_[best]] = true;
-        for (const std::uint32_t end : {point, origins_[twins_[best]]}) {
-            paired[end] = true;
-            for (std::uint32_t i = first[end]; i < first[end + 1]; ++i)
-                if (--choices[origins_[twins_[edges[i]]]] == 1) single.push_back(origins_[twins_[edges[i]]]);
-        }
-    };
-    const auto pair_singles = [&] {
-        while (!single.empty()) {
-            const std::uint32_t point = single.back();
-            single.pop_back();
-            pair_at(point);
-        }
-    };
-    for (std::uint32_t point = 0; point < points_.size(); ++point)
-        if (choices[point] == 1) single.push_back(point);
-    pair_singles();
-    for (std::uint32_t point = 0; point < points_.size(); ++point) {
-        pair_at(point);
-        pair_singles();
-    }
-    return result;
-}
-
 void Partition::merge_all() {
     const std::vector<std::uint8_t> use = uses();
-    std::vector<bool> paired;
-    const std::vector<bool> chosen = pairs(use, paired);
-    for (int round = 0; round < 4; ++round)
-        for (std::uint32_t edge = 0; edge < origins_.size(); ++edge) {
-            if (twins_[edge] == none || twins_[edge] < edge || next_[edge] == none) continue;
-            const int needed =
-                chosen[edge] ? 3 : std::max(0, use[edge] - paired[origins_[edge]] - paired[origins_[twins_[edge]]]);
-            if (needed == round && convex_without(edge)) remove(edge);
-        }
+    for (int round = 0; round <= 2; ++round)
+        for (std::uint32_t edge = 0; edge < origins_.size(); ++edge)
+            if (use[edge] == round && twins_[edge] != none && edge < twins_[edge] && next_[edge] != none &&
+                convex_without(edge))
+                remove(edge);
 }
 
 std::size_t Partition::corners() const {

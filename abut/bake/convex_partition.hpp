@@ -7,6 +7,11 @@
 
 namespace abut::outline {
 
+struct Improvement {
+    bool optimal;     ///< every patch was all that hangs together, without holes: there can't be fewer faces
+    bool worthwhile;  ///< the last round saved so much that there should be another
+};
+
 /// Faces made of half-edges, as those of the triangulation that it begins with; edges go one by one.
 class Partition {
 public:
@@ -19,9 +24,8 @@ public:
     void merge_all();
 
     /// Solves patches of neighbouring faces anew, with as few faces as can be: all of them once a round, as long as it
-    /// pays, and at most `rounds` times. A patch has up to `corners` corners. True where every patch was all that hangs
-    /// together and had no holes: then there are no fewer faces.
-    bool improve(std::uint32_t corners, int rounds);
+    /// pays, and at most `rounds` times. A patch has up to `corners` corners.
+    Improvement improve(std::uint32_t corners, int rounds);
 
     /// Takes away edges for as long as no corner of a face lies deeper than `concavity` behind the edge of its hull
     /// that goes around it, those first that make least of a notch.
@@ -45,6 +49,8 @@ private:
         std::vector<std::uint32_t> loop;   ///< the half-edges around it
         std::vector<std::uint32_t> inner;  ///< and those in it
         std::vector<std::uint32_t> faces;
+        std::vector<Vec2> corners;                  ///< at the starts of the loop's half-edges
+        std::vector<std::uint8_t> may_be_straight;  ///< as `OptimalPartition::solve` takes them
     };
     /// The number of the face at each half-edge, and one of its half-edges.
     struct FaceNumbers {
@@ -56,7 +62,7 @@ private:
                   std::vector<std::uint32_t>& added) const;
     bool grow(Patch& patch, std::uint32_t face, std::uint32_t corners, const FaceNumbers& numbers) const;
     std::size_t least_pieces(const Patch& patch) const;
-    void solve(const Patch& patch, OptimalPartition& solver) const;
+    void solve(Patch& patch, OptimalPartition& solver) const;
     void recut(const Patch& patch, const OptimalPartition& parts, FaceNumbers& numbers);
     FaceNumbers number_faces() const;
 
@@ -66,7 +72,6 @@ private:
     void remove(std::uint32_t half_edge);
     std::uint32_t last_around(std::uint32_t first) const;
     std::vector<std::uint8_t> uses() const;
-    std::vector<bool> pairs(const std::vector<std::uint8_t>& use, std::vector<bool>& paired) const;
 
     const std::vector<Vec2>& points_;
     std::vector<std::uint32_t> origins_, twins_, next_, before_;

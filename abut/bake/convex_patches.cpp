@@ -6,7 +6,7 @@
 namespace abut::outline {
 namespace {
 
-/// Another round is made where the last one saved one face in so many.
+/// Another round pays where the last one saved one face in so many.
 constexpr std::size_t worthwhile = 20;
 
 }  // namespace
@@ -82,9 +82,11 @@ std::size_t Partition::least_pieces(const Patch& patch) const {
     return (reflex + 1) / 2 + 1;
 }
 
-void Partition::solve(const Patch& patch, OptimalPartition& solver) const {
-    std::vector<Vec2> corners;
-    std::vector<std::uint8_t> may_be_straight;
+void Partition::solve(Patch& patch, OptimalPartition& solver) const {
+    std::vector<Vec2>& corners = patch.corners;
+    std::vector<std::uint8_t>& may_be_straight = patch.may_be_straight;
+    corners.clear();
+    may_be_straight.clear();
     for (const std::uint32_t edge : patch.loop) {
         corners.push_back(at(edge));
         if (!conforming_) continue;
@@ -136,11 +138,11 @@ void Partition::recut(const Patch& patch, const OptimalPartition& parts, FaceNum
     for (std::size_t i = parts.size(); i < patch.faces.size(); ++i) numbers.first[patch.faces[i]] = none;
 }
 
-bool Partition::improve(std::uint32_t corners, int rounds) {
+Improvement Partition::improve(std::uint32_t corners, int rounds) {
     FaceNumbers numbers = number_faces();
     OptimalPartition solver;
     Patch patch;
-    bool all_closed = true;
+    Improvement result{true, false};
     for (int round = 0; round < rounds; ++round) {
         std::size_t saved = 0, left = 0;
         std::fill(numbers.done.begin(), numbers.done.end(), false);
@@ -151,17 +153,18 @@ bool Partition::improve(std::uint32_t corners, int rounds) {
             if (numbers.done[face]) continue;
             const bool grown = grow(patch, face, corners, numbers);
             for (const std::uint32_t covered : patch.faces) numbers.done[covered] = true;
-            all_closed = all_closed && (patch.faces.size() == 1 || grown) &&
-                         std::ranges::all_of(patch.loop, [&](std::uint32_t edge) { return twins_[edge] == none; });
+            result.optimal = result.optimal && (patch.faces.size() == 1 || grown) &&
+                             std::ranges::all_of(patch.loop, [&](std::uint32_t edge) { return twins_[edge] == none; });
             if (!grown || patch.faces.size() <= least_pieces(patch)) continue;
             solve(patch, solver);
             if (solver.size() > patch.faces.size()) continue;
             saved += patch.faces.size() - solver.size();
             recut(patch, solver, numbers);
         }
-        if (all_closed || saved * worthwhile < left) break;
+        result.worthwhile = saved * worthwhile >= left;
+        if (result.optimal || !result.worthwhile) break;
     }
-    return all_closed;
+    return result;
 }
 
 }  // namespace abut::outline

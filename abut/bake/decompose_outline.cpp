@@ -15,10 +15,10 @@ namespace {
 
 using outline::Partition;
 
-/// Up to so many corners are solved as one.
-constexpr std::size_t solved_at_once = 128;
-/// Up to so many in larger patches.
-constexpr std::size_t few_corners = 2000;
+/// Up to so many corners are solved as one,
+constexpr std::uint32_t solved_at_once = 128;
+/// and up to so many in large patches.
+constexpr std::uint32_t few_corners = 2000;
 
 /// Of the loop of a piece, as a part of it has it: straight corners left out, from the least.
 class PartMaker {
@@ -93,8 +93,12 @@ void cut(Partition& partition, OutlineReport& report) {
     report.reflex_corners = partition.reflex_corners();
     const std::size_t corners = partition.corners();
     partition.merge_all();
-    const std::size_t patch = corners <= solved_at_once ? solved_at_once : corners <= few_corners ? 32 : 16;
-    report.optimal = partition.improve(static_cast<std::uint32_t>(patch), 3);
+    if (corners <= solved_at_once)
+        report.optimal = partition.improve(solved_at_once, 3).optimal;
+    else if (corners <= few_corners)
+        partition.improve(32, 3);
+    else if (partition.improve(10, 1).worthwhile)
+        partition.improve(16, 2);
     const auto cuts = static_cast<std::int64_t>((report.reflex_corners + 1) / 2);
     report.least_pieces = static_cast<std::size_t>(std::max<std::int64_t>(1, partition.pieces_less_holes() + cuts));
     report.optimal = report.optimal || partition.faces().size() == report.least_pieces;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <tuple>
 
 namespace abut::outline {
 namespace {
@@ -12,7 +13,19 @@ constexpr std::uint32_t endless = std::numeric_limits<std::uint32_t>::max();
 }  // namespace
 
 int OptimalPartition::turn(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-    return orientation(loop_[a], loop_[b], loop_[c]);
+    if (a == b || b == c || c == a) return 0;
+    // Rotated so that the least comes first, they rise or they are the other way around.
+    while (a > b || a > c) std::tie(a, b, c) = std::tuple(b, c, a);
+    return b < c ? turns_[(a * size_ + b) * size_ + c] : -turns_[(a * size_ + c) * size_ + b];
+}
+
+void OptimalPartition::find_turns() {
+    turns_.resize(std::size_t{size_} * size_ * size_);
+    for (std::uint32_t a = 0; a < size_; ++a)
+        for (std::uint32_t b = a + 1; b < size_; ++b)
+            for (std::uint32_t c = b + 1; c < size_; ++c)
+                turns_[(a * size_ + b) * size_ + c] =
+                    static_cast<std::int8_t>(orientation(loop_[a], loop_[b], loop_[c]));
 }
 
 /// Whether b lies on the segment from a to c, which it is on a line with, and at neither end.
@@ -42,26 +55,34 @@ std::uint32_t OptimalPartition::cost(std::uint32_t i, std::uint32_t k) const {
 /// Where the way to another corner leaves: 1 into the inside, 0 along one of the edges, -1 outside.
 int OptimalPartition::side_of_corner(std::uint32_t corner, std::uint32_t to) const {
     const std::uint32_t last = before(corner), next = after(corner);
-    const int left = turn(corner, next, to), right = turn(last, corner, to), bend = turn(last, corner, next);
-    const bool forwards_on_next = left == 0 && !between(to, corner, next);
-    const bool forwards_on_last = right == 0 && !between(to, corner, last);
-    if (forwards_on_next || forwards_on_last) return 0;
-    if (bend > 0) return left > 0 && right > 0 ? 1 : -1;
-    if (bend < 0) return left > 0 || right > 0 ? 1 : -1;
-    return left > 0 ? 1 : -1;
+    const int left = turn(corner, next, to), right = turn(last, corner, to);
+    if ((left == 0 && !between(to, corner, next)) || (right == 0 && !between(to, corner, last))) return 0;
+    const bool inside = bends_[corner] > 0 ? left > 0 && right > 0 : left > 0 || right > 0;
+    return inside ? 1 : -1;
+}
+
+/// The sides of the line from i to a later corner that the others are on.
+void OptimalPartition::find_sides(std::uint32_t i, std::uint32_t k) {
+    for (std::uint32_t corner = 0; corner < i; ++corner) sides_[corner] = turns_[(corner * size_ + i) * size_ + k];
+    for (std::uint32_t corner = i + 1; corner < k; ++corner) {
+        const int side = turns_[(i * size_ + corner) * size_ + k];
+        sides_[corner] = static_cast<std::int8_t>(-side);
+    }
+    for (std::uint32_t corner = k + 1; corner < size_; ++corner)
+        sides_[corner] = turns_[(i * size_ + k) * size_ + corner];
+    sides_[i] = sides_[k] = 0;
 }
 
 OptimalPartition::Kind OptimalPartition::look(std::uint32_t i, std::uint32_t k) {
-    const int at_i = side_of_corner(i, k), at_k = side_of_corner(k, i);
-    if (at_i < 0 || at_k < 0) return Kind::blocked;
+    const int at_i = side_of_corner(i, k);
+    if (at_i < 0) return Kind::blocked;
+    const int at_k = side_of_corner(k, i);
+    if (at_k < 0) return Kind::blocked;
+    find_sides(i, k);
     bool grazes = at_i == 0 || at_k == 0;
-    for (std::uint32_t corner = 0; corner < size_; ++corner) {
-        sides_[corner] = corner == i || corner == k ? 0 : turn(i, k, corner);
-        if (sides_[corner] == 0 && between(i, corner, k)) grazes = true;
-    }
     for (std::uint32_t a = size_ - 1, b = 0; b < size_; a = b++) {
-        if (sides_[a] * sides_[b] >= 0) continue;
-        if (turn(a, b, i) * turn(a, b, k) < 0) return Kind::blocked;
+        if (sides_[b] == 0 && between(i, b, k)) grazes = true;
+        if (sides_[a] * sides_[b] < 0 && turn(a, b, i) * turn(a, b, k) < 0) return Kind::blocked;
     }
     return grazes ? Kind::grazing : Kind::cut;
 }
@@ -69,6 +90,8 @@ OptimalPartition::Kind OptimalPartition::look(std::uint32_t i, std::uint32_t k) 
 void OptimalPartition::find_chords() {
     chords_.assign(std::size_t{size_} * size_, {});
     sides_.resize(size_);
+    bends_.resize(size_);
+    for (std::uint32_t i = 0; i < size_; ++i) bends_[i] = turn(before(i), i, after(i));
     for (std::uint32_t i = 0; i < size_; ++i)
         for (std::uint32_t k = i + 1; k < size_; ++k)
             chord(i, k).kind = k == i + 1 || (i == 0 && k + 1 == size_) ? Kind::edge : look(i, k);
@@ -168,6 +191,7 @@ void OptimalPartition::solve(std::span<const Vec2> loop, std::span<const std::ui
     loop_ = loop;
     may_be_straight_ = may_be_straight;
     size_ = static_cast<std::uint32_t>(loop.size());
+    find_turns();
     find_chords();
     pairs_.clear();
     for (std::uint32_t i = size_; i-- > 0;)

@@ -51,6 +51,7 @@ private:
     const Chord& chord(std::uint32_t i, std::uint32_t k) const { return chords_[i * size_ + k]; }
     std::uint32_t after(std::uint32_t i) const { return i + 1 == size_ ? 0 : i + 1; }
     std::uint32_t before(std::uint32_t i) const { return i == 0 ? size_ - 1 : i - 1; }
+    void find_turns();
     int turn(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
     bool between(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
     bool real(Kind kind) const { return kind == Kind::edge || kind == Kind::cut; }
@@ -59,6 +60,7 @@ private:
     std::uint32_t cost(std::uint32_t i, std::uint32_t k) const;
 
     int side_of_corner(std::uint32_t corner, std::uint32_t to) const;
+    void find_sides(std::uint32_t i, std::uint32_t k);
     Kind look(std::uint32_t i, std::uint32_t k);
     void find_chords();
     void fill(std::uint32_t i, std::uint32_t k);
@@ -69,9 +71,11 @@ private:
     std::span<const Vec2> loop_;
     std::span<const std::uint8_t> may_be_straight_;
     std::uint32_t size_ = 0;
+    std::vector<std::int8_t> turns_;  ///< of three corners with rising numbers
     std::vector<Chord> chords_;
     std::vector<Pair> pairs_;
-    std::vector<int> sides_;
+    std::vector<std::int8_t> sides_;
+    std::vector<int> bends_;
     std::vector<std::uint32_t> corners_, ends_;
 };
 

@@ -24,6 +24,7 @@ struct Edge {
 /// An edge that the sweep line crosses, and what is between it and the next above.
 struct Crossed {
     std::uint32_t edge, left, right;
+    Vec2 from, to;
     mutable std::uint32_t coverage = 0;  ///< above
     mutable Chain chain = {};
 };
@@ -36,19 +37,22 @@ public:
     std::optional<Problem> run();
 
 private:
+    struct Place {
+        std::uint32_t point;
+        Vec2 at;
+    };
+    /// The order of edges that the sweep line crosses, and of a point among them.
     struct Below {
         using is_transparent = void;
-        const Vec2* points;
 
-        int side(const Crossed& edge, std::uint32_t point) const {
-            if (edge.right == point) return 0;
-            return orientation(points[edge.left], points[edge.right], points[point]);
+        static int side(const Crossed& edge, const Place& place) {
+            return edge.right == place.point ? 0 : orientation(edge.from, edge.to, place.at);
         }
-        bool operator()(const Crossed& a, std::uint32_t point) const { return side(a, point) > 0; }
-        bool operator()(std::uint32_t point, const Crossed& a) const { return side(a, point) < 0; }
+        bool operator()(const Crossed& a, const Place& place) const { return side(a, place) > 0; }
+        bool operator()(const Place& place, const Crossed& a) const { return side(a, place) < 0; }
         bool operator()(const Crossed& a, const Crossed& b) const {
-            if (a.left == b.left) return side(a, b.right) > 0;
-            return a.left < b.left ? side(a, b.left) > 0 : side(b, a.left) < 0;
+            if (a.left == b.left) return side(a, {b.right, b.to}) > 0;
+            return a.left < b.left ? side(a, {b.left, b.from}) > 0 : side(b, {a.left, a.from}) < 0;
         }
     };
     using Status = std::pmr::set<Crossed, Below>;
@@ -57,6 +61,7 @@ private:
     void add_edges();
     void start(std::uint32_t edge);
     std::optional<Problem> visit(std::uint32_t point, Status& status, Chains& chains);
+    std::pair<Status::iterator, Status::iterator> through(const Place& place, const Status& status) const;
     void split_passing(Status::iterator from, Status::iterator to, std::uint32_t point);
     void order_starting(std::uint32_t point);
     std::span<const std::uint32_t> rings_across(std::uint32_t edge);
@@ -71,6 +76,8 @@ private:
     std::vector<std::uint32_t> numbers_;     ///< one an input point: where it is among the sorted ones
     std::vector<Edge> edges_;
     std::vector<std::uint32_t> first_edges_;  ///< one a point: of those that start there
+    std::vector<Status::iterator> ending_;    ///< one a point: of the edges crossed one that ends there, or none known
+    Status::iterator status_end_;
     std::vector<std::uint32_t> starting_;
     std::vector<std::uint32_t> across_;
     std::vector<bool> works_;  ///< one a ring: whether it bounds what is left
@@ -96,11 +103,11 @@ std::optional<Problem> Sweep::number_points() {
     }
     first_tags_.push_back(static_cast<std::uint32_t>(count));
 
-    struct Place {
+    struct Given {
         Vec2 point;
         std::uint32_t tag;
     };
-    std::vector<Place> places;
+    std::vector<Given> places;
     places.reserve(count);
     for (const std::span<const Vec2> ring : rings_)
         for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -109,14 +116,14 @@ std::optional<Problem> Sweep::number_points() {
                 return Problem{ProblemCode::not_finite, "point " + name(tag) + " is not finite", i};
             places.push_back({ring[i] + Vec2(0.0f), tag});
         }
-    std::ranges::sort(places, [](const Place& a, const Place& b) {
+    std::ranges::sort(places, [](const Given& a, const Given& b) {
         if (a.point.x != b.point.x) return a.point.x < b.point.x;
         if (a.point.y != b.point.y) return a.point.y < b.point.y;
         return a.tag < b.tag;
     });
     numbers_.resize(count);
     points_.reserve(count);
-    for (const Place& place : places) {
+    for (const Given& place : places) {
         if (points_.empty() || points_.back() != place.point) points_.push_back(place.point);
         numbers_[place.tag] = static_cast<std::uint32_t>(points_.size() - 1);
     }
@@ -215,10 +222,22 @@ std::span<const std::uint32_t> Sweep::rings_across(std::uint32_t edge) {
     return across_;
 }
 
+/// The edges that end in a point or go through it. They are neighbours; mostly one of them is known.
+std::pair<Sweep::Status::iterator, Sweep::Status::iterator> Sweep::through(const Place& place,
+                                                                           const Status& status) const {
+    auto from = ending_[place.point];
+    if (from == status.end()) from = status.lower_bound(place);
+    auto to = from;
+    while (from != status.begin() && Below::side(*std::prev(from), place) == 0) --from;
+    while (to != status.end() && Below::side(*to, place) == 0) ++to;
+    return {from, to};
+}
+
 void Sweep::split_passing(Status::iterator from, Status::iterator to, std::uint32_t point) {
     for (auto i = from; i != to; ++i)
         if (i->right != point) {
             ++result_.touching_points;
+            if (ending_[i->right] == i) ending_[i->right] = status_end_;
             for (std::uint32_t edge = i->edge; edge != none; edge = edges_[edge].along) {
                 edges_.push_back({point, edges_[edge].right, edges_[edge].tag});
                 start(static_cast<std::uint32_t>(edges_.size() - 1));
@@ -227,7 +246,8 @@ void Sweep::split_passing(Status::iterator from, Status::iterator to, std::uint3
 }
 
 std::optional<Problem> Sweep::visit(std::uint32_t point, Status& status, Chains& chains) {
-    const auto from = status.lower_bound(point), to = status.upper_bound(point);
+    const Place place{point, points_[point]};
+    const auto [from, to] = through(place, status);
     split_passing(from, to, point);
     order_starting(point);
 
@@ -262,7 +282,9 @@ std::optional<Problem> Sweep::visit(std::uint32_t point, Status& status, Chains&
         if (was_solid != is_solid)
             for (const std::uint32_t ring : rings) works_[ring] = true;
         const bool is_first = highest == status.end();
-        highest = status.insert(next, {edge, point, edges_[edge].right, coverage});
+        const std::uint32_t right = edges_[edge].right;
+        highest = status.insert(next, {edge, point, right, points_[point], points_[right], coverage});
+        ending_[right] = highest;
         if (is_solid) highest->chain = chains.begin(point);
         if (is_first && below != status.end())
             if (auto problem = crossing(*below, *highest)) return problem;
@@ -286,7 +308,9 @@ std::optional<Problem> Sweep::run() {
     result_.twins.reserve(6 * result_.points.size());
     works_.assign(rings_.size(), false);
     std::pmr::monotonic_buffer_resource memory;
-    Status status(Below{points_.data()}, &memory);
+    Status status(&memory);
+    status_end_ = status.end();
+    ending_.assign(points_.size(), status_end_);
     Chains chains(result_);
     for (std::uint32_t point = 0; point < points_.size(); ++point)
         if (auto problem = visit(point, status, chains)) return problem;
