@@ -24,8 +24,9 @@ public:
     void merge_all();
 
     /// Solves patches of neighbouring faces anew, with as few faces as can be: all of them once a round, as long as it
-    /// pays, and at most `rounds` times. A patch has up to `corners` corners.
-    Improvement improve(std::uint32_t corners, int rounds);
+    /// pays, and at most `rounds` times. A patch has up to `corners` corners; `only_likely` leaves those alone that may
+    /// have a face too many, but seldom do.
+    Improvement improve(std::uint32_t corners, int rounds, bool only_likely);
 
     /// Takes away edges for as long as no corner of a face lies deeper than `concavity` behind the edge of its hull
     /// that goes around it, those first that make least of a notch.
@@ -61,7 +62,7 @@ private:
     bool may_join(const Patch& patch, std::uint32_t half_edge, std::uint32_t corners, const FaceNumbers& numbers,
                   std::vector<std::uint32_t>& added) const;
     bool grow(Patch& patch, std::uint32_t face, std::uint32_t corners, const FaceNumbers& numbers) const;
-    std::size_t least_pieces(const Patch& patch) const;
+    bool may_improve(const Patch& patch, bool only_likely) const;
     void solve(Patch& patch, OptimalPartition& solver) const;
     void recut(const Patch& patch, const OptimalPartition& parts, FaceNumbers& numbers);
     FaceNumbers number_faces() const;

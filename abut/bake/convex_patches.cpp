@@ -71,15 +71,27 @@ bool Partition::grow(Patch& patch, std::uint32_t face, std::uint32_t corners, co
     return true;
 }
 
-/// The fewest pieces that it can become: an edge splits two reflex corners at best.
-std::size_t Partition::least_pieces(const Patch& patch) const {
-    std::size_t reflex = 0;
+/// Whether the patch may have a face too many. An edge splits two reflex corners at best; where it takes nearly as many
+/// edges as there are such corners, it is only likely if one can split two.
+bool Partition::may_improve(const Patch& patch, bool only_likely) const {
+    struct Corner {
+        const Vec2 &before, &at, &after;
+    };
+    std::vector<Corner> reflex;
     for (std::size_t i = 0; i < patch.loop.size(); ++i) {
-        const std::uint32_t last = patch.loop[i == 0 ? patch.loop.size() - 1 : i - 1];
-        const std::uint32_t edge = patch.loop[i], after = patch.loop[i + 1 == patch.loop.size() ? 0 : i + 1];
-        reflex += orientation(at(last), at(edge), at(after)) < 0 ? 1 : 0;
+        const Corner corner{at(patch.loop[i == 0 ? patch.loop.size() - 1 : i - 1]), at(patch.loop[i]),
+                            at(patch.loop[i + 1 == patch.loop.size() ? 0 : i + 1])};
+        if (orientation(corner.before, corner.at, corner.after) < 0) reflex.push_back(corner);
     }
-    return (reflex + 1) / 2 + 1;
+    if (patch.faces.size() <= (reflex.size() + 1) / 2 + 1) return false;
+    if (!only_likely || reflex.size() + 2 <= patch.faces.size()) return true;
+    const auto splits = [](const Corner& corner, const Vec2& to) {
+        return orientation(corner.before, corner.at, to) >= 0 && orientation(to, corner.at, corner.after) >= 0;
+    };
+    for (std::size_t i = 0; i < reflex.size(); ++i)
+        for (std::size_t j = i + 1; j < reflex.size(); ++j)
+            if (splits(reflex[i], reflex[j].at) && splits(reflex[j], reflex[i].at)) return true;
+    return false;
 }
 
 void Partition::solve(Patch& patch, OptimalPartition& solver) const {
@@ -138,7 +150,7 @@ void Partition::recut(const Patch& patch, const OptimalPartition& parts, FaceNum
     for (std::size_t i = parts.size(); i < patch.faces.size(); ++i) numbers.first[patch.faces[i]] = none;
 }
 
-Improvement Partition::improve(std::uint32_t corners, int rounds) {
+Improvement Partition::improve(std::uint32_t corners, int rounds, bool only_likely) {
     FaceNumbers numbers = number_faces();
     OptimalPartition solver;
     Patch patch;
@@ -155,7 +167,7 @@ Improvement Partition::improve(std::uint32_t corners, int rounds) {
             for (const std::uint32_t covered : patch.faces) numbers.done[covered] = true;
             result.optimal = result.optimal && (patch.faces.size() == 1 || grown) &&
                              std::ranges::all_of(patch.loop, [&](std::uint32_t edge) { return twins_[edge] == none; });
-            if (!grown || patch.faces.size() <= least_pieces(patch)) continue;
+            if (!grown || !may_improve(patch, only_likely)) continue;
             solve(patch, solver);
             if (solver.size() > patch.faces.size()) continue;
             saved += patch.faces.size() - solver.size();

@@ -94,11 +94,11 @@ void cut(Partition& partition, OutlineReport& report) {
     const std::size_t corners = partition.corners();
     partition.merge_all();
     if (corners <= solved_at_once)
-        report.optimal = partition.improve(solved_at_once, 3).optimal;
+        report.optimal = partition.improve(solved_at_once, 3, false).optimal;
     else if (corners <= few_corners)
-        partition.improve(32, 3);
-    else if (partition.improve(10, 1).worthwhile)
-        partition.improve(16, 2);
+        partition.improve(32, 3, false);
+    else if (partition.improve(8, 1, true).worthwhile)
+        partition.improve(16, 2, false);
     const auto cuts = static_cast<std::int64_t>((report.reflex_corners + 1) / 2);
     report.least_pieces = static_cast<std::size_t>(std::max<std::int64_t>(1, partition.pieces_less_holes() + cuts));
     report.optimal = report.optimal || partition.faces().size() == report.least_pieces;
