@@ -11,7 +11,7 @@
 namespace abut {
 namespace {
 
-/// Weighs what halves differ by: where a body has to be cut twice before anything is gained, it had better be halved.
+/// Weighs how far halves differ: where a body has to be cut twice before anything is gained, it had better be halved.
 constexpr double unlike_halves = 0.02;
 
 /// What hulls may leave out that only rank cuts: less where there are few points, which is quick anyway.
@@ -58,7 +58,7 @@ public:
           edges_(edges_of(piece)) {}
 
     /// Offsets ascending. Those that cut nothing off are left out.
-    void rate(const DVec<3>& normal, std::vector<double> offsets, std::vector<RatedCut>& result) {
+    void rate(const DVec<3>& normal, std::vector<double> offsets, bool along_face, std::vector<RatedCut>& result) {
         heights_.clear();
         for (const DVec<3>& p : piece_.points) heights_.push_back(dot(normal, p));
         const auto [low, high] = std::minmax_element(heights_.begin(), heights_.end());
@@ -78,23 +78,28 @@ public:
             last_.push_back(static_cast<std::uint32_t>(
                 std::upper_bound(offsets.begin(), offsets.end(), height + margin_) - offsets.begin()));
         }
-        // Points that come with a plane; those of the plane itself are where edges meet it.
+        // Points that come with a plane, and where edges meet it.
         below_.assign(count + 1, {});
         above_.assign(count + 1, {});
         on_.assign(count, {});
-        for (std::size_t i = 0; i < heights_.size(); ++i) {
-            below_[first_[i]].push_back(piece_.points[i]);
-            above_[last_[i]].push_back(piece_.points[i]);
-        }
+        leads_down_.assign(heights_.size(), false);
+        leads_up_.assign(heights_.size(), false);
         for (auto [a, b] : edges_) {
             if (heights_[a] > heights_[b]) std::swap(a, b);
+            if (heights_[b] - heights_[a] > margin_) leads_up_[a] = leads_down_[b] = true;
             for (std::uint32_t i = last_[a]; i < first_[b]; ++i) {
                 const double share = (offsets[i] - heights_[a]) / (heights_[b] - heights_[a]);
                 on_[i].push_back(piece_.points[a] + (piece_.points[b] - piece_.points[a]) * share);
             }
         }
+        // A point of the plane is only on the sides that it has edges to.
+        for (std::size_t i = 0; i < heights_.size(); ++i) {
+            const bool on = last_[i] > first_[i];
+            below_[first_[i] + (on && !leads_down_[i] ? 1 : 0)].push_back(piece_.points[i]);
+            above_[last_[i] - (on && !leads_up_[i] ? 1 : 0)].push_back(piece_.points[i]);
+        }
         const std::size_t begin = result.size();
-        for (std::size_t i = 0; i < count; ++i) result.push_back({{normal, offsets[i]}, 0, 0});
+        for (std::size_t i = 0; i < count; ++i) result.push_back({{normal, offsets[i]}, 0, 0, along_face});
         gathered_.clear();
         for (std::size_t i = 0; i < count; ++i) result[begin + i].extra = grown(below_[i], on_[i]);
         gathered_.clear();
@@ -102,7 +107,8 @@ public:
             RatedCut& cut = result[begin + i];
             const double below = cut.extra, above = grown(above_[i + 1], on_[i]);
             cut.extra = below + above - piece_.volume;
-            cut.rating = cut.extra + unlike_halves * std::abs(below - above);
+            cut.rating = cut.extra + piece_.extra() * unlike_halves * std::abs(below - above) / (below + above);
+            if (!along_face) cut.rating += cost_of_no_face(piece_);
         }
     }
 
@@ -125,6 +131,7 @@ private:
     std::vector<Edge> edges_;
     std::vector<double> heights_;
     std::vector<std::uint32_t> first_, last_;
+    std::vector<bool> leads_down_, leads_up_;
     std::vector<std::vector<DVec<3>>> below_, above_, on_;
     std::vector<DVec<3>> gathered_, kept_;
 };
@@ -215,6 +222,11 @@ double cut_margin(const Piece& piece) {
     return 1e-5 * largest(extent.greatest - extent.least);
 }
 
+double cost_of_no_face(const Piece& piece) {
+    constexpr double share = 0.05;
+    return share * piece.extra();
+}
+
 void measure_hull(Piece& piece, RoughHull& hull) {
     constexpr double fine = 1e-4;
     hull.build(piece.points, fine);
@@ -236,11 +248,13 @@ std::vector<RatedCut> rated_cuts(const Piece& piece, RoughHull& hull, std::size_
         const double spacing = (high - low) / (offsets_a_sweep + 1);
         if (!(spacing > 10 * margin)) continue;
         offsets.clear();
-        for (int i = 1; i <= offsets_a_sweep; ++i) offsets.push_back(low + spacing * i);
         add_levels(piece, normal, margin, offsets);
         std::sort(offsets.begin(), offsets.end());
         const std::size_t begin = cuts.size();
-        sweeper.rate(normal, offsets, cuts);
+        sweeper.rate(normal, offsets, true, cuts);
+        offsets.clear();
+        for (int i = 1; i <= offsets_a_sweep; ++i) offsets.push_back(low + spacing * i);
+        sweeper.rate(normal, offsets, false, cuts);
         if (begin == cuts.size()) continue;
         best_of_sweeps.push_back(
             *std::min_element(cuts.begin() + static_cast<std::ptrdiff_t>(begin), cuts.end(), better));
@@ -248,14 +262,15 @@ std::vector<RatedCut> rated_cuts(const Piece& piece, RoughHull& hull, std::size_
     std::sort(best_of_sweeps.begin(), best_of_sweeps.end(), better);
     const std::size_t refined = offsets_a_sweep > 6 ? 2 : 0;
     for (std::size_t i = 0; i < std::min(refined, best_of_sweeps.size()); ++i) {
+        if (best_of_sweeps[i].along_face) continue;
         const CutPlane& plane = best_of_sweeps[i].plane;
         const auto [low, high] = range_of(piece, plane.normal);
         const double spacing = (high - low) / (offsets_a_sweep + 1);
         offsets.clear();
         for (const int k : {-3, -2, -1, 1, 2, 3}) offsets.push_back(plane.offset + spacing * k / 4);
-        sweeper.rate(plane.normal, offsets, cuts);
+        sweeper.rate(plane.normal, offsets, false, cuts);
     }
-    for (const auto& [normal, levels] : reflex_planes(piece)) sweeper.rate(normal, levels, cuts);
+    for (const auto& [normal, levels] : reflex_planes(piece)) sweeper.rate(normal, levels, true, cuts);
 
     std::sort(cuts.begin(), cuts.end(), better);
     const Extent extent = extent_of(piece.points);

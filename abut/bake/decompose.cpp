@@ -96,38 +96,7 @@ private:
     std::vector<Piece> cut_by(const Piece& piece, const CutPlane& plane) {
         std::vector<Piece> parts = cut(piece, plane, cut_margin(piece));
         for (Piece& part : parts) measure_hull(part, hull_);
-        join_slivers(parts, piece.hull_volume);
         return parts;
-    }
-
-    /// What is flat but for rounding goes to the part that it makes least larger.
-    void join_slivers(std::vector<Piece>& parts, double whole) {
-        constexpr double share = 1e-9;
-        const auto is_sliver = [&](const Piece& part) { return part.hull_volume <= share * whole; };
-        std::vector<Piece> slivers;
-        for (Piece& part : parts)
-            if (is_sliver(part)) slivers.push_back(part);
-        if (slivers.empty() || slivers.size() == parts.size()) return;
-        std::erase_if(parts, is_sliver);
-        for (Piece& sliver : slivers) {
-            std::size_t best = parts.size();
-            double least = whole * 1e-4;
-            for (std::size_t i = 0; i < parts.size(); ++i) {
-                Piece trial = parts[i];
-                append(trial, sliver);
-                measure_hull(trial, hull_);
-                const double growth = trial.hull_volume - parts[i].hull_volume;
-                if (growth >= least) continue;
-                least = growth;
-                best = i;
-            }
-            if (best == parts.size()) {
-                parts.push_back(std::move(sliver));
-            } else {
-                append(parts[best], sliver);
-                measure_hull(parts[best], hull_);
-            }
-        }
     }
 
     /// What the hulls will have beyond the piece when each part is cut once more.
@@ -157,8 +126,11 @@ private:
         for (const RatedCut& rated : cuts) {
             std::vector<Piece> parts = cut_by(candidate.piece, rated.plane);
             if (parts.size() < 2) continue;
-            const double left = looks == 1 ? rated.extra : extra_after_cuts(parts);
-            if (!best.empty() && left >= least) continue;
+            // Of cuts that lead equally far the one that leads there at once.
+            constexpr double now = 0.02, clearly = 1e-3;
+            double left = looks == 1 ? 0 : extra_after_cuts(parts) + now * rated.extra;
+            if (!rated.along_face) left += cost_of_no_face(candidate.piece);
+            if (!best.empty() && left >= least - clearly * candidate.piece.extra()) continue;
             least = left;
             best = std::move(parts);
         }
@@ -170,7 +142,7 @@ private:
         for (Piece& part : best) add(std::move(part), false);
     }
 
-    std::vector<Polyhedron> parts_of(const std::vector<Lump>& lumps) const {
+    Result<std::vector<Polyhedron>> parts_of(const std::vector<Lump>& lumps) const {
         DecomposeReport report;
         report.closed = closed_;
         report.mesh_volume = mesh_volume_;
@@ -183,7 +155,9 @@ private:
                 points.push_back(to_float(p));
                 moved = std::max(moved, length(p - DVec<3>(points.back())));
             }
-            const Polyhedron& part = parts.emplace_back(*Polyhedron::build(points));
+            Result<Polyhedron> built = Polyhedron::build(points, {.max_vertices = options_.max_vertices});
+            if (!built) return built.problem();
+            const Polyhedron& part = parts.emplace_back(*std::move(built));
             report.parts_volume += part.volume();
             report.vertices += part.points().size();
             report.farthest = std::max(report.farthest, moved + hull_tolerance * extent<3>(points));

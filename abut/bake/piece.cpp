@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -203,9 +204,11 @@ int winding(const Piece& piece, const DVec<3>& point) {
     return result;
 }
 
-/// The middle of the largest triangle: a point of the surface that is on no cap.
+/// The middle of the largest triangle, a point of the surface that is on no cap; where there is no surface the middle
+/// of all points.
 DVec<3> point_of_surface(const Piece& piece) {
-    DVec<3> result = piece.points.front();
+    DVec<3> result(0.0);
+    for (const DVec<3>& p : piece.points) result += p / static_cast<double>(piece.points.size());
     double most = 0;
     for (const glm::uvec3& t : piece.triangles) {
         const DVec<3>&a = piece.points[t.x], &b = piece.points[t.y], &c = piece.points[t.z];
@@ -216,8 +219,6 @@ DVec<3> point_of_surface(const Piece& piece) {
     }
     return result;
 }
-
-}  // namespace
 
 void append(Piece& body, const Piece& other) {
     const auto points = static_cast<std::uint32_t>(body.points.size());
@@ -231,15 +232,18 @@ void append(Piece& body, const Piece& other) {
     body.volume += other.volume;
 }
 
-void give_hollows(std::vector<Piece>& pieces) {
+/// Joins pieces for which `inside_of` names a point with the smallest of the others that winds around it.
+template <class InsideOf>
+void give_to_surrounding(std::vector<Piece>& pieces, InsideOf inside_of) {
+    std::vector<std::optional<DVec<3>>> inside;
+    for (const Piece& piece : pieces) inside.push_back(inside_of(piece));
     std::vector<std::size_t> around(pieces.size());
     std::iota(around.begin(), around.end(), std::size_t{0});
     for (std::size_t i = 0; i < pieces.size(); ++i) {
-        if (!pieces[i].closed || pieces[i].volume >= 0) continue;
-        const DVec<3> inside = point_of_surface(pieces[i]);
+        if (!inside[i]) continue;
         for (std::size_t j = 0; j < pieces.size(); ++j)
-            if (pieces[j].closed && pieces[j].volume > -pieces[i].volume &&
-                (around[i] == i || pieces[j].volume < pieces[around[i]].volume) && winding(pieces[j], inside) > 0)
+            if (!inside[j] && (around[i] == i || pieces[j].volume < pieces[around[i]].volume) &&
+                winding(pieces[j], *inside[i]) > 0)
                 around[i] = j;
     }
     for (std::size_t i = 0; i < pieces.size(); ++i)
@@ -248,6 +252,27 @@ void give_hollows(std::vector<Piece>& pieces) {
     for (std::size_t i = 0; i < pieces.size(); ++i)
         if (around[i] == i) result.push_back(std::move(pieces[i]));
     pieces = std::move(result);
+}
+
+/// Faces that lie in the plane of a cut, away from the rest of the surface, are part of the body next to the plane.
+void give_faces(std::vector<Piece>& pieces, const CutPlane& plane, double margin, bool below) {
+    const double beside = (below ? -4 : 4) * margin;
+    give_to_surrounding(pieces, [&](const Piece& piece) -> std::optional<DVec<3>> {
+        const bool flat = std::all_of(piece.points.begin(), piece.points.end(), [&](const DVec<3>& p) {
+            return std::abs(dot(plane.normal, p) - plane.offset) <= margin;
+        });
+        if (!flat) return std::nullopt;
+        return point_of_surface(piece) + plane.normal * beside;
+    });
+}
+
+}  // namespace
+
+void give_hollows(std::vector<Piece>& pieces) {
+    give_to_surrounding(pieces, [](const Piece& piece) -> std::optional<DVec<3>> {
+        if (!piece.closed || piece.volume >= 0) return std::nullopt;
+        return point_of_surface(piece);
+    });
 }
 
 double measured_volume(const Piece& piece) {
@@ -326,16 +351,22 @@ std::vector<Piece> connected(const Piece& piece) {
         into.cap_edges.push_back({from, to, cap->second});
     }
     for (Piece& part : result) part.volume = measured_volume(part);
-    if (piece.closed) give_hollows(result);
     return result;
 }
 
 std::vector<Piece> cut(const Piece& piece, const CutPlane& plane, double margin) {
+    constexpr double nothing = 1e-9;  // what is left of caps that cover one another
     Cutter cutter(piece, plane, margin);
     std::vector<Piece> result;
-    for (const int which : {0, 1})
-        for (Piece& part : connected(cutter.side(which, plane)))
-            if (!part.triangles.empty() || part.volume > 0) result.push_back(std::move(part));
+    for (const int which : {0, 1}) {
+        std::vector<Piece> parts = connected(cutter.side(which, plane));
+        if (piece.closed) {
+            give_faces(parts, plane, margin, which == 0);
+            give_hollows(parts);
+        }
+        for (Piece& part : parts)
+            if (!part.triangles.empty() || part.volume > nothing * piece.volume) result.push_back(std::move(part));
+    }
     return result;
 }
 

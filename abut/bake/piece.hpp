@@ -60,9 +60,6 @@ std::vector<Piece> connected(const Piece& piece);
 /// The volume it encloses, below zero where it is seen from inside; of what is open that of the shell.
 double measured_volume(const Piece& piece);
 
-/// Both as one piece; its hull is yet to be measured.
-void append(Piece& body, const Piece& other);
-
 /// Joins what has a volume below zero with the smallest body around it, where there is one.
 void give_hollows(std::vector<Piece>& pieces);
 
