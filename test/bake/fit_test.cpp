@@ -90,6 +90,46 @@ TEST(Fit, FindsBoxes) {
     }
 }
 
+TEST(Fit, FindsBoxesThatAreSquare) {
+    // Whose inertia tells no axes.
+    for (std::uint64_t seed = 0; seed < 30; ++seed) {
+        SCOPED_TRACE(seed);
+        Random random(seed);
+        const double side = random.uniform(0.1, 2), height = seed % 2 == 0 ? side : random.uniform(0.1, 2);
+        const Polyhedron part = placed(box_corners({side, side, height}), 0, random);
+        const std::optional<Fit> found = fit(part);
+        ASSERT_TRUE(found);
+        ASSERT_TRUE(std::holds_alternative<Box<3>>(found->shape));
+        EXPECT_LE(found->error, 1e-4 * part.ball().radius);
+    }
+}
+
+TEST(Fit, NoBallNearbyIsBetter) {
+    for (std::uint64_t seed = 0; seed < 30; ++seed) {
+        SCOPED_TRACE(seed);
+        Random random(seed);
+        // Far from evenly spread, so that the middle is none of the ball's.
+        std::vector<DVec<3>> points{axis<3>(0, -1)};
+        while (points.size() < 60) {
+            const DVec<3> direction = random.direction<3>();
+            if (direction.x > -0.3 || random.chance(0.2)) points.push_back(direction);
+        }
+        const Polyhedron part = placed(points, 0, random);
+        const std::optional<Fit> found = fit(part, {.tolerance = 1});
+        ASSERT_TRUE(found);
+        if (!std::holds_alternative<Ball<3>>(found->shape)) continue;
+        const DVec<3> center(std::get<Ball<3>>(found->shape).center);
+        for (int i = 0; i < 200; ++i) {
+            const DVec<3> near = center + random.direction<3>() * random.uniform(0, 0.1);
+            double outer = 0, inner = 2;
+            for (const Vec3& corner : part.points()) outer = std::max(outer, length(DVec<3>(corner) - near));
+            for (std::size_t face = 0; face < part.offsets().size(); ++face)
+                inner = std::min(inner, part.offsets()[face] - dot(DVec<3>(part.facets().normals[face]), near));
+            EXPECT_GE((outer - inner) / 2, 0.99 * found->error);
+        }
+    }
+}
+
 TEST(Fit, FindsCapsules) {
     for (std::uint64_t seed = 0; seed < 30; ++seed) {
         SCOPED_TRACE(seed);

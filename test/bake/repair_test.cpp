@@ -318,6 +318,28 @@ TEST(Repair, WallsBetweenBoxesGo) {
     EXPECT_DOUBLE_EQ(volume(merged), 2);
 }
 
+TEST(Repair, FinsOfTwoSidesStayOnce) {
+    // At an edge of the box, which is closed without it.
+    SolidMesh fin = box({0, 0, 0}, {1, 1, 1});
+    add(fin, {{{1, 1, 0}, {2, 2, 0}, {2, 2, 1}, {1, 1, 1}}, {{0, 1, 2}, {0, 2, 3}, {2, 1, 0}, {3, 2, 0}}});
+    const Repaired result = repaired(fin);
+    EXPECT_EQ(result.repairs.triangles_double, 2u);
+    EXPECT_EQ(result.triangles.size(), 14u);
+    EXPECT_EQ(result.repairs.open_edges, 3u);
+    EXPECT_EQ(result.repairs.crowded_edges, 1u);
+}
+
+TEST(Repair, HolesGetNoEdgeThatIsThere) {
+    for (const bool other_diagonal : {false, true}) {
+        SolidMesh sheet{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
+        if (other_diagonal) sheet.triangles = {{0, 1, 3}, {1, 2, 3}};
+        const Repaired result = repaired(sheet, {.hole_area = 1});
+        EXPECT_TRUE(result.closed);
+        EXPECT_EQ(result.repairs.crowded_edges, 0u) << described(result.repairs);
+        EXPECT_EQ(result.triangles.size(), 4u);
+    }
+}
+
 TEST(Repair, OfATwoSidedSolidOneSideStays) {
     SolidMesh both = box({0, 0, 0}, {1, 2, 3});
     add(both, inside_out(both));
