@@ -31,7 +31,7 @@ struct Fit {
 
 /// The shape that a part nearly is, or nothing where none comes within the tolerance. The one that comes nearest; but
 /// a ball rather than a capsule, and a capsule rather than a box, where it is as good to a tenth of the tolerance.
-/// Boxes are tight: about the part's largest faces and about its principal axes, turned until they can't get smaller.
+/// Boxes are tight: about the part's principal axes, turned until they can't get smaller.
 /// Balls and capsules lie between the part's inside and its outside, as far from the one as from the other, by
 /// subgradient descent. A flat part may be a box of zero thickness; what is a segment or a point is nothing.
 /// O(corners + faces), with a factor of some thousands.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include <glm/ext/matrix_double3x3.hpp>
 #include <glm/ext/quaternion_double.hpp>
@@ -114,36 +113,6 @@ Framed shrunk(const Polyhedron& part, Framed best) {
     return best;
 }
 
-struct Side {
-    DVec<3> normal;
-    double area = 0;
-};
-
-/// The largest faces, none in parallel to a larger one.
-std::vector<Side> largest_sides(const Polyhedron& part) {
-    constexpr std::size_t most = 6;
-    constexpr double parallel = 0.98;
-    const Facets& facets = part.facets();
-    std::vector<Side> all;
-    for (std::size_t face = 0; face < facets.normals.size(); ++face) {
-        const std::span<const std::uint32_t> loop = facets.loop(face);
-        DVec<3> area(0.0);
-        const DVec<3> a(part.points()[loop[0]]);
-        for (std::size_t i = 1; i + 1 < loop.size(); ++i)
-            area += cross(DVec<3>(part.points()[loop[i]]) - a, DVec<3>(part.points()[loop[i + 1]]) - a);
-        all.push_back({DVec<3>(facets.normals[face]), length(area)});
-    }
-    std::stable_sort(all.begin(), all.end(), [](const Side& a, const Side& b) { return a.area > b.area; });
-    std::vector<Side> result;
-    for (const Side& side : all) {
-        const bool is_new = std::none_of(result.begin(), result.end(), [&](const Side& other) {
-            return std::abs(dot(side.normal, other.normal)) > parallel;
-        });
-        if (is_new && result.size() < most) result.push_back(side);
-    }
-    return result;
-}
-
 Box<3> box_of(const Polyhedron& part, const Axes& axes) {
     glm::dmat3 turn(1.0);
     for (std::size_t i = 0; i < 3; ++i) turn[static_cast<glm::length_t>(i)] = axes[i];
@@ -168,32 +137,7 @@ Axes principal_axes(const Polyhedron& part) {
 }
 
 Box<3> box_about(const Polyhedron& part, const Axes& principal) {
-    Framed best = shrunk(part, framed(part, principal));
-    const auto consider = [&](const DVec<3>& first, const DVec<3>& second) {
-        const DVec<3> third = normalized(cross(first, second));
-        const Framed next = framed(part, {first, cross(third, first), third});
-        if (next.volume < best.volume * (1 + 0.05)) {
-            const Framed small = shrunk(part, next);
-            if (small.volume < best.volume) best = small;
-        }
-    };
-    const std::vector<Side> sides = largest_sides(part);
-    constexpr double nearly_across = 0.3;
-    for (const Side& first : sides)
-        for (const Side& second : sides)
-            if (std::abs(dot(first.normal, second.normal)) < nearly_across) consider(first.normal, second.normal);
-    // A face alone, with the box as narrow as it can be around its corners: along each of its edges.
-    const Facets& facets = part.facets();
-    for (std::size_t face = 0; face < facets.normals.size(); ++face) {
-        const DVec<3> normal(facets.normals[face]);
-        if (sides.empty() || normal != sides.front().normal) continue;
-        const std::span<const std::uint32_t> loop = facets.loop(face);
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-            const DVec<3> edge = DVec<3>(part.points()[loop[(i + 1) % loop.size()]]) - DVec<3>(part.points()[loop[i]]);
-            consider(normal, normalized(edge - normal * dot(edge, normal), perpendicular(normal)));
-        }
-    }
-    return box_of(part, best.axes);
+    return box_of(part, shrunk(part, framed(part, principal)).axes);
 }
 
 }  // namespace abut

@@ -17,7 +17,7 @@ using Axes = std::array<DVec<3>, 3>;
 /// Right-handed and of length 1: those of a part's inertia, as its surface has it, the longest first.
 Axes principal_axes(const Polyhedron& part);
 
-/// A tight box about the part: small, if not always the smallest.
+/// A tight box about the part, no smaller one near it: of what is nearly a box, the smallest.
 Box<3> box_about(const Polyhedron& part, const Axes& principal);
 
 /// How deep a point is under the faces, exactly; where it is outside, minus its distance.
