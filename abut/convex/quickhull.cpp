@@ -2,6 +2,7 @@
 // the points outside of each facet in a list of its own.
 
 #include <abut/convex/buckets.hpp>
+#include <abut/convex/highest_plane.hpp>
 #include <abut/convex/quickhull.hpp>
 #include <abut/math/dvec.hpp>
 
@@ -42,12 +43,6 @@ std::size_t level_of(double height) {
     return static_cast<std::size_t>(std::clamp(level, 0, levels - 1));
 }
 
-/// Points above a plane: dot(normal, p) > offset.
-struct Plane {
-    DVec<3> normal;  ///< of length 1
-    double offset = 0;
-};
-
 class Quickhull {
 public:
     Quickhull(std::span<const GridPoint> points, double tolerance);
@@ -63,7 +58,7 @@ private:
     };
     /// Fills a line of the cache.
     struct alignas(64) Facet {
-        Plane plane;
+        OrientedPlane plane;                    ///< its normal is of length 1
         std::array<std::uint32_t, 3> corner{};  ///< half-edge i runs from corner i to corner i + 1
         std::array<std::uint32_t, 3> twin{};
         std::uint32_t outside = none;   ///< the first of the points above it, linked by their seats
@@ -81,7 +76,7 @@ private:
     GridPoint normal_of(const Facet& facet) const {
         return grid_normal(grid_place(facet.corner[0]), grid_place(facet.corner[1]), grid_place(facet.corner[2]));
     }
-    double rounded_height(const Plane& plane, std::uint32_t point) const {
+    double rounded_height(const OrientedPlane& plane, std::uint32_t point) const {
         return dot(plane.normal, position(point)) - plane.offset;
     }
     double exact_height(const Facet& facet, std::uint32_t point) const;
@@ -108,6 +103,7 @@ private:
     std::vector<std::uint32_t> visible_;  ///< the facets that the new point sees
     std::vector<std::uint32_t> horizon_;  ///< half-edges of the facets behind the horizon
     std::vector<std::uint32_t> cone_;     ///< the new facets
+    std::vector<OrientedPlane> cone_planes_;
     std::vector<double> cone_height_;     ///< of the farthest above each
     std::vector<std::uint32_t> orphans_;  ///< points that were above what is gone
     std::vector<double> orphan_[3];       ///< their coordinates,
@@ -234,25 +230,20 @@ void Quickhull::raise_cone(std::uint32_t eye) {
 
 /// Puts each orphan on the list of the new facet that it is highest above; one above none of them is inside.
 void Quickhull::assign_orphans() {
-    const std::size_t count = orphans_.size();
-    for (std::vector<double>& coordinates : orphan_) coordinates.resize(count);
+    const std::size_t count = orphans_.size(), room = count + highest_plane_padding;
+    if (count == 0) return;
+    if (most_.size() < room)
+        for (std::vector<double>* column : {&orphan_[0], &orphan_[1], &orphan_[2], &most_, &best_})
+            column->resize(2 * room);
     for (std::size_t k = 0; k < count; ++k) {
         const DVec<3> orphan = position(orphans_[k]);
         for (int i = 0; i < 3; ++i) orphan_[i][k] = orphan[i];
     }
-    most_.assign(count, -std::numeric_limits<double>::infinity());
-    best_.resize(count);
-    for (std::size_t f = 0; f < cone_.size(); ++f) {
-        const Plane plane = facets_[cone_[f]].plane;
-        const double number = static_cast<double>(f);
-        const double *x = orphan_[0].data(), *y = orphan_[1].data(), *z = orphan_[2].data();
-        double *most = most_.data(), *best = best_.data();
-        for (std::size_t k = 0; k < count; ++k) {
-            const double here = plane.normal.x * x[k] + plane.normal.y * y[k] + plane.normal.z * z[k] - plane.offset;
-            best[k] = here > most[k] ? number : best[k];
-            most[k] = here > most[k] ? here : most[k];
-        }
-    }
+    cone_planes_.clear();
+    for (const std::uint32_t facet : cone_) cone_planes_.push_back(facets_[facet].plane);
+    highest_planes(cone_planes_, {orphan_[0].data(), orphan_[1].data(), orphan_[2].data(), count}, most_.data(),
+                   best_.data());
+
     cone_height_.assign(cone_.size(), 0.0);
     for (std::size_t k = 0; k < count; ++k) {
         if (most_[k] < -doubt) continue;
