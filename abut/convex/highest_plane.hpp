@@ -4,6 +4,7 @@
 
 #include <abut/math/vec.hpp>
 
+#include <cstddef>
 #include <span>
 
 namespace abut {

@@ -49,10 +49,10 @@ std::vector<std::uint32_t> hull_loop(std::span<const Vec2> points);
 /// The hull of every non-empty set of finite points; a Problem names the first point that isn't finite.
 Result<Hull2> hull(std::span<const Vec2> points);
 
-/// The same in space: a quickhull (Barber, Dobkin, Huhdanpaa 1996) in whole numbers. The points are first rounded to a
-/// grid of 2^27 to 2^28 steps along the extent, finer than the rounding of the floats, and from there every decision is
-/// exact: the surface is closed and convex whatever comes in. Corners are points of the input, bit by bit (-0 becomes
-/// 0).
+/// The same in space: a quickhull (Barber, Dobkin, Huhdanpaa 1996) in whole numbers. Most points deep inside are
+/// dropped, which changes nothing (see hull_core.hpp); the others are rounded to a grid of 2^27 to 2^28 steps along the
+/// extent, finer than the rounding of the floats, and from there every decision is exact: the surface is closed and
+/// convex whatever comes in. Corners are points of the input, bit by bit (-0 becomes 0).
 Result<Hull3> hull(std::span<const Vec3> points);
 
 }  // namespace abut

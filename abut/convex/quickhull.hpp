@@ -24,7 +24,7 @@ GridPoint grid_normal(const GridPoint& a, const GridPoint& b, const GridPoint& c
 double grid_dot(const GridPoint& normal, const GridPoint& difference);
 
 /// A closed convex surface of triangles in half-edges. Those of triangle t are 3t, 3t + 1 and 3t + 2, counter-clockwise
-/// seen from outside.
+/// seen from outside. They come in the lexicographical order of their corners, each from its lowest.
 struct TriangleSurface {
     std::vector<std::uint32_t> origin;  ///< one a half-edge: the number of the point it leaves
     std::vector<std::uint32_t> twin;    ///< one a half-edge: the one that runs the other way
