@@ -36,19 +36,18 @@ void flatten(std::vector<Vec2>& loop) {
 
 std::vector<std::uint32_t> hull_loop(std::span<const Vec2> points) {
     const std::vector<HullColumn> columns = hull_columns(points);
-    const std::uint32_t least = columns.front().lowest, greatest = columns.back().highest;
-    if (points[least] == points[greatest]) return {least};
+    const NumberedPoint &least = columns.front().lowest, &greatest = columns.back().highest;
+    if (least.point == greatest.point) return {least.number};
 
     // Along the lower chain from the least point to the greatest, and back along the upper one. Each leaves out its
     // last point, where the other begins.
-    std::vector<std::uint32_t> loop{least};
+    std::vector<NumberedPoint> loop{least};
     std::size_t first = 0;
-    const auto append = [&](std::uint32_t i) {
-        if (i == loop.back()) return;
-        while (loop.size() >= first + 2 &&
-               orientation(points[loop[loop.size() - 2]], points[loop.back()], points[i]) <= 0)
+    const auto append = [&](const NumberedPoint& next) {
+        if (next.number == loop.back().number) return;
+        while (loop.size() >= first + 2 && orientation(loop[loop.size() - 2].point, loop.back().point, next.point) <= 0)
             loop.pop_back();
-        loop.push_back(i);
+        loop.push_back(next);
     };
     for (const HullColumn& column : columns) append(column.lowest);
     append(greatest);
@@ -56,7 +55,10 @@ std::vector<std::uint32_t> hull_loop(std::span<const Vec2> points) {
     for (auto column = columns.rbegin(); column != columns.rend(); ++column) append(column->highest);
     append(least);
     loop.pop_back();
-    return loop;
+    std::vector<std::uint32_t> result;
+    result.reserve(loop.size());
+    for (const NumberedPoint& corner : loop) result.push_back(corner.number);
+    return result;
 }
 
 Result<Hull2> hull(std::span<const Vec2> points) {

@@ -80,7 +80,7 @@ Octagon::Octagon(std::span<const Vec2> points) {
 
 struct Candidate {
     std::uint32_t key;  ///< in the order of x
-    std::uint32_t index;
+    NumberedPoint point;
 };
 
 /// Whole numbers in the order of floats; 0 and -0 have the same.
@@ -93,7 +93,7 @@ std::uint32_t key_of(float value) {
 void sort(std::vector<Candidate>& candidates) {
     if (candidates.size() < worth_counting) {
         std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-            return a.key != b.key ? a.key < b.key : a.index < b.index;
+            return a.key != b.key ? a.key < b.key : a.point.number < b.point.number;
         });
         return;
     }
@@ -116,7 +116,7 @@ void sort(std::vector<Candidate>& candidates) {
 
 std::vector<Candidate> candidates_of(std::span<const Vec2> points) {
     std::vector<Candidate> result;
-    const auto add = [&](std::uint32_t i) { result.push_back({key_of(points[i].x), i}); };
+    const auto add = [&](std::uint32_t i) { result.push_back({key_of(points[i].x), {points[i], i}}); };
     if (points.size() < worth_filtering) {
         for (std::uint32_t i = 0; i < points.size(); ++i) add(i);
         return result;
@@ -134,11 +134,11 @@ std::vector<HullColumn> hull_columns(std::span<const Vec2> points) {
     sort(candidates);
     std::vector<HullColumn> result;
     for (std::size_t begin = 0, end = 0; begin < candidates.size(); begin = end) {
-        HullColumn column{candidates[begin].index, candidates[begin].index};
+        HullColumn column{candidates[begin].point, candidates[begin].point};
         for (end = begin + 1; end < candidates.size() && candidates[end].key == candidates[begin].key; ++end) {
-            const std::uint32_t i = candidates[end].index;
-            if (points[i].y < points[column.lowest].y) column.lowest = i;
-            if (points[i].y > points[column.highest].y) column.highest = i;
+            const NumberedPoint& next = candidates[end].point;
+            if (next.point.y < column.lowest.point.y) column.lowest = next;
+            if (next.point.y > column.highest.point.y) column.highest = next;
         }
         result.push_back(column);
     }

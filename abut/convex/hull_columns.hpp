@@ -10,9 +10,15 @@
 
 namespace abut {
 
+/// One of the points, without a way to look it up: they are far apart in memory.
+struct NumberedPoint {
+    Vec2 point{0.0f};
+    std::uint32_t number = 0;
+};
+
 /// The points of one x that can be corners: the lowest and the highest, of copies the first. They may be the same.
 struct HullColumn {
-    std::uint32_t lowest = 0, highest = 0;
+    NumberedPoint lowest, highest;
 };
 
 /// Columns by growing x, left out those that are surely strictly inside of eight points far out (Akl, Toussaint: "A

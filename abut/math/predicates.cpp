@@ -26,6 +26,17 @@ Sum two_sum(double a, double b) {
     return {sum, (a - (sum - b_in_sum)) + (b - b_in_sum)};
 }
 
+/// The same of a * b (Dekker).
+Sum two_product(double a, double b) {
+    const auto upper_half = [](double x) {
+        const double scaled = 0x1.0000002p27 * x;
+        return scaled - (scaled - x);
+    };
+    const double product = a * b, a_high = upper_half(a), a_low = a - a_high, b_high = upper_half(b),
+                 b_low = b - b_high;
+    return {product, ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low};
+}
+
 /// An exact sum of up to 48 doubles, in parts that don't overlap: of growing magnitude, none of them zero, each larger
 /// than all before it together. So the last has the sign of the sum.
 class Expansion {
@@ -57,9 +68,20 @@ private:
     std::size_t count_ = 0;
 };
 
-/// The determinant of | a 1 |, | b 1 |, | c 1 |: six products of two floats, which are exact in double.
+bool is_exact(const DVec<2>& from, const DVec<2>& to) {
+    return two_sum(to.x, -from.x).lost == 0 && two_sum(to.y, -from.y).lost == 0;
+}
+
+/// Where differences lose nothing, as they do between floats of usual exponents, two products tell. Else the
+/// determinant of | a 1 |, | b 1 |, | c 1 |: six products of two floats, which are exact in double.
 int exact_orientation(const DVec<2>& a, const DVec<2>& b, const DVec<2>& c) {
     Expansion sum;
+    if (is_exact(a, b) && is_exact(a, c)) {
+        const DVec<2> p = b - a, q = c - a;
+        const Sum left = two_product(p.x, q.y), right = two_product(p.y, q.x);
+        for (const double term : {left.lost, -right.lost, left.rounded, -right.rounded}) sum.add(term);
+        return sum.sign();
+    }
     const auto add_cross = [&](const DVec<2>& p, const DVec<2>& q) {
         sum.add(p.x * q.y);
         sum.add(-p.y * q.x);
