@@ -1,11 +1,14 @@
 #include <abut/convex/hull_columns.hpp>
+#include <abut/convex/hull_input.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/math/predicates.hpp>
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace abut {
 namespace {
@@ -20,7 +23,7 @@ public:
     bool surely_inside(const Vec2& point) const {
         const DVec<2> p(point);
         if (p.x > box_low_.x && p.x < box_high_.x && p.y > box_low_.y && p.y < box_high_.y) return true;
-        return count_ >= 3 && left_of_all(p);
+        return count_ == 2 ? between(point) : count_ >= 3 && left_of_all(p);
     }
 
 private:
@@ -28,6 +31,13 @@ private:
         DVec<2> from{0.0}, along{0.0};
         double doubt = 0;  ///< of the cross product with a way to any point
     };
+
+    /// Where there are but two far points: on the line between them, exactly.
+    bool between(const Vec2& point) const {
+        Vec2 low = to_float(edges_[0].from), high = to_float(edges_[1].from);
+        if (less(high, low)) std::swap(low, high);
+        return less(low, point) && less(point, high) && orientation(low, high, point) == 0;
+    }
 
     bool left_of_all(const DVec<2>& p) const {
         for (std::size_t i = 0; i < count_; ++i) {
