@@ -7,7 +7,7 @@ namespace abut::outline {
 namespace {
 
 /// Another round pays where the last one saved one face in so many.
-constexpr std::size_t worthwhile = 20;
+constexpr std::size_t worthwhile = 40;
 
 }  // namespace
 
