@@ -306,7 +306,7 @@ TEST(DecomposeOutline, LeavesJunctionsOnlyWhereAllowed) {
 /// By trying every cut, and all pieces again: exact, and hopeless for more than about ten corners.
 class EveryCut {
 public:
-    explicit EveryCut(const Ring& ring) : ring_(ring) {
+    EveryCut(const Ring& ring, bool conforming) : ring_(ring), conforming_(conforming) {
         std::vector<std::uint32_t> all(ring.size());
         for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
         fewest_ = fewest(all);
@@ -316,6 +316,12 @@ public:
 private:
     int turn(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
         return orientation(ring_[a], ring_[b], ring_[c]);
+    }
+    /// Straight on only along edges of the ring, where no other piece can have a corner, if they have to be conforming.
+    bool may_turn(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+        const auto count = static_cast<std::uint32_t>(ring_.size());
+        const int side = turn(a, b, c);
+        return side > 0 || (side == 0 && (!conforming_ || ((a + 1) % count == b && (b + 1) % count == c)));
     }
     bool between(std::uint32_t a, std::uint32_t p, std::uint32_t b) const {
         const DVec<2> u(ring_[a] - ring_[p]), v(ring_[b] - ring_[p]);
@@ -339,7 +345,7 @@ private:
         const std::size_t count = loop.size();
         bool convex = true;
         for (std::size_t i = 0; i < count; ++i)
-            convex = convex && turn(loop[i], loop[(i + 1) % count], loop[(i + 2) % count]) >= 0;
+            convex = convex && may_turn(loop[i], loop[(i + 1) % count], loop[(i + 2) % count]);
         if (convex) return known_[loop] = 1;
         std::size_t best = count;
         for (std::size_t i = 0; i < count; ++i)
@@ -355,12 +361,13 @@ private:
     }
 
     const Ring& ring_;
+    bool conforming_;
     std::map<std::vector<std::uint32_t>, std::size_t> known_;
     std::size_t fewest_ = 0;
 };
 
 TEST(DecomposeOutline, MakesAsFewPartsAsEveryCut) {
-    std::size_t rings = 0, straight = 0;
+    std::size_t rings = 0, straight = 0, conforming_has_more = 0;
     const std::uint64_t samples = std::getenv("ABUT_LONG") != nullptr ? 20'000 : 600;
     for (std::uint64_t seed = 0; seed < samples; ++seed) {
         SCOPED_TRACE(seed);
@@ -379,12 +386,19 @@ TEST(DecomposeOutline, MakesAsFewPartsAsEveryCut) {
         for (std::size_t i = 0; i < ring.size(); ++i)
             straight += orientation(ring[i], ring[(i + 1) % ring.size()], ring[(i + 2) % ring.size()]) == 0 ? 1u : 0u;
         OutlineReport report;
-        const std::vector<Polygon> parts = checked(ring, {}, oracle::twice_area(ring), {}, &report);
-        EXPECT_EQ(parts.size(), EveryCut(ring).fewest());
-        EXPECT_TRUE(report.optimal);
+        std::size_t fewest[2];
+        for (const bool conforming : {false, true}) {
+            const Whole area = oracle::twice_area(ring);
+            const std::size_t parts = checked(ring, {}, area, {.conforming = conforming}, &report).size();
+            fewest[conforming ? 1 : 0] = EveryCut(ring, conforming).fewest();
+            EXPECT_EQ(parts, fewest[conforming ? 1 : 0]);
+            EXPECT_TRUE(report.optimal);
+        }
+        conforming_has_more += fewest[1] > fewest[0] ? 1u : 0u;
     }
     EXPECT_GT(rings, samples / 3);
     EXPECT_GT(straight, samples / 20);
+    EXPECT_GT(conforming_has_more, samples / 100);
 }
 
 // ---- parts that may add
