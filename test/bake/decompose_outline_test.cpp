@@ -102,6 +102,20 @@ TEST(DecomposeOutline, LeavesOutRepeatedPointsAndSpikes) {
     EXPECT_EQ(report.touching_points, 2u);
 }
 
+TEST(DecomposeOutline, LeavesOutWhatIsGoneAlongAndBackInPart) {
+    // Too far along the floor, and back; the same upwards, where the way back is in two steps.
+    EXPECT_EQ(checked({{0, 0}, {6, 0}, {3, 0}, {3, 4}, {0, 4}}, {}, twice_of(12)).size(), 1u);
+    EXPECT_EQ(checked({{0, 0}, {3, 0}, {3, 9}, {3, 7}, {3, 4}, {0, 4}}, {}, twice_of(12)).size(), 1u);
+    EXPECT_EQ(checked({{0, 0}, {9, 0}, {7, 0}, {9, 0}, {3, 0}, {3, 4}, {0, 4}, {0, 5}}, {}, twice_of(12)).size(), 1u);
+    // The same into the inside, where nothing is left of it.
+    const std::vector<Polygon> clean = checked({{0, 0}, {3, 0}, {3, -1}, {9, -1}, {9, 4}, {0, 4}});
+    const auto parts = decompose(Ring{{0, 0}, {6, 0}, {3, 0}, {3, -1}, {9, -1}, {9, 4}, {0, 4}});
+    ASSERT_TRUE(parts);
+    ASSERT_EQ(parts->size(), clean.size());
+    for (std::size_t i = 0; i < clean.size(); ++i)
+        EXPECT_TRUE(std::ranges::equal((*parts)[i].points(), clean[i].points()));
+}
+
 TEST(DecomposeOutline, TakesHolesThatTouchTheOutline) {
     const Ring outline = square(0, 0, 4);
     checked(outline, {{{0, 0}, {2, 1}, {1, 2}}}, twice_of(16) - twice_of(3) / 2);             // a corner on a corner
@@ -399,6 +413,15 @@ TEST(DecomposeOutline, MakesAsFewPartsAsEveryCut) {
     EXPECT_GT(rings, samples / 3);
     EXPECT_GT(straight, samples / 20);
     EXPECT_GT(conforming_has_more, samples / 100);
+}
+
+/// What optimal_convex_partition_2 of CGAL 5.5 finds.
+TEST(DecomposeOutline, MakesAsFewPartsAsOthersFindAtLeast) {
+    const std::pair<double, std::size_t> known[] = {{0.001, 37}, {0.02, 38}, {0.1, 43},
+                                                    {0.3, 45},   {0.5, 41},  {0.8, 35}};
+    for (const auto& [inner, fewest] : known) EXPECT_EQ(checked(scenes::star(100, inner, 1)).size(), fewest) << inner;
+    EXPECT_EQ(checked(scenes::spiky_star(100, 1)).size(), 66u);
+    EXPECT_EQ(checked(scenes::comb(25)).size(), 26u);
 }
 
 // ---- parts that may add
