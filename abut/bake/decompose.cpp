@@ -44,7 +44,7 @@ public:
     Result<std::vector<Polyhedron>> run() {
         const std::size_t bodies = candidates_.size();
         const auto most = bodies + static_cast<std::size_t>(pieces_a_part * options_.max_parts);
-        while (candidates_.size() < most) {
+        for (std::size_t cuts = 0; candidates_.size() < most && cuts < 2 * most; ++cuts) {
             constexpr double share_of_cutting = 0.9;
             const double done = static_cast<double>(candidates_.size() - bodies) / static_cast<double>(most - bodies);
             if (is_cancelled(done * share_of_cutting)) return cancelled();
@@ -117,6 +117,7 @@ private:
         const std::size_t points = candidate.piece.points.size();
         constexpr std::size_t most_looks = 4;
         constexpr double clear_gain = 0.3;
+        constexpr double still_whole = 0.999;  // else what was cut off was empty
         std::vector<RatedCut> cuts = rated_cuts(candidate.piece, hull_, most_looks, offsets);
         std::size_t looks = points > large ? 1 : points > small ? 2 : most_looks;
         if (!cuts.empty() && cuts.front().extra > (1 - clear_gain) * candidate.piece.extra()) looks = most_looks;
@@ -125,7 +126,8 @@ private:
         double least = 0;
         for (const RatedCut& rated : cuts) {
             std::vector<Piece> parts = cut_by(candidate.piece, rated.plane);
-            if (parts.size() < 2) continue;
+            if (parts.empty() || (parts.size() == 1 && parts[0].hull_volume > still_whole * candidate.piece.hull_volume))
+                continue;
             // Of cuts that lead equally far the one that leads there at once.
             constexpr double now = 0.02, clearly = 1e-3;
             double left = looks == 1 ? 0 : extra_after_cuts(parts) + now * rated.extra;
