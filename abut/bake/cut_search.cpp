@@ -14,6 +14,10 @@ namespace {
 /// Weighs how far halves differ: where a body has to be cut twice before anything is gained, it had better be halved.
 constexpr double unlike_halves = 0.02;
 
+/// Weighs that a plane has no face of the piece in it, of `large_face` of its area: where there are faces along which a
+/// body comes apart into convex ones, each cut along them gains little until the last.
+constexpr double no_face = 0.2, large_face = 0.03;
+
 /// What hulls may leave out that only rank cuts: less where there are few points, which is quick anyway.
 double roughness(const Piece& piece) {
     constexpr std::size_t few = 600;
@@ -55,10 +59,12 @@ public:
           hull_(hull),
           margin_(cut_margin(piece)),
           roughness_(roughness(piece)),
-          edges_(edges_of(piece)) {}
+          edges_(edges_of(piece)) {
+        for (const glm::uvec3& t : piece.triangles) area_ += area_of(t);
+    }
 
     /// Offsets ascending. Those that cut nothing off are left out.
-    void rate(const DVec<3>& normal, std::vector<double> offsets, bool along_face, std::vector<RatedCut>& result) {
+    void rate(const DVec<3>& normal, std::vector<double> offsets, std::vector<RatedCut>& result) {
         heights_.clear();
         for (const DVec<3>& p : piece_.points) heights_.push_back(dot(normal, p));
         const auto [low, high] = std::minmax_element(heights_.begin(), heights_.end());
@@ -92,6 +98,13 @@ public:
                 on_[i].push_back(piece_.points[a] + (piece_.points[b] - piece_.points[a]) * share);
             }
         }
+        faces_.assign(count, 0);
+        for (const glm::uvec3& t : piece_.triangles) {
+            const std::uint32_t plane = first_[t.x];
+            if (plane < last_[t.x] && plane == first_[t.y] && plane < last_[t.y] && plane == first_[t.z] &&
+                plane < last_[t.z])
+                faces_[plane] += area_of(t);
+        }
         // A point of the plane is only on the sides that it has edges to.
         for (std::size_t i = 0; i < heights_.size(); ++i) {
             const bool on = last_[i] > first_[i];
@@ -99,7 +112,7 @@ public:
             above_[last_[i] - (on && !leads_up_[i] ? 1 : 0)].push_back(piece_.points[i]);
         }
         const std::size_t begin = result.size();
-        for (std::size_t i = 0; i < count; ++i) result.push_back({{normal, offsets[i]}, 0, 0, along_face});
+        for (std::size_t i = 0; i < count; ++i) result.push_back({{normal, offsets[i]}, 0, 0, 0});
         gathered_.clear();
         for (std::size_t i = 0; i < count; ++i) result[begin + i].extra = grown(below_[i], on_[i]);
         gathered_.clear();
@@ -107,12 +120,18 @@ public:
             RatedCut& cut = result[begin + i];
             const double below = cut.extra, above = grown(above_[i + 1], on_[i]);
             cut.extra = below + above - piece_.volume;
-            cut.rating = cut.extra + piece_.extra() * unlike_halves * std::abs(below - above) / (below + above);
-            if (!along_face) cut.rating += cost_of_no_face(piece_);
+            cut.no_face = piece_.extra() * no_face * (1 - std::min(1.0, faces_[i] / (large_face * area_)));
+            cut.rating =
+                cut.extra + cut.no_face + piece_.extra() * unlike_halves * std::abs(below - above) / (below + above);
         }
     }
 
 private:
+    double area_of(const glm::uvec3& t) const {
+        const DVec<3>& a = piece_.points[t.x];
+        return length(cross(piece_.points[t.y] - a, piece_.points[t.z] - a));
+    }
+
     double grown(const std::vector<DVec<3>>& come, const std::vector<DVec<3>>& on) {
         gathered_.insert(gathered_.end(), come.begin(), come.end());
         gathered_.insert(gathered_.end(), on.begin(), on.end());
@@ -131,6 +150,8 @@ private:
     std::vector<Edge> edges_;
     std::vector<double> heights_;
     std::vector<std::uint32_t> first_, last_;
+    double area_ = 0;
+    std::vector<double> faces_;  ///< one a plane: the area of those in it
     std::vector<bool> leads_down_, leads_up_;
     std::vector<std::vector<DVec<3>>> below_, above_, on_;
     std::vector<DVec<3>> gathered_, kept_;
@@ -222,11 +243,6 @@ double cut_margin(const Piece& piece) {
     return 1e-5 * largest(extent.greatest - extent.least);
 }
 
-double cost_of_no_face(const Piece& piece) {
-    constexpr double share = 0.05;
-    return share * piece.extra();
-}
-
 void measure_hull(Piece& piece, RoughHull& hull) {
     constexpr double fine = 1e-4;
     hull.build(piece.points, fine);
@@ -251,10 +267,10 @@ std::vector<RatedCut> rated_cuts(const Piece& piece, RoughHull& hull, std::size_
         add_levels(piece, normal, margin, offsets);
         std::sort(offsets.begin(), offsets.end());
         const std::size_t begin = cuts.size();
-        sweeper.rate(normal, offsets, true, cuts);
+        sweeper.rate(normal, offsets, cuts);
         offsets.clear();
         for (int i = 1; i <= offsets_a_sweep; ++i) offsets.push_back(low + spacing * i);
-        sweeper.rate(normal, offsets, false, cuts);
+        sweeper.rate(normal, offsets, cuts);
         if (begin == cuts.size()) continue;
         best_of_sweeps.push_back(
             *std::min_element(cuts.begin() + static_cast<std::ptrdiff_t>(begin), cuts.end(), better));
@@ -262,15 +278,15 @@ std::vector<RatedCut> rated_cuts(const Piece& piece, RoughHull& hull, std::size_
     std::sort(best_of_sweeps.begin(), best_of_sweeps.end(), better);
     const std::size_t refined = offsets_a_sweep > 6 ? 2 : 0;
     for (std::size_t i = 0; i < std::min(refined, best_of_sweeps.size()); ++i) {
-        if (best_of_sweeps[i].along_face) continue;
+        if (best_of_sweeps[i].no_face == 0) continue;
         const CutPlane& plane = best_of_sweeps[i].plane;
         const auto [low, high] = range_of(piece, plane.normal);
         const double spacing = (high - low) / (offsets_a_sweep + 1);
         offsets.clear();
         for (const int k : {-3, -2, -1, 1, 2, 3}) offsets.push_back(plane.offset + spacing * k / 4);
-        sweeper.rate(plane.normal, offsets, false, cuts);
+        sweeper.rate(plane.normal, offsets, cuts);
     }
-    for (const auto& [normal, levels] : reflex_planes(piece)) sweeper.rate(normal, levels, true, cuts);
+    for (const auto& [normal, levels] : reflex_planes(piece)) sweeper.rate(normal, levels, cuts);
 
     std::sort(cuts.begin(), cuts.end(), better);
     const Extent extent = extent_of(piece.points);

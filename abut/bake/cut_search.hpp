@@ -11,19 +11,15 @@ namespace abut {
 
 struct RatedCut {
     CutPlane plane;
-    double extra;   ///< what the hulls of both sides have beyond the piece
-    double rating;  ///< less is better: the same, and a little for halves that aren't alike and for cuts along no face
-    bool along_face;
+    double extra;    ///< what the hulls of both sides have beyond the piece
+    double no_face;  ///< what weighs that the plane has no face of the piece in it, or a small one
+    double rating;   ///< less is better: both, and a little for halves that aren't alike
 };
 
 /// The most promising planes, best first, no two nearly alike. Sweeps of parallel planes across the axes of space and
 /// the main axes of the piece, those next to the best once more and closer together; levels at which it is flat; and
 /// the planes of faces that meet in reflex edges, which cut what was made of boxes into these boxes.
 std::vector<RatedCut> rated_cuts(const Piece& piece, RoughHull& hull, std::size_t count, int offsets_a_sweep);
-
-/// What weighs that a cut runs along no face of the piece. Where there are faces along which a body is cut into convex
-/// ones, each cut along them gains little until the last.
-double cost_of_no_face(const Piece& piece);
 
 /// How far from a plane points may be and still count as lying on it.
 double cut_margin(const Piece& piece);

@@ -126,12 +126,12 @@ private:
         double least = 0;
         for (const RatedCut& rated : cuts) {
             std::vector<Piece> parts = cut_by(candidate.piece, rated.plane);
-            if (parts.empty() || (parts.size() == 1 && parts[0].hull_volume > still_whole * candidate.piece.hull_volume))
+            if (parts.empty() ||
+                (parts.size() == 1 && parts[0].hull_volume > still_whole * candidate.piece.hull_volume))
                 continue;
             // Of cuts that lead equally far the one that leads there at once.
             constexpr double now = 0.02, clearly = 1e-3;
-            double left = looks == 1 ? 0 : extra_after_cuts(parts) + now * rated.extra;
-            if (!rated.along_face) left += cost_of_no_face(candidate.piece);
+            const double left = looks == 1 ? 0 : extra_after_cuts(parts) + now * rated.extra + rated.no_face;
             if (!best.empty() && left >= least - clearly * candidate.piece.extra()) continue;
             least = left;
             best = std::move(parts);
