@@ -1,6 +1,8 @@
 // Convex parts as the level they stand for: nothing is felt at the faces where they meet.
 
+#include "../../scenes/solid_meshes.hpp"
 #include "../oracle/random.hpp"
+#include <abut/bake/decompose.hpp>
 #include <abut/query/each_contact.hpp>
 #include <abut/query/sweep.hpp>
 #include <abut/shape/ball.hpp>
@@ -104,6 +106,35 @@ TEST(CompoundOfParts, PushesWhatLiesOnItUpAlone) {
     EXPECT_LE(most, 1e-6);
     EXPECT_GT(seams, 500u);
     EXPECT_GT(contacts, 3000u);
+}
+
+TEST(CompoundOfParts, OfADecomposedMeshPushUpAlone) {
+    // A flat top in the shape of a U, 1 thick, its top turned to y = 0.
+    scenes::SolidMesh mesh = scenes::of_cubes({{"######", "######", "##  ##", "##  ##"}});
+    for (Vec3& p : mesh.points) p = {p.x, p.z - 1, -p.y};
+    const auto parts = decompose(mesh.points, mesh.triangles);
+    ASSERT_TRUE(parts);
+    EXPECT_GE(parts->size(), 3u);
+    const Compound3 ground = compound_of(*parts);
+    std::size_t seams = 0;
+    double most = 0;
+    Random random(1);
+    for (int i = 0; i < 2000; ++i) {
+        // Along the bar, or along a leg and over the corner, all of it over the top.
+        const double along = random.uniform(0.6, 3.4), beside = random.uniform(0.6, 1.4);
+        Box3 box = resting(i % 2 == 0 ? 1.3 * along : beside, i % 2 == 0 ? -beside : -along, random.uniform(1e-4, 1e-2),
+                           random);
+        box.half *= Vec3(0.3f, 1, 0.3f);
+        std::size_t here = 0;
+        each_contact(box, ground, [&](const Contact<3>& contact) {
+            ++here;
+            most = std::max(most, lean(contact.normal));
+        });
+        EXPECT_GE(here, 1u);
+        seams += here > 1;
+    }
+    EXPECT_LE(most, 1e-6);
+    EXPECT_GT(seams, 100u);
 }
 
 TEST(CompoundOfParts, HardlyEverStopsWhatSlidesOnIt) {

@@ -102,7 +102,7 @@ TEST_F(DecomposeVerb, RepairsFirst) {
 }
 
 TEST_F(DecomposeVerb, KeepsItsLimits) {
-    const std::string file = write_mesh("tube.obj", scenes::knotted_tube(40, 8));
+    const std::string file = write_mesh("tube.obj", scenes::knotted_tube(24, 6));
     const Json few = decomposed({file, "-o", out("few.glb"), "--parts", "4"});
     EXPECT_LE(few["parts"].size(), 4u);
     const Json rough = decomposed({file, "-o", out("rough.glb"), "--concavity", "0.5"});
