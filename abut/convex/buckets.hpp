@@ -33,7 +33,8 @@ Buckets in_buckets(std::size_t count, Each each) {
     result.ends.pop_back();
     std::size_t begin = 0;
     for (const std::uint32_t end : result.ends) {
-        std::sort(result.keys.begin() + static_cast<std::ptrdiff_t>(begin), result.keys.begin() + end);
+        const std::span<std::uint64_t> bucket = std::span(result.keys).subspan(begin, end - begin);
+        if (!std::is_sorted(bucket.begin(), bucket.end())) std::sort(bucket.begin(), bucket.end());
         begin = end;
     }
     return result;

@@ -109,7 +109,9 @@ void FaceMesh::join_coplanar() {
         link(h, after);
         start_[face_[h]] = h;
     }
-    // A point where only two faces meet lies on the line that their planes have in common.
+    // A point where only two faces meet lies on the line that their planes have in common. Triangles have no such
+    // points.
+    if (area_.size() == triangle_normals_.size()) return;
     for (std::uint32_t h = 0; h < origin_.size(); ++h)
         if (alive(h) && between_two_faces(h)) take_out_origin(h);
 }
