@@ -11,12 +11,6 @@
 namespace abut {
 namespace {
 
-/// How far the surface may be from convex, and from holding what is inside: the corners of a hull's face needn't lie in
-/// a plane more exactly.
-constexpr double flatness = 1e-6;
-constexpr int most_turns = 4, most_halvings = 5;
-constexpr double least_gain = 1e-4;
-
 /// The triangles of a face, in a strip, so that no corner belongs to more of them than it has to.
 template <class Visit>
 void each_triangle(std::span<const std::uint32_t> loop, Visit visit) {
@@ -321,122 +315,6 @@ void OuterMesh::simplify(std::size_t count) {
             push(h);
             if (heap_.size() > before) std::push_heap(heap_.begin(), heap_.end(), later);
         }
-    }
-}
-
-/// Whether a corner may go to a place: the triangles around it then hold what is inside, and stay convex.
-bool OuterMesh::fits(std::uint32_t point, const DVec<3>& at, const InnerPoints& inside) {
-    bool result = true;
-    each_leaving(point, [&](std::uint32_t h) {
-        if (!result) return;
-        // Over the edge h: the third corner of the triangle on its other side.
-        const DVec<3> b = points_[origin_[following(h)]], c = points_[origin_[following(following(h))]],
-                      d = points_[origin_[following(following(twin_[h]))]];
-        const DVec<3> u = b - at, v = c - at, w = d - at, normal = cross(u, v);
-        const double area = length(normal);
-        touched_ = inside.highest(normal, touched_);
-        result =
-            dot(normal, w) <= 2 * flatness * area && dot(normal, inside.points()[touched_] - at) <= flatness * area;
-    });
-    return result;
-}
-
-void OuterMesh::move(std::uint32_t point, const DVec<3>& to) {
-    points_[point] = to;
-    for (const std::uint32_t h : ring_) {
-        planes_[h / 3] = planes_[twin_[h] / 3];
-        set_plane(h / 3);
-    }
-}
-
-/// The other diagonal of the two triangles of an edge, where they lie in a plane and it is inside of them.
-bool OuterMesh::flip(std::uint32_t half_edge) {
-    const std::uint32_t h = half_edge, h1 = following(h), h2 = following(h1);
-    const std::uint32_t g = twin_[h], g1 = following(g), g2 = following(g1);
-    const std::uint32_t c = origin_[h], d = origin_[g], v = origin_[h2], w = origin_[g2];
-    const DVec<3>& normal = planes_[g / 3].normal;
-    const DVec<3> across = points_[w] - points_[v], to_c = points_[c] - points_[v], to_d = points_[d] - points_[v];
-    const double doubt = 1e-9 * length_squared(across);
-    if (std::abs(dot(normal, points_[v] - points_[w])) > 1e-9 * length(across)) return false;
-    if (!(dot(normal, cross(to_c, across)) > doubt) || !(dot(normal, cross(across, to_d)) > doubt)) return false;
-    std::size_t at_c = 0, at_d = 0;
-    bool neighbours = false;
-    each_leaving(c, [&](std::uint32_t) { ++at_c; });
-    each_leaving(d, [&](std::uint32_t) { ++at_d; });
-    each_leaving(v, [&](std::uint32_t from) { neighbours = neighbours || origin_[twin_[from]] == w; });
-    if (at_c < 4 || at_d < 4 || neighbours) return false;
-
-    const std::uint32_t over_dv = twin_[h1], over_vc = twin_[h2], over_cw = twin_[g1], over_wd = twin_[g2];
-    const auto link = [&](std::uint32_t one, std::uint32_t from, std::uint32_t other) {
-        origin_[one] = from;
-        twin_[one] = other;
-        twin_[other] = one;
-    };
-    link(h, w, g);
-    link(h1, v, over_vc);
-    link(h2, c, over_cw);
-    link(g, v, h);
-    link(g1, w, over_wd);
-    link(g2, d, over_dv);
-    leaving_[v] = h1;
-    leaving_[c] = h2;
-    leaving_[w] = g1;
-    leaving_[d] = g2;
-    planes_[h / 3] = planes_[g / 3];
-    set_plane(h / 3);
-    set_plane(g / 3);
-    return true;
-}
-
-/// More triangles around a corner, from over flat edges.
-bool OuterMesh::widen(std::uint32_t point) {
-    bool result = false;
-    for (const std::uint32_t h : std::vector<std::uint32_t>(ring_))
-        if (origin_[following(following(h))] == point && flip(h)) result = true;
-    return result;
-}
-
-/// Above what a corner has to stay, so that all is still inside: for each edge of the ring, the plane through it that
-/// touches what is inside; and below which planes, so that the surface stays convex: those over the ring.
-void OuterMesh::cut_around(std::uint32_t point, const InnerPoints& inside) {
-    gather_ring_of_point(point);
-    limits_.clear();
-    for (const std::uint32_t h : ring_) {
-        const Plane<3>& outer = planes_[twin_[h] / 3];
-        const DVec<3> from = points_[origin_[h]], along = points_[origin_[following(h)]] - from;
-        const DVec<3> on = normalized(cross(outer.normal, along));
-        touched_ = inside.first_touched(from, on, outer.normal, 1e-12 * length(along), touched_);
-        const DVec<3> seen = inside.points()[touched_] - from;
-        const double x = dot(on, seen), y = std::max(0.0, -dot(outer.normal, seen));
-        const DVec<3> normal = normalized(outer.normal * x + on * y), local = from - middle_;
-        limits_.push_back({normal, dot(normal, local)});
-        limits_.push_back(flipped<3>({outer.normal, dot(outer.normal, local) + flatness}));
-    }
-}
-
-void OuterMesh::tighten(const InnerPoints& inside, int rounds) {
-    for (int round = 0; round < rounds; ++round) {
-        double gain = 0, size = 0;
-        for (std::uint32_t point = 0; point < points_.size(); ++point) {
-            if (!has_point(point)) continue;
-            for (int turn = 0; turn < most_turns; ++turn) {
-                cut_around(point, inside);
-                size = std::max(size, size_);
-                const std::optional<DVec<3>> found = lowest_above(limits_, slope_, size_);
-                if (!found || !(volume_to(*found) < 0)) break;
-                DVec<3> step = *found;
-                int halvings = 0;
-                while (halvings < most_halvings && !fits(point, middle_ + step, inside)) {
-                    ++halvings;
-                    step *= 0.5;
-                }
-                if (halvings == most_halvings) break;
-                gain -= volume_to(step);
-                move(point, middle_ + step);
-                if (!widen(point)) break;
-            }
-        }
-        if (!(gain > least_gain * size * size * size)) return;
     }
 }
 

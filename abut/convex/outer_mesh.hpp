@@ -56,6 +56,10 @@ public:
     static constexpr std::uint32_t none = 0xffffffffu;
 
 private:
+    /// How far the surface may be from convex, and from holding what is inside: the corners of a hull's face needn't
+    /// lie in a plane more exactly.
+    static constexpr double flatness = 1e-6;
+
     /// Where two neighbours go, and the volume that it adds.
     struct Merge {
         DVec<3> point{0.0};
