@@ -93,15 +93,18 @@ void cut(Partition& partition, OutlineReport& report) {
     report.reflex_corners = partition.reflex_corners();
     const std::size_t corners = partition.corners();
     partition.merge_all();
-    if (corners <= solved_at_once)
+    const auto cuts = static_cast<std::int64_t>((report.reflex_corners + 1) / 2);
+    report.least_pieces = static_cast<std::size_t>(std::max<std::int64_t>(1, partition.pieces_less_holes() + cuts));
+    const auto is_least = [&] { return partition.faces().size() == report.least_pieces; };
+    if (is_least())
+        report.optimal = true;
+    else if (corners <= solved_at_once)
         report.optimal = partition.improve(solved_at_once, 3, false).optimal;
     else if (corners <= few_corners)
         partition.improve(32, 3, false);
     else if (partition.improve(8, 1, true).worthwhile)
         partition.improve(16, 2, false);
-    const auto cuts = static_cast<std::int64_t>((report.reflex_corners + 1) / 2);
-    report.least_pieces = static_cast<std::size_t>(std::max<std::int64_t>(1, partition.pieces_less_holes() + cuts));
-    report.optimal = report.optimal || partition.faces().size() == report.least_pieces;
+    report.optimal = report.optimal || is_least();
 }
 
 }  // namespace
