@@ -12,12 +12,15 @@ Partition::Partition(const Triangulation& triangles, bool conforming)
       next_(origins_.size()),
       before_(origins_.size()),
       faces_at_(points_.size(), 0),
+      face_count_(origins_.size() / 3),
       conforming_(conforming) {
     for (std::uint32_t i = 0; i < origins_.size(); ++i) {
         next_[i] = i % 3 == 2 ? i - 2 : i + 1;
         before_[i] = i % 3 == 0 ? i + 2 : i - 1;
         ++faces_at_[origins_[i]];
     }
+    const auto sides_of_cuts = static_cast<std::int64_t>(origins_.size() - corners());
+    pieces_less_holes_ = static_cast<std::int64_t>(face_count_) - sides_of_cuts / 2;
 }
 
 bool Partition::convex_without(std::uint32_t half_edge) const {
@@ -36,6 +39,7 @@ void Partition::remove(std::uint32_t half_edge) {
         --faces_at_[origins_[edge]];
     }
     for (const std::uint32_t edge : {half_edge, twins_[half_edge]}) next_[edge] = none;
+    --face_count_;
 }
 
 /// Of a half-edge of the boundary: the last one from the same corner around the inside.
@@ -85,13 +89,6 @@ std::size_t Partition::reflex_corners() const {
         if (last != first && orientation(at(before_[last]), at(first), at(next_[first])) < 0) ++result;
     }
     return result;
-}
-
-std::int64_t Partition::pieces_less_holes() const {
-    std::int64_t faces_less_cuts = 0;
-    for (std::uint32_t i = 0; i < origins_.size(); ++i)
-        if (twins_[i] != none && next_[i] != none) --faces_less_cuts;
-    return faces_less_cuts / 2 + static_cast<std::int64_t>(faces().size());
 }
 
 std::vector<std::uint32_t> Partition::faces() const {

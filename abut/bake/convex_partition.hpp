@@ -36,7 +36,8 @@ public:
     std::size_t corners() const;
     std::size_t reflex_corners() const;
     /// Pieces of the region that don't hang together, less the holes in them: faces less cuts, whatever the faces.
-    std::int64_t pieces_less_holes() const;
+    std::int64_t pieces_less_holes() const { return pieces_less_holes_; }
+    std::size_t face_count() const { return face_count_; }
 
     /// One half-edge a face.
     std::vector<std::uint32_t> faces() const;
@@ -77,6 +78,8 @@ private:
     const std::vector<Vec2>& points_;
     std::vector<std::uint32_t> origins_, twins_, next_, before_;
     std::vector<std::uint32_t> faces_at_;  ///< one a point: how many corners of faces lie there
+    std::int64_t pieces_less_holes_;
+    std::size_t face_count_;
     bool conforming_;
 };
 

@@ -147,6 +147,7 @@ void Partition::recut(const Patch& patch, const OptimalPartition& parts, FaceNum
             last = edge;
         }
     }
+    face_count_ -= patch.faces.size() - parts.size();
     for (std::size_t i = parts.size(); i < patch.faces.size(); ++i) numbers.first[patch.faces[i]] = none;
 }
 

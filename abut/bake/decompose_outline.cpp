@@ -95,7 +95,7 @@ void cut(Partition& partition, OutlineReport& report) {
     partition.merge_all();
     const auto cuts = static_cast<std::int64_t>((report.reflex_corners + 1) / 2);
     report.least_pieces = static_cast<std::size_t>(std::max<std::int64_t>(1, partition.pieces_less_holes() + cuts));
-    const auto is_least = [&] { return partition.faces().size() == report.least_pieces; };
+    const auto is_least = [&] { return partition.face_count() == report.least_pieces; };
     if (is_least())
         report.optimal = true;
     else if (corners <= solved_at_once)
