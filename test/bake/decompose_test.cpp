@@ -1,0 +1,288 @@
+// Meshes to convex parts: bodies made of convex ones come back as these, others are covered and within the limits.
+
+#include "../../scenes/solid_meshes.hpp"
+#include "../oracle/part_quality.hpp"
+#include "../oracle/random.hpp"
+#include <abut/bake/decompose.hpp>
+#include <abut/bake/solid.hpp>
+#include <abut/bake/weld.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <tuple>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace abut {
+namespace {
+
+using oracle::PartQuality;
+using scenes::SolidMesh;
+
+void add(SolidMesh& mesh, const SolidMesh& other) {
+    const auto first = static_cast<std::uint32_t>(mesh.points.size());
+    mesh.points.insert(mesh.points.end(), other.points.begin(), other.points.end());
+    for (const glm::uvec3& t : other.triangles) mesh.triangles.push_back(t + glm::uvec3(first));
+}
+
+SolidMesh box(const Vec3& low, const Vec3& high) {
+    SolidMesh result = scenes::of_cubes({{"#"}});
+    for (Vec3& p : result.points) p = low + p * (high - low);
+    return result;
+}
+
+SolidMesh inside_out(SolidMesh mesh) {
+    for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
+    return mesh;
+}
+
+SolidMesh moved(SolidMesh mesh, float scale, const Vec3& by) {
+    for (Vec3& p : mesh.points) p = p * scale + by;
+    return mesh;
+}
+
+std::vector<Polyhedron> parts_of(const SolidMesh& mesh, const DecomposeOptions& options) {
+    Result<std::vector<Polyhedron>> parts = decompose(mesh.points, mesh.triangles, options);
+    EXPECT_TRUE(parts) << (parts ? "" : parts.problem().message);
+    return parts ? *parts : std::vector<Polyhedron>{};
+}
+
+std::vector<std::vector<std::tuple<float, float, float>>> corners_of(const std::vector<Polyhedron>& parts) {
+    std::vector<std::vector<std::tuple<float, float, float>>> result;
+    for (const Polyhedron& part : parts) {
+        result.emplace_back();
+        for (const Vec3& p : part.points()) result.back().emplace_back(p.x, p.y, p.z);
+    }
+    std::sort(result.begin(), result.end());
+    return result;
+}
+
+double volume_of(const std::vector<Polyhedron>& parts) {
+    double sum = 0;
+    for (const Polyhedron& part : parts) sum += part.volume();
+    return sum;
+}
+
+/// The corners of the triangles and points within them.
+void expect_covered(const SolidMesh& mesh, const std::vector<Polyhedron>& parts, double farthest) {
+    const oracle::PartsOf all(parts);
+    double size = 0;
+    for (const Vec3& p : mesh.points) size = std::max(size, largest(DVec<3>(p)));
+    const double allowed = farthest + 4e-7 * size;  // what is asked here is answered in floats
+    oracle::Random random(7);
+    const oracle::SurfacePoints surface(mesh.points, mesh.triangles);
+    for (int i = 0; i < 2000; ++i) EXPECT_LE(all.distance(surface.next(random)), allowed);
+    for (const Vec3& p : mesh.points) EXPECT_LE(all.distance(p), allowed);
+}
+
+/// The parts fill the mesh and no more.
+void expect_exact(const SolidMesh& mesh, std::size_t parts) {
+    DecomposeReport report;
+    const std::vector<Polyhedron> found = parts_of(mesh, {.report = &report});
+    EXPECT_EQ(found.size(), parts);
+    const double volume = signed_volume(mesh.points, mesh.triangles);
+    EXPECT_TRUE(report.closed);
+    EXPECT_NEAR(report.mesh_volume, volume, 1e-9 * volume);
+    EXPECT_NEAR(volume_of(found), volume, 1e-6 * volume);
+    expect_covered(mesh, found, report.farthest);
+    const Welded welded = weld(mesh.points, mesh.triangles);
+    const PartQuality quality = oracle::quality_of(welded.points, welded.triangles, found, 5000, 1);
+    EXPECT_LT(quality.extra, 1e-3);
+    EXPECT_LT(quality.missing, 1e-3);
+}
+
+TEST(DecomposeMesh, ConvexBodiesComeBackAsTheyAreAlsoWhereTheyOverlap) {
+    SolidMesh mesh = box({0, 0, 0}, {2, 1, 1});
+    add(mesh, box({1, 0.25f, 0.25f}, {1.5f, 3, 0.5f}));
+    add(mesh, moved(box({0, 0, 0}, {1, 1, 1}), 0.5f, {5, 0, 0}));
+    const std::vector<Polyhedron> parts = parts_of(mesh, {});
+    ASSERT_EQ(parts.size(), 3u);
+    for (const Polyhedron& part : parts) EXPECT_EQ(part.points().size(), 8u);
+    EXPECT_NEAR(volume_of(parts), 2 + 0.5 * 2.75 * 0.25 + 0.125, 1e-6);
+    expect_covered(mesh, parts, 0);
+}
+
+TEST(DecomposeMesh, AnLIsTwoBoxes) {
+    expect_exact(scenes::of_cubes({{"####", "#", "#"}}), 2);
+}
+
+TEST(DecomposeMesh, StairsAreAsManyBoxesAsSteps) {
+    expect_exact(scenes::of_cubes({{"####"}, {"###"}, {"##"}, {"#"}}), 4);
+}
+
+TEST(DecomposeMesh, AHouseKeepsItsDoorAndWindows) {
+    const SolidMesh house = scenes::house();
+    expect_exact(house, 14);
+    const std::vector<Polyhedron> found = parts_of(house, {});
+    const oracle::PartsOf parts(found);
+    EXPECT_FALSE(parts.contain({5, 0.5f, 2}));
+    EXPECT_FALSE(parts.contain({0.5f, 4, 3}));
+    EXPECT_FALSE(parts.contain({5, 4, 3}));
+}
+
+TEST(DecomposeMesh, CubesThatTouchInEdgesComeApart) {
+    expect_exact(scenes::of_cubes({{"# #", " # ", "# #"}, {" # ", "# #", " # "}}), 9);
+}
+
+TEST(DecomposeMesh, AHollowStaysHollow) {
+    SolidMesh mesh = box({0, 0, 0}, {3, 3, 3});
+    add(mesh, inside_out(box({1, 1, 1}, {2, 2, 2})));
+    expect_exact(mesh, 6);
+    EXPECT_FALSE(oracle::PartsOf(parts_of(mesh, {})).contain({1.5f, 1.5f, 1.5f}));
+}
+
+TEST(DecomposeMesh, SizeAndPlaceChangeNothing) {
+    const SolidMesh stairs = scenes::of_cubes({{"####"}, {"###"}, {"##"}, {"#"}});
+    for (const float scale : {1e-3f, 1e4f}) {
+        SCOPED_TRACE(scale);
+        expect_exact(moved(stairs, scale, {0, 0, 0}), 4);
+    }
+    expect_exact(moved(stairs, 1, {1000, -2000, 500}), 4);
+}
+
+TEST(DecomposeMesh, AKnottedTubeIsCoveredWithinTheLimits) {
+    const SolidMesh tube = scenes::knotted_tube(96, 12);
+    for (const std::uint32_t corners : {0u, 16u}) {
+        SCOPED_TRACE(corners);
+        DecomposeReport report;
+        const std::vector<Polyhedron> parts =
+            parts_of(tube, {.max_parts = 24, .concavity = 0.01, .max_vertices = corners, .report = &report});
+        EXPECT_LE(parts.size(), 24u);
+        EXPECT_GE(parts.size(), 12u);
+        const PartQuality quality = oracle::quality_of(tube.points, tube.triangles, parts, 8000, 2);
+        EXPECT_LT(quality.extra, corners == 0 ? 0.15 : 0.3);
+        EXPECT_LT(quality.missing, 1e-3);
+        EXPECT_EQ(quality.uncovered, 0);
+        EXPECT_LE(quality.corners, corners == 0 ? 1000 : corners);
+        EXPECT_EQ(report.vertices, quality.all_corners);
+        EXPECT_EQ(report.concavity.size(), parts.size());
+        EXPECT_NEAR(report.parts_volume, volume_of(parts), 1e-9 * report.parts_volume);
+        expect_covered(tube, parts, report.farthest);
+    }
+}
+
+TEST(DecomposeMesh, LessConcavityTakesMoreParts) {
+    const SolidMesh tube = scenes::knotted_tube(64, 8);
+    std::size_t last = 0;
+    for (const double concavity : {1.0, 0.3, 0.1}) {
+        DecomposeReport report;
+        const std::vector<Polyhedron> parts = parts_of(tube, {.concavity = concavity, .report = &report});
+        EXPECT_GT(parts.size(), last);
+        last = parts.size();
+        for (const double found : report.concavity) EXPECT_LE(found, concavity);
+    }
+}
+
+TEST(DecomposeMesh, WhatIsOpenIsAShell) {
+    SolidMesh room = box({0, 0, 0}, {4, 4, 4});
+    room.triangles.resize(10);
+    DecomposeReport report;
+    const std::vector<Polyhedron> walls = parts_of(room, {.report = &report});
+    EXPECT_FALSE(report.closed);
+    EXPECT_EQ(report.mesh_volume, 0);
+    EXPECT_EQ(walls.size(), 5u);
+    EXPECT_LT(volume_of(walls), 1e-3);
+    expect_covered(room, walls, report.farthest);
+    EXPECT_FALSE(oracle::PartsOf(walls).contain({2, 2, 2}));
+}
+
+TEST(DecomposeMesh, AFlatOutlineIsCutToo) {
+    const SolidMesh mesh{{{0, 0, 1}, {4, 0, 1}, {4, 1, 1}, {1, 1, 1}, {1, 4, 1}, {0, 4, 1}},
+                         {{0, 1, 2}, {0, 2, 3}, {0, 3, 5}, {3, 4, 5}}};
+    const std::vector<Polyhedron> parts = parts_of(mesh, {});
+    EXPECT_EQ(parts.size(), 2u);
+    double area = 0;
+    for (const Polyhedron& part : parts) {
+        EXPECT_EQ(part.rank(), 2);
+        area += part.area() / 2;
+    }
+    EXPECT_NEAR(area, 7, 1e-5);
+    expect_covered(mesh, parts, 0);
+}
+
+TEST(DecomposeMesh, ATriangleIsItsOwnPart) {
+    const SolidMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+    const std::vector<Polyhedron> parts = parts_of(mesh, {});
+    ASSERT_EQ(parts.size(), 1u);
+    EXPECT_EQ(parts[0].points().size(), 3u);
+}
+
+TEST(DecomposeMesh, TooManyBodiesAreJoined) {
+    SolidMesh mesh;
+    for (int x = 0; x < 8; ++x)
+        for (int y = 0; y < 8; ++y) {
+            const Vec3 low(2.0f * static_cast<float>(x), 2.0f * static_cast<float>(y), 0);
+            add(mesh, box(low, low + Vec3(1)));
+        }
+    EXPECT_EQ(parts_of(mesh, {.max_parts = 100}).size(), 64u);
+    const std::vector<Polyhedron> few = parts_of(mesh, {.max_parts = 5});
+    EXPECT_EQ(few.size(), 5u);
+    expect_covered(mesh, few, 0);
+    EXPECT_EQ(parts_of(mesh, {.max_parts = 1}).size(), 1u);
+}
+
+TEST(DecomposeMesh, TheSameInputGivesTheSameBitsAndAnyOrderTheSameParts) {
+    SolidMesh house = scenes::house();
+    const std::vector<Polyhedron> once = parts_of(house, {});
+    EXPECT_EQ(corners_of(once), corners_of(parts_of(house, {})));
+    oracle::Random random(3);
+    for (std::size_t i = house.triangles.size() - 1; i > 0; --i)
+        std::swap(house.triangles[i],
+                  house.triangles[static_cast<std::size_t>(random.uniform(0, static_cast<double>(i + 1)))]);
+    EXPECT_NEAR(volume_of(parts_of(house, {})), volume_of(once), 1e-6 * volume_of(once));
+}
+
+TEST(DecomposeMesh, ProgressGrowsAndCanCancel) {
+    const SolidMesh house = scenes::house();
+    double last = 0;
+    std::size_t calls = 0;
+    const auto watch = [&](double done) {
+        EXPECT_GE(done, last);
+        EXPECT_LE(done, 1);
+        last = done;
+        return ++calls > 0;
+    };
+    EXPECT_TRUE(decompose(house.points, house.triangles, {.progress = watch}));
+    EXPECT_EQ(last, 1);
+    EXPECT_GT(calls, 5u);
+    const std::size_t all = calls;
+    for (std::size_t stop = 1; stop <= all; ++stop) {
+        std::size_t count = 0;
+        const auto cancel = [&](double) { return ++count < stop; };
+        const Result<std::vector<Polyhedron>> result = decompose(house.points, house.triangles, {.progress = cancel});
+        ASSERT_FALSE(result);
+        EXPECT_EQ(result.problem().code, ProblemCode::cancelled);
+    }
+}
+
+TEST(DecomposeMesh, WhatIsWrongIsTold) {
+    const SolidMesh good = box({0, 0, 0}, {1, 1, 1});
+    const auto code = [](const SolidMesh& mesh, const DecomposeOptions& options = {}) {
+        const Result<std::vector<Polyhedron>> result = decompose(mesh.points, mesh.triangles, options);
+        return result ? std::optional<ProblemCode>() : std::optional(result.problem().code);
+    };
+    EXPECT_EQ(code(good), std::nullopt);
+    EXPECT_EQ(code({}), ProblemCode::empty_input);
+    EXPECT_EQ(code({{{1, 1, 1}}, {{0, 0, 0}}}), ProblemCode::empty_input);
+    EXPECT_EQ(code(good, {.max_parts = 0}), ProblemCode::bad_argument);
+    EXPECT_EQ(code(good, {.max_vertices = 3}), ProblemCode::bad_argument);
+    EXPECT_EQ(code(good, {.concavity = -1}), ProblemCode::bad_argument);
+    SolidMesh bad = good;
+    bad.triangles[2].y = 1000;
+    EXPECT_EQ(code(bad), ProblemCode::index_out_of_range);
+    bad = good;
+    bad.points[1].x = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_EQ(code(bad), ProblemCode::not_finite);
+}
+
+TEST(DecomposeMesh, AMeshIsDecomposedAsItsTriangles) {
+    const SolidMesh stairs = scenes::of_cubes({{"##"}, {"#"}});
+    const Result<Mesh> mesh = Mesh::build(stairs.points, stairs.triangles);
+    ASSERT_TRUE(mesh);
+    EXPECT_EQ(corners_of(*decompose(*mesh)), corners_of(parts_of(stairs, {})));
+}
+
+}  // namespace
+}  // namespace abut
