@@ -68,9 +68,11 @@ public:
         heights_.clear();
         for (const DVec<3>& p : piece_.points) heights_.push_back(dot(normal, p));
         const auto [low, high] = std::minmax_element(heights_.begin(), heights_.end());
-        double previous = *low + margin_;
+        const double inwards =
+            piece_.closed ? 2 * margin_ : -2 * margin_;  // an outermost face is a part where it is open
+        double previous = *low + inwards - margin_;
         std::erase_if(offsets, [&](double offset) {
-            if (offset <= previous + margin_ || offset >= *high - 2 * margin_) return true;
+            if (offset <= previous + margin_ || offset >= *high - inwards) return true;
             previous = offset;
             return false;
         });

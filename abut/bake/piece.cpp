@@ -93,7 +93,7 @@ private:
         if (below == 0 && above == 0) {
             const DVec<3>&a = points_[triangle.x], &b = points_[triangle.y], &c = points_[triangle.z];
             const bool up = dot(cross(b - a, c - a), plane.normal) > 0;
-            Side& side = sides_[up ? 0 : 1];
+            Side& side = sides_[!piece_.closed ? 2 : up ? 0 : 1];
             side.triangles.push_back(triangle);
             for (int i = 0; i < 3; ++i) side.rim.emplace_back(triangle[(i + 1) % 3], triangle[i]);
         } else if (below == 0 || above == 0) {
@@ -186,7 +186,7 @@ private:
     std::vector<DVec<3>> points_;
     std::vector<double> heights_;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> cuts_;
-    std::array<Side, 2> sides_;
+    std::array<Side, 3> sides_;  ///< below, above; in the plane, where the body is open
 };
 
 /// How often the piece winds around a point, by what a ray crosses. Neighbours see their edge alike, so that the ray
@@ -358,7 +358,7 @@ std::vector<Piece> cut(const Piece& piece, const CutPlane& plane, double margin)
     constexpr double nothing = 1e-9;  // what is left of caps that cover one another
     Cutter cutter(piece, plane, margin);
     std::vector<Piece> result;
-    for (const int which : {0, 1}) {
+    for (const int which : {0, 1, 2}) {
         std::vector<Piece> parts = connected(cutter.side(which, plane));
         if (piece.closed) {
             give_faces(parts, plane, margin, which == 0);

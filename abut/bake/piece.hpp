@@ -51,7 +51,8 @@ struct SignedTriangle {
 std::vector<SignedTriangle> signed_triangles(const Piece& piece);
 
 /// What lies below the plane and what lies above, in connected pieces: a hollow belongs to the piece around it. Points
-/// within `margin` of the plane are taken to lie on it.
+/// within `margin` of the plane are taken to lie on it. A face in the plane stays with the body behind it; of what is
+/// open it becomes a piece.
 std::vector<Piece> cut(const Piece& piece, const CutPlane& plane, double margin);
 
 /// The connected pieces of the surface and its caps, each with its volume; their hulls are yet to be measured.
