@@ -103,8 +103,9 @@ TEST_F(DecomposeVerb, RepairsFirst) {
 
 TEST_F(DecomposeVerb, KeepsItsLimits) {
     const std::string file = write_mesh("tube.obj", scenes::knotted_tube(24, 6));
-    const Json few = decomposed({file, "-o", out("few.glb"), "--parts", "4"});
+    const Json few = decomposed({file, "-o", out("few.glb"), "--parts", "4", "--max-vertices", "12"});
     EXPECT_LE(few["parts"].size(), 4u);
+    for (const Json& part : few["parts"]) EXPECT_LE(part["vertices"], 12);
     const Json rough = decomposed({file, "-o", out("rough.glb"), "--concavity", "0.5"});
     const Json fine = decomposed({file, "-o", out("fine.glb"), "--concavity", "0.1"});
     EXPECT_LT(rough["parts"].size(), fine["parts"].size());
