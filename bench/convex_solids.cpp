@@ -20,7 +20,7 @@ constexpr std::uint32_t corners = 64, samples = 20'000;
 
 /// Decomposes each time; how good the parts are is found once, they are always the same.
 template <class Decompose>
-Side side(const char* who, const std::shared_ptr<const Welded>& mesh, std::uint32_t parts, bool covers,
+Side side(const char* who, const std::shared_ptr<const Welded>& mesh, std::optional<std::uint32_t> most_parts,
           Decompose decompose) {
     const auto told = std::make_shared<std::optional<double>>();
     return {who, [=](std::span<double> values) {
@@ -28,7 +28,7 @@ Side side(const char* who, const std::shared_ptr<const Welded>& mesh, std::uint3
                 if (!*told) {
                     const oracle::PartQuality quality =
                         oracle::quality_of(mesh->points, mesh->triangles, found, samples, 1);
-                    const bool right = found.size() <= parts && (!covers || quality.uncovered == 0);
+                    const bool right = !most_parts || (found.size() <= *most_parts && quality.uncovered == 0);
                     *told = right ? 100 * quality.extra : std::numeric_limits<double>::quiet_NaN();
                 }
                 values[0] = **told;
@@ -41,10 +41,11 @@ Job solid_job(const scenes::SolidMesh& solid, std::uint32_t parts) {
     job.items = mesh->triangles.size();
     job.values = 1;
     job.tolerance = std::numeric_limits<double>::infinity();
-    job.sides.push_back(side("abut", mesh, parts, true, [parts](const Welded& welded) {
-        return *decompose(welded.points, welded.triangles, {.max_parts = parts, .max_vertices = corners});
+    job.sides.push_back(side("abut", mesh, parts, [parts](const Welded& welded) {
+        return *decompose(welded.points, welded.triangles,
+                          {.max_parts = parts, .concavity = 0.01, .max_vertices = corners});
     }));
-    job.sides.push_back(side("Bullet HACD", mesh, parts, false, [parts](const Welded& welded) {
+    job.sides.push_back(side("Bullet HACD", mesh, std::nullopt, [parts](const Welded& welded) {
         std::vector<Polyhedron> result;
         for (const std::vector<Vec3>& hull : hacd_parts(welded.points, welded.triangles, parts, corners))
             result.push_back(*Polyhedron::build(hull));

@@ -34,9 +34,7 @@ private:
 
     /// Where there are but two far points: on the line between them, exactly.
     bool between(const Vec2& point) const {
-        Vec2 low = to_float(edges_[0].from), high = to_float(edges_[1].from);
-        if (less(high, low)) std::swap(low, high);
-        return less(low, point) && less(point, high) && orientation(low, high, point) == 0;
+        return less(least_, point) && less(point, greatest_) && orientation(least_, greatest_, point) == 0;
     }
 
     bool left_of_all(const DVec<2>& p) const {
@@ -49,6 +47,7 @@ private:
 
     std::array<Edge, 8> edges_;
     std::size_t count_ = 0;
+    Vec2 least_{0.0f}, greatest_{0.0f};     ///< where there are but two
     DVec<2> box_low_{0.0}, box_high_{0.0};  ///< a box inside, without its sides; empty where none was found
 };
 
@@ -56,14 +55,16 @@ Octagon::Octagon(std::span<const Vec2> points) {
     // Counter-clockwise from the lowest. Which point of several is as good as another.
     std::array<DVec<2>, 8> corners;
     corners.fill(DVec<2>(points[0]));
-    std::array<double, 8> reach;
     const auto reaches = [](const DVec<2>& p) {
         return std::array{-p.y, p.x - p.y, p.x, p.x + p.y, p.y, p.y - p.x, -p.x, -p.x - p.y};
     };
-    reach = reaches(corners[0]);
+    std::array<double, 8> reach = reaches(corners[0]);
     for (const Vec2& point : points) {
         const DVec<2> p(point);
         const std::array<double, 8> found = reaches(p);
+        bool farther = false;
+        for (std::size_t i = 0; i < 8; ++i) farther |= found[i] > reach[i];
+        if (!farther) continue;
         for (std::size_t i = 0; i < 8; ++i)
             if (found[i] > reach[i]) {
                 reach[i] = found[i];
@@ -77,6 +78,12 @@ Octagon::Octagon(std::span<const Vec2> points) {
         // Each product has three roundings of 2^-53, their difference one more; twice that.
         const double doubt = 0x1p-50 * (std::abs(along.x) * height + std::abs(along.y) * width);
         edges_[count_++] = {corners[i], along, doubt};
+    }
+    if (count_ == 2) {
+        const std::array ends{to_float(edges_[0].from), to_float(edges_[1].from)};
+        const bool in_order = less(ends[0], ends[1]);
+        least_ = ends[in_order ? 0 : 1];
+        greatest_ = ends[in_order ? 1 : 0];
     }
     // The box between the slanting corners.
     const DVec<2> low(std::max(corners[7].x, corners[5].x), std::max(corners[7].y, corners[1].y));
@@ -126,6 +133,7 @@ void sort(std::vector<Candidate>& candidates) {
 
 std::vector<Candidate> candidates_of(std::span<const Vec2> points) {
     std::vector<Candidate> result;
+    result.reserve(points.size());
     const auto add = [&](std::uint32_t i) { result.push_back({key_of(points[i].x), {points[i], i}}); };
     if (points.size() < worth_filtering) {
         for (std::uint32_t i = 0; i < points.size(); ++i) add(i);
@@ -143,6 +151,7 @@ std::vector<HullColumn> hull_columns(std::span<const Vec2> points) {
     std::vector<Candidate> candidates = candidates_of(points);
     sort(candidates);
     std::vector<HullColumn> result;
+    result.reserve(candidates.size());
     for (std::size_t begin = 0, end = 0; begin < candidates.size(); begin = end) {
         HullColumn column{candidates[begin].point, candidates[begin].point};
         for (end = begin + 1; end < candidates.size() && candidates[end].key == candidates[begin].key; ++end) {
