@@ -72,9 +72,9 @@ bool is_exact(const DVec<2>& from, const DVec<2>& to) {
     return two_sum(to.x, -from.x).lost == 0 && two_sum(to.y, -from.y).lost == 0;
 }
 
-/// Where differences lose nothing, as they do between floats of usual exponents, two products tell: rounding keeps their
-/// order, and where it makes them equal, what they lost tells. Else the determinant of | a 1 |, | b 1 |, | c 1 |: six
-/// products of two floats, which are exact in double.
+/// Where differences lose nothing, as they do between floats of usual exponents, two products tell: rounding keeps
+/// their order, and where it makes them equal, what they lost tells. Else the determinant of | a 1 |, | b 1 |, | c 1 |:
+/// six products of two floats, which are exact in double.
 int exact_orientation(const DVec<2>& a, const DVec<2>& b, const DVec<2>& c) {
     if (is_exact(a, b) && is_exact(a, c)) {
         const DVec<2> p = b - a, q = c - a;
