@@ -24,7 +24,7 @@ void tell_loop(std::size_t count, At at, std::span<double> values) {
     }
 }
 
-/// libqhull_r, on doubles, its corners put in order by their neighbours.
+/// libqhull_r, on doubles.
 Side qhull_hull_2(const SharedPoints2& points);
 /// convex_hull_2 and ch_akl_toussaint, with exact predicates; the points are already its own.
 Side cgal_hull_2(const SharedPoints2& points);

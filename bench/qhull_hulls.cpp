@@ -1,4 +1,5 @@
 #include "convex_hulls.hpp"
+#include "convex_hulls_plane.hpp"
 
 #include <limits>
 
@@ -7,17 +8,20 @@ extern "C" {
 }
 
 namespace abut::bench {
+namespace {
 
-Side qhull_hull(const SharedPoints& points) {
+template <int D>
+Side side(const std::shared_ptr<const std::vector<Vec<D>>>& points) {
     return {"qhull", [points](std::span<double> values) {
                 std::vector<double> coordinates;
-                coordinates.reserve(3 * points->size());
-                for (const Vec3& p : *points) coordinates.insert(coordinates.end(), {p.x, p.y, p.z});
+                coordinates.reserve(D * points->size());
+                for (const Vec<D>& p : *points)
+                    for (int i = 0; i < D; ++i) coordinates.push_back(p[i]);
                 qhT state;
                 qhT* qh = &state;
                 qh_zero(qh, nullptr);
                 char command[] = "qhull Pp";
-                const int failed = qh_new_qhull(qh, 3, static_cast<int>(points->size()), coordinates.data(), False,
+                const int failed = qh_new_qhull(qh, D, static_cast<int>(points->size()), coordinates.data(), False,
                                                 command, nullptr, nullptr);
                 values[0] = values[1] = std::numeric_limits<double>::quiet_NaN();
                 if (failed == 0) {
@@ -27,6 +31,16 @@ Side qhull_hull(const SharedPoints& points) {
                 }
                 qh_freeqhull(qh, qh_ALL);
             }};
+}
+
+}  // namespace
+
+Side qhull_hull(const SharedPoints& points) {
+    return side<3>(points);
+}
+
+Side qhull_hull_2(const SharedPoints2& points) {
+    return side<2>(points);
 }
 
 }  // namespace abut::bench

@@ -1,4 +1,5 @@
 #include <abut/bake/rough_hull.hpp>
+#include <abut/convex/farthest_of.hpp>
 #include <abut/convex/hull.hpp>
 #include <abut/math/dvec.hpp>
 
@@ -11,20 +12,6 @@ namespace {
 constexpr std::uint32_t none = 0xffffffffu;
 constexpr double least_left_out = 0.9;  // in steps: the rounding of a point
 constexpr double steps = 65535;         // a plane's height of a point stays below 2^53
-
-template <class Measure>
-std::uint32_t farthest(std::span<const DVec<3>> points, Measure measure) {
-    std::uint32_t best = 0;
-    double most = measure(points[0]);
-    for (std::uint32_t i = 1; i < points.size(); ++i) {
-        const double value = measure(points[i]);
-        if (value > most) {
-            most = value;
-            best = i;
-        }
-    }
-    return best;
-}
 
 }  // namespace
 
@@ -126,15 +113,15 @@ void RoughHull::begin_flat(const DVec<3>& normal, std::uint32_t a, std::uint32_t
 
 /// The first tetrahedron; false where the points are flatter than the tolerance.
 bool RoughHull::begin(double tolerance) {
-    const std::uint32_t a = farthest(points_, [&](const DVec<3>& p) { return -p.x; });
-    const std::uint32_t b = farthest(points_, [&](const DVec<3>& p) { return length_squared(p - points_[a]); });
+    const std::uint32_t a = farthest_of(points_, [&](const DVec<3>& p) { return -p.x; });
+    const std::uint32_t b = farthest_of(points_, [&](const DVec<3>& p) { return length_squared(p - points_[a]); });
     const DVec<3> along = points_[b] - points_[a];
     const auto area = [&](const DVec<3>& p) { return length_squared(cross(along, p - points_[a])); };
-    const std::uint32_t c = farthest(points_, area);
+    const std::uint32_t c = farthest_of(points_, area);
     const bool line = area(points_[c]) <= tolerance * tolerance * length_squared(along);
     const DVec<3> normal = line ? DVec<3>(0.0) : cross(along, points_[c] - points_[a]);
     const auto height = [&](const DVec<3>& p) { return std::abs(dot(normal, p - points_[a])); };
-    const std::uint32_t d = farthest(points_, height);
+    const std::uint32_t d = farthest_of(points_, height);
     if (height(points_[d]) <= tolerance * length(normal)) {
         begin_flat(normal, a, b);
         return false;

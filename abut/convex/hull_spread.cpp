@@ -1,27 +1,10 @@
+#include <abut/convex/farthest_of.hpp>
 #include <abut/convex/hull_spread.hpp>
 #include <abut/math/dvec.hpp>
 
 #include <cmath>
 
 namespace abut {
-namespace {
-
-/// The point for which `measure` is greatest, the first of them if there are several.
-template <class Measure>
-std::uint32_t farthest(const std::vector<GridPoint>& points, Measure measure) {
-    std::uint32_t best = 0;
-    double most = measure(points[0]);
-    for (std::uint32_t i = 1; i < points.size(); ++i) {
-        const double value = measure(points[i]);
-        if (value > most) {
-            most = value;
-            best = i;
-        }
-    }
-    return best;
-}
-
-}  // namespace
 
 Spread spread_of(const Grid& grid, double tolerance) {
     const std::vector<GridPoint>& points = grid.points;
@@ -33,19 +16,19 @@ Spread spread_of(const Grid& grid, double tolerance) {
     std::uint32_t& b = result.points[1];
     std::uint32_t& c = result.points[2];
     std::uint32_t& d = result.points[3];
-    a = farthest(points, distance_from(0));
-    b = farthest(points, distance_from(a));
+    a = farthest_of(points, distance_from(0));
+    b = farthest_of(points, distance_from(a));
     result.rank = 1;
 
     const double base = length(DVec<3>(points[b] - points[a]));
     const auto twice_area = [&](const GridPoint& p) { return length(DVec<3>(grid_normal(points[a], points[b], p))); };
-    c = farthest(points, twice_area);
+    c = farthest_of(points, twice_area);
     if (twice_area(points[c]) <= tolerance * base) return result;
     result.rank = 2;
 
     const GridPoint normal = grid_normal(points[a], points[b], points[c]);
     const auto volume = [&](const GridPoint& p) { return std::abs(grid_dot(normal, p - points[a])); };
-    d = farthest(points, volume);
+    d = farthest_of(points, volume);
     if (volume(points[d]) > tolerance * length(DVec<3>(normal))) result.rank = 3;
     return result;
 }

@@ -12,13 +12,9 @@ using test::Ran;
 
 class Cast : public test::ToolRuns {
 protected:
-    Json cast(const std::vector<std::string>& arguments, int code) const {
-        std::vector<std::string> all{"cast", "--json"};
-        all.insert(all.end(), arguments.begin(), arguments.end());
-        const Ran ran = run(all);
-        EXPECT_EQ(ran.code, code) << ran.err;
-        EXPECT_EQ(ran.err, "");
-        return Json::parse(ran.out);
+    Json cast(std::vector<std::string> arguments, int code) const {
+        arguments.insert(arguments.begin(), "cast");
+        return json_of(std::move(arguments), code);
     }
 };
 

@@ -18,13 +18,9 @@ using test::Ran;
 
 class DecomposeVerb : public test::ToolRuns {
 protected:
-    Json decomposed(const std::vector<std::string>& arguments) const {
-        std::vector<std::string> all{"decompose", "--json"};
-        all.insert(all.end(), arguments.begin(), arguments.end());
-        const Ran ran = run(all);
-        EXPECT_EQ(ran.code, 0) << ran.err;
-        EXPECT_EQ(ran.err, "");
-        return Json::parse(ran.out);
+    Json decomposed(std::vector<std::string> arguments) const {
+        arguments.insert(arguments.begin(), "decompose");
+        return json_of(std::move(arguments), 0);
     }
     std::string out(const std::string& name) const { return (folder() / name).string(); }
 

@@ -17,13 +17,9 @@ using test::Ran;
 
 class HullVerb : public test::ToolRuns {
 protected:
-    Json hull(const std::vector<std::string>& arguments) const {
-        std::vector<std::string> all{"hull", "--json"};
-        all.insert(all.end(), arguments.begin(), arguments.end());
-        const Ran ran = run(all);
-        EXPECT_EQ(ran.code, 0) << ran.err;
-        EXPECT_EQ(ran.err, "");
-        return Json::parse(ran.out);
+    Json hull(std::vector<std::string> arguments) const {
+        arguments.insert(arguments.begin(), "hull");
+        return json_of(std::move(arguments), 0);
     }
     std::string out(const std::string& name) const { return (folder() / name).string(); }
 };

@@ -11,14 +11,6 @@ using test::Ran;
 class ToolOnLevels : public test::ToolRuns {
 protected:
     static std::string bundled(const std::string& name) { return ABUT_SOURCE_FOLDER "/scenes/" + name; }
-
-    Json json_of(std::vector<std::string> arguments, int code) const {
-        arguments.insert(arguments.begin() + 1, "--json");
-        const Ran ran = run(arguments);
-        EXPECT_EQ(ran.code, code) << ran.err;
-        EXPECT_EQ(ran.err, "");
-        return Json::parse(ran.out);
-    }
 };
 
 std::string map_of(const std::string& objects) {

@@ -10,6 +10,7 @@
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -57,13 +58,17 @@ protected:
         return line.substr(std::min(line.size(), begins.size()));
     }
 
-    Json checked(const std::vector<std::string>& arguments, int code) const {
-        std::vector<std::string> all{"check", "--json"};
-        all.insert(all.end(), arguments.begin(), arguments.end());
-        const Ran ran = run(all);
+    /// What the first of the arguments, a verb, says with --json.
+    Json json_of(std::vector<std::string> arguments, int code) const {
+        arguments.insert(arguments.begin() + 1, "--json");
+        const Ran ran = run(arguments);
         EXPECT_EQ(ran.code, code) << ran.err;
         EXPECT_EQ(ran.err, "");
         return Json::parse(ran.out);
+    }
+    Json checked(std::vector<std::string> arguments, int code) const {
+        arguments.insert(arguments.begin(), "check");
+        return json_of(std::move(arguments), code);
     }
 
     static std::string content(const std::filesystem::path& file) {
