@@ -66,9 +66,9 @@ struct Repaired {
 ///    wound for itself.
 /// 4. Small holes are filled (see the options), flat where their border is.
 /// 5. Closed surfaces are made to face outwards, cavities inwards (if `face_outwards`). What is inside of another one
-/// is a cavity where the
-///    file has the two opposite ways round, or either all mixed up; else they are two solids, one in the other.
-///    Surfaces with a border stay as they are.
+/// is
+///    a cavity where the file has the two opposite ways round, or either all mixed up; else they are two solids, one in
+///    the other. Surfaces with a border stay as they are.
 /// 6. Triangles without area go, neighbours being cut so that nothing opens.
 /// Triangles that nothing is wrong with keep their order; those of holes come last. What was repaired and is closed
 /// now, with two triangles at every edge, comes back as it is. The same on every machine. O(n log n). A Problem where
