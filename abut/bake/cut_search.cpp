@@ -70,9 +70,10 @@ public:
         const auto [low, high] = std::minmax_element(heights_.begin(), heights_.end());
         const double inwards =
             piece_.closed ? 2 * margin_ : -2 * margin_;  // an outermost face is a part where it is open
+        const double past = *high - inwards;
         double previous = *low + inwards - margin_;
         std::erase_if(offsets, [&](double offset) {
-            if (offset <= previous + margin_ || offset >= *high - inwards) return true;
+            if (offset <= previous + margin_ || offset >= past) return true;
             previous = offset;
             return false;
         });
