@@ -288,7 +288,8 @@ void check_many_inside(int count) {
         oracle::Random random(seed);
         const MovingPair<D> beside = touching(random_motion<D>(random), i % 2 == 0);
         const double size = std::min(oracle::size(beside.pair.a.solid), oracle::size(beside.pair.b.solid));
-        check_inside(inside(beside, size * random.power_of_two(-15, -1), random.chance(0.7)), tally);
+        const bool on_the_spot = random.chance(0.7);
+        check_inside(inside(beside, size * random.power_of_two(-15, -1), on_the_spot), tally);
         if (testing::Test::HasFatalFailure()) return;
     }
     EXPECT_GT(tally.asked, oracle::amount(count) / 2);

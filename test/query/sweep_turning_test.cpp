@@ -358,8 +358,10 @@ void add_sweeps(Hash& hash, const A& a, const B& b) {
             motion.turn = random.uniform_float(-7, 7);
         else
             motion.turn = to_float(random.in_cube<3>() * 4.0);
-        for (const auto& hit : {sweep(a, motion, b, Motion<D>::between(pose(), pose())),
-                                sweep(a, pose(), pose_at(motion, 0.7f), b, pose(), pose())}) {
+        // One after the other: compilers take a call's arguments in any order.
+        const Pose<D> to = pose(), from = pose(), b_to = pose(), b_from = pose(), a_from = pose();
+        for (const auto& hit : {sweep(a, motion, b, Motion<D>::between(from, to)),
+                                sweep(a, a_from, pose_at(motion, 0.7f), b, b_from, b_to)}) {
             hash.add(std::uint64_t{hit.has_value()});
             add_hit(hash, hit);
         }
