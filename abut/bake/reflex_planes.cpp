@@ -1,3 +1,4 @@
+#include <abut/bake/half_edges.hpp>
 #include <abut/bake/reflex_planes.hpp>
 #include <abut/math/dvec.hpp>
 
@@ -8,12 +9,6 @@
 
 namespace abut {
 namespace {
-
-struct HalfEdge {
-    std::uint32_t low, high;
-    std::uint32_t triangle;
-    bool up;  // runs from low to high
-};
 
 struct Weighted {
     DVec<3> normal;
@@ -28,25 +23,11 @@ std::tuple<double, double, double, double> rounded(const Weighted& plane, double
             std::floor(plane.normal.z * fine + 0.5), std::floor(plane.offset / step + 0.5)};
 }
 
-std::vector<HalfEdge> half_edges(const Piece& piece) {
-    std::vector<HalfEdge> result;
-    for (std::uint32_t t = 0; t < piece.triangles.size(); ++t)
-        for (int i = 0; i < 3; ++i) {
-            const std::uint32_t from = piece.triangles[t][i], to = piece.triangles[t][(i + 1) % 3];
-            result.push_back({std::min(from, to), std::max(from, to), t, from < to});
-        }
-    std::sort(result.begin(), result.end(), [](const HalfEdge& a, const HalfEdge& b) {
-        return std::tie(a.low, a.high, a.up, a.triangle) < std::tie(b.low, b.high, b.up, b.triangle);
-    });
-    return result;
-}
-
 }  // namespace
 
 std::vector<ParallelPlanes> reflex_planes(const Piece& piece) {
     constexpr std::size_t most = 16;
     constexpr double sharp = 0.25;  // the sine of the bend
-    const std::vector<HalfEdge> edges = half_edges(piece);
     const auto area = [&](std::uint32_t t) {
         const glm::uvec3& corners = piece.triangles[t];
         const DVec<3>& a = piece.points[corners.x];
@@ -54,23 +35,27 @@ std::vector<ParallelPlanes> reflex_planes(const Piece& piece) {
     };
     std::vector<Weighted> planes;
     double extent = 0;
-    for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
-        const HalfEdge &a = edges[i], &b = edges[i + 1];
-        if (a.low != b.low || a.high != b.high || a.up == b.up) continue;
-        const DVec<3> along = piece.points[a.high] - piece.points[a.low];
+    const std::vector<HalfEdge> sides = sorted_half_edges(piece.triangles);
+    each_edge(sides, [&](std::span<const HalfEdge> edge) {
+        const auto goes_up = [](const HalfEdge& side) { return side.upwards; };
+        const auto above = std::find_if(edge.begin(), edge.end(), goes_up);
+        const auto below = std::find_if_not(edge.rbegin(), edge.rend(), goes_up);
+        if (above == edge.end() || below == edge.rend()) return;
+        const DVec<3>& from = piece.points[above->low];
+        const DVec<3> along = piece.points[above->high] - from;
         extent = std::max(extent, largest(along));
-        const DVec<3> down = normalized(area(a.triangle), DVec<3>(0.0)),
-                      up = normalized(area(b.triangle), DVec<3>(0.0));
+        const DVec<3> down = normalized(area(below->side / 3), DVec<3>(0.0)),
+                      up = normalized(area(above->side / 3), DVec<3>(0.0));
         const double bend = dot(cross(up, down), normalized(along));
         const bool fold = dot(up, down) < -0.9;
-        if (bend > -sharp && !(fold && bend <= 0)) continue;
+        if (bend > -sharp && !(fold && bend <= 0)) return;
         const double weight = length(along) * (1 - dot(up, down));
         for (const DVec<3>& normal : {down, up}) {
             const bool turn = std::tuple(normal.x, normal.y, normal.z) < std::tuple(0.0, 0.0, 0.0);
             const DVec<3> facing = (turn ? -normal : normal) + DVec<3>(0.0);
-            planes.push_back({facing, dot(facing, piece.points[a.low]), weight});
+            planes.push_back({facing, dot(facing, from), weight});
         }
-    }
+    });
     const double step = 1e-5 * extent;
     std::sort(planes.begin(), planes.end(), [&](const Weighted& a, const Weighted& b) {
         const auto key = [&](const Weighted& p) {

@@ -22,7 +22,6 @@ protected:
         arguments.insert(arguments.begin(), "decompose");
         return json_of(std::move(arguments), 0);
     }
-    std::string out(const std::string& name) const { return (folder() / name).string(); }
 
     std::string write_mesh(const std::string& name, const scenes::SolidMesh& mesh) const {
         return write(name, *write_obj(std::vector{Geometry{"mesh", mesh.points, mesh.triangles}})).string();

@@ -21,7 +21,6 @@ protected:
         arguments.insert(arguments.begin(), "hull");
         return json_of(std::move(arguments), 0);
     }
-    std::string out(const std::string& name) const { return (folder() / name).string(); }
 };
 
 /// Boxes with edges of length 1 at x = 0 and x = 4, the second one mirrored.

@@ -71,6 +71,9 @@ protected:
         return json_of(std::move(arguments), code);
     }
 
+    /// A file of the test's own, not yet there.
+    std::string out(const std::string& name) const { return (folder() / name).string(); }
+
     static std::string content(const std::filesystem::path& file) {
         std::ostringstream text;
         text << std::ifstream(file, std::ios::binary).rdbuf();
