@@ -108,6 +108,13 @@ TEST(DecomposeMesh, AnLIsTwoBoxes) {
     expect_exact(scenes::of_cubes({{"####", "#", "#"}}), 2);
 }
 
+// No face of it lies across an axis: only the planes of the faces at its reflex edge part it exactly.
+TEST(DecomposeMesh, ALeaningLIsTwoPartsToo) {
+    SolidMesh mesh = scenes::of_cubes({{"####", "#", "#"}});
+    for (Vec3& p : mesh.points) p = Vec3(1, 0.3f, 0.2f) * p.x + Vec3(0.7f, 1, -0.4f) * p.y + Vec3(-0.3f, 0.5f, 1) * p.z;
+    expect_exact(mesh, 2);
+}
+
 TEST(DecomposeMesh, StairsAreAsManyBoxesAsSteps) {
     expect_exact(scenes::of_cubes({{"####"}, {"###"}, {"##"}, {"#"}}), 4);
 }
