@@ -1,0 +1,73 @@
+#pragma once
+
+// A signed distance field: how far inside or outside is every point of a volume? Measured once, looked up anywhere.
+
+#include <abut/field/field_data.hpp>
+#include <abut/math/aabb.hpp>
+#include <abut/math/vec.hpp>
+#include <abut/shape/distance_function.hpp>
+
+#include <cstddef>
+#include <memory>
+#include <span>
+
+namespace abut {
+
+/// A volume of samples of the signed distance to a surface: below zero inside, 0 on it. `bake_field` makes one of a
+/// mesh, an outline or any shape; the operations of field/combine.hpp make one of others. A shape: solid where the
+/// distance is at most 0. Immutable: copies share the data.
+///
+/// Between samples the distance is interpolated, so that it is off by up to about `cell()` at edges and corners of the
+/// surface and by its curvature times the square of `cell()` elsewhere: docs/fields.md measures it.
+template <int D>
+class Field {
+public:
+    /// Not for users, who bake or load one. What `data` says of itself must be true.
+    explicit Field(FieldData<D> data);
+
+    /// Signed; within the volume interpolated. Outside of it a lower bound: the surface is at least as far.
+    float distance(const Vec<D>& point) const;
+
+    /// The distance, and the direction in which it grows most: of length 1, always valid.
+    FieldSample<D> sample(const Vec<D>& point) const;
+
+    /// A point of the surface closest to this one: where the field was baked with closest points from those, else by
+    /// walking down the distance. Outside of the volume that of the nearest point of the volume.
+    Vec<D> closest(const Vec<D>& point) const;
+
+    /// The same for many points at once, by vectors; bit by bit what the ones above give. `out` is as long as `points`.
+    void distance(std::span<const Vec<D>> points, std::span<float> out) const;
+    void sample(std::span<const Vec<D>> points, std::span<FieldSample<D>> out) const;
+
+    /// How much of a light arrives at a point, in [0, 1]: 0 behind something, and less than 1 where something is close
+    /// to the way. `softness` is the radius of the light as a share of its distance; 0 makes hard shadows. After
+    /// Quilez (2010): "Free penumbra shadows for raymarching distance fields", as Aaltonen (2018) improved them.
+    float shadow(const Vec<D>& point, const Vec<D>& light, float softness = 0.05f) const;
+
+    /// How open the surroundings of a point of the surface are along its normal, in [0, 1], as far as `reach`; 1 where
+    /// nothing is near. After Evans (2006): "Fast approximations for global illumination on dynamic scenes".
+    float openness(const Vec<D>& point, const Vec<D>& normal, float reach) const;
+
+    /// The box in which there are samples.
+    Aabb<D> volume() const;
+    /// The side of a cell: how far samples are apart.
+    float cell() const { return data_->cell; }
+    /// What its samples take, in memory.
+    std::size_t bytes() const;
+
+    const FieldData<D>& data() const { return *data_; }  ///< not for users
+
+private:
+    std::shared_ptr<const FieldData<D>> data_;
+};
+
+using Field2 = Field<2>;
+using Field3 = Field<3>;
+
+/// Around its surface; empty where it has none.
+template <int D>
+Aabb<D> bounds(const Field<D>& field) {
+    return field.data().surface;
+}
+
+}  // namespace abut
