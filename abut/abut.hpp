@@ -12,6 +12,7 @@
 #include <abut/broad_phase/sweep_and_prune.hpp>
 #include <abut/broad_phase/temporal.hpp>
 #include <abut/convex/features.hpp>
+#include <abut/field/field.hpp>
 #include <abut/math/aabb.hpp>
 #include <abut/math/assert.hpp>
 #include <abut/math/executor.hpp>

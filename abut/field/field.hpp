@@ -25,7 +25,8 @@ public:
     /// Not for users, who bake or load one. What `data` says of itself must be true.
     explicit Field(FieldData<D> data);
 
-    /// Signed; within the volume interpolated. Outside of it a lower bound: the surface is at least as far.
+    /// Signed; within the volume interpolated. Outside of it a lower bound: what is in the volume of the surface is at
+    /// least as far. Where the volume cuts the solid, the solid ends with it. Infinite for what is no point.
     float distance(const Vec<D>& point) const;
 
     /// The distance, and the direction in which it grows most: of length 1, always valid.
@@ -64,10 +65,8 @@ private:
 using Field2 = Field<2>;
 using Field3 = Field<3>;
 
-/// Around its surface; empty where it has none.
+/// Around all that is solid; empty where nothing is.
 template <int D>
-Aabb<D> bounds(const Field<D>& field) {
-    return field.data().surface;
-}
+Aabb<D> bounds(const Field<D>& field);
 
 }  // namespace abut

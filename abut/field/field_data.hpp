@@ -35,6 +35,19 @@ inline constexpr std::uint32_t brick_samples = D == 2 ? 9 * 9 : 5 * 5 * 5;
 /// There is no brick.
 inline constexpr std::uint32_t no_brick = 0xffffffff;
 
+/// What look-ups need at once, told from the rest when a Field is made.
+template <int D>
+struct FieldFrame {
+    Vec<D> high{};                           ///< the upper corner of the volume; its lower one is the origin
+    float inverse = 1;                       ///< 1 / cell
+    Vec<D> end{};                            ///< the number of cells along each axis
+    glm::vec<D, std::int32_t> last{};        ///< the last cell along each axis
+    glm::vec<D, std::uint32_t> stride{};     ///< dense: of samples
+    glm::vec<D, std::uint32_t> blocks{};     ///< sparse: along each axis
+    glm::vec<D, std::uint32_t> block_row{};  ///< sparse: the strides of blocks
+    glm::vec<D, std::uint32_t> corners{};    ///< sparse: the strides of their corners
+};
+
 /// A volume is a box of cubes, the cells, with samples at their corners; sample i is at origin + cell * i, in doubles.
 /// Wherever samples follow one another the first axis is the fastest.
 ///
@@ -66,6 +79,8 @@ struct FieldData {
     /// As `distance`, where wanted, else empty: the gradient, of length 1, and the closest point of the surface.
     std::vector<Vec<D>> gradient;
     std::vector<Vec<D>> closest;
+
+    FieldFrame<D> frame;  ///< the field sees to it
 
     std::size_t samples() const { return steps.empty() ? distance.size() : steps.size(); }
 };

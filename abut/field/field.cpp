@@ -1,0 +1,142 @@
+#include <abut/field/field.hpp>
+#include <abut/field/field_spot.hpp>
+#include <abut/math/assert.hpp>
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace abut {
+namespace {
+
+template <int D>
+std::size_t product(const glm::vec<D, std::uint32_t>& counts) {
+    std::size_t result = 1;
+    for (int a = 0; a < D; ++a) result *= counts[a];
+    return result;
+}
+
+/// From one to the next along each axis, where the first axis is the fastest.
+template <int D>
+glm::vec<D, std::uint32_t> strides(const glm::vec<D, std::uint32_t>& counts) {
+    glm::vec<D, std::uint32_t> result(1);
+    for (int a = 1; a < D; ++a) result[a] = result[a - 1] * counts[a - 1];
+    return result;
+}
+
+template <int D>
+FieldFrame<D> frame_of(const FieldData<D>& data) {
+    FieldFrame<D> result;
+    result.inverse = static_cast<float>(1 / static_cast<double>(data.cell));
+    result.stride = strides<D>(data.cells + 1u);
+    result.blocks = data.cells / brick_cells<D>;
+    result.block_row = strides<D>(result.blocks);
+    result.corners = strides<D>(result.blocks + 1u);
+    for (int a = 0; a < D; ++a) {
+        result.high[a] = static_cast<float>(static_cast<double>(data.origin[a]) +
+                                            static_cast<double>(data.cell) * static_cast<double>(data.cells[a]));
+        result.end[a] = static_cast<float>(data.cells[a]);
+        result.last[a] = static_cast<std::int32_t>(data.cells[a]) - 1;
+    }
+    return result;
+}
+
+/// Every sample that a look-up may touch is there.
+template <int D>
+bool is_whole(const FieldData<D>& data) {
+    for (int a = 0; a < D; ++a)
+        if (data.cells[a] < 1) return false;
+    const std::size_t samples = data.samples();
+    if (!data.steps.empty() && !data.distance.empty()) return false;
+    if (!data.gradient.empty() && data.gradient.size() != samples) return false;
+    if (!data.closest.empty() && data.closest.size() != samples) return false;
+    if (data.store == FieldStore::dense) return samples == product<D>(data.cells + 1u);
+    for (int a = 0; a < D; ++a)
+        if (data.cells[a] % brick_cells<D> != 0) return false;
+    if (data.brick.size() != product<D>(data.frame.blocks)) return false;
+    if (data.coarse.size() != product<D>(data.frame.blocks + 1u)) return false;
+    for (const std::uint32_t brick : data.brick)
+        if (brick != no_brick && (brick + std::size_t{1}) * brick_samples < D >> samples) return false;
+    return true;
+}
+
+}  // namespace
+
+template <int D>
+Field<D>::Field(FieldData<D> data) {
+    data.frame = frame_of(data);
+    ABUT_ASSERT(is_whole(data));
+    data_ = std::make_shared<const FieldData<D>>(std::move(data));
+}
+
+template <int D>
+float Field<D>::distance(const Vec<D>& point) const {
+    const FieldData<D>& data = *data_;
+    return is_within(data, point) ? linear_distance(data, point) : outer_sample(data, point).distance;
+}
+
+template <int D>
+FieldSample<D> Field<D>::sample(const Vec<D>& point) const {
+    const FieldData<D>& data = *data_;
+    return is_within(data, point) ? linear_sample(data, point) : outer_sample(data, point);
+}
+
+template <int D>
+void Field<D>::distance(std::span<const Vec<D>> points, std::span<float> out) const {
+    ABUT_ASSERT(points.size() == out.size());
+    for (std::size_t i = 0; i < points.size(); ++i) out[i] = distance(points[i]);
+}
+
+template <int D>
+void Field<D>::sample(std::span<const Vec<D>> points, std::span<FieldSample<D>> out) const {
+    ABUT_ASSERT(points.size() == out.size());
+    for (std::size_t i = 0; i < points.size(); ++i) out[i] = sample(points[i]);
+}
+
+template <int D>
+Aabb<D> Field<D>::volume() const {
+    return {data_->origin, data_->frame.high};
+}
+
+template <int D>
+std::size_t Field<D>::bytes() const {
+    const auto size = [](const auto& numbers) { return numbers.size() * sizeof(numbers[0]); };
+    const FieldData<D>& data = *data_;
+    return size(data.brick) + size(data.coarse) + size(data.distance) + size(data.steps) + size(data.gradient) +
+           size(data.closest);
+}
+
+template <int D>
+Aabb<D> bounds(const Field<D>& field) {
+    const FieldData<D>& data = field.data();
+    Aabb<D> result = data.surface;
+    // Nothing is solid outside of the volume, unless all is. Linear between distances that are right, the solid doesn't
+    // leave a box that it should be in: the distance from each of its sides is linear.
+    for (int a = 0; a < D; ++a) {
+        const float size = std::max(std::abs(data.origin[a]), std::abs(data.frame.high[a]));
+        const float doubt = 0.5f * data.step + 0x1p-20f * size;
+        result.min[a] = std::max(result.min[a] - doubt, data.origin[a]);
+        result.max[a] = std::min(result.max[a] + doubt, data.frame.high[a]);
+        if (!(result.min[a] <= result.max[a])) return Aabb<D>::empty();
+    }
+    return result;
+}
+
+template Field<2>::Field(FieldData<2>);
+template Field<3>::Field(FieldData<3>);
+template float Field<2>::distance(const Vec2&) const;
+template float Field<3>::distance(const Vec3&) const;
+template FieldSample<2> Field<2>::sample(const Vec2&) const;
+template FieldSample<3> Field<3>::sample(const Vec3&) const;
+template void Field<2>::distance(std::span<const Vec2>, std::span<float>) const;
+template void Field<3>::distance(std::span<const Vec3>, std::span<float>) const;
+template void Field<2>::sample(std::span<const Vec2>, std::span<FieldSample<2>>) const;
+template void Field<3>::sample(std::span<const Vec3>, std::span<FieldSample<3>>) const;
+template Aabb<2> Field<2>::volume() const;
+template Aabb<3> Field<3>::volume() const;
+template std::size_t Field<2>::bytes() const;
+template std::size_t Field<3>::bytes() const;
+template Aabb<2> bounds(const Field<2>&);
+template Aabb<3> bounds(const Field<3>&);
+
+}  // namespace abut
