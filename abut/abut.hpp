@@ -13,6 +13,7 @@
 #include <abut/broad_phase/temporal.hpp>
 #include <abut/convex/features.hpp>
 #include <abut/field/field.hpp>
+#include <abut/field/field_blob.hpp>
 #include <abut/math/aabb.hpp>
 #include <abut/math/assert.hpp>
 #include <abut/math/executor.hpp>

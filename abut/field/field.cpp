@@ -1,4 +1,5 @@
 #include <abut/field/field.hpp>
+#include <abut/field/field_check.hpp>
 #include <abut/field/field_spot.hpp>
 #include <abut/math/assert.hpp>
 
@@ -8,13 +9,6 @@
 
 namespace abut {
 namespace {
-
-template <int D>
-std::size_t product(const glm::vec<D, std::uint32_t>& counts) {
-    std::size_t result = 1;
-    for (int a = 0; a < D; ++a) result *= counts[a];
-    return result;
-}
 
 /// From one to the next along each axis, where the first axis is the fastest.
 template <int D>
@@ -41,31 +35,12 @@ FieldFrame<D> frame_of(const FieldData<D>& data) {
     return result;
 }
 
-/// Every sample that a look-up may touch is there.
-template <int D>
-bool is_whole(const FieldData<D>& data) {
-    for (int a = 0; a < D; ++a)
-        if (data.cells[a] < 1) return false;
-    const std::size_t samples = data.samples();
-    if (!data.steps.empty() && !data.distance.empty()) return false;
-    if (!data.gradient.empty() && data.gradient.size() != samples) return false;
-    if (!data.closest.empty() && data.closest.size() != samples) return false;
-    if (data.store == FieldStore::dense) return samples == product<D>(data.cells + 1u);
-    for (int a = 0; a < D; ++a)
-        if (data.cells[a] % brick_cells<D> != 0) return false;
-    if (data.brick.size() != product<D>(data.frame.blocks)) return false;
-    if (data.coarse.size() != product<D>(data.frame.blocks + 1u)) return false;
-    for (const std::uint32_t brick : data.brick)
-        if (brick != no_brick && (brick + std::size_t{1}) * brick_samples < D >> samples) return false;
-    return true;
-}
-
 }  // namespace
 
 template <int D>
 Field<D>::Field(FieldData<D> data) {
     data.frame = frame_of(data);
-    ABUT_ASSERT(is_whole(data));
+    ABUT_ASSERT(fault_of(data) == nullptr);
     data_ = std::make_shared<const FieldData<D>>(std::move(data));
 }
 

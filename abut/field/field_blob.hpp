@@ -1,0 +1,24 @@
+#pragma once
+
+// Fields as bytes: what a pipeline bakes and a game loads.
+
+#include <abut/field/field.hpp>
+#include <abut/math/result.hpp>
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace abut {
+
+/// The field as bytes, the same on every machine. `load_field` makes the same field of them, bit by bit.
+template <int D>
+std::vector<std::byte> save(const Field<D>& field);
+
+/// A Problem (`bad_format`) where they aren't what `save` makes of a field of this dimension, down to the last bit:
+/// they end too soon, go on, are of another version or kind, or a bit is wrong; or (`not_finite`) where a number is NaN
+/// or infinite. Takes no more memory than there are bytes.
+template <int D>
+Result<Field<D>> load_field(std::span<const std::byte> bytes);
+
+}  // namespace abut
