@@ -1,0 +1,201 @@
+#pragma once
+
+// The true signed distance to a surface by looking at all of it, in long double, and what a field's samples say.
+//
+// Closest points by the regions of Ericson, "Real-Time Collision Detection" (2005), 5.1.5; solid angles by van Oosterom
+// and Strackee, "The solid angle of a plane triangle" (1983).
+
+#include "random.hpp"
+#include <abut/field/field.hpp>
+#include <abut/math/vec.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include <glm/ext/vector_uint3.hpp>
+
+namespace abut::oracle {
+
+template <int D>
+using LongVec = glm::vec<D, long double>;
+
+template <int D>
+long double long_dot(const LongVec<D>& a, const LongVec<D>& b) {
+    long double sum = 0;
+    for (int i = 0; i < D; ++i) sum += a[i] * b[i];
+    return sum;
+}
+template <int D>
+long double long_length(const LongVec<D>& v) {
+    return std::sqrt(long_dot<D>(v, v));
+}
+inline LongVec<3> long_cross(const LongVec<3>& a, const LongVec<3>& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+template <int D>
+long double distance_to_segment(const LongVec<D>& p, const LongVec<D>& a, const LongVec<D>& b) {
+    const LongVec<D> along = b - a;
+    const long double whole = long_dot<D>(along, along);
+    const long double share = whole > 0 ? std::clamp(long_dot<D>(p - a, along) / whole, 0.0L, 1.0L) : 0.0L;
+    return long_length<D>(p - (a + along * share));
+}
+
+/// Of a triangle with or without area: its sides, and its face where the point projects into it.
+inline long double distance_to_triangle(const LongVec<3>& p, const LongVec<3>& a, const LongVec<3>& b,
+                                        const LongVec<3>& c) {
+    long double least =
+        std::min({distance_to_segment<3>(p, a, b), distance_to_segment<3>(p, b, c), distance_to_segment<3>(p, c, a)});
+    const LongVec<3> normal = long_cross(b - a, c - a);
+    const long double area = long_length<3>(normal);
+    if (!(area > 0)) return least;
+    const auto before = [&](const LongVec<3>& from, const LongVec<3>& to) {
+        return long_dot<3>(long_cross(to - from, p - from), normal) >= 0;
+    };
+    if (before(a, b) && before(b, c) && before(c, a))
+        least = std::min(least, std::abs(long_dot<3>(p - a, normal)) / area);
+    return least;
+}
+
+/// As a share of the whole sphere: how much of what is seen from p the triangle covers, above zero from behind it.
+inline long double covered_share(const LongVec<3>& p, const LongVec<3>& first, const LongVec<3>& second,
+                                 const LongVec<3>& third) {
+    const LongVec<3> a = first - p, b = second - p, c = third - p;
+    const long double la = long_length<3>(a), lb = long_length<3>(b), lc = long_length<3>(c);
+    const long double volume = long_dot<3>(a, long_cross(b, c));
+    const long double rest = la * lb * lc + long_dot<3>(a, b) * lc + long_dot<3>(b, c) * la + long_dot<3>(c, a) * lb;
+    return std::atan2(volume, rest) / (2 * std::numbers::pi_v<long double>);
+}
+
+/// The same of a segment and the circle, above zero where it goes round p from the first axis to the second.
+inline long double covered_share(const LongVec<2>& p, const LongVec<2>& first, const LongVec<2>& second) {
+    const LongVec<2> a = first - p, b = second - p;
+    return std::atan2(a.x * b.y - a.y * b.x, long_dot<2>(a, b)) / (2 * std::numbers::pi_v<long double>);
+}
+
+/// How far from a surface a point is, and how often the surface goes round it.
+struct FieldTruth {
+    double distance = 0;  ///< without a sign
+    double winding = 0;
+
+    bool inside() const { return std::abs(winding) >= 0.5; }
+    double signed_distance() const { return inside() ? -distance : distance; }
+};
+
+/// Triangles as they are: none is turned round, no hole is closed.
+class TriangleTruth {
+public:
+    TriangleTruth(std::span<const Vec3> points, std::span<const glm::uvec3> triangles) {
+        for (const glm::uvec3& triangle : triangles)
+            for (int i = 0; i < 3; ++i) corners_.emplace_back(points[triangle[i]]);
+    }
+
+    double distance(const DVec<3>& point) const {
+        long double least = std::numeric_limits<long double>::infinity();
+        const LongVec<3> p(point);
+        for (std::size_t i = 0; i < corners_.size(); i += 3)
+            least = std::min(least, distance_to_triangle(p, corners_[i], corners_[i + 1], corners_[i + 2]));
+        return static_cast<double>(least);
+    }
+    double winding(const DVec<3>& point) const {
+        long double sum = 0;
+        const LongVec<3> p(point);
+        for (std::size_t i = 0; i < corners_.size(); i += 3)
+            sum += covered_share(p, corners_[i], corners_[i + 1], corners_[i + 2]);
+        return static_cast<double>(sum);
+    }
+    FieldTruth operator()(const DVec<3>& point) const { return {distance(point), winding(point)}; }
+
+private:
+    std::vector<LongVec<3>> corners_;  // three a triangle
+};
+
+/// An outline and its holes: inside of the outline, and of none of them.
+class OutlineTruth {
+public:
+    explicit OutlineTruth(std::span<const Vec2> outline, std::span<const std::vector<Vec2>> holes = {}) {
+        rings_.emplace_back(outline.begin(), outline.end());
+        for (const std::vector<Vec2>& hole : holes) rings_.emplace_back(hole.begin(), hole.end());
+    }
+
+    FieldTruth operator()(const DVec<2>& point) const {
+        const LongVec<2> p(point);
+        long double least = std::numeric_limits<long double>::infinity();
+        bool inside = false;
+        for (const std::vector<LongVec<2>>& ring : rings_) {
+            long double around = 0;
+            for (std::size_t i = 0; i < ring.size(); ++i) {
+                const LongVec<2>&a = ring[i], &b = ring[(i + 1) % ring.size()];
+                least = std::min(least, distance_to_segment<2>(p, a, b));
+                around += covered_share(p, a, b);
+            }
+            const bool in_ring = std::abs(around) >= 0.5L;
+            inside = &ring == rings_.data() ? in_ring : inside && !in_ring;
+        }
+        return {static_cast<double>(least), inside ? 1.0 : 0.0};
+    }
+
+private:
+    std::vector<std::vector<LongVec<2>>> rings_;
+};
+
+/// A sample as it is kept: where it lies, and its distance.
+template <int D>
+struct KeptSample {
+    DVec<D> position{};
+    double distance = 0;
+};
+
+/// All that a field keeps: the samples of a dense one; of a sparse one those of its bricks, and those of the corners of
+/// its blocks. Those on the sides of bricks come once a brick.
+template <int D>
+std::vector<KeptSample<D>> kept_samples(const Field<D>& field) {
+    using Index = glm::vec<D, std::uint32_t>;
+    const FieldData<D>& data = field.data();
+    std::vector<KeptSample<D>> result;
+    const auto position = [&](const Index& at) {
+        DVec<D> place;
+        for (int i = 0; i < D; ++i)
+            place[i] = static_cast<double>(data.origin[i]) + static_cast<double>(data.cell) * at[i];
+        return place;
+    };
+    const auto distance = [&](std::size_t i) {
+        return data.steps.empty() ? static_cast<double>(data.distance[i])
+                                  : static_cast<double>(data.steps[i]) * static_cast<double>(data.step);
+    };
+    // Visits counts.x * counts.y ... places, the first axis the fastest.
+    const auto each = [](const Index& counts, auto visit) {
+        Index at(0u);
+        for (std::size_t number = 0;; ++number) {
+            visit(number, at);
+            int axis = 0;
+            while (axis < D && ++at[axis] == counts[axis]) at[axis++] = 0;
+            if (axis == D) return;
+        }
+    };
+    if (data.store == FieldStore::dense) {
+        each(data.cells + 1u, [&](std::size_t number, const Index& at) {
+            result.push_back({position(at), distance(number)});
+        });
+        return result;
+    }
+    const Index blocks = data.cells / brick_cells<D>;
+    each(blocks, [&](std::size_t number, const Index& block) {
+        if (data.brick[number] == no_brick) return;
+        const std::size_t first = std::size_t{data.brick[number]} * brick_samples<D>;
+        each(Index(brick_cells<D> + 1), [&](std::size_t inner, const Index& at) {
+            result.push_back({position(block * brick_cells<D> + at), distance(first + inner)});
+        });
+    });
+    each(blocks + 1u, [&](std::size_t number, const Index& corner) {
+        result.push_back({position(corner * brick_cells<D>), static_cast<double>(data.coarse[number])});
+    });
+    return result;
+}
+
+}  // namespace abut::oracle
