@@ -1,0 +1,23 @@
+#include "threads.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <thread>
+#include <vector>
+
+namespace abut::tool {
+
+Threads::Threads() : count_(std::max(1u, std::thread::hardware_concurrency())) {}
+
+void Threads::run(std::uint32_t count, FunctionRef<void(std::uint32_t)> part) {
+    std::atomic<std::uint32_t> next = 0;
+    const auto work = [&] {
+        for (std::uint32_t i = next++; i < count; i = next++) part(i);
+    };
+    std::vector<std::thread> others;
+    for (std::uint32_t i = 1; i < std::min(count_, count); ++i) others.emplace_back(work);
+    work();
+    for (std::thread& other : others) other.join();
+}
+
+}  // namespace abut::tool
