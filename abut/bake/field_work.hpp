@@ -1,0 +1,71 @@
+#pragma once
+
+// The work of a bake, told to the user as it goes on, and shared out among threads. For .cpp files.
+
+#include <abut/bake/field.hpp>
+#include <abut/math/executor.hpp>
+#include <abut/math/function_ref.hpp>
+#include <abut/math/result.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+namespace abut {
+
+class FieldWork {
+public:
+    template <int D>
+    explicit FieldWork(const FieldOptions<D>& options) : executor_(options.executor), progress_(options.progress) {}
+
+    /// Part of the work that takes about this share of the whole is about to begin. False where the user cancels.
+    bool begin(double share) {
+        done_ = std::min(1.0, done_ + share_);
+        share_ = share;
+        return tell(0);
+    }
+
+    /// Calls item(0) to item(count - 1), each once, in any order and on any threads. False where the user cancels.
+    bool each(std::size_t count, FunctionRef<void(std::size_t)> item) {
+        constexpr std::size_t tells = 32;
+        const std::size_t workers = executor_ != nullptr ? std::max(1u, executor_->workers()) : 1;
+        const std::size_t batch = std::max<std::size_t>(count / tells, 64 * workers);
+        for (std::size_t begin = 0; begin < count; begin += batch) {
+            if (!tell(static_cast<double>(begin) / static_cast<double>(count))) return false;
+            const std::size_t end = std::min(count, begin + batch);
+            if (workers == 1) {
+                for (std::size_t i = begin; i < end; ++i) item(i);
+                continue;
+            }
+            const std::size_t parts = std::min(end - begin, 4 * workers);
+            executor_->run(static_cast<std::uint32_t>(parts), [&](std::uint32_t part) {
+                const std::size_t first = begin + (end - begin) * part / parts;
+                const std::size_t last = begin + (end - begin) * (part + 1) / parts;
+                for (std::size_t i = first; i < last; ++i) item(i);
+            });
+        }
+        return tell(1);
+    }
+
+    /// All of it is done. False where the user cancels even now.
+    bool finish() {
+        done_ = 1;
+        share_ = 0;
+        return tell(0);
+    }
+
+    static Problem cancelled() { return {ProblemCode::cancelled, "cancelled", 0}; }
+
+private:
+    bool tell(double part) {
+        told_ = std::max(told_, std::min(1.0, done_ + share_ * part));
+        return !progress_ || (*progress_)(told_);
+    }
+
+    Executor* executor_;
+    std::optional<FunctionRef<bool(double)>> progress_;
+    double done_ = 0, share_ = 0, told_ = 0;
+};
+
+}  // namespace abut
