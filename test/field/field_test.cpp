@@ -2,6 +2,7 @@
 
 #include "analytic.hpp"
 #include <abut/field/field.hpp>
+#include <abut/field/quantise.hpp>
 
 #include <cmath>
 #include <limits>
@@ -75,6 +76,133 @@ TEST(Field, IsLinearBetweenSamples) {
     expect_plain<3>(box<3>({100, 0.5, 7}, {2, 1, 3}), 0.1f);
     expect_plain<3>(torus({0, 0, 0}, 2e-3, 1e-3), 2e-4f);
     expect_plain<3>(torus({0, 0, 0}, 2e4, 1e4), 2e3f);
+}
+
+/// What a sparse field keeps is what the dense one has, near the surface; elsewhere it is linear over blocks.
+template <int D>
+void expect_sparse_like_dense(const Analytic<D>& solid, float cell) {
+    FillOptions options;
+    options.store = FieldStore::sparse;
+    const FieldData<D> sparse = filled_around<D>(solid, cell, 9, options);
+    const Field<D> kept(sparse), all(filled<D>(solid, sparse.origin, cell, sparse.cells));
+    ASSERT_LT(kept.bytes(), all.bytes());
+    const auto step = static_cast<double>(cell);
+    Random random(23);
+    int near = 0, far = 0;
+    for (int i = 0; i < 30000; ++i) {
+        const Vec<D> point = anywhere<D>(random, all.volume());
+        const double right = solid.distance(DVec<D>(point));
+        if (std::abs(right) < 3 * step) {
+            ASSERT_EQ(kept.distance(point), all.distance(point));
+            ASSERT_EQ(kept.sample(point).normal, all.sample(point).normal);
+            ++near;
+        } else {
+            ASSERT_NEAR(static_cast<double>(kept.distance(point)), right, 2 * step * brick_cells<D>);
+            ASSERT_EQ(kept.distance(point) > 0, right > 0);
+            ++far;
+        }
+    }
+    EXPECT_GT(near, 3000);
+    EXPECT_GT(far, 3000);
+    // At the samples themselves, where cells and bricks meet too.
+    for (std::size_t i = 0; i < all.data().distance.size(); ++i) {
+        const DVec<D> place = DVec<D>(sparse.origin) + DVec<D>(counted<D>(i, sparse.cells + 1u)) * step;
+        if (std::abs(solid.distance(place)) > 3 * step) continue;
+        ASSERT_NEAR(kept.distance(to_float<D>(place)), all.data().distance[i], 1e-4 * step);
+    }
+}
+
+TEST(Field, SparseIsAsGoodNearTheSurface) {
+    expect_sparse_like_dense<2>(ball<2>({1, 2}, 3), 0.1f);
+    expect_sparse_like_dense<2>(box<2>({-1, 0.5}, {2, 1}), 0.05f);
+    expect_sparse_like_dense<3>(ball<3>({1, 2, -3}, 3), 0.2f);
+    expect_sparse_like_dense<3>(torus({0, 0, 0}, 2, 1), 0.15f);
+}
+
+/// Of a distance whose every difference is at most as large as the way, each coordinate's slope is at most 1.
+template <int D>
+void expect_lipschitz(const Field<D>& field, std::uint64_t seed) {
+    const Aabb<D> volume = field.volume();
+    Random random(seed);
+    double most = 0;
+    for (int i = 0; i < 50000; ++i) {
+        const Vec<D> a = anywhere<D>(random, volume);
+        Vec<D> b;
+        for (int k = 0; k < D; ++k)
+            b[k] = std::clamp(a[k] + random.uniform_float(-1, 1) * field.cell(), volume.min[k], volume.max[k]);
+        const double way = length(DVec<D>(b) - DVec<D>(a));
+        const double change = static_cast<double>(field.distance(b)) - static_cast<double>(field.distance(a));
+        ASSERT_LE(std::abs(change), way * std::sqrt(static_cast<double>(D)) + 1e-5);
+        most = std::max(most, std::abs(change) - way);
+    }
+}
+
+TEST(Field, GrowsNoFasterThanItMay) {
+    expect_lipschitz(Field2(filled_around<2>(box<2>({-1, 0.5}, {2, 1}), 0.1f, 3)), 1);
+    expect_lipschitz(Field3(filled_around<3>(box<3>({-1, 0.5, 2}, {2, 1, 1}), 0.2f, 3)), 2);
+    expect_lipschitz(Field3(filled_around<3>(torus({0, 0, 0}, 2, 1), 0.2f, 3)), 3);
+}
+
+TEST(Field, SixteenBitsAreRightToHalfAStep) {
+    for (const FieldStore store : {FieldStore::dense, FieldStore::sparse}) {
+        FillOptions options;
+        options.store = store;
+        FieldData<3> data = filled_around<3>(torus({0, 0, 0}, 2, 1), 0.125f, 3, options);
+        const Field3 exact(data);
+        float most = 0;
+        for (const float distance : data.distance) most = std::max(most, std::abs(distance));
+        quantise(data);
+        const Field3 rounded(data);
+        EXPECT_LT(rounded.bytes(), 0.6 * static_cast<double>(exact.bytes()));
+        EXPECT_NEAR(data.step, most / 32767, 1e-6 * data.step);
+        Random random(31);
+        float worst = 0;
+        for (int i = 0; i < 30000; ++i) {
+            const Vec3 point = anywhere<3>(random, exact.volume());
+            worst = std::max(worst, std::abs(rounded.distance(point) - exact.distance(point)));
+        }
+        EXPECT_LE(worst, 0.5f * data.step + 2e-7f * most);
+        EXPECT_GT(worst, 0.25f * data.step);
+        quantise(data);
+        EXPECT_EQ(Field3(data).distance({1, 1, 0}), rounded.distance({1, 1, 0}));
+    }
+    FieldData<2> nothing = filled<2>({[](const DVec<2>&) { return 0.0; }, {}}, {0, 0}, 1, glm::uvec2(3));
+    quantise(nothing);
+    EXPECT_EQ(Field2(nothing).distance({1, 1.5f}), 0);
+    EXPECT_EQ(Field2(nothing).sample({1, 1.5f}).normal, Vec2(1, 0));
+}
+
+/// Inside it is interpolated, never less than along the planes of a convex solid: no box of a solid is left.
+TEST(Field, NothingSolidIsOutsideOfItsBounds) {
+    for (const bool quantised : {false, true}) {
+        FieldData<3> data = filled_around<3>(turned(box<3>({1, 0, 0}, {2, 1, 0.2}), {1, 2, 3}, {0, 1, 0}), 0.25f, 3);
+        if (quantised) quantise(data);
+        const Field3 field(data);
+        Random random(41);
+        int solid = 0;
+        for (int i = 0; i < 200000; ++i) {
+            const Vec3 point = anywhere<3>(random, field.volume());
+            if (field.distance(point) > 0) continue;
+            ++solid;
+            ASSERT_TRUE(contains(bounds(field), point));
+        }
+        EXPECT_GT(solid, 100);
+    }
+}
+
+/// By walking down, from inside and outside.
+TEST(Field, ClosestIsOnTheSurface) {
+    const Analytic<3> solid = torus({0, 0, 0}, 2, 1);
+    const Field3 field(filled_around<3>(solid, 0.1f, 3));
+    Random random(53);
+    for (int i = 0; i < 5000; ++i) {
+        const Vec3 point = anywhere<3>(random, field.volume());
+        const Vec3 found = field.closest(point);
+        ASSERT_LT(std::abs(solid.distance(DVec<3>(found))), 0.01);
+        // No farther than the closest point by more than what the interpolation leaves, but at the torus' axis and
+        // ring, where there are many.
+        ASSERT_LT(length(DVec<3>(found) - DVec<3>(point)), std::abs(solid.distance(DVec<3>(point))) + 0.1);
+    }
 }
 
 }  // namespace
