@@ -5,17 +5,6 @@
 namespace abut {
 namespace {
 
-/// All candidates, before they are thinned out.
-template <int D>
-struct Candidates {
-    std::array<ManifoldPoint<D>, Face<D>::capacity + 1> points;
-    std::size_t count = 0;
-
-    void push_back(const ManifoldPoint<D>& point) {
-        if (count < points.size()) points[count++] = point;
-    }
-};
-
 /// The part of v at right angles to the unit vector n, at length 1.
 template <int D>
 DVec<D> across(const DVec<D>& v, const DVec<D>& n) {
@@ -95,7 +84,7 @@ void record(const Face<D>& left, const DVec<D>& side, double offset, Trace<D>* t
 
 /// The index of the largest value of `measure` over the candidates; of several the lowest.
 template <int D, class Measure>
-std::size_t most(const Candidates<D>& all, Measure&& measure) {
+std::size_t most(const ManifoldCandidates<D>& all, Measure&& measure) {
     std::size_t best = 0;
     for (std::size_t i = 1; i < all.count; ++i)
         if (measure(all.points[i]) > measure(all.points[best])) best = i;
@@ -103,13 +92,13 @@ std::size_t most(const Candidates<D>& all, Measure&& measure) {
 }
 
 /// The deepest, and the one farthest from it.
-std::array<std::size_t, 2> kept(const Candidates<2>& all, std::size_t deepest, const DVec<2>&) {
+std::array<std::size_t, 2> kept(const ManifoldCandidates<2>& all, std::size_t deepest, const DVec<2>&) {
     const DVec<2> first = all.points[deepest].position;
     return {deepest, most(all, [&](const ManifoldPoint<2>& p) { return length_squared(p.position - first); })};
 }
 
 /// The deepest, and the three that make the largest quadrilateral with it, seen along the normal.
-std::array<std::size_t, 4> kept(const Candidates<3>& all, std::size_t deepest, const DVec<3>& normal) {
+std::array<std::size_t, 4> kept(const ManifoldCandidates<3>& all, std::size_t deepest, const DVec<3>& normal) {
     const DVec<3> steep{std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};
     const int up = steep.x >= steep.y && steep.x >= steep.z ? 0 : (steep.y >= steep.z ? 1 : 2);
     const int u = (up + 1) % 3, v = (up + 2) % 3;
@@ -121,24 +110,6 @@ std::array<std::size_t, 4> kept(const Candidates<3>& all, std::size_t deepest, c
         y[i] = position[v] - position[up] * lean_v;
     }
     return largest_quadrilateral({x.data(), all.count}, {y.data(), all.count}, deepest);
-}
-
-template <int D>
-Manifold<D> thinned(const Candidates<D>& all, const DVec<D>& normal, double slack) {
-    Manifold<D> result;
-    if (all.count <= result.points.size()) {
-        for (std::size_t i = 0; i < all.count; ++i) result.points[result.count++] = all.points[i];
-        return result;
-    }
-    // Of those that are as deep to within the slack the first, which stays the same from frame to frame.
-    const auto depth = [](const ManifoldPoint<D>& p) { return p.depth; };
-    const double least = depth(all.points[most(all, depth)]) - slack;
-    const std::size_t deepest = most(all, [&](const ManifoldPoint<D>& p) { return p.depth >= least ? 1 : 0; });
-    const auto indices = kept(all, deepest, normal);
-    for (std::size_t i = 0; i < indices.size(); ++i)
-        if (std::find(indices.begin(), indices.begin() + i, indices[i]) == indices.begin() + i)
-            result.points[result.count++] = all.points[indices[i]];
-    return result;
 }
 
 /// The size of a set to within a factor of two, for less than `size` asks.
@@ -156,7 +127,7 @@ double rough_size(const Convex<D>& convex) {
 
 /// Adds the witness where no candidate is as deep as it is: a corner may lie on no face that looks along the normal.
 template <int D>
-void add_deepest(Candidates<D>& candidates, const ManifoldPoint<D>& witness, double slack) {
+void add_deepest(ManifoldCandidates<D>& candidates, const ManifoldPoint<D>& witness, double slack) {
     for (std::size_t i = 0; i < candidates.count; ++i)
         if (candidates.points[i].depth >= witness.depth - slack) return;
     candidates.push_back(witness);
@@ -165,13 +136,31 @@ void add_deepest(Candidates<D>& candidates, const ManifoldPoint<D>& witness, dou
 }  // namespace
 
 template <int D>
+Manifold<D> thinned(const ManifoldCandidates<D>& all, const DVec<D>& normal, double slack) {
+    Manifold<D> result;
+    if (all.count <= result.points.size()) {
+        for (std::size_t i = 0; i < all.count; ++i) result.points[result.count++] = all.points[i];
+        return result;
+    }
+    // Of those that are as deep to within the slack the first, which stays the same from frame to frame.
+    const auto depth = [](const ManifoldPoint<D>& p) { return p.depth; };
+    const double least = depth(all.points[most(all, depth)]) - slack;
+    const std::size_t deepest = most(all, [&](const ManifoldPoint<D>& p) { return p.depth >= least ? 1 : 0; });
+    const auto indices = kept(all, deepest, normal);
+    for (std::size_t i = 0; i < indices.size(); ++i)
+        if (std::find(indices.begin(), indices.begin() + i, indices[i]) == indices.begin() + i)
+            result.points[result.count++] = all.points[indices[i]];
+    return result;
+}
+
+template <int D>
 Manifold<D> manifold(const Convex<D>& a, const Convex<D>& b, const SignedDistance<D>& distance, double margin,
                      Trace<D>* trace) {
     const DVec<D>& normal = distance.normal;
     const double slack = 1e-6 * std::min(rough_size(a), rough_size(b)), depth = -distance.distance;
     const std::uint32_t witness_name = distance.corners.a[0] << 8 ^ distance.corners.b[0];
 
-    Candidates<D> candidates;
+    ManifoldCandidates<D> candidates;
     const Face<D> face_a = face_along(a, normal), face_b = face_along(b, -normal);
     const double alignment_a = alignment(face_a, normal), alignment_b = alignment(face_b, -normal);
     if (std::max(alignment_a, alignment_b) >= aligned || side_by_side(face_a, face_b, normal)) {
@@ -205,7 +194,7 @@ Manifold<D> manifold(const Convex<D>& a, const Convex<D>& b, const SignedDistanc
 template <int D>
 Manifold<D> manifold_with_plane(const Convex<D>& a, const DVec<D>& normal, double offset, double margin) {
     const double slack = 1e-6 * rough_size(a);
-    Candidates<D> candidates;
+    ManifoldCandidates<D> candidates;
     const auto touching_at = [&](const DVec<D>& core, std::uint32_t name) {
         const DVec<D> surface = core - normal * a.radius;
         const double depth = offset - dot(normal, surface);
@@ -222,6 +211,7 @@ Manifold<D> manifold_with_plane(const Convex<D>& a, const DVec<D>& normal, doubl
 }
 
 #define ABUT_INSTANTIATE(D)                                                                                         \
+    template Manifold<D> thinned(const ManifoldCandidates<D>&, const DVec<D>&, double);                             \
     template Manifold<D> manifold(const Convex<D>&, const Convex<D>&, const SignedDistance<D>&, double, Trace<D>*); \
     template Manifold<D> manifold_with_plane(const Convex<D>&, const DVec<D>&, double, double);
 ABUT_INSTANTIATE(2)

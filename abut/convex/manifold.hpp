@@ -20,6 +20,21 @@ struct Manifold {
     std::size_t count = 0;
 };
 
+/// All points of which some are kept.
+template <int D>
+struct ManifoldCandidates {
+    std::array<ManifoldPoint<D>, Face<D>::capacity + 1> points;
+    std::size_t count = 0;
+
+    void push_back(const ManifoldPoint<D>& point) {
+        if (count < points.size()) points[count++] = point;
+    }
+};
+
+/// As many as there is room for: the deepest to within `slack`, and those that keep the most area.
+template <int D>
+Manifold<D> thinned(const ManifoldCandidates<D>& all, const DVec<D>& normal, double slack);
+
 /// Two sets whose distance is at most `margin`. The points are those at most `margin` apart, among them the deepest; of
 /// more than there is room for, those that keep the most area.
 template <int D>

@@ -1,4 +1,5 @@
 #include <abut/draw/convex.hpp>
+#include <abut/draw/distance_function.hpp>
 #include <abut/draw/draw.hpp>
 #include <abut/draw/half_space.hpp>
 
@@ -68,6 +69,8 @@ void draw(Canvas<D>& canvas, const View<D>& shape, const Style& style) {
         draw_convex(canvas, *convex, style);
     else if (const auto* solid = std::get_if<Solid<D>>(&shape))
         draw_solid(canvas, *solid, style);
+    else if (const auto* function = std::get_if<DistanceFunction<D>>(&shape))
+        draw_function(canvas, *function, style);
     else
         each_part<D>(std::get<Composite<D>>(shape), canvas.shown(), [&](const Convex<D>& part, std::uint32_t) -> bool {
             draw_convex(canvas, part, style);

@@ -16,7 +16,9 @@ namespace abut {
 
 /// The outline in 2D, filled where the style says so. In 3D the edges, and of round shapes some lines around them;
 /// a fill covers the surface. Curves are right to 1/800 of the shape's size. Half-spaces are cut off at what the canvas
-/// shows, composite shapes drawn part by part.
+/// shows, composite shapes drawn part by part, of
+/// distance functions the surface as a grid of 64 cells (in 3D 24) along the longest side of what is
+/// shown of it tells.
 template <int D>
 void draw(Canvas<D>& canvas, const View<D>& shape, const Style& style = {});
 

@@ -36,6 +36,9 @@ void NearParts<D>::gather(const World<D>& world, const Aabb<D>& box, const Filte
             } else if (const auto* solid = std::get_if<Solid<D>>(&shape)) {
                 kept_.push_back({*solid});
                 order_.push_back({{id, 0}, place, everywhere<D>()});
+            } else if (const auto* function = std::get_if<DistanceFunction<D>>(&shape)) {
+                kept_.push_back({*function});
+                order_.push_back({{id, 0}, place, bounds(*function)});
             } else {
                 each_part<D>(std::get<Composite<D>>(shape), box, [&](const Convex<D>& part, std::uint32_t index) {
                     take({id, index}, part, shape);

@@ -29,7 +29,7 @@ public:
     /// Whether some part may be met from its front alone.
     bool has_one_sided() const { return has_one_sided_; }
 
-    /// visit(name, part) for those whose boxes overlap this one; a part is a Convex or a Solid.
+    /// visit(name, part) for those whose boxes overlap this one; a part is a Convex, a Solid or a DistanceFunction.
     template <class Visit>
     void each(const Aabb<D>& box, Visit&& visit) const {
         for (std::size_t i = 0; i < order_.size(); ++i) {
@@ -40,6 +40,8 @@ public:
                 look_again(*kept.shape, boxes_[i], name.part, [&](const Convex<D>& part) { visit(name, part); });
             else if (const auto* convex = std::get_if<Convex<D>>(&kept.part))
                 visit(name, *convex);
+            else if (const auto* function = std::get_if<DistanceFunction<D>>(&kept.part))
+                visit(name, *function);
             else
                 visit(name, std::get<Solid<D>>(kept.part));
         }
@@ -47,7 +49,7 @@ public:
 
 private:
     struct Kept {
-        std::variant<Convex<D>, Solid<D>> part;
+        std::variant<Convex<D>, Solid<D>, DistanceFunction<D>> part;
         std::size_t first_point = 0;  // in points_, of a part that was given with points of its own
         bool has_points = false;
         bool made_up = false;            // by the shape, while it was asked: to be asked for again

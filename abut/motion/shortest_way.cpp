@@ -10,6 +10,9 @@ namespace {
 /// The bound on parts that one line leaves.
 constexpr int most_parts_on_line = 256;
 
+/// The bound on steps out of what is known by its distance alone, each by as much as it is deep at least.
+constexpr int most_steps_out = 128;
+
 /// The bound on slides back from where a line ends. Each one shortens the way.
 constexpr int most_slides = 12;
 
@@ -128,6 +131,8 @@ private:
                     visit(PartName{id, 0}, *convex);
                 else if (const auto* solid = std::get_if<Solid<D>>(&shape))
                     visit(PartName{id, 0}, *solid);
+                else if (const auto* function = std::get_if<DistanceFunction<D>>(&shape))
+                    visit(PartName{id, 0}, *function);
                 else
                     each_part<D>(std::get<Composite<D>>(shape), box, [&](const Convex<D>& part, std::uint32_t index) {
                         if (overlaps(bounds(part), box)) visit(PartName{id, index}, part);
@@ -149,8 +154,8 @@ private:
         return result;
     }
 
-    /// How far along the line the shape is free of the part, grown as it is, where it is in it now.
-    std::optional<double> leaves(const Convex<D>& part, const DVec<D>& direction) const {
+    /// How far along the line the shape is free of the part, grown as it is, where it is in it at `along`.
+    std::optional<double> leaves(const Convex<D>& part, const DVec<D>& direction, double) const {
         // There the one is beyond the other's end; it comes back until they touch.
         const double beyond = dot(direction, support(part, direction)) - dot(direction, support(grown_, -direction));
         const double from = beyond + gap_;
@@ -159,7 +164,15 @@ private:
             return std::nullopt;
         return from - touch.along;
     }
-    std::optional<double> leaves(const Solid<D>& part, const DVec<D>& direction) const {
+    std::optional<double> leaves(const DistanceFunction<D>& part, const DVec<D>& direction, double along) const {
+        for (int step = 0; step < most_steps_out; ++step) {
+            const double distance = part_distance(at(grown_, direction * along), part, {}).distance;
+            if (!(distance < -0.1 * gap_)) return along;
+            along += std::max(-distance, 0.1 * gap_);
+        }
+        return std::nullopt;
+    }
+    std::optional<double> leaves(const Solid<D>& part, const DVec<D>& direction, double) const {
         const double rise = dot(part.normal, direction);
         if (!(rise > 1e-9)) return std::nullopt;
         return (part.offset - dot(part.normal, support(grown_, -part.normal))) / rise;
@@ -176,7 +189,7 @@ private:
                 const SignedDistance<D> distance = part_distance(here, part, {});
                 if (!(distance.distance < -0.3 * gap_) || !meet_at_fronts(here, part, distance.normal)) return;
                 in_something = true;
-                const std::optional<double> end = leaves(part, direction);
+                const std::optional<double> end = leaves(part, direction, along);
                 leaves_all = leaves_all && end;
                 if (end) next = std::max(next, *end);
             });

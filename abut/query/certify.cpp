@@ -1,5 +1,6 @@
 #include <abut/convex/gjk.hpp>
 #include <abut/query/certify.hpp>
+#include <abut/query/function_there.hpp>
 #include <abut/query/part_pairs.hpp>
 
 namespace abut {
@@ -12,6 +13,8 @@ void with_part(const View<D>& shape, std::uint32_t number, Visit&& visit) {
         visit(*convex);
     else if (const auto* solid = std::get_if<Solid<D>>(&shape))
         visit(*solid);
+    else if (const auto* function = std::get_if<DistanceFunction<D>>(&shape))
+        visit(*function);
     else
         each_part<D>(std::get<Composite<D>>(shape), bounds(shape), [&](const Convex<D>& part, std::uint32_t index) {
             if (index == number) visit(part);
@@ -113,6 +116,69 @@ Certificate<D> certificate(const A& a, const B& b, const Closest<D>& answer) {
     result.across = length(on_b - on_a - normal * distance);
     if (distance <= 0) {
         result.common = to_float(common_point(a, b));
+        const DVec<D> common(result.common);
+        result.off_common = std::max(outside(a, common), outside(b, common));
+    }
+    const double rounding = rounding_of(answer.on_a) + rounding_of(answer.on_b) + rounding_of(result.common);
+    const double worst = std::max({result.plane, result.off_a, result.off_b, result.across, result.off_common});
+    result.holds = std::abs(length(DVec<D>(answer.normal)) - 1) <= 1e-6 && worst <= result.margin + 2 * rounding;
+    return result;
+}
+
+// Of a distance function the answer names a place and what the function is there; that there is none where it is less
+// is searched for once more.
+
+/// How far a place, which is where a set is deepest, is outside of the set; a place of a function's shape, of that.
+template <int D>
+double outside(const DistanceFunction<D>& part, const DVec<D>& point) {
+    return std::max(0.0, FunctionThere<D>(part).at(point));
+}
+
+/// What the answer's distance is by the place that it names, and how far that place is from where it must be.
+template <int D>
+struct Measured {
+    double distance, off;
+    DVec<D> common;
+};
+template <int D>
+Measured<D> measured(const Convex<D>& a, const DistanceFunction<D>& b, const DVec<D>& on_a, const DVec<D>& normal,
+                     double) {
+    Convex<D> core = a;
+    core.radius = 0;
+    const DVec<D> deepest = on_a - normal * a.radius;
+    const double there = FunctionThere<D>(b).at(deepest);
+    return {there - a.radius, outside(core, deepest), deepest + normal * std::clamp(there, 0.0, a.radius)};
+}
+template <int D>
+Measured<D> measured(const DistanceFunction<D>& a, const Solid<D>& b, const DVec<D>& on_a, const DVec<D>&, double) {
+    return {dot(b.normal, on_a) - b.offset, outside(a, on_a), on_a};
+}
+template <int D>
+Measured<D> measured(const DistanceFunction<D>& a, const DistanceFunction<D>& b, const DVec<D>& on_a,
+                     const DVec<D>& normal, double distance) {
+    const DVec<D> middle = on_a + normal * (0.5 * distance);
+    return {2 * std::max(FunctionThere<D>(a).at(middle), FunctionThere<D>(b).at(middle)), 0, middle};
+}
+template <class A, class B, int D>
+Measured<D> measured(const A& a, const B& b, const DVec<D>& on_a, const DVec<D>& normal, double distance) {
+    return measured(b, a, on_a + normal * distance, -normal, distance);
+}
+
+template <int D, class A, class B>
+requires FunctionPair<A, B> Certificate<D> certificate(const A& a, const B& b, const Closest<D>& answer) {
+    const DVec<D> on_a(answer.on_a), on_b(answer.on_b), normal = normalized(DVec<D>(answer.normal));
+    const double distance = static_cast<double>(answer.distance);
+    Certificate<D> result;
+    result.margin = function_margin(a, b);
+    if (!std::isfinite(distance)) return result;
+    const Measured<D> told = measured(a, b, on_a, normal, distance);
+    const double none = -std::numeric_limits<double>::infinity();
+    const double least = function_distance(a, b, {none, distance - result.margin}).distance;
+    result.plane = std::max(std::abs(told.distance - distance), distance - std::min(least, distance));
+    (is_function<A> ? result.off_b : result.off_a) = told.off;
+    result.across = length(on_b - on_a - normal * distance);
+    if (distance <= 0) {
+        result.common = to_float(told.common);
         const DVec<D> common(result.common);
         result.off_common = std::max(outside(a, common), outside(b, common));
     }

@@ -28,8 +28,9 @@ Certificate<D> certify(const View<D>& a, const View<D>& b, const Closest<D>& ans
 
 /// Checks the answer of closest(a, b). Where the shapes are apart that proves it: the plane between them, and the two
 /// points at its sides. Where they overlap, it proves that they do and that the depth is a move that parts them; that
-/// there is no smaller one is not checked. Of composite shapes the two parts that the answer names are looked at, not
-/// all the others.
+/// there is no smaller one is not checked. Beside a distance function it proves what the function is at the place that
+/// the answer names, and looks once more for one where it is less. Of composite shapes the two parts that the answer
+/// names are looked at, not all the others.
 template <class A, class B>
 requires Pair<A, B> Certificate<dimension<A>> certify(const A& a, const B& b, const Closest<dimension<A>>& answer) {
     constexpr int D = dimension<A>;

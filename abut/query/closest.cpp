@@ -10,14 +10,16 @@
 namespace abut {
 namespace {
 
-/// Calls visit(part, index) for a convex shape or half-space itself, and for the parts of a composite one that are
-/// within reach of `other`, as long as visit() returns it.
+/// Calls visit(part, index) for a convex shape, half-space or distance function itself, and for the parts of a
+/// composite one that are within reach of `other`, as long as visit() returns it.
 template <int D, class Other, class Visit>
 void each_part_within_reach(const View<D>& shape, const Other& other, Visit&& visit) {
     if (const auto* convex = std::get_if<Convex<D>>(&shape))
         visit(*convex, 0u);
     else if (const auto* solid = std::get_if<Solid<D>>(&shape))
         visit(*solid, 0u);
+    else if (const auto* function = std::get_if<DistanceFunction<D>>(&shape))
+        visit(*function, 0u);
     else
         each_part_near<D>(std::get<Composite<D>>(shape), bounds(other),
                           [&](const Convex<D>& part, std::uint32_t index) -> float { return visit(part, index); });
@@ -34,6 +36,8 @@ public:
             look_around<false>(a, *convex, 0);
         else if (const auto* solid = std::get_if<Solid<D>>(&b))
             look_around<false>(a, *solid, 0);
+        else if (const auto* function = std::get_if<DistanceFunction<D>>(&b))
+            look_around<false>(a, *function, 0);
         else
             each_part_within_reach(a, b, [&](const auto& part, std::uint32_t index) {
                 look_around<true>(b, part, index);
@@ -65,7 +69,7 @@ private:
             if constexpr (is_convex && std::is_same_v<Other, Convex<D>>)
                 if (any_ && vicinity && least_.distance > 0 && vicinity->is_beyond(other, least_.distance))
                     return reach();
-            if constexpr (!is_convex && std::is_same_v<Part, Other>)
+            if constexpr (std::is_same_v<Part, Solid<D>> && std::is_same_v<Part, Other>)
                 ABUT_ASSERT(two_half_spaces_pair);
             else if constexpr (of_a)
                 look_at(part, index, other, other_index);
@@ -78,6 +82,8 @@ private:
     template <class PartA, class PartB>
     void look_at(const PartA& part_a, std::uint32_t index_a, const PartB& part_b, std::uint32_t index_b) {
         const SignedDistance<D> distance = part_distance(part_a, part_b, options_);
+        // A function without bounds, or of no place, is nowhere near.
+        if (!(distance.distance < std::numeric_limits<double>::infinity())) return;
         // The lowest of several as near, so that it isn't up to the order of the visits.
         if (any_ && !(distance.distance < least_.distance) &&
             !(distance.distance == least_.distance &&

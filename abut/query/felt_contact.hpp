@@ -128,12 +128,17 @@ private:
         return !flat && is_composite(shape);
     }
     static bool has_own_middle(const Solid<D>&, const View<D>&) { return true; }
+    static bool has_own_middle(const DistanceFunction<D>&, const View<D>&) { return false; }
 
     static DVec<D> middle_beside(const Convex<D>& part, const View<D>& shape, const DVec<D>& of_shape, const DVec<D>&) {
         return has_own_middle(part, shape) ? middle_of(part, {}) : of_shape;
     }
     static DVec<D> middle_beside(const Solid<D>& part, const View<D>&, const DVec<D>&, const DVec<D>& beside) {
         return middle_of(part, beside);
+    }
+
+    static DVec<D> middle_beside(const DistanceFunction<D>&, const View<D>&, const DVec<D>& of_shape, const DVec<D>&) {
+        return of_shape;
     }
 
     template <class PartA>
@@ -162,6 +167,8 @@ private:
     }
     /// A half-space has its own.
     static bool rest_on(const Solid<D>&, const FeltPlane<D>&, PartContact<D>&) { return false; }
+    /// Of a function it would have to be searched.
+    static bool rest_on(const DistanceFunction<D>&, const FeltPlane<D>&, PartContact<D>&) { return false; }
 
     const View<D>&a_, &b_;
     Others<D> others_;

@@ -1,5 +1,6 @@
 #include <abut/convex/round_pairs.hpp>
 #include <abut/query/felt_normal.hpp>
+#include <abut/query/function_there.hpp>
 
 namespace abut {
 namespace {
@@ -42,6 +43,10 @@ template <int D>
 DVec<D> inner_point(const Solid<D>&, const DVec<D>& beside) {
     return beside;
 }
+template <int D>
+DVec<D> inner_point(const DistanceFunction<D>&, const DVec<D>& beside) {
+    return beside;
+}
 
 /// Whether it is solid with flat sides, which may be narrow.
 template <int D>
@@ -51,6 +56,10 @@ bool has_flat_sides(const Convex<D>& part) {
 }
 template <int D>
 bool has_flat_sides(const Solid<D>&) {
+    return false;
+}
+template <int D>
+bool has_flat_sides(const DistanceFunction<D>&) {
     return false;
 }
 
@@ -147,6 +156,14 @@ Foot<D> foot_on(const Solid<D>& part, const DVec<D>& point) {
 }
 
 template <int D>
+Foot<D> foot_on(const DistanceFunction<D>& part, const DVec<D>& point) {
+    const FunctionThere<D> seen(part);
+    const double distance = seen.at(point);
+    if (!std::isfinite(distance)) return {};
+    return {distance, point - seen.normal(point, seen.step(point, 1e-2 * std::abs(distance))) * distance};
+}
+
+template <int D>
 Foot<D> nearest_foot(EachFoot<D> each_foot, const DVec<D>& point, double within, double scale) {
     Foot<D> result;
     each_foot(point, within, [&](const Foot<D>& foot) {
@@ -229,21 +246,27 @@ std::optional<FeltPlane<D>> felt_plane(const Part& part, const FeltPlace<D>& pla
     return plane_at(place.middle, seen.foot.distance <= within ? seen.foot : Foot<D>());
 }
 
-#define ABUT_INSTANTIATE(D)                                                                                \
-    template bool find_foot(const Convex<D>&, const DVec<D>&, double, Foot<D>&);                           \
-    template Foot<D> foot_on(const Convex<D>&, const DVec<D>&);                                            \
-    template Foot<D> foot_on(const Solid<D>&, const DVec<D>&);                                             \
-    template Foot<D> nearest_foot(EachFoot<D>, const DVec<D>&, double, double);                            \
-    template void each_foot_on(const View<D>&, const DVec<D>&, double, FunctionRef<void(const Foot<D>&)>); \
-    template bool has_normal(const Convex<D>&, const FeltPlace<D>&);                                       \
-    template bool has_normal(const Solid<D>&, const FeltPlace<D>&);                                        \
-    template bool is_felt_there(const Convex<D>&, const FeltPlace<D>&, EachFoot<D>);                       \
-    template bool is_felt_there(const Solid<D>&, const FeltPlace<D>&, EachFoot<D>);                        \
-    template bool is_felt(const Convex<D>&, const FeltPlace<D>&, EachFoot<D>);                             \
-    template bool is_felt(const Solid<D>&, const FeltPlace<D>&, EachFoot<D>);                              \
-    template std::optional<FeltPlane<D>> felt_plane(const Convex<D>&, const FeltPlace<D>&, EachFoot<D>,    \
-                                                    SeenFromMiddle<D>&);                                   \
-    template std::optional<FeltPlane<D>> felt_plane(const Solid<D>&, const FeltPlace<D>&, EachFoot<D>,     \
+#define ABUT_INSTANTIATE(D)                                                                                       \
+    template bool find_foot(const Convex<D>&, const DVec<D>&, double, Foot<D>&);                                  \
+    template Foot<D> foot_on(const Convex<D>&, const DVec<D>&);                                                   \
+    template Foot<D> foot_on(const Solid<D>&, const DVec<D>&);                                                    \
+    template Foot<D> foot_on(const DistanceFunction<D>&, const DVec<D>&);                                         \
+    template bool has_normal(const DistanceFunction<D>&, const FeltPlace<D>&);                                    \
+    template bool is_felt_there(const DistanceFunction<D>&, const FeltPlace<D>&, EachFoot<D>);                    \
+    template bool is_felt(const DistanceFunction<D>&, const FeltPlace<D>&, EachFoot<D>);                          \
+    template std::optional<FeltPlane<D>> felt_plane(const DistanceFunction<D>&, const FeltPlace<D>&, EachFoot<D>, \
+                                                    SeenFromMiddle<D>&);                                          \
+    template Foot<D> nearest_foot(EachFoot<D>, const DVec<D>&, double, double);                                   \
+    template void each_foot_on(const View<D>&, const DVec<D>&, double, FunctionRef<void(const Foot<D>&)>);        \
+    template bool has_normal(const Convex<D>&, const FeltPlace<D>&);                                              \
+    template bool has_normal(const Solid<D>&, const FeltPlace<D>&);                                               \
+    template bool is_felt_there(const Convex<D>&, const FeltPlace<D>&, EachFoot<D>);                              \
+    template bool is_felt_there(const Solid<D>&, const FeltPlace<D>&, EachFoot<D>);                               \
+    template bool is_felt(const Convex<D>&, const FeltPlace<D>&, EachFoot<D>);                                    \
+    template bool is_felt(const Solid<D>&, const FeltPlace<D>&, EachFoot<D>);                                     \
+    template std::optional<FeltPlane<D>> felt_plane(const Convex<D>&, const FeltPlace<D>&, EachFoot<D>,           \
+                                                    SeenFromMiddle<D>&);                                          \
+    template std::optional<FeltPlane<D>> felt_plane(const Solid<D>&, const FeltPlace<D>&, EachFoot<D>,            \
                                                     SeenFromMiddle<D>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

@@ -45,12 +45,20 @@ template <int D>
 Foot<D> foot_on(const Convex<D>& part, const DVec<D>& point);
 template <int D>
 Foot<D> foot_on(const Solid<D>& part, const DVec<D>& point);
+/// Where its distance points to.
+template <int D>
+Foot<D> foot_on(const DistanceFunction<D>& part, const DVec<D>& point);
 
 /// False, and what `foot` tells is of no use, where it is farther than `within`: mostly found out for less than where.
 template <int D>
 bool find_foot(const Convex<D>& part, const DVec<D>& point, double within, Foot<D>& foot);
 template <int D>
 bool find_foot(const Solid<D>& part, const DVec<D>& point, double within, Foot<D>& foot) {
+    foot = foot_on(part, point);
+    return foot.distance <= within;
+}
+template <int D>
+bool find_foot(const DistanceFunction<D>& part, const DVec<D>& point, double within, Foot<D>& foot) {
     foot = foot_on(part, point);
     return foot.distance <= within;
 }
@@ -118,6 +126,10 @@ DVec<D> middle_of(const Convex<D>& part, const DVec<D>&) {
 template <int D>
 DVec<D> middle_of(const Solid<D>&, const DVec<D>& beside) {
     return beside;
+}
+template <int D>
+DVec<D> middle_of(const DistanceFunction<D>& part, const DVec<D>&) {
+    return DVec<D>(center(bounds(part)));
 }
 
 /// s for a pair: by the smaller, for which the other is a level.

@@ -2,6 +2,7 @@
 
 // When two parts first touch at their fronts, the first moving straight. For .cpp files.
 
+#include <abut/query/function_motion.hpp>
 #include <abut/query/one_sided.hpp>
 #include <abut/query/sweep_part.hpp>
 

@@ -15,6 +15,10 @@ template <int D>
 bool goes_at_front(const Solid<D>&, const DVec<D>&) {
     return true;
 }
+template <int D>
+bool goes_at_front(const DistanceFunction<D>&, const DVec<D>&) {
+    return true;
+}
 
 /// Whether the way out of a part is one that it has.
 template <int D>
@@ -23,6 +27,10 @@ bool leaves_by_front(const Convex<D>& part, const DVec<D>& way_out) {
 }
 template <int D>
 bool leaves_by_front(const Solid<D>&, const DVec<D>&) {
+    return true;
+}
+template <int D>
+bool leaves_by_front(const DistanceFunction<D>&, const DVec<D>&) {
     return true;
 }
 

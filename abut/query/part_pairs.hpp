@@ -5,26 +5,29 @@
 #include <abut/math/assert.hpp>
 #include <abut/query/convex_pair.hpp>
 #include <abut/query/feature.hpp>
+#include <abut/query/function_pairs.hpp>
 #include <abut/query/options.hpp>
 #include <abut/shape/view.hpp>
 
 namespace abut {
 
-/// Calls visit(part, index) for a convex shape or half-space itself, and for the parts of a composite one that are at
-/// most `reach` from `other`. The visitor returns false to stop.
+/// Calls visit(part, index) for a convex shape, half-space or distance function itself, and for the parts of a
+/// composite one that are at most `reach` from `other`. The visitor returns false to stop.
 template <int D, class Other, class Visit>
 void each_part_near(const View<D>& shape, const Other& other, float reach, Visit&& visit) {
     if (const auto* convex = std::get_if<Convex<D>>(&shape))
         visit(*convex, 0u);
     else if (const auto* solid = std::get_if<Solid<D>>(&shape))
         visit(*solid, 0u);
+    else if (const auto* function = std::get_if<DistanceFunction<D>>(&shape))
+        visit(*function, 0u);
     else
         each_part<D>(std::get<Composite<D>>(shape), grown(bounds(other), reach),
                      [&](const Convex<D>& part, std::uint32_t index) -> bool { return visit(part, index); });
 }
 
 /// Calls visit(part_a, index_a, part_b, index_b) for at least all pairs of parts that are at most `reach` apart; each
-/// part is a Convex or a Solid, never both a Solid. The visitor returns false to stop.
+/// part is a Convex, a Solid or a DistanceFunction, never both a Solid. The visitor returns false to stop.
 template <int D, class Visit>
 void each_part_pair(const View<D>& a, const View<D>& b, float reach, Visit&& visit) {
     each_part_near(a, b, reach, [&]<class PartA>(const PartA& part_a, std::uint32_t index_a) {
@@ -98,6 +101,12 @@ void name_end_or_edge(const CornerNumbers<D>& corners, std::uint32_t number, Fea
 template <int D>
 void name_feature(const Solid<D>& part, const CornerNumbers<D>& corners, std::size_t count, const DVec<D>& out,
                   std::uint32_t number, Feature& feature);
+
+template <int D>
+void name_feature(const DistanceFunction<D>&, const CornerNumbers<D>&, std::size_t, const DVec<D>&,
+                  std::uint32_t number, Feature& feature) {
+    feature = {number, 0, FeatureKind::none};
+}
 
 /// Those of both parts.
 template <int D, class PartA, class PartB, class Answer>

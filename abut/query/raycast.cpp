@@ -1,4 +1,5 @@
 #include <abut/math/assert.hpp>
+#include <abut/query/function_motion.hpp>
 #include <abut/query/raycast.hpp>
 #include <abut/query/raycast_part.hpp>
 #include <abut/query/raycast_tell.hpp>
@@ -59,6 +60,10 @@ void visit_hits(const Beam<D>& beam, const View<D>& shape, const QueryOptions<D>
     }
     if (const auto* solid = std::get_if<Solid<D>>(&shape)) {
         if (part_hit(beam, *solid, hit)) visit(hit);
+        return;
+    }
+    if (const auto* function = std::get_if<DistanceFunction<D>>(&shape)) {
+        if (part_hit(beam, *function, hit)) visit(hit);
         return;
     }
     const auto& composite = std::get<Composite<D>>(shape);
@@ -124,7 +129,9 @@ std::optional<Hit<D>> raycast(const Ray<D>& ray, const View<D>& shape, const Que
     if (const auto* composite = std::get_if<Composite<D>>(&shape)) return raycast(ray, *composite, options);
     std::optional<Hit<D>> result;
     const auto find = [&](const Beam<D>& beam, PartHit<D>& first) {
-        return part_hit(beam, std::get<Solid<D>>(shape), first);
+        const auto* function = std::get_if<DistanceFunction<D>>(&shape);
+        return function != nullptr ? part_hit(beam, *function, first)
+                                   : part_hit(beam, std::get<Solid<D>>(shape), first);
     };
     find_first_hit(ray, shape, find, result);
     return result;

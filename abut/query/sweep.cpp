@@ -49,6 +49,8 @@ public:
             meet(*convex, 0, b);
         else if (const auto* solid = std::get_if<Solid<D>>(&a))
             meet(*solid, 0, b);
+        else if (const auto* function = std::get_if<DistanceFunction<D>>(&a))
+            meet(*function, 0, b);
         else
             each_part_met(std::get<Composite<D>>(a), b, -path_.direction,
                           [&](const Convex<D>& part, std::uint32_t index) { meet(part, index, b); });
@@ -64,6 +66,8 @@ private:
         [[maybe_unused]] constexpr bool two_half_spaces_pair = false;
         if (const auto* convex = std::get_if<Convex<D>>(&b))
             look_at(part, index, *convex, 0);
+        else if (const auto* function = std::get_if<DistanceFunction<D>>(&b))
+            look_at(part, index, *function, 0);
         else if (const auto* composite = std::get_if<Composite<D>>(&b))
             each_part_met(*composite, part, path_.direction, [&](const Convex<D>& other, std::uint32_t other_index) {
                 look_at(part, index, other, other_index);

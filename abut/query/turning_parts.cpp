@@ -1,4 +1,5 @@
 #include <abut/math/assert.hpp>
+#include <abut/query/function_motion.hpp>
 #include <abut/query/turning_parts.hpp>
 
 #include <optional>
@@ -77,7 +78,7 @@ public:
         if constexpr (!is_solid) {
             const Aabb<D> box = bounds(other);
             is_empty_ = !(box.min[0] <= box.max[0]);
-            if (is_empty_) return;
+            if (is_empty_ || !(is_finite(box.min) && is_finite(box.max))) return;
             const Around<D> ball = around(box);
             seen_.emplace(ball, path_of_other, path);
             // No less than what two that have met may be apart: half of the margin of doubt.
@@ -89,7 +90,7 @@ public:
     template <class Visit>
     void each(const Piece& piece, Visit&& visit) const {
         if (is_empty_) return;
-        each_part<D>(composite_, is_solid ? everywhere<D>() : seen_->box(piece, margin_),
+        each_part<D>(composite_, seen_ ? seen_->box(piece, margin_) : everywhere<D>(),
                      [&](const Convex<D>& part, std::uint32_t index) -> bool {
                          visit(part, index);
                          return true;
@@ -137,10 +138,11 @@ public:
     Meeting<D> first;
 
 private:
-    /// What has no end is near to all parts all the time.
+    /// What has no end is near to all parts all the time, and a distance function is asked for all of the motion at
+    /// once.
     template <class Other, class Visit>
     void each_piece(Visit&& visit) {
-        constexpr int count = std::is_same_v<Other, Solid<D>> ? 1 : pieces;
+        constexpr int count = std::is_same_v<Other, Convex<D>> || std::is_same_v<Other, Composite<D>> ? pieces : 1;
         for (int i = 0; i < count && !any; ++i)
             visit(Piece{static_cast<double>(i) / count, static_cast<double>(i + 1) / count});
     }
@@ -162,7 +164,7 @@ private:
                       const Piece& piece) {
         Meeting<D> found;
         const TurningLimits limits{.from = piece.from, .until = piece.to, .reach = any ? first.time : piece.to};
-        if (!first_meeting<D>(a, path_a_, b, path_b_, limits, options_, found)) return;
+        if (!first_meeting(a, path_a_, b, path_b_, limits, options_, found)) return;
         // The lowest of several at one time, so that it isn't up to the order of the visits.
         if (any && std::tuple(found.time, index_b, index_a) >= std::tuple(first.time, first.feature.part, index_a_))
             return;

@@ -41,6 +41,8 @@ Result<Compound<D>> Compound<D>::build(std::span<const AnyShape<D>> children) {
         const View<D>& child = children[i].view();
         if (std::holds_alternative<Solid<D>>(child))
             return problem_of<D>(i, ProblemCode::bad_argument, " is a half-space, which has no bounds");
+        if (std::holds_alternative<DistanceFunction<D>>(child))
+            return problem_of<D>(i, ProblemCode::bad_argument, " is a distance function, which has no convex parts");
         const Aabb<D> box = abut::bounds(child);
         const bool has_parts = box.min[0] <= box.max[0];
         if (!is_finite(child) || (has_parts && !(is_finite(box.min) && is_finite(box.max))))

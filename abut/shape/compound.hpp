@@ -11,14 +11,15 @@
 
 namespace abut {
 
-/// The union of its children: any shapes but half-spaces, each where `at` puts it. Every answer tells the child, by its
-/// number in the order given, as its part; of a child that is composite itself, the child all the same. A child that is
-/// solid in `contains`, such as a closed mesh, is so here. Immutable: copies share the data, and a mesh that is a child
-/// is shared too. Memory: the children, about 350 bytes for each, and the tree of a Bvh.
+/// The union of its children: any shapes but half-spaces and distance functions, fields among them, each where `at`
+/// puts it. Every answer tells the child, by its number in the order given, as its part; of a child that is composite
+/// itself, the child all the same. A child that is solid in `contains`, such as a closed mesh, is so here. Immutable:
+/// copies share the data, and a mesh that is a child is shared too. Memory: the children, about 350 bytes for each, and
+/// the tree of a Bvh.
 template <int D>
 class Compound {
 public:
-    /// A Problem where there are no children, or where one isn't finite, or a half-space; its index is the child's.
+    /// A Problem where there are no children, or where one isn't finite, or is no such shape; its index is the child's.
     static Result<Compound> build(std::span<const AnyShape<D>> children);
     static Result<Compound> build(std::initializer_list<AnyShape<D>> children) {
         return build(std::span<const AnyShape<D>>(children.begin(), children.size()));

@@ -18,17 +18,52 @@ struct FieldSample {
     Vec<D> normal{};                                          ///< of length 1, out of the shape
 };
 
+/// What a distance is at least, in a box: value + dot(gradient, x - middle of the box).
+template <int D>
+struct DistanceBound {
+    double value = 0;
+    DVec<D> gradient{0.0};
+};
+
+/// The first place of a line at which a distance leaves a range.
+struct DistanceCrossing {
+    double along = 0;    ///< in lengths of the direction
+    bool found = false;  ///< not: it stays in the range as far as the line goes
+    bool below = false;  ///< it gets to the lower end
+};
+
+/// From where to where a distance may go, both in the shape's own lengths; it begins between them.
+struct DistanceRange {
+    double low = 0, high = std::numeric_limits<double>::infinity();
+};
+
 /// All places where a signed distance is at most 0, placed. Refers to the shape and must not outlive it.
+///
+/// Stretched by different factors it is the same set, but the distance is no more than a lower bound of the true one:
+/// that of the shape's own frame times the least factor. Flattened it is no shape: `is_finite` is false.
 template <int D>
 struct DistanceFunction : Placement<D> {
     Aabb<D> bounds;  ///< in the shape's own frame: around all places where the distance is at most 0
     const void* object = nullptr;
-    /// Of a point of the shape's own frame; of two points it differs by no more than they are apart.
+    /// Of a point of the shape's own frame; of two points it differs by no more than `slope` times what they are apart.
     float (*distance)(const void* object, const Vec<D>& point) = nullptr;
     /// The same with the direction; null: told by differences.
     FieldSample<D> (*sample)(const void* object, const Vec<D>& point) = nullptr;
     /// How small details are that a search need not look for, in the shape's own frame: a field's cell. 0: unknown.
     float resolution = 0;
+    /// At least 1: what is interpolated between samples of a distance may be steeper than that.
+    float slope = 1;
+    /// What it surely is at least in a box of the shape's own frame, and about as much; false where that would take too
+    /// long to find out. Null: no more is known than the slope.
+    bool (*bound)(const void* object, const DVec<D>& low, const DVec<D>& high, DistanceBound<D>& bound) = nullptr;
+    /// Where a line of the shape's own frame leaves a range, with no step so wide that something is passed. The
+    /// direction is of any length. Null: found by steps as long as the distance.
+    DistanceCrossing (*crossing)(const void* object, const DVec<D>& origin, const DVec<D>& direction, double reach,
+                                 const DistanceRange& range) = nullptr;
 };
+
+/// By how much lengths in the shape's own frame grow at least where it is placed; zero where it is flattened.
+template <int D>
+double least_factor(const Placement<D>& placement);
 
 }  // namespace abut

@@ -24,6 +24,21 @@ Aabb<D> mapped_box(const Aabb<D>& box, const Affine<D>& map) {
     return result;
 }
 
+/// The box of a shape's own frame, and all that is rolled around it, where it is placed.
+template <int D>
+Aabb<D> placed_box(const Aabb<D>& own, const Placement<D>& placement) {
+    if (!(own.min[0] <= own.max[0])) return Aabb<D>::empty();
+    const Aabb<D> inner = placement.inner_radius > 0 ? grown(own, static_cast<float>(placement.inner_radius)) : own;
+    const Aabb<D> box = mapped_box(inner, placement.place);
+    return placement.radius > 0 ? grown(box, static_cast<float>(placement.radius)) : box;
+}
+
+template <int D>
+double size_of_box(const Aabb<D>& box) {
+    if (!(box.min[0] <= box.max[0])) return 0;
+    return 0.5 * length(DVec<D>(box.max) - DVec<D>(box.min));
+}
+
 template <int D>
 Aabb<D> everywhere() {
     constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -114,12 +129,12 @@ void each_part_by_widening(const Composite<D>& composite, const Aabb<D>& box, Pa
 
 template <int D>
 Aabb<D> bounds(const Composite<D>& composite) {
-    if (!(composite.bounds.min[0] <= composite.bounds.max[0])) return Aabb<D>::empty();
-    const Aabb<D> inner = composite.inner_radius > 0
-                              ? grown(composite.bounds, static_cast<float>(composite.inner_radius))
-                              : composite.bounds;
-    const Aabb<D> box = mapped_box(inner, composite.place);
-    return composite.radius > 0 ? grown(box, static_cast<float>(composite.radius)) : box;
+    return placed_box(composite.bounds, composite);
+}
+
+template <int D>
+Aabb<D> bounds(const DistanceFunction<D>& function) {
+    return placed_box(function.bounds, function);
 }
 
 template <int D>
@@ -208,9 +223,37 @@ template <int D>
 double size(const View<D>& view) {
     if (std::holds_alternative<Solid<D>>(view)) return std::numeric_limits<double>::infinity();
     if (const auto* convex = std::get_if<Convex<D>>(&view)) return size(*convex);
-    const Aabb<D> box = bounds(std::get<Composite<D>>(view));
-    if (!(box.min[0] <= box.max[0])) return 0;
-    return 0.5 * length(DVec<D>(box.max) - DVec<D>(box.min));
+    return size_of_box(bounds(view));
+}
+
+template <int D>
+double size(const DistanceFunction<D>& function) {
+    return size_of_box(bounds(function));
+}
+
+/// The way back lengthens nothing by more than the root of the largest sum of a row of N^T N, or of N N^T; where the
+/// columns of the one are at right angles to each other that is the true one.
+template <int D>
+double least_factor(const Placement<D>& placement) {
+    if (placement.similar) return placement.scale;
+    const double volume = determinant(placement.place);
+    if (volume == 0) return 0;
+    const Affine<D> back = inverse(placement.place, volume);
+    Affine<D> turned;
+    for (int i = 0; i < D; ++i)
+        for (int j = 0; j < D; ++j)
+            turned.column[static_cast<std::size_t>(i)][j] = back.column[static_cast<std::size_t>(j)][i];
+    double least = std::numeric_limits<double>::infinity();
+    for (const Affine<D>* map : {&std::as_const(back), &std::as_const(turned)}) {
+        double most = 0;
+        for (const DVec<D>& row : map->column) {
+            double sum = 0;
+            for (const DVec<D>& column : map->column) sum += std::abs(dot(row, column));
+            most = std::max(most, sum);
+        }
+        least = std::min(least, most);
+    }
+    return least > 0 ? 1 / std::sqrt(least) : 0;
 }
 
 template <int D>
@@ -218,7 +261,13 @@ bool is_finite(const View<D>& view) {
     if (const auto* convex = std::get_if<Convex<D>>(&view)) return is_finite(*convex);
     if (const auto* solid = std::get_if<Solid<D>>(&view))
         return std::isfinite(length_squared(solid->normal) + solid->offset);
+    if (const auto* function = std::get_if<DistanceFunction<D>>(&view)) return is_finite(*function);
     return is_finite(static_cast<const Placement<D>&>(std::get<Composite<D>>(view)));
+}
+
+template <int D>
+bool is_finite(const DistanceFunction<D>& function) {
+    return is_finite(static_cast<const Placement<D>&>(function)) && determinant(function.place) != 0;
 }
 
 template <int D>
@@ -246,6 +295,13 @@ Composite<D> mapped(const Composite<D>& composite, const Affine<D>& map) {
 }
 
 template <int D>
+DistanceFunction<D> mapped(const DistanceFunction<D>& function, const Affine<D>& map) {
+    DistanceFunction<D> result = function;
+    static_cast<Placement<D>&>(result) = mapped(static_cast<const Placement<D>&>(function), map);
+    return result;
+}
+
+template <int D>
 View<D> mapped(const View<D>& view, const Affine<D>& map) {
     return std::visit([&](const auto& shape) -> View<D> { return mapped(shape, map); }, view);
 }
@@ -261,6 +317,13 @@ template <int D>
 Composite<D> moved(const Composite<D>& composite, const Affine<D>& rigid) {
     Composite<D> result = composite;
     result.place = rigid * composite.place;
+    return result;
+}
+
+template <int D>
+DistanceFunction<D> moved(const DistanceFunction<D>& function, const Affine<D>& rigid) {
+    DistanceFunction<D> result = function;
+    result.place = rigid * function.place;
     return result;
 }
 
@@ -284,12 +347,20 @@ Composite<D> rounded(const Composite<D>& composite, double radius) {
 }
 
 template <int D>
+DistanceFunction<D> rounded(const DistanceFunction<D>& function, double radius) {
+    DistanceFunction<D> result = function;
+    result.radius += radius;
+    return result;
+}
+
+template <int D>
 View<D> rounded(const View<D>& view, double radius) {
     return std::visit([&](const auto& shape) -> View<D> { return rounded(shape, radius); }, view);
 }
 
 #define ABUT_INSTANTIATE(D)                                                                                          \
     template Aabb<D> bounds(const Composite<D>&);                                                                    \
+    template Aabb<D> bounds(const DistanceFunction<D>&);                                                             \
     template Aabb<D> bounds(const View<D>&);                                                                         \
     template void each_part(const Composite<D>&, const Aabb<D>&, PartVisitor<D>);                                    \
     template void each_part_along(const Composite<D>&, const MovingBox<D>&, PartReachVisitor<D>);                    \
@@ -297,6 +368,12 @@ View<D> rounded(const View<D>& view, double radius) {
     template void each_part_near(const Composite<D>&, const Aabb<D>&, PartReachVisitor<D>);                          \
     template bool contains_inside(const Composite<D>&, const Vec<D>&);                                               \
     template double size(const View<D>&);                                                                            \
+    template double size(const DistanceFunction<D>&);                                                                \
+    template double least_factor(const Placement<D>&);                                                               \
+    template bool is_finite(const DistanceFunction<D>&);                                                             \
+    template DistanceFunction<D> mapped(const DistanceFunction<D>&, const Affine<D>&);                               \
+    template DistanceFunction<D> moved(const DistanceFunction<D>&, const Affine<D>&);                                \
+    template DistanceFunction<D> rounded(const DistanceFunction<D>&, double);                                        \
     template bool is_finite(const View<D>&);                                                                         \
     template bool is_finite(const Placement<D>&);                                                                    \
     template Convex<D> mapped(const Convex<D>&, const Affine<D>&);                                                   \

@@ -3,11 +3,13 @@
 // What the questions see of a shape. Every front door turns its arguments into views and calls one function a
 // dimension.
 //
-// A convex shape is a Convex, a half-space a Solid, and a composite one gives its convex parts where it is asked to.
+// A convex shape is a Convex, a half-space a Solid, a composite one gives its convex parts where it is asked to, and
+// what is known by its distance alone is a DistanceFunction.
 
 #include <abut/convex/support.hpp>
 #include <abut/math/function_ref.hpp>
 #include <abut/math/ray.hpp>
+#include <abut/shape/distance_function.hpp>
 #include <abut/shape/given.hpp>
 #include <abut/shape/half_space.hpp>
 #include <abut/shape/neighbour.hpp>
@@ -54,11 +56,13 @@ struct Composite : Placement<D> {
 
 /// Any shape.
 template <int D>
-using View = std::variant<Convex<D>, Solid<D>, Composite<D>>;
+using View = std::variant<Convex<D>, Solid<D>, Composite<D>, DistanceFunction<D>>;
 
 /// The least box around a shape, rounded outwards; for a composite turned or stretched, the box of its turned box.
 template <int D>
 Aabb<D> bounds(const Composite<D>& composite);
+template <int D>
+Aabb<D> bounds(const DistanceFunction<D>& function);
 template <int D>
 Aabb<D> bounds(const View<D>& view);
 
@@ -87,20 +91,26 @@ void each_part_near(const Composite<D>& composite, const Aabb<D>& box, PartReach
 template <int D>
 bool contains_inside(const Composite<D>& composite, const Vec<D>& point);
 
-/// The bounding radius; infinite for a half-space.
+/// The bounding radius; infinite for a half-space, and for a distance function without bounds.
 template <int D>
 double size(const View<D>& view);
+template <int D>
+double size(const DistanceFunction<D>& function);
 
 /// False where a number of it is NaN or infinite.
 template <int D>
 bool is_finite(const View<D>& view);
 template <int D>
 bool is_finite(const Placement<D>& placement);
+template <int D>
+bool is_finite(const DistanceFunction<D>& function);
 
 template <int D>
 Convex<D> mapped(const Convex<D>& convex, const Affine<D>& map);
 template <int D>
 Composite<D> mapped(const Composite<D>& composite, const Affine<D>& map);
+template <int D>
+DistanceFunction<D> mapped(const DistanceFunction<D>& function, const Affine<D>& map);
 template <int D>
 View<D> mapped(const View<D>& view, const Affine<D>& map);
 
@@ -110,6 +120,8 @@ Convex<D> moved(const Convex<D>& convex, const Affine<D>& rigid);
 template <int D>
 Composite<D> moved(const Composite<D>& composite, const Affine<D>& rigid);
 template <int D>
+DistanceFunction<D> moved(const DistanceFunction<D>& function, const Affine<D>& rigid);
+template <int D>
 View<D> moved(const View<D>& view, const Affine<D>& rigid);
 
 template <int D>
@@ -117,15 +129,26 @@ Convex<D> rounded(const Convex<D>& convex, double radius);
 template <int D>
 Composite<D> rounded(const Composite<D>& composite, double radius);
 template <int D>
+DistanceFunction<D> rounded(const DistanceFunction<D>& function, double radius);
+template <int D>
 View<D> rounded(const View<D>& view, double radius);
 
 // From here on: how a type becomes a view. The library's own shapes give `convex(shape)`, the plain ones also
 // `given(shape)`, which saves the view where both of a pair have it; a user's give `bounds(shape)`
-// and either `support(shape, direction)` or `each_part(shape, box, visit)`, found by argument-dependent lookup. A
+// and `support(shape, direction)`, `each_part(shape, box, visit)` or `signed_distance(shape, point)`, found by
+// argument-dependent lookup. A
 // composite one that has its parts in some order may also give `each_part_along(shape, moving_box, visit)` and
 // `each_part_near(shape, box, visit)`, for rays and distances; the library's own of triangles has
 // `triangle_tree(shape)`, for rays. `solid_contains(shape, point)` makes it solid in `contains`, and
 // `part_neighbour(shape, part, side)` tells which of its parts meet in a seam.
+//
+// A signed distance, a float below zero inside, is promised to differ by no more than the way between two points: it
+// may be less than the true one, such as a height above hills times the cosine of the steepest slope. Where it breaks
+// that promise, things are missed; no search goes on for ever. `distance_sample(shape, point)` may tell a
+// FieldSample, with the direction that else is found by differences. Distances are then those of the function: less
+// than the true ones where it is. What is narrower than a 16th of what it is asked about, without changing the
+// distance a 16th away, may be missed. The bounds may be infinite; such a shape doesn't pair with a half-space or with
+// another without bounds.
 
 namespace detail {
 
@@ -179,6 +202,11 @@ concept HasParts = HasBounds<S> && requires(const S& shape) {
     each_part(shape, bounds(shape), AnyPart<box_dimension<S>>());
 };
 
+template <class S>
+concept HasDistance = HasBounds<S> && requires(const S& shape) {
+    { signed_distance(shape, Vec<box_dimension<S>>()) } -> std::convertible_to<float>;
+};
+
 }  // namespace detail
 
 template <int D>
@@ -191,6 +219,10 @@ const Convex<D>& view(const Convex<D>& shape) {
 }
 template <int D>
 const Composite<D>& view(const Composite<D>& shape) {
+    return shape;
+}
+template <int D>
+const DistanceFunction<D>& view(const DistanceFunction<D>& shape) {
     return shape;
 }
 template <int D>
@@ -254,6 +286,25 @@ requires(!detail::HasConvex<S> && !detail::HasSupport<S> && detail::HasParts<S>)
     return result;
 }
 
+template <class S>
+requires(!detail::HasConvex<S> && !detail::HasSupport<S> && !detail::HasParts<S> &&
+         detail::HasDistance<S>) auto view(const S& shape) {
+    constexpr int D = detail::box_dimension<S>;
+    DistanceFunction<D> result;
+    result.bounds = bounds(shape);
+    result.object = &shape;
+    result.distance = [](const void* object, const Vec<D>& point) -> float {
+        return signed_distance(*static_cast<const S*>(object), point);
+    };
+    if constexpr (requires {
+                      { distance_sample(shape, Vec<D>()) } -> std::same_as<FieldSample<D>>;
+                  })
+        result.sample = [](const void* object, const Vec<D>& point) -> FieldSample<D> {
+            return distance_sample(*static_cast<const S*>(object), point);
+        };
+    return result;
+}
+
 namespace detail {
 
 template <class V>
@@ -264,6 +315,8 @@ template <int D>
 struct DimensionOfView<Solid<D>> : std::integral_constant<int, D> {};
 template <int D>
 struct DimensionOfView<Composite<D>> : std::integral_constant<int, D> {};
+template <int D>
+struct DimensionOfView<DistanceFunction<D>> : std::integral_constant<int, D> {};
 template <int D>
 struct DimensionOfView<View<D>> : std::integral_constant<int, D> {};
 

@@ -44,6 +44,10 @@ template <int D>
 BoundingBall<D> core_ball(const Composite<D>& composite) {
     return around(composite.bounds);
 }
+template <int D>
+BoundingBall<D> core_ball(const DistanceFunction<D>& function) {
+    return around(function.bounds);
+}
 
 /// No vector gets longer by more than this: |M v|^2 = v . M^T M v, and no eigenvalue of M^T M is above its largest sum
 /// of a row's absolute values.
@@ -74,6 +78,10 @@ template <int D>
 BoundingBall<D> bounding_ball(const View<D>& view) {
     if (const auto* convex = std::get_if<Convex<D>>(&view)) return placed_ball<D>(*convex);
     if (const auto* composite = std::get_if<Composite<D>>(&view)) return placed_ball<D>(*composite);
+    if (const auto* function = std::get_if<DistanceFunction<D>>(&view)) {
+        const BoundingBall<D> ball = placed_ball<D>(*function);
+        if (std::isfinite(ball.radius)) return ball;
+    }
     return {DVec<D>(0.0), std::numeric_limits<double>::infinity()};
 }
 

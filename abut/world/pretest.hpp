@@ -16,7 +16,18 @@ enum class Pretest : std::uint8_t {
 };
 
 /// As far as it matters to what a test costs.
-enum class ShapeType : std::uint8_t { ball, segment, triangle, points, box, discs, function, half_space, composite };
+enum class ShapeType : std::uint8_t {
+    ball,
+    segment,
+    triangle,
+    points,
+    box,
+    discs,
+    function,
+    half_space,
+    composite,
+    distance
+};
 
 template <int D>
 ShapeType shape_type(const View<D>& view);
@@ -44,7 +55,7 @@ public:
     void decide();
 
 private:
-    static constexpr std::size_t types = 9;
+    static constexpr std::size_t types = 10;
 
     std::array<std::array<Entry, types*(types + 1) / 2>, 2> entries_{};
     Pretest mode_;

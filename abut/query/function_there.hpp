@@ -1,0 +1,110 @@
+#pragma once
+
+// A distance function as a search sees it: in double, in lengths of the world, in a frame that suits it. For .cpp
+// files.
+
+#include <abut/shape/distance_function.hpp>
+
+#include <cmath>
+
+namespace abut {
+
+/// The frame in which the function's own axes are straight, where that changes no angle; else the world's.
+template <int D>
+Affine<D> own_frame(const DistanceFunction<D>& function) {
+    Affine<D> result;
+    result.offset = function.place.offset;
+    if (!function.similar) return result;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(D); ++i)
+        result.column[i] = function.place.column[i] / function.scale;
+    return result;
+}
+
+/// The way back from a frame that keeps all lengths.
+template <int D>
+Affine<D> back_from(const Affine<D>& rigid) {
+    Affine<D> result;
+    for (int i = 0; i < D; ++i)
+        for (int j = 0; j < D; ++j)
+            result.column[static_cast<std::size_t>(i)][j] = rigid.column[static_cast<std::size_t>(j)][i];
+    result.offset = -result.vector(rigid.offset);
+    return result;
+}
+
+/// Refers to a function, which is finite.
+template <int D>
+class FunctionThere {
+public:
+    /// `function` as it is seen in the frame.
+    explicit FunctionThere(const DistanceFunction<D>& function)
+        : function_(function),
+          back_(inverse(function.place, determinant(function.place))),
+          factor_(least_factor<D>(function)),
+          level_(function.inner_radius + function.radius / factor_),
+          resolution_(static_cast<double>(function.resolution) * factor_) {}
+
+    const DistanceFunction<D>& function() const { return function_; }
+    /// Of the world in one of the function's own.
+    double factor() const { return factor_; }
+    /// The distance in its own frame where in the world it is 0.
+    double level() const { return level_; }
+    const Affine<D>& back() const { return back_; }
+    /// In lengths of the world; 0: unknown.
+    double resolution() const { return resolution_; }
+    double slope() const { return static_cast<double>(function_.slope); }
+
+    double at(const DVec<D>& point) const {
+        const auto own = static_cast<double>(function_.distance(function_.object, to_float(back_.point(point))));
+        // What is no number is nowhere near.
+        return own == own ? factor_ * (own - level_) : std::numeric_limits<double>::infinity();
+    }
+
+    /// How it changes, by what it is `step` to both sides.
+    DVec<D> gradient(const DVec<D>& point, double step) const {
+        DVec<D> result(0.0);
+        for (int i = 0; i < D; ++i) {
+            const DVec<D> aside = axis<D>(i, step);
+            const double change = at(point + aside) - at(point - aside);
+            result[i] = std::isfinite(change) ? change / (2 * step) : 0;
+        }
+        return result;
+    }
+
+    /// The direction in which it grows most, of length 1.
+    DVec<D> normal(const DVec<D>& point, double step) const {
+        if (function_.sample != nullptr) {
+            const Vec<D> own = function_.sample(function_.object, to_float(back_.point(point))).normal;
+            const DVec<D> there = back_.transposed(DVec<D>(own));
+            const double size = length(there);
+            if (size > 0 && std::isfinite(size)) return there / size;
+        }
+        return normalized(gradient(point, step));
+    }
+
+    /// So far apart differences are taken: by much more than coordinates are rounded, and less than what is asked
+    /// about.
+    double step(const DVec<D>& point, double size) const {
+        const double rounding = 1e-4 * largest(back_.point(point)) * factor_;
+        return std::max({1e-3 * size, rounding, 0.25 * resolution_});
+    }
+
+    /// What it is at least in a box, as exactly as the function tells; false where it tells nothing.
+    bool bound(const DVec<D>& center, const DVec<D>& half, DistanceBound<D>& bound) const {
+        if (function_.bound == nullptr) return false;
+        const DVec<D> middle = back_.point(center);
+        DVec<D> own_half(0.0);
+        for (int i = 0; i < D; ++i)
+            for (int j = 0; j < D; ++j) own_half[i] += std::abs(back_.column[static_cast<std::size_t>(j)][i]) * half[j];
+        if (!function_.bound(function_.object, middle - own_half, middle + own_half, bound)) return false;
+        bound.value = factor_ * (bound.value - level_);
+        bound.gradient = back_.transposed(bound.gradient) * factor_;
+        return true;
+    }
+
+private:
+    const DistanceFunction<D>& function_;
+    Affine<D> back_;
+    double factor_, level_, resolution_;
+};
+
+}  // namespace abut

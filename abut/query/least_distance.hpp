@@ -1,0 +1,53 @@
+#pragma once
+
+// Where a distance function is least: in a convex core, on the lower side of a plane, and beside another function. For
+// .cpp files.
+//
+// Boxes are cut in two until none can hold less than what is known by more than the tolerance (branch and bound). What
+// a box holds at least is told by the slope of the function, by the function itself (a field knows the samples around),
+// and, in pieces smaller than what needn't be looked for, by how it changes there. What is known is found by going down
+// from the best places so far: to the corner that lies farthest down (Frank, Wolfe, "An algorithm for quadratic
+// programming", 1956; Macklin et al., "Local optimization for robust signed distance field collision", 2020).
+
+#include <abut/query/function_there.hpp>
+
+namespace abut {
+
+/// So many boxes are looked at before the best place known is taken for the answer.
+inline constexpr int least_distance_most_boxes = 8192;
+
+template <int D>
+struct LeastOptions {
+    double tolerance = 0;
+    /// A place where it is no more than that ends the search.
+    double enough = -std::numeric_limits<double>::infinity();
+    /// Of what is more than that nothing needs to be known.
+    double reach = std::numeric_limits<double>::infinity();
+    int most_boxes = least_distance_most_boxes;
+};
+
+template <int D>
+struct Least {
+    double distance = std::numeric_limits<double>::infinity();  ///< where nothing is within reach; else where it is:
+    DVec<D> point{0.0};
+    int boxes = 0;  ///< that were looked at
+    /// It may be so much less elsewhere: more than the tolerance only where the bound on boxes was reached.
+    double doubt = 0;
+};
+
+/// In the core of a convex set, without its radius. All in one frame.
+template <int D>
+Least<D> least_in(const FunctionThere<D>& function, const Convex<D>& convex, const LeastOptions<D>& options);
+
+/// Of the places inside of the function's shape, where dot(normal, p) is least: that is the answer's `distance`.
+/// `bounds` are those of the shape in the frame, and finite.
+template <int D>
+Least<D> lowest_inside(const FunctionThere<D>& function, const Aabb<D>& bounds, const DVec<D>& normal,
+                       const LeastOptions<D>& options);
+
+/// Where the larger of two is least, in a box.
+template <int D>
+Least<D> least_of_both(const FunctionThere<D>& a, const FunctionThere<D>& b, const Aabb<D>& box, double size,
+                       const LeastOptions<D>& options);
+
+}  // namespace abut
