@@ -14,6 +14,7 @@
 #include <abut/convex/features.hpp>
 #include <abut/field/field.hpp>
 #include <abut/field/field_blob.hpp>
+#include <abut/field/texture.hpp>
 #include <abut/math/aabb.hpp>
 #include <abut/math/assert.hpp>
 #include <abut/math/executor.hpp>
