@@ -14,7 +14,7 @@
 namespace abut {
 
 /// A volume of samples of the signed distance to a surface: below zero inside, 0 on it. `bake_field` makes one of a
-/// mesh, an outline or any shape; the operations of field/combine.hpp make one of others. A shape: solid where the
+/// mesh, an outline or any shape; what bake/combine_fields.hpp holds makes one of others. A shape: solid where the
 /// distance is at most 0. Immutable: copies share the data.
 ///
 /// Between samples the distance is interpolated, so that it is off by up to about `cell()` at edges and corners of the
@@ -41,13 +41,25 @@ public:
     void sample(std::span<const Vec<D>> points, std::span<FieldSample<D>> out) const;
 
     /// How much of a light arrives at a point, in [0, 1]: 0 behind something, and less than 1 where something is close
-    /// to the way. `softness` is the radius of the light as a share of its distance; 0 makes hard shadows. After
-    /// Quilez (2010): "Free penumbra shadows for raymarching distance fields", as Aaltonen (2018) improved them.
+    /// to the way. `softness` is the radius of the light as a share of its distance, at least 0; 0 makes hard shadows.
+    /// A larger one never lets more light through. The half of a true penumbra that lies in the light is told, and from
+    /// 0 on, as what is thin would let light through if the other half were: the shadow is never smaller than that of a
+    /// light without extent.
+    ///
+    /// A point less than a cell within counts as on the surface, deeper ones are dark, and so is all where the light is
+    /// within. Of the first cell of the way nothing is said. After Quilez (2010): "Free penumbra shadows for
+    /// raymarching distance fields", as Aaltonen (2018) improved them, and a little more: docs/fields.md measures it.
     float shadow(const Vec<D>& point, const Vec<D>& light, float softness = 0.05f) const;
 
     /// How open the surroundings of a point of the surface are along its normal, in [0, 1], as far as `reach`; 1 where
-    /// nothing is near. After Evans (2006): "Fast approximations for global illumination on dynamic scenes".
+    /// nothing is near, and for a reach of 0. Only what is in the volume is sure to be seen. After Evans (2006): "Fast
+    /// approximations for global illumination on dynamic scenes".
     float openness(const Vec<D>& point, const Vec<D>& normal, float reach) const;
+
+    /// The same for many points at once; bit by bit. All spans are equally long.
+    void shadow(std::span<const Vec<D>> points, const Vec<D>& light, float softness, std::span<float> out) const;
+    void openness(std::span<const Vec<D>> points, std::span<const Vec<D>> normals, float reach,
+                  std::span<float> out) const;
 
     /// The box in which there are samples.
     Aabb<D> volume() const;
