@@ -1,4 +1,4 @@
-# cmake --install: headers, libraries, the tool, and the package that find_package(abut) finds. Each library is a component
+# cmake --install: headers and shaders, libraries, the tool, and the package that find_package(abut) finds. Each library is a component
 # with an export of its own, so that a game which wants abut::abut needs no Assimp.
 include(CMakePackageConfigHelpers)
 
@@ -22,7 +22,7 @@ if(NOT ABUT_IO)
     set(left_out REGEX "/abut/io(/|\\.hpp)" EXCLUDE)
 endif()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/abut DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-    FILES_MATCHING PATTERN "*.hpp" ${left_out})
+    FILES_MATCHING PATTERN "*.hpp" PATTERN "*.glsl" ${left_out})
 
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/abutConfig.cmake.in ${PROJECT_BINARY_DIR}/abutConfig.cmake
     INSTALL_DESTINATION ${package_dir})

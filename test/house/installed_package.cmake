@@ -13,6 +13,10 @@ endfunction()
 # Anew each time: a header that is no longer installed must not be found.
 file(REMOVE_RECURSE ${folder})
 must(${CMAKE_COMMAND} --install ${build} --prefix ${folder}/prefix)
+file(GLOB_RECURSE shaders ${folder}/prefix/abut_field.glsl)
+if(NOT shaders MATCHES "/abut/field/abut_field.glsl$")
+    message(FATAL_ERROR "abut_field.glsl is not installed beside the headers: ${shaders}")
+endif()
 must(${CMAKE_COMMAND} -S ${consumer} -B ${folder}/build -G ${generator}
     -D CMAKE_BUILD_TYPE=None
     -D CMAKE_PREFIX_PATH=${folder}/prefix
