@@ -1,6 +1,6 @@
 #include <abut/field/field.hpp>
 #include <abut/field/field_check.hpp>
-#include <abut/field/field_spot.hpp>
+#include <abut/field/field_look_up.hpp>
 #include <abut/math/assert.hpp>
 
 #include <cmath>
@@ -23,14 +23,15 @@ FieldFrame<D> frame_of(const FieldData<D>& data) {
     FieldFrame<D> result;
     result.inverse = static_cast<float>(1 / static_cast<double>(data.cell));
     result.stride = strides<D>(data.cells + 1u);
-    result.blocks = data.cells / brick_cells<D>;
-    result.block_row = strides<D>(result.blocks);
-    result.corners = strides<D>(result.blocks + 1u);
+    result.block_row = strides<D>(data.cells / brick_cells<D>);
+    result.corners = strides<D>(data.cells / brick_cells<D> + 1u);
     for (int a = 0; a < D; ++a) {
-        result.high[a] = static_cast<float>(static_cast<double>(data.origin[a]) +
-                                            static_cast<double>(data.cell) * static_cast<double>(data.cells[a]));
-        result.end[a] = static_cast<float>(data.cells[a]);
-        result.last[a] = static_cast<std::int32_t>(data.cells[a]) - 1;
+        const auto lane = static_cast<std::size_t>(a);
+        result.low[lane] = data.origin[a];
+        result.high[lane] = static_cast<float>(static_cast<double>(data.origin[a]) +
+                                               static_cast<double>(data.cell) * static_cast<double>(data.cells[a]));
+        result.end[lane] = static_cast<float>(data.cells[a]);
+        result.last[lane] = static_cast<float>(data.cells[a] - 1);
     }
     return result;
 }
@@ -39,6 +40,7 @@ FieldFrame<D> frame_of(const FieldData<D>& data) {
 
 template <int D>
 Field<D>::Field(FieldData<D> data) {
+    if (data.steps.empty()) data.step = 0;
     data.frame = frame_of(data);
     ABUT_ASSERT(fault_of(data) == nullptr);
     data_ = std::make_shared<const FieldData<D>>(std::move(data));
@@ -47,30 +49,32 @@ Field<D>::Field(FieldData<D> data) {
 template <int D>
 float Field<D>::distance(const Vec<D>& point) const {
     const FieldData<D>& data = *data_;
-    return is_within(data, point) ? linear_distance(data, point) : outer_sample(data, point).distance;
+    return look_up_distance(data, point);
 }
 
 template <int D>
 FieldSample<D> Field<D>::sample(const Vec<D>& point) const {
     const FieldData<D>& data = *data_;
-    return is_within(data, point) ? linear_sample(data, point) : outer_sample(data, point);
+    return look_up_sample(data, point);
 }
 
 template <int D>
 void Field<D>::distance(std::span<const Vec<D>> points, std::span<float> out) const {
     ABUT_ASSERT(points.size() == out.size());
-    for (std::size_t i = 0; i < points.size(); ++i) out[i] = distance(points[i]);
+    const FieldData<D>& data = *data_;
+    for (std::size_t i = 0; i < points.size(); ++i) out[i] = look_up_distance(data, points[i]);
 }
 
 template <int D>
 void Field<D>::sample(std::span<const Vec<D>> points, std::span<FieldSample<D>> out) const {
     ABUT_ASSERT(points.size() == out.size());
-    for (std::size_t i = 0; i < points.size(); ++i) out[i] = sample(points[i]);
+    const FieldData<D>& data = *data_;
+    for (std::size_t i = 0; i < points.size(); ++i) out[i] = look_up_sample(data, points[i]);
 }
 
 template <int D>
 Aabb<D> Field<D>::volume() const {
-    return {data_->origin, data_->frame.high};
+    return volume_of(*data_);
 }
 
 template <int D>
@@ -87,11 +91,12 @@ Aabb<D> bounds(const Field<D>& field) {
     Aabb<D> result = data.surface;
     // Nothing is solid outside of the volume, unless all is. Linear between distances that are right, the solid doesn't
     // leave a box that it should be in: the distance from each of its sides is linear.
+    const Aabb<D> volume = volume_of(data);
     for (int a = 0; a < D; ++a) {
-        const float size = std::max(std::abs(data.origin[a]), std::abs(data.frame.high[a]));
+        const float size = std::max(std::abs(volume.min[a]), std::abs(volume.max[a]));
         const float doubt = 0.5f * data.step + 0x1p-20f * size;
-        result.min[a] = std::max(result.min[a] - doubt, data.origin[a]);
-        result.max[a] = std::min(result.max[a] + doubt, data.frame.high[a]);
+        result.min[a] = std::max(result.min[a] - doubt, volume.min[a]);
+        result.max[a] = std::min(result.max[a] + doubt, volume.max[a]);
         if (!(result.min[a] <= result.max[a])) return Aabb<D>::empty();
     }
     return result;

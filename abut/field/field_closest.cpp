@@ -15,6 +15,7 @@ template <int D>
 Vec<D> walked_down(const Field<D>& field, Vec<D> place) {
     constexpr int most_steps = 32;
     const FieldData<D>& data = field.data();
+    const Aabb<D> volume = volume_of(data);
     Vec<D> best = place;
     float least = std::numeric_limits<float>::infinity();
     for (int i = 0; i < most_steps; ++i) {
@@ -25,7 +26,7 @@ Vec<D> walked_down(const Field<D>& field, Vec<D> place) {
         }
         if (least <= 1e-4f * data.cell) break;
         for (int a = 0; a < D; ++a)
-            place[a] = std::clamp(place[a] - here.distance * here.normal[a], data.origin[a], data.frame.high[a]);
+            place[a] = std::clamp(place[a] - here.distance * here.normal[a], volume.min[a], volume.max[a]);
     }
     return best;
 }
@@ -35,10 +36,9 @@ Vec<D> walked_down(const Field<D>& field, Vec<D> place) {
 template <int D>
 Vec<D> Field<D>::closest(const Vec<D>& point) const {
     ABUT_ASSERT(is_finite<D>(point));
-    const FieldData<D>& data = *data_;
+    const Aabb<D> volume = volume_of(*data_);
     Vec<D> near = point;
-    for (int a = 0; a < D; ++a)
-        near[a] = near[a] >= data.origin[a] ? std::min(near[a], data.frame.high[a]) : data.origin[a];
+    for (int a = 0; a < D; ++a) near[a] = near[a] >= volume.min[a] ? std::min(near[a], volume.max[a]) : volume.min[a];
     return walked_down(*this, near);
 }
 

@@ -6,6 +6,7 @@
 #include <abut/math/aabb.hpp>
 #include <abut/math/vec.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -35,17 +36,18 @@ inline constexpr std::uint32_t brick_samples = D == 2 ? 9 * 9 : 5 * 5 * 5;
 /// There is no brick.
 inline constexpr std::uint32_t no_brick = 0xffffffff;
 
-/// What look-ups need at once, told from the rest when a Field is made.
+/// What look-ups need at once, told from the rest when a Field is made. Four lanes an axis each, 0 where there is none,
+/// for vectors.
 template <int D>
 struct FieldFrame {
-    Vec<D> high{};                           ///< the upper corner of the volume; its lower one is the origin
+    alignas(16) std::array<float, 4> low{};  ///< the lower corner of the volume
+    std::array<float, 4> high{};             ///< the upper one
+    std::array<float, 4> end{};              ///< the number of cells
+    std::array<float, 4> last{};             ///< the last cell
     float inverse = 1;                       ///< 1 / cell
-    Vec<D> end{};                            ///< the number of cells along each axis
-    glm::vec<D, std::int32_t> last{};        ///< the last cell along each axis
     glm::vec<D, std::uint32_t> stride{};     ///< dense: of samples
-    glm::vec<D, std::uint32_t> blocks{};     ///< sparse: along each axis
-    glm::vec<D, std::uint32_t> block_row{};  ///< sparse: the strides of blocks
-    glm::vec<D, std::uint32_t> corners{};    ///< sparse: the strides of their corners
+    glm::vec<D, std::uint32_t> block_row{};  ///< sparse: of blocks
+    glm::vec<D, std::uint32_t> corners{};    ///< sparse: of the corners of blocks
 };
 
 /// A volume is a box of cubes, the cells, with samples at their corners; sample i is at origin + cell * i, in doubles.
@@ -74,7 +76,7 @@ struct FieldData {
     /// Where the samples take 16 bits: the same distances as multiples of `step`, rounded to the nearest and kept
     /// within 32767 of them. Distances are right to half a step where they are less than 32767 steps.
     std::vector<std::int16_t> steps;
-    float step = 0;
+    float step = 0;  ///< 0 where there are none
 
     /// As `distance`, where wanted, else empty: the gradient, of length 1, and the closest point of the surface.
     std::vector<Vec<D>> gradient;

@@ -45,14 +45,15 @@ FieldSample<D> outer_sample(const FieldData<D>& data, const Vec<D>& point) {
     if (!is_finite<D>(point)) return result;
 
     Vec<D> near = point;
-    for (int a = 0; a < D; ++a) near[a] = std::clamp(near[a], data.origin[a], data.frame.high[a]);
+    const Aabb<D> volume = volume_of(data);
+    for (int a = 0; a < D; ++a) near[a] = std::clamp(near[a], volume.min[a], volume.max[a]);
     const DVec<D> from(near);
     const DVec<D> away = DVec<D>(point) - from;
     const FieldSpot<D> spot = spot_of(data, near);
     const FieldSample<D> there = linear_sample(data, near);
     const double depth = static_cast<double>(there.distance);
     // Solid as far as is known; else the volume cuts the solid, which ends with it.
-    const bool solid_outside = depth < 0 && contains(Aabb<D>{data.origin, data.frame.high}, data.surface);
+    const bool solid_outside = depth < 0 && contains(volume, data.surface);
     const double free = depth < 0 && !solid_outside ? 0 : free_around(data, from, spot);
 
     // All of the surface that is in the volume lies behind the plane through `near` at right angles to the way there:

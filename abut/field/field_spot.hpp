@@ -3,6 +3,7 @@
 // Where a point lies among the samples of a field, and what is told from those around it. For .cpp files.
 
 #include <abut/field/field_data.hpp>
+#include <abut/math/aabb.hpp>
 #include <abut/math/vec.hpp>
 #include <abut/shape/distance_function.hpp>
 
@@ -35,11 +36,10 @@ struct FieldSpot {
     }
 };
 
-/// False for NaN too.
 template <int D>
-bool is_within(const FieldData<D>& data, const Vec<D>& point) {
-    bool result = true;
-    for (int a = 0; a < D; ++a) result &= point[a] >= data.origin[a] && point[a] <= data.frame.high[a];
+Aabb<D> volume_of(const FieldData<D>& data) {
+    Aabb<D> result{data.origin, {}};
+    for (int a = 0; a < D; ++a) result.max[a] = data.frame.high[static_cast<std::size_t>(a)];
     return result;
 }
 
@@ -48,13 +48,12 @@ template <int D>
 FieldSpot<D> spot_of(const FieldData<D>& data, const Vec<D>& point) {
     const FieldFrame<D>& frame = data.frame;
     FieldSpot<D> result;
-    Vec<D> place;  // in cells
-    glm::vec<D, std::int32_t> cell;
     for (int a = 0; a < D; ++a) {
-        place[a] = std::min((point[a] - data.origin[a]) * frame.inverse, frame.end[a]);
-        cell[a] = std::min(static_cast<std::int32_t>(place[a]), frame.last[a]);
-        result.share[a] = place[a] - static_cast<float>(cell[a]);
-        result.low[a] = static_cast<std::uint32_t>(cell[a]);
+        const auto lane = static_cast<std::size_t>(a);
+        const float place = std::min((point[a] - frame.low[lane]) * frame.inverse, frame.end[lane]);  // in cells
+        const float cell = std::min(static_cast<float>(static_cast<std::int32_t>(place)), frame.last[lane]);
+        result.share[a] = place - cell;
+        result.low[a] = static_cast<std::uint32_t>(cell);
     }
     if (data.store == FieldStore::dense) {
         result.stride = frame.stride;
