@@ -70,6 +70,22 @@ public:
         return result;
     }
 
+    /// About what it is at least in a box, by what it is in the middle and beyond: a plane, lowered by twice what it
+    /// bends down from there along the axes.
+    DistanceBound<D> guess(const DVec<D>& center, const DVec<D>& half, double here) const {
+        DistanceBound<D> result{here, DVec<D>(0.0)};
+        const double least = 1e-3 * largest(half);
+        for (int i = 0; i < D; ++i) {
+            const double reach = std::max(half[i], least);
+            const DVec<D> aside = axis<D>(i, reach);
+            const double after = at(center + aside), before = at(center - aside), bend = after + before - 2 * here;
+            if (!std::isfinite(bend)) continue;
+            result.gradient[i] = (after - before) / (2 * reach);
+            result.value += std::min(bend, 0.0);
+        }
+        return result;
+    }
+
     /// The direction in which it grows most, of length 1.
     DVec<D> normal(const DVec<D>& point, double step) const {
         if (function_.sample != nullptr) {

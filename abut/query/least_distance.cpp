@@ -1,4 +1,5 @@
 #include <abut/convex/gjk.hpp>
+#include <abut/query/core_simplices.hpp>
 #include <abut/query/least_distance.hpp>
 
 #include <array>
@@ -6,21 +7,18 @@
 namespace abut {
 namespace {
 
-/// Where a function tells nothing of itself but its slope, it is looked at by pieces of this part of what it is asked
-/// about.
-constexpr double piece = 1.0 / 16;
+/// Where a function tells nothing of itself but its slope, it is taken to be about as it is in the middle and at the
+/// sides of a piece that is this part of what it is asked about; and none smaller than the least is looked at.
+constexpr double piece = 1.0 / 8, least_piece = 1e-3;
+
+/// What is guessed is worth looking at where it is less by this part of the size.
+constexpr double guess_tolerance = 1e-4;
 
 /// The bound on steps down from one place, and on halvings of one of them.
 constexpr int most_steps_down = 24, most_halvings = 10;
 
 /// The bound on ways down, each of which costs as much as many boxes.
 constexpr int most_ways_down = 64;
-
-template <int D>
-struct SearchBox {
-    DVec<D> center, half;
-    double least;  ///< of what it may hold
-};
 
 /// Boxes that are still to be looked at, the last first: each leaves no more than one behind, and none is cut in two
 /// more often than there is room for.
@@ -150,10 +148,19 @@ private:
 };
 
 template <int D>
+LeastOptions<D> bounded(LeastOptions<D> options, bool tells) {
+    if (options.most_boxes == 0) options.most_boxes = tells ? least_distance_most_boxes : least_distance_most_guesses;
+    return options;
+}
+
+template <int D>
 class InConvex {
 public:
     InConvex(const FunctionThere<D>& function, const Convex<D>& convex, const LeastOptions<D>& options)
-        : function_(function), core_(convex), options_(options) {
+        : function_(function),
+          convex_(convex),
+          core_(convex),
+          options_(bounded(options, function.function().bound != nullptr)) {
         DVec<D> low, high;
         for (int i = 0; i < D; ++i) {
             low[i] = core_support(convex, axis<D>(i, -1)).position[i];
@@ -163,6 +170,8 @@ public:
         size_ = length(all_.half);
         piece_ = function.resolution() > 0 ? function.resolution() : piece * size_;
         step_ = function.step(all_.center, size_);
+        tolerance_ = function.function().bound != nullptr ? options.tolerance
+                                                          : std::max(options.tolerance, guess_tolerance * size_);
     }
 
     void run(const DVec<D>& middle_of_function) {
@@ -173,17 +182,23 @@ public:
         const DVec<D> second = core_.nearest(middle_of_function);
         found(second);
         if (second != first && best.point == second) go_down(second);
-        look_at_boxes(*this, all_, options_);
+        if (has_simplices(convex_))
+            each_simplex(convex_, [&](const CoreSimplex<D>& simplex) { look_at(simplex); });
+        else
+            look_at_boxes(*this, all_, options_);
         if (best.distance > options_.reach) best.distance = std::numeric_limits<double>::infinity();
     }
 
     double least_in(const SearchBox<D>& box, bool& is_piece) {
+        // Seen from its middle, whether or not that is in the core, most boxes are out of the question.
+        const double around = function_.at(box.center) - function_.slope() * length(box.half);
+        if (!(around < best.distance - options_.tolerance && around <= options_.reach)) return around;
         const DVec<D> near = core_.nearest(box.center), way = box.center - near;
         const double gap_squared = length_squared(way);
         constexpr double nothing = std::numeric_limits<double>::infinity();
         if (gap_squared > sum_along(way, box.half) * (1 + 1e-12) && gap_squared > 0) return nothing;
         const double here = found(near);
-        const double least = here - function_.slope() * farthest(near, box);
+        const double least = std::max(around, here - function_.slope() * farthest(near, box));
         if (!(least < best.distance - options_.tolerance && least <= options_.reach)) return least;
         DistanceBound<D> bound;
         if (function_.bound(box.center, box.half, bound)) {
@@ -198,10 +213,13 @@ public:
             return std::max(least, bounded);
         }
         if (function_.function().bound == nullptr && length(box.half) <= piece_) {
-            is_piece = true;
-            const DVec<D> gradient = function_.gradient(near, step_), lowest = core_.lowest(gradient);
-            const double falls = std::max(dot(gradient, lowest - near), -length(gradient) * farthest(near, box));
-            if (here + falls < best.distance - options_.tolerance) go_down(near);
+            is_piece = length(box.half) <= least_piece * size_;
+            bound = function_.guess(box.center, box.half, function_.at(box.center));
+            const DVec<D> lowest = core_.lowest(bound.gradient);
+            const double guessed =
+                bound.value + std::max(dot(bound.gradient, lowest - box.center), -sum_along(bound.gradient, box.half));
+            if (guessed < best.distance - options_.tolerance) go_down(near);
+            return std::max(least, guessed);
         }
         return least;
     }
@@ -247,11 +265,71 @@ private:
         return false;
     }
 
+    bool wanted(double least, double tolerance) const {
+        return least < best.distance - tolerance && least <= options_.reach;
+    }
+
+    /// Cuts it in two until nothing in it can be less.
+    void look_at(CoreSimplex<D> first) {
+        for (std::size_t i = 0; i < first.count; ++i) first.values[i] = found(first.points[i]);
+        SimplexStack<D> stack;
+        stack.push(first);
+        while (!stack.empty() && best.distance > options_.enough) {
+            CoreSimplex<D> simplex = stack.pop();
+            if (!wanted(simplex.least, tolerance_)) continue;
+            if (best.boxes == options_.most_boxes || stack.full()) {
+                best.doubt = std::max({best.doubt, best.distance - std::min(simplex.least, stack.least())});
+                return;
+            }
+            ++best.boxes;
+            simplex.least = std::max(simplex.least, least_of(simplex));
+            if (!wanted(simplex.least, tolerance_)) continue;
+            const auto [i, j] = longest_edge(simplex);
+            const DVec<D> middle = (simplex.points[i] + simplex.points[j]) * 0.5;
+            if (middle == simplex.points[i] || middle == simplex.points[j]) continue;
+            const double value = found(middle);
+            CoreSimplex<D> beside = simplex;
+            simplex.points[i] = beside.points[j] = middle;
+            simplex.values[i] = beside.values[j] = value;
+            const bool beside_first = beside.values[i] < simplex.values[j];
+            stack.push(beside_first ? simplex : beside);
+            stack.push(beside_first ? beside : simplex);
+        }
+    }
+
+    /// What it holds at least, by all that is known of it.
+    double least_of(const CoreSimplex<D>& simplex) {
+        const DVec<D> middle = middle_of(simplex);
+        const double here = found(middle), reach = reach_from(simplex, middle);
+        double least = here - function_.slope() * reach;
+        if (!wanted(least, tolerance_)) return least;
+        if (function_.function().bound != nullptr) {
+            const SearchBox<D> box = box_around(simplex);
+            DistanceBound<D> bound;
+            if (!function_.bound(box.center, box.half, bound)) return least;
+            least = std::max(least, lowest_on(simplex, bound, box.center));
+        } else if (reach <= piece_) {
+            // Between corners it is about as they are, and dips as it does in the middle.
+            double lowest = simplex.values[0], mean = 0;
+            for (std::size_t i = 0; i < simplex.count; ++i) {
+                lowest = std::min(lowest, simplex.values[i]);
+                mean += simplex.values[i] / static_cast<double>(simplex.count);
+            }
+            least = std::max(least, std::min(lowest, here) - 2 * std::max(mean - here, 0.0));
+        } else {
+            return least;
+        }
+        if (here <= best.distance && wanted(least, tolerance_)) go_down(middle);
+        return least;
+    }
+
     const FunctionThere<D>& function_;
+    const Convex<D>& convex_;
     NearestInCore<D> core_;
-    const LeastOptions<D>& options_;
+    const LeastOptions<D> options_;
     SearchBox<D> all_;
     double size_ = 0, piece_ = 0, step_ = 0;
+    double tolerance_ = 0;  ///< by which a part must be less to be looked at
     int ways_down_ = 0;
 };
 
@@ -260,7 +338,7 @@ class Inside {
 public:
     Inside(const FunctionThere<D>& function, const Aabb<D>& bounds, const DVec<D>& normal,
            const LeastOptions<D>& options)
-        : function_(function), normal_(normal), options_(options) {
+        : function_(function), normal_(normal), options_(bounded(options, function.function().bound != nullptr)) {
         const DVec<D> low(bounds.min), high(bounds.max);
         all_ = {(low + high) * 0.5, (high - low) * 0.5, -std::numeric_limits<double>::infinity()};
         size_ = length(all_.half);
@@ -288,14 +366,14 @@ public:
             if (here <= options_.tolerance) candidate(box.center);
             return lowest;
         }
-        if (!is_told) bound = {here, function_.gradient(box.center, step_)};
+        if (!is_told) bound = function_.guess(box.center, box.half, here);
         if (is_told && bound.value - sum_along(bound.gradient, box.half) > options_.tolerance) return nothing;
         // Of the plane below which the shape is, in the box: for any weight above zero a bound.
         const double square = length_squared(bound.gradient);
         const double weight = square > 0 ? std::max(0.0, -dot(normal_, bound.gradient) / square) : 0;
         const double least = std::max(lowest, dot(normal_, box.center) + weight * (bound.value - options_.tolerance) -
                                                   sum_along(normal_ + bound.gradient * weight, box.half));
-        is_piece = is_small;
+        is_piece = is_small && length(box.half) <= least_piece * size_;
         if (least < best.distance - options_.tolerance) candidate(box.center);
         return least;
     }
@@ -342,7 +420,7 @@ private:
 
     const FunctionThere<D>& function_;
     const DVec<D> normal_;
-    const LeastOptions<D>& options_;
+    const LeastOptions<D> options_;
     SearchBox<D> all_;
     double size_ = 0, piece_ = 0, step_ = 0;
     int ways_down_ = 0;
@@ -353,7 +431,7 @@ class OfBoth {
 public:
     OfBoth(const FunctionThere<D>& a, const FunctionThere<D>& b, const Aabb<D>& box, double size,
            const LeastOptions<D>& options)
-        : a_(a), b_(b), options_(options) {
+        : a_(a), b_(b), options_(bounded(options, a.function().bound != nullptr && b.function().bound != nullptr)) {
         const DVec<D> low(box.min), high(box.max);
         all_ = {(low + high) * 0.5, (high - low) * 0.5, -std::numeric_limits<double>::infinity()};
         size_ = size;
@@ -387,7 +465,7 @@ public:
         const DistanceBound<D> between{0.5 * (bound_a.value + bound_b.value),
                                        (bound_a.gradient + bound_b.gradient) * 0.5};
         const double bounded = std::max({lowest(bound_a), lowest(bound_b), lowest(between)});
-        is_piece = is_small;
+        is_piece = is_small && length(box.half) <= least_piece * size_;
         if (bounded < best.distance - options_.tolerance) go_down(box.center);
         return std::max(least, bounded);
     }
@@ -396,7 +474,7 @@ public:
 
 private:
     DistanceBound<D> plane_of(const FunctionThere<D>& function, const SearchBox<D>& box, double here) const {
-        return {here, function.gradient(box.center, step_)};
+        return function.guess(box.center, box.half, here);
     }
     void keep(const DVec<D>& point, double here) {
         if (here >= best.distance) return;
@@ -441,7 +519,7 @@ private:
     }
 
     const FunctionThere<D>&a_, &b_;
-    const LeastOptions<D>& options_;
+    const LeastOptions<D> options_;
     SearchBox<D> all_;
     double size_ = 0, slope_ = 1, piece_ = 0, step_ = 0;
     int ways_down_ = 0;

@@ -5,16 +5,17 @@
 //
 // Boxes are cut in two until none can hold less than what is known by more than the tolerance (branch and bound). What
 // a box holds at least is told by the slope of the function, by the function itself (a field knows the samples around),
-// and, in pieces smaller than what needn't be looked for, by how it changes there. What is known is found by going down
-// from the best places so far: to the corner that lies farthest down (Frank, Wolfe, "An algorithm for quadratic
-// programming", 1956; Macklin et al., "Local optimization for robust signed distance field collision", 2020).
+// and, in boxes as small as the details that are looked for, by how it changes and bends there. What is known is found
+// by going down from the best places so far: to the corner that lies farthest down (Frank, Wolfe, "An algorithm for
+// quadratic programming", 1956; Macklin et al., "Local optimization for robust signed distance field collision", 2020).
 
 #include <abut/query/function_there.hpp>
 
 namespace abut {
 
-/// So many boxes are looked at before the best place known is taken for the answer.
-inline constexpr int least_distance_most_boxes = 8192;
+/// So many boxes are looked at before the best place known is taken for the answer: of a function that tells what it is
+/// at least in a box, and of one that tells nothing.
+inline constexpr int least_distance_most_boxes = 8192, least_distance_most_guesses = 2048;
 
 template <int D>
 struct LeastOptions {
@@ -23,7 +24,7 @@ struct LeastOptions {
     double enough = -std::numeric_limits<double>::infinity();
     /// Of what is more than that nothing needs to be known.
     double reach = std::numeric_limits<double>::infinity();
-    int most_boxes = least_distance_most_boxes;
+    int most_boxes = 0;  ///< 0: the bound above that is the function's
 };
 
 template <int D>

@@ -146,8 +146,8 @@ View<D> rounded(const View<D>& view, double radius);
 // may be less than the true one, such as a height above hills times the cosine of the steepest slope. Where it breaks
 // that promise, things are missed; no search goes on for ever. `distance_sample(shape, point)` may tell a
 // FieldSample, with the direction that else is found by differences. Distances are then those of the function: less
-// than the true ones where it is. What is narrower than a 16th of what it is asked about, without changing the
-// distance a 16th away, may be missed. The bounds may be infinite; such a shape doesn't pair with a half-space or with
+// than the true ones where it is. What is narrower than an 8th of what it is asked about, without changing the
+// distance an 8th away, may be missed. The bounds may be infinite; such a shape doesn't pair with a half-space or with
 // another without bounds.
 
 namespace detail {

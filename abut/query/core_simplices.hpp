@@ -1,0 +1,157 @@
+#pragma once
+
+// The core of a convex set as simplices, to be cut in two and in two again. For .cpp files.
+
+#include <abut/convex/support.hpp>
+#include <abut/shape/distance_function.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace abut {
+
+template <int D>
+struct SearchBox {
+    DVec<D> center, half;
+    double least;  ///< of what it may hold
+};
+
+/// The hull of up to D + 1 points, with what a function is there.
+template <int D>
+struct CoreSimplex {
+    std::array<DVec<D>, static_cast<std::size_t>(D) + 1> points;
+    std::array<double, static_cast<std::size_t>(D) + 1> values{};
+    std::size_t count = 0;
+    double least = -std::numeric_limits<double>::infinity();  ///< of what it may hold
+
+    void push_back(const DVec<D>& point) { points[count++] = point; }
+};
+
+/// Those that are still to be looked at, the last first: each leaves no more than one behind.
+template <int D>
+class SimplexStack {
+public:
+    bool empty() const { return count_ == 0; }
+    bool full() const { return count_ + 2 > simplices_.size(); }
+    void push(const CoreSimplex<D>& simplex) { simplices_[count_++] = simplex; }
+    const CoreSimplex<D>& pop() { return simplices_[--count_]; }
+    double least() const {
+        double result = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < count_; ++i) result = std::min(result, simplices_[i].least);
+        return result;
+    }
+
+private:
+    std::array<CoreSimplex<D>, 128> simplices_;
+    std::size_t count_ = 0;
+};
+
+template <int D>
+std::pair<std::size_t, std::size_t> longest_edge(const CoreSimplex<D>& simplex) {
+    std::pair<std::size_t, std::size_t> result{0, 0};
+    double longest = -1;
+    for (std::size_t i = 0; i < simplex.count; ++i)
+        for (std::size_t j = i + 1; j < simplex.count; ++j) {
+            const double square = length_squared(simplex.points[j] - simplex.points[i]);
+            if (square > longest) {
+                longest = square;
+                result = {i, j};
+            }
+        }
+    return result;
+}
+
+template <int D>
+DVec<D> middle_of(const CoreSimplex<D>& simplex) {
+    DVec<D> sum(0.0);
+    for (std::size_t i = 0; i < simplex.count; ++i) sum += simplex.points[i];
+    return sum / static_cast<double>(simplex.count);
+}
+
+/// The farthest that it reaches from a point.
+template <int D>
+double reach_from(const CoreSimplex<D>& simplex, const DVec<D>& point) {
+    double most = 0;
+    for (std::size_t i = 0; i < simplex.count; ++i) most = std::max(most, length_squared(simplex.points[i] - point));
+    return std::sqrt(most);
+}
+
+template <int D>
+SearchBox<D> box_around(const CoreSimplex<D>& simplex) {
+    DVec<D> low = simplex.points[0], high = low;
+    for (std::size_t i = 1; i < simplex.count; ++i)
+        for (int axis = 0; axis < D; ++axis) {
+            low[axis] = std::min(low[axis], simplex.points[i][axis]);
+            high[axis] = std::max(high[axis], simplex.points[i][axis]);
+        }
+    return {(low + high) * 0.5, (high - low) * 0.5, simplex.least};
+}
+
+/// Where it is least, a function that grows evenly is so at a corner.
+template <int D>
+double lowest_on(const CoreSimplex<D>& simplex, const DistanceBound<D>& bound, const DVec<D>& center) {
+    double result = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < simplex.count; ++i)
+        result = std::min(result, bound.value + dot(bound.gradient, simplex.points[i] - center));
+    return result;
+}
+
+/// Whether the core is known as such: not by its support alone, nor round, nor of points in no order.
+template <int D>
+bool has_simplices(const Convex<D>& convex) {
+    if (convex.inner_radius > 0) return false;
+    if (convex.core == Core::box) return true;
+    if (convex.core != Core::points) return false;
+    return D == 2 || convex.count <= 4 || convex.facets != nullptr;
+}
+
+/// Calls visit(simplex) for simplices that cover it.
+template <int D, class Visit>
+void each_simplex(const Convex<D>& convex, Visit&& visit) {
+    const auto corner = [&](std::uint32_t i) { return convex.place.point(own_corner(convex, i)); };
+    CoreSimplex<D> simplex;
+    if (convex.core == Core::box) {
+        // Along the ways from one corner to the opposite one, one axis after the other.
+        constexpr int orders[6][3] = {{0, 1, 2}, {1, 0, 2}, {0, 2, 1}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
+        for (int i = 0; i < (D == 2 ? 2 : 6); ++i) {
+            std::uint32_t at = 0;
+            simplex.count = 0;
+            simplex.push_back(corner(at));
+            for (int k = 0; k < D; ++k) {
+                at |= 1u << orders[i][k];
+                simplex.push_back(corner(at));
+            }
+            visit(simplex);
+        }
+        return;
+    }
+    if (convex.count <= static_cast<std::uint32_t>(D) + 1 && !(D == 2 && convex.count > 3)) {
+        for (std::uint32_t i = 0; i < convex.count; ++i) simplex.push_back(corner(i));
+        return visit(simplex);
+    }
+    if constexpr (D == 2) {
+        for (std::uint32_t i = 1; i + 1 < convex.count; ++i) {
+            simplex.count = 0;
+            for (const std::uint32_t k : {0u, i, i + 1}) simplex.push_back(corner(k));
+            visit(simplex);
+        }
+    } else {
+        // From the middle to each face.
+        DVec<3> middle(0.0);
+        for (std::uint32_t i = 0; i < convex.count; ++i) middle += corner(i);
+        middle /= static_cast<double>(convex.count);
+        for (std::size_t face = 0; face < convex.facets->normals.size(); ++face) {
+            const auto loop = convex.facets->loop(face);
+            for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
+                simplex.count = 0;
+                for (const std::size_t k : {std::size_t{0}, i, i + 1}) simplex.push_back(corner(loop[k]));
+                simplex.push_back(middle);
+                visit(simplex);
+            }
+        }
+    }
+}
+
+}  // namespace abut
