@@ -2,6 +2,7 @@
 
 // All of abut::bake: slow work before the game starts.
 
+#include <abut/bake/combine_fields.hpp>
 #include <abut/bake/decompose.hpp>
 #include <abut/bake/decompose_outline.hpp>
 #include <abut/bake/fit.hpp>
