@@ -1,0 +1,149 @@
+// A million particles fall on a level, bounce and come to rest: a field tells each of them how far the ground is.
+#include <abut/bake/combine_fields.hpp>
+#include <abut/bake/field.hpp>
+#include <abut/field/field.hpp>
+#include <abut/shape/ball.hpp>
+#include <abut/shape/box.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <cstdio>
+#include <mutex>
+#include <span>
+#include <thread>
+#include <vector>
+
+namespace {
+
+/// Two threads that wait for work, the caller's and one more: what a game has already.
+class TwoThreads : public abut::Executor {
+public:
+    TwoThreads() : helper_([this](const std::stop_token& stop) { help(stop); }) {}
+    ~TwoThreads() override {
+        helper_.request_stop();
+        wake_.notify_all();
+    }
+
+    std::uint32_t workers() const override { return 2; }
+    void run(std::uint32_t count, abut::FunctionRef<void(std::uint32_t)> part) override {
+        {
+            const std::lock_guard lock(mutex_);
+            part_ = &part;
+            count_ = count;
+            next_ = 0;
+            ++job_;
+            helping_ = true;
+        }
+        wake_.notify_one();
+        work(count, part);
+        std::unique_lock lock(mutex_);
+        done_.wait(lock, [this] { return !helping_; });
+    }
+
+private:
+    void work(std::uint32_t count, abut::FunctionRef<void(std::uint32_t)> part) {
+        for (std::uint32_t i = next_++; i < count; i = next_++) part(i);
+    }
+    void help(const std::stop_token& stop) {
+        std::uint64_t seen = 0;
+        for (;;) {
+            std::unique_lock lock(mutex_);
+            wake_.wait(lock, [&] { return stop.stop_requested() || job_ != seen; });
+            if (stop.stop_requested()) return;
+            seen = job_;
+            const auto part = *part_;
+            const std::uint32_t count = count_;
+            lock.unlock();
+            work(count, part);
+            lock.lock();
+            helping_ = false;
+            done_.notify_one();
+        }
+    }
+
+    std::mutex mutex_;
+    std::condition_variable wake_, done_;
+    const abut::FunctionRef<void(std::uint32_t)>* part_ = nullptr;
+    std::uint32_t count_ = 0;
+    std::atomic<std::uint32_t> next_ = 0;
+    std::uint64_t job_ = 0;
+    bool helping_ = false;
+    std::jthread helper_;  // last: it must not start before the others are there
+};
+
+struct Particles {
+    std::vector<abut::Vec3> position, velocity;
+};
+
+constexpr float radius = 0.02f, step = 1.0f / 60, bounce = 0.4f, friction = 0.95f;
+
+/// Moves some of them on by a step. Returns how many touched the ground.
+std::uint32_t advance(const abut::Field3& ground, std::span<abut::Vec3> position, std::span<abut::Vec3> velocity) {
+    constexpr std::size_t at_once = 512;
+    float distance[at_once];
+    std::uint32_t touching = 0;
+    for (std::size_t begin = 0; begin < position.size(); begin += at_once) {
+        const std::size_t count = std::min(at_once, position.size() - begin);
+        const auto x = position.subspan(begin, count), v = velocity.subspan(begin, count);
+        for (std::size_t i = 0; i < count; ++i) {
+            v[i].y -= 9.81f * step;
+            x[i] += v[i] * step;
+        }
+        ground.distance(x, std::span(distance, count));
+        for (std::size_t i = 0; i < count; ++i) {
+            if (distance[i] >= radius) continue;
+            ++touching;
+            // Most are far from everything: only these few ask for the direction too.
+            const abut::FieldSample<3> here = ground.sample(x[i]);
+            x[i] += here.normal * (radius - here.distance);
+            const float into = v[i].x * here.normal.x + v[i].y * here.normal.y + v[i].z * here.normal.z;
+            if (into < 0) v[i] = (v[i] - here.normal * into) * friction - here.normal * (bounce * into);
+        }
+    }
+    return touching;
+}
+
+}  // namespace
+
+int main() {
+    // A bowl: a slab with the upper side of a ball taken out of it, and a knob in the middle.
+    const abut::FieldOptions<3> fine{.cell = 0.05f};
+    const auto slab = abut::bake_field(abut::Box3{{0, -0.6f, 0}, {3, 0.6f, 3}}, fine);
+    const auto hole = abut::bake_field(abut::Sphere{{0, 1.5f, 0}, 2.2f}, fine);
+    const auto knob = abut::bake_field(abut::Sphere{{0, -0.6f, 0}, 0.5f}, fine);
+    if (!slab || !hole || !knob) return 1;
+    const auto bowl = abut::field_difference(*slab, *hole);
+    if (!bowl) return 1;
+    const auto level = abut::field_smooth_union(*bowl, *knob, 0.2f);
+    if (!level) return 1;
+
+    Particles all;
+    constexpr std::uint32_t side = 100, count = side * side * side;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const abut::Vec3 place(i % side, i / side % side, i / side / side);
+        all.position.push_back(place * 0.03f + abut::Vec3(-1.5f, 0.3f, -1.5f));
+        all.velocity.push_back({0.3f * (static_cast<float>(i % 7) - 3), 0, 0.3f * (static_cast<float>(i % 11) - 5)});
+    }
+
+    TwoThreads threads;
+    constexpr std::uint32_t parts = 32;
+    std::uint32_t touching[parts] = {}, most = 0;
+    for (int frame = 0; frame < 120; ++frame) {
+        threads.run(parts, [&](std::uint32_t part) {
+            const std::size_t first = std::size_t{count} * part / parts, last = std::size_t{count} * (part + 1) / parts;
+            touching[part] = advance(*level, std::span(all.position).subspan(first, last - first),
+                                     std::span(all.velocity).subspan(first, last - first));
+        });
+        std::uint32_t sum = 0;
+        for (const std::uint32_t some : touching) sum += some;
+        most = std::max(most, sum);
+        if (frame % 30 == 29) std::printf("frame %3d: %u of %u touch the level\n", frame + 1, sum, count);
+    }
+
+    std::uint32_t within = 0;
+    for (const abut::Vec3& place : all.position) within += level->distance(place) < -0.01f;
+    std::printf("%u are within it\n", within);
+    return most > count / 4 && within == 0 ? 0 : 1;
+}
