@@ -81,4 +81,9 @@ using Field3 = Field<3>;
 template <int D>
 Aabb<D> bounds(const Field<D>& field);
 
+/// As a shape, for every question: what is thin but in the samples is met, and the answers are right for the distance
+/// as it is interpolated. Refers to the field, and must not outlive it.
+template <int D>
+DistanceFunction<D> view(const Field<D>& field);
+
 }  // namespace abut

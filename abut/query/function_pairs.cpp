@@ -89,7 +89,8 @@ template <int D>
 SignedDistance<D> from_convex(const Convex<D>& set, const DistanceFunction<D>& function, double margin,
                               const DistanceWanted& wanted) {
     if (has_nothing(function.bounds)) return nothing_near<D>();
-    const Affine<D> frame = own_frame(function), back = back_from(frame);
+    // Boxes are searched box by box.
+    const Affine<D> frame = is_plain_box(set) ? own_frame<D>(set) : own_frame<D>(function), back = back_from(frame);
     const DistanceFunction<D> own = moved(function, back);
     const Convex<D> there = moved(set, back);
     const FunctionThere<D> seen(own);
@@ -117,7 +118,7 @@ SignedDistance<D> over_solid(const DistanceFunction<D>& function, const Solid<D>
     const bool has_bounds = is_bounded(function.bounds);
     ABUT_ASSERT(has_bounds);
     if (!has_bounds) return nothing_near<D>();
-    const Affine<D> frame = own_frame(function), back = back_from(frame);
+    const Affine<D> frame = own_frame<D>(function), back = back_from(frame);
     const DistanceFunction<D> own = moved(function, back);
     const FunctionThere<D> seen(own);
     // A plane of the frame, through its origin.
@@ -146,7 +147,7 @@ SignedDistance<D> between(const DistanceFunction<D>& a, const DistanceFunction<D
     // Seen by the one that has bounds, the smaller of two.
     const bool by_a = bounded_a && (!bounded_b || size(a) <= size(b));
     const DistanceFunction<D>& smaller = by_a ? a : b;
-    const Affine<D> frame = own_frame(smaller), back = back_from(frame);
+    const Affine<D> frame = own_frame<D>(smaller), back = back_from(frame);
     const DistanceFunction<D> own_a = moved(a, back), own_b = moved(b, back);
     const FunctionThere<D> seen_a(own_a), seen_b(own_b);
     const Aabb<D> own_box = bounds(by_a ? own_a : own_b);

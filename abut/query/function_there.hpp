@@ -9,14 +9,14 @@
 
 namespace abut {
 
-/// The frame in which the function's own axes are straight, where that changes no angle; else the world's.
+/// The frame in which a shape's own axes are straight, where that changes no angle; else the world's.
 template <int D>
-Affine<D> own_frame(const DistanceFunction<D>& function) {
+Affine<D> own_frame(const Placement<D>& placement) {
     Affine<D> result;
-    result.offset = function.place.offset;
-    if (!function.similar) return result;
+    result.offset = placement.place.offset;
+    if (!placement.similar || !(placement.scale > 0)) return result;
     for (std::size_t i = 0; i < static_cast<std::size_t>(D); ++i)
-        result.column[i] = function.place.column[i] / function.scale;
+        result.column[i] = placement.place.column[i] / placement.scale;
     return result;
 }
 
@@ -104,17 +104,18 @@ public:
         return std::max({1e-3 * size, rounding, 0.25 * resolution_});
     }
 
-    /// What it is at least in a box, as exactly as the function tells; false where it tells nothing.
-    bool bound(const DVec<D>& center, const DVec<D>& half, DistanceBound<D>& bound) const {
-        if (function_.bound == nullptr) return false;
+    /// What it is at least in a box, as exactly as the function tells.
+    DistanceKnown bound(const DVec<D>& center, const DVec<D>& half, DistanceBound<D>& bound) const {
+        if (function_.bound == nullptr) return DistanceKnown::nothing;
         const DVec<D> middle = back_.point(center);
         DVec<D> own_half(0.0);
         for (int i = 0; i < D; ++i)
             for (int j = 0; j < D; ++j) own_half[i] += std::abs(back_.column[static_cast<std::size_t>(j)][i]) * half[j];
-        if (!function_.bound(function_.object, middle - own_half, middle + own_half, bound)) return false;
+        const DistanceKnown known = function_.bound(function_.object, middle - own_half, middle + own_half, bound);
+        if (known != DistanceKnown::bound) return known;
         bound.value = factor_ * (bound.value - level_);
         bound.gradient = back_.transposed(bound.gradient) * factor_;
-        return true;
+        return known;
     }
 
 private:

@@ -147,6 +147,14 @@ private:
     DVec<D> first_, way_;
 };
 
+/// As small as the details that are looked for, where the function can't tell what it is at least: a field outside of
+/// its samples.
+template <int D>
+double piece_of(const FunctionThere<D>& function, double size) {
+    const bool fine = function.resolution() > 0 && function.function().bound == nullptr;
+    return fine ? function.resolution() : piece * size;
+}
+
 template <int D>
 LeastOptions<D> bounded(LeastOptions<D> options, bool tells) {
     if (options.most_boxes == 0) options.most_boxes = tells ? least_distance_most_boxes : least_distance_most_guesses;
@@ -168,10 +176,8 @@ public:
         }
         all_ = {(low + high) * 0.5, (high - low) * 0.5, -std::numeric_limits<double>::infinity()};
         size_ = length(all_.half);
-        piece_ = function.resolution() > 0 ? function.resolution() : piece * size_;
+        piece_ = piece_of(function, size_);
         step_ = function.step(all_.center, size_);
-        tolerance_ = function.function().bound != nullptr ? options.tolerance
-                                                          : std::max(options.tolerance, guess_tolerance * size_);
     }
 
     void run(const DVec<D>& middle_of_function) {
@@ -182,7 +188,11 @@ public:
         const DVec<D> second = core_.nearest(middle_of_function);
         found(second);
         if (second != first && best.point == second) go_down(second);
-        if (has_simplices(convex_))
+        bool is_piece = false;
+        all_.least = least_in(all_, is_piece);
+        if (!wanted(all_.least, options_.tolerance)) {
+            // There is nothing less in all of it.
+        } else if (has_simplices(convex_) && !(is_plain_box(convex_) && function_.function().bound != nullptr))
             each_simplex(convex_, [&](const CoreSimplex<D>& simplex) { look_at(simplex); });
         else
             look_at_boxes(*this, all_, options_);
@@ -201,7 +211,8 @@ public:
         const double least = std::max(around, here - function_.slope() * farthest(near, box));
         if (!(least < best.distance - options_.tolerance && least <= options_.reach)) return least;
         DistanceBound<D> bound;
-        if (function_.bound(box.center, box.half, bound)) {
+        const DistanceKnown known = function_.bound(box.center, box.half, bound);
+        if (known == DistanceKnown::bound) {
             const DVec<D> lowest = core_.lowest(bound.gradient);
             const double bounded =
                 bound.value + std::max(dot(bound.gradient, lowest - box.center), -sum_along(bound.gradient, box.half));
@@ -212,7 +223,7 @@ public:
             }
             return std::max(least, bounded);
         }
-        if (function_.function().bound == nullptr && length(box.half) <= piece_) {
+        if (known == DistanceKnown::nothing && length(box.half) <= piece_) {
             is_piece = length(box.half) <= least_piece * size_;
             bound = function_.guess(box.center, box.half, function_.at(box.center));
             const DVec<D> lowest = core_.lowest(bound.gradient);
@@ -276,14 +287,14 @@ private:
         stack.push(first);
         while (!stack.empty() && best.distance > options_.enough) {
             CoreSimplex<D> simplex = stack.pop();
-            if (!wanted(simplex.least, tolerance_)) continue;
+            if (!wanted(simplex.least, options_.tolerance)) continue;
             if (best.boxes == options_.most_boxes || stack.full()) {
                 best.doubt = std::max({best.doubt, best.distance - std::min(simplex.least, stack.least())});
                 return;
             }
             ++best.boxes;
             simplex.least = std::max(simplex.least, least_of(simplex));
-            if (!wanted(simplex.least, tolerance_)) continue;
+            if (!wanted(simplex.least, options_.tolerance)) continue;
             const auto [i, j] = longest_edge(simplex);
             const DVec<D> middle = (simplex.points[i] + simplex.points[j]) * 0.5;
             if (middle == simplex.points[i] || middle == simplex.points[j]) continue;
@@ -302,24 +313,26 @@ private:
         const DVec<D> middle = middle_of(simplex);
         const double here = found(middle), reach = reach_from(simplex, middle);
         double least = here - function_.slope() * reach;
-        if (!wanted(least, tolerance_)) return least;
-        if (function_.function().bound != nullptr) {
-            const SearchBox<D> box = box_around(simplex);
-            DistanceBound<D> bound;
-            if (!function_.bound(box.center, box.half, bound)) return least;
+        if (!wanted(least, options_.tolerance)) return least;
+        const SearchBox<D> box = box_around(simplex);
+        DistanceBound<D> bound;
+        const DistanceKnown known = function_.bound(box.center, box.half, bound);
+        if (known == DistanceKnown::bound) {
             least = std::max(least, lowest_on(simplex, bound, box.center));
-        } else if (reach <= piece_) {
+        } else if (known == DistanceKnown::nothing && reach <= piece_) {
             // Between corners it is about as they are, and dips as it does in the middle.
             double lowest = simplex.values[0], mean = 0;
             for (std::size_t i = 0; i < simplex.count; ++i) {
                 lowest = std::min(lowest, simplex.values[i]);
                 mean += simplex.values[i] / static_cast<double>(simplex.count);
             }
-            least = std::max(least, std::min(lowest, here) - 2 * std::max(mean - here, 0.0));
+            const double guessed = std::min(lowest, here) - 2 * std::max(mean - here, 0.0);
+            if (!wanted(guessed, guess_tolerance * size_)) return std::numeric_limits<double>::infinity();
+            least = std::max(least, guessed);
         } else {
             return least;
         }
-        if (here <= best.distance && wanted(least, tolerance_)) go_down(middle);
+        if (here <= best.distance && wanted(least, options_.tolerance)) go_down(middle);
         return least;
     }
 
@@ -329,7 +342,6 @@ private:
     const LeastOptions<D> options_;
     SearchBox<D> all_;
     double size_ = 0, piece_ = 0, step_ = 0;
-    double tolerance_ = 0;  ///< by which a part must be less to be looked at
     int ways_down_ = 0;
 };
 
@@ -342,7 +354,7 @@ public:
         const DVec<D> low(bounds.min), high(bounds.max);
         all_ = {(low + high) * 0.5, (high - low) * 0.5, -std::numeric_limits<double>::infinity()};
         size_ = length(all_.half);
-        piece_ = function.resolution() > 0 ? function.resolution() : piece * size_;
+        piece_ = piece_of(function, size_);
         step_ = function.step(all_.center, 0.1 * size_);
     }
 
@@ -360,8 +372,9 @@ public:
         const double here = function_.at(box.center);
         if (here - function_.slope() * length(box.half) > options_.tolerance) return nothing;
         DistanceBound<D> bound;
-        const bool is_told = function_.bound(box.center, box.half, bound);
-        const bool is_small = function_.function().bound == nullptr && length(box.half) <= piece_;
+        const DistanceKnown known = function_.bound(box.center, box.half, bound);
+        const bool is_told = known == DistanceKnown::bound;
+        const bool is_small = known == DistanceKnown::nothing && length(box.half) <= piece_;
         if (!is_told && !is_small) {
             if (here <= options_.tolerance) candidate(box.center);
             return lowest;
@@ -454,8 +467,11 @@ public:
         const double falls = slope_ * length(box.half), least = here - falls;
         if (!(least < best.distance - options_.tolerance && least <= options_.reach)) return least;
         DistanceBound<D> bound_a, bound_b;
-        const bool told_a = a_.bound(box.center, box.half, bound_a), told_b = b_.bound(box.center, box.half, bound_b);
-        const bool both = (told_a || a_.function().bound == nullptr) && (told_b || b_.function().bound == nullptr);
+        const DistanceKnown known_a = a_.bound(box.center, box.half, bound_a),
+                            known_b = b_.bound(box.center, box.half, bound_b);
+        const bool told_a = known_a == DistanceKnown::bound, told_b = known_b == DistanceKnown::bound;
+        const bool both =
+            (told_a || known_a == DistanceKnown::nothing) && (told_b || known_b == DistanceKnown::nothing);
         const bool is_small = both && !(told_a && told_b) && length(box.half) <= piece_;
         if (!told_a) bound_a = is_small ? plane_of(a_, box, of_a) : DistanceBound<D>{of_a - falls, DVec<D>(0.0)};
         if (!told_b) bound_b = is_small ? plane_of(b_, box, of_b) : DistanceBound<D>{of_b - falls, DVec<D>(0.0)};

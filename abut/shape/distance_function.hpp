@@ -7,6 +7,7 @@
 #include <abut/math/aabb.hpp>
 #include <abut/math/vec.hpp>
 
+#include <cstdint>
 #include <limits>
 
 namespace abut {
@@ -23,6 +24,13 @@ template <int D>
 struct DistanceBound {
     double value = 0;
     DVec<D> gradient{0.0};
+};
+
+/// What a function tells of a box.
+enum class DistanceKnown : std::uint8_t {
+    nothing,           ///< that isn't told by its distances and its slope
+    in_smaller_boxes,  ///< it is too large to be looked at as a whole
+    bound,
 };
 
 /// The first place of a line at which a distance leaves a range.
@@ -53,9 +61,10 @@ struct DistanceFunction : Placement<D> {
     float resolution = 0;
     /// At least 1: what is interpolated between samples of a distance may be steeper than that.
     float slope = 1;
-    /// What it surely is at least in a box of the shape's own frame, and about as much; false where that would take too
-    /// long to find out. Null: no more is known than the slope.
-    bool (*bound)(const void* object, const DVec<D>& low, const DVec<D>& high, DistanceBound<D>& bound) = nullptr;
+    /// What it surely is at least in a box of the shape's own frame, and about as much. Null: no more is known than the
+    /// slope.
+    DistanceKnown (*bound)(const void* object, const DVec<D>& low, const DVec<D>& high,
+                           DistanceBound<D>& bound) = nullptr;
     /// Where a line of the shape's own frame leaves a range, with no step so wide that something is passed. The
     /// direction is of any length. Null: found by steps as long as the distance.
     DistanceCrossing (*crossing)(const void* object, const DVec<D>& origin, const DVec<D>& direction, double reach,
