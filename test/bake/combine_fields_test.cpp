@@ -194,7 +194,7 @@ TEST(CombineFields, InSpaceToo) {
 
 TEST(CombineFields, SamplesThatOneFieldDecidesStayAsTheyAre) {
     const Field3 a = field_of(oracle::ball<3>({0, 0, 0}, 1), FieldStore::dense, 0.1);
-    const Field3 far = field_of(oracle::ball<3>({9, 0.03, 0.07}, 0.4), FieldStore::dense, 0.17);
+    const Field3 far = field_of(oracle::ball<3>({-9, 0.03, 0.07}, 0.4), FieldStore::dense, 0.17);
     Field3 field = a;
     for (int i = 0; i < 3; ++i) {
         auto next = field_union(field, far, {.store = FieldStore::dense});
@@ -204,7 +204,20 @@ TEST(CombineFields, SamplesThatOneFieldDecidesStayAsTheyAre) {
     each_place(a, 0.1, [&](const DVec<3>& p) { ASSERT_NEAR(field.distance(Vec3(p)), a.distance(Vec3(p)), 2e-6f); });
     // And it covers both.
     EXPECT_TRUE(contains(grown(field.volume(), 1e-5f), merged(a.volume(), far.volume())));
-    EXPECT_LT(field.distance({9, 0, 0}), -0.25f);
+    EXPECT_LT(field.distance({-9, 0, 0}), -0.25f);
+}
+
+TEST(CombineFields, ThePiecesAreTheSurface) {
+    // All of it, and nothing twice: as long, and as large.
+    for (const FieldStore store : {FieldStore::dense, FieldStore::sparse}) {
+        double around = 0, area = 0;
+        for (const auto& [a, b] : zero_set<2>(field_of(oracle::ball<2>({0.01, 0.02}, 1), store).data()))
+            around += length(DVec<2>(b) - DVec<2>(a));
+        for (const auto& [a, b, c] : zero_set<3>(field_of(oracle::ball<3>({0.01, 0.02, 0}, 1), store).data()))
+            area += 0.5 * length(cross(DVec<3>(b) - DVec<3>(a), DVec<3>(c) - DVec<3>(a)));
+        EXPECT_NEAR(around / 6.283185, 1, 1e-3);
+        EXPECT_NEAR(area / 12.56637, 1, 2e-3);
+    }
 }
 
 TEST(CombineFields, SmoothUnion) {

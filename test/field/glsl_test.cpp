@@ -148,7 +148,7 @@ protected:
         EXPECT_GT(soft, points.size() / 50);
         const bool fine = GetParam().format != TextureFormat::r8_snorm;
         EXPECT_LT(angles / static_cast<double>(within), fine ? 2e-3 : 0.1);
-        EXPECT_LT(shadow_error / (3 * n), fine ? 2e-3 : 1e-2);
+        EXPECT_LT(shadow_error / (3 * n), fine ? 3e-4 : 3e-3);
         EXPECT_LT(static_cast<double>(strays), (fine ? 0.005 : 0.05) * n);
     }
 

@@ -205,6 +205,13 @@ TEST(FieldShadow, WhereTheLightOrThePointIsWithin) {
     EXPECT_NEAR(beside, smooth(0.3 / 3 / 0.2), 0.15);  // told by a lower bound: darker
 }
 
+TEST(FieldShadow, WhatIsACellAwayCasts) {
+    const Field2 field(oracle::filled_around(oracle::box<2>({0.1, 0}, {0.03, 0.5}), cell, 6));
+    EXPECT_EQ(field.shadow({0, 0}, {0.25f, 0}, 0), 0);
+    EXPECT_EQ(field.shadow({0.25f, 0.1f}, {0, 0}), 0);
+    EXPECT_EQ(field.shadow({0, 0}, {0, 0.3f}, 0), 1);  // along it
+}
+
 TEST(FieldShadow, StepsHaveABound) {
     // A hair above the surface everywhere: the shortest steps there are.
     FieldData<2> data;
