@@ -95,7 +95,11 @@ std::vector<std::array<Vec<D>, D>> zero_set(const FieldData<D>& data) {
     std::vector<std::array<Vec<D>, D>> result;
     const SampleLattice<D> lattice = lattice_of(data);
     Cells<D>(data).each_mixed([&](const Counts<D>& cell, const CellValues<D>& values) {
-        const DVec<D> low = lattice.at(cell);
+        const auto corner_at = [&](std::uint32_t corner) {
+            Counts<D> at = cell;
+            for (int axis = 0; axis < D; ++axis) at[axis] += corner >> axis & 1u;
+            return lattice.at(at);
+        };
         for (const auto& simplex : Kuhn<D>::simplices) {
             std::array<std::uint32_t, D + 1> in{}, out{};
             std::size_t count_in = 0, count_out = 0;
@@ -108,11 +112,9 @@ std::vector<std::array<Vec<D>, D>> zero_set(const FieldData<D>& data) {
             if (count_in == 0 || count_out == 0) continue;
             const auto crossing = [&](std::uint32_t i, std::uint32_t o) {
                 const double share = values[i] / (values[i] - values[o]);
-                DVec<D> place = low;
-                for (int axis = 0; axis < D; ++axis) {
-                    const double from = i >> axis & 1u, to = o >> axis & 1u;
-                    place[axis] += lattice.cell * (from + share * (to - from));
-                }
+                // By the samples' own places, so that neighbours say the same to the last bit.
+                const DVec<D> from = corner_at(i), to = corner_at(o);
+                const DVec<D> place = from + share * (to - from);
                 return to_float(place);
             };
             if constexpr (D == 2) {
