@@ -1,4 +1,5 @@
 #include <abut/field/field.hpp>
+#include <abut/field/field_batch.hpp>
 #include <abut/field/field_check.hpp>
 #include <abut/field/field_look_up.hpp>
 #include <abut/math/assert.hpp>
@@ -61,15 +62,13 @@ FieldSample<D> Field<D>::sample(const Vec<D>& point) const {
 template <int D>
 void Field<D>::distance(std::span<const Vec<D>> points, std::span<float> out) const {
     ABUT_ASSERT(points.size() == out.size());
-    const FieldData<D>& data = *data_;
-    for (std::size_t i = 0; i < points.size(); ++i) out[i] = look_up_distance(data, points[i]);
+    look_up_all(*data_, points, out);
 }
 
 template <int D>
 void Field<D>::sample(std::span<const Vec<D>> points, std::span<FieldSample<D>> out) const {
     ABUT_ASSERT(points.size() == out.size());
-    const FieldData<D>& data = *data_;
-    for (std::size_t i = 0; i < points.size(); ++i) out[i] = look_up_sample(data, points[i]);
+    look_up_all(*data_, points, out);
 }
 
 template <int D>

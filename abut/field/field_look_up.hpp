@@ -174,4 +174,13 @@ inline FieldSample<2> look_up_sample(const FieldData<2>& data, const Vec2& point
     return linear_sample(data, point);
 }
 
+template <int D>
+void look_up(const FieldData<D>& data, const Vec<D>& point, float& out) {
+    out = look_up_distance(data, point);
+}
+template <int D>
+void look_up(const FieldData<D>& data, const Vec<D>& point, FieldSample<D>& out) {
+    out = look_up_sample(data, point);
+}
+
 }  // namespace abut

@@ -1,0 +1,106 @@
+// Many look-ups at once give bit by bit what one by one gives, by each kind of vector unit; and one by one what is told
+// plainly.
+
+#include "../oracle/vector_units.hpp"
+#include "analytic.hpp"
+#include <abut/field/field_spot.hpp>
+#include <abut/field/quantise.hpp>
+
+#include <bit>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace abut {
+namespace {
+
+using namespace oracle;
+
+class FieldBatch : public ByVectorUnit {};
+
+/// Inside and outside, on borders of cells and bricks, and what is no point.
+template <int D>
+std::vector<Vec<D>> points_of(const Field<D>& field, std::size_t count, bool with_odd) {
+    const Aabb<D> volume = field.volume();
+    const auto cell = static_cast<double>(field.cell());
+    Random random(count + 7);
+    std::vector<Vec<D>> result(count);
+    for (Vec<D>& point : result) {
+        const std::uint32_t kind = random.below(with_odd ? 12 : 9);
+        for (int a = 0; a < D; ++a) {
+            const auto low = static_cast<double>(volume.min[a]), high = static_cast<double>(volume.max[a]);
+            point[a] = random.uniform_float(low, high);
+            if (kind == 6) point[a] = static_cast<float>(low + cell * random.below(field.data().cells[a] + 1));
+            if (kind == 7 && a == 0) point[a] = static_cast<float>(low + cell * 4 * random.below(5));
+            if (kind == 8) point[a] = random.chance(0.5) ? volume.min[a] : volume.max[a];
+            if (kind == 9) point[a] = random.uniform_float(low - 20 * cell, high + 20 * cell);
+            if (kind == 10) point[a] = std::nextafter(volume.max[a], 2 * volume.max[a]);
+#ifdef NDEBUG
+            if (kind == 11 && a == 1) point[a] = std::numeric_limits<float>::quiet_NaN();
+#endif
+        }
+    }
+    return result;
+}
+
+template <class T>
+bool same_bits(const T& a, const T& b) {
+    return std::bit_cast<std::array<std::uint8_t, sizeof(T)>>(a) ==
+           std::bit_cast<std::array<std::uint8_t, sizeof(T)>>(b);
+}
+
+template <int D>
+void expect_same(const Field<D>& field) {
+    for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{3}, std::size_t{7}, std::size_t{16},
+                                    std::size_t{63}, std::size_t{64}, std::size_t{65}, std::size_t{3000}})
+        for (const bool with_odd : {false, true}) {
+            const std::vector<Vec<D>> points = points_of(field, count, with_odd);
+            std::vector<float> distances(count + 1, 77);
+            std::vector<FieldSample<D>> samples(count + 1);
+            samples[count].distance = 77;
+            field.distance(std::span<const Vec<D>>(points), std::span(distances).first(count));
+            field.sample(std::span<const Vec<D>>(points), std::span(samples).first(count));
+            ASSERT_EQ(distances[count], 77);
+            ASSERT_EQ(samples[count].distance, 77);
+            for (std::size_t i = 0; i < count; ++i) {
+                ASSERT_TRUE(same_bits(distances[i], field.distance(points[i]))) << i;
+                const FieldSample<D> one = field.sample(points[i]);
+                ASSERT_TRUE(same_bits(samples[i].distance, one.distance)) << i;
+                ASSERT_TRUE(same_bits(samples[i].normal, one.normal)) << i;
+                if (field.data().lookup == FieldLookup::linear && contains(field.volume(), points[i])) {
+                    const FieldSample<D> plain = linear_sample(field.data(), points[i]);
+                    ASSERT_TRUE(same_bits(plain.distance, one.distance)) << i;
+                    ASSERT_TRUE(same_bits(plain.normal, one.normal)) << i;
+                }
+            }
+        }
+}
+
+template <int D>
+void expect_same_of(const Analytic<D>& solid, float cell) {
+    for (const FieldLookup lookup : {FieldLookup::linear, FieldLookup::gradient})
+        for (const FieldStore store : {FieldStore::dense, FieldStore::sparse}) {
+            FillOptions options;
+            options.store = store;
+            options.lookup = lookup;
+            options.band = 1;
+            FieldData<D> data = filled_around<D>(solid, cell, 5, options);
+            expect_same(Field<D>(data));
+            quantise(data);
+            expect_same(Field<D>(data));
+        }
+}
+
+TEST_P(FieldBatch, IsBitByBitTheSame) {
+    expect_same_of<2>(ball<2>({1, 2}, 3), 0.25f);
+    expect_same_of<2>(box<2>({-1, 0.5}, {2, 1}), 0.1f);
+    expect_same_of<3>(torus({0, 0, 0}, 2, 1), 0.25f);
+    expect_same_of<3>(turned(box<3>({1, 0, 0}, {2, 1, 0.5}), {1, 2, 3}, {0, 1, 0}), 0.2f);
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, FieldBatch, vector_units(), name_of_unit);
+
+}  // namespace
+}  // namespace abut
