@@ -62,5 +62,7 @@ std::vector<Bench> convex_solid_benches();
 std::vector<Bench> convex_plane_benches();
 /// Convex hulls in the plane, and those of few corners.
 std::vector<Bench> convex_hull_plane_benches();
+/// Particles over a field.
+std::vector<Bench> field_particle_benches();
 
 }  // namespace abut::bench

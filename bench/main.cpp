@@ -44,6 +44,7 @@ std::vector<Bench> all_benches() {
     std::ranges::move(convex_solid_benches(), std::back_inserter(result));
     std::ranges::move(convex_plane_benches(), std::back_inserter(result));
     std::ranges::move(convex_hull_plane_benches(), std::back_inserter(result));
+    std::ranges::move(field_particle_benches(), std::back_inserter(result));
     return result;
 }
 

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -45,15 +45,10 @@ public:
     }
 
     void tell(const SampleBlock<D>& block, const SampleValues<D>& values) const override {
-        double known = std::numeric_limits<double>::infinity();
-        DVec<D> from(0.0);
+        std::uint32_t piece = 0;
         for (std::uint32_t i = 0; i < block.samples(); ++i) {
             const DVec<D> point = lattice_.at(block.sample(i));
-            // No farther than the last one and the way from there.
-            if (i > 0) known += length(point - from);
-            const ClosestFeature<D> found = nearest(point, known);
-            known = found.distance;
-            from = point;
+            const ClosestFeature<D> found = nearest(point, piece);
             const FieldSample<D> here = signs_.sample(to_float(point));
             const double sign = here.distance <= 0 ? -1 : 1;
             values.distance[i] = static_cast<float>(sign * found.distance);
@@ -66,26 +61,23 @@ public:
         }
     }
     double distance(const DVec<D>& point) const override {
-        return nearest(point, std::numeric_limits<double>::infinity()).distance;
+        std::uint32_t piece = 0;
+        return nearest(point, piece).distance;
     }
 
 private:
-    /// Of those that are equally far the first.
-    ClosestFeature<D> nearest(const DVec<D>& point, double reach) const {
-        ClosestFeature<D> result;
-        result.distance = std::numeric_limits<double>::infinity();
-        std::uint32_t which = 0;
+    /// Of those that are equally far the first. `piece` is one that may be near, then the nearest.
+    ClosestFeature<D> nearest(const DVec<D>& point, std::uint32_t& piece) const {
+        ClosestFeature<D> result = closest_on(pieces_[piece], point);
         const auto visit = [&](std::uint32_t item) {
             const ClosestFeature<D> found = closest_on(pieces_[item], point);
-            if (found.distance < result.distance || (found.distance == result.distance && item < which)) {
+            if (found.distance < result.distance || (found.distance == result.distance && item < piece)) {
                 result = found;
-                which = item;
+                piece = item;
             }
             return widened(result.distance);
         };
-        const Vec<D> place = to_float(point);
-        tree_.closest(place, visit, widened(reach));
-        if (!(result.distance < std::numeric_limits<double>::infinity())) tree_.closest(place, visit);
+        tree_.closest(to_float(point), visit, widened(result.distance));
         return result;
     }
     /// The point and the boxes are rounded to float: a little farther than what is looked for.
