@@ -20,7 +20,7 @@ namespace {
 
 /// A bowl with a knob in it, as in examples/particles.cpp.
 Field3 bowl(FieldStore store) {
-    const FieldOptions<3> fine{.cell = 0.05f, .store = store};
+    const FieldOptions<3> fine{.cell = 0.1f, .store = store};
     const Field3 slab = *bake_field(Box3{{0, -0.6f, 0}, {3, 0.6f, 3}}, fine);
     const Field3 hole = *bake_field(Sphere{{0, 1.5f, 0}, 2.2f}, fine),
                  knob = *bake_field(Sphere{{0, -0.6f, 0}, 0.5f}, fine);
@@ -45,10 +45,7 @@ struct Particles {
     /// Returns how many touch the ground.
     std::uint32_t advance(const Field3& ground, std::size_t from, std::size_t to) {
         constexpr std::size_t at_once = 512;
-        std::array<float, at_once> distance;
-        std::array<std::uint32_t, at_once> which;
-        std::array<Vec3, at_once> near;
-        std::array<FieldSample<3>, at_once> sample;
+        std::array<FieldSample<3>, at_once> samples;
         std::uint32_t result = 0;
         for (std::size_t begin = from; begin < to; begin += at_once) {
             const std::size_t count = std::min(at_once, to - begin);
@@ -57,23 +54,15 @@ struct Particles {
                 v[i].y -= 9.81f * step;
                 x[i] += v[i] * step;
             }
-            ground.distance(x, std::span(distance).first(count));
-            std::size_t touching = 0;
-            for (std::uint32_t i = 0; i < count; ++i) {
-                if (distance[i] >= radius) continue;
-                near[touching] = x[i];
-                which[touching++] = i;
+            ground.sample(x, std::span(samples).first(count));
+            for (std::size_t i = 0; i < count; ++i) {
+                const auto& [distance, normal] = samples[i];
+                if (distance >= radius) continue;
+                ++result;
+                x[i] += normal * (radius - distance);
+                const float into = v[i].x * normal.x + v[i].y * normal.y + v[i].z * normal.z;
+                if (into < 0) v[i] = (v[i] - normal * (1.4f * into)) * 0.95f;
             }
-            ground.sample(std::span(near).first(touching), std::span(sample).first(touching));
-            for (std::size_t i = 0; i < touching; ++i) {
-                const FieldSample<3>& here = sample[i];
-                Vec3& velocity_here = v[which[i]];
-                x[which[i]] += here.normal * (radius - here.distance);
-                const float into =
-                    velocity_here.x * here.normal.x + velocity_here.y * here.normal.y + velocity_here.z * here.normal.z;
-                if (into < 0) velocity_here = (velocity_here - here.normal * (1.4f * into)) * 0.95f;
-            }
-            result += static_cast<std::uint32_t>(touching);
         }
         return result;
     }

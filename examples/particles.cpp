@@ -82,7 +82,7 @@ constexpr float radius = 0.02f, step = 1.0f / 60, bounce = 0.4f, friction = 0.95
 /// Moves some of them on by a step. Returns how many touched the ground.
 std::uint32_t advance(const abut::Field3& ground, std::span<abut::Vec3> position, std::span<abut::Vec3> velocity) {
     constexpr std::size_t at_once = 512;
-    float distance[at_once];
+    abut::FieldSample<3> samples[at_once];
     std::uint32_t touching = 0;
     for (std::size_t begin = 0; begin < position.size(); begin += at_once) {
         const std::size_t count = std::min(at_once, position.size() - begin);
@@ -91,15 +91,14 @@ std::uint32_t advance(const abut::Field3& ground, std::span<abut::Vec3> position
             v[i].y -= 9.81f * step;
             x[i] += v[i] * step;
         }
-        ground.distance(x, std::span(distance, count));
+        ground.sample(x, std::span(samples, count));
         for (std::size_t i = 0; i < count; ++i) {
-            if (distance[i] >= radius) continue;
+            const auto& [distance, normal] = samples[i];
+            if (distance >= radius) continue;
             ++touching;
-            // Most are far from everything: only these few ask for the direction too.
-            const abut::FieldSample<3> here = ground.sample(x[i]);
-            x[i] += here.normal * (radius - here.distance);
-            const float into = v[i].x * here.normal.x + v[i].y * here.normal.y + v[i].z * here.normal.z;
-            if (into < 0) v[i] = (v[i] - here.normal * into) * friction - here.normal * (bounce * into);
+            x[i] += normal * (radius - distance);
+            const float into = v[i].x * normal.x + v[i].y * normal.y + v[i].z * normal.z;
+            if (into < 0) v[i] = (v[i] - normal * into) * friction - normal * (bounce * into);
         }
     }
     return touching;
@@ -109,14 +108,14 @@ std::uint32_t advance(const abut::Field3& ground, std::span<abut::Vec3> position
 
 int main() {
     // A bowl: a slab with the upper side of a ball taken out of it, and a knob in the middle.
-    const abut::FieldOptions<3> fine{.cell = 0.05f};
-    const auto slab = abut::bake_field(abut::Box3{{0, -0.6f, 0}, {3, 0.6f, 3}}, fine);
-    const auto hole = abut::bake_field(abut::Sphere{{0, 1.5f, 0}, 2.2f}, fine);
-    const auto knob = abut::bake_field(abut::Sphere{{0, -0.6f, 0}, 0.5f}, fine);
+    const abut::FieldOptions<3> options{.cell = 0.1f, .store = abut::FieldStore::dense};
+    const auto slab = abut::bake_field(abut::Box3{{0, -0.6f, 0}, {3, 0.6f, 3}}, options);
+    const auto hole = abut::bake_field(abut::Sphere{{0, 1.5f, 0}, 2.2f}, options);
+    const auto knob = abut::bake_field(abut::Sphere{{0, -0.6f, 0}, 0.5f}, options);
     if (!slab || !hole || !knob) return 1;
-    const auto bowl = abut::field_difference(*slab, *hole);
+    const auto bowl = abut::field_difference(*slab, *hole, options);
     if (!bowl) return 1;
-    const auto level = abut::field_smooth_union(*bowl, *knob, 0.2f);
+    const auto level = abut::field_smooth_union(*bowl, *knob, 0.2f, options);
     if (!level) return 1;
 
     Particles all;
