@@ -145,7 +145,7 @@ public:
         }
         center_ = (low_ + high_) * 0.5;
         find_gradient();
-        least_ = std::numeric_limits<double>::infinity();
+        least_ = above_plane_ = std::numeric_limits<double>::infinity();
         // Grid by grid.
         Cell<D> at = low;
         const std::int32_t side =
@@ -165,7 +165,8 @@ public:
             else
                 look_at_samples(grid, low, high);
         } while (step(at, first, last));
-        bound.value = least_;
+        bound.value = above_plane_;
+        bound.least = least_;
         bound.gradient = gradient_ / static_cast<double>(data_.cell);
         return DistanceKnown::bound;
     }
@@ -202,7 +203,9 @@ private:
                 for (int a = 0; a < D; ++a)
                     place[a] =
                         i >> a & 1 ? std::min(values.low[a] + values.side, high_[a]) : std::max(values.low[a], low_[a]);
-                least_ = std::min(least_, values.at(place) - dot(gradient_, place - center_));
+                const double value = values.at(place);
+                least_ = std::min(least_, value);
+                above_plane_ = std::min(above_plane_, value - dot(gradient_, place - center_));
             }
         } while (step(cell, first, last));
     }
@@ -224,14 +227,17 @@ private:
                 place[a] = row[a];
             }
             double plane = dot(gradient_, place - center_);
-            for (std::int32_t i = first[0]; i <= last[0]; ++i, ++sample, plane += gradient_[0])
-                least_ = std::min(least_, value_of(data_, grid, sample) - plane);
+            for (std::int32_t i = first[0]; i <= last[0]; ++i, ++sample, plane += gradient_[0]) {
+                const double value = value_of(data_, grid, sample);
+                least_ = std::min(least_, value);
+                above_plane_ = std::min(above_plane_, value - plane);
+            }
         } while (step(row, first, row_last));
     }
 
     const FieldData<D>& data_;
     DVec<D> low_, high_, center_, gradient_;  ///< in cells
-    double least_ = 0;
+    double least_ = 0, above_plane_ = 0;
 };
 
 /// The first place in (0, 1] at which a cubic, given at 0, 1/3, 2/3 and 1, is at most 0.

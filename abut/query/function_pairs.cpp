@@ -13,6 +13,12 @@ constexpr double search_tolerance = 0.25;
 /// A plane that leans by this much touches a shape at a corner beside the lowest one.
 constexpr double lean = 0.02;
 
+/// What lies lowest for those needn't be found so exactly.
+constexpr double leaning_tolerance = 1e-3;
+
+/// The bounds on boxes above a half-space.
+constexpr int most_boxes_over_solid = 1024, most_boxes_leaning = 128;
+
 template <int D>
 bool is_bounded(const Aabb<D>& box) {
     return is_finite(box.min) && is_finite(box.max);
@@ -67,6 +73,11 @@ SignedDistance<D> nothing_near() {
     return result;
 }
 
+template <int D>
+bool is_ball(const Convex<D>& part) {
+    return part.core == Core::points && part.count == 1 && part.inner_radius == 0;
+}
+
 /// The corners that are as deep as the deepest place of a convex set, as far as they can be told.
 template <int D>
 MeetingCorners<D> corners_at(const Convex<D>& set, const DVec<D>& place, const DVec<D>& out, double slack) {
@@ -89,6 +100,16 @@ template <int D>
 SignedDistance<D> from_convex(const Convex<D>& set, const DistanceFunction<D>& function, double margin,
                               const DistanceWanted& wanted) {
     if (has_nothing(function.bounds)) return nothing_near<D>();
+    if (is_ball(set)) {
+        const FunctionThere<D> seen(function);
+        const DVec<D> middle = set.place.point(DVec<D>(set.vertices()[0]));
+        SignedDistance<D> result;
+        result.distance = seen.at(middle) - set.radius;
+        if (!(result.distance <= wanted.reach)) return nothing_near<D>();
+        result.normal = -seen.normal(middle, seen.step(middle, std::max(1e-2 * set.radius, margin)));
+        result.on_a = middle + result.normal * set.radius;
+        return result;
+    }
     // Boxes are searched box by box.
     const Affine<D> frame = is_plain_box(set) ? own_frame<D>(set) : own_frame<D>(function), back = back_from(frame);
     const DistanceFunction<D> own = moved(function, back);
@@ -113,7 +134,7 @@ SignedDistance<D> from_convex(const Convex<D>& set, const DistanceFunction<D>& f
 /// Of a function and a half-space.
 template <int D>
 SignedDistance<D> over_solid(const DistanceFunction<D>& function, const Solid<D>& solid, const DVec<D>& normal,
-                             double margin, const DistanceWanted& wanted) {
+                             double tolerance, const DistanceWanted& wanted, int most_boxes) {
     if (has_nothing(function.bounds)) return nothing_near<D>();
     const bool has_bounds = is_bounded(function.bounds);
     ABUT_ASSERT(has_bounds);
@@ -124,7 +145,8 @@ SignedDistance<D> over_solid(const DistanceFunction<D>& function, const Solid<D>
     // A plane of the frame, through its origin.
     const double height = dot(solid.normal, frame.offset) - solid.offset;
     LeastOptions<D> options;
-    options.tolerance = search_tolerance * margin;
+    options.tolerance = tolerance;
+    options.most_boxes = most_boxes;
     options.enough = wanted.enough - height;
     options.reach = wanted.reach - height;
     const Least<D> least = lowest_inside(seen, bounds(own), back.vector(normal), options);
@@ -231,8 +253,8 @@ Manifold<D> points_on_plane(const DistanceFunction<D>& function, const Solid<D>&
     candidates.points[0].depth = -distance.distance;
     std::uint32_t name = 1;
     for (const DVec<D>& aside : around<D>(solid.normal)) {
-        const SignedDistance<D> leaning =
-            over_solid(function, solid, normalized(solid.normal + aside * lean), doubt, {});
+        const SignedDistance<D> leaning = over_solid(function, solid, normalized(solid.normal + aside * lean),
+                                                     leaning_tolerance * size(function), {}, most_boxes_leaning);
         if (leaning.distance <= margin + slack) add(leaning.on_a, leaning.distance, name);
         ++name;
     }
@@ -264,7 +286,8 @@ requires FunctionPair<A, B> SignedDistance<PartDimension<A>::value> function_dis
         if constexpr (std::is_same_v<A, Convex<D>>) {
             return from_convex(a, b, margin, wanted);
         } else {
-            SignedDistance<D> result = over_solid(b, a, a.normal, margin, wanted);
+            SignedDistance<D> result =
+                over_solid(b, a, a.normal, search_tolerance * margin, wanted, most_boxes_over_solid);
             if (std::isfinite(result.distance)) turn_round(result);
             return result;
         }
@@ -273,8 +296,21 @@ requires FunctionPair<A, B> SignedDistance<PartDimension<A>::value> function_dis
         if (std::isfinite(result.distance)) turn_round(result);
         return result;
     } else {
-        return over_solid(a, b, b.normal, margin, wanted);
+        return over_solid(a, b, b.normal, search_tolerance * margin, wanted, most_boxes_over_solid);
     }
+}
+
+template <class A, class B>
+requires FunctionPair<A, B>
+bool function_overlap(const A& a, const B& b) {
+    constexpr int D = PartDimension<A>::value;
+    if constexpr (std::is_same_v<A, Convex<D>>) {
+        if (is_ball(a) && !has_nothing(b.bounds))
+            return FunctionThere<D>(b).at(a.place.point(DVec<D>(a.vertices()[0]))) <= a.radius;
+    } else if constexpr (std::is_same_v<B, Convex<D>>) {
+        return function_overlap(b, a);
+    }
+    return function_distance(a, b, {0, 0}).distance <= 0;
 }
 
 template <class A, class B>
@@ -307,6 +343,7 @@ bool part_contact(const A& a, const B& b, double reach, double margin, const Sea
 
 #define ABUT_INSTANTIATE_FOR(D, A, B)                                                        \
     template double function_margin(const A&, const B&);                                     \
+    template bool function_overlap(const A&, const B&);                                      \
     template SignedDistance<D> function_distance(const A&, const B&, const DistanceWanted&); \
     template bool part_contact(const A&, const B&, double, double, const SearchOptions<D>&, PartContact<D>&);
 #define ABUT_INSTANTIATE(D)                                 \

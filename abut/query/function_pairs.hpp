@@ -59,8 +59,12 @@ requires FunctionPair<A, B> SignedDistance<PartDimension<A>::value> part_distanc
 /// Stops where a point of both is found.
 template <class A, class B>
 requires FunctionPair<A, B>
+bool function_overlap(const A& a, const B& b);
+
+template <class A, class B>
+requires FunctionPair<A, B>
 bool part_overlaps(const A& a, const B& b, const SearchOptions<PartDimension<A>::value>&) {
-    return function_distance(a, b, {0, 0}).distance <= 0;
+    return function_overlap(a, b);
 }
 
 /// The points: of a convex set those of its face that looks at the function's shape.

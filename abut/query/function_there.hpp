@@ -73,7 +73,8 @@ public:
     /// About what it is at least in a box, by what it is in the middle and beyond: a plane, lowered by twice what it
     /// bends down from there along the axes.
     DistanceBound<D> guess(const DVec<D>& center, const DVec<D>& half, double here) const {
-        DistanceBound<D> result{here, DVec<D>(0.0)};
+        DistanceBound<D> result;
+        result.value = here;
         const double least = 1e-3 * largest(half);
         for (int i = 0; i < D; ++i) {
             const double reach = std::max(half[i], least);
@@ -114,6 +115,7 @@ public:
         const DistanceKnown known = function_.bound(function_.object, middle - own_half, middle + own_half, bound);
         if (known != DistanceKnown::bound) return known;
         bound.value = factor_ * (bound.value - level_);
+        bound.least = factor_ * (bound.least - level_);
         bound.gradient = back_.transposed(bound.gradient) * factor_;
         return known;
     }

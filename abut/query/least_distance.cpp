@@ -18,7 +18,7 @@ constexpr double guess_tolerance = 1e-4;
 constexpr int most_steps_down = 24, most_halvings = 10;
 
 /// The bound on ways down, each of which costs as much as many boxes.
-constexpr int most_ways_down = 64;
+constexpr int most_ways_down = 32;
 
 /// Boxes that are still to be looked at, the last first: each leaves no more than one behind, and none is cut in two
 /// more often than there is room for.
@@ -216,12 +216,12 @@ public:
             const DVec<D> lowest = core_.lowest(bound.gradient);
             const double bounded =
                 bound.value + std::max(dot(bound.gradient, lowest - box.center), -sum_along(bound.gradient, box.half));
-            if (bounded < best.distance - options_.tolerance && ways_down_ < most_ways_down) {
+            if (std::max(bounded, bound.least) < best.distance - options_.tolerance) {
                 const double before = best.distance;
                 found(lowest);
-                if (here < before || best.distance < before) go_down(best.point);
+                if (here <= before || best.distance < before) go_down(best.point);
             }
-            return std::max(least, bounded);
+            return std::max({least, bounded, bound.least});
         }
         if (known == DistanceKnown::nothing && length(box.half) <= piece_) {
             is_piece = length(box.half) <= least_piece * size_;
@@ -318,7 +318,7 @@ private:
         DistanceBound<D> bound;
         const DistanceKnown known = function_.bound(box.center, box.half, bound);
         if (known == DistanceKnown::bound) {
-            least = std::max(least, lowest_on(simplex, bound, box.center));
+            least = std::max({least, bound.least, lowest_on(simplex, bound, box.center)});
         } else if (known == DistanceKnown::nothing && reach <= piece_) {
             // Between corners it is about as they are, and dips as it does in the middle.
             double lowest = simplex.values[0], mean = 0;
@@ -376,27 +376,39 @@ public:
         const bool is_told = known == DistanceKnown::bound;
         const bool is_small = known == DistanceKnown::nothing && length(box.half) <= piece_;
         if (!is_told && !is_small) {
-            if (here <= options_.tolerance) candidate(box.center);
+            if (here <= options_.tolerance) look_down(box.center);
             return lowest;
         }
         if (!is_told) bound = function_.guess(box.center, box.half, here);
-        if (is_told && bound.value - sum_along(bound.gradient, box.half) > options_.tolerance) return nothing;
+        if (is_told && std::max(bound.least, bound.value - sum_along(bound.gradient, box.half)) > options_.tolerance)
+            return nothing;
         // Of the plane below which the shape is, in the box: for any weight above zero a bound.
         const double square = length_squared(bound.gradient);
         const double weight = square > 0 ? std::max(0.0, -dot(normal_, bound.gradient) / square) : 0;
         const double least = std::max(lowest, dot(normal_, box.center) + weight * (bound.value - options_.tolerance) -
                                                   sum_along(normal_ + bound.gradient * weight, box.half));
         is_piece = is_small && length(box.half) <= least_piece * size_;
-        if (least < best.distance - options_.tolerance) candidate(box.center);
+        if (least < best.distance - options_.tolerance && square > 0.01) {
+            const DVec<D> near = box.center - bound.gradient * (here / square);
+            if (here <= options_.tolerance) look_down(box.center);
+            if (function_.at(near) <= options_.tolerance) look_down(near);
+        }
         return least;
     }
 
     Least<D> best;
 
 private:
+    /// From a place inside, if that is lower than all so far.
+    void look_down(const DVec<D>& point) {
+        if (dot(normal_, point) < best.distance - options_.tolerance) {
+            keep(point);
+            candidate(point);
+        }
+    }
     /// Goes from there to the surface, and down along it.
     void candidate(DVec<D> point) {
-        if (++ways_down_ > 4 * most_ways_down) return;
+        if (++ways_down_ > most_ways_down) return;
         double stride = 0.25 * size_;
         if (!to_surface(point)) return;
         for (int i = 0; i < most_steps_down; ++i) {
@@ -463,6 +475,7 @@ public:
 
     double least_in(const SearchBox<D>& box, bool& is_piece) {
         const double of_a = a_.at(box.center), of_b = b_.at(box.center), here = std::max(of_a, of_b);
+        const bool is_best = here < best.distance;
         keep(box.center, here);
         const double falls = slope_ * length(box.half), least = here - falls;
         if (!(least < best.distance - options_.tolerance && least <= options_.reach)) return least;
@@ -473,22 +486,28 @@ public:
         const bool both =
             (told_a || known_a == DistanceKnown::nothing) && (told_b || known_b == DistanceKnown::nothing);
         const bool is_small = both && !(told_a && told_b) && length(box.half) <= piece_;
-        if (!told_a) bound_a = is_small ? plane_of(a_, box, of_a) : DistanceBound<D>{of_a - falls, DVec<D>(0.0)};
-        if (!told_b) bound_b = is_small ? plane_of(b_, box, of_b) : DistanceBound<D>{of_b - falls, DVec<D>(0.0)};
+        if (!told_a) bound_a = is_small ? plane_of(a_, box, of_a) : level_at(of_a - falls);
+        if (!told_b) bound_b = is_small ? plane_of(b_, box, of_b) : level_at(of_b - falls);
         const auto lowest = [&](const DistanceBound<D>& bound) {
-            return bound.value - sum_along(bound.gradient, box.half);
+            return std::max(bound.value - sum_along(bound.gradient, box.half), bound.least);
         };
-        const DistanceBound<D> between{0.5 * (bound_a.value + bound_b.value),
-                                       (bound_a.gradient + bound_b.gradient) * 0.5};
+        DistanceBound<D> between;
+        between.value = 0.5 * (bound_a.value + bound_b.value);
+        between.gradient = (bound_a.gradient + bound_b.gradient) * 0.5;
         const double bounded = std::max({lowest(bound_a), lowest(bound_b), lowest(between)});
         is_piece = is_small && length(box.half) <= least_piece * size_;
-        if (bounded < best.distance - options_.tolerance) go_down(box.center);
+        if (is_best && bounded < best.distance - options_.tolerance) go_down(box.center);
         return std::max(least, bounded);
     }
 
     Least<D> best;
 
 private:
+    static DistanceBound<D> level_at(double value) {
+        DistanceBound<D> result;
+        result.value = value;
+        return result;
+    }
     DistanceBound<D> plane_of(const FunctionThere<D>& function, const SearchBox<D>& box, double here) const {
         return function.guess(box.center, box.half, here);
     }

@@ -19,11 +19,12 @@ struct FieldSample {
     Vec<D> normal{};                                          ///< of length 1, out of the shape
 };
 
-/// What a distance is at least, in a box: value + dot(gradient, x - middle of the box).
+/// What a distance is at least, in a box: value + dot(gradient, x - middle of the box), and `least` too.
 template <int D>
 struct DistanceBound {
     double value = 0;
     DVec<D> gradient{0.0};
+    double least = -std::numeric_limits<double>::infinity();
 };
 
 /// What a function tells of a box.
