@@ -46,6 +46,7 @@ struct Particles {
     std::uint32_t advance(const Field3& ground, std::size_t from, std::size_t to) {
         constexpr std::size_t at_once = 512;
         std::array<FieldSample<3>, at_once> samples;
+        const float bottom = ground.volume().min.y;
         std::uint32_t result = 0;
         for (std::size_t begin = from; begin < to; begin += at_once) {
             const std::size_t count = std::min(at_once, to - begin);
@@ -53,6 +54,10 @@ struct Particles {
             for (std::size_t i = 0; i < count; ++i) {
                 v[i].y -= 9.81f * step;
                 x[i] += v[i] * step;
+                if (x[i].y < bottom) {
+                    x[i] = {0.5f * x[i].x, 2, 0.5f * x[i].z};
+                    v[i] = {};
+                }
             }
             ground.sample(x, std::span(samples).first(count));
             for (std::size_t i = 0; i < count; ++i) {

@@ -83,6 +83,7 @@ constexpr float radius = 0.02f, step = 1.0f / 60, bounce = 0.4f, friction = 0.95
 std::uint32_t advance(const abut::Field3& ground, std::span<abut::Vec3> position, std::span<abut::Vec3> velocity) {
     constexpr std::size_t at_once = 512;
     abut::FieldSample<3> samples[at_once];
+    const float bottom = ground.volume().min.y;
     std::uint32_t touching = 0;
     for (std::size_t begin = 0; begin < position.size(); begin += at_once) {
         const std::size_t count = std::min(at_once, position.size() - begin);
@@ -90,6 +91,10 @@ std::uint32_t advance(const abut::Field3& ground, std::span<abut::Vec3> position
         for (std::size_t i = 0; i < count; ++i) {
             v[i].y -= 9.81f * step;
             x[i] += v[i] * step;
+            if (x[i].y < bottom) {  // over the edge: again from above
+                x[i] = {0.5f * x[i].x, 2, 0.5f * x[i].z};
+                v[i] = {};
+            }
         }
         ground.sample(x, std::span(samples, count));
         for (std::size_t i = 0; i < count; ++i) {
