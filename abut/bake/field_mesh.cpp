@@ -1,18 +1,37 @@
 #include <abut/bake/field.hpp>
+#include <abut/bake/field_cap.hpp>
 #include <abut/bake/field_fill.hpp>
 #include <abut/bake/field_grid.hpp>
+#include <abut/bake/field_lines.hpp>
+#include <abut/bake/field_nearest.hpp>
+#include <abut/bake/field_pieces.hpp>
 #include <abut/bake/field_surface.hpp>
 #include <abut/math/dvec.hpp>
-#include <abut/math/sin_cos.hpp>
 
+#include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace abut {
 namespace {
 
-/// The point of a triangle closest to p, seen from p.
+std::vector<PieceCorners<3>> pieces_of(const FieldSurface& surface) {
+    std::vector<PieceCorners<3>> result;
+    result.reserve(surface.solid.size());
+    const std::vector<Vec3>& points = surface.mesh.points;
+    for (const std::uint32_t i : surface.solid) {
+        const glm::uvec3& t = surface.mesh.triangles[i];
+        result.push_back({points[t.x], points[t.y], points[t.z]});
+    }
+    return result;
+}
+
+LineCounts counts_of(const FieldSurface& surface, const FieldData<3>& grid) {
+    const std::array<std::span<const glm::uvec3>, 2> closed{surface.mesh.triangles, surface.cap};
+    return {SampleLines(surface.mesh.points, lattice_of(grid), samples_along(grid)), closed};
+}
+
+/// The way from p, the origin, to the closest point of a triangle.
 DVec<3> way_to(const DVec<3>& a, const DVec<3>& b, const DVec<3>& c) {
     const auto to_segment = [](const DVec<3>& from, const DVec<3>& to) {
         const DVec<3> along = to - from;
@@ -27,59 +46,61 @@ DVec<3> way_to(const DVec<3>& a, const DVec<3>& b, const DVec<3>& c) {
     return dot(first, first) <= dot(ca, ca) ? first : ca;
 }
 
-double solid_angle(const DVec<3>& a, const DVec<3>& b, const DVec<3>& c) {
-    const double la = length(a), lb = length(b), lc = length(c), volume = dot(a, cross(b, c));
-    const double rest = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
-    return volume == 0 && rest == 0 ? 0 : 2 * angle_of(rest, volume);
-}
-
 class MeshSource final : public SampleSource<3> {
 public:
-    MeshSource(const FieldSurface& surface, Mesh mesh, const SampleLattice<3>& lattice)
-        : surface_(surface), mesh_(std::move(mesh)), lattice_(lattice) {}
+    MeshSource(const FieldSurface& surface, const FieldData<3>& grid)
+        : pieces_(pieces_of(surface)),
+          tree_(build_piece_tree<3>(pieces_)),
+          counts_(counts_of(surface, grid)),
+          cap_(surface.mesh.points, surface.cap),
+          lattice_(lattice_of(grid)) {
+        double volume = 0;
+        const DVec<3> from(pieces_.front()[0]);
+        for (const PieceCorners<3>& piece : pieces_)
+            volume += dot(DVec<3>(piece[0]) - from, cross(DVec<3>(piece[1]) - from, DVec<3>(piece[2]) - from));
+        outwards_ = volume < 0 ? -1 : 1;
+    }
 
     void tell(const SampleBlock<3>& block, const SampleValues<3>& values) const override {
+        std::array<NearestPiece, most_block_samples<3>> nearest;
+        std::array<std::int32_t, most_block_samples<3>> turns;
+        nearest_pieces(tree_, lattice_, block, nearest.data());
+        for (std::uint32_t i = 0; i < block.samples(); i += block.count.x)
+            counts_.tell(block.sample(i), block.count.x, block.stride, &turns[i]);
         for (std::uint32_t i = 0; i < block.samples(); ++i) {
-            const DVec<3> point = lattice_.at(block.sample(i));
-            const DVec<3> way = nearest(point);
-            const double distance = length(way), winding = winding_of(point);
+            const double distance = std::sqrt(nearest[i].squared);
+            const double winding = cap_.empty() ? static_cast<double>(std::abs(turns[i]))
+                                                : cap_.without(lattice_.at(block.sample(i)), turns[i]);
             const bool inside = winding >= 0.5;
             values.distance[i] = static_cast<float>(inside ? -distance : distance);
-            if (values.gradient != nullptr) values.gradient[i] = to_float(normalized(inside ? way : -way));
-            if (values.closest != nullptr) values.closest[i] = to_float(point + way);
             if (values.doubtful != nullptr) values.doubtful[i] = std::abs(winding - 0.5) <= 0.25;
+            if (values.gradient == nullptr && values.closest == nullptr) continue;
+            const DVec<3> point = lattice_.at(block.sample(i)), way = way_to_piece(point, nearest[i].piece);
+            if (values.closest != nullptr) values.closest[i] = to_float(point + way);
+            if (values.gradient != nullptr)
+                values.gradient[i] = to_float(distance > 0x1p-40 * tree_.spread ? normalized(inside ? way : -way)
+                                                                                : normal_of(nearest[i].piece));
         }
     }
-    double distance(const DVec<3>& point) const override { return length(nearest(point)); }
+    double distance(const DVec<3>& point) const override { return std::sqrt(nearest_piece(tree_, point).squared); }
 
 private:
-    DVec<3> nearest(const DVec<3>& point) const {
-        DVec<3> best(0.0);
-        double least = std::numeric_limits<double>::infinity();
-        const Vec3 there = to_float(point);
-        each_part_near(mesh_, {there, there}, [&](const Triangle3& t, std::uint32_t) {
-            const DVec<3> way = way_to(DVec<3>(t.a) - point, DVec<3>(t.b) - point, DVec<3>(t.c) - point);
-            if (dot(way, way) < least) {
-                least = dot(way, way);
-                best = way;
-            }
-            return static_cast<float>(std::sqrt(least) * (1 + 1e-6)) + 1e-6f * static_cast<float>(largest(point));
-        });
-        return best;
+    DVec<3> way_to_piece(const DVec<3>& point, std::uint32_t piece) const {
+        const PieceCorners<3>& p = pieces_[piece];
+        return way_to(DVec<3>(p[0]) - point, DVec<3>(p[1]) - point, DVec<3>(p[2]) - point);
     }
-    double winding_of(const DVec<3>& point) const {
-        if (surface_.gaps == 0) return solid_contains(mesh_, to_float(point)) ? 1 : 0;
-        double sum = 0;
-        for (const glm::uvec3& t : surface_.mesh.triangles) {
-            const auto& p = surface_.mesh.points;
-            sum += solid_angle(DVec<3>(p[t.x]) - point, DVec<3>(p[t.y]) - point, DVec<3>(p[t.z]) - point);
-        }
-        return std::abs(sum / (4 * 3.14159265358979323846));
+    /// Out of the surface, where a sample lies on it.
+    DVec<3> normal_of(std::uint32_t piece) const {
+        const DVec<3> a(pieces_[piece][0]), b(pieces_[piece][1]), c(pieces_[piece][2]);
+        return normalized(cross(b - a, c - a)) * outwards_;
     }
 
-    const FieldSurface& surface_;
-    Mesh mesh_;
+    std::vector<PieceCorners<3>> pieces_;
+    PieceTree<3> tree_;
+    LineCounts counts_;
+    FieldCap cap_;
     SampleLattice<3> lattice_;
+    double outwards_;
 };
 
 }  // namespace
@@ -92,16 +113,12 @@ Result<Field<3>> bake_field(std::span<const Vec3> points, std::span<const glm::u
     if (!surface) return surface.problem();
     Result<FieldData<3>> grid = field_grid(surface->box, options);
     if (!grid) return grid.problem();
-    std::vector<glm::uvec3> solid;
-    for (const std::uint32_t i : surface->solid) solid.push_back(surface->mesh.triangles[i]);
-    Result<Mesh> mesh = Mesh::build(surface->mesh.points, solid);
-    if (!mesh) return mesh.problem();
 
     FieldReport report;
     report.closed = surface->gaps == 0;
     report.gaps = surface->gaps;
     report.rewound = surface->rewound;
-    const MeshSource source(*surface, *mesh, lattice_of(*grid));
+    const MeshSource source(*surface, *grid);
     Result<Field<3>> field = fill_field(*std::move(grid), source, options, work, report);
     if (field && options.report != nullptr) *options.report = report;
     return field;

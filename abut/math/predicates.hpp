@@ -16,6 +16,9 @@ int orientation(const Vec2& a, const Vec2& b, const Vec2& c);
 /// points to), -1 if it is clockwise, 0 if the four lie in a plane.
 int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
+/// The turn from ab to ac, where c is told in double: zero, or coordinates from 2^-300 to 2^300.
+int turn_towards(const Vec2& a, const Vec2& b, const DVec<2>& c);
+
 /// Whether p lies on the line through a and b, between them or beyond; always where a == b.
 bool on_line(const Vec2& a, const Vec2& b, const Vec2& p);
 bool on_line(const Vec3& a, const Vec3& b, const Vec3& p);

@@ -1,0 +1,121 @@
+#include <abut/bake/field_cap.hpp>
+#include <abut/math/sin_cos.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace abut {
+namespace {
+
+constexpr double full_angle = 4 * 3.14159265358979323846;
+constexpr std::uint32_t most_in_leaf = 8;
+/// A group that is as many of its radii away is told at once.
+constexpr double far_radii = 3;
+/// What is nearer to 0.5 is told exactly: on surfaces of all kinds groups are off by less than a tenth of that.
+constexpr double near_half = 0.3;
+
+/// Van Oosterom, Strackee: "The solid angle of a plane triangle" (1983).
+double solid_angle(const DVec<3>& a, const DVec<3>& b, const DVec<3>& c) {
+    const double la = length(a), lb = length(b), lc = length(c), volume = dot(a, cross(b, c));
+    const double rest = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
+    return volume == 0 && rest == 0 ? 0 : 2 * angle_of(rest, volume);
+}
+
+}  // namespace
+
+FieldCap::FieldCap(std::span<const Vec3> points, std::span<const glm::uvec3> triangles) {
+    if (triangles.empty()) return;
+    corners_.reserve(triangles.size());
+    for (const glm::uvec3& t : triangles)
+        corners_.push_back({DVec<3>(points[t.x]), DVec<3>(points[t.y]), DVec<3>(points[t.z])});
+    groups_.push_back({});
+    groups_[0].count = static_cast<std::uint32_t>(corners_.size());
+    for (std::uint32_t group = 0; group < groups_.size(); ++group) divide(group);
+}
+
+void FieldCap::divide(std::uint32_t number) {
+    Group group = groups_[number];
+    const auto begin = corners_.begin() + group.first, end = begin + group.count;
+    double areas = 0;
+    DVec<3> middle(0.0), plain(0.0), low = begin->a, high = begin->a;
+    for (auto t = begin; t != end; ++t) {
+        const DVec<3> area = cross(t->b - t->a, t->c - t->a) * 0.5, center = (t->a + t->b + t->c) / 3.0;
+        group.area += area;
+        areas += length(area);
+        middle += center * length(area);
+        plain += center;
+        for (int i = 0; i < 3; ++i) {
+            low[i] = std::min(low[i], center[i]);
+            high[i] = std::max(high[i], center[i]);
+        }
+    }
+    group.middle = areas > 0 ? middle / areas : plain / static_cast<double>(group.count);
+    for (auto t = begin; t != end; ++t)
+        for (const DVec<3>* corner : {&t->a, &t->b, &t->c})
+            group.radius = std::max(group.radius, length(*corner - group.middle));
+
+    if (group.count > most_in_leaf) {
+        int axis = 0;
+        for (int i = 1; i < 3; ++i)
+            if (high[i] - low[i] > high[axis] - low[axis]) axis = i;
+        const std::uint32_t half = group.count / 2;
+        // All that differ are told apart, so that every library leaves them in the same halves; then each half is put
+        // into the same order.
+        const auto before = [axis](const Corners& s, const Corners& t) {
+            const double from = s.a[axis] + s.b[axis] + s.c[axis], to = t.a[axis] + t.b[axis] + t.c[axis];
+            if (from != to) return from < to;
+            for (const DVec<3> Corners::*corner : {&Corners::a, &Corners::b, &Corners::c})
+                for (int i = 0; i < 3; ++i)
+                    if ((s.*corner)[i] != (t.*corner)[i]) return (s.*corner)[i] < (t.*corner)[i];
+            return false;
+        };
+        std::sort(begin, end, before);
+        group.below = static_cast<std::uint32_t>(groups_.size());
+        Group lower, upper;
+        lower.first = group.first;
+        lower.count = half;
+        upper.first = group.first + half;
+        upper.count = group.count - half;
+        groups_.push_back(lower);
+        groups_.push_back(upper);
+    }
+    groups_[number] = group;
+}
+
+double FieldCap::exactly(const DVec<3>& point, std::uint32_t first, std::uint32_t count) const {
+    double sum = 0;
+    for (std::uint32_t i = first; i < first + count; ++i)
+        sum += solid_angle(corners_[i].a - point, corners_[i].b - point, corners_[i].c - point);
+    return sum / full_angle;
+}
+
+double FieldCap::nearly(const DVec<3>& point) const {
+    double sum = 0;
+    // Groups are halved, so that they are at most 32 deep.
+    std::array<std::uint32_t, 40> stack;
+    std::size_t waiting = 0;
+    stack[waiting++] = 0;
+    while (waiting > 0) {
+        const Group& group = groups_[stack[--waiting]];
+        const DVec<3> way = group.middle - point;
+        const double squared = length_squared(way);
+        if (squared > far_radii * far_radii * group.radius * group.radius) {
+            sum += dot(group.area, way) / (full_angle * squared * std::sqrt(squared));
+        } else if (group.below == 0) {
+            sum += exactly(point, group.first, group.count);
+        } else {
+            stack[waiting++] = group.below + 1;
+            stack[waiting++] = group.below;
+        }
+    }
+    return sum;
+}
+
+double FieldCap::without(const DVec<3>& point, std::int32_t together) const {
+    const double near = std::abs(together - nearly(point));
+    if (std::abs(near - 0.5) > near_half) return near;
+    return std::abs(together - exactly(point, 0, static_cast<std::uint32_t>(corners_.size())));
+}
+
+}  // namespace abut

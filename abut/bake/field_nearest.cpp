@@ -1,0 +1,407 @@
+// Compiled once for each kind of vector unit by Highway, which takes the best of them when the program runs.
+//
+// A block of samples first gathers the leaves that can be nearest to any of them: no sample is farther from the surface
+// than the block's middle by more than it is away from there. The boxes of these leaves then stand in rows, relative to
+// the middle, and each sample looks at the rows, eight boxes at a time in float, and measures in double what is in
+// those that are near enough. Neighbours mostly have the same nearest piece: each sample begins with the leaf of the
+// one before.
+
+#include <abut/bake/field_nearest.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "abut/bake/field_nearest.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace abut::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Doubles = hn::CappedTag<double, piece_lanes>;
+using HalfFloats = hn::Rebind<float, Doubles>;
+using Floats = hn::CappedTag<float, piece_lanes>;
+using V = hn::Vec<Doubles>;
+
+inline V row(const PieceRow& numbers, std::size_t lane) {
+    return hn::Load(Doubles(), numbers.data() + lane);
+}
+inline V between(V number, V low, V high) {
+    return hn::Min(hn::Max(number, low), high);
+}
+template <class Tag>
+inline std::uint32_t bits_of(Tag tag, hn::Mask<Tag> mask) {
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(tag, mask, bytes);
+    return bytes[0];
+}
+
+/// The squared distances of a point from the pieces of a leaf in some of its lanes.
+inline V measure(const PieceLeaf<2>& leaf, std::size_t lane, const DVec<2>& point) {
+    const Doubles d;
+    const V x = hn::Sub(hn::Set(d, point.x), row(leaf.from[0], lane));
+    const V y = hn::Sub(hn::Set(d, point.y), row(leaf.from[1], lane));
+    const V ax = row(leaf.along[0], lane), ay = row(leaf.along[1], lane);
+    const V along = hn::Mul(hn::Add(hn::Mul(x, ax), hn::Mul(y, ay)), row(leaf.inverse, lane));
+    const V t = between(along, hn::Zero(d), hn::Set(d, 1.0));
+    const V u = hn::Sub(x, hn::Mul(t, ax)), v = hn::Sub(y, hn::Mul(t, ay));
+    return hn::Add(hn::Mul(u, u), hn::Mul(v, v));
+}
+inline V measure(const PieceLeaf<3>& leaf, std::size_t lane, const DVec<3>& point) {
+    const Doubles d;
+    const V zero = hn::Zero(d), one = hn::Set(d, 1.0);
+    const V px = hn::Sub(hn::Set(d, point.x), row(leaf.corner[0], lane));
+    const V py = hn::Sub(hn::Set(d, point.y), row(leaf.corner[1], lane));
+    const V pz = hn::Sub(hn::Set(d, point.z), row(leaf.corner[2], lane));
+    const auto along = [&](const std::array<PieceRow, 3>& axis) {
+        const V xy = hn::Add(hn::Mul(px, row(axis[0], lane)), hn::Mul(py, row(axis[1], lane)));
+        return hn::Add(xy, hn::Mul(pz, row(axis[2], lane)));
+    };
+    const V u = along(leaf.axis[0]), v = along(leaf.axis[1]), height = along(leaf.axis[2]);
+    // In the plane of the triangle: from its sides, and on the inner side of which of them.
+    const V length = row(leaf.length, lane), cx = row(leaf.x, lane), cy = row(leaf.y, lane);
+    const V beside = hn::Sub(u, between(u, zero, length));
+    V flat = hn::Add(hn::Mul(beside, beside), hn::Mul(v, v));
+    const auto from_side = [&](V from, V x, V inverse) {
+        const V t = between(hn::Mul(hn::Add(hn::Mul(from, x), hn::Mul(v, cy)), inverse), zero, one);
+        const V a = hn::Sub(from, hn::Mul(t, x)), b = hn::Sub(v, hn::Mul(t, cy));
+        return hn::Add(hn::Mul(a, a), hn::Mul(b, b));
+    };
+    const V w = hn::Sub(u, length), x = hn::Sub(cx, length);
+    flat = hn::Min(flat, from_side(u, cx, row(leaf.inverse_first, lane)));
+    flat = hn::Min(flat, from_side(w, x, row(leaf.inverse_second, lane)));
+    const auto inside = hn::And(hn::And(hn::Ge(v, zero), hn::Le(hn::Mul(cx, v), hn::Mul(cy, u))),
+                                hn::Ge(hn::Mul(x, v), hn::Mul(cy, w)));
+    return hn::Add(hn::Mul(height, height), hn::IfThenElse(inside, zero, flat));
+}
+
+/// The nearest so far.
+template <int D>
+class Search {
+public:
+    Search(const PieceTree<D>& tree, const DVec<D>& point)
+        : tree_(tree), point_(point), slack_(0x1p-40 * tree.spread) {}
+
+    std::uint32_t leaf() const { return leaf_; }
+    double squared() const { return squared_; }
+    /// What is farther need not be looked at, whatever its rounding. Squared.
+    double reach() const { return reach_; }
+    NearestPiece nearest() const { return {squared_, piece_}; }
+
+    void look_at(std::uint32_t leaf_number) {
+        const Doubles d;
+        const PieceLeaf<D>& leaf = tree_.leaves[leaf_number];
+        const V least = hn::Set(d, squared_);
+        for (std::size_t lane = 0; lane < piece_lanes; lane += hn::Lanes(d)) {
+            const V squares = measure(leaf, lane, point_);
+            if (hn::AllFalse(d, hn::Le(squares, least))) continue;
+            HWY_ALIGN double numbers[hn::MaxLanes(d)];
+            hn::Store(squares, d, numbers);
+            for (std::size_t i = 0; i < hn::Lanes(d); ++i) {
+                const std::uint32_t piece = leaf.piece[lane + i];
+                if (numbers[i] > squared_ || (numbers[i] == squared_ && piece >= piece_)) continue;
+                squared_ = numbers[i];
+                piece_ = piece;
+                leaf_ = leaf_number;
+            }
+        }
+        const double reach = std::sqrt(squared_) * (1 + 0x1p-40) + slack_;
+        reach_ = reach * reach;
+    }
+
+    /// From the root down, the nearer boxes first.
+    void look_everywhere() {
+        struct Waiting {
+            double squared;
+            std::uint32_t level, group;
+        };
+        std::array<Waiting, 7 * 11 + 1> stack;
+        std::size_t waiting = 0;
+        stack[waiting++] = {0, static_cast<std::uint32_t>(tree_.levels.size() - 1), 0};
+        while (waiting > 0) {
+            const Waiting next = stack[--waiting];
+            if (next.squared > reach_) continue;
+            HWY_ALIGN double squares[piece_lanes];
+            std::uint32_t bits = near(tree_.levels[next.level][next.group], squares);
+            std::array<Waiting, piece_lanes> found;
+            std::size_t count = 0;
+            for (; bits != 0; bits &= bits - 1) {
+                const auto lane = static_cast<std::uint32_t>(std::countr_zero(bits));
+                std::size_t place = count++;
+                for (; place > 0 && found[place - 1].squared < squares[lane]; --place) found[place] = found[place - 1];
+                found[place] = {squares[lane], next.level - 1, next.group * piece_lanes + lane};
+            }
+            if (next.level > 0) {
+                for (std::size_t i = 0; i < count; ++i) stack[waiting++] = found[i];
+            } else {
+                while (count-- > 0)
+                    if (found[count].squared <= reach_) look_at(found[count].group);
+            }
+        }
+    }
+
+private:
+    /// Which boxes are within reach, and the squares of how far away they are.
+    std::uint32_t near(const PieceBoxes<D>& boxes, double* squares) const {
+        const Doubles d;
+        const HalfFloats half;
+        std::uint32_t result = 0;
+        for (std::size_t lane = 0; lane < piece_lanes; lane += hn::Lanes(d)) {
+            V sum = hn::Zero(d);
+            for (std::size_t i = 0; i < D; ++i) {
+                const V at = hn::Set(d, point_[static_cast<int>(i)]);
+                const V below = hn::Sub(hn::PromoteTo(d, hn::LoadU(half, boxes.min[i].data() + lane)), at);
+                const V above = hn::Sub(at, hn::PromoteTo(d, hn::LoadU(half, boxes.max[i].data() + lane)));
+                const V gap = hn::Max(hn::Max(below, above), hn::Zero(d));
+                sum = hn::Add(sum, hn::Mul(gap, gap));
+            }
+            hn::Store(sum, d, squares + lane);
+            result |= bits_of(d, hn::Le(sum, hn::Set(d, reach_))) << lane;
+        }
+        return result;
+    }
+
+    const PieceTree<D>& tree_;
+    DVec<D> point_;
+    double slack_;
+    double squared_ = std::numeric_limits<double>::infinity(), reach_ = squared_;
+    std::uint32_t piece_ = 0xffffffff, leaf_ = 0;
+};
+
+/// Leaves with their boxes in rows.
+template <int D>
+class Candidates {
+public:
+    static constexpr std::uint32_t most = 512;
+
+    /// Those within reach of a box; false where they are too many. `middle` is in the box.
+    bool gather(const PieceTree<D>& tree, const DVec<D>& low, const DVec<D>& high, double reach, const DVec<D>& middle) {
+        count_ = 0;
+        const double size = reach + 2 * length(high - low);
+        to_unit_ = size > 0 && 1 / size < 1e300 ? 1 / size : 0;
+        struct Waiting {
+            std::uint32_t level, group;
+        };
+        std::array<Waiting, 7 * 11 + 1> stack;
+        std::size_t waiting = 0;
+        stack[waiting++] = {static_cast<std::uint32_t>(tree.levels.size() - 1), 0};
+        while (waiting > 0) {
+            const Waiting next = stack[--waiting];
+            const PieceBoxes<D>& boxes = tree.levels[next.level][next.group];
+            std::uint32_t bits = near(boxes, low, high, reach);
+            if (next.level > 0) {
+                for (; bits != 0; bits &= bits - 1)
+                    stack[waiting++] = {next.level - 1, next.group * piece_lanes + lowest(bits)};
+                continue;
+            }
+            for (; bits != 0; bits &= bits - 1) {
+                if (count_ == most) return false;
+                add(boxes, next.group, lowest(bits), middle);
+            }
+        }
+        for (std::uint32_t i = count_; i % piece_lanes != 0; ++i)
+            for (std::size_t k = 0; k < D; ++k) {
+                min_[k][i] = std::numeric_limits<float>::infinity();
+                max_[k][i] = -std::numeric_limits<float>::infinity();
+            }
+        return true;
+    }
+
+    /// Looks at all that is within reach of a sample, the way of which from the middle is told.
+    void search(Search<D>& search, const DVec<D>& way) const {
+        const Floats f;
+        std::array<hn::Vec<Floats>, D> at;
+        for (std::size_t k = 0; k < D; ++k)
+            at[k] = hn::Set(f, static_cast<float>(way[static_cast<int>(k)] * to_unit_));
+        hn::Vec<Floats> reach = hn::Set(f, in_float(search.reach()));
+        for (std::uint32_t first = 0; first < count_; first += piece_lanes) {
+            std::uint32_t bits = 0;
+            for (std::uint32_t lane = 0; lane < piece_lanes; lane += static_cast<std::uint32_t>(hn::Lanes(f))) {
+                hn::Vec<Floats> sum = hn::Zero(f);
+                for (std::size_t k = 0; k < D; ++k) {
+                    const auto below = hn::Sub(hn::Load(f, min_[k] + first + lane), at[k]);
+                    const auto above = hn::Sub(at[k], hn::Load(f, max_[k] + first + lane));
+                    const auto gap = hn::Max(hn::Max(below, above), hn::Zero(f));
+                    sum = hn::Add(sum, hn::Mul(gap, gap));
+                }
+                bits |= bits_of(f, hn::Le(sum, reach)) << lane;
+            }
+            if (bits == 0) continue;
+            for (; bits != 0; bits &= bits - 1) {
+                const std::uint32_t leaf = leaf_[first + lowest(bits)];
+                if (leaf != search.leaf()) search.look_at(leaf);
+            }
+            reach = hn::Set(f, in_float(search.reach()));
+        }
+    }
+
+private:
+    static std::uint32_t lowest(std::uint32_t bits) { return static_cast<std::uint32_t>(std::countr_zero(bits)); }
+    /// A little more than a squared distance is where the size of all is 1.
+    float in_float(double squared) const {
+        return static_cast<float>(squared * to_unit_ * to_unit_) * (1 + 0x1p-20f) + 0x1p-100f;
+    }
+
+    static std::uint32_t near(const PieceBoxes<D>& boxes, const DVec<D>& low, const DVec<D>& high, double reach) {
+        const Doubles d;
+        const HalfFloats half;
+        std::uint32_t result = 0;
+        for (std::size_t lane = 0; lane < piece_lanes; lane += hn::Lanes(d)) {
+            V sum = hn::Zero(d);
+            for (std::size_t i = 0; i < D; ++i) {
+                const int k = static_cast<int>(i);
+                const V below =
+                    hn::Sub(hn::PromoteTo(d, hn::LoadU(half, boxes.min[i].data() + lane)), hn::Set(d, high[k]));
+                const V above =
+                    hn::Sub(hn::Set(d, low[k]), hn::PromoteTo(d, hn::LoadU(half, boxes.max[i].data() + lane)));
+                const V gap = hn::Max(hn::Max(below, above), hn::Zero(d));
+                sum = hn::Add(sum, hn::Mul(gap, gap));
+            }
+            result |= bits_of(d, hn::Le(sum, hn::Set(d, reach * reach))) << lane;
+        }
+        return result;
+    }
+
+    /// Seen from the middle, where the size of all is 1, and a little wider than it is; what is farther away than that
+    /// is cut off.
+    void add(const PieceBoxes<D>& boxes, std::uint32_t group, std::uint32_t lane, const DVec<D>& middle) {
+        constexpr double wider = 0x1p-20;
+        for (std::size_t k = 0; k < D; ++k) {
+            const double at = middle[static_cast<int>(k)];
+            const double min = (static_cast<double>(boxes.min[k][lane]) - at) * to_unit_;
+            const double max = (static_cast<double>(boxes.max[k][lane]) - at) * to_unit_;
+            min_[k][count_] = static_cast<float>(std::max(min, -1.0) - wider);
+            max_[k][count_] = static_cast<float>(std::min(max, 1.0) + wider);
+        }
+        leaf_[count_++] = group * piece_lanes + lane;
+    }
+
+    std::uint32_t count_ = 0;
+    double to_unit_ = 1;
+    HWY_ALIGN float min_[D][most];
+    HWY_ALIGN float max_[D][most];
+    std::uint32_t leaf_[most];
+};
+
+template <int D>
+NearestPiece nearest_to_point(const PieceTree<D>& tree, const DVec<D>& point) {
+    Search<D> search(tree, point);
+    search.look_everywhere();
+    return search.nearest();
+}
+
+/// Samples of a block from some on, before others.
+template <int D>
+struct Part {
+    glm::vec<D, std::uint32_t> begin, end;
+};
+
+template <int D>
+void nearest_to_block(const PieceTree<D>& tree, const SampleLattice<D>& lattice, const SampleBlock<D>& block,
+                      NearestPiece* nearest) {
+    const auto at = [&](const glm::vec<D, std::uint32_t>& local) {
+        return lattice.at(block.first + local * block.stride);
+    };
+    const auto place = [&](const glm::vec<D, std::uint32_t>& local) {
+        std::size_t result = local[D - 1];
+        for (int i = D - 2; i >= 0; --i) result = result * block.count[i] + local[i];
+        return result;
+    };
+    Candidates<D> candidates;
+    std::array<Part<D>, 34> stack;
+    std::size_t waiting = 0;
+    stack[waiting++] = {glm::vec<D, std::uint32_t>(0u), block.count};
+    while (waiting > 0) {
+        const Part<D> part = stack[--waiting];
+        const DVec<D> low = at(part.begin), high = at(part.end - 1u), middle = (low + high) * 0.5;
+        Search<D> first(tree, middle);
+        first.look_everywhere();
+        if (low == high) {
+            nearest[place(part.begin)] = first.nearest();
+            continue;
+        }
+        const double reach = std::sqrt(first.reach()) + 0.5 * length(high - low) * (1 + 0x1p-40);
+        if (!candidates.gather(tree, low, high, reach, middle)) {
+            int axis = 0;
+            for (int i = 1; i < D; ++i)
+                if (part.end[i] - part.begin[i] > part.end[axis] - part.begin[axis]) axis = i;
+            Part<D> lower = part, upper = part;
+            lower.end[axis] = upper.begin[axis] = (part.begin[axis] + part.end[axis]) / 2;
+            stack[waiting++] = upper;
+            stack[waiting++] = lower;
+            continue;
+        }
+        // To and fro, so that each sample is beside the one before.
+        std::uint32_t leaf = first.leaf();
+        glm::vec<D, std::uint32_t> local = part.begin;
+        glm::vec<D, bool> back(false);
+        for (;;) {
+            Search<D> search(tree, at(local));
+            search.look_at(leaf);
+            candidates.search(search, at(local) - middle);
+            nearest[place(local)] = search.nearest();
+            leaf = search.leaf();
+            int axis = 0;
+            for (; axis < D; ++axis) {
+                if (back[axis] ? local[axis] > part.begin[axis] : local[axis] + 1 < part.end[axis]) break;
+                back[axis] = !back[axis];
+            }
+            if (axis == D) break;
+            local[axis] += back[axis] ? 0xffffffffu : 1u;
+        }
+    }
+}
+
+NearestPiece nearest_to_point2(const PieceTree<2>& tree, const DVec<2>& point) {
+    return nearest_to_point(tree, point);
+}
+NearestPiece nearest_to_point3(const PieceTree<3>& tree, const DVec<3>& point) {
+    return nearest_to_point(tree, point);
+}
+void nearest_to_block2(const PieceTree<2>& tree, const SampleLattice<2>& lattice, const SampleBlock<2>& block,
+                       NearestPiece* nearest) {
+    nearest_to_block(tree, lattice, block, nearest);
+}
+void nearest_to_block3(const PieceTree<3>& tree, const SampleLattice<3>& lattice, const SampleBlock<3>& block,
+                       NearestPiece* nearest) {
+    nearest_to_block(tree, lattice, block, nearest);
+}
+
+}  // namespace abut::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace abut {
+
+HWY_EXPORT(nearest_to_point2);
+HWY_EXPORT(nearest_to_point3);
+HWY_EXPORT(nearest_to_block2);
+HWY_EXPORT(nearest_to_block3);
+
+template <>
+NearestPiece nearest_piece(const PieceTree<2>& tree, const DVec<2>& point) {
+    return HWY_DYNAMIC_DISPATCH(nearest_to_point2)(tree, point);
+}
+template <>
+NearestPiece nearest_piece(const PieceTree<3>& tree, const DVec<3>& point) {
+    return HWY_DYNAMIC_DISPATCH(nearest_to_point3)(tree, point);
+}
+template <>
+void nearest_pieces(const PieceTree<2>& tree, const SampleLattice<2>& lattice, const SampleBlock<2>& block,
+                    NearestPiece* nearest) {
+    HWY_DYNAMIC_DISPATCH(nearest_to_block2)(tree, lattice, block, nearest);
+}
+template <>
+void nearest_pieces(const PieceTree<3>& tree, const SampleLattice<3>& lattice, const SampleBlock<3>& block,
+                    NearestPiece* nearest) {
+    HWY_DYNAMIC_DISPATCH(nearest_to_block3)(tree, lattice, block, nearest);
+}
+
+}  // namespace abut
+#endif
