@@ -2,6 +2,7 @@
 #include <abut/field/field_batch.hpp>
 #include <abut/field/field_check.hpp>
 #include <abut/field/field_look_up.hpp>
+#include <abut/field/packed_direction.hpp>
 #include <abut/math/assert.hpp>
 
 #include <cmath>
@@ -42,6 +43,9 @@ FieldFrame<D> frame_of(const FieldData<D>& data) {
 template <int D>
 Field<D>::Field(FieldData<D> data) {
     if (data.steps.empty()) data.step = 0;
+    if (data.lookup == FieldLookup::gradient)
+        for (const Vec<D>& gradient : data.gradient) data.direction.push_back(packed(gradient));
+    data.gradient = {};
     data.frame = frame_of(data);
     ABUT_ASSERT(fault_of(data) == nullptr);
     data_ = std::make_shared<const FieldData<D>>(std::move(data));
@@ -80,7 +84,7 @@ template <int D>
 std::size_t Field<D>::bytes() const {
     const auto size = [](const auto& numbers) { return numbers.size() * sizeof(numbers[0]); };
     const FieldData<D>& data = *data_;
-    return size(data.brick) + size(data.coarse) + size(data.distance) + size(data.steps) + size(data.gradient) +
+    return size(data.brick) + size(data.coarse) + size(data.distance) + size(data.steps) + size(data.direction) +
            size(data.closest);
 }
 
@@ -93,7 +97,9 @@ Aabb<D> bounds(const Field<D>& field) {
     const Aabb<D> volume = volume_of(data);
     for (int a = 0; a < D; ++a) {
         const float size = std::max(std::abs(volume.min[a]), std::abs(volume.max[a]));
-        const float doubt = 0.5f * data.step + 0x1p-20f * size;
+        // With gradients it is off by a fraction of a cell.
+        const float around = data.lookup == FieldLookup::gradient ? data.cell : 0;
+        const float doubt = 0.5f * data.step + 0x1p-20f * size + around;
         result.min[a] = std::max(result.min[a] - doubt, volume.min[a]);
         result.max[a] = std::min(result.max[a] + doubt, volume.max[a]);
         if (!(result.min[a] <= result.max[a])) return Aabb<D>::empty();

@@ -301,6 +301,10 @@ void look_up(const FieldData<D>& data, const Vec<D>* points, std::size_t count, 
 
 template <int D, class Out>
 void look_up_all(const FieldData<D>& data, const Vec<D>* points, std::size_t count, Out* out) {
+    if (data.lookup == FieldLookup::gradient) {
+        for (std::size_t i = 0; i < count; ++i) look_up(data, points[i], out[i]);
+        return;
+    }
     const bool sparse = data.store == FieldStore::sparse;
     if (data.steps.empty())
         sparse ? look_up<D, float, true>(data, points, count, out) : look_up<D, float, false>(data, points, count, out);

@@ -67,7 +67,7 @@ void each_array(Data& data, Take take) {
     take(data.coarse);
     take(data.distance);
     take(data.steps);
-    take(data.gradient);
+    take(data.direction);
     take(data.closest);
 }
 

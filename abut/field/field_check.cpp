@@ -48,8 +48,7 @@ const char* fault_of(const FieldData<D>& data) {
     if (samples > std::uint64_t{1} << 31) return "there are more than 2^31 samples";
     if (!data.steps.empty() && !data.distance.empty()) return "the distances are there twice";
     if (!data.steps.empty() && !(data.step > 0 && data.step < most)) return "the step is no length";
-    if (data.lookup == FieldLookup::gradient ? data.gradient.size() != samples
-                                             : !data.gradient.empty() && data.gradient.size() != samples)
+    if (data.direction.size() != (data.lookup == FieldLookup::gradient ? samples : 0) || !data.gradient.empty())
         return "there aren't as many gradients as samples";
     if (!data.closest.empty() && data.closest.size() != samples)
         return "there aren't as many closest points as samples";

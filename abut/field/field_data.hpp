@@ -22,7 +22,7 @@ enum class FieldStore : std::uint8_t {
 /// How what lies between samples is told from them.
 enum class FieldLookup : std::uint8_t {
     linear,    ///< from the distances at a cell's corners
-    gradient,  ///< from the distances and their gradients there
+    gradient,  ///< from the distances and their gradients there, where there are bricks; else linear
 };
 
 /// As many cells a side has a brick.
@@ -78,8 +78,11 @@ struct FieldData {
     std::vector<std::int16_t> steps;
     float step = 0;  ///< 0 where there are none
 
-    /// As `distance`, where wanted, else empty: the gradient, of length 1, and the closest point of the surface.
+    /// As `distance`, where wanted, else empty: the gradient, of length 1. A field packs them into `direction`.
     std::vector<Vec<D>> gradient;
+    /// The same in 16 bits.
+    std::vector<std::uint16_t> direction;
+    /// As `distance`, where wanted, else empty: the closest point of the surface.
     std::vector<Vec<D>> closest;
 
     FieldFrame<D> frame;  ///< the field sees to it

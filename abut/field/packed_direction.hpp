@@ -1,0 +1,52 @@
+#pragma once
+
+// Directions in 16 bits: octahedral, after Meyer, Suessmuth, Sussner, Stamminger and Greiner (2010): "On floating-point
+// normal vectors". In space right to 0.95 degrees, in the plane to 0.004. For .cpp files.
+
+#include <abut/math/vec.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace abut {
+
+/// Of a vector that isn't zero.
+inline std::uint16_t packed(const Vec2& v) {
+    const float along = v.x / (std::abs(v.x) + std::abs(v.y));
+    const float steps = std::clamp(std::floor(along * 16383.0f + 0.5f), -16383.0f, 16383.0f);
+    return static_cast<std::uint16_t>((static_cast<std::int32_t>(steps) + 16384) << 1 | (v.y < 0 ? 1 : 0));
+}
+inline Vec2 unpacked2(std::uint16_t bits) {
+    const float x = static_cast<float>((bits >> 1) - 16384) * (1.0f / 16383);
+    const float y = (bits & 1) != 0 ? std::abs(x) - 1 : 1 - std::abs(x);
+    const float inverse = 1 / std::sqrt(x * x + y * y);
+    return {x * inverse, y * inverse};
+}
+
+inline std::uint16_t packed(const Vec3& v) {
+    const float sum = std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
+    float x = v.x / sum, y = v.y / sum;
+    if (v.z < 0) {
+        const float folded = std::copysign(1 - std::abs(y), x);
+        y = std::copysign(1 - std::abs(x), y);
+        x = folded;
+    }
+    const auto steps = [](float part) {
+        return static_cast<std::int32_t>(std::clamp(std::floor(part * 127.0f + 0.5f), -127.0f, 127.0f)) & 255;
+    };
+    return static_cast<std::uint16_t>(steps(x) | steps(y) << 8);
+}
+inline Vec3 unpacked3(std::uint16_t bits) {
+    float x = static_cast<float>(static_cast<std::int8_t>(bits & 255)) * (1.0f / 127);
+    float y = static_cast<float>(static_cast<std::int8_t>(bits >> 8)) * (1.0f / 127);
+    const float z = 1 - std::abs(x) - std::abs(y);
+    // Below, the corners of the square are folded back.
+    const float fold = std::max(-z, 0.0f);
+    x = x - std::copysign(fold, x);
+    y = y - std::copysign(fold, y);
+    const float inverse = 1 / std::sqrt(x * x + y * y + z * z);
+    return {x * inverse, y * inverse, z * inverse};
+}
+
+}  // namespace abut
