@@ -190,19 +190,58 @@ TEST(Field, NothingSolidIsOutsideOfItsBounds) {
     }
 }
 
-/// By walking down, from inside and outside.
+/// By walking down, from inside and outside; and by the corners' closest points.
 TEST(Field, ClosestIsOnTheSurface) {
     const Analytic<3> solid = torus({0, 0, 0}, 2, 1);
-    const Field3 field(filled_around<3>(solid, 0.1f, 3));
-    Random random(53);
-    for (int i = 0; i < 5000; ++i) {
-        const Vec3 point = anywhere<3>(random, field.volume());
-        const Vec3 found = field.closest(point);
-        ASSERT_LT(std::abs(solid.distance(DVec<3>(found))), 0.01);
-        // No farther than the closest point by more than what the interpolation leaves, but at the torus' axis and
-        // ring, where there are many.
-        ASSERT_LT(length(DVec<3>(found) - DVec<3>(point)), std::abs(solid.distance(DVec<3>(point))) + 0.1);
+    for (const bool stored : {false, true})
+        for (const FieldStore store : {FieldStore::dense, FieldStore::sparse}) {
+            FillOptions options;
+            options.closest_points = stored;
+            options.store = store;
+            options.band = 1;
+            const Field3 field(filled_around<3>(solid, 0.1f, 3, options));
+            Random random(53);
+            for (int i = 0; i < 3000; ++i) {
+                const Vec3 point = anywhere<3>(random, field.volume());
+                const Vec3 found = field.closest(point);
+                ASSERT_LT(std::abs(solid.distance(DVec<3>(found))), 0.01);
+                // No farther than the closest point by more than what the interpolation leaves, but at the torus' axis
+                // and ring, where there are many.
+                const double distance = std::abs(solid.distance(DVec<3>(point)));
+                ASSERT_LT(length(DVec<3>(found) - DVec<3>(point)), distance + (store == FieldStore::dense ? 0.1 : 0.3));
+            }
+        }
+}
+
+/// Where there are closest points, edges and corners are found that the interpolated distance rounds off.
+TEST(Field, ClosestFindsEdgesByTheCornersOfCells) {
+    const Analytic<3> solid = turned(box<3>({0, 0, 0}, {2, 1, 0.5}), {1, 2, 3}, {0, 1, 0});
+    FillOptions options;
+    options.closest_points = true;
+    const FieldData<3> data = filled_around<3>(solid, 0.1f, 3, options);
+    FieldData<3> bare = data;
+    bare.closest = {};
+    const Field3 stored(data), walking(bare);
+    EXPECT_GT(stored.bytes(), 3.9 * static_cast<double>(walking.bytes()));
+    Random random(59);
+    double stored_error = 0, walking_error = 0;
+    int near = 0;
+    while (near < 5000) {
+        const Vec3 point = anywhere<3>(random, stored.volume());
+        const DVec<3> place(point);
+        const double distance = solid.distance(place);
+        if (std::abs(distance) > 0.2) continue;
+        ++near;
+        const auto error = [&](const Field3& field) {
+            const DVec<3> found(field.closest(point));
+            const double off = solid.distance(found), farther = length(found - place) - std::abs(distance);
+            return off * off + farther * farther;
+        };
+        stored_error += error(stored);
+        walking_error += error(walking);
+        ASSERT_LT(std::abs(solid.distance(DVec<3>(stored.closest(point)))), 0.04);
     }
+    EXPECT_LT(stored_error, 0.1 * walking_error);
 }
 
 }  // namespace
