@@ -92,21 +92,25 @@ Result<FieldSurface> field_surface(std::span<const Vec3> points, std::span<const
 
     FieldSurface result;
     result.mesh = weld(points, triangles);
-    const std::vector<glm::uvec3> as_they_came = result.mesh.triangles;
-    wind_alike(result.mesh);
+    Rims rims = rims_of(result.mesh.triangles);
+    if (rims.edges > 0) {
+        const std::vector<glm::uvec3> as_they_came = result.mesh.triangles;
+        wind_alike(result.mesh);
+        for (std::size_t i = 0; i < as_they_came.size(); ++i)
+            result.rewound += result.mesh.triangles[i] != as_they_came[i];
+        if (result.rewound > 0) rims = rims_of(result.mesh.triangles);
+    }
+    result.gaps = rims.edges;
+    result.cap = cap_of(rims.rims, result.mesh.points.size());
+
     const std::vector<Vec3>& corners = result.mesh.points;
-    for (std::uint32_t i = 0; i < as_they_came.size(); ++i) {
+    for (std::uint32_t i = 0; i < result.mesh.triangles.size(); ++i) {
         const glm::uvec3& t = result.mesh.triangles[i];
-        result.rewound += t != as_they_came[i];
         if (on_line(corners[t.x], corners[t.y], corners[t.z])) continue;
         result.solid.push_back(i);
         for (int k = 0; k < 3; ++k) result.box = merged(result.box, Aabb3{corners[t[k]], corners[t[k]]});
     }
     if (result.solid.empty()) return Problem{ProblemCode::empty_input, "no triangle of the mesh has an area", 0};
-
-    const Rims rims = rims_of(result.mesh.triangles);
-    result.gaps = rims.edges;
-    result.cap = cap_of(rims.rims, corners.size());
     return result;
 }
 

@@ -6,15 +6,24 @@
 namespace abut {
 
 std::vector<HalfEdge> sorted_half_edges(std::span<const glm::uvec3> triangles) {
-    std::vector<HalfEdge> result;
-    result.reserve(3 * triangles.size());
-    for (std::uint32_t side = 0; side < 3 * triangles.size(); ++side) {
+    // Into rows by their lower ends first: what is left to sort is a few of each.
+    std::uint32_t points = 0;
+    for (const glm::uvec3& t : triangles) points = std::max({points, t.x + 1, t.y + 1, t.z + 1});
+    std::vector<std::size_t> row(std::size_t{points} + 2, 0);
+    const auto sides = static_cast<std::uint32_t>(3 * triangles.size());
+    for (std::uint32_t side = 0; side < sides; ++side)
+        ++row[std::size_t{std::min(start_of(triangles, side), end_of(triangles, side))} + 2];
+    for (std::size_t i = 2; i < row.size(); ++i) row[i] += row[i - 1];
+    std::vector<HalfEdge> result(sides);
+    for (std::uint32_t side = 0; side < sides; ++side) {
         const std::uint32_t from = start_of(triangles, side), to = end_of(triangles, side);
-        result.push_back({std::min(from, to), std::max(from, to), side, from < to});
+        result[row[std::size_t{std::min(from, to)} + 1]++] = {std::min(from, to), std::max(from, to), side, from < to};
     }
-    std::sort(result.begin(), result.end(), [](const HalfEdge& a, const HalfEdge& b) {
-        return std::tie(a.low, a.high, a.side) < std::tie(b.low, b.high, b.side);
-    });
+    const auto at = [&](std::size_t i) { return result.begin() + static_cast<std::ptrdiff_t>(i); };
+    for (std::size_t i = 0; i + 1 < row.size(); ++i)
+        std::sort(at(row[i]), at(row[i + 1]), [](const HalfEdge& a, const HalfEdge& b) {
+            return std::tie(a.high, a.side) < std::tie(b.high, b.side);
+        });
     return result;
 }
 

@@ -36,7 +36,8 @@ inline std::uint32_t end_of(std::span<const glm::uvec3> triangles, std::uint32_t
     return start_of(triangles, next_side(side));
 }
 
-/// Sorted by their ends, then by their sides: those of one edge stand together. O(n log n).
+/// Sorted by their ends, then by their sides: those of one edge stand together. Memory grows with the largest number of
+/// a point; O(n) where few triangles meet at each.
 std::vector<HalfEdge> sorted_half_edges(std::span<const glm::uvec3> triangles);
 
 /// Whether some triangle has the edge.
