@@ -3,8 +3,8 @@
 // A block of samples first gathers the leaves that can be nearest to any of them: no sample is farther from the surface
 // than the block's middle by more than it is away from there. The boxes of these leaves then stand in rows, relative to
 // the middle, and each sample looks at the rows, eight boxes at a time in float, and measures in double what is in
-// those that are near enough. Neighbours mostly have the same nearest piece: each sample begins with the leaf of the
-// one before.
+// those that are near enough; where there are too many leaves it goes down the tree by itself. Neighbours mostly have
+// the same nearest piece: each sample begins with the leaf of the one before.
 
 #include <abut/bake/field_nearest.hpp>
 
@@ -178,10 +178,11 @@ private:
 template <int D>
 class Candidates {
 public:
-    static constexpr std::uint32_t most = 512;
+    static constexpr std::uint32_t most = 256;
 
     /// Those within reach of a box; false where they are too many. `middle` is in the box.
-    bool gather(const PieceTree<D>& tree, const DVec<D>& low, const DVec<D>& high, double reach, const DVec<D>& middle) {
+    bool gather(const PieceTree<D>& tree, const DVec<D>& low, const DVec<D>& high, double reach,
+                const DVec<D>& middle) {
         count_ = 0;
         const double size = reach + 2 * length(high - low);
         to_unit_ = size > 0 && 1 / size < 1e300 ? 1 / size : 0;
@@ -217,8 +218,7 @@ public:
     void search(Search<D>& search, const DVec<D>& way) const {
         const Floats f;
         std::array<hn::Vec<Floats>, D> at;
-        for (std::size_t k = 0; k < D; ++k)
-            at[k] = hn::Set(f, static_cast<float>(way[static_cast<int>(k)] * to_unit_));
+        for (std::size_t k = 0; k < D; ++k) at[k] = hn::Set(f, static_cast<float>(way[static_cast<int>(k)] * to_unit_));
         hn::Vec<Floats> reach = hn::Set(f, in_float(search.reach()));
         for (std::uint32_t first = 0; first < count_; first += piece_lanes) {
             std::uint32_t bits = 0;
@@ -296,65 +296,40 @@ NearestPiece nearest_to_point(const PieceTree<D>& tree, const DVec<D>& point) {
     return search.nearest();
 }
 
-/// Samples of a block from some on, before others.
-template <int D>
-struct Part {
-    glm::vec<D, std::uint32_t> begin, end;
-};
-
 template <int D>
 void nearest_to_block(const PieceTree<D>& tree, const SampleLattice<D>& lattice, const SampleBlock<D>& block,
                       NearestPiece* nearest) {
-    const auto at = [&](const glm::vec<D, std::uint32_t>& local) {
-        return lattice.at(block.first + local * block.stride);
-    };
-    const auto place = [&](const glm::vec<D, std::uint32_t>& local) {
-        std::size_t result = local[D - 1];
-        for (int i = D - 2; i >= 0; --i) result = result * block.count[i] + local[i];
-        return result;
-    };
+    using Counts = glm::vec<D, std::uint32_t>;
+    const auto at = [&](const Counts& local) { return lattice.at(block.first + local * block.stride); };
+    const DVec<D> low = at(Counts(0u)), high = at(block.count - 1u), middle = (low + high) * 0.5;
+    Search<D> first(tree, middle);
+    first.look_everywhere();
+    const double reach = std::sqrt(first.reach()) + 0.5 * length(high - low) * (1 + 0x1p-40);
     Candidates<D> candidates;
-    std::array<Part<D>, 34> stack;
-    std::size_t waiting = 0;
-    stack[waiting++] = {glm::vec<D, std::uint32_t>(0u), block.count};
-    while (waiting > 0) {
-        const Part<D> part = stack[--waiting];
-        const DVec<D> low = at(part.begin), high = at(part.end - 1u), middle = (low + high) * 0.5;
-        Search<D> first(tree, middle);
-        first.look_everywhere();
-        if (low == high) {
-            nearest[place(part.begin)] = first.nearest();
-            continue;
-        }
-        const double reach = std::sqrt(first.reach()) + 0.5 * length(high - low) * (1 + 0x1p-40);
-        if (!candidates.gather(tree, low, high, reach, middle)) {
-            int axis = 0;
-            for (int i = 1; i < D; ++i)
-                if (part.end[i] - part.begin[i] > part.end[axis] - part.begin[axis]) axis = i;
-            Part<D> lower = part, upper = part;
-            lower.end[axis] = upper.begin[axis] = (part.begin[axis] + part.end[axis]) / 2;
-            stack[waiting++] = upper;
-            stack[waiting++] = lower;
-            continue;
-        }
-        // To and fro, so that each sample is beside the one before.
-        std::uint32_t leaf = first.leaf();
-        glm::vec<D, std::uint32_t> local = part.begin;
-        glm::vec<D, bool> back(false);
-        for (;;) {
-            Search<D> search(tree, at(local));
-            search.look_at(leaf);
+    const bool few = candidates.gather(tree, low, high, reach, middle);
+
+    // To and fro, so that each sample is beside the one before.
+    std::uint32_t leaf = first.leaf();
+    Counts local(0u);
+    glm::vec<D, bool> back(false);
+    for (;;) {
+        Search<D> search(tree, at(local));
+        search.look_at(leaf);
+        if (few)
             candidates.search(search, at(local) - middle);
-            nearest[place(local)] = search.nearest();
-            leaf = search.leaf();
-            int axis = 0;
-            for (; axis < D; ++axis) {
-                if (back[axis] ? local[axis] > part.begin[axis] : local[axis] + 1 < part.end[axis]) break;
-                back[axis] = !back[axis];
-            }
-            if (axis == D) break;
-            local[axis] += back[axis] ? 0xffffffffu : 1u;
+        else
+            search.look_everywhere();
+        std::size_t place = local[D - 1];
+        for (int i = D - 2; i >= 0; --i) place = place * block.count[i] + local[i];
+        nearest[place] = search.nearest();
+        leaf = search.leaf();
+        int axis = 0;
+        for (; axis < D; ++axis) {
+            if (back[axis] ? local[axis] > 0 : local[axis] + 1 < block.count[axis]) break;
+            back[axis] = !back[axis];
         }
+        if (axis == D) return;
+        local[axis] += back[axis] ? 0xffffffffu : 1u;
     }
 }
 
