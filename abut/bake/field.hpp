@@ -66,7 +66,7 @@ struct FieldOptions {
 /// round against their neighbours are turned before. Where each edge is run along as often one way as the other it is a
 /// whole number, whatever crosses, overlaps or is inside out. Else it is that of Jacobson, Kavan and Sorkine-Hornung
 /// (2013): "Robust inside-outside segmentation using generalized winding numbers", which closes holes smoothly; a sheet
-/// alone encloses nothing, and every sample is outside. Points in exactly the same place are one.
+/// alone encloses nothing but what it bends round. Points in exactly the same place are one.
 ///
 /// A Problem where no triangle with an area is left (`empty_input`), an index names no point (`index_out_of_range`,
 /// with the triangle's number), a point is NaN or infinite (`not_finite`), an option is outside of its limits
@@ -75,6 +75,16 @@ struct FieldOptions {
 Result<Field<3>> bake_field(std::span<const Vec3> points, std::span<const glm::uvec3> triangles,
                             const FieldOptions<3>& options = {});
 Result<Field<3>> bake_field(const Mesh& mesh, const FieldOptions<3>& options = {});
+
+/// The field of a mesh that has changed, from the one of how it was: the same samples, bit by bit, as baking all of it
+/// at the same places gives, in a time that depends on how far the change is felt. `changed` holds all triangles that
+/// were taken away, moved or added, as they were and as they are; the others are still in the same order. `options` are
+/// those that the field was baked with, but for `padding` and `volume`, which stay as they were (else `bad_argument`).
+/// Where the mesh has gaps, or the field 16 bits, all of it is baked; the mesh as it was had no gaps either.
+Result<Field<3>> rebake_field(const Field<3>& field, const Aabb3& changed, std::span<const Vec3> points,
+                              std::span<const glm::uvec3> triangles, const FieldOptions<3>& options = {});
+Result<Field<3>> rebake_field(const Field<3>& field, const Aabb3& changed, const Mesh& mesh,
+                              const FieldOptions<3>& options = {});
 
 /// The same of the inside of closed outlines in the plane: an outline and its holes, each without its first point
 /// again, in either direction, crossing or not. A place is inside where it is inside of the outline and of no hole; and

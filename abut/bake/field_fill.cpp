@@ -1,5 +1,6 @@
 #include <abut/bake/field_fill.hpp>
 #include <abut/bake/field_grid.hpp>
+#include <abut/field/quantise.hpp>
 #include <abut/math/dvec.hpp>
 
 #include <algorithm>
@@ -294,6 +295,7 @@ Result<Field<D>> fill_field(FieldData<D> grid, const SampleSource<D>& source, co
         if (!sparse) return sparse.problem();
         grid = *std::move(sparse);
     }
+    if (options.quantised) quantise(grid);
     report.samples = grid.samples() + grid.coarse.size();
     if (!work.finish()) return FieldWork::cancelled();
     Field<D> field(std::move(grid));

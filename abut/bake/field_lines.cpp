@@ -7,20 +7,11 @@
 
 namespace abut {
 
-std::uint32_t SampleLines::first_behind(int axis, double place) const {
-    const std::uint32_t count = samples_[axis];
-    const double guess = std::ceil((place - lattice_.origin[axis]) / lattice_.cell);
-    auto result = static_cast<std::uint32_t>(std::clamp(guess, 0.0, static_cast<double>(count)));
-    while (result > 0 && lattice_.along(axis, result - 1) >= place) --result;
-    while (result < count && lattice_.along(axis, result) < place) ++result;
-    return result;
-}
-
 SampleLines::Range SampleLines::range(const glm::uvec3& triangle, int axis) const {
     const float a = points_[triangle.x][axis], b = points_[triangle.y][axis], c = points_[triangle.z][axis];
     const auto least = static_cast<double>(std::min(std::min(a, b), c)),
                most = static_cast<double>(std::max(std::max(a, b), c));
-    Range result{first_behind(axis, least), 0};
+    Range result{first_behind(lattice_, axis, least, samples_[axis]), 0};
     result.end = result.begin;
     while (result.end < samples_[axis] && lattice_.along(axis, result.end) <= most) ++result.end;
     return result;
@@ -45,7 +36,7 @@ std::optional<LineCrossing> SampleLines::crossing(const glm::uvec3& t, std::uint
     double place = a.x - (normal.y * (line.x - a.y) + normal.z * (line.y - a.z)) / normal.x;
     const double least = std::min(std::min(a.x, b.x), c.x), most = std::max(std::max(a.x, b.x), c.x);
     place = place > least ? std::min(place, most) : least;
-    return LineCrossing{first_behind(0, place), -turn};
+    return LineCrossing{first_behind(lattice_, 0, place, samples_.x), -turn};
 }
 
 LineCounts::LineCounts(const SampleLines& lines, std::span<const std::span<const glm::uvec3>> surfaces)

@@ -54,8 +54,6 @@ private:
     };
     /// The samples of an axis that are nowhere beside the triangle.
     Range range(const glm::uvec3& triangle, int axis) const;
-    /// The first sample at a place or behind it.
-    std::uint32_t first_behind(int axis, double place) const;
     int side(std::uint32_t from, std::uint32_t to, const DVec<2>& line) const;
 
     std::span<const Vec3> points_;

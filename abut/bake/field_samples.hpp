@@ -5,6 +5,8 @@
 #include <abut/math/dvec.hpp>
 #include <abut/math/vec.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -23,6 +25,16 @@ struct SampleLattice {
         return result;
     }
 };
+
+/// The first of `count` samples along an axis that is at a place or behind it; else `count`.
+template <int D>
+std::uint32_t first_behind(const SampleLattice<D>& lattice, int axis, double place, std::uint32_t count) {
+    const double guess = std::ceil((place - lattice.origin[axis]) / lattice.cell);
+    auto result = static_cast<std::uint32_t>(std::clamp(guess, 0.0, static_cast<double>(count)));
+    while (result > 0 && lattice.along(axis, result - 1) >= place) --result;
+    while (result < count && lattice.along(axis, result) < place) ++result;
+    return result;
+}
 
 /// As many samples along an axis has a block at most, so that places for a whole one can wait on the stack.
 template <int D>

@@ -9,15 +9,17 @@ namespace abut {
 template <int D>
 void quantise(FieldData<D>& data) {
     if (!data.steps.empty()) return;
-    constexpr float most_steps = std::numeric_limits<std::int16_t>::max();
+    constexpr double most_steps = std::numeric_limits<std::int16_t>::max();
     float most = 0;
     for (const float distance : data.distance) most = std::max(most, std::abs(distance));
     // Where there are no distances, or those that are can't be told from 0, any step will do.
-    const float step = most / most_steps > 0x1p-100f ? most / most_steps : data.cell;
+    const auto least = static_cast<float>(static_cast<double>(most) / most_steps);
+    const float step = least > 0x1p-100f ? least : data.cell;
     data.step = step;
     data.steps.reserve(data.distance.size());
     for (const float distance : data.distance) {
-        const float steps = std::clamp(std::floor(distance / step + 0.5f), -most_steps, most_steps);
+        const double whole = std::floor(static_cast<double>(distance) / static_cast<double>(step) + 0.5);
+        const double steps = std::clamp(whole, -most_steps, most_steps);
         data.steps.push_back(static_cast<std::int16_t>(steps));
     }
     data.distance = {};
