@@ -127,16 +127,12 @@ public:
     }
 
     DistanceKnown run(DistanceBound<D>& bound) {
-        // What rounding brings out of the volume is still in it.
-        constexpr double rounding = 1e-3;
         Cell<D> low, high;
         std::int64_t cells = 1;
         bool is_small = true;
         for (int a = 0; a < D; ++a) {
             const std::int32_t last = data_.frame.last[a];
-            if (!(low_[a] >= -rounding && high_[a] <= last + 1 + rounding)) return DistanceKnown::nothing;
-            low_[a] = std::clamp(low_[a], 0.0, last + 1.0);
-            high_[a] = std::clamp(high_[a], 0.0, last + 1.0);
+            if (!(low_[a] >= 0 && high_[a] <= last + 1)) return DistanceKnown::nothing;
             low[a] = std::min(static_cast<std::int32_t>(low_[a]), last);
             high[a] = std::max(std::min(static_cast<std::int32_t>(std::ceil(high_[a])) - 1, last), low[a]);
             if (high[a] - low[a] >= most_cells<D>) return DistanceKnown::in_smaller_boxes;

@@ -146,8 +146,16 @@ Measured<D> measured(const Convex<D>& a, const DistanceFunction<D>& b, const DVe
     Convex<D> core = a;
     core.radius = 0;
     const DVec<D> deepest = on_a - normal * a.radius;
-    const double there = FunctionThere<D>(b).at(deepest);
-    return {there - a.radius, outside(core, deepest), deepest + normal * std::clamp(there, 0.0, a.radius)};
+    const FunctionThere<D> function(b);
+    const double there = function.at(deepest);
+    // Down from there, as far as the radius goes.
+    DVec<D> common = deepest;
+    double rest = there;
+    for (int i = 0; i < 8 && rest > 0; ++i) {
+        common -= function.normal(common, function.step(common, 1e-2 * rest)) * rest;
+        rest = function.at(common);
+    }
+    return {there - a.radius, outside(core, deepest), common};
 }
 template <int D>
 Measured<D> measured(const DistanceFunction<D>& a, const Solid<D>& b, const DVec<D>& on_a, const DVec<D>&, double) {
@@ -169,7 +177,7 @@ requires FunctionPair<A, B> Certificate<D> certificate(const A& a, const B& b, c
     const DVec<D> on_a(answer.on_a), on_b(answer.on_b), normal = normalized(DVec<D>(answer.normal));
     const double distance = static_cast<double>(answer.distance);
     Certificate<D> result;
-    result.margin = function_margin(a, b);
+    result.margin = function_doubt(a, b);
     if (!std::isfinite(distance)) return result;
     const Measured<D> told = measured(a, b, on_a, normal, distance);
     const double none = -std::numeric_limits<double>::infinity();

@@ -134,7 +134,7 @@ SignedDistance<D> from_convex(const Convex<D>& set, const DistanceFunction<D>& f
 /// Of a function and a half-space.
 template <int D>
 SignedDistance<D> over_solid(const DistanceFunction<D>& function, const Solid<D>& solid, const DVec<D>& normal,
-                             double tolerance, const DistanceWanted& wanted, int most_boxes) {
+                             double tolerance, double off, const DistanceWanted& wanted, int most_boxes) {
     if (has_nothing(function.bounds)) return nothing_near<D>();
     const bool has_bounds = is_bounded(function.bounds);
     ABUT_ASSERT(has_bounds);
@@ -146,6 +146,7 @@ SignedDistance<D> over_solid(const DistanceFunction<D>& function, const Solid<D>
     const double height = dot(solid.normal, frame.offset) - solid.offset;
     LeastOptions<D> options;
     options.tolerance = tolerance;
+    options.off = off;
     options.most_boxes = most_boxes;
     options.enough = wanted.enough - height;
     options.reach = wanted.reach - height;
@@ -253,8 +254,9 @@ Manifold<D> points_on_plane(const DistanceFunction<D>& function, const Solid<D>&
     candidates.points[0].depth = -distance.distance;
     std::uint32_t name = 1;
     for (const DVec<D>& aside : around<D>(solid.normal)) {
-        const SignedDistance<D> leaning = over_solid(function, solid, normalized(solid.normal + aside * lean),
-                                                     leaning_tolerance * size(function), {}, most_boxes_leaning);
+        const SignedDistance<D> leaning =
+            over_solid(function, solid, normalized(solid.normal + aside * lean), leaning_tolerance * size(function),
+                       search_tolerance * doubt, {}, most_boxes_leaning);
         if (leaning.distance <= margin + slack) add(leaning.on_a, leaning.distance, name);
         ++name;
     }
@@ -276,6 +278,26 @@ double function_margin(const A& a, const B& b) {
 }
 
 template <class A, class B>
+requires FunctionPair<A, B>
+double function_doubt(const A& a, const B& b) {
+    constexpr int D = PartDimension<A>::value;
+    const double margin = function_margin(a, b), smaller = std::min(finite_size(a), finite_size(b));
+    // What needs no search, what tells of boxes, and the rest.
+    double of_size = 0;
+    const auto look_at = [&](const auto& part) {
+        using Part = std::remove_cvref_t<decltype(part)>;
+        if constexpr (is_function<Part>) of_size = std::max(of_size, part.bound != nullptr ? 1e-4 : 1e-3);
+    };
+    look_at(a);
+    look_at(b);
+    if constexpr (std::is_same_v<A, Convex<D>>)
+        if (is_ball(a)) return margin;
+    if constexpr (std::is_same_v<B, Convex<D>>)
+        if (is_ball(b)) return margin;
+    return std::isfinite(smaller) ? std::max(margin, of_size * smaller) : margin;
+}
+
+template <class A, class B>
 requires FunctionPair<A, B> SignedDistance<PartDimension<A>::value> function_distance(const A& a, const B& b,
                                                                                       const DistanceWanted& wanted) {
     constexpr int D = PartDimension<A>::value;
@@ -286,8 +308,8 @@ requires FunctionPair<A, B> SignedDistance<PartDimension<A>::value> function_dis
         if constexpr (std::is_same_v<A, Convex<D>>) {
             return from_convex(a, b, margin, wanted);
         } else {
-            SignedDistance<D> result =
-                over_solid(b, a, a.normal, search_tolerance * margin, wanted, most_boxes_over_solid);
+            SignedDistance<D> result = over_solid(b, a, a.normal, search_tolerance * margin, search_tolerance * margin,
+                                                  wanted, most_boxes_over_solid);
             if (std::isfinite(result.distance)) turn_round(result);
             return result;
         }
@@ -296,7 +318,8 @@ requires FunctionPair<A, B> SignedDistance<PartDimension<A>::value> function_dis
         if (std::isfinite(result.distance)) turn_round(result);
         return result;
     } else {
-        return over_solid(a, b, b.normal, search_tolerance * margin, wanted, most_boxes_over_solid);
+        return over_solid(a, b, b.normal, search_tolerance * margin, search_tolerance * margin, wanted,
+                          most_boxes_over_solid);
     }
 }
 
@@ -343,6 +366,7 @@ bool part_contact(const A& a, const B& b, double reach, double margin, const Sea
 
 #define ABUT_INSTANTIATE_FOR(D, A, B)                                                        \
     template double function_margin(const A&, const B&);                                     \
+    template double function_doubt(const A&, const B&);                                      \
     template bool function_overlap(const A&, const B&);                                      \
     template SignedDistance<D> function_distance(const A&, const B&, const DistanceWanted&); \
     template bool part_contact(const A&, const B&, double, double, const SearchOptions<D>&, PartContact<D>&);

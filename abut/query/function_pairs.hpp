@@ -39,6 +39,11 @@ template <class A, class B>
 requires FunctionPair<A, B>
 double function_margin(const A& a, const B& b);
 
+/// How far a distance may be off that took a search: more where a function tells nothing of itself.
+template <class A, class B>
+requires FunctionPair<A, B>
+double function_doubt(const A& a, const B& b);
+
 /// What is at most `enough` needn't be known exactly, and is infinite where it is more than `reach`. Infinite where a
 /// function has no bounds and the other is a half-space or has none either.
 struct DistanceWanted {

@@ -70,8 +70,8 @@ public:
         return result;
     }
 
-    /// About what it is at least in a box, by what it is in the middle and beyond: a plane, lowered by twice what it
-    /// bends down from there along the axes.
+    /// About what it is at least in a box, by what it is in the middle and at the sides: a plane, lowered by twice as
+    /// much as it may be below that if it bends once along each axis.
     DistanceBound<D> guess(const DVec<D>& center, const DVec<D>& half, double here) const {
         DistanceBound<D> result;
         result.value = here;
@@ -82,7 +82,7 @@ public:
             const double after = at(center + aside), before = at(center - aside), bend = after + before - 2 * here;
             if (!std::isfinite(bend)) continue;
             result.gradient[i] = (after - before) / (2 * reach);
-            result.value += std::min(bend, 0.0);
+            result.value -= std::max(-bend, 0.5 * bend);
         }
         return result;
     }

@@ -15,11 +15,14 @@ namespace abut {
 
 /// So many boxes are looked at before the best place known is taken for the answer: of a function that tells what it is
 /// at least in a box, and of one that tells nothing.
-inline constexpr int least_distance_most_boxes = 8192, least_distance_most_guesses = 2048;
+inline constexpr int least_distance_most_boxes = 4096, least_distance_most_guesses = 2048;
+/// And so many for what is finer than a 10000th of the size.
+inline constexpr int least_distance_most_fine_boxes = 512;
 
 template <int D>
 struct LeastOptions {
     double tolerance = 0;
+    double off = 0;  ///< how far outside of a shape counts as on it
     /// A place where it is no more than that ends the search.
     double enough = -std::numeric_limits<double>::infinity();
     /// Of what is more than that nothing needs to be known.

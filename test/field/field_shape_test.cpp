@@ -1,0 +1,274 @@
+// A field as a shape: against its own look-ups, one by one.
+
+#include "../../scenes/bumpy_ball.hpp"
+#include "../oracle/random.hpp"
+#include <abut/bake/field.hpp>
+#include <abut/query/certify.hpp>
+#include <abut/query/contact.hpp>
+#include <abut/query/contains.hpp>
+#include <abut/query/overlaps.hpp>
+#include <abut/query/raycast.hpp>
+#include <abut/query/sweep.hpp>
+#include <abut/shape/ball.hpp>
+#include <abut/shape/box.hpp>
+#include <abut/shape/capsule.hpp>
+#include <abut/shape/cylinder.hpp>
+#include <abut/shape/placed.hpp>
+#include <abut/shape/polyhedron.hpp>
+
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+
+namespace abut {
+namespace {
+
+/// Stones of each kind of store.
+std::vector<Field3> stones() {
+    std::vector<Field3> result;
+    oracle::Random random(3);
+    const scenes::BumpyBall ball = scenes::bumpy_ball(12, 0.2, 0.02, random);
+    for (const FieldStore store : {FieldStore::dense, FieldStore::sparse})
+        for (const bool quantised : {false, true}) {
+            FieldOptions<3> options;
+            options.cell = 0.07f;
+            options.store = store;
+            options.quantised = quantised;
+            result.push_back(*bake_field(ball.points, ball.triangles, options));
+        }
+    return result;
+}
+
+/// A sheet as thin as a cell, between two rows of samples that are outside.
+template <int D>
+Field<D> thin_wall() {
+    FieldData<D> data;
+    data.origin = Vec<D>(-4.0f);
+    data.cell = 1;
+    data.cells = glm::vec<D, std::uint32_t>(8);
+    data.surface = {Vec<D>(-4.0f), Vec<D>(4.0f)};
+    std::size_t count = 1;
+    for (int i = 0; i < D; ++i) count *= 9;
+    for (std::size_t i = 0; i < count; ++i)
+        data.distance.push_back(0.9f * std::abs(static_cast<float>(i % 9) - 4) - 0.1f);
+    return Field<D>(std::move(data));
+}
+
+TEST(FieldShape, BoundsAreBelowAndNear) {
+    oracle::Random random(21);
+    for (const Field3& stone : stones()) {
+        const DistanceFunction<3> seen = view(stone);
+        int told = 0, far_off = 0;
+        for (int i = 0; i < 3000; ++i) {
+            SCOPED_TRACE(testing::Message() << "seed 21, box " << i);
+            const DVec<3> center = random.in_cube<3>() * 1.3;
+            DVec<3> half;
+            const double size = random.power_of_two(-14, -2);
+            for (int a = 0; a < 3; ++a) half[a] = random.uniform(0, size);
+            DistanceBound<3> bound;
+            if (seen.bound(seen.object, center - half, center + half, bound) != DistanceKnown::bound) continue;
+            ++told;
+            double least = 1e9, least_above = 1e9;
+            for (int k = 0; k < 64; ++k) {
+                DVec<3> place = center;
+                for (int a = 0; a < 3; ++a)
+                    place[a] += half[a] * (k < 8 ? ((k >> a & 1) != 0 ? 1 : -1) : random.uniform(-1, 1));
+                const auto here = static_cast<double>(stone.distance(to_float(place)));
+                const double plane = bound.value + dot(bound.gradient, place - center);
+                EXPECT_GE(here, bound.least - 2e-6);
+                EXPECT_GE(here, plane - 2e-6);
+                least = std::min(least, here);
+                least_above = std::min(least_above, here - plane);
+            }
+            // A box in one cell tells its least exactly, and one of many no worse than a cell does.
+            const double slack = size < 0.002 ? 0.05 * size + 2e-6 : 0.1;
+            EXPECT_LE(least - bound.least, slack + 1.8 * size);
+            far_off += least_above > slack ? 1 : 0;
+        }
+        EXPECT_GT(told, 500);
+        EXPECT_LT(far_off, told / 20);
+    }
+}
+
+TEST(FieldShape, LeastOverConvexSets) {
+    oracle::Random random(22);
+    for (const Field3& stone : stones()) {
+        int apart = 0, overlapping = 0;
+        for (int i = 0; i < 40; ++i) {
+            SCOPED_TRACE(testing::Message() << "seed 22, set " << i);
+            Vec3 half;
+            for (int a = 0; a < 3; ++a) half[a] = random.uniform_float(0.02, 0.3);
+            Pose3 pose;
+            pose.rotation = random.rotation<3>();
+            pose.position = to_float(random.direction<3>() * random.uniform(0.5, 1.6));
+            const auto box = at(Box3{Vec3(0.0f), half}, pose);
+            const auto found = closest(box, stone);
+            // On a grid of places in the box nothing is less.
+            double least = 1e9;
+            constexpr int steps = 12;
+            for (int k = 0; k < steps * steps * steps; ++k) {
+                Vec3 own;
+                int rest = k;
+                for (int a = 0; a < 3; ++a, rest /= steps)
+                    own[a] = half[a] * (2 * static_cast<float>(rest % steps) / (steps - 1) - 1);
+                const DVec<3> place = affine(pose).point(DVec<3>(own));
+                least = std::min(least, static_cast<double>(stone.distance(to_float(place))));
+            }
+            EXPECT_LE(static_cast<double>(found.distance), least + 1e-4 * length(DVec<3>(half)));
+            EXPECT_GE(static_cast<double>(found.distance), least - 0.06);
+            EXPECT_NEAR(static_cast<double>(stone.distance(found.on_a)), static_cast<double>(found.distance), 1e-5);
+            EXPECT_TRUE(certify(box, stone, found));
+            if (std::abs(found.distance) > 1e-4f) EXPECT_EQ(overlaps(box, stone), found.distance < 0);
+            (found.distance > 0 ? apart : overlapping) += 1;
+        }
+        EXPECT_GT(apart, 3);
+        EXPECT_GT(overlapping, 5);
+    }
+}
+
+/// Rays against small steps along them.
+void compare_rays(const Field3& stone, std::uint64_t seed, int count) {
+    oracle::Random random(seed);
+    int hits = 0;
+    for (int i = 0; i < count; ++i) {
+        SCOPED_TRACE(testing::Message() << "seed " << seed << ", ray " << i);
+        const DVec<3> from = random.direction<3>() * random.uniform(1.3, 3.0);
+        const DVec<3> to = random.in_cube<3>();
+        const Ray3 ray{to_float(from), to_float(normalized(to - from)), 5};
+        const auto hit = raycast(ray, stone);
+        hits += hit ? 1 : 0;
+        const double reach = hit ? static_cast<double>(hit->distance) : 5;
+        if (hit) {
+            const auto there = static_cast<double>(stone.distance(hit->point));
+            EXPECT_NEAR(there, 0, 3e-6);
+            EXPECT_LE(dot(DVec<3>(hit->normal), DVec<3>(ray.direction)), 0);
+        }
+        // Nothing is in the way.
+        const int steps = 60;
+        for (int k = 0; k < steps; ++k) {
+            const double along = reach * (k + 0.5) / steps;
+            const DVec<3> place = DVec<3>(ray.origin) + DVec<3>(ray.direction) * along;
+            EXPECT_GT(stone.distance(to_float(place)), -3e-6f) << along << " of " << reach;
+        }
+    }
+    EXPECT_GT(hits, count / 4);
+    EXPECT_LT(hits, count);
+}
+
+TEST(FieldShape, RaysMeetWhatIsThere) {
+    const bool is_long = std::getenv("ABUT_LONG") != nullptr;
+    std::uint64_t seed = 23;
+    for (const Field3& stone : stones()) compare_rays(stone, seed++, is_long ? 250000 : 2500);
+}
+
+template <class T>
+class ThinWall : public testing::Test {};
+using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(ThinWall, Dimensions);
+
+TYPED_TEST(ThinWall, NoRayGoesThrough) {
+    constexpr int D = TypeParam::value;
+    const Field<D> wall = thin_wall<D>();
+    oracle::Random random(27);
+    constexpr float side = 1.0f / 9;
+    for (int i = 0; i < 20000; ++i) {
+        SCOPED_TRACE(testing::Message() << "seed 27, ray " << i);
+        Vec<D> from, to;
+        for (int a = 0; a < D; ++a) {
+            from[a] = random.uniform_float(-3.9, 3.9);
+            to[a] = random.uniform_float(-3.9, 3.9);
+        }
+        // Some along the borders of cells, some from afar.
+        if (i % 4 == 0)
+            for (int a = 1; a < D; ++a) from[a] = to[a] = std::round(from[a]);
+        from[0] = -random.uniform_float(0.2, 3.9);
+        if (i % 5 == 0) from[0] -= 10;
+        to[0] = random.uniform_float(0.2, 3.9);
+        const auto hit = raycast(Ray<D>::between(from, to), wall);
+        if (i % 5 == 0 && !hit) continue;  // it may pass beside the volume
+        ASSERT_TRUE(hit);
+        EXPECT_NEAR(hit->point[0], -side, 2e-5f);
+        EXPECT_LT(hit->normal[0], -0.99f);
+        const auto back = raycast(Ray<D>::between(to, from), wall);
+        ASSERT_TRUE(back);
+        EXPECT_NEAR(back->point[0], side, 2e-5f);
+    }
+}
+
+TYPED_TEST(ThinWall, StartsOnItInItAndAlongIt) {
+    constexpr int D = TypeParam::value;
+    const Field<D> wall = thin_wall<D>();
+    const auto ray = [](float x, const Vec<D>& direction) {
+        Vec<D> origin(0.25f);
+        origin[0] = x;
+        return Ray<D>{origin, direction, 10};
+    };
+    Vec<D> ahead(0.0f), along(0.0f);
+    ahead[0] = 1;
+    along[1] = 1;
+    constexpr float side = 1.0f / 9;
+    // Inside, further in and out.
+    const auto inside = raycast(ray(-0.05f, ahead), wall);
+    ASSERT_TRUE(inside);
+    EXPECT_EQ(inside->distance, 0);
+    EXPECT_TRUE(inside->started_inside);
+    EXPECT_FALSE(raycast(ray(-0.05f, -ahead), wall));
+    // On the surface.
+    const auto on = raycast(ray(-side, ahead), wall);
+    ASSERT_TRUE(on);
+    EXPECT_NEAR(on->distance, 0, 1e-5f);
+    EXPECT_FALSE(raycast(ray(-side, -ahead), wall));
+    EXPECT_FALSE(raycast(ray(-side, along), wall));
+    EXPECT_FALSE(raycast(ray(-side - 0.001f, along), wall));
+    // What is rounded is met where that begins.
+    const auto wide = raycast(ray(-3, ahead), rounded(wall, 0.5f));
+    ASSERT_TRUE(wide);
+    EXPECT_NEAR(wide->point[0], -side - 0.5f / 0.9f, 1e-4f);
+}
+
+/// Sweeps of what is thinner than a cell.
+TYPED_TEST(ThinWall, NoBallGoesThrough) {
+    constexpr int D = TypeParam::value;
+    const Field<D> wall = thin_wall<D>();
+    Vec<D> far(0.0f), near(0.0f);
+    near[0] = -3;
+    far[0] = 6;
+    for (const float radius : {0.0f, 0.01f, 0.3f}) {
+        const auto hit = sweep(Ball<D>{near, radius}, far, wall);
+        ASSERT_TRUE(hit);
+        EXPECT_NEAR(hit->distance, 3 - 1.0f / 9 - radius / 0.9f, 1e-3f);
+    }
+    const auto box = sweep(Box<D>{near, Vec<D>(0.05f)}, far, wall);
+    ASSERT_TRUE(box);
+    EXPECT_NEAR(box->distance, 3 - 1.0f / 9 - 0.05f, 1e-3f);
+}
+
+/// A box on a floor of cells, however it is turned: all corners of its lower side touch.
+TEST(FieldShape, RestsOnAllCorners) {
+    const Field3 floor = *bake_field(Box3{{0, -1, 0}, {4, 1, 4}}, FieldOptions<3>{.cell = 0.25f});
+    oracle::Random random(24);
+    for (int i = 0; i < 50; ++i) {
+        const DVec<2> turn = random.direction<2>();
+        Pose3 pose;
+        pose.rotation = glm::normalize(glm::quat(static_cast<float>(turn.x), 0, static_cast<float>(turn.y), 0));
+        const Vec3 half{random.uniform_float(0.1, 1), random.uniform_float(0.1, 1), random.uniform_float(0.1, 1)};
+        pose.position = {random.uniform_float(-2, 2), half.y - 0.001f, random.uniform_float(-2, 2)};
+        const auto box = at(Box3{Vec3(0.0f), half}, pose);
+        const Contact<3> found = contact(box, floor);
+        ASSERT_EQ(found.points.size(), 4u) << "seed 24, box " << i;
+        EXPECT_NEAR(found.depth, 0.001f, 1e-5f);
+        EXPECT_LT(found.normal.y, -0.9999f);
+        // It slides along, and comes to no end.
+        EXPECT_FALSE(sweep(box, Vec3(0.5f, 0, 0.25f), floor));
+        const auto down = sweep(box, Vec3(0, -1, 0), floor);
+        ASSERT_TRUE(down);
+        EXPECT_EQ(down->fraction, 0);
+    }
+    const Contact<3> standing = contact(Cylinder{{0, -0.001f, 0}, {0, 1, 0}, 0.5f}, floor);
+    EXPECT_EQ(standing.points.size(), 4u);
+    const Contact<3> lying = contact(Capsule3{{-0.5f, 0.249f, 0}, {0.5f, 0.249f, 0}, 0.25f}, floor);
+    EXPECT_EQ(lying.points.size(), 2u);
+}
+
+}  // namespace
+}  // namespace abut

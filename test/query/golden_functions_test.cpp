@@ -1,0 +1,99 @@
+// As the other golden tests, of distance functions of a user's own, whose arithmetic is in double and has no more than
+// a square root.
+
+#include "../oracle/random.hpp"
+#include "hash.hpp"
+#include "user_functions.hpp"
+#include <abut/query/overlaps.hpp>
+#include <abut/query/sweep.hpp>
+#include <abut/shape/any_shape.hpp>
+#include <abut/shape/half_space.hpp>
+#include <abut/shape/placed.hpp>
+#include <abut/shape/triangle.hpp>
+
+#include <gtest/gtest.h>
+
+namespace abut {
+namespace {
+
+/// No two numbers are drawn in one call: which of its arguments comes first is up to the compiler.
+template <int D>
+class WholeNumbers {
+public:
+    explicit WholeNumbers(std::uint64_t seed) : random_(seed) {}
+
+    float number(std::uint32_t most) {
+        return static_cast<float>(static_cast<int>(random_.below(2 * most + 1)) - static_cast<int>(most)) / 128;
+    }
+    float size() { return (1 + static_cast<float>(random_.below(64))) / 32; }
+    Vec<D> point() {
+        Vec<D> result;
+        for (int i = 0; i < D; ++i) result[i] = number(256);
+        return result;
+    }
+    Pose<D> pose() {
+        Pose<D> result;
+        if constexpr (D == 2) {
+            result.rotation.cos = number(100);
+            result.rotation.sin = number(100) + 1;
+        } else {
+            for (int i = 0; i < 4; ++i) result.rotation[i] = number(100) + (i == 0 ? 1.0f : 0.0f);
+        }
+        result.position = point();
+        return result;
+    }
+    AnyShape<D> function() {
+        const std::uint32_t which = random_.below(3);
+        const Vec<D> a = point(), b = point();
+        const float size = this->size();
+        const Pose<D> pose = this->pose();
+        if (which == 0) return users::Blob<D>{a, size};
+        if (which == 1) return at(users::Brick<D>{Vec<D>(size)}, pose);
+        return users::Pill<D>{a, b, size};
+    }
+    AnyShape<D> other() {
+        const std::uint32_t which = random_.below(5);
+        const Vec<D> a = point(), b = point(), c = point();
+        const float size = this->size();
+        const Pose<D> pose = this->pose();
+        if (which == 0) return Ball<D>{a, size};
+        if (which == 1) return Capsule<D>{a, b, size};
+        if (which == 2) return at(Box<D>{a, Vec<D>(size)}, pose);
+        if (which == 3) return Triangle<D>{a, b, c};
+        Vec<D> up(0.0f);
+        up[1] = 1;
+        return HalfSpace<D>{up, size};
+    }
+
+private:
+    oracle::Random random_;
+};
+
+template <int D>
+std::uint64_t hash_of_answers() {
+    WholeNumbers<D> draw(31);
+    Hash hash;
+    for (int i = 0; i < 400; ++i) {
+        const AnyShape<D> a = draw.function(), b = draw.other(), c = draw.function();
+        const Vec<D> from = draw.point(), to = draw.point(), motion = draw.point();
+        add_closest(hash, closest(a, b));
+        add_contact(hash, contact(b, a));
+        hash.add(std::uint64_t{overlaps(a, b)});
+        add_hit(hash, raycast(Ray<D>::between(from, to), a));
+        if (i % 8 != 0) continue;
+        add_closest(hash, closest(a, c));
+        add_hit(hash, sweep(a, motion, b));
+        add_hit(hash, sweep(b, motion, a));
+    }
+    return hash.value();
+}
+
+TEST(GoldenFunctions, InThePlane) {
+    EXPECT_EQ(hash_of_answers<2>(), 0u);
+}
+TEST(GoldenFunctions, InSpace) {
+    EXPECT_EQ(hash_of_answers<3>(), 0u);
+}
+
+}  // namespace
+}  // namespace abut
