@@ -2,7 +2,10 @@
 #include "../field/analytic.hpp"
 #include "../oracle/random.hpp"
 #include <abut/bake/combine_fields.hpp>
+#include <abut/bake/field_samples.hpp>
 #include <abut/bake/zero_set.hpp>
+#include <abut/convex/features.hpp>
+#include <abut/field/packed_direction.hpp>
 
 #include <algorithm>
 #include <array>
@@ -157,6 +160,30 @@ TEST(CombineFields, RedistancedIsTheDistance) {
         }
 }
 
+TEST(CombineFields, RedistancedByTheNearestOfAllPieces) {
+    // Sides that lie on samples make pieces without an area, and slivers.
+    const Field3 a = field_of(oracle::ball<3>({0, 0, 0}, 1), FieldStore::dense, 0.1);
+    const Field3 b = field_of(oracle::box<3>({0.8, 0.3, 0.1}, {0.6, 0.4, 0.5}), FieldStore::dense, 0.1);
+    for (const What what : all_of_them) {
+        const auto bound = combined(what, a, b, {.store = FieldStore::dense});
+        const auto field = field_redistance(*bound, {.store = FieldStore::dense, .closest_points = true});
+        ASSERT_TRUE(field);
+        const auto pieces = zero_set<3>(bound->data());
+        const FieldData<3>& data = field->data();
+        ASSERT_EQ(data.distance.size(), bound->data().distance.size());
+        const SampleLattice<3> lattice{DVec<3>(data.origin), static_cast<double>(data.cell)};
+        for (std::size_t n = 0; n < data.distance.size(); n += 397) {
+            const DVec<3> p = lattice.at(oracle::counted<3>(n, data.cells + 1u));
+            double nearest = 1e300;
+            for (const auto& [u, v, w] : pieces)
+                nearest = std::min(nearest, closest_on_triangle(DVec<3>(u), DVec<3>(v), DVec<3>(w), p).distance);
+            ASSERT_NEAR(std::abs(data.distance[n]), nearest, 1e-6);
+            ASSERT_EQ(data.distance[n] <= 0, bound->data().distance[n] <= 0);
+            ASSERT_NEAR(length(DVec<3>(data.closest[n]) - p), nearest, 2e-6);
+        }
+    }
+}
+
 TEST(CombineFields, InSpaceToo) {
     const auto ball = oracle::ball<3>({0, 0, 0}, 1), box = oracle::box<3>({0.8, 0.3, 0.1}, {0.6, 0.4, 0.5});
     for (const FieldStore store : {FieldStore::dense, FieldStore::sparse}) {
@@ -271,7 +298,7 @@ TEST(CombineFields, GradientsAreThoseOfTheDistance) {
                                 (data.distance[n + along.x] - data.distance[n - along.x]));
             if (length(slope) < 1.9 * cell) continue;  // at a ridge
             ++checked;
-            off += dot(normalized(slope), DVec<2>(data.gradient[n])) < 0.99;
+            off += dot(normalized(slope), DVec<2>(unpacked2(data.direction[n]))) < 0.99;
         }
         EXPECT_GT(checked, 1000);
         EXPECT_LT(off, checked / 15) << "but for edges";
