@@ -221,7 +221,7 @@ HWY_INLINE void tell(const Corners<D>& corners, const F* share, F unit, F scale,
 
 /// So many points, a multiple of the lanes.
 template <int D, class Number, bool is_sparse, class Out>
-HWY_INLINE void look_up_batch(const FieldData<D>& data, const Vec<D>* points, std::size_t count, Out* out) {
+HWY_NOINLINE void look_up_batch(const FieldData<D>& data, const Vec<D>* points, std::size_t count, Out* out) {
     const BatchFloats f;
     const std::size_t lanes = hn::Lanes(f);
     const FieldFrame<D>& frame = data.frame;

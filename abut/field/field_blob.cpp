@@ -231,6 +231,8 @@ Result<Field<D>> load_field(std::span<const std::byte> bytes) {
     });
     if (!numbers) return problem("a number of the field is NaN or infinite", ProblemCode::not_finite);
     if (!is_box(data.surface)) return problem("the box around the field's surface is none");
+    if (data.steps.empty() && std::bit_cast<std::uint32_t>(data.step) != 0)
+        return problem("the field has a step and no steps");
     if (const char* fault = fault_of(data)) return problem(fault);
     return Field<D>(std::move(data));
 }

@@ -131,7 +131,8 @@ TEST(FieldBlob, CutShortOrDamagedIsRefused) {
 
 TEST(FieldBlob, WhatItSaysOfItselfIsChecked) {
     const Bytes bytes = save(Field2(small_disc()));
-    constexpr std::size_t version = 8, store = 16, lookup = 17, origin = 18, cells = 22, surface = 26, cell = 50;
+    constexpr std::size_t version = 8, store = 16, lookup = 17, origin = 18, cells = 22, surface = 26, cell = 50,
+                          step = 54;
     constexpr std::size_t counts = 58, numbers = counts + 48;
     const auto changed = [&](std::size_t at, auto value) {
         Bytes result = bytes;
@@ -154,6 +155,8 @@ TEST(FieldBlob, WhatItSaysOfItselfIsChecked) {
     EXPECT_EQ(changed(cells, 5u), ProblemCode::bad_format);
     EXPECT_EQ(changed(surface, infinity), ProblemCode::bad_format);
     EXPECT_EQ(changed(surface, 100.0f), ProblemCode::bad_format);
+    EXPECT_EQ(changed(step, 1.0f), ProblemCode::bad_format);
+    EXPECT_EQ(changed(step, -0.0f), ProblemCode::bad_format);
     EXPECT_EQ(changed(cell, 0.0f), ProblemCode::bad_format);
     EXPECT_EQ(changed(cell, -1.0f), ProblemCode::bad_format);
     EXPECT_EQ(changed(cell, nan), ProblemCode::not_finite);
