@@ -117,6 +117,7 @@ TEST(FieldGradient, ItsDirectionIsThatOfTheDistance) {
     while (all < 2000) {
         Vec3 point;
         for (int a = 0; a < 3; ++a) point[a] = random.uniform_float(-0.9, 0.9);
+        if (!contains(field.volume(), point)) continue;
         constexpr float step = 2e-4f;
         DVec<3> rise;
         for (int a = 0; a < 3; ++a) {
