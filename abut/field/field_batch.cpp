@@ -3,6 +3,7 @@
 // looked up one by one.
 
 #include <abut/field/field_batch.hpp>
+#include <abut/field/field_fetch.hpp>
 #include <abut/field/field_look_up.hpp>
 #include <abut/math/assert.hpp>
 
@@ -28,35 +29,6 @@ using BatchWhole = hn::RebindToSigned<BatchFloats>;
 using F = hn::Vec<BatchFloats>;
 using I = hn::Vec<BatchWhole>;
 using M = hn::Mask<BatchFloats>;
-
-/// As many points are looked up at a time: first where they lie, by vectors; then what lies there is fetched, one by
-/// one, which no gathering by vectors beats; then what it tells, by vectors.
-constexpr std::size_t at_a_time = 64;
-
-/// Two neighbours along the first axis.
-struct FloatPair {
-    float low, high;
-};
-struct StepPair {
-    std::int16_t low, high;
-};
-
-/// What is known of so many points.
-template <int D>
-struct Batch {
-    static constexpr std::size_t rows = std::size_t{1} << (D - 1);
-
-    alignas(64) float share[D][at_a_time];
-    alignas(64) std::uint32_t first[at_a_time];   ///< dense: the first sample; sparse: the one in the brick
-    alignas(64) std::uint32_t block[at_a_time];   ///< sparse
-    alignas(64) std::uint32_t corner[at_a_time];  ///< sparse: of the block, the first corner
-    alignas(64) float in_block[D][at_a_time];     ///< sparse: the cell's place in it
-    alignas(64) float unit[at_a_time];            ///< what the numbers are multiples of
-    alignas(64) float scale[at_a_time];           ///< the slope along an axis of a rise from corner to corner
-    alignas(64) FloatPair floats[rows][at_a_time];
-    alignas(64) StepPair steps[rows][at_a_time];
-    bool coarse[at_a_time];
-};
 
 HWY_INLINE F lerp(F a, F b, F share) {
     return hn::Add(a, hn::Mul(share, hn::Sub(b, a)));
@@ -114,7 +86,8 @@ HWY_INLINE void keep(I numbers, std::uint32_t* to) {
     hn::Store(numbers, BatchWhole(), reinterpret_cast<std::int32_t*>(to));
 }
 
-/// Where points lie. True where all are in the volume; others are taken for its lower corner.
+/// Where as many points lie as there are lanes. True where all are in the volume; others are taken for its lower
+/// corner.
 template <int D, bool is_sparse>
 HWY_INLINE bool place(const FieldFrame<D>& frame, const Vec<D>* points, std::size_t at, Batch<D>& batch) {
     constexpr auto side = static_cast<std::int32_t>(brick_cells<D>);
@@ -158,28 +131,6 @@ HWY_INLINE bool place(const FieldFrame<D>& frame, const Vec<D>* points, std::siz
     return hn::AllTrue(f, inside);
 }
 
-template <int D, class Pair, class Number>
-HWY_INLINE void fetch(const Number* from, std::uint32_t row, std::uint32_t slice, Pair (*rows)[at_a_time],
-                      std::size_t i) {
-    static_assert(sizeof(Pair) == 2 * sizeof(Number));
-    std::memcpy(&rows[0][i], from, sizeof(Pair));
-    std::memcpy(&rows[1][i], from + row, sizeof(Pair));
-    if constexpr (D == 3) {
-        std::memcpy(&rows[2][i], from + slice, sizeof(Pair));
-        std::memcpy(&rows[3][i], from + slice + row, sizeof(Pair));
-    }
-}
-template <int D>
-HWY_INLINE void fetch_samples(const FieldData<D>& data, std::uint32_t first, std::uint32_t row, std::uint32_t slice,
-                              Batch<D>& batch, std::size_t i, float) {
-    fetch<D>(data.distance.data() + first, row, slice, batch.floats, i);
-}
-template <int D>
-HWY_INLINE void fetch_samples(const FieldData<D>& data, std::uint32_t first, std::uint32_t row, std::uint32_t slice,
-                              Batch<D>& batch, std::size_t i, std::int16_t) {
-    fetch<D>(data.steps.data() + first, row, slice, batch.steps, i);
-}
-
 template <int D, class Number>
 HWY_INLINE Corners<D> corners_of(const Batch<D>& batch, std::size_t i) {
     const BatchFloats f;
@@ -220,74 +171,59 @@ HWY_INLINE void tell(const Corners<D>& corners, const F* share, F unit, F scale,
 }
 
 /// So many points, a multiple of the lanes.
-template <int D, class Number, bool is_sparse, class Out>
-HWY_NOINLINE void look_up_batch(const FieldData<D>& data, const Vec<D>* points, std::size_t count, Out* out) {
+template <int D>
+HWY_NOINLINE bool place_all(const FieldData<D>& data, const Vec<D>* points, std::size_t count, Batch<D>& batch) {
+    const std::size_t lanes = hn::Lanes(BatchFloats());
+    bool result = true;
+    if (data.store == FieldStore::sparse)
+        for (std::size_t i = 0; i < count; i += lanes) result &= place<D, true>(data.frame, points, i, batch);
+    else
+        for (std::size_t i = 0; i < count; i += lanes) result &= place<D, false>(data.frame, points, i, batch);
+    return result;
+}
+
+template <int D, class Number, class Out>
+HWY_NOINLINE void tell_all(const FieldData<D>& data, std::size_t count, bool any_coarse, const Batch<D>& batch,
+                           Out* out) {
     const BatchFloats f;
     const std::size_t lanes = hn::Lanes(f);
-    const FieldFrame<D>& frame = data.frame;
-    const float unit = std::is_same_v<Number, float> ? 1.0f : data.step, scale = unit * frame.inverse;
-    Batch<D> batch;
-    bool all_inside = true, any_coarse = false;
-    for (std::size_t i = 0; i < count; i += lanes) all_inside &= place<D, is_sparse>(frame, points, i, batch);
-
-    constexpr std::uint32_t side = brick_cells<D>;
-    if constexpr (is_sparse) {
-        const glm::vec<D, std::uint32_t> corners = frame.corners;
-        const std::uint32_t* bricks = data.brick.data();
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::uint32_t brick = bricks[batch.block[i]];
-            batch.coarse[i] = brick == no_brick;
-            if (brick != no_brick) {
-                const std::uint32_t first = brick * brick_samples<D> + batch.first[i];
-                fetch_samples<D>(data, first, side + 1, (side + 1) * (side + 1), batch, i, Number());
-                batch.unit[i] = unit;
-                batch.scale[i] = scale;
-            } else {
-                any_coarse = true;
-                const float* from = data.coarse.data() + batch.corner[i];
-                fetch<D>(from, corners[1], corners[D - 1], batch.floats, i);
-                batch.unit[i] = 1;
-                batch.scale[i] = frame.inverse * (1.0f / side);
-                for (std::size_t a = 0; a < D; ++a)
-                    batch.share[a][i] = (batch.share[a][i] + batch.in_block[a][i]) * (1.0f / side);
-            }
-        }
-    } else {
-        const glm::vec<D, std::uint32_t> stride = frame.stride;
-        for (std::size_t i = 0; i < count; ++i)
-            fetch_samples<D>(data, batch.first[i], stride[1], stride[D - 1], batch, i, Number());
-    }
-
+    const float unit = std::is_same_v<Number, float> ? 1.0f : data.step, scale = unit * data.frame.inverse;
     for (std::size_t i = 0; i < count; i += lanes) {
         F share[D];
         for (std::size_t a = 0; a < D; ++a) share[a] = hn::Load(f, batch.share[a] + i);
-        if (is_sparse && any_coarse) {
-            Corners<D> corners = corners_of<D, Number>(batch, i);
+        Corners<D> corners = corners_of<D, Number>(batch, i);
+        F units = hn::Set(f, unit), scales = hn::Set(f, scale);
+        if (any_coarse) {
             if constexpr (!std::is_same_v<Number, float>) {
-                // Which of them are floats can be told by what they are multiples of, as steps of 1 have no effect.
                 const Corners<D> coarse = corners_of<D, float>(batch, i);
-                HWY_ALIGN float is_coarse[hn::MaxLanes(f)];
-                for (std::size_t lane = 0; lane < lanes; ++lane) is_coarse[lane] = batch.coarse[i + lane] ? 1.0f : 0.0f;
-                const M take = hn::Gt(hn::Load(f, is_coarse), hn::Zero(f));
+                const M take = hn::Gt(hn::Load(f, batch.coarse + i), hn::Zero(f));
                 for (std::size_t c = 0; c < std::size_t{1} << D; ++c)
                     corners.v[c] = hn::IfThenElse(take, coarse.v[c], corners.v[c]);
             }
-            tell<D>(corners, share, hn::Load(f, batch.unit + i), hn::Load(f, batch.scale + i), out + i);
-        } else {
-            tell<D>(corners_of<D, Number>(batch, i), share, hn::Set(f, unit), hn::Set(f, scale), out + i);
+            units = hn::Load(f, batch.unit + i);
+            scales = hn::Load(f, batch.scale + i);
         }
+        tell<D>(corners, share, units, scales, out + i);
     }
+}
+
+template <int D, class Number, class Out>
+void look_up_batch(const FieldData<D>& data, const Vec<D>* points, std::size_t count, Out* out) {
+    Batch<D> batch;
+    const bool all_inside = place_all<D>(data, points, count, batch);
+    const bool any_coarse = fetch_all<D, Number>(data, count, batch);
+    tell_all<D, Number>(data, count, any_coarse, batch, out);
     if (all_inside) return;
     const Aabb<D> volume = volume_of(data);
     for (std::size_t i = 0; i < count; ++i)
         if (!contains(volume, points[i])) look_up(data, points[i], out[i]);
 }
 
-template <int D, class Number, bool is_sparse, class Out>
+template <int D, class Number, class Out>
 void look_up(const FieldData<D>& data, const Vec<D>* points, std::size_t count, Out* out) {
     const std::size_t lanes = hn::Lanes(BatchFloats());
     for (; count >= at_a_time; points += at_a_time, out += at_a_time, count -= at_a_time)
-        look_up_batch<D, Number, is_sparse>(data, points, at_a_time, out);
+        look_up_batch<D, Number>(data, points, at_a_time, out);
     if (count == 0) return;
     // What is left over, filled up by what is easy to look up.
     Vec<D> rest[at_a_time];
@@ -295,7 +231,7 @@ void look_up(const FieldData<D>& data, const Vec<D>* points, std::size_t count, 
     const std::size_t filled = (count + lanes - 1) / lanes * lanes;
     std::copy(points, points + count, rest);
     std::fill(rest + count, rest + filled, data.origin);
-    look_up_batch<D, Number, is_sparse>(data, rest, filled, told);
+    look_up_batch<D, Number>(data, rest, filled, told);
     std::copy(told, told + count, out);
 }
 
@@ -305,13 +241,10 @@ void look_up_all(const FieldData<D>& data, const Vec<D>* points, std::size_t cou
         for (std::size_t i = 0; i < count; ++i) look_up(data, points[i], out[i]);
         return;
     }
-    const bool sparse = data.store == FieldStore::sparse;
     if (data.steps.empty())
-        sparse ? look_up<D, float, true>(data, points, count, out) : look_up<D, float, false>(data, points, count, out);
-    else if (sparse)
-        look_up<D, std::int16_t, true>(data, points, count, out);
+        look_up<D, float>(data, points, count, out);
     else
-        look_up<D, std::int16_t, false>(data, points, count, out);
+        look_up<D, std::int16_t>(data, points, count, out);
 }
 
 void distances2(const FieldData<2>& data, const Vec2* points, std::size_t count, float* out) {
