@@ -14,6 +14,9 @@ constexpr double slide_slope = 1e-4;
 /// What slides is looked at whenever it has come this part of its size.
 constexpr double slide_stride = 0.25;
 
+/// Steps of a ray that has used up half of them are at most this part of its way so far: a way may have no end.
+constexpr double widening = 0.05;
+
 /// The bound on looks for the moment at which two touch, once it is known between which two it is.
 constexpr int most_halvings = 40;
 
@@ -41,7 +44,8 @@ DistanceCrossing crossing_by_steps(const DistanceFunction<D>& function, const Ow
         const double room = std::min(here - range.low, range.high - here);
         double next = along + std::max(room / speed, least);
         const int left = function_ray_most_steps - step;
-        if (2 * left < function_ray_most_steps) next = std::max(next, along + (reach - along) / left);
+        if (2 * left < function_ray_most_steps)
+            next = std::max(next, along + std::min((reach - along) / left, widening * along));
         next = std::min(next, reach);
         double there = own_distance(function, line.at(next));
         if (there > range.low && there < range.high) {
@@ -107,9 +111,10 @@ public:
         if (!clip_to(box, line_, from, until)) return false;
         // What of a function without bounds is farther than this is beyond all floats.
         until = std::min(until, from + 1e30);
-        const double size = is_finite(own.min) && is_finite(own.max)
-                                ? 0.5 * length(DVec<D>(own.max) - DVec<D>(own.min)) * seen_.factor()
-                                : until - from;
+        const double size =
+            is_finite(own.min) && is_finite(own.max)
+                ? 0.5 * length(DVec<D>(own.max) - DVec<D>(own.min)) * seen_.factor()
+                : std::max(std::abs(seen_.at(beam_.at(from))), largest(line_.at(from)) * seen_.factor());
         least_ = std::max(1e-4 * std::min(size, until - from), 0.25 * own_doubt);
         if (function_.resolution > 0) least_ = std::min(least_, 0.25 * static_cast<double>(function_.resolution));
         step_ = seen_.step(beam_.at(from), 1e-2 * std::min(size, until - from));
