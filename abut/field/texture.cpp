@@ -65,7 +65,6 @@ Result<FieldTexture<D>> to_texture(const Field<D>& field, const TextureOptions& 
     FieldTexture<D> texture;
     texture.format = options.format;
     texture.cell = options.cell > 0 ? options.cell : field.cell();
-    texture.surface = bounds(field);
     const double cell = texture.cell;
     const glm::vec<D, std::uint32_t> size = texels_along(field, cell);
     double texels = 1;
@@ -77,6 +76,10 @@ Result<FieldTexture<D>> to_texture(const Field<D>& field, const TextureOptions& 
     texture.box.min = field.data().origin;
     for (int i = 0; i < D; ++i)
         texture.box.max[i] = static_cast<float>(static_cast<double>(texture.box.min[i]) + cell * (size[i] - 1));
+
+    // Shaders have no empty boxes.
+    texture.surface = field.data().surface;
+    if (texture.surface == Aabb<D>::empty()) texture.surface = texture.box;
 
     std::vector<float> values = distances(field, size, cell);
     if (options.range > 0)

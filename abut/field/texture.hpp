@@ -49,7 +49,7 @@ struct FieldTexture {
 
     Aabb<D> box{};  ///< from the first texel to the last, at their middles
     float cell = 1;
-    Aabb<D> surface{};  ///< around all places where the distance is 0
+    Aabb<D> surface{};  ///< around all places where the distance is 0; where it is so nowhere, the same as `box`
 };
 
 /// A Problem where a number of the options is negative or not finite (`bad_argument`), or there would be more than

@@ -125,6 +125,10 @@ TEST(FieldTexture, TheSameEverywhere) {
         EXPECT_NEAR(texel_distance(*eight, i), 2, 1e-5);
         EXPECT_EQ(texel_distance(*sixteen, i), 2);
     }
+    FieldData<2> free = data;
+    free.surface = Aabb2::empty();
+    const auto nothing = to_texture(Field2(free));
+    EXPECT_EQ(nothing->surface, nothing->box);
 }
 
 TEST(FieldTexture, BadOptionsAreNamed) {
