@@ -125,7 +125,8 @@ Contact<D> contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& op
     deepest.contact.normal[0] = 1;
     if (!finite) return deepest.contact;
     deepest = deepest_of(a, b, options);
-    if (!deepest.contact || is_felt<D>(a, b, deepest, options.margin, {})) return deepest.contact;
+    const bool has_parts = std::holds_alternative<Composite<D>>(a) || std::holds_alternative<Composite<D>>(b);
+    if (!deepest.contact || !has_parts || is_felt<D>(a, b, deepest, options.margin, {})) return deepest.contact;
     const ContactAmong<D> felt = deepest_felt<D>(a, b, options, {});
     return felt.contact ? felt.contact : deepest.contact;
 }

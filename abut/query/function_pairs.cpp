@@ -95,21 +95,28 @@ MeetingCorners<D> corners_at(const Convex<D>& set, const DVec<D>& place, const D
     return result;
 }
 
+/// Of a ball and a function: one look-up.
+template <int D>
+SignedDistance<D> from_ball(const Convex<D>& ball, const DistanceFunction<D>& function, const DistanceWanted& wanted) {
+    if (has_nothing(function.bounds)) return nothing_near<D>();
+    const FunctionThere<D> seen(function);
+    const DVec<D> middle = ball.place.point(DVec<D>(ball.vertices()[0]));
+    const double there = seen.at(middle);
+    if (!(there - ball.radius <= wanted.reach && there < std::numeric_limits<double>::infinity()))
+        return nothing_near<D>();
+    SignedDistance<D> result;
+    result.distance = there - ball.radius;
+    const double around = std::max({1e-2 * ball.radius, 1e-4 * std::abs(there), 1e-30});
+    result.normal = -seen.normal(middle, seen.step(middle, around));
+    result.on_a = middle + result.normal * ball.radius;
+    return result;
+}
+
 /// Of a convex set and a function, seen in the function's frame.
 template <int D>
 SignedDistance<D> from_convex(const Convex<D>& set, const DistanceFunction<D>& function, double margin,
                               const DistanceWanted& wanted) {
     if (has_nothing(function.bounds)) return nothing_near<D>();
-    if (is_ball(set)) {
-        const FunctionThere<D> seen(function);
-        const DVec<D> middle = set.place.point(DVec<D>(set.vertices()[0]));
-        SignedDistance<D> result;
-        result.distance = seen.at(middle) - set.radius;
-        if (!(result.distance <= wanted.reach)) return nothing_near<D>();
-        result.normal = -seen.normal(middle, seen.step(middle, std::max(1e-2 * set.radius, margin)));
-        result.on_a = middle + result.normal * set.radius;
-        return result;
-    }
     // Boxes are searched box by box.
     const Affine<D> frame = is_plain_box(set) ? own_frame<D>(set) : own_frame<D>(function), back = back_from(frame);
     const DistanceFunction<D> own = moved(function, back);
@@ -207,19 +214,21 @@ template <int D>
 Manifold<D> points_of_face(const Convex<D>& set, const DistanceFunction<D>& function, const SignedDistance<D>& distance,
                            double margin) {
     const DVec<D> out = -distance.normal;
+    if (is_ball(set)) {
+        Manifold<D> result;
+        result.points[result.count++] = meeting_point(distance.on_a, out, distance.distance, true, 0);
+        return result;
+    }
     const FunctionThere<D> seen(function);
     const double slack = 1e-6 * size(set);
     ManifoldCandidates<D> candidates;
     bool has_deepest = false;
-    if (!(set.core == Core::points && set.count == 1)) {
-        const Face<D> face = face_along(set, -out);
-        for (std::size_t i = 0; i < face.count; ++i) {
-            const double gap = std::max(seen.at(face.points[i]) - set.radius, distance.distance);
-            if (gap > margin + slack) continue;
-            candidates.push_back(
-                meeting_point(face.points[i] - out * set.radius, out, gap, margin > 0, face.indices[i]));
-            has_deepest = has_deepest || gap <= distance.distance + slack;
-        }
+    const Face<D> face = face_along(set, -out);
+    for (std::size_t i = 0; i < face.count; ++i) {
+        const double gap = std::max(seen.at(face.points[i]) - set.radius, distance.distance);
+        if (gap > margin + slack) continue;
+        candidates.push_back(meeting_point(face.points[i] - out * set.radius, out, gap, margin > 0, face.indices[i]));
+        has_deepest = has_deepest || gap <= distance.distance + slack;
     }
     if (!has_deepest)
         candidates.push_back(meeting_point(distance.on_a, out, distance.distance, true, distance.corners.a[0]));
@@ -301,6 +310,8 @@ template <class A, class B>
 requires FunctionPair<A, B> SignedDistance<PartDimension<A>::value> function_distance(const A& a, const B& b,
                                                                                       const DistanceWanted& wanted) {
     constexpr int D = PartDimension<A>::value;
+    if constexpr (std::is_same_v<A, Convex<D>>)
+        if (is_ball(a)) return from_ball(a, b, wanted);
     const double margin = function_margin(a, b);
     if constexpr (is_function<A> && is_function<B>) {
         return between(a, b, margin, wanted);
@@ -314,7 +325,7 @@ requires FunctionPair<A, B> SignedDistance<PartDimension<A>::value> function_dis
             return result;
         }
     } else if constexpr (std::is_same_v<B, Convex<D>>) {
-        SignedDistance<D> result = from_convex(b, a, margin, wanted);
+        SignedDistance<D> result = is_ball(b) ? from_ball(b, a, wanted) : from_convex(b, a, margin, wanted);
         if (std::isfinite(result.distance)) turn_round(result);
         return result;
     } else {
