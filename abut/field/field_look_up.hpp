@@ -14,6 +14,10 @@ namespace abut {
 /// By the distances and gradients at the corners; of a point of the volume.
 FieldSample<2> gradient_sample(const FieldData<2>& data, const Vec2& point);
 FieldSample<3> gradient_sample(const FieldData<3>& data, const Vec3& point);
+float gradient_distance(const FieldData<2>& data, const Vec2& point);
+float gradient_distance(const FieldData<3>& data, const Vec3& point);
+/// The same, corner by corner.
+FieldSample<3> gradient_sample_plainly(const FieldData<3>& data, const Vec3& point);
 
 namespace field_lanes {
 
@@ -159,7 +163,7 @@ inline float look_up_distance(const FieldData<3>& data, const Vec3& point) {
     if (!field_lanes::within(data.frame, p)) [[unlikely]]
         return outer_sample(data, point).distance;
     if (data.lookup == FieldLookup::gradient) [[unlikely]]
-        return gradient_sample(data, point).distance;
+        return gradient_distance(data, point);
     return field_lanes::distance(data, p);
 }
 inline FieldSample<3> look_up_sample(const FieldData<3>& data, const Vec3& point) {
@@ -175,7 +179,7 @@ inline float look_up_distance(const FieldData<2>& data, const Vec2& point) {
     if (!contains(volume_of(data), point)) [[unlikely]]
         return outer_sample(data, point).distance;
     if (data.lookup == FieldLookup::gradient) [[unlikely]]
-        return gradient_sample(data, point).distance;
+        return gradient_distance(data, point);
     return linear_distance(data, point);
 }
 inline FieldSample<2> look_up_sample(const FieldData<2>& data, const Vec2& point) {

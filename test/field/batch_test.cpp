@@ -3,6 +3,7 @@
 
 #include "../oracle/vector_units.hpp"
 #include "analytic.hpp"
+#include <abut/field/field_look_up.hpp>
 #include <abut/field/field_spot.hpp>
 #include <abut/field/quantise.hpp>
 
@@ -69,6 +70,12 @@ void expect_same(const Field<D>& field) {
                 const FieldSample<D> one = field.sample(points[i]);
                 ASSERT_TRUE(same_bits(samples[i].distance, one.distance)) << i;
                 ASSERT_TRUE(same_bits(samples[i].normal, one.normal)) << i;
+                if constexpr (D == 3)
+                    if (field.data().lookup == FieldLookup::gradient && contains(field.volume(), points[i])) {
+                        const FieldSample<3> plain = gradient_sample_plainly(field.data(), points[i]);
+                        ASSERT_EQ(plain.distance, one.distance) << i;
+                        ASSERT_EQ(plain.normal, one.normal) << i;
+                    }
                 if (field.data().lookup == FieldLookup::linear && contains(field.volume(), points[i])) {
                     const FieldSample<D> plain = linear_sample(field.data(), points[i]);
                     ASSERT_TRUE(same_bits(plain.distance, one.distance)) << i;
