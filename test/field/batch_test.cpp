@@ -107,6 +107,35 @@ TEST_P(FieldBatch, IsBitByBitTheSame) {
     expect_same_of<3>(turned(box<3>({1, 0, 0}, {2, 1, 0.5}), {1, 2, 3}, {0, 1, 0}), 0.2f);
 }
 
+/// By every compiler at every level: pinned.
+TEST(FieldBits, AreTheSameEverywhere) {
+    std::uint64_t hash = 0xcbf29ce484222325u;
+    const auto add = [&](float number) { hash = (hash ^ std::bit_cast<std::uint32_t>(number)) * 0x100000001b3u; };
+    const Analytic<3> solid = turned(box<3>({1, 0, 0}, {2, 1, 0.5}), {1, 2, 3}, {0, 1, 0});
+    for (unsigned kind = 0; kind < 16; ++kind) {
+        FillOptions options;
+        options.store = kind & 1 ? FieldStore::sparse : FieldStore::dense;
+        options.lookup = kind & 2 ? FieldLookup::gradient : FieldLookup::linear;
+        options.closest_points = kind & 4;
+        options.band = 1;
+        FieldData<3> data = filled_around<3>(solid, 0.25f, 3, options);
+        if (kind & 8) quantise(data);
+        const Field3 field(data);
+        for (const Vec3& point : points_of(field, 500, false)) {
+            for (const Vec3& place : {point, point * 3.0f}) {
+                const FieldSample<3> sample = field.sample(place);
+                const Vec3 closest = field.closest(place);
+                add(sample.distance);
+                for (int a = 0; a < 3; ++a) {
+                    add(sample.normal[a]);
+                    add(closest[a]);
+                }
+            }
+        }
+    }
+    EXPECT_EQ(hash, 10739109692111800327u);
+}
+
 INSTANTIATE_TEST_SUITE_P(Each, FieldBatch, vector_units(), name_of_unit);
 
 }  // namespace
