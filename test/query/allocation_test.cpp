@@ -2,6 +2,8 @@
 
 #include "../oracle/check.hpp"
 #include "../oracle/pair.hpp"
+#include "user_functions.hpp"
+#include <abut/bake/field.hpp>
 #include <abut/convex/features.hpp>
 #include <abut/query/certify.hpp>
 #include <abut/query/contact.hpp>
@@ -152,6 +154,22 @@ TEST(Allocation, OfQuestionsAboutLevelsIsNone) {
     const Ray3 in_space = Ray3::between({-3, -2, -1}, {5, 5, 1});
     for (const View<3>& level : {View<3>(view(field)), View<3>(view(ground))})
         EXPECT_EQ(allocations_of_all_questions<3>(level, view(Box3{{2, 2, 0}, {1, 1, 1}}), in_space), 0);
+}
+
+TEST(Allocation, OfQuestionsAboutDistancesIsNone) {
+    const users::Brick<3> brick;
+    const Field<3> field = *bake_field(Box3{{0.5f, 0, 0}, {1, 0.5f, 0.75f}}, FieldOptions<3>{.cell = 0.25f});
+    const std::vector<Vec3> corners{{-1, 0, -1}, {1, 0, -1}, {0, 0, 1}};
+    const Mesh mesh = *Mesh::build(corners, std::vector<glm::uvec3>{{0, 1, 2}});
+    const Cylinder cylinder{{0, 0, 0}, {1, 1, 0}, 0.5f};
+    const Polyhedron hull = *Polyhedron::build({{-1, -1, -1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}});
+    const Ray3 ray = Ray3::between({-3, -2, -1}, {5, 5, 1});
+    for (const View<3>& function : {View<3>(view(brick)), View<3>(view(field))}) {
+        for (const View<3>& other :
+             {View<3>(view(cylinder)), View<3>(view(hull)), View<3>(view(mesh)), View<3>(view(brick)),
+              View<3>(view(Box3{{2, 2, 0}, {1, 1, 1}})), View<3>(view(HalfSpace3{{0, 1, 0}, 0.5f}))})
+            EXPECT_EQ(allocations_of_all_questions<3>(function, other, ray), 0);
+    }
 }
 
 template <class A, class B>
