@@ -11,6 +11,9 @@ namespace {
 /// What goes in more slowly than this part of its way slides.
 constexpr double slide_slope = 1e-4;
 
+/// What is far off needn't be known better than to this part of the gap.
+constexpr double far_off = 0.1;
+
 /// What slides is looked at whenever it has come this part of its size.
 constexpr double slide_stride = 0.25;
 
@@ -181,11 +184,12 @@ struct Gained {
     bool started_inside = false;
 };
 
-/// The first contact gained. distance_at(time) tells a SignedDistance; closing(distance, time) how fast it falls.
+/// The first contact gained. distance_at(time, rough) tells a SignedDistance that may be so much above the least;
+/// closing(distance, time) how fast it falls.
 template <int D, class DistanceAt, class Closing>
 std::optional<Gained<D>> first_gain(const Course<D>& course, const DistanceAt& distance_at, const Closing& closing) {
     const double margin = course.margin;
-    Gained<D> now{course.from, distance_at(course.from), false};
+    Gained<D> now{course.from, distance_at(course.from, 0.0), false};
     bool touches = now.distance.distance <= margin;
     double floor = -std::numeric_limits<double>::infinity();
     if (touches) {
@@ -195,7 +199,7 @@ std::optional<Gained<D>> first_gain(const Course<D>& course, const DistanceAt& d
         if (falls > slide_slope * course.speed) {
             const double ahead = std::min(course.end, now.time + 4 * margin / falls);
             const double expected = falls * (ahead - now.time);
-            if (distance_at(ahead).distance <= start - 0.25 * expected) return now;
+            if (distance_at(ahead, 0.0).distance <= start - 0.25 * expected) return now;
         }
         now.started_inside = false;
     }
@@ -207,21 +211,28 @@ std::optional<Gained<D>> first_gain(const Course<D>& course, const DistanceAt& d
             const double share = i % 2 == 0 && above > 0 ? std::clamp(above / (above + below), 0.05, 0.95) : 0.5;
             const double time = before.time + (after.time - before.time) * share;
             if (!(time > before.time && time < after.time)) break;
-            const Gained<D> between{time, distance_at(time), false};
+            const Gained<D> between{time, distance_at(time, 0.0), false};
             (between.distance.distance <= wanted ? after : before) = between;
         }
         // Where it jumps there is nothing between: the last time at which they don't touch.
         return after.distance.distance >= wanted - 2 * margin ? after : before;
     };
+    double rough = 0;  // by which it may be less
     for (int step = 0; step < function_sweep_most_steps; ++step) {
-        const double gap = now.distance.distance;
+        const double gap = now.distance.distance - rough;
         double stride = touches ? std::max((gap - floor) / course.speed, course.slide)
                                 : std::max(gap, 0.25 * margin) / course.speed;
         const int left = function_sweep_most_steps - step;
         if (2 * left < function_sweep_most_steps) stride = std::max(stride, (course.end - now.time) / left);
         if (!(gap < std::numeric_limits<double>::infinity()) || now.time >= course.end) return std::nullopt;
         const double time = std::min(now.time + stride, course.end);
-        const Gained<D> next{time, distance_at(time), false};
+        // Far off it needn't be known exactly.
+        rough = touches ? 0 : far_off * std::max(gap, 0.0);
+        Gained<D> next{time, distance_at(time, rough), false};
+        if (rough > 0 && next.distance.distance <= 4 * rough + margin) {
+            rough = 0;
+            next.distance = distance_at(time, 0.0);
+        }
         if (touches) {
             if (next.distance.distance <= floor) return refine(now, next, floor + 0.5 * margin);
             touches = next.distance.distance <= margin;
@@ -355,8 +366,8 @@ bool part_touch(const A& a, const Path<D>& path, const B& b, std::uint32_t index
     if (!boxes_meet(grown(bounds(a), wide), bounds(b), path.direction, course.from, course.end)) return false;
     course.speed = std::max(slope_of(a), slope_of(b));
     course.slide = slide_stride * std::min(size_of(a), size_of(b));
-    const auto distance_at = [&](double along) -> SignedDistance<D> {
-        return function_distance(put(a, path.direction * along), b, {});
+    const auto distance_at = [&](double along, double rough) -> SignedDistance<D> {
+        return function_distance(put(a, path.direction * along), b, {.rough = rough});
     };
     const auto closing = [&](const SignedDistance<D>& distance, double) {
         return dot(path.direction, distance.normal);
@@ -386,8 +397,8 @@ bool first_meeting(const A& a, const RigidPath<D>& path_a, const B& b, const Rig
         std::isfinite(reach_b) ? seen_motion(path_b, path_a, reach_b).speed : std::numeric_limits<double>::infinity();
     const double speed = std::min(speed_a, speed_b);
     if (!std::isfinite(speed) || !(speed > 0)) return false;
-    const auto distance_at = [&](double time) -> SignedDistance<D> {
-        return function_distance(moved(a, place_at(path_a, time)), moved(b, place_at(path_b, time)), {});
+    const auto distance_at = [&](double time, double rough) -> SignedDistance<D> {
+        return function_distance(moved(a, place_at(path_a, time)), moved(b, place_at(path_b, time)), {.rough = rough});
     };
     const auto closing = [&](const SignedDistance<D>& distance, double time) {
         return dot(distance.normal, path_a.velocity(time, distance.on_a) - path_b.velocity(time, distance.on_b()));

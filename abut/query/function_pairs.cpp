@@ -123,7 +123,7 @@ SignedDistance<D> from_convex(const Convex<D>& set, const DistanceFunction<D>& f
     const Convex<D> there = moved(set, back);
     const FunctionThere<D> seen(own);
     LeastOptions<D> options;
-    options.tolerance = search_tolerance * margin;
+    options.tolerance = std::max(search_tolerance * margin, wanted.rough);
     options.enough = wanted.enough + set.radius;
     options.reach = wanted.reach + set.radius;
     const Least<D> least = least_in(seen, there, options);
@@ -152,7 +152,7 @@ SignedDistance<D> over_solid(const DistanceFunction<D>& function, const Solid<D>
     // A plane of the frame, through its origin.
     const double height = dot(solid.normal, frame.offset) - solid.offset;
     LeastOptions<D> options;
-    options.tolerance = tolerance;
+    options.tolerance = std::max(tolerance, wanted.rough);
     options.off = off;
     options.most_boxes = most_boxes;
     options.enough = wanted.enough - height;
@@ -183,7 +183,7 @@ SignedDistance<D> between(const DistanceFunction<D>& a, const DistanceFunction<D
     const Aabb<D> own_box = bounds(by_a ? own_a : own_b);
     const double around = std::max(0.5 * length(DVec<D>(own_box.max) - DVec<D>(own_box.min)), 1e-30);
     LeastOptions<D> options;
-    options.tolerance = 0.5 * search_tolerance * margin;
+    options.tolerance = 0.5 * std::max(search_tolerance * margin, wanted.rough);
     options.enough = 0.5 * wanted.enough;
     options.reach = 0.5 * wanted.reach;
     // Between the two a point is nearest to both; it is no farther from the smaller than its middle is from the other.

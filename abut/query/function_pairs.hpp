@@ -49,6 +49,7 @@ double function_doubt(const A& a, const B& b);
 struct DistanceWanted {
     double enough = -std::numeric_limits<double>::infinity();
     double reach = std::numeric_limits<double>::infinity();
+    double rough = 0;  ///< so much above the least is as good
 };
 
 template <class A, class B>
