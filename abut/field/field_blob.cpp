@@ -237,6 +237,16 @@ Result<Field<D>> load_field(std::span<const std::byte> bytes) {
     return Field<D>(std::move(data));
 }
 
+int field_dimension(std::span<const std::byte> bytes) {
+    Reader reader(bytes);
+    std::array<char, 8> start{};
+    for (char& c : start)
+        if (!reader.number(c)) return 0;
+    std::uint32_t number = 0, dimension = 0;
+    const bool is_field = start == magic && reader.number(number) && number == version && reader.number(dimension);
+    return is_field && (dimension == 2 || dimension == 3) ? static_cast<int>(dimension) : 0;
+}
+
 template std::vector<std::byte> save(const Field<2>&);
 template std::vector<std::byte> save(const Field<3>&);
 template Result<Field<2>> load_field<2>(std::span<const std::byte>);

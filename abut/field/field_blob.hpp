@@ -21,4 +21,7 @@ std::vector<std::byte> save(const Field<D>& field);
 template <int D>
 Result<Field<D>> load_field(std::span<const std::byte> bytes);
 
+/// 2 or 3 where the bytes begin as those of a field of the plane or of space do; else 0.
+int field_dimension(std::span<const std::byte> bytes);
+
 }  // namespace abut

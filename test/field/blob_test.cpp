@@ -129,6 +129,19 @@ TEST(FieldBlob, CutShortOrDamagedIsRefused) {
     EXPECT_EQ(code_of<2>(whole), ProblemCode::bad_format);
 }
 
+TEST(FieldBlob, TellsItsDimension) {
+    Bytes bytes = save(Field2(small_disc()));
+    EXPECT_EQ(field_dimension(bytes), 2);
+    EXPECT_EQ(field_dimension(save(Field3(small_torus(FieldStore::sparse)))), 3);
+    EXPECT_EQ(field_dimension(std::span(bytes).first(16)), 2) << "the rest isn't looked at";
+    for (std::size_t size = 0; size < 16; ++size) EXPECT_EQ(field_dimension(std::span(bytes).first(size)), 0) << size;
+    for (std::size_t i = 0; i < 16; ++i) {
+        Bytes other = bytes;
+        other[i] ^= std::byte{4};
+        EXPECT_EQ(field_dimension(other), 0) << i;
+    }
+}
+
 TEST(FieldBlob, WhatItSaysOfItselfIsChecked) {
     const Bytes bytes = save(Field2(small_disc()));
     constexpr std::size_t version = 8, store = 16, lookup = 17, origin = 18, cells = 22, surface = 26, cell = 50,
