@@ -17,11 +17,18 @@ using Ask = std::function<void(std::span<double> values)>;
 /// The side that is whichever of abut's others it chooses.
 inline constexpr const char* chosen_side = "abut chosen";
 
+/// What else is to be known of a side, such as how good its answers are.
+struct Figure {
+    std::string name;
+    double value = 0;
+};
+
 struct Side {
     std::string who;  ///< "abut" or the peer
     Ask ask;
     std::function<void()> prepare = nullptr;  ///< before each call, not timed: what happens to all sides alike
     double strays = 0;                        ///< the share of its values that is known to be off, and forgiven
+    std::function<std::vector<Figure>()> figures = nullptr;  ///< asked once, not timed
 };
 
 /// A job with all that do it, ready to run. The first side is abut, the one the others are compared with.
@@ -62,6 +69,12 @@ std::vector<Bench> convex_solid_benches();
 std::vector<Bench> convex_plane_benches();
 /// Convex hulls in the plane, and those of few corners.
 std::vector<Bench> convex_hull_plane_benches();
+/// Fields of distances, baked.
+std::vector<Bench> field_bake_benches();
+/// The same, looked up.
+std::vector<Bench> field_sample_benches();
+/// The same as shapes.
+std::vector<Bench> field_shape_benches();
 /// Particles over a field.
 std::vector<Bench> field_particle_benches();
 

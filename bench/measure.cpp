@@ -126,6 +126,7 @@ std::vector<Row> measure(const Bench& bench) {
         row.is_mean = job.frames > 0;
         row.on_the_wall = job.on_the_wall;
         for (const double value : values) row.answer += value;
+        if (side.figures) row.figures = side.figures();
         compare(ours, values, job.tolerance, side.strays, row);
     }
 

@@ -39,15 +39,18 @@ struct OpenvdbField::Grid {
 };
 
 OpenvdbField::OpenvdbField(std::span<const Vec3> points, std::span<const glm::uvec3> triangles, const Vec3& origin,
-                           float cell, float band) {
+                           float cell, float band, OpenvdbDistances distances) {
     openvdb::initialize();
     const auto transform = openvdb::math::Transform::createLinearTransform(static_cast<double>(cell));
     transform->postTranslate(openvdb::Vec3d(origin.x, origin.y, origin.z));
     const Triangles mesh(points, triangles, *transform);
+    const int flags = distances == OpenvdbDistances::tidied ? 0
+                                                            : openvdb::tools::DISABLE_INTERSECTING_VOXEL_REMOVAL |
+                                                                  openvdb::tools::DISABLE_RENORMALIZATION;
     oneapi::tbb::task_arena one_thread(1);
     grid_ = one_thread.execute([&] {
         return std::make_shared<Grid>(
-            Grid{openvdb::tools::meshToVolume<openvdb::FloatGrid>(mesh, *transform, band, band)});
+            Grid{openvdb::tools::meshToVolume<openvdb::FloatGrid>(mesh, *transform, band, band, flags)});
     });
 }
 
@@ -59,10 +62,8 @@ void OpenvdbField::distance(std::span<const Vec3> points, std::span<double> out)
         out[i] = static_cast<double>(sampler.wsSample(openvdb::Vec3d(points[i].x, points[i].y, points[i].z)));
 }
 
-double OpenvdbField::distance(const Vec3& point) const {
-    double result = 0;
-    distance(std::span(&point, 1), std::span(&result, 1));
-    return result;
+std::size_t OpenvdbField::bytes() const {
+    return grid_->grid->memUsage();
 }
 
 }  // namespace abut::bench

@@ -45,6 +45,8 @@ void print_table_rows(std::ostream& out, std::span<const Row> rows) {
         if (row.is_mean && &row == &rows.front()) out << "  mean of all frames";
         if (row.on_the_wall && &row == &rows.front()) out << ", time on the wall";
         if (row.over_best > 0) out << "  " << row.over_best << " of the best";
+        for (const Figure& figure : row.figures)
+            out << "  " << figure.name << ' ' << std::setprecision(figure.value < 1 ? 5 : 2) << figure.value;
         if (!row.difference.empty()) out << (row.agrees ? "  (" : "  DISAGREES (") << row.difference << ')';
         out << '\n';
     }
@@ -59,6 +61,7 @@ void print_json(std::ostream& out, std::span<const Row> rows) {
             << R"(, "ratio": )" << row.ratio << R"(, "answer": )";
         std::isfinite(row.answer) ? out << row.answer : out << "null";
         if (row.over_best > 0) out << R"(, "over_best": )" << row.over_best;
+        for (const Figure& figure : row.figures) out << R"(, ")" << figure.name << R"(": )" << figure.value;
         if (!row.agrees) out << R"(, "disagreement": ")" << row.difference << '"';
         out << '}';
         separator = ",\n";

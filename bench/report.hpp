@@ -16,7 +16,8 @@ void print_table_head(std::ostream& out);
 /// The rows of one bench.
 void print_table_rows(std::ostream& out, std::span<const Row> rows);
 
-/// {"rows": [{"bench", "who", "ns", "ratio", "answer"}]}, and "disagreement" in a row that has one.
+/// {"rows": [{"bench", "who", "ns", "ratio", "answer"}]}, a row's figures by their names, and
+/// "disagreement" in a row that has one.
 void print_json(std::ostream& out, std::span<const Row> rows);
 
 }  // namespace abut::bench

@@ -1,0 +1,42 @@
+#pragma once
+
+// A closed mesh that fields are baked of, and places near its surface.
+
+#include "../test/oracle/random.hpp"
+#include <abut/bake/field.hpp>
+#include <abut/math/vec.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <glm/ext/vector_uint3.hpp>
+
+namespace abut::bench {
+
+/// A bumpy ball of 87,024 triangles in a cube of 1.1 times its longest side.
+struct FieldScene {
+    std::vector<Vec3> points;
+    std::vector<glm::uvec3> triangles;
+    Vec3 corner{};   ///< the least of the cube
+    float side = 0;  ///< of the cube
+
+    float cell(std::uint32_t cells) const { return side / static_cast<float>(cells); }
+    /// For a field of just so many cells along each axis.
+    FieldOptions<3> options(std::uint32_t cells) const;
+};
+using SharedFieldScene = std::shared_ptr<const FieldScene>;
+
+SharedFieldScene field_scene();
+
+/// Up to `reach` from the surface, in no order.
+std::vector<Vec3> places_near(const FieldScene& scene, float reach, std::size_t count, oracle::Random& random);
+
+/// In cells, from -1 to 1: beyond that some keep less than others.
+inline double near_in_cells(double distance, float cell) {
+    const double cells = distance / static_cast<double>(cell);
+    return cells < -1 ? -1 : cells > 1 ? 1 : cells;
+}
+
+}  // namespace abut::bench
