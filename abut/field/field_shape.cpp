@@ -34,13 +34,19 @@ double value_of(const FieldData<D>& data, const SampleGrid<D>& grid, std::uint32
     return static_cast<double>(data.steps[sample]) * static_cast<double>(data.step);
 }
 
+/// The last cell of the volume along an axis.
+template <int D>
+std::int32_t last_cell(const FieldData<D>& data, int axis) {
+    return static_cast<std::int32_t>(data.cells[axis]) - 1;
+}
+
 /// The grid in which a cell of the volume lies.
 template <int D>
 SampleGrid<D> grid_of(const FieldData<D>& data, const Cell<D>& cell) {
     const FieldFrame<D>& frame = data.frame;
     SampleGrid<D> result;
     if (data.store == FieldStore::dense) {
-        result = {Cell<D>(0), frame.last, 0, frame.stride};
+        result = {Cell<D>(0), Cell<D>(data.cells) - 1, 0, frame.stride};
         return result;
     }
     constexpr auto side = static_cast<std::int32_t>(brick_cells<D>);
@@ -131,7 +137,7 @@ public:
         std::int64_t cells = 1;
         bool is_small = true;
         for (int a = 0; a < D; ++a) {
-            const std::int32_t last = data_.frame.last[a];
+            const std::int32_t last = last_cell(data_, a);
             if (!(low_[a] >= 0 && high_[a] <= last + 1)) return DistanceKnown::nothing;
             low[a] = std::min(static_cast<std::int32_t>(low_[a]), last);
             high[a] = std::max(std::min(static_cast<std::int32_t>(std::ceil(high_[a])) - 1, last), low[a]);
@@ -174,13 +180,13 @@ private:
             DVec<D> from = center_, to = center_;
             const double reach = std::max(0.5 * (high_[a] - low_[a]), 0.05);
             from[a] = std::max(center_[a] - reach, 0.0);
-            to[a] = std::min(center_[a] + reach, data_.frame.last[a] + 1.0);
+            to[a] = std::min(center_[a] + reach, static_cast<double>(data_.cells[a]));
             gradient_[a] = (at(to) - at(from)) / (to[a] - from[a]);
         }
     }
     double at(const DVec<D>& place) const {
         Cell<D> cell;
-        for (int a = 0; a < D; ++a) cell[a] = std::min(static_cast<std::int32_t>(place[a]), data_.frame.last[a]);
+        for (int a = 0; a < D; ++a) cell[a] = std::min(static_cast<std::int32_t>(place[a]), last_cell(data_, a));
         return values_in(data_, grid_of(data_, cell), cell).at(place);
     }
 
@@ -286,7 +292,7 @@ public:
     DistanceCrossing run() {
         if (!(speed_ > 0)) return {};
         std::int64_t most_steps = 256;
-        for (int a = 0; a < D; ++a) most_steps += 4 * (static_cast<std::int64_t>(data_.frame.last[a]) + 1);
+        for (int a = 0; a < D; ++a) most_steps += 4 * (static_cast<std::int64_t>(data_.cells[a]));
         const auto cell = static_cast<double>(data_.cell);
         const double steep = std::sqrt(static_cast<double>(D));
         double along = 0;
@@ -299,7 +305,7 @@ public:
                 along = std::min(along + std::max(room, 0.25 * cell) / speed_, enters_volume(along));
             } else {
                 Cell<D> at;
-                for (int a = 0; a < D; ++a) at[a] = cell_at(place[a], way_[a], data_.frame.last[a]);
+                for (int a = 0; a < D; ++a) at[a] = cell_at(place[a], way_[a], last_cell(data_, a));
                 const CellValues<D> values = values_in(data_, grid_of(data_, at), at);
                 const double here = values.at(place), room = std::min(here - range_.low, range_.high - here);
                 const double leap = room / (steep * cell);
@@ -322,7 +328,7 @@ private:
         bool result = true;
         for (int a = 0; a < D; ++a) {
             // What is on its border and goes out is outside.
-            const double high = data_.frame.last[a] + 1.0;
+            const double high = static_cast<double>(data_.cells[a]);
             result = result && (place[a] > 0 || (place[a] == 0 && way_[a] >= 0)) &&
                      (place[a] < high || (place[a] == high && way_[a] <= 0));
         }
@@ -333,7 +339,7 @@ private:
         constexpr double never = std::numeric_limits<double>::infinity();
         double enter = along, leave = never;
         for (int a = 0; a < D; ++a) {
-            const double high = data_.frame.last[a] + 1.0;
+            const double high = static_cast<double>(data_.cells[a]);
             if (way_[a] == 0) {
                 if (origin_[a] < 0 || origin_[a] > high) return never;
                 continue;
