@@ -5,6 +5,7 @@
 #include <abut/bake/field_grid.hpp>
 #include <abut/bake/field_samples.hpp>
 #include <abut/field/field_data.hpp>
+#include <abut/field/packed_direction.hpp>
 #include <abut/math/aabb.hpp>
 
 #include <algorithm>
@@ -41,10 +42,17 @@ private:
             const float was = of_blocks ? before_.coarse[place] : before_.distance[place];
             if (!is_kept(lattice_.at(sample), was)) return false;
             values.distance[i] = was;
-            if (values.gradient != nullptr) values.gradient[i] = before_.gradient[place];
+            if (values.gradient != nullptr) values.gradient[i] = direction(before_.direction[place]);
             if (values.closest != nullptr) values.closest[i] = before_.closest[place];
         }
         return true;
+    }
+
+    static Vec<D> direction(std::uint16_t bits) {
+        if constexpr (D == 2)
+            return unpacked2(bits);
+        else
+            return unpacked3(bits);
     }
 
     bool is_kept(const DVec<D>& point, float was) const {

@@ -11,20 +11,14 @@
 
 namespace abut {
 
-/// Of a vector that isn't zero.
-inline std::uint16_t packed(const Vec2& v) {
+namespace detail {
+
+inline std::uint16_t packed_once(const Vec2& v) {
     const float along = v.x / (std::abs(v.x) + std::abs(v.y));
     const float steps = std::clamp(std::floor(along * 16383.0f + 0.5f), -16383.0f, 16383.0f);
     return static_cast<std::uint16_t>((static_cast<std::int32_t>(steps) + 16384) << 1 | (v.y < 0 ? 1 : 0));
 }
-inline Vec2 unpacked2(std::uint16_t bits) {
-    const float x = static_cast<float>((bits >> 1) - 16384) * (1.0f / 16383);
-    const float y = (bits & 1) != 0 ? std::abs(x) - 1 : 1 - std::abs(x);
-    const float inverse = 1 / std::sqrt(x * x + y * y);
-    return {x * inverse, y * inverse};
-}
-
-inline std::uint16_t packed(const Vec3& v) {
+inline std::uint16_t packed_once(const Vec3& v) {
     const float sum = std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
     float x = v.x / sum, y = v.y / sum;
     if (v.z < 0) {
@@ -37,6 +31,15 @@ inline std::uint16_t packed(const Vec3& v) {
     };
     return static_cast<std::uint16_t>(steps(x) | steps(y) << 8);
 }
+}  // namespace detail
+
+inline Vec2 unpacked2(std::uint16_t bits) {
+    const float x = static_cast<float>((bits >> 1) - 16384) * (1.0f / 16383);
+    const float y = (bits & 1) != 0 ? std::abs(x) - 1 : 1 - std::abs(x);
+    const float inverse = 1 / std::sqrt(x * x + y * y);
+    return {x * inverse, y * inverse};
+}
+
 inline Vec3 unpacked3(std::uint16_t bits) {
     float x = static_cast<float>(static_cast<std::int8_t>(bits & 255)) * (1.0f / 127);
     float y = static_cast<float>(static_cast<std::int8_t>(bits >> 8)) * (1.0f / 127);
@@ -47,6 +50,15 @@ inline Vec3 unpacked3(std::uint16_t bits) {
     y = y - std::copysign(fold, y);
     const float inverse = 1 / std::sqrt(x * x + y * y + z * z);
     return {x * inverse, y * inverse, z * inverse};
+}
+
+/// Of a vector that isn't zero. Of several bits for one direction always the same ones: what was unpacked is packed as
+/// it was.
+inline std::uint16_t packed(const Vec2& v) {
+    return detail::packed_once(unpacked2(detail::packed_once(v)));
+}
+inline std::uint16_t packed(const Vec3& v) {
+    return detail::packed_once(unpacked3(detail::packed_once(v)));
 }
 
 }  // namespace abut
