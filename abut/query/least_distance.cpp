@@ -82,15 +82,14 @@ public:
         if (second != first && best.point == second) go_down(second);
         bool is_piece = false;
         all_.least = least_in(all_, is_piece);
-        // First roughly, so that what is exact need look at little.
+        // Where it isn't settled soon, first roughly, so that what is exact need look at little.
         const double finest = options_.tolerance;
         const int most = options_.most_boxes;
-        for (const double rough : {1e-3, 1e-4, 0.0}) {
-            const bool is_told = function_.function().bound != nullptr;
-            if (rough > 0 && !is_told) continue;
+        const bool is_told = function_.function().bound != nullptr;
+        for (const double rough : {0.0, 1e-3, 1e-4, 0.0}) {
             options_.tolerance = std::max(rough * size_, finest);
             if (!wanted(all_.least, options_.tolerance)) continue;
-            if (rough == 0 && is_told) options_.most_boxes = std::min(most, least_distance_most_fine_boxes);
+            options_.most_boxes = rough == 0 && is_told ? std::min(most, least_distance_most_fine_boxes) : most;
             ways_down_ = 0;
             const int before = best.boxes;
             best.boxes = 0;
@@ -100,6 +99,7 @@ public:
             else
                 look_at_boxes(*this, all_, options_);
             best.boxes += before;
+            if (!is_told || (rough == 0 && best.doubt == 0)) break;
         }
         if (best.distance > options_.reach) best.distance = std::numeric_limits<double>::infinity();
     }
