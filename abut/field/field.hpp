@@ -51,15 +51,15 @@ public:
     /// raymarching distance fields", as Aaltonen (2018) improved them, and a little more: docs/fields.md measures it.
     float shadow(const Vec<D>& point, const Vec<D>& light, float softness = 0.05f) const;
 
-    /// How open the surroundings of a point of the surface are along its normal, in [0, 1], as far as `reach`; 1 where
-    /// nothing is near, and for a reach of 0. Only what is in the volume is sure to be seen. After Evans (2006): "Fast
-    /// approximations for global illumination on dynamic scenes".
-    float openness(const Vec<D>& point, const Vec<D>& normal, float reach) const;
+    /// How much of the light from all around arrives at a point of the surface, in [0, 1]: told by how open it is along
+    /// its normal as far as `reach`; 1 where nothing is near, and for a reach of 0. Only what is in the volume is sure
+    /// to be seen. After Evans (2006): "Fast approximations for global illumination on dynamic scenes".
+    float ambient_occlusion(const Vec<D>& point, const Vec<D>& normal, float reach) const;
 
     /// The same for many points at once; bit by bit. All spans are equally long.
     void shadow(std::span<const Vec<D>> points, const Vec<D>& light, float softness, std::span<float> out) const;
-    void openness(std::span<const Vec<D>> points, std::span<const Vec<D>> normals, float reach,
-                  std::span<float> out) const;
+    void ambient_occlusion(std::span<const Vec<D>> points, std::span<const Vec<D>> normals, float reach,
+                           std::span<float> out) const;
 
     /// The box in which there are samples.
     Aabb<D> volume() const;

@@ -16,23 +16,23 @@ namespace {
 /// So many at once are looked up together.
 constexpr std::size_t at_once = 64;
 
-constexpr std::size_t openness_places = 5;
+constexpr std::size_t occlusion_places = 5;
 
 template <int D>
-std::array<Vec<D>, openness_places> places_along(const Vec<D>& point, const Vec<D>& normal, float reach) {
-    std::array<Vec<D>, openness_places> result;
-    for (std::size_t i = 0; i < openness_places; ++i) {
-        const double way = static_cast<double>(reach) * static_cast<double>(i + 1) / openness_places;
+std::array<Vec<D>, occlusion_places> places_along(const Vec<D>& point, const Vec<D>& normal, float reach) {
+    std::array<Vec<D>, occlusion_places> result;
+    for (std::size_t i = 0; i < occlusion_places; ++i) {
+        const double way = static_cast<double>(reach) * static_cast<double>(i + 1) / occlusion_places;
         result[i] = Vec<D>(DVec<D>(point) + way * DVec<D>(normal));
     }
     return result;
 }
 
 /// Each place says which share of its height is free, and counts half as much as the one before it.
-float openness_of(const float* distances, float reach) {
+float occlusion_of(const float* distances, float reach) {
     double sum = 0, weights = 0, weight = 1;
-    for (std::size_t i = 0; i < openness_places; ++i) {
-        const double way = static_cast<double>(reach) * static_cast<double>(i + 1) / openness_places;
+    for (std::size_t i = 0; i < occlusion_places; ++i) {
+        const double way = static_cast<double>(reach) * static_cast<double>(i + 1) / occlusion_places;
         sum += weight * std::clamp(static_cast<double>(distances[i]) / way, 0.0, 1.0);
         weights += weight;
         weight *= 0.5;
@@ -80,21 +80,21 @@ void Field<D>::shadow(std::span<const Vec<D>> points, const Vec<D>& light, float
 }
 
 template <int D>
-float Field<D>::openness(const Vec<D>& point, const Vec<D>& normal, float reach) const {
+float Field<D>::ambient_occlusion(const Vec<D>& point, const Vec<D>& normal, float reach) const {
     ABUT_ASSERT(is_finite<D>(point) && is_finite<D>(normal) && reach >= 0);
     if (!(reach > 0)) return 1;
-    const std::array<Vec<D>, openness_places> places = places_along<D>(point, normal, reach);
-    std::array<float, openness_places> found;
-    for (std::size_t i = 0; i < openness_places; ++i) found[i] = distance(places[i]);
-    return openness_of(found.data(), reach);
+    const std::array<Vec<D>, occlusion_places> places = places_along<D>(point, normal, reach);
+    std::array<float, occlusion_places> found;
+    for (std::size_t i = 0; i < occlusion_places; ++i) found[i] = distance(places[i]);
+    return occlusion_of(found.data(), reach);
 }
 
 template <int D>
-void Field<D>::openness(std::span<const Vec<D>> points, std::span<const Vec<D>> normals, float reach,
-                        std::span<float> out) const {
+void Field<D>::ambient_occlusion(std::span<const Vec<D>> points, std::span<const Vec<D>> normals, float reach,
+                                 std::span<float> out) const {
     ABUT_ASSERT(points.size() == out.size() && points.size() == normals.size() && reach >= 0);
-    std::array<Vec<D>, at_once * openness_places> places;
-    std::array<float, at_once * openness_places> found;
+    std::array<Vec<D>, at_once * occlusion_places> places;
+    std::array<float, at_once * occlusion_places> found;
     for (std::size_t begin = 0; begin < points.size(); begin += at_once) {
         const std::size_t count = std::min(at_once, points.size() - begin);
         if (!(reach > 0)) {
@@ -103,10 +103,10 @@ void Field<D>::openness(std::span<const Vec<D>> points, std::span<const Vec<D>> 
         }
         for (std::size_t i = 0; i < count; ++i) {
             const auto some = places_along<D>(points[begin + i], normals[begin + i], reach);
-            std::copy(some.begin(), some.end(), places.begin() + static_cast<std::ptrdiff_t>(i * openness_places));
+            std::copy(some.begin(), some.end(), places.begin() + static_cast<std::ptrdiff_t>(i * occlusion_places));
         }
-        distance(std::span(places).first(count * openness_places), std::span(found).first(count * openness_places));
-        for (std::size_t i = 0; i < count; ++i) out[begin + i] = openness_of(&found[i * openness_places], reach);
+        distance(std::span(places).first(count * occlusion_places), std::span(found).first(count * occlusion_places));
+        for (std::size_t i = 0; i < count; ++i) out[begin + i] = occlusion_of(&found[i * occlusion_places], reach);
     }
 }
 
@@ -114,9 +114,9 @@ template float Field<2>::shadow(const Vec2&, const Vec2&, float) const;
 template float Field<3>::shadow(const Vec3&, const Vec3&, float) const;
 template void Field<2>::shadow(std::span<const Vec2>, const Vec2&, float, std::span<float>) const;
 template void Field<3>::shadow(std::span<const Vec3>, const Vec3&, float, std::span<float>) const;
-template float Field<2>::openness(const Vec2&, const Vec2&, float) const;
-template float Field<3>::openness(const Vec3&, const Vec3&, float) const;
-template void Field<2>::openness(std::span<const Vec2>, std::span<const Vec2>, float, std::span<float>) const;
-template void Field<3>::openness(std::span<const Vec3>, std::span<const Vec3>, float, std::span<float>) const;
+template float Field<2>::ambient_occlusion(const Vec2&, const Vec2&, float) const;
+template float Field<3>::ambient_occlusion(const Vec3&, const Vec3&, float) const;
+template void Field<2>::ambient_occlusion(std::span<const Vec2>, std::span<const Vec2>, float, std::span<float>) const;
+template void Field<3>::ambient_occlusion(std::span<const Vec3>, std::span<const Vec3>, float, std::span<float>) const;
 
 }  // namespace abut

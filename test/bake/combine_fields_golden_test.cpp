@@ -57,7 +57,7 @@ TEST(CombineFieldsGolden, ShadowsAndTextures) {
         const Vec3 point(-1.3f + 0.013f * static_cast<float>(i % 200), -1 + 0.1f * static_cast<float>(i / 200),
                          0.37f * static_cast<float>(i % 7) - 1);
         for (const float softness : {0.0f, 0.07f, 0.6f}) hash.add(field.shadow(point, {0.9f, 1.9f, 0.5f}, softness));
-        hash.add(field.openness(point, {0.6f, 0.8f, 0}, 0.4f));
+        hash.add(field.ambient_occlusion(point, {0.6f, 0.8f, 0}, 0.4f));
     }
     for (const TextureFormat format : {TextureFormat::r8_snorm, TextureFormat::r16f, TextureFormat::r32f}) {
         const auto texture = to_texture(field, format);

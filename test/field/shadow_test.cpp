@@ -238,31 +238,31 @@ TEST(FieldShadow, ManyAtOnceAreTheSame) {
         points.push_back(q.point);
         normals.push_back(scene_field().sample(q.point).normal);
     }
-    std::vector<float> shadows(points.size()), opennesses(points.size());
+    std::vector<float> shadows(points.size()), occlusions(points.size());
     for (const float softness : {0.0f, 0.1f}) {
         scene_field().shadow(points, {0.5f, 2, 0.3f}, softness, shadows);
         for (std::size_t i = 0; i < points.size(); ++i)
             ASSERT_EQ(shadows[i], scene_field().shadow(points[i], {0.5f, 2, 0.3f}, softness));
     }
     for (const float reach : {0.0f, 0.4f}) {
-        scene_field().openness(points, normals, reach, opennesses);
+        scene_field().ambient_occlusion(points, normals, reach, occlusions);
         for (std::size_t i = 0; i < points.size(); ++i)
-            ASSERT_EQ(opennesses[i], scene_field().openness(points[i], normals[i], reach));
+            ASSERT_EQ(occlusions[i], scene_field().ambient_occlusion(points[i], normals[i], reach));
     }
 }
 
 TEST(FieldShadow, Openness) {
     const Field3& field = scene_field();
     const Vec3 up(0, 1, 0);
-    EXPECT_EQ(field.openness({-1.5f, -0.4f, 1.5f}, up, 0), 1);
-    EXPECT_NEAR(field.openness({-1.5f, -0.4f, 1.5f}, up, 0.3f), 1, 1e-3);  // a floor alone
-    EXPECT_EQ(field.openness({-1.5f, -0.6f, 1.5f}, {1, 0, 0}, 0.3f), 0);   // within it
-    EXPECT_EQ(field.openness({-1.5f, -0.4f, 1.5f}, -up, 0.3f), 0);         // and into it
+    EXPECT_EQ(field.ambient_occlusion({-1.5f, -0.4f, 1.5f}, up, 0), 1);
+    EXPECT_NEAR(field.ambient_occlusion({-1.5f, -0.4f, 1.5f}, up, 0.3f), 1, 1e-3);  // a floor alone
+    EXPECT_EQ(field.ambient_occlusion({-1.5f, -0.6f, 1.5f}, {1, 0, 0}, 0.3f), 0);   // within it
+    EXPECT_EQ(field.ambient_occlusion({-1.5f, -0.4f, 1.5f}, -up, 0.3f), 0);         // and into it
     // Under the ball, the less the farther it is looked; less near than far from it.
     const Vec3 under(-0.8f, -0.4f, 0.2f), beside(-0.4f, -0.4f, 0.6f);
-    EXPECT_LT(field.openness(under, up, 0.15f), field.openness(under, up, 0.05f));
-    EXPECT_LT(field.openness(under, up, 0.3f), field.openness(beside, up, 0.3f));
-    EXPECT_LT(field.openness(beside, up, 0.5f), 0.999f);
+    EXPECT_LT(field.ambient_occlusion(under, up, 0.15f), field.ambient_occlusion(under, up, 0.05f));
+    EXPECT_LT(field.ambient_occlusion(under, up, 0.3f), field.ambient_occlusion(beside, up, 0.3f));
+    EXPECT_LT(field.ambient_occlusion(beside, up, 0.5f), 0.999f);
     // In the corner of floor and wall: of a height of h, min(h, x) is free at x from the wall.
     const Field2 corner(oracle::filled_around(
         oracle::Analytic<2>{[](const DVec<2>& p) { return std::min(p.x, p.y); }, {{-1, -1}, {4, 4}}}, 0.1f, 1));
@@ -273,7 +273,7 @@ TEST(FieldShadow, Openness) {
             sum += weight * std::min(1.0, static_cast<double>(x) / height);
             weights += weight;
         }
-        EXPECT_NEAR(corner.openness({x, 0}, {0, 1}, 1), sum / weights, 1e-3) << x;
+        EXPECT_NEAR(corner.ambient_occlusion({x, 0}, {0, 1}, 1), sum / weights, 1e-3) << x;
     }
 }
 
