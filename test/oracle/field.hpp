@@ -39,27 +39,28 @@ inline LongVec<3> long_cross(const LongVec<3>& a, const LongVec<3>& b) {
 }
 
 template <int D>
-long double distance_to_segment(const LongVec<D>& p, const LongVec<D>& a, const LongVec<D>& b) {
+long double squared_to_segment(const LongVec<D>& p, const LongVec<D>& a, const LongVec<D>& b) {
     const LongVec<D> along = b - a;
     const long double whole = long_dot<D>(along, along);
     const long double share = whole > 0 ? std::clamp(long_dot<D>(p - a, along) / whole, 0.0L, 1.0L) : 0.0L;
-    return long_length<D>(p - (a + along * share));
+    const LongVec<D> way = p - (a + along * share);
+    return long_dot<D>(way, way);
 }
 
-/// Of a triangle with or without area: its sides, and its face where the point projects into it.
-inline long double distance_to_triangle(const LongVec<3>& p, const LongVec<3>& a, const LongVec<3>& b,
-                                        const LongVec<3>& c) {
-    long double least =
-        std::min({distance_to_segment<3>(p, a, b), distance_to_segment<3>(p, b, c), distance_to_segment<3>(p, c, a)});
+/// The square of the distance to a triangle with or without area: to its face where the point projects into it, else to
+/// its sides.
+inline long double squared_to_triangle(const LongVec<3>& p, const LongVec<3>& a, const LongVec<3>& b,
+                                       const LongVec<3>& c) {
     const LongVec<3> normal = long_cross(b - a, c - a);
-    const long double area = long_length<3>(normal);
-    if (!(area > 0)) return least;
+    const long double area_squared = long_dot<3>(normal, normal);
     const auto before = [&](const LongVec<3>& from, const LongVec<3>& to) {
         return long_dot<3>(long_cross(to - from, p - from), normal) >= 0;
     };
-    if (before(a, b) && before(b, c) && before(c, a))
-        least = std::min(least, std::abs(long_dot<3>(p - a, normal)) / area);
-    return least;
+    if (area_squared > 0 && before(a, b) && before(b, c) && before(c, a)) {
+        const long double height = long_dot<3>(p - a, normal);
+        return height * height / area_squared;
+    }
+    return std::min({squared_to_segment<3>(p, a, b), squared_to_segment<3>(p, b, c), squared_to_segment<3>(p, c, a)});
 }
 
 /// As a share of the whole sphere: how much of what is seen from p the triangle covers, above zero from behind it.
@@ -91,16 +92,28 @@ struct FieldTruth {
 class TriangleTruth {
 public:
     TriangleTruth(std::span<const Vec3> points, std::span<const glm::uvec3> triangles) {
-        for (const glm::uvec3& triangle : triangles)
-            for (int i = 0; i < 3; ++i) corners_.emplace_back(points[triangle[i]]);
+        for (const glm::uvec3& triangle : triangles) {
+            const LongVec<3> a(points[triangle.x]), b(points[triangle.y]), c(points[triangle.z]);
+            corners_.insert(corners_.end(), {a, b, c});
+            // With more than all roundings.
+            reaches_.push_back(1.000001L * std::max(long_length<3>(b - a), long_length<3>(c - a)));
+        }
     }
 
+    /// All triangles are looked at; those whose first corner is too far away for the rest to be nearest only so far.
     double distance(const DVec<3>& point) const {
-        long double least = std::numeric_limits<long double>::infinity();
         const LongVec<3> p(point);
-        for (std::size_t i = 0; i < corners_.size(); i += 3)
-            least = std::min(least, distance_to_triangle(p, corners_[i], corners_[i + 1], corners_[i + 2]));
-        return static_cast<double>(least);
+        long double least = std::numeric_limits<long double>::infinity(), nearest = least;
+        for (std::size_t i = 0; i < reaches_.size(); ++i) {
+            const LongVec<3>& a = corners_[3 * i];
+            const long double reach = nearest + reaches_[i];
+            if (long_dot<3>(p - a, p - a) > reach * reach) continue;
+            const long double squared = squared_to_triangle(p, a, corners_[3 * i + 1], corners_[3 * i + 2]);
+            if (squared >= least) continue;
+            least = squared;
+            nearest = std::sqrt(least);
+        }
+        return static_cast<double>(nearest);
     }
     double winding(const DVec<3>& point) const {
         long double sum = 0;
@@ -112,7 +125,8 @@ public:
     FieldTruth operator()(const DVec<3>& point) const { return {distance(point), winding(point)}; }
 
 private:
-    std::vector<LongVec<3>> corners_;  // three a triangle
+    std::vector<LongVec<3>> corners_;   // three a triangle
+    std::vector<long double> reaches_;  // from the first corner of each
 };
 
 /// An outline and its holes: inside of the outline, and of none of them.
@@ -131,13 +145,13 @@ public:
             long double around = 0;
             for (std::size_t i = 0; i < ring.size(); ++i) {
                 const LongVec<2>&a = ring[i], &b = ring[(i + 1) % ring.size()];
-                least = std::min(least, distance_to_segment<2>(p, a, b));
+                least = std::min(least, squared_to_segment<2>(p, a, b));
                 around += covered_share(p, a, b);
             }
             const bool in_ring = std::abs(around) >= 0.5L;
             inside = &ring == rings_.data() ? in_ring : inside && !in_ring;
         }
-        return {static_cast<double>(least), inside ? 1.0 : 0.0};
+        return {static_cast<double>(std::sqrt(least)), inside ? 1.0 : 0.0};
     }
 
 private:
