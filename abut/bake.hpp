@@ -5,6 +5,7 @@
 #include <abut/bake/combine_fields.hpp>
 #include <abut/bake/decompose.hpp>
 #include <abut/bake/decompose_outline.hpp>
+#include <abut/bake/field.hpp>
 #include <abut/bake/fit.hpp>
 #include <abut/bake/repair.hpp>
 #include <abut/bake/solid.hpp>
