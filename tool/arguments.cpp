@@ -8,6 +8,7 @@ namespace abut::tool {
 namespace {
 
 constexpr std::size_t most_frames = 1'000'000, most_bounces = 100'000;
+constexpr float most_cells = 1e6f;
 constexpr std::uint32_t most_vertices = 1'000'000, most_parts = 100'000;
 
 // True where all of the text is one number.
@@ -68,6 +69,27 @@ Result<std::uint32_t> parse_vertices(const std::string& text) {
 
 Result<std::uint32_t> parse_parts(const std::string& text) {
     return parse_whole<std::uint32_t>(text, 1, most_parts);
+}
+
+Result<float> parse_cell(const std::string& text) {
+    float cell = 0;
+    if (!parse(text, cell) || !std::isfinite(cell) || !(cell > 0)) return bad(text, "a number above 0");
+    return cell;
+}
+
+Result<float> parse_cells(const std::string& text) {
+    float cells = 0;
+    if (!parse(text, cells) || !(cells >= 1 && cells <= most_cells)) return bad(text, "a number from 1 to 1000000");
+    return cells;
+}
+
+Result<FieldSlice> parse_slice(const std::string& text) {
+    FieldSlice slice;
+    const bool is_slice = text.size() > 2 && text[0] >= 'x' && text[0] <= 'z' && text[1] == '=' &&
+                          parse(text.substr(2), slice.at) && std::isfinite(slice.at);
+    if (!is_slice) return bad(text, "an axis and a number, such as z=0.3");
+    slice.axis = text[0] - 'x';
+    return slice;
 }
 
 Result<double> parse_share(const std::string& text) {

@@ -4,6 +4,7 @@
 
 #include "check.hpp"
 #include "faults.hpp"
+#include "verbs.hpp"
 #include <abut/math/result.hpp>
 
 #include <cstddef>
@@ -30,6 +31,15 @@ Result<std::uint32_t> parse_vertices(const std::string& text);
 
 /// The most parts of a mesh, 1 to a hundred thousand.
 Result<std::uint32_t> parse_parts(const std::string& text);
+
+/// The side of a cell: finite, above 0.
+Result<float> parse_cell(const std::string& text);
+
+/// A number of cells, 1 to a million.
+Result<float> parse_cells(const std::string& text);
+
+/// AXIS=N: x, y or z, and a finite number.
+Result<FieldSlice> parse_slice(const std::string& text);
 
 /// A share, from 0 to 1.
 Result<double> parse_share(const std::string& text);

@@ -153,8 +153,48 @@ void describe(CLI::App& verb, DecomposeArguments& arguments) {
         "become one, triangles are made to agree which way round they are, small holes are filled.");
 }
 
+// What was typed for `abut field`.
+struct FieldArguments {
+    FieldRequest request;
+    std::optional<std::string> cell, padding, band;
+    std::vector<std::string> slices;
+};
+
+void describe(CLI::App& verb, FieldArguments& arguments) {
+    FieldRequest& request = arguments.request;
+    verb.add_option("MESH", request.mesh,
+                    std::string(mesh_files) + "; or a level of the plane, a Tiled map or an SVG drawing")
+        ->required();
+    verb.add_option("-o,--output", request.output, "Where to write it")->type_name("OUT.field")->required();
+    verb.add_option("--cell", arguments.cell,
+                    "The side of a cell; without it a 64th of the longest side of the surface's box")
+        ->type_name("D");
+    verb.add_option("--padding", arguments.padding,
+                    "How far the volume goes beyond the surface, in cells, 1 or more; without it 3")
+        ->type_name("N");
+    CLI::Option* band =
+        verb.add_option("--band", arguments.band,
+                        "How far from the surface all samples are kept, in cells, 1 or more; without it 3")
+            ->type_name("N");
+    verb.add_flag("--dense", request.dense, "Keep all samples of the volume")->excludes(band);
+    verb.add_flag("--gradient", request.gradient,
+                  "Keep the gradient of each sample too: less error at edges, for more memory");
+    verb.add_flag("--quantised", request.quantised, "Samples of 16 bits, half the memory");
+    verb.add_option("--picture", request.picture, "Draw slices too, with lines of equal distance")
+        ->type_name("FILE.svg");
+    verb.add_option("--slice", arguments.slices,
+                    "Where the picture cuts the volume, such as z=0.3; without it the middle of each axis")
+        ->type_name("AXIS=N")
+        ->allow_extra_args(false);
+    verb.add_flag("--json", request.json, "One JSON object in place of text");
+    verb.footer(
+        "All objects are taken together, where they stand at the first moment. Inside is where the surface goes round "
+        "a place. Exits with 1 where it has gaps or more than a thousandth of the samples may be on either side; the "
+        "field is written all the same.");
+}
+
 void describe(CLI::App& verb, InfoRequest& request) {
-    verb.add_option("FILE", request.scene, files)->required();
+    verb.add_option("FILE", request.scene, std::string(files) + "; or what abut field wrote (.field)")->required();
     verb.add_flag("--json", request.json, "One JSON object in place of text");
     verb.add_flag("--skip-degenerate", request.skip_degenerate, "Leave out triangles of zero area");
 }
@@ -210,10 +250,21 @@ Result<ExitCode> run_decompose(DecomposeArguments& arguments) {
     return run_decompose(request);
 }
 
+Result<ExitCode> run_field(FieldArguments& arguments) {
+    FieldRequest& request = arguments.request;
+    std::optional<std::string> problem = understand("--cell", arguments.cell, parse_cell, request.cell);
+    if (!problem) problem = understand("--padding", arguments.padding, parse_cells, request.padding);
+    if (!problem) problem = understand("--band", arguments.band, parse_cells, request.band);
+    for (const std::string& text : arguments.slices)
+        if (!problem) problem = understand("--slice", text, parse_slice, request.slices.emplace_back());
+    if (problem) return Problem{ProblemCode::bad_argument, *problem};
+    return run_field(request);
+}
+
 int run(int count, char** words) {
     CLI::App app(
-        "Collision checks for scenes and levels: who touches whom, where, how deep and when; and convex parts for "
-        "meshes.",
+        "Collision checks for scenes and levels: who touches whom, where, how deep and when; and convex parts and "
+        "distance fields for meshes.",
         "abut");
     app.set_version_flag("--version", "abut " ABUT_VERSION);
     app.require_subcommand(1);
@@ -232,8 +283,11 @@ int run(int count, char** words) {
     DecomposeArguments decompose;
     CLI::App& decompose_verb = *app.add_subcommand("decompose", "Convex parts that stand for a mesh");
     describe(decompose_verb, decompose);
+    FieldArguments field;
+    CLI::App& field_verb = *app.add_subcommand("field", "A mesh or a level as a field of signed distances");
+    describe(field_verb, field);
     InfoRequest info;
-    CLI::App& info_verb = *app.add_subcommand("info", "What is in a scene or a level");
+    CLI::App& info_verb = *app.add_subcommand("info", "What is in a scene, a level or a field");
     describe(info_verb, info);
 
     try {
@@ -248,6 +302,7 @@ int run(int count, char** words) {
                                   : cast_verb.parsed()      ? run_cast(cast)
                                   : hull_verb.parsed()      ? run_hull(hull)
                                   : decompose_verb.parsed() ? run_decompose(decompose)
+                                  : field_verb.parsed()     ? run_field(field)
                                                             : run_info(info);
     return code ? static_cast<int>(*code) : fail(code.problem().message);
 }

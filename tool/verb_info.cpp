@@ -145,6 +145,7 @@ Result<ExitCode> run(const InfoRequest& request) {
 }  // namespace
 
 Result<ExitCode> run_info(const InfoRequest& request) {
+    if (request.scene.ends_with(field_ending)) return run_field_info(request);
     return in_dimension_of(request.scene, [&](auto dimension) { return run<dimension()>(request); });
 }
 

@@ -12,6 +12,8 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace abut::tool {
 
@@ -70,6 +72,30 @@ struct DecomposeRequest {
 };
 
 Result<ExitCode> run_decompose(const DecomposeRequest& request);
+
+/// Across an axis, 0 to 2, at a coordinate.
+struct FieldSlice {
+    int axis = 0;
+    float at = 0;
+};
+
+struct FieldRequest {
+    std::string mesh, output;
+    std::optional<std::string> picture;  ///< a file to write one to, as SVG
+    std::vector<FieldSlice> slices;      ///< for the picture; none: the middle of each axis
+    float cell = 0;                      ///< 0: a 64th of the longest side
+    float padding = 3, band = 3;         ///< in cells
+    bool dense = false, gradient = false, quantised = false;
+    bool json = false;
+};
+
+Result<ExitCode> run_field(const FieldRequest& request);
+
+/// How the name of a file ends that holds a field.
+inline constexpr std::string_view field_ending = ".field";
+
+/// What is in such a file.
+Result<ExitCode> run_field_info(const InfoRequest& request);
 
 /// A whole file, or what is wrong with it, beginning with the file.
 std::optional<Problem> write_picture(const std::string& file, const std::string& document);
