@@ -107,7 +107,8 @@ Result<ExitCode> run(const FieldRequest& request) {
     const Result<Field<D>> field = bake(request, *source, threads, report);
     if (!field) {
         Problem problem = in(request.mesh, field.problem());
-        if (problem.code == ProblemCode::too_large) problem.message += ": a larger --cell makes fewer";
+        if (problem.code == ProblemCode::too_large)
+            problem.message += ": a larger --cell or a smaller --padding makes fewer";
         return problem;
     }
     FieldOutcome<D> outcome{*field, source->parts, report, {}, 0, source->warnings, read_seconds, watch.lap(), 0, 0};

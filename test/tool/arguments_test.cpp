@@ -21,6 +21,20 @@ TEST(Arguments, Frames) {
         EXPECT_FALSE(parse_frames(bad)) << bad;
 }
 
+TEST(Arguments, WhatFieldsAreBakedWith) {
+    EXPECT_EQ(*parse_cell("0.25"), 0.25f);
+    for (const char* bad : {"", "0", "-1", "nan", "inf", "1e99", "0.1m"}) EXPECT_FALSE(parse_cell(bad)) << bad;
+    EXPECT_EQ(*parse_cells("2.5"), 2.5f);
+    EXPECT_EQ(*parse_cells("1000000"), 1e6f);
+    for (const char* bad : {"", "0", "0.99", "nan", "inf", "2e6", "three"}) EXPECT_FALSE(parse_cells(bad)) << bad;
+    const Result<FieldSlice> slice = parse_slice("y=-0.5");
+    ASSERT_TRUE(slice);
+    EXPECT_EQ(slice->axis, 1);
+    EXPECT_EQ(slice->at, -0.5f);
+    for (const char* bad : {"", "y", "y=", "=1", "w=1", "yy=1", "y=nan", "y=inf", "y= 1", "Y=1"})
+        EXPECT_FALSE(parse_slice(bad)) << bad;
+}
+
 TEST(Arguments, Times) {
     EXPECT_EQ(*parse_time("3.562"), 3.562);
     EXPECT_EQ(*parse_time("-1"), -1.0);

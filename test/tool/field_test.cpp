@@ -224,7 +224,8 @@ TEST_F(FieldVerb, RefusesInOneLine) {
     EXPECT_EQ(refused({"-o", out("c.field"), "--slice", "z=1"}),
               "abut: --slice says where --picture cuts: name that too");
     EXPECT_EQ(refused({"-o", out("c.field"), "--cell", "1e-5"}),
-              "abut: " + file + ": the field would have more than 2^31 samples: a larger --cell makes fewer");
+              "abut: " + file +
+                  ": the field would have more than 2^31 samples: a larger --cell or a smaller --padding makes fewer");
     EXPECT_TRUE(refused({"-o", out("c.field"), "--dense", "--band", "3"}).starts_with("abut: "));
     const std::string nan = write("nan.obj", "o a\nv nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").string();
     EXPECT_TRUE(refusal({"field", nan, "-o", out("p.field")}).starts_with("abut: " + nan + ": "));
