@@ -27,7 +27,7 @@ struct Baked {
 
     explicit Baked(std::uint32_t cells) : cell(scene->cell(cells)) {
         oracle::Random random(2);
-        at = places_near(*scene, cell, places, random);
+        at = samples_at(*scene, cells, places_near(*scene, cell, places, random));
     }
     void tell(const Field3& field, std::span<double> values) const {
         for (std::size_t i = 0; i < at.size(); ++i)
@@ -42,11 +42,13 @@ struct Baked {
 /// Time of all of it, not of a sample: fields of all sizes are of the same mesh.
 Job bake(std::uint32_t cells) {
     const auto baked = std::make_shared<const Baked>(cells);
-    Job job{.items = 1, .values = places, .tolerance = 0.02, .sides = {}};
+    Job job{.items = 1, .values = places, .tolerance = 0.1, .sides = {}};
     job.sides.push_back({"abut", [baked, cells](std::span<double> values) {
                              const FieldScene& scene = *baked->scene;
                              baked->tell(*bake_field(scene.points, scene.triangles, scene.options(cells)), values);
                          }});
+    // Where triangles are smaller than its cells, OpenVDB takes in for out at one sample of sixteen there, and what it
+    // tidies moves some more. CGAL and abut say the same of all of them: field/sample/near counts.
     for (const OpenvdbDistances distances : {OpenvdbDistances::tidied, OpenvdbDistances::measured})
         job.sides.push_back(
             {.who = distances == OpenvdbDistances::tidied ? "openvdb" : "openvdb measured",
@@ -56,7 +58,7 @@ Job bake(std::uint32_t cells) {
                      baked->tell(OpenvdbField(scene.points, scene.triangles, scene.corner, baked->cell, 3, distances),
                                  values);
                  },
-             .strays = 0.01});
+             .strays = 0.12});
     return job;
 }
 

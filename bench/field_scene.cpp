@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <glm/common.hpp>
+
 namespace abut::bench {
 
 FieldOptions<3> FieldScene::options(std::uint32_t cells) const {
@@ -35,6 +37,14 @@ std::vector<Vec3> places_near(const FieldScene& scene, float reach, std::size_t 
         const double far = random.uniform(0, static_cast<double>(reach));
         result.push_back(to_float(a + (b - a) * u + (c - a) * v + random.direction<3>() * far));
     }
+    return result;
+}
+
+std::vector<Vec3> samples_at(const FieldScene& scene, std::uint32_t cells, std::span<const Vec3> places) {
+    const DVec<3> corner(scene.corner);
+    const auto cell = static_cast<double>(scene.cell(cells));
+    std::vector<Vec3> result;
+    for (const Vec3& p : places) result.push_back(to_float(corner + glm::round((DVec<3>(p) - corner) / cell) * cell));
     return result;
 }
 

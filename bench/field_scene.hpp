@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include <glm/ext/vector_uint3.hpp>
@@ -32,6 +33,9 @@ SharedFieldScene field_scene();
 
 /// Up to `reach` from the surface, in no order.
 std::vector<Vec3> places_near(const FieldScene& scene, float reach, std::size_t count, oracle::Random& random);
+
+/// The samples of a field of so many cells that these are closest to.
+std::vector<Vec3> samples_at(const FieldScene& scene, std::uint32_t cells, std::span<const Vec3> places);
 
 /// In cells, from -1 to 1: beyond that some keep less than others.
 inline double near_in_cells(double distance, float cell) {
