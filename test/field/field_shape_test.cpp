@@ -118,7 +118,9 @@ TEST(FieldShape, LeastOverConvexSets) {
             EXPECT_GE(static_cast<double>(found.distance), least - 0.06);
             EXPECT_NEAR(static_cast<double>(stone.distance(found.on_a)), static_cast<double>(found.distance), 1e-5);
             EXPECT_TRUE(certify(box, stone, found));
-            if (std::abs(found.distance) > 1e-4f) EXPECT_EQ(overlaps(box, stone), found.distance < 0);
+            if (std::abs(found.distance) > 1e-4f) {
+                EXPECT_EQ(overlaps(box, stone), found.distance < 0);
+            }
             (found.distance > 0 ? apart : overlapping) += 1;
         }
         EXPECT_GT(apart, 3);
