@@ -1,13 +1,15 @@
-#include <abut/bake/field_cap.hpp>
 #include <abut/bake/field_grid.hpp>
 #include <abut/bake/field_lines.hpp>
 #include <abut/bake/field_mesh_source.hpp>
 #include <abut/bake/field_nearest.hpp>
 #include <abut/bake/field_pieces.hpp>
+#include <abut/bake/solid_angles.hpp>
 #include <abut/math/dvec.hpp>
 
 #include <array>
 #include <cmath>
+#include <optional>
+#include <span>
 #include <utility>
 
 namespace abut {
@@ -51,6 +53,7 @@ public:
           tree_(build_piece_tree<3>(pieces_)),
           counts_(counts_of(surface, grid)),
           cap_(surface.mesh.points, surface.cap),
+          surface_(surface.mesh.points, surface.cap.empty() ? std::span<const glm::uvec3>() : surface.mesh.triangles),
           lattice_(lattice_of(grid)) {
         double volume = 0;
         const DVec<3> from(pieces_.front()[0]);
@@ -67,8 +70,7 @@ public:
             counts_.tell(block.sample(i), block.count.x, block.stride, &turns[i]);
         for (std::uint32_t i = 0; i < block.samples(); ++i) {
             const double distance = std::sqrt(nearest[i].squared);
-            const double winding = cap_.empty() ? static_cast<double>(std::abs(turns[i]))
-                                                : cap_.without(lattice_.at(block.sample(i)), turns[i]);
+            const double winding = winding_number(lattice_.at(block.sample(i)), turns[i]);
             const bool inside = winding >= 0.5;
             values.distance[i] = static_cast<float>(inside ? -distance : distance);
             if (values.doubtful != nullptr) values.doubtful[i] = std::abs(winding - 0.5) <= 0.25;
@@ -83,6 +85,22 @@ public:
     double distance(const DVec<3>& point) const override { return std::sqrt(nearest_piece(tree_, point).squared); }
 
 private:
+    /// Without its sign, where the surface and its cap together go round the point so often.
+    double winding_number(const DVec<3>& point, std::int32_t together) const {
+        if (cap_.empty()) return std::abs(together);
+        // In a triangle of the cap it jumps: there the surface is asked itself. In one of that there is no telling.
+        if (const std::optional<double> found = less(cap_, point, together)) return *found;
+        return less(surface_, point, 0).value_or(0);
+    }
+    /// Exact near 0.5, which parts in from out.
+    static std::optional<double> less(const SolidAngles& angles, const DVec<3>& point, std::int32_t together) {
+        constexpr double near_half = 0.3;
+        std::optional<double> found = angles.nearly(point);
+        if (found && std::abs(std::abs(together - *found) - 0.5) <= near_half) found = angles.exactly(point);
+        if (found) found = std::abs(together - *found);
+        return found;
+    }
+
     DVec<3> way_to_piece(const DVec<3>& point, std::uint32_t piece) const {
         const PieceCorners<3>& p = pieces_[piece];
         return way_to(DVec<3>(p[0]) - point, DVec<3>(p[1]) - point, DVec<3>(p[2]) - point);
@@ -96,7 +114,8 @@ private:
     std::vector<PieceCorners<3>> pieces_;
     PieceTree<3> tree_;
     LineCounts counts_;
-    FieldCap cap_;
+    SolidAngles cap_;
+    SolidAngles surface_;  ///< where there is a cap
     SampleLattice<3> lattice_;
     double outwards_;
 };

@@ -156,9 +156,13 @@ TYPED_TEST(FunctionTwins, DistancesAndContacts) {
             EXPECT_TRUE(certify(function, other, found));
             const Closest<D> turned = closest(other, function);
             EXPECT_NEAR(static_cast<double>(turned.distance), distance, doubt);
-            if (std::abs(distance) > doubt) EXPECT_EQ(overlaps(function, other), distance <= 0);
+            if (std::abs(distance) > doubt) {
+                EXPECT_EQ(overlaps(function, other), distance <= 0);
+            }
             const Contact<D> contact = abut::contact(function, other);
-            if (std::abs(distance) > doubt) EXPECT_EQ(static_cast<bool>(contact), distance <= 0);
+            if (std::abs(distance) > doubt) {
+                EXPECT_EQ(static_cast<bool>(contact), distance <= 0);
+            }
             if (contact) {
                 EXPECT_NEAR(static_cast<double>(contact.depth), -distance, doubt);
                 double deepest = -1;
@@ -187,7 +191,9 @@ TYPED_TEST(FunctionTwins, PointsAndRays) {
             const double doubt = 2e-5 * scale + 1e-6 * far * scale;
             const Vec<D> from = drawn.pose(3).position, to = drawn.pose(1.5).position;
             const auto depth = static_cast<double>(closest(twin, from).distance);
-            if (std::abs(depth) > doubt) EXPECT_EQ(contains(function, from), depth < 0);
+            if (std::abs(depth) > doubt) {
+                EXPECT_EQ(contains(function, from), depth < 0);
+            }
             inside += depth < 0 ? 1 : 0;
             if (std::abs(depth) <= doubt) continue;
             const Ray<D> ray = Ray<D>::between(from, to);

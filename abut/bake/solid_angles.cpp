@@ -1,4 +1,4 @@
-#include <abut/bake/field_cap.hpp>
+#include <abut/bake/solid_angles.hpp>
 #include <abut/math/sin_cos.hpp>
 
 #include <algorithm>
@@ -12,19 +12,10 @@ constexpr double full_angle = 4 * 3.14159265358979323846;
 constexpr std::uint32_t most_in_leaf = 8;
 /// A group that is as many of its radii away is told at once.
 constexpr double far_radii = 3;
-/// What is nearer to 0.5 is told exactly: on surfaces of all kinds groups are off by less than a tenth of that.
-constexpr double near_half = 0.3;
-
-/// Van Oosterom, Strackee: "The solid angle of a plane triangle" (1983).
-double solid_angle(const DVec<3>& a, const DVec<3>& b, const DVec<3>& c) {
-    const double la = length(a), lb = length(b), lc = length(c), volume = dot(a, cross(b, c));
-    const double rest = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
-    return volume == 0 && rest == 0 ? 0 : 2 * angle_of(rest, volume);
-}
 
 }  // namespace
 
-FieldCap::FieldCap(std::span<const Vec3> points, std::span<const glm::uvec3> triangles) {
+SolidAngles::SolidAngles(std::span<const Vec3> points, std::span<const glm::uvec3> triangles) {
     if (triangles.empty()) return;
     corners_.reserve(triangles.size());
     for (const glm::uvec3& t : triangles)
@@ -34,7 +25,7 @@ FieldCap::FieldCap(std::span<const Vec3> points, std::span<const glm::uvec3> tri
     for (std::uint32_t group = 0; group < groups_.size(); ++group) divide(group);
 }
 
-void FieldCap::divide(std::uint32_t number) {
+void SolidAngles::divide(std::uint32_t number) {
     Group group = groups_[number];
     const auto begin = corners_.begin() + group.first, end = begin + group.count;
     double areas = 0;
@@ -83,19 +74,30 @@ void FieldCap::divide(std::uint32_t number) {
     groups_[number] = group;
 }
 
-double FieldCap::exactly(const DVec<3>& point, std::uint32_t first, std::uint32_t count) const {
+/// Van Oosterom, Strackee: "The solid angle of a plane triangle" (1983).
+std::optional<double> SolidAngles::exactly(const DVec<3>& point, std::uint32_t first, std::uint32_t count) const {
     double sum = 0;
-    for (std::uint32_t i = first; i < first + count; ++i)
-        sum += solid_angle(corners_[i].a - point, corners_[i].b - point, corners_[i].c - point);
+    for (std::uint32_t i = first; i < first + count; ++i) {
+        const DVec<3> a = corners_[i].a - point, b = corners_[i].b - point, c = corners_[i].c - point;
+        const double la = length(a), lb = length(b), lc = length(c), volume = dot(a, cross(b, c));
+        const double rest = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
+        const double rounding = 0x1p-40 * la * lb * lc;
+        if (std::abs(volume) <= rounding && rest <= rounding) return std::nullopt;
+        sum += 2 * angle_of(rest, volume);
+    }
     return sum / full_angle;
 }
 
-double FieldCap::nearly(const DVec<3>& point) const {
+std::optional<double> SolidAngles::exactly(const DVec<3>& point) const {
+    return exactly(point, 0, static_cast<std::uint32_t>(corners_.size()));
+}
+
+std::optional<double> SolidAngles::nearly(const DVec<3>& point) const {
     double sum = 0;
     // Groups are halved, so that they are at most 32 deep.
     std::array<std::uint32_t, 40> stack;
     std::size_t waiting = 0;
-    stack[waiting++] = 0;
+    if (!groups_.empty()) stack[waiting++] = 0;
     while (waiting > 0) {
         const Group& group = groups_[stack[--waiting]];
         const DVec<3> way = group.middle - point;
@@ -103,19 +105,15 @@ double FieldCap::nearly(const DVec<3>& point) const {
         if (squared > far_radii * far_radii * group.radius * group.radius) {
             sum += dot(group.area, way) / (full_angle * squared * std::sqrt(squared));
         } else if (group.below == 0) {
-            sum += exactly(point, group.first, group.count);
+            const std::optional<double> some = exactly(point, group.first, group.count);
+            if (!some) return std::nullopt;
+            sum += *some;
         } else {
             stack[waiting++] = group.below + 1;
             stack[waiting++] = group.below;
         }
     }
     return sum;
-}
-
-double FieldCap::without(const DVec<3>& point, std::int32_t together) const {
-    const double near = std::abs(together - nearly(point));
-    if (std::abs(near - 0.5) > near_half) return near;
-    return std::abs(together - exactly(point, 0, static_cast<std::uint32_t>(corners_.size())));
 }
 
 }  // namespace abut
