@@ -200,7 +200,9 @@ TYPED_TEST(FunctionTwins, PointsAndRays) {
             const std::optional<Hit<D>> hit = raycast(ray, function), expected = raycast(ray, twin);
             // A start inside is told apart by where the way out is, which twins needn't agree about.
             if (depth < 0) {
-                if (hit) EXPECT_TRUE(hit->fraction == 0 && hit->started_inside);
+                if (hit) {
+                    EXPECT_TRUE(hit->fraction == 0 && hit->started_inside);
+                }
                 continue;
             }
             hits += expected ? 1 : 0;
@@ -252,7 +254,9 @@ TYPED_TEST(FunctionTwins, Sweeps) {
             if (hit) {
                 EXPECT_NEAR(apart(hit->fraction), 0, doubt);
                 EXPECT_LE(dot(DVec<D>(hit->normal), DVec<D>(motion)), 1e-3 * scale);
-                if (expected) EXPECT_LE(hit->fraction, 1.0f);
+                if (expected) {
+                    EXPECT_LE(hit->fraction, 1.0f);
+                }
             } else if (expected) {
                 // It only just touches.
                 EXPECT_GT(apart(1), -doubt);
@@ -263,15 +267,18 @@ TYPED_TEST(FunctionTwins, Sweeps) {
             }
             // The same, seen by the function as the mover.
             const std::optional<Hit<D>> turned = sweep(function, -motion, other);
-            if (hit && turned) EXPECT_NEAR(apart(turned->fraction), 0, doubt);
+            if (hit && turned) {
+                EXPECT_NEAR(apart(turned->fraction), 0, doubt);
+            }
             // Turning.
             const Pose<D> from, to = drawn.pose(2);
             Pose<D> near = to;
             near.position -= to_float(DVec<D>(far * scale));
             const std::optional<Hit<D>> turning = sweep(other, from, near, function, Pose<D>{}, Pose<D>{}),
                                         truth = sweep(other, from, near, twin, Pose<D>{}, Pose<D>{});
-            if (turning && truth)
+            if (turning && truth) {
                 EXPECT_NEAR(static_cast<double>(turning->fraction), static_cast<double>(truth->fraction), 0.02);
+            }
         }
         EXPECT_GT(hits, count / 10);
         EXPECT_GT(misses, count / 10);
@@ -294,7 +301,9 @@ TYPED_TEST(FunctionTwins, ScaledAndRounded) {
         const auto twin = at(rounded(stretched(brick.twin(), Vec<D>(scale)), radius), pose);
         const Ball<D> ball{to_float(random.in_cube<D>() * 6.0), random.uniform_float(0.1, 1)};
         const auto truth = static_cast<double>(closest(twin, ball).distance);
-        if (truth > 0) EXPECT_NEAR(static_cast<double>(closest(there, ball).distance), truth, 2e-5);
+        if (truth > 0) {
+            EXPECT_NEAR(static_cast<double>(closest(there, ball).distance), truth, 2e-5);
+        }
         for (int k = 0; k < D; ++k) EXPECT_NEAR(bounds(there).min[k], bounds(twin).min[k], 1e-5f);
     }
 }
@@ -314,7 +323,9 @@ TYPED_TEST(FunctionTwins, StretchedIsALowerBound) {
         const auto truth = static_cast<double>(closest(box, point).distance);
         const auto found = static_cast<double>(closest(there, point).distance);
         EXPECT_LE(std::abs(found), std::abs(truth) + 1e-5);
-        if (std::abs(truth) > 1e-4) EXPECT_EQ(contains(twin, point), truth < 0);
+        if (std::abs(truth) > 1e-4) {
+            EXPECT_EQ(contains(twin, point), truth < 0);
+        }
         const Ray<D> ray = Ray<D>::between(point, Vec<D>(0.0f));
         const auto hit = raycast(ray, there), expected = raycast(ray, box);
         if (truth > 1e-3) {
