@@ -90,19 +90,6 @@ private:
 };
 
 template <int D>
-Aabb<D> common(const Aabb<D>& a, const Aabb<D>& b) {
-    Aabb<D> result;
-    for (int i = 0; i < D; ++i) {
-        result.min[i] = std::max(a.min[i], b.min[i]);
-        result.max[i] = std::min(a.max[i], b.max[i]);
-        if (!(result.min[i] <= result.max[i])) return Aabb<D>::empty();
-    }
-    return result;
-}
-
-/// Look-ups are not quite distances, neither between samples nor where a volume ends: as much farther from the surface
-/// bricks are kept. Where the surface goes to where there are no bricks, it is as much again as is not known there.
-template <int D>
 float doubt_in_cells(const Field<D>& field, const Field<D>* other, float cell, bool shifts) {
     double result = 1;
     for (const Field<D>* one : {&field, other}) {

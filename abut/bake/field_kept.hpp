@@ -42,17 +42,10 @@ private:
             const float was = of_blocks ? before_.coarse[place] : before_.distance[place];
             if (!is_kept(lattice_.at(sample), was)) return false;
             values.distance[i] = was;
-            if (values.gradient != nullptr) values.gradient[i] = direction(before_.direction[place]);
+            if (values.gradient != nullptr) values.gradient[i] = unpacked<D>(before_.direction[place]);
             if (values.closest != nullptr) values.closest[i] = before_.closest[place];
         }
         return true;
-    }
-
-    static Vec<D> direction(std::uint16_t bits) {
-        if constexpr (D == 2)
-            return unpacked2(bits);
-        else
-            return unpacked3(bits);
     }
 
     bool is_kept(const DVec<D>& point, float was) const {

@@ -81,6 +81,28 @@ inline V measure(const PieceLeaf<3>& leaf, std::size_t lane, const DVec<3>& poin
     return hn::Add(hn::Mul(height, height), hn::IfThenElse(inside, zero, flat));
 }
 
+/// Which boxes are within reach of another one, both squared, and how far away they are.
+template <int D>
+inline std::uint32_t boxes_near(const PieceBoxes<D>& boxes, const DVec<D>& low, const DVec<D>& high, double reach,
+                                double* squares) {
+    const Doubles d;
+    const HalfFloats half;
+    std::uint32_t result = 0;
+    for (std::size_t lane = 0; lane < piece_lanes; lane += hn::Lanes(d)) {
+        V sum = hn::Zero(d);
+        for (std::size_t i = 0; i < D; ++i) {
+            const int k = static_cast<int>(i);
+            const V below = hn::Sub(hn::PromoteTo(d, hn::LoadU(half, boxes.min[i].data() + lane)), hn::Set(d, high[k]));
+            const V above = hn::Sub(hn::Set(d, low[k]), hn::PromoteTo(d, hn::LoadU(half, boxes.max[i].data() + lane)));
+            const V gap = hn::Max(hn::Max(below, above), hn::Zero(d));
+            sum = hn::Add(sum, hn::Mul(gap, gap));
+        }
+        hn::Store(sum, d, squares + lane);
+        result |= bits_of(d, hn::Le(sum, hn::Set(d, reach))) << lane;
+    }
+    return result;
+}
+
 /// The nearest so far.
 template <int D>
 class Search {
@@ -128,7 +150,7 @@ public:
             const Waiting next = stack[--waiting];
             if (next.squared > reach_) continue;
             HWY_ALIGN double squares[piece_lanes];
-            std::uint32_t bits = near(tree_.levels[next.level][next.group], squares);
+            std::uint32_t bits = boxes_near(tree_.levels[next.level][next.group], point_, point_, reach_, squares);
             std::array<Waiting, piece_lanes> found;
             std::size_t count = 0;
             for (; bits != 0; bits &= bits - 1) {
@@ -147,26 +169,6 @@ public:
     }
 
 private:
-    /// Which boxes are within reach, and the squares of how far away they are.
-    std::uint32_t near(const PieceBoxes<D>& boxes, double* squares) const {
-        const Doubles d;
-        const HalfFloats half;
-        std::uint32_t result = 0;
-        for (std::size_t lane = 0; lane < piece_lanes; lane += hn::Lanes(d)) {
-            V sum = hn::Zero(d);
-            for (std::size_t i = 0; i < D; ++i) {
-                const V at = hn::Set(d, point_[static_cast<int>(i)]);
-                const V below = hn::Sub(hn::PromoteTo(d, hn::LoadU(half, boxes.min[i].data() + lane)), at);
-                const V above = hn::Sub(at, hn::PromoteTo(d, hn::LoadU(half, boxes.max[i].data() + lane)));
-                const V gap = hn::Max(hn::Max(below, above), hn::Zero(d));
-                sum = hn::Add(sum, hn::Mul(gap, gap));
-            }
-            hn::Store(sum, d, squares + lane);
-            result |= bits_of(d, hn::Le(sum, hn::Set(d, reach_))) << lane;
-        }
-        return result;
-    }
-
     const PieceTree<D>& tree_;
     DVec<D> point_;
     double slack_;
@@ -195,7 +197,8 @@ public:
         while (waiting > 0) {
             const Waiting next = stack[--waiting];
             const PieceBoxes<D>& boxes = tree.levels[next.level][next.group];
-            std::uint32_t bits = near(boxes, low, high, reach);
+            HWY_ALIGN double squares[piece_lanes];
+            std::uint32_t bits = boxes_near(boxes, low, high, reach * reach, squares);
             if (next.level > 0) {
                 for (; bits != 0; bits &= bits - 1)
                     stack[waiting++] = {next.level - 1, next.group * piece_lanes + lowest(bits)};
@@ -246,26 +249,6 @@ private:
     /// A little more than a squared distance is where the size of all is 1.
     float in_float(double squared) const {
         return static_cast<float>(squared * to_unit_ * to_unit_) * (1 + 0x1p-20f) + 0x1p-100f;
-    }
-
-    static std::uint32_t near(const PieceBoxes<D>& boxes, const DVec<D>& low, const DVec<D>& high, double reach) {
-        const Doubles d;
-        const HalfFloats half;
-        std::uint32_t result = 0;
-        for (std::size_t lane = 0; lane < piece_lanes; lane += hn::Lanes(d)) {
-            V sum = hn::Zero(d);
-            for (std::size_t i = 0; i < D; ++i) {
-                const int k = static_cast<int>(i);
-                const V below =
-                    hn::Sub(hn::PromoteTo(d, hn::LoadU(half, boxes.min[i].data() + lane)), hn::Set(d, high[k]));
-                const V above =
-                    hn::Sub(hn::Set(d, low[k]), hn::PromoteTo(d, hn::LoadU(half, boxes.max[i].data() + lane)));
-                const V gap = hn::Max(hn::Max(below, above), hn::Zero(d));
-                sum = hn::Add(sum, hn::Mul(gap, gap));
-            }
-            result |= bits_of(d, hn::Le(sum, hn::Set(d, reach * reach))) << lane;
-        }
-        return result;
     }
 
     /// Seen from the middle, where the size of all is 1, and a little wider than it is; what is farther away than that

@@ -19,13 +19,6 @@
 namespace abut {
 namespace {
 
-Vec2 unpacked(std::uint16_t bits, Vec2*) {
-    return unpacked2(bits);
-}
-Vec3 unpacked(std::uint16_t bits, Vec3*) {
-    return unpacked3(bits);
-}
-
 template <int D>
 float dot_of(const Vec<D>& a, const Vec<D>& b) {
     float result = a[0] * b[0];
@@ -61,7 +54,7 @@ FieldSample<D> told(const FieldData<D>& data, const Vec<D>& point) {
     std::size_t most_of = 0, least_of = 0;
     for (std::size_t i = 0; i < corners; ++i) {
         distance[i] = values[i] * scale;
-        gradient[i] = unpacked(data.direction[spot.corner(i)], static_cast<Vec<D>*>(nullptr));
+        gradient[i] = unpacked<D>(data.direction[spot.corner(i)]);
         Vec<D> way;
         for (int a = 0; a < D; ++a) {
             const bool upper = i >> a & 1;

@@ -31,16 +31,21 @@ inline std::uint16_t packed_once(const Vec3& v) {
     };
     return static_cast<std::uint16_t>(steps(x) | steps(y) << 8);
 }
+
 }  // namespace detail
 
-inline Vec2 unpacked2(std::uint16_t bits) {
+template <int D>
+Vec<D> unpacked(std::uint16_t bits);
+template <>
+inline Vec2 unpacked<2>(std::uint16_t bits) {
     const float x = static_cast<float>((bits >> 1) - 16384) * (1.0f / 16383);
     const float y = (bits & 1) != 0 ? std::abs(x) - 1 : 1 - std::abs(x);
     const float inverse = 1 / std::sqrt(x * x + y * y);
     return {x * inverse, y * inverse};
 }
 
-inline Vec3 unpacked3(std::uint16_t bits) {
+template <>
+inline Vec3 unpacked<3>(std::uint16_t bits) {
     float x = static_cast<float>(static_cast<std::int8_t>(bits & 255)) * (1.0f / 127);
     float y = static_cast<float>(static_cast<std::int8_t>(bits >> 8)) * (1.0f / 127);
     const float z = 1 - std::abs(x) - std::abs(y);
@@ -55,10 +60,10 @@ inline Vec3 unpacked3(std::uint16_t bits) {
 /// Of a vector that isn't zero. Of several bits for one direction always the same ones: what was unpacked is packed as
 /// it was.
 inline std::uint16_t packed(const Vec2& v) {
-    return detail::packed_once(unpacked2(detail::packed_once(v)));
+    return detail::packed_once(unpacked<2>(detail::packed_once(v)));
 }
 inline std::uint16_t packed(const Vec3& v) {
-    return detail::packed_once(unpacked3(detail::packed_once(v)));
+    return detail::packed_once(unpacked<3>(detail::packed_once(v)));
 }
 
 }  // namespace abut

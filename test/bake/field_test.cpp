@@ -183,7 +183,7 @@ TEST(BakeField, SamplesOnTheSurfaceHaveNormals) {
         for (std::size_t i = 0; i < data.distance.size(); ++i) {
             const auto number = static_cast<std::uint32_t>(i);
             const Vec3 p = Vec3(-0.5f) + 0.25f * Vec3(glm::uvec3(number % 9, number / 9 % 9, number / 81));
-            const Vec3 normal = unpacked3(data.direction[i]);  // right to a degree
+            const Vec3 normal = unpacked<3>(data.direction[i]);  // right to a degree
             EXPECT_NEAR(data.distance[i], dot(DVec<3>(p - data.closest[i]), DVec<3>(normal)), 1e-3);
             if (data.distance[i] != 0) continue;
             ++on_it;

@@ -157,8 +157,8 @@ TEST(FieldGradient, DirectionsFitSixteenBits) {
     for (int i = 0; i < 50000; ++i) {
         const DVec<2> u = random.direction<2>();
         const DVec<3> v = random.direction<3>();
-        const DVec<2> again2(unpacked2(packed(to_float<2>(u))));
-        const DVec<3> again3(unpacked3(packed(to_float<3>(v))));
+        const DVec<2> again2(unpacked<2>(packed(to_float<2>(u))));
+        const DVec<3> again3(unpacked<3>(packed(to_float<3>(v))));
         ASSERT_NEAR(length(again2), 1, 1e-6);
         ASSERT_NEAR(length(again3), 1, 1e-6);
         worst2 = std::max(worst2, length(u - again2));
@@ -170,9 +170,9 @@ TEST(FieldGradient, DirectionsFitSixteenBits) {
         for (const float sign : {-1.0f, 1.0f}) {
             Vec3 v(0.0f);
             v[a] = sign;
-            EXPECT_EQ(unpacked3(packed(v)), v);
+            EXPECT_EQ(unpacked<3>(packed(v)), v);
         }
-    for (const Vec2 v : {Vec2(1, 0), Vec2(-1, 0), Vec2(0, 1), Vec2(0, -1)}) EXPECT_EQ(unpacked2(packed(v)), v);
+    for (const Vec2 v : {Vec2(1, 0), Vec2(-1, 0), Vec2(0, 1), Vec2(0, -1)}) EXPECT_EQ(unpacked<2>(packed(v)), v);
 }
 
 }  // namespace
