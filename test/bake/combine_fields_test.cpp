@@ -298,7 +298,7 @@ TEST(CombineFields, GradientsAreThoseOfTheDistance) {
                                 (data.distance[n + along.x] - data.distance[n - along.x]));
             if (length(slope) < 1.9 * cell) continue;  // at a ridge
             ++checked;
-            off += dot(normalized(slope), DVec<2>(unpacked2(data.direction[n]))) < 0.99;
+            off += dot(normalized(slope), DVec<2>(unpacked<2>(data.direction[n]))) < 0.99;
         }
         EXPECT_GT(checked, 1000);
         EXPECT_LT(off, checked / 15) << "but for edges";
