@@ -71,6 +71,15 @@ protected:
         return json_of(std::move(arguments), code);
     }
 
+    /// By a verb that makes a file of a mesh: with what is wrong told, and nothing written.
+    void expect_bad_meshes_refused(const std::string& verb, const std::string& output) const {
+        const std::string nan = write("nan.obj", "o a\nv nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").string();
+        EXPECT_TRUE(refusal({verb, nan, "-o", output}).starts_with("abut: " + nan + ": "));
+        const std::string empty = write("empty.obj", "o nothing\n").string();
+        EXPECT_TRUE(refusal({verb, empty, "-o", output}).starts_with("abut: " + empty + ": "));
+        EXPECT_FALSE(std::filesystem::exists(output));
+    }
+
     /// A file of the test's own, not yet there.
     std::string out(const std::string& name) const { return (folder() / name).string(); }
 
