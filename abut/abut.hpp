@@ -63,4 +63,5 @@
 #include <abut/shape/solid_bsp.hpp>
 #include <abut/shape/tile_map.hpp>
 #include <abut/shape/triangle.hpp>
+#include <abut/shape/weld.hpp>
 #include <abut/world/world.hpp>

@@ -9,4 +9,4 @@
 #include <abut/bake/fit.hpp>
 #include <abut/bake/repair.hpp>
 #include <abut/bake/solid.hpp>
-#include <abut/bake/weld.hpp>
+#include <abut/shape/weld.hpp>

@@ -7,7 +7,7 @@
 #include "bench.hpp"
 #include "bullet_hacd.hpp"
 #include <abut/bake/decompose.hpp>
-#include <abut/bake/weld.hpp>
+#include <abut/shape/weld.hpp>
 
 #include <limits>
 #include <memory>

@@ -1,7 +1,7 @@
 #include "duplicates.hpp"
 
-#include <abut/bake/groups.hpp>
 #include <abut/broad_phase/bvh.hpp>
+#include <abut/math/groups.hpp>
 
 #include <algorithm>
 #include <cmath>

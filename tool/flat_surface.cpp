@@ -1,8 +1,8 @@
 #include "flat_surface.hpp"
 
 #include <abut/abut.hpp>
-#include <abut/bake/groups.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/math/groups.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #include "leaks.hpp"
 
 #include "mesh_border.hpp"
-#include <abut/bake/groups.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/math/groups.hpp>
 
 #include <algorithm>
 #include <map>

@@ -1,8 +1,8 @@
 #include "mesh_border.hpp"
 
-#include <abut/bake/groups.hpp>
 #include <abut/broad_phase/bvh.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/math/groups.hpp>
 
 #include <algorithm>
 #include <cstddef>

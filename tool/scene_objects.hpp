@@ -3,8 +3,8 @@
 // The objects of a scene: its nodes with geometry, over its animation.
 
 #include "objects.hpp"
-#include <abut/bake/weld.hpp>
 #include <abut/io/scene.hpp>
+#include <abut/shape/weld.hpp>
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include <abut/bake/bodies.hpp>
-#include <abut/bake/half_edges.hpp>
 #include <abut/bake/solid.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/shape/half_edges.hpp>
 
 namespace abut {
 

@@ -3,10 +3,10 @@
 #include <abut/bake/decompose.hpp>
 #include <abut/bake/gaps.hpp>
 #include <abut/bake/merge_parts.hpp>
-#include <abut/bake/weld.hpp>
 #include <abut/convex/hull.hpp>
 #include <abut/convex/hull_input.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/shape/weld.hpp>
 
 #include <algorithm>
 #include <cmath>

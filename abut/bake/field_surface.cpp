@@ -1,7 +1,7 @@
 #include <abut/bake/field_surface.hpp>
-#include <abut/bake/half_edges.hpp>
 #include <abut/bake/wind.hpp>
 #include <abut/math/predicates.hpp>
+#include <abut/shape/half_edges.hpp>
 
 #include <algorithm>
 #include <utility>

@@ -3,10 +3,10 @@
 // The surface of a mesh as a field is baked of it: welded, wound alike, and closed by triangles over its holes. For
 // .cpp files.
 
-#include <abut/bake/weld.hpp>
 #include <abut/math/aabb.hpp>
 #include <abut/math/result.hpp>
 #include <abut/math/vec.hpp>
+#include <abut/shape/weld.hpp>
 
 #include <cstddef>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #include <abut/bake/fill_holes.hpp>
-#include <abut/bake/half_edges.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/shape/half_edges.hpp>
 
 #include <algorithm>
 #include <limits>

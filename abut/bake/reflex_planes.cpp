@@ -1,6 +1,6 @@
-#include <abut/bake/half_edges.hpp>
 #include <abut/bake/reflex_planes.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/shape/half_edges.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,11 @@
 #include <abut/bake/fill_holes.hpp>
-#include <abut/bake/half_edges.hpp>
 #include <abut/bake/repair.hpp>
-#include <abut/bake/tidy.hpp>
-#include <abut/bake/weld.hpp>
 #include <abut/bake/wind.hpp>
 #include <abut/math/coincident.hpp>
+#include <abut/shape/half_edges.hpp>
+#include <abut/shape/check_triangles.hpp>
+#include <abut/shape/tidy.hpp>
+#include <abut/shape/weld.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -24,18 +25,7 @@ std::optional<Problem> problem_of(std::span<const Vec3> points, std::span<const 
         return Problem{ProblemCode::bad_argument, "the share of area of holes is not from 0 to 1"};
     if (options.hole_edges > most_hole_edges)
         return Problem{ProblemCode::bad_argument, "holes to fill have more than 1000 edges"};
-    if (triangles.empty()) return Problem{ProblemCode::empty_input, "no triangles"};
-    for (std::size_t i = 0; i < points.size(); ++i)
-        if (!is_finite(points[i]))
-            return Problem{ProblemCode::not_finite, "point " + std::to_string(i) + " is not finite", i};
-    for (std::size_t i = 0; i < triangles.size(); ++i)
-        for (int k = 0; k < 3; ++k)
-            if (triangles[i][k] >= points.size())
-                return Problem{ProblemCode::index_out_of_range,
-                               "triangle " + std::to_string(i) + " has corner " + std::to_string(triangles[i][k]) +
-                                   " of " + std::to_string(points.size()) + " points",
-                               i};
-    return std::nullopt;
+    return problem_of_triangles(points, triangles, "a surface");
 }
 
 void count_points(std::span<const Vec3> points, std::span<const glm::uvec3> triangles, const Welded& surface,

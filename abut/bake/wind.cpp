@@ -1,8 +1,8 @@
-#include <abut/bake/half_edges.hpp>
 #include <abut/bake/solid.hpp>
 #include <abut/bake/wind.hpp>
 #include <abut/broad_phase/bvh.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/shape/half_edges.hpp>
 #include <abut/shape/mesh.hpp>
 
 #include <algorithm>
@@ -16,29 +16,6 @@ constexpr std::uint32_t none = no_side;
 
 void turn(glm::uvec3& triangle) {
     std::swap(triangle.y, triangle.z);
-}
-
-double area_of(const Welded& surface, const glm::uvec3& t) {
-    const DVec<3> a(surface.points[t.x]), b(surface.points[t.y]), c(surface.points[t.z]);
-    return length(cross(b - a, c - a));
-}
-
-/// The other side of an edge that exactly two triangles share, whichever way they go; and whether they agree.
-struct Across {
-    std::uint32_t triangle = none;
-    bool agrees = true;
-};
-
-std::vector<Across> across(std::span<const glm::uvec3> triangles) {
-    std::vector<Across> result(3 * triangles.size());
-    const std::vector<HalfEdge> sorted = sorted_half_edges(triangles);
-    each_edge(sorted, [&](std::span<const HalfEdge> edge) {
-        if (edge.size() != 2) return;
-        const bool agrees = edge[0].upwards != edge[1].upwards;
-        result[edge[0].side] = {edge[1].side / 3, agrees};
-        result[edge[1].side] = {edge[0].side / 3, agrees};
-    });
-    return result;
 }
 
 /// A closed patch as a solid of its own, seen from outside.
@@ -122,39 +99,6 @@ bool is_room(const std::vector<Shell>& shells, std::uint32_t outer, const Patche
 }
 
 }  // namespace
-
-Patches wind_alike(Welded& surface) {
-    std::vector<glm::uvec3>& triangles = surface.triangles;
-    const std::vector<Across> beyond = across(triangles);
-    Patches patches{std::vector<std::uint32_t>(triangles.size(), none), {}};
-    std::vector<bool> turned(triangles.size(), false);
-    std::vector<std::uint32_t> members;
-    for (std::uint32_t first = 0; first < triangles.size(); ++first) {
-        if (patches.of[first] != none) continue;
-        const auto patch = static_cast<std::uint32_t>(patches.count());
-        patches.agreed.push_back(true);
-        patches.of[first] = patch;
-        members.assign(1, first);
-        double turned_area = 0, kept_area = 0;
-        for (std::size_t next = 0; next < members.size(); ++next) {
-            const std::uint32_t triangle = members[next];
-            (turned[triangle] ? turned_area : kept_area) += area_of(surface, triangles[triangle]);
-            for (std::uint32_t side = 3 * triangle; side < 3 * triangle + 3; ++side) {
-                const auto [neighbour, agrees] = beyond[side];
-                if (neighbour == none) continue;
-                if (!agrees) patches.agreed[patch] = false;
-                if (patches.of[neighbour] != none) continue;
-                patches.of[neighbour] = patch;
-                turned[neighbour] = turned[triangle] == agrees;
-                members.push_back(neighbour);
-            }
-        }
-        const bool turns = turned_area <= kept_area;
-        for (const std::uint32_t triangle : members)
-            if (turned[triangle] == turns) turn(triangles[triangle]);
-    }
-    return patches;
-}
 
 Insides face_outwards(Welded& surface, const Patches& patches) {
     std::vector<Shell> shells = closed_shells(surface, patches);

@@ -1,29 +1,12 @@
 #pragma once
 
-// Which way round triangles are.
+// Which way round solids are.
 
-#include <abut/bake/weld.hpp>
+#include <abut/shape/wind_alike.hpp>
 
 #include <cstddef>
-#include <cstdint>
-#include <span>
-#include <vector>
 
 namespace abut {
-
-/// Triangles that hang together by edges of exactly two of them.
-struct Patches {
-    std::vector<std::uint32_t> of;  ///< one a triangle: the number of its patch, in the order of their first triangles
-    /// One a patch: whether its triangles agreed with one another as they came.
-    std::vector<bool> agreed;
-
-    std::size_t count() const { return agreed.size(); }
-};
-
-/// Turns triangles until those that share an edge, if they are two, go along it in opposite ways, and most of a patch's
-/// area stays as it was. Where that can't be done, as on a Moebius strip, some edge is left at which they don't.
-/// Points are welded. O(n log n).
-Patches wind_alike(Welded& surface);
 
 struct Insides {
     std::size_t cavities = 0, rooms = 0;

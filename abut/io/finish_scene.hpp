@@ -2,9 +2,9 @@
 
 // What every reader's scene goes through: the checks that don't depend on the format, names, the clock.
 
-#include <abut/bake/zero_area.hpp>
 #include <abut/io/scene.hpp>
 #include <abut/math/result.hpp>
+#include <abut/shape/zero_area.hpp>
 
 namespace abut {
 

@@ -1,11 +1,13 @@
 #include <abut/math/assert.hpp>
 #include <abut/math/coincident.hpp>
+#include <abut/shape/check_triangles.hpp>
 #include <abut/shape/mesh.hpp>
 #include <abut/shape/mesh_adjacency.hpp>
 #include <abut/shape/mesh_tree.hpp>
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <tuple>
 #include <vector>
 
@@ -59,18 +61,7 @@ bool is_beyond(const Triangle3& t, const Vec3& point) {
 }  // namespace
 
 Result<Mesh> Mesh::build(std::span<const Vec3> points, std::span<const glm::uvec3> triangles) {
-    if (triangles.empty()) return Problem{ProblemCode::empty_input, "a mesh needs at least one triangle", 0};
-    for (std::size_t i = 0; i < points.size(); ++i)
-        if (!is_finite(points[i]))
-            return Problem{ProblemCode::not_finite,
-                           "point " + std::to_string(i) + " has a coordinate that is not finite", i};
-    for (std::size_t i = 0; i < triangles.size(); ++i)
-        for (glm::length_t j = 0; j < 3; ++j)
-            if (triangles[i][j] >= points.size())
-                return Problem{ProblemCode::index_out_of_range,
-                               "triangle " + std::to_string(i) + " names point " + std::to_string(triangles[i][j]) +
-                                   " of " + std::to_string(points.size()),
-                               i};
+    if (std::optional<Problem> problem = problem_of_triangles(points, triangles, "a mesh")) return *std::move(problem);
     auto data = std::make_shared<Data>();
     data->points.assign(points.begin(), points.end());
     data->triangles.assign(triangles.begin(), triangles.end());

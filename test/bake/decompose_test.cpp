@@ -5,7 +5,7 @@
 #include "../oracle/random.hpp"
 #include <abut/bake/decompose.hpp>
 #include <abut/bake/solid.hpp>
-#include <abut/bake/weld.hpp>
+#include <abut/shape/weld.hpp>
 
 #include <algorithm>
 #include <limits>

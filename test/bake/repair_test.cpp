@@ -2,9 +2,9 @@
 
 #include "../../scenes/solid_meshes.hpp"
 #include "../oracle/random.hpp"
-#include <abut/bake/half_edges.hpp>
 #include <abut/bake/repair.hpp>
 #include <abut/bake/solid.hpp>
+#include <abut/shape/half_edges.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -380,7 +380,7 @@ TEST(Repair, NamesWhatCantBeUsed) {
     bad.triangles[3].y = 8;
     EXPECT_EQ(code(bad).code, ProblemCode::index_out_of_range);
     EXPECT_EQ(code(bad).index, 3u);
-    EXPECT_EQ(code(bad).message, "triangle 3 has corner 8 of 8 points");
+    EXPECT_EQ(code(bad).message, "triangle 3 names point 8 of 8");
     bad = good;
     bad.points[5].z = std::numeric_limits<float>::quiet_NaN();
     EXPECT_EQ(code(bad).code, ProblemCode::not_finite);

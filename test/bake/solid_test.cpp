@@ -1,5 +1,5 @@
 #include <abut/bake/solid.hpp>
-#include <abut/bake/weld.hpp>
+#include <abut/shape/weld.hpp>
 
 #include <cmath>
 #include <numbers>

@@ -1,7 +1,7 @@
 // Mesh repair on any triangles: a surface whose numbers are right, or a Problem with a message.
 
-#include <abut/bake/half_edges.hpp>
 #include <abut/bake/repair.hpp>
+#include <abut/shape/half_edges.hpp>
 
 #include <cstddef>
 #include <cstdint>

@@ -2,8 +2,8 @@
 
 #include "tool_runs.hpp"
 #include <abut/bake/solid.hpp>
-#include <abut/bake/weld.hpp>
 #include <abut/io/read_scene.hpp>
+#include <abut/shape/weld.hpp>
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include <abut/bake/half_edges.hpp>
+#include <abut/shape/half_edges.hpp>
 
 #include <algorithm>
 #include <tuple>

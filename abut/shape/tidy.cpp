@@ -1,12 +1,13 @@
-#include <abut/bake/groups.hpp>
-#include <abut/bake/half_edges.hpp>
-#include <abut/bake/tidy.hpp>
-#include <abut/bake/zero_area.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/math/groups.hpp>
+#include <abut/shape/half_edges.hpp>
+#include <abut/shape/tidy.hpp>
+#include <abut/shape/zero_area.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <numeric>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -100,8 +101,9 @@ std::uint32_t longest_side(const Welded& surface, std::uint32_t triangle) {
 
 class SliverRound {
 public:
-    explicit SliverRound(Welded& surface)
+    SliverRound(Welded& surface, std::vector<std::uint32_t>& part_of)
         : surface_(surface),
+          part_of_(part_of),
           sorted_(sorted_half_edges(surface.triangles)),
           twins_(twins(sorted_)),
           touched_(surface.triangles.size(), false) {}
@@ -119,12 +121,14 @@ public:
             return false;
         triangles[sliver] = {a, b, x};
         triangles[neighbour] = {b, c, x};
+        part_of_[sliver] = part_of_[neighbour];
         touched_[sliver] = touched_[neighbour] = true;
         return true;
     }
 
 private:
     Welded& surface_;
+    std::vector<std::uint32_t>& part_of_;
     std::vector<HalfEdge> sorted_;
     std::vector<std::uint32_t> twins_;
     std::vector<bool> touched_;
@@ -164,21 +168,28 @@ std::size_t drop_doubles(Welded& surface) {
     return drop(surface.triangles, goes);
 }
 
-std::size_t drop_slivers(Welded& surface) {
+CutSlivers cut_slivers(Welded& surface) {
     constexpr int most_rounds = 64;
-    std::size_t found = 0;
+    CutSlivers result;
+    result.part_of.resize(surface.triangles.size());
+    std::iota(result.part_of.begin(), result.part_of.end(), 0u);
     std::vector<std::uint32_t> left = slivers(surface);
     for (int round = 0; round < most_rounds && !left.empty(); ++round) {
-        SliverRound cuts(surface);
+        SliverRound cuts(surface, result.part_of);
         std::size_t done = 0;
         for (const std::uint32_t sliver : left) done += cuts.cut(sliver);
-        found += done;
+        result.cut += done;
         if (done == 0) break;
         left = slivers(surface);
     }
-    std::vector<bool> goes(surface.triangles.size(), false);
-    for (const std::uint32_t sliver : left) goes[sliver] = true;
-    return found + drop(surface.triangles, goes);
+    result.left.assign(surface.triangles.size(), false);
+    for (const std::uint32_t sliver : left) result.left[sliver] = true;
+    return result;
+}
+
+std::size_t drop_slivers(Welded& surface) {
+    const CutSlivers done = cut_slivers(surface);
+    return done.cut + drop(surface.triangles, done.left);
 }
 
 }  // namespace abut

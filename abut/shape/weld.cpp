@@ -1,6 +1,6 @@
-#include <abut/bake/weld.hpp>
 #include <abut/math/coincident.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/shape/weld.hpp>
 
 #include <algorithm>
 #include <array>

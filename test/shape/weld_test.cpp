@@ -1,4 +1,4 @@
-#include <abut/bake/weld.hpp>
+#include <abut/shape/weld.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-#include <abut/bake/zero_area.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/shape/zero_area.hpp>
 
 namespace abut {
 

@@ -1,0 +1,63 @@
+#include <abut/math/assert.hpp>
+#include <abut/walk/walk_data.hpp>
+#include <abut/walk/walk_frame.hpp>
+
+namespace abut {
+
+const WalkMeshReport& WalkMesh::report() const {
+    return data_->report;
+}
+std::span<const Vec3> WalkMesh::points() const {
+    return data_->points;
+}
+std::span<const glm::uvec3> WalkMesh::triangles() const {
+    return data_->triangles;
+}
+bool WalkMesh::is_walkable(std::uint32_t triangle) const {
+    return data_->walk[triangle].is_walkable();
+}
+std::uint8_t WalkMesh::area(std::uint32_t triangle) const {
+    return static_cast<std::uint8_t>(data_->walk[triangle].area);
+}
+std::uint32_t WalkMesh::island(std::uint32_t triangle) const {
+    return data_->islands[triangle];
+}
+
+std::optional<WalkSide> WalkMesh::beyond(const WalkSide& side) const {
+    const WalkLink link = data_->walk[side.triangle].link[side.side];
+    if (link.is_border()) return std::nullopt;
+    return WalkSide{link.triangle(), link.side()};
+}
+
+Vec3 WalkMesh::to_world(const WalkPoint& place) const {
+    const WalkTriangle& walk = data_->walk[place.triangle];
+    const WalkWeights weights = shares(place.weights);
+    const DVec<3> first(walk.corner[0]);
+    return to_float(first + (DVec<3>(walk.corner[1]) - first) * weights.second +
+                    (DVec<3>(walk.corner[2]) - first) * weights.third);
+}
+
+Vec3 WalkMesh::normal(const WalkPoint& place) const {
+    return to_float(WalkFrame(data_->walk[place.triangle]).normal());
+}
+
+Vec3 WalkMesh::smooth_normal(const WalkPoint& place) const {
+    const glm::uvec3& of = data_->corner_normals[place.triangle];
+    DVec<3> sum(0.0);
+    for (int k = 0; k < 3; ++k) sum += DVec<3>(data_->normals[of[k]]) * static_cast<double>(place.weights[k]);
+    if (!(length_squared(sum) > 1e-12)) return normal(place);
+    return to_float(normalized(sum));
+}
+
+Vec2 WalkMesh::to_plane(std::uint32_t triangle, const Vec3& vector) const {
+    return to_float(WalkFrame(data_->walk[triangle]).to_plane(DVec<3>(vector)));
+}
+Vec3 WalkMesh::to_space(std::uint32_t triangle, const Vec2& vector) const {
+    return to_float(WalkFrame(data_->walk[triangle]).to_space(DVec<2>(vector)));
+}
+
+Aabb3 bounds(const WalkMesh& mesh) {
+    return mesh.data().bounds;
+}
+
+}  // namespace abut
