@@ -43,6 +43,17 @@ inline Vec3 in_grains(double second, double third) {
     return {static_cast<float>(a) * grain, static_cast<float>(b) * grain, static_cast<float>(c) * grain};
 }
 
+/// On side k, this share of it away from corner k: the weight opposite of it is exactly 0.
+inline Vec3 on_side(std::uint32_t side, double share) {
+    const Vec3 weights = in_grains(share, 0);
+    const std::uint32_t end = next_corner(side);
+    Vec3 result;
+    result[static_cast<glm::length_t>(side)] = weights.x;
+    result[static_cast<glm::length_t>(end)] = weights.y;
+    result[static_cast<glm::length_t>(next_corner(end))] = 0;
+    return result;
+}
+
 /// The plane of a triangle: the origin at corner 0, the first axis towards corner 1, corner 2 above it.
 class WalkFrame {
 public:
@@ -59,10 +70,24 @@ public:
     DVec<3> second_axis() const { return (other_ - first_axis() * walk_.third) * walk_.inverse_height; }
     DVec<3> to_space(const DVec<2>& vector) const { return first_axis() * vector.x + second_axis() * vector.y; }
     DVec<3> normal() const { return normalized(cross(along_, other_)); }
+    DVec<2> corner(std::uint32_t i) const {
+        if (i == 0) return DVec<2>(0.0);
+        return i == 1 ? DVec<2>(1 / walk_.inverse_width, 0) : DVec<2>(walk_.third, 1 / walk_.inverse_height);
+    }
 
 private:
     const WalkTriangle& walk_;
     DVec<3> along_, other_;
 };
+
+/// What a step changes of the second and the third weight.
+inline DVec<2> in_weights(const WalkTriangle& walk, const DVec<2>& step) {
+    const double third = step.y * walk.inverse_height;
+    return {(step.x - third * walk.third) * walk.inverse_width, third};
+}
+/// Where weights are in the triangle's frame.
+inline DVec<2> in_plane(const WalkTriangle& walk, const WalkWeights& weights) {
+    return {weights.second / walk.inverse_width + weights.third * walk.third, weights.third / walk.inverse_height};
+}
 
 }  // namespace abut

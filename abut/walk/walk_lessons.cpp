@@ -1,0 +1,84 @@
+// The two steps that a walk is made of, each by itself.
+
+#include <abut/math/assert.hpp>
+#include <abut/walk/walk_frame.hpp>
+#include <abut/walk/walk_strip.hpp>
+#include <abut/walk/walk_turn.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace abut {
+namespace {
+
+WalkedInTriangle step_in_triangle(const WalkTriangle& walk, const WalkPoint& place, const DVec<2>& step) {
+    // Steps are rounded to floats when they are turned at an edge. One along an edge would be sent back and forth over
+    // it for ever if such a difference counted.
+    constexpr double rounding = 0x1p-22;
+    constexpr double outside = -0.5 * walk_grain;
+    const double length = std::sqrt(dot(step, step));
+    ABUT_ASSERT(walk.is_walkable());
+    WalkedInTriangle result;
+    result.end = place;
+    if (!walk.is_walkable() || !(length <= std::numeric_limits<double>::max())) return result;
+    const WalkWeights weights = shares(place.weights);
+    const DVec<2> by = in_weights(walk, step);
+    const double second = weights.second + by.x, third = weights.third + by.y, first = weights.first - by.x - by.y;
+    if (first >= outside && second >= outside && third >= outside) {
+        result.end.weights = in_grains(second, third);
+        return result;
+    }
+    const WalkStrip strip = strip_ahead(walk, place.triangle, in_plane(walk, weights), step / length, rounding);
+    const double share = strip.crossing();
+    result.end.weights = strip.weights_at(share);
+    result.fraction = static_cast<float>(std::clamp(strip.at(share).x / length, 0.0, 1.0));
+    result.side = strip.side;
+    return result;
+}
+
+}  // namespace
+
+WalkedInTriangle WalkMesh::walk_in_triangle(const WalkPoint& place, const Vec3& step) const {
+    ABUT_ASSERT(is_finite(step));
+    const WalkTriangle& walk = data_->walk[place.triangle];
+    return step_in_triangle(walk, place, WalkFrame(walk).to_plane(DVec<3>(step)));
+}
+WalkedInTriangle WalkMesh::walk_in_triangle(const WalkPoint& place, const Vec2& step) const {
+    ABUT_ASSERT(is_finite(step));
+    return step_in_triangle(data_->walk[place.triangle], place, DVec<2>(step));
+}
+
+std::optional<EdgeCrossing> WalkMesh::cross_edge(const WalkPoint& place) const {
+    for (std::uint32_t side = 0; side < 3; ++side) {
+        const std::uint32_t opposite = next_corner(next_corner(side));
+        if (place.weights[static_cast<glm::length_t>(opposite)] != 0) continue;
+        if (std::optional<EdgeCrossing> crossing = cross_edge(place, side)) return crossing;
+    }
+    return std::nullopt;
+}
+
+std::optional<EdgeCrossing> WalkMesh::cross_edge(const WalkPoint& place, std::uint32_t side) const {
+    ABUT_ASSERT(side < 3);
+    const auto of = [&](std::uint32_t corner) { return place.weights[static_cast<glm::length_t>(corner)]; };
+    const std::uint32_t end = next_corner(side);
+    ABUT_ASSERT(of(next_corner(end)) == 0);
+    const WalkTriangle& from = data_->walk[place.triangle];
+    const WalkLink link = from.link[side];
+    if (link.is_border()) return std::nullopt;
+    const WalkTriangle& to = data_->walk[link.triangle()];
+    const std::uint32_t beyond = link.side(), beyond_end = next_corner(beyond);
+
+    EdgeCrossing result;
+    result.place.triangle = link.triangle();
+    result.place.weights = Vec3(0);
+    result.place.weights[static_cast<glm::length_t>(link.mirrored() ? beyond : beyond_end)] = of(side);
+    result.place.weights[static_cast<glm::length_t>(link.mirrored() ? beyond_end : beyond)] = of(end);
+    // Along the side, seen from both.
+    const DVec<2> along = normalized(WalkFrame(from).corner(end) - WalkFrame(from).corner(side));
+    const DVec<2> along_beyond = normalized(WalkFrame(to).corner(beyond_end) - WalkFrame(to).corner(beyond));
+    result.rotation = turn_along(from, along, to, link.mirrored() ? along_beyond : -along_beyond, link.mirrored());
+    return result;
+}
+
+}  // namespace abut

@@ -1,0 +1,15 @@
+#pragma once
+
+// How a way over a surface turns what is carried along it. Not for users.
+
+#include <abut/math/dvec.hpp>
+#include <abut/walk/walk_data.hpp>
+
+namespace abut {
+
+/// A tangent of length 1, given in the frame of the triangle where a way begins, and the same carried along it, in the
+/// frame of that where it ends. `mirrored`: the second triangle is walked on from its other side.
+WalkTurn turn_along(const WalkTriangle& from, const DVec<2>& tangent_from, const WalkTriangle& to,
+                    const DVec<2>& tangent_to, bool mirrored);
+
+}  // namespace abut
