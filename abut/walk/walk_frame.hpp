@@ -85,9 +85,4 @@ inline DVec<2> in_weights(const WalkTriangle& walk, const DVec<2>& step) {
     const double third = step.y * walk.inverse_height;
     return {(step.x - third * walk.third) * walk.inverse_width, third};
 }
-/// Where weights are in the triangle's frame.
-inline DVec<2> in_plane(const WalkTriangle& walk, const WalkWeights& weights) {
-    return {weights.second / walk.inverse_width + weights.third * walk.third, weights.third / walk.inverse_height};
-}
-
 }  // namespace abut

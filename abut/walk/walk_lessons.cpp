@@ -2,7 +2,7 @@
 
 #include <abut/math/assert.hpp>
 #include <abut/walk/walk_frame.hpp>
-#include <abut/walk/walk_strip.hpp>
+#include <abut/walk/walk_strip-inl.h>
 #include <abut/walk/walk_turn.hpp>
 
 #include <algorithm>
@@ -29,10 +29,10 @@ WalkedInTriangle step_in_triangle(const WalkTriangle& walk, const WalkPoint& pla
         result.end.weights = in_grains(second, third);
         return result;
     }
-    const WalkStrip strip = strip_ahead(walk, place.triangle, in_plane(walk, weights), step / length, rounding);
+    const WalkStrip strip = strip_ahead(walk, place.triangle, weights, step, rounding);
     const double share = strip.crossing();
     result.end.weights = strip.weights_at(share);
-    result.fraction = static_cast<float>(std::clamp(strip.at(share).x / length, 0.0, 1.0));
+    result.fraction = static_cast<float>(std::clamp(strip.at(share)[0] / dot(step, step), 0.0, 1.0));
     result.side = strip.side;
     return result;
 }
@@ -77,7 +77,7 @@ std::optional<EdgeCrossing> WalkMesh::cross_edge(const WalkPoint& place, std::ui
     // Along the side, seen from both.
     const DVec<2> along = normalized(WalkFrame(from).corner(end) - WalkFrame(from).corner(side));
     const DVec<2> along_beyond = normalized(WalkFrame(to).corner(beyond_end) - WalkFrame(to).corner(beyond));
-    result.rotation = turn_along(from, along, to, link.mirrored() ? along_beyond : -along_beyond, link.mirrored());
+    result.rotation = turn_along(from, along, to, link.mirrored() ? along_beyond : -along_beyond, link.mirrored(), 1);
     return result;
 }
 

@@ -36,20 +36,39 @@ struct WalkSide {
     friend bool operator==(const WalkSide&, const WalkSide&) = default;
 };
 
+struct WalkTriangle;
+
 /// How far the surface has turned what was carried along a way over it, without turning it within the surface: the
-/// walker's frame, a velocity, what is left of a step.
-struct WalkTurn {
-    /// Takes vectors of space from where the way began to where it ended: normals to normals, tangents to tangents.
-    glm::quat in_space{1, 0, 0, 0};
-    /// The same of vectors in the triangles' own frames (see WalkMesh::to_plane), after `mirrored`.
-    Turn in_plane{};
+/// walker's frame, a velocity, what is left of a step. Refers to the mesh, and must not outlive it.
+class WalkTurn {
+public:
+    /// Turns nothing.
+    WalkTurn() = default;
+    /// Between two triangles, for the walk mesh itself.
+    WalkTurn(const WalkTriangle& from, const WalkTriangle& to, const Turn& in_plane, bool mirrored)
+        : from_(&from), to_(&to), in_plane_(in_plane), mirrored_(mirrored) {}
+
+    /// A vector of space as it is where the way ended: normals become normals, tangents tangents.
+    Vec3 operator*(const Vec3& vector) const;
+    /// The same of a vector in the first triangle's own frame (see WalkMesh::to_plane): in the last one's.
+    Vec2 operator*(const Vec2& vector) const {
+        return rotate(in_plane_, mirrored_ ? Vec2{vector.x, -vector.y} : vector);
+    }
+
+    /// As a rotation of space, of length 1.
+    glm::quat in_space() const;
+    /// In the frames of the triangles, after the second coordinate is turned over where it is mirrored.
+    const Turn& in_plane() const { return in_plane_; }
     /// The way led over an odd number of edges at which triangles don't agree which side is up, as once round a Moebius
     /// strip: what was to the left of a vector in the frames is to its right, and the walker stands on the other side
-    /// of the triangle than `normal` says. The second coordinate is turned over before `in_plane` applies.
-    bool mirrored = false;
+    /// of the triangle than `normal` says.
+    bool mirrored() const { return mirrored_; }
 
-    Vec3 operator*(const Vec3& vector) const { return rotate(in_space, vector); }
-    Vec2 operator*(const Vec2& vector) const { return rotate(in_plane, mirrored ? Vec2{vector.x, -vector.y} : vector); }
+private:
+    const WalkTriangle* from_ = nullptr;
+    const WalkTriangle* to_ = nullptr;
+    Turn in_plane_{};
+    bool mirrored_ = false;
 };
 
 enum class WalkMet : std::uint8_t {

@@ -1,6 +1,6 @@
 #include <abut/math/assert.hpp>
 #include <abut/walk/walk_frame.hpp>
-#include <abut/walk/walk_strip.hpp>
+#include <abut/walk/walk_strip-inl.h>
 #include <abut/walk/walk_turn.hpp>
 
 #include <algorithm>
@@ -29,10 +29,10 @@ public:
     std::uint32_t crossings() const { return crossings_; }
     bool mirrored() const { return strip_.mirrored != reflected_; }
 
-    /// The direction in which the way began, carried along, in the frame of the last triangle.
+    /// The step, carried along, in the frame of the last triangle.
     DVec<2> ahead() const {
-        const DVec<2> axis = strip_.first_axis() * triangles_[strip_.triangle].inverse_width;
-        return {axis.x, strip_.mirrored ? axis.y : -axis.y};
+        const lanes::Both axis = strip_.first_axis() * triangles_[strip_.triangle].inverse_width;
+        return {axis[0], strip_.mirrored ? axis[1] : -axis[1]};
     }
 
 private:
@@ -56,16 +56,16 @@ private:
         WalkLink link = way_over(strip);
         bool within = false;
         while (!link.is_border() && count < most) {
-            const DVec<2> corner = strip.apex(triangles_[strip.triangle]);
-            strip.enter(link, corner, corner.y >= 0);
+            const lanes::Both corner = strip.apex(triangles_[strip.triangle]);
+            strip.enter(link, corner, corner[1] >= 0);
             ++count;
-            if (!strip.is_beyond(left)) {
+            if (!strip.is_beyond(left) && !strip.is_beyond_or_along(left)) {
                 within = true;
                 break;
             }
             if (count % most_from_one_origin == 0) {
-                const double x = std::clamp(strip.at(strip.crossing()).x, 0.0, left);
-                strip.move_origin({x, 0});
+                const double x = std::clamp(strip.at(strip.crossing())[0], 0.0, left);
+                strip.move_origin(lanes::Both{x, 0});
                 left -= x;
                 walked_ += x;
             }
@@ -89,14 +89,15 @@ private:
         begin_at_side(share);
         while (room_ > 0) {
             --room_;
-            DVec<2> along = strip_.left - strip_.right;
-            if (along.x == 0) return stop(WalkMet::corner, share);
-            if (along.x < 0) {
+            lanes::Both along = strip_.left - strip_.right;
+            if (along[0] == 0) return stop(WalkMet::corner, share);
+            if (along[0] < 0) {
                 reflect();
                 share = 1 - share;
                 along = strip_.left - strip_.right;
             }
-            const double size = length(along), cosine = along.x / size, to_corner = (1 - share) * size;
+            const double size = std::sqrt(lanes::dot(along, along)[0]), cosine = along[0] / size,
+                         to_corner = (1 - share) * size;
             met_ = WalkMet::border;
             if (left_ * cosine <= to_corner) {
                 walked_ += left_ * cosine;
@@ -109,13 +110,13 @@ private:
             share = 0;
             switch (go_round_corner()) {
                 case Round::free:
-                    return strip_.is_beyond(left_) || end_within();
+                    return strip_.is_beyond_or_along(left_) || end_within();
                 case Round::barrier:
                     break;
                 case Round::limit:
                     return stop(WalkMet::limit, 0);
             }
-            if (strip_.left.x <= 0) return stop(WalkMet::corner, 0);
+            if (strip_.left[0] <= 0) return stop(WalkMet::corner, 0);
         }
         return stop(WalkMet::limit, share);
     }
@@ -129,8 +130,8 @@ private:
             const WalkLink link = way_over(strip_);
             if (link.is_border()) return Round::barrier;
             if (room_ == 0) return Round::limit;
-            const DVec<2> corner = strip_.apex(triangles_[strip_.triangle]);
-            const bool is_ahead = strip_.left.y >= 0 && corner.y < 0;
+            const lanes::Both corner = strip_.apex(triangles_[strip_.triangle]);
+            const bool is_ahead = strip_.left[1] >= 0 && corner[1] < 0;
             strip_.enter(link, corner, !is_ahead);
             --room_;
             ++crossings_;
@@ -144,8 +145,8 @@ private:
     }
 
     void begin_at_side(double share) {
-        const DVec<2> point = strip_.at(share);
-        const double x = std::clamp(point.x, 0.0, left_);
+        const lanes::Both point = strip_.at(share);
+        const double x = std::clamp(point[0], 0.0, left_);
         strip_.move_origin(point);
         walked_ += x;
         left_ -= x;
@@ -153,8 +154,8 @@ private:
 
     bool end_within() {
         walked_ += left_;
-        const DVec<3> weights = strip_.weights({left_, 0});
-        weights_ = in_grains(weights.y, weights.z);
+        const WalkWeights weights = strip_.weights(left_);
+        weights_ = in_grains(weights.second, weights.third);
         return false;
     }
     bool end_at(double share) {
@@ -199,17 +200,18 @@ Walked walk_on(const WalkMeshData& data, const WalkPoint& place, const DVec<2>& 
         return result;
     }
 
-    const DVec<2> ahead = step / length;
-    StripWalk way(data, options, strip_ahead(walk, place.triangle, in_plane(walk, weights), ahead), length);
+    const double end = dot(step, step);
+    StripWalk way(data, options, strip_ahead(walk, place.triangle, weights, step), end);
     way.run();
+    const double walked = std::min(way.walked() / length, length);
     result.place = way.place();
-    result.length = static_cast<float>(way.walked());
-    result.lost = static_cast<float>(std::max(length - way.walked(), 0.0));
+    result.length = static_cast<float>(walked);
+    result.lost = static_cast<float>(length - walked);
     result.met = way.met();
     result.side = way.barrier();
     result.crossings = way.crossings();
     if (way.crossings() > 0)
-        result.turn = turn_along(walk, ahead, data.walk[result.place.triangle], way.ahead(), way.mirrored());
+        result.turn = turn_along(walk, step, data.walk[result.place.triangle], way.ahead(), way.mirrored(), end);
     return result;
 }
 

@@ -6,34 +6,59 @@
 namespace abut {
 namespace {
 
-/// Three axes at right angles: a tangent, what is left of it, and the normal.
+/// Three axes at right angles: those of a triangle's frame, turned, and the normal.
 struct Axes {
-    DVec<3> ahead, left, up;
+    DVec<3> first, second, normal;
 
-    Axes(const WalkTriangle& walk, const DVec<2>& tangent, double side) {
+    explicit Axes(const WalkTriangle& walk) {
         const WalkFrame frame(walk);
-        const DVec<3> first = frame.first_axis(), second = frame.second_axis();
-        ahead = first * tangent.x + second * tangent.y;
-        left = (second * tangent.x - first * tangent.y) * side;
-        up = cross(ahead, left);
+        first = frame.first_axis();
+        second = frame.second_axis();
+        normal = cross(first, second);
     }
-    const DVec<3>& operator[](int i) const { return i == 0 ? ahead : (i == 1 ? left : up); }
+    /// The frame in which the vectors of another one are the same vectors as there.
+    Axes(const WalkTriangle& walk, const Turn& turn, bool mirrored) : Axes(walk) {
+        const double cosine = static_cast<double>(turn.cos), sine = static_cast<double>(turn.sin);
+        const double side = mirrored ? -1 : 1;
+        const DVec<3> ahead = first * cosine + second * sine;
+        second = (second * cosine - first * sine) * side;
+        first = ahead;
+        normal *= side;
+    }
 };
 
-/// The rotation that takes one to the other: Shepperd, "Quaternion from Rotation Matrix" (1978), the root of the
-/// largest of four numbers first.
-glm::quat rotation_between(const Axes& from, const Axes& to) {
-    const double trace = dot(from.ahead, to.ahead) + dot(from.left, to.left) + dot(from.up, to.up);
+}  // namespace
+
+WalkTurn turn_along(const WalkTriangle& from, const DVec<2>& tangent_from, const WalkTriangle& to,
+                    const DVec<2>& tangent_to, bool mirrored, double square) {
+    const DVec<2> turned(tangent_from.x, mirrored ? -tangent_from.y : tangent_from.y);
+    const double scale = 1 / square;
+    const Turn in_plane{static_cast<float>(dot(turned, tangent_to) * scale),
+                        static_cast<float>(cross(turned, tangent_to) * scale)};
+    return {from, to, in_plane, mirrored};
+}
+
+Vec3 WalkTurn::operator*(const Vec3& vector) const {
+    if (from_ == nullptr) return vector;
+    const Axes from(*from_), to(*to_, in_plane_, mirrored_);
+    const DVec<3> v(vector);
+    return to_float(to.first * dot(from.first, v) + to.second * dot(from.second, v) + to.normal * dot(from.normal, v));
+}
+
+/// Of four numbers that can be the largest of the quaternion the one that is, or one that is large enough: Shepperd,
+/// "Quaternion from Rotation Matrix" (1978).
+glm::quat WalkTurn::in_space() const {
+    if (from_ == nullptr) return {1, 0, 0, 0};
+    const Axes from(*from_), to(*to_, in_plane_, mirrored_);
+    const double trace = dot(from.first, to.first) + dot(from.second, to.second) + dot(from.normal, to.normal);
     // Twice the sine of the angle, along the axis.
-    const DVec<3> twist = cross(from.ahead, to.ahead) + cross(from.left, to.left) + cross(from.up, to.up);
-    double w = 0;
-    DVec<3> axis;
-    if (trace > 0) {
-        w = 1 + trace;
-        axis = twist;
-    } else {
+    const DVec<3> twist = cross(from.first, to.first) + cross(from.second, to.second) + cross(from.normal, to.normal);
+    double w = 1 + trace;
+    DVec<3> axis = twist;
+    if (trace <= 0) {
         const auto element = [&](int row, int column) {
-            return to.ahead[row] * from.ahead[column] + to.left[row] * from.left[column] + to.up[row] * from.up[column];
+            return to.first[row] * from.first[column] + to.second[row] * from.second[column] +
+                   to.normal[row] * from.normal[column];
         };
         int most = 0;
         for (int i = 1; i < 3; ++i)
@@ -43,21 +68,8 @@ glm::quat rotation_between(const Axes& from, const Axes& to) {
         w = twist[most];
     }
     const double scale = 1 / std::sqrt(w * w + length_squared(axis));
-    axis *= scale;
-    return {static_cast<float>(w * scale), static_cast<float>(axis.x), static_cast<float>(axis.y),
-            static_cast<float>(axis.z)};
-}
-
-}  // namespace
-
-WalkTurn turn_along(const WalkTriangle& from, const DVec<2>& tangent_from, const WalkTriangle& to,
-                    const DVec<2>& tangent_to, bool mirrored) {
-    WalkTurn result;
-    result.mirrored = mirrored;
-    const DVec<2> turned(tangent_from.x, mirrored ? -tangent_from.y : tangent_from.y);
-    result.in_plane = {static_cast<float>(dot(turned, tangent_to)), static_cast<float>(cross(turned, tangent_to))};
-    result.in_space = rotation_between(Axes(from, tangent_from, 1), Axes(to, tangent_to, mirrored ? -1 : 1));
-    return result;
+    return glm::quat(static_cast<float>(w * scale), static_cast<float>(axis.x * scale),
+                     static_cast<float>(axis.y * scale), static_cast<float>(axis.z * scale));
 }
 
 }  // namespace abut
