@@ -8,7 +8,7 @@
 namespace abut {
 namespace {
 
-constexpr std::uint32_t none = no_side;
+constexpr std::uint32_t none = AcrossEdge::none;
 
 void turn(glm::uvec3& triangle) {
     std::swap(triangle.y, triangle.z);
@@ -19,14 +19,8 @@ double area_of(const Welded& surface, const glm::uvec3& t) {
     return length(cross(b - a, c - a));
 }
 
-/// The other side of an edge that exactly two triangles share, whichever way they go; and whether they agree.
-struct Across {
-    std::uint32_t triangle = none;
-    bool agrees = true;
-};
-
-std::vector<Across> across(std::span<const glm::uvec3> triangles) {
-    std::vector<Across> result(3 * triangles.size());
+std::vector<AcrossEdge> across_pairs(std::span<const glm::uvec3> triangles) {
+    std::vector<AcrossEdge> result(3 * triangles.size());
     const std::vector<HalfEdge> sorted = sorted_half_edges(triangles);
     each_edge(sorted, [&](std::span<const HalfEdge> edge) {
         if (edge.size() != 2) return;
@@ -40,8 +34,11 @@ std::vector<Across> across(std::span<const glm::uvec3> triangles) {
 }  // namespace
 
 Patches wind_alike(Welded& surface) {
+    return wind_alike(surface, across_pairs(surface.triangles));
+}
+
+Patches wind_alike(Welded& surface, std::span<const AcrossEdge> across) {
     std::vector<glm::uvec3>& triangles = surface.triangles;
-    const std::vector<Across> beyond = across(triangles);
     Patches patches{std::vector<std::uint32_t>(triangles.size(), none), {}};
     std::vector<bool> turned(triangles.size(), false);
     std::vector<std::uint32_t> members;
@@ -56,7 +53,7 @@ Patches wind_alike(Welded& surface) {
             const std::uint32_t triangle = members[next];
             (turned[triangle] ? turned_area : kept_area) += area_of(surface, triangles[triangle]);
             for (std::uint32_t side = 3 * triangle; side < 3 * triangle + 3; ++side) {
-                const auto [neighbour, agrees] = beyond[side];
+                const auto& [neighbour, agrees] = across[side];
                 if (neighbour == none) continue;
                 if (!agrees) patches.agreed[patch] = false;
                 if (patches.of[neighbour] != none) continue;

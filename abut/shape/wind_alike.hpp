@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace abut {
@@ -19,9 +20,21 @@ struct Patches {
     std::size_t count() const { return agreed.size(); }
 };
 
+/// The other side of an edge that two triangles share, if there are two that do; and whether they go along it in
+/// opposite ways.
+struct AcrossEdge {
+    static constexpr std::uint32_t none = 0xffffffffu;
+
+    std::uint32_t triangle = none;
+    bool agrees = true;
+};
+
 /// Turns triangles until those that share an edge, if they are two, go along it in opposite ways, and most of a patch's
 /// area stays as it was. Where that can't be done, as on a Moebius strip, some edge is left at which they don't.
 /// Points are welded. O(n log n).
 Patches wind_alike(Welded& surface);
+/// The same where it is told, of each of the sides 3t, 3t + 1 and 3t + 2 of triangles t, what is across: also at edges
+/// of more than two triangles.
+Patches wind_alike(Welded& surface, std::span<const AcrossEdge> across);
 
 }  // namespace abut

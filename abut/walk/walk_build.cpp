@@ -97,9 +97,15 @@ void mend(Walkable& walkable, WalkMeshData& data, std::span<const std::uint8_t> 
     walkable.number.resize(kept);
 }
 
+/// Turns triangles so that they agree with those that they go on in.
 void turn_alike(Walkable& walkable, WalkMeshData& data) {
     const std::vector<glm::uvec3> before = walkable.surface.triangles;
-    wind_alike(walkable.surface);
+    const WalkLinks links = link_triangles(walkable.surface.points, before);
+    std::vector<AcrossEdge> across;
+    for (const std::array<WalkLink, 3>& of : links.of)
+        for (const WalkLink& link : of)
+            across.push_back(link.is_border() ? AcrossEdge{} : AcrossEdge{link.triangle(), !link.mirrored()});
+    wind_alike(walkable.surface, across);
     for (std::size_t i = 0; i < before.size(); ++i) {
         if (walkable.surface.triangles[i] == before[i]) continue;
         glm::uvec3& triangle = data.triangles[walkable.number[i]];

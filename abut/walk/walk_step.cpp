@@ -203,7 +203,8 @@ Walked walk_on(const WalkMeshData& data, const WalkPoint& place, const DVec<2>& 
     const double end = dot(step, step);
     StripWalk way(data, options, strip_ahead(walk, place.triangle, weights, step), end);
     way.run();
-    const double walked = std::min(way.walked() / length, length);
+    // Without a barrier all of it was walked, but for rounding.
+    const double walked = way.met() == WalkMet::nothing ? length : std::min(way.walked() / length, length);
     result.place = way.place();
     result.length = static_cast<float>(walked);
     result.lost = static_cast<float>(length - walked);
