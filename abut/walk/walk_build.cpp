@@ -211,6 +211,12 @@ Result<WalkMesh> WalkMesh::build(std::span<const Vec3> points, std::span<const g
     set_normals(*data, walkable, links, normals);
     data->tree = build_mesh_tree(walkable.surface.points, walked, same);
     for (std::uint32_t& item : data->tree.order) item = walkable.number[item];
+    data->leaf_of.resize(triangles.size());
+    for (std::uint32_t i = 0; i < data->tree.leaves.size(); ++i) {
+        const MeshLeaf& leaf = data->tree.leaves[i];
+        for (std::uint32_t lane = 0; lane < leaf.count(); ++lane)
+            data->leaf_of[data->tree.order[leaf.first + lane]] = i;
+    }
     return WalkMesh(std::move(data));
 }
 

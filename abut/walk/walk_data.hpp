@@ -59,6 +59,7 @@ struct WalkMeshData {
     bool given_normals = false, given_areas = false;
     /// Of the triangles that are walkable; item i of its order is a number of a triangle here.
     MeshTree tree;
+    std::vector<std::uint32_t> leaf_of;  ///< as many as triangles: the tree's leaf that has it; 0 where left out
     Aabb3 bounds = Aabb3::empty();
 };
 
