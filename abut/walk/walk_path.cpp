@@ -1,0 +1,174 @@
+#include <abut/math/assert.hpp>
+#include <abut/walk/walk_path_search.hpp>
+#include <abut/walk/walk_path_shorten.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace abut {
+namespace {
+
+/// Directions in space that are less apart go on as one.
+constexpr double least_bend = 1e-6;
+/// Pieces this short, of a side of their triangle, have no direction.
+constexpr double least_piece = 1e-9;
+
+WalkPoint placed(std::uint32_t triangle, std::uint32_t left, std::uint32_t right, double share) {
+    double weights[3] = {0, 0, 0};
+    weights[left] = 1 - share;
+    weights[right] = share;
+    return {triangle, in_grains(weights[1], weights[2])};
+}
+
+DVec<3> in_space(const WalkTriangle& walk, const WalkPoint& place) {
+    const WalkWeights weights = shares(place.weights);
+    const DVec<3> first(walk.corner[0]);
+    return first + (DVec<3>(walk.corner[1]) - first) * weights.second +
+           (DVec<3>(walk.corner[2]) - first) * weights.third;
+}
+
+/// How far from its left end to its right one a portal is crossed by the line through two points.
+double crossed_at(const WalkPortal& portal, const DVec<2>& from, const DVec<2>& to) {
+    const DVec<2> along = to - from;
+    const double sine = cross(along, portal.right - portal.left);
+    return sine == 0 ? 0.0 : std::clamp(cross(portal.left - from, along) / sine, 0.0, 1.0);
+}
+
+/// The corners of one triangle of the way, in the plane and in space.
+struct Laid {
+    DVec<2> plane[3];
+    DVec<3> space[3];
+
+    /// A unit vector of the plane in space.
+    DVec<3> to_space(const DVec<2>& direction) const {
+        const DVec<2> a = plane[1] - plane[0], b = plane[2] - plane[0];
+        const double area = cross(a, b);
+        return ((space[1] - space[0]) * cross(direction, b) + (space[2] - space[0]) * cross(a, direction)) / area;
+    }
+};
+
+/// Where a way bends.
+class Bends {
+public:
+    Bends(const WalkMeshData& data, const WalkTaut& way) : data_(data), way_(way) {}
+
+    void add_to(WalkPath& path) {
+        const std::vector<WalkPortal>& portals = way_.plane.portals;
+        find_crossings();
+        std::optional<DVec<3>> last;
+        for (std::uint32_t i = 0; i <= portals.size(); ++i) {
+            const DVec<2> from = i == 0 ? way_.plane.from : crossing(i - 1);
+            const DVec<2> to = i == portals.size() ? way_.plane.to : crossing(i);
+            const Laid laid = lay(i);
+            const double piece = length(to - from);
+            if (!(piece > least_piece * length(laid.plane[1] - laid.plane[0]))) continue;
+            const DVec<3> direction = laid.to_space((to - from) / piece);
+            if (last && length_squared(direction - *last) <= least_bend * least_bend) continue;
+            if (last) add(path, i);
+            last = direction;
+        }
+    }
+
+private:
+    void find_crossings() {
+        shares_.resize(way_.plane.portals.size());
+        std::uint32_t next = 0;
+        for (std::size_t k = 1; k < way_.knots.size(); ++k) {
+            const WalkKnot& knot = way_.knots[k];
+            for (; next < knot.first; ++next)
+                shares_[next] = crossed_at(way_.plane.portals[next], way_.knots[k - 1].at, knot.at);
+            for (; next <= knot.last && next < shares_.size(); ++next) {
+                if (knot.kind == WalkKnot::Kind::crossing) {
+                    shares_[next] = knot.share;
+                } else {
+                    shares_[next] = knot.kind == WalkKnot::Kind::left ? 0 : 1;
+                }
+            }
+        }
+    }
+    DVec<2> crossing(std::uint32_t portal) const {
+        const WalkPortal& of = way_.plane.portals[portal];
+        return of.left + (of.right - of.left) * shares_[portal];
+    }
+    std::uint32_t triangle(std::uint32_t i) const { return i == 0 ? way_.strip.from.triangle : link(i - 1).triangle(); }
+    WalkLink link(std::uint32_t portal) const {
+        const WalkSide& side = way_.strip.sides[portal];
+        return data_.walk[side.triangle].link[side.side];
+    }
+    /// The corners at the ends of the side that triangle i is entered by.
+    void ends(std::uint32_t i, std::uint32_t& left, std::uint32_t& right) const {
+        const std::uint32_t entered = link(i - 1).side();
+        left = left_entering(entered, way_.plane.mirrored[i]);
+        right = left == entered ? next_corner(entered) : entered;
+    }
+    Laid lay(std::uint32_t i) const {
+        const WalkTriangle& walk = data_.walk[triangle(i)];
+        if (i == 0)
+            return {{DVec<2>(0.0), {1 / walk.inverse_width, 0}, {walk.third, 1 / walk.inverse_height}},
+                    {DVec<3>(walk.corner[0]), DVec<3>(walk.corner[1]), DVec<3>(walk.corner[2])}};
+        const std::vector<WalkPortal>& portals = way_.plane.portals;
+        std::uint32_t left = 0, right = 0;
+        ends(i, left, right);
+        const DVec<2> tip =
+            i == portals.size() ? way_.plane.last : (portals[i].new_left ? portals[i].left : portals[i].right);
+        return {{portals[i - 1].left, portals[i - 1].right, tip},
+                {DVec<3>(walk.corner[left]), DVec<3>(walk.corner[right]), DVec<3>(walk.corner[3 - left - right])}};
+    }
+    /// The point where triangle i is entered.
+    void add(WalkPath& path, std::uint32_t i) const {
+        std::uint32_t left = 0, right = 0;
+        ends(i, left, right);
+        const WalkTriangle& walk = data_.walk[triangle(i)];
+        const DVec<3> from(walk.corner[left]);
+        path.points.push_back(to_float(from + (DVec<3>(walk.corner[right]) - from) * shares_[i - 1]));
+        path.places.push_back(placed(triangle(i), left, right, shares_[i - 1]));
+    }
+
+    const WalkMeshData& data_;
+    const WalkTaut& way_;
+    std::vector<double> shares_;
+};
+
+WalkPath path_of(const WalkMeshData& data, const WalkTaut& way, const WalkPoint& to) {
+    WalkPath path;
+    const auto add = [&](const WalkPoint& place) {
+        path.points.push_back(to_float(in_space(data.walk[place.triangle], place)));
+        const WalkWeights weights = shares(place.weights);
+        path.places.push_back({place.triangle, in_grains(weights.second, weights.third)});
+    };
+    add(way.strip.from);
+    Bends(data, way).add_to(path);
+    add(to);
+    for (std::size_t i = 1; i < way.knots.size(); ++i) path.length += length(way.knots[i].at - way.knots[i - 1].at);
+    path.cost = way.cost;
+    return path;
+}
+
+bool is_valid(const WalkMeshData& data, const WalkPoint& place) {
+    if (place.triangle >= data.walk.size() || !data.walk[place.triangle].is_walkable()) return false;
+    const Vec3& w = place.weights;
+    const float sum = w.x + w.y + w.z;
+    return w.x >= 0 && w.y >= 0 && w.z >= 0 && sum > 0 && sum <= std::numeric_limits<float>::max();
+}
+
+}  // namespace
+
+std::optional<WalkPath> WalkMesh::find_path(const WalkPoint& from, const WalkPoint& to,
+                                            const WalkPathOptions& options) const {
+    const bool valid = is_valid(*data_, from) && is_valid(*data_, to);
+    ABUT_ASSERT(valid);
+    if (!valid) return std::nullopt;
+    const WalkPathRules rules(*data_, options);
+    std::optional<WalkStrip> strip = find_strip(rules, from, to, 1);
+    if (!strip) return std::nullopt;
+    return path_of(*data_, pulled_tight(rules, *std::move(strip)), to);
+}
+
+std::optional<std::vector<Vec3>> WalkMesh::path(const WalkPoint& from, const WalkPoint& to,
+                                                const WalkPathOptions& options) const {
+    std::optional<WalkPath> found = find_path(from, to, options);
+    if (!found) return std::nullopt;
+    return std::move(found->points);
+}
+
+}  // namespace abut

@@ -1,0 +1,140 @@
+#include <abut/walk/walk_path_strip.hpp>
+
+#include <algorithm>
+#include <limits>
+
+namespace abut {
+namespace {
+
+/// A place that is on a side, as one of the triangle beyond.
+WalkPoint beyond(const WalkPoint& place, std::uint32_t side, const WalkLink& link) {
+    const auto weight = [&](std::uint32_t corner) { return place.weights[static_cast<glm::length_t>(corner)]; };
+    const std::uint32_t start = link.mirrored() ? link.side() : next_corner(link.side());
+    const std::uint32_t end = link.mirrored() ? next_corner(link.side()) : link.side();
+    WalkPoint result{link.triangle(), Vec3(0.0f)};
+    result.weights[static_cast<glm::length_t>(start)] = weight(side);
+    result.weights[static_cast<glm::length_t>(end)] = weight(next_corner(side));
+    return result;
+}
+
+bool is_on(const WalkPoint& place, std::uint32_t side) {
+    return place.weights[static_cast<glm::length_t>(next_corner(next_corner(side)))] == 0;
+}
+
+}  // namespace
+
+WalkPathRules::WalkPathRules(const WalkMeshData& mesh_data, const WalkPathOptions& path_options)
+    : data(mesh_data), options(path_options) {
+    for (const float each : options.area_costs) alike = alike && each == 1.0f;
+}
+
+double WalkPathRules::least_cost() const {
+    double result = options.area_costs.size() < 256 ? 1.0 : std::numeric_limits<double>::max();
+    for (const float each : options.area_costs) result = std::min(result, static_cast<double>(each));
+    return result;
+}
+
+void trim(const WalkMeshData& data, WalkStrip& strip) {
+    std::size_t first = 0, last = strip.sides.size();
+    while (first < last && is_on(strip.from, strip.sides[first].side)) {
+        const WalkSide side = strip.sides[first++];
+        strip.from = beyond(strip.from, side.side, data.walk[side.triangle].link[side.side]);
+    }
+    while (first < last) {
+        const WalkSide side = strip.sides[last - 1];
+        const WalkLink link = data.walk[side.triangle].link[side.side];
+        if (!is_on(strip.to, link.side())) break;
+        strip.to = beyond(strip.to, link.side(), WalkLink::to(side.triangle, side.side, link.mirrored()));
+        --last;
+    }
+    strip.sides.erase(strip.sides.begin() + static_cast<std::ptrdiff_t>(last), strip.sides.end());
+    strip.sides.erase(strip.sides.begin(), strip.sides.begin() + static_cast<std::ptrdiff_t>(first));
+}
+
+void add_side(const WalkMeshData& data, std::vector<WalkSide>& sides, const WalkSide& side) {
+    if (!sides.empty()) {
+        const WalkLink link = data.walk[sides.back().triangle].link[sides.back().side];
+        if (link.triangle() == side.triangle && link.side() == side.side) {
+            sides.pop_back();
+            return;
+        }
+    }
+    sides.push_back(side);
+}
+
+void unfold(const WalkMeshData& data, const WalkStrip& strip, WalkUnfolded& result) {
+    result.portals.clear();
+    result.mirrored.assign(1, false);
+    const WalkTriangle& start = data.walk[strip.from.triangle];
+    DVec<2> corner[3] = {DVec<2>(0.0), {1 / start.inverse_width, 0}, {start.third, 1 / start.inverse_height}};
+    const auto placed = [&](const WalkPoint& place) {
+        const WalkWeights weights = shares(place.weights);
+        return corner[0] + (corner[1] - corner[0]) * weights.second + (corner[2] - corner[0]) * weights.third;
+    };
+    result.from = placed(strip.from);
+    result.first = corner[strip.sides.empty() ? 2 : next_corner(next_corner(strip.sides[0].side))];
+    bool mirrored = false;
+    std::uint32_t entered = 3;
+    for (const WalkSide& side : strip.sides) {
+        const WalkTriangle& walk = data.walk[side.triangle];
+        const std::uint32_t left = left_leaving(side.side, mirrored);
+        const std::uint32_t right = left == side.side ? next_corner(side.side) : side.side;
+        WalkPortal portal{corner[left], corner[right], false};
+        // What was opposite of the side that was entered by is the end that is new.
+        portal.new_left = entered < 3 && left == next_corner(next_corner(entered));
+        result.portals.push_back(portal);
+        const DVec<2> tip = beyond_side(walk, side.side, mirrored, portal.left, portal.right);
+        const WalkLink link = walk.link[side.side];
+        mirrored = mirrored != link.mirrored();
+        entered = link.side();
+        const std::uint32_t left_corner = left_entering(entered, mirrored);
+        corner[left_corner] = portal.left;
+        corner[left_corner == entered ? next_corner(entered) : entered] = portal.right;
+        corner[next_corner(next_corner(entered))] = tip;
+        result.mirrored.push_back(mirrored);
+    }
+    result.last = corner[entered < 3 ? next_corner(next_corner(entered)) : 2];
+    result.to = placed(strip.to);
+}
+
+void WalkFunnel::add(const DVec<2>& point, std::uint32_t portal, bool left) {
+    // Seen from the left; on the right all turns are the other way.
+    const double sign = left ? 1 : -1;
+    const std::size_t step = left ? std::size_t{1} : ~std::size_t{0};  // towards the apex, and on along the other side
+    std::size_t& end = left ? front_ : back_;
+    const std::size_t other_end = left ? back_ : front_;
+    while (end != apex_ && sign * cross(at(end) - at(end + step), point - at(end)) <= 0) end += step;
+    if (end == apex_) {
+        while (apex_ != other_end && sign * cross(at(apex_ + step) - at(apex_), point - at(apex_)) < 0) apex_ += step;
+        end = apex_;
+    }
+    points_.push_back({point, portal, chain_[end], left});
+    end -= step;
+    chain_[end] = static_cast<std::uint32_t>(points_.size() - 1);
+}
+
+void WalkFunnel::pull(const std::vector<WalkPortal>& portals, std::uint32_t first, std::uint32_t last,
+                      const DVec<2>& from, const DVec<2>& to, std::vector<WalkKnot>& knots) {
+    const std::size_t count = last - first;
+    points_.clear();
+    chain_.resize(2 * count + 5);
+    front_ = apex_ = back_ = count + 2;
+    points_.push_back({from, first, 0, false});
+    chain_[apex_] = 0;
+    for (std::uint32_t i = first; i < last; ++i) {
+        const WalkPortal& portal = portals[i];
+        if (i == first || portal.new_left) add(portal.left, i, true);
+        if (i == first || !portal.new_left) add(portal.right, i, false);
+    }
+    add(to, last, true);
+    const std::size_t before = knots.size();
+    for (std::uint32_t i = points_.back().parent; i != 0; i = points_[i].parent) {
+        const Point& point = points_[i];
+        WalkKnot knot{point.at, point.left ? WalkKnot::Kind::left : WalkKnot::Kind::right, point.portal, point.portal};
+        while (knot.last + 1 < last && portals[knot.last + 1].new_left != point.left) ++knot.last;
+        knots.push_back(knot);
+    }
+    std::reverse(knots.begin() + static_cast<std::ptrdiff_t>(before), knots.end());
+}
+
+}  // namespace abut
