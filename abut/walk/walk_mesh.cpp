@@ -43,8 +43,9 @@ Vec3 WalkMesh::normal(const WalkPoint& place) const {
 
 Vec3 WalkMesh::smooth_normal(const WalkPoint& place) const {
     const glm::uvec3& of = data_->corner_normals[place.triangle];
-    DVec<3> sum(0.0);
-    for (int k = 0; k < 3; ++k) sum += DVec<3>(data_->normals[of[k]]) * static_cast<double>(place.weights[k]);
+    const WalkWeights weights = shares(place.weights);
+    const DVec<3> sum = DVec<3>(data_->normals[of.x]) * weights.first + DVec<3>(data_->normals[of.y]) * weights.second +
+                        DVec<3>(data_->normals[of.z]) * weights.third;
     if (!(length_squared(sum) > 1e-12)) return normal(place);
     return to_float(normalized(sum));
 }
