@@ -3,13 +3,13 @@
 
 #include <abut/field/field_blob.hpp>
 #include <abut/field/field_check.hpp>
+#include <abut/math/blob.hpp>
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -19,33 +19,6 @@ namespace {
 
 constexpr std::array<char, 8> magic{'a', 'b', 'u', 't', 'f', 'l', 'd', '\n'};
 constexpr std::uint32_t version = 1;
-
-/// In the order of a little-endian machine.
-template <class T>
-T little(T number) {
-    if constexpr (std::endian::native == std::endian::little || sizeof(T) == 1) {
-        return number;
-    } else {
-        std::array<std::byte, sizeof(T)> bytes;
-        std::memcpy(bytes.data(), &number, sizeof(T));
-        std::reverse(bytes.begin(), bytes.end());
-        std::memcpy(&number, bytes.data(), sizeof(T));
-        return number;
-    }
-}
-
-/// By words of 64 bits, the last filled up with zeros. Each step takes different states to different ones, so that a
-/// blob with one wrong word always differs.
-std::uint64_t checksum(std::span<const std::byte> bytes) {
-    std::uint64_t result = bytes.size();
-    for (std::size_t i = 0; i < bytes.size(); i += sizeof(std::uint64_t)) {
-        std::uint64_t word = 0;
-        std::memcpy(&word, bytes.data() + i, std::min(sizeof(word), bytes.size() - i));
-        result = (result ^ little(word)) * 0x9e3779b97f4a7c15u;
-        result ^= result >> 32;
-    }
-    return result;
-}
 
 /// What takes part of a FieldData besides its arrays, number by number; `data` may be const.
 template <class Data, class Take>
@@ -70,84 +43,6 @@ void each_array(Data& data, Take take) {
     take(data.direction);
     take(data.closest);
 }
-
-/// Numbers that an item is made of: a vector's coordinates.
-template <class T>
-struct Scalar {
-    using type = T;
-};
-template <int D>
-struct Scalar<Vec<D>> {
-    using type = float;
-};
-
-class Writer {
-public:
-    template <class T>
-    void number(T value) {
-        const T ordered = little(value);
-        raw(&ordered, sizeof(T));
-    }
-    template <class T>
-    void array(const std::vector<T>& values) {
-        if constexpr (std::endian::native == std::endian::little) {
-            raw(values.data(), values.size() * sizeof(T));
-        } else {
-            using Number = typename Scalar<T>::type;
-            for (const T& value : values) {
-                std::array<Number, sizeof(T) / sizeof(Number)> numbers;
-                std::memcpy(numbers.data(), &value, sizeof(T));
-                for (const Number each : numbers) number(each);
-            }
-        }
-    }
-    std::vector<std::byte> bytes;
-
-private:
-    void raw(const void* from, std::size_t size) {
-        const auto* first = static_cast<const std::byte*>(from);
-        bytes.insert(bytes.end(), first, first + size);
-    }
-};
-
-class Reader {
-public:
-    explicit Reader(std::span<const std::byte> bytes) : bytes_(bytes) {}
-
-    std::size_t left() const { return bytes_.size(); }
-
-    /// False where there are too few bytes left.
-    template <class T>
-    bool number(T& value) {
-        if (bytes_.size() < sizeof(T)) return false;
-        std::memcpy(&value, bytes_.data(), sizeof(T));
-        value = little(value);
-        bytes_ = bytes_.subspan(sizeof(T));
-        return true;
-    }
-    template <class T>
-    bool array(std::vector<T>& values, std::uint64_t count) {
-        if (count > bytes_.size() / sizeof(T)) return false;
-        const auto size = static_cast<std::size_t>(count) * sizeof(T);
-        values.resize(static_cast<std::size_t>(count));
-        if (count == 0) return true;
-        std::memcpy(static_cast<void*>(values.data()), bytes_.data(), size);
-        bytes_ = bytes_.subspan(size);
-        if constexpr (std::endian::native != std::endian::little) {
-            using Number = typename Scalar<T>::type;
-            for (T& value : values) {
-                std::array<Number, sizeof(T) / sizeof(Number)> numbers;
-                std::memcpy(numbers.data(), &value, sizeof(T));
-                for (Number& each : numbers) each = little(each);
-                std::memcpy(static_cast<void*>(&value), numbers.data(), sizeof(T));
-            }
-        }
-        return true;
-    }
-
-private:
-    std::span<const std::byte> bytes_;
-};
 
 bool finite(float number) {
     return std::isfinite(number);
@@ -179,22 +74,21 @@ Problem problem(const char* message, ProblemCode code = ProblemCode::bad_format)
 template <int D>
 std::vector<std::byte> save(const Field<D>& field) {
     const FieldData<D>& data = field.data();
-    Writer writer;
+    BlobWriter writer;
     writer.bytes.reserve(256 + field.bytes());
     for (const char c : magic) writer.number(c);
     writer.number(version);
     writer.number(static_cast<std::uint32_t>(D));
     each_number(data, [&](const auto& number) { writer.number(number); });
     each_array(data, [&](const auto& array) { writer.number(static_cast<std::uint64_t>(array.size())); });
-    each_array(data, [&](const auto& array) { writer.array(array); });
-    const std::uint64_t sum = checksum(writer.bytes);
-    writer.number(sum);
+    each_array(data, [&](const auto& array) { writer.array(std::span(array)); });
+    writer.checksum();
     return std::move(writer.bytes);
 }
 
 template <int D>
 Result<Field<D>> load_field(std::span<const std::byte> bytes) {
-    Reader reader(bytes);
+    BlobReader reader(bytes);
     std::array<char, 8> start{};
     for (char& c : start)
         if (!reader.number(c)) return problem("this is no field: it ends within the first bytes");
@@ -205,12 +99,8 @@ Result<Field<D>> load_field(std::span<const std::byte> bytes) {
     if (!reader.number(number)) return problem("the field ends too soon");
     if (number != D) return problem(D == 2 ? "the field isn't one of the plane" : "the field isn't one of space");
 
-    std::uint64_t sum = 0;
-    if (reader.left() < sizeof(sum)) return problem("the field ends too soon");
-    const std::size_t before = bytes.size() - sizeof(sum);
-    Reader(bytes.subspan(before)).number(sum);
-    if (sum != checksum(bytes.first(before))) return problem("the field is damaged: its checksum is another");
-    reader = Reader(bytes.first(before).subspan(bytes.size() - reader.left()));
+    if (reader.left() < sizeof(std::uint64_t)) return problem("the field ends too soon");
+    if (!reader.checksum(bytes)) return problem("the field is damaged: its checksum is another");
 
     FieldData<D> data;
     bool whole = true;
@@ -238,7 +128,7 @@ Result<Field<D>> load_field(std::span<const std::byte> bytes) {
 }
 
 int field_dimension(std::span<const std::byte> bytes) {
-    Reader reader(bytes);
+    BlobReader reader(bytes);
     std::array<char, 8> start{};
     for (char& c : start)
         if (!reader.number(c)) return 0;

@@ -1,5 +1,6 @@
 // Fields as bytes, and back.
 
+#include "../oracle/seal.hpp"
 #include "analytic.hpp"
 #include <abut/field/field_blob.hpp>
 #include <abut/field/quantise.hpp>
@@ -36,20 +37,6 @@ std::uint64_t hash_of(const Bytes& bytes) {
     std::uint64_t result = 0xcbf29ce484222325u;
     for (const std::byte b : bytes) result = (result ^ static_cast<std::uint64_t>(b)) * 0x100000001b3u;
     return result;
-}
-
-/// The checksum, made right again after a change: what a forger would do.
-void seal(Bytes& bytes) {
-    const std::size_t size = bytes.size() - 8;
-    std::uint64_t sum = size;
-    for (std::size_t i = 0; i < size; i += 8) {
-        std::uint64_t word = 0;
-        for (std::size_t j = i; j < std::min(i + 8, size); ++j)
-            word |= static_cast<std::uint64_t>(bytes[j]) << (8 * (j - i));
-        sum = (sum ^ word) * 0x9e3779b97f4a7c15u;
-        sum ^= sum >> 32;
-    }
-    for (std::size_t j = 0; j < 8; ++j) bytes[size + j] = static_cast<std::byte>(sum >> (8 * j) & 255);
 }
 
 template <class T>

@@ -1,0 +1,139 @@
+#pragma once
+
+// Numbers as bytes, the same on every machine, the lowest byte first: what baked things are saved as.
+
+#include <abut/math/vec.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace abut {
+
+/// In the order of a little-endian machine, or back.
+template <class T>
+requires std::is_arithmetic_v<T> || std::is_enum_v<T> T little(T number) {
+    if constexpr (std::endian::native == std::endian::little || sizeof(T) == 1) {
+        return number;
+    } else {
+        std::array<std::byte, sizeof(T)> bytes;
+        std::memcpy(bytes.data(), &number, sizeof(T));
+        std::reverse(bytes.begin(), bytes.end());
+        std::memcpy(&number, bytes.data(), sizeof(T));
+        return number;
+    }
+}
+
+/// By words of 64 bits, the last filled up with zeros. Each step takes different states to different ones, so that a
+/// blob with one wrong word always differs.
+inline std::uint64_t blob_checksum(std::span<const std::byte> bytes) {
+    std::uint64_t result = bytes.size();
+    for (std::size_t i = 0; i < bytes.size(); i += sizeof(std::uint64_t)) {
+        std::uint64_t word = 0;
+        std::memcpy(&word, bytes.data() + i, std::min(sizeof(word), bytes.size() - i));
+        result = (result ^ little(word)) * 0x9e3779b97f4a7c15u;
+        result ^= result >> 32;
+    }
+    return result;
+}
+
+/// Numbers that an item is made of: a vector's coordinates.
+template <class T>
+struct BlobScalar {
+    using type = T;
+};
+template <int N, class T>
+struct BlobScalar<glm::vec<N, T>> {
+    using type = T;
+};
+
+class BlobWriter {
+public:
+    template <class T>
+    void number(T value) {
+        const T ordered = little(value);
+        raw(&ordered, sizeof(T));
+    }
+    template <class T>
+    void array(std::span<const T> values) {
+        if constexpr (std::endian::native == std::endian::little) {
+            raw(values.data(), values.size() * sizeof(T));
+        } else {
+            using Number = typename BlobScalar<T>::type;
+            for (const T& value : values) {
+                std::array<Number, sizeof(T) / sizeof(Number)> numbers;
+                std::memcpy(numbers.data(), &value, sizeof(T));
+                for (const Number each : numbers) number(each);
+            }
+        }
+    }
+    /// Of all bytes so far.
+    void checksum() { number(blob_checksum(bytes)); }
+
+    std::vector<std::byte> bytes;
+
+private:
+    void raw(const void* from, std::size_t size) {
+        const auto* first = static_cast<const std::byte*>(from);
+        bytes.insert(bytes.end(), first, first + size);
+    }
+};
+
+/// Takes numbers from the front.
+class BlobReader {
+public:
+    explicit BlobReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
+
+    std::size_t left() const { return bytes_.size(); }
+
+    /// False where there are too few bytes left.
+    template <class T>
+    bool number(T& value) {
+        if (bytes_.size() < sizeof(T)) return false;
+        std::memcpy(&value, bytes_.data(), sizeof(T));
+        value = little(value);
+        bytes_ = bytes_.subspan(sizeof(T));
+        return true;
+    }
+    /// The same; it is known before there is memory for them.
+    template <class T>
+    bool array(std::vector<T>& values, std::uint64_t count) {
+        if (count > bytes_.size() / sizeof(T)) return false;
+        const auto size = static_cast<std::size_t>(count) * sizeof(T);
+        values.resize(static_cast<std::size_t>(count));
+        if (count == 0) return true;
+        std::memcpy(static_cast<void*>(values.data()), bytes_.data(), size);
+        bytes_ = bytes_.subspan(size);
+        if constexpr (std::endian::native != std::endian::little) {
+            using Number = typename BlobScalar<T>::type;
+            for (T& value : values) {
+                std::array<Number, sizeof(T) / sizeof(Number)> numbers;
+                std::memcpy(numbers.data(), &value, sizeof(T));
+                for (Number& each : numbers) each = little(each);
+                std::memcpy(static_cast<void*>(&value), numbers.data(), sizeof(T));
+            }
+        }
+        return true;
+    }
+    /// Takes the last bytes, a checksum, off the end. False where they aren't that of the `whole` before them, or too
+    /// few are left.
+    bool checksum(std::span<const std::byte> whole) {
+        std::uint64_t sum = 0;
+        if (bytes_.size() < sizeof(sum)) return false;
+        const std::size_t before = whole.size() - sizeof(sum);
+        BlobReader(whole.subspan(before)).number(sum);
+        bytes_ = bytes_.first(bytes_.size() - sizeof(sum));
+        return sum == blob_checksum(whole.first(before));
+    }
+
+private:
+    std::span<const std::byte> bytes_;
+};
+
+}  // namespace abut
