@@ -1,0 +1,98 @@
+#include <abut/math/groups.hpp>
+#include <abut/walk/walk_assemble.hpp>
+#include <abut/walk/walk_fans.hpp>
+
+#include <utility>
+
+namespace abut {
+namespace {
+
+/// Where its corners are: in space, and in its own frame.
+void place(WalkTriangle& walk, const Welded& surface, const glm::uvec3& triangle) {
+    for (int k = 0; k < 3; ++k) walk.corner[k] = surface.points[triangle[k]];
+    const DVec<3> first(walk.corner[0]), along = DVec<3>(walk.corner[1]) - first,
+                                         other = DVec<3>(walk.corner[2]) - first;
+    const double width = length(along);
+    walk.inverse_width = 1 / width;
+    walk.third = dot(along, other) / width;
+    walk.inverse_height = width / length(cross(along, other));
+}
+
+/// Where the corner beyond each side is, unfolded.
+void unfold(WalkTriangle& walk, const Welded& surface, std::span<const glm::uvec3> triangles,
+            const std::array<WalkLink, 3>& links, const glm::uvec3& triangle) {
+    for (std::uint32_t k = 0; k < 3; ++k) {
+        const WalkLink link = links[k];
+        if (link.is_border()) continue;
+        const auto at = [&](const glm::uvec3& of, std::uint32_t corner) {
+            return DVec<3>(surface.points[of[static_cast<glm::length_t>(corner)]]);
+        };
+        const DVec<3> from = at(triangle, k), to = at(triangle, next_corner(k));
+        const DVec<3> far = at(triangles[link.triangle()], next_corner(next_corner(link.side())));
+        const DVec<3> side = to - from;
+        const double square = length_squared(side);
+        walk.back[k] = 0.5 - dot(far - from, side) / square;
+        walk.away[k] = length(cross(side, far - from)) / square;
+    }
+}
+
+/// Parts of the surface between which there is no way.
+std::size_t find_islands(const Walkable& walkable, const WalkLinks& links, std::vector<std::uint32_t>& islands) {
+    Groups groups(walkable.number.size());
+    for (std::size_t i = 0; i < links.of.size(); ++i)
+        for (const WalkLink& link : links.of[i])
+            if (!link.is_border()) groups.join(i, link.triangle());
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < walkable.number.size(); ++i) {
+        const std::size_t first = groups.lowest(i);
+        islands[walkable.number[i]] =
+            first == i ? static_cast<std::uint32_t>(count++) : islands[walkable.number[first]];
+    }
+    return count;
+}
+
+void set_normals(WalkMeshData& data, const Walkable& walkable, const WalkLinks& links) {
+    if (data.given_normals) {
+        data.corner_normals = data.triangles;
+        return;
+    }
+    WalkNormals fans = fan_normals(walkable.surface.points, walkable.surface.triangles, links);
+    data.normals = std::move(fans.normals);
+    data.corner_normals.resize(data.triangles.size());
+    for (std::size_t i = 0; i < walkable.number.size(); ++i) data.corner_normals[walkable.number[i]] = fans.of[i];
+}
+
+}  // namespace
+
+void assemble(WalkMeshData& data, const Walkable& walkable, const WalkLinks& links,
+              std::span<const std::uint32_t> same) {
+    const std::vector<glm::uvec3>& walked = walkable.surface.triangles;
+    WalkMeshReport& report = data.report;
+    report.crowded = links.crowded;
+    report.mirrored = links.mirrored;
+    report.border = links.border;
+    report.pinched = pinched_points(walked, links);
+    data.islands.resize(data.triangles.size());
+    report.islands = find_islands(walkable, links, data.islands);
+    for (std::size_t i = 0; i < walked.size(); ++i) {
+        WalkTriangle& walk = data.walk[walkable.number[i]];
+        place(walk, walkable.surface, walked[i]);
+        unfold(walk, walkable.surface, walked, links.of[i], walked[i]);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const WalkLink link = links.of[i][k];
+            if (!link.is_border())
+                walk.link[k] = WalkLink::to(walkable.number[link.triangle()], link.side(), link.mirrored());
+            data.bounds = merged(data.bounds, Aabb3{walk.corner[k], walk.corner[k]});
+        }
+    }
+    set_normals(data, walkable, links);
+    data.tree = build_mesh_tree(walkable.surface.points, walked, same);
+    for (std::uint32_t& item : data.tree.order) item = walkable.number[item];
+    data.leaf_of.resize(data.triangles.size());
+    for (std::uint32_t i = 0; i < data.tree.leaves.size(); ++i) {
+        const MeshLeaf& leaf = data.tree.leaves[i];
+        for (std::uint32_t lane = 0; lane < leaf.count(); ++lane) data.leaf_of[data.tree.order[leaf.first + lane]] = i;
+    }
+}
+
+}  // namespace abut
