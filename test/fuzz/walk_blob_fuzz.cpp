@@ -1,0 +1,71 @@
+// Bytes as walk meshes: whatever they are, they are refused or make a mesh that can be walked on and saved again.
+
+#include "../oracle/seal.hpp"
+#include <abut/walk/walk_blob.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <span>
+#include <vector>
+
+namespace {
+
+using namespace abut;
+
+void require(bool condition) {
+    if (!condition) std::abort();
+}
+
+void require_place(const WalkMesh& mesh, const WalkPoint& place) {
+    require(place.triangle < mesh.triangles().size() && mesh.is_walkable(place.triangle));
+    require(place.weights.x >= 0 && place.weights.y >= 0 && place.weights.z >= 0);
+    require(place.weights.x + place.weights.y + place.weights.z == 1);
+    require(is_finite(mesh.to_world(place)) && is_finite(mesh.smooth_normal(place)));
+}
+
+/// From the middle of each triangle of the first few, along the axes, as far as the mesh is large.
+void walk_about(const WalkMesh& mesh) {
+    const Aabb3 box = bounds(mesh);
+    const float far = std::max({box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z});
+    require(far > 0);
+    const WalkOptions options{.max_crossings = 1000};
+    for (std::uint32_t triangle = 0; triangle < std::min<std::size_t>(mesh.triangles().size(), 64); ++triangle) {
+        require(mesh.island(triangle) < mesh.report().islands);
+        if (!mesh.is_walkable(triangle)) continue;
+        for (int axis = 0; axis < 3; ++axis) {
+            Vec3 step(0);
+            step[axis] = far;
+            const Walked walked = mesh.walk({triangle, {0.25f, 0.25f, 0.5f}}, step, options);
+            require_place(mesh, walked.place);
+            require(mesh.island(walked.place.triangle) == mesh.island(triangle));
+            require_place(mesh, mesh.walk(walked.place, -(walked.turn * step), options).place);
+        }
+    }
+}
+
+void check(std::span<const std::byte> bytes) {
+    const Result<WalkMesh> mesh = load_walk_mesh(bytes);
+    if (!mesh) {
+        require(!mesh.problem().message.empty());
+        return;
+    }
+    require(is_walk_mesh(bytes));
+    const std::vector<std::byte> again = save(*mesh);
+    require(std::equal(again.begin(), again.end(), bytes.begin(), bytes.end()));
+    walk_about(*mesh);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const std::span<const std::byte> bytes = std::as_bytes(std::span(data, size));
+    check(bytes);
+    if (size < 8) return 0;
+    // With the checksum set right, so that what comes behind it is reached.
+    std::vector<std::byte> whole(bytes.begin(), bytes.end());
+    oracle::seal(whole);
+    check(whole);
+    return 0;
+}
