@@ -1,3 +1,4 @@
+#include <abut/math/coincident.hpp>
 #include <abut/math/groups.hpp>
 #include <abut/walk/walk_assemble.hpp>
 #include <abut/walk/walk_fans.hpp>
@@ -71,7 +72,7 @@ void assemble(WalkMeshData& data, const Walkable& walkable, const WalkLinks& lin
     report.crowded = links.crowded;
     report.mirrored = links.mirrored;
     report.border = links.border;
-    report.pinched = pinched_points(walked, links);
+    report.pinched = pinched_points(walked, links).size();
     data.islands.resize(data.triangles.size());
     report.islands = find_islands(walkable, links, data.islands);
     for (std::size_t i = 0; i < walked.size(); ++i) {
@@ -93,6 +94,31 @@ void assemble(WalkMeshData& data, const Walkable& walkable, const WalkLinks& lin
         const MeshLeaf& leaf = data.tree.leaves[i];
         for (std::uint32_t lane = 0; lane < leaf.count(); ++lane) data.leaf_of[data.tree.order[leaf.first + lane]] = i;
     }
+}
+
+LinkedTriangles taken_apart(const WalkMeshData& data) {
+    const std::vector<std::uint32_t> same = first_coincident(data.points);
+    LinkedTriangles result;
+    std::vector<std::uint32_t> place(data.triangles.size(), WalkLink::none);
+    for (const Vec3& point : data.points) result.walkable.surface.points.push_back(point + Vec3(0.0f));
+    for (std::uint32_t i = 0; i < data.triangles.size(); ++i) {
+        if (!data.walk[i].is_walkable()) continue;
+        const glm::uvec3& t = data.triangles[i];
+        place[i] = static_cast<std::uint32_t>(result.walkable.number.size());
+        result.walkable.number.push_back(i);
+        result.walkable.surface.triangles.push_back({same[t.x], same[t.y], same[t.z]});
+    }
+    for (const std::uint32_t i : result.walkable.number) {
+        std::array<WalkLink, 3>& links = result.links.of.emplace_back();
+        for (std::size_t k = 0; k < 3; ++k) {
+            const WalkLink link = data.walk[i].link[k];
+            if (!link.is_border()) links[k] = WalkLink::to(place[link.triangle()], link.side(), link.mirrored());
+        }
+    }
+    result.links.crowded = data.report.crowded;
+    result.links.mirrored = data.report.mirrored;
+    result.links.border = data.report.border;
+    return result;
 }
 
 }  // namespace abut

@@ -25,4 +25,12 @@ struct Walkable {
 void assemble(WalkMeshData& data, const Walkable& walkable, const WalkLinks& links,
               std::span<const std::uint32_t> same);
 
+struct LinkedTriangles {
+    Walkable walkable;
+    WalkLinks links;
+};
+
+/// What a mesh was assembled from.
+LinkedTriangles taken_apart(const WalkMeshData& data);
+
 }  // namespace abut

@@ -138,7 +138,7 @@ std::optional<Problem> take_links(const Parts& parts, const Walkable& walkable, 
                 continue;
             }
             const std::uint32_t beyond = link.triangle(), side = link.side();
-            const bool sound = beyond < place.size() && beyond != number && place[beyond] != none && side < 3 &&
+            const bool sound = beyond < place.size() && beyond != number && side < 3 &&
                                parts.links[beyond][static_cast<glm::length_t>(side)] ==
                                    WalkLink::to(number, k, link.mirrored()).code &&
                                is_edge(triangles[i], k, triangles[place[beyond]], side, link.mirrored());

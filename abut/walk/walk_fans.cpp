@@ -27,7 +27,7 @@ Groups fans(std::span<const glm::uvec3> triangles, const WalkLinks& links, bool 
 
 }  // namespace
 
-std::size_t pinched_points(std::span<const glm::uvec3> triangles, const WalkLinks& links) {
+std::vector<std::uint32_t> pinched_points(std::span<const glm::uvec3> triangles, const WalkLinks& links) {
     Groups groups = fans(triangles, links, true);
     std::uint32_t points = 0;
     for (const glm::uvec3& t : triangles) points = std::max({points, t.x + 1, t.y + 1, t.z + 1});
@@ -37,7 +37,10 @@ std::size_t pinched_points(std::span<const glm::uvec3> triangles, const WalkLink
         std::uint8_t& count = at[triangles[corner / 3][static_cast<glm::length_t>(corner % 3)]];
         if (count < 2) ++count;
     }
-    return static_cast<std::size_t>(std::count(at.begin(), at.end(), std::uint8_t{2}));
+    std::vector<std::uint32_t> result;
+    for (std::uint32_t i = 0; i < points; ++i)
+        if (at[i] == 2) result.push_back(i);
+    return result;
 }
 
 WalkNormals fan_normals(std::span<const Vec3> points, std::span<const glm::uvec3> triangles, const WalkLinks& links) {

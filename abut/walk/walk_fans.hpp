@@ -5,7 +5,7 @@
 #include <abut/walk/walk_data.hpp>
 #include <abut/walk/walk_links.hpp>
 
-#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -13,8 +13,8 @@
 
 namespace abut {
 
-/// Points at which corners meet that no edge joins. Points are welded.
-std::size_t pinched_points(std::span<const glm::uvec3> triangles, const WalkLinks& links);
+/// Points at which corners meet that no edge joins, in increasing order. Points are welded.
+std::vector<std::uint32_t> pinched_points(std::span<const glm::uvec3> triangles, const WalkLinks& links);
 
 struct WalkNormals {
     std::vector<Vec3> normals;
