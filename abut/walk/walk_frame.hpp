@@ -3,8 +3,10 @@
 // The frame of a triangle, and weights in it. For .cpp files.
 
 #include <abut/math/dvec.hpp>
+#include <abut/math/lanes-inl.h>
 #include <abut/walk/walk_data.hpp>
 
+#include <algorithm>
 #include <cstdint>
 
 namespace abut {
@@ -16,31 +18,28 @@ struct WalkWeights {
 
 /// What three weights are of their sum. Those that we give have one of exactly 1.
 inline WalkWeights shares(const Vec3& weights) {
-    WalkWeights result{static_cast<double>(weights.x), static_cast<double>(weights.y), static_cast<double>(weights.z)};
-    const double sum = result.first + result.second + result.third;
-    if (sum != 1) {
-        result.second /= sum;
-        result.third /= sum;
-        result.first /= sum;
-    }
-    return result;
+    const double second = static_cast<double>(weights.y), third = static_cast<double>(weights.z);
+    if (weights.x + weights.y + weights.z == 1) return {1 - second - third, second, third};
+    const double first = static_cast<double>(weights.x), sum = first + second + third;
+    return {first / sum, second / sum, third / sum};
 }
 
 /// What weights are counted in: floats hold each multiple of it up to 1.
 inline constexpr double walk_grain = 0x1p-24;
 
-/// The nearest weights that are whole multiples of the grain, none below 0, with the sum 1; a weight of 0 stays 0.
+/// The nearest weights that are whole multiples of the grain, none below 0, with the sum 1; a weight of 0 stays 0. Also
+/// of a place that is a rounding error outside of its triangle.
 inline Vec3 in_grains(double second, double third) {
     constexpr std::int32_t whole = 1 << 24;
-    // Not below 0, and not above the whole: also where the place is a rounding error outside of its triangle.
-    const auto grains = [](double weight, std::int32_t most) {
-        const double scaled = weight * (1 << 24) + 0.5;
-        const auto count = static_cast<std::int32_t>(scaled > 0 ? (scaled < whole ? scaled : whole) : 0);
-        return count < most ? count : most;
+    const auto grains = [](double weight) {
+        return static_cast<std::int32_t>(std::min(std::max(weight * whole + 0.5, 0.0), static_cast<double>(whole)));
     };
-    const std::int32_t c = grains(third, whole), b = grains(second, whole - c), a = whole - b - c;
+    const std::int32_t c = grains(third), b = std::min(grains(second), whole - c), a = whole - b - c;
     constexpr auto grain = static_cast<float>(walk_grain);
     return {static_cast<float>(a) * grain, static_cast<float>(b) * grain, static_cast<float>(c) * grain};
+}
+inline Vec3 in_grains(const WalkWeights& weights) {
+    return in_grains(weights.second, weights.third);
 }
 
 /// On side k, this share of it away from corner k: the weight opposite of it is exactly 0.
@@ -62,10 +61,6 @@ public:
           along_(DVec<3>(walk.corner[1]) - DVec<3>(walk.corner[0])),
           other_(DVec<3>(walk.corner[2]) - DVec<3>(walk.corner[0])) {}
 
-    DVec<2> to_plane(const DVec<3>& vector) const {
-        const double x = dot(along_, vector) * walk_.inverse_width;
-        return {x, (dot(other_, vector) - walk_.third * x) * walk_.inverse_height};
-    }
     DVec<3> first_axis() const { return along_ * walk_.inverse_width; }
     DVec<3> second_axis() const { return (other_ - first_axis() * walk_.third) * walk_.inverse_height; }
     DVec<3> to_space(const DVec<2>& vector) const { return first_axis() * vector.x + second_axis() * vector.y; }
@@ -80,9 +75,23 @@ private:
     DVec<3> along_, other_;
 };
 
-/// What a step changes of the second and the third weight.
-inline DVec<2> in_weights(const WalkTriangle& walk, const DVec<2>& step) {
-    const double third = step.y * walk.inverse_height;
-    return {(step.x - third * walk.third) * walk.inverse_width, third};
+/// A vector of space, in the frame of a triangle.
+inline DVec<2> to_plane_of(const WalkTriangle& walk, const Vec3& vector) {
+    const lanes::Spatial first = lanes::loaded(walk.corner[0]), v = lanes::loaded(vector);
+    const lanes::Spatial along = lanes::loaded(walk.corner[1]) - first, other = lanes::loaded(walk.corner[2]) - first;
+    const double x = lanes::dot(along, v)[0] * walk.inverse_width;
+    return {x, (lanes::dot(other, v)[0] - walk.third * x) * walk.inverse_height};
 }
+
+/// After a step in the triangle's plane.
+inline WalkWeights stepped(const WalkTriangle& walk, const WalkWeights& from, const DVec<2>& step) {
+    const double third = step.y * walk.inverse_height, second = (step.x - third * walk.third) * walk.inverse_width;
+    return {from.first - second - third, from.second + second, from.third + third};
+}
+/// In the triangle, or as little outside as is lost in grains.
+inline bool is_within(const WalkWeights& weights) {
+    constexpr double outside = -0.5 * walk_grain;
+    return std::min(std::min(weights.first, weights.second), weights.third) >= outside;
+}
+
 }  // namespace abut

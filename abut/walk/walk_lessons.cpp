@@ -16,20 +16,17 @@ WalkedInTriangle step_in_triangle(const WalkTriangle& walk, const WalkPoint& pla
     // Steps are rounded to floats when they are turned at an edge. One along an edge would be sent back and forth over
     // it for ever if such a difference counted.
     constexpr double rounding = 0x1p-22;
-    constexpr double outside = -0.5 * walk_grain;
     const double length = std::sqrt(dot(step, step));
     ABUT_ASSERT(walk.is_walkable());
     WalkedInTriangle result;
     result.end = place;
     if (!walk.is_walkable() || !(length <= std::numeric_limits<double>::max())) return result;
-    const WalkWeights weights = shares(place.weights);
-    const DVec<2> by = in_weights(walk, step);
-    const double second = weights.second + by.x, third = weights.third + by.y, first = weights.first - by.x - by.y;
-    if (first >= outside && second >= outside && third >= outside) {
-        result.end.weights = in_grains(second, third);
+    const WalkWeights from = shares(place.weights), to = stepped(walk, from, step);
+    if (is_within(to)) {
+        result.end.weights = in_grains(to);
         return result;
     }
-    const WalkStrip strip = strip_ahead(walk, place.triangle, weights, step, rounding);
+    const WalkStrip strip = strip_ahead(walk, place.triangle, from, step, rounding);
     const double share = strip.crossing();
     result.end.weights = strip.weights_at(share);
     result.fraction = static_cast<float>(std::clamp(strip.at(share)[0] / dot(step, step), 0.0, 1.0));
@@ -42,7 +39,7 @@ WalkedInTriangle step_in_triangle(const WalkTriangle& walk, const WalkPoint& pla
 WalkedInTriangle WalkMesh::walk_in_triangle(const WalkPoint& place, const Vec3& step) const {
     ABUT_ASSERT(is_finite(step));
     const WalkTriangle& walk = data_->walk[place.triangle];
-    return step_in_triangle(walk, place, WalkFrame(walk).to_plane(DVec<3>(step)));
+    return step_in_triangle(walk, place, to_plane_of(walk, step));
 }
 WalkedInTriangle WalkMesh::walk_in_triangle(const WalkPoint& place, const Vec2& step) const {
     ABUT_ASSERT(is_finite(step));

@@ -51,7 +51,7 @@ Vec3 WalkMesh::smooth_normal(const WalkPoint& place) const {
 }
 
 Vec2 WalkMesh::to_plane(std::uint32_t triangle, const Vec3& vector) const {
-    return to_float(WalkFrame(data_->walk[triangle]).to_plane(DVec<3>(vector)));
+    return to_float(to_plane_of(data_->walk[triangle], vector));
 }
 Vec3 WalkMesh::to_space(std::uint32_t triangle, const Vec2& vector) const {
     return to_float(WalkFrame(data_->walk[triangle]).to_space(DVec<2>(vector)));

@@ -37,10 +37,8 @@ struct WalkStrip {
 
     /// Whether the point that is so far ahead is beyond the side.
     bool is_beyond(double x) const { return lanes::cross(right, left) < x * (left[1] - right[1]); }
-    /// The same, of a way that may lead along the side.
-    bool is_beyond_or_along(double x) const {
-        return is_beyond(x) || (left[1] == right[1] && std::max(right[0], left[0]) < x);
-    }
+    /// The same of a side that the way leads along.
+    bool is_beyond_along(double x) const { return left[1] == right[1] && std::max(right[0], left[0]) < x; }
 
     /// Which share of the side lies to the right of the way.
     double crossing() const {
@@ -61,15 +59,17 @@ struct WalkStrip {
     }
 
     /// Over the side, into the triangle with this third corner: next it is left by that side of its other two that the
-    /// corner is the left end of, or the right one. Which it is is as good as drawn by lot: no branch.
+    /// corner is the left end of, or the right one.
     void enter(const WalkLink& link, lanes::Both corner, bool as_left) {
-        const long long bits = as_left ? -1 : 0;
-        const lanes::Chosen is_left{bits, bits};
         triangle = link.triangle();
         mirrored ^= link.mirrored();
-        rest = lanes::chosen(is_left, left, right);
-        left = lanes::chosen(is_left, corner, left);
-        right = lanes::chosen(is_left, right, corner);
+        if (as_left) {
+            rest = left;
+            left = corner;
+        } else {
+            rest = right;
+            right = corner;
+        }
         side = next_corner(as_left != mirrored ? link.side() : next_corner(link.side()));
     }
     /// In the same triangle, to the side that goes from `left` to `rest`.
@@ -92,11 +92,12 @@ struct WalkStrip {
         return {of[0], of[1], of[2]};
     }
 
-    /// From corner 0 to corner 1.
-    lanes::Both first_axis() const {
+    /// The step of the way, in the frame of the triangle.
+    DVec<2> step_in(const WalkTriangle& walk) const {
         lanes::Both corner[3];
         put_in_order(right, left, rest, corner);
-        return corner[1] - corner[0];
+        const lanes::Both axis = (corner[1] - corner[0]) * walk.inverse_width;
+        return {axis[0], mirrored ? axis[1] : -axis[1]};
     }
 
     /// Seen in a mirror that stands on the way.
@@ -112,13 +113,27 @@ struct WalkStrip {
         rest -= by;
     }
 
+    template <class T>
+    static void put(const T& first, const T& second, const T& third, T (&in_order)[3]) {
+        in_order[0] = first;
+        in_order[1] = second;
+        in_order[2] = third;
+    }
     /// What belongs to the corners `right`, `left` and `rest`, in the order of the triangle's.
     template <class T>
     void put_in_order(const T& of_right, const T& of_left, const T& of_rest, T (&in_order)[3]) const {
-        const std::uint32_t end = next_corner(side);
-        in_order[mirrored ? end : side] = of_right;
-        in_order[mirrored ? side : end] = of_left;
-        in_order[next_corner(end)] = of_rest;
+        const T &from = mirrored ? of_left : of_right, &to = mirrored ? of_right : of_left;
+        // Three ways in place of indices that are calculated: what was stored a moment ago would be waited for.
+        switch (side) {
+            case 0:
+                put(from, to, of_rest, in_order);
+                break;
+            case 1:
+                put(of_rest, from, to, in_order);
+                break;
+            default:
+                put(to, of_rest, from, in_order);
+        }
     }
 };
 

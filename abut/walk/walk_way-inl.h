@@ -1,0 +1,69 @@
+#pragma once
+
+// How a way over a walk mesh goes straight on. For .cpp files.
+
+#include <abut/walk/walk_strip-inl.h>
+
+#include <algorithm>
+#include <cstdint>
+
+namespace abut {
+
+/// A way over several triangles: straight on in the strip of those that it unfolds, whatever it turns in space. Only
+/// the last of them is kept.
+struct WalkWay {
+    WalkStrip strip;
+    double left = 0;         ///< of the step, as the strip measures lengths: it ends so far ahead of the origin
+    std::uint32_t room = 0;  ///< for crossings and slides
+    double walked = 0;
+    std::uint32_t crossings = 0;
+};
+
+enum class WalkStop : std::uint8_t { within, barrier, limit };
+
+/// What is beyond the side that a strip is left by, unless it may not be crossed.
+inline WalkLink way_over(const WalkTriangle* triangles, const WalkOptions& options, const WalkStrip& strip) {
+    const WalkLink link = triangles[strip.triangle].link[strip.side];
+    if (!options.allow || link.is_border()) return link;
+    const bool allowed = (*options.allow)(WalkSide{strip.triangle, strip.side}, WalkSide{link.triangle(), link.side()});
+    return allowed ? link : WalkLink{};
+}
+
+/// From a strip beyond whose side the step leads, to its end within a triangle, or to a side that stops it.
+inline WalkStop go_straight(const WalkTriangle* triangles, const WalkOptions& options, WalkWay& way) {
+    // Coordinates grow along the way, and the triangles don't: now and then they begin anew.
+    constexpr std::uint32_t most_from_one_origin = 64;
+    WalkStrip strip = way.strip;
+    double left = way.left;
+    std::uint32_t count = 0;
+    const std::uint32_t most = way.room;
+    WalkStop stop = WalkStop::within;
+    for (;;) {
+        const WalkLink link = way_over(triangles, options, strip);
+        if (link.is_border()) {
+            stop = WalkStop::barrier;
+            break;
+        }
+        if (count == most) {
+            stop = WalkStop::limit;
+            break;
+        }
+        const lanes::Both corner = strip.apex(triangles[strip.triangle]);
+        strip.enter(link, corner, corner[1] >= 0);
+        ++count;
+        if (!strip.is_beyond(left) && !strip.is_beyond_along(left)) break;
+        if (count % most_from_one_origin == 0) {
+            const double x = std::clamp(strip.at(strip.crossing())[0], 0.0, left);
+            strip.move_origin(lanes::Both{x, 0});
+            left -= x;
+            way.walked += x;
+        }
+    }
+    way.strip = strip;
+    way.left = left;
+    way.room -= count;
+    way.crossings += count;
+    return stop;
+}
+
+}  // namespace abut
