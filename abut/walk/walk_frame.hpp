@@ -14,6 +14,8 @@ namespace abut {
 /// Where a point of a triangle is: first corner + second * (corner 1 - corner 0) + third * (corner 2 - corner 0).
 struct WalkWeights {
     double first = 1, second = 0, third = 0;
+
+    double of(std::uint32_t corner) const { return corner == 0 ? first : (corner == 1 ? second : third); }
 };
 
 /// What three weights are of their sum. Those that we give have one of exactly 1.

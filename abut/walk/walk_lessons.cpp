@@ -26,7 +26,8 @@ WalkedInTriangle step_in_triangle(const WalkTriangle& walk, const WalkPoint& pla
         result.end.weights = in_grains(to);
         return result;
     }
-    const WalkStrip strip = strip_ahead(walk, place.triangle, from, step, rounding);
+    WalkStrip strip = strip_ahead(walk, place.triangle, from, step, rounding);
+    strip.begin_on_side(from);
     const double share = strip.crossing();
     result.end.weights = strip.weights_at(share);
     result.fraction = static_cast<float>(std::clamp(strip.at(share)[0] / dot(step, step), 0.0, 1.0));

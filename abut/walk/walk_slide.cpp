@@ -4,6 +4,12 @@
 #include <cmath>
 
 namespace abut {
+namespace {
+
+/// Cosines that are nothing but rounding.
+constexpr double head_on = 1e-9;
+
+}  // namespace
 
 void WalkSlide::run(WalkStop stop) {
     while (stop == WalkStop::barrier) {
@@ -28,7 +34,8 @@ bool WalkSlide::slide() {
     while (way_.room > 0) {
         --way_.room;
         lanes::Both along = strip.left - strip.right;
-        if (along[0] == 0) {
+        const double size = std::sqrt(lanes::dot(along, along)[0]);
+        if (std::abs(along[0]) <= head_on * size) {
             end_at(WalkMet::corner, share);
             return false;
         }
@@ -38,7 +45,7 @@ bool WalkSlide::slide() {
             share = 1 - share;
             along = strip.left - strip.right;
         }
-        const double size = std::sqrt(lanes::dot(along, along)[0]), cosine = along[0] / size;
+        const double cosine = along[0] / size;
         const double to_corner = (1 - share) * size;
         if (way_.left * cosine <= to_corner) {
             way_.walked += way_.left * cosine;

@@ -51,6 +51,16 @@ struct WalkStrip {
     lanes::Both at(double share) const { return right + (left - right) * share; }
     Vec3 weights_at(double share) const { return on_side(side, mirrored ? 1 - share : share); }
 
+    /// Of a way that begins in this triangle, where it begins on the side itself: the place there is known, and not to
+    /// be found by where a nearly parallel line meets it.
+    void begin_on_side(const WalkWeights& at) {
+        const std::uint32_t end = next_corner(side);
+        if (at.of(next_corner(end)) != 0) return;
+        const lanes::Both across = left - right;
+        right = -at.of(end) * across;
+        left = at.of(side) * across;
+    }
+
     /// The corner beyond the side, of which there is one.
     lanes::Both apex(const WalkTriangle& walk) const {
         const lanes::Both across = left - right;
