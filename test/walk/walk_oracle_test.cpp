@@ -1,0 +1,94 @@
+// Random walks over every kind of surface, against the oracle: a million where the environment sets ABUT_LONG, a share
+// of it where not. None off the mesh, none stuck, none anywhere else.
+
+#include "walk_check.hpp"
+
+#include <cstdlib>
+#include <iostream>
+
+#include <gtest/gtest.h>
+
+namespace abut::test {
+namespace {
+
+constexpr std::uint64_t seed = 20261123;
+
+std::uint64_t walks_on_each(std::size_t surfaces) {
+    return (std::getenv("ABUT_LONG") != nullptr ? 1'000'000 : 60'000) / surfaces + 1;
+}
+
+/// In the middle, on an edge, on a corner; weights that nobody would give.
+WalkPoint random_place(const WalkMesh& mesh, oracle::Random& random) {
+    const std::uint32_t triangle = random.below(static_cast<std::uint32_t>(mesh.triangles().size()));
+    if (!mesh.is_walkable(triangle)) return random_place(mesh, random);
+    Vec3 weights;
+    for (int k = 0; k < 3; ++k) weights[k] = random.uniform_float(0, 1);
+    const auto k = static_cast<glm::length_t>(random.below(3));
+    const double kind = random.unit();
+    if (kind < 0.2) weights[k] = 0;
+    if (kind < 0.1) weights[(k + 1) % 3] = 0;
+    if (kind > 0.9) weights[k] *= 1e-30f;
+    if (kind > 0.95) weights *= 1e-6f;
+    if (weights.x + weights.y + weights.z == 0) weights.x = 1;
+    return {triangle, weights};
+}
+
+/// Anywhere, along an axis, along a side, towards a corner.
+Vec3 random_way(const WalkMesh& mesh, const WalkPoint& place, oracle::Random& random) {
+    const glm::uvec3 t = mesh.triangles()[place.triangle];
+    const auto k = static_cast<glm::length_t>(random.below(3));
+    const double kind = random.unit();
+    DVec<3> way = random.direction<3>();
+    if (kind < 0.1) way = axis<3>(static_cast<int>(k), random.chance(0.5) ? 1 : -1);
+    if (kind > 0.8) way = DVec<3>(mesh.points()[t[(k + 1) % 3]]) - DVec<3>(mesh.points()[t[k]]);
+    if (kind > 0.9) way = DVec<3>(mesh.points()[t[k]]) - DVec<3>(mesh.to_world(place));
+    const double norm = length(way);
+    if (norm == 0) return {0, 0, 1};
+    return to_float(way / (kind > 0.8 && random.chance(0.3) ? 1 : norm));
+}
+
+double random_length(oracle::Random& random) {
+    const double kind = random.unit();
+    if (kind < 0.02) return 0;
+    if (kind < 0.1) return 1e-6;
+    if (kind < 0.4) return 0.05;
+    if (kind < 0.8) return random.uniform(0, 2);
+    return kind < 0.985 ? 10 : 1000;
+}
+
+class WalkOracle : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(WalkOracle, AgreesOnEachSurface) {
+    const std::vector<NamedSurface> all = surfaces(seed);
+    const NamedSurface& at = all[GetParam()];
+    const WalkMesh mesh = *WalkMesh::build(at.surface.points, at.surface.triangles);
+    WalkCheck check(mesh, at.surface);
+    oracle::Random random(seed);
+    WalkTally tally;
+    WalkPoint place = random_place(mesh, random);
+    const std::uint64_t walks = walks_on_each(all.size());
+    for (std::uint64_t i = 0; i < walks; ++i) {
+        if (random.chance(0.1)) place = random_place(mesh, random);
+        const double far = random_length(random) * check.edge();
+        const Vec3 step = random_way(mesh, place, random) * static_cast<float>(far);
+        const Walked walked = random.chance(0.8) ? check.check<3>(place, step, tally)
+                                                 : check.check<2>(place, mesh.to_plane(place.triangle, step), tally);
+        check.check_back(place, step, walked, tally);
+        place = walked.place;
+    }
+    std::cout << at.name << " (" << described(mesh.report()) << "): " << tally.text() << "\n";
+    EXPECT_EQ(tally.faults, 0u) << at.name << ", seed " << seed << ": " << tally.faults_told();
+    EXPECT_LE(tally.open * 1000, tally.walks) << "of these the oracle doesn't know enough";
+    EXPECT_GT(tally.crossings, walks);
+    EXPECT_GT(tally.home, walks / 20);
+}
+
+std::string name_of(const testing::TestParamInfo<std::size_t>& number) {
+    std::string name = surfaces(seed)[number.param].name;
+    std::replace(name.begin(), name.end(), ' ', '_');
+    return name;
+}
+INSTANTIATE_TEST_SUITE_P(Surfaces, WalkOracle, testing::Range(std::size_t{0}, surfaces(seed).size()), name_of);
+
+}  // namespace
+}  // namespace abut::test
