@@ -81,6 +81,7 @@ private:
     enum class Leads { in, along, nowhere };
 
     static constexpr std::size_t most_ways = 64;
+    static constexpr double square = 1e-6;  // the cosine of what is square to a border, but for so much
     static constexpr int most_events = 4'000'000, most_fan = 100'000;
 
     Point corner(std::uint32_t t, std::uint32_t k) const { return Point(triangles_.corner(t, k)); }
@@ -111,9 +112,11 @@ private:
     }
 
     void begin(Way& way, const WalkPoint& place) {
+        // Weights too small to tell from 0 in the sums that follow are 0.
+        const double least = 1e-25 * static_cast<double>(std::max({place.weights.x, place.weights.y, place.weights.z}));
         std::uint32_t zeros = 0, zero = 0, other = 0;
         for (std::uint32_t k = 0; k < 3; ++k) {
-            if (place.weights[static_cast<glm::length_t>(k)] == 0) {
+            if (static_cast<double>(place.weights[static_cast<glm::length_t>(k)]) <= least) {
                 ++zeros;
                 zero = k;
             } else {
@@ -135,8 +138,8 @@ private:
         }
     }
 
-    /// From a corner in a direction that may lie outside of the triangle: turned round the corner the shorter way, and
-    /// the longer one where that alone leads on.
+    /// From a corner in a direction that may lie outside of the triangle: as from places within it that are ever nearer
+    /// to the corner. Where these pass it on both sides, both are right, but for a side that leads nowhere.
     void leave_corner(const Way& way, std::uint32_t k) {
         const End& end = way.end;
         Way nearer = way, farther = way;
@@ -146,18 +149,15 @@ private:
             push(nearer);
             return;
         }
+        const bool passes_both = is_between(end.triangle, k, end.way * Real(-1));
         const Point middle = along(end.triangle, k) - along(end.triangle, (k + 2) % 3);
-        const Real turn = dot(cross(unit(middle), end.way), normal_of(end.triangle));
-        const std::uint32_t first = k, second = (k + 2) % 3;  // the sides at the corner; the second is to the left
-        const Leads near_leads = turn_round(nearer, turn > 0 ? second : first);
-        const Leads far_leads = turn_round(farther, turn > 0 ? first : second);
-        const bool is_tie = abs(turn) < Real(1e-6);
-        const bool takes_far = near_leads == Leads::nowhere
-                                   ? far_leads != Leads::nowhere
-                                   : far_leads == Leads::in && (is_tie || near_leads == Leads::along);
-        const bool takes_near = near_leads != Leads::nowhere || far_leads == Leads::nowhere;
-        if (takes_near) go_on(nearer, near_leads);
-        if (takes_far) go_on(farther, far_leads);
+        const bool is_left = dot(cross(middle, end.way), normal_of(end.triangle)) > 0;
+        const std::uint32_t right_side = k, left_side = (k + 2) % 3;
+        const Leads near_leads = turn_round(nearer, is_left ? left_side : right_side);
+        const Leads far_leads = turn_round(farther, is_left ? right_side : left_side);
+        const bool far_leads_on = far_leads != Leads::nowhere;
+        if (near_leads != Leads::nowhere || !far_leads_on || !passes_both) go_on(nearer, near_leads);
+        if (far_leads_on && (passes_both || near_leads != Leads::in)) go_on(farther, far_leads);
     }
 
     void go_on(Way& way, Leads leads) {
@@ -261,7 +261,7 @@ private:
         if (leads == Leads::in) {
             push(other);
         } else if (came_from) {
-            const bool is_square = abs(dot(end.way, along(end.triangle, other.number))) < Real(1e-6);
+            const bool is_square = abs(dot(end.way, along(end.triangle, other.number))) < square;
             if (leads == Leads::along || is_square) go_on(other, leads);
         }
     }
@@ -331,7 +331,6 @@ private:
             const std::uint32_t t = end.triangle;
             const Point e = along(t, side);
             const Real cosine = dot(end.way, e), share = abs(cosine);
-            if (share < Real(1e-6)) end.near_head_on = true;
             if (share == 0) return stop(way);
             const std::uint32_t to = cosine > 0 ? (side + 1) % 3 : side;
             const Real distance = length(corner(t, to) - end.point);
@@ -351,15 +350,20 @@ private:
             way.number = to;
             const Leads leads = turn_round(way, to == side ? (to + 2) % 3 : to);
             if (leads == Leads::in) return push(way);
-            if (leads == Leads::nowhere) return stop(way);
             side = way.number;
+            look_whether_square(way, side);
+            if (leads == Leads::nowhere) return stop(way);
         }
         complete_ = false;
     }
 
-    static void meet(Way& way, std::uint32_t side) {
+    void meet(Way& way, std::uint32_t side) const {
         way.end.met = WalkMet::border;
+        look_whether_square(way, side);
         if (way.end.side.triangle == no_walk_side) way.end.side = {way.end.triangle, side};
+    }
+    void look_whether_square(Way& way, std::uint32_t side) const {
+        if (abs(dot(way.end.way, along(way.end.triangle, side))) < square) way.end.near_head_on = true;
     }
     void stop(Way& way) {
         way.end.met = WalkMet::corner;

@@ -42,7 +42,7 @@ inline std::string text(const Walked& walked) {
     out.precision(9);
     out << "place " << text(walked.place) << " length " << walked.length << " lost " << walked.lost << " met "
         << static_cast<int>(walked.met) << " side " << walked.side.triangle << "/" << walked.side.side << " crossings "
-        << walked.crossings << " mirrored " << walked.turn.mirrored;
+        << walked.crossings << " mirrored " << walked.turn.mirrored();
     return out.str();
 }
 
@@ -98,7 +98,7 @@ public:
         tally.crossings += walked.crossings;
         tally.slid += walked.met == WalkMet::border;
         tally.stopped += walked.met == WalkMet::corner;
-        tally.mirrored += walked.turn.mirrored;
+        tally.mirrored += walked.turn.mirrored();
         std::vector<End> ends;
         const auto fault = [&](const std::string& what) {
             std::ostringstream out;
@@ -182,8 +182,8 @@ private:
         if (walked.met != end.met && !end.near_head_on && !lost_little) return "met";
         if ((walked.met == WalkMet::nothing) != (walked.side.triangle == no_walk_side)) return "met without a side";
         if (walked.met == WalkMet::nothing && walked.lost != 0) return "lost without meeting";
-        if (walked.side != end.side && !lost_little && !end.near_corner && !is_at_corner(start.weights)) return "side";
         const bool is_inside = start.weights.x > 0 && start.weights.y > 0 && start.weights.z > 0;
+        if (walked.side != end.side && !lost_little && !end.near_corner && is_inside) return "side";
         if (walked.crossings != end.crossings && is_inside && !end.passed_corner && end.met == WalkMet::nothing &&
             is_inner(walked.place.weights))
             return "crossings";
@@ -206,14 +206,11 @@ private:
         const Vec2 turned = walked.turn * mesh_.to_plane(start.triangle, first);
         const double off_frame = length(DVec<2>(in_frame) - DVec<2>(turned));
         const double worst = std::max({off_way, off_up, off_frame});
-        if (!(worst <= 2e-6) || is_mirrored(end) != walked.turn.mirrored) return false;
+        if (!(worst <= 2e-6) || is_mirrored(end) != walked.turn.mirrored()) return false;
         tally.worst_turn = std::max(tally.worst_turn, worst);
         return true;
     }
 
-    static bool is_at_corner(const Vec3& weights) {
-        return (weights.x == 0) + (weights.y == 0) + (weights.z == 0) == 2;
-    }
     static bool is_inner(const Vec3& weights) { return std::min({weights.x, weights.y, weights.z}) > 1e-4f; }
     /// Whether two triangles are one, or have a corner in common.
     bool touch(std::uint32_t a, std::uint32_t b) const {
