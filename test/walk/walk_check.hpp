@@ -4,7 +4,7 @@
 
 #include "../oracle/geodesic.hpp"
 #include "../oracle/random.hpp"
-#include "surfaces.hpp"
+#include "walk_surfaces.hpp"
 #include <abut/walk/walk_mesh.hpp>
 
 #include <algorithm>
