@@ -149,7 +149,7 @@ private:
             push(nearer);
             return;
         }
-        const bool passes_both = is_between(end.triangle, k, end.way * Real(-1));
+        const bool passes_both = is_between(end.triangle, k, end.way * Real(-1), 1e-9);
         const Point middle = along(end.triangle, k) - along(end.triangle, (k + 2) % 3);
         const bool is_left = dot(cross(middle, end.way), normal_of(end.triangle)) > 0;
         const std::uint32_t right_side = k, left_side = (k + 2) % 3;
@@ -178,11 +178,10 @@ private:
 
     static Real abs(const Real& x) { return x < 0 ? Real(-x) : x; }
 
-    /// Whether a direction leads from corner k into its triangle, or along one of its sides.
-    bool is_between(std::uint32_t t, std::uint32_t k, const Point& direction) const {
+    /// Whether a direction leads from corner k into its triangle, or along one of its sides; less `inside` of them.
+    bool is_between(std::uint32_t t, std::uint32_t k, const Point& direction, const Real& inside = -1e-15) const {
         const Point normal = normal_of(t), right = along(t, k), left = along(t, (k + 2) % 3) * Real(-1);
-        const Real tolerance = Real(1e-15);
-        return dot(cross(right, direction), normal) >= -tolerance && dot(cross(direction, left), normal) >= -tolerance;
+        return dot(cross(right, direction), normal) >= inside && dot(cross(direction, left), normal) >= inside;
     }
 
     /// Into the triangle beyond a side, the point as it is.
