@@ -1,0 +1,262 @@
+#include <abut/math/dvec.hpp>
+#include <abut/recast/stitch.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+namespace abut {
+namespace {
+
+/// Seen along the second axis.
+DVec<2> flat(const DVec<3>& p) {
+    return {p.x, p.z};
+}
+
+/// Corners above one another, step by step, are the lowest of them.
+std::vector<std::uint32_t> joined_corners(std::span<const DVec<3>> corners, double step) {
+    const auto key = [&](std::uint32_t i) { return std::tuple(corners[i].x, corners[i].z, corners[i].y, i); };
+    std::vector<std::uint32_t> order(corners.size()), same(corners.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        const std::uint32_t i = order[k];
+        same[i] = i;
+        if (k == 0) continue;
+        const std::uint32_t below = order[k - 1];
+        if (flat(corners[below]) == flat(corners[i]) && corners[i].y - corners[below].y <= step) same[i] = same[below];
+    }
+    return same;
+}
+
+/// A point that a polygon has on one of its sides.
+struct SidePoint {
+    std::uint32_t from, to;  ///< the corners, the lower first
+    double along;            ///< in [0, 1], from `from`
+    double height;
+    std::uint32_t polygon, point;
+
+    auto key() const { return std::tuple(from, to, along, height, polygon, point); }
+};
+
+class Stitcher {
+public:
+    Stitcher(std::span<const DVec<3>> corners, std::span<const CutPolygon> polygons, const StitchOptions& options)
+        : polygons_(polygons), options_(options), same_(joined_corners(corners, options.step)) {
+        result_.points.assign(corners.begin(), corners.end());
+        for (const CutPolygon& polygon : polygons)
+            number_.emplace_back(std::max(polygon.points.size(), polygon.corners.size()), none);
+    }
+
+    Stitched run() {
+        for (std::uint32_t i = 0; i < polygons_.size(); ++i) number_points(i);
+        join_sides();
+        for (std::uint32_t i = 0; i < polygons_.size(); ++i) add_triangles(i);
+        return std::move(result_);
+    }
+
+private:
+    static constexpr std::uint32_t none = 0xffffffffu;
+
+    std::uint32_t corner(const CutPolygon& polygon, std::size_t i) const {
+        return same_[polygon.corners[i % polygon.corners.size()]];
+    }
+
+    std::uint32_t add_point(const DVec<3>& point) {
+        result_.points.push_back(point);
+        return static_cast<std::uint32_t>(result_.points.size() - 1);
+    }
+
+    /// Numbers the corners and what is within, and keeps what is on sides.
+    void number_points(std::uint32_t index) {
+        const CutPolygon& polygon = polygons_[index];
+        const std::size_t count = polygon.corners.size();
+        for (std::size_t i = 0; i < count; ++i) number_[index][i] = corner(polygon, i);
+        for (std::size_t i = count; i < polygon.points.size(); ++i) {
+            const DVec<3>& point = polygon.points[i];
+            double least = options_.near;
+            SidePoint found{none, none, 0, point.y, index, static_cast<std::uint32_t>(i)};
+            for (std::size_t k = 0; k < count; ++k) {
+                const auto [from, to] = std::minmax({corner(polygon, k), corner(polygon, k + 1)});
+                const DVec<2> start = flat(result_.points[from]), side = flat(result_.points[to]) - start;
+                const DVec<2> way = flat(point) - start;
+                const double square = dot(side, side), along = dot(way, side) / square;
+                const double away = std::abs(cross(side, way)) / std::sqrt(square);
+                if (!(away <= least) || !(along > 0 && along < 1)) continue;
+                least = away;
+                found.from = from;
+                found.to = to;
+                found.along = along;
+            }
+            if (found.from == none)
+                number_[index][i] = add_point(point);
+            else
+                on_sides_.push_back(found);
+        }
+    }
+
+    /// Numbers what is on sides: one number for points of several polygons at the same place.
+    void join_sides() {
+        std::sort(on_sides_.begin(), on_sides_.end(),
+                  [](const SidePoint& a, const SidePoint& b) { return a.key() < b.key(); });
+        for (std::size_t i = 0; i < on_sides_.size();) {
+            const SidePoint first = on_sides_[i];
+            const DVec<3> from = result_.points[first.from], to = result_.points[first.to];
+            const double near = options_.near / length(flat(to) - flat(from));
+            double sum = 0;
+            std::size_t end = i;
+            const std::uint32_t number = add_point(from);
+            for (; end < on_sides_.size(); ++end) {
+                const SidePoint& next = on_sides_[end];
+                if (next.from != first.from || next.to != first.to || next.along - first.along > near) break;
+                sum += next.height;
+                number_[next.polygon][next.point] = number;
+            }
+            DVec<3>& point = result_.points[number];
+            point = from + (to - from) * first.along;
+            point.y = sum / static_cast<double>(end - i);
+            cuts_.push_back({first.from, first.to, first.along, number});
+            i = end;
+        }
+    }
+
+    /// A cut of the side between two corners.
+    struct Cut {
+        std::uint32_t from, to;
+        double along;
+        std::uint32_t number;
+    };
+
+    std::span<const Cut> cuts_between(std::uint32_t from, std::uint32_t to) const {
+        const auto before = [](const Cut& cut, const std::pair<std::uint32_t, std::uint32_t>& side) {
+            return std::pair(cut.from, cut.to) < side;
+        };
+        const auto first = std::lower_bound(cuts_.begin(), cuts_.end(), std::pair(from, to), before);
+        auto last = first;
+        while (last != cuts_.end() && last->from == from && last->to == to) ++last;
+        return {first, last};
+    }
+
+    /// All corners and cuts of a polygon, going round: side by side, each with both its corners.
+    using Sides = std::vector<std::vector<std::uint32_t>>;
+    Sides sides_of(const CutPolygon& polygon) const {
+        Sides result;
+        for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
+            const std::uint32_t a = corner(polygon, i), b = corner(polygon, i + 1);
+            const std::span<const Cut> cuts = cuts_between(std::min(a, b), std::max(a, b));
+            std::vector<std::uint32_t>& side = result.emplace_back(1, a);
+            for (std::size_t k = 0; k < cuts.size(); ++k) side.push_back(cuts[a < b ? k : cuts.size() - 1 - k].number);
+            side.push_back(b);
+        }
+        return result;
+    }
+
+    /// Twice the area seen along the second axis, above 0 where it faces along it.
+    double area(const glm::uvec3& t) const {
+        const DVec<2> a = flat(result_.points[t.x]);
+        return -cross(flat(result_.points[t.y]) - a, flat(result_.points[t.z]) - a);
+    }
+
+    void add_triangles(std::uint32_t index) {
+        const CutPolygon& polygon = polygons_[index];
+        const Sides sides = sides_of(polygon);
+        std::vector<glm::uvec3> triangles;
+        for (const glm::uvec3& t : polygon.triangles)
+            add_triangle({number_[index][t.x], number_[index][t.y], number_[index][t.z]}, sides, triangles);
+        std::vector<std::uint32_t> round;
+        for (const std::vector<std::uint32_t>& side : sides) round.insert(round.end(), side.begin(), side.end() - 1);
+        if (!fills(triangles, round)) {
+            triangles = cut_from_middle(polygon, round);
+            ++result_.mended;
+        }
+        result_.triangles.insert(result_.triangles.end(), triangles.begin(), triangles.end());
+    }
+
+    std::vector<glm::uvec3> cut_from_middle(const CutPolygon& polygon, std::span<const std::uint32_t> round) {
+        DVec<3> middle(0.0);
+        for (std::size_t i = 0; i < polygon.corners.size(); ++i) middle += result_.points[corner(polygon, i)];
+        const std::uint32_t number = add_point(middle / static_cast<double>(polygon.corners.size()));
+        std::vector<glm::uvec3> result;
+        for (std::size_t i = 0; i < round.size(); ++i) {
+            const glm::uvec3 t{number, round[i], round[(i + 1) % round.size()]};
+            result.push_back(area(t) < 0 ? glm::uvec3(t.x, t.z, t.y) : t);
+        }
+        return result;
+    }
+
+    /// A cut between a and b, where these are on one side; else none.
+    static std::uint32_t cut_between(std::uint32_t a, std::uint32_t b, const Sides& sides) {
+        for (const std::vector<std::uint32_t>& side : sides) {
+            const auto at = std::find(side.begin(), side.end(), a), to = std::find(side.begin(), side.end(), b);
+            if (at == side.end() || to == side.end()) continue;
+            const auto first = std::min(at, to), last = std::max(at, to);
+            return last - first > 1 ? *(first + (last - first) / 2) : none;
+        }
+        return none;
+    }
+
+    /// A triangle, cut at all that is on its sides. One without area is left out.
+    void add_triangle(glm::uvec3 t, const Sides& sides, std::vector<glm::uvec3>& triangles) const {
+        if (area(t) < 0) std::swap(t.y, t.z);
+        if (!has_area(t)) return;
+        std::vector<glm::uvec3> open{t};
+        while (!open.empty()) {
+            const glm::uvec3 next = open.back();
+            open.pop_back();
+            bool whole = true;
+            for (int k = 0; k < 3 && whole; ++k) {
+                const std::uint32_t a = next[k], b = next[(k + 1) % 3], c = next[(k + 2) % 3];
+                const std::uint32_t cut = cut_between(a, b, sides);
+                if (cut == none) continue;
+                whole = false;
+                open.push_back({a, cut, c});
+                open.push_back({cut, b, c});
+            }
+            if (whole) triangles.push_back(next);
+        }
+    }
+
+    bool has_area(const glm::uvec3& t) const { return area(t) > options_.near * options_.near; }
+
+    /// Whether triangles have an area each, and their border is the ring.
+    bool fills(std::span<const glm::uvec3> triangles, std::span<const std::uint32_t> round) const {
+        using Side = std::pair<std::uint32_t, std::uint32_t>;
+        double whole = 0, sum = 0;
+        for (std::size_t i = 1; i + 1 < round.size(); ++i) whole += area({round[0], round[i], round[i + 1]});
+        std::vector<Side> sides, border, needed;
+        for (const glm::uvec3& t : triangles) {
+            if (!has_area(t)) return false;
+            sum += area(t);
+            for (int k = 0; k < 3; ++k) sides.emplace_back(t[k], t[(k + 1) % 3]);
+        }
+        for (std::size_t i = 0; i < round.size(); ++i) {
+            const std::uint32_t a = round[i], b = round[(i + 1) % round.size()];
+            needed.push_back(whole > 0 ? Side(a, b) : Side(b, a));
+        }
+        std::sort(sides.begin(), sides.end());
+        std::sort(needed.begin(), needed.end());
+        for (const Side& side : sides)
+            if (!std::binary_search(sides.begin(), sides.end(), Side(side.second, side.first))) border.push_back(side);
+        return std::adjacent_find(sides.begin(), sides.end()) == sides.end() && border == needed &&
+               std::abs(sum - std::abs(whole)) <= 1e-9 * std::abs(whole);
+    }
+
+    std::span<const CutPolygon> polygons_;
+    StitchOptions options_;
+    std::vector<std::uint32_t> same_;
+    std::vector<std::vector<std::uint32_t>> number_;  ///< of the points of each polygon, in the result
+    std::vector<SidePoint> on_sides_;
+    std::vector<Cut> cuts_;  ///< in the order of their sides, and along them
+    Stitched result_;
+};
+
+}  // namespace
+
+Stitched stitch(std::span<const DVec<3>> corners, std::span<const CutPolygon> polygons, const StitchOptions& options) {
+    return Stitcher(corners, polygons, options).run();
+}
+
+}  // namespace abut
