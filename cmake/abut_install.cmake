@@ -7,6 +7,9 @@ set(components core bake draw)
 if(ABUT_IO)
     list(APPEND components io)
 endif()
+if(ABUT_RECAST)
+    list(APPEND components recast)
+endif()
 
 # All that is handed out, without tests and examples.
 add_custom_target(abut_product)
@@ -19,7 +22,10 @@ endforeach()
 
 set(left_out)
 if(NOT ABUT_IO)
-    set(left_out REGEX "/abut/io(/|\\.hpp)" EXCLUDE)
+    list(APPEND left_out REGEX "/abut/io(/|\\.hpp)" EXCLUDE)
+endif()
+if(NOT ABUT_RECAST)
+    list(APPEND left_out REGEX "/abut/recast(/|\\.hpp)" EXCLUDE)
 endif()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/abut DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
     FILES_MATCHING PATTERN "*.hpp" PATTERN "*.glsl" ${left_out})
@@ -28,6 +34,7 @@ configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/abutConfig.cmake.in ${
     INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/abutConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/abutConfig.cmake ${PROJECT_BINARY_DIR}/abutConfigVersion.cmake
+    ${PROJECT_SOURCE_DIR}/cmake/FindRecast.cmake
     DESTINATION ${package_dir})
 
 if(ABUT_TOOL)
