@@ -77,5 +77,11 @@ std::vector<Bench> field_sample_benches();
 std::vector<Bench> field_shape_benches();
 /// Particles over a field.
 std::vector<Bench> field_particle_benches();
+/// Walkers on a walk mesh.
+std::vector<Bench> walk_step_benches();
+/// Its nearest places.
+std::vector<Bench> walk_nearest_benches();
+/// Ways over it.
+std::vector<Bench> walk_path_benches();
 
 }  // namespace abut::bench

@@ -25,8 +25,8 @@ constexpr int ok = 0, sides_disagree = 1, wrong_usage = 2;
 
 constexpr const char* usage =
     "abut_bench [GROUP] [--json]\n"
-    "  GROUP    narrow, broad, motion, levels, convex or field, or the beginning of a row's name, such as "
-    "broad/moving; otherwise all\n"
+    "  GROUP    narrow, broad, motion, levels, convex, field or walk, or the beginning of a row's name, such "
+    "as broad/moving; otherwise all\n"
     "abut_bench --plots FOLDER\n"
     "           measures what the documentation's pictures of broad phases show, and writes them there\n"
     "Exit status: 0 = fine, 1 = abut and a peer disagree, 2 = wrong usage, or a file can't be written\n";
@@ -48,6 +48,9 @@ std::vector<Bench> all_benches() {
     std::ranges::move(field_sample_benches(), std::back_inserter(result));
     std::ranges::move(field_shape_benches(), std::back_inserter(result));
     std::ranges::move(field_particle_benches(), std::back_inserter(result));
+    std::ranges::move(walk_step_benches(), std::back_inserter(result));
+    std::ranges::move(walk_nearest_benches(), std::back_inserter(result));
+    std::ranges::move(walk_path_benches(), std::back_inserter(result));
     return result;
 }
 

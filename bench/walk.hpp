@@ -1,0 +1,68 @@
+#pragma once
+
+// Walkers, nearest places and ways on hills, and the peers that have such.
+
+#include "bench.hpp"
+#include <abut/walk/walk_mesh.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace abut::bench {
+
+/// Round hills with small bumps: `columns` x `columns` squares of edge 1, two triangles each, y up. Heights are
+/// multiples of 1/256, places whole numbers, as Detour keeps them.
+struct WalkScene {
+    std::uint32_t columns = 0;
+    std::vector<Vec3> points;
+    std::vector<glm::uvec3> triangles;  ///< 2 * (columns * row + column), and the next
+    WalkMesh mesh;
+};
+using SharedWalkScene = std::shared_ptr<const WalkScene>;
+SharedWalkScene walk_scene(std::uint32_t columns);
+
+/// Walkers that go straight on, level, and now and then another way; those that don't get through, at once.
+struct WalkSteps {
+    SharedWalkScene scene;
+    float length = 0;
+    std::vector<WalkPoint> starts;
+    std::vector<Vec3> headings;       ///< level, of that length
+    std::vector<std::uint32_t> ways;  ///< of each walker at first, one of `headings`
+};
+using SharedWalkSteps = std::shared_ptr<const WalkSteps>;
+
+inline constexpr std::uint32_t frames_a_way = 64;
+/// Which way a walker goes next.
+inline std::uint32_t next_way(const WalkSteps& steps, std::uint32_t way) {
+    return (way + 389) % static_cast<std::uint32_t>(steps.headings.size());
+}
+
+/// moveAlongSurface: the places seen from above, as it tells no heights; `with_heights` sets them by getPolyHeight, as
+/// dtPathCorridor does.
+Side detour_steps(const SharedWalkSteps& steps, bool with_heights);
+
+struct WalkPoints {
+    SharedWalkScene scene;
+    std::vector<Vec3> points;
+    float reach = 0;  ///< farther than the farthest of them is away
+};
+using SharedWalkPoints = std::shared_ptr<const WalkPoints>;
+
+/// Each tells how far away the nearest place of the surface is.
+Side detour_nearest(const SharedWalkPoints& points);
+Side cgal_nearest(const SharedWalkPoints& points);
+Side embree_nearest(const SharedWalkPoints& points);
+
+struct WalkWays {
+    SharedWalkScene scene;
+    std::vector<WalkPoint> from, to;
+};
+using SharedWalkWays = std::shared_ptr<const WalkWays>;
+
+/// findPath and findStraightPath: how long the ways are.
+Side detour_ways(const SharedWalkWays& ways);
+/// The shortest that there are, over any triangles: Surface_mesh_shortest_path.
+Side cgal_ways(const SharedWalkWays& ways);
+
+}  // namespace abut::bench

@@ -1,0 +1,140 @@
+// Ten thousand walkers on hills, one step each in turn: a twentieth of a cell, one cell, ten cells.
+
+#include "../test/oracle/random.hpp"
+#include "walk.hpp"
+
+#include <string>
+
+namespace abut::bench {
+
+namespace {
+
+constexpr std::size_t walker_count = 10000;
+
+SharedWalkSteps make_steps(std::uint32_t columns, float length) {
+    constexpr std::uint64_t seed = 2;
+    oracle::Random random(seed);
+    WalkSteps steps{walk_scene(columns), length, {}, {}, {}};
+    constexpr std::uint32_t headings = 1024;
+    for (std::uint32_t i = 0; i < headings; ++i) {
+        const DVec<2> way = random.direction<2>() * static_cast<double>(length);
+        steps.headings.push_back(Vec3(DVec<3>(way.x, 0, way.y)));
+    }
+    const auto count = static_cast<std::uint32_t>(steps.scene->triangles.size());
+    for (std::size_t i = 0; i < walker_count; ++i) {
+        const std::uint32_t triangle = random.below(count);
+        const double first = random.unit(), second = (1 - first) * random.unit();
+        steps.starts.push_back({triangle, Vec3(DVec<3>(first, second, 1 - first - second))});
+        steps.ways.push_back(random.below(headings));
+    }
+    return std::make_shared<const WalkSteps>(std::move(steps));
+}
+
+/// Steps of space, the level ones that the peers are given.
+class LevelWalkers {
+public:
+    explicit LevelWalkers(const SharedWalkSteps& steps) : steps_(steps), places_(steps->starts), ways_(steps->ways) {}
+
+    void advance() {
+        for (std::size_t i = 0; i < places_.size(); ++i) {
+            const Walked walked = steps_->scene->mesh.walk(places_[i], steps_->headings[ways_[i]]);
+            places_[i] = walked.place;
+            const bool is_lost = walked.met != WalkMet::nothing;
+            lost_ += is_lost;
+            if (is_lost || (frame_ + i) % frames_a_way == 0) ways_[i] = next_way(*steps_, ways_[i]);
+        }
+        ++frame_;
+    }
+    WalkPoint place(std::size_t i) const { return places_[i]; }
+    double lost_share() const { return static_cast<double>(lost_) / static_cast<double>(frame_ * places_.size()); }
+
+protected:
+    SharedWalkSteps steps_;
+    std::vector<WalkPoint> places_;
+    std::vector<std::uint32_t> ways_;
+    std::size_t frame_ = 0, lost_ = 0;
+};
+
+/// Steps in the frames of triangles, which the surface turns: straight on, step after step.
+class StraightWalkers : public LevelWalkers {
+public:
+    explicit StraightWalkers(const SharedWalkSteps& steps) : LevelWalkers(steps) {
+        for (std::size_t i = 0; i < places_.size(); ++i) steps_on_.push_back(anew(i));
+    }
+
+    void advance() {
+        for (std::size_t i = 0; i < places_.size(); ++i) {
+            const Walked walked = steps_->scene->mesh.walk(places_[i], steps_on_[i]);
+            places_[i] = walked.place;
+            steps_on_[i] = walked.turn * steps_on_[i];
+            const bool is_lost = walked.met != WalkMet::nothing;
+            lost_ += is_lost;
+            if (is_lost || (frame_ + i) % frames_a_way == 0) {
+                ways_[i] = next_way(*steps_, ways_[i]);
+                steps_on_[i] = anew(i);
+            }
+        }
+        ++frame_;
+    }
+
+private:
+    Vec2 anew(std::size_t i) const {
+        return steps_->scene->mesh.to_plane(places_[i].triangle, steps_->headings[ways_[i]]);
+    }
+
+    std::vector<Vec2> steps_on_;
+};
+
+template <class Walkers>
+Side by_abut(const char* who, const SharedWalkSteps& steps) {
+    const auto walkers = std::make_shared<Walkers>(steps);
+    return {.who = who,
+            .ask =
+                [walkers, steps](std::span<double> values) {
+                    walkers->advance();
+                    for (std::size_t i = 0; i < walker_count; ++i) {
+                        const Vec3 place = steps->scene->mesh.to_world(walkers->place(i));
+                        values[2 * i] = place.x;
+                        values[2 * i + 1] = place.z;
+                    }
+                },
+            .figures =
+                [walkers] {
+                    Walkers others = *walkers;
+                    for (std::uint32_t frame = 0; frame < frames_a_way; ++frame) others.advance();
+                    return std::vector<Figure>{{"at borders", others.lost_share()}};
+                }};
+}
+
+/// What Detour walks is as long seen from above, and straight so; abut's way is as long on the surface, and straight
+/// there. On slopes the ends are apart by a share of the step.
+Job walk(std::uint32_t columns, float length) {
+    const SharedWalkSteps steps = make_steps(columns, length);
+    Job job;
+    job.items = walker_count;
+    job.values = 2 * walker_count;
+    job.tolerance = 0.35 * static_cast<double>(length);
+    job.sides.push_back(by_abut<LevelWalkers>("abut", steps));
+    job.sides.push_back(by_abut<StraightWalkers>("abut, steps in plane", steps));
+    for (const bool with_heights : {false, true}) {
+        Side detour = detour_steps(steps, with_heights);
+        detour.strays = 1;
+        job.sides.push_back(std::move(detour));
+    }
+    return job;
+}
+
+}  // namespace
+
+std::vector<Bench> walk_step_benches() {
+    std::vector<Bench> result;
+    for (const std::uint32_t columns : {71u, 157u, 226u})
+        for (const float length : {0.05f, 1.0f, 10.0f}) {
+            const char* step = length < 1 ? "0.05" : length > 1 ? "10" : "1";
+            const std::string name = std::string("walk/step/") + step + "/" + std::to_string(2 * columns * columns);
+            result.push_back({name, [=] { return walk(columns, length); }});
+        }
+    return result;
+}
+
+}  // namespace abut::bench
