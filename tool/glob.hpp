@@ -1,13 +1,12 @@
 #pragma once
 
-// Patterns for names: * stands for anything, ? for one character; both stand for '/' as well.
+// Patterns for things that have names.
+
+#include <abut/io/glob.hpp>
 
 #include <string_view>
 
 namespace abut::tool {
-
-/// Whether the pattern describes the whole name.
-bool matches(std::string_view pattern, std::string_view name);
 
 /// Whether the pattern describes a thing: its path, or its own name alone.
 template <class Thing>

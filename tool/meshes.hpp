@@ -2,7 +2,7 @@
 
 // The meshes that verbs read and write.
 
-#include <abut/io/scene.hpp>
+#include <abut/io/placed_meshes.hpp>
 #include <abut/math/result.hpp>
 
 #include <optional>
@@ -12,18 +12,12 @@
 
 namespace abut::tool {
 
-/// The objects of a scene at its first moment, as triangles in the world.
-struct Meshes {
-    std::vector<Geometry> objects;  ///< by their paths, in the order of these; at least one
-    std::vector<std::string> warnings;
-};
+/// The objects of a scene at its first moment, as triangles in the world; with all that was warned of.
+using Meshes = PlacedMeshes;
 
 /// A Problem, its message beginning with the file, for what can't be read, levels of the plane, and where nothing is
 /// left. Triangles without area and objects that are scaled to nothing are left out, with a warning.
 Result<Meshes> load_meshes(const std::string& file);
-
-/// All triangles as one mesh.
-Geometry together(std::span<const Geometry> meshes, std::string name);
 
 /// The file's name without its folder and ending: for what has no name of its own.
 std::string name_of(const std::string& file);

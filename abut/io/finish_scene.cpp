@@ -60,6 +60,20 @@ std::optional<Problem> check_areas(const Scene& scene, Geometry& geometry, bool 
     return std::nullopt;
 }
 
+// After check_points.
+void check_normals(Scene& scene, Geometry& geometry) {
+    const auto bad = std::find_if(geometry.normals.begin(), geometry.normals.end(),
+                                  [](const Vec3& normal) { return !is_finite<3>(normal); });
+    std::string why;
+    if (bad != geometry.normals.end())
+        why = "that of vertex " + std::to_string(bad - geometry.normals.begin()) + " is not finite";
+    else if (!geometry.normals.empty() && geometry.normals.size() != geometry.points.size())
+        why = std::to_string(geometry.normals.size()) + " of " + std::to_string(geometry.points.size()) + " vertices";
+    if (why.empty()) return;
+    geometry.normals.clear();
+    scene.warnings.push_back(title(scene, geometry) + ": its normals are left out: " + why);
+}
+
 bool is_finite(const glm::dmat4& matrix) {
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 4; ++row)
@@ -164,7 +178,9 @@ Result<Scene> finish_scene(Scene scene, const ReadOptions& options) {
     std::size_t skipped = 0;
     for (Geometry& geometry : scene.geometries) {
         if (!problem) problem = check_points(scene, geometry);
-        if (!problem) problem = check_areas(scene, geometry, options.skip_degenerate, skipped);
+        if (!problem && !options.keep_degenerate)
+            problem = check_areas(scene, geometry, options.skip_degenerate, skipped);
+        if (!problem) check_normals(scene, geometry);
     }
     if (!problem) problem = check_animations(scene);
     if (problem) return *std::move(problem);

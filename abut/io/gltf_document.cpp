@@ -245,8 +245,10 @@ void Reader::read_meshes() {
         mesh.name = name_in(json);
         each_member(json, "primitives", where, [&](const Json& part) {
             Primitive primitive;
-            if (const Json* attributes = member(part, "attributes"))
+            if (const Json* attributes = member(part, "attributes")) {
                 primitive.positions = index(*attributes, "POSITION", "accessors", where);
+                primitive.normals = index(*attributes, "NORMAL", "accessors", where);
+            }
             primitive.indices = index(part, "indices", "accessors", where);
             primitive.mode = type_number(part, "mode", 4, where);
             const Json* extensions = member(part, "extensions");

@@ -51,6 +51,7 @@ struct Accessor {
 
 struct Primitive {
     std::uint32_t positions = none;
+    std::uint32_t normals = none;
     std::uint32_t indices = none;
     std::uint32_t mode = 4;
     bool draco = false;  ///< its triangles are compressed with KHR_draco_mesh_compression

@@ -84,11 +84,11 @@ bool has_no_area(const aiMesh& mesh, const aiFace& face) {
 
 class Reader {
 public:
-    Reader(const aiScene& from, std::string extension, std::string stem)
-        : from_(from), extension_(std::move(extension)), stem_(std::move(stem)) {}
+    Reader(const aiScene& from, std::string extension, std::string stem, const ReadOptions& options)
+        : from_(from), extension_(std::move(extension)), stem_(std::move(stem)), options_(options) {}
 
     // In this order, the second after Assimp has cut the polygons.
-    std::optional<Problem> check_faces(const ReadOptions& options);
+    std::optional<Problem> check_faces();
     Scene read();
 
 private:
@@ -105,6 +105,7 @@ private:
     const aiScene& from_;
     std::string extension_;
     std::string stem_;
+    const ReadOptions& options_;
     Scene scene_;
     std::vector<bool> was_cut_;  // of each mesh: it has polygons
     struct Named {
@@ -114,7 +115,7 @@ private:
     std::unordered_map<std::string, Named> node_named_;  // Assimp's animations name the nodes they move
 };
 
-std::optional<Problem> Reader::check_faces(const ReadOptions& options) {
+std::optional<Problem> Reader::check_faces() {
     for (unsigned m = 0; m < from_.mNumMeshes; ++m) {
         const aiMesh& mesh = *from_.mMeshes[m];
         was_cut_.push_back(false);
@@ -129,8 +130,8 @@ std::optional<Problem> Reader::check_faces(const ReadOptions& options) {
                                        std::to_string(mesh.mNumVertices) + " vertices)",
                                    i};
             if (face.mNumIndices > 3) was_cut_.back() = true;
-            if (face.mNumIndices < 3 || !has_no_area(mesh, face)) continue;
-            if (!options.skip_degenerate)
+            if (options_.keep_degenerate || face.mNumIndices < 3 || !has_no_area(mesh, face)) continue;
+            if (!options_.skip_degenerate)
                 return Problem{ProblemCode::degenerate,
                                "mesh '" + name_of(mesh) + "', " + (face.mNumIndices == 3 ? "triangle " : "polygon ") +
                                    std::to_string(i) + ": zero area",
@@ -149,6 +150,8 @@ void Reader::read_mesh(const aiMesh& mesh, bool was_cut) {
     Geometry geometry{name_of(mesh), {}, {}};
     geometry.points.reserve(mesh.mNumVertices);
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) geometry.points.push_back(vec(mesh.mVertices[i]));
+    if (options_.normals && mesh.HasNormals())
+        for (unsigned i = 0; i < mesh.mNumVertices; ++i) geometry.normals.push_back(vec(mesh.mNormals[i]));
     for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
         const aiFace& face = mesh.mFaces[i];
         if (face.mNumIndices != 3) {
@@ -157,7 +160,9 @@ void Reader::read_mesh(const aiMesh& mesh, bool was_cut) {
         }
         const glm::uvec3 t{face.mIndices[0], face.mIndices[1], face.mIndices[2]};
         // Cutting a polygon with three corners in a row leaves such pieces; the polygon is covered without them.
-        if (was_cut && has_zero_area(geometry.points[t.x], geometry.points[t.y], geometry.points[t.z])) continue;
+        if (!options_.keep_degenerate && was_cut &&
+            has_zero_area(geometry.points[t.x], geometry.points[t.y], geometry.points[t.z]))
+            continue;
         geometry.triangles.push_back(t);
     }
     if (mesh.HasBones()) warn_once("skinned meshes are taken in their bind pose");
@@ -238,8 +243,8 @@ Result<Scene> read_with(const std::string& extension, const std::string& stem, c
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
     const aiScene* scene = read_file(importer);
     if (scene == nullptr || scene->mRootNode == nullptr) return refused(importer);
-    Reader reader(*scene, extension, stem);
-    if (std::optional<Problem> problem = reader.check_faces(options)) return *std::move(problem);
+    Reader reader(*scene, extension, stem, options);
+    if (std::optional<Problem> problem = reader.check_faces()) return *std::move(problem);
     if (scene->mNumMeshes > 0 && importer.ApplyPostProcessing(aiProcess_Triangulate) == nullptr)
         return refused(importer);
     return reader.read();

@@ -39,8 +39,11 @@ std::vector<glm::uvec3> assemble(const std::vector<std::uint32_t>& corners, std:
 
 class Reader {
 public:
-    Reader(const Document& document, const std::filesystem::path& folder)
-        : document_(document), data_(document, folder), scene_node_(document.nodes.size(), none) {}
+    Reader(const Document& document, const std::filesystem::path& folder, const ReadOptions& options)
+        : document_(document),
+          data_(document, folder),
+          with_normals_(options.normals),
+          scene_node_(document.nodes.size(), none) {}
 
     Result<Scene> read();
 
@@ -51,6 +54,7 @@ private:
     }
     std::string title(const Animation& animation) const;
 
+    Result<std::vector<Vec3>> read_vectors(std::uint32_t accessor);
     Result<Geometry> read_primitive(const Primitive& primitive, std::string name);
     Result<std::vector<std::uint32_t>> read_mesh(std::uint32_t mesh);
     std::optional<Problem> read_nodes();
@@ -60,6 +64,7 @@ private:
 
     const Document& document_;
     Data data_;
+    bool with_normals_;
     Scene scene_;
     std::vector<std::uint32_t> scene_node_;  // of each node of the document
     std::map<std::uint32_t, std::vector<std::uint32_t>> geometries_of_mesh_;
@@ -70,17 +75,28 @@ std::string Reader::title(const Animation& animation) const {
     return animation.name.empty() ? "animation " + std::to_string(place) : "animation '" + animation.name + "'";
 }
 
+Result<std::vector<Vec3>> Reader::read_vectors(std::uint32_t accessor) {
+    const Result<std::vector<double>> numbers = data_.numbers(accessor, 3);
+    if (!numbers) return numbers.problem();
+    std::vector<Vec3> result(numbers->size() / 3);
+    for (std::size_t i = 0; i < result.size(); ++i)
+        for (std::size_t k = 0; k < 3; ++k) result[i][static_cast<int>(k)] = static_cast<float>((*numbers)[3 * i + k]);
+    return result;
+}
+
 Result<Geometry> Reader::read_primitive(const Primitive& primitive, std::string name) {
     Geometry geometry{std::move(name), {}, {}};
     const auto problem = [&](const Problem& from) {
         return Problem{from.code, "mesh '" + geometry.name + "': " + from.message};
     };
-    const Result<std::vector<double>> numbers = data_.numbers(primitive.positions, 3);
-    if (!numbers) return problem(numbers.problem());
-    geometry.points.resize(numbers->size() / 3);
-    for (std::size_t i = 0; i < geometry.points.size(); ++i)
-        for (std::size_t k = 0; k < 3; ++k)
-            geometry.points[i][static_cast<int>(k)] = static_cast<float>((*numbers)[3 * i + k]);
+    Result<std::vector<Vec3>> points = read_vectors(primitive.positions);
+    if (!points) return problem(points.problem());
+    geometry.points = *std::move(points);
+    if (with_normals_ && primitive.normals != none) {
+        Result<std::vector<Vec3>> normals = read_vectors(primitive.normals);
+        if (!normals) return problem(normals.problem());
+        geometry.normals = *std::move(normals);
+    }
 
     std::vector<std::uint32_t> corners(geometry.points.size());
     for (std::uint32_t i = 0; i < corners.size(); ++i) corners[i] = i;
@@ -257,8 +273,8 @@ bool is_plain(const Document& document) {
     return true;
 }
 
-Result<Scene> read_gltf(const Document& document, const std::filesystem::path& folder) {
-    return Reader(document, folder).read();
+Result<Scene> read_gltf(const Document& document, const std::filesystem::path& folder, const ReadOptions& options) {
+    return Reader(document, folder, options).read();
 }
 
 }  // namespace abut::gltf

@@ -22,13 +22,13 @@ std::string lower(std::string text) {
 
 // Nothing where it is for Assimp to read: another format, version 1, or triangles compressed with Draco.
 std::optional<Result<Scene>> read_if_gltf(std::span<const std::byte> bytes, const std::string& extension,
-                                          const std::filesystem::path& folder) {
+                                          const std::filesystem::path& folder, const ReadOptions& options) {
     if (extension != ".gltf" && extension != ".glb") return std::nullopt;
     const bool binary = extension == ".glb" || gltf::is_container(bytes);
     const Result<gltf::Document> document = gltf::parse(bytes, binary);
     if (!document) return document.problem();
     if (!gltf::is_plain(*document)) return std::nullopt;
-    return gltf::read_gltf(*document, folder);
+    return gltf::read_gltf(*document, folder, options);
 }
 
 std::optional<Problem> refuse(std::span<const std::byte> bytes, const std::string& extension) {
@@ -52,14 +52,14 @@ Result<Scene> read_scene(const std::filesystem::path& file, const ReadOptions& o
     const std::string extension = lower(file.extension().string());
     if (const std::optional<Problem> problem = refuse(*bytes, extension)) return *problem;
     const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
-    std::optional<Result<Scene>> scene = read_if_gltf(*bytes, extension, folder);
+    std::optional<Result<Scene>> scene = read_if_gltf(*bytes, extension, folder, options);
     return finished(scene ? *std::move(scene) : read_assimp(file, options), options);
 }
 
 Result<Scene> read_scene(std::span<const std::byte> bytes, std::string_view extension, const ReadOptions& options) {
     const std::string ending = lower(std::string(extension));
     if (const std::optional<Problem> problem = refuse(bytes, ending)) return *problem;
-    std::optional<Result<Scene>> scene = read_if_gltf(bytes, ending, {});
+    std::optional<Result<Scene>> scene = read_if_gltf(bytes, ending, {}, options);
     return finished(scene ? *std::move(scene) : read_assimp(bytes, ending, options), options);
 }
 

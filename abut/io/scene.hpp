@@ -22,6 +22,8 @@ struct Geometry {
     std::string name;  ///< of the mesh it came from
     std::vector<Vec3> points;
     std::vector<glm::uvec3> triangles;
+    /// One a point, of any length, where they were asked for and the file has them; else none.
+    std::vector<Vec3> normals = {};
 };
 
 struct SceneNode {

@@ -113,6 +113,7 @@ void carry_scene(Bytes& bytes, AnyScene& scene) {
         to.carry(geometry.name);
         to.carry_all(geometry.points);
         to.carry_all(geometry.triangles);
+        to.carry_all(geometry.normals);
     });
     bytes.carry_each(scene.nodes, [](Bytes& to, auto& node) {
         to.carry(node.name);
@@ -149,10 +150,12 @@ bool is_sound(const Track& track) {
 }
 
 bool is_sound(const Scene& scene) {
-    for (const Geometry& geometry : scene.geometries)
+    for (const Geometry& geometry : scene.geometries) {
+        if (!geometry.normals.empty() && geometry.normals.size() != geometry.points.size()) return false;
         for (const glm::uvec3& t : geometry.triangles)
             if (t.x >= geometry.points.size() || t.y >= geometry.points.size() || t.z >= geometry.points.size())
                 return false;
+    }
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         const SceneNode& node = scene.nodes[i];
         if (node.parent != SceneNode::no_parent && node.parent >= i) return false;

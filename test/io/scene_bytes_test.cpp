@@ -11,7 +11,8 @@ namespace {
 
 Scene full_scene() {
     Scene scene;
-    scene.geometries.push_back({"Box", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}});
+    scene.geometries.push_back(
+        {"Box", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {{0, 0, 1}, {0, 1, 0}, {2, 0, 0}}});
     scene.nodes.resize(2);
     scene.nodes[0].name = "Root";
     scene.nodes[1].name = "Crate";
@@ -39,6 +40,7 @@ TEST(SceneBytes, GoThereAndBack) {
     EXPECT_EQ(scene->nodes[1].name, "Crate");
     EXPECT_EQ(scene->nodes[1].local, full_scene().nodes[1].local);
     EXPECT_EQ(scene->geometries[0].triangles, full_scene().geometries[0].triangles);
+    EXPECT_EQ(scene->geometries[0].normals, full_scene().geometries[0].normals);
     EXPECT_EQ(scene->animations[0].motions[0].rotation.values[1], glm::dquat(0, 1, 0, 0));
     EXPECT_EQ(scene->warnings.size(), 2u);
 }
@@ -67,6 +69,7 @@ TEST(SceneBytes, WhatPointsNowhereIsNoScene) {
     };
     EXPECT_FALSE(refuses([](Scene&) {}));
     EXPECT_TRUE(refuses([](Scene& scene) { scene.geometries[0].triangles[0].y = 3; }));
+    EXPECT_TRUE(refuses([](Scene& scene) { scene.geometries[0].normals.pop_back(); }));
     EXPECT_TRUE(refuses([](Scene& scene) { scene.nodes[1].parent = 1; }));
     EXPECT_TRUE(refuses([](Scene& scene) { scene.nodes[0].parent = 1; }));
     EXPECT_TRUE(refuses([](Scene& scene) { scene.nodes[1].geometries[0] = 1; }));

@@ -1,8 +1,8 @@
-#include "glob.hpp"
+#include <abut/io/glob.hpp>
 
 #include <cstddef>
 
-namespace abut::tool {
+namespace abut {
 
 // Only the latest star is ever given more to swallow: what an earlier one could gain, that one can as well.
 bool matches(std::string_view pattern, std::string_view name) {
@@ -28,4 +28,4 @@ bool matches(std::string_view pattern, std::string_view name) {
     return p == pattern.size();
 }
 
-}  // namespace abut::tool
+}  // namespace abut

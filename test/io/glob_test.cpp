@@ -1,10 +1,10 @@
-#include "tool/glob.hpp"
+#include <abut/io/glob.hpp>
 
 #include <string>
 
 #include <gtest/gtest.h>
 
-namespace abut::tool {
+namespace abut {
 namespace {
 
 TEST(Glob, MatchesWholeNames) {
@@ -45,4 +45,4 @@ TEST(Glob, LongNamesAreNoTrouble) {
 }
 
 }  // namespace
-}  // namespace abut::tool
+}  // namespace abut
