@@ -1,0 +1,96 @@
+#include <abut/draw/draw.hpp>
+#include <abut/draw/walk_mesh.hpp>
+
+#include <array>
+#include <vector>
+
+namespace abut {
+namespace {
+
+constexpr std::size_t walk_parts = 64;
+
+/// For what is of less importance.
+Style paler(Style style) {
+    style.stroke.alpha = static_cast<std::uint8_t>(style.stroke.alpha / 3);
+    style.width *= 0.5f;
+    return style;
+}
+
+std::array<Vec3, 3> corners(const WalkMesh& mesh, std::uint32_t triangle) {
+    const glm::uvec3& t = mesh.triangles()[triangle];
+    return {mesh.points()[t.x], mesh.points()[t.y], mesh.points()[t.z]};
+}
+
+bool is_shown(const Aabb3& shown, const std::array<Vec3, 3>& corner) {
+    Aabb3 box = Aabb3::empty();
+    for (const Vec3& point : corner) box = merged(box, Aabb3{point, point});
+    return overlaps(box, shown);
+}
+
+/// Lines over areas: first what is filled, then the inner edges, the borders last.
+enum class Layer { areas, edges, borders };
+
+void draw_triangle(Canvas<3>& canvas, const WalkMesh& mesh, std::uint32_t triangle, Layer layer, const Style& style) {
+    const std::array<Vec3, 3> corner = corners(mesh, triangle);
+    if (layer == Layer::areas) {
+        Style area = style;
+        area.stroke = transparent;
+        if (style.fill.visible()) canvas.polygon(corner, area);
+        return;
+    }
+    if (!style.stroke.visible()) return;
+    for (std::uint32_t side = 0; side < 3; ++side) {
+        const std::optional<WalkSide> beyond = mesh.beyond({triangle, side});
+        const Vec3 &from = corner[side], &to = corner[(side + 1) % 3];
+        if (layer == Layer::borders && !beyond) canvas.line(from, to, style);
+        if (layer == Layer::edges && beyond && triangle < beyond->triangle) canvas.line(from, to, paler(style));
+    }
+}
+
+/// With a point where it starts, and a head where it ends.
+void draw_line(Canvas<3>& canvas, std::span<const Vec3> points, const Style& style) {
+    if (points.empty()) return;
+    for (std::size_t i = 0; i + 2 < points.size(); ++i) canvas.line(points[i], points[i + 1], style);
+    if (points.size() > 1) draw_arrow(canvas, points[points.size() - 2], points.back(), style);
+    canvas.point(points.front(), style);
+}
+
+}  // namespace
+
+void draw(Canvas<3>& canvas, const WalkMesh& mesh, FunctionRef<Style(std::uint32_t triangle)> style) {
+    const Aabb3 shown = canvas.shown();
+    std::vector<std::uint32_t> visible;
+    for (std::uint32_t i = 0; i < mesh.triangles().size(); ++i)
+        if (mesh.is_walkable(i) && is_shown(shown, corners(mesh, i))) visible.push_back(i);
+    for (const Layer layer : {Layer::areas, Layer::edges, Layer::borders})
+        for (const std::uint32_t i : visible) draw_triangle(canvas, mesh, i, layer, style(i));
+}
+
+void draw(Canvas<3>& canvas, const WalkMesh& mesh, const Style& style) {
+    draw(canvas, mesh, [&](std::uint32_t) { return style; });
+}
+
+void draw(Canvas<3>& canvas, const WalkPath& path, const Style& style) {
+    draw_way(canvas, path.points, style);
+}
+
+void draw_way(Canvas<3>& canvas, std::span<const Vec3> points, const Style& style) {
+    draw_line(canvas, points, style);
+    for (std::size_t i = 1; i + 1 < points.size(); ++i) canvas.point(points[i], style);
+}
+
+void draw_walk(Canvas<3>& canvas, const WalkMesh& mesh, const WalkPoint& from, const Vec3& step, const Style& style) {
+    std::vector<Vec3> points{mesh.to_world(from)};
+    WalkPoint place = from;
+    Vec3 part = step / static_cast<float>(walk_parts);
+    for (std::size_t i = 0; i < walk_parts; ++i) {
+        const Walked walked = mesh.walk(place, part);
+        place = walked.place;
+        part = walked.turn * part;
+        const Vec3 point = mesh.to_world(place);
+        if (point != points.back()) points.push_back(point);
+    }
+    draw_line(canvas, points, style);
+}
+
+}  // namespace abut
