@@ -20,13 +20,6 @@ WalkPoint placed(std::uint32_t triangle, std::uint32_t left, std::uint32_t right
     return {triangle, in_grains(weights[1], weights[2])};
 }
 
-DVec<3> in_space(const WalkTriangle& walk, const WalkPoint& place) {
-    const WalkWeights weights = shares(place.weights);
-    const DVec<3> first(walk.corner[0]);
-    return first + (DVec<3>(walk.corner[1]) - first) * weights.second +
-           (DVec<3>(walk.corner[2]) - first) * weights.third;
-}
-
 /// How far from its left end to its right one a portal is crossed by the line through two points.
 double crossed_at(const WalkPortal& portal, const DVec<2>& from, const DVec<2>& to) {
     const DVec<2> along = to - from;
@@ -159,7 +152,7 @@ std::optional<WalkPath> WalkMesh::find_path(const WalkPoint& from, const WalkPoi
     ABUT_ASSERT(valid);
     if (!valid) return std::nullopt;
     const WalkPathRules rules(*data_, options);
-    std::optional<WalkStrip> strip = find_strip(rules, from, to, 1);
+    std::optional<WalkStrip> strip = find_strip(rules, from, to);
     if (!strip) return std::nullopt;
     return path_of(*data_, pulled_tight(rules, *std::move(strip)), to);
 }

@@ -9,14 +9,6 @@
 
 namespace abut {
 
-/// A way that can't be pulled any tighter within its strip.
-struct WalkTaut {
-    WalkStrip strip;
-    WalkUnfolded plane;
-    std::vector<WalkKnot> knots;  ///< the start, corners and places where the cost changes, the end
-    double cost = 0;
-};
-
 /// Pulls the way tight. Where it turns at a corner and the surface on the other side of that corner is less than half a
 /// turn wide, the strip is led round there, until there is no such corner: a geodesic (Xin & Wang 2007; Sharp & Crane
 /// 2020, "You can find geodesic paths in triangle meshes by just flipping edges"). Where the cost of the areas changes,

@@ -1,3 +1,4 @@
+#include <abut/math/assert.hpp>
 #include <abut/walk/walk_path_strip.hpp>
 
 #include <algorithm>
@@ -25,12 +26,18 @@ bool is_on(const WalkPoint& place, std::uint32_t side) {
 
 WalkPathRules::WalkPathRules(const WalkMeshData& mesh_data, const WalkPathOptions& path_options)
     : data(mesh_data), options(path_options) {
-    for (const float each : options.area_costs) alike = alike && each == 1.0f;
+    for (const float each : options.area_costs) {
+        const bool open = each > 0 && each <= std::numeric_limits<float>::max();
+        ABUT_ASSERT(open || each == std::numeric_limits<float>::infinity());
+        closes = closes || !open;
+        alike = alike && (!open || each == 1.0f);
+    }
 }
 
 double WalkPathRules::least_cost() const {
     double result = options.area_costs.size() < 256 ? 1.0 : std::numeric_limits<double>::max();
-    for (const float each : options.area_costs) result = std::min(result, static_cast<double>(each));
+    for (const float each : options.area_costs)
+        if (each > 0) result = std::min(result, static_cast<double>(each));
     return result;
 }
 
@@ -95,6 +102,13 @@ void unfold(const WalkMeshData& data, const WalkStrip& strip, WalkUnfolded& resu
     }
     result.last = corner[entered < 3 ? next_corner(next_corner(entered)) : 2];
     result.to = placed(strip.to);
+}
+
+WalkCorner corner_of(const WalkUnfolded& plane, std::uint32_t portal, bool left) {
+    WalkCorner result{left ? plane.portals[portal].left : plane.portals[portal].right, left, portal, portal};
+    while (result.first > 0 && plane.portals[result.first].new_left != left) --result.first;
+    while (result.last + 1 < plane.portals.size() && plane.portals[result.last + 1].new_left != left) ++result.last;
+    return result;
 }
 
 void WalkFunnel::add(const DVec<2>& point, std::uint32_t portal, bool left) {

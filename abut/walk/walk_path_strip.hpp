@@ -16,16 +16,19 @@ namespace abut {
 struct WalkPathRules {
     const WalkMeshData& data;
     const WalkPathOptions& options;
-    bool alike = true;  ///< all areas cost 1
+    bool alike = true;    ///< all open areas cost 1
+    bool closes = false;  ///< some are closed
 
     WalkPathRules(const WalkMeshData& mesh_data, const WalkPathOptions& path_options);
 
     /// What a unit of length costs; above 0, infinite where the area is closed.
     double cost(const WalkTriangle& walk) const {
-        return walk.area < options.area_costs.size() ? static_cast<double>(options.area_costs[walk.area]) : 1.0;
+        if ((alike && !closes) || walk.area >= options.area_costs.size()) return 1;
+        const float given = options.area_costs[walk.area];
+        return given > 0 ? static_cast<double>(given) : std::numeric_limits<double>::infinity();
     }
     bool is_open(std::uint32_t triangle) const {
-        return alike || cost(data.walk[triangle]) <= std::numeric_limits<double>::max();
+        return !closes || cost(data.walk[triangle]) <= std::numeric_limits<double>::max();
     }
     /// Whether a way may lead over a side, which has a triangle beyond it.
     bool may_cross(const WalkSide& from, const WalkLink& link) const {
@@ -34,6 +37,13 @@ struct WalkPathRules {
     /// The least that any area costs.
     double least_cost() const;
 };
+
+inline DVec<3> in_space(const WalkTriangle& walk, const WalkPoint& place) {
+    const WalkWeights weights = shares(place.weights);
+    const DVec<3> first(walk.corner[0]);
+    return first + (DVec<3>(walk.corner[1]) - first) * weights.second +
+           (DVec<3>(walk.corner[2]) - first) * weights.third;
+}
 
 /// Triangles one beyond another, from `from` to `to`. Side i is of triangle i; triangle i + 1 is beyond it.
 struct WalkStrip {
@@ -84,6 +94,22 @@ struct WalkKnot {
     Kind kind = Kind::end;
     std::uint32_t first = 0, last = 0;  ///< the portals that it is on
     double share = 0;                   ///< of a crossing: how far from the left end of its portal to the right one
+};
+
+/// An end of a portal, and all the portals next to it that have it.
+struct WalkCorner {
+    DVec<2> at;
+    bool left = false;
+    std::uint32_t first = 0, last = 0;
+};
+WalkCorner corner_of(const WalkUnfolded& plane, std::uint32_t portal, bool left);
+
+/// A way that can't be pulled any tighter within its strip.
+struct WalkTaut {
+    WalkStrip strip;
+    WalkUnfolded plane;
+    std::vector<WalkKnot> knots;  ///< the start, corners and places where the cost changes, the end
+    double cost = 0;
 };
 
 /// The shortest way in the plane through portals `first` to `last - 1`, from one point to another; appends its corners.
