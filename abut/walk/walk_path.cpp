@@ -13,20 +13,6 @@ constexpr double least_bend = 1e-6;
 /// Pieces this short, of a side of their triangle, have no direction.
 constexpr double least_piece = 1e-9;
 
-WalkPoint placed(std::uint32_t triangle, std::uint32_t left, std::uint32_t right, double share) {
-    double weights[3] = {0, 0, 0};
-    weights[left] = 1 - share;
-    weights[right] = share;
-    return {triangle, in_grains(weights[1], weights[2])};
-}
-
-/// How far from its left end to its right one a portal is crossed by the line through two points.
-double crossed_at(const WalkPortal& portal, const DVec<2>& from, const DVec<2>& to) {
-    const DVec<2> along = to - from;
-    const double sine = cross(along, portal.right - portal.left);
-    return sine == 0 ? 0.0 : std::clamp(cross(portal.left - from, along) / sine, 0.0, 1.0);
-}
-
 /// The corners of one triangle of the way, in the plane and in space.
 struct Laid {
     DVec<2> plane[3];
@@ -70,13 +56,7 @@ private:
             const WalkKnot& knot = way_.knots[k];
             for (; next < knot.first; ++next)
                 shares_[next] = crossed_at(way_.plane.portals[next], way_.knots[k - 1].at, knot.at);
-            for (; next <= knot.last && next < shares_.size(); ++next) {
-                if (knot.kind == WalkKnot::Kind::crossing) {
-                    shares_[next] = knot.share;
-                } else {
-                    shares_[next] = knot.kind == WalkKnot::Kind::left ? 0 : 1;
-                }
-            }
+            for (; next <= knot.last && next < shares_.size(); ++next) shares_[next] = knot.share;
         }
     }
     DVec<2> crossing(std::uint32_t portal) const {
@@ -114,7 +94,7 @@ private:
         const WalkTriangle& walk = data_.walk[triangle(i)];
         const DVec<3> from(walk.corner[left]);
         path.points.push_back(to_float(from + (DVec<3>(walk.corner[right]) - from) * shares_[i - 1]));
-        path.places.push_back(placed(triangle(i), left, right, shares_[i - 1]));
+        path.places.push_back(place_on(data_, way_.strip, way_.plane, i - 1, shares_[i - 1], true));
     }
 
     const WalkMeshData& data_;

@@ -21,7 +21,7 @@ public:
     /// The sides to cross, from the first of the strip's triangles at the corner to the last. False where there is a
     /// border, or an edge that may not be crossed; and, where asked, where it is half a turn wide or more between the
     /// two directions.
-    bool sides(std::vector<WalkSide>& result, const DVec<2>* before, const DVec<2>* after) const {
+    bool sides(std::vector<WalkSide>& result, const DVec<2>* before, const DVec<2>* after, double* product) const {
         result.clear();
         const std::vector<WalkSide>& strip = way_.strip.sides;
         const WalkMeshData& data = rules_.data;
@@ -42,8 +42,12 @@ public:
             const WalkLink beyond = link(side);
             if (beyond.is_border() || !rules_.may_cross(side, beyond)) return false;
             result.push_back(side);
-            if (beyond.triangle() == end.triangle && beyond.side() == end.side)
-                return before == nullptr || is_less_than_half(*before, turned(*after, ray));
+            if (beyond.triangle() == end.triangle && beyond.side() == end.side) {
+                if (before == nullptr) return true;
+                const DVec<2> there = turned(*after, ray);
+                if (product != nullptr) *product = dot(*before, there);
+                return is_less_than_half(*before, there);
+            }
             // The corner is to the right of this way where it was to the left of the other.
             ray = beyond_side(data.walk[side.triangle], side.side, mirrored, corner_.left ? ray : corner_.at,
                               corner_.left ? corner_.at : ray);
@@ -69,7 +73,7 @@ private:
         const DVec<2> was =
             (corner_.last + 1 < way_.plane.portals.size() ? end_of(corner_.last + 1) : way_.plane.last) - corner_.at;
         const DVec<2> is = ray - corner_.at;
-        const double cosine = dot(was, is), sine = cross(was, is);
+        const double square = dot(was, was), cosine = dot(was, is) / square, sine = cross(was, is) / square;
         return {cosine * direction.x - sine * direction.y, sine * direction.x + cosine * direction.y};
     }
     /// Of two directions of which the second is less than one and a half turns on.
@@ -87,8 +91,8 @@ private:
 }  // namespace
 
 bool find_other_side(const WalkPathRules& rules, const WalkTaut& way, const WalkCorner& corner,
-                     std::vector<WalkSide>& result, const DVec<2>* before, const DVec<2>* after) {
-    return OtherSide(rules, way, corner).sides(result, before, after);
+                     std::vector<WalkSide>& result, const DVec<2>* before, const DVec<2>* after, double* product) {
+    return OtherSide(rules, way, corner).sides(result, before, after, product);
 }
 
 }  // namespace abut

@@ -307,7 +307,7 @@ private:
     }
 
     WalkStrip strip(std::uint32_t last) {
-        WalkStrip result{from_, to_, {}};
+        WalkStrip result{from_, to_, {}, {}, {}};
         for (std::uint32_t i = last; nodes_[i].parent != none; i = nodes_[i].parent)
             result.sides.push_back({nodes_[nodes_[i].parent].triangle, nodes_[i].left_by});
         std::reverse(result.sides.begin(), result.sides.end());

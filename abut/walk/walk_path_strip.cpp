@@ -54,6 +54,9 @@ void trim(const WalkMeshData& data, WalkStrip& strip) {
         strip.to = beyond(strip.to, link.side(), WalkLink::to(side.triangle, side.side, link.mirrored()));
         --last;
     }
+    strip.before.insert(strip.before.end(), strip.sides.begin(),
+                        strip.sides.begin() + static_cast<std::ptrdiff_t>(first));
+    strip.after.insert(strip.after.begin(), strip.sides.begin() + static_cast<std::ptrdiff_t>(last), strip.sides.end());
     strip.sides.erase(strip.sides.begin() + static_cast<std::ptrdiff_t>(last), strip.sides.end());
     strip.sides.erase(strip.sides.begin(), strip.sides.begin() + static_cast<std::ptrdiff_t>(first));
 }
@@ -104,6 +107,19 @@ void unfold(const WalkMeshData& data, const WalkStrip& strip, WalkUnfolded& resu
     result.to = placed(strip.to);
 }
 
+WalkPoint place_on(const WalkMeshData& data, const WalkStrip& strip, const WalkUnfolded& plane, std::uint32_t portal,
+                   double share, bool beyond) {
+    const WalkSide& side = strip.sides[portal];
+    const WalkLink link = data.walk[side.triangle].link[side.side];
+    const std::uint32_t of = beyond ? link.side() : side.side;
+    const std::uint32_t left =
+        beyond ? left_entering(of, plane.mirrored[portal + 1]) : left_leaving(of, plane.mirrored[portal]);
+    double weights[3] = {0, 0, 0};
+    weights[left] = 1 - share;
+    weights[left == of ? next_corner(of) : of] = share;
+    return {beyond ? link.triangle() : side.triangle, in_grains(weights[1], weights[2])};
+}
+
 WalkCorner corner_of(const WalkUnfolded& plane, std::uint32_t portal, bool left) {
     WalkCorner result{left ? plane.portals[portal].left : plane.portals[portal].right, left, portal, portal};
     while (result.first > 0 && plane.portals[result.first].new_left != left) --result.first;
@@ -144,7 +160,8 @@ void WalkFunnel::pull(const std::vector<WalkPortal>& portals, std::uint32_t firs
     const std::size_t before = knots.size();
     for (std::uint32_t i = points_.back().parent; i != 0; i = points_[i].parent) {
         const Point& point = points_[i];
-        WalkKnot knot{point.at, point.left ? WalkKnot::Kind::left : WalkKnot::Kind::right, point.portal, point.portal};
+        WalkKnot knot{point.at, point.left ? WalkKnot::Kind::left : WalkKnot::Kind::right, point.portal, point.portal,
+                      point.left ? 0.0 : 1.0};
         while (knot.last + 1 < last && portals[knot.last + 1].new_left != point.left) ++knot.last;
         knots.push_back(knot);
     }

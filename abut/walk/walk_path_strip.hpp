@@ -6,6 +6,7 @@
 #include <abut/walk/walk_data.hpp>
 #include <abut/walk/walk_frame.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -49,6 +50,7 @@ inline DVec<3> in_space(const WalkTriangle& walk, const WalkPoint& place) {
 struct WalkStrip {
     WalkPoint from, to;
     std::vector<WalkSide> sides;
+    std::vector<WalkSide> before, after;  ///< what was trimmed: sides at an end of the way
 };
 
 /// Leaves out the triangles that the way need not enter, since an end of it is on the side that leads there.
@@ -61,6 +63,13 @@ struct WalkPortal {
     DVec<2> left, right;
     bool new_left = false;  ///< its right end is that of the portal before; else its left one is
 };
+
+/// How far from its left end to its right one a portal is crossed by the line through two points.
+inline double crossed_at(const WalkPortal& portal, const DVec<2>& from, const DVec<2>& to) {
+    const DVec<2> along = to - from;
+    const double sine = cross(along, portal.right - portal.left);
+    return sine == 0 ? 0.0 : std::clamp(cross(portal.left - from, along) / sine, 0.0, 1.0);
+}
 
 /// A strip whose triangles are unfolded into the plane of the first one.
 struct WalkUnfolded {
@@ -95,6 +104,10 @@ struct WalkKnot {
     std::uint32_t first = 0, last = 0;  ///< the portals that it is on
     double share = 0;                   ///< of a crossing: how far from the left end of its portal to the right one
 };
+
+/// A point of a portal, so far from its left end to its right one, in the triangle before it or in that beyond.
+WalkPoint place_on(const WalkMeshData& data, const WalkStrip& strip, const WalkUnfolded& plane, std::uint32_t portal,
+                   double share, bool beyond);
 
 /// An end of a portal, and all the portals next to it that have it.
 struct WalkCorner {
