@@ -1,9 +1,12 @@
+#include <abut/convex/features.hpp>
 #include <abut/math/assert.hpp>
 #include <abut/walk/walk_path_search.hpp>
 #include <abut/walk/walk_path_shorten.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
 
 namespace abut {
 namespace {
@@ -124,6 +127,45 @@ bool is_valid(const WalkMeshData& data, const WalkPoint& place) {
     return w.x >= 0 && w.y >= 0 && w.z >= 0 && sum > 0 && sum <= std::numeric_limits<float>::max();
 }
 
+/// Of some triangles, the place nearest to a point; of several, in the triangle with the lowest number.
+WalkPoint nearest_of(const WalkMeshData& data, std::span<const std::uint32_t> triangles, const DVec<3>& point) {
+    double least = std::numeric_limits<double>::infinity();
+    std::uint32_t nearest = 0;
+    DVec<3> at(0.0);
+    for (const std::uint32_t triangle : triangles) {
+        const WalkTriangle& walk = data.walk[triangle];
+        const DVec<3> a(walk.corner[0]), b(walk.corner[1]), c(walk.corner[2]);
+        const DVec<3> outside =
+            glm::max(glm::max(glm::min(a, glm::min(b, c)) - point, point - glm::max(a, glm::max(b, c))), DVec<3>(0.0));
+        if (dot(outside, outside) > least) continue;
+        const DVec<3> closest = closest_on_triangle(a, b, c, point).point;
+        const double square = length_squared(closest - point);
+        if (square < least || (square == least && triangle < nearest)) {
+            least = square;
+            nearest = triangle;
+            at = closest;
+        }
+    }
+    const WalkTriangle& walk = data.walk[nearest];
+    const DVec<2> in_plane = WalkFrame(walk).to_plane(at - DVec<3>(walk.corner[0]));
+    const double third = in_plane.y * walk.inverse_height;
+    return {nearest, in_grains((in_plane.x - walk.third * third) * walk.inverse_width, third)};
+}
+
+/// The strip to the end, or to the nearest place that can be reached, where that is asked for.
+std::optional<WalkStrip> strip_of(const WalkPathRules& rules, const WalkPoint& from, const WalkPoint& to) {
+    const WalkMeshData& data = rules.data;
+    if (!rules.is_open(from.triangle)) return std::nullopt;
+    std::vector<std::uint32_t> reachable;
+    std::vector<std::uint32_t>* wanted = rules.options.nearest_reachable ? &reachable : nullptr;
+    const bool is_apart = data.islands[from.triangle] != data.islands[to.triangle] || !rules.is_open(to.triangle);
+    if (!is_apart || wanted != nullptr) {
+        if (std::optional<WalkStrip> strip = find_strip(rules, from, to, wanted)) return strip;
+    }
+    if (wanted == nullptr) return std::nullopt;
+    return find_strip(rules, from, nearest_of(data, reachable, in_space(data.walk[to.triangle], to)));
+}
+
 }  // namespace
 
 std::optional<WalkPath> WalkMesh::find_path(const WalkPoint& from, const WalkPoint& to,
@@ -132,9 +174,12 @@ std::optional<WalkPath> WalkMesh::find_path(const WalkPoint& from, const WalkPoi
     ABUT_ASSERT(valid);
     if (!valid) return std::nullopt;
     const WalkPathRules rules(*data_, options);
-    std::optional<WalkStrip> strip = find_strip(rules, from, to);
+    std::optional<WalkStrip> strip = strip_of(rules, from, to);
     if (!strip) return std::nullopt;
-    return path_of(*data_, pulled_tight(rules, *std::move(strip)), to);
+    const WalkPoint end = strip->to;
+    WalkPath path = path_of(*data_, pulled_tight(rules, *std::move(strip)), end);
+    path.reached = end == to;
+    return path;
 }
 
 std::optional<std::vector<Vec3>> WalkMesh::path(const WalkPoint& from, const WalkPoint& to,
