@@ -78,11 +78,14 @@ private:
 };
 
 /// A vector of space, in the frame of a triangle.
-inline DVec<2> to_plane_of(const WalkTriangle& walk, const Vec3& vector) {
-    const lanes::Spatial first = lanes::loaded(walk.corner[0]), v = lanes::loaded(vector);
+inline DVec<2> to_plane_of(const WalkTriangle& walk, const lanes::Spatial& v) {
+    const lanes::Spatial first = lanes::loaded(walk.corner[0]);
     const lanes::Spatial along = lanes::loaded(walk.corner[1]) - first, other = lanes::loaded(walk.corner[2]) - first;
     const double x = lanes::dot(along, v)[0] * walk.inverse_width;
     return {x, (lanes::dot(other, v)[0] - walk.third * x) * walk.inverse_height};
+}
+inline DVec<2> to_plane_of(const WalkTriangle& walk, const Vec3& vector) {
+    return to_plane_of(walk, lanes::loaded(vector));
 }
 
 /// After a step in the triangle's plane.

@@ -1,8 +1,8 @@
 // The two steps that a walk is made of, each by itself.
 
 #include <abut/math/assert.hpp>
+#include <abut/walk/unfolded_triangle-inl.h>
 #include <abut/walk/walk_frame.hpp>
-#include <abut/walk/walk_strip-inl.h>
 #include <abut/walk/walk_turn.hpp>
 
 #include <algorithm>
@@ -26,12 +26,12 @@ WalkedInTriangle step_in_triangle(const WalkTriangle& walk, const WalkPoint& pla
         result.end.weights = in_grains(to);
         return result;
     }
-    WalkStrip strip = strip_ahead(walk, place.triangle, from, step, rounding);
-    strip.begin_on_side(from);
-    const double share = strip.crossing();
-    result.end.weights = strip.weights_at(share);
-    result.fraction = static_cast<float>(std::clamp(strip.at(share)[0] / dot(step, step), 0.0, 1.0));
-    result.side = strip.side;
+    UnfoldedTriangle here = unfolded_ahead(walk, place.triangle, from, step, rounding);
+    here.begin_on_side(from);
+    const double share = here.crossing();
+    result.end.weights = here.weights_at(share);
+    result.fraction = static_cast<float>(std::clamp(here.at(share)[0] / dot(step, step), 0.0, 1.0));
+    result.side = here.side;
     return result;
 }
 

@@ -147,7 +147,7 @@ WalkPoint nearest_of(const WalkMeshData& data, std::span<const std::uint32_t> tr
         }
     }
     const WalkTriangle& walk = data.walk[nearest];
-    const DVec<2> in_plane = WalkFrame(walk).to_plane(at - DVec<3>(walk.corner[0]));
+    const DVec<2> in_plane = to_plane_of(walk, lanes::spatial(at - DVec<3>(walk.corner[0])));
     const double third = in_plane.y * walk.inverse_height;
     return {nearest, in_grains((in_plane.x - walk.third * third) * walk.inverse_width, third)};
 }

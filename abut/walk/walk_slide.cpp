@@ -20,30 +20,30 @@ void WalkSlide::run(WalkStop stop) {
         end_within();
         return;
     }
-    const double share = way_.strip.crossing();
+    const double share = way_.here.crossing();
     begin_at_side(share);
     end_at(WalkMet::limit, share);
 }
 
 /// Along the barrier ahead, and on along others, until the way ahead is free again. False at the end.
 bool WalkSlide::slide() {
-    WalkStrip& strip = way_.strip;
-    double share = strip.crossing();
-    if (barrier_.triangle == no_walk_side) barrier_ = {strip.triangle, strip.side};
+    UnfoldedTriangle& here = way_.here;
+    double share = here.crossing();
+    if (barrier_.triangle == no_walk_side) barrier_ = {here.triangle, here.side};
     begin_at_side(share);
     while (way_.room > 0) {
         --way_.room;
-        lanes::Both along = strip.left - strip.right;
+        lanes::Both along = here.left - here.right;
         const double size = std::sqrt(lanes::dot(along, along)[0]);
         if (std::abs(along[0]) <= head_on * size) {
             end_at(WalkMet::corner, share);
             return false;
         }
         if (along[0] < 0) {
-            strip.reflect();
+            here.reflect();
             reflected_ = !reflected_;
             share = 1 - share;
-            along = strip.left - strip.right;
+            along = here.left - here.right;
         }
         const double cosine = along[0] / size;
         const double to_corner = (1 - share) * size;
@@ -55,12 +55,12 @@ bool WalkSlide::slide() {
         met_ = WalkMet::border;
         way_.walked += to_corner;
         way_.left = std::max(way_.left - to_corner / cosine, 0.0);
-        strip.move_origin(strip.left);
-        strip.go_round_left();
+        here.move_origin(here.left);
+        here.go_round_left();
         share = 0;
         switch (go_round_corner()) {
             case Round::free:
-                if (strip.is_beyond(way_.left) || strip.is_beyond_along(way_.left)) return true;
+                if (here.is_beyond(way_.left) || here.is_beyond_along(way_.left)) return true;
                 end_within();
                 return false;
             case Round::barrier:
@@ -69,7 +69,7 @@ bool WalkSlide::slide() {
                 end_at(WalkMet::limit, 0);
                 return false;
         }
-        if (strip.left[0] <= 0) {
+        if (here.left[0] <= 0) {
             end_at(WalkMet::corner, 0);
             return false;
         }
@@ -81,14 +81,14 @@ bool WalkSlide::slide() {
 /// From the corner at the right end of the side, over triangles that meet there, to that in which the way goes on, or
 /// to the next barrier.
 WalkSlide::Round WalkSlide::go_round_corner() {
-    WalkStrip& strip = way_.strip;
+    UnfoldedTriangle& here = way_.here;
     for (;;) {
-        const WalkLink link = way_over(triangles_, options_, strip);
+        const WalkLink link = way_over(triangles_, options_, here);
         if (link.is_border()) return Round::barrier;
         if (way_.room == 0) return Round::limit;
-        const lanes::Both corner = strip.apex(triangles_[strip.triangle]);
-        const bool is_ahead = strip.left[1] >= 0 && corner[1] < 0;
-        strip.enter(link, corner, !is_ahead);
+        const lanes::Both corner = here.apex(triangles_[here.triangle]);
+        const bool is_ahead = here.left[1] >= 0 && corner[1] < 0;
+        here.enter(link, corner, !is_ahead);
         --way_.room;
         ++way_.crossings;
         if (is_ahead) return Round::free;
@@ -96,21 +96,21 @@ WalkSlide::Round WalkSlide::go_round_corner() {
 }
 
 void WalkSlide::begin_at_side(double share) {
-    const lanes::Both point = way_.strip.at(share);
+    const lanes::Both point = way_.here.at(share);
     const double x = std::clamp(point[0], 0.0, way_.left);
-    way_.strip.move_origin(point);
+    way_.here.move_origin(point);
     way_.walked += x;
     way_.left -= x;
 }
 
 void WalkSlide::end_within() {
     way_.walked += way_.left;
-    weights_ = in_grains(way_.strip.weights(way_.left));
+    weights_ = in_grains(way_.here.weights(way_.left));
 }
 
 void WalkSlide::end_at(WalkMet met, double share) {
     met_ = met;
-    weights_ = way_.strip.weights_at(share);
+    weights_ = way_.here.weights_at(share);
 }
 
 }  // namespace abut

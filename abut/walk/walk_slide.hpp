@@ -22,7 +22,7 @@ public:
     Vec3 weights() const { return weights_; }
     WalkMet met() const { return met_; }
     const WalkSide& barrier() const { return barrier_; }
-    /// The strip is seen in a mirror.
+    /// The triangle is seen in a mirror.
     bool reflected() const { return reflected_; }
 
 private:

@@ -27,14 +27,14 @@ Walked walk_on(const WalkTriangle* triangles, const WalkPoint& place, const DVec
         return result;
     }
 
-    WalkWay way{strip_ahead(walk, place.triangle, from, step), square, options.max_crossings};
+    WalkWay way{unfolded_ahead(walk, place.triangle, from, step), square, options.max_crossings};
     const WalkStop stop = go_straight(triangles, options, way);
     bool reflected = false;
     if (stop == WalkStop::within) {
-        result.place.weights = in_grains(way.strip.weights(way.left));
+        result.place.weights = in_grains(way.here.weights(way.left));
         result.length = static_cast<float>(length);
     } else {
-        if (way.crossings == 0) way.strip.begin_on_side(from);
+        if (way.crossings == 0) way.here.begin_on_side(from);
         WalkSlide slide(triangles, options, way);
         slide.run(stop);
         way = slide.way();
@@ -46,11 +46,11 @@ Walked walk_on(const WalkTriangle* triangles, const WalkPoint& place, const DVec
         result.met = slide.met();
         result.side = slide.barrier();
     }
-    result.place.triangle = way.strip.triangle;
+    result.place.triangle = way.here.triangle;
     result.crossings = way.crossings;
     if (way.crossings > 0) {
-        const WalkTriangle& last = triangles[way.strip.triangle];
-        result.turn = turn_along(walk, step, last, way.strip.step_in(last), way.strip.mirrored != reflected, square);
+        const WalkTriangle& last = triangles[way.here.triangle];
+        result.turn = turn_along(walk, step, last, way.here.step_in(last), way.here.mirrored != reflected, square);
     }
     return result;
 }

@@ -2,18 +2,18 @@
 
 // How a way over a walk mesh goes straight on. For .cpp files.
 
-#include <abut/walk/walk_strip-inl.h>
+#include <abut/walk/unfolded_triangle-inl.h>
 
 #include <algorithm>
 #include <cstdint>
 
 namespace abut {
 
-/// A way over several triangles: straight on in the strip of those that it unfolds, whatever it turns in space. Only
+/// A way over several triangles: straight on in those that it unfolds, whatever it turns in space. Only
 /// the last of them is kept.
 struct WalkWay {
-    WalkStrip strip;
-    double left = 0;         ///< of the step, as the strip measures lengths: it ends so far ahead of the origin
+    UnfoldedTriangle here;
+    double left = 0;         ///< of the step, as the triangle measures lengths: it ends so far ahead of the origin
     std::uint32_t room = 0;  ///< for crossings and slides
     double walked = 0;
     std::uint32_t crossings = 0;
@@ -21,25 +21,25 @@ struct WalkWay {
 
 enum class WalkStop : std::uint8_t { within, barrier, limit };
 
-/// What is beyond the side that a strip is left by, unless it may not be crossed.
-inline WalkLink way_over(const WalkTriangle* triangles, const WalkOptions& options, const WalkStrip& strip) {
-    const WalkLink link = triangles[strip.triangle].link[strip.side];
+/// What is beyond the side that a triangle is left by, unless it may not be crossed.
+inline WalkLink way_over(const WalkTriangle* triangles, const WalkOptions& options, const UnfoldedTriangle& here) {
+    const WalkLink link = triangles[here.triangle].link[here.side];
     if (!options.allow || link.is_border()) return link;
-    const bool allowed = (*options.allow)(WalkSide{strip.triangle, strip.side}, WalkSide{link.triangle(), link.side()});
+    const bool allowed = (*options.allow)(WalkSide{here.triangle, here.side}, WalkSide{link.triangle(), link.side()});
     return allowed ? link : WalkLink{};
 }
 
-/// From a strip beyond whose side the step leads, to its end within a triangle, or to a side that stops it.
+/// From a triangle beyond whose side the step leads, to its end within a triangle, or to a side that stops it.
 inline WalkStop go_straight(const WalkTriangle* triangles, const WalkOptions& options, WalkWay& way) {
     // Coordinates grow along the way, and the triangles don't: now and then they begin anew.
     constexpr std::uint32_t most_from_one_origin = 64;
-    WalkStrip strip = way.strip;
+    UnfoldedTriangle here = way.here;
     double left = way.left;
     std::uint32_t count = 0;
     const std::uint32_t most = way.room;
     WalkStop stop = WalkStop::within;
     for (;;) {
-        const WalkLink link = way_over(triangles, options, strip);
+        const WalkLink link = way_over(triangles, options, here);
         if (link.is_border()) {
             stop = WalkStop::barrier;
             break;
@@ -48,18 +48,18 @@ inline WalkStop go_straight(const WalkTriangle* triangles, const WalkOptions& op
             stop = WalkStop::limit;
             break;
         }
-        const lanes::Both corner = strip.apex(triangles[strip.triangle]);
-        strip.enter(link, corner, corner[1] >= 0);
+        const lanes::Both corner = here.apex(triangles[here.triangle]);
+        here.enter(link, corner, corner[1] >= 0);
         ++count;
-        if (!strip.is_beyond(left) && !strip.is_beyond_along(left)) break;
+        if (!here.is_beyond(left) && !here.is_beyond_along(left)) break;
         if (count % most_from_one_origin == 0) {
-            const double x = std::clamp(strip.at(strip.crossing())[0], 0.0, left);
-            strip.move_origin(lanes::Both{x, 0});
+            const double x = std::clamp(here.at(here.crossing())[0], 0.0, left);
+            here.move_origin(lanes::Both{x, 0});
             left -= x;
             way.walked += x;
         }
     }
-    way.strip = strip;
+    way.here = here;
     way.left = left;
     way.room -= count;
     way.crossings += count;

@@ -28,7 +28,7 @@ namespace abut {
 /// (Mitchell, Mount, Papadimitriou, "The Discrete Geodesic Problem", 1987); turned like this, their corners tell by the
 /// sign of one number on which side of the way they are. So that no root is needed to begin, all lengths are multiplied
 /// by that of the step.
-struct WalkStrip {
+struct UnfoldedTriangle {
     lanes::Both right{}, left{};  ///< the ends of the side: right[1] <= 0 <= left[1]
     lanes::Both rest{};           ///< the third corner
     std::uint32_t triangle = 0;
@@ -168,8 +168,8 @@ inline std::uint32_t side_ahead(const lanes::Both (&corner)[3]) {
 
 /// The triangle that a way begins in, from a place in it along a step in its frame. `near`: corners that are as near to
 /// the way as this, as a share of how far ahead they are, lie on it.
-inline WalkStrip strip_ahead(const WalkTriangle& walk, std::uint32_t triangle, const WalkWeights& at,
-                             const DVec<2>& step, double near = 0) {
+inline UnfoldedTriangle unfolded_ahead(const WalkTriangle& walk, std::uint32_t triangle, const WalkWeights& at,
+                                       const DVec<2>& step, double near = 0) {
     const double width = 1 / walk.inverse_width, height = 1 / walk.inverse_height;
     const lanes::Both ahead{step.x, -step.y}, left{step.y, step.x};
     const lanes::Both along = ahead * width, other = ahead * walk.third + left * height;
@@ -179,15 +179,15 @@ inline WalkStrip strip_ahead(const WalkTriangle& walk, std::uint32_t triangle, c
         for (lanes::Both& each : corner)
             if (std::abs(each[1]) <= near * std::abs(each[0])) each[1] = 0;
     }
-    WalkStrip strip;
-    strip.triangle = triangle;
-    strip.side = side_ahead(corner);
-    const std::uint32_t end = next_corner(strip.side);
-    const lanes::Both right = corner[strip.side], to_left = corner[end];
-    strip.right = lanes::Both{right[0], std::min(right[1], 0.0)};
-    strip.left = lanes::Both{to_left[0], std::max(to_left[1], 0.0)};
-    strip.rest = corner[next_corner(end)];
-    return strip;
+    UnfoldedTriangle here;
+    here.triangle = triangle;
+    here.side = side_ahead(corner);
+    const std::uint32_t end = next_corner(here.side);
+    const lanes::Both right = corner[here.side], to_left = corner[end];
+    here.right = lanes::Both{right[0], std::min(right[1], 0.0)};
+    here.left = lanes::Both{to_left[0], std::max(to_left[1], 0.0)};
+    here.rest = corner[next_corner(end)];
+    return here;
 }
 
 }  // namespace abut
