@@ -42,24 +42,16 @@ struct UnfoldedTriangle {
 
     /// Which share of the side lies to the right of the way.
     double crossing() const {
+        // Below this a quotient of heights is rounding, and it is as near to lie on the side all along.
+        constexpr double least = 1e-8;
         const double height = left[1] - right[1];
-        if (height > 0) return std::clamp(-right[1] / height, 0.0, 1.0);
+        if (height > least * std::abs(left[0] - right[0])) return std::clamp(-right[1] / height, 0.0, 1.0);
         // The way leads along the side. What is behind is behind: the way begins at 0.
         const double x = std::max(0.0, std::min(right[0], left[0]));
         return left[0] != right[0] ? std::clamp((x - right[0]) / (left[0] - right[0]), 0.0, 1.0) : 0.0;
     }
     lanes::Both at(double share) const { return right + (left - right) * share; }
     Vec3 weights_at(double share) const { return on_side(side, mirrored ? 1 - share : share); }
-
-    /// Of a way that begins in this triangle, where it begins on the side itself: the place there is known, and not to
-    /// be found by where a nearly parallel line meets it.
-    void begin_on_side(const WalkWeights& at) {
-        const std::uint32_t end = next_corner(side);
-        if (at.of(next_corner(end)) != 0) return;
-        const lanes::Both across = left - right;
-        right = -at.of(end) * across;
-        left = at.of(side) * across;
-    }
 
     /// The corner beyond the side, of which there is one.
     lanes::Both apex(const WalkTriangle& walk) const {

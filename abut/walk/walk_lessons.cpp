@@ -26,8 +26,7 @@ WalkedInTriangle step_in_triangle(const WalkTriangle& walk, const WalkPoint& pla
         result.end.weights = in_grains(to);
         return result;
     }
-    UnfoldedTriangle here = unfolded_ahead(walk, place.triangle, from, step, rounding);
-    here.begin_on_side(from);
+    const UnfoldedTriangle here = unfolded_ahead(walk, place.triangle, from, step, rounding);
     const double share = here.crossing();
     result.end.weights = here.weights_at(share);
     result.fraction = static_cast<float>(std::clamp(here.at(share)[0] / dot(step, step), 0.0, 1.0));

@@ -34,7 +34,6 @@ Walked walk_on(const WalkTriangle* triangles, const WalkPoint& place, const DVec
         result.place.weights = in_grains(way.here.weights(way.left));
         result.length = static_cast<float>(length);
     } else {
-        if (way.crossings == 0) way.here.begin_on_side(from);
         WalkSlide slide(triangles, options, way);
         slide.run(stop);
         way = slide.way();
