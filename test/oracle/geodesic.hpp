@@ -149,6 +149,8 @@ private:
             push(nearer);
             return;
         }
+        // In between the two it may be either, by rounding.
+        const bool may_pass_both = is_between(end.triangle, k, end.way * Real(-1), -1e-9);
         const bool passes_both = is_between(end.triangle, k, end.way * Real(-1), 1e-9);
         const Point middle = along(end.triangle, k) - along(end.triangle, (k + 2) % 3);
         const bool is_left = dot(cross(middle, end.way), normal_of(end.triangle)) > 0;
@@ -157,7 +159,7 @@ private:
         const Leads far_leads = turn_round(farther, is_left ? right_side : left_side);
         const bool far_leads_on = far_leads != Leads::nowhere;
         if (near_leads != Leads::nowhere || !far_leads_on || !passes_both) go_on(nearer, near_leads);
-        if (far_leads_on && (passes_both || near_leads != Leads::in)) go_on(farther, far_leads);
+        if (far_leads_on && (may_pass_both || near_leads != Leads::in)) go_on(farther, far_leads);
     }
 
     void go_on(Way& way, Leads leads) {
