@@ -108,7 +108,10 @@ Side detour_ways(const SharedWalkWays& ways) {
                                            &from.x, &to.x, &mesh->filter(), strip.data(), &count, most);
                     mesh->query().findStraightPath(&from.x, &to.x, strip.data(), count, places.data(), nullptr, nullptr,
                                                    &place_count, most, DT_STRAIGHTPATH_ALL_CROSSINGS);
-                    values[i] = 0;
+                    // It has nodes for 65,535 polygons; where these don't do it tells the way to another place.
+                    const bool is_there =
+                        count > 0 && strip[static_cast<std::size_t>(count - 1)] == mesh->polygon(ways->to[i].triangle);
+                    values[i] = is_there ? 0 : std::numeric_limits<double>::infinity();
                     for (int k = 1; k < place_count; ++k)
                         values[i] += length(from_detour(&places[3 * static_cast<std::size_t>(k)]) -
                                             from_detour(&places[3 * static_cast<std::size_t>(k - 1)]));

@@ -4,6 +4,7 @@
 #include "walk.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -53,10 +54,17 @@ Job paths(const SharedWalkWays& ways, bool with_shortest) {
         for (std::size_t i = 0; i < least.size(); ++i) least[i] = std::min(least[i], lengths[i]);
     }
     for (std::size_t s = 0; s < all.size(); ++s) {
-        double sum = 0;
-        for (std::size_t i = 0; i < least.size(); ++i) sum += all[s][i] / least[i];
-        const double longer = sum / static_cast<double>(least.size()) - 1;
-        job.sides[s].figures = [longer] { return std::vector<Figure>{{"longer by", longer}}; };
+        double sum = 0, reached = 0;
+        for (std::size_t i = 0; i < least.size(); ++i) {
+            if (std::isinf(all[s][i])) continue;
+            sum += all[s][i] / least[i];
+            ++reached;
+        }
+        const double longer = reached > 0 ? sum / reached - 1 : 0;
+        std::vector<Figure> figures{{"longer by", longer}};
+        const double lost = 1 - reached / static_cast<double>(least.size());
+        if (lost > 0) figures.push_back({"not reached", lost});
+        job.sides[s].figures = [figures] { return figures; };
         job.sides[s].strays = 1;
     }
     return job;
