@@ -4,7 +4,6 @@
 #include <abut/query/closest.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <set>
 #include <tuple>
@@ -13,18 +12,6 @@ namespace abut::tool {
 namespace {
 
 constexpr Vec3 towards_eye{1, 0.9f, 1.4f};
-constexpr std::array<Color, 12> colors{{{96, 165, 250},
-                                        {251, 146, 60},
-                                        {74, 222, 128},
-                                        {244, 114, 182},
-                                        {250, 204, 21},
-                                        {167, 139, 250},
-                                        {45, 212, 191},
-                                        {248, 113, 113},
-                                        {163, 230, 53},
-                                        {129, 140, 248},
-                                        {217, 160, 102},
-                                        {148, 163, 184}}};
 
 std::vector<Vec3> corners_of(const Polyhedron& part, std::uint32_t face) {
     std::vector<Vec3> corners;
@@ -102,7 +89,7 @@ std::string picture(const std::vector<PartReport>& parts) {
         const Facets& facets = parts[i].part.facets();
         for (std::uint32_t face = 0; face < facets.normals.size(); ++face) {
             if (dot(DVec<3>(facets.normals[face]), DVec<3>(towards_eye)) <= 0) continue;
-            const Color color = shaded(colors[i % colors.size()], facets.normals[face]);
+            const Color color = shaded(color_of_part(i), facets.normals[face]);
             view.polygon(corners_of(parts[i].part, face), Style{{30, 41, 59, 160}, 0.8f, color});
         }
     }

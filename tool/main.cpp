@@ -193,8 +193,36 @@ void describe(CLI::App& verb, FieldArguments& arguments) {
         "field is written all the same.");
 }
 
+// What was typed for `abut walk`.
+struct WalkArguments {
+    WalkRequest request;
+    std::optional<std::string> from, to, reach;
+};
+
+void describe(CLI::App& verb, WalkArguments& arguments) {
+    WalkRequest& request = arguments.request;
+    verb.add_option("MESH", request.mesh, std::string(mesh_files) + "; or what -o wrote (.walk)")->required();
+    verb.add_option("--name", request.name,
+                    "Only nodes and meshes that it describes, path or name, with * and ?; without it all")
+        ->type_name("PATTERN");
+    verb.add_option("--from", arguments.from, "Where a way starts: at the nearest place on the mesh")
+        ->type_name("X,Y,Z");
+    verb.add_option("--to", arguments.to, "Where it ends, likewise")->type_name("X,Y,Z");
+    verb.add_option("--reach", arguments.reach, "How far off the mesh --from and --to may be; without it any distance")
+        ->type_name("D");
+    verb.add_option("-o,--output", request.output, "Write the mesh too, as a game loads it")->type_name("OUT.walk");
+    verb.add_option("--picture", request.picture, "Draw it too, with its islands, its borders and the way")
+        ->type_name("FILE.svg");
+    verb.add_flag("--json", request.json, "One JSON object in place of text");
+    verb.footer(
+        "The triangles are taken as a surface to walk on, where they stand at the first moment; any side may be up. "
+        "Exits with 1 where there is no way from --from to --to, or one of them is out of reach.");
+}
+
 void describe(CLI::App& verb, InfoRequest& request) {
-    verb.add_option("FILE", request.scene, std::string(files) + "; or what abut field wrote (.field)")->required();
+    verb.add_option("FILE", request.scene,
+                    std::string(files) + "; or what abut field (.field) or abut walk (.walk) wrote")
+        ->required();
     verb.add_flag("--json", request.json, "One JSON object in place of text");
     verb.add_flag("--skip-degenerate", request.skip_degenerate, "Leave out triangles of zero area");
 }
@@ -261,10 +289,19 @@ Result<ExitCode> run_field(FieldArguments& arguments) {
     return run_field(request);
 }
 
+Result<ExitCode> run_walk(WalkArguments& arguments) {
+    WalkRequest& request = arguments.request;
+    std::optional<std::string> problem = understand("--from", arguments.from, parse_point<3>, request.from);
+    if (!problem) problem = understand("--to", arguments.to, parse_point<3>, request.to);
+    if (!problem) problem = understand("--reach", arguments.reach, parse_length, request.reach);
+    if (problem) return Problem{ProblemCode::bad_argument, *problem};
+    return run_walk(request);
+}
+
 int run(int count, char** words) {
     CLI::App app(
-        "Collision checks for scenes and levels: who touches whom, where, how deep and when; and convex parts and "
-        "distance fields for meshes.",
+        "Collision checks for scenes and levels: who touches whom, where, how deep and when; and convex parts, "
+        "distance fields and ways over meshes.",
         "abut");
     app.set_version_flag("--version", "abut " ABUT_VERSION);
     app.require_subcommand(1);
@@ -286,8 +323,12 @@ int run(int count, char** words) {
     FieldArguments field;
     CLI::App& field_verb = *app.add_subcommand("field", "A mesh or a level as a field of signed distances");
     describe(field_verb, field);
+    WalkArguments walk;
+    CLI::App& walk_verb =
+        *app.add_subcommand("walk", "A mesh as a surface to walk on: its islands and borders, and ways over it");
+    describe(walk_verb, walk);
     InfoRequest info;
-    CLI::App& info_verb = *app.add_subcommand("info", "What is in a scene, a level or a field");
+    CLI::App& info_verb = *app.add_subcommand("info", "What is in a scene, a level, a field or a walk mesh");
     describe(info_verb, info);
 
     try {
@@ -303,6 +344,7 @@ int run(int count, char** words) {
                                   : hull_verb.parsed()      ? run_hull(hull)
                                   : decompose_verb.parsed() ? run_decompose(decompose)
                                   : field_verb.parsed()     ? run_field(field)
+                                  : walk_verb.parsed()      ? run_walk(walk)
                                                             : run_info(info);
     return code ? static_cast<int>(*code) : fail(code.problem().message);
 }

@@ -1,12 +1,26 @@
 #include "paper.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace abut::tool {
 namespace {
 
 constexpr Color background{248, 250, 252};
 constexpr double picture_width = 1200;
+
+constexpr std::array<Color, 12> colors{{{96, 165, 250},
+                                        {251, 146, 60},
+                                        {74, 222, 128},
+                                        {244, 114, 182},
+                                        {250, 204, 21},
+                                        {167, 139, 250},
+                                        {45, 212, 191},
+                                        {248, 113, 113},
+                                        {163, 230, 53},
+                                        {129, 140, 248},
+                                        {217, 160, 102},
+                                        {148, 163, 184}}};
 
 class NoCanvas final : public Canvas<2> {
 public:
@@ -17,9 +31,9 @@ public:
 
 }  // namespace
 
-Aabb2 seen(const Aabb3& box, const Vec3& towards_eye) {
+Aabb2 seen(const Aabb3& box, const Vec3& towards_eye, const Vec3& up) {
     NoCanvas none;
-    const Projected view(none, box, towards_eye, {0, 1, 0});
+    const Projected view(none, box, towards_eye, up);
     Aabb2 result = Aabb2::empty();
     for (int i = 0; i < 8; ++i) {
         const Vec2 corner = view({(i & 1) != 0 ? box.max.x : box.min.x, (i & 2) != 0 ? box.max.y : box.min.y,
@@ -33,6 +47,10 @@ SvgCanvas paper_for(const Aabb2& plane) {
     const double extent =
         std::max(static_cast<double>(plane.max.x - plane.min.x), static_cast<double>(plane.max.y - plane.min.y));
     return {plane, static_cast<float>(picture_width / extent), background};
+}
+
+Color color_of_part(std::size_t part) {
+    return colors[part % colors.size()];
 }
 
 }  // namespace abut::tool

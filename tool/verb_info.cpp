@@ -146,6 +146,12 @@ Result<ExitCode> run(const InfoRequest& request) {
 
 Result<ExitCode> run_info(const InfoRequest& request) {
     if (request.scene.ends_with(field_ending)) return run_field_info(request);
+    if (request.scene.ends_with(walk_ending)) {
+        WalkRequest walk;
+        walk.mesh = request.scene;
+        walk.json = request.json;
+        return run_walk(walk);
+    }
     return in_dimension_of(request.scene, [&](auto dimension) { return run<dimension()>(request); });
 }
 

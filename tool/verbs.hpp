@@ -7,6 +7,7 @@
 #include "faults.hpp"
 #include "files.hpp"
 #include <abut/math/result.hpp>
+#include <abut/math/vec.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -96,6 +97,20 @@ inline constexpr std::string_view field_ending = ".field";
 
 /// What is in such a file.
 Result<ExitCode> run_field_info(const InfoRequest& request);
+
+struct WalkRequest {
+    std::string mesh;
+    std::string name;                            ///< a pattern for nodes and meshes; empty: all
+    std::optional<std::string> output, picture;  ///< files to write to: the baked mesh, and an SVG
+    std::optional<Vec3> from, to;                ///< both or none
+    std::optional<float> reach;                  ///< how far off the mesh they may be; none: any distance
+    bool json = false;
+};
+
+Result<ExitCode> run_walk(const WalkRequest& request);
+
+/// How the name of a file ends that holds a walk mesh.
+inline constexpr std::string_view walk_ending = ".walk";
 
 /// A whole file, or what is wrong with it, beginning with the file.
 std::optional<Problem> write_picture(const std::string& file, const std::string& document);

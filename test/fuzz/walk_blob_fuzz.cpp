@@ -25,7 +25,8 @@ void require_place(const WalkMesh& mesh, const WalkPoint& place) {
     require(is_finite(mesh.to_world(place)) && is_finite(mesh.smooth_normal(place)));
 }
 
-/// From the middle of each triangle of the first few, along the axes, as far as the mesh is large.
+/// From the middle of each triangle of the first few, along the axes, as far as the mesh is large; and what is asked
+/// besides.
 void walk_about(const WalkMesh& mesh) {
     const Aabb3 box = bounds(mesh);
     const float far = std::max({box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z});
@@ -41,6 +42,10 @@ void walk_about(const WalkMesh& mesh) {
             require_place(mesh, walked.place);
             require(mesh.island(walked.place.triangle) == mesh.island(triangle));
             require_place(mesh, mesh.walk(walked.place, -(walked.turn * step), options).place);
+            require_place(mesh, mesh.nearest(mesh.to_world(walked.place) + step));
+            if (mesh.nearest_along(box.min, step)) require_place(mesh, *mesh.nearest_along(box.min, step));
+            const auto way = mesh.path({triangle, {1, 0, 0}}, walked.place);
+            require(!way || is_finite(way->back()));
         }
     }
 }

@@ -1,0 +1,164 @@
+#include "paper.hpp"
+#include "walk_report.hpp"
+#include <abut/draw/walk_mesh.hpp>
+#include <abut/math/dvec.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace abut::tool {
+namespace {
+
+constexpr Style wrong{{220, 38, 38}, 3}, turned_over{{147, 51, 234}, 3}, way_line{{15, 23, 42}, 3},
+    off_line{{15, 23, 42, 150}, 1.2f, transparent, true}, label{{15, 23, 42}, 1};
+// Of larger meshes only the borders are drawn: they would be a blot, and a file of many megabytes.
+constexpr std::size_t most_triangles = 20'000, most_names = 50;
+
+/// From where the mesh is seen, and which way is up in the picture.
+struct Eye {
+    Vec3 towards{}, up{};
+    std::string name;
+};
+
+Vec3 unit(int axis, float sign) {
+    Vec3 result(0);
+    result[axis] = sign;
+    return result;
+}
+
+std::string named(int axis, float sign) {
+    return std::string("seen from ") + (sign < 0 ? "-" : "+") + "xyz"[axis];
+}
+
+/// The axis, and the way along it, to which most of the surface faces; y where it faces all ways alike.
+void find_above(const WalkMesh& mesh, int& axis, float& sign) {
+    DVec<3> sum(0.0);
+    double area = 0;
+    for (std::uint32_t i = 0; i < mesh.triangles().size(); ++i) {
+        if (!mesh.is_walkable(i)) continue;
+        const glm::uvec3& t = mesh.triangles()[i];
+        const DVec<3> a(mesh.points()[t.x]);
+        const DVec<3> twice = cross(DVec<3>(mesh.points()[t.y]) - a, DVec<3>(mesh.points()[t.z]) - a);
+        sum += twice;
+        area += length(twice);
+    }
+    axis = 1;
+    sign = 1;
+    for (const int other : {1, 2, 0})
+        if (std::abs(sum[other]) > std::max(std::abs(sum[axis]), 0.1 * area)) axis = other;
+    if (std::abs(sum[axis]) > 0.1 * area) sign = sum[axis] < 0 ? -1.0f : 1.0f;
+}
+
+/// From above, and from the side across which it is longer, where there is something to be seen.
+std::vector<Eye> eyes_for(const WalkMesh& mesh) {
+    int above = 1;
+    float sign = 1;
+    find_above(mesh, above, sign);
+    const Vec3 size = bounds(mesh).max - bounds(mesh).min;
+    const Vec3 up_above = above == 1 ? unit(2, -sign) : unit(1, 1);
+    std::vector<Eye> eyes{{unit(above, sign), up_above, named(above, sign)}};
+    const int first = (above + 1) % 3, second = (above + 2) % 3;
+    const int side = size[first] <= size[second] ? first : second;
+    if (size[above] > 0.01f * std::max(size[first], size[second]))
+        eyes.push_back({unit(side, 1), unit(above, sign), named(side, 1)});
+    return eyes;
+}
+
+/// A part of a larger paper.
+class Panel final : public Canvas<2> {
+public:
+    Panel(Canvas<2>& paper, const Aabb2& shown, const Vec2& shift) : paper_(paper), shown_(shown), shift_(shift) {}
+
+    Aabb2 shown() const override { return shown_; }
+    void line(const Vec2& a, const Vec2& b, const Style& style) override { paper_.line(a + shift_, b + shift_, style); }
+    void point(const Vec2& position, const Style& style) override { paper_.point(position + shift_, style); }
+    void polygon(std::span<const Vec2> points, const Style& style) override {
+        std::vector<Vec2> shifted;
+        for (const Vec2& point : points) shifted.push_back(point + shift_);
+        paper_.polygon(shifted, style);
+    }
+    void ball(const Vec2& center, float radius, const Style& style) override {
+        paper_.ball(center + shift_, radius, style);
+    }
+    void text(const Vec2& position, std::string_view text, const Style& style) override {
+        paper_.text(position + shift_, text, style);
+    }
+
+private:
+    Canvas<2>& paper_;
+    Aabb2 shown_;
+    Vec2 shift_;
+};
+
+Style style_of(std::size_t island) {
+    Color fill = color_of_part(island), stroke = fill;
+    fill.alpha = 110;
+    const auto darker = [](std::uint8_t channel) { return static_cast<std::uint8_t>(channel / 2); };
+    stroke = {darker(stroke.red), darker(stroke.green), darker(stroke.blue)};
+    return {stroke, 1.6f, fill};
+}
+
+void draw_surface(Canvas<3>& view, const WalkOutcome& outcome) {
+    const WalkMesh& mesh = outcome.mesh;
+    if (mesh.triangles().size() <= most_triangles)
+        draw(view, mesh, [&](std::uint32_t triangle) { return style_of(mesh.island(triangle)); });
+    else
+        for (const WalkBorder& border : outcome.survey.borders) {
+            Style style = style_of(border.island);
+            style.fill = transparent;
+            for (std::size_t i = 0; i < border.points.size(); ++i)
+                view.line(border.points[i], border.points[(i + 1) % border.points.size()], style);
+        }
+    const std::vector<WalkIsland>& islands = outcome.survey.islands;
+    if (islands.size() < 2 || islands.size() > most_names) return;
+    for (std::size_t i = 0; i < islands.size(); ++i)
+        view.text(mesh.to_world(islands[i].place), std::to_string(i), label);
+}
+
+void draw_all(Canvas<3>& view, const WalkOutcome& outcome) {
+    draw_surface(view, outcome);
+    for (const WalkEdge& edge : outcome.survey.mirrored) view.line(edge.from, edge.to, turned_over);
+    for (const WalkEdge& edge : outcome.survey.crowded) view.line(edge.from, edge.to, wrong);
+    for (const Vec3& point : outcome.survey.pinched) view.point(point, wrong);
+    for (const std::optional<WalkEnd>& end : {outcome.from, outcome.to}) {
+        if (!end) continue;
+        view.line(end->asked, end->point, off_line);
+        view.point(end->asked, off_line);
+        view.point(end->point, way_line);
+    }
+    if (outcome.way) draw(view, *outcome.way, way_line);
+}
+
+}  // namespace
+
+std::string picture(const WalkOutcome& outcome) {
+    Aabb3 box = bounds(outcome.mesh);
+    for (const std::optional<WalkEnd>& end : {outcome.from, outcome.to})
+        if (end) box = merged(box, Aabb3{end->asked, end->asked});
+    const std::vector<Eye> eyes = eyes_for(outcome.mesh);
+    std::vector<Aabb2> planes;
+    Vec2 size(0);
+    for (const Eye& eye : eyes) {
+        planes.push_back(seen(box, eye.towards, eye.up));
+        size.x = std::max(size.x, planes.back().max.x - planes.back().min.x);
+        size.y += planes.back().max.y - planes.back().min.y;
+    }
+    const float margin = 0.04f * std::max(size.x, size.y), line = 2 * margin;
+    const float height = size.y + line * static_cast<float>(eyes.size());
+    SvgCanvas paper = paper_for(Aabb2{{-margin, -margin}, {size.x + margin, height}});
+    float top = height - line;
+    for (std::size_t i = 0; i < eyes.size(); ++i) {
+        const Aabb2& plane = planes[i];
+        const Vec2 side = plane.max - plane.min;
+        Panel panel(paper, plane, Vec2(0.5f * (size.x - side.x), top - side.y) - plane.min);
+        Projected view(panel, box, eyes[i].towards, eyes[i].up);
+        draw_all(view, outcome);
+        paper.text({0.5f * size.x, top + 0.5f * line}, eyes[i].name, label);
+        top -= side.y + line;
+    }
+    return paper.document();
+}
+
+}  // namespace abut::tool
