@@ -64,4 +64,7 @@
 #include <abut/shape/tile_map.hpp>
 #include <abut/shape/triangle.hpp>
 #include <abut/shape/weld.hpp>
+#include <abut/walk/walk_blob.hpp>
+#include <abut/walk/walk_mesh.hpp>
+#include <abut/walk/walk_survey.hpp>
 #include <abut/world/world.hpp>

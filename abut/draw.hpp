@@ -8,3 +8,4 @@
 #include <abut/draw/svg.hpp>
 #include <abut/draw/trace.hpp>
 #include <abut/draw/voronoi.hpp>
+#include <abut/draw/walk_mesh.hpp>
