@@ -1,5 +1,5 @@
-#include <abut/convex/features.hpp>
 #include <abut/math/assert.hpp>
+#include <abut/walk/walk_nearest_on.hpp>
 #include <abut/walk/walk_path_search.hpp>
 #include <abut/walk/walk_path_shorten.hpp>
 
@@ -129,27 +129,18 @@ bool is_valid(const WalkMeshData& data, const WalkPoint& place) {
 
 /// Of some triangles, the place nearest to a point; of several, in the triangle with the lowest number.
 WalkPoint nearest_of(const WalkMeshData& data, std::span<const std::uint32_t> triangles, const DVec<3>& point) {
-    double least = std::numeric_limits<double>::infinity();
+    NearestOnTriangle least;
+    least.square = std::numeric_limits<double>::infinity();
     std::uint32_t nearest = 0;
-    DVec<3> at(0.0);
     for (const std::uint32_t triangle : triangles) {
         const WalkTriangle& walk = data.walk[triangle];
-        const DVec<3> a(walk.corner[0]), b(walk.corner[1]), c(walk.corner[2]);
-        const DVec<3> outside =
-            glm::max(glm::max(glm::min(a, glm::min(b, c)) - point, point - glm::max(a, glm::max(b, c))), DVec<3>(0.0));
-        if (dot(outside, outside) > least) continue;
-        const DVec<3> closest = closest_on_triangle(a, b, c, point).point;
-        const double square = length_squared(closest - point);
-        if (square < least || (square == least && triangle < nearest)) {
-            least = square;
+        const NearestOnTriangle on = nearest_on(Triangle3{walk.corner[0], walk.corner[1], walk.corner[2]}, point);
+        if (on.square < least.square || (on.square == least.square && triangle < nearest)) {
+            least = on;
             nearest = triangle;
-            at = closest;
         }
     }
-    const WalkTriangle& walk = data.walk[nearest];
-    const DVec<2> in_plane = to_plane_of(walk, lanes::spatial(at - DVec<3>(walk.corner[0])));
-    const double third = in_plane.y * walk.inverse_height;
-    return {nearest, in_grains((in_plane.x - walk.third * third) * walk.inverse_width, third)};
+    return {nearest, in_grains(least.second, least.third)};
 }
 
 /// The strip to the end, or to the nearest place that can be reached, where that is asked for.

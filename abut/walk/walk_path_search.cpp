@@ -162,6 +162,7 @@ public:
     }
 
     std::optional<WalkStrip> run() {
+        if (from_.triangle == to_.triangle) return WalkStrip{from_, to_, {}, {}, {}};
         open_start();
         std::uint32_t number = 0;
         // Each push is a side that a triangle is left by, and none is left twice.
@@ -195,7 +196,6 @@ private:
         node.tip = {walk.third, 1 / walk.inverse_height};
         node.root = node.right * weights.second + node.tip * weights.third;
         known_[node.triangle] = {0, 0, true};
-        if (from_.triangle == to_.triangle) return;
         leave(0, node, walk, 1, false);
         leave(0, node, walk, 2, true);
         Node turned = node;

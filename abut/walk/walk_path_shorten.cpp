@@ -90,14 +90,14 @@ private:
                 continue;
             }
             const DVec<2> straight = next.at - last.at;
-            for (std::uint32_t p = std::max(copied, i == 1 ? 0 : last.last + 1); p < next.first; ++p) {
-                if (p != corner.first && way_.plane.portals[p].new_left != left) continue;
+            const std::uint32_t start = std::min(i == 1 ? 0 : last.last + 1, corner.first);
+            for (std::uint32_t p = std::max(copied, start); p < std::max(next.first, corner.first + 1); ++p) {
+                const bool is_knot = p == corner.first;
+                if (!is_knot && way_.plane.portals[p].new_left != left) continue;
                 const WalkCorner beside = corner_of(way_.plane, p, left);
                 const double side = cross(straight, beside.at - last.at);
-                if (beside.first == p && beside.last < next.first && (left ? side <= 0 : side >= 0) &&
-                    find_other_side(rules_, way_, beside, round_)) {
-                    flip(beside);
-                }
+                const bool is_between = beside.first == p && beside.last < next.first && (left ? side <= 0 : side >= 0);
+                if ((is_knot || is_between) && find_other_side(rules_, way_, beside, round_)) flip(beside);
             }
         }
         add_sides(rules_.data, sides, way_.strip.sides, copied, way_.strip.sides.size());
