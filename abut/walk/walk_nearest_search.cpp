@@ -98,10 +98,10 @@ public:
 
     explicit FloatBoxes(const Vec3& point) : point_(point) {}
 
-    /// Whether floats tell the boxes apart, and hold the squares.
+    /// Whether floats tell the boxes apart from there, and hold the squares.
     static bool suits(const MeshTree& tree, const Vec3& point) {
         const DVec<3> to_middle = DVec<3>(point) - tree.middle;
-        return tree.spread > 1e-9 && tree.spread < mesh_most && largest(to_middle) < 64 * tree.spread;
+        return tree.spread > 1e-9 && tree.spread < mesh_most && largest(to_middle) < 4 * tree.spread;
     }
 
     static float most(double square) {
