@@ -70,7 +70,7 @@ struct WalkPath {
 /// Triangles as a surface to walk on, of any shape: floors, ceilings, loops, Moebius strips; nothing assumes that any
 /// way is up. A flat level is a mesh with one coordinate 0. Immutable: copies share the data. All questions are const
 /// and may be asked by many threads; all but `path` and `find_path` allocate nothing. About 128 bytes a triangle, and
-/// 60 for `nearest`.
+/// 40 for `nearest`.
 ///
 /// Each triangle has a plane frame of its own: its corner 0 is the origin, its corner 1 lies on the first axis, its
 /// corner 2 above it. Vectors in it, in units of length, are `Vec2`; `to_plane` and `to_space` lead there and back.
@@ -96,14 +96,16 @@ public:
     /// The triangle beyond a side, and the side of it that is shared; nothing at a border.
     std::optional<WalkSide> beyond(const WalkSide& side) const;
 
-    /// The nearest point of the mesh; of several, one in the triangle with the lowest number. Any distance costs about
-    /// the same.
+    /// The nearest point of the mesh, told in double; of several, one in the triangle with the lowest number. Any
+    /// distance costs about the same; far above a hollow, where much is nearly as near, a few times as much.
     WalkPoint nearest(const Vec3& point) const;
     /// The same answer, found sooner where `last` is near it: for walkers that are moved by something else.
     WalkPoint nearest(const Vec3& point, const WalkPoint& last) const;
-    /// Nothing where the mesh is farther away than `reach`.
+    /// Nothing where the mesh is farther away than `reach`, told in double.
     std::optional<WalkPoint> nearest(const Vec3& point, float reach) const;
-    /// The first point of the mesh along a ray, from either side: what am I above? `direction` is of any length but 0.
+    /// The first point of the mesh along a ray, from either side: what am I above? `direction` is of any length but 0,
+    /// `reach` in units of length. Edges and corners, the border's too, belong to the mesh; a ray that starts on it
+    /// ends there, one in the plane of a triangle where it comes to its side.
     std::optional<WalkPoint> nearest_along(const Vec3& point, const Vec3& direction,
                                            float reach = std::numeric_limits<float>::infinity()) const;
 

@@ -25,21 +25,26 @@ long double product(const Long& a, const Long& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-/// Of the squared distance of a point from a triangle, by where it is beside its corners, edges and inside. Ericson,
-/// "Real-time collision detection" (2005), 5.1.5.
+Long turned(const Long& a, const Long& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// The squared distance of a point from a triangle: from the nearest of its sides, or from its plane above the inside.
 long double square_from(const Long& p, const Long& a, const Long& b, const Long& c) {
-    const auto to = [&](const Long& q) { return product(p - q, p - q); };
-    const Long ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
-    const long double d1 = product(ab, ap), d2 = product(ac, ap), d3 = product(ab, bp), d4 = product(ac, bp),
-                      d5 = product(ab, cp), d6 = product(ac, cp);
-    if (d1 <= 0 && d2 <= 0) return to(a);
-    if (d3 >= 0 && d4 <= d3) return to(b);
-    if (d6 >= 0 && d5 <= d6) return to(c);
-    const long double va = d3 * d6 - d5 * d4, vb = d5 * d2 - d1 * d6, vc = d1 * d4 - d3 * d2;
-    if (vc <= 0 && d1 >= 0 && d3 <= 0) return to(a + ab * (d1 / (d1 - d3)));
-    if (vb <= 0 && d2 >= 0 && d6 <= 0) return to(a + ac * (d2 / (d2 - d6)));
-    if (va <= 0 && d4 >= d3 && d5 >= d6) return to(b + (c - b) * ((d4 - d3) / (d4 - d3 + d5 - d6)));
-    return to(a + ab * (vb / (va + vb + vc)) + ac * (vc / (va + vb + vc)));
+    const auto from_side = [&](const Long& start, const Long& end) {
+        const Long along = end - start;
+        const long double part = std::clamp(product(p - start, along) / product(along, along), 0.0L, 1.0L);
+        const Long way = start + along * part - p;
+        return product(way, way);
+    };
+    const long double beside = std::min({from_side(a, b), from_side(b, c), from_side(c, a)});
+    const Long normal = turned(b - a, c - a);
+    const auto is_inside = [&](const Long& start, const Long& end) {
+        return product(turned(end - start, p - start), normal) >= 0;
+    };
+    if (!is_inside(a, b) || !is_inside(b, c) || !is_inside(c, a)) return beside;
+    const long double height = product(p - a, normal);
+    return std::min(beside, height * height / product(normal, normal));
 }
 
 Triangle3 triangle_of(const WalkMesh& mesh, std::uint32_t triangle) {
@@ -88,8 +93,9 @@ void expect_valid(const WalkMesh& mesh, const WalkPoint& place) {
     EXPECT_EQ(sum, 0x1p24);
 }
 
-/// All that there is to say about the nearest point of one.
-void check(const WalkMesh& mesh, const Vec3& point, Random& random) {
+/// All that there is to say about the nearest point of one. Of a needle what is nearest may be told too far away, by so
+/// much of its size.
+void check(const WalkMesh& mesh, const Vec3& point, Random& random, double needle = 0) {
     const WalkPoint place = mesh.nearest(point);
     expect_valid(mesh, place);
     const Least least = least_of_all(mesh, point);
@@ -99,10 +105,10 @@ void check(const WalkMesh& mesh, const Vec3& point, Random& random) {
     const double size = std::max(largest(DVec<3>(t.b) - DVec<3>(t.a)), largest(DVec<3>(t.c) - DVec<3>(t.a)));
     const long double truth = least_plainly(mesh, point);
     const double rounding = 1e-13 * (static_cast<double>(truth) + size);
-    EXPECT_NEAR(0.5 * std::sqrt(least.square), static_cast<double>(truth), rounding);
+    EXPECT_NEAR(0.5 * std::sqrt(least.square), static_cast<double>(truth), rounding + needle * size);
     const Long way = position(mesh, place) - Long(point);
     EXPECT_NEAR(static_cast<double>(std::sqrt(product(way, way))), static_cast<double>(truth),
-                rounding + 4 * 0x1p-24 * size);
+                rounding + (needle + 4 * 0x1p-24) * size);
 
     // From anywhere the same.
     const std::uint32_t other = random.below(static_cast<std::uint32_t>(mesh.triangles().size()));
@@ -275,6 +281,27 @@ TEST_P(WalkNearest, of_those_at_a_corner_is_the_lowest) {
         const float height = random.uniform_float(0, 5);
         const WalkPoint place = mesh->nearest(tip.points[0] + Vec3(0, 0, height));
         EXPECT_EQ(place, (WalkPoint{0, {1, 0, 0}}));
+    }
+}
+
+/// Triangles as thin as there are, side by side at any slope.
+TEST_P(WalkNearest, of_needles) {
+    const std::uint64_t seed = 8;
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    for (const double width : {1e-2, 1e-4, 1e-6, 1e-8}) {
+        SCOPED_TRACE(width);
+        const DVec<3> along = random.direction<3>(), across = random.direction<3>() * width;
+        const auto at = [&](std::uint32_t column, std::uint32_t row) {
+            return along * (column + 0.3 * row) + across * (0.5 * row);
+        };
+        const Surface surface = sheet(6, 6, at);
+        const Result<WalkMesh> mesh = WalkMesh::build(surface.points, surface.triangles);
+        ASSERT_TRUE(mesh);
+        for (int i = 0; i < 50; ++i) {
+            check(*mesh, near_by(surface, random), random, 1e-8);
+            check(*mesh, about(surface, random, 0.25), random, 1e-8);
+        }
     }
 }
 
