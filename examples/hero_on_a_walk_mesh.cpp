@@ -50,7 +50,7 @@ bool follow(const abut::WalkMesh& level, abut::WalkPoint& place, const abut::Wal
 
 int main() {
     constexpr std::uint32_t hero_layer = 1, monster_layer = 2, coin_layer = 4, key_layer = 8;
-    constexpr float hero_speed = 0.1f, monster_speed = 0.03f;
+    constexpr float hero_speed = 0.1f, monster_speed = 0.05f;
     std::vector<std::uint8_t> is_door;
     const abut::WalkMesh level = make_level(is_door);
     bool is_open = false;
