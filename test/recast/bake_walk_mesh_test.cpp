@@ -244,6 +244,30 @@ TEST(BakeWalkMesh, FollowsHillsWithoutCracks) {
     }
 }
 
+TEST(BakeWalkMesh, IsWalkedAcross) {
+    const Level room = room_with_table();
+    const Result<WalkMesh> floor = room.bake();
+    ASSERT_TRUE(floor) << floor.problem().message;
+    const Walked walked = floor->walk(floor->nearest({1, 0, 1}), Vec3(8, 0, 0.5f));
+    EXPECT_EQ(walked.met, WalkMet::nothing);
+    EXPECT_LT(length(DVec<3>(floor->to_world(walked.place)) - DVec<3>(9, 0, 1.5)), 1e-5);
+
+    constexpr std::uint64_t seed = 9;
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const Result<WalkMesh> mesh = terrain(16, 1.5f, random).bake({.radius = 0.3f, .steepest = 1.3f});
+    ASSERT_TRUE(mesh) << mesh.problem().message;
+    for (int i = 0; i < 50; ++i) {
+        const WalkPoint from = mesh->nearest({random.uniform_float(-7, 7), 0, random.uniform_float(-7, 7)});
+        const WalkPoint to = mesh->nearest({random.uniform_float(-7, 7), 0, random.uniform_float(-7, 7)});
+        const std::optional<WalkPath> path = mesh->find_path(from, to);
+        ASSERT_TRUE(path);
+        const double apart = length(DVec<3>(mesh->to_world(to)) - DVec<3>(mesh->to_world(from)));
+        EXPECT_LE(apart, path->length + 1e-4);
+        EXPECT_LT(path->length, 2 * apart + 1);
+    }
+}
+
 /// Hills with boxes on and in them.
 Level ruins(Random& random) {
     Level level = terrain(16, 1.5f, random);
