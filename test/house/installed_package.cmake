@@ -1,6 +1,6 @@
 # Installs abut, builds the consumer against it from outside (where there is no Assimp), and compares what it prints with
 # what ours prints.
-#   cmake -D build= -D folder= -D consumer= -D here= -D generator= -D compiler= -D flags= -P installed_package.cmake
+#   cmake -D build= -D folder= -D consumer= -D here= -D with_recast= -D generator= -D compiler= -D flags= -P installed_package.cmake
 function(must)
     execute_process(COMMAND ${ARGN} OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE result)
     if(NOT result EQUAL 0)
@@ -22,6 +22,7 @@ must(${CMAKE_COMMAND} -S ${consumer} -B ${folder}/build -G ${generator}
     -D CMAKE_PREFIX_PATH=${folder}/prefix
     -D CMAKE_CXX_COMPILER=${compiler}
     -D CMAKE_DISABLE_FIND_PACKAGE_assimp=ON
+    -D with_recast=${with_recast}
     "-D CMAKE_CXX_FLAGS=${flags} -O3 -march=native")
 must(${CMAKE_COMMAND} --build ${folder}/build)
 
@@ -30,5 +31,8 @@ set(outside "${output}")
 must(${here})
 if(NOT outside STREQUAL output)
     message(FATAL_ERROR "built outside:\n${outside}\nbuilt here:\n${output}")
+endif()
+if(with_recast)
+    must(${folder}/build/consumer_recast)
 endif()
 message(STATUS "${output}")
