@@ -1,5 +1,6 @@
 #include "paper.hpp"
 #include "walk_report.hpp"
+#include <abut/draw/draw.hpp>
 #include <abut/draw/walk_mesh.hpp>
 #include <abut/math/dvec.hpp>
 
@@ -13,7 +14,8 @@ namespace {
 
 constexpr Style wrong{{220, 38, 38}, 3}, turned_over{{147, 51, 234}, 3}, way_line{{15, 23, 42}, 3},
     off_line{{15, 23, 42, 150}, 1.2f, transparent, true}, label{{15, 23, 42}, 1};
-// Of larger meshes only the borders are drawn: they would be a blot, and a file of many megabytes.
+// Of larger meshes only outlines are drawn: they would be a blot, and a file of many megabytes.
+constexpr float spot_size = 8, bend_size = 4;
 constexpr std::size_t most_triangles = 20'000, most_names = 50;
 
 /// From where the mesh is seen, and which way is up in the picture.
@@ -100,24 +102,35 @@ Style style_of(std::size_t island) {
     return {stroke, 1.6f, fill};
 }
 
+/// The borders of islands, and the boxes of those without.
+void draw_outlines(Canvas<3>& view, const WalkSurvey& survey) {
+    std::vector<bool> has_border(survey.islands.size(), false);
+    for (const WalkBorder& border : survey.borders) {
+        has_border[border.island] = true;
+        const Style style = style_of(border.island);
+        for (std::size_t i = 0; i < border.points.size(); ++i)
+            view.line(border.points[i], border.points[(i + 1) % border.points.size()], style);
+    }
+    for (std::size_t i = 0; i < survey.islands.size(); ++i) {
+        Style style = style_of(i);
+        style.fill = transparent;
+        if (!has_border[i]) draw(view, survey.islands[i].box, style);
+    }
+}
+
 void draw_surface(Canvas<3>& view, const WalkOutcome& outcome) {
     const WalkMesh& mesh = outcome.mesh;
     if (mesh.triangles().size() <= most_triangles)
         draw(view, mesh, [&](std::uint32_t triangle) { return style_of(mesh.island(triangle)); });
     else
-        for (const WalkBorder& border : outcome.survey.borders) {
-            Style style = style_of(border.island);
-            style.fill = transparent;
-            for (std::size_t i = 0; i < border.points.size(); ++i)
-                view.line(border.points[i], border.points[(i + 1) % border.points.size()], style);
-        }
+        draw_outlines(view, outcome.survey);
     const std::vector<WalkIsland>& islands = outcome.survey.islands;
     if (islands.size() < 2 || islands.size() > most_names) return;
     for (std::size_t i = 0; i < islands.size(); ++i)
         view.text(mesh.to_world(islands[i].place), std::to_string(i), label);
 }
 
-void draw_all(Canvas<3>& view, const WalkOutcome& outcome) {
+void draw_mesh(Canvas<3>& view, const WalkOutcome& outcome) {
     draw_surface(view, outcome);
     for (const WalkEdge& edge : outcome.survey.mirrored) view.line(edge.from, edge.to, turned_over);
     for (const WalkEdge& edge : outcome.survey.crowded) view.line(edge.from, edge.to, wrong);
@@ -128,7 +141,6 @@ void draw_all(Canvas<3>& view, const WalkOutcome& outcome) {
         view.point(end->asked, off_line);
         view.point(end->point, way_line);
     }
-    if (outcome.way) draw(view, *outcome.way, way_line);
 }
 
 }  // namespace
@@ -148,13 +160,17 @@ std::string picture(const WalkOutcome& outcome) {
     const float margin = 0.04f * std::max(size.x, size.y), line = 2 * margin;
     const float height = size.y + line * static_cast<float>(eyes.size());
     SvgCanvas paper = paper_for(Aabb2{{-margin, -margin}, {size.x + margin, height}});
+    paper.set_point_size(spot_size);
     float top = height - line;
     for (std::size_t i = 0; i < eyes.size(); ++i) {
         const Aabb2& plane = planes[i];
         const Vec2 side = plane.max - plane.min;
         Panel panel(paper, plane, Vec2(0.5f * (size.x - side.x), top - side.y) - plane.min);
         Projected view(panel, box, eyes[i].towards, eyes[i].up);
-        draw_all(view, outcome);
+        draw_mesh(view, outcome);
+        paper.set_point_size(bend_size);
+        if (outcome.way) draw(view, *outcome.way, way_line);
+        paper.set_point_size(spot_size);
         paper.text({0.5f * size.x, top + 0.5f * line}, eyes[i].name, label);
         top -= side.y + line;
     }

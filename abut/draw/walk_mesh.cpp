@@ -1,5 +1,6 @@
 #include <abut/draw/draw.hpp>
 #include <abut/draw/walk_mesh.hpp>
+#include <abut/math/dvec.hpp>
 
 #include <array>
 #include <vector>
@@ -47,12 +48,24 @@ void draw_triangle(Canvas<3>& canvas, const WalkMesh& mesh, std::uint32_t triang
     }
 }
 
+/// The point of a line from which its end is far enough that an arrow between them can be seen, else the last but one.
+std::size_t arrow_start(const Aabb3& shown, std::span<const Vec3> points) {
+    const DVec<3> end(points.back());
+    const double far = length(DVec<3>(shown.max) - DVec<3>(shown.min)) / 20;
+    for (std::size_t i = points.size() - 1; i-- > 0;)
+        if (length(DVec<3>(points[i]) - end) >= far) return i;
+    return points.size() - 2;
+}
+
 /// With a point where it starts, and a head where it ends.
 void draw_line(Canvas<3>& canvas, std::span<const Vec3> points, const Style& style) {
     if (points.empty()) return;
-    for (std::size_t i = 0; i + 2 < points.size(); ++i) canvas.line(points[i], points[i + 1], style);
-    if (points.size() > 1) draw_arrow(canvas, points[points.size() - 2], points.back(), style);
     canvas.point(points.front(), style);
+    if (points.size() < 2) return;
+    const std::size_t arrow = arrow_start(canvas.shown(), points), last = points.size() - 2;
+    for (std::size_t i = 0; i < last; ++i) canvas.line(points[i], points[i + 1], style);
+    if (arrow < last) canvas.line(points[last], points.back(), style);
+    draw_arrow(canvas, points[arrow], points.back(), style);
 }
 
 }  // namespace

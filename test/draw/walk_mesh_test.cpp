@@ -101,8 +101,10 @@ TEST(DrawWalkMesh, DrawsWalks) {
     const Vec3 step(2, 1, 0);
     draw_walk(canvas, mesh, from, step, plain);
     EXPECT_EQ(canvas.points, (std::vector<Vec3>{mesh.to_world(from)}));
-    ASSERT_EQ(canvas.lines.size(), 64u);
+    ASSERT_EQ(canvas.lines.size(), 64u + 1) << "its parts are too short for an arrow's head: one is drawn over them";
     for (std::size_t i = 0; i + 1 < 64; ++i) EXPECT_EQ(canvas.lines[i].b, canvas.lines[i + 1].a);
+    EXPECT_GT(length(DVec<3>(canvas.lines[64].a) - DVec<3>(canvas.lines[63].b)), 1);
+    canvas.lines.pop_back();
     const DVec<3> start(mesh.to_world(from)), end(mesh.to_world(mesh.walk(from, step).place));
     EXPECT_LT(length(DVec<3>(canvas.polygons.back().points[0]) - end), 1e-5);
     for (const auto& line : canvas.lines) {
