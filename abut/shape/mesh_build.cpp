@@ -5,6 +5,7 @@
 #include <abut/broad_phase/bvh_size.hpp>
 #include <abut/broad_phase/bvh_split.hpp>
 #include <abut/shape/mesh_few.hpp>
+#include <abut/shape/mesh_tree_parts.hpp>
 
 #include <algorithm>
 #include <array>
@@ -29,24 +30,6 @@ struct Fork {
     std::uint8_t own_to_left;  ///< of the eight children that it has as a node
 };
 
-/// The box of a triangle, wider by what the search for a ray's hit may take for hit; and all of them, as they are.
-BvhItem item_of(const Triangle3& t, std::uint32_t index, Aabb3& all) {
-    BvhItem result{{0, 0, 0}, index, {0, 0, 0}, 0};
-    float sum = 0;
-    for (int i = 0; i < 3; ++i) {
-        result.min[i] = std::min({t.a[i], t.b[i], t.c[i]});
-        result.max[i] = std::max({t.a[i], t.b[i], t.c[i]});
-        all.min[i] = std::min(all.min[i], result.min[i]);
-        all.max[i] = std::max(all.max[i], result.max[i]);
-        sum += result.max[i] - result.min[i];
-    }
-    for (int i = 0; i < 3; ++i) {
-        result.min[i] -= 0x1p-22f * sum + 0x1p-23f * std::abs(result.min[i]);
-        result.max[i] += 0x1p-22f * sum + 0x1p-23f * std::abs(result.max[i]);
-    }
-    return result;
-}
-
 class Builder {
 public:
     Builder(std::span<const Vec3> points, std::span<const glm::uvec3> triangles, std::span<const std::uint32_t> same,
@@ -67,13 +50,7 @@ public:
         bounded_ = is_bounded(all.box);
         forks_.reserve(count / 2 + 1);
         const std::uint32_t root = grow(all);
-        tree_.roots[0] = {add(root), exact};
-        const DVec<3> low(exact.min), high(exact.max);
-        tree_.middle = (low + high) * 0.5;
-        tree_.off_center = std::abs(tree_.middle.x) + std::abs(tree_.middle.y) + std::abs(tree_.middle.z);
-        tree_.spread = std::max(largest(low), largest(high)) < mesh_most
-                           ? (high.x - low.x + high.y - low.y + high.z - low.z) * (0.5 + 1e-9)
-                           : std::numeric_limits<double>::infinity();
+        set_root(tree_, add(root), exact);
         tree_.leaves.shrink_to_fit();
         tree_.nodes.shrink_to_fit();
     }
@@ -196,6 +173,33 @@ private:
 };
 
 }  // namespace
+
+BvhItem item_of(const Triangle3& t, std::uint32_t index, Aabb3& all) {
+    BvhItem result{{0, 0, 0}, index, {0, 0, 0}, 0};
+    float sum = 0;
+    for (int i = 0; i < 3; ++i) {
+        result.min[i] = std::min({t.a[i], t.b[i], t.c[i]});
+        result.max[i] = std::max({t.a[i], t.b[i], t.c[i]});
+        all.min[i] = std::min(all.min[i], result.min[i]);
+        all.max[i] = std::max(all.max[i], result.max[i]);
+        sum += result.max[i] - result.min[i];
+    }
+    for (int i = 0; i < 3; ++i) {
+        result.min[i] -= 0x1p-22f * sum + 0x1p-23f * std::abs(result.min[i]);
+        result.max[i] += 0x1p-22f * sum + 0x1p-23f * std::abs(result.max[i]);
+    }
+    return result;
+}
+
+void set_root(MeshTree& tree, std::uint32_t ref, const Aabb3& exact) {
+    tree.roots[0] = {ref, exact};
+    const DVec<3> low(exact.min), high(exact.max);
+    tree.middle = (low + high) * 0.5;
+    tree.off_center = std::abs(tree.middle.x) + std::abs(tree.middle.y) + std::abs(tree.middle.z);
+    tree.spread = std::max(largest(low), largest(high)) < mesh_most
+                      ? (high.x - low.x + high.y - low.y + high.z - low.z) * (0.5 + 1e-9)
+                      : std::numeric_limits<double>::infinity();
+}
 
 MeshTree build_mesh_tree(std::span<const Vec3> points, std::span<const glm::uvec3> triangles,
                          std::span<const std::uint32_t> same) {

@@ -1,5 +1,6 @@
 #include <abut/broad_phase/four_floats-inl.h>
 #include <abut/shape/mesh_few.hpp>
+#include <abut/shape/mesh_tree_parts.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -69,7 +70,8 @@ void sort(const std::array<std::uint64_t, mesh_few>& keys, std::uint32_t count,
     for (std::uint32_t i = 0; i < count; ++i) order[rank[i]] = static_cast<std::uint8_t>(i);
 }
 
-/// Of the box around a leaf's corners, |x| + |y| + |z|, for bounds on what is calculated with them.
+}  // namespace
+
 float extent_of(const MeshLeaf& leaf) {
     float result = 0;
     for (const auto& row : leaf.corner) {
@@ -79,8 +81,6 @@ float extent_of(const MeshLeaf& leaf) {
     // Products that underflow have no bound by their factors.
     return result > 1e-9f && result < 1e12f ? result : std::numeric_limits<float>::infinity();
 }
-
-}  // namespace
 
 FewTriangles::FewTriangles(std::span<const BvhItem> items, std::span<const glm::uvec3> triangles,
                            std::span<const std::uint32_t> same)

@@ -65,8 +65,7 @@ void set_normals(WalkMeshData& data, const Walkable& walkable, const WalkLinks& 
 
 }  // namespace
 
-void assemble(WalkMeshData& data, const Walkable& walkable, const WalkLinks& links,
-              std::span<const std::uint32_t> same) {
+void assemble(WalkMeshData& data, const Walkable& walkable, const WalkLinks& links, MeshTree tree) {
     const std::vector<glm::uvec3>& walked = walkable.surface.triangles;
     WalkMeshReport& report = data.report;
     report.crowded = links.crowded;
@@ -87,7 +86,7 @@ void assemble(WalkMeshData& data, const Walkable& walkable, const WalkLinks& lin
         }
     }
     set_normals(data, walkable, links);
-    data.tree = build_mesh_tree(walkable.surface.points, walked, same);
+    data.tree = std::move(tree);
     for (std::uint32_t& item : data.tree.order) item = walkable.number[item];
     data.leaf_of.resize(data.triangles.size());
     for (std::uint32_t i = 0; i < data.tree.leaves.size(); ++i) {

@@ -19,11 +19,10 @@ struct Walkable {
     std::vector<std::uint32_t> number;
 };
 
-/// All that follows from the triangles and their links: frames, unfolded corners, islands, normals where none are
-/// given, the tree, and of the report what tells of links. `data` has the rest: points, triangles, given normals, of
-/// length 1 or 0, areas, as many `walk` as triangles. `same` names each point by the lowest one at its position.
-void assemble(WalkMeshData& data, const Walkable& walkable, const WalkLinks& links,
-              std::span<const std::uint32_t> same);
+/// All that follows from the triangles, their links and the tree of these triangles: frames, unfolded corners, islands,
+/// normals where none are given, and of the report what tells of links. `data` has the rest: points, triangles, given
+/// normals, of length 1 or 0, areas, as many `walk` as triangles.
+void assemble(WalkMeshData& data, const Walkable& walkable, const WalkLinks& links, MeshTree tree);
 
 struct LinkedTriangles {
     Walkable walkable;

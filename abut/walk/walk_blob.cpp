@@ -1,10 +1,11 @@
 // All numbers are little endian: "abutwlk\n", the version, whether there are normals and areas, of the report what is
-// not seen in the triangles, how many points and triangles, the points, the triangles, what is beyond their sides, the
-// normals, the areas, and a checksum of all before it. Of frames, fans and the tree nothing is kept: they follow from
-// the rest, and what isn't in a blob can't be wrong in it.
+// not seen in the triangles, how many points, triangles, leaves and nodes, the points, the triangles, what is beyond
+// their sides, the normals, the areas, how the tree parts the triangles, and a checksum of all before it. Frames, fans
+// and boxes aren't kept: they follow from the rest, and what isn't in a blob can't be wrong in it.
 
 #include <abut/math/blob.hpp>
 #include <abut/math/coincident.hpp>
+#include <abut/shape/mesh_tree_plan.hpp>
 #include <abut/shape/zero_area.hpp>
 #include <abut/walk/walk_assemble.hpp>
 #include <abut/walk/walk_blob.hpp>
@@ -50,6 +51,7 @@ struct Parts {
     std::vector<Vec3> points, normals;
     std::vector<glm::uvec3> triangles, links;
     std::vector<std::uint8_t> areas;
+    MeshTreePlan plan;
     bool has_normals = false, has_areas = false;
 };
 
@@ -71,13 +73,18 @@ std::optional<Problem> read(std::span<const std::byte> bytes, Parts& parts) {
     if (!reader.checksum(bytes)) return problem("the walk mesh is damaged: its checksum is another");
 
     std::uint8_t normals = 0, areas = 0;
-    std::uint64_t points = 0, triangles = 0;
+    std::uint64_t points = 0, triangles = 0, walkable = 0, leaves = 0, nodes = 0;
     bool whole = reader.number(normals) && reader.number(areas);
     for (std::uint64_t& count : parts.counts) whole = whole && reader.number(count);
-    whole = whole && reader.number(points) && reader.number(triangles) && reader.array(parts.points, points) &&
-            reader.array(parts.triangles, triangles) && reader.array(parts.links, triangles) &&
-            reader.array(parts.normals, normals != 0 ? points : 0) &&
-            reader.array(parts.areas, areas != 0 ? triangles : 0);
+    for (std::uint64_t* count : {&points, &triangles, &walkable, &leaves, &nodes})
+        whole = whole && reader.number(*count);
+    // So that eight times as many is a number, too.
+    whole = whole && nodes < bytes.size();
+    whole = whole && reader.array(parts.points, points) && reader.array(parts.triangles, triangles) &&
+            reader.array(parts.links, triangles) && reader.array(parts.normals, normals != 0 ? points : 0) &&
+            reader.array(parts.areas, areas != 0 ? triangles : 0) && reader.array(parts.plan.order, walkable) &&
+            reader.array(parts.plan.corners, walkable) && reader.array(parts.plan.counts, leaves) &&
+            reader.array(parts.plan.children, mesh_lanes * nodes);
     if (!whole) return too_short;
     if (reader.left() != 0) return problem("the walk mesh goes on behind its end");
     if (normals > 1 || areas > 1) return problem("the walk mesh is of a kind that there isn't");
@@ -122,12 +129,17 @@ bool is_edge(const glm::uvec3& a, std::uint32_t side_a, const glm::uvec3& b, std
     return corner(a, side_a) == (mirrored ? from : to) && corner(a, next_corner(side_a)) == (mirrored ? to : from);
 }
 
+/// Where each triangle of the mesh stands among those that are walked on.
+std::vector<std::uint32_t> places_of(const Walkable& walkable, std::size_t triangles) {
+    std::vector<std::uint32_t> result(triangles, WalkLink::none);
+    for (std::uint32_t i = 0; i < walkable.number.size(); ++i) result[walkable.number[i]] = i;
+    return result;
+}
+
 /// Each names a side that is at the same place and names it in turn.
-std::optional<Problem> take_links(const Parts& parts, const Walkable& walkable, WalkLinks& links) {
-    constexpr std::uint32_t none = WalkLink::none;
+std::optional<Problem> take_links(const Parts& parts, const Walkable& walkable, std::span<const std::uint32_t> place,
+                                  WalkLinks& links) {
     const std::vector<glm::uvec3>& triangles = walkable.surface.triangles;
-    std::vector<std::uint32_t> place(parts.triangles.size(), none);
-    for (std::uint32_t i = 0; i < triangles.size(); ++i) place[walkable.number[i]] = i;
     links.of.resize(triangles.size());
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
         const std::uint32_t number = walkable.number[i];
@@ -155,6 +167,7 @@ std::optional<Problem> take_links(const Parts& parts, const Walkable& walkable, 
 std::vector<std::byte> save(const WalkMesh& mesh) {
     const WalkMeshData& data = mesh.data();
     const bool has_normals = data.given_normals, has_areas = data.given_areas;
+    const MeshTreePlan plan = plan_of(data.tree);
     std::vector<glm::uvec3> links;
     std::vector<std::uint8_t> areas;
     for (const WalkTriangle& walk : data.walk) {
@@ -163,7 +176,7 @@ std::vector<std::byte> save(const WalkMesh& mesh) {
         areas.push_back(static_cast<std::uint8_t>(walk.area));
     }
     BlobWriter writer;
-    writer.bytes.reserve(128 + 24 * data.points.size() + 25 * data.triangles.size());
+    writer.bytes.reserve(128 + 24 * data.points.size() + 35 * data.triangles.size());
     for (const char c : magic) writer.number(c);
     writer.number(version);
     writer.number(static_cast<std::uint8_t>(has_normals));
@@ -171,11 +184,18 @@ std::vector<std::byte> save(const WalkMesh& mesh) {
     each_count(data.report, [&](std::size_t count) { writer.number(static_cast<std::uint64_t>(count)); });
     writer.number(static_cast<std::uint64_t>(data.points.size()));
     writer.number(static_cast<std::uint64_t>(data.triangles.size()));
+    writer.number(static_cast<std::uint64_t>(plan.order.size()));
+    writer.number(static_cast<std::uint64_t>(plan.counts.size()));
+    writer.number(static_cast<std::uint64_t>(data.tree.nodes.size()));
     writer.array(std::span(data.points));
     writer.array(std::span(data.triangles));
     writer.array(std::span<const glm::uvec3>(links));
     if (has_normals) writer.array(std::span(data.normals));
     if (has_areas) writer.array(std::span<const std::uint8_t>(areas));
+    writer.array(std::span(plan.order));
+    writer.array(std::span(plan.corners));
+    writer.array(std::span(plan.counts));
+    writer.array(std::span(plan.children));
     writer.checksum();
     return std::move(writer.bytes);
 }
@@ -190,8 +210,13 @@ Result<WalkMesh> load_walk_mesh(std::span<const std::byte> bytes) {
     WalkLinks links;
     std::optional<Problem> wrong = check_normals(parts.normals);
     if (!wrong) wrong = take_walkable(parts, same, walkable);
-    if (!wrong) wrong = take_links(parts, walkable, links);
     if (wrong) return *std::move(wrong);
+    const std::vector<std::uint32_t> place = places_of(walkable, parts.triangles.size());
+    wrong = take_links(parts, walkable, place, links);
+    if (wrong) return *std::move(wrong);
+    for (std::uint32_t& item : parts.plan.order) item = item < place.size() ? place[item] : WalkLink::none;
+    std::optional<MeshTree> tree = build_mesh_tree(walkable.surface.points, walkable.surface.triangles, parts.plan);
+    if (!tree) return problem("the tree of the walk mesh is none of its triangles");
 
     auto data = std::make_shared<WalkMeshData>();
     std::size_t next = 0;
@@ -204,7 +229,7 @@ Result<WalkMesh> load_walk_mesh(std::span<const std::byte> bytes) {
     data->normals = std::move(parts.normals);
     data->given_normals = parts.has_normals;
     data->given_areas = parts.has_areas;
-    assemble(*data, walkable, links, same);
+    assemble(*data, walkable, links, *std::move(tree));
     return WalkMesh(std::move(data));
 }
 

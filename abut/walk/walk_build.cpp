@@ -99,7 +99,9 @@ Result<WalkMesh> WalkMesh::build(std::span<const Vec3> points, std::span<const g
 
     for (const Vec3& normal : normals) data->normals.push_back(to_float(normalized(DVec<3>(normal), DVec<3>(0.0))));
     data->given_normals = !normals.empty();
-    assemble(*data, walkable, link_triangles(walkable.surface.points, walkable.surface.triangles), same);
+    const Welded& surface = walkable.surface;
+    assemble(*data, walkable, link_triangles(surface.points, surface.triangles),
+             build_mesh_tree(surface.points, surface.triangles, same));
     return WalkMesh(std::move(data));
 }
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -72,6 +73,19 @@ bool same_bits(const T& a, const T& b) {
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0;
 }
 
+void expect_same(const MeshTree& a, const MeshTree& b) {
+    EXPECT_TRUE(same_bits(a.nodes, b.nodes));
+    EXPECT_TRUE(same_bits(a.order, b.order));
+    ASSERT_EQ(a.leaves.size(), b.leaves.size());
+    for (std::size_t i = 0; i < a.leaves.size(); ++i)
+        ASSERT_EQ(std::memcmp(&a.leaves[i], &b.leaves[i], offsetof(MeshLeaf, extent) + sizeof(float)), 0) << i;
+    EXPECT_EQ(a.roots[0].ref, b.roots[0].ref);
+    EXPECT_EQ(a.roots[0].box, b.roots[0].box);
+    EXPECT_EQ(a.middle, b.middle);
+    EXPECT_EQ(a.off_center, b.off_center);
+    EXPECT_EQ(a.spread, b.spread);
+}
+
 void expect_same(const WalkMesh& mesh) {
     const Bytes bytes = save(mesh);
     const Result<WalkMesh> again = load_walk_mesh(bytes);
@@ -88,6 +102,8 @@ void expect_same(const WalkMesh& mesh) {
     EXPECT_EQ(a.given_normals, b.given_normals);
     EXPECT_EQ(a.given_areas, b.given_areas);
     EXPECT_EQ(a.bounds, b.bounds);
+    expect_same(a.tree, b.tree);
+    EXPECT_EQ(a.leaf_of, b.leaf_of);
 }
 
 WalkMesh built(const Surface& surface, std::span<const Vec3> normals = {}, std::span<const std::uint8_t> areas = {}) {
@@ -177,10 +193,10 @@ TEST(WalkBlob, HasTheSameBytesOnEveryMachine) {
     const std::vector<Vec3> normals(4, Vec3(0, 0, 2));
     const std::vector<std::uint8_t> areas{1, 2, 3};
     const Bytes bytes = save(built(surface, normals, areas));
-    EXPECT_EQ(bytes.size(), 8u + 4 + 2 + 5 * 8 + 2 * 8 + 4 * 12 + 3 * 12 + 3 * 12 + 4 * 12 + 3 + 8);
+    EXPECT_EQ(bytes.size(), 8u + 4 + 2 + 5 * 8 + 5 * 8 + 4 * 12 + 3 * 12 + 3 * 12 + 4 * 12 + 3 + 2 * (4 + 2) + 1 + 8);
     std::uint64_t hash = 0xcbf29ce484222325u;
     for (const std::byte b : bytes) hash = (hash ^ static_cast<std::uint64_t>(b)) * 0x100000001b3u;
-    EXPECT_EQ(hash, 16248923587428397328u);
+    EXPECT_EQ(hash, 3041858745794405868u);
 }
 
 TEST(WalkBlob, CutShortOrDamagedIsRefused) {
@@ -223,8 +239,8 @@ protected:
         return mesh ? "" : mesh.problem().message;
     }
 
-    static constexpr std::size_t version = 8, flags = 12, counts = 14, sizes = 54, points = 70, triangles = 118,
-                                 links = 154, normals = 190;
+    static constexpr std::size_t version = 8, flags = 12, counts = 14, sizes = 54, points = 94, triangles = 142,
+                                 links = 178, normals = 214, order = 265, corners = 273, leaf = 277;
     static constexpr std::uint32_t border = WalkLink::none, left_out = WalkLink::none - 1;
     Bytes bytes;
 };
@@ -241,7 +257,7 @@ TEST_F(ForgedWalkBlob, SaysOfItselfWhatIsTrue) {
         for (const std::uint64_t count : {std::uint64_t{4}, std::uint64_t{1} << 40, UINT64_MAX})
             EXPECT_EQ(refused(counts + 8 * i, count), "the walk mesh has other triangles than it says") << i;
     EXPECT_EQ(refused(counts, std::uint64_t{0}), "the walk mesh has other triangles than it says");
-    for (std::size_t i = 0; i < 2; ++i)
+    for (std::size_t i = 0; i < 5; ++i)
         for (const std::uint64_t count : {std::uint64_t{5}, std::uint64_t{1} << 40, UINT64_MAX})
             EXPECT_EQ(refused(sizes + 8 * i, count), "the walk mesh ends too soon") << i;
 }
@@ -297,6 +313,17 @@ TEST_F(ForgedWalkBlob, GoesOnInWhatIsBesideIt) {
     EXPECT_EQ(two->report().islands, 2u);
     EXPECT_EQ(two->report().border, 6u);
     EXPECT_EQ(save(*two), parted);
+}
+
+TEST_F(ForgedWalkBlob, HasATreeOfItsTriangles) {
+    if constexpr (std::endian::native != std::endian::little) GTEST_SKIP() << "numbers are put in as they are here";
+    const std::string wrong = "the tree of the walk mesh is none of its triangles";
+    EXPECT_EQ(refused(order, 1u), wrong) << "twice the same";
+    EXPECT_EQ(refused(order, 2u), wrong) << "one that is left out";
+    EXPECT_EQ(refused(order, 3u), wrong) << "one that there isn't";
+    EXPECT_EQ(refused(corners, std::uint16_t{0}), wrong) << "one number for three corners";
+    EXPECT_EQ(refused(leaf, std::uint8_t{1}), wrong) << "one is in no leaf";
+    EXPECT_EQ(refused(leaf, std::uint8_t{3}), wrong);
 }
 
 TEST_F(ForgedWalkBlob, IsWalkedOnSomewhere) {

@@ -1,0 +1,155 @@
+#include <abut/shape/mesh_tree_parts.hpp>
+#include <abut/shape/mesh_tree_plan.hpp>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace abut {
+namespace {
+
+class Planter {
+public:
+    Planter(std::span<const Vec3> points, std::span<const glm::uvec3> triangles, const MeshTreePlan& plan)
+        : points_(points), triangles_(triangles), plan_(plan) {}
+
+    std::optional<MeshTree> tree() {
+        const bool counted = plan_.order.size() == triangles_.size() && plan_.corners.size() == triangles_.size() &&
+                             !plan_.counts.empty() && plan_.children.size() % mesh_lanes == 0;
+        if (!counted || !add_leaves() || !add_nodes()) return std::nullopt;
+        const bool has_nodes = !tree_.nodes.empty();
+        if (!has_nodes && tree_.leaves.size() > 1) return std::nullopt;
+        set_root(tree_, has_nodes ? 0 : bvh_leaf_bit, exact_);
+        return std::move(tree_);
+    }
+
+private:
+    /// Each triangle is in one leaf, and those of a leaf have room in it.
+    bool add_leaves() {
+        std::vector<bool> seen(triangles_.size(), false);
+        for (const std::uint32_t item : plan_.order) {
+            if (item >= seen.size() || seen[item]) return false;
+            seen[item] = true;
+        }
+        tree_.order.assign(plan_.order.begin(), plan_.order.end());
+        tree_.leaves.reserve(plan_.counts.size());
+        std::size_t first = 0;
+        for (const std::uint8_t count : plan_.counts) {
+            if (count == 0 || count > mesh_lanes || count > plan_.order.size() - first) return false;
+            if (!add_leaf(static_cast<std::uint32_t>(first), count)) return false;
+            first += count;
+        }
+        return first == plan_.order.size();
+    }
+
+    bool add_leaf(std::uint32_t first, std::uint32_t count) {
+        constexpr std::uint32_t no_point = bvh_none;
+        std::array<std::uint32_t, mesh_lanes> point;
+        point.fill(no_point);
+        MeshLeaf& leaf = tree_.leaves.emplace_back();
+        Aabb3 box = Aabb3::empty();
+        for (std::uint32_t lane = 0; lane < count; ++lane) {
+            const std::uint32_t item = plan_.order[first + lane];
+            if (lane > 0 && plan_.order[first + lane - 1] >= item) return false;
+            const std::uint16_t numbers = plan_.corners[first + lane];
+            if (numbers >= 1u << 9) return false;
+            const glm::uvec3& t = triangles_[item];
+            for (int k = 0; k < 3; ++k) {
+                std::uint32_t& known = point[numbers >> 3 * k & 7u];
+                if (known != no_point && known != t[k]) return false;
+                known = t[k];
+            }
+            leaf.triangle[lane] = numbers;
+            const BvhItem wide = item_of({points_[t.x], points_[t.y], points_[t.z]}, item, exact_);
+            box = merged(box, Aabb3{{wide.min[0], wide.min[1], wide.min[2]}, {wide.max[0], wide.max[1], wide.max[2]}});
+        }
+        const auto end = std::find(point.begin(), point.end(), no_point);
+        if (std::any_of(end, point.end(), [](std::uint32_t p) { return p != no_point; })) return false;
+        for (std::uint32_t number = 0; number < mesh_lanes; ++number) {
+            const Vec3& position = points_[point[number] != no_point ? point[number] : *(end - 1)];
+            for (int axis = 0; axis < 3; ++axis) leaf.corner[axis][number] = position[axis];
+        }
+        for (std::uint32_t lane = count; lane < mesh_lanes; ++lane) leaf.triangle[lane] = 0;
+        leaf.first = first;
+        leaf.used = (1u << count) - 1;
+        leaf.extent = extent_of(leaf);
+        leaf_boxes_.push_back(box);
+        return true;
+    }
+
+    /// Each node but the first and each leaf is the child of one node; a node's children come behind it.
+    bool add_nodes() {
+        const std::size_t count = plan_.children.size() / mesh_lanes;
+        std::vector<bool> node_seen(count, false), leaf_seen(tree_.leaves.size(), false);
+        std::vector<int> depth(count, 1);
+        std::size_t seen = 0;
+        tree_.nodes.resize(count);
+        for (std::uint32_t node = 0; node < count; ++node) {
+            bool ended = false;
+            for (std::uint32_t lane = 0; lane < mesh_lanes; ++lane) {
+                const std::uint32_t ref = plan_.children[mesh_lanes * node + lane];
+                tree_.nodes[node].child[lane] = ref;
+                if (ended && ref != bvh_none) return false;
+                ended = ended || ref == bvh_none;
+                if (ended) continue;
+                const std::uint32_t number = ref & ~bvh_leaf_bit;
+                std::vector<bool>& those = is_leaf(ref) ? leaf_seen : node_seen;
+                if (number >= those.size() || those[number] || (!is_leaf(ref) && number <= node)) return false;
+                those[number] = true;
+                ++seen;
+                if (is_leaf(ref)) continue;
+                depth[number] = depth[node] + 1;
+                if (depth[number] > bvh_depth) return false;
+            }
+        }
+        if (count > 0 && seen != count - 1 + leaf_seen.size()) return false;
+        set_boxes();
+        return true;
+    }
+
+    /// From the last, whose children are leaves.
+    void set_boxes() {
+        std::vector<Aabb3> boxes(tree_.nodes.size(), Aabb3::empty());
+        for (std::size_t node = boxes.size(); node-- > 0;) {
+            MeshNode& rows = tree_.nodes[node];
+            for (std::uint32_t lane = 0; lane < mesh_lanes; ++lane) {
+                const std::uint32_t ref = rows.child[lane];
+                if (ref == bvh_none) {
+                    rows.clear(lane);
+                    continue;
+                }
+                const Aabb3& box = is_leaf(ref) ? leaf_boxes_[ref & ~bvh_leaf_bit] : boxes[ref];
+                rows.set(lane, box);
+                boxes[node] = merged(boxes[node], box);
+            }
+        }
+    }
+
+    std::span<const Vec3> points_;
+    std::span<const glm::uvec3> triangles_;
+    const MeshTreePlan& plan_;
+    MeshTree tree_;
+    Aabb3 exact_ = Aabb3::empty();
+    std::vector<Aabb3> leaf_boxes_;
+};
+
+}  // namespace
+
+MeshTreePlan plan_of(const MeshTree& tree) {
+    MeshTreePlan plan;
+    plan.order.assign(tree.order.begin(), tree.order.end());
+    for (const MeshLeaf& leaf : tree.leaves) {
+        plan.counts.push_back(static_cast<std::uint8_t>(leaf.count()));
+        plan.corners.insert(plan.corners.end(), leaf.triangle, leaf.triangle + leaf.count());
+    }
+    for (const MeshNode& node : tree.nodes)
+        plan.children.insert(plan.children.end(), node.child, node.child + mesh_lanes);
+    return plan;
+}
+
+std::optional<MeshTree> build_mesh_tree(std::span<const Vec3> points, std::span<const glm::uvec3> triangles,
+                                        const MeshTreePlan& plan) {
+    return Planter(points, triangles, plan).tree();
+}
+
+}  // namespace abut
