@@ -1,5 +1,6 @@
 #include <abut/math/assert.hpp>
 #include <abut/walk/walk_nearest_on.hpp>
+#include <abut/walk/walk_path_flip.hpp>
 #include <abut/walk/walk_path_search.hpp>
 #include <abut/walk/walk_path_shorten.hpp>
 
@@ -15,6 +16,8 @@ namespace {
 constexpr double least_bend = 1e-6;
 /// Pieces this short, of a side of their triangle, have no direction.
 constexpr double least_piece = 1e-9;
+/// Ways that pass a corner this close, in sides of a triangle, touch it.
+constexpr double least_gap = 1e-5;
 
 /// The corners of one triangle of the way, in the plane and in space.
 struct Laid {
@@ -32,12 +35,13 @@ struct Laid {
 /// Where a way bends.
 class Bends {
 public:
-    Bends(const WalkMeshData& data, const WalkTaut& way) : data_(data), way_(way) {}
+    Bends(const WalkPathRules& rules, const WalkTaut& way) : rules_(rules), data_(rules.data), way_(way) {}
 
     void add_to(WalkPath& path) {
         const std::vector<WalkPortal>& portals = way_.plane.portals;
         find_crossings();
         std::optional<DVec<3>> last;
+        std::optional<WalkCorner> before;
         for (std::uint32_t i = 0; i <= portals.size(); ++i) {
             const DVec<2> from = i == 0 ? way_.plane.from : crossing(i - 1);
             const DVec<2> to = i == portals.size() ? way_.plane.to : crossing(i);
@@ -45,13 +49,42 @@ public:
             const double piece = length(to - from);
             if (!(piece > least_piece * length(laid.plane[1] - laid.plane[0]))) continue;
             const DVec<3> direction = laid.to_space((to - from) / piece);
-            if (last && length_squared(direction - *last) <= least_bend * least_bend) continue;
-            if (last) add(path, i);
-            last = direction;
+            const std::optional<WalkCorner> touched = touched_at(i);
+            const bool comes_to = touched && !goes_along(before, *touched);
+            const bool bends = last && length_squared(direction - *last) > least_bend * least_bend;
+            if (last && (bends || comes_to)) add(path, i);
+            before = touched;
+            if (bends || !last) last = direction;
         }
     }
 
 private:
+    /// The corner of a border, or of a forbidden edge, that the way comes to as it enters triangle i. Where it comes
+    /// along the line of an edge to where that becomes a border, steps on its other side would end.
+    std::optional<WalkCorner> touched_at(std::uint32_t i) {
+        if (i == 0) return std::nullopt;
+        const double share = shares_[i - 1];
+        if (share > least_gap && share < 1 - least_gap) return std::nullopt;
+        const WalkCorner corner = corner_of(way_.plane, i - 1, share <= least_gap);
+        if (find_other_side(rules_, way_, corner, round_)) return std::nullopt;
+        return corner;
+    }
+    /// Whether there is a border all the way to a corner from the one before, or from the start.
+    bool goes_along(const std::optional<WalkCorner>& before, const WalkCorner& corner) const {
+        const WalkSide& left_by = way_.strip.sides[corner.first];
+        std::uint32_t side = 0;
+        if (corner.first == 0) {
+            const DVec<2> ray = way_.plane.first - corner.at, start = way_.plane.from - corner.at;
+            if (std::abs(cross(ray, start)) > least_gap * dot(ray, ray)) return false;
+            const bool at_start = (left_leaving(left_by.side, false) == left_by.side) == corner.left;
+            side = at_start ? next_corner(next_corner(left_by.side)) : next_corner(left_by.side);
+        } else {
+            if (!before || before->left != corner.left || corner.first != before->last + 1) return false;
+            side = 3 - link(corner.first - 1).side() - left_by.side;
+        }
+        const WalkLink beside = data_.walk[left_by.triangle].link[side];
+        return beside.is_border() || !rules_.may_cross({left_by.triangle, side}, beside);
+    }
     void find_crossings() {
         shares_.resize(way_.plane.portals.size());
         std::uint32_t next = 0;
@@ -100,12 +133,15 @@ private:
         path.places.push_back(place_on(data_, way_.strip, way_.plane, i - 1, shares_[i - 1], true));
     }
 
+    const WalkPathRules& rules_;
     const WalkMeshData& data_;
     const WalkTaut& way_;
     std::vector<double> shares_;
+    std::vector<WalkSide> round_;
 };
 
-WalkPath path_of(const WalkMeshData& data, const WalkTaut& way, const WalkPoint& to) {
+WalkPath path_of(const WalkPathRules& rules, const WalkTaut& way, const WalkPoint& to) {
+    const WalkMeshData& data = rules.data;
     WalkPath path;
     const auto add = [&](const WalkPoint& place) {
         path.points.push_back(to_float(in_space(data.walk[place.triangle], place)));
@@ -113,7 +149,7 @@ WalkPath path_of(const WalkMeshData& data, const WalkTaut& way, const WalkPoint&
         path.places.push_back({place.triangle, in_grains(weights.second, weights.third)});
     };
     add(way.strip.from);
-    Bends(data, way).add_to(path);
+    Bends(rules, way).add_to(path);
     add(to);
     for (std::size_t i = 1; i < way.knots.size(); ++i) path.length += length(way.knots[i].at - way.knots[i - 1].at);
     path.cost = way.cost;
@@ -168,7 +204,7 @@ std::optional<WalkPath> WalkMesh::find_path(const WalkPoint& from, const WalkPoi
     std::optional<WalkStrip> strip = strip_of(rules, from, to);
     if (!strip) return std::nullopt;
     const WalkPoint end = strip->to;
-    WalkPath path = path_of(*data_, pulled_tight(rules, *std::move(strip)), end);
+    WalkPath path = path_of(rules, pulled_tight(rules, *std::move(strip)), end);
     path.reached = end == to;
     return path;
 }

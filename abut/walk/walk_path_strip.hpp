@@ -64,11 +64,14 @@ struct WalkPortal {
     bool new_left = false;  ///< its right end is that of the portal before; else its left one is
 };
 
-/// How far from its left end to its right one a portal is crossed by the line through two points.
+/// How far from its left end to its right one a portal is crossed by the line through two points. By one that leads
+/// along it, as soon as it comes to it.
 inline double crossed_at(const WalkPortal& portal, const DVec<2>& from, const DVec<2>& to) {
-    const DVec<2> along = to - from;
-    const double sine = cross(along, portal.right - portal.left);
-    return sine == 0 ? 0.0 : std::clamp(cross(portal.left - from, along) / sine, 0.0, 1.0);
+    const DVec<2> along = to - from, side = portal.right - portal.left;
+    const double sine = cross(along, side), square = dot(side, side);
+    const double share = sine * sine <= 1e-24 * square * dot(along, along) ? dot(from - portal.left, side) / square
+                                                                           : cross(portal.left - from, along) / sine;
+    return std::clamp(share, 0.0, 1.0);
 }
 
 /// A strip whose triangles are unfolded into the plane of the first one.
