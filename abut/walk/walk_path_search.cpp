@@ -246,17 +246,17 @@ private:
         } else if (cross(cone.right - cone.root, sight) < 0) {
             turn = cone.right;
         }
-        const bool changes = !rules_.alike && rules_.cost(walk_[link.triangle()]) != cost;
-        double estimate = cone.to_root;
-        DVec<2> by = turn;
-        if (turn != cone.root) {
-            estimate += cost * length(turn - cone.root) + weight_ * length(goal - turn);
-        } else if (rules_.alike) {
-            estimate += length(sight);
+        DVec<2> by = turn;  // where it crosses the side
+        double to_side = cone.to_root, estimate = 0;
+        if (rules_.alike) {
+            estimate = turn == cone.root ? cone.to_root + length(sight)
+                                         : cone.to_root + length(turn - cone.root) + length(goal - turn);
         } else {
-            const double behind = std::max(dot(left - cone.root, ahead), 0.0), sum = behind + far * square;
-            by = cone.root + sight * (sum > 0 ? behind / sum : 0.0);
-            estimate += cost * length(by - cone.root) + weight_ * length(goal - by);
+            const double behind = std::max(dot(left - turn, ahead), 0.0), sum = behind + far * square;
+            const DVec<2> straight = turn + (goal - turn) * (sum > 0 ? behind / sum : 0.0);
+            by = left + along * std::clamp(dot(straight - left, along) / square, 0.0, 1.0);
+            to_side += cost * (length(turn - cone.root) + length(by - turn));
+            estimate = to_side + weight_ * length(goal - by);
         }
         if (!(estimate < known.estimate)) return;
         known.estimate = estimate;
@@ -271,9 +271,7 @@ private:
         next.left = left;
         next.right = right;
         next.tip = beyond_side(walk, side, node.mirrored, left, right);
-        if (changes) {
-            cone = {by, left, right, cone.to_root + cost * length(by - cone.root)};
-        }
+        if (!rules_.alike && rules_.cost(walk_[link.triangle()]) != cost) cone = {by, left, right, to_side};
         next.root = cone.root;
         next.left_limit = cone.left;
         next.right_limit = cone.right;

@@ -48,15 +48,20 @@ public:
     }
 
     /// From a point of a triangle to one of another.
-    double shortest(std::uint32_t from_triangle, const DVec<3>& from, std::uint32_t to_triangle,
-                    const DVec<3>& to) const {
-        double best = from_triangle == to_triangle ? length(to - from) : std::numeric_limits<double>::infinity();
+    /// What a unit of length costs is told by triangle; on an edge it is the lesser of two.
+    double cheapest(std::uint32_t from_triangle, const DVec<3>& from, std::uint32_t to_triangle, const DVec<3>& to,
+                    std::span<const float> costs = {}) const {
+        const auto cost = [&](std::uint32_t triangle) {
+            return costs.empty() ? 1.0 : static_cast<double>(costs[triangle]);
+        };
+        double best = from_triangle == to_triangle ? cost(to_triangle) * length(to - from)
+                                                   : std::numeric_limits<double>::infinity();
         std::vector<double> distance(nodes_.size(), std::numeric_limits<double>::infinity());
         std::priority_queue<std::pair<double, std::uint32_t>, std::vector<std::pair<double, std::uint32_t>>,
                             std::greater<>>
             queue;
         for (const std::uint32_t node : of_triangle_[from_triangle]) {
-            distance[node] = length(nodes_[node] - from);
+            distance[node] = cost(from_triangle) * length(nodes_[node] - from);
             queue.emplace(distance[node], node);
         }
         while (!queue.empty()) {
@@ -64,9 +69,9 @@ public:
             queue.pop();
             if (reached > distance[node] || reached >= best) continue;
             for (const std::uint32_t t : at_node_[node]) {
-                if (t == to_triangle) best = std::min(best, reached + length(to - nodes_[node]));
+                if (t == to_triangle) best = std::min(best, reached + cost(t) * length(to - nodes_[node]));
                 for (const std::uint32_t other : of_triangle_[t]) {
-                    const double by = reached + length(nodes_[other] - nodes_[node]);
+                    const double by = reached + cost(t) * length(nodes_[other] - nodes_[node]);
                     if (by < distance[other]) {
                         distance[other] = by;
                         queue.emplace(by, other);
