@@ -58,6 +58,7 @@ private:
             puller_.pull(next_);
             if (next_.cost < way_.cost) {
                 std::swap(way_, next_);
+                by_rows = true;
             } else if (by_rows) {
                 by_rows = false;
             } else {
