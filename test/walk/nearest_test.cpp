@@ -1,6 +1,7 @@
 // The nearest point of a walk mesh: against all triangles one by one, told plainly; and to the last bit against all of
 // them measured as the search does it, by each kind of vector unit.
 
+#include "../broad_phase/allocations.hpp"
 #include "../oracle/vector_units.hpp"
 #include "../query/hash.hpp"
 #include "walk_surfaces.hpp"
@@ -356,6 +357,23 @@ TEST(WalkNearestInput, nothing_is_told_of_what_is_nowhere) {
         }
     EXPECT_EQ(mesh->nearest({1, 1, 1}, WalkPoint{1000, {1, 0, 0}}), mesh->nearest({1, 1, 1}));
 #endif
+}
+
+TEST(WalkNearestInput, nothing_is_allocated) {
+    const Surface surface = hills(20);
+    const Result<WalkMesh> mesh = WalkMesh::build(surface.points, surface.triangles);
+    ASSERT_TRUE(mesh);
+    const std::size_t before = allocations();
+    int found = 0;
+    for (const Vec3& point : surface.points) {
+        const Vec3 above = point + Vec3(0.1f, 0.2f, 3.0f);
+        const WalkPoint place = mesh->nearest(above);
+        if (mesh->nearest(above, WalkPoint{0, {1, 0, 0}}) == place) ++found;
+        if (mesh->nearest(above, 10.0f)) ++found;
+        if (mesh->nearest_along(point, {0, 0, 1})) ++found;
+    }
+    EXPECT_EQ(allocations(), before);
+    EXPECT_EQ(found, 3 * static_cast<int>(surface.points.size()));
 }
 
 TEST(WalkNearestInput, a_reach_below_zero_reaches_nothing) {
