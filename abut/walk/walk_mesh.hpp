@@ -96,8 +96,9 @@ public:
     /// The triangle beyond a side, and the side of it that is shared; nothing at a border.
     std::optional<WalkSide> beyond(const WalkSide& side) const;
 
-    /// The nearest point of the mesh, told in double; of several, one in the triangle with the lowest number. Any
-    /// distance costs about the same; far above a hollow, where much is nearly as near, a few times as much.
+    /// The nearest point of the mesh, told in double; of several, one in the triangle with the lowest number. From up
+    /// to some 10,000 times as far away as the mesh is wide it costs about the same, but above a hollow, where much is
+    /// nearly as near, a few times as much.
     WalkPoint nearest(const Vec3& point) const;
     /// The same answer, found sooner where `last` is near it: for walkers that are moved by something else.
     WalkPoint nearest(const Vec3& point, const WalkPoint& last) const;

@@ -136,7 +136,8 @@ public:
 
     explicit DoubleBoxes(const Vec3& point) : point_(point) {}
 
-    static double most(double square) { return square * (1 + 0x1p-40); }
+    /// By twice what the roundings of a box and of a triangle may come to.
+    static double most(double square) { return square * (1 + 0x1p-48); }
     HWY_INLINE std::uint32_t operator()(const MeshNode& node, double most, double (&squares)[mesh_lanes]) const {
         std::uint32_t result = 0;
         for (std::uint32_t lane = 0; lane < mesh_lanes; lane += double_step) {

@@ -252,7 +252,6 @@ TEST_P(WalkNearestAlong, is_the_same_bits_everywhere) {
 INSTANTIATE_TEST_SUITE_P(Each, WalkNearestAlong, oracle::vector_units(), oracle::name_of_unit);
 
 TEST(WalkNearestAlongInput, nothing_is_met_on_no_way) {
-#if defined(NDEBUG) && !defined(ABUT_ENABLE_ASSERTS)
     const Surface surface = flat(3, 3);
     const Result<WalkMesh> mesh = WalkMesh::build(surface.points, surface.triangles);
     ASSERT_TRUE(mesh);
@@ -261,7 +260,6 @@ TEST(WalkNearestAlongInput, nothing_is_met_on_no_way) {
         EXPECT_FALSE(mesh->nearest_along({1, 1, wrong}, {0, 0, -1}));
         EXPECT_FALSE(mesh->nearest_along({1, 1, 1}, {0, 0, -wrong}));
     }
-#endif
 }
 
 }  // namespace
