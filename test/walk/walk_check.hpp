@@ -127,7 +127,7 @@ public:
         tally.near_corners += ends.size() > 1;
         std::string first;
         for (const End& end : ends) {
-            const std::string kind = fault_of(place, walked, end, tally);
+            const std::string kind = fault_of(place, length(DVec<D>(step)), walked, end, tally);
             if (kind.empty()) return walked;
             if (first.empty()) first = kind;
         }
@@ -169,15 +169,17 @@ private:
     }
 
     /// What of an answer isn't the oracle's; empty where all is.
-    std::string fault_of(const WalkPoint& start, const Walked& walked, const End& end, WalkTally& tally) const {
-        const double asked = static_cast<double>(end.asked);
+    std::string fault_of(const WalkPoint& start, double step, const Walked& walked, const End& end,
+                         WalkTally& tally) const {
+        // In doubles the length along the surface is a difference.
+        const double asked = static_cast<double>(end.asked), rounding = 1e-6 * asked + 1e-15 * step;
         const double off = length(where(walked.place) - end.point.rounded()) / allowed(walked);
         if (!(off <= 1) || !touch(walked.place.triangle, end.triangle)) return "end";
         const double length_off = std::abs(static_cast<double>(walked.length) - static_cast<double>(end.length));
-        if (!(length_off <= 1e-6 * asked + allowed(walked))) return "length";
+        if (!(length_off <= rounding + allowed(walked))) return "length";
         const double sum = static_cast<double>(walked.length) + static_cast<double>(walked.lost);
-        if (!(std::abs(sum - asked) <= 1e-6 * asked)) return "length and lost";
-        const double little = 1e-6 * asked + 1e-7 * size_;
+        if (!(std::abs(sum - asked) <= rounding)) return "length and lost";
+        const double little = rounding + 1e-7 * size_;
         const bool lost_little = static_cast<double>(walked.lost) <= little && static_cast<double>(end.lost) <= little;
         if (walked.met != end.met && !end.near_head_on && !lost_little) return "met";
         if ((walked.met == WalkMet::nothing) != (walked.side.triangle == no_walk_side)) return "met without a side";
@@ -189,7 +191,7 @@ private:
             return "crossings";
         if (walked.place.triangle == end.triangle && !is_turned(start, walked, end, tally)) return "turn";
         tally.worst = std::max(tally.worst, off);
-        if (asked > 0) tally.worst_length = std::max(tally.worst_length, std::abs(sum - asked) / asked);
+        if (asked > 1e-6 * step) tally.worst_length = std::max(tally.worst_length, std::abs(sum - asked) / asked);
         return "";
     }
 
