@@ -58,7 +58,8 @@ struct WalkPathOptions {
 
 /// A way over the surface that no small change makes cheaper.
 struct WalkPath {
-    /// In space: the start, each place where the way bends (at an edge that isn't flat, or round a corner), the end.
+    /// In space: the start, each place where the way bends (at an edge that isn't flat, or round a corner) or comes to
+    /// a border that lies in line with it, the end. Both ends are there where they are the same.
     std::vector<Vec3> points;
     /// The same points as places on the mesh, each in the triangle that the way goes on in.
     std::vector<WalkPoint> places;
@@ -142,7 +143,10 @@ public:
                                           const WalkPathOptions& options = {}) const;
     /// Searched from triangle to triangle (A*), then pulled straight in the unfolded strip, and round corners wherever
     /// that is shorter. Where areas cost the same this is a shortest way among those near to it; mostly, not always,
-    /// the shortest of all. Nothing where there is no way.
+    /// the shortest of all: on hills by less than 0.1 % too long, on ground whose every corner is a peak or a pit by as
+    /// much as 1 %. Where they don't, it crosses from one to the next where that is cheapest in its strip of triangles.
+    /// No way leads into a closed area, nor out of it. Nothing where there is no way: told at once between islands.
+    /// Allocates about 150 bytes for each triangle that is looked at.
     std::optional<WalkPath> find_path(const WalkPoint& from, const WalkPoint& to,
                                       const WalkPathOptions& options = {}) const;
 

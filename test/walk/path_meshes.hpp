@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -85,7 +86,7 @@ inline double length_of(const std::vector<Vec3>& points) {
 /// What holds of every path: ends where asked, as long as its points are apart, its places at its points, and each
 /// piece walked by the mesh's own steps ends where the next begins.
 inline void expect_whole(const WalkMesh& mesh, const WalkPoint& from, const WalkPoint& to, const WalkPath& path,
-                         double tolerance) {
+                         double tolerance, const std::optional<WalkAllow>& allow = std::nullopt) {
     ASSERT_GE(path.points.size(), 2u);
     ASSERT_EQ(path.points.size(), path.places.size());
     EXPECT_LE(distance(path.points.front(), mesh.to_world(from)), tolerance);
@@ -101,7 +102,7 @@ inline void expect_whole(const WalkMesh& mesh, const WalkPoint& from, const Walk
         EXPECT_LE(distance(path.points[i], mesh.to_world(path.places[i])), tolerance) << "point " << i;
     }
     for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
-        const Walked walked = mesh.walk(path.places[i], path.points[i + 1] - path.points[i]);
+        const Walked walked = mesh.walk(path.places[i], path.points[i + 1] - path.points[i], {.allow = allow});
         EXPECT_LE(distance(mesh.to_world(walked.place), path.points[i + 1]), 4 * tolerance) << "piece " << i;
     }
 }
