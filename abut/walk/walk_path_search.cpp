@@ -69,7 +69,7 @@ private:
     std::vector<std::unique_ptr<Known[]>> blocks_;
 };
 
-/// The least first, but for steps of 2^-16 of the first estimate: within these the last one first. A queue of buckets
+/// The least first, but for steps of 2^-15 of the first estimate: within these the last one first. A queue of buckets
 /// (Dial 1969), of which each becomes two steps wide where they don't suffice.
 class Frontier {
 public:
@@ -99,7 +99,7 @@ public:
     }
 
 private:
-    static constexpr std::uint32_t buckets = 1u << 14, words = buckets / 64;
+    static constexpr std::uint32_t buckets = 1u << 12, words = buckets / 64;
     struct Entry {
         double estimate = 0;
         std::uint32_t node = 0;
@@ -158,7 +158,7 @@ public:
         // As short as need be, but not shorter than steps that a triangle of the start can tell apart.
         const WalkTriangle& walk = walk_[from.triangle];
         const double least = weight_ * length(goal_ - in_space(walk, from));
-        frontier_ = Frontier(least, 0x1p-16 * (least + weight_ / walk.inverse_width));
+        frontier_ = Frontier(least, 0x1p-15 * (least + weight_ / walk.inverse_width));
     }
 
     std::optional<WalkStrip> run() {
