@@ -84,7 +84,7 @@ private:
     enum class Leads { in, along, nowhere };
 
     static constexpr std::size_t most_ways = 16;
-    static constexpr double square = 1e-6;  // the cosine of what is square to a border, but for so much
+    static constexpr double square = 1e-7;  // the cosine of what is square to a border, but for so much
     static constexpr int most_events = 100'000, most_fan = 100'000;
 
     Point corner(std::uint32_t t, std::uint32_t k) const { return Point(triangles_.corner(t, k)); }
@@ -335,7 +335,11 @@ private:
             const std::uint32_t t = end.triangle;
             const Point e = along(t, side);
             const Real cosine = dot(end.way, e), share = abs(cosine);
-            if (share == 0) return stop(way);
+            if (share < square) {
+                Way stays = way;
+                stop(stays);
+            }
+            if (share == 0) return;
             const std::uint32_t to = cosine > 0 ? (side + 1) % 3 : side;
             const Real distance = length(corner(t, to) - end.point);
             if (distance >= way.left * share) {

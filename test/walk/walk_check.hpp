@@ -184,7 +184,7 @@ private:
         if (walked.met != end.met && !end.near_head_on && !lost_little) return "met";
         if ((walked.met == WalkMet::nothing) != (walked.side.triangle == no_walk_side)) return "met without a side";
         if (walked.met == WalkMet::nothing && walked.lost != 0) return "lost without meeting";
-        const bool is_inside = start.weights.x > 0 && start.weights.y > 0 && start.weights.z > 0;
+        const bool is_inside = is_inner(start.weights);
         if (walked.side != end.side && !lost_little && !end.near_corner && is_inside) return "side";
         if (walked.crossings != end.crossings && is_inside && !end.passed_corner && end.met == WalkMet::nothing &&
             is_inner(walked.place.weights))
@@ -213,7 +213,9 @@ private:
         return true;
     }
 
-    static bool is_inner(const Vec3& weights) { return std::min({weights.x, weights.y, weights.z}) > 1e-4f; }
+    static bool is_inner(const Vec3& weights) {
+        return std::min({weights.x, weights.y, weights.z}) > 1e-4f * std::max({weights.x, weights.y, weights.z});
+    }
     /// Whether two triangles are one, or have a corner in common.
     bool touch(std::uint32_t a, std::uint32_t b) const {
         for (std::uint32_t i = 0; i < 3; ++i)
