@@ -1,6 +1,7 @@
 // What a way turns: frames carried round a tip, a saddle, and along a strip with a twist.
 
 #include "../oracle/expect.hpp"
+#include "../oracle/random.hpp"
 #include "walk_surfaces.hpp"
 #include <abut/walk/walk_mesh.hpp>
 
@@ -120,6 +121,30 @@ TEST(WalkTurn, OnceRoundAMoebiusStripIsMirrored) {
             }
         }
     }
+}
+
+TEST(WalkTurn, IsARotationOfSpace) {
+    // The quaternion turns as the turn does, half turns about any axis as well.
+    constexpr std::uint64_t seed = 20261123;
+    oracle::Random random(seed);
+    int half_turns = 0;
+    for (const NamedSurface& named : surfaces(seed)) {
+        const WalkMesh mesh = *WalkMesh::build(named.surface.points, named.surface.triangles);
+        const auto count = static_cast<std::uint32_t>(mesh.triangles().size());
+        for (int i = 0; i < 400; ++i) {
+            const WalkPoint place{random.below(count), {0.5f, 0.25f, 0.25f}};
+            Vec3 step = to_float(random.direction<3>() * (edge_of(named.surface) * random.uniform(0, 20)));
+            if (i % 4 == 0) step = mesh.to_space(place.triangle, {static_cast<float>(i), 0});
+            const WalkTurn turn = mesh.walk(place, step).turn;
+            const glm::quat in_space = turn.in_space();
+            half_turns += std::abs(in_space.w) < 1e-3f;
+            EXPECT_NEAR(length(in_space), 1, 1e-6);
+            for (const Vec3& vector : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(1, -2, 3)})
+                EXPECT_TRUE(near<3>(turn * vector, rotate(in_space, vector), 3e-6))
+                    << named.name << ", seed " << seed << ", item " << i;
+        }
+    }
+    EXPECT_GT(half_turns, 50);
 }
 
 TEST(WalkTurn, StandsStillWithoutTurning) {
