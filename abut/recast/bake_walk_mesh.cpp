@@ -1,3 +1,4 @@
+#include <abut/math/coincident.hpp>
 #include <abut/math/dvec.hpp>
 #include <abut/math/sin_cos.hpp>
 #include <abut/recast/bake_walk_mesh.hpp>
@@ -144,6 +145,20 @@ void set_heights(std::vector<DVec<3>>& points, const Mesh& level, std::span<cons
     }
 }
 
+/// On the level, but for those that would come to be where another one is: the mesh would be joined there.
+std::vector<Vec3> place(std::span<const DVec<3>> points, const Mesh& level, std::span<const std::uint8_t> floor,
+                        double reach, const Upright& upright) {
+    std::vector<DVec<3>> moved(points.begin(), points.end());
+    set_heights(moved, level, floor, reach);
+    std::vector<Vec3> result;
+    for (const DVec<3>& point : moved) result.push_back(upright.back(point));
+    const std::vector<std::uint32_t> same = first_coincident(result);
+    for (std::size_t i = 0; i < points.size(); ++i)
+        if (same[i] != i)
+            for (const std::size_t k : {i, std::size_t{same[i]}}) result[k] = upright.back(points[k]);
+    return result;
+}
+
 /// Triangles of the points that they need.
 struct Surface {
     std::vector<Vec3> points;
@@ -207,11 +222,8 @@ Result<WalkMesh> bake_walk_mesh(std::span<const Vec3> points, std::span<const gl
         stitch(found->corners, found->polygons, {.near = 0.05 * plan->cell, .step = (plan->climb + 1) * high});
     const Result<Mesh> level = Mesh::build(upright.points, triangles);
     if (!level) return level.problem();
-    set_heights(surface.points, *level, floor, (plan->climb + 1) * high);
+    const std::vector<Vec3> placed = place(surface.points, *level, floor, (plan->climb + 1) * high, upright);
     if (!tell(0.97)) return cancelled();
-
-    std::vector<Vec3> placed;
-    for (const DVec<3>& point : surface.points) placed.push_back(upright.back(point));
     Surface walked = with_points(placed, std::move(surface.triangles));
     Result<WalkMesh> result = WalkMesh::build(walked.points, walked.triangles);
     std::size_t left_out = 0;

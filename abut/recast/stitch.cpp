@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -32,14 +34,16 @@ std::vector<std::uint32_t> joined_corners(std::span<const DVec<3>> corners, doub
     return same;
 }
 
-/// A point that a polygon has on one of its sides.
+constexpr std::uint32_t none = 0xffffffffu;
+
+/// A point that a polygon has on one of its sides, or a corner that it has there.
 struct SidePoint {
     std::uint32_t from, to;  ///< the corners, the lower first
     double along;            ///< in [0, 1], from `from`
     double height;
-    std::uint32_t polygon, point;
+    std::uint32_t polygon, point, corner;
 
-    auto key() const { return std::tuple(from, to, along, height, polygon, point); }
+    auto key() const { return std::tuple(from, to, along, height, polygon, point, corner); }
 };
 
 class Stitcher {
@@ -59,8 +63,6 @@ public:
     }
 
 private:
-    static constexpr std::uint32_t none = 0xffffffffu;
-
     std::uint32_t corner(const CutPolygon& polygon, std::size_t i) const {
         return same_[polygon.corners[i % polygon.corners.size()]];
     }
@@ -74,28 +76,55 @@ private:
     void number_points(std::uint32_t index) {
         const CutPolygon& polygon = polygons_[index];
         const std::size_t count = polygon.corners.size();
-        for (std::size_t i = 0; i < count; ++i) number_[index][i] = corner(polygon, i);
-        for (std::size_t i = count; i < polygon.points.size(); ++i) {
-            const DVec<3>& point = polygon.points[i];
-            double least = options_.near;
-            SidePoint found{none, none, 0, point.y, index, static_cast<std::uint32_t>(i)};
-            for (std::size_t k = 0; k < count; ++k) {
-                const auto [from, to] = std::minmax({corner(polygon, k), corner(polygon, k + 1)});
-                const DVec<2> start = flat(result_.points[from]), side = flat(result_.points[to]) - start;
-                const DVec<2> way = flat(point) - start;
-                const double square = dot(side, side), along = dot(way, side) / square;
-                const double away = std::abs(cross(side, way)) / std::sqrt(square);
-                if (!(away <= least) || !(along > 0 && along < 1)) continue;
-                least = away;
-                found.from = from;
-                found.to = to;
-                found.along = along;
-            }
-            if (found.from == none)
-                number_[index][i] = add_point(point);
-            else
-                on_sides_.push_back(found);
+        const bool is_thin = has_no_area(polygon);
+        for (std::size_t i = 0; i < count; ++i) {
+            number_[index][i] = corner(polygon, i);
+            for (std::size_t k = 0; k < count && is_thin; ++k)
+                if (std::optional<SidePoint> found = on_side(polygon, k, result_.points[corner(polygon, i)])) {
+                    found->corner = corner(polygon, i);
+                    on_sides_.push_back(*found);
+                }
         }
+        for (std::size_t i = count; i < polygon.points.size() && !is_thin; ++i) {
+            double least = std::numeric_limits<double>::infinity();
+            std::optional<SidePoint> nearest;
+            for (std::size_t k = 0; k < count; ++k) {
+                double away = 0;
+                const std::optional<SidePoint> found = on_side(polygon, k, polygon.points[i], &away);
+                if (!found || !(away < least)) continue;
+                least = away;
+                nearest = found;
+            }
+            if (nearest) {
+                nearest->polygon = index;
+                nearest->point = static_cast<std::uint32_t>(i);
+                on_sides_.push_back(*nearest);
+            } else {
+                number_[index][i] = add_point(polygon.points[i]);
+            }
+        }
+    }
+
+    /// Where a point is on a side, if it is there.
+    std::optional<SidePoint> on_side(const CutPolygon& polygon, std::size_t side_number, const DVec<3>& point,
+                                     double* off = nullptr) const {
+        const std::uint32_t a = corner(polygon, side_number), b = corner(polygon, side_number + 1);
+        const std::uint32_t from = std::min(a, b), to = std::max(a, b);
+        const DVec<2> start = flat(result_.points[from]), side = flat(result_.points[to]) - start;
+        const DVec<2> way = flat(point) - start;
+        const double square = dot(side, side), along = dot(way, side) / square;
+        const double away = std::abs(cross(side, way)) / std::sqrt(square);
+        if (off != nullptr) *off = away;
+        if (!(away <= options_.near) || !(along > 0 && along < 1)) return std::nullopt;
+        return SidePoint{from, to, along, point.y, none, none, none};
+    }
+
+    /// All corners of it on a line: nothing is left of it but that sides of its neighbours are cut at its corners.
+    bool has_no_area(const CutPolygon& polygon) const {
+        double sum = 0;
+        for (std::size_t i = 1; i + 1 < polygon.corners.size(); ++i)
+            sum += area({corner(polygon, 0), corner(polygon, i), corner(polygon, i + 1)});
+        return std::abs(sum) <= options_.near * options_.near;
     }
 
     /// Numbers what is on sides: one number for points of several polygons at the same place.
@@ -108,18 +137,21 @@ private:
             const double near = options_.near / length(flat(to) - flat(from));
             double sum = 0;
             std::size_t end = i;
-            const std::uint32_t number = add_point(from);
+            std::uint32_t number = none;
             for (; end < on_sides_.size(); ++end) {
                 const SidePoint& next = on_sides_[end];
                 if (next.from != first.from || next.to != first.to || next.along - first.along > near) break;
                 sum += next.height;
-                number_[next.polygon][next.point] = number;
+                number = std::min(number, next.corner);
             }
-            DVec<3>& point = result_.points[number];
-            point = from + (to - from) * first.along;
-            point.y = sum / static_cast<double>(end - i);
+            if (number == none) {
+                DVec<3> point = from + (to - from) * first.along;
+                point.y = sum / static_cast<double>(end - i);
+                number = add_point(point);
+            }
+            for (; i < end; ++i)
+                if (on_sides_[i].point != none) number_[on_sides_[i].polygon][on_sides_[i].point] = number;
             cuts_.push_back({first.from, first.to, first.along, number});
-            i = end;
         }
     }
 
@@ -162,6 +194,7 @@ private:
 
     void add_triangles(std::uint32_t index) {
         const CutPolygon& polygon = polygons_[index];
+        if (has_no_area(polygon)) return;
         const Sides sides = sides_of(polygon);
         std::vector<glm::uvec3> triangles;
         for (const glm::uvec3& t : polygon.triangles)

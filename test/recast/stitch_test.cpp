@@ -98,6 +98,23 @@ TEST(Stitch, CutsAnewWhatItsTrianglesDoNotFill) {
     EXPECT_FALSE(changed(report));
 }
 
+TEST(Stitch, CutsSidesAtTheCornersOfPolygonsWithoutArea) {
+    // The right one has a corner in the middle of the side between them; what lies between is flat.
+    std::vector<DVec<3>> more = corners;
+    more.push_back({1, 0.3, 0.5});
+    CutPolygon right{{1, 6, 4, 5, 2}, {}, {{0, 1, 4}, {1, 2, 3}, {1, 3, 4}}}, thin{{1, 4, 6}, {}, {{0, 1, 2}}};
+    for (CutPolygon* polygon : {&right, &thin})
+        for (const std::uint32_t i : polygon->corners) polygon->points.push_back(more[i]);
+    const std::vector<CutPolygon> polygons{square(0), thin, right};
+    const Stitched surface = stitch(more, polygons, {});
+    EXPECT_EQ(surface.mended, 0u);
+    EXPECT_EQ(surface.points, more);
+    EXPECT_DOUBLE_EQ(area_of(surface), 2);
+    const WalkMeshReport report = mesh_of(surface).report();
+    EXPECT_EQ(report.islands, 1u);
+    EXPECT_EQ(report.border, 6u);
+}
+
 TEST(Stitch, TurnsAllUp) {
     CutPolygon other = square(0);
     for (glm::uvec3& t : other.triangles) std::swap(t.y, t.z);
