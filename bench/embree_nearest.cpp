@@ -35,6 +35,8 @@ Vec3 nearest_of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) {
 struct Question {
     const WalkScene* scene;
     float least;
+    unsigned int triangle = RTC_INVALID_GEOMETRY_ID;
+    Vec3 nearest{};
 };
 
 bool look(RTCPointQueryFunctionArguments* arguments) {
@@ -42,9 +44,12 @@ bool look(RTCPointQueryFunctionArguments* arguments) {
     const glm::uvec3 t = question.scene->triangles[arguments->primID];
     const std::vector<Vec3>& points = question.scene->points;
     const Vec3 point(arguments->query->x, arguments->query->y, arguments->query->z);
-    const float distance = glm::distance(nearest_of(points[t.x], points[t.y], points[t.z], point), point);
+    const Vec3 nearest = nearest_of(points[t.x], points[t.y], points[t.z], point);
+    const float distance = glm::distance(nearest, point);
     if (!(distance < question.least)) return false;
     arguments->query->radius = question.least = distance;
+    question.triangle = arguments->primID;
+    question.nearest = nearest;
     return true;
 }
 
@@ -75,7 +80,7 @@ public:
         RTCPointQuery query{point.x, point.y, point.z, 0, reach};
         Question question{scene_.get(), reach};
         rtcPointQuery(all_, &query, &context, look, &question);
-        return question.least;
+        return glm::distance(question.nearest, point);
     }
 
 private:
