@@ -48,19 +48,26 @@ public:
     }
 
 private:
-    /// Round the other side of corners until it turns at none where that is shorter. By whole rows as long as that
-    /// helps, as there may be many corners in a row of which the way touches but one.
+    /// How much is led round at once. There may be many corners in a row of which the way touches but one.
+    enum class Reach : std::uint8_t {
+        corner,  ///< that the way turns at
+        row,     ///< also those on its hand, up to a straight line between where it turns before and after
+        run,     ///< those on both hands, up to a straight line past all the next corners that it may be led round
+    };
+    /// Round the other side of corners until it turns at none where that is shorter; by as many as helps.
     void settle() {
-        bool by_rows = true;
+        Reach most = Reach::run, reach = most;
         for (int round = 0; rules_.alike && round < most_rounds; ++round) {
             next_.strip = emptied();
-            if (!flip_all(next_.strip.sides, by_rows)) return;
-            puller_.pull(next_);
-            if (next_.cost < way_.cost) {
+            const bool any = flip_all(next_.strip.sides, reach);
+            if (any) puller_.pull(next_);
+            if (any && next_.cost < way_.cost) {
                 std::swap(way_, next_);
-                by_rows = true;
-            } else if (by_rows) {
-                by_rows = false;
+                reach = most;
+            } else if (reach == Reach::run) {
+                most = reach = Reach::row;
+            } else if (reach == Reach::row && any) {
+                reach = Reach::corner;
             } else {
                 return;
             }
@@ -68,9 +75,16 @@ private:
     }
     WalkStrip emptied() const { return {way_.strip.from, way_.strip.to, {}, way_.strip.before, way_.strip.after}; }
 
-    /// Where the surface on the other side is less than half a turn wide, but for corners next to one another. By rows:
-    /// also those on the same hand that are between the way there and a straight line.
-    bool flip_all(std::vector<WalkSide>& sides, bool by_rows) {
+    bool may_flip(std::size_t i) {
+        const DVec<2> at = way_.knots[i].at, before = way_.knots[i - 1].at - at, after = way_.knots[i + 1].at - at;
+        return find_other_side(rules_, way_, corner_at(i), round_, &before, &after);
+    }
+    WalkCorner corner_at(std::size_t knot) const {
+        return corner_of(way_.plane, way_.knots[knot].first, way_.knots[knot].kind == WalkKnot::Kind::left);
+    }
+
+    /// Where the surface on the other side is less than half a turn wide, but for corners next to one another.
+    bool flip_all(std::vector<WalkSide>& sides, Reach reach) {
         std::uint32_t copied = 0;
         bool any = false;
         const auto flip = [&](const WalkCorner& corner) {
@@ -80,22 +94,23 @@ private:
             any = true;
         };
         for (std::size_t i = 1; i + 1 < way_.knots.size(); ++i) {
-            const WalkKnot &last = way_.knots[i - 1], &knot = way_.knots[i], &next = way_.knots[i + 1];
-            const bool left = knot.kind == WalkKnot::Kind::left;
-            const WalkCorner corner = corner_of(way_.plane, knot.first, left);
-            if (corner.first < copied) continue;
-            const DVec<2> before = last.at - knot.at, after = next.at - knot.at;
-            if (!find_other_side(rules_, way_, corner, round_, &before, &after)) continue;
-            if (!by_rows) {
+            const WalkCorner corner = corner_at(i);
+            if (corner.first < copied || !may_flip(i)) continue;
+            if (reach == Reach::corner) {
                 flip(corner);
                 continue;
             }
+            const std::size_t before = i - 1;
+            while (reach == Reach::run && i + 2 < way_.knots.size() && may_flip(i + 1)) ++i;
+            const WalkKnot &last = way_.knots[before], &next = way_.knots[i + 1];
             const DVec<2> straight = next.at - last.at;
-            const std::uint32_t start = std::min(i == 1 ? 0 : last.last + 1, corner.first);
+            const std::uint32_t start = std::min(before == 0 ? 0 : last.last + 1, corner.first);
             for (std::uint32_t p = std::max(copied, start); p < std::max(next.first, corner.first + 1); ++p) {
-                const bool is_knot = p == corner.first;
+                const bool is_knot = reach == Reach::row && p == corner.first;
+                const bool left = reach == Reach::row ? corner.left : way_.plane.portals[p].new_left;
                 if (!is_knot && way_.plane.portals[p].new_left != left) continue;
                 const WalkCorner beside = corner_of(way_.plane, p, left);
+                if (beside.first < copied) continue;
                 const double side = cross(straight, beside.at - last.at);
                 const bool is_between = beside.first == p && beside.last < next.first && (left ? side <= 0 : side >= 0);
                 if ((is_knot || is_between) && find_other_side(rules_, way_, beside, round_)) flip(beside);

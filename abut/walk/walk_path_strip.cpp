@@ -138,18 +138,19 @@ void WalkFunnel::add(const DVec<2>& point, std::uint32_t portal, bool left) {
         while (apex_ != other_end && sign * cross(at(apex_ + step) - at(apex_), point - at(apex_)) < 0) apex_ += step;
         end = apex_;
     }
-    points_.push_back({point, portal, chain_[end], left});
+    points_[count_] = {point, portal, chain_[end], left};
     end -= step;
-    chain_[end] = static_cast<std::uint32_t>(points_.size() - 1);
+    chain_[end] = count_++;
 }
 
 void WalkFunnel::pull(const std::vector<WalkPortal>& portals, std::uint32_t first, std::uint32_t last,
                       const DVec<2>& from, const DVec<2>& to, std::vector<WalkKnot>& knots) {
     const std::size_t count = last - first;
-    points_.clear();
+    points_.resize(2 * count + 5);
     chain_.resize(2 * count + 5);
     front_ = apex_ = back_ = count + 2;
-    points_.push_back({from, first, 0, false});
+    points_[0] = {from, first, 0, false};
+    count_ = 1;
     chain_[apex_] = 0;
     for (std::uint32_t i = first; i < last; ++i) {
         const WalkPortal& portal = portals[i];
@@ -158,7 +159,7 @@ void WalkFunnel::pull(const std::vector<WalkPortal>& portals, std::uint32_t firs
     }
     add(to, last, true);
     const std::size_t before = knots.size();
-    for (std::uint32_t i = points_.back().parent; i != 0; i = points_[i].parent) {
+    for (std::uint32_t i = points_[count_ - 1].parent; i != 0; i = points_[i].parent) {
         const Point& point = points_[i];
         WalkKnot knot{point.at, point.left ? WalkKnot::Kind::left : WalkKnot::Kind::right, point.portal, point.portal,
                       point.left ? 0.0 : 1.0};

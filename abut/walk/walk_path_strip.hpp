@@ -145,6 +145,7 @@ private:
     const DVec<2>& at(std::size_t place) const { return points_[chain_[place]].at; }
 
     std::vector<Point> points_;
+    std::uint32_t count_ = 0;
     std::vector<std::uint32_t> chain_;  ///< from the left end of the last portal to its right one, by the apex
     std::size_t front_ = 0, apex_ = 0, back_ = 0;
 };
