@@ -9,12 +9,13 @@ namespace {
 
 constexpr int most_rounds = 64;
 constexpr double least_gain = 1e-12;
-/// Crossings this close to an end of their portal are there.
-constexpr double least_share = 1e-9;
 
-/// Where on a portal the ways to two points cost least together. The sum is convex: its slope is halved to 0.
+}  // namespace
+
 double cheapest_share(const WalkPortal& portal, const DVec<2>& from, double cost_from, const DVec<2>& to,
-                      double cost_to) {
+                      double cost_to, int halvings) {
+    // Crossings this close to an end of their portal are there.
+    constexpr double least_share = 1e-9;
     const DVec<2> along = portal.right - portal.left;
     const auto slope = [&](double share) {
         const DVec<2> at = portal.left + along * share;
@@ -25,15 +26,13 @@ double cheapest_share(const WalkPortal& portal, const DVec<2>& from, double cost
     if (slope(0) >= 0) return 0;
     if (slope(1) <= 0) return 1;
     double low = 0, high = 1;
-    for (int i = 0; i < 48; ++i) {
+    for (int i = 0; i < halvings; ++i) {
         const double middle = 0.5 * (low + high);
         (slope(middle) < 0 ? low : high) = middle;
     }
     const double share = 0.5 * (low + high);
     return share < least_share ? 0.0 : (share > 1 - least_share ? 1.0 : share);
 }
-
-}  // namespace
 
 double WalkPuller::cost(const WalkTaut& way, std::size_t knot) const {
     const WalkKnot& a = way.knots[knot];
@@ -94,7 +93,7 @@ void WalkPuller::move_crossings(const WalkTaut& way) {
         // What was moved before is where it is now.
         if (knot - 1 != last || last == 0) from = way.knots[knot - 1].at;
         const WalkPortal& portal = way.plane.portals[crossing.portal];
-        crossing.share = cheapest_share(portal, from, crossing.before, way.knots[knot + 1].at, crossing.after);
+        crossing.share = cheapest_share(portal, from, crossing.before, way.knots[knot + 1].at, crossing.after, 48);
         from = portal.left + (portal.right - portal.left) * crossing.share;
     }
 }

@@ -8,6 +8,11 @@
 
 namespace abut {
 
+/// How far from the left end of a portal to the right one the ways from it to two points cost least together. The sum
+/// is convex: its slope is halved to 0, so many times.
+double cheapest_share(const WalkPortal& portal, const DVec<2>& from, double cost_from, const DVec<2>& to,
+                      double cost_to, int halvings);
+
 /// Where all areas cost the same this is a funnel. Else there is a funnel between every two portals at which the cost
 /// changes, and the points at which the way crosses these are moved one after another to where the pieces on either
 /// side cost least together (Snell's law), until that is no longer cheaper. All of it is convex: the points settle at

@@ -1,3 +1,4 @@
+#include <abut/walk/walk_path_pull.hpp>
 #include <abut/walk/walk_path_search.hpp>
 
 #include <algorithm>
@@ -246,15 +247,16 @@ private:
         } else if (cross(cone.right - cone.root, sight) < 0) {
             turn = cone.right;
         }
+        const bool changes = !rules_.alike && rules_.cost(walk_[link.triangle()]) != cost;
         DVec<2> by = turn;  // where it crosses the side
         double to_side = cone.to_root, estimate = 0;
         if (rules_.alike) {
             estimate = turn == cone.root ? cone.to_root + length(sight)
                                          : cone.to_root + length(turn - cone.root) + length(goal - turn);
         } else {
-            const double behind = std::max(dot(left - turn, ahead), 0.0), sum = behind + far * square;
-            const DVec<2> straight = turn + (goal - turn) * (sum > 0 ? behind / sum : 0.0);
-            by = left + along * std::clamp(dot(straight - left, along) / square, 0.0, 1.0);
+            const WalkPortal portal{left, right, false};
+            by = left + along * (changes ? cheapest_share(portal, turn, cost, goal, weight_, 12)
+                                         : crossed_at(portal, turn, goal));
             to_side += cost * (length(turn - cone.root) + length(by - turn));
             estimate = to_side + weight_ * length(goal - by);
         }
@@ -271,7 +273,7 @@ private:
         next.left = left;
         next.right = right;
         next.tip = beyond_side(walk, side, node.mirrored, left, right);
-        if (!rules_.alike && rules_.cost(walk_[link.triangle()]) != cost) cone = {by, left, right, to_side};
+        if (changes) cone = {by, left, right, to_side};
         next.root = cone.root;
         next.left_limit = cone.left;
         next.right_limit = cone.right;
