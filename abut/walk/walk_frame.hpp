@@ -55,6 +55,13 @@ inline Vec3 on_side(std::uint32_t side, double share) {
     return result;
 }
 
+inline DVec<3> in_space(const WalkTriangle& walk, const WalkPoint& place) {
+    const WalkWeights weights = shares(place.weights);
+    const DVec<3> first(walk.corner[0]);
+    return first + (DVec<3>(walk.corner[1]) - first) * weights.second +
+           (DVec<3>(walk.corner[2]) - first) * weights.third;
+}
+
 /// The plane of a triangle: the origin at corner 0, the first axis towards corner 1, corner 2 above it.
 class WalkFrame {
 public:

@@ -30,11 +30,7 @@ std::optional<WalkSide> WalkMesh::beyond(const WalkSide& side) const {
 }
 
 Vec3 WalkMesh::to_world(const WalkPoint& place) const {
-    const WalkTriangle& walk = data_->walk[place.triangle];
-    const WalkWeights weights = shares(place.weights);
-    const DVec<3> first(walk.corner[0]);
-    return to_float(first + (DVec<3>(walk.corner[1]) - first) * weights.second +
-                    (DVec<3>(walk.corner[2]) - first) * weights.third);
+    return to_float(in_space(data_->walk[place.triangle], place));
 }
 
 Vec3 WalkMesh::normal(const WalkPoint& place) const {

@@ -113,7 +113,7 @@ private:
     Laid lay(std::uint32_t i) const {
         const WalkTriangle& walk = data_.walk[triangle(i)];
         if (i == 0)
-            return {{DVec<2>(0.0), {1 / walk.inverse_width, 0}, {walk.third, 1 / walk.inverse_height}},
+            return {{WalkFrame(walk).corner(0), WalkFrame(walk).corner(1), WalkFrame(walk).corner(2)},
                     {DVec<3>(walk.corner[0]), DVec<3>(walk.corner[1]), DVec<3>(walk.corner[2])}};
         const std::vector<WalkPortal>& portals = way_.plane.portals;
         std::uint32_t left = 0, right = 0;

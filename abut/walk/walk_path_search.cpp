@@ -193,8 +193,8 @@ private:
         node.triangle = from_.triangle;
         node.parent = none;
         // As if it was entered over its first side.
-        node.right = {1 / walk.inverse_width, 0};
-        node.tip = {walk.third, 1 / walk.inverse_height};
+        node.right = WalkFrame(walk).corner(1);
+        node.tip = WalkFrame(walk).corner(2);
         node.root = node.right * weights.second + node.tip * weights.third;
         known_[node.triangle] = {0, 0, true};
         leave(0, node, walk, 1, false);

@@ -75,8 +75,8 @@ void add_side(const WalkMeshData& data, std::vector<WalkSide>& sides, const Walk
 void unfold(const WalkMeshData& data, const WalkStrip& strip, WalkUnfolded& result) {
     result.portals.clear();
     result.mirrored.assign(1, false);
-    const WalkTriangle& start = data.walk[strip.from.triangle];
-    DVec<2> corner[3] = {DVec<2>(0.0), {1 / start.inverse_width, 0}, {start.third, 1 / start.inverse_height}};
+    const WalkFrame start(data.walk[strip.from.triangle]);
+    DVec<2> corner[3] = {start.corner(0), start.corner(1), start.corner(2)};
     const auto placed = [&](const WalkPoint& place) {
         const WalkWeights weights = shares(place.weights);
         return corner[0] + (corner[1] - corner[0]) * weights.second + (corner[2] - corner[0]) * weights.third;
@@ -114,10 +114,7 @@ WalkPoint place_on(const WalkMeshData& data, const WalkStrip& strip, const WalkU
     const std::uint32_t of = beyond ? link.side() : side.side;
     const std::uint32_t left =
         beyond ? left_entering(of, plane.mirrored[portal + 1]) : left_leaving(of, plane.mirrored[portal]);
-    double weights[3] = {0, 0, 0};
-    weights[left] = 1 - share;
-    weights[left == of ? next_corner(of) : of] = share;
-    return {beyond ? link.triangle() : side.triangle, in_grains(weights[1], weights[2])};
+    return {beyond ? link.triangle() : side.triangle, on_side(of, left == of ? share : 1 - share)};
 }
 
 WalkCorner corner_of(const WalkUnfolded& plane, std::uint32_t portal, bool left) {

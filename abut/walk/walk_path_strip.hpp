@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace abut {
@@ -38,13 +39,6 @@ struct WalkPathRules {
     /// The least that any area costs.
     double least_cost() const;
 };
-
-inline DVec<3> in_space(const WalkTriangle& walk, const WalkPoint& place) {
-    const WalkWeights weights = shares(place.weights);
-    const DVec<3> first(walk.corner[0]);
-    return first + (DVec<3>(walk.corner[1]) - first) * weights.second +
-           (DVec<3>(walk.corner[2]) - first) * weights.third;
-}
 
 /// Triangles one beyond another, from `from` to `to`. Side i is of triangle i; triangle i + 1 is beyond it.
 struct WalkStrip {

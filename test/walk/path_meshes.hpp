@@ -58,11 +58,6 @@ inline bool everywhere(int, int) {
     return true;
 }
 
-/// The place nearest to a point of space, by brute force; right where the point is on the mesh.
-inline WalkPoint place_at(const WalkMesh& mesh, const Vec3& point) {
-    return mesh.nearest(point);
-}
-
 inline WalkPoint random_place(const WalkMesh& mesh, oracle::Random& random) {
     const auto count = static_cast<std::uint32_t>(mesh.triangles().size());
     for (;;) {
