@@ -26,7 +26,7 @@ public:
         const std::vector<WalkSide>& strip = way_.strip.sides;
         const WalkMeshData& data = rules_.data;
         WalkSide side = strip[corner_.first];
-        bool mirrored = way_.plane.mirrored[corner_.first];
+        bool mirrored = way_.plane.mirrored[corner_.first] != 0;
         const bool starts_left = left_leaving(side.side, mirrored) == side.side;
         side.side = other_side_at(starts_left == corner_.left ? side.side : next_corner(side.side), side.side);
         const WalkLink out = link(strip[corner_.last]);

@@ -82,28 +82,36 @@ void unfold(const WalkMeshData& data, const WalkStrip& strip, WalkUnfolded& resu
         return corner[0] + (corner[1] - corner[0]) * weights.second + (corner[2] - corner[0]) * weights.third;
     };
     result.from = placed(strip.from);
-    result.first = corner[strip.sides.empty() ? 2 : next_corner(next_corner(strip.sides[0].side))];
+    result.first = result.last = corner[2];
     bool mirrored = false;
     std::uint32_t entered = 3;
     for (const WalkSide& side : strip.sides) {
-        const WalkTriangle& walk = data.walk[side.triangle];
-        const std::uint32_t left = left_leaving(side.side, mirrored);
-        const std::uint32_t right = left == side.side ? next_corner(side.side) : side.side;
-        WalkPortal portal{corner[left], corner[right], false};
-        // What was opposite of the side that was entered by is the end that is new.
-        portal.new_left = entered < 3 && left == next_corner(next_corner(entered));
+        WalkPortal portal;
+        if (entered == 3) {
+            portal.left = corner[left_leaving(side.side, false)];
+            portal.right = corner[side.side];
+            result.first = corner[next_corner(next_corner(side.side))];
+        } else {
+            // The side after the one that was entered by has its right end, or its left one where laid out upside down.
+            const WalkPortal& last = result.portals.back();
+            portal.new_left = (side.side == next_corner(entered)) != mirrored;
+            portal.left = portal.new_left ? result.last : last.left;
+            portal.right = portal.new_left ? last.right : result.last;
+        }
         result.portals.push_back(portal);
-        const DVec<2> tip = beyond_side(walk, side.side, mirrored, portal.left, portal.right);
+        const WalkTriangle& walk = data.walk[side.triangle];
+        result.last = beyond_side(walk, side.side, mirrored, portal.left, portal.right);
         const WalkLink link = walk.link[side.side];
         mirrored = mirrored != link.mirrored();
         entered = link.side();
-        const std::uint32_t left_corner = left_entering(entered, mirrored);
-        corner[left_corner] = portal.left;
-        corner[left_corner == entered ? next_corner(entered) : entered] = portal.right;
-        corner[next_corner(next_corner(entered))] = tip;
         result.mirrored.push_back(mirrored);
     }
-    result.last = corner[entered < 3 ? next_corner(next_corner(entered)) : 2];
+    if (entered < 3) {
+        const std::uint32_t left = left_entering(entered, mirrored);
+        corner[left] = result.portals.back().left;
+        corner[left == entered ? next_corner(entered) : entered] = result.portals.back().right;
+        corner[next_corner(next_corner(entered))] = result.last;
+    }
     result.to = placed(strip.to);
 }
 

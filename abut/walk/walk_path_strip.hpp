@@ -70,8 +70,8 @@ inline double crossed_at(const WalkPortal& portal, const DVec<2>& from, const DV
 
 /// A strip whose triangles are unfolded into the plane of the first one.
 struct WalkUnfolded {
-    std::vector<WalkPortal> portals;  ///< one a side of the strip
-    std::vector<bool> mirrored;       ///< by triangle, one more: laid out upside down
+    std::vector<WalkPortal> portals;     ///< one a side of the strip
+    std::vector<std::uint8_t> mirrored;  ///< by triangle, one more: laid out upside down
     DVec<2> from, to;
     DVec<2> first;  ///< the corner of the first triangle that is opposite of the first portal
     DVec<2> last;   ///< that of the last triangle opposite of the last portal; where there is none, its corner 2
