@@ -97,7 +97,9 @@ TEST(WalkGolden, WalksHaveTheSameBitsEverywhere) {
     for (std::uint64_t seed = 0; seed < 10; ++seed) {
         oracle::Random random(seed);
         add_walks(hash, ground(random), seed, 10'000);
-        const Surface solid = cell_surface(4, [&](int x, int y, int z) { return (x * 5 + y * 3 + z + seed) % 4 != 0; });
+        const int shift = static_cast<int>(seed);
+        const Surface solid =
+            cell_surface(4, [&](int x, int y, int z) { return (x * 5 + y * 3 + z + shift) % 4 != 0; });
         add_walks(hash, solid, seed, 10'000);
     }
     EXPECT_EQ(hash.value(), 17371007193045632278u);
