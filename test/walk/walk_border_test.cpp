@@ -98,6 +98,28 @@ TEST(WalkBorder, StopsHeadOn) {
     }
 }
 
+TEST(WalkBorder, StopsHeadOnWhereThatIsOnlyRounded) {
+    // Hills, the rim of which runs up and down: straight out is square to it, but not in floats.
+    oracle::Random random(20261123);
+    const scenes::Terrain terrain = scenes::random_terrain(64, random);
+    const WalkMesh mesh = *WalkMesh::build(terrain.points, terrain.triangles);
+    int stops = 0;
+    for (std::uint32_t triangle = 0; triangle < mesh.triangles().size(); ++triangle)
+        for (std::uint32_t side = 0; side < 3; ++side) {
+            if (mesh.beyond({triangle, side})) continue;
+            const glm::uvec3 t = mesh.triangles()[triangle];
+            const auto k = static_cast<glm::length_t>(side);
+            const Vec3 from = mesh.points()[t[k]], to = mesh.points()[t[(k + 1) % 3]];
+            const Vec3 out = from.x == to.x ? Vec3(from.x, 0, 0) : Vec3(0, 0, from.z);
+            const Walked walked = mesh.walk({triangle, {0.25f, 0.25f, 0.5f}}, out);
+            EXPECT_EQ(walked.met, WalkMet::corner) << triangle;
+            EXPECT_EQ(walked.side, (WalkSide{triangle, side}));
+            EXPECT_EQ(walked.place.triangle, triangle);
+            ++stops;
+        }
+    EXPECT_EQ(stops, 4 * 64);
+}
+
 TEST(WalkBorder, WalksAlongAWallWithoutLosingAnything) {
     const WalkMesh mesh = built(flat(4, 4));
     const auto ends = [&](const Vec3& from, const Vec3& step) {
