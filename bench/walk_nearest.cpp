@@ -44,7 +44,7 @@ Job nearest(std::uint32_t columns, float away, bool near_last) {
     Job job;
     job.items = job.values = point_count;
     job.tolerance = 1e-3;
-    const Side anywhere{"abut", [points, &mesh](std::span<double> values) {
+    const Side anywhere{"abut, any distance", [points, &mesh](std::span<double> values) {
                             for (std::size_t i = 0; i < values.size(); ++i)
                                 values[i] = distance(*points, i, mesh.nearest(points->points[i]));
                         }};
@@ -52,14 +52,14 @@ Job nearest(std::uint32_t columns, float away, bool near_last) {
                              for (std::size_t i = 0; i < values.size(); ++i)
                                  values[i] = distance(*points, i, mesh.nearest(points->points[i], places[i]));
                          }};
-    const Side in_reach{"abut, reach", [points, &mesh](std::span<double> values) {
+    const Side in_reach{"abut", [points, &mesh](std::span<double> values) {
                             for (std::size_t i = 0; i < values.size(); ++i)
                                 values[i] = distance(*points, i, *mesh.nearest(points->points[i], points->reach));
                         }};
     if (near_last) {
-        job.sides = {from_last, anywhere, in_reach};
+        job.sides = {from_last, in_reach, anywhere};
     } else {
-        job.sides = {anywhere, in_reach};
+        job.sides = {in_reach, anywhere};
     }
     Side detour = detour_nearest(points);
     detour.strays = 1;  // what is below a point comes first, and its heights are rounded
