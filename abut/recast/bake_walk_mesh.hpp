@@ -57,8 +57,8 @@ struct WalkMeshBakeOptions {
 /// The floor of a level as a surface to walk on, each triangle of which faces up. The level may be any triangles, in
 /// any order, crossing or with gaps: it is measured in columns of cells, by Mononen's Recast ("Navigation mesh
 /// generation via voxelization and watershed partitioning", 2009), whose polygons are cut at points every few cells and
-/// joined without cracks. Corners of the mesh are on the level itself. Between them it is off by less than a cell on
-/// average, more where large polygons lie over rough ground: one has at most 127 points.
+/// joined without cracks. Corners of the mesh are on the level itself; between them it is off by less than half a cell
+/// on average.
 ///
 /// Steps are told from slopes by their heights over a cell: what rises from one cell to the next no more than the
 /// steepest slope does is passed, even above `step_height`. With a step between floors the mesh is a ramp over a cell.

@@ -20,6 +20,8 @@ constexpr float detail_distance = 4, detail_error = 1;
 /// How far the border of a region may be from the cells', and how long a piece of it is, in cells.
 constexpr float contour_error = 1;
 constexpr int contour_length = 40;
+/// The floor is cut into squares of so many cells: there are at most 127 points for details of a polygon.
+constexpr int square = 40;
 /// Regions of fewer cells are joined to their neighbours where that can be.
 constexpr int small_region = 400;
 
@@ -114,6 +116,7 @@ public:
         const auto is_left = [](unsigned char area) { return area != RC_NULL_AREA; };
         if (std::none_of(floor_->areas, floor_->areas + floor_->spanCount, is_left))
             return nothing("no floor is as wide as the walker's radius asks");
+        cut_into_squares();
         return std::nullopt;
     }
 
@@ -163,6 +166,17 @@ public:
     }
 
 private:
+    /// Squares side by side are areas of their own, over whose borders no region goes.
+    void cut_into_squares() {
+        for (int row = 0; row < plan_.rows; ++row)
+            for (int column = 0; column < plan_.columns; ++column) {
+                const rcCompactCell& cell = floor_->cells[row * plan_.columns + column];
+                const int area = 1 + column / square % 2 + 2 * (row / square % 2);
+                for (unsigned int i = cell.index, end = i + cell.count; i < end; ++i)
+                    if (floor_->areas[i] != RC_NULL_AREA) floor_->areas[i] = static_cast<unsigned char>(area);
+            }
+    }
+
     /// Beyond what Recast has bits for, it would go on with other numbers.
     std::optional<Problem> problem_of_spans() const {
         std::size_t count = 0;

@@ -240,7 +240,7 @@ TEST(BakeWalkMesh, FollowsHillsWithoutCracks) {
             ASSERT_TRUE(above.found);
             sum += std::abs(above.height - static_cast<double>(place.y));
         }
-        EXPECT_LT(sum / samples, static_cast<double>(report.cell));
+        EXPECT_LT(sum / samples, static_cast<double>(report.cell_height));
     }
 }
 
