@@ -29,6 +29,13 @@ inline WalkLink way_over(const WalkTriangle* triangles, const WalkOptions& optio
     return allowed ? link : WalkLink{};
 }
 
+/// Fetches what is beyond each side. By which one the way goes on takes longer to find than to ask for all: where the
+/// mesh is larger than the caches, that makes long ways half as dear.
+inline void fetch_beyond(const WalkTriangle* triangles, std::uint32_t triangle) {
+    for (const WalkLink& link : triangles[triangle].link)
+        __builtin_prefetch(&triangles[link.is_border() ? triangle : link.triangle()]);
+}
+
 /// From a triangle beyond whose side the step leads, to its end within a triangle, or to a side that stops it.
 inline WalkStop go_straight(const WalkTriangle* triangles, const WalkOptions& options, WalkWay& way) {
     // Coordinates grow along the way, and the triangles don't: now and then they begin anew.
@@ -50,6 +57,7 @@ inline WalkStop go_straight(const WalkTriangle* triangles, const WalkOptions& op
         }
         const lanes::Both corner = here.apex(triangles[here.triangle]);
         here.enter(link, corner, corner[1] >= 0);
+        fetch_beyond(triangles, here.triangle);
         ++count;
         if (!here.is_beyond(left) && !here.is_beyond_along(left)) break;
         if (count % most_from_one_origin == 0) {
