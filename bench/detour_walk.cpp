@@ -68,9 +68,11 @@ Side detour_steps(const SharedWalkSteps& steps, bool with_heights) {
     const auto walkers = std::make_shared<Walkers>(steps, with_heights);
     return {.who = with_heights ? "Detour, heights" : "Detour",
             .ask =
-                [walkers](std::span<double> values) {
-                    walkers->advance();
-                    walkers->tell(values);
+                [walkers, later = std::vector<double>(2 * steps->starts.size())](std::span<double> values) mutable {
+                    for (std::uint32_t frame = 0; frame < frames_a_turn; ++frame) {
+                        walkers->advance();
+                        walkers->tell(frame == 0 ? values : later);
+                    }
                 },
             .figures =
                 [walkers] {

@@ -33,6 +33,9 @@ struct WalkSteps {
 using SharedWalkSteps = std::shared_ptr<const WalkSteps>;
 
 inline constexpr std::uint32_t frames_a_way = 64;
+/// Frames in a row before it is another side's turn, so that each walks in its own caches. Places are compared after
+/// the first.
+inline constexpr std::uint32_t frames_a_turn = 8;
 /// Which way a walker goes next.
 inline std::uint32_t next_way(const WalkSteps& steps, std::uint32_t way) {
     return (way + 389) % static_cast<std::uint32_t>(steps.headings.size());

@@ -45,7 +45,13 @@ public:
         }
         ++frame_;
     }
-    WalkPoint place(std::size_t i) const { return places_[i]; }
+    void tell(std::span<double> values) const {
+        for (std::size_t i = 0; i < places_.size(); ++i) {
+            const Vec3 place = steps_->scene->mesh.to_world(places_[i]);
+            values[2 * i] = place.x;
+            values[2 * i + 1] = place.z;
+        }
+    }
     double lost_share() const { return static_cast<double>(lost_) / static_cast<double>(frame_ * places_.size()); }
 
 protected:
@@ -90,12 +96,10 @@ Side by_abut(const char* who, const SharedWalkSteps& steps) {
     const auto walkers = std::make_shared<Walkers>(steps);
     return {.who = who,
             .ask =
-                [walkers, steps](std::span<double> values) {
-                    walkers->advance();
-                    for (std::size_t i = 0; i < walker_count; ++i) {
-                        const Vec3 place = steps->scene->mesh.to_world(walkers->place(i));
-                        values[2 * i] = place.x;
-                        values[2 * i + 1] = place.z;
+                [walkers, later = std::vector<double>(2 * walker_count)](std::span<double> values) mutable {
+                    for (std::uint32_t frame = 0; frame < frames_a_turn; ++frame) {
+                        walkers->advance();
+                        walkers->tell(frame == 0 ? values : later);
                     }
                 },
             .figures =
@@ -111,7 +115,7 @@ Side by_abut(const char* who, const SharedWalkSteps& steps) {
 Job walk(std::uint32_t columns, float length) {
     const SharedWalkSteps steps = make_steps(columns, length);
     Job job;
-    job.items = walker_count;
+    job.items = walker_count * frames_a_turn;
     job.values = 2 * walker_count;
     job.tolerance = 0.35 * static_cast<double>(length);
     job.sides.push_back(by_abut<LevelWalkers>("abut", steps));
