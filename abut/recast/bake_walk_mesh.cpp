@@ -33,10 +33,10 @@ std::optional<Problem> problem_of(const WalkMeshBakeOptions& options) {
     constexpr float large = 1e15f;
     if (!is_finite(options.up) || options.up == Vec3(0.0f)) return bad("up is a direction: finite, and not 0");
     if (!in(options.radius, 0, large)) return bad("the radius is from 0 to 1e15");
-    if (!in(options.step_height, 0, large)) return bad("the step height is from 0 to 1e15");
-    if (!in(options.height, 0, large) || !(options.height > options.step_height))
+    if (!in(options.max_step, 0, large)) return bad("the highest step is from 0 to 1e15");
+    if (!in(options.height, 0, large) || !(options.height > options.max_step))
         return bad("the height is above the step height, up to 1e15");
-    if (!in(options.steepest, 0, 1.5f)) return bad("the steepest slope is from 0 to 1.5 radians");
+    if (!in(options.max_slope, 0, 1.5f)) return bad("the steepest slope is from 0 to 1.5 radians");
     if (!in(options.cell, 0, large)) return bad("the cell is from 0 to 1e15");
     if (options.cell == 0 && options.radius == 0) return bad("without a radius, a cell has to be given");
     if (!in(options.least_area, 0, std::numeric_limits<float>::max())) return bad("the least area is 0 or above");
@@ -81,7 +81,7 @@ private:
 /// Which triangles are floor: that have an area, and rise no more than the steepest.
 std::vector<std::uint8_t> find_floor(std::span<const Vec3> points, std::span<const glm::uvec3> triangles,
                                      const WalkMeshBakeOptions& options) {
-    const double least = sin_cos(static_cast<double>(options.steepest)).cos * (1 - 1e-6);
+    const double least = sin_cos(static_cast<double>(options.max_slope)).cos * (1 - 1e-6);
     std::vector<std::uint8_t> result;
     for (const glm::uvec3& t : triangles) {
         const DVec<3> a(points[t.x]), normal = cross(DVec<3>(points[t.y]) - a, DVec<3>(points[t.z]) - a);
@@ -92,8 +92,8 @@ std::vector<std::uint8_t> find_floor(std::span<const Vec3> points, std::span<con
 }
 
 Result<RecastPlan> make_plan(const DVec<3>& size, const WalkMeshBakeOptions& options) {
-    const SinCos steepest = sin_cos(static_cast<double>(options.steepest));
-    const double rise = steepest.sin / steepest.cos, radius = options.radius, step = options.step_height;
+    const SinCos steepest = sin_cos(static_cast<double>(options.max_slope));
+    const double rise = steepest.sin / steepest.cos, radius = options.radius, step = options.max_step;
     // So fine that a step is told from two cells of the steepest slope, but for its rounding.
     const double chosen = std::clamp(step / (2 * rise + 0.5), radius / 6, radius / 3);
     RecastPlan plan;

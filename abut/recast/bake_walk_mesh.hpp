@@ -25,13 +25,13 @@ struct WalkMeshBakeReport {
     std::size_t left_out = 0;         ///< islands that no start is on
 };
 
-/// Lengths are of the level, angles in radians. The words are MoverOptions'.
+/// Lengths are of the level, angles in radians, as for a Mover.
 struct WalkMeshBakeOptions {
-    Vec3 up{0, 1, 0};          ///< of any length but 0
-    float radius = 0.4f;       ///< of the walker: walls and ledges are kept away from by so much; 0 and above
-    float height = 1.8f;       ///< of the walker: what is lower is no way; above `step_height`
-    float step_height = 0.3f;  ///< steps up to so high are climbed; 0 and above
-    float steepest = 0.87f;    ///< slopes that rise by at most this angle are floor; from 0 to 1.5
+    Vec3 up{0, 1, 0};         ///< of any length but 0
+    float radius = 0.4f;      ///< of the walker: walls and ledges are kept away from by so much; 0 and above
+    float height = 1.8f;      ///< of the walker: what is lower is no way; above `max_step`
+    float max_slope = 0.87f;  ///< slopes that rise by at most this angle are floor; from 0 to 1.5
+    float max_step = 0.3f;    ///< steps up to so high are climbed; 0 and above
 
     /// The side of the columns that the level is measured in, which are half as high: borders of the floor are right to
     /// about one and a half of it, heights of steps and passages to half of it. 0: a third of the radius, or down to a
@@ -61,7 +61,7 @@ struct WalkMeshBakeOptions {
 /// on average.
 ///
 /// Steps are told from slopes by their heights over a cell: what rises from one cell to the next no more than the
-/// steepest slope does is passed, even above `step_height`. With a step between floors the mesh is a ramp over a cell.
+/// steepest slope does is passed, even above `max_step`. With a step between floors the mesh is a ramp over a cell.
 ///
 /// The same on machines where Recast, which calculates in floats, was compiled alike.
 ///

@@ -121,7 +121,7 @@ TEST(BakeWalkMesh, ClimbsStairs) {
     EXPECT_TRUE(is_floor(*mesh, {13, 2.5f, 0}));
     EXPECT_TRUE(is_floor(*mesh, {13, 0, 0})) << "below the upper floor";
     EXPECT_FALSE(joined(*mesh, {0, 0, 0}, {13, 0, 0}));
-    const Result<WalkMesh> low = level.bake({.step_height = 0.1f});
+    const Result<WalkMesh> low = level.bake({.max_step = 0.1f});
     ASSERT_TRUE(low) << low.problem().message;
     EXPECT_FALSE(joined(*low, {0, 0, 0}, {13, 2.5f, 0}));
 }
@@ -136,10 +136,10 @@ TEST(BakeWalkMesh, ClimbsSlopesUpToTheSteepest) {
         level.slope({0, 0, -2}, {3, 3 * slope.rise, 2});
         level.floor(3, -2, 8, 2, 3 * slope.rise);
         WalkMeshBakeReport report;
-        const Result<WalkMesh> not_climbed = level.bake({.steepest = slope.below});
+        const Result<WalkMesh> not_climbed = level.bake({.max_slope = slope.below});
         ASSERT_TRUE(not_climbed) << not_climbed.problem().message;
         EXPECT_FALSE(joined(*not_climbed, {-3, 0, 0}, {6, 3 * slope.rise, 0}));
-        const Result<WalkMesh> climbed = level.bake({.steepest = slope.above, .report = &report});
+        const Result<WalkMesh> climbed = level.bake({.max_slope = slope.above, .report = &report});
         ASSERT_TRUE(climbed) << climbed.problem().message;
         expect_clean(*climbed, report);
         EXPECT_TRUE(joined(*climbed, {-3, 0, 0}, {6, 3 * slope.rise, 0}));
@@ -220,7 +220,7 @@ TEST(BakeWalkMesh, FollowsHillsWithoutCracks) {
         Random random(seed);
         const Level level = terrain(16, 1 + 0.2f * static_cast<float>(seed), random);
         WalkMeshBakeReport report;
-        const Result<WalkMesh> mesh = level.bake({.radius = 0.3f, .steepest = 1.3f, .report = &report});
+        const Result<WalkMesh> mesh = level.bake({.radius = 0.3f, .max_slope = 1.3f, .report = &report});
         ASSERT_TRUE(mesh) << mesh.problem().message;
         expect_clean(*mesh, report);
         EXPECT_EQ(mesh->report().islands, 1u);
@@ -255,7 +255,7 @@ TEST(BakeWalkMesh, IsWalkedAcross) {
     constexpr std::uint64_t seed = 9;
     SCOPED_TRACE(seed);
     Random random(seed);
-    const Result<WalkMesh> mesh = terrain(16, 1.5f, random).bake({.radius = 0.3f, .steepest = 1.3f});
+    const Result<WalkMesh> mesh = terrain(16, 1.5f, random).bake({.radius = 0.3f, .max_slope = 1.3f});
     ASSERT_TRUE(mesh) << mesh.problem().message;
     for (int i = 0; i < 50; ++i) {
         const WalkPoint from = mesh->nearest({random.uniform_float(-7, 7), 0, random.uniform_float(-7, 7)});
@@ -286,7 +286,7 @@ TEST(BakeWalkMesh, HasNoCracksAmongRuins) {
         Random random(seed);
         const Level level = ruins(random);
         WalkMeshBakeReport report;
-        const Result<WalkMesh> mesh = level.bake({.radius = 0.25f, .steepest = 1, .report = &report});
+        const Result<WalkMesh> mesh = level.bake({.radius = 0.25f, .max_slope = 1, .report = &report});
         ASSERT_TRUE(mesh) << mesh.problem().message;
         expect_clean(*mesh, report);
         islands += mesh->report().islands;
@@ -333,7 +333,7 @@ TEST(BakeWalkMesh, IsRightAtAnyScale) {
         Level level = room_with_table();
         for (Vec3& point : level.points) point = point * scale + Vec3(100 * scale, -50 * scale, 0);
         WalkMeshBakeOptions options;
-        for (float* length : {&options.radius, &options.height, &options.step_height}) *length *= scale;
+        for (float* length : {&options.radius, &options.height, &options.max_step}) *length *= scale;
         const Result<WalkMesh> mesh = level.bake(options);
         ASSERT_TRUE(mesh) << mesh.problem().message;
         EXPECT_EQ(mesh->report().islands, 2u);
@@ -388,16 +388,16 @@ TEST(BakeWalkMesh, NamesBadOptionsAndLevels) {
         EXPECT_EQ(code_of(level.bake({.up = {0, number == -1 ? 0 : number, 0}})), ProblemCode::bad_argument);
         EXPECT_EQ(code_of(level.bake({.radius = number})), ProblemCode::bad_argument);
         EXPECT_EQ(code_of(level.bake({.height = number})), ProblemCode::bad_argument);
-        EXPECT_EQ(code_of(level.bake({.step_height = number})), ProblemCode::bad_argument);
-        EXPECT_EQ(code_of(level.bake({.steepest = number})), ProblemCode::bad_argument);
+        EXPECT_EQ(code_of(level.bake({.max_step = number})), ProblemCode::bad_argument);
+        EXPECT_EQ(code_of(level.bake({.max_slope = number})), ProblemCode::bad_argument);
         EXPECT_EQ(code_of(level.bake({.cell = number})), ProblemCode::bad_argument);
         EXPECT_EQ(code_of(level.bake({.least_area = number})), ProblemCode::bad_argument);
     }
     EXPECT_EQ(code_of(level.bake({.height = 0.3f})), ProblemCode::bad_argument);
-    EXPECT_EQ(code_of(level.bake({.steepest = 1.56f})), ProblemCode::bad_argument);
+    EXPECT_EQ(code_of(level.bake({.max_slope = 1.56f})), ProblemCode::bad_argument);
     EXPECT_EQ(code_of(level.bake({.radius = 0})), ProblemCode::bad_argument) << "there is nothing to choose a cell by";
     EXPECT_EQ(code_of(level.bake({.cell = 0.01f})), ProblemCode::bad_argument);
-    EXPECT_EQ(code_of(level.bake({.radius = 1e-3f, .height = 4e-3f, .step_height = 1e-3f})), ProblemCode::too_large);
+    EXPECT_EQ(code_of(level.bake({.radius = 1e-3f, .height = 4e-3f, .max_step = 1e-3f})), ProblemCode::too_large);
     const Result<WalkMesh> bad_start = level.bake({.starts = std::vector<Vec3>{{1, 0, 1}, {1, nan_float, 1}}});
     EXPECT_EQ(code_of(bad_start), ProblemCode::not_finite);
     EXPECT_EQ(bad_start.problem().index, 1u);
@@ -422,7 +422,7 @@ TEST(BakeWalkMesh, NamesBadOptionsAndLevels) {
 TEST(BakeWalkMesh, NamesFloorsThatAreTooMany) {
     Level level;
     for (int i = 0; i < 300; ++i) level.floor(0, 0, 0.5f, 0.5f, 0.2f * static_cast<float>(i));
-    EXPECT_EQ(code_of(level.bake({.radius = 0.1f, .height = 0.1f, .step_height = 0.02f, .steepest = 0.1f})),
+    EXPECT_EQ(code_of(level.bake({.radius = 0.1f, .height = 0.1f, .max_slope = 0.1f, .max_step = 0.02f})),
               ProblemCode::too_large);
 }
 
