@@ -65,21 +65,8 @@ private:
 }  // namespace
 
 Side detour_steps(const SharedWalkSteps& steps, bool with_heights) {
-    const auto walkers = std::make_shared<Walkers>(steps, with_heights);
-    return {.who = with_heights ? "Detour, heights" : "Detour",
-            .ask =
-                [walkers, later = std::vector<double>(2 * steps->starts.size())](std::span<double> values) mutable {
-                    for (std::uint32_t frame = 0; frame < frames_a_turn; ++frame) {
-                        walkers->advance();
-                        walkers->tell(frame == 0 ? values : later);
-                    }
-                },
-            .figures =
-                [walkers] {
-                    Walkers others = *walkers;
-                    for (std::uint32_t frame = 0; frame < frames_a_way; ++frame) others.advance();
-                    return std::vector<Figure>{{"cut short", others.lost_share()}};
-                }};
+    return walking_side(with_heights ? "Detour, heights" : "Detour", "cut short",
+                        std::make_shared<Walkers>(steps, with_heights), 2 * steps->starts.size());
 }
 
 Side detour_nearest(const SharedWalkPoints& points) {

@@ -5,8 +5,10 @@
 #include "bench.hpp"
 #include <abut/walk/walk_mesh.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace abut::bench {
@@ -39,6 +41,26 @@ inline constexpr std::uint32_t frames_a_turn = 8;
 /// Which way a walker goes next.
 inline std::uint32_t next_way(const WalkSteps& steps, std::uint32_t way) {
     return (way + 389) % static_cast<std::uint32_t>(steps.headings.size());
+}
+
+/// The side whose walkers advance() frame by frame, tell(values) where they are, and know a lost_share() of their
+/// steps; `lost` is what that is called.
+template <class Walkers>
+Side walking_side(const char* who, const char* lost, std::shared_ptr<Walkers> walkers, std::size_t values_count) {
+    return {.who = who,
+            .ask =
+                [walkers, later = std::vector<double>(values_count)](std::span<double> values) mutable {
+                    for (std::uint32_t frame = 0; frame < frames_a_turn; ++frame) {
+                        walkers->advance();
+                        walkers->tell(frame == 0 ? values : later);
+                    }
+                },
+            .figures =
+                [walkers, lost] {
+                    Walkers others = *walkers;
+                    for (std::uint32_t frame = 0; frame < frames_a_way; ++frame) others.advance();
+                    return std::vector<Figure>{{lost, others.lost_share()}};
+                }};
 }
 
 /// moveAlongSurface: the places seen from above, as it tells no heights; `with_heights` sets them by getPolyHeight, as

@@ -93,21 +93,7 @@ private:
 
 template <class Walkers>
 Side by_abut(const char* who, const SharedWalkSteps& steps) {
-    const auto walkers = std::make_shared<Walkers>(steps);
-    return {.who = who,
-            .ask =
-                [walkers, later = std::vector<double>(2 * walker_count)](std::span<double> values) mutable {
-                    for (std::uint32_t frame = 0; frame < frames_a_turn; ++frame) {
-                        walkers->advance();
-                        walkers->tell(frame == 0 ? values : later);
-                    }
-                },
-            .figures =
-                [walkers] {
-                    Walkers others = *walkers;
-                    for (std::uint32_t frame = 0; frame < frames_a_way; ++frame) others.advance();
-                    return std::vector<Figure>{{"at borders", others.lost_share()}};
-                }};
+    return walking_side(who, "at borders", std::make_shared<Walkers>(steps), 2 * walker_count);
 }
 
 /// What Detour walks is as long seen from above, and straight so; abut's way is as long on the surface, and straight

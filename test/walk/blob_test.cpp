@@ -3,6 +3,7 @@
 #include "../oracle/random.hpp"
 #include "../oracle/seal.hpp"
 #include "../shape/meshes.hpp"
+#include "walk_surfaces.hpp"
 #include <abut/walk/walk_blob.hpp>
 #include <abut/walk/walk_data.hpp>
 
@@ -33,26 +34,6 @@ Surface odd() {
                      {2, 0, 3},     {9, 9, 9}, {9, 8, 9}, {8, 8, 9}, {5, 5, 5}, {2, 0, 0}, {2, 2, -0.0f}};
     result.triangles = {{0, 1, 2},  {2, 3, 4},   {4, 3, 0}, {0, 2, 4},  {2, 1, 0},
                         {12, 5, 6}, {6, 12, 13}, {1, 2, 7}, {8, 9, 10}, {7, 7, 3}};
-    return result;
-}
-
-/// A strip that is turned over once: no way round makes its triangles agree.
-Surface moebius() {
-    Surface result;
-    constexpr int around = 12;
-    for (int i = 0; i < around; ++i) {
-        const Turn turn = Turn::by(6.2831853f * static_cast<float>(i) / around);
-        const Turn half = Turn::by(3.14159265f * static_cast<float>(i) / around);
-        for (const float side : {-0.4f, 0.4f})
-            result.points.emplace_back((2 + side * half.cos) * turn.cos, (2 + side * half.cos) * turn.sin,
-                                       side * half.sin);
-    }
-    for (std::uint32_t i = 0; i < around; ++i) {
-        const bool last = i + 1 == around;
-        const std::uint32_t a = 2 * i, b = a + 1, c = last ? 1 : a + 2, d = last ? 0 : a + 3;
-        result.triangles.emplace_back(a, b, d);
-        result.triangles.emplace_back(a, d, c);
-    }
     return result;
 }
 
@@ -135,7 +116,7 @@ TEST(WalkBlob, IsTheSameMeshAgain) {
     expect_same(built(mixed, normals_of(mixed)));
     expect_same(built(mixed, {}, areas_of(mixed.triangles.size())));
     expect_same(built(mixed, normals_of(mixed), areas_of(mixed.triangles.size())));
-    const WalkMesh strip = built(moebius());
+    const WalkMesh strip = built(test::twisted_strip(12, 1, 1));
     EXPECT_GT(strip.report().mirrored, 0u);
     expect_same(strip);
     expect_same(built(test::reversed(test::box_surface({-1, -2, -3}, {1, 2, 3}))));

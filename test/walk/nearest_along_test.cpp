@@ -3,6 +3,7 @@
 
 #include "../oracle/vector_units.hpp"
 #include "../query/hash.hpp"
+#include "long_vectors.hpp"
 #include "walk_surfaces.hpp"
 #include <abut/walk/walk_mesh.hpp>
 
@@ -17,14 +18,6 @@ namespace abut::test {
 namespace {
 
 using oracle::Random;
-using Long = glm::vec<3, long double>;
-
-long double product(const Long& a, const Long& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-Long turned(const Long& a, const Long& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 Long position(const WalkMesh& mesh, const WalkPoint& place) {
     const glm::uvec3& t = mesh.triangles()[place.triangle];
     const auto at = [&](std::uint32_t k) { return Long(mesh.points()[k]); };

@@ -4,6 +4,7 @@
 #include "../broad_phase/allocations.hpp"
 #include "../oracle/vector_units.hpp"
 #include "../query/hash.hpp"
+#include "long_vectors.hpp"
 #include "walk_surfaces.hpp"
 #include <abut/walk/walk_data.hpp>
 #include <abut/walk/walk_mesh.hpp>
@@ -20,16 +21,6 @@ namespace abut::test {
 namespace {
 
 using oracle::Random;
-using Long = glm::vec<3, long double>;
-
-long double product(const Long& a, const Long& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-Long turned(const Long& a, const Long& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
 /// The squared distance of a point from a triangle: from the nearest of its sides, or from its plane above the inside.
 long double square_from(const Long& p, const Long& a, const Long& b, const Long& c) {
     const auto from_side = [&](const Long& start, const Long& end) {

@@ -2,6 +2,7 @@
 
 #include "../oracle/random.hpp"
 #include "../shape/meshes.hpp"
+#include "walk_surfaces.hpp"
 #include <abut/math/dvec.hpp>
 #include <abut/walk/walk_survey.hpp>
 
@@ -106,22 +107,8 @@ TEST(WalkSurvey, ClosedSurfacesHaveNoBorder) {
 }
 
 TEST(WalkSurvey, TheBorderOfAMoebiusStripIsOneLoop) {
-    Surface strip;
     constexpr std::uint32_t around = 16;
-    for (std::uint32_t i = 0; i < around; ++i) {
-        const Turn turn = Turn::by(6.2831853f * static_cast<float>(i) / around);
-        const Turn half = Turn::by(3.14159265f * static_cast<float>(i) / around);
-        for (const float side : {-0.4f, 0.4f})
-            strip.points.emplace_back((2 + side * half.cos) * turn.cos, (2 + side * half.cos) * turn.sin,
-                                      side * half.sin);
-    }
-    for (std::uint32_t i = 0; i < around; ++i) {
-        const bool last = i + 1 == around;
-        const std::uint32_t a = 2 * i, b = a + 1, c = last ? 1 : a + 2, d = last ? 0 : a + 3;
-        strip.triangles.emplace_back(a, b, d);
-        strip.triangles.emplace_back(a, d, c);
-    }
-    const WalkSurvey found = survey(built(strip));
+    const WalkSurvey found = survey(built(test::twisted_strip(around, 1, 1)));
     ASSERT_EQ(found.borders.size(), 1u);
     EXPECT_EQ(found.borders[0].points.size(), 2 * around);
     ASSERT_EQ(found.mirrored.size(), 1u);
