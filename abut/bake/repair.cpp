@@ -2,8 +2,8 @@
 #include <abut/bake/repair.hpp>
 #include <abut/bake/wind.hpp>
 #include <abut/math/coincident.hpp>
-#include <abut/shape/half_edges.hpp>
 #include <abut/shape/check_triangles.hpp>
+#include <abut/shape/half_edges.hpp>
 #include <abut/shape/tidy.hpp>
 #include <abut/shape/weld.hpp>
 
