@@ -138,9 +138,18 @@ void WalkFunnel::add(const DVec<2>& point, std::uint32_t portal, bool left) {
     const std::size_t step = left ? std::size_t{1} : ~std::size_t{0};  // towards the apex, and on along the other side
     std::size_t& end = left ? front_ : back_;
     const std::size_t other_end = left ? back_ : front_;
-    while (end != apex_ && sign * cross(at(end) - at(end + step), point - at(end)) <= 0) end += step;
+    // Where the point is a corner of the funnel itself, these turns are rounding: no way leads to the other side of a
+    // portal and back.
+    constexpr double slack = 1e-12;
+    const auto is_cut = [&](const DVec<2>& to_end, const DVec<2>& on) {
+        return sign * cross(to_end, on) <= slack * std::max(-dot(to_end, on), 0.0);
+    };
+    const auto is_beyond = [&](const DVec<2>& edge, const DVec<2>& there) {
+        return sign * cross(edge, there) < -slack * dot(edge, edge);
+    };
+    while (end != apex_ && is_cut(at(end) - at(end + step), point - at(end))) end += step;
     if (end == apex_) {
-        while (apex_ != other_end && sign * cross(at(apex_ + step) - at(apex_), point - at(apex_)) < 0) apex_ += step;
+        while (apex_ != other_end && is_beyond(at(apex_ + step) - at(apex_), point - at(apex_))) apex_ += step;
         end = apex_;
     }
     points_[count_] = {point, portal, chain_[end], left};

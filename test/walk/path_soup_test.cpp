@@ -45,7 +45,11 @@ WalkPoint anywhere(const WalkMesh& mesh, oracle::Random& random) {
 TEST(path_soup, ways_are_found_on_each_island_and_are_as_long_as_their_points_are_apart) {
     const std::vector<float> costs = {1, 2.5f, 0.4f}, closed = {1, std::numeric_limits<float>::infinity(), 0.4f};
     int paths = 0, mirrored = 0, apart = 0;
-    for (std::uint64_t seed = 1; seed < (std::getenv("ABUT_LONG") != nullptr ? 10000u : 600u); ++seed) {
+    // In the first three a way went to the other end of a portal and back, 3.46 too long of 8.37.
+    std::vector<std::uint64_t> seeds{2280, 2483, 4718};
+    for (std::uint64_t seed = 1; seed < (std::getenv("ABUT_LONG") != nullptr ? 10000u : 600u); ++seed)
+        seeds.push_back(seed);
+    for (const std::uint64_t seed : seeds) {
         SCOPED_TRACE(seed);
         oracle::Random random(seed);
         const Ground ground = soup(random);
