@@ -18,6 +18,10 @@ void* operator new(std::size_t size) {
     if (void* result = std::malloc(size == 0 ? 1 : size)) return result;
     throw std::bad_alloc();
 }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+    ++count;
+    return std::malloc(size == 0 ? 1 : size);
+}
 void operator delete(void* memory) noexcept {
     std::free(memory);
 }
