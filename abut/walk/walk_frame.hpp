@@ -34,7 +34,7 @@ inline constexpr double walk_grain = 0x1p-24;
 inline Vec3 in_grains(double second, double third) {
     constexpr std::int32_t whole = 1 << 24;
     const auto grains = [](double weight) {
-        return static_cast<std::int32_t>(std::min(std::max(weight * whole + 0.5, 0.0), static_cast<double>(whole)));
+        return static_cast<std::int32_t>(std::min(std::max(0.0, weight * whole + 0.5), double{whole}));
     };
     const std::int32_t c = grains(third), b = std::min(grains(second), whole - c), a = whole - b - c;
     constexpr auto grain = static_cast<float>(walk_grain);
@@ -55,6 +55,7 @@ inline Vec3 on_side(std::uint32_t side, double share) {
     return result;
 }
 
+/// Where a place is.
 inline DVec<3> in_space(const WalkTriangle& walk, const WalkPoint& place) {
     const WalkWeights weights = shares(place.weights);
     const DVec<3> first(walk.corner[0]);

@@ -124,7 +124,8 @@ public:
     /// Walks straight on over the surface: at each edge the step is turned by its bend. At a border it slides along it
     /// as long as that leads on, and stops in corners; past a border's corner that turns away it goes on as it began.
     /// What of a step of space is at right angles to the triangle is left out before. Never cut short, but for
-    /// `max_crossings`, and for what a corner tells.
+    /// `max_crossings`, and for what a corner tells. From a corner of triangles it goes as from places in its triangle
+    /// ever nearer to that corner.
     Walked walk(const WalkPoint& place, const Vec3& step, const WalkOptions& options = {}) const;
     Walked walk(const WalkPoint& place, const Vec2& step, const WalkOptions& options = {}) const;
 
