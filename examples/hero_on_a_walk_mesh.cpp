@@ -1,7 +1,6 @@
 // A hero who can't leave the level: a place on a walk mesh, a door that is closed, things that are found by the world,
 // and a monster that comes after.
 #include <abut/abut.hpp>
-#include <abut/walk/walk_mesh.hpp>
 
 #include <algorithm>
 #include <cstdio>

@@ -18,6 +18,18 @@ struct Terrain {
     std::vector<glm::uvec3> triangles;
 };
 
+/// Two triangles a square, row by row, over points that stand row by row, one more in each.
+inline std::vector<glm::uvec3> grid_triangles(std::uint32_t columns, std::uint32_t rows) {
+    std::vector<glm::uvec3> result;
+    for (std::uint32_t row = 0; row < rows; ++row)
+        for (std::uint32_t column = 0; column < columns; ++column) {
+            const std::uint32_t near = row * (columns + 1) + column, far = near + columns + 1;
+            result.emplace_back(near, far, near + 1);
+            result.emplace_back(near + 1, far, far + 1);
+        }
+    return result;
+}
+
 /// `columns` x `columns` squares of edge 1, two triangles each, y up, heights from -0.5 to 0.5, in the middle of the
 /// world.
 inline Terrain random_terrain(std::uint32_t columns, oracle::Random& random) {
@@ -27,13 +39,7 @@ inline Terrain random_terrain(std::uint32_t columns, oracle::Random& random) {
         for (std::uint32_t column = 0; column <= columns; ++column)
             result.points.emplace_back(static_cast<float>(column) - middle, random.uniform_float(-0.5, 0.5),
                                        static_cast<float>(row) - middle);
-    for (std::uint32_t row = 0; row < columns; ++row) {
-        for (std::uint32_t column = 0; column < columns; ++column) {
-            const std::uint32_t near = row * (columns + 1) + column, far = near + columns + 1;
-            result.triangles.emplace_back(near, far, near + 1);
-            result.triangles.emplace_back(near + 1, far, far + 1);
-        }
-    }
+    result.triangles = grid_triangles(columns, columns);
     return result;
 }
 

@@ -35,10 +35,11 @@ struct UnfoldedTriangle {
     std::uint32_t side = 0;  ///< from `right` to `left`, or in a mirrored triangle from `left` to `right`
     bool mirrored = false;   ///< the triangle's corners go round the other way in these coordinates
 
-    /// Whether the point that is so far ahead is beyond the side.
-    bool is_beyond(double x) const { return lanes::cross(right, left) < x * (left[1] - right[1]); }
-    /// The same of a side that the way leads along.
-    bool is_beyond_along(double x) const { return left[1] == right[1] && std::max(right[0], left[0]) < x; }
+    /// Whether the point that is so far ahead is beyond the side, which the way may lead along.
+    bool is_beyond(double x) const {
+        const double height = left[1] - right[1];
+        return lanes::cross(right, left) < x * height || (height == 0 && std::max(right[0], left[0]) < x);
+    }
 
     /// Which share of the side lies to the right of the way.
     double crossing() const {
@@ -54,11 +55,7 @@ struct UnfoldedTriangle {
     Vec3 weights_at(double share) const { return on_side(side, mirrored ? 1 - share : share); }
 
     /// The corner beyond the side, of which there is one.
-    lanes::Both apex(const WalkTriangle& walk) const {
-        const lanes::Both across = left - right;
-        const double back = mirrored ? -walk.back[side] : walk.back[side], away = walk.away[side];
-        return 0.5 * (right + left) - back * across + lanes::Both{away, -away} * lanes::swapped(across);
-    }
+    lanes::Both apex(const WalkTriangle& walk) const { return corner_beyond(walk, side, mirrored, left, right); }
 
     /// Over the side, into the triangle with this third corner: next it is left by that side of its other two that the
     /// corner is the left end of, or the right one.

@@ -96,6 +96,14 @@ inline DVec<2> to_plane_of(const WalkTriangle& walk, const Vec3& vector) {
     return to_plane_of(walk, lanes::loaded(vector));
 }
 
+/// Where the corner beyond a side is, unfolded into the plane in which the side has these ends, as one leaves by it.
+inline lanes::Both corner_beyond(const WalkTriangle& walk, std::uint32_t side, bool mirrored, lanes::Both left,
+                                 lanes::Both right) {
+    const lanes::Both across = left - right;
+    const double back = mirrored ? -walk.back[side] : walk.back[side], away = walk.away[side];
+    return 0.5 * (right + left) - back * across + lanes::Both{away, -away} * lanes::swapped(across);
+}
+
 /// After a step in the triangle's plane.
 inline WalkWeights stepped(const WalkTriangle& walk, const WalkWeights& from, const DVec<2>& step) {
     const double third = step.y * walk.inverse_height, second = (step.x - third * walk.third) * walk.inverse_width;

@@ -88,9 +88,9 @@ inline std::uint32_t left_entering(std::uint32_t side, bool mirrored) {
 /// Where the corner beyond a side is, unfolded.
 inline DVec<2> beyond_side(const WalkTriangle& walk, std::uint32_t side, bool mirrored, const DVec<2>& left,
                            const DVec<2>& right) {
-    const DVec<2> along = right - left, ahead{-along.y, along.x};
-    const double back = mirrored ? -walk.back[side] : walk.back[side];
-    return (left + right) * 0.5 + along * back + ahead * walk.away[side];
+    const lanes::Both at =
+        corner_beyond(walk, side, mirrored, lanes::both(left.x, left.y), lanes::both(right.x, right.y));
+    return {at[0], at[1]};
 }
 
 /// Where a way through a strip turns, or is told apart: an end of some portals, or a point of one.

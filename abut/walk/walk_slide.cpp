@@ -60,7 +60,7 @@ bool WalkSlide::slide() {
         share = 0;
         switch (go_round_corner()) {
             case Round::free:
-                if (here.is_beyond(way_.left) || here.is_beyond_along(way_.left)) return true;
+                if (here.is_beyond(way_.left)) return true;
                 end_within();
                 return false;
             case Round::barrier:

@@ -59,7 +59,7 @@ inline WalkStop go_straight(const WalkTriangle* triangles, const WalkOptions& op
         here.enter(link, corner, corner[1] >= 0);
         fetch_beyond(triangles, here.triangle);
         ++count;
-        if (!here.is_beyond(left) && !here.is_beyond_along(left)) break;
+        if (!here.is_beyond(left)) break;
         if (count % most_from_one_origin == 0) {
             const double x = std::clamp(here.at(here.crossing())[0], 0.0, left);
             here.move_origin(lanes::Both{x, 0});

@@ -157,11 +157,7 @@ TEST_F(DecomposeVerb, DrawsAPicture) {
 
 TEST_F(DecomposeVerb, RefusesInOneLine) {
     const std::string file = write_mesh("boxes.obj", boxes());
-    const auto refused = [&](const std::vector<std::string>& more) {
-        std::vector<std::string> all{"decompose", file};
-        all.insert(all.end(), more.begin(), more.end());
-        return refusal(all);
-    };
+    const auto refused = [&](const std::vector<std::string>& more) { return refusal("decompose", file, more); };
     EXPECT_EQ(refused({"-o", "parts.ply"}), "abut: parts.ply: doesn't end in .gltf, .glb or .obj");
     EXPECT_EQ(refused({"-o", out("none/parts.obj")}),
               "abut: " + out("none/parts.obj") + ": can't be written: No such file or directory");

@@ -203,11 +203,7 @@ TEST_F(FieldVerb, InfoTellsWhatIsInAField) {
 
 TEST_F(FieldVerb, RefusesInOneLine) {
     const std::string file = cube();
-    const auto refused = [&](const std::vector<std::string>& more) {
-        std::vector<std::string> all{"field", file};
-        all.insert(all.end(), more.begin(), more.end());
-        return refusal(all);
-    };
+    const auto refused = [&](const std::vector<std::string>& more) { return refusal("field", file, more); };
     EXPECT_EQ(refused({"-o", "cube.bin"}), "abut: cube.bin: doesn't end in .field");
     EXPECT_EQ(refused({"-o", out("none/c.field")}),
               "abut: " + out("none/c.field") + ": can't be written: No such file or directory");

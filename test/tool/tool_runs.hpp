@@ -49,6 +49,13 @@ protected:
         EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
         return ran.err.substr(0, ran.err.size() - (ran.err.empty() ? 0 : 1));
     }
+    /// The same of a verb for a file, with more arguments.
+    std::string refusal(const std::string& verb, const std::string& file, const std::vector<std::string>& more) const {
+        std::vector<std::string> all{verb, file};
+        all.insert(all.end(), more.begin(), more.end());
+        return refusal(all);
+    }
+
     /// What the refusal of a file says behind its name.
     std::string refusal_of(const std::string& name, std::string_view content) const {
         const std::string file = write(name, content).string();

@@ -197,11 +197,7 @@ TEST_F(WalkVerb, DrawsTheMesh) {
 
 TEST_F(WalkVerb, RefusesInOneLine) {
     const std::string file = room();
-    const auto refused = [&](const std::vector<std::string>& more) {
-        std::vector<std::string> all{"walk", file};
-        all.insert(all.end(), more.begin(), more.end());
-        return refusal(all);
-    };
+    const auto refused = [&](const std::vector<std::string>& more) { return refusal("walk", file, more); };
     EXPECT_EQ(refused({"--from", "1,2,3"}), "abut: --from says where a way starts: name --to too");
     EXPECT_EQ(refused({"--to", "1,2,3"}), "abut: --to says where a way ends: name --from too");
     EXPECT_EQ(refused({"--reach", "1"}), "abut: --reach is how far off --from and --to may be: name them too");

@@ -225,8 +225,7 @@ TEST_P(WalkNearestAlong, of_any_size) {
 TEST_P(WalkNearestAlong, is_the_same_bits_everywhere) {
     Hash hash;
     Random random(5);
-    Surface surface = flat(24, 24);
-    for (Vec3& point : surface.points) point.z = static_cast<float>(random.below(64)) / 16;
+    const Surface surface = stepped_hills(24, random);
     const Result<WalkMesh> mesh = WalkMesh::build(surface.points, surface.triangles);
     ASSERT_TRUE(mesh);
     const auto number = [&](std::uint32_t most) { return static_cast<float>(random.below(most)) / 128; };

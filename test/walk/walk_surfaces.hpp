@@ -40,6 +40,13 @@ inline Surface flat(std::uint32_t columns, std::uint32_t rows) {
     return sheet(columns, rows, [](std::uint32_t column, std::uint32_t row) { return DVec<3>(column, row, 0); });
 }
 
+/// Heights are whole but for a power of 2, so that no compiler has a say in them.
+inline Surface stepped_hills(std::uint32_t columns, oracle::Random& random) {
+    Surface result = flat(columns, columns);
+    for (Vec3& point : result.points) point.z = static_cast<float>(random.below(64)) / 16;
+    return result;
+}
+
 /// A flat floor with square holes in it, some of which touch at a corner.
 inline Surface flat_with_holes(std::uint32_t columns, oracle::Random random) {
     return sheet(
