@@ -20,6 +20,7 @@
 #include <abut/math/executor.hpp>
 #include <abut/math/motion.hpp>
 #include <abut/math/pose.hpp>
+#include <abut/math/pose_from_matrix.hpp>
 #include <abut/math/predicates.hpp>
 #include <abut/math/ray.hpp>
 #include <abut/math/result.hpp>
