@@ -20,5 +20,6 @@ struct Grid {
 
 /// Of points that are not all the same.
 Grid on_grid(std::span<const Vec3> points);
+Grid on_grid(std::span<const DVec<3>> points);
 
 }  // namespace abut

@@ -15,15 +15,10 @@ std::size_t greatest(std::span<const double> values) {
     return static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
 }
 
-/// The one farthest from the middle, and then always the one that is farthest from all before.
-std::vector<Vec3> far_apart(std::span<const Vec3> points, std::size_t count) {
-    DVec<3> sum(0.0);
-    for (const Vec3& point : points) sum += DVec<3>(point);
-    const DVec<3> middle = sum / static_cast<double>(points.size());
-    std::vector<double> squares;
-    for (const Vec3& point : points) squares.push_back(length_squared(DVec<3>(point) - middle));
-    std::vector<Vec3> result{points[greatest(squares)]};
-    std::fill(squares.begin(), squares.end(), std::numeric_limits<double>::max());
+/// The first one, and then always the one that is farthest from all before.
+std::vector<Vec3> far_apart(std::span<const Vec3> points, std::size_t count, const Vec3& first) {
+    std::vector<Vec3> result{first};
+    std::vector<double> squares(points.size(), std::numeric_limits<double>::max());
     while (result.size() < count) {
         const DVec<3> last(result.back());
         for (std::size_t i = 0; i < points.size(); ++i)
@@ -63,8 +58,8 @@ const Vec3& highest(std::span<const Vec3> points, const DVec<3>& way) {
 
 }  // namespace
 
-Hull3 inner_hull(std::span<const Vec3> points, std::size_t count) {
-    Hull3 result = *hull(far_apart(points, count));
+Hull3 inner_hull(std::span<const Vec3> points, std::size_t count, const Vec3& first) {
+    Hull3 result = *hull(far_apart(points, count, first));
     for (int round = 0; round < most_rounds && result.rank == 3; ++round) {
         const std::vector<DVec<3>> ways = slopes(result);
         std::vector<Vec3> moved;

@@ -7,19 +7,12 @@
 
 namespace abut {
 
-InnerPoints::InnerPoints(const Hull3& hull, const Affine<3>& map) : neighbours_(2 * hull.edges.size()) {
-    points_.reserve(hull.points.size());
-    for (const Vec3& point : hull.points) points_.push_back(map.point(DVec<3>(point)));
-    ends_.assign(points_.size() + 1, 0);
-    for (const FacetEdge& edge : hull.edges) {
-        ++ends_[edge.from + 1];
-        ++ends_[edge.to + 1];
-    }
+InnerPoints::InnerPoints(const ConvexSurface& surface)
+    : points_(surface.points), neighbours_(surface.triangles.origin.size()), ends_(surface.points.size() + 1, 0) {
+    const std::vector<std::uint32_t>& origin = surface.triangles.origin;
+    for (const std::uint32_t from : origin) ++ends_[from + 1];
     std::partial_sum(ends_.begin(), ends_.end(), ends_.begin());
-    for (const FacetEdge& edge : hull.edges) {
-        neighbours_[ends_[edge.from]++] = edge.to;
-        neighbours_[ends_[edge.to]++] = edge.from;
-    }
+    for (std::uint32_t h = 0; h < origin.size(); ++h) neighbours_[ends_[origin[h]]++] = origin[following(h)];
 }
 
 /// better(i) tells whether point i is better than the best one before, and then it is the best one. Never comes back

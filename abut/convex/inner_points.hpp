@@ -2,9 +2,7 @@
 
 // The corners of a convex body with their neighbours, for finding the extreme ones by walking uphill.
 
-#include <abut/convex/hull.hpp>
-#include <abut/convex/lowest_point.hpp>
-#include <abut/math/linear.hpp>
+#include <abut/convex/convex_surface.hpp>
 
 #include <cstdint>
 #include <span>
@@ -14,8 +12,7 @@ namespace abut {
 
 class InnerPoints {
 public:
-    /// Of a solid hull, seen by a map.
-    InnerPoints(const Hull3& hull, const Affine<3>& map);
+    explicit InnerPoints(const ConvexSurface& surface);
 
     std::span<const DVec<3>> points() const { return points_; }
 

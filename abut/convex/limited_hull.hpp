@@ -4,7 +4,7 @@
 
 #include <abut/convex/hull.hpp>
 #include <abut/convex/hull_options.hpp>
-#include <abut/math/function_ref.hpp>
+#include <abut/math/linear.hpp>
 
 #include <optional>
 
@@ -20,10 +20,9 @@ Result<Hull2> limited_hull(std::span<const Vec2> points, const HullOptions& opti
 Result<Hull3> limited_hull(std::span<const Vec3> points, const HullOptions& options);
 
 /// Around the corners of a hull with an area (as `Hull2` has them), one of at most `limit` corners, 3 or more, that
-/// holds them, and that `accept` has nothing against: offered are larger and larger ones. Nothing where such corners
-/// are beyond the range of floats, or none was accepted.
-std::optional<Hull2> outline_of(std::span<const Vec2> hull_points, std::size_t limit,
-                                FunctionRef<bool(const Hull2&)> accept);
+/// holds them: of no larger area than the least turned rectangle around them as `seen` shows it, up to the rounding of
+/// floats; for 3 corners, than twice that. Nothing where such corners are beyond the range of floats.
+std::optional<Hull2> outline_of(std::span<const Vec2> hull_points, std::size_t limit, const Affine<2>& seen);
 
 /// What is wrong then.
 inline Problem beyond_floats() {

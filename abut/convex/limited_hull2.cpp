@@ -1,21 +1,28 @@
-// A hull of few corners in the plane.
+// A hull with a vertex limit in the plane.
 
 #include <abut/convex/hull_input.hpp>
+#include <abut/convex/least_box.hpp>
 #include <abut/convex/limited_hull.hpp>
 #include <abut/convex/outer_polygon.hpp>
 #include <abut/convex/round_out.hpp>
+#include <abut/convex/stretched_frame.hpp>
 #include <abut/math/dvec.hpp>
 #include <abut/math/predicates.hpp>
 
+#include <algorithm>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace abut {
 namespace {
 
-constexpr int most_margins = 40;
+constexpr int max_margins = 14;
+constexpr double first_margin = 0x1p-40;
 
-double area_of(std::span<const Vec2> loop) {
+template <class Point>
+double area_of(std::span<const Point> loop) {
     double twice = 0;
     const DVec<2> origin(loop[0]);
     for (std::size_t i = 1; i + 1 < loop.size(); ++i)
@@ -23,55 +30,119 @@ double area_of(std::span<const Vec2> loop) {
     return 0.5 * twice;
 }
 
-/// Whether no point is outside of a convex loop, exactly.
-bool holds(std::span<const Vec2> loop, std::span<const Vec2> points) {
-    for (std::size_t i = 0; i < loop.size(); ++i)
+/// The hull of the corners, if no point is outside of it, exactly.
+std::optional<Hull2> hull_around(std::span<const Vec2> corners, std::span<const Vec2> points) {
+    Hull2 result{{}, 2};
+    for (const std::uint32_t i : hull_loop(corners)) result.points.push_back(corners[i]);
+    const std::size_t count = result.points.size();
+    if (count < 3) return std::nullopt;
+    for (std::size_t i = 0; i < count; ++i)
         for (const Vec2& point : points)
-            if (orientation(loop[i], loop[i + 1 == loop.size() ? 0 : i + 1], point) < 0) return false;
-    return true;
-}
-
-/// The corners as floats, each outside of its two edges by `margin`; nothing where one leaves their range.
-std::optional<std::vector<Vec2>> rounded(std::span<const DVec<2>> loop, const DVec<2>& origin, double margin) {
-    std::vector<Plane<2>> lines;
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-        const DVec<2> along = loop[i + 1 == loop.size() ? 0 : i + 1] - loop[i];
-        const DVec<2> normal = normalized(DVec<2>(along.y, -along.x));
-        lines.push_back({normal, dot(normal, loop[i] + origin) + margin});
-    }
-    std::vector<Vec2> result;
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-        const Plane<2> both[] = {lines[i == 0 ? loop.size() - 1 : i - 1], lines[i]};
-        const std::optional<Vec2> corner = rounded_out<2>(loop[i] + origin, both);
-        if (!corner) return std::nullopt;
-        result.push_back(*corner);
-    }
+            if (orientation(result.points[i], result.points[(i + 1) % count], point) < 0) return std::nullopt;
     return result;
 }
 
+class Search {
+public:
+    Search(std::span<const Vec2> points, std::size_t limit, const Affine<2>& shown, const StretchedFrame<2>& frame)
+        : points_(points), limit_(limit), frame_(frame) {
+        for (const Vec2& point : points) inner_.push_back(frame.from_world(DVec<2>(point)));
+        offer_rectangle(shown);
+        loops_.push_back(outer_polygon(inner_, limit));
+    }
+
+    /// Rounding only adds: what is no less than the best before it is rounded won't be after.
+    std::optional<Hull2> least_rounded() const {
+        std::vector<std::pair<double, std::size_t>> order;
+        for (std::size_t i = 0; i < loops_.size(); ++i)
+            order.emplace_back(area_of<DVec<2>>(loops_[i]) * determinant(frame_.out), i);
+        std::sort(order.begin(), order.end());
+        std::optional<Hull2> best = bounding_box();
+        for (const auto& [area, number] : order) {
+            if (best && area_of<Vec2>(best->points) <= area) break;
+            std::optional<Hull2> next = rounded(loops_[number]);
+            if (next && (!best || area_of<Vec2>(next->points) < area_of<Vec2>(best->points))) best = std::move(next);
+        }
+        return best;
+    }
+
+private:
+    /// The least turned rectangle, or the triangle around it.
+    void offer_rectangle(const Affine<2>& shown) {
+        std::vector<DVec<2>> loop;
+        for (const DVec<2>& point : inner_) loop.push_back(shown.vector(frame_.out.vector(point)));
+        const DVec<2> along = least_rectangle(loop), across(-along.y, along.x);
+        const auto extremes = [&](const DVec<2>& axis) {
+            const auto [low, high] = std::minmax_element(
+                loop.begin(), loop.end(), [&](const auto& a, const auto& b) { return dot(axis, a) < dot(axis, b); });
+            return std::pair(dot(axis, *low), dot(axis, *high));
+        };
+        const auto [left, right] = extremes(along);
+        const auto [low, high] = extremes(across);
+        const Affine<2> back = inverse(shown, determinant(shown));
+        std::vector<DVec<2>>& offered = loops_.emplace_back();
+        for (const DVec<2>& unit : around_unit_cube<2>(limit_)) {
+            const DVec<2> place = along * (left + (right - left) * unit.x) + across * (low + (high - low) * unit.y);
+            offered.push_back(frame_.into.vector(back.vector(place)));
+        }
+        if (area_of<DVec<2>>(offered) < 0) std::reverse(offered.begin(), offered.end());
+    }
+
+    /// The corners of a loop as floats, each outside of its two edges by `margin`; nothing where one leaves their
+    /// range.
+    std::optional<std::vector<Vec2>> rounded_corners(std::span<const DVec<2>> loop, double margin) const {
+        const std::size_t count = loop.size();
+        std::vector<Plane<2>> lines;
+        for (std::size_t i = 0; i < count; ++i) {
+            const DVec<2> along = loop[(i + 1) % count] - loop[i], normal = normalized(DVec<2>(along.y, -along.x));
+            double offset = dot(normal, loop[i]);
+            for (const DVec<2>& point : inner_) offset = std::max(offset, dot(normal, point));
+            lines.push_back({normal, offset + margin});
+        }
+        std::vector<Vec2> result;
+        for (std::size_t i = 0; i < count; ++i) {
+            const Plane<2> both[] = {lines[(i + count - 1) % count], lines[i]};
+            const std::optional<Vec2> corner = rounded_out<2>(loop[i], both, frame_);
+            if (!corner) return std::nullopt;
+            result.push_back(*corner);
+        }
+        return result;
+    }
+
+    std::optional<Hull2> rounded(std::span<const DVec<2>> loop) const {
+        double margin = 0;
+        for (int i = 0; i < max_margins; ++i) {
+            const std::optional<std::vector<Vec2>> corners = rounded_corners(loop, margin);
+            if (!corners) return std::nullopt;
+            if (std::optional<Hull2> result = hull_around(*corners, points_)) return result;
+            margin = margin == 0 ? first_margin : 8 * margin;
+        }
+        return std::nullopt;
+    }
+
+    /// The bounding box, whose corners are floats as they are, or a triangle around it.
+    std::optional<Hull2> bounding_box() const {
+        for (const double growth : {0x1p-20, 0x1p-10, 1.0}) {
+            const std::vector<Vec2> corners = corners_of_box<2>(points_, limit_, growth);
+            if (corners.empty()) return std::nullopt;
+            if (std::optional<Hull2> result = hull_around(corners, points_)) return result;
+        }
+        return std::nullopt;
+    }
+
+    std::span<const Vec2> points_;
+    std::size_t limit_;
+    const StretchedFrame<2>& frame_;
+    std::vector<DVec<2>> inner_;  ///< the points in the frame
+    std::vector<std::vector<DVec<2>>> loops_;
+};
+
 }  // namespace
 
-std::optional<Hull2> outline_of(std::span<const Vec2> hull_points, std::size_t limit,
-                                FunctionRef<bool(const Hull2&)> accept) {
-    const DVec<2> origin(hull_points[0]);
-    std::vector<DVec<2>> inner;
-    for (const Vec2& point : hull_points) inner.push_back(DVec<2>(point) - origin);
-    const std::vector<DVec<2>> outer = outer_polygon(inner, limit);
-    const double side = extent<2>(hull_points);
-    double margin = 0;
-    for (int i = 0; i < most_margins; ++i) {
-        const std::optional<std::vector<Vec2>> corners = rounded(outer, origin, margin);
-        if (!corners) break;
-        Result<Hull2> result = hull(*corners);
-        if (result && result->rank == 2 && holds(result->points, hull_points) && accept(*result)) return *result;
-        margin = margin == 0 ? 0x1p-50 * side : 4 * margin;
-    }
-    // Where its tips are so sharp that no float is in them.
-    const std::vector<Vec2> corners = corners_of_box<2>(hull_points, limit);
-    if (corners.empty()) return std::nullopt;
-    Result<Hull2> result = hull(corners);
-    if (!holds(result->points, hull_points) || !accept(*result)) return std::nullopt;
-    return *result;
+std::optional<Hull2> outline_of(std::span<const Vec2> hull_points, std::size_t limit, const Affine<2>& seen) {
+    const std::optional<StretchedFrame<2>> frame = stretched_frame(hull_points, hull_points);
+    if (!frame) return std::nullopt;
+    return Search(hull_points, limit, seen, *frame).least_rounded();
 }
 
 Result<Hull2> limited_hull(std::span<const Vec2> points, const HullOptions& options) {
@@ -82,9 +153,9 @@ Result<Hull2> limited_hull(std::span<const Vec2> points, const HullOptions& opti
             "max_vertices is " + std::to_string(options.max_vertices) + ", and an area has 3 corners or more", 0};
     Result<Hull2> full = hull(points);
     if (!full || options.max_vertices == 0 || full->points.size() <= options.max_vertices) return full;
-    std::optional<Hull2> result = outline_of(full->points, options.max_vertices, [](const Hull2&) { return true; });
+    std::optional<Hull2> result = outline_of(full->points, options.max_vertices, {});
     if (!result) return beyond_floats();
-    if (options.added != nullptr) *options.added = area_of(result->points) - area_of(full->points);
+    if (options.added != nullptr) *options.added = area_of<Vec2>(result->points) - area_of<Vec2>(full->points);
     return *std::move(result);
 }
 

@@ -1,271 +1,237 @@
-// A hull of few corners in space.
+// A hull with a vertex limit in space.
 
+#include <abut/convex/convex_surface.hpp>
+#include <abut/convex/framed_hull.hpp>
+#include <abut/convex/hull_core.hpp>
 #include <abut/convex/hull_input.hpp>
 #include <abut/convex/inner_hull.hpp>
+#include <abut/convex/least_box.hpp>
+#include <abut/convex/limited_flat.hpp>
 #include <abut/convex/limited_hull.hpp>
 #include <abut/convex/outer_mesh.hpp>
+#include <abut/convex/outer_polygon.hpp>
 #include <abut/convex/round_out.hpp>
+#include <abut/convex/stretched_frame.hpp>
 #include <abut/math/dvec.hpp>
 #include <abut/math/linear.hpp>
-#include <abut/math/predicates.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace abut {
 namespace {
 
-constexpr std::size_t few_corners = 32, pool_corners = 4, least_pool = 64;
-// Where the body reaches about 0.45 from its middle: how deep a point is surely inside, and how near no plane comes.
-constexpr double depth_for_sure = 1e-4, least_offset = 1e-3;
-constexpr int tightening_rounds = 8, most_margins = 24;
+/// Where the body is about 1 across: points so near to its surface needn't be corners of it, as the planes move out to
+/// them at last.
+constexpr double coarse = 0x1p-17;
+constexpr std::size_t few_corners = 32, very_few_corners = 16, box_corners = 32;
+constexpr int tightening_rounds = 8, max_margins = 14;
+constexpr double first_margin = 0x1p-24;
 
-using Triangles = std::vector<std::array<Vec3, 3>>;
-
-/// Whether a closed surface, wound outwards, surely has the points in the convex hull of its corners: none is above a
-/// triangle. Then the surface goes around each of them, as all its triangles are seen from their inner sides.
-bool surely_holds(const Triangles& triangles, std::span<const Vec3> points) {
-    if (points.empty()) return true;
-    const DVec<3> low = least_corner<3>(points), high = greatest_corner<3>(points);
-    for (const auto& [a, b, c] : triangles) {
-        const DVec<3> origin(a), u = DVec<3>(b) - origin, v = DVec<3>(c) - origin, normal = cross(u, v);
-        const double doubt = 1e-14 * length(u) * length(v) * (length(low - origin) + length(high - low));
-        for (const Vec3& point : points)
-            if (!(dot(normal, DVec<3>(point) - origin) < -doubt) && orientation(a, b, c, point) > 0) return false;
+/// The search for the least of several surfaces around one body.
+class Search {
+public:
+    Search(std::vector<Vec3> points, std::size_t limit, const StretchedFrame<3>& frame)
+        : points_(std::move(points)), limit_(limit), frame_(frame) {
+        for (const Vec3& point : points_) seen_.push_back(frame.from_world(DVec<3>(point)));
     }
-    return true;
-}
 
-Triangles triangles_of(const Hull3& hull) {
-    Triangles result;
-    std::size_t begin = 0;
-    for (const std::uint32_t end : hull.loop_ends) {
-        for (std::size_t i = begin + 1; i + 1 < end; ++i)
-            result.push_back(
-                {hull.points[hull.loops[begin]], hull.points[hull.loops[i]], hull.points[hull.loops[i + 1]]});
-        begin = end;
-    }
-    return result;
-}
-
-Triangles triangles_of(const OuterMesh& mesh, std::span<const Vec3> corners) {
-    Triangles result;
-    for (std::uint32_t triangle = 0; triangle < mesh.triangle_count(); ++triangle)
-        if (mesh.has_triangle(triangle))
-            result.push_back({corners[mesh.corner(triangle, 0)], corners[mesh.corner(triangle, 1)],
-                              corners[mesh.corner(triangle, 2)]});
-    return result;
-}
-
-/// Takes what is round to the hull: seen the other way, its volume reaches equally far in all directions.
-Affine<3> from_round(const Hull3& hull) {
-    const DVec<3> origin(hull.centroid);
-    DVec<3> diagonal(0.0), off(0.0);  // of the sum of p p^T over its volume: xx, yy, zz and yz, zx, xy
-    const auto add = [&](const DVec<3>& p, double weight) {
-        diagonal += DVec<3>(p.x * p.x, p.y * p.y, p.z * p.z) * weight;
-        off += DVec<3>(p.y * p.z, p.z * p.x, p.x * p.y) * weight;
-    };
-    double volume = 0;
-    for (const auto& [a, b, c] : triangles_of(hull)) {
-        const DVec<3> u = DVec<3>(a) - origin, v = DVec<3>(b) - origin, w = DVec<3>(c) - origin;
-        const double part = dot(cross(u, v), w);
-        volume += part;
-        for (const DVec<3>& p : {u, v, w, u + v + w}) add(p, part);
-    }
-    // The root of that, by Cholesky.
-    diagonal /= volume;
-    off /= volume;
-    const double least = 1e-15 * largest(diagonal);
-    const double xx = std::sqrt(std::max(diagonal.x, least)), xy = off.z / xx, xz = off.y / xx;
-    const double yy = std::sqrt(std::max(diagonal.y - xy * xy, least)), yz = (off.x - xy * xz) / yy;
-    const double zz = std::sqrt(std::max(diagonal.z - xz * xz - yz * yz, least));
-    Affine<3> result;
-    result.column = {DVec<3>(xx, xy, xz), DVec<3>(0, yy, yz), DVec<3>(0, 0, zz)};
-    result.offset = origin;
-    return result;
-}
-
-/// The corners of the mesh, which `map` takes to the world, as floats: outside of the planes of their triangles by
-/// `margin`, after these were moved out to the points that they leave out. Nothing where one leaves the range of
-/// floats.
-std::optional<std::vector<Vec3>> rounded_corners(const OuterMesh& mesh, const Affine<3>& map,
-                                                 std::span<const Vec3> points, double margin) {
-    const Affine<3> back = inverse(map, determinant(map));
-    std::vector<Plane<3>> planes(mesh.triangle_count());
-    for (std::uint32_t triangle = 0; triangle < planes.size(); ++triangle) {
-        if (!mesh.has_triangle(triangle)) continue;
-        const Plane<3>& seen = mesh.plane(triangle);
-        const DVec<3> normal = back.transposed(seen.normal);
-        const double inverse_length = 1 / length(normal);
-        Plane<3>& plane = planes[triangle];
-        plane = {normal * inverse_length, (seen.offset - dot(seen.normal, back.offset)) * inverse_length};
-        for (const Vec3& point : points) plane.offset = std::max(plane.offset, dot(plane.normal, DVec<3>(point)));
-        plane.offset += margin;
-    }
-    std::vector<Vec3> result(mesh.points().size());
-    std::vector<Plane<3>> around;
-    for (std::uint32_t point = 0; point < result.size(); ++point) {
-        if (!mesh.has_point(point)) continue;
-        around.clear();
-        mesh.each_triangle_around(point, [&](std::uint32_t triangle) { around.push_back(planes[triangle]); });
-        const std::optional<Vec3> corner = rounded_out<3>(map.point(mesh.points()[point]), around);
-        if (!corner) return std::nullopt;
-        result[point] = *corner;
-    }
-    return result;
-}
-
-/// The hull of the mesh's corners, rounded to floats no farther out than it takes to hold the points.
-std::optional<Hull3> rounded_hull(const OuterMesh& mesh, const Affine<3>& map, std::span<const Vec3> points,
-                                  double side) {
-    double margin = 0;
-    for (int i = 0; i < most_margins; ++i) {
-        const std::optional<std::vector<Vec3>> corners = rounded_corners(mesh, map, points, margin);
-        if (!corners) return std::nullopt;
-        std::vector<Vec3> used;
-        for (std::uint32_t point = 0; point < corners->size(); ++point)
-            if (mesh.has_point(point)) used.push_back((*corners)[point]);
-        Hull3 result = *hull(used);
-        if (result.rank == 3) {
-            const Triangles surface = triangles_of(result);
-            std::erase_if(used, [&](const Vec3& corner) {
-                return std::binary_search(result.points.begin(), result.points.end(), corner,
-                                          [](const Vec3& a, const Vec3& b) { return less(a, b); });
-            });
-            const bool lost_nothing = surely_holds(surface, used);
-            if ((lost_nothing && surely_holds(triangles_of(mesh, *corners), points)) || surely_holds(surface, points))
-                return result;
+    std::optional<Hull3> run() {
+        const std::optional<ConvexSurface> surface = convex_surface(seen_, coarse);
+        if (surface) {
+            const InnerPoints inside(*surface);
+            OuterMesh mesh(*surface);
+            mesh.simplify(std::max(limit_, box_corners));
+            OuterMesh simple = mesh;
+            simple.simplify(limit_);
+            offer(std::move(simple), inside);
+            if (limit_ <= few_corners) offer_inner(inside);
+            offer_boxes(std::move(mesh), inside);
         }
-        margin = margin == 0 ? 0x1p-24 * side : 2 * margin;
+        return least_rounded();
     }
-    return std::nullopt;
-}
 
-/// The corners where planes around the origin meet. They are the planes of a hull, that of the points at 1 / offset
-/// along their normals.
-std::vector<Vec3> corners_of_planes(const Hull3& polar) {
-    std::vector<Vec3> result;
-    for (std::size_t face = 0; face < polar.normals.size(); ++face)
-        if (polar.offsets[face] > least_offset)
-            result.push_back(to_float(DVec<3>(polar.normals[face]) / polar.offsets[face]));
-    return result;
-}
+private:
+    /// What is much larger than the least before it stays as it is, for where rounding undoes the others.
+    void offer(OuterMesh mesh, const InnerPoints& inside) {
+        constexpr double hopeless = 1.4;
+        if (mesh.count() > limit_) return;
+        double volume = mesh.volume();
+        if (!(volume > hopeless * least_)) {
+            mesh.tighten(inside, tightening_rounds);
+            volume = mesh.volume();
+        }
+        if (!(volume > 0)) return;
+        least_ = std::min(least_, volume);
+        meshes_.emplace_back(volume * determinant(frame_.out), std::move(mesh));
+    }
 
-/// The least of several meshes of so few corners around all that is inside, seen from its middle. Nothing where
-/// rounding undid them all.
-std::optional<OuterMesh> least_mesh(OuterMesh mesh, const InnerPoints& inside, std::size_t limit) {
-    std::optional<OuterMesh> result;
-    double least = 0;
-    const auto offer = [&](OuterMesh& offered) {
-        if (offered.count() > limit) return;
-        offered.tighten(inside, tightening_rounds);
-        const double volume = offered.volume();
-        if (!offered.holds(inside) || (result && !(volume < least))) return;
-        result = offered;
-        least = volume;
-    };
-    const auto offer_grown = [&](const Hull3& inner) {
-        if (inner.rank < 3) return;
-        OuterMesh grown(inner, Affine<3>());
-        grown.grow(DVec<3>(inner.centroid), inside);
-        offer(grown);
-    };
+    /// The hull of the corners, grown until it holds all.
+    void offer_grown(std::span<const DVec<3>> corners, const InnerPoints& inside) {
+        const std::optional<ConvexSurface> surface = convex_surface(corners, 0);
+        if (!surface) return;
+        OuterMesh mesh(*surface);
+        DVec<3> middle(0.0);
+        for (const DVec<3>& corner : surface->points) middle += corner;
+        mesh.grow(middle / static_cast<double>(surface->points.size()), inside);
+        offer(std::move(mesh), inside);
+    }
 
-    mesh.simplify(std::max(pool_corners * limit, least_pool));
-    std::vector<Vec3> polar;
-    for (std::uint32_t triangle = 0; triangle < mesh.triangle_count(); ++triangle)
-        if (mesh.has_triangle(triangle) && mesh.plane(triangle).offset > least_offset)
-            polar.push_back(to_float(mesh.plane(triangle).normal / mesh.plane(triangle).offset));
-    mesh.simplify(limit);
-    offer(mesh);
-    if (result && limit > few_corners) return result;
-
-    std::vector<Vec3> points;
-    for (const DVec<3>& point : inside.points()) points.push_back(to_float(point));
-    offer_grown(inner_hull(points, limit));
-    if (polar.size() < 4) return result;
-    const std::vector<Vec3> corners = corners_of_planes(inner_hull(polar, limit / 2 + 2));
-    if (corners.size() >= 4) offer_grown(*hull(corners));
-    return result;
-}
-
-/// Larger than it needs to be.
-std::optional<Hull3> hull_of_box(std::span<const Vec3> points, std::size_t limit) {
-    const std::vector<Vec3> corners = corners_of_box<3>(points, limit);
-    if (corners.empty()) return std::nullopt;
-    Hull3 result = *hull(corners);
-    if (result.rank < 3 || !surely_holds(triangles_of(result), points)) return std::nullopt;
-    return result;
-}
-
-/// The points that aren't far inside of the mesh.
-std::vector<Vec3> near_surface(const OuterMesh& mesh, const Affine<3>& seen_by, std::span<const Vec3> points) {
-    std::vector<Plane<3>> planes;
-    for (std::uint32_t triangle = 0; triangle < mesh.triangle_count(); ++triangle)
-        if (mesh.has_triangle(triangle)) planes.push_back(mesh.plane(triangle));
-    std::vector<Vec3> result;
-    for (const Vec3& point : points) {
-        const DVec<3> seen = seen_by.point(DVec<3>(point));
-        for (const Plane<3>& plane : planes) {
-            if (!(dot(plane.normal, seen) > plane.offset - depth_for_sure)) continue;
-            result.push_back(point);
-            break;
+    /// An inner hull of so many corners: good for what is round.
+    void offer_inner(const InnerPoints& inside) {
+        std::vector<Vec3> points;
+        for (const DVec<3>& point : inside.points()) points.push_back(to_float(point));
+        const int starts = limit_ <= very_few_corners ? 3 : 1;
+        for (int start = 0; start < starts; ++start) {
+            std::vector<DVec<3>> corners;
+            const Vec3& first = points[inside.highest(axis<3>(start), 0)];
+            for (const Vec3& corner : inner_hull(points, limit_, first).points) corners.emplace_back(corner);
+            offer_grown(corners, inside);
         }
     }
-    return result;
-}
 
-Result<Hull3> limited_solid(const Hull3& full, std::span<const Vec3> points, std::size_t limit) {
-    const Affine<3> map = from_round(full), seen_by = inverse(map, determinant(map));
-    const std::optional<OuterMesh> mesh = least_mesh(OuterMesh(full, seen_by), InnerPoints(full, seen_by), limit);
-    std::optional<Hull3> result;
-    if (mesh) result = rounded_hull(*mesh, map, near_surface(*mesh, seen_by, points), extent<3>(full.points));
-    if (!result) result = hull_of_box(points, limit);
-    if (!result) return beyond_floats();
-    return *std::move(result);
-}
+    /// The least turned box, or what takes its place below 8 corners; and prisms along its axes.
+    void offer_boxes(OuterMesh mesh, const InnerPoints& inside) {
+        mesh.simplify(box_corners);
+        std::vector<DVec<3>> corners, normals;
+        for (const DVec<3>& column : frame_.out.column) normals.push_back(normalized(column));
+        for (int i = 0; i < 3; ++i) normals.push_back(axis<3>(i));
+        for (std::uint32_t triangle = 0; triangle < mesh.triangle_count(); ++triangle)
+            if (mesh.has_triangle(triangle))
+                normals.push_back(normalized(frame_.into.transposed(mesh.plane(triangle).normal)));
+        std::vector<DVec<3>> rough;
+        for (std::uint32_t point = 0; point < mesh.points().size(); ++point)
+            if (mesh.has_point(point)) rough.push_back(frame_.out.vector(mesh.points()[point]));
+        for (const DVec<3>& point : inside.points()) corners.push_back(frame_.out.vector(point));
+        const TurnedBox box = least_box(corners, rough, normals);
+        const auto place = [&](const DVec<3>& unit) {
+            DVec<3> result(0.0);
+            for (int i = 0; i < 3; ++i)
+                result += box.axes[static_cast<std::size_t>(i)] * (box.low[i] + (box.high[i] - box.low[i]) * unit[i]);
+            return frame_.into.vector(result);
+        };
+        std::vector<DVec<3>> around;
+        for (const DVec<3>& unit : around_unit_cube<3>(limit_)) around.push_back(place(unit));
+        offer_grown(around, inside);
+        if (limit_ < 6) return;
+        for (std::size_t up = 0; up < 3; ++up) {
+            const std::size_t right = (up + 1) % 3, ahead = (up + 2) % 3;
+            std::vector<DVec<2>> loop;
+            for (const std::uint32_t i : silhouette(corners, box.axes[right], box.axes[ahead]))
+                loop.push_back(scaled(box, corners[i], right, ahead));
+            if (loop.size() < 3) continue;
+            if (loop.size() > limit_ / 2) loop = outer_polygon(loop, limit_ / 2);
+            around.clear();
+            for (const DVec<2>& corner : loop)
+                for (const double height : {0.0, 1.0}) {
+                    DVec<3> unit;
+                    unit[static_cast<int>(right)] = corner.x;
+                    unit[static_cast<int>(ahead)] = corner.y;
+                    unit[static_cast<int>(up)] = height;
+                    around.push_back(place(unit));
+                }
+            offer_grown(around, inside);
+        }
+    }
 
-/// In its plane: the outline as seen along the axis nearest to the normal, with corners of its own that are put back
-/// into the plane.
-Result<Hull3> limited_flat(const Hull3& full, std::span<const Vec3> points, std::size_t limit) {
-    const DVec<3> normal(full.normals[0]);
-    const double middle = 0.5 * (full.offsets[0] - full.offsets[1]);
-    const DVec<3> steep{std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};
-    const int up = steep.x >= steep.y && steep.x >= steep.z ? 0 : (steep.y >= steep.z ? 1 : 2);
-    const int right = (up + 1) % 3, front = (up + 2) % 3;
-    const auto shadow = [&](const Vec3& point) { return Vec2(point[right], point[front]); };
-    const bool level =
-        std::all_of(points.begin(), points.end(), [&](const Vec3& point) { return point[up] == points[0][up]; });
-    const auto lifted = [&](const Vec2& point) {
-        Vec3 result;
-        result[right] = point.x;
-        result[front] = point.y;
-        const double rest = normal[right] * static_cast<double>(point.x) + normal[front] * static_cast<double>(point.y);
-        result[up] = level ? points[0][up] : static_cast<float>((middle - rest) / normal[up]);
+    static DVec<2> scaled(const TurnedBox& box, const DVec<3>& p, std::size_t right, std::size_t ahead) {
+        const auto share = [&](std::size_t axis) {
+            const int i = static_cast<int>(axis);
+            return (dot(box.axes[axis], p) - box.low[i]) / (box.high[i] - box.low[i]);
+        };
+        return {share(right), share(ahead)};
+    }
+
+    /// The corners of a mesh as floats: outside of the planes of their triangles by `margin`, after these were moved
+    /// out to the points that they leave out. Nothing where one leaves the range of floats.
+    std::optional<std::vector<Vec3>> rounded_corners(const OuterMesh& mesh, double margin) const {
+        std::vector<Plane<3>> planes(mesh.triangle_count());
+        for (std::uint32_t triangle = 0; triangle < planes.size(); ++triangle) {
+            if (!mesh.has_triangle(triangle)) continue;
+            planes[triangle] = mesh.plane(triangle);
+            for (const DVec<3>& point : seen_)
+                planes[triangle].offset = std::max(planes[triangle].offset, dot(planes[triangle].normal, point));
+            planes[triangle].offset += margin;
+        }
+        std::vector<Vec3> result;
+        std::vector<Plane<3>> around;
+        for (std::uint32_t point = 0; point < mesh.points().size(); ++point) {
+            if (!mesh.has_point(point)) continue;
+            around.clear();
+            mesh.each_triangle_around(point, [&](std::uint32_t triangle) { around.push_back(planes[triangle]); });
+            const std::optional<Vec3> corner = rounded_out<3>(mesh.points()[point], around, frame_);
+            if (!corner) return std::nullopt;
+            result.push_back(*corner);
+        }
         return result;
-    };
-    std::vector<Vec2> outline;
-    for (const Vec3& point : points) outline.push_back(shadow(point));
-    const std::vector<std::uint32_t> loop = hull_loop(outline);
-    std::vector<Vec2> inner;
-    for (const std::uint32_t i : loop) inner.push_back(outline[i]);
+    }
 
-    std::optional<Hull3> result;
-    outline_of(inner, limit, [&](const Hull2& outer) {
-        std::vector<Vec3> corners;
-        for (const Vec2& corner : outer.points) corners.push_back(lifted(corner));
-        if (!std::all_of(corners.begin(), corners.end(), [](const Vec3& corner) { return is_finite(corner); }))
-            return false;
-        Result<Hull3> built = hull(corners);
-        if (!built || built->points.size() < corners.size()) return false;
-        result = *std::move(built);
-        return true;
-    });
-    if (!result) return beyond_floats();
-    return *std::move(result);
+    std::optional<Hull3> rounded(const OuterMesh& mesh) const {
+        double margin = 0;
+        for (int i = 0; i < max_margins; ++i) {
+            const std::optional<std::vector<Vec3>> corners = rounded_corners(mesh, margin);
+            if (!corners) return std::nullopt;
+            if (std::optional<Hull3> result = framed_hull(*corners, points_, frame_)) return result;
+            margin = margin == 0 ? first_margin : 4 * margin;
+        }
+        return std::nullopt;
+    }
+
+    /// The bounding box, whose corners are floats as they are, or what takes its place below 8 corners.
+    std::optional<Hull3> bounding_box() const {
+        for (const double growth : {0x1p-20, 0x1p-10, 1.0}) {
+            const std::vector<Vec3> corners = corners_of_box<3>(points_, limit_, growth);
+            if (corners.empty()) return std::nullopt;
+            if (std::optional<Hull3> result = framed_hull(corners, points_, frame_)) return result;
+        }
+        return std::nullopt;
+    }
+
+    /// Rounding only adds: a mesh that is no less than the best before it is rounded won't be after.
+    std::optional<Hull3> least_rounded() {
+        std::stable_sort(meshes_.begin(), meshes_.end(),
+                         [](const auto& a, const auto& b) { return a.first < b.first; });
+        std::optional<Hull3> best = bounding_box();
+        for (const auto& [volume, mesh] : meshes_) {
+            if (best && best->volume <= volume) break;
+            std::optional<Hull3> next = rounded(mesh);
+            if (next && (!best || next->volume < best->volume)) best = std::move(next);
+        }
+        return best;
+    }
+
+    std::vector<Vec3> points_;
+    std::size_t limit_;
+    const StretchedFrame<3>& frame_;
+    std::vector<DVec<3>> seen_;                          ///< the points in the frame
+    std::vector<std::pair<double, OuterMesh>> meshes_;   ///< with their volumes in the world
+    double least_ = std::numeric_limits<double>::max();  ///< of the volumes in the frame
+};
+
+std::optional<Hull3> limited_solid(const Hull3& full, std::span<const Vec3> points, std::size_t limit) {
+    std::vector<Vec3> sorted = without_core(points);
+    std::sort(sorted.begin(), sorted.end(), [](const Vec3& a, const Vec3& b) { return less(a, b); });
+    sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+    const std::optional<StretchedFrame<3>> frame = stretched_frame(full.points, sorted);
+    if (!frame) return std::nullopt;
+    return Search(std::move(sorted), limit, *frame).run();
+}
+
+/// Points of a plane, each as two with the next floats below and above it between them: as thick as rounding.
+std::vector<Vec3> thickened(const Hull3& full, std::span<const Vec3> points) {
+    const DVec<3> normal(full.normals[0]), steep{std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};
+    const int up = steep.x >= steep.y && steep.x >= steep.z ? 0 : (steep.y >= steep.z ? 1 : 2);
+    std::vector<Vec3> result;
+    for (const Vec3& point : points)
+        for (const float way : {-std::numeric_limits<float>::max(), std::numeric_limits<float>::max()}) {
+            result.push_back(point);
+            result.back()[up] = std::nextafter(point[up], way);
+        }
+    return result;
 }
 
 }  // namespace
@@ -278,12 +244,13 @@ Result<Hull3> limited_hull(std::span<const Vec3> points, const HullOptions& opti
             "max_vertices is " + std::to_string(options.max_vertices) + ", and a solid has 4 corners or more", 0};
     Result<Hull3> full = hull(points);
     if (!full || options.max_vertices == 0 || full->points.size() <= options.max_vertices) return full;
+    const std::size_t limit = options.max_vertices;
     const bool flat = full->rank == 2;
-    Result<Hull3> result =
-        flat ? limited_flat(*full, points, options.max_vertices) : limited_solid(*full, points, options.max_vertices);
-    if (result && options.added != nullptr)
-        *options.added = flat ? result->area - full->area : result->volume - full->volume;
-    return result;
+    std::optional<Hull3> result = flat ? limited_flat(*full, points, limit) : limited_solid(*full, points, limit);
+    if (flat && !result) result = limited_solid(*full, thickened(*full, points), limit);
+    if (!result) return beyond_floats();
+    if (options.added != nullptr) *options.added = flat ? result->area - full->area : result->volume - full->volume;
+    return *std::move(result);
 }
 
 }  // namespace abut

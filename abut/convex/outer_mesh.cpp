@@ -9,69 +9,22 @@
 #include <utility>
 
 namespace abut {
-namespace {
-
-/// The triangles of a face, in a strip, so that no corner belongs to more of them than it has to.
-template <class Visit>
-void each_triangle(std::span<const std::uint32_t> loop, Visit visit) {
-    std::size_t low = 0, high = loop.size() - 1;
-    while (high - low >= 2) {
-        visit(loop[low], loop[low + 1], loop[high]);
-        ++low;
-        if (high - low < 2) return;
-        visit(loop[low], loop[high - 1], loop[high]);
-        --high;
-    }
-}
-
-/// One a half-edge, by the ends that it shares with its twin.
-std::vector<std::uint32_t> twins_of(std::span<const std::uint32_t> origin) {
-    std::vector<std::pair<std::uint64_t, std::uint32_t>> keys;
-    keys.reserve(origin.size());
-    for (std::uint32_t h = 0; h < origin.size(); ++h) {
-        const auto [low, high] = std::minmax(origin[h], origin[following(h)]);
-        keys.emplace_back(std::uint64_t{low} << 32 | high, h);
-    }
-    std::sort(keys.begin(), keys.end());
-    std::vector<std::uint32_t> result(origin.size());
-    for (std::size_t i = 0; i < keys.size(); i += 2) {
-        result[keys[i].second] = keys[i + 1].second;
-        result[keys[i + 1].second] = keys[i].second;
-    }
-    return result;
-}
-
-}  // namespace
-
-OuterMesh::OuterMesh(const Hull3& hull, const Affine<3>& map)
-    : leaving_(hull.points.size(), none), count_(hull.points.size()), mark_(hull.points.size(), 0) {
-    const Affine<3> back = inverse(map, determinant(map));
-    points_.reserve(hull.points.size());
-    for (const Vec3& point : hull.points) points_.push_back(map.point(DVec<3>(point)));
-    std::size_t begin = 0;
-    for (std::size_t face = 0; face < hull.normals.size(); ++face) {
-        const DVec<3> normal(hull.normals[face]), seen = back.transposed(normal);
-        const double inverse_length = 1 / length(seen);
-        const Plane<3> plane{seen * inverse_length, (hull.offsets[face] - dot(normal, back.offset)) * inverse_length};
-        const std::size_t end = hull.loop_ends[face];
-        each_triangle(std::span(hull.loops).subspan(begin, end - begin),
-                      [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-                          origin_.insert(origin_.end(), {a, b, c});
-                          planes_.push_back(plane);
-                          areas_.push_back(length(cross(points_[b] - points_[a], points_[c] - points_[a])));
-                      });
-        begin = end;
-    }
-    twin_ = twins_of(origin_);
-    version_.resize(origin_.size(), 0);
+OuterMesh::OuterMesh(const ConvexSurface& surface)
+    : points_(surface.points),
+      leaving_(surface.points.size(), none),
+      origin_(surface.triangles.origin),
+      twin_(surface.triangles.twin),
+      count_(surface.points.size()),
+      version_(surface.triangles.origin.size(), 0),
+      mark_(surface.points.size(), 0) {
     for (std::uint32_t h = 0; h < origin_.size(); ++h) leaving_[origin_[h]] = h;
-}
-
-std::vector<DVec<3>> OuterMesh::corners() const {
-    std::vector<DVec<3>> result;
-    for (std::uint32_t point = 0; point < points_.size(); ++point)
-        if (has_point(point)) result.push_back(points_[point]);
-    return result;
+    for (std::uint32_t triangle = 0; triangle < surface.triangles.normals.size(); ++triangle) {
+        const DVec<3>&a = points_[corner(triangle, 0)], &b = points_[corner(triangle, 1)],
+              &c = points_[corner(triangle, 2)];
+        const DVec<3> normal = normalized(DVec<3>(surface.triangles.normals[triangle]));
+        planes_.push_back({normal, std::max({dot(normal, a), dot(normal, b), dot(normal, c)})});
+        areas_.push_back(length(cross(b - a, c - a)));
+    }
 }
 
 double OuterMesh::volume() const {
@@ -80,20 +33,6 @@ double OuterMesh::volume() const {
         if (has_triangle(t))
             six_times += dot(cross(points_[corner(t, 0)], points_[corner(t, 1)]), points_[corner(t, 2)]);
     return six_times / 6;
-}
-
-bool OuterMesh::holds(const InnerPoints& inside) const {
-    std::uint32_t highest = 0;
-    for (std::uint32_t triangle = 0; triangle < planes_.size(); ++triangle) {
-        if (!has_triangle(triangle)) continue;
-        const Plane<3>& plane = planes_[triangle];
-        highest = inside.highest(plane.normal, highest);
-        const double depth = plane.offset - dot(plane.normal, inside.points()[highest]);
-        const double corner = plane.offset - dot(plane.normal, points_[origin_[3 * triangle]]);
-        if (!(depth > -2 * flatness) || !(std::abs(corner) < 1e-5 * (1 + largest(points_[origin_[3 * triangle]]))))
-            return false;
-    }
-    return true;
 }
 
 void OuterMesh::grow(const DVec<3>& middle, const InnerPoints& inside) {

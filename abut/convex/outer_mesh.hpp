@@ -2,11 +2,9 @@
 
 // A convex surface of triangles that stays around what it is around while it loses corners.
 
-#include <abut/convex/hull.hpp>
+#include <abut/convex/convex_surface.hpp>
 #include <abut/convex/inner_points.hpp>
 #include <abut/convex/lowest_point.hpp>
-#include <abut/convex/quickhull.hpp>
-#include <abut/math/linear.hpp>
 
 #include <cstdint>
 #include <optional>
@@ -19,8 +17,7 @@ namespace abut {
 /// taken out keep their numbers. The body is some 1 across; the surface is convex to within 2e-6.
 class OuterMesh {
 public:
-    /// Of a solid hull, seen by a map that keeps left and right apart.
-    OuterMesh(const Hull3& hull, const Affine<3>& map);
+    explicit OuterMesh(const ConvexSurface& surface);
 
     /// Takes out corners until there are `count`: two neighbours become one point outside of all the faces that they
     /// had, the least volume first (Sander, Gu, Gortler, Hoppe, Snyder: "Silhouette clipping", 2000). May end with
@@ -31,10 +28,6 @@ public:
     void tighten(const InnerPoints& inside, int rounds);
 
     double volume() const;
-    /// Whether nothing that is inside is above a triangle by more than 1e-6, and the corners are where the planes are.
-    bool holds(const InnerPoints& inside) const;
-    /// The corners that are left.
-    std::vector<DVec<3>> corners() const;
     std::size_t count() const { return count_; }
     std::span<const DVec<3>> points() const { return points_; }
     bool has_point(std::uint32_t point) const { return leaving_[point] != none; }

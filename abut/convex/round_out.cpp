@@ -2,6 +2,7 @@
 #include <abut/convex/round_out.hpp>
 #include <abut/math/dvec.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -11,7 +12,6 @@ namespace abut {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr int most_steps = 200;
 
 /// The floats around a number, the lesser one first.
 std::array<float, 2> around(double value) {
@@ -22,9 +22,10 @@ std::array<float, 2> around(double value) {
                         : std::array{std::nextafter(nearest, -infinity), nearest};
 }
 
-/// The lowest of the points of floats around a place that are above all planes.
+/// The lowest of the points of floats around a place of the world that are above all planes.
 template <int D>
-std::optional<Vec<D>> lowest_around(const DVec<D>& place, std::span<const Plane<D>> planes) {
+std::optional<Vec<D>> lowest_around(const DVec<D>& place, std::span<const Plane<D>> planes,
+                                    const StretchedFrame<D>& frame) {
     std::array<std::array<float, 2>, static_cast<std::size_t>(D)> floats{};
     for (int i = 0; i < D; ++i) floats[static_cast<std::size_t>(i)] = around(place[i]);
     std::optional<Vec<D>> result;
@@ -33,10 +34,11 @@ std::optional<Vec<D>> lowest_around(const DVec<D>& place, std::span<const Plane<
         Vec<D> candidate;
         for (int i = 0; i < D; ++i) candidate[i] = floats[static_cast<std::size_t>(i)][choice >> i & 1u];
         if (!is_finite<D>(candidate)) continue;
+        const DVec<D> seen = frame.from_world(DVec<D>(candidate));
         double sum = 0;
         bool above = true;
         for (const Plane<D>& plane : planes) {
-            const double height = dot(plane.normal, DVec<D>(candidate)) - plane.offset;
+            const double height = dot(plane.normal, seen) - plane.offset;
             above = above && height >= 0;
             sum += height;
         }
@@ -47,63 +49,97 @@ std::optional<Vec<D>> lowest_around(const DVec<D>& place, std::span<const Plane<
     return result;
 }
 
-/// A way that rises above all planes alike.
-DVec<2> way_out(std::span<const Plane<2>> planes) {
-    DVec<2> sum(0.0);
-    for (const Plane<2>& plane : planes) sum += plane.normal;
-    return normalized(sum);
+/// The lowest place above all planes by more than `rise` of each, near the corner.
+DVec<2> raised(const DVec<2>& corner, std::span<const Plane<2>> planes, std::span<const double> rise) {
+    const DVec<2>&a = planes[0].normal, &b = planes[1].normal;
+    const double turn = cross(a, b), one = planes[0].offset + rise[0] - dot(a, corner),
+                 other = planes[1].offset + rise[1] - dot(b, corner);
+    constexpr double straight = 1e-6;
+    if (std::abs(turn) > straight) return corner + DVec<2>(one * b.y - other * a.y, other * a.x - one * b.x) / turn;
+    return corner + normalized(a + b) * (std::max(one, other) * (1 + straight));
 }
-DVec<3> way_out(std::span<const Plane<3>> planes) {
+DVec<3> raised(const DVec<3>& corner, std::span<const Plane<3>> planes, std::span<const double> rise) {
     DVec<3> sum(0.0);
-    std::vector<Plane<3>> one_up;
-    for (const Plane<3>& plane : planes) {
-        sum += plane.normal;
-        one_up.push_back({plane.normal, 1});
+    std::vector<Plane<3>> local;
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        sum += planes[i].normal;
+        local.push_back({planes[i].normal, planes[i].offset + rise[i] - dot(planes[i].normal, corner)});
     }
-    return normalized(lowest_above(one_up, sum, 1e3).value_or(sum));
+    // Along the mean of the normals, where that rises above all planes: no farther than it has to.
+    constexpr double least_rise = 0.1;
+    const DVec<3> way = normalized(sum);
+    double along = 0;
+    for (const Plane<3>& plane : local)
+        along = std::max(along, dot(plane.normal, way) > least_rise ? plane.offset / dot(plane.normal, way)
+                                                                    : std::numeric_limits<double>::infinity());
+    // Planes that are nearly the same meet anywhere: then the lowest place may be far to the side.
+    const std::optional<DVec<3>> lowest = lowest_above(local, sum, 1);
+    return corner + (lowest && length(*lowest) <= 2 * along ? *lowest : way * along);
+}
+
+/// The distance to the next float.
+double spacing(double value) {
+    const auto near = static_cast<float>(std::abs(value));
+    return static_cast<double>(std::nextafter(near, infinity)) - static_cast<double>(near);
 }
 
 }  // namespace
 
 template <int D>
-std::optional<Vec<D>> rounded_out(const DVec<D>& corner, std::span<const Plane<D>> planes) {
-    const DVec<D> way = way_out(planes);
-    const auto size = static_cast<float>(largest(corner));
-    const double least_step = 0.125 * static_cast<double>(std::nextafter(size, infinity) - size);
-    double along = 0;
-    for (int step = 0; step < most_steps; ++step) {
-        if (const std::optional<Vec<D>> found = lowest_around(corner + way * along, planes)) return found;
-        along = along == 0 ? least_step : along * 1.25;
+std::optional<Vec<D>> rounded_out(const DVec<D>& corner, std::span<const Plane<D>> planes,
+                                  const StretchedFrame<D>& frame) {
+    // Rounding moves a point by less than the spacing of floats on each axis, so it sinks under each plane by no more
+    // than `rise`: around a place that is so high above all of them every float is above them.
+    std::vector<double> rise(planes.size(), 0);
+    const DVec<D> low = raised(corner, planes, rise), place = frame.to_world(low);
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        const DVec<D> normal = frame.into.transposed(planes[i].normal);
+        for (int axis = 0; axis < D; ++axis) rise[i] += std::abs(normal[axis]) * spacing(place[axis]);
+        if (!std::isfinite(rise[i])) return std::nullopt;
     }
+    const DVec<D> step = raised(corner, planes, rise) - low;
+    for (const double share : {0.0, 0.0625, 0.125, 0.25, 0.375, 0.5, 0.75, 1.0, 2.0, 4.0})
+        if (const std::optional<Vec<D>> found = lowest_around(frame.to_world(low + step * share), planes, frame))
+            return found;
     return std::nullopt;
 }
 
+template <>
+std::vector<DVec<2>> around_unit_cube<2>(std::size_t limit) {
+    if (limit < 4) return {{0, 0}, {2, 0}, {0, 2}};
+    return {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+}
+
+template <>
+std::vector<DVec<3>> around_unit_cube<3>(std::size_t limit) {
+    if (limit < 5) return {{0, 0, 0}, {3, 0, 0}, {0, 3, 0}, {0, 0, 3}};
+    if (limit < 6) return {{-0.25, -0.25, 0}, {1.25, -0.25, 0}, {1.25, 1.25, 0}, {-0.25, 1.25, 0}, {0.5, 0.5, 3}};
+    if (limit < 8) return {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 1}, {2, 0, 1}, {0, 2, 1}};
+    return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};
+}
+
 template <int D>
-std::vector<Vec<D>> corners_of_box(std::span<const Vec<D>> points, std::size_t limit) {
+std::vector<Vec<D>> corners_of_box(std::span<const Vec<D>> points, std::size_t limit, double growth) {
     const DVec<D> low = least_corner<D>(points), high = greatest_corner<D>(points);
+    const bool pyramid = D == 3 && limit == 5;
     std::vector<Vec<D>> result;
-    if (limit >= std::size_t{1} << D) {
-        for (unsigned choice = 0; choice < 1u << D; ++choice) {
-            DVec<D> corner = low;
-            for (int i = 0; i < D; ++i)
-                if ((choice >> i & 1u) != 0) corner[i] = high[i];
-            result.push_back(to_float(corner));
+    for (const DVec<D>& unit : around_unit_cube<D>(pyramid ? 4 : limit)) {
+        Vec<D> corner;
+        for (int i = 0; i < D; ++i) {
+            const double legs = unit[i] * (1 + growth), beyond = low[i] + (high[i] - low[i]) * legs;
+            corner[i] = unit[i] == 0   ? static_cast<float>(low[i])
+                        : unit[i] == 1 ? static_cast<float>(high[i])
+                                       : std::nextafter(static_cast<float>(beyond), infinity);
         }
-        return result;
-    }
-    result.push_back(to_float(low));
-    for (int i = 0; i < D; ++i) {
-        Vec<D> corner = result[0];
-        corner[i] = std::nextafter(static_cast<float>(low[i] + D * 1.000001 * (high[i] - low[i])), infinity);
         if (!is_finite<D>(corner)) return {};
-        result.push_back(corner);
+        result.push_back(without_negative_zero(corner));
     }
     return result;
 }
 
-template std::vector<Vec2> corners_of_box(std::span<const Vec2>, std::size_t);
-template std::vector<Vec3> corners_of_box(std::span<const Vec3>, std::size_t);
-template std::optional<Vec2> rounded_out(const DVec<2>&, std::span<const Plane<2>>);
-template std::optional<Vec3> rounded_out(const DVec<3>&, std::span<const Plane<3>>);
+template std::vector<Vec2> corners_of_box(std::span<const Vec2>, std::size_t, double);
+template std::vector<Vec3> corners_of_box(std::span<const Vec3>, std::size_t, double);
+template std::optional<Vec2> rounded_out(const DVec<2>&, std::span<const Plane<2>>, const StretchedFrame<2>&);
+template std::optional<Vec3> rounded_out(const DVec<3>&, std::span<const Plane<3>>, const StretchedFrame<3>&);
 
 }  // namespace abut
