@@ -69,9 +69,10 @@ struct FieldOptions {
 /// alone encloses nothing but what it bends round. Points in exactly the same place are one.
 ///
 /// A Problem where no triangle with an area is left (`empty_input`), an index names no point (`index_out_of_range`,
-/// with the triangle's number), a point is NaN or infinite (`not_finite`), an option is outside of its limits
-/// (`bad_argument`), the volume would have more than 2^31 samples kept (`too_large`), or progress said so
-/// (`cancelled`).
+/// with the triangle's number), a point is NaN or infinite (`not_finite`), an option is outside of its limits, a cell
+/// isn't between 2^-100 and 2^100, a coordinate or a distance reaches 2^100, or a distance 2^60 cells (`bad_argument`),
+/// the volume would have more than 2^31 samples kept or 2^24 cells along an axis (`too_large`), or progress said so
+/// (`cancelled`). All that is baked can be loaded again.
 Result<Field<3>> bake_field(std::span<const Vec3> points, std::span<const glm::uvec3> triangles,
                             const FieldOptions<3>& options = {});
 Result<Field<3>> bake_field(const Mesh& mesh, const FieldOptions<3>& options = {});

@@ -1,5 +1,6 @@
 #include <abut/bake/field_fill.hpp>
 #include <abut/bake/field_grid.hpp>
+#include <abut/field/field_check.hpp>
 #include <abut/field/quantise.hpp>
 #include <abut/math/dvec.hpp>
 
@@ -295,6 +296,9 @@ Result<Field<D>> fill_field(FieldData<D> grid, const SampleSource<D>& source, co
         if (!sparse) return sparse.problem();
         grid = *std::move(sparse);
     }
+    if (fault_of_numbers(grid))
+        return Problem{ProblemCode::bad_argument,
+                       "the surface of a field is beyond 2^60 cells or 2^100 from its volume"};
     if (options.quantised) quantise(grid);
     report.samples = grid.samples() + grid.coarse.size();
     if (!work.finish()) return FieldWork::cancelled();

@@ -1,4 +1,5 @@
 #include <abut/bake/field_grid.hpp>
+#include <abut/field/field_check.hpp>
 #include <abut/math/dvec.hpp>
 
 #include <algorithm>
@@ -50,7 +51,8 @@ Result<FieldData<D>> field_grid(const Aabb<D>& surface, const FieldOptions<D>& o
     result.lookup = options.lookup;
     result.surface = surface;
     result.cell = options.cell > 0 ? options.cell : static_cast<float>(longest_side(surface) / 64);
-    if (!(result.cell > 0) || result.cell == infinity) return bad("the cell of a field is too small for its numbers");
+    if (!(result.cell > min_field_length)) return bad("the cell of a field is too small for its numbers");
+    if (!(result.cell < max_field_length)) return bad("the cell of a field is too large for its numbers");
 
     const double cell = static_cast<double>(result.cell), padding = static_cast<double>(options.padding) * cell;
     double samples = 1;
@@ -60,16 +62,18 @@ Result<FieldData<D>> field_grid(const Aabb<D>& surface, const FieldOptions<D>& o
         const double high = options.volume ? static_cast<double>(options.volume->max[i])
                                            : static_cast<double>(surface.max[i]) + padding;
         result.origin[i] = float_below(low);
-        if (!std::isfinite(result.origin[i])) return bad("the volume of a field reaches beyond what floats reach");
+        const float low_end = std::min(surface.min[i], result.origin[i]), high_end = surface.max[i];
+        if (!(low_end > -max_field_length && high_end < max_field_length && result.origin[i] < max_field_length))
+            return bad("a field, or its surface, reaches beyond 2^100");
         double cells = std::max(1.0, std::ceil((high - static_cast<double>(result.origin[i])) / cell));
         const double side = brick_cells<D>;
         if (result.store == FieldStore::sparse) cells = std::ceil(cells / side) * side;
         samples *= (result.store == FieldStore::sparse ? cells / side : cells) + 1;
-        if (!(samples <= most_field_samples) || !(cells < 4294967295.0))
+        if (!(samples <= most_field_samples))
             return Problem{ProblemCode::too_large, "the field would have more than 2^31 samples", 0};
+        if (!(cells <= most_cells))
+            return Problem{ProblemCode::too_large, "the field would have more than 2^24 cells along an axis", 0};
         result.cells[i] = static_cast<std::uint32_t>(cells);
-        if (!std::isfinite(static_cast<float>(static_cast<double>(result.origin[i]) + cell * cells)))
-            return bad("the volume of a field reaches beyond what floats reach");
     }
     return result;
 }

@@ -47,7 +47,7 @@ Field<D>::Field(FieldData<D> data) {
         for (const Vec<D>& gradient : data.gradient) data.direction.push_back(packed(gradient));
     data.gradient = {};
     data.frame = frame_of(data);
-    ABUT_ASSERT(fault_of(data) == nullptr);
+    ABUT_ASSERT(!fault_of(data));
     data_ = std::make_shared<const FieldData<D>>(std::move(data));
 }
 

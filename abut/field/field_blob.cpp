@@ -5,13 +5,11 @@
 #include <abut/field/field_check.hpp>
 #include <abut/math/blob.hpp>
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <limits>
-#include <type_traits>
+#include <optional>
 #include <utility>
 
 namespace abut {
@@ -42,27 +40,6 @@ void each_array(Data& data, Take take) {
     take(data.steps);
     take(data.direction);
     take(data.closest);
-}
-
-bool finite(float number) {
-    return std::isfinite(number);
-}
-template <int D>
-bool finite(const glm::vec<D, float>& v) {
-    return is_finite<D>(v);
-}
-template <class T>
-requires std::is_integral_v<T>
-bool finite(T) {
-    return true;
-}
-
-template <int D>
-bool is_box(const Aabb<D>& box) {
-    if (box == Aabb<D>::empty()) return true;
-    for (int a = 0; a < D; ++a)
-        if (!std::isfinite(box.min[a]) || !std::isfinite(box.max[a]) || box.min[a] > box.max[a]) return false;
-    return true;
 }
 
 Problem problem(const char* message, ProblemCode code = ProblemCode::bad_format) {
@@ -115,15 +92,11 @@ Result<Field<D>> load_field(std::span<const std::byte> bytes) {
 
     if (data.store > FieldStore::sparse || data.lookup > FieldLookup::gradient)
         return problem("the field is of a kind that there isn't");
-    bool numbers = std::isfinite(data.cell) && std::isfinite(data.step) && is_finite<D>(data.origin);
-    each_array(data, [&](const auto& array) {
-        numbers = numbers && std::all_of(array.begin(), array.end(), [](const auto& item) { return finite(item); });
-    });
-    if (!numbers) return problem("a number of the field is NaN or infinite", ProblemCode::not_finite);
-    if (!is_box(data.surface)) return problem("the box around the field's surface is none");
+    if (!std::isfinite(data.cell) || !std::isfinite(data.step) || !is_finite<D>(data.origin))
+        return problem("a number of the field is NaN or infinite", ProblemCode::not_finite);
     if (data.steps.empty() && std::bit_cast<std::uint32_t>(data.step) != 0)
         return problem("the field has a step and no steps");
-    if (const char* fault = fault_of(data)) return problem(fault);
+    if (std::optional<Problem> fault = fault_of(data)) return *std::move(fault);
     return Field<D>(std::move(data));
 }
 

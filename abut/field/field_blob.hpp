@@ -16,8 +16,10 @@ template <int D>
 std::vector<std::byte> save(const Field<D>& field);
 
 /// A Problem (`bad_format`) where they aren't what `save` makes of a field of this dimension, down to the last bit:
-/// they end too soon, go on, are of another version or kind, or a bit is wrong; or (`not_finite`) where a number is NaN
-/// or infinite. Takes no more memory than there are bytes.
+/// they end too soon, go on, are of another version or kind, or a bit is wrong; or where a sample is beyond 2^60 cells
+/// or 2^100 from the surface, or a closest point beyond 2^100: the index is its place in its array. `not_finite` where
+/// a number is NaN or infinite. Every answer of a field that loads is finite. Takes no more memory than there are
+/// bytes.
 template <int D>
 Result<Field<D>> load_field(std::span<const std::byte> bytes);
 

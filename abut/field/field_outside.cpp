@@ -70,7 +70,8 @@ FieldSample<D> outer_sample(const FieldData<D>& data, const Vec<D>& point) {
         least = std::max(least, length(to_box));
     }
     // Rounded down, and a little more: the samples are rounded too.
-    result.distance = static_cast<float>(least * (1 - 0x1p-22));
+    constexpr double max_float = std::numeric_limits<float>::max();
+    result.distance = static_cast<float>(std::min(least * (1 - 0x1p-22), max_float));
     // From where the surface about is.
     const DVec<D> guess = away + DVec<D>(there.normal) * (solid_outside ? -depth : std::max(depth, 0.0));
     result.normal = to_float<D>(normalized(guess));

@@ -105,7 +105,7 @@ public:
     float light(float softness) const {
         if (dark_) return 0;
         const double least = std::min(std::sqrt(slopes_.least()), at_light_), soft = static_cast<double>(softness);
-        if (least >= soft) return 1;
+        if (!(least < soft)) return 1;
         const double share = least / soft;
         return static_cast<float>(share * share * (3 - 2 * share));
     }

@@ -1,8 +1,14 @@
-// Bytes as fields: whatever they are, they are refused or make a field that can be asked anything and saved again.
+// Bytes as fields: whatever they are, they are refused or make a field that can be saved again, and that has a finite
+// answer to every question about finite points and shapes, near and far.
 
+#include "../oracle/finite_answers.hpp"
+#include "../oracle/random.hpp"
 #include "../oracle/seal.hpp"
 #include <abut/field/field_blob.hpp>
 #include <abut/field/field_check.hpp>
+#include <abut/shape/ball.hpp>
+#include <abut/shape/box.hpp>
+#include <abut/shape/capsule.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +27,53 @@ void require(bool condition) {
     if (!condition) std::abort();
 }
 
+/// A place in and around a box, now and then anywhere that floats reach.
+template <int D>
+Vec<D> place_near(const Aabb<D>& box, oracle::Random& random) {
+    const double beyond = random.chance(0.5)   ? 0
+                          : random.chance(0.7) ? static_cast<double>(box.max[0]) - static_cast<double>(box.min[0])
+                                               : random.power_of_two(-149, 100);
+    Vec<D> result;
+    for (int a = 0; a < D; ++a)
+        result[a] = random.chance(0.1) ? box.min[a]
+                                       : random.uniform_float(static_cast<double>(box.min[a]) - beyond,
+                                                              static_cast<double>(box.max[a]) + beyond);
+    return result;
+}
+
+/// Balls, boxes and rods of about the size of a cell, of the volume, or of any.
+template <int D>
+void question(const Field<D>& field, std::uint64_t seed) {
+    oracle::Random random(seed);
+    const Aabb<D> volume = field.volume();
+    for (int i = 0; i < 4; ++i) {
+        const Vec<D> from = place_near(volume, random), to = place_near(volume, random);
+        const FieldSample<D> here = field.sample(from);
+        require(std::isfinite(here.distance) && oracle::is_unit<D>(here.normal));
+        require(is_finite<D>(field.closest(from)));
+        const float light = field.shadow(from, to, random.uniform_float(0, 1));
+        require(light >= 0 && light <= 1);
+        const float open = field.ambient_occlusion(from, here.normal, field.cell() * random.uniform_float(0, 9));
+        require(open >= 0 && open <= 1);
+        require(oracle::not_finite_of_one(field, from, to) == nullptr);
+
+        const double unit = random.chance(0.5)   ? static_cast<double>(field.cell())
+                            : random.chance(0.7) ? static_cast<double>(volume.max[0] - volume.min[0])
+                                                 : random.power_of_two(-149, 100);
+        const auto length = [&] { return random.uniform_float(0, 2) * static_cast<float>(unit); };
+        const Vec<D> place = place_near(volume, random), motion = to - place;
+        if (!is_finite<D>(motion)) continue;
+        Vec<D> half;
+        for (int a = 0; a < D; ++a) half[a] = length();
+        const Ball<D> ball{place, length()};
+        const Box<D> box{place, half, random.rotation<D>()};
+        const Capsule<D> capsule{place, from, length()};
+        require(oracle::not_finite_of_two(ball, field, motion) == nullptr);
+        require(oracle::not_finite_of_two(field, box, motion) == nullptr);
+        require(oracle::not_finite_of_two(capsule, field, motion) == nullptr);
+    }
+}
+
 template <int D>
 void check(std::span<const std::byte> bytes) {
     const Result<Field<D>> field = load_field<D>(bytes);
@@ -28,7 +81,7 @@ void check(std::span<const std::byte> bytes) {
         require(!field.problem().message.empty());
         return;
     }
-    require(fault_of(field->data()) == nullptr);
+    require(!fault_of(field->data()));
     const std::vector<std::byte> again = save(*field);
     require(std::equal(again.begin(), again.end(), bytes.begin(), bytes.end()));
     const Aabb<D> volume = field->volume();
@@ -43,9 +96,10 @@ void check(std::span<const std::byte> bytes) {
         field->distance(std::span(&point, 1), std::span(&distance, 1));
         const float one = field->distance(point);
         require(std::memcmp(&distance, &one, sizeof(one)) == 0);
-        field->sample(point);
-        field->closest(point);
     }
+    std::uint64_t seed = 0;
+    for (const std::byte b : bytes) seed = (seed ^ static_cast<std::uint64_t>(b)) * 0x100000001b3u;
+    question(*field, seed);
 }
 
 }  // namespace
