@@ -54,7 +54,7 @@ template <int D>
 glm::vec<D, double> normalized(const glm::vec<D, double>& v, const glm::vec<D, double>& otherwise = axis<D>(0)) {
     const double squared = dot(v, v);
     if (squared > 1e-200 && squared < 1e200) return v / std::sqrt(squared);
-    const double scale = largest(v);
+    const double scale = largest<D>(v);
     if (!(scale > 0)) return otherwise;
     const glm::vec<D, double> u = v / scale;
     return u / length(u);
@@ -71,12 +71,12 @@ glm::vec<D, double> unit(const glm::vec<D, double>& v) {
 
 /// A unit vector at right angles to v.
 inline DVec<2> perpendicular(const DVec<2>& v) {
-    return normalized(DVec<2>{-v.y, v.x});
+    return normalized<2>(DVec<2>{-v.y, v.x});
 }
 inline DVec<3> perpendicular(const DVec<3>& v) {
     const DVec<3> a{std::abs(v.x), std::abs(v.y), std::abs(v.z)};
     const int least = a.x <= a.y && a.x <= a.z ? 0 : (a.y <= a.z ? 1 : 2);
-    return normalized(cross(v, axis<3>(least)));
+    return normalized<3>(cross(v, axis<3>(least)));
 }
 
 template <int D>

@@ -16,6 +16,11 @@ struct Turn {
     float cos = 1;
     float sin = 0;
 
+    constexpr Turn() = default;
+    constexpr Turn(float cosine, float sine) : cos(cosine), sin(sine) {}
+    /// A lone number would be an angle to its writer and a cosine to the compiler, in Pose2{position, 0.785f} too.
+    Turn(float angle) = delete;  // write Turn::by(angle) for an angle
+
     /// By an angle in radians; the same bits on every machine (no trigonometry of the C library). NaN and infinity trip
     /// ABUT_ASSERT, and turn by nothing.
     static Turn by(float radians);
@@ -28,24 +33,29 @@ struct Turn {
 template <int D>
 using Rotation = std::conditional_t<D == 2, Turn, glm::quat>;
 
+namespace detail {
+
+/// A constant wherever glm's types are; its quaternions are none under GLM_FORCE_INTRINSICS.
 template <int D>
-struct IdentityRotation;
-template <>
-struct IdentityRotation<2> {
-    static constexpr Turn value{1, 0};
-};
-template <>
-struct IdentityRotation<3> {
-    static constexpr glm::quat value{1, 0, 0, 0};
-};
+constexpr Rotation<D> identity_rotation() {
+    if constexpr (D == 2)
+        return {1, 0};
+    else
+        return Rotation<D>(1, 0, 0, 0);
+}
+
+}  // namespace detail
+
 template <int D>
-inline constexpr Rotation<D> no_rotation = IdentityRotation<D>::value;
+inline const Rotation<D> no_rotation = detail::identity_rotation<D>();
+template <>
+inline constexpr Turn no_rotation<2> = detail::identity_rotation<2>();
 
 /// Turned by `rotation` about the origin, then moved by `position`.
 template <int D>
 struct Pose {
     Vec<D> position{};
-    Rotation<D> rotation = no_rotation<D>;
+    Rotation<D> rotation = detail::identity_rotation<D>();
 
     friend bool operator==(const Pose&, const Pose&) = default;
 };

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 
 #include <glm/ext/vector_double2.hpp>
 #include <glm/ext/vector_double3.hpp>
@@ -22,9 +23,12 @@ using Vec3 = Vec<3>;
 template <int D>
 using DVec = glm::vec<D, double>;
 
-// glm's configuration macros change the layout of its types, and with it the meaning of every pose in memory.
+// glm's configuration macros change the layout of its types, and with it the meaning of every pose in memory, or the
+// types themselves, which the library then isn't linked for.
 static_assert(sizeof(Vec2) == 2 * sizeof(float) && sizeof(Vec3) == 3 * sizeof(float) && alignof(Vec3) == alignof(float),
               "abut needs glm's packed vectors: build without GLM_FORCE_DEFAULT_ALIGNED_GENTYPES");
+static_assert(std::is_same_v<glm::length_t, int>,
+              "abut needs glm's lengths to be int: build without GLM_FORCE_SIZE_T_LENGTH");
 
 template <int D>
 bool is_finite(const Vec<D>& v) {

@@ -9,8 +9,8 @@ namespace abut {
 template <int D>
 struct Box {
     Vec<D> center{};
-    Vec<D> half{};                          ///< half the length of each edge; not below zero
-    Rotation<D> rotation = no_rotation<D>;  ///< about the center
+    Vec<D> half{};                                          ///< half the length of each edge; not below zero
+    Rotation<D> rotation = detail::identity_rotation<D>();  ///< about the center
 };
 template <int D>
 Box(glm::vec<D, float>, glm::vec<D, float>) -> Box<D>;

@@ -35,7 +35,7 @@ struct Given {
 /// The pose, or the one that moves nothing.
 template <int D>
 const Pose<D>& pose_or_none(const Pose<D>* pose) {
-    static constexpr Pose<D> none;
+    static const Pose<D> none{};
     return pose != nullptr ? *pose : none;
 }
 

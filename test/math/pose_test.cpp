@@ -1,5 +1,6 @@
 #include "../oracle/random.hpp"
 #include <abut/math/linear.hpp>
+#include <abut/math/motion.hpp>
 #include <abut/math/pose.hpp>
 
 #include <algorithm>
@@ -152,6 +153,32 @@ TYPED_TEST(Poses, AsAffineMaps) {
         for (int i = 0; i < D; ++i) EXPECT_EQ(q[i], double{scale[i]} * p[i]);
     }
     EXPECT_EQ(Affine<D>().point(DVec<D>(3)), DVec<D>(3));
+}
+
+template <class T, class... Arguments>
+concept Makes = requires(Arguments... arguments) {
+    T{arguments...};
+};
+
+/// Pose2{position, 0.785f} once took the angle for a cosine, and -0.785f for half a turn.
+TEST(Turn, IsNoLoneNumber) {
+    static_assert(!Makes<Turn, float> && !Makes<Turn, double> && !Makes<Turn, int> && Makes<Turn, float, float>);
+    static_assert(!std::is_convertible_v<float, Turn> && !std::is_constructible_v<Turn, float>);
+    static_assert(!Makes<Pose2, Vec2, float> && !Makes<Pose2, Vec2, int> && !Makes<Pose2, Vec2, float, float>);
+    static_assert(Makes<Pose2, Vec2, Turn> && Makes<Pose2, Vec2> && Makes<Pose2>);
+    static_assert(!Makes<Pose3, Vec3, float> && !Makes<Pose3, Vec3, float, float, float, float>);
+    static_assert(!Makes<Motion2, Vec2, float> && !Makes<Motion2, Vec2, float, Vec2> && !Makes<Motion3, Vec3, float>);
+    static_assert(Makes<Motion2, Pose2, Vec2, float> && Makes<Motion3, Pose3, Vec3, Vec3>);
+    static_assert(std::is_trivially_copyable_v<Turn> && std::is_standard_layout_v<Pose2> && sizeof(Pose2) == 16);
+    constexpr Pose2 turned{{1, 2}, {0, 1}}, named{.position = {1, 2}, .rotation = {0, 1}}, moved{.position = {3, 4}};
+    static_assert(no_rotation<2>.cos == 1 && moved.rotation.cos == 1);
+    EXPECT_EQ(turned, named);
+    EXPECT_EQ(moved.rotation, Turn{});
+    const auto [position, rotation] = turned;
+    const auto [cosine, sine] = rotation;
+    EXPECT_EQ(position, Vec2(1, 2));
+    EXPECT_EQ(cosine, 0);
+    EXPECT_EQ(sine, 1);
 }
 
 }  // namespace
