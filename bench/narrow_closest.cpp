@@ -1,6 +1,7 @@
 // How far apart: pairs in space, and hulls above a terrain.
 
 #include "narrow.hpp"
+#include "upper_halves.hpp"
 #include <abut/shape/mesh.hpp>
 
 namespace abut::bench {
@@ -51,6 +52,20 @@ Job sphere_and_box_mixed(std::size_t count = pair_count) {
     return job(scene, std::move(sides));
 }
 
+/// A caller that leaves the upper halves of its vector registers in use, beside one that doesn't.
+Job sphere_and_box_dirty() {
+    const ConvexPairs<3> scene = resting(spheres, boxes<3>, apart);
+    const auto in_use = [](const Sphere& a, const Box3& b, const QueryOptions<3>&) -> double {
+        return distance_with_upper_halves_in_use(a, b);
+    };
+    const auto cleared = [](const Sphere& a, const Box3& b, const QueryOptions<3>&) -> double {
+        return distance_with_upper_halves_cleared(a, b);
+    };
+    Side other = abut_side<Sphere, Box3>(scene, cleared);
+    other.who = "abut, upper halves clear";
+    return job(scene, {abut_side<Sphere, Box3>(scene, in_use), other});
+}
+
 /// Hulls above a terrain of 20,000 triangles, as high as a walker's foot or a flying thing.
 MeshScene hulls_above_terrain() {
     oracle::Random random(seed);
@@ -96,6 +111,7 @@ std::vector<Bench> closest_benches() {
         {"narrow/closest/capsule-capsule/apart-many", [] { return capsules_at(apart, many); }},
         {"narrow/closest/capsule-capsule/mixed-many", [] { return capsules_at(mixed, many); }},
         {"narrow/closest/sphere-box/apart", [] { return sphere_and_box_apart(); }},
+        {"narrow/closest/sphere-box/dirty", sphere_and_box_dirty},
         {"narrow/closest/sphere-box/mixed", [] { return sphere_and_box_mixed(); }},
         {"narrow/closest/sphere-box/apart-many", [] { return sphere_and_box_apart(many); }},
         {"narrow/closest/sphere-box/mixed-many", [] { return sphere_and_box_mixed(many); }},

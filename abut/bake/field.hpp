@@ -96,7 +96,7 @@ Result<Field<2>> bake_field(std::span<const Vec2> outline, std::span<const std::
 /// The signed distance of any shape with a finite box, as `closest` tells it.
 template <int D>
 Result<Field<D>> bake_field(const AnyShape<D>& shape, const FieldOptions<D>& options = {});
-template <Shape S>
+template <Ownable S>
 requires(!std::same_as<S, Mesh> && !std::same_as<S, AnyShape<dimension<S>>>) Result<Field<dimension<S>>> bake_field(
     const S& shape, const FieldOptions<dimension<S>>& options = {}) {
     return bake_field(AnyShape<dimension<S>>(shape), options);

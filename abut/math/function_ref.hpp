@@ -2,6 +2,8 @@
 
 // A reference to something callable: two pointers, no allocation. How a visitor reaches a .cpp file.
 
+#include <abut/math/upper_halves.hpp>
+
 #include <memory>
 #include <type_traits>
 #include <utility>
@@ -21,10 +23,16 @@ public:
         : object_(const_cast<void*>(static_cast<const void*>(std::addressof(f)))),
           call_([](void* object, Arguments... arguments) -> R {
               auto& callable = *static_cast<std::remove_reference_t<F>*>(object);
-              if constexpr (std::is_void_v<R>)
+              if constexpr (std::is_void_v<R>) {
                   callable(std::forward<Arguments>(arguments)...);
-              else
+                  detail::clear_upper_halves();
+              } else if constexpr (std::is_reference_v<R>) {
                   return callable(std::forward<Arguments>(arguments)...);
+              } else {
+                  R result = callable(std::forward<Arguments>(arguments)...);
+                  detail::clear_upper_halves();
+                  return result;
+              }
           }) {}
 
     R operator()(Arguments... arguments) const { return call_(object_, std::forward<Arguments>(arguments)...); }

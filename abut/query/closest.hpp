@@ -5,7 +5,7 @@
 #include <abut/query/feature.hpp>
 #include <abut/query/options.hpp>
 #include <abut/shape/ball.hpp>
-#include <abut/shape/view.hpp>
+#include <abut/shape/refused.hpp>
 
 #include <limits>
 
@@ -46,8 +46,11 @@ Closest<2> closest(const Given<2>& a, const Given<2>& b, const QueryOptions<2>& 
 template <class A, class B>
 requires Pair<A, B> Closest<dimension<A>> closest(const A& a, const B& b,
                                                   const QueryOptions<dimension<A>>& options = {}) {
-    return closest(detail::view_beside<A, B>(a), detail::view_beside<B, A>(b), options);
+    return detail::ask(a, b, [&](const auto& x, const auto& y) { return closest(x, y, options); });
 }
+template <class A, class B, class Why = detail::WhyNoPair<A, B>>
+requires(!(Shape<A> && detail::PointIn<B, detail::dimension_or_3<A>>)) auto closest(
+    const A& a, const B& b, const QueryOptions<detail::dimension_or_3<A>>& options = {});
 
 /// The place on a shape closest to a point: `on_a`. Inside, the distance is below zero and `on_a` the nearest way out.
 template <Shape A>

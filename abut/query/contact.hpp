@@ -4,7 +4,7 @@
 
 #include <abut/query/feature.hpp>
 #include <abut/query/options.hpp>
-#include <abut/shape/view.hpp>
+#include <abut/shape/refused.hpp>
 
 #include <array>
 #include <cstddef>
@@ -72,7 +72,9 @@ Contact<2> contact(const Given<2>& a, const Given<2>& b, const QueryOptions<2>& 
 template <class A, class B>
 requires Pair<A, B> Contact<dimension<A>> contact(const A& a, const B& b,
                                                   const QueryOptions<dimension<A>>& options = {}) {
-    return contact(detail::view_beside<A, B>(a), detail::view_beside<B, A>(b), options);
+    return detail::ask(a, b, [&](const auto& x, const auto& y) { return contact(x, y, options); });
 }
+template <class A, class B, class Why = detail::WhyNoPair<A, B>>
+auto contact(const A& a, const B& b, const QueryOptions<detail::dimension_or_3<A>>& options = {});
 
 }  // namespace abut

@@ -23,8 +23,12 @@ void each_contact_of(const View<D>& a, const View<D>& b, const QueryOptions<D>& 
 template <class A, class B, Visitor<Contact<dimension<A>>> F>
 requires Pair<A, B>
 void each_contact(const A& a, const B& b, F&& visit, const QueryOptions<dimension<A>>& options = {}) {
-    using V = View<dimension<A>>;
-    each_contact_of<dimension<A>>(V(view(a)), V(view(b)), options, go_on_after(visit));
+    constexpr int D = dimension<A>;
+    detail::ask_view(a, [&](const View<D>& x) {
+        detail::ask_view(b, [&](const View<D>& y) { each_contact_of<D>(x, y, options, go_on_after(visit)); });
+    });
 }
+template <class A, class B, class F, class Why = detail::WhyNoPair<A, B>>
+auto each_contact(const A& a, const B& b, F&& visit, const QueryOptions<detail::dimension_or_3<A>>& options = {});
 
 }  // namespace abut

@@ -25,7 +25,10 @@ requires(dimension<A> == dimension<B>) bool intersection(const A& a, const B& b,
                                                          const QueryOptions<dimension<A>>& options = {}) {
     const auto& corners_a = detail::by_corners(a);
     const auto& corners_b = detail::by_corners(b);
-    return intersection(view(corners_a), view(corners_b), out, options);
+    const Convex<dimension<A>>& seen_a = view(corners_a);
+    const Convex<dimension<A>>& seen_b = view(corners_b);
+    detail::clear_upper_halves();
+    return intersection(seen_a, seen_b, out, options);
 }
 
 /// The same; nothing where no point is in both.

@@ -16,7 +16,12 @@ Polyhedron minkowski_sum(const Convex<3>& a, const Convex<3>& b);
 
 template <PolytopeShape A, PolytopeShape B>
 requires(dimension<A> == dimension<B>) PolytopeOf<dimension<A>> minkowski_sum(const A& a, const B& b) {
-    return minkowski_sum(view(detail::by_corners(a)), view(detail::by_corners(b)));
+    const auto& corners_a = detail::by_corners(a);
+    const auto& corners_b = detail::by_corners(b);
+    const Convex<dimension<A>>& seen_a = view(corners_a);
+    const Convex<dimension<A>>& seen_b = view(corners_b);
+    detail::clear_upper_halves();
+    return minkowski_sum(seen_a, seen_b);
 }
 
 /// All points p - q, p in A and q in B: the ways to move B so that q comes to lie on p. A and B overlap exactly if 0 is
@@ -26,7 +31,12 @@ Polyhedron minkowski_difference(const Convex<3>& a, const Convex<3>& b);
 
 template <PolytopeShape A, PolytopeShape B>
 requires(dimension<A> == dimension<B>) PolytopeOf<dimension<A>> minkowski_difference(const A& a, const B& b) {
-    return minkowski_difference(view(detail::by_corners(a)), view(detail::by_corners(b)));
+    const auto& corners_a = detail::by_corners(a);
+    const auto& corners_b = detail::by_corners(b);
+    const Convex<dimension<A>>& seen_a = view(corners_a);
+    const Convex<dimension<A>>& seen_b = view(corners_b);
+    detail::clear_upper_halves();
+    return minkowski_difference(seen_a, seen_b);
 }
 
 }  // namespace abut

@@ -3,7 +3,7 @@
 // Do two shapes have a point in common?
 
 #include <abut/query/options.hpp>
-#include <abut/shape/view.hpp>
+#include <abut/shape/refused.hpp>
 
 namespace abut {
 
@@ -18,7 +18,9 @@ bool overlaps(const Given<D>& a, const Given<D>& b, const QueryOptions<D>& optio
 template <class A, class B>
 requires Pair<A, B>
 bool overlaps(const A& a, const B& b, const QueryOptions<dimension<A>>& options = {}) {
-    return overlaps(detail::view_beside<A, B>(a), detail::view_beside<B, A>(b), options);
+    return detail::ask(a, b, [&](const auto& x, const auto& y) { return overlaps(x, y, options); });
 }
+template <class A, class B, class Why = detail::WhyNoPair<A, B>>
+auto overlaps(const A& a, const B& b, const QueryOptions<detail::dimension_or_3<A>>& options = {});
 
 }  // namespace abut

@@ -6,7 +6,7 @@
 #include <abut/math/ray.hpp>
 #include <abut/query/hit.hpp>
 #include <abut/query/options.hpp>
-#include <abut/shape/view.hpp>
+#include <abut/shape/refused.hpp>
 
 #include <concepts>
 #include <limits>
@@ -43,11 +43,19 @@ std::optional<Hit<D>> raycast(const Ray<D>& ray, const SolidBsp<D>& level, const
 template <Shape S>
 std::optional<Hit<dimension<S>>> raycast(const Ray<dimension<S>>& ray, const S& shape,
                                          const QueryOptions<dimension<S>>& options = {}) {
-    if constexpr (detail::is_composite_view<detail::ViewOf<S>>)
-        return raycast(ray, view(shape), options);
-    else
-        return raycast(ray, detail::view_beside<S, S>(shape), options);
+    detail::clear_upper_halves();
+    if constexpr (detail::is_composite_view<detail::ViewOf<S>>) {
+        const auto& seen = view(shape);
+        detail::clear_upper_halves();
+        return raycast(ray, seen, options);
+    } else {
+        const auto& seen = detail::view_beside<S, S>(shape);
+        detail::clear_upper_halves();
+        return raycast(ray, seen, options);
+    }
 }
+template <int D, class S, class Why = detail::WhyNotIn<D, S>>
+auto raycast(const Ray<D>& ray, const S& shape, const QueryOptions<D>& options = {});
 
 template <int D>
 void each_hit(const Ray<D>& ray, const View<D>& shape, FunctionRef<float(const Hit<D>&)> visit,
@@ -77,14 +85,17 @@ requires std::invocable < Visit&, const Hit<dimension<S>>
             return visit(hit);
         }
     };
-    each_hit<D>(ray, View<D>(view(shape)), FunctionRef<float(const Hit<D>&)>(reach_after), options);
+    detail::ask_view(shape, [&](const View<D>& seen) {
+        each_hit<D>(ray, seen, FunctionRef<float(const Hit<D>&)>(reach_after), options);
+    });
 }
 
 /// The same hits in place of what was in `out`, the nearest first; of those at one distance, the lowest part.
 template <Shape S>
 void raycast_all(const Ray<dimension<S>>& ray, const S& shape, std::vector<Hit<dimension<S>>>& out,
                  const QueryOptions<dimension<S>>& options = {}) {
-    raycast_all<dimension<S>>(ray, View<dimension<S>>(view(shape)), out, options);
+    detail::ask_view(shape,
+                     [&](const View<dimension<S>>& seen) { raycast_all<dimension<S>>(ray, seen, out, options); });
 }
 
 }  // namespace abut

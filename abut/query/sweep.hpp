@@ -6,7 +6,7 @@
 #include <abut/query/hit.hpp>
 #include <abut/query/options.hpp>
 #include <abut/query/sweep_turning.hpp>
-#include <abut/shape/view.hpp>
+#include <abut/shape/refused.hpp>
 
 #include <optional>
 
@@ -35,7 +35,7 @@ template <class A, class B>
 requires Pair<A, B> std::optional<Hit<dimension<A>>> sweep(const A& a, const Vec<dimension<A>>& motion_a, const B& b,
                                                            const Vec<dimension<A>>& motion_b,
                                                            const QueryOptions<dimension<A>>& options = {}) {
-    return sweep(detail::view_beside<A, B>(a), motion_a, detail::view_beside<B, A>(b), motion_b, options);
+    return detail::ask(a, b, [&](const auto& x, const auto& y) { return sweep(x, motion_a, y, motion_b, options); });
 }
 
 /// The same where B rests.
@@ -49,5 +49,48 @@ requires Pair<A, B> std::optional<Hit<dimension<A>>> sweep(const A& a, const Vec
                                                            detail::EmptyBraces) {
     return sweep(a, motion, b);
 }
+
+namespace detail {
+
+/// The arguments of a sweep without its shapes.
+template <int D>
+struct MotionsOfSweep {
+    void operator()(const Vec<D>&, const QueryOptions<D>& = {}) const;
+    void operator()(const Vec<D>&, const Vec<D>&, const QueryOptions<D>& = {}) const;
+    void operator()(const Motion<D>&, const QueryOptions<D>& = {}) const;
+    void operator()(const Motion<D>&, const Motion<D>&, const QueryOptions<D>& = {}) const;
+};
+template <int D>
+struct PosesOfSweep {
+    void operator()(const Pose<D>&, const Pose<D>&, const Pose<D>&, const Pose<D>&, const QueryOptions<D>& = {}) const;
+};
+
+/// Void for the arguments of a sweep.
+template <class A, class M, class B, class... More>
+struct WhyOrVoid : decltype(why_no_pair<A, B>()) {};
+template <class A, class M, class B, class... More>
+requires Pair<A, B>
+struct WhyOrVoid<A, M, B, More...> : std::conditional<std::is_invocable_v<MotionsOfSweep<dimension<A>>, M, More...> &&
+                                                          !is_other_point<M, dimension<A>>,
+                                                      void, a_motion_of_this_dimension_is_needed_here> {
+};
+template <class A, class From, class To, class B, class... More>
+requires(!Shape<To> && Shape<B> && !Pair<A, B>) struct WhyOrVoid<A, From, To, B, More...>
+    : decltype(why_no_pair<A, B>()) {
+};
+template <class A, class From, class To, class B, class... More>
+requires(!Shape<To> && Pair<A, B>) struct WhyOrVoid<A, From, To, B, More...>
+    : std::conditional<std::is_invocable_v<PosesOfSweep<dimension<A>>, From, To, More...>, void,
+                       a_Pose_of_this_dimension_is_needed_here_and_not_a_position> {
+};
+
+template <class... Arguments>
+requires(!std::is_void_v<typename WhyOrVoid<Arguments...>::type>) using WhyNoSweep =
+    typename WhyOrVoid<Arguments...>::type;
+
+}  // namespace detail
+
+template <class A, class M, class B, class... More, class Why = detail::WhyNoSweep<A, M, B, More...>>
+auto sweep(const A& a, const M& motion, const B& b, const More&... more);
 
 }  // namespace abut

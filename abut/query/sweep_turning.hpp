@@ -43,7 +43,7 @@ template <class A, class B>
 requires Pair<A, B> std::optional<Hit<dimension<A>>> sweep(const A& a, const Motion<dimension<A>>& motion_a, const B& b,
                                                            const Motion<dimension<A>>& motion_b,
                                                            const QueryOptions<dimension<A>>& options = {}) {
-    return sweep(detail::view_beside<A, B>(a), motion_a, detail::view_beside<B, A>(b), motion_b, options);
+    return detail::ask(a, b, [&](const auto& x, const auto& y) { return sweep(x, motion_a, y, motion_b, options); });
 }
 
 /// The same of one that moves and one that doesn't.
@@ -65,7 +65,8 @@ requires Pair<A, B> std::optional<Hit<dimension<A>>> sweep(const A& a, const Pos
                                                            const Pose<dimension<A>>& from_b,
                                                            const Pose<dimension<A>>& to_b,
                                                            const QueryOptions<dimension<A>>& options = {}) {
-    return sweep(detail::view_beside<A, B>(a), from_a, to_a, detail::view_beside<B, A>(b), from_b, to_b, options);
+    return detail::ask(a, b,
+                       [&](const auto& x, const auto& y) { return sweep(x, from_a, to_a, y, from_b, to_b, options); });
 }
 
 }  // namespace abut

@@ -11,12 +11,12 @@
 namespace abut {
 
 /// Any shape of a dimension as a value: a shape again, that answers as the one it was made from does. Owns all that it
-/// is made of. Copies share it.
+/// is made of, so that none is made of a view. Copies share it.
 template <int D>
 class AnyShape {
 public:
     template <class S>
-    requires(!std::is_same_v<S, AnyShape> && Shape<S> && dimension<S> == D) AnyShape(const S& shape)
+    requires(!std::is_same_v<S, AnyShape> && Ownable<S> && dimension<S> == D) AnyShape(const S& shape)
         : stored_(store(owned(shape))) {}
 
     const View<D>& view() const { return stored_->view; }

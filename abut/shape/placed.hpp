@@ -2,7 +2,7 @@
 
 // Composable views of a shape: moved and turned, rounded, stretched. They refer to an lvalue and own an rvalue.
 
-#include <abut/shape/view.hpp>
+#include <abut/shape/refused.hpp>
 
 #include <utility>
 
@@ -34,11 +34,16 @@ requires Shape<std::remove_cvref_t<S>> At<S> at(S&& shape, const Pose<dimension<
     return {std::forward<S>(shape), pose};
 }
 
+template <class S, class P, class Why = detail::WhyNotAt<std::remove_cvref_t<S>, P>>
+auto at(S&& shape, const P& pose);
+
 /// `radius` is not below zero.
 template <class S>
 requires Shape<std::remove_cvref_t<S>> Rounded<S> rounded(S&& shape, float radius) {
     return {std::forward<S>(shape), radius};
 }
+template <class S, class Why = detail::WhyNoShape<std::remove_cvref_t<S>>>
+auto rounded(S&& shape, float radius);
 
 namespace detail {
 
@@ -70,6 +75,8 @@ requires Shape<std::remove_cvref_t<S>> Stretched<S> stretched(S&& shape,
                   "a shape that was stretched and then rounded can't be stretched again: stretch first, round last");
     return {std::forward<S>(shape), scale};
 }
+template <class S, class Why = detail::WhyNoShape<std::remove_cvref_t<S>>>
+auto stretched(S&& shape, const auto& scale);
 
 namespace detail {
 
@@ -139,22 +146,59 @@ struct Owned<Stretched<S>> {
     using type = Stretched<typename Owned<std::remove_cvref_t<S>>::type>;
 };
 
+/// Whether S is a view, which refers to a shape of a type that is forgotten, or is made of one.
+template <class S>
+inline constexpr bool is_view = false;
+template <int D>
+inline constexpr bool is_view<View<D>> = true;
+template <int D>
+inline constexpr bool is_view<Convex<D>> = true;
+template <int D>
+inline constexpr bool is_view<Composite<D>> = true;
+template <int D>
+inline constexpr bool is_view<DistanceFunction<D>> = true;
+template <class S>
+inline constexpr bool is_view<At<S>> = is_view<std::remove_cvref_t<S>>;
+template <class S>
+inline constexpr bool is_view<Rounded<S>> = is_view<std::remove_cvref_t<S>>;
+template <class S>
+inline constexpr bool is_view<Stretched<S>> = is_view<std::remove_cvref_t<S>>;
+
+}  // namespace detail
+
+/// A shape that can be kept, by `owned`, by an AnyShape and by a World: any but a view, such as World::shape returns,
+/// which only refers to a shape that another owns.
+template <class S>
+concept Ownable = Shape<S> && !detail::is_view<S>;
+
+namespace detail {
+
+/// No type for a shape of dimension D that can be kept.
+template <int D, class S>
+requires(!ShapeIn<S, D> || !Ownable<S>) using WhyNotKept =
+    std::conditional_t<!Shape<S>, this_is_no_shape,
+                       std::conditional_t<!ShapeIn<S, D>, this_shape_has_another_dimension,
+                                          this_view_only_refers_to_a_shape_that_another_owns_so_use_any_shape>>;
+
 }  // namespace detail
 
 /// The same shape with all that it referred to copied into it: what may be kept.
-template <class S>
+template <Ownable S>
 S owned(const S& shape) {
     return shape;
 }
 template <class S>
+requires Ownable<std::remove_cvref_t<S>>
 typename detail::Owned<At<S>>::type owned(const At<S>& shape) {
     return {owned(std::as_const(shape.shape)), shape.pose};
 }
 template <class S>
+requires Ownable<std::remove_cvref_t<S>>
 typename detail::Owned<Rounded<S>>::type owned(const Rounded<S>& shape) {
     return {owned(std::as_const(shape.shape)), shape.radius};
 }
 template <class S>
+requires Ownable<std::remove_cvref_t<S>>
 typename detail::Owned<Stretched<S>>::type owned(const Stretched<S>& shape) {
     return {owned(std::as_const(shape.shape)), shape.scale};
 }

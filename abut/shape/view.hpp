@@ -9,6 +9,7 @@
 #include <abut/convex/support.hpp>
 #include <abut/math/function_ref.hpp>
 #include <abut/math/ray.hpp>
+#include <abut/math/upper_halves.hpp>
 #include <abut/shape/distance_function.hpp>
 #include <abut/shape/given.hpp>
 #include <abut/shape/half_space.hpp>
@@ -242,10 +243,26 @@ requires(!detail::HasConvex<S> && detail::HasSupport<S>) auto view(const S& shap
     result.core = Core::function;
     result.object = &shape;
     result.function = [](const void* object, const Vec<D>& direction) -> Vec<D> {
-        return support(*static_cast<const S*>(object), direction);
+        const Vec<D> farthest = support(*static_cast<const S*>(object), direction);
+        detail::clear_upper_halves();
+        return farthest;
     };
     return result;
 }
+
+namespace detail {
+
+/// A part of any type, handed to the library as a view.
+template <class R, class Visit>
+auto part_to(const Visit& visit) {
+    return [&visit](const auto& part, std::uint32_t index) -> R {
+        const auto& seen = view(part);
+        clear_upper_halves();
+        return visit(seen, index);
+    };
+}
+
+}  // namespace detail
 
 template <class S>
 requires(!detail::HasConvex<S> && !detail::HasSupport<S> && detail::HasParts<S>) auto view(const S& shape) {
@@ -254,18 +271,18 @@ requires(!detail::HasConvex<S> && !detail::HasSupport<S> && detail::HasParts<S>)
     result.bounds = bounds(shape);
     result.object = &shape;
     result.each_part = [](const void* object, const Aabb<D>& box, PartVisitor<D> visit) {
-        each_part(*static_cast<const S*>(object), box,
-                  [&](const auto& part, std::uint32_t index) -> bool { return visit(view(part), index); });
+        each_part(*static_cast<const S*>(object), box, detail::part_to<bool>(visit));
+        detail::clear_upper_halves();
     };
     if constexpr (requires { each_part_along(shape, MovingBox<D>(), detail::AnyPartReach<D>()); })
         result.each_part_along = [](const void* object, const MovingBox<D>& box, PartReachVisitor<D> visit) {
-            each_part_along(*static_cast<const S*>(object), box,
-                            [&](const auto& part, std::uint32_t index) -> float { return visit(view(part), index); });
+            each_part_along(*static_cast<const S*>(object), box, detail::part_to<float>(visit));
+            detail::clear_upper_halves();
         };
     if constexpr (requires { each_part_near(shape, Aabb<D>(), detail::AnyPartReach<D>()); })
         result.each_part_near = [](const void* object, const Aabb<D>& box, PartReachVisitor<D> visit) {
-            each_part_near(*static_cast<const S*>(object), box,
-                           [&](const auto& part, std::uint32_t index) -> float { return visit(view(part), index); });
+            each_part_near(*static_cast<const S*>(object), box, detail::part_to<float>(visit));
+            detail::clear_upper_halves();
         };
     if constexpr (requires {
                       { triangle_tree(shape) } -> std::same_as<const MeshTree&>;
@@ -275,13 +292,17 @@ requires(!detail::HasConvex<S> && !detail::HasSupport<S> && detail::HasParts<S>)
                       { solid_contains(shape, Vec<D>()) } -> std::same_as<bool>;
                   })
         result.contains = [](const void* object, const Vec<D>& point) {
-            return solid_contains(*static_cast<const S*>(object), point);
+            const bool inside = solid_contains(*static_cast<const S*>(object), point);
+            detail::clear_upper_halves();
+            return inside;
         };
     if constexpr (requires {
                       { part_neighbour(shape, 0u, 0u) } -> std::same_as<std::uint32_t>;
                   })
         result.neighbour = [](const void* object, std::uint32_t part, std::uint32_t side) {
-            return part_neighbour(*static_cast<const S*>(object), part, side);
+            const std::uint32_t neighbour = part_neighbour(*static_cast<const S*>(object), part, side);
+            detail::clear_upper_halves();
+            return neighbour;
         };
     return result;
 }
@@ -294,13 +315,17 @@ requires(!detail::HasConvex<S> && !detail::HasSupport<S> && !detail::HasParts<S>
     result.bounds = bounds(shape);
     result.object = &shape;
     result.distance = [](const void* object, const Vec<D>& point) -> float {
-        return signed_distance(*static_cast<const S*>(object), point);
+        const float distance = signed_distance(*static_cast<const S*>(object), point);
+        detail::clear_upper_halves();
+        return distance;
     };
     if constexpr (requires {
                       { distance_sample(shape, Vec<D>()) } -> std::same_as<FieldSample<D>>;
                   })
         result.sample = [](const void* object, const Vec<D>& point) -> FieldSample<D> {
-            return distance_sample(*static_cast<const S*>(object), point);
+            const FieldSample<D> sample = distance_sample(*static_cast<const S*>(object), point);
+            detail::clear_upper_halves();
+            return sample;
         };
     return result;
 }
@@ -366,5 +391,29 @@ template <class A, class B>
 concept Pair = Shape<A> && Shape<B> && dimension<A>
 == dimension<B> &&
     !(std::same_as<detail::ViewOf<A>, Solid<dimension<A>>> && std::same_as<detail::ViewOf<B>, Solid<dimension<B>>>);
+
+namespace detail {
+
+/// All questions of two shapes pass from the caller's code to the library here: `question` takes what the library sees
+/// of them and calls it.
+template <class A, class B, class F>
+decltype(auto) ask(const A& a, const B& b, const F& question) {
+    clear_upper_halves();
+    const auto& seen_a = view_beside<A, B>(a);
+    const auto& seen_b = view_beside<B, A>(b);
+    clear_upper_halves();
+    return question(seen_a, seen_b);
+}
+
+/// And all of one shape here.
+template <class S, class F>
+decltype(auto) ask_view(const S& shape, const F& question) {
+    clear_upper_halves();
+    const View<dimension<S>> seen(view(shape));
+    clear_upper_halves();
+    return question(seen);
+}
+
+}  // namespace detail
 
 }  // namespace abut

@@ -151,6 +151,13 @@ View<D> World<D>::shape(Id id) const {
     return item != nullptr ? item->placed : View<D>();
 }
 
+template <int D>
+AnyShape<D> World<D>::any_shape(Id id) const {
+    const Item* item = find(id);
+    ABUT_ASSERT(item != nullptr);
+    return item != nullptr ? *item->stored : AnyShape<D>(Ball<D>{});
+}
+
 template class World<2>;
 template class World<3>;
 

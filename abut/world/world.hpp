@@ -103,6 +103,26 @@ struct UpdateCounts {
     std::size_t balls = 0;   ///< those of them whose bounding balls were asked and settled it: depends on measurements
 };
 
+namespace detail {
+
+/// The arguments of World::sweep without the shape.
+template <int D>
+struct MotionsInWorld {
+    void operator()(const Vec<D>&, const Filter& = {}) const;
+    void operator()(const Motion<D>&, const Filter& = {}) const;
+    void operator()(const Pose<D>&, const Pose<D>&, const Filter& = {}) const;
+};
+
+/// No type for the arguments of World::sweep.
+template <int D, class S, class... Motions>
+requires(!ShapeIn<S, D> || !std::is_invocable_v<MotionsInWorld<D>, Motions...> ||
+         (is_other_point<Motions, D> || ...)) using WhyNoSweepInWorld =
+    std::conditional_t<!Shape<S>, this_is_no_shape,
+                       std::conditional_t<ShapeIn<S, D>, a_Pose_of_this_dimension_is_needed_here_and_not_a_position,
+                                          this_shape_has_another_dimension>>;
+
+}  // namespace detail
+
 /// All lists are sorted by id, and no answer depends on the order in which items were added but for the ids.
 /// Questions see every item where it is now, moved since the last update or not; they are const and may run on many
 /// threads at once, those that return no list without allocating. A stale id trips ABUT_ASSERT; in release it is
@@ -116,14 +136,21 @@ public:
     World(World&&) noexcept = default;
     World& operator=(World&&) noexcept = default;
 
-    /// Takes a copy of the shape, and of what it refers to.
-    template <class S>
-    requires(Shape<S>&& dimension<S> == D) Id add(const S& shape, const ItemOptions<D>& options = {}) {
+    /// Takes a copy of the shape, and of what it refers to. A view, such as `shape` returns, is refused: any_shape
+    /// gives one that can be added.
+    template <Ownable S>
+    requires(dimension<S> == D) Id add(const S& shape, const ItemOptions<D>& options = {}) {
         return add_shape(shape, options);
     }
-    template <class S>
-    requires(Shape<S>&& dimension<S> == D) void set_shape(Id id, const S& shape) { set_any_shape(id, shape); }
+    template <class S, class Why = detail::WhyNotKept<D, S>>
+    auto add(const S& shape, const ItemOptions<D>& options = {});
+    template <Ownable S>
+    requires(dimension<S> == D) void set_shape(Id id, const S& shape) { set_any_shape(id, shape); }
+    template <class S, class Why = detail::WhyNotKept<D, S>>
+    auto set_shape(Id id, const S& shape);
     void move(Id id, const Pose<D>& pose);
+    template <class P, class Why = detail::WhyNoPose<D, P>>
+    auto move(Id id, const P& position);
     void set_filter(Id id, std::uint32_t layers, std::uint32_t mask);
     void remove(Id id);
 
@@ -132,6 +159,8 @@ public:
     Pose<D> pose(Id id) const;
     /// The item's shape where it is; valid until it is moved, changed or removed.
     View<D> shape(Id id) const;
+    /// The item's shape in its own frame, without the pose, to be kept, stretched or added again: shared, not copied.
+    AnyShape<D> any_shape(Id id) const;
     std::size_t size() const { return count_; }
 
     /// Finds who touches whom. Allocates nothing once it has seen a scene of this size. A pair of which neither moved
@@ -158,39 +187,47 @@ public:
 
     /// The first hit of a shape that moves straight, as told at abut::sweep; of equally early ones, the one with the
     /// lowest id. What it touches at the start is hit only if it goes further in.
-    template <Shape S>
+    template <detail::ShapeIn<D> S>
     std::optional<WorldHit<D>> sweep(const S& shape, const Vec<D>& motion, const Filter& filter = {}) const {
-        return sweep_straight(View<D>(view(shape)), motion, filter);
+        return detail::ask_view(shape, [&](const View<D>& seen) { return sweep_straight(seen, motion, filter); });
     }
     /// The same of a shape that turns on the way; it is as it is in the frame that the motion moves.
-    template <Shape S>
+    template <detail::ShapeIn<D> S>
     std::optional<WorldHit<D>> sweep(const S& shape, const Motion<D>& motion, const Filter& filter = {}) const {
-        return sweep_turning(View<D>(view(shape)), motion, filter);
+        return detail::ask_view(shape, [&](const View<D>& seen) { return sweep_turning(seen, motion, filter); });
     }
     /// The same from pose to pose, turning the short way.
-    template <Shape S>
+    template <detail::ShapeIn<D> S>
     std::optional<WorldHit<D>> sweep(const S& shape, const Pose<D>& from, const Pose<D>& to,
                                      const Filter& filter = {}) const {
-        return sweep_between(View<D>(view(shape)), from, to, filter);
+        return detail::ask_view(shape, [&](const View<D>& seen) { return sweep_between(seen, from, to, filter); });
     }
+    template <class S, class... Motions, class Why = detail::WhyNoSweepInWorld<D, S, Motions...>>
+    auto sweep(const S& shape, const Motions&... motions) const;
 
-    template <Shape S>
+    template <detail::ShapeIn<D> S>
     std::optional<WorldClosest<D>> closest(const S& shape, const Filter& filter = {}) const {
-        return closest_to(View<D>(view(shape)), filter);
+        return detail::ask_view(shape, [&](const View<D>& seen) { return closest_to(seen, filter); });
     }
+    template <class S, class Why = detail::WhyNotIn<D, S>>
+    requires(!detail::PointIn<S, D>) auto closest(const S& shape, const Filter& filter = {}) const;
     std::optional<WorldClosest<D>> closest(const Vec<D>& point, const Filter& filter = {}) const {
         return closest_to(View<D>(round_points<D>({point}, 0)), filter);
     }
 
-    template <Shape S>
+    template <detail::ShapeIn<D> S>
     std::vector<Id> overlapping(const S& shape, const Filter& filter = {}) const {
-        return all_overlapping(View<D>(view(shape)), filter);
+        return detail::ask_view(shape, [&](const View<D>& seen) { return all_overlapping(seen, filter); });
     }
+    template <class S, class Why = detail::WhyNotIn<D, S>>
+    auto overlapping(const S& shape, const Filter& filter = {}) const;
     /// visit(id), in no order that is promised; returns nothing, or false to stop.
-    template <Shape S, Visitor<Id> F>
+    template <detail::ShapeIn<D> S, Visitor<Id> F>
     void each_overlapping(const S& shape, F&& visit, const Filter& filter = {}) const {
-        visit_overlapping(View<D>(view(shape)), filter, go_on_after(visit));
+        detail::ask_view(shape, [&](const View<D>& seen) { visit_overlapping(seen, filter, go_on_after(visit)); });
     }
+    template <class S, class F, class Why = detail::WhyNotIn<D, S>>
+    auto each_overlapping(const S& shape, F&& visit, const Filter& filter = {}) const;
     std::vector<Id> containing(const Vec<D>& point, const Filter& filter = {}) const;
 
     /// visit(id, shape) for the items whose boxes overlap a box, each shape where it is, in no order that is promised;

@@ -1,0 +1,53 @@
+# Compiles refused.cpp, of which each line that ends in a comment is a call that must not compile: the compiler says so in
+# one error of fewer than ten lines, which holds the comment's word.
+#   cmake -D compiler= -D source= -D include= -P refused.cmake
+execute_process(COMMAND ${compiler} -std=c++20 -fsyntax-only -ferror-limit=0 -I ${include} ${source}
+    OUTPUT_QUIET ERROR_VARIABLE clang_says RESULT_VARIABLE result)
+if(clang_says MATCHES "unrecognized command.line option")
+    execute_process(COMMAND ${compiler} -std=c++20 -fsyntax-only -I ${include} ${source}
+        OUTPUT_QUIET ERROR_VARIABLE clang_says RESULT_VARIABLE result)
+endif()
+# Semicolons would end an item of a list.
+string(REPLACE ";" "," said "${clang_says}")
+string(REPLACE "[" "(" said "${said}")
+string(REPLACE "]" ")" said "${said}")
+string(REPLACE "\n" ";" said "${said}")
+get_filename_component(name ${source} NAME)
+
+# The lines of the message of each line of the source.
+set(at 0)
+foreach(line IN LISTS said)
+    if(line MATCHES "${name}:([0-9]+):[0-9]+: error:")
+        set(at ${CMAKE_MATCH_1})
+        math(EXPR errors_${at} "0${errors_${at}} + 1")
+    elseif(line MATCHES "error:")
+        message(SEND_ERROR "an error elsewhere: ${line}")
+    elseif(line MATCHES "${name}: In |^In file included from|^ +from |errors? generated" OR line STREQUAL "")
+        continue()
+    endif()
+    math(EXPR lines_${at} "0${lines_${at}} + 1")
+    string(APPEND text_${at} "${line}\n")
+endforeach()
+
+file(STRINGS ${source} calls)
+set(number 0)
+set(count 0)
+foreach(call IN LISTS calls)
+    math(EXPR number "${number} + 1")
+    if(NOT call MATCHES "} *// ([A-Za-z_]+)$")
+        continue()
+    endif()
+    math(EXPR count "${count} + 1")
+    set(word ${CMAKE_MATCH_1})
+    if(NOT errors_${number} EQUAL 1)
+        message(SEND_ERROR "${number}: ${errors_${number}} errors where there must be one: ${call}\n${text_${number}}")
+    elseif(NOT lines_${number} LESS 10)
+        message(SEND_ERROR "${number}: ${lines_${number}} lines: ${call}\n${text_${number}}")
+    elseif(NOT text_${number} MATCHES "${word}")
+        message(SEND_ERROR "${number}: without the word ${word}: ${call}\n${text_${number}}")
+    endif()
+endforeach()
+if(count LESS 40)
+    message(SEND_ERROR "only ${count} calls found in ${source}")
+endif()
+message(STATUS "${count} calls are refused")
