@@ -17,10 +17,12 @@ namespace abut {
 template <int D>
 struct Beam {
     DVec<D> origin;
-    DVec<D> direction;  ///< of length 1 in the world; of any, seen from a shape's own frame
+    DVec<D> direction;  ///< of length 1 in the world, or 0; of any, seen from a shape's own frame
     double length;      ///< in lengths of `direction`
 
     DVec<D> at(double along) const { return origin + direction * along; }
+    /// Whether it is its origin alone.
+    bool rests() const { return direction == DVec<D>(0.0); }
 };
 
 enum class RayAnswer : std::uint8_t { undecided, misses, enters };

@@ -11,7 +11,7 @@ namespace abut {
 template <int D>
 struct Ray {
     Vec<D> origin{};
-    Vec<D> direction{};                                     ///< of length 1
+    Vec<D> direction{};  ///< of length 1; or 0, of a ray that is its origin alone and hits only what contains that
     float length = std::numeric_limits<float>::infinity();  ///< how far it reaches; may be infinite or zero
 
     /// From a to b. Where a == b the ray has length 0 and some direction.

@@ -21,11 +21,12 @@ constexpr double outside = 1 + 4 * ray_doubt;
 
 bool meet_sphere(const Ray3& ray, const Given<3>& given, std::optional<Hit<3>>& result) {
     const Sphere& sphere = given.as<Sphere>();
-    const DVec<3> from(ray.origin), way = unit(DVec<3>(ray.direction)), middle(sphere.center);
+    const DVec<3> from(ray.origin), direction(ray.direction), way = unit(direction), middle(sphere.center);
     const DVec<3> center = (given.pose != nullptr ? placed<3>(middle, *given.pose) : middle) - from;
     const double radius = static_cast<double>(sphere.radius), length = static_cast<double>(ray.length);
     const double nearest = dot(center, way), square = length_squared(center), reach = radius * outside;
     if (!(radius > 0 && square > reach * reach && std::isfinite(square + nearest) && length >= 0)) return false;
+    if (direction == DVec<3>(0.0)) return true;
     // The square is taken of the distance at which it passes the middle, which keeps its digits however far the sphere
     // is.
     const DVec<3> passes = center - way * nearest;

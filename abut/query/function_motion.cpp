@@ -124,11 +124,12 @@ public:
 
         double along = from;
         double here = own_distance(function_, line_.at(along)) - level;
+        if (beam_.rests() && !(here <= own_doubt)) return false;
         if (here <= own_doubt) {
             // It starts there, or the box is no larger than the shape.
             const DVec<D> out = seen_.normal(beam_.at(along), step_);
             const double closing = -dot(out, beam_.direction);
-            if (closing > slide_slope || (from > 0 && here <= 0)) {
+            if (closing > slide_slope || (from > 0 && here <= 0) || beam_.rests()) {
                 gain = {along, facing(out), from == 0 && here < -own_doubt};
                 return true;
             }

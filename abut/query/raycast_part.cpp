@@ -52,7 +52,7 @@ bool part_hit_by_advance(const Beam<D>& beam, const Convex<D>& part, std::uint32
         const bool there = distance.distance <= doubt;
         // Every way is a way out of a thin part: what starts on one leaves it, whichever side rounding put it on.
         if (along == 0 && thin(part) && distance.distance <= start_doubt(part, beam.origin)) return false;
-        if ((along == 0 || !there) && !(approach > 0)) return false;
+        if ((along == 0 || !there) && !(approach > 0) && !(there && beam.rests())) return false;
         if (there || step + 1 == most_steps) {
             // At an edge there are several ways out, and the one found may lie across the ray.
             const bool across = approach < 0.5 * last_approach;
@@ -70,6 +70,7 @@ bool part_hit_by_advance(const Beam<D>& beam, const Convex<D>& part, std::uint32
 
 template <int D>
 bool part_hit(const Beam<D>& beam, const Convex<D>& part, std::uint32_t index, Trace<D>* trace, PartHit<D>& hit) {
+    if (beam.rests()) return part_hit_by_advance(beam, part, index, trace, hit);
     if (!goes_at_front(part, beam.direction)) return false;
     const RayEntry<D> entry = ray_entry(part, beam);
     if (entry.answer == RayAnswer::undecided) return part_hit_by_advance(beam, part, index, trace, hit);
@@ -86,8 +87,8 @@ bool part_hit(const Beam<D>& beam, const Convex<D>& part, std::uint32_t index, T
 template <int D>
 bool part_hit(const Beam<D>& beam, const Solid<D>& part, PartHit<D>& hit) {
     const double height = dot(part.normal, beam.origin) - part.offset, approach = -dot(beam.direction, part.normal);
-    if (!(approach > 0)) return false;
-    const double along = std::max(height / approach, 0.0);
+    if (!(approach > 0) && !(beam.rests() && height <= 0)) return false;
+    const double along = beam.rests() ? 0 : std::max(height / approach, 0.0);
     hit = {along, part.normal, height < 0, Feature()};
     return along <= beam.length;
 }

@@ -14,7 +14,8 @@ std::optional<Hit<D>> raycast(const Ray<D>& ray, const SolidBsp<D>& level, const
     if (!finite) return std::nullopt;
     // A ray that ends on a face hits it, though its length is rounded.
     constexpr double more = 1 + 1e-7;
-    const double length = static_cast<double>(ray.length);
+    const bool rests = ray.direction == Vec<D>(0.0f);
+    const double length = rests ? 0 : static_cast<double>(ray.length);
     const DVec<D> direction = unit(DVec<D>(ray.direction));
     SolidEntry<D> entry;
     if (!level.enter(ray.origin, direction, length * more, entry)) return std::nullopt;

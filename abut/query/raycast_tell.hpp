@@ -12,9 +12,12 @@
 
 namespace abut {
 
+/// Without a direction it is as long as its origin.
 template <int D>
 Beam<D> beam_of(const Ray<D>& ray) {
-    return {DVec<D>(ray.origin), unit(DVec<D>(ray.direction)), static_cast<double>(ray.length)};
+    const DVec<D> direction(ray.direction);
+    if (direction == DVec<D>(0.0)) return {DVec<D>(ray.origin), direction, 0};
+    return {DVec<D>(ray.origin), unit(direction), static_cast<double>(ray.length)};
 }
 
 /// False where a number of it is NaN, or infinite that mustn't be.

@@ -54,6 +54,7 @@ bool aim(const Composite<3>& composite, const QueryOptions<3>& options, Target& 
     target.seen = composite.place;
     target.seen.offset -= target.beam.origin;
     const Affine<3> back = inverse(composite.place, volume);
+    if (target.beam.rests()) return true;
     const DVec<3> along = back.vector(target.beam.direction);
     target.unit = length(along);
     if (!(target.unit > 1e-30 && target.unit < 1e30)) return false;
@@ -84,10 +85,13 @@ PartHit<3> part_hit(const RayEntry<3>& entry, std::uint32_t triangle) {
 
 }  // namespace
 
+// A beam that rests hits no triangle: what starts on one leaves it.
+
 bool first_triangle_hit(const Beam<3>& beam, const Composite<3>& composite, const QueryOptions<3>& options,
                         PartHit<3>& first, bool& found) {
     Target target{beam};
     if (!aim(composite, options, target)) return false;
+    if (beam.rests()) return true;
     const auto undecided = by_advance(beam, parts_of(composite), options.trace);
     MeshHit hit;
     if (!find_first_hit(*composite.triangles, target.mesh_beam(), UndecidedTriangle(undecided), hit)) return false;
@@ -100,6 +104,7 @@ bool each_triangle_hit(const Beam<3>& beam, const Composite<3>& composite, const
                        HitVisitor visit) {
     Target target{beam};
     if (!aim(composite, options, target)) return false;
+    if (beam.rests()) return true;
     const auto undecided = by_advance(beam, parts_of(composite), options.trace);
     const auto tell = [&](const RayEntry<3>& entry, std::uint32_t triangle) {
         return visit(part_hit(entry, triangle));
@@ -113,6 +118,7 @@ std::optional<Hit<3>> raycast(const Ray<3>& ray, const Mesh& mesh, const QueryOp
     ABUT_ASSERT(finite);
     if (!finite) return result;
     const Beam<3> beam = beam_of(ray);
+    if (beam.rests()) return result;
     const auto undecided = by_advance(
         beam, [](const Triangle3& triangle) { return convex(triangle); }, options.trace);
     const MeshBeam seen{beam, beam, 1, 0, nullptr, options.back_faces ? 0.0 : 1.0};

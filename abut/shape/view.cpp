@@ -163,7 +163,8 @@ void each_part_along(const Composite<D>& composite, const MovingBox<D>& box, Par
     // Parts count that a search takes for hit: they are a little wider than their boxes.
     const double slack = 2e-7 * across;
     const double volume = determinant(composite.place);
-    if (composite.each_part_along != nullptr && volume != 0) {
+    // What rests goes along nothing: a box around it is all there is.
+    if (composite.each_part_along != nullptr && volume != 0 && box.direction != DVec<D>(0.0)) {
         const Affine<D> back = inverse(composite.place, volume);
         MovingBox<D> own;
         own.center = back.point(box.center);
