@@ -25,8 +25,10 @@ Job closest_coherent(const Kind<S>& kind) {
     return closest_with<S>(moving(kind, kind, always_apart), Frames::coherent);
 }
 
-Job polygons_overlap(const ConvexPairs<2>& scene) {
-    return job(scene, {abut_overlaps<Polygon, Polygon>(scene), box2d_overlaps(scene)});
+template <class S>
+Job overlap_of(const Kind<S>& kind, const Gaps& gaps) {
+    const ConvexPairs<2> scene = resting(kind, kind, gaps);
+    return job(scene, {abut_overlaps<S, S>(scene), box2d_overlaps(scene)});
 }
 
 /// Box2D tells one contact of 65,536 for none.
@@ -65,8 +67,12 @@ std::vector<Bench> plane_benches() {
         {"narrow/closest/box2-box2/coherent", [] { return closest_coherent(boxes<2>); }},
         {"narrow/closest/polygon3-8/apart", [] { return closest_apart(polygons); }},
         {"narrow/closest/polygon3-8/coherent", [] { return closest_coherent(polygons); }},
-        {"narrow/overlaps/polygon3-8/apart", [] { return polygons_overlap(resting(polygons, polygons, apart)); }},
-        {"narrow/overlaps/polygon3-8/mixed", [] { return polygons_overlap(resting(polygons, polygons, mixed)); }},
+        {"narrow/overlaps/box2-box2/apart", [] { return overlap_of(boxes<2>, apart); }},
+        {"narrow/overlaps/box2-box2/mixed", [] { return overlap_of(boxes<2>, mixed); }},
+        {"narrow/overlaps/box2-box2/deep", [] { return overlap_of(boxes<2>, deep); }},
+        {"narrow/overlaps/polygon3-8/apart", [] { return overlap_of(polygons, apart); }},
+        {"narrow/overlaps/polygon3-8/mixed", [] { return overlap_of(polygons, mixed); }},
+        {"narrow/overlaps/polygon3-8/deep", [] { return overlap_of(polygons, deep); }},
         {"narrow/contact/polygon3-8-circle/shallow", [] { return polygon_and_circle_at(shallow); }},
         {"narrow/contact/polygon3-8-circle/mixed", [] { return polygon_and_circle_at(mixed); }},
         {"narrow/contact/polygon3-8-circle/shallow-many", [] { return polygon_and_circle_at(shallow, many); }},

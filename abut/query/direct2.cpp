@@ -48,6 +48,8 @@ void name_features(const SignedDistance<2>& distance, Answer& answer) {
 
 DirectAnswer direct_overlap(const Given<2>& a, const Given<2>& b, Cache* cache) {
     if (cache != nullptr && parted_again(a, b, *cache, 0)) return DirectAnswer::no;
+    const DirectAnswer of_polygons = overlap_polygons(a, b, cache);
+    if (of_polygons != DirectAnswer::unknown) return of_polygons;
     const auto ask = [&](const Outline& first, const Outline& second) {
         const PlaneAnswer answer = plane_near(first, second, 0, cache);
         return answer == PlaneAnswer::unknown  ? DirectAnswer::unknown

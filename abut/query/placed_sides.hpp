@@ -37,6 +37,8 @@ public:
     double offset(std::uint32_t side) const { return sides_.offset[side]; }
     /// How large its numbers are.
     double size() const { return std::abs(sides_.x[0]) + std::abs(sides_.y[0]) + 2 * sides_.size; }
+    /// At least how far it reaches from the origin of its own frame.
+    double radius() const { return size(); }
     /// The least of dot(direction, corner).
     double lowest(Both direction) const {
         const Both x = lanes::first(direction), y = lanes::second(direction);
@@ -102,6 +104,7 @@ public:
     }
     double offset(std::uint32_t side) const { return half_[1 - (side & 1)]; }
     double size() const { return 3 * (half_[0] + half_[1]); }
+    double radius() const { return half_[0] + half_[1]; }
     double lowest(Both direction) const {
         const Both reach = lanes::magnitude(direction) * half_;
         return -(reach[0] + reach[1]);

@@ -1,13 +1,15 @@
 #pragma once
 
-// Two polygons of few sides, or two boxes, of the plane: how far apart, and whether they still are, each in one piece
-// from the shapes as they were given to the answer. Outlines (convex/sides.hpp), which suit all shapes of the plane,
-// are made where this is not enough.
+// Two polygons of few sides, or two boxes, of the plane: whether they overlap, how far apart they are, and whether they
+// still are, each in one piece from the shapes as they were given to the answer. Outlines (convex/sides.hpp), which
+// suit all shapes of the plane, are made where this is not enough.
 
-#include <abut/query/closest.hpp>
-#include <abut/query/contact.hpp>
+#include <abut/query/direct.hpp>
 
 namespace abut {
+
+/// Unknown of other shapes, and where the answer isn't found at once.
+DirectAnswer overlap_polygons(const Given<2>& a, const Given<2>& b, Cache* cache);
 
 /// Looks first at what was nearest last time. False where the answer isn't found at once, or they are other shapes:
 /// `result` is as it was then.
