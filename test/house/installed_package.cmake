@@ -1,6 +1,6 @@
 # Installs abut, builds the consumer against it from outside (where there is no Assimp), and compares what it prints with
 # what ours prints.
-#   cmake -D build= -D folder= -D consumer= -D here= -D with_recast= -D generator= -D compiler= -D flags= -P installed_package.cmake
+#   cmake -D build= -D folder= -D consumer= -D here= -D with_recast= -D asserts= -D generator= -D compiler= -D flags= -P installed_package.cmake
 function(must)
     execute_process(COMMAND ${ARGN} OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE result)
     if(NOT result EQUAL 0)
@@ -28,11 +28,23 @@ must(${CMAKE_COMMAND} --build ${folder}/build)
 
 must(${folder}/build/consumer)
 set(outside "${output}")
+must(${folder}/build/consumer_intrinsics)
+set(with_intrinsics "${output}")
 must(${here})
-if(NOT outside STREQUAL output)
-    message(FATAL_ERROR "built outside:\n${outside}\nbuilt here:\n${output}")
+if(NOT outside STREQUAL output OR NOT with_intrinsics STREQUAL output)
+    message(FATAL_ERROR
+        "built outside:\n${outside}\nwith glm's intrinsics:\n${with_intrinsics}\nbuilt here:\n${output}")
+endif()
+set(answers "${output}")
+must(${folder}/build/consumer_misuse)
+set(assertions "assertions 0")
+if(asserts)
+    set(assertions "assertions 1")
+endif()
+if(NOT output MATCHES "^${assertions},")
+    message(FATAL_ERROR "The package must have ${assertions}: ${output}")
 endif()
 if(with_recast)
     must(${folder}/build/consumer_recast)
 endif()
-message(STATUS "${output}")
+message(STATUS "${answers}")

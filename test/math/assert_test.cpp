@@ -1,5 +1,7 @@
 // A program's own assert_failed takes the place of the library's. This file alone asserts in release builds too.
+#ifndef ABUT_ENABLE_ASSERTS
 #define ABUT_ENABLE_ASSERTS
+#endif
 #include <abut/math/assert.hpp>
 
 #include <string>
