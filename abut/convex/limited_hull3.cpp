@@ -28,7 +28,7 @@ namespace {
 /// Where the body is about 1 across: points so near to its surface needn't be corners of it, as the planes move out to
 /// them at last.
 constexpr double coarse = 0x1p-17;
-constexpr std::size_t few_corners = 32, very_few_corners = 16, box_corners = 32;
+constexpr std::size_t few_corners = 32, very_few_corners = 16, box_corners = 32, pool_corners = 64;
 constexpr int tightening_rounds = 8, max_margins = 14;
 constexpr double first_margin = 0x1p-24;
 
@@ -45,11 +45,12 @@ public:
         if (surface) {
             const InnerPoints inside(*surface);
             OuterMesh mesh(*surface);
-            mesh.simplify(std::max(limit_, box_corners));
+            mesh.simplify(std::max(limit_, pool_corners));
             OuterMesh simple = mesh;
             simple.simplify(limit_);
             offer(std::move(simple), inside);
             if (limit_ <= few_corners) offer_inner(inside);
+            if (limit_ <= few_corners) offer_polar(mesh, inside);
             offer_boxes(std::move(mesh), inside);
         }
         return least_rounded();
@@ -79,6 +80,23 @@ private:
         for (const DVec<3>& corner : surface->points) middle += corner;
         mesh.grow(middle / static_cast<double>(surface->points.size()), inside);
         offer(std::move(mesh), inside);
+    }
+
+    /// The corners of half as many planes, chosen among those of the mesh: their polar points, at 1 / offset along the
+    /// normals, have a hull whose faces are such corners.
+    void offer_polar(const OuterMesh& mesh, const InnerPoints& inside) {
+        constexpr double least_offset = 1e-3;
+        std::vector<Vec3> polar;
+        for (std::uint32_t triangle = 0; triangle < mesh.triangle_count(); ++triangle)
+            if (mesh.has_triangle(triangle) && mesh.plane(triangle).offset > least_offset)
+                polar.push_back(to_float(mesh.plane(triangle).normal / mesh.plane(triangle).offset));
+        if (polar.size() < 4) return;
+        const Hull3 chosen = inner_hull(polar, limit_ / 2 + 2, polar[0]);
+        std::vector<DVec<3>> corners;
+        for (std::size_t face = 0; face < chosen.normals.size(); ++face)
+            if (chosen.offsets[face] > least_offset)
+                corners.push_back(DVec<3>(chosen.normals[face]) / chosen.offsets[face]);
+        if (corners.size() >= 4) offer_grown(corners, inside);
     }
 
     /// An inner hull of so many corners: good for what is round.

@@ -203,9 +203,7 @@ void OuterMesh::merge(std::uint32_t half_edge, const DVec<3>& point) {
 
 void OuterMesh::push(std::uint32_t half_edge) {
     if (twin_[half_edge] < half_edge) half_edge = twin_[half_edge];
-    const double cost = quick_cost(half_edge);
-    if (cost == std::numeric_limits<double>::max()) return;
-    heap_.push_back({cost, half_edge, ++version_[half_edge]});
+    heap_.push_back({quick_cost(half_edge), half_edge, ++version_[half_edge]});
 }
 
 namespace {

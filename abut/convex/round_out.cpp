@@ -11,6 +11,10 @@
 namespace abut {
 namespace {
 
+/// In the frame, where all is about 1 across: `lowest_above` may be below planes by half as much, and doubles round far
+/// less. Floats near 0 are closer together than that.
+constexpr double least_rise = 2e-11;
+
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 /// The floats around a number, the lesser one first.
@@ -66,12 +70,12 @@ DVec<3> raised(const DVec<3>& corner, std::span<const Plane<3>> planes, std::spa
         local.push_back({planes[i].normal, planes[i].offset + rise[i] - dot(planes[i].normal, corner)});
     }
     // Along the mean of the normals, where that rises above all planes: no farther than it has to.
-    constexpr double least_rise = 0.1;
+    constexpr double least_cosine = 0.1;
     const DVec<3> way = normalized(sum);
     double along = 0;
     for (const Plane<3>& plane : local)
-        along = std::max(along, dot(plane.normal, way) > least_rise ? plane.offset / dot(plane.normal, way)
-                                                                    : std::numeric_limits<double>::infinity());
+        along = std::max(along, dot(plane.normal, way) > least_cosine ? plane.offset / dot(plane.normal, way)
+                                                                      : std::numeric_limits<double>::infinity());
     // Planes that are nearly the same meet anywhere: then the lowest place may be far to the side.
     const std::optional<DVec<3>> lowest = lowest_above(local, sum, 1);
     return corner + (lowest && length(*lowest) <= 2 * along ? *lowest : way * along);
@@ -94,6 +98,7 @@ std::optional<Vec<D>> rounded_out(const DVec<D>& corner, std::span<const Plane<D
     const DVec<D> low = raised(corner, planes, rise), place = frame.to_world(low);
     for (std::size_t i = 0; i < planes.size(); ++i) {
         const DVec<D> normal = frame.into.transposed(planes[i].normal);
+        rise[i] = least_rise;
         for (int axis = 0; axis < D; ++axis) rise[i] += std::abs(normal[axis]) * spacing(place[axis]);
         if (!std::isfinite(rise[i])) return std::nullopt;
     }
