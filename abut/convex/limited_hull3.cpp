@@ -267,7 +267,9 @@ Result<Hull3> limited_hull(std::span<const Vec3> points, const HullOptions& opti
     std::optional<Hull3> result = flat ? limited_flat(*full, points, limit) : limited_solid(*full, points, limit);
     if (flat && !result) result = limited_solid(*full, thickened(*full, points), limit);
     if (!result) return beyond_floats();
-    if (options.added != nullptr) *options.added = flat ? result->area - full->area : result->volume - full->volume;
+    // That of the hull is rounded to its grid, and may be too large.
+    const double added = flat ? result->area - full->area : result->volume - full->volume;
+    if (options.added != nullptr) *options.added = std::max(0.0, added);
     return *std::move(result);
 }
 
