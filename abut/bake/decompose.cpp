@@ -22,6 +22,11 @@ constexpr double pieces_a_part = 1.75;
 /// Of half the longest side of the mesh's box.
 constexpr double shell_thickness = 0.01;
 
+/// How exactly gaps are measured: 0.003 of half the longest side, or a tenth of what they may be.
+double gap_precision(double half, double concavity) {
+    return std::max(0.003 * half, 0.1 * concavity);
+}
+
 struct Candidate {
     Piece piece;
     bool whole = false;
@@ -60,7 +65,7 @@ public:
             lumps.push_back(
                 {std::move(piece.points), piece.volume, piece.hull_volume, piece.thickness, gap, candidate.whole});
         }
-        merge_parts(lumps, options_.max_parts, concavity_, hull_);
+        merge_parts(lumps, options_.max_parts, {concavity_, gap_precision(half_, concavity_)}, hull_);
         if (is_cancelled(1)) return cancelled();
         return parts_of(lumps);
     }
@@ -81,7 +86,9 @@ private:
     }
 
     /// How far its hull is from it.
-    double gap_of(const Piece& piece) { return farthest_from(piece, coarse_sides(piece.points, hull_)); }
+    double gap_of(const Piece& piece) {
+        return farthest_from(piece, coarse_sides(piece.points, hull_), {concavity_, gap_precision(half_, concavity_)});
+    }
 
     /// The one whose hull adds most; past the last where all are near enough.
     std::size_t worst_candidate() const {

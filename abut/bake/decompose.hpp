@@ -35,11 +35,14 @@ struct DecomposeOptions {
     /// A part is cut no further, and parts are joined, where the hull is as near as this to what it stands for, as a
     /// share of half the longest side of the mesh's box; from 0 on. That is the larger of two: the farthest way from
     /// the hull's surface to that of the piece, and 0.3 times the radius of a ball as large as what the hull adds.
-    /// Bodies that are convex as they came are not joined with others. CoACD's threshold, with its scale. Both are
-    /// measured to about 0.003: with less, what is convex already may be cut once more.
+    /// Bodies that are convex as they came are not joined with others. CoACD's threshold, with its scale. The first
+    /// is found to a tenth of this or 0.003, whichever is more (of joined parts to half of this, of a sum that is more
+    /// than it need be), both without what `max_vertices` adds: with less than 0.003, what is convex already may be cut
+    /// once more.
     double concavity = 0.05;
 
-    /// Of each part: above 3, or 0 for as many as its hull has.
+    /// Of each part: above 3, or 0 for as many as its hull has. A part with more becomes a larger one, which may reach
+    /// farther out than `concavity`.
     std::uint32_t max_vertices = 64;
 
     /// Is told now and then which share of the work is done, in [0, 1], never less than before; false cancels.

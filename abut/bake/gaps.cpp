@@ -133,15 +133,37 @@ double distance_squared(const HullSides& hull, const DVec<3>& p) {
     return least;
 }
 
-/// The largest of the distances, squared.
+/// The largest distance, of the samples first. No point is farther than its neighbour by more than what parts the two:
+/// where that leaves room for a distance above what is looked for, triangles are halved and their middles are samples,
+/// too.
 template <class Distance>
-double farthest(std::span<const Corners> triangles, Distance distance) {
+double farthest(std::span<const Corners> triangles, const GapSearch& search, Distance squared) {
     double most = 0;
-    for (const DVec<3>& p : samples_of(triangles)) {
-        const double found = distance(p);
-        if (std::isfinite(found)) most = std::max(most, found);
+    const auto distance = [&](const DVec<3>& p) {
+        const double found = squared(p);
+        return std::isfinite(found) ? std::sqrt(found) : 0;
+    };
+    for (const DVec<3>& p : samples_of(triangles)) most = std::max(most, distance(p));
+    std::vector<Corners> waiting(triangles.begin(), triangles.end());
+    while (!waiting.empty() && most <= search.enough) {
+        const Corners corners = waiting.back();
+        waiting.pop_back();
+        const Target ball = target(corners);
+        const double here = distance(ball.center);
+        most = std::max(most, here);
+        if (here + ball.radius <= search.enough + search.precision) continue;
+        std::size_t longest = 0;
+        const auto side = [&](std::size_t i) { return length_squared(corners[(i + 1) % 3] - corners[i]); };
+        for (std::size_t i = 1; i < 3; ++i)
+            if (side(i) > side(longest)) longest = i;
+        const std::size_t next = (longest + 1) % 3;
+        const DVec<3> middle = (corners[longest] + corners[next]) * 0.5;
+        Corners first = corners, second = corners;
+        first[next] = second[longest] = middle;
+        waiting.push_back(first);
+        waiting.push_back(second);
     }
-    return std::sqrt(most);
+    return most;
 }
 
 }  // namespace
@@ -164,21 +186,21 @@ HullSides coarse_sides(std::span<const DVec<3>> points, RoughHull& hull) {
     return result;
 }
 
-double farthest_from(const Piece& piece, const HullSides& sides) {
+double farthest_from(const Piece& piece, const HullSides& sides, const GapSearch& search) {
     const Caps caps(piece);
     std::vector<Target> targets;
     targets.reserve(piece.triangles.size());
     for (const glm::uvec3& t : piece.triangles)
         targets.push_back(target({piece.points[t.x], piece.points[t.y], piece.points[t.z]}));
-    return farthest(sides.triangles, [&](const DVec<3>& p) {
+    return farthest(sides.triangles, search, [&](const DVec<3>& p) {
         double least = caps.distance_squared(p);
         for (const Target& t : targets) least = nearer(least, t, p);
         return least;
     });
 }
 
-double farthest_from(const HullSides& first, const HullSides& second, const HullSides& sides) {
-    return farthest(sides.triangles, [&](const DVec<3>& p) {
+double farthest_from(const HullSides& first, const HullSides& second, const HullSides& sides, const GapSearch& search) {
+    return farthest(sides.triangles, search, [&](const DVec<3>& p) {
         return std::min(distance_squared(first, p), distance_squared(second, p));
     });
 }

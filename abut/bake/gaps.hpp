@@ -26,10 +26,16 @@ struct HullSides {
 };
 HullSides coarse_sides(std::span<const DVec<3>> points, RoughHull& hull);
 
+/// Whether anything is farther than `enough` is found out to within `precision`, above 0; how far it is, and what is
+/// nearer, is measured at samples.
+struct GapSearch {
+    double enough = 0, precision = 0;
+};
+
 /// The farthest of points all over the sides from the piece's surface and caps; from 0 on.
-double farthest_from(const Piece& piece, const HullSides& sides);
+double farthest_from(const Piece& piece, const HullSides& sides, const GapSearch& search);
 
 /// The farthest of points all over the sides from both hulls.
-double farthest_from(const HullSides& first, const HullSides& second, const HullSides& sides);
+double farthest_from(const HullSides& first, const HullSides& second, const HullSides& sides, const GapSearch& search);
 
 }  // namespace abut

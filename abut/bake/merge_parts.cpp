@@ -28,15 +28,16 @@ struct Join {
 
 class Merger {
 public:
-    Merger(std::vector<Lump>& lumps, RoughHull& hull) : lumps_(lumps), hull_(hull), alive_(lumps.size(), true) {
+    Merger(std::vector<Lump>& lumps, const GapSearch& search, RoughHull& hull)
+        : lumps_(lumps), search_(search), hull_(hull), alive_(lumps.size(), true) {
         for (const Lump& lump : lumps) {
             hull_.build(lump.points, roughness);
             add_shell(lump.points);
         }
     }
 
-    void run(std::size_t most, double concavity) {
-        const double enough = length_as_volume(concavity);
+    void run(std::size_t most) {
+        const double enough = length_as_volume(search_.enough);
         for (std::uint32_t a = 0; a < lumps_.size(); ++a)
             for (std::uint32_t b = a + 1; b < lumps_.size(); ++b) consider(a, b);
         std::size_t count = lumps_.size();
@@ -50,7 +51,7 @@ public:
             if (!needed && best.cost + lumps_[best.a].hull_volume + lumps_[best.b].hull_volume - solid > enough)
                 continue;
             Lump lump = joined(best.a, best.b);
-            if (!needed && lump.gap > concavity) continue;
+            if (!needed && lump.gap > search_.enough) continue;
             alive_[best.a] = alive_[best.b] = false;
             hull_.build(lump.points, roughness);
             add_shell(lump.points);
@@ -105,12 +106,16 @@ private:
         build_both(a, b);
         result.hull_volume = size_of_both(a, b);
         const HullSides sides = coarse_sides(both_, hull_);
-        result.gap = std::max(first.gap, second.gap) + farthest_from(coarse_sides(shells_[a].corners, hull_),
-                                                                     coarse_sides(shells_[b].corners, hull_), sides);
+        result.gap = std::max(first.gap, second.gap);
+        // Gaps add up, which is more than they are: half as exact is as good.
+        const double left = std::max(0.0, search_.enough - result.gap);
+        result.gap += farthest_from(coarse_sides(shells_[a].corners, hull_), coarse_sides(shells_[b].corners, hull_),
+                                    sides, {left, std::max(search_.precision, 0.5 * search_.enough)});
         return result;
     }
 
     std::vector<Lump>& lumps_;
+    GapSearch search_;
     RoughHull& hull_;
     std::vector<bool> alive_;
     std::vector<Shell> shells_;
@@ -120,8 +125,8 @@ private:
 
 }  // namespace
 
-void merge_parts(std::vector<Lump>& lumps, std::size_t most, double concavity, RoughHull& hull) {
-    Merger(lumps, hull).run(most, concavity);
+void merge_parts(std::vector<Lump>& lumps, std::size_t most, const GapSearch& search, RoughHull& hull) {
+    Merger(lumps, search, hull).run(most);
 }
 
 }  // namespace abut

@@ -2,6 +2,7 @@
 
 // Fewer parts of many: hulls are joined where that adds least.
 
+#include <abut/bake/gaps.hpp>
 #include <abut/bake/rough_hull.hpp>
 
 #include <cstddef>
@@ -20,7 +21,7 @@ struct Lump {
 };
 
 /// Joins lumps two by two, first what adds least volume, until there are no more than `most`; and on, as long as the
-/// hull of two is within `concavity` (a length, see `gaps.hpp`) of them.
-void merge_parts(std::vector<Lump>& lumps, std::size_t most, double concavity, RoughHull& hull);
+/// hull of two is within `search.enough` of them.
+void merge_parts(std::vector<Lump>& lumps, std::size_t most, const GapSearch& search, RoughHull& hull);
 
 }  // namespace abut
