@@ -77,7 +77,10 @@ CoreDistance<D> core_distance(const CoreDifference<D>& difference, SearchOptions
     Cache found;
     if (few_axes(difference)) {
         const SeparatingAxis<D> axis = separating_axis(difference, 0, options.trace);
-        if (axis.extent >= 0) return {-axis.extent, axis.normal, touching_face(difference, axis.normal, axis.extent)};
+        // None was tried where all edges are lost in the rounding of corners that are far away.
+        const bool tried = axis.normal != DVec<D>(0.0);
+        if (tried && axis.extent >= 0)
+            return {-axis.extent, axis.normal, touching_face(difference, axis.normal, axis.extent)};
         // Along an axis that parts them is where the nearest points are.
         for (int i = 0; i < D; ++i) found.axis[static_cast<std::size_t>(i)] = static_cast<float>(axis.normal[i]);
         if (options.cache == nullptr) options.cache = &found;
