@@ -7,7 +7,7 @@
 namespace abut::tool {
 namespace {
 
-constexpr std::size_t most_frames = 1'000'000, most_bounces = 100'000;
+constexpr std::size_t most_bounces = 100'000;
 constexpr float most_cells = 1e6f;
 constexpr std::uint32_t most_vertices = 1'000'000, most_parts = 100'000;
 
@@ -39,7 +39,7 @@ Result<float> parse_length(const std::string& text) {
 }
 
 Result<std::size_t> parse_frames(const std::string& text) {
-    return parse_whole<std::size_t>(text, 1, most_frames);
+    return parse_whole<std::size_t>(text, 1, max_frames);
 }
 
 template <int D>

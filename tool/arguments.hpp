@@ -16,7 +16,9 @@ namespace abut::tool {
 /// A finite length, not below zero.
 Result<float> parse_length(const std::string& text);
 
-/// A number of frames, 1 to a million.
+inline constexpr std::size_t max_frames = 1'000'000;
+
+/// A number of frames, 1 to `max_frames`.
 Result<std::size_t> parse_frames(const std::string& text);
 
 /// X,Y or X,Y,Z: as many finite numbers as there are dimensions.

@@ -50,6 +50,7 @@ std::string text_report(const CastReport<D>& report, const std::string& scene_na
     if (!hits.empty()) text += "\n";
     for (const std::string& note : report.notes) text += "note: " + note + "\n";
     if (!report.notes.empty()) text += "\n";
+    if (!report.left_out.empty()) text += "left out  " + text_of(report.left_out) + "\n";
     text += fmt::format("objects   {}\nseconds   read {:.3f}, build {:.3f}, cast {:.3f}\n", report.objects.size(),
                         report.read_seconds, report.build_seconds, report.cast_seconds);
     return text + "\n" + verdict(report);
@@ -77,6 +78,7 @@ std::string json_report(const CastReport<D>& report) {
          {"clear", report.result.hits.empty()},
          {"hits", std::move(hits)},
          {"end", std::move(end)},
+         {"left_out", json_of(report.left_out)},
          {"warnings", report.notes},
          {"seconds", {{"read", report.read_seconds}, {"build", report.build_seconds}, {"cast", report.cast_seconds}}}});
 }

@@ -3,6 +3,7 @@
 // What `abut cast` has to say: as text, as JSON, and as a picture.
 
 #include "cast.hpp"
+#include "left_out.hpp"
 
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@ struct CastReport {
     double time = 0;  ///< the moment at which the objects are, in seconds
     CastResult<D> result;
     std::vector<std::string> notes;
+    std::vector<LeftOutOf> left_out;
     double read_seconds = 0, build_seconds = 0, cast_seconds = 0;
 };
 

@@ -2,6 +2,7 @@
 
 #include "import_in_child.hpp"
 #include <abut/io/read_level.hpp>
+#include <abut/io/referenced_files.hpp>
 
 namespace abut::tool {
 
@@ -9,22 +10,27 @@ int dimension_of(const std::string& file) {
     return is_level(file) ? 2 : 3;
 }
 
+std::string hint(const Problem& problem) {
+    if (problem.code == ProblemCode::degenerate) return " (without --strict such triangles are left out)";
+    return is_outside(problem) ? " (--allow-outside permits that)" : "";
+}
+
 template <>
-Result<Scene> load<3>(const std::string& file, bool skip_degenerate) {
-    Result<Scene> scene = import_in_child(file, {.skip_degenerate = skip_degenerate}, limits_for(file));
+Result<Scene> load<3>(const std::string& file, const FileOptions& options) {
+    Result<Scene> scene =
+        import_in_child(file, {.strict = options.strict, .allow_outside = options.allow_outside}, limits_for(file));
     if (scene) return scene;
-    Problem problem = scene.problem();
-    problem.message = file + ": " + problem.message;
-    if (problem.code == ProblemCode::degenerate) problem.message += " (--skip-degenerate leaves such triangles out)";
-    return problem;
+    const Problem& problem = scene.problem();
+    return Problem{problem.code, file + ": " + problem.message + hint(problem)};
 }
 
 // What has no extent is left out of levels in any case, and told.
 template <>
-Result<Level> load<2>(const std::string& file, bool) {
-    Result<Level> level = read_level(file);
+Result<Level> load<2>(const std::string& file, const FileOptions& options) {
+    Result<Level> level = read_level(file, {.allow_outside = options.allow_outside});
     if (level) return level;
-    return Problem{level.problem().code, file + ": " + level.problem().message};
+    const Problem& problem = level.problem();
+    return Problem{problem.code, file + ": " + problem.message + hint(problem)};
 }
 
 }  // namespace abut::tool

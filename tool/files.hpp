@@ -19,12 +19,21 @@ using File = std::conditional_t<D == 2, Level, Scene>;
 template <int D>
 using ObjectsOf = std::conditional_t<D == 2, LevelObjects, SceneObjects>;
 
+/// How a file is read, by what was typed.
+struct FileOptions {
+    bool strict = false;         ///< a triangle of zero area refuses the file
+    bool allow_outside = false;  ///< files that it refers to may be outside of its folder
+};
+
 /// 2 or 3, by the file's name.
 int dimension_of(const std::string& file);
 
 /// A scene or a level as the verbs want it; the message of a Problem begins with the file.
 template <int D>
-Result<File<D>> load(const std::string& file, bool skip_degenerate);
+Result<File<D>> load(const std::string& file, const FileOptions& options);
+
+/// What has to be said of a Problem of reading a file: what permits it.
+std::string hint(const Problem& problem);
 
 /// Takes the objects to the first moment that is asked about, with a bar where that takes long.
 template <int D>

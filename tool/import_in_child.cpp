@@ -1,5 +1,6 @@
 #include "import_in_child.hpp"
 
+#include "out_of_memory.hpp"
 #include <abut/io/scene_bytes.hpp>
 
 #include <algorithm>
@@ -72,6 +73,7 @@ void send(int pipe, std::span<const std::byte> bytes) {
 [[noreturn]] void import(int pipe, const std::filesystem::path& file, const ReadOptions& options,
                          const ImportLimits& limits) {
     become_quiet_and_limited(limits);
+    throw_when_out_of_memory();
     try {
         send(pipe, to_bytes(read_scene(file, options)));
     } catch (const std::bad_alloc&) {

@@ -1,11 +1,12 @@
 // The tool `abut`: collision checks for asset pipelines. What is asked of it, and by which verb.
 
 #include "arguments.hpp"
+#include "out_of_memory.hpp"
 #include "verbs.hpp"
 
-#include <algorithm>
 #include <cstdio>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -14,15 +15,25 @@
 namespace abut::tool {
 namespace {
 
-int fail(std::string line) {
-    std::replace_if(
-        line.begin(), line.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
-    std::fprintf(stderr, "abut: %s\n", line.c_str());
+int fail(const std::string& message) {
+    std::fputs(one_line(message).c_str(), stderr);
     return unusable;
 }
 
 constexpr const char* files =
     "In 3D glTF 2.0, or anything else that Assimp reads; in 2D a Tiled map (.tmx, .tmj) or a drawing (.svg)";
+
+// How files are read. Verbs that mend meshes have no use for --strict.
+void describe(CLI::App& verb, FileOptions& options, bool can_be_strict) {
+    verb.add_flag("--allow-outside", options.allow_outside,
+                  "Read what the file refers to outside of its own folder too, such as ../shared/a.bin");
+    if (!can_be_strict) return;
+    CLI::Option* strict = verb.add_flag("--strict", options.strict,
+                                        "Refuse a file with a triangle of zero area; without it those are left out and "
+                                        "counted");
+    // What scripts of earlier versions ask for is so anyway.
+    verb.add_flag("--skip-degenerate")->group("")->excludes(strict);
+}
 
 // What was typed for `abut check`, numbers and patterns as text.
 struct CheckArguments {
@@ -41,8 +52,10 @@ void describe(CLI::App& verb, CheckArguments& arguments) {
     verb.add_option("--baseline", arguments.request.baseline,
                     "Report only what this earlier --json report doesn't have")
         ->type_name("OLD.json");
-    verb.add_option("--frames", arguments.frames,
-                    "Look at N moments, evenly spread; without it at the file's key times, at most 30 a second")
+    verb.add_option(
+            "--frames", arguments.frames,
+            "Look at N moments, evenly spread; without it at the file's key times, at most 30 a second. Between "
+            "them pairs are followed all the way")
         ->type_name("N");
     verb.add_option("--pairs", arguments.pairs,
                     "Only pairs of an object that A describes and one that B does, path or name, with * and ?")
@@ -77,7 +90,7 @@ void describe(CLI::App& verb, CheckArguments& arguments) {
         "triangles, triangles that face the wrong way. --pairs leaves of these only gaps and doubled "
         "objects, and what --spawn and --closed ask for.");
     verb.add_flag("--json", arguments.request.json, "One JSON object in place of text");
-    verb.add_flag("--skip-degenerate", arguments.request.skip_degenerate, "Leave out triangles of zero area");
+    describe(verb, arguments.request.files, true);
 }
 
 // What was typed for `abut cast`.
@@ -104,7 +117,7 @@ void describe(CLI::App& verb, CastArguments& arguments) {
         ->type_name("SECONDS");
     verb.add_option("-o,--output", arguments.request.picture, "Draw a picture too")->type_name("PICTURE.svg");
     verb.add_flag("--json", arguments.request.json, "One JSON object in place of text");
-    verb.add_flag("--skip-degenerate", arguments.request.skip_degenerate, "Leave out triangles of zero area");
+    describe(verb, arguments.request.files, true);
 }
 
 constexpr const char *mesh_files = "glTF 2.0, or anything else that Assimp reads",
@@ -124,6 +137,7 @@ void describe(CLI::App& verb, HullArguments& arguments) {
         ->type_name("N");
     verb.add_flag("--each", arguments.request.each, "One hull for each object, in place of one around all of them");
     verb.add_flag("--json", arguments.request.json, "One JSON object in place of text");
+    describe(verb, arguments.request.files, false);
     verb.footer("Objects are taken where they stand at the first moment.");
 }
 
@@ -148,6 +162,7 @@ void describe(CLI::App& verb, DecomposeArguments& arguments) {
                   "they are taken for solids that are inside out, unless they are around several others");
     verb.add_option("--picture", arguments.request.picture, "Draw the parts too")->type_name("FILE.svg");
     verb.add_flag("--json", arguments.request.json, "One JSON object in place of text");
+    describe(verb, arguments.request.files, false);
     verb.footer(
         "All objects are taken together, where they stand at the first moment, and repaired first: points in one place "
         "become one, triangles are made to agree which way round they are, small holes are filled.");
@@ -187,6 +202,7 @@ void describe(CLI::App& verb, FieldArguments& arguments) {
         ->type_name("AXIS=N")
         ->allow_extra_args(false);
     verb.add_flag("--json", request.json, "One JSON object in place of text");
+    describe(verb, request.files, false);
     verb.footer(
         "All objects are taken together, where they stand at the first moment. Inside is where the surface goes round "
         "a place. Exits with 1 where it has gaps or more than a thousandth of the samples may be on either side; the "
@@ -214,6 +230,7 @@ void describe(CLI::App& verb, WalkArguments& arguments) {
     verb.add_option("--picture", request.picture, "Draw it too, with its islands, its borders and the way")
         ->type_name("FILE.svg");
     verb.add_flag("--json", request.json, "One JSON object in place of text");
+    describe(verb, request.files, false);
     verb.footer(
         "The triangles are taken as a surface to walk on, where they stand at the first moment; any side may be up. "
         "Exits with 1 where there is no way from --from to --to, or one of them is out of reach.");
@@ -224,7 +241,7 @@ void describe(CLI::App& verb, InfoRequest& request) {
                     std::string(files) + "; or what abut field (.field) or abut walk (.walk) wrote")
         ->required();
     verb.add_flag("--json", request.json, "One JSON object in place of text");
-    verb.add_flag("--skip-degenerate", request.skip_degenerate, "Leave out triangles of zero area");
+    describe(verb, request.files, true);
 }
 
 // Puts what the text means in its place; the line for stderr if it means nothing.
@@ -241,8 +258,8 @@ std::optional<std::string> understand(const char* option, const std::optional<st
 Result<ExitCode> run_check(CheckArguments& arguments) {
     CheckOptions& options = arguments.request.options;
     std::optional<std::string> problem =
-        understand("--clearance", arguments.clearance, parse_length, options.clearance);
-    if (!problem) problem = understand("--allow", arguments.allow, parse_length, options.allow);
+        understand("--clearance", arguments.clearance, parse_length, options.limits.clearance);
+    if (!problem) problem = understand("--allow", arguments.allow, parse_length, options.limits.allow);
     if (!problem) problem = understand("--frames", arguments.frames, parse_frames, arguments.request.frames);
     FaultOptions& faults = arguments.request.faults;
     if (!problem) problem = understand("--character", arguments.character, parse_character, faults.character);
@@ -339,14 +356,32 @@ int run(int count, char** words) {
             return fail("'" + std::string(words[1]) + "' is not a verb; abut --help lists them");
         return fail(error.what());
     }
-    const Result<ExitCode> code = check_verb.parsed()       ? run_check(check)
-                                  : cast_verb.parsed()      ? run_cast(cast)
-                                  : hull_verb.parsed()      ? run_hull(hull)
-                                  : decompose_verb.parsed() ? run_decompose(decompose)
-                                  : field_verb.parsed()     ? run_field(field)
-                                  : walk_verb.parsed()      ? run_walk(walk)
-                                                            : run_info(info);
-    return code ? static_cast<int>(*code) : fail(code.problem().message);
+    const bool checks = check_verb.parsed();
+    const bool bakes = field_verb.parsed();
+    const std::string& file = checks                    ? check.request.scene
+                              : cast_verb.parsed()      ? cast.request.scene
+                              : hull_verb.parsed()      ? hull.request.mesh
+                              : decompose_verb.parsed() ? decompose.request.mesh
+                              : bakes                   ? field.request.mesh
+                              : walk_verb.parsed()      ? walk.request.mesh
+                                                        : info.scene;
+    const std::string too_large = file + ": needs more memory than there is" +
+                                  (checks  ? ": --pairs asks about fewer objects"
+                                   : bakes ? ": a larger --cell needs less"
+                                           : "");
+    exit_when_out_of_memory(too_large);
+    try {
+        const Result<ExitCode> code = checks                    ? run_check(check)
+                                      : cast_verb.parsed()      ? run_cast(cast)
+                                      : hull_verb.parsed()      ? run_hull(hull)
+                                      : decompose_verb.parsed() ? run_decompose(decompose)
+                                      : bakes                   ? run_field(field)
+                                      : walk_verb.parsed()      ? run_walk(walk)
+                                                                : run_info(info);
+        return code ? static_cast<int>(*code) : fail(code.problem().message);
+    } catch (const std::length_error&) {
+        return fail(too_large);
+    }
 }
 
 }  // namespace

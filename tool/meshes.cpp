@@ -1,6 +1,5 @@
 #include "meshes.hpp"
 
-#include "files.hpp"
 #include <abut/io/write_mesh.hpp>
 
 #include <filesystem>
@@ -9,10 +8,10 @@
 
 namespace abut::tool {
 
-Result<Meshes> load_meshes(const std::string& file) {
+Result<Meshes> load_meshes(const std::string& file, const FileOptions& options) {
     if (dimension_of(file) == 2)
         return Problem{ProblemCode::bad_argument, file + ": is a level of the plane, and has no meshes"};
-    Result<Scene> scene = load<3>(file, true);
+    Result<Scene> scene = load<3>(file, options);
     if (!scene) return scene.problem();
     Result<PlacedMeshes> placed = placed_meshes(*scene);
     if (!placed) return Problem{placed.problem().code, file + ": " + placed.problem().message};

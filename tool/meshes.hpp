@@ -2,6 +2,7 @@
 
 // The meshes that verbs read and write.
 
+#include "files.hpp"
 #include <abut/io/placed_meshes.hpp>
 #include <abut/math/result.hpp>
 
@@ -17,7 +18,7 @@ using Meshes = PlacedMeshes;
 
 /// A Problem, its message beginning with the file, for what can't be read, levels of the plane, and where nothing is
 /// left. Triangles without area and objects that are scaled to nothing are left out, with a warning.
-Result<Meshes> load_meshes(const std::string& file);
+Result<Meshes> load_meshes(const std::string& file, const FileOptions& options);
 
 /// The file's name without its folder and ending: for what has no name of its own.
 std::string name_of(const std::string& file);

@@ -4,6 +4,7 @@
 
 #include "inside.hpp"
 #include "progress.hpp"
+#include "stage.hpp"
 #include <abut/abut.hpp>
 
 #include <cstddef>
@@ -30,6 +31,8 @@ struct Object {
     bool filled = false;         ///< a closed surface or line around a body: things can be swallowed by it
     float radius = 0;            ///< its size
     InsidePoint<D> inside;       ///< in the shape's frame
+    float reach = 0;             ///< how far the shape goes from the origin of its frame
+    View<D> shape;               ///< in its frame, of what moves
     Pose<D> pose;
     View<D> placed;
     Aabb<D> box = Aabb<D>::empty();
@@ -50,6 +53,15 @@ public:
     std::optional<Problem> go_to(double time) {
         return go_to(time, [](std::size_t, std::size_t) {});
     }
+
+    /// The way from the moment that was asked for last to a later one, stage by stage. Objects and their shapes stay as
+    /// they are. Nothing for objects that don't move.
+    virtual void each_stage(double from, double to, FunctionRef<void(const Stage<D>&)> visit) {
+        static_cast<void>(from), static_cast<void>(to), static_cast<void>(visit);
+    }
+
+    /// Those that jumped on some stage so far, or changed their shape.
+    virtual std::vector<std::string> unfollowed() const { return {}; }
 
     /// Those that were left out at some moment so far.
     virtual std::vector<std::string> hidden() const { return {}; }

@@ -60,6 +60,10 @@ std::string how(const Finding<D>& finding) {
 
 template <int D>
 std::string when(const Report<D>& report, const Finding<D>& finding) {
+    if (finding.between)
+        return fmt::format(" at {} s, between frames {} and {}: they meet at {} s ({} of the way)",
+                           number(finding.deepest_time), finding.first, finding.first + 1, number(finding.time),
+                           number(fraction(report, finding)));
     const auto time = [&](std::size_t frame) { return number(report.times[frame]); };
     if (report.times.size() == 1) return {};
     if (finding.first == finding.last) return fmt::format(" at {} s (frame {})", time(finding.first), finding.first);
@@ -101,11 +105,14 @@ std::string summary(const Report<D>& report, std::size_t pairs) {
     std::string text;
     text += fmt::format("objects   {}: {} taken as convex solids, {} as {}\n", report.objects.size(), solids,
                         report.objects.size() - solids, not_solids<D>);
+    if (!report.left_out.empty()) text += "left out  " + text_of(report.left_out) + "\n";
     text += fmt::format("frames    {}", report.times.size());
     if (report.times.size() > 1)
         text += fmt::format(", from {} s to {} s", number(report.times.front()), number(report.times.back()));
-    text += fmt::format("\npairs     {} tested of {} possible ({} %)\n", result.tested, result.possible, number(share));
-    text += fmt::format("contacts  {} between {}", result.findings.size(), counted(pairs, "pair", "pairs"));
+    text += fmt::format("\npairs     {} tested of {} possible ({} %)", result.tested, result.possible, number(share));
+    if (result.swept > 0) text += fmt::format(", {} followed between frames", result.swept);
+    text += fmt::format("\ncontacts  {} between {}", result.findings.size(), counted(pairs, "pair", "pairs"));
+    if (result.left_out > 0) text += fmt::format(", and {} more, no deeper, that are left out", result.left_out);
     if (report.has_baseline) text += fmt::format(", and {} that the baseline has", report.known);
     text += "\n" + summary_of(report.faults);
     text += fmt::format("seconds   read {:.3f}, build {:.3f}, check {:.3f}, level {:.3f}\n", report.seconds.read,

@@ -19,9 +19,13 @@ Json contact(const Report<D>& report, const Finding<D>& finding) {
                    {"normal", numbers(finding.normal)},
                    {"points", std::move(points)},
                    {"deepest_frame", finding.deepest},
-                   {"time", report.times[finding.first]},
-                   {"last_time", report.times[finding.last]},
-                   {"deepest_time", report.times[finding.deepest]}};
+                   {"time", finding.between ? finding.time : report.times[finding.first]},
+                   {"last_time", finding.between ? finding.last_time : report.times[finding.last]},
+                   {"deepest_time", finding.between ? finding.deepest_time : report.times[finding.deepest]}};
+    if (finding.between) {
+        result["between"] = true;
+        result["fraction"] = fraction(report, finding);
+    }
     if (finding.inside) result["inside"] = true;
     return result;
 }
@@ -50,7 +54,10 @@ std::string json_report(const Report<D>& report) {
                  {"frames", report.times.size()},
                  {"pairs", report.result.tested},
                  {"possible_pairs", report.result.possible},
+                 {"swept_pairs", report.result.swept},
                  {"contacts", std::move(contacts)},
+                 {"contacts_left_out", report.result.left_out},
+                 {"left_out", json_of(report.left_out)},
                  {"warnings", report.notes},
                  {"seconds",
                   {{"read", report.seconds.read},
@@ -76,6 +83,8 @@ Result<Baseline> read_baseline(const std::filesystem::path& file) {
         if (!read_known(entry, result.contacts.emplace_back()))
             return Problem{ProblemCode::bad_format,
                            no_report.message + ": contacts[" + std::to_string(result.contacts.size() - 1) + "]"};
+    if (const auto left_out = json.find("contacts_left_out"); left_out != json.end() && left_out->is_number_unsigned())
+        result.left_out = *left_out;
     result.report = std::move(json);
     return result;
 }

@@ -7,6 +7,7 @@
 #include <abut/math/result.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -27,6 +28,7 @@ struct KnownFinding {
 /// An earlier report: its contacts, and all of it, where what else it found is looked up.
 struct Baseline {
     std::vector<KnownFinding> contacts;
+    std::uint64_t left_out = 0;  ///< contacts that it had no room for
     Json report = Json::object();
 };
 

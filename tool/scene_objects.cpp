@@ -1,5 +1,6 @@
 #include "scene_objects.hpp"
 
+#include "transforms.hpp"
 #include <abut/bake/solid.hpp>
 
 #include <algorithm>
@@ -12,9 +13,6 @@
 
 namespace abut::tool {
 namespace {
-
-// How far from a rotation a change of transform may be to count as one: within the margin of every answer.
-constexpr double rotation_tolerance = 1e-6;
 
 // All geometry of a node as one surface.
 Welded surface_of(const Scene& scene, const std::vector<std::uint32_t>& geometries) {
@@ -29,14 +27,6 @@ Welded surface_of(const Scene& scene, const std::vector<std::uint32_t>& geometri
     return weld(points, triangles);
 }
 
-bool is_rotation(const glm::dmat3& m) {
-    const glm::dmat3 product = glm::transpose(m) * m;
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-            if (!(std::abs(product[i][j] - (i == j ? 1 : 0)) <= rotation_tolerance)) return false;
-    return glm::determinant(m) > 0;
-}
-
 // Rotation, mirroring and even scale: what leaves convex things convex to within the same margin.
 bool is_similarity(const glm::dmat3& m) {
     const double scale = glm::length(m[0]);
@@ -45,26 +35,12 @@ bool is_similarity(const glm::dmat3& m) {
     return is_rotation(turned);
 }
 
-bool is_finite(const glm::dmat4& m) {
-    for (int column = 0; column < 4; ++column)
-        for (int row = 0; row < 4; ++row)
-            if (!std::isfinite(m[column][row])) return false;
-    return true;
-}
-
 // Shrunk to a line or a point, or all but: no shape to speak of. A floor that is flattened to a plane stays one.
 bool vanishes(const glm::dmat3& m) {
     const double longest = std::max({glm::length(m[0]), glm::length(m[1]), glm::length(m[2])});
     const double widest = std::max({glm::length(glm::cross(m[0], m[1])), glm::length(glm::cross(m[1], m[2])),
                                     glm::length(glm::cross(m[2], m[0]))});
     return !(widest > 1e-12 * longest * longest);
-}
-
-// How an object has turned since its shape was baked; nothing where it has done more than turn.
-std::optional<glm::dmat3> turn_since(const glm::dmat3& baked, const glm::dmat3& now) {
-    if (now == baked) return glm::dmat3(1.0);
-    const glm::dmat3 change = now * glm::inverse(baked);
-    return is_rotation(change) ? std::optional(change) : std::nullopt;
 }
 
 float bounding_radius(std::span<const Vec3> points) {
@@ -107,6 +83,12 @@ SceneObjects::SceneObjects(const Scene& scene) : scene_(scene) {
         from.model = place->second;
     }
     was_hidden_.assign(objects_.size(), false);
+    was_unfollowed_.assign(objects_.size(), false);
+    motion_times_ = motion_times(scene);
+    const auto is_cubic = [](const auto& track) { return track.interpolation == Interpolation::cubic; };
+    for (const Animation& animation : scene.animations)
+        for (const NodeMotion& motion : animation.motions)
+            has_curves_ = has_curves_ || is_cubic(motion.translation) || is_cubic(motion.rotation);
 }
 
 std::optional<Problem> SceneObjects::go_to(double time, ProgressCall progress) {
@@ -160,6 +142,8 @@ std::optional<Problem> SceneObjects::bake(std::size_t i, const glm::dmat3& linea
 
     node.baked = linear;
     object.radius = bounding_radius(points);
+    object.reach = 0;
+    for (const Vec3& p : points) object.reach = std::max(object.reach, glm::length(p));
     object.solid = model.solid && (is_similarity(linear) || is_convex_solid(points, triangles));
     object.kind = object.solid ? "solid" : "mesh";
     object.part_name = object.solid ? "" : "triangle";
@@ -176,14 +160,19 @@ std::optional<Problem> SceneObjects::bake(std::size_t i, const glm::dmat3& linea
         object.inside = inside_point(*built, object.filled);
         node.shape = *std::move(built);
     }
+    object.shape = std::visit([](const auto& shape) { return View<3>(view(shape)); }, node.shape);
     return std::nullopt;
 }
 
-std::vector<std::string> SceneObjects::hidden() const {
+std::vector<std::string> SceneObjects::paths_where(const std::vector<bool>& is_one) const {
     std::vector<std::string> paths;
     for (std::size_t i = 0; i < objects_.size(); ++i)
-        if (was_hidden_[i]) paths.push_back(objects_[i].path);
+        if (is_one[i]) paths.push_back(objects_[i].path);
     return paths;
+}
+
+std::vector<std::string> SceneObjects::hidden() const {
+    return paths_where(was_hidden_);
 }
 
 }  // namespace abut::tool

@@ -28,7 +28,10 @@ public:
     std::optional<Problem> go_to(double time, ProgressCall progress) override;
     using Objects<3>::go_to;
 
+    void each_stage(double from, double to, FunctionRef<void(const Stage<3>&)> visit) override;
+
     std::vector<std::string> hidden() const override;
+    std::vector<std::string> unfollowed() const override;
 
     /// What the node's transform does beyond turning and moving is baked into it.
     using Shape = std::variant<Polyhedron, Mesh>;
@@ -55,13 +58,24 @@ private:
         glm::dmat3 baked{0.0};                                        ///< the part of a matrix that is in the shape
     };
 
+    /// The way of all objects between two moments at which nothing begins to move otherwise.
+    struct Way;
+
+    std::optional<Pose3> pose_of(std::size_t i, const glm::dmat4& matrix) const;
+    std::optional<Motion3> motion_of(std::size_t i, const glm::dmat4& from, const glm::dmat4& to) const;
+    int count_pieces(const Way& way);
+    bool jumps(std::size_t i, Way& way) const;
+    Part part_in(std::size_t i, Way& way, const glm::dmat4& from, const glm::dmat4& to, Motion3& motion);
+    std::vector<std::string> paths_where(const std::vector<bool>& is_one) const;
     std::optional<Problem> place(std::size_t i, const glm::dmat4& matrix);
     std::optional<Problem> bake(std::size_t i, const glm::dmat3& linear);
 
     const Scene& scene_;
     std::vector<Model> models_;
-    std::vector<Node> nodes_;  ///< of the object with the same number
-    std::vector<bool> was_hidden_;
+    std::vector<Node> nodes_;           ///< of the object with the same number
+    std::vector<double> motion_times_;  ///< between these each node goes on as it began
+    bool has_curves_ = false;           ///< some track isn't linear between its keys
+    std::vector<bool> was_hidden_, was_unfollowed_;
     std::vector<glm::dmat4> matrices_;
 };
 

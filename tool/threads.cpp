@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -15,7 +16,12 @@ void Threads::run(std::uint32_t count, FunctionRef<void(std::uint32_t)> part) {
         for (std::uint32_t i = next++; i < count; i = next++) part(i);
     };
     std::vector<std::thread> others;
-    for (std::uint32_t i = 1; i < std::min(count_, count); ++i) others.emplace_back(work);
+    others.reserve(std::min(count_, count));
+    try {
+        for (std::uint32_t i = 1; i < std::min(count_, count); ++i) others.emplace_back(work);
+    } catch (const std::system_error&) {
+        // No more threads than there are: those that started do the work of the others.
+    }
     work();
     for (std::thread& other : others) other.join();
 }

@@ -52,7 +52,7 @@ Result<ExitCode> run(const CastRequest& request) {
     const Result<CastOptions<D>> options = understood<D>(request);
     if (!options) return options.problem();
     Stopwatch watch;
-    const Result<File<D>> file = load<D>(request.scene, request.skip_degenerate);
+    const Result<File<D>> file = load<D>(request.scene, request.files);
     if (!file) return file.problem();
     const double read_seconds = watch.lap();
     ObjectsOf<D> objects(*file);
@@ -66,7 +66,8 @@ Result<ExitCode> run(const CastRequest& request) {
         Progress progress("casting");
         return cast<D>(objects, *options, progress);
     }();
-    CastReport<D> report{objects, *options, *time, std::move(result), file->warnings, read_seconds, build_seconds, 0};
+    CastReport<D> report{objects,      *options,      *time, std::move(result), file->warnings, left_out_of(*file),
+                         read_seconds, build_seconds, 0};
     report.cast_seconds = watch.lap();
     if (request.picture)
         if (const std::optional<Problem> problem = write_picture(*request.picture, picture(report))) return *problem;

@@ -1,3 +1,4 @@
+#include "arguments.hpp"
 #include "faults_report.hpp"
 #include "progress.hpp"
 #include "report.hpp"
@@ -6,6 +7,7 @@
 #include "verbs.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 #include <vector>
@@ -15,8 +17,11 @@
 namespace abut::tool {
 namespace {
 
-// Keys farther apart than this leave room for things to pass through one another unseen.
+// Frames farther apart than this are worth a closer look.
 constexpr double long_gap = 0.25;
+// No more frames are advised than are taken, nor than anybody wants to wait for.
+constexpr std::size_t max_advised = 100'000;
+static_assert(max_advised <= max_frames);
 
 // A pattern that names nothing is a mistake, and would make a check that can't fail.
 template <int D>
@@ -48,27 +53,46 @@ std::size_t drop_known(std::vector<Finding<D>>& findings, const std::vector<Know
     });
 }
 
+// What to type for a closer look, which is then taken.
+std::string more_frames(double gap, double length) {
+    const double wanted = std::floor(30 * length) + 1;
+    const bool is_all = wanted <= static_cast<double>(max_advised);
+    const std::size_t frames = is_all ? static_cast<std::size_t>(wanted) : max_advised;
+    const std::string often =
+        is_all ? "30 times a second" : fmt::format("every {:.4g} s", length / static_cast<double>(frames - 1));
+    return fmt::format(
+        "up to {:.4g} s pass from one frame to the next, where depths are only sampled; --frames {} looks {}", gap,
+        frames, often);
+}
+
 template <int D>
 std::vector<std::string> notes_of(const File<D>& file, const Objects<D>& objects, const std::vector<double>& times,
-                                  bool chose_frames) {
+                                  bool chose_frames, std::uint64_t left_out_of_baseline) {
     std::vector<std::string> notes = file.warnings;
+    if (left_out_of_baseline > 0)
+        notes.push_back(fmt::format("the baseline left out {} contacts, which count as new", left_out_of_baseline));
     const std::vector<std::string> hidden = objects.hidden();
     if (!hidden.empty())
         notes.push_back(fmt::format("{} shrunk to nothing at some moments and left out there, such as '{}'",
                                     hidden.size() == 1 ? "1 object is" : fmt::format("{} objects are", hidden.size()),
                                     hidden.front()));
+    const std::vector<std::string> unfollowed = objects.unfollowed();
+    if (!unfollowed.empty())
+        notes.push_back(fmt::format("{} at some moments, and not followed from frame to frame there, such as '{}'",
+                                    unfollowed.size() == 1
+                                        ? "1 object jumps or changes its shape"
+                                        : fmt::format("{} objects jump or change their shapes", unfollowed.size()),
+                                    unfollowed.front()));
     double gap = 0;
     for (std::size_t i = 1; i < times.size(); ++i) gap = std::max(gap, times[i] - times[i - 1]);
-    if (gap > long_gap && !chose_frames)
-        notes.push_back(fmt::format("up to {:.4g} s pass from one key to the next; --frames {} looks 30 times a second",
-                                    gap, static_cast<std::size_t>(30 * (times.back() - times.front())) + 1));
+    if (gap > long_gap && !chose_frames) notes.push_back(more_frames(gap, times.back() - times.front()));
     return notes;
 }
 
 // What is asked of contacts holds for the level's other faults too.
 FaultOptions fault_options(const CheckRequest& request) {
     FaultOptions options = request.faults;
-    options.allow = request.options.allow;
+    options.allow = request.options.limits.allow;
     options.pairs = request.options.pairs;
     return options;
 }
@@ -81,8 +105,11 @@ Result<ExitCode> run(const CheckRequest& request) {
         if (!read) return Problem{read.problem().code, *request.baseline + ": " + read.problem().message};
         known = *std::move(read);
     }
+    CheckOptions options = request.options;
+    // Those that are left out again don't count.
+    options.max_findings += known.contacts.size();
     Stopwatch watch;
-    const Result<File<D>> file = load<D>(request.scene, request.skip_degenerate);
+    const Result<File<D>> file = load<D>(request.scene, request.files);
     if (!file) return file.problem();
     Seconds seconds;
     seconds.read = watch.lap();
@@ -104,7 +131,7 @@ Result<ExitCode> run(const CheckRequest& request) {
 
     Result<CheckResult<D>> result = [&] {
         Progress progress("checking");
-        return check<D>(objects, times, request.options, progress);
+        return check<D>(objects, times, options, progress);
     }();
     if (!result) return with_file(result.problem());
     seconds.check = watch.lap();
@@ -113,7 +140,8 @@ Result<ExitCode> run(const CheckRequest& request) {
     const Report<D> report{objects,
                            times,
                            *std::move(result),
-                           notes_of<D>(*file, objects, times, request.frames.has_value()),
+                           notes_of<D>(*file, objects, times, request.frames.has_value(), known.left_out),
+                           left_out_of(*file),
                            seconds,
                            request.baseline.has_value(),
                            dropped,

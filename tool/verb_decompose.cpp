@@ -35,7 +35,7 @@ Problem in(const std::string& file, const Problem& problem) {
 Result<ExitCode> run_decompose(const DecomposeRequest& request) {
     if (std::optional<Problem> problem = check_output(request.output, request.mesh)) return *std::move(problem);
     Stopwatch watch;
-    Result<Meshes> meshes = load_meshes(request.mesh);
+    Result<Meshes> meshes = load_meshes(request.mesh, request.files);
     if (!meshes) return meshes.problem();
     const Geometry whole = together(meshes->objects, name_of(request.mesh));
     DecomposeOutcome outcome;

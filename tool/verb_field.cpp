@@ -41,13 +41,13 @@ struct Source {
 };
 
 template <int D>
-Result<Source<D>> read(const std::string& file);
+Result<Source<D>> read(const FieldRequest& request);
 
 template <>
-Result<Source<3>> read<3>(const std::string& file) {
-    Result<Meshes> meshes = load_meshes(file);
+Result<Source<3>> read<3>(const FieldRequest& request) {
+    Result<Meshes> meshes = load_meshes(request.mesh, request.files);
     if (!meshes) return meshes.problem();
-    Geometry whole = together(meshes->objects, name_of(file));
+    Geometry whole = together(meshes->objects, name_of(request.mesh));
     Source<3> source{whole.triangles.size(), std::move(meshes->warnings), {}, {}};
     for (const glm::uvec3& t : whole.triangles)
         source.triangles.push_back({whole.points[t.x], whole.points[t.y], whole.points[t.z]});
@@ -58,11 +58,11 @@ Result<Source<3>> read<3>(const std::string& file) {
 }
 
 template <>
-Result<Source<2>> read<2>(const std::string& file) {
-    Result<Level> level = load<2>(file, false);
+Result<Source<2>> read<2>(const FieldRequest& request) {
+    Result<Level> level = load<2>(request.mesh, request.files);
     if (!level) return level.problem();
     const Result<LevelSolid> solid = level_solid(*level);
-    if (!solid) return in(file, solid.problem());
+    if (!solid) return in(request.mesh, solid.problem());
     Source<2> source{level->objects.size(), std::move(level->warnings), {}, {}};
     source.bake = [shape = AnyShape<2>(*solid)](const FieldOptions<2>& options) { return bake_field(shape, options); };
     return source;
@@ -99,7 +99,7 @@ std::string picture_of(const FieldRequest&, const Source<2>&, const Field2& fiel
 template <int D>
 Result<ExitCode> run(const FieldRequest& request) {
     Stopwatch watch;
-    Result<Source<D>> source = read<D>(request.mesh);
+    Result<Source<D>> source = read<D>(request);
     if (!source) return source.problem();
     const double read_seconds = watch.lap();
     Threads threads;

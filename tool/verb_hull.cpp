@@ -96,7 +96,7 @@ std::string json_report(const HullRequest& request, const HullReport& report) {
 Result<ExitCode> run_hull(const HullRequest& request) {
     if (std::optional<Problem> problem = check_output(request.output, request.mesh)) return *std::move(problem);
     Stopwatch watch;
-    Result<Meshes> meshes = load_meshes(request.mesh);
+    Result<Meshes> meshes = load_meshes(request.mesh, request.files);
     if (!meshes) return meshes.problem();
     if (!request.each) meshes->objects = {together(meshes->objects, name_of(request.mesh))};
     HullReport report{{}, meshes->warnings, watch.lap(), 0, 0};

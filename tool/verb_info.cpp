@@ -1,3 +1,4 @@
+#include "left_out.hpp"
 #include "verbs.hpp"
 #include "written.hpp"
 
@@ -44,6 +45,8 @@ std::string summary(const Scene& scene, const SceneObjects& objects, const std::
     for (const Animation& animation : scene.animations)
         text += fmt::format("animation   '{}', {:.4g} s, from {:.4g} s on\n", animation.name, animation.length,
                             animation.start);
+    const std::vector<LeftOutOf> left_out = left_out_of(scene);
+    if (!left_out.empty()) text += "left out    " + text_of(left_out) + "\n";
     return text + fmt::format("frames      {}\n", times.size());
 }
 std::string summary(const Level& level, const LevelObjects& objects, const std::vector<double>&) {
@@ -80,6 +83,7 @@ void add_rest(const Scene& scene, Json& json) {
     for (const Animation& animation : scene.animations)
         animations.push_back({{"name", animation.name}, {"start", animation.start}, {"length", animation.length}});
     json["nodes"] = scene.nodes.size();
+    json["left_out"] = json_of(left_out_of(scene));
     json["animations"] = std::move(animations);
 }
 void add_rest(const Level& level, Json& json) {
@@ -132,7 +136,7 @@ std::string json_info(const File<D>& file, const ObjectsOf<D>& objects, const st
 
 template <int D>
 Result<ExitCode> run(const InfoRequest& request) {
-    const Result<File<D>> file = load<D>(request.scene, request.skip_degenerate);
+    const Result<File<D>> file = load<D>(request.scene, request.files);
     if (!file) return file.problem();
     const std::vector<double> times = key_times(*file);
     ObjectsOf<D> objects(*file);

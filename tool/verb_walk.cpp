@@ -47,8 +47,11 @@ Result<NamedWalkMesh> read(const WalkRequest& request) {
         if (!mesh) return in(request.mesh, mesh.problem());
         return NamedWalkMesh{*std::move(mesh), {}, {}};
     }
-    Result<Scene> scene = import_in_child(request.mesh, walk_mesh_options, limits_for(request.mesh));
-    if (!scene) return in(request.mesh, scene.problem());
+    ReadOptions options = walk_mesh_options;
+    options.allow_outside = request.files.allow_outside;
+    Result<Scene> scene = import_in_child(request.mesh, options, limits_for(request.mesh));
+    if (!scene)
+        return Problem{scene.problem().code, request.mesh + ": " + scene.problem().message + hint(scene.problem())};
     Result<NamedWalkMesh> named = walk_mesh_of(*scene, request.name);
     if (!named) return in(request.mesh, named.problem());
     scene->warnings.insert(scene->warnings.end(), named->warnings.begin(), named->warnings.end());

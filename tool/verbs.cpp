@@ -2,9 +2,16 @@
 
 #include <abut/io/write_file.hpp>
 
+#include <algorithm>
 #include <cstdio>
 
 namespace abut::tool {
+
+std::string one_line(std::string message) {
+    std::replace_if(
+        message.begin(), message.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
+    return "abut: " + message + "\n";
+}
 
 std::optional<Problem> write_picture(const std::string& file, const std::string& document) {
     std::optional<Problem> problem = write_file(file, document);

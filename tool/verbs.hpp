@@ -25,7 +25,7 @@ struct CheckRequest {
     std::optional<std::string> baseline;
     std::optional<std::size_t> frames;  ///< none: the file's own key times
     bool json = false;
-    bool skip_degenerate = false;
+    FileOptions files;
     CheckOptions options;
     FaultOptions faults;  ///< without what the other options tell as well
 };
@@ -37,7 +37,7 @@ struct CastRequest {
     std::optional<std::string> picture;  ///< a file to write one to, as SVG
     std::optional<double> time;          ///< none: the first moment
     bool json = false;
-    bool skip_degenerate = false;
+    FileOptions files;
     std::string from, to;  ///< X,Y,Z, or X,Y in a level
     std::size_t bounces = 0;
     bool all = false;
@@ -48,7 +48,7 @@ Result<ExitCode> run_cast(const CastRequest& request);
 struct InfoRequest {
     std::string scene;
     bool json = false;
-    bool skip_degenerate = false;
+    FileOptions files;
 };
 
 Result<ExitCode> run_info(const InfoRequest& request);
@@ -58,6 +58,7 @@ struct HullRequest {
     std::uint32_t max_vertices = 0;  ///< of each hull; 0: no limit
     bool each = false;               ///< one hull an object
     bool json = false;
+    FileOptions files;
 };
 
 Result<ExitCode> run_hull(const HullRequest& request);
@@ -70,6 +71,7 @@ struct DecomposeRequest {
     std::uint32_t max_vertices = 64;  ///< of each part
     bool rooms = false;               ///< surfaces that are seen from inside stay as they are
     bool json = false;
+    FileOptions files;
 };
 
 Result<ExitCode> run_decompose(const DecomposeRequest& request);
@@ -88,6 +90,7 @@ struct FieldRequest {
     float padding = 3, band = 3;         ///< in cells
     bool dense = false, gradient = false, quantised = false;
     bool json = false;
+    FileOptions files;
 };
 
 Result<ExitCode> run_field(const FieldRequest& request);
@@ -105,12 +108,16 @@ struct WalkRequest {
     std::optional<Vec3> from, to;                ///< both or none
     std::optional<float> reach;                  ///< how far off the mesh they may be; none: any distance
     bool json = false;
+    FileOptions files;
 };
 
 Result<ExitCode> run_walk(const WalkRequest& request);
 
 /// How the name of a file ends that holds a walk mesh.
 inline constexpr std::string_view walk_ending = ".walk";
+
+/// How a line on stderr is written: with "abut: " before it and the end of a line behind it, all on one.
+std::string one_line(std::string message);
 
 /// A whole file, or what is wrong with it, beginning with the file.
 std::optional<Problem> write_picture(const std::string& file, const std::string& document);

@@ -42,20 +42,20 @@ std::optional<Problem> check_points(const Scene& scene, const Geometry& geometry
     return std::nullopt;
 }
 
-// After check_points. Refuses triangles without area, or takes them out and counts them.
-std::optional<Problem> check_areas(const Scene& scene, Geometry& geometry, bool skip, std::size_t& skipped) {
+// After check_points. Takes triangles without area out and counts them, or refuses them.
+std::optional<Problem> check_areas(const Scene& scene, Geometry& geometry, bool strict) {
     const auto is_degenerate = [&](const glm::uvec3& t) {
         return has_zero_area(geometry.points[t.x], geometry.points[t.y], geometry.points[t.z]);
     };
     const auto first = std::find_if(geometry.triangles.begin(), geometry.triangles.end(), is_degenerate);
     if (first == geometry.triangles.end()) return std::nullopt;
-    if (!skip) {
+    if (strict) {
         const auto i = static_cast<std::size_t>(first - geometry.triangles.begin());
         return Problem{ProblemCode::degenerate,
                        title(scene, geometry) + ", triangle " + std::to_string(i) + ": zero area", i};
     }
     const auto rest = std::remove_if(first, geometry.triangles.end(), is_degenerate);
-    skipped += static_cast<std::size_t>(geometry.triangles.end() - rest);
+    geometry.left_out += static_cast<std::uint64_t>(geometry.triangles.end() - rest);
     geometry.triangles.erase(rest, geometry.triangles.end());
     return std::nullopt;
 }
@@ -146,8 +146,34 @@ std::optional<Problem> check_animations(const Scene& scene) {
 }
 
 void drop_empty_geometry(Scene& scene) {
-    for (SceneNode& node : scene.nodes)
-        std::erase_if(node.geometries, [&](std::uint32_t i) { return scene.geometries[i].triangles.empty(); });
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+        SceneNode& node = scene.nodes[i];
+        NodeLeftOut left_out{static_cast<std::uint32_t>(i), 0};
+        for (const std::uint32_t geometry : node.geometries) left_out.triangles += scene.geometries[geometry].left_out;
+        // An object without a shape is named too.
+        if (node.name.empty() && left_out.triangles > 0) node.name = scene.geometries[node.geometries.front()].name;
+        std::erase_if(node.geometries, [&](std::uint32_t k) { return scene.geometries[k].triangles.empty(); });
+        if (left_out.triangles > 0) scene.left_out.push_back(left_out);
+    }
+}
+
+// After make_paths_unique.
+void warn_of_left_out(Scene& scene) {
+    std::uint64_t triangles = 0;
+    std::vector<std::string> without_shape;
+    for (const NodeLeftOut& left_out : scene.left_out) {
+        triangles += left_out.triangles;
+        if (scene.nodes[left_out.node].geometries.empty()) without_shape.push_back(path(scene, left_out.node));
+    }
+    if (triangles > 0)
+        scene.warnings.push_back(std::to_string(triangles) +
+                                 (triangles == 1 ? " triangle of zero area is" : " triangles of zero area are") +
+                                 " left out, such as in '" + path(scene, scene.left_out.front().node) + "'");
+    if (!without_shape.empty())
+        scene.warnings.push_back((without_shape.size() == 1 ? std::string("1 object has")
+                                                            : std::to_string(without_shape.size()) + " objects have") +
+                                 " no triangles but those, and so no shape: '" + without_shape.front() +
+                                 (without_shape.size() == 1 ? "'" : "', ..."));
 }
 
 // Each path is taken by the first node that comes along with it; the next ones get a number.
@@ -175,22 +201,23 @@ void normalize_rotations(Scene& scene) {
 
 Result<Scene> finish_scene(Scene scene, const ReadOptions& options) {
     std::optional<Problem> problem = check_nodes(scene);
-    std::size_t skipped = 0;
     for (Geometry& geometry : scene.geometries) {
         if (!problem) problem = check_points(scene, geometry);
-        if (!problem && !options.keep_degenerate)
-            problem = check_areas(scene, geometry, options.skip_degenerate, skipped);
+        if (!problem && !options.keep_degenerate) problem = check_areas(scene, geometry, options.strict);
         if (!problem) check_normals(scene, geometry);
     }
     if (!problem) problem = check_animations(scene);
     if (problem) return *std::move(problem);
 
-    if (skipped > 0) scene.warnings.push_back(std::to_string(skipped) + " triangles of zero area are left out");
     drop_empty_geometry(scene);
     const bool has_objects = std::any_of(scene.nodes.begin(), scene.nodes.end(),
                                          [](const SceneNode& node) { return !node.geometries.empty(); });
-    if (!has_objects) return Problem{ProblemCode::empty_input, "no triangles in it: 0 objects"};
+    if (!has_objects)
+        return Problem{ProblemCode::empty_input, scene.left_out.empty()
+                                                     ? "no triangles in it: 0 objects"
+                                                     : "all triangles in it have zero area: 0 objects"};
     make_paths_unique(scene);
+    warn_of_left_out(scene);
     normalize_rotations(scene);
     schedule(scene);
     return scene;

@@ -1,5 +1,4 @@
 #include <abut/io/base64.hpp>
-#include <abut/io/file_bytes.hpp>
 #include <abut/io/gltf_data.hpp>
 
 #include <algorithm>
@@ -100,26 +99,24 @@ std::string decode_percent(std::string_view uri) {
     return result;
 }
 
-Result<std::vector<std::byte>> fetch(const std::string& uri, const std::filesystem::path& folder) {
+Result<std::vector<std::byte>> fetch(const std::string& uri, const ReferencedFiles& files) {
     constexpr std::string_view base64 = ";base64,";
-    if (uri.starts_with("data:")) {
-        const std::size_t at = uri.find(base64);
-        if (at == std::string::npos) return Problem{ProblemCode::bad_format, "data in the file isn't base64"};
-        return decode_base64(std::string_view(uri).substr(at + base64.size()));
+    if (!uri.starts_with("data:")) {
+        const std::string name = decode_percent(uri);
+        Result<std::vector<std::byte>> bytes = files.bytes(name);
+        if (!bytes) return Problem{bytes.problem().code, quoted_name(name) + ": " + bytes.problem().message};
+        return bytes;
     }
-    if (uri.find("://") != std::string::npos || folder.empty())
-        return Problem{ProblemCode::not_found, "'" + uri + "' isn't a file beside the scene"};
-    const std::string name = decode_percent(uri);
-    Result<std::vector<std::byte>> bytes = file_bytes(folder / name);
-    if (!bytes) return Problem{bytes.problem().code, "'" + name + "': " + bytes.problem().message};
-    return bytes;
+    const std::size_t at = uri.find(base64);
+    if (at == std::string::npos) return Problem{ProblemCode::bad_format, "data in the file isn't base64"};
+    return decode_base64(std::string_view(uri).substr(at + base64.size()));
 }
 
 }  // namespace
 
-Data::Data(const Document& document, std::filesystem::path folder)
+Data::Data(const Document& document, ReferencedFiles files)
     : document_(document),
-      folder_(std::move(folder)),
+      files_(std::move(files)),
       fetched_(document.buffers.size()),
       is_fetched_(document.buffers.size(), false) {}
 
@@ -128,7 +125,7 @@ Result<std::span<const std::byte>> Data::buffer(std::uint32_t index) {
     std::span<const std::byte> bytes = document_.binary;
     if (!buffer.uri.empty()) {
         if (!is_fetched_[index]) {
-            Result<std::vector<std::byte>> fetched = fetch(buffer.uri, folder_);
+            Result<std::vector<std::byte>> fetched = fetch(buffer.uri, files_);
             if (!fetched)
                 return Problem{fetched.problem().code, text("buffers", index) + ": " + fetched.problem().message};
             fetched_[index] = *std::move(fetched);

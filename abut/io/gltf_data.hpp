@@ -3,11 +3,11 @@
 // The numbers of a glTF file: buffers, and what accessors see in them.
 
 #include <abut/io/gltf_document.hpp>
+#include <abut/io/referenced_files.hpp>
 #include <abut/math/result.hpp>
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <span>
 #include <vector>
 
@@ -16,9 +16,8 @@ namespace abut::gltf {
 /// Fetches buffers when they are first asked for. Every range is checked before a byte is read.
 class Data {
 public:
-    /// Buffers in files are looked for beside the scene, in `folder`; with an empty one they are a Problem.
-    /// Refers to the document.
-    Data(const Document& document, std::filesystem::path folder);
+    /// Refers to the document. Buffers that aren't in it are among the files.
+    Data(const Document& document, ReferencedFiles files);
 
     /// `components` numbers for each element, normalised integers as what they stand for.
     Result<std::vector<double>> numbers(std::uint32_t accessor, std::uint32_t components);
@@ -35,7 +34,7 @@ private:
     Result<std::vector<Number>> read(std::uint32_t accessor, std::uint32_t components, Convert convert);
 
     const Document& document_;
-    std::filesystem::path folder_;
+    ReferencedFiles files_;
     std::vector<std::vector<std::byte>> fetched_;
     std::vector<bool> is_fetched_;
 };

@@ -1,3 +1,4 @@
+#include <abut/io/assimp_files.hpp>
 #include <abut/io/read_assimp.hpp>
 
 #include <algorithm>
@@ -98,7 +99,7 @@ private:
         if (std::find(scene_.warnings.begin(), scene_.warnings.end(), warning) == scene_.warnings.end())
             scene_.warnings.push_back(warning);
     }
-    void read_mesh(const aiMesh& mesh, bool was_cut);
+    void read_mesh(const aiMesh& mesh, bool was_cut, std::uint64_t left_out);
     void read_nodes();
     void read_animation(const aiAnimation& animation);
 
@@ -107,7 +108,8 @@ private:
     std::string stem_;
     const ReadOptions& options_;
     Scene scene_;
-    std::vector<bool> was_cut_;  // of each mesh: it has polygons
+    std::vector<bool> was_cut_;            // of each mesh: it has polygons
+    std::vector<std::uint64_t> left_out_;  // of each of those: polygons of zero area
     struct Named {
         std::uint32_t first = 0;
         bool is_unique = true;
@@ -119,7 +121,7 @@ std::optional<Problem> Reader::check_faces() {
     for (unsigned m = 0; m < from_.mNumMeshes; ++m) {
         const aiMesh& mesh = *from_.mMeshes[m];
         was_cut_.push_back(false);
-        std::size_t without_area = 0;
+        std::uint64_t without_area = 0;
         for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
             const aiFace& face = mesh.mFaces[i];
             for (unsigned k = 0; k < face.mNumIndices; ++k)
@@ -131,7 +133,7 @@ std::optional<Problem> Reader::check_faces() {
                                    i};
             if (face.mNumIndices > 3) was_cut_.back() = true;
             if (options_.keep_degenerate || face.mNumIndices < 3 || !has_no_area(mesh, face)) continue;
-            if (!options_.skip_degenerate)
+            if (options_.strict)
                 return Problem{ProblemCode::degenerate,
                                "mesh '" + name_of(mesh) + "', " + (face.mNumIndices == 3 ? "triangle " : "polygon ") +
                                    std::to_string(i) + ": zero area",
@@ -139,15 +141,14 @@ std::optional<Problem> Reader::check_faces() {
             ++without_area;
         }
         // Of meshes that stay as they are, finish_scene counts.
-        if (was_cut_.back() && without_area > 0)
-            warn_once("mesh '" + name_of(mesh) + "': " + std::to_string(without_area) +
-                      " faces of zero area are left out");
+        left_out_.push_back(was_cut_.back() ? without_area : 0);
     }
     return std::nullopt;
 }
 
-void Reader::read_mesh(const aiMesh& mesh, bool was_cut) {
+void Reader::read_mesh(const aiMesh& mesh, bool was_cut, std::uint64_t left_out) {
     Geometry geometry{name_of(mesh), {}, {}};
+    geometry.left_out = left_out;
     geometry.points.reserve(mesh.mNumVertices);
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) geometry.points.push_back(vec(mesh.mVertices[i]));
     if (options_.normals && mesh.HasNormals())
@@ -228,20 +229,24 @@ void Reader::read_animation(const aiAnimation& from) {
 }
 
 Scene Reader::read() {
-    for (unsigned i = 0; i < from_.mNumMeshes; ++i) read_mesh(*from_.mMeshes[i], was_cut_[i]);
+    for (unsigned i = 0; i < from_.mNumMeshes; ++i) read_mesh(*from_.mMeshes[i], was_cut_[i], left_out_[i]);
     read_nodes();
     for (unsigned i = 0; i < from_.mNumAnimations; ++i) read_animation(*from_.mAnimations[i]);
     return std::move(scene_);
 }
 
-// `read_file` gives Assimp the file or the bytes.
+// `read_file` gives Assimp the file or the bytes; without a file it opens none.
 template <class ReadFile>
-Result<Scene> read_with(const std::string& extension, const std::string& stem, const ReadOptions& options,
-                        ReadFile read_file) {
+Result<Scene> read_with(const std::filesystem::path& file, const std::string& extension, const std::string& stem,
+                        const ReadOptions& options, ReadFile read_file) {
+    auto* const files = new AssimpFiles(file, options.allow_outside);
     Assimp::Importer importer;
+    importer.SetIOHandler(files);  // which owns it from here on
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_MD3_LOAD_SHADERS, false);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
     const aiScene* scene = read_file(importer);
+    if (!file.empty() && files->refused()) return *files->refused();
     if (scene == nullptr || scene->mRootNode == nullptr) return refused(importer);
     Reader reader(*scene, extension, stem, options);
     if (std::optional<Problem> problem = reader.check_faces()) return *std::move(problem);
@@ -257,12 +262,12 @@ bool assimp_knows(const std::string& extension) {
 }
 
 Result<Scene> read_assimp(const std::filesystem::path& file, const ReadOptions& options) {
-    return read_with(file.extension().string(), file.stem().string(), options,
+    return read_with(file, file.extension().string(), file.stem().string(), options,
                      [&](Assimp::Importer& importer) { return importer.ReadFile(file.string(), 0); });
 }
 
 Result<Scene> read_assimp(std::span<const std::byte> bytes, const std::string& extension, const ReadOptions& options) {
-    return read_with(extension, "scene", options, [&](Assimp::Importer& importer) {
+    return read_with({}, extension, "scene", options, [&](Assimp::Importer& importer) {
         return importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, extension.c_str());
     });
 }

@@ -41,7 +41,7 @@ class Reader {
 public:
     Reader(const Document& document, const std::filesystem::path& folder, const ReadOptions& options)
         : document_(document),
-          data_(document, folder),
+          data_(document, ReferencedFiles(folder, options.allow_outside)),
           with_normals_(options.normals),
           scene_node_(document.nodes.size(), none) {}
 

@@ -3,6 +3,7 @@
 #include <abut/io/read_level.hpp>
 #include <abut/io/read_svg.hpp>
 #include <abut/io/read_tiled.hpp>
+#include <abut/io/referenced_files.hpp>
 
 #include <string>
 #include <system_error>
@@ -52,7 +53,8 @@ Result<Level> read_level(std::span<const std::byte> bytes, std::string_view exte
     if (bytes.size() > most_bytes) return too_large(bytes.size());
     if (options.tolerance && !(*options.tolerance > 0))
         return Problem{ProblemCode::bad_argument, "the tolerance must be above zero"};
-    if (ending == ".tmx" || ending == ".tmj" || ending == ".json") return read_tiled(bytes, open);
+    if (ending == ".tmx" || ending == ".tmj" || ending == ".json")
+        return read_tiled(bytes, open, options.allow_outside);
     if (ending != ".svg" && ending != ".svgz")
         return Problem{ProblemCode::bad_format, "'" + ending + "' is not a known format of levels"};
     if (!is_gzip(bytes)) return read_svg(bytes, options.tolerance);
@@ -65,7 +67,12 @@ Result<Level> read_level(const std::filesystem::path& file, const LevelOptions& 
     const Result<std::vector<std::byte>> bytes = limited_file_bytes(file);
     if (!bytes) return bytes.problem();
     const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
-    const auto open = [&](const std::string& name) { return limited_file_bytes(folder / name); };
+    const ReferencedFiles files(folder, options.allow_outside);
+    const auto open = [&](const std::string& name) -> Result<std::vector<std::byte>> {
+        const Result<std::filesystem::path> path = files.find(name);
+        if (!path) return path.problem();
+        return limited_file_bytes(*path);
+    };
     return read_level(*bytes, file.extension().string(), open, options);
 }
 

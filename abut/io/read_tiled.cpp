@@ -226,8 +226,8 @@ Result<Level> Builder::build() {
 
 }  // namespace
 
-Result<Level> read_tiled(std::span<const std::byte> bytes, OpenFile open) {
-    Files files(open);
+Result<Level> read_tiled(std::span<const std::byte> bytes, OpenFile open, bool allow_outside) {
+    Files files(open, allow_outside);
     const Result<Map> map = is_xml(bytes) ? map_from_xml(bytes, files) : map_from_json(bytes, files);
     if (!map) return map.problem();
     Result<Level> level = Builder(*map).build();

@@ -18,7 +18,8 @@ namespace abut {
 /// polyline from corner to corner along an edge) is a TileMap, and of any other a Compound: those tiles as its first
 /// child, the shapes of the others as the next ones. Objects are shapes, a tile among them with its tile's shapes, or
 /// its whole rectangle; points, and rectangles without extent, are points. Templates are followed. What the editor
-/// hides is read all the same. Left out, with a warning: image layers, texts, parallax.
-Result<Level> read_tiled(std::span<const std::byte> bytes, tiled::OpenFile open);
+/// hides is read all the same. Left out, with a warning: image layers, texts, parallax. Tilesets and templates whose
+/// names lead out of the map's folder are a Problem unless they are allowed.
+Result<Level> read_tiled(std::span<const std::byte> bytes, tiled::OpenFile open, bool allow_outside);
 
 }  // namespace abut

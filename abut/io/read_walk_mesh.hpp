@@ -15,7 +15,7 @@
 namespace abut {
 
 /// What an importer has to keep for walk meshes: triangles of zero area, which `WalkMesh::build` mends, and normals.
-inline constexpr ReadOptions walk_mesh_options{.skip_degenerate = false, .keep_degenerate = true, .normals = true};
+inline constexpr ReadOptions walk_mesh_options{.keep_degenerate = true, .normals = true};
 
 /// Reads a walk mesh from a scene (whatever `read_scene` reads), or one that was baked (bytes that `save` made).
 ///

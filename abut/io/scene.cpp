@@ -14,18 +14,33 @@ namespace {
 // Between two clips that follow one another, so that the last moment of one isn't the first of the next.
 constexpr double pause = 1.0 / 30;
 
+// A few units in the last place: of the clock's time less a clip's start, beside the larger of the two.
+constexpr double rounding = 1e-15;
+
 // The segment of a track that holds a time: key `first`, and how far on towards the next.
 struct Place {
     std::size_t first = 0;
     double fraction = 0;
 };
 
-Place find(const std::vector<double>& times, double time) {
-    const auto after = std::upper_bound(times.begin(), times.end(), time);
+// Where a track jumps at a time, one side sees where it jumps to, the other where from.
+enum class Side { at, before };
+
+// A time of a clip, by which its tracks are looked up.
+struct Moment {
+    double time = 0;
+    double rounding = 0;  // by which it may be off: a key that near is met
+    Side side = Side::at;
+};
+
+Place find(const std::vector<double>& times, const Moment& moment) {
+    const auto after = moment.side == Side::at
+                           ? std::upper_bound(times.begin(), times.end(), moment.time + moment.rounding)
+                           : std::lower_bound(times.begin(), times.end(), moment.time - moment.rounding);
     if (after == times.begin()) return {};
     const auto first = static_cast<std::size_t>(after - times.begin()) - 1;
     if (after == times.end()) return {first, 0};
-    return {first, (time - times[first]) / (*after - times[first])};
+    return {first, std::clamp((moment.time - times[first]) / (*after - times[first]), 0.0, 1.0)};
 }
 
 glm::dvec3 between(const glm::dvec3& a, const glm::dvec3& b, double fraction) {
@@ -46,9 +61,10 @@ Value cubic(const Value& p, const Value& m, const Value& q, const Value& n, doub
 }
 
 template <class Value>
-Value sample(const KeyTrack<Value>& track, double time) {
-    const auto [i, fraction] = find(track.times, time);
+Value sample(const KeyTrack<Value>& track, const Moment& moment) {
+    const auto [i, fraction] = find(track.times, moment);
     if (fraction == 0 || track.interpolation == Interpolation::step) return track.values[i];
+    if (fraction == 1) return track.values[i + 1];
     if (track.interpolation == Interpolation::linear) return between(track.values[i], track.values[i + 1], fraction);
     return cubic(track.values[i], track.out_tangents[i], track.values[i + 1], track.in_tangents[i + 1], fraction,
                  track.times[i + 1] - track.times[i]);
@@ -76,11 +92,11 @@ Parts take_apart(const glm::dmat4& m) {
     return parts;
 }
 
-glm::dmat4 local_at(const SceneNode& node, const NodeMotion& motion, double time) {
+glm::dmat4 local_at(const SceneNode& node, const NodeMotion& motion, const Moment& moment) {
     Parts parts = take_apart(node.local);
-    if (!motion.translation.times.empty()) parts.translation = sample(motion.translation, time);
-    if (!motion.rotation.times.empty()) parts.rotation = glm::normalize(sample(motion.rotation, time));
-    if (!motion.scale.times.empty()) parts.scale = sample(motion.scale, time);
+    if (!motion.translation.times.empty()) parts.translation = sample(motion.translation, moment);
+    if (!motion.rotation.times.empty()) parts.rotation = glm::normalize(sample(motion.rotation, moment));
+    if (!motion.scale.times.empty()) parts.scale = sample(motion.scale, moment);
     return glm::scale(translated(parts.translation) * glm::mat4_cast(parts.rotation), parts.scale);
 }
 
@@ -103,6 +119,34 @@ std::vector<double> all_key_times(const Scene& scene) {
     std::sort(times.begin(), times.end());
     times.erase(std::unique(times.begin(), times.end()), times.end());
     return times;
+}
+
+void fill_matrices(const Scene& scene, double time, Side side, std::vector<glm::dmat4>& out) {
+    // 1. The clip each node follows.
+    struct Follows {
+        const NodeMotion* motion = nullptr;
+        double start = 0;
+    };
+    std::vector<Follows> follows(scene.nodes.size());
+    for (const Animation& animation : scene.animations) {
+        const bool is_first = animation.start <= 0;
+        const bool has_begun = side == Side::at ? animation.start <= time : animation.start < time;
+        if (!is_first && !has_begun) continue;
+        for (const NodeMotion& motion : animation.motions) {
+            Follows& latest = follows[motion.node];
+            if (has_keys(motion) && (latest.motion == nullptr || latest.start <= animation.start))
+                latest = {&motion, animation.start};
+        }
+    }
+    // 2. Down the tree; parents come first.
+    out.resize(scene.nodes.size());
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+        const SceneNode& node = scene.nodes[i];
+        const Follows& latest = follows[i];
+        const Moment moment{time - latest.start, latest.start == 0 ? 0 : rounding * std::max(time, latest.start), side};
+        out[i] = latest.motion == nullptr ? node.local : local_at(node, *latest.motion, moment);
+        if (node.parent != SceneNode::no_parent) out[i] = out[node.parent] * out[i];
+    }
 }
 
 }  // namespace
@@ -145,6 +189,14 @@ std::vector<double> key_times(const Scene& scene, double max_per_second) {
     return kept;
 }
 
+std::vector<double> motion_times(const Scene& scene) {
+    std::vector<double> times = all_key_times(scene);
+    for (const Animation& animation : scene.animations) times.push_back(animation.start);
+    std::sort(times.begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+    return times;
+}
+
 std::vector<double> frame_times(const Scene& scene, std::size_t count) {
     ABUT_ASSERT(count >= 1);
     const std::vector<double> keys = all_key_times(scene);
@@ -157,28 +209,11 @@ std::vector<double> frame_times(const Scene& scene, std::size_t count) {
 }
 
 void world_matrices(const Scene& scene, double time, std::vector<glm::dmat4>& out) {
-    // 1. The clip each node follows.
-    struct Follows {
-        const NodeMotion* motion = nullptr;
-        double start = 0;
-    };
-    std::vector<Follows> follows(scene.nodes.size());
-    for (const Animation& animation : scene.animations) {
-        if (animation.start > std::max(time, 0.0)) continue;
-        for (const NodeMotion& motion : animation.motions) {
-            Follows& latest = follows[motion.node];
-            if (has_keys(motion) && (latest.motion == nullptr || latest.start <= animation.start))
-                latest = {&motion, animation.start};
-        }
-    }
-    // 2. Down the tree; parents come first.
-    out.resize(scene.nodes.size());
-    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-        const SceneNode& node = scene.nodes[i];
-        const Follows& latest = follows[i];
-        out[i] = latest.motion == nullptr ? node.local : local_at(node, *latest.motion, time - latest.start);
-        if (node.parent != SceneNode::no_parent) out[i] = out[node.parent] * out[i];
-    }
+    fill_matrices(scene, time, Side::at, out);
+}
+
+void world_matrices_before(const Scene& scene, double time, std::vector<glm::dmat4>& out) {
+    fill_matrices(scene, time, Side::before, out);
 }
 
 }  // namespace abut

@@ -24,6 +24,8 @@ struct Geometry {
     std::vector<glm::uvec3> triangles;
     /// One a point, of any length, where they were asked for and the file has them; else none.
     std::vector<Vec3> normals = {};
+    /// Triangles of zero area that the file has too.
+    std::uint64_t left_out = 0;
 };
 
 struct SceneNode {
@@ -65,6 +67,12 @@ struct Animation {
     std::vector<NodeMotion> motions;
 };
 
+/// A node some of whose triangles have no area, and are left out. If it has no others it has no geometry and no shape.
+struct NodeLeftOut {
+    std::uint32_t node = 0;
+    std::uint64_t triangles = 0;
+};
+
 /// The clips share one clock: those that move different nodes run together, those that move the same node one after
 /// another (see `schedule`). A node follows the latest of its clips that has begun; before the first of them it rests.
 struct Scene {
@@ -72,6 +80,7 @@ struct Scene {
     std::vector<SceneNode> nodes;  ///< parents before their children
     std::vector<Animation> animations;
     std::vector<std::string> warnings;  ///< what was left out or taken differently, one line each
+    std::vector<NodeLeftOut> left_out;  ///< in the order of the nodes, without those of which nothing is left out
 };
 
 /// The names on the way to a node, joined by '/'. Unique in a scene that `read_scene` made.
@@ -84,10 +93,17 @@ void schedule(Scene& scene);
 /// {0} for a scene without animation.
 std::vector<double> key_times(const Scene& scene, double max_per_second = 30);
 
+/// The times at which a node may begin to move otherwise, in order: those of all keys, and the starts of the clips.
+std::vector<double> motion_times(const Scene& scene);
+
 /// `count` >= 1 times evenly spread from the first key to the last; {0} for a scene without animation.
 std::vector<double> frame_times(const Scene& scene, std::size_t count);
 
 /// Every node's transform into the world at a time in seconds, in the order of the nodes.
 void world_matrices(const Scene& scene, double time, std::vector<glm::dmat4>& out);
+
+/// The same just before that time: where a node jumps then, as by a step, two keys at one time or the start of its next
+/// clip, it is still where it was.
+void world_matrices_before(const Scene& scene, double time, std::vector<glm::dmat4>& out);
 
 }  // namespace abut

@@ -1,5 +1,6 @@
 #include <abut/io/scene_bytes.hpp>
 
+#include <algorithm>
 #include <cstring>
 #include <string>
 #include <type_traits>
@@ -114,6 +115,7 @@ void carry_scene(Bytes& bytes, AnyScene& scene) {
         to.carry_all(geometry.points);
         to.carry_all(geometry.triangles);
         to.carry_all(geometry.normals);
+        to.carry(geometry.left_out);
     });
     bytes.carry_each(scene.nodes, [](Bytes& to, auto& node) {
         to.carry(node.name);
@@ -133,6 +135,10 @@ void carry_scene(Bytes& bytes, AnyScene& scene) {
         });
     });
     bytes.carry_each(scene.warnings, [](Bytes& to, auto& warning) { to.carry(warning); });
+    bytes.carry_each(scene.left_out, [](Bytes& to, auto& left_out) {
+        to.carry(left_out.node);
+        to.carry(left_out.triangles);
+    });
 }
 
 template <class Bytes, class AnyProblem>
@@ -167,7 +173,8 @@ bool is_sound(const Scene& scene) {
             if (motion.node >= scene.nodes.size() || !is_sound(motion.translation) || !is_sound(motion.rotation) ||
                 !is_sound(motion.scale))
                 return false;
-    return true;
+    return std::all_of(scene.left_out.begin(), scene.left_out.end(),
+                       [&](const NodeLeftOut& left_out) { return left_out.node < scene.nodes.size(); });
 }
 
 }  // namespace

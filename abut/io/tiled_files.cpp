@@ -1,3 +1,4 @@
+#include <abut/io/referenced_files.hpp>
 #include <abut/io/tiled_files.hpp>
 
 #include <filesystem>
@@ -9,7 +10,7 @@ namespace {
 template <class T>
 Result<T> named(const std::string& file, Result<T> result) {
     if (result) return result;
-    return Problem{result.problem().code, "'" + file + "': " + result.problem().message};
+    return Problem{result.problem().code, quoted_name(file) + ": " + result.problem().message};
 }
 
 }  // namespace
@@ -28,9 +29,7 @@ std::string beside(const std::string& from, const std::string& name) {
 }
 
 Result<std::vector<std::byte>> Files::bytes(const std::string& name) {
-    const bool is_elsewhere = name.empty() || name.find("://") != std::string::npos ||
-                              name.find('\0') != std::string::npos || std::filesystem::path(name).is_absolute();
-    if (is_elsewhere) return Problem{ProblemCode::not_found, "isn't a file beside the map"};
+    if (std::optional<Problem> problem = check_name(name, allow_outside_)) return *std::move(problem);
     return open_(name);
 }
 

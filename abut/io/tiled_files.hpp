@@ -21,7 +21,8 @@ using OpenFile = FunctionRef<Result<std::vector<std::byte>>(const std::string& n
 /// Reads each once. The message of a Problem begins with the file's name.
 class Files {
 public:
-    explicit Files(OpenFile open) : open_(open) {}
+    /// Names that lead out of the map's folder by their text are a Problem unless they are allowed.
+    Files(OpenFile open, bool allow_outside) : open_(open), allow_outside_(allow_outside) {}
 
     Result<Tileset> tileset(const std::string& name);
     /// Refers to what is kept here.
@@ -31,6 +32,7 @@ private:
     Result<std::vector<std::byte>> bytes(const std::string& name);
 
     OpenFile open_;
+    bool allow_outside_;
     std::map<std::string, Template> templates_;
 };
 

@@ -25,6 +25,8 @@ public:
             if (bytes[i] == std::byte{'\n'}) xml->line_ends_.push_back(static_cast<std::ptrdiff_t>(i));
         const pugi::xml_parse_result result = xml->document_.load_buffer(bytes.data(), bytes.size());
         if (result) return xml;
+        if (result.status == pugi::status_out_of_memory)
+            return Problem{ProblemCode::too_large, "needs more memory than there is"};
         return Problem{ProblemCode::bad_format, xml->line(result.offset) + "XML: " + lower_first(result.description())};
     }
 

@@ -204,7 +204,8 @@ TEST_F(ReadGltf, WhatPointsNowhereIsNamed) {
         R"({"byteLength":36,"uri":"data:;base64,)" + test::base64(std::vector<std::byte>(36)) + "\"}";
     const std::string all = R"({"buffer":0,"byteLength":36})";
     const std::string three = R"({"bufferView":0,"componentType":5126,"type":"VEC3","count":3})";
-    EXPECT_EQ(mesh_of(bytes, all, three), "mesh 'M', triangle 0: zero area") << "all is well but for the zeros";
+    EXPECT_EQ(mesh_of(bytes, all, three), "all triangles in it have zero area: 0 objects")
+        << "all is well but for that";
     EXPECT_EQ(mesh_of(bytes, all, R"({"bufferView":0,"componentType":5126,"type":"VEC3","count":4})"),
               "mesh 'M': accessors[0]: bufferViews[0] has 36 bytes, too few for 4 elements of 12 bytes");
     EXPECT_EQ(mesh_of(bytes, all, R"({"bufferView":0,"componentType":5126,"type":"VEC3","count":9007199254740992})"),
@@ -222,7 +223,7 @@ TEST_F(ReadGltf, WhatPointsNowhereIsNamed) {
     EXPECT_EQ(mesh_of(R"({"byteLength":36,"uri":"gone.bin"})", all, three),
               "mesh 'M': accessors[0]: buffers[0]: 'gone.bin': no such file");
     EXPECT_EQ(mesh_of(R"({"byteLength":36,"uri":"http://example.org/a.bin"})", all, three),
-              "mesh 'M': accessors[0]: buffers[0]: 'http://example.org/a.bin' isn't a file beside the scene");
+              "mesh 'M': accessors[0]: buffers[0]: 'http://example.org/a.bin': isn't a file beside the scene");
     EXPECT_EQ(mesh_of(R"({"byteLength":36})", all, three),
               "mesh 'M': accessors[0]: buffers[0] is truncated: 0 of 36 bytes");
 }

@@ -41,10 +41,10 @@ TEST(Check, ThingsMayRestOnThings) {
     test::add_unit_box(scene, "b", {1, 0, 0});
     test::add_unit_box(scene, "c", {0, 0.9995, 0});  // the size of these boxes is 0.87
     EXPECT_TRUE(check_scene(scene).findings.empty());
-    EXPECT_EQ(check_scene(scene, {.allow = 1e-4f}).findings.size(), 1u);
+    EXPECT_EQ(check_scene(scene, {.limits = {.allow = 1e-4f}}).findings.size(), 1u);
     scene.nodes[2].local[3][1] = 0.998;
     EXPECT_EQ(check_scene(scene).findings.size(), 1u);
-    EXPECT_TRUE(check_scene(scene, {.allow = 0.01f}).findings.empty());
+    EXPECT_TRUE(check_scene(scene, {.limits = {.allow = 0.01f}}).findings.empty());
 }
 
 TEST(Check, ClearanceFindsGapsButNotWhatRests) {
@@ -53,8 +53,8 @@ TEST(Check, ClearanceFindsGapsButNotWhatRests) {
     test::add_unit_box(scene, "b", {1.25, 0, 0});
     test::add_unit_box(scene, "c", {0, 1, 0});
     EXPECT_TRUE(check_scene(scene).findings.empty());
-    EXPECT_TRUE(check_scene(scene, {.clearance = 0.2f}).findings.empty());
-    const CheckResult<3> result = check_scene(scene, {.clearance = 0.3f});
+    EXPECT_TRUE(check_scene(scene, {.limits = {.clearance = 0.2f}}).findings.empty());
+    const CheckResult<3> result = check_scene(scene, {.limits = {.clearance = 0.3f}});
     ASSERT_EQ(result.findings.size(), 2u) << "a and b, and across the corner b and c";
     EXPECT_FLOAT_EQ(result.findings[0].distance, 0.25f);
     EXPECT_FLOAT_EQ(result.findings[1].distance, 0.25f);
@@ -64,18 +64,21 @@ TEST(Check, OneFindingForEachUnbrokenInterval) {
     Scene scene;
     test::add_unit_box(scene, "door", {0, 0, 0});
     const std::uint32_t walker = test::add_unit_box(scene, "walker", {0, 0, 0});
-    // In, deeper, out, out, in again until the end.
+    // In, deeper, out, out at the other side, in again until the end.
     test::add_slide(scene, walker, {-3, -0.9, -0.5, -3, 3, 0.75, 0.8});
     const CheckResult<3> result = check_scene(scene);
-    ASSERT_EQ(result.findings.size(), 2u);
+    ASSERT_EQ(result.findings.size(), 3u);
     EXPECT_EQ(result.findings[0].first, 1u);
     EXPECT_EQ(result.findings[0].last, 2u);
     EXPECT_EQ(result.findings[0].deepest, 2u);
     EXPECT_FLOAT_EQ(result.findings[0].distance, -0.5f);
-    EXPECT_EQ(result.findings[1].first, 5u);
-    EXPECT_EQ(result.findings[1].last, 6u);
-    EXPECT_EQ(result.findings[1].deepest, 5u);
-    EXPECT_FLOAT_EQ(result.findings[1].distance, -0.25f);
+    EXPECT_TRUE(result.findings[1].between);
+    EXPECT_EQ(result.findings[1].first, 3u);
+    EXPECT_NEAR(result.findings[1].time, 3 + 2.0 / 6, 1e-5);
+    EXPECT_EQ(result.findings[2].first, 5u);
+    EXPECT_EQ(result.findings[2].last, 6u);
+    EXPECT_EQ(result.findings[2].deepest, 5u);
+    EXPECT_FLOAT_EQ(result.findings[2].distance, -0.25f);
     EXPECT_EQ(result.possible, 7u);
 }
 
@@ -115,12 +118,13 @@ TEST(Check, OnlyThePairsThatAreAskedFor) {
     Scene scene;
     for (const char* name : {"Player", "Wall 1", "Wall 2", "Crate"}) test::add_unit_box(scene, name, {0, 0, 0});
     EXPECT_EQ(check_scene(scene).findings.size(), 6u);
-    const CheckResult<3> result = check_scene(scene, {.pairs = {{"Wall*", "Player"}}});
+    const CheckResult<3> result = check_scene(scene, {.limits = {}, .pairs = {{"Wall*", "Player"}}});
     EXPECT_EQ(result.findings.size(), 2u);
     EXPECT_EQ(result.tested, 2u);
     EXPECT_EQ(result.possible, 2u);
-    EXPECT_EQ(check_scene(scene, {.pairs = {{"Wall*", "Player"}, {"Crate", "Player"}}}).findings.size(), 3u);
-    EXPECT_EQ(check_scene(scene, {.pairs = {{"Wall*", "Wall*"}}}).findings.size(), 1u);
+    EXPECT_EQ(check_scene(scene, {.limits = {}, .pairs = {{"Wall*", "Player"}, {"Crate", "Player"}}}).findings.size(),
+              3u);
+    EXPECT_EQ(check_scene(scene, {.limits = {}, .pairs = {{"Wall*", "Wall*"}}}).findings.size(), 1u);
 }
 
 TEST(Check, PatternsAreForPathsAndForNames) {

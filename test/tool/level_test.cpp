@@ -285,14 +285,13 @@ TEST_F(ToolOnLevels, BadInputIsNamed) {
 
 // Levels by themselves: what is beside them is read, and what isn't there is named by what refers to it.
 TEST_F(ToolOnLevels, TilesetsAreLookedForBesideTheMap) {
-    std::filesystem::create_directories(folder() / "maps");
-    std::filesystem::create_directories(folder() / "sets");
-    write("sets/t.tsx",
+    std::filesystem::create_directories(folder() / "maps" / "sets");
+    write("maps/sets/t.tsx",
           "<tileset tilewidth='8' tileheight='8'><tile id='0'><objectgroup><object width='8' height='4'/>"
           "</objectgroup></tile></tileset>");
     const std::string file = write("maps/m.tmx",
                                    "<map tilewidth='8' tileheight='8' width='1' height='1'>"
-                                   "<tileset firstgid='1' source='../sets/t.tsx'/><layer name='L'>"
+                                   "<tileset firstgid='1' source='sets/t.tsx'/><layer name='L'>"
                                    "<data encoding='csv'>1</data></layer></map>")
                                  .string();
     const Json json = json_of({"info", file}, 0);

@@ -29,8 +29,17 @@ struct Ran {
 class ToolRuns : public SceneFiles {
 protected:
     /// Each argument as one word, whatever is in it.
-    Ran run(const std::vector<std::string>& arguments) const {
-        std::string command = quoted(ABUT_TOOL_FILE);
+    Ran run(const std::vector<std::string>& arguments) const { return run_after("", arguments); }
+
+    /// The same with no more than so many MB of address space.
+    Ran run_within(int megabytes, const std::vector<std::string>& arguments) const {
+        return run_after("ulimit -v " + std::to_string(megabytes * 1024) + "; ", arguments);
+    }
+
+private:
+    /// `before` is for the shell.
+    Ran run_after(const std::string& before, const std::vector<std::string>& arguments) const {
+        std::string command = before + quoted(ABUT_TOOL_FILE);
         for (const std::string& argument : arguments) command += " " + quoted(argument);
         const std::filesystem::path out = folder() / "stdout";
         const std::filesystem::path err = folder() / "stderr";
@@ -39,6 +48,7 @@ protected:
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(out), content(err)};
     }
 
+protected:
     /// Bad input and bad usage look the same: nothing on stdout, one line on stderr, exit code 2.
     std::string refusal(const std::vector<std::string>& arguments) const {
         const Ran ran = run(arguments);

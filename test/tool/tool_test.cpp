@@ -105,9 +105,11 @@ TEST_F(Tool, BadFilesAreRefused) {
     EXPECT_EQ(refusal_of("index.glb", box_with([](test::Triangles& box) { box.triangles[2].y = 1000000; })),
               "mesh 'Box', triangle 2: index 1000000 is out of range (8 vertices)");
     const std::string flat = box_with([](test::Triangles& box) { box.triangles[5] = {1, 1, 2}; });
-    EXPECT_EQ(refusal_of("flat.glb", flat),
-              "mesh 'Box', triangle 5: zero area (--skip-degenerate leaves such triangles out)");
-    EXPECT_EQ(run({"check", "--skip-degenerate", write("flat.glb", flat).string()}).code, 0);
+    const std::string flat_file = write("flat.glb", flat).string();
+    EXPECT_EQ(
+        refusal({"check", flat_file, "--strict"}),
+        "abut: " + flat_file + ": mesh 'Box', triangle 5: zero area (without --strict such triangles are left out)");
+    EXPECT_EQ(run({"check", flat_file, "--skip-degenerate"}).code, 0) << "as scripts of earlier versions have it";
 
     EXPECT_EQ(refusal_of("none.gltf", R"({"asset":{"version":"2.0"},"scenes":[{}],"scene":0})"),
               "no triangles in it: 0 objects");
@@ -208,21 +210,130 @@ TEST_F(Tool, BaselineKnowsMoments) {
     EXPECT_EQ(json["contacts"][0]["time"], 3.0);
 }
 
-TEST_F(Tool, FramesLookBetweenTheKeys) {
+// A wall between two keys, which a walker goes through in between: it was told to be clean.
+TEST_F(Tool, WhatMeetsBetweenFramesIsFound) {
     GltfBuilder builder;
     const int mesh = builder.add_mesh("Box", box_triangles({0.5f, 0.5f, 0.5f}));
     builder.add_node("Wall", mesh);
     builder.add_node("Walker", mesh);
     builder.add_motion(1, "Walk", {0, 1}, {{-5, 0, 0}, {5, 0, 0}});
     const std::string file = write("walk.gltf", builder.text()).string();
-    Json json = checked({file}, 0);
+    Json json = checked({file}, 1);
     EXPECT_EQ(json["frames"], 2);
     EXPECT_EQ(json["warnings"].size(), 1u) << "says that there is much between the keys";
+    EXPECT_EQ(json["swept_pairs"], 1);
+    ASSERT_EQ(json["contacts"].size(), 1u);
+    const Json between = json["contacts"][0];
+    EXPECT_EQ(between["frame"], 0);
+    EXPECT_EQ(between["last_frame"], 0);
+    EXPECT_EQ(between["between"], true);
+    EXPECT_NEAR(between["fraction"].get<double>(), 0.4, 1e-6);
+    EXPECT_NEAR(between["time"].get<double>(), 0.4, 1e-6);
+    EXPECT_LT(between["distance"].get<double>(), -0.5);
+    EXPECT_GE(between["last_time"].get<double>(), between["deepest_time"].get<double>());
+    const Ran ran = run({"check", file});
+    EXPECT_NE(ran.out.find("between frames 0 and 1: they meet at 0.4 s (0.4 of the way)"), std::string::npos)
+        << ran.out;
+    EXPECT_NE(ran.out.find("FAULTS FOUND: 1 pair collides"), std::string::npos) << ran.out;
+    const std::string old = write("old.json", json.dump()).string();
+    EXPECT_EQ(checked({file, "--baseline", old}, 0)["known"], 1);
+    EXPECT_EQ(checked({file, "--allow", "1.1"}, 0)["contacts"].size(), 0u);
+
     json = checked({file, "--frames", "31"}, 1);
     EXPECT_EQ(json["frames"], 31);
     ASSERT_EQ(json["contacts"].size(), 1u);
     EXPECT_EQ(json["contacts"][0]["deepest_frame"], 15);
     EXPECT_EQ(json["contacts"][0]["deepest_time"], 0.5);
+    EXPECT_FALSE(json["contacts"][0].contains("between"));
+}
+
+// Of an animation of 1e9 seconds it advised --frames 30000000001, which it refused.
+TEST_F(Tool, TheFramesThatItAdvisesAreTaken) {
+    for (const float length : {2.0f, 300.0f, 1e9f}) {
+        GltfBuilder builder;
+        builder.add_node("Walker", builder.add_mesh("Box", box_triangles({0.5f, 0.5f, 0.5f})));
+        builder.add_motion(0, "Walk", {0, length}, {{-5, 0, 0}, {5, 0, 0}});
+        const std::string file = write("walk.gltf", builder.text()).string();
+        const std::string text = run({"check", file}).out;
+        const std::size_t at = text.find("--frames ");
+        ASSERT_NE(at, std::string::npos) << text;
+        const std::string frames = text.substr(at + 9, text.find(' ', at + 9) - at - 9);
+        const Ran ran = run({"check", file, "--frames", frames});
+        EXPECT_EQ(ran.code, 0) << ran.err;
+        EXPECT_NE(ran.out.find("frames    " + frames + ", from 0 s to"), std::string::npos) << ran.out;
+    }
+}
+
+// One triangle of zero area made check, cast and info refuse the whole file.
+TEST_F(Tool, TrianglesOfZeroAreaAreLeftOutAndCounted) {
+    GltfBuilder builder;
+    test::Triangles box = box_triangles({0.5f, 0.5f, 0.5f});
+    builder.add_node("Whole", builder.add_mesh("Whole", box), {0.75f, 0, 0});
+    box.triangles.emplace_back(1, 1, 2);  // a corner twice
+    box.points.insert(box.points.end(), {{0, 0, 0.5f}, {0.25f, 0, 0.5f}, {0.5f, 0, 0.5f}});
+    box.triangles.emplace_back(8, 9, 10);  // three in a row
+    const int mesh = builder.add_mesh("Box", box);
+    builder.add_node("Crate", mesh);
+    builder.add_node("Crate", mesh, {9, 0, 0});
+    test::Triangles line;
+    line.points = {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}};
+    line.triangles = {{0, 1, 2}};
+    builder.add_node("Line", builder.add_mesh("Line", line));
+    const std::string file = write("some.gltf", builder.text()).string();
+
+    const Json left_out = {{"triangles", 5},
+                           {"objects",
+                            {{{"name", "Crate"}, {"triangles", 2}, {"shape", true}},
+                             {{"name", "Crate#2"}, {"triangles", 2}, {"shape", true}},
+                             {{"name", "Line"}, {"triangles", 1}, {"shape", false}}}}};
+    const std::string line_of_text =
+        "5 triangles of zero area: 2 of 'Crate', 2 of 'Crate#2', 1 of 'Line', which has no others and so no shape\n";
+    for (const std::vector<std::string>& verb : {std::vector<std::string>{"check", file},
+                                                 {"info", file},
+                                                 {"cast", file, "--from", "-5,0,0", "--to", "5,0,0"}}) {
+        const int code = verb[0] == "info" ? 0 : 1;
+        const Json json = json_of(verb, code);
+        EXPECT_EQ(json["left_out"], left_out) << verb[0];
+        EXPECT_EQ(json["objects"].is_array() ? json["objects"].size() : json["objects"].get<std::size_t>(), 3u);
+        EXPECT_NE(run(verb).out.find(line_of_text), std::string::npos) << run(verb).out;
+        std::vector<std::string> strict = verb;
+        strict.push_back("--strict");
+        EXPECT_EQ(refusal(strict), "abut: " + file +
+                                       ": mesh 'Box', triangle 12: zero area (without --strict such triangles are left "
+                                       "out)");
+    }
+    // The crate is the convex solid that it is without them, and found as before.
+    const Json json = checked({file}, 1);
+    EXPECT_EQ(json["solids"], 3);
+    ASSERT_EQ(json["contacts"].size(), 1u);
+    EXPECT_EQ(json["contacts"][0]["a"], "Crate");
+    EXPECT_NEAR(json["contacts"][0]["distance"].get<double>(), -0.25, 1e-6);
+
+    // Verbs that mend meshes take the same file.
+    EXPECT_EQ(run({"hull", file, "-o", out("hull.obj")}).code, 0);
+    EXPECT_EQ(run({"decompose", file, "-o", out("parts.obj")}).code, 0);
+    EXPECT_NE(run({"field", file, "-o", out("a.field"), "--cell", "0.1"}).code, 2);
+    EXPECT_EQ(run({"walk", file}).code, 0);
+
+    GltfBuilder nothing;
+    nothing.add_node("Line", nothing.add_mesh("Line", line));
+    EXPECT_EQ(refusal_of("line.gltf", nothing.text()), "all triangles in it have zero area: 0 objects");
+}
+
+// Triangles that are there twice are a finding, and no reason to refuse anything.
+TEST_F(Tool, TrianglesThatAreThereTwiceAreTakenByAllVerbs) {
+    GltfBuilder builder;
+    test::Triangles box = box_triangles({0.5f, 0.5f, 0.5f});
+    box.triangles.push_back(box.triangles[3]);
+    builder.add_node("Crate", builder.add_mesh("Box", box));
+    const std::string file = write("twice.gltf", builder.text()).string();
+    const Json json = checked({file}, 1);
+    ASSERT_EQ(json["duplicates"].size(), 1u);
+    EXPECT_EQ(json["duplicates"][0]["pieces"], 1);
+    EXPECT_EQ(run({"cast", file, "--from", "-5,0.1,0", "--to", "5,0.1,0"}).code, 1);
+    for (const char* verb : {"hull", "decompose"}) EXPECT_EQ(run({verb, file, "-o", out("o.obj")}).code, 0) << verb;
+    EXPECT_NE(run({"field", file, "-o", out("a.field"), "--cell", "0.1"}).code, 2);
+    for (const char* verb : {"info", "walk"}) EXPECT_EQ(run({verb, file}).code, 0) << verb;
 }
 
 /// A crate to start in, a passage of 0.5, a crate that is there twice and an open one.
