@@ -36,14 +36,14 @@ bool visit_hits(const BoxRows<D>& boxes, std::size_t count, const Aabb<D>& box, 
 }  // namespace
 
 template <int D>
-void BruteForce<D>::set(std::size_t index, const Aabb<D>& box) {
+void BruteForce<D>::write(std::size_t index, const Aabb<D>& box) {
     const Aabb<D> holds = usable(box);
     boxes_.set(index, is_empty(holds) ? no_box<D>() : holds);
 }
 
 template <int D>
 void BruteForce<D>::set_all(std::span<const Aabb<D>> boxes) {
-    for (std::size_t i = 0; i < boxes.size(); ++i) set(i, boxes[i]);
+    for (std::size_t i = 0; i < boxes.size(); ++i) write(i, boxes[i]);
 }
 
 template <int D>
@@ -71,7 +71,7 @@ std::uint32_t BruteForce<D>::insert(const Aabb<D>& box) {
         if (size_ == boxes_.room()) boxes_.grow(2 * size_ + box_lanes, size_);
         ++size_;
     }
-    set(index, box);
+    write(index, box);
     return index;
 }
 
@@ -81,6 +81,13 @@ void BruteForce<D>::erase(std::uint32_t index) {
     if (index >= size() || free_.contains(index)) return;
     boxes_.set(index, no_box<D>());
     free_.add(index);
+}
+
+template <int D>
+bool BruteForce<D>::set(std::uint32_t index, const Aabb<D>& box) {
+    ABUT_ASSERT(index < size() && !free_.contains(index));
+    if (index < size()) write(index, box);
+    return true;
 }
 
 template <int D>

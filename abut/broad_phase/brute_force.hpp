@@ -30,6 +30,8 @@ public:
     /// Makes an item empty; its index may be given to a new one. In the span of an update it has a box still, an empty
     /// one.
     void erase(std::uint32_t index);
+    /// Another box for an item that was not erased. Allocates nothing, and is always true.
+    bool set(std::uint32_t index, const Aabb<D>& box);
 
     std::size_t size() const { return size_; }
     /// Of all boxes together; Aabb::empty() where there is none.
@@ -45,7 +47,7 @@ private:
     void visit_along(const MovingBox<D>& box, ReachCall visit) const;
     void visit_near(const Aabb<D>& box, float reach, ReachCall visit) const;
 
-    void set(std::size_t index, const Aabb<D>& box);
+    void write(std::size_t index, const Aabb<D>& box);
     void set_all(std::span<const Aabb<D>> boxes);
     template <class Reach>
     void visit_within(Reach reach, ReachCall visit) const;

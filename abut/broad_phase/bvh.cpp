@@ -75,6 +75,11 @@ void Bvh<D>::erase(std::uint32_t index) {
 }
 
 template <int D>
+bool Bvh<D>::set(std::uint32_t index, const Aabb<D>& box) {
+    return tree_.set(index, box);
+}
+
+template <int D>
 void Bvh<D>::visit_pairs(PairsCall visit, Executor* executor) const {
     PairTasks<D> tasks(tree_);
     if (executor == nullptr) {

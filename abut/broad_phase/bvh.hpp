@@ -37,6 +37,9 @@ public:
     /// Makes an item empty, in O(log n); its index may be given to a new one. In the span of an update it has a box
     /// still, an empty one.
     void erase(std::uint32_t index);
+    /// Another box for an item that was not erased. Allocates nothing. False where that takes more room than there is:
+    /// the item is not found then until the next update.
+    bool set(std::uint32_t index, const Aabb<D>& box);
 
     std::size_t size() const { return tree_.size(); }
     /// Of all boxes together; Aabb::empty() where there is none.

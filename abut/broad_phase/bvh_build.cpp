@@ -44,24 +44,31 @@ void BvhTree<D>::build_anew(std::span<const Aabb<D>> boxes, Executor* executor) 
     run_jobs(items, executor);
 }
 
-/// Room for the leaves, with a place for all items at its end, and no more to free.
+/// Room to build a tree of so many items, with a place for all of them at the end of the leaves.
 template <int D>
-BvhItem* BvhTree<D>::make_room(std::uint32_t items) {
+void BvhTree<D>::reserve(std::uint32_t items) {
     const std::size_t for_items = std::size_t{items} * sizeof(BvhItem) / sizeof(BvhLeaf<D>);
     const std::size_t leaves = std::max<std::size_t>(bvh_leaves_granted(items), for_items) + bvh_lanes;
     if (leaves_.size() < leaves) {
-        leaves_.clear();
         leaves_.resize(leaves);
         leaf_parents_.resize(leaves);
     }
     const std::size_t nodes = items / 20 + 2 * bvh_lanes;
-    if (nodes_.size() < nodes) {
-        nodes_.clear();
-        nodes_.resize(nodes);
-    }
+    if (nodes_.size() < nodes) nodes_.resize(nodes);
     if (parts_.empty()) parts_.resize(1);
     for (BvhPart<D>& part : parts_) part.reserve(std::min(items, bvh_part_items));
     jobs_.reserve(nodes_.size());
+}
+
+/// The same, and nothing in it.
+template <int D>
+BvhItem* BvhTree<D>::make_room(std::uint32_t items) {
+    if (leaves_.size() < bvh_leaves_granted(items) + bvh_lanes) {
+        // What is in them need not be copied.
+        leaves_.clear();
+        nodes_.clear();
+    }
+    reserve(items);
     roots_ = {};
     nodes_used_ = leaves_used_ = nodes_live_ = leaves_live_ = 0;
     next_node_ = next_leaf_ = bvh_none;
@@ -270,6 +277,7 @@ double BvhTree<D>::cost() const {
 template void BvhTree<2>::build(std::span<const Aabb<2>>, Executor*);
 template void BvhTree<2>::build_anew(std::span<const Aabb<2>>, Executor*);
 template void BvhTree<2>::run_jobs(const BvhItem*, Executor*);
+template void BvhTree<2>::reserve(std::uint32_t);
 template std::uint32_t BvhTree<2>::take_node();
 template std::uint32_t BvhTree<2>::take_leaf();
 template void BvhTree<2>::free_node(std::uint32_t);
@@ -278,6 +286,7 @@ template double BvhTree<2>::cost() const;
 template void BvhTree<3>::build(std::span<const Aabb<3>>, Executor*);
 template void BvhTree<3>::build_anew(std::span<const Aabb<3>>, Executor*);
 template void BvhTree<3>::run_jobs(const BvhItem*, Executor*);
+template void BvhTree<3>::reserve(std::uint32_t);
 template std::uint32_t BvhTree<3>::take_node();
 template std::uint32_t BvhTree<3>::take_leaf();
 template void BvhTree<3>::free_node(std::uint32_t);

@@ -32,10 +32,11 @@ Parting part(const std::array<Aabb<D>, nine>& boxes) {
     double least = std::numeric_limits<double>::infinity();
     for (int axis = 0; axis < D; ++axis) {
         Parting now{};
+        std::array<float, nine> middles;
         for (std::uint32_t i = 0; i < nine; ++i) {
-            const float middle = center(boxes[i])[axis];
+            const float middle = middles[i] = center(boxes[i])[axis];
             std::uint32_t place = i;
-            for (; place > 0 && center(boxes[now.order[place - 1]])[axis] > middle; --place)
+            for (; place > 0 && middles[now.order[place - 1]] > middle; --place)
                 now.order[place] = now.order[place - 1];
             now.order[place] = i;
         }
@@ -57,15 +58,39 @@ Parting part(const std::array<Aabb<D>, nine>& boxes) {
     return best;
 }
 
+/// Half the surfaces of eight boxes, by their extents; the axes on which one is endless count as none.
+template <int D>
+void areas_of(double (&extent)[D][bvh_lanes], double (&area)[bvh_lanes]) {
+    for (auto& of_axis : extent)
+        for (double& each : of_axis) each = each < std::numeric_limits<double>::infinity() ? each : 0;
+    for (std::uint32_t lane = 0; lane < bvh_lanes; ++lane) {
+        if constexpr (D == 2)
+            area[lane] = extent[0][lane] + extent[1][lane];
+        else
+            area[lane] = extent[0][lane] * extent[1][lane] + extent[1][lane] * extent[2][lane] +
+                         extent[2][lane] * extent[0][lane];
+    }
+}
+
 /// The child that grows least by a box; of several the smallest.
 template <int D>
 std::uint32_t best_lane(const BvhNode<D>& node, const Aabb<D>& box) {
     std::uint32_t best = 0;
     double least = std::numeric_limits<double>::infinity(), smallest = least;
+    // All lanes side by side; what is in those that are not used is not looked at.
+    double extent[D][bvh_lanes], wider[D][bvh_lanes], areas[bvh_lanes], wider_areas[bvh_lanes];
+    for (int i = 0; i < D; ++i)
+        for (std::uint32_t lane = 0; lane < bvh_lanes; ++lane) {
+            const float low = node.min[i][lane], high = node.max[i][lane];
+            const float lower = box.min[i] < low ? box.min[i] : low, higher = high < box.max[i] ? box.max[i] : high;
+            extent[i][lane] = static_cast<double>(high) - static_cast<double>(low);
+            wider[i][lane] = static_cast<double>(higher) - static_cast<double>(lower);
+        }
+    areas_of<D>(extent, areas);
+    areas_of<D>(wider, wider_areas);
     for (std::uint32_t lane = 0; lane < bvh_lanes && node.child[lane] != bvh_none; ++lane) {
-        const Aabb<D> child = node.box(lane);
-        if (is_empty(child)) continue;
-        const double area = box_size(child).area, growth = box_size(merged(child, box)).area - area;
+        if (!(node.min[0][lane] <= node.max[0][lane])) continue;
+        const double area = areas[lane], growth = wider_areas[lane] - area;
         if (growth > least || (growth == least && area >= smallest)) continue;
         least = growth;
         smallest = area;
@@ -91,9 +116,75 @@ std::uint32_t BvhTree<D>::insert(const Aabb<D>& box) {
         places_.push_back(place_none);
     }
     places_[index] = place_none;
+    // Room to build all anew, and for what is parted meanwhile: leaves that are parted are less full than built ones.
+    constexpr std::uint32_t spare = 64;
+    const auto count = static_cast<std::uint32_t>(size());
+    if (leaves_.size() < std::max(bvh_leaves_granted(count) + bvh_lanes, leaves_live_ + spare) ||
+        nodes_.size() < nodes_live_ + spare)
+        reserve(std::max({count + count / 2, 10 * (leaves_live_ + spare), 30 * (nodes_live_ + spare)}));
     const Aabb<D> holds = usable(box);
     if (!is_empty(holds)) add(index, holds);
     return index;
+}
+
+/// For one item more, whatever is parted for it.
+template <int D>
+bool BvhTree<D>::has_room() const {
+    return leaves_live_ < leaves_.size() && nodes_live_ + bvh_lanes <= nodes_.size();
+}
+
+template <int D>
+bool BvhTree<D>::set(std::uint32_t index, const Aabb<D>& box) {
+    ABUT_ASSERT(index < size() && places_[index] != place_free);
+    if (index >= size()) return false;
+    const Aabb<D> holds = usable(box);
+    const std::uint32_t slot = places_[index] / bvh_lanes, lane = places_[index] % bvh_lanes;
+    if (places_[index] >= place_free) {
+        if (is_empty(holds)) return true;
+        if (!has_room()) return false;
+        add(index, holds);
+        return true;
+    }
+    const bool stays = !is_empty(holds) && is_bounded(holds) == is_bounded(leaves_[slot].box(lane));
+    // Near where it was it stays in its leaf, which is no larger than the node above it then.
+    if (stays && widen(slot, lane, holds, 1)) return true;
+    if (stays && !has_room()) return widen(slot, lane, holds, bvh_depth);
+    remove(index);
+    places_[index] = place_none;
+    if (is_empty(holds)) return true;
+    if (!has_room()) return false;
+    add(index, holds);
+    return true;
+}
+
+/// Puts a box in the place of one in a leaf, if no more than so many levels of nodes above it must be widened for it.
+template <int D>
+bool BvhTree<D>::widen(std::uint32_t slot, std::uint32_t lane, const Aabb<D>& box, int levels) {
+    std::array<std::uint32_t, bvh_depth> refs, lanes;
+    std::uint32_t ref = slot | bvh_leaf_bit;
+    std::size_t wider = 0;
+    for (;; ++wider) {
+        const std::uint32_t parent = parent_of(ref);
+        if (parent == bvh_none) {
+            BvhRoot<D>& root = roots_[is_bounded(box) ? 0 : 1];
+            if (!contains(root.box, box) && wider > static_cast<std::size_t>(levels)) return false;
+            root.box = merged(root.box, box);
+            break;
+        }
+        const std::uint32_t in_parent = lane_of(ref);
+        if (contains(nodes_[parent].box(in_parent), box)) break;
+        if (wider == static_cast<std::size_t>(levels)) return false;
+        refs[wider] = parent;
+        lanes[wider] = in_parent;
+        ref = parent;
+    }
+    leaves_[slot].set(lane, box);
+    for (std::size_t i = 0; i < wider; ++i) {
+        BvhNode<D>& node = nodes_[refs[i]];
+        const Aabb<D> before = node.box(lanes[i]);
+        node.set(lanes[i], is_empty(before) ? box : merged(before, box));
+    }
+    return true;
 }
 
 template <int D>
@@ -267,11 +358,15 @@ std::uint32_t BvhTree<D>::lane_of(std::uint32_t ref) const {
 
 template std::uint32_t BvhTree<2>::insert(const Aabb<2>&);
 template void BvhTree<2>::erase(std::uint32_t);
+template bool BvhTree<2>::set(std::uint32_t, const Aabb<2>&);
+template bool BvhTree<2>::has_room() const;
 template void BvhTree<2>::add(std::uint32_t, const Aabb<2>&);
 template void BvhTree<2>::take_out(std::uint32_t, std::uint32_t);
 template std::uint32_t BvhTree<2>::lane_of(std::uint32_t) const;
 template std::uint32_t BvhTree<3>::insert(const Aabb<3>&);
 template void BvhTree<3>::erase(std::uint32_t);
+template bool BvhTree<3>::set(std::uint32_t, const Aabb<3>&);
+template bool BvhTree<3>::has_room() const;
 template void BvhTree<3>::add(std::uint32_t, const Aabb<3>&);
 template void BvhTree<3>::take_out(std::uint32_t, std::uint32_t);
 template std::uint32_t BvhTree<3>::lane_of(std::uint32_t) const;

@@ -23,6 +23,7 @@ public:
     void update(std::span<const Aabb<D>> boxes, Executor* executor);
     std::uint32_t insert(const Aabb<D>& box);
     void erase(std::uint32_t index);
+    bool set(std::uint32_t index, const Aabb<D>& box);
 
     std::size_t size() const { return places_.size(); }
     Aabb<D> bounds() const { return merged(roots_[0].box, roots_[1].box); }
@@ -63,6 +64,7 @@ private:
     };
 
     void build_anew(std::span<const Aabb<D>> boxes, Executor* executor);
+    void reserve(std::uint32_t items);
     BvhItem* make_room(std::uint32_t items);
     void plan(BvhItem* items, bool bounded, std::uint32_t begin, std::uint32_t end, Executor* executor);
     void plan_node(std::uint32_t top, bool bounded, std::uint32_t parent, std::uint32_t lane);
@@ -86,6 +88,8 @@ private:
     void plan_repairs(std::uint32_t ref, int depth, bool bounded, double& area, double& built);
     bool take_in_newcomers(std::span<const Aabb<D>> boxes);
 
+    bool has_room() const;
+    bool widen(std::uint32_t slot, std::uint32_t lane, const Aabb<D>& box, int levels);
     void add(std::uint32_t index, const Aabb<D>& box);
     void attach(std::uint32_t ref, std::uint32_t other);
     void hang(std::uint32_t node, std::uint32_t lane, std::uint32_t child, const Aabb<D>& box);

@@ -165,8 +165,7 @@ bool BvhTree<D>::take_in_newcomers(std::span<const Aabb<D>> boxes) {
         if (places_[i] < place_free) continue;
         const Aabb<D> box = usable(boxes[i]);
         if (is_empty(box)) continue;
-        const bool room = leaves_live_ < leaves_.size() && nodes_live_ + bvh_lanes <= nodes_.size();
-        if (++taken > most || !room) return false;
+        if (++taken > most || !has_room()) return false;
         add(i, box);
     }
     return true;

@@ -86,6 +86,34 @@ void ChosenBroadPhase<D>::update(std::span<const Aabb<D>> boxes, Executor* execu
 }
 
 template <int D>
+bool ChosenBroadPhase<D>::grow() {
+    return std::visit(
+        [](auto& phase) {
+            if constexpr (requires { phase.insert(Aabb<D>()); }) {
+                phase.insert(Aabb<D>::empty());
+                return true;
+            }
+            return false;
+        },
+        phase_);
+}
+
+template <int D>
+bool ChosenBroadPhase<D>::set(std::uint32_t index, const Aabb<D>& box) {
+    return std::visit(
+        [&](auto& phase) {
+            if constexpr (requires { phase.set(index, box); }) return phase.set(index, box);
+            return false;
+        },
+        phase_);
+}
+
+template <int D>
+void ChosenBroadPhase<D>::refit(std::span<const Aabb<D>> boxes) {
+    std::visit([&](auto& phase) { phase.update(boxes); }, phase_);
+}
+
+template <int D>
 void ChosenBroadPhase<D>::tell(const BroadPhaseHistory& history) {
     history_ = history;
 }

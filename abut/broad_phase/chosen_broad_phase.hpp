@@ -29,6 +29,14 @@ public:
 
     void build(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
     void update(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
+    /// A new item of the index size(), with an empty box, so that `set` may give it another. False where the structure
+    /// cannot: then all must be built.
+    bool grow();
+    /// Another box for an item. Allocates nothing. False where the structure cannot, or has no room for it: the item is
+    /// not found then until the next update.
+    bool set(std::uint32_t index, const Aabb<D>& box);
+    /// As an update, by the structure that it is. Allocates nothing.
+    void refit(std::span<const Aabb<D>> boxes);
     /// How the boxes move, and how often they are asked for, of late, for the next choice. Where that is more than half
     /// and less than twice of what it was at the last look, the next one is not before it is due.
     void tell(const BroadPhaseHistory& history);

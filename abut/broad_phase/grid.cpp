@@ -149,7 +149,10 @@ std::uint32_t Grid<D>::insert(const Aabb<D>& box) {
         boxes_.emplace_back();
     }
     boxes_[index] = usable(box);
-    if (is_empty(boxes_[index])) return index;
+    if (is_empty(boxes_[index])) {
+        if (size() > reserved_) reserve(size() + size() / 2);
+        return index;
+    }
     const bool found_room = cells_.total > 0 && put(index);
     cost_.single = std::uint64_t{large_.size()} * boxes_.size();
     // While there are a few boxes only, any cells do.
@@ -169,6 +172,17 @@ void Grid<D>::erase(std::uint32_t index) {
     cost_.single = std::uint64_t{large_.size()} * boxes_.size();
     boxes_[index] = Aabb<D>::empty();
     free_.add(index);
+}
+
+template <int D>
+bool Grid<D>::set(std::uint32_t index, const Aabb<D>& box) {
+    ABUT_ASSERT(index < size() && !free_.contains(index));
+    if (index >= size() || store_.is_full()) return false;
+    if (!is_empty(boxes_[index])) take_out(index);
+    boxes_[index] = usable(box);
+    const bool found_room = is_empty(boxes_[index]) || (cells_.total > 0 && put(index));
+    cost_.single = std::uint64_t{large_.size()} * boxes_.size();
+    return found_room;
 }
 
 template <int D>
