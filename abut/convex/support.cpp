@@ -83,11 +83,24 @@ CorePoint<D> local_support(const Convex<D>& convex, const DVec<D>& direction) {
     return {};
 }
 
+/// How far a placed core that is a box reaches from its middle along each axis: to the corner that core_support finds,
+/// to the bit.
+template <int D>
+DVec<D> reach_of_box(const Convex<D>& convex) {
+    DVec<D> reach(0.0);
+    for (int i = 0; i < D; ++i)
+        for (int j = 0; j < D; ++j)
+            reach[i] +=
+                std::abs(convex.place.column[static_cast<std::size_t>(j)][i]) * static_cast<double>(convex.own[0][j]);
+    return reach;
+}
+
 /// The float at or beyond x, towards `side`.
 float rounded_outwards(double x, float side) {
     const float nearest = static_cast<float>(x);
     const bool inside = side > 0 ? static_cast<double>(nearest) < x : static_cast<double>(nearest) > x;
-    return inside ? std::nextafter(nearest, side) : nearest;
+    if (!inside) return nearest;
+    return side > 0 ? next_up(nearest) : next_down(nearest);
 }
 
 }  // namespace
@@ -183,6 +196,14 @@ Aabb<D> bounds(const Convex<D>& convex) {
         }
         return result;
     }
+    if (convex.core == Core::box && convex.inner_radius == 0) {
+        const DVec<D> reach = reach_of_box(convex);
+        for (int i = 0; i < D; ++i) {
+            result.min[i] = rounded_outwards(convex.place.offset[i] - reach[i] - convex.radius, -infinity);
+            result.max[i] = rounded_outwards(convex.place.offset[i] + reach[i] + convex.radius, infinity);
+        }
+        return result;
+    }
     for (int i = 0; i < D; ++i) {
         result.min[i] = rounded_outwards(core_support(convex, axis<D>(i, -1)).position[i] - convex.radius, -infinity);
         result.max[i] = rounded_outwards(core_support(convex, axis<D>(i, 1)).position[i] + convex.radius, infinity);
@@ -198,6 +219,12 @@ DVec<D> reference_point(const Convex<D>& convex) {
 template <int D>
 double size(const Convex<D>& convex) {
     DVec<D> half;
+    if (convex.core == Core::box && convex.inner_radius == 0) {
+        const DVec<D> reach = reach_of_box(convex);
+        for (int i = 0; i < D; ++i)
+            half[i] = 0.5 * ((reach[i] + convex.place.offset[i]) - (convex.place.offset[i] - reach[i]));
+        return length(half) + convex.radius;
+    }
     for (int i = 0; i < D; ++i)
         half[i] =
             0.5 * (core_support(convex, axis<D>(i, 1)).position[i] - core_support(convex, axis<D>(i, -1)).position[i]);

@@ -2,6 +2,7 @@
 
 // The axis-aligned box: what the broad phases see of the world.
 
+#include <abut/math/next_float.hpp>
 #include <abut/math/vec.hpp>
 
 #include <algorithm>
@@ -67,8 +68,8 @@ template <int D>
 Aabb<D> grown(const Aabb<D>& box, float distance) {
     Aabb<D> result;
     for (int i = 0; i < D; ++i) {
-        result.min[i] = std::nextafter(box.min[i] - distance, -std::numeric_limits<float>::infinity());
-        result.max[i] = std::nextafter(box.max[i] + distance, std::numeric_limits<float>::infinity());
+        result.min[i] = next_down(box.min[i] - distance);
+        result.max[i] = next_up(box.max[i] + distance);
     }
     return result;
 }

@@ -2,6 +2,7 @@
 
 // A shape whose type is forgotten, owned.
 
+#include <abut/shape/bounds_at.hpp>
 #include <abut/shape/placed.hpp>
 
 #include <memory>
@@ -19,18 +20,36 @@ public:
     requires(!std::is_same_v<S, AnyShape> && Ownable<S> && dimension<S> == D) AnyShape(const S& shape)
         : stored_(store(owned(shape))) {}
 
-    const View<D>& view() const { return stored_->view; }
+    /// Made with each call; refers to this shape and must not outlive it.
+    View<D> view() const { return stored_->view(); }
+    /// The same moved and turned, by a map that keeps all lengths.
+    View<D> moved(const Affine<D>& rigid) const { return stored_->moved(rigid); }
+    /// The box of the shape moved and turned by a pose; empty where it is not finite.
+    Aabb<D> bounds(const Pose<D>& pose) const { return stored_->bounds(pose); }
 
 private:
     struct Stored {
         virtual ~Stored() = default;
-        View<D> view;  ///< of what derives from this
+        virtual View<D> view() const = 0;
+        virtual View<D> moved(const Affine<D>& rigid) const = 0;
+        virtual Aabb<D> bounds(const Pose<D>& pose) const = 0;
     };
     template <class S>
     struct StoredOf final : Stored {
-        explicit StoredOf(S s) : shape(std::move(s)) { this->view = abut::view(shape); }
+        explicit StoredOf(S s) : shape(std::move(s)) {}
         StoredOf(const StoredOf&) = delete;
         StoredOf& operator=(const StoredOf&) = delete;
+
+        View<D> view() const override { return abut::view(shape); }
+        View<D> moved(const Affine<D>& rigid) const override { return abut::moved(abut::view(shape), rigid); }
+        Aabb<D> bounds(const Pose<D>& pose) const override {
+            if constexpr (std::is_same_v<S, Ball<D>> || std::is_same_v<S, Box<D>>) {
+                return bounds_at(shape, pose);
+            } else {
+                const View<D> placed = moved(affine(pose));
+                return is_finite(placed) ? abut::bounds(placed) : Aabb<D>::empty();
+            }
+        }
 
         const S shape;
     };
@@ -43,7 +62,7 @@ private:
 };
 
 template <int D>
-const View<D>& view(const AnyShape<D>& shape) {
+View<D> view(const AnyShape<D>& shape) {
     return shape.view();
 }
 

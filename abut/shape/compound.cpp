@@ -9,6 +9,7 @@ namespace abut {
 template <int D>
 struct Compound<D>::Data {
     std::vector<AnyShape<D>> children;
+    std::vector<View<D>> views;
     Bvh<D> tree;
 };
 
@@ -37,8 +38,9 @@ Result<Compound<D>> Compound<D>::build(std::span<const AnyShape<D>> children) {
     auto data = std::make_shared<Data>();
     std::vector<Aabb<D>> boxes;
     boxes.reserve(children.size());
+    data->views.reserve(children.size());
     for (std::size_t i = 0; i < children.size(); ++i) {
-        const View<D>& child = children[i].view();
+        const View<D> child = children[i].view();
         if (std::holds_alternative<Solid<D>>(child))
             return problem_of<D>(i, ProblemCode::bad_argument, " is a half-space, which has no bounds");
         if (std::holds_alternative<DistanceFunction<D>>(child))
@@ -48,6 +50,7 @@ Result<Compound<D>> Compound<D>::build(std::span<const AnyShape<D>> children) {
         if (!is_finite(child) || (has_parts && !(is_finite(box.min) && is_finite(box.max))))
             return problem_of<D>(i, ProblemCode::not_finite, " has a coordinate that is not finite");
         boxes.push_back(box);
+        data->views.push_back(child);
     }
     data->children.assign(children.begin(), children.end());
     data->tree.build(boxes);
@@ -62,7 +65,7 @@ std::uint32_t Compound<D>::size() const {
 template <int D>
 const View<D>& Compound<D>::child(std::uint32_t index) const {
     ABUT_ASSERT(index < size());
-    return data_->children[index].view();
+    return data_->views[index];
 }
 
 template <int D>

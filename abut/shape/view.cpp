@@ -8,7 +8,6 @@ namespace {
 template <int D>
 Aabb<D> mapped_box(const Aabb<D>& box, const Affine<D>& map) {
     Aabb<D> result;
-    constexpr float infinity = std::numeric_limits<float>::infinity();
     for (int i = 0; i < D; ++i) {
         double low = map.offset[i], high = map.offset[i];
         for (int j = 0; j < D; ++j) {
@@ -18,8 +17,8 @@ Aabb<D> mapped_box(const Aabb<D>& box, const Affine<D>& map) {
             low += std::min(a, b);
             high += std::max(a, b);
         }
-        result.min[i] = std::nextafter(static_cast<float>(low), -infinity);
-        result.max[i] = std::nextafter(static_cast<float>(high), infinity);
+        result.min[i] = next_down(static_cast<float>(low));
+        result.max[i] = next_up(static_cast<float>(high));
     }
     return result;
 }
