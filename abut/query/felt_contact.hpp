@@ -25,10 +25,9 @@ public:
           others_(others),
           scale_(felt_scale_of(a, b)),
           by_size_(is_composite(a) && is_composite(b)),
-          larger_(by_size_ ? abut::size(a) - abut::size(b) : 0) {
-        if (!std::holds_alternative<Solid<D>>(a)) middle_of_a_ = DVec<D>(center(bounds(a)));
-        if (!std::holds_alternative<Solid<D>>(b)) middle_of_b_ = DVec<D>(center(bounds(b)));
-    }
+          larger_(by_size_ ? abut::size(a) - abut::size(b) : 0),
+          middle_of_a_(a),
+          middle_of_b_(b) {}
 
     /// From now on it looks among these parts first, of the one of them that is composite.
     void look_among(const KeptParts<D>& kept) { kept_ = &kept; }
@@ -45,9 +44,11 @@ public:
                    const Manifolds& manifold_of) const {
         FeltBy result;
         if (is_composite(b_) || others_.of_a != nullptr)
-            result.a = feels(part_b, place_on_b(part_a, distance), -0.5, manifold_of, b_, others_.of_a);
+            result.a = feels(part_b, point_on_b(distance), -0.5, manifold_of, b_, others_.of_a,
+                             [&] { return place_on_b(part_a, distance); });
         if (is_composite(a_) || others_.of_b != nullptr)
-            result.b = feels(part_a, place_on_a(part_b, distance), 0.5, manifold_of, a_, others_.of_b);
+            result.b = feels(part_a, point_on_a(distance), 0.5, manifold_of, a_, others_.of_b,
+                             [&] { return place_on_a(part_b, distance); });
         return result;
     }
 
@@ -82,6 +83,21 @@ public:
     }
 
 private:
+    /// Of the box around a shape, found where first asked for; of a half-space, the origin.
+    class Middle {
+    public:
+        explicit Middle(const View<D>& view) : view_(view) {}
+        const DVec<D>& get() const {
+            if (!found_)
+                found_ = std::holds_alternative<Solid<D>>(view_) ? DVec<D>(0.0) : DVec<D>(center(bounds(view_)));
+            return *found_;
+        }
+
+    private:
+        const View<D>& view_;
+        mutable std::optional<DVec<D>> found_;
+    };
+
     static bool is_composite(const View<D>& view) { return std::holds_alternative<Composite<D>>(view); }
 
     /// Of a shape and what is felt beside it.
@@ -93,13 +109,16 @@ private:
         };
     }
 
-    /// Whether the normal of a part of `shape` is felt. The points of the manifold lie midway between two surfaces;
-    /// `to_surface` of their depths along the normal brings them to this one.
-    template <class Part, class Manifolds>
-    bool feels(const Part& part, FeltPlace<D> place, double to_surface, const Manifolds& manifold_of,
-               const View<D>& shape, const EachFoot<D>* others) const {
-        const auto feet = feet_on(shape, others);
+    /// Whether the normal of a part of `shape` is felt at a point. The points of the manifold lie midway between two
+    /// surfaces; `to_surface` of their depths along the normal brings them to this one. Nearly always nothing else is
+    /// near, which is found out first; `place_of()`, the place with the middle of what feels it, takes longer.
+    template <class Part, class Manifolds, class PlaceOf>
+    bool feels(const Part& part, const FeltPlace<D>& point, double to_surface, const Manifolds& manifold_of,
+               const View<D>& shape, const EachFoot<D>* others, const PlaceOf& place_of) const {
         const bool is_one_part = !is_composite(shape);
+        if (is_one_part && is_alone(point, *others)) return true;
+        const FeltPlace<D> place = place_of();
+        const auto feet = feet_on(shape, others);
         const Manifold<D>& manifold = manifold_of();
         if (manifold.count > 1) {
             const DVec<D> normal = to_surface < 0 ? -place.out : place.out;
@@ -112,7 +131,7 @@ private:
                                                          : is_felt_there<D>(part, middle, feet))
                 return true;
         }
-        return (is_one_part && is_alone(place, *others)) || abut::is_felt<D>(part, place, feet);
+        return abut::is_felt<D>(part, place, feet);
     }
 
     /// Whether no other is as near to p + s n as a part that has p, by far more than rounding.
@@ -141,14 +160,24 @@ private:
         return of_shape;
     }
 
+    /// Without the middle.
+    FeltPlace<D> point_on_b(const SignedDistance<D>& distance) const {
+        return {distance.on_b(), -distance.normal, DVec<D>(0.0), scale_};
+    }
+    FeltPlace<D> point_on_a(const SignedDistance<D>& distance) const {
+        return {distance.on_a, distance.normal, DVec<D>(0.0), scale_};
+    }
     template <class PartA>
     FeltPlace<D> place_on_b(const PartA& part_a, const SignedDistance<D>& distance) const {
-        const DVec<D> point = distance.on_b();
-        return {point, -distance.normal, middle_beside(part_a, a_, middle_of_a_, point), scale_};
+        FeltPlace<D> place = point_on_b(distance);
+        place.middle = middle_beside(part_a, a_, middle_of_a_.get(), place.point);
+        return place;
     }
     template <class PartB>
     FeltPlace<D> place_on_a(const PartB& part_b, const SignedDistance<D>& distance) const {
-        return {distance.on_a, distance.normal, middle_beside(part_b, b_, middle_of_b_, distance.on_a), scale_};
+        FeltPlace<D> place = point_on_a(distance);
+        place.middle = middle_beside(part_b, b_, middle_of_b_.get(), place.point);
+        return place;
     }
 
     /// The contact of a part with what lies behind a plane; its normal is out of the part.
@@ -175,7 +204,7 @@ private:
     double scale_;
     bool by_size_;   ///< of two composite shapes the smaller feels
     double larger_;  ///< by how much A then is
-    DVec<D> middle_of_a_{0.0}, middle_of_b_{0.0};
+    Middle middle_of_a_, middle_of_b_;
     const KeptParts<D>* kept_ = nullptr;
     SeenFromMiddle<D> seen_by_a_, seen_by_b_;
 };
