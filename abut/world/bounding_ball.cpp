@@ -1,3 +1,4 @@
+#include <abut/math/next_float.hpp>
 #include <abut/world/bounding_ball.hpp>
 
 #include <cmath>
@@ -85,6 +86,18 @@ BoundingBall<D> bounding_ball(const View<D>& view) {
     return {DVec<D>(0.0), std::numeric_limits<double>::infinity()};
 }
 
+/// Farther by what the center is rounded, and rounded up.
+template <int D>
+SmallBall<D> SmallBall<D>::around(const BoundingBall<D>& ball) {
+    SmallBall<D> result{to_float(ball.center), 0};
+    const double reach = ball.radius + length(ball.center - DVec<D>(result.center));
+    if (std::isfinite(static_cast<float>(reach)))
+        result.radius = next_up(static_cast<float>(reach));
+    else
+        result = {Vec<D>(0.0f), std::numeric_limits<float>::infinity()};
+    return result;
+}
+
 template <int D>
 BoundingBall<D> moved(const BoundingBall<D>& ball, const Affine<D>& pose) {
     const double reach = largest(ball.center) + largest(pose.offset);
@@ -99,6 +112,7 @@ bool apart(const BoundingBall<D>& a, const BoundingBall<D>& b) {
 
 #define ABUT_INSTANTIATE(D)                                                   \
     template BoundingBall<D> bounding_ball(const View<D>&);                   \
+    template struct SmallBall<D>;                                             \
     template BoundingBall<D> moved(const BoundingBall<D>&, const Affine<D>&); \
     template bool apart(const BoundingBall<D>&, const BoundingBall<D>&);
 ABUT_INSTANTIATE(2)

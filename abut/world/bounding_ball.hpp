@@ -12,6 +12,16 @@ namespace abut {
 template <int D>
 BoundingBall<D> bounding_ball(const View<D>& view);
 
+/// A ball in floats that holds another one; infinite where that is.
+template <int D>
+struct SmallBall {
+    Vec<D> center{};
+    float radius = 0;
+
+    static SmallBall around(const BoundingBall<D>& ball);
+    BoundingBall<D> ball() const { return {DVec<D>(center), static_cast<double>(radius)}; }
+};
+
 /// The same ball for the shape moved and turned by `pose`.
 template <int D>
 BoundingBall<D> moved(const BoundingBall<D>& ball, const Affine<D>& pose);

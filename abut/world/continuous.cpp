@@ -13,30 +13,31 @@ namespace abut {
 /// Has a box, then as now.
 template <int D>
 bool World<D>::has_way(std::uint32_t slot) const {
-    return courses_[slot].moved && !is_empty(items_[slot].box) && !is_empty(courses_[slot].way.box);
+    const std::uint32_t course = items_[slot].course;
+    return course != no_way && !ways_.empty() && !is_empty(ways_[course].box);
 }
 
-/// Questions look at a little more for it, and find no more: the shape is asked where it is.
 template <int D>
 void World<D>::widen_boxes() {
-    for (const std::uint32_t slot : widened_)
-        if (items_[slot].stored) boxes_of(items_[slot]).set(items_[slot].place, items_[slot].box);
-    widened_.clear();
+    widened_ = false;
     if (continuous_ == 0) return;
+    ways_.assign(courses_.size(), Way<D>());
     for (const std::uint32_t slot : pending_) {
-        if (!has_way(slot)) continue;
         const Item& item = items_[slot];
-        Course& course = courses_[slot];
-        const Motion<D> motion = Motion<D>::between(course.from, item.options.pose);
-        course.way = turning_way(item.own_ball, course.way.box, motion);
-        boxes_of(item).widen(item.place, merged(bounds(course.way), item.box));
-        widened_.push_back(slot);
+        if (item.course == no_way || is_empty(box(slot))) continue;
+        const Pose<D>& from = courses_[item.course];
+        const Aabb<D> first = box_at(item, from);
+        if (is_empty(first)) continue;
+        Way<D>& way = ways_[item.course];
+        way = turning_way(item.own_ball.ball(), first, Motion<D>::between(from, item.options.pose));
+        boxes_of(item).widen(item.place, merged(bounds(way), box(slot)));
+        widened_ = true;
     }
 }
 
 template <int D>
 Way<D> World<D>::way_of(std::uint32_t slot) const {
-    return has_way(slot) ? courses_[slot].way : straight_way(items_[slot].box, Vec<D>(0.0f));
+    return has_way(slot) ? ways_[items_[slot].course] : straight_way(box(slot), Vec<D>(0.0f));
 }
 
 /// Of two items whose boxes in the broad phases overlap: whether those do that they have now, or, of a continuous one,
@@ -44,7 +45,7 @@ Way<D> World<D>::way_of(std::uint32_t slot) const {
 template <int D>
 bool World<D>::come_near(std::uint32_t slot, std::uint32_t other) const {
     const Item &a = items_[slot], &b = items_[other];
-    if (overlaps(a.box, b.box)) return true;
+    if (overlaps(box(slot), box(other))) return true;
     if (!a.options.continuous && !b.options.continuous) return false;
     return (has_way(slot) || has_way(other)) && may_meet(way_of(slot), way_of(other));
 }
@@ -64,7 +65,7 @@ void World<D>::look_between(const IdPair& pair, bool touch) {
 template <int D>
 std::optional<Hit<D>> World<D>::sweep_pair(std::uint32_t slot, std::uint32_t other) const {
     const auto from = [this](std::uint32_t each) -> const Pose<D>& {
-        return has_way(each) ? courses_[each].from : items_[each].options.pose;
+        return has_way(each) ? courses_[items_[each].course] : items_[each].options.pose;
     };
     const Item &a = items_[slot], &b = items_[other];
     const Pose<D>&from_a = from(slot), &from_b = from(other), &to_a = a.options.pose, &to_b = b.options.pose;

@@ -32,9 +32,9 @@ void World<D>::find_partners() {
     const auto each = [this](auto&& add) {
         for (const IdPair& pair : near_) {
             const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
-            if (!are_solid(a, b) || (!widened_.empty() && !overlaps(items_[a].box, items_[b].box))) continue;
+            if (!are_solid(a, b) || (widened_ && !overlaps(box(a), box(b)))) continue;
             const auto partner = [this](std::uint32_t slot) {
-                return [this, slot]() -> typename Partners<D>::Partner { return {items_[slot].box, slot}; };
+                return [this, slot]() -> typename Partners<D>::Partner { return {box(slot), slot}; };
             };
             if (feels(a)) add(a, partner(b));
             if (feels(b)) add(b, partner(a));
@@ -62,25 +62,24 @@ template <int D>
 void World<D>::each_foot_beside(std::uint32_t slot, std::uint32_t other, const DVec<D>& point, double within,
                                 FunctionRef<void(const Foot<D>&)> visit) const {
     const Vec<D> middle = to_float(point);
-    const Aabb<D> box = grown(Aabb<D>{middle, middle}, static_cast<float>(within));
+    const Aabb<D> near = grown(Aabb<D>{middle, middle}, static_cast<float>(within));
     const std::span<const typename Partners<D>::Partner> partners = partners_.of(slot);
     if (partners.size() <= few) {
         for (const auto& partner : partners)
-            if (partner.slot != other && overlaps(partner.box, box))
-                each_foot_on(items_[partner.slot].placed, point, within, visit);
+            if (partner.slot != other && overlaps(partner.box, near))
+                each_foot_on(placed(items_[partner.slot]), point, within, visit);
         return;
     }
     const Item& item = items_[slot];
     const Filter filter{.layers = item.options.layers, .mask = item.options.mask};
     for (const ItemBoxes<D>* items : {&moving_, &fixed_})
-        items->phase().each_overlapping(box, [&](std::uint32_t place) {
+        items->phase().each_overlapping(near, [&](std::uint32_t place) {
             const std::uint32_t found = items->slot(place);
             const Item& beside = items_[found];
             if (found == slot || found == other || !asked(found, filter)) return;
-            if (!overlaps(beside.box, box) || !overlaps(beside.box, item.box)) return;
-            if (std::holds_alternative<Solid<D>>(beside.placed) && std::holds_alternative<Solid<D>>(item.placed))
-                return;
-            each_foot_on(beside.placed, point, within, visit);
+            if (!overlaps(box(found), near) || !overlaps(box(found), box(slot))) return;
+            if (beside.type == ShapeType::half_space && item.type == ShapeType::half_space) return;
+            each_foot_on(placed(beside), point, within, visit);
         });
 }
 
@@ -88,7 +87,8 @@ void World<D>::each_foot_beside(std::uint32_t slot, std::uint32_t other, const D
 template <int D>
 bool World<D>::find_contact(const IdPair& pair) {
     const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
-    const View<D>&placed_a = items_[a].placed, &placed_b = items_[b].placed;
+    const View<D>& placed_a = first_placed(a);
+    const View<D> placed_b = placed(items_[b]);
     const bool others_of_a = partners_.of(a).size() > 1, others_of_b = partners_.of(b).size() > 1;
     if (!others_of_a && !others_of_b) {
         const Contact<D> contact = abut::contact(placed_a, placed_b);

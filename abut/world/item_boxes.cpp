@@ -1,8 +1,19 @@
+#include <abut/broad_phase/boxes.hpp>
+#include <abut/broad_phase/reach.hpp>
 #include <abut/world/item_boxes.hpp>
+#include <abut/world/room_for_one.hpp>
 
 #include <algorithm>
 
 namespace abut {
+namespace {
+
+/// So many boxes are tested one by one.
+constexpr std::size_t few = 16;
+/// Where one in so many has changed, to refit all takes no longer than to set these.
+constexpr std::size_t one_in = 8;
+
+}  // namespace
 
 template <int D>
 ItemBoxes<D>::ItemBoxes(std::optional<BroadPhaseKind> always)
@@ -11,8 +22,20 @@ ItemBoxes<D>::ItemBoxes(std::optional<BroadPhaseKind> always)
 template <int D>
 std::uint32_t ItemBoxes<D>::add(std::uint32_t slot) {
     if (free_.empty()) {
+        make_room_for_one(boxes_);
+        make_room_for_one(slots_);
+        make_room_for_one(is_stale_);
         boxes_.push_back(Aabb<D>::empty());
         slots_.push_back(slot);
+        is_stale_.push_back(false);
+        // Twice as many may want another kind.
+        if (boxes_.size() > 2 * planned_) {
+            planned_ = boxes_.size();
+            phase_.build(boxes_);
+            settle();
+        } else if (phase_.size() + 1 == boxes_.size()) {
+            phase_.grow();
+        }
         return static_cast<std::uint32_t>(boxes_.size() - 1);
     }
     const std::uint32_t place = free_.back();
@@ -26,12 +49,30 @@ void ItemBoxes<D>::set(std::uint32_t place, const Aabb<D>& box) {
     if (box == boxes_[place]) return;
     boxes_[place] = box;
     ++changed_;
+    mark(place);
+}
+
+template <int D>
+void ItemBoxes<D>::mark(std::uint32_t place) {
+    if (is_stale_[place] != 0) return;
+    is_stale_[place] = true;
+    make_room_for_one(stale_);
+    stale_.push_back(place);
+    if (stale_.size() > few) work_.put_off();
+}
+
+/// The broad phase has all boxes as they are.
+template <int D>
+void ItemBoxes<D>::settle() {
+    for (const std::uint32_t place : stale_) is_stale_[place] = false;
+    stale_.clear();
+    work_.cancel();
 }
 
 template <int D>
 void ItemBoxes<D>::widen(std::uint32_t place, const Aabb<D>& box) {
-    boxes_[place] = box;
-    changed_ = std::max<std::size_t>(changed_, 1);
+    if (wide_.empty()) wide_ = boxes_;
+    wide_[place] = box;
 }
 
 template <int D>
@@ -44,11 +85,78 @@ template <int D>
 void ItemBoxes<D>::refresh(double asked) {
     const double moved = static_cast<double>(changed_) / static_cast<double>(std::max<std::size_t>(size(), 1));
     phase_.tell({.moved = std::min(moved, 1.0), .asked = asked});
-    if (phase_.size() == boxes_.size())
-        phase_.update(boxes_);
+    is_wide_ = !wide_.empty();
+    const std::span<const Aabb<D>> boxes = is_wide_ ? wide_ : boxes_;
+    if (refreshed_ == boxes.size())
+        phase_.update(boxes);
     else
-        phase_.build(boxes_);
+        phase_.build(boxes);
+    wide_.clear();
     changed_ = 0;
+    refreshed_ = planned_ = boxes_.size();
+    settle();
+}
+
+template <int D>
+void ItemBoxes<D>::prepare() const {
+    work_.run([this] {
+        // A structure that cannot grow, which no world chooses by itself.
+        if (phase_.size() != boxes_.size()) phase_.build(boxes_);
+        bool found_room = stale_.size() * one_in <= boxes_.size() + few * one_in;
+        for (std::size_t i = 0; i < stale_.size() && found_room; ++i)
+            found_room = phase_.set(stale_[i], boxes_[stale_[i]]);
+        if (!found_room) phase_.refit(boxes_);
+        for (const std::uint32_t place : stale_) is_stale_[place] = false;
+        stale_.clear();
+    });
+}
+
+template <int D>
+void ItemBoxes<D>::each_overlapping(const Aabb<D>& box, ItemCall visit) const {
+    prepare();
+    for (const std::uint32_t place : stale_)
+        if (overlaps(boxes_[place], box) && !visit(slots_[place])) return;
+    phase_.each_overlapping(box, [&](std::uint32_t place) { return is_stale_[place] != 0 || visit(slots_[place]); });
+}
+
+/// `search(visit, reach)` is that of the broad phase.
+template <int D>
+template <class Reach, class Search>
+void ItemBoxes<D>::each_within(Reach reach, ReachCall visit, const Search& search) const {
+    prepare();
+    float rest = std::numeric_limits<float>::infinity();
+    const auto look_at = [&](std::uint32_t place) -> float { return rest = std::min(rest, visit(slots_[place])); };
+    for (std::size_t i = 0; i < stale_.size() && !reach.over(); ++i) {
+        double measure = 0;
+        const Aabb<D>& box = boxes_[stale_[i]];
+        if (!is_empty(box) && reach.measure(box, measure)) reach.shrink(look_at(stale_[i]));
+    }
+    if (reach.over()) return;
+    search([&](std::uint32_t place) -> float { return is_stale_[place] != 0 ? rest : look_at(place); }, rest);
+}
+
+template <int D>
+void ItemBoxes<D>::raycast(const Ray<D>& ray, ReachCall visit) const {
+    each_within(RayReach<D>(ray), visit, [&](auto visit_place, float reach) {
+        Ray<D> rest = ray;
+        rest.length = std::min(rest.length, reach);
+        phase_.raycast(rest, visit_place);
+    });
+}
+
+template <int D>
+void ItemBoxes<D>::sweep(const MovingBox<D>& box, ReachCall visit) const {
+    each_within(RayReach<D>::of_box(box), visit, [&](auto visit_place, float reach) {
+        MovingBox<D> rest = box;
+        rest.length = std::min(rest.length, static_cast<double>(reach));
+        phase_.sweep(rest, visit_place);
+    });
+}
+
+template <int D>
+void ItemBoxes<D>::closest(const Aabb<D>& box, ReachCall visit, float most) const {
+    each_within(BoxReach<D>(box, most), visit,
+                [&](auto visit_place, float reach) { phase_.closest(box, visit_place, std::min(most, reach)); });
 }
 
 template class ItemBoxes<2>;

@@ -1,5 +1,4 @@
-// Questions to a world. What has moved since the last update is looked at one by one, the rest through the broad
-// phases.
+// Questions to a world.
 
 #include <abut/broad_phase/boxes.hpp>
 #include <abut/math/assert.hpp>
@@ -28,11 +27,10 @@ bool can_be_asked(const Ray<D>& ray) {
 
 }  // namespace
 
-/// A free slot has no box, and neither has an item that is not finite or has no parts.
 template <int D>
 bool World<D>::asked(std::uint32_t slot, const Filter& filter) const {
     const Item& item = items_[slot];
-    if (is_empty(item.box) || (item.options.sensor && !filter.sensors)) return false;
+    if (is_empty(box(slot)) || (item.options.sensor && !filter.sensors)) return false;
     if ((filter.layers & item.options.mask) == 0 || (item.options.layers & filter.mask) == 0) return false;
     return id_of(slot) != filter.ignore;
 }
@@ -43,17 +41,12 @@ template <class F>
 void World<D>::each_near(const Aabb<D>& box, const Filter& filter, F&& visit) const {
     asked_.add(region_weight);
     bool go_on = true;
-    const auto among = [&](const ItemBoxes<D>& items) {
-        items.phase().each_overlapping(box, [&](std::uint32_t place) -> bool {
-            const std::uint32_t slot = items.slot(place);
-            if (!items_[slot].pending && asked(slot, filter)) go_on = visit(slot);
-            return go_on;
-        });
+    const auto any = [&](std::uint32_t slot) -> bool {
+        if (asked(slot, filter)) go_on = visit(slot);
+        return go_on;
     };
-    among(moving_);
-    if (go_on) among(fixed_);
-    for (std::size_t i = 0; go_on && i < pending_.size(); ++i)
-        if (asked(pending_[i], filter) && overlaps(items_[pending_[i]].box, box)) go_on = visit(pending_[i]);
+    moving_.each_overlapping(box, any);
+    if (go_on) fixed_.each_overlapping(box, any);
 }
 
 /// visit(slot) for the items whose boxes the ray touches; it returns the new reach.
@@ -67,19 +60,15 @@ void World<D>::each_near_ray(const Ray<D>& ray, const Filter& filter, F&& visit)
         if (asked(slot, filter)) rest.length = std::min(rest.length, static_cast<float>(visit(slot)));
         return rest.length;
     };
-    for (const std::uint32_t slot : pending_) any(slot);
-    for (const ItemBoxes<D>* items : {&moving_, &fixed_})
-        items->phase().raycast(rest, [&](std::uint32_t place) -> float {
-            const std::uint32_t slot = items->slot(place);
-            return items_[slot].pending ? rest.length : any(slot);
-        });
+    moving_.raycast(rest, any);
+    fixed_.raycast(rest, any);
 }
 
 template <int D>
 std::optional<WorldHit<D>> World<D>::raycast(const Ray<D>& ray, const Filter& filter) const {
     std::optional<WorldHit<D>> first;
     each_near_ray(ray, filter, [&](std::uint32_t slot) {
-        const std::optional<Hit<D>> hit = abut::raycast(ray, items_[slot].placed);
+        const std::optional<Hit<D>> hit = abut::raycast(ray, placed(items_[slot]));
         const Id id = id_of(slot);
         if (hit &&
             (!first || hit->distance < first->hit.distance || (hit->distance == first->hit.distance && id < first->id)))
@@ -93,7 +82,7 @@ template <int D>
 bool World<D>::raycast_any(const Ray<D>& ray, const Filter& filter) const {
     bool any = false;
     each_near_ray(ray, filter, [&](std::uint32_t slot) {
-        any = any || abut::raycast(ray, items_[slot].placed);
+        any = any || abut::raycast(ray, placed(items_[slot]));
         return any ? -1.0f : ray.length;
     });
     return any;
@@ -103,7 +92,7 @@ template <int D>
 std::vector<WorldHit<D>> World<D>::raycast_all(const Ray<D>& ray, const Filter& filter) const {
     std::vector<WorldHit<D>> all;
     each_near_ray(ray, filter, [&](std::uint32_t slot) {
-        if (const std::optional<Hit<D>> hit = abut::raycast(ray, items_[slot].placed))
+        if (const std::optional<Hit<D>> hit = abut::raycast(ray, placed(items_[slot])))
             all.push_back({id_of(slot), *hit});
         return ray.length;
     });
@@ -120,11 +109,10 @@ std::optional<WorldClosest<D>> World<D>::closest_to(const View<D>& shape, const 
     asked_.add(ray_weight);
     float reach = std::numeric_limits<float>::infinity();
     const auto any = [&](std::uint32_t slot) -> float {
-        const View<D>& placed = items_[slot].placed;
-        if (!asked(slot, filter) ||
-            (std::holds_alternative<Solid<D>>(shape) && std::holds_alternative<Solid<D>>(placed)))
+        const Item& item = items_[slot];
+        if (!asked(slot, filter) || (std::holds_alternative<Solid<D>>(shape) && item.type == ShapeType::half_space))
             return reach;
-        const Closest<D> found = abut::closest(shape, placed);
+        const Closest<D> found = abut::closest(shape, placed(item));
         if (std::isinf(found.distance)) return reach;
         const Id id = id_of(slot);
         const bool nearer = !nearest || found.distance < nearest->closest.distance;
@@ -134,16 +122,9 @@ std::optional<WorldClosest<D>> World<D>::closest_to(const View<D>& shape, const 
         }
         return reach;
     };
-    for (const std::uint32_t slot : pending_) any(slot);
     const Aabb<D> box = bounds(shape);
-    for (const ItemBoxes<D>* items : {&moving_, &fixed_})
-        items->phase().closest(
-            box,
-            [&](std::uint32_t place) -> float {
-                const std::uint32_t slot = items->slot(place);
-                return items_[slot].pending ? reach : any(slot);
-            },
-            reach);
+    moving_.closest(box, any, reach);
+    fixed_.closest(box, any, reach);
     return nearest;
 }
 
@@ -151,16 +132,16 @@ template <int D>
 void World<D>::visit_overlapping(const View<D>& shape, const Filter& filter, FunctionRef<bool(Id)> visit) const {
     if (!can_be_asked(shape)) return;
     each_near(bounds(shape), filter, [&](std::uint32_t slot) {
-        const View<D>& placed = items_[slot].placed;
-        if (std::holds_alternative<Solid<D>>(shape) && std::holds_alternative<Solid<D>>(placed)) return true;
-        return !overlaps(shape, placed) || visit(id_of(slot));
+        const Item& item = items_[slot];
+        if (std::holds_alternative<Solid<D>>(shape) && item.type == ShapeType::half_space) return true;
+        return !overlaps(shape, placed(item)) || visit(id_of(slot));
     });
 }
 
 template <int D>
 void World<D>::visit_in_box(const Aabb<D>& box, const Filter& filter,
                             FunctionRef<bool(Id, const View<D>&)> visit) const {
-    each_near(box, filter, [&](std::uint32_t slot) { return visit(id_of(slot), items_[slot].placed); });
+    each_near(box, filter, [&](std::uint32_t slot) { return visit(id_of(slot), placed(items_[slot])); });
 }
 
 template <int D>
@@ -179,7 +160,7 @@ std::vector<Id> World<D>::containing(const Vec<D>& point, const Filter& filter) 
     std::vector<Id> result;
     if (!can_be_asked(View<D>(round_points<D>({point}, 0)))) return result;
     each_near(Aabb<D>{point, point}, filter, [&](std::uint32_t slot) {
-        if (abut::contains(items_[slot].placed, point)) result.push_back(id_of(slot));
+        if (abut::contains(placed(items_[slot]), point)) result.push_back(id_of(slot));
         return true;
     });
     std::sort(result.begin(), result.end());

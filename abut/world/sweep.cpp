@@ -1,5 +1,4 @@
-// Sweeps through a world. What has moved since the last update is looked at one by one, the rest through the broad
-// phases, in the order in which the box around the mover comes to it.
+// Sweeps through a world: what the box around the mover comes to, in the order in which it does.
 
 #include <abut/broad_phase/boxes.hpp>
 #include <abut/broad_phase/reach.hpp>
@@ -58,27 +57,24 @@ std::optional<WorldHit<D>> World<D>::first_on_way(const View<D>& shape, const Wa
     const auto any = [&](std::uint32_t slot) -> float {
         const Item& item = items_[slot];
         double enters = 0;
-        if (!asked(slot, filter) || (!whole.over() && !whole.measure(item.box, enters))) return reach;
-        if (std::holds_alternative<Solid<D>>(shape) && std::holds_alternative<Solid<D>>(item.placed)) return reach;
+        if (!asked(slot, filter) || (!whole.over() && !whole.measure(box(slot), enters))) return reach;
+        if (std::holds_alternative<Solid<D>>(shape) && item.type == ShapeType::half_space) return reach;
         const std::optional<Hit<D>> hit = sweep_at(item);
         if (!hit || hit->fraction > reach) return reach;
         const Id id = id_of(slot);
         if (!first || hit->fraction < reach || id < first->id) first = WorldHit<D>{id, *hit};
         return reach = first->hit.fraction;
     };
-    for (const std::uint32_t slot : pending_) any(slot);
     for (const ItemBoxes<D>* items : {&moving_, &fixed_}) {
-        const auto visit = [&](std::uint32_t place) -> float {
-            const std::uint32_t slot = items->slot(place);
-            return items_[slot].pending ? reach : any(slot);
-        };
         if (whole.over()) {
             // It has no bounds, such as a half-space.
             constexpr float far = std::numeric_limits<float>::infinity();
-            items->phase().each_overlapping(Aabb<D>{Vec<D>(-far), Vec<D>(far)},
-                                            [&](std::uint32_t place) { visit(place); });
+            items->each_overlapping(Aabb<D>{Vec<D>(-far), Vec<D>(far)}, [&](std::uint32_t slot) {
+                any(slot);
+                return true;
+            });
         } else {
-            items->phase().sweep(moving, visit);
+            items->sweep(moving, any);
         }
     }
     return first;
@@ -103,7 +99,7 @@ std::optional<WorldHit<D>> World<D>::sweep_straight(const View<D>& shape, const 
     if (!can_be_asked(is_finite(shape) && is_finite(motion))) return std::nullopt;
     std::optional<WorldHit<D>> first =
         first_on_way(shape, straight_way(bounds(shape), motion), filter,
-                     [&](const Item& item) { return abut::sweep(shape, motion, item.placed, Vec<D>(0.0f)); });
+                     [&](const Item& item) { return abut::sweep(shape, motion, placed(item), Vec<D>(0.0f)); });
     if (first)
         feel(straight_arrival<D>(shape, DVec<D>(motion) * static_cast<double>(first->hit.fraction)), filter, *first);
     return first;

@@ -20,13 +20,19 @@ void World<D>::refresh_boxes() {
     if (fixed_.changed()) fixed_.refresh(1);
 }
 
+template <int D>
+void World<D>::refresh() {
+    if (moving_.changed()) moving_.refresh(often_asked_);
+    if (fixed_.changed()) fixed_.refresh(1);
+}
+
 /// Keeps a pair whose boxes overlap, if the layers agree.
 template <int D>
 void World<D>::consider(std::uint32_t slot, std::uint32_t other) {
-    if (!widened_.empty() && !come_near(slot, other)) return;
+    if (widened_ && !come_near(slot, other)) return;
     const Item &a = items_[slot], &b = items_[other];
     if ((a.options.layers & b.options.mask) == 0 || (b.options.layers & a.options.mask) == 0) return;
-    if (std::holds_alternative<Solid<D>>(a.placed) && std::holds_alternative<Solid<D>>(b.placed)) return;
+    if (a.type == ShapeType::half_space && b.type == ShapeType::half_space) return;
     near_.push_back({id_of(std::min(slot, other)), id_of(std::max(slot, other))});
 }
 
@@ -37,7 +43,7 @@ void World<D>::look_at(const IdPair& pair) {
     if (!a.pending && !b.pending) return repeat_last(pair);
     ++counts_.tested;
     // By its way alone a pair may be near; whether it touches doesn't depend on that.
-    const bool touch = (widened_.empty() || overlaps(a.box, b.box)) && touch_now(pair);
+    const bool touch = (!widened_ || overlaps(box(pair.a.index - 1), box(pair.b.index - 1))) && touch_now(pair);
     if (a.options.continuous || b.options.continuous) look_between(pair, touch);
 }
 
@@ -67,7 +73,16 @@ void World<D>::repeat_last(const IdPair& pair) {
 
 template <int D>
 bool World<D>::balls_apart(const IdPair& pair) const {
-    return apart(balls_[pair.a.index - 1], balls_[pair.b.index - 1]);
+    return apart(ball(items_[pair.a.index - 1]), ball(items_[pair.b.index - 1]));
+}
+
+template <int D>
+const View<D>& World<D>::first_placed(std::uint32_t slot) {
+    if (first_.slot != slot) {
+        first_.slot = slot;
+        first_.view = placed(items_[slot]);
+    }
+    return first_.view;
 }
 
 /// Keeps the pair if they do.
@@ -75,7 +90,7 @@ template <int D>
 bool World<D>::shapes_touch(const IdPair& pair) {
     const Item &a = items_[pair.a.index - 1], &b = items_[pair.b.index - 1];
     if (a.options.sensor || b.options.sensor) {
-        if (!overlaps(a.placed, b.placed)) return false;
+        if (!overlaps(first_placed(pair.a.index - 1), placed(b))) return false;
     } else if (!find_contact(pair)) {
         return false;
     }
@@ -153,6 +168,7 @@ Events World<D>::update() {
     contacts_.clear();
     passed_.clear();
     met_.clear();
+    first_.slot = no_way;
     counts_ = {near_.size(), 0, 0};
     for (const IdPair& pair : near_) look_at(pair);
     tell_contacts();
@@ -169,10 +185,13 @@ Events World<D>::update() {
     compare_with_last();
 
     for (const std::uint32_t slot : pending_) {
-        items_[slot].pending = courses_[slot].moved = false;
+        items_[slot].pending = false;
         items_[slot].settled = true;
+        items_[slot].course = no_way;
     }
     pending_.clear();
+    courses_.clear();
+    ways_.clear();
     return {began_, stayed_, ended_, fractions_};
 }
 

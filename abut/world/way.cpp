@@ -82,8 +82,8 @@ Aabb<D> bounds(const Way<D>& way) {
     if (is_empty(way.box)) return way.box;
     Aabb<D> moved;
     for (int i = 0; i < D; ++i) {
-        moved.min[i] = std::nextafter(way.box.min[i] + way.move[i], -std::numeric_limits<float>::infinity());
-        moved.max[i] = std::nextafter(way.box.max[i] + way.move[i], std::numeric_limits<float>::infinity());
+        moved.min[i] = next_down(way.box.min[i] + way.move[i]);
+        moved.max[i] = next_up(way.box.max[i] + way.move[i]);
     }
     return merged(way.box, moved);
 }

@@ -1,4 +1,6 @@
+#include <abut/broad_phase/boxes.hpp>
 #include <abut/math/assert.hpp>
+#include <abut/world/room_for_one.hpp>
 #include <abut/world/world.hpp>
 
 namespace abut {
@@ -7,8 +9,7 @@ namespace {
 /// A ray meets what it passes by no more than rounding (1e-7 of its size), and a sweep by no more than the margin of
 /// doubt, of which this is the part that grows with the larger of two shapes; the box must not refuse it.
 template <int D>
-Aabb<D> box_for_questions(const View<D>& view) {
-    const Aabb<D> box = bounds(view);
+Aabb<D> box_for_questions(const Aabb<D>& box) {
     float widest = 0;
     for (int i = 0; i < D; ++i) widest = std::max(widest, box.max[i] - box.min[i]);
     return widest > 0 && std::isfinite(widest) ? grown(box, 1e-6f * widest) : box;
@@ -32,9 +33,8 @@ template <int D>
 Id World<D>::add_shape(const AnyShape<D>& shape, const ItemOptions<D>& options) {
     std::uint32_t slot = static_cast<std::uint32_t>(items_.size());
     if (free_.empty()) {
+        make_room_for_one(items_);
         items_.emplace_back();
-        balls_.emplace_back();
-        courses_.emplace_back();
     } else {
         slot = free_.back();
         free_.pop_back();
@@ -55,8 +55,9 @@ void World<D>::take(std::uint32_t slot, const AnyShape<D>& shape) {
     item.stored = shape;
     const View<D> own = item.stored->view();
     item.type = shape_type(own);
-    item.own_ball = bounding_ball(own);
-    item.settled = courses_[slot].moved = false;
+    item.own_ball = SmallBall<D>::around(bounding_ball(own));
+    item.settled = false;
+    item.course = no_way;
     place(slot);
 }
 
@@ -73,8 +74,11 @@ void World<D>::move(Id id, const Pose<D>& pose) {
     Item* item = find(id);
     ABUT_ASSERT(item != nullptr);
     if (item == nullptr || item->options.pose == pose) return;
-    Course& course = courses_[id.index - 1];
-    if (item->settled && !course.moved) course = {true, item->options.pose, {item->box, {}}};
+    if (item->settled && item->course == no_way) {
+        item->course = static_cast<std::uint32_t>(courses_.size());
+        make_room_for_one(courses_);
+        courses_.push_back(item->options.pose);
+    }
     item->options.pose = pose;
     place(id.index - 1);
 }
@@ -95,11 +99,9 @@ void World<D>::remove(Id id) {
     ABUT_ASSERT(item != nullptr);
     if (item == nullptr) return;
     item->stored.reset();
-    item->placed = View<D>();
-    item->box = Aabb<D>::empty();
     boxes_of(*item).remove(item->place);
     continuous_ -= item->options.continuous ? 1 : 0;
-    courses_[id.index - 1].moved = false;
+    item->course = no_way;
     mark_pending(id.index - 1);
     free_.push_back(id.index - 1);
     --count_;
@@ -108,20 +110,27 @@ void World<D>::remove(Id id) {
 template <int D>
 void World<D>::place(std::uint32_t slot) {
     Item& item = items_[slot];
-    const Affine<D> pose = affine(item.options.pose);
-    item.placed = moved(item.stored->view(), pose);
-    balls_[slot] = moved(item.own_ball, pose);
-    const bool finite = is_finite(item.placed);
-    ABUT_ASSERT(finite);
-    item.box = finite ? box_for_questions(item.placed) : Aabb<D>::empty();
-    boxes_of(item).set(item.place, item.box);
+    const Aabb<D> box = box_at(item, item.options.pose);
+    ABUT_ASSERT(!is_empty(box) || is_finite(placed(item)));
+    boxes_of(item).set(item.place, box);
     mark_pending(slot);
+}
+
+template <int D>
+Aabb<D> World<D>::box_at(const Item& item, const Pose<D>& pose) const {
+    return box_for_questions(item.stored->bounds(pose));
+}
+
+template <int D>
+BoundingBall<D> World<D>::ball(const Item& item) const {
+    return moved(item.own_ball.ball(), affine(item.options.pose));
 }
 
 template <int D>
 void World<D>::mark_pending(std::uint32_t slot) {
     if (items_[slot].pending) return;
     items_[slot].pending = true;
+    make_room_for_one(pending_);
     pending_.push_back(slot);
 }
 
@@ -148,7 +157,7 @@ template <int D>
 View<D> World<D>::shape(Id id) const {
     const Item* item = find(id);
     ABUT_ASSERT(item != nullptr);
-    return item != nullptr ? item->placed : View<D>();
+    return item != nullptr ? placed(*item) : View<D>();
 }
 
 template <int D>

@@ -125,7 +125,8 @@ requires(!ShapeIn<S, D> || !std::is_invocable_v<MotionsInWorld<D>, Motions...> |
 
 /// All lists are sorted by id, and no answer depends on the order in which items were added but for the ids.
 /// Questions see every item where it is now, moved since the last update or not; they are const and may run on many
-/// threads at once, those that return no list without allocating. A stale id trips ABUT_ASSERT; in release it is
+/// threads at once, those that return no list without allocating. The first one after many changes takes them into the
+/// broad phases, while others wait for it. A stale id trips ABUT_ASSERT; in release it is
 /// ignored.
 template <int D>
 class World {
@@ -175,6 +176,10 @@ public:
     /// As of the last update, of pairs without a sensor, with normals as felt by who touches several: docs/ghosts.md.
     std::span<const WorldContact<D>> contacts() const { return contacts_; }
     UpdateCounts counts() const { return counts_; }
+    /// Brings the broad phases up to date with all that was added, moved or removed, so that queries cost what they
+    /// cost after an update. Queries do not need it; the events and contacts of the next update are the same without
+    /// it.
+    void refresh();
     /// Over the items that move.
     BroadPhaseKind broad_phase() const { return moving_.phase().kind(); }
 
@@ -240,23 +245,16 @@ public:
 private:
     struct Item {
         std::optional<AnyShape<D>> stored;  // none: a free slot
-        View<D> placed;
-        Aabb<D> box = Aabb<D>::empty();
-        BoundingBall<D> own_ball;  // in the shape's own frame
         ItemOptions<D> options;
+        SmallBall<D> own_ball;  // in the shape's own frame
         std::uint32_t generation = 0;
+        std::uint32_t place = 0;        // in fixed_ or moving_
+        std::uint32_t course = no_way;  // in courses_; of one that has not moved since the last update, none
         ShapeType type{};
-        std::uint32_t place = 0;  // in fixed_ or moving_
-        bool pending = false;     // not yet in the broad phases as it is now
-        bool settled = false;     // was there at the last update, with this shape
+        bool pending = false;  // changed since the last update
+        bool settled = false;  // was there at the last update, with this shape
     };
-
-    /// Where an item was at the last update, of one that has moved since.
-    struct Course {
-        bool moved = false;
-        Pose<D> from;
-        Way<D> way;  // its box is that of the item then; in an update, it holds what turns
-    };
+    static constexpr std::uint32_t no_way = 0xFFFFFFFF;
 
     /// Two that met on their way.
     struct Met {
@@ -278,6 +276,15 @@ private:
     Item* find(Id id);
     Id id_of(std::uint32_t slot) const { return {slot + 1, items_[slot].generation}; }
     ItemBoxes<D>& boxes_of(const Item& item) { return item.options.fixed ? fixed_ : moving_; }
+    /// Empty for a free slot, and for an item that is not finite or has no parts.
+    const Aabb<D>& box(std::uint32_t slot) const {
+        const Item& item = items_[slot];
+        return (item.options.fixed ? fixed_ : moving_).box(item.place);
+    }
+    View<D> placed(const Item& item) const { return item.stored->moved(affine(item.options.pose)); }
+    Aabb<D> box_at(const Item& item, const Pose<D>& pose) const;
+    BoundingBall<D> ball(const Item& item) const;
+    const View<D>& first_placed(std::uint32_t slot);
     void place(std::uint32_t slot);
     void mark_pending(std::uint32_t slot);
     bool asked(std::uint32_t slot, const Filter& filter) const;
@@ -327,11 +334,11 @@ private:
     void visit_in_box(const Aabb<D>& box, const Filter& filter, FunctionRef<bool(Id, const View<D>&)> visit) const;
 
     std::vector<Item> items_;
-    std::vector<BoundingBall<D>> balls_;  // by slot, where the items are
-    std::vector<Course> courses_;         // by slot
+    std::vector<Pose<D>> courses_;  // where items that have moved were at the last update
+    std::vector<Way<D>> ways_;      // the same in boxes, which hold what turns; in an update with continuous items
     std::vector<std::uint32_t> free_;
     std::vector<std::uint32_t> pending_;
-    std::vector<std::uint32_t> widened_;  // those in the broad phases with a box around their way
+    bool widened_ = false;  // the broad phases have boxes around the ways of what has moved
     std::size_t count_ = 0, continuous_ = 0;
 
     ItemBoxes<D> fixed_, moving_;
@@ -350,6 +357,11 @@ private:
     std::vector<float> fractions_;  // by place in began_
     UpdateCounts counts_;
     Pretests pretests_;
+    /// The first shape of the pair that was looked at last: pairs are sorted.
+    struct {
+        std::uint32_t slot = no_way;
+        View<D> view;
+    } first_;
 };
 
 using World2 = World<2>;
