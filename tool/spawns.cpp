@@ -64,7 +64,7 @@ public:
         std::vector<Aabb<D>> boxes;
         for (const StandingObject<D>& object : obstacles_) {
             boxes.push_back(object.box);
-            world_.add(object.shape, {.fixed = true});
+            world_.add(Unowned<D>{object.shape}, {.fixed = true});
         }
         tree_.build(boxes);
         world_.update();

@@ -182,6 +182,20 @@ requires(!ShapeIn<S, D> || !Ownable<S>) using WhyNotKept =
 
 }  // namespace detail
 
+/// A view as a shape that can be kept, for who sees to it that the shape it refers to outlives all copies.
+template <int D>
+struct Unowned {
+    View<D> shape;
+};
+template <int D>
+const View<D>& view(const Unowned<D>& shape) {
+    return shape.shape;
+}
+template <int D>
+Aabb<D> bounds(const Unowned<D>& shape) {
+    return bounds(shape.shape);
+}
+
 /// The same shape with all that it referred to copied into it: what may be kept.
 template <Ownable S>
 S owned(const S& shape) {

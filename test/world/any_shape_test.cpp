@@ -28,6 +28,7 @@ constexpr bool is_refused =
 
 static_assert(is_kept<Circle, 2> && is_kept<AnyShape<3>, 3> && is_kept<At<Circle&>, 2> && is_kept<HalfSpace3, 3>);
 static_assert(is_kept<Stretched<AnyShape<3>>, 3> && is_kept<Rounded<At<AnyShape<2>>>, 2> && is_kept<Compound2, 2>);
+static_assert(is_kept<Unowned<2>, 2> && is_kept<At<Unowned<3>>, 3>);
 static_assert(is_refused<View<2>, 2> && is_refused<Convex<3>, 3> && is_refused<Composite<3>, 3>);
 static_assert(is_refused<DistanceFunction<2>, 2> && is_refused<At<View<2>>, 2> && is_refused<Stretched<View<3>&>, 3>);
 static_assert(is_refused<Rounded<At<const Convex<2>&>>, 2>);
