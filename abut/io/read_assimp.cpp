@@ -1,4 +1,4 @@
-#include <abut/io/assimp_files.hpp>
+#include <abut/io/assimp_files-inl.h>
 #include <abut/io/read_assimp.hpp>
 
 #include <algorithm>
