@@ -223,7 +223,7 @@ TEST_F(ReadGltf, WhatPointsNowhereIsNamed) {
     EXPECT_EQ(mesh_of(R"({"byteLength":36,"uri":"gone.bin"})", all, three),
               "mesh 'M': accessors[0]: buffers[0]: 'gone.bin': no such file");
     EXPECT_EQ(mesh_of(R"({"byteLength":36,"uri":"http://example.org/a.bin"})", all, three),
-              "mesh 'M': accessors[0]: buffers[0]: 'http://example.org/a.bin': isn't a file beside the scene");
+              "mesh 'M': accessors[0]: buffers[0]: 'http://example.org/a.bin': isn't a file beside this one");
     EXPECT_EQ(mesh_of(R"({"byteLength":36})", all, three),
               "mesh 'M': accessors[0]: buffers[0] is truncated: 0 of 36 bytes");
 }
