@@ -16,7 +16,7 @@ constexpr double tolerance = 2.5e-4;
 // In parts of an object's size: a way that is shorter than this bends no farther than that if it is made of turns and
 // straight lines.
 constexpr double short_way = 0.05;
-constexpr double max_pieces = 64;
+constexpr double max_pieces = 1024;
 
 // Seconds: what leaves its own place within this, and hardly moves as long before and after, jumps. It is how exporters
 // write a jump that sample every frame, 20 or more a second.
