@@ -3,6 +3,7 @@
 
 #include <abut/broad_phase/boxes.hpp>
 #include <abut/query/contact_among.hpp>
+#include <abut/world/placed_views.hpp>
 #include <abut/world/world.hpp>
 
 #include <algorithm>
@@ -59,15 +60,17 @@ bool World<D>::is_disturbed(const IdPair& pair) const {
 
 /// Of what the item of the first slot feels beside that of the other.
 template <int D>
-void World<D>::each_foot_beside(std::uint32_t slot, std::uint32_t other, const DVec<D>& point, double within,
-                                FunctionRef<void(const Foot<D>&)> visit) const {
+void World<D>::each_foot_beside(std::uint32_t slot, std::uint32_t other, PlacedViews<D>& views, const DVec<D>& point,
+                                double within, FunctionRef<void(const Foot<D>&)> visit) const {
     const Vec<D> middle = to_float(point);
+    const auto visit_item = [&](std::uint32_t item) {
+        each_foot_on(views.of(item, [&] { return placed(items_[item]); }), point, within, visit);
+    };
     const Aabb<D> near = grown(Aabb<D>{middle, middle}, static_cast<float>(within));
     const std::span<const typename Partners<D>::Partner> partners = partners_.of(slot);
     if (partners.size() <= few) {
         for (const auto& partner : partners)
-            if (partner.slot != other && overlaps(partner.box, near))
-                each_foot_on(placed(items_[partner.slot]), point, within, visit);
+            if (partner.slot != other && overlaps(partner.box, near)) visit_item(partner.slot);
         return;
     }
     const Item& item = items_[slot];
@@ -79,7 +82,7 @@ void World<D>::each_foot_beside(std::uint32_t slot, std::uint32_t other, const D
             if (found == slot || found == other || !asked(found, filter)) return;
             if (!overlaps(box(found), near) || !overlaps(box(found), box(slot))) return;
             if (beside.type == ShapeType::half_space && item.type == ShapeType::half_space) return;
-            each_foot_on(placed(beside), point, within, visit);
+            visit_item(found);
         });
 }
 
@@ -95,10 +98,12 @@ bool World<D>::find_contact(const IdPair& pair) {
         if (contact) found_.push_back({{pair.a, pair.b, contact}, {}, true});
         return static_cast<bool>(contact);
     }
-    const auto beside = [this](std::uint32_t slot, std::uint32_t other) {
-        return [this, slot, other](const DVec<D>& point, double within, FunctionRef<void(const Foot<D>&)> visit) {
-            each_foot_beside(slot, other, point, within, visit);
-        };
+    PlacedViews<D> views;
+    const auto beside = [this, &views](std::uint32_t slot, std::uint32_t other) {
+        return
+            [this, &views, slot, other](const DVec<D>& point, double within, FunctionRef<void(const Foot<D>&)> visit) {
+                each_foot_beside(slot, other, views, point, within, visit);
+            };
     };
     const auto beside_b = beside(a, b), beside_a = beside(b, a);
     const EachFoot<D> of_a(beside_b), of_b(beside_a);

@@ -28,6 +28,8 @@ template <int D>
 struct Arrival;
 template <int D>
 struct Foot;
+template <int D>
+class PlacedViews;
 
 /// How a shape takes part in a world.
 template <int D>
@@ -307,8 +309,8 @@ private:
     bool are_solid(std::uint32_t slot, std::uint32_t other) const;
     void find_partners();
     bool is_disturbed(const IdPair& pair) const;
-    void each_foot_beside(std::uint32_t slot, std::uint32_t other, const DVec<D>& point, double within,
-                          FunctionRef<void(const Foot<D>&)> visit) const;
+    void each_foot_beside(std::uint32_t slot, std::uint32_t other, PlacedViews<D>& views, const DVec<D>& point,
+                          double within, FunctionRef<void(const Foot<D>&)> visit) const;
     bool find_contact(const IdPair& pair);
     static Found* find_found(std::vector<Found>& list, const IdPair& pair);
     bool is_told(const Found& ghost, const Id& feeler);

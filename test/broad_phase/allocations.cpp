@@ -5,26 +5,41 @@
 #include <cstdlib>
 #include <new>
 
+#include <malloc.h>
+
 namespace {
-std::atomic<std::size_t> count = 0;
+
+std::atomic<std::size_t> count = 0, bytes = 0;
+
+void* counted(void* memory) {
+    ++count;
+    if (memory != nullptr) bytes += malloc_usable_size(memory);
+    return memory;
+}
+void release(void* memory) {
+    if (memory != nullptr) bytes -= malloc_usable_size(memory);
+    std::free(memory);
+}
+
 }  // namespace
 
 std::size_t abut::test::allocations() {
     return count;
 }
+std::size_t abut::test::allocated_bytes() {
+    return bytes;
+}
 
 void* operator new(std::size_t size) {
-    ++count;
-    if (void* result = std::malloc(size == 0 ? 1 : size)) return result;
+    if (void* result = counted(std::malloc(size == 0 ? 1 : size))) return result;
     throw std::bad_alloc();
 }
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-    ++count;
-    return std::malloc(size == 0 ? 1 : size);
+    return counted(std::malloc(size == 0 ? 1 : size));
 }
 void operator delete(void* memory) noexcept {
-    std::free(memory);
+    release(memory);
 }
 void operator delete(void* memory, std::size_t) noexcept {
-    std::free(memory);
+    release(memory);
 }
