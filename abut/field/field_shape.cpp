@@ -1,246 +1,14 @@
-// A field as the questions see it: what it is at least in a box, and where a line crosses a distance, told exactly from
-// the samples.
+// A field as the questions see it: its distance continued outside of the volume, and where a line crosses a distance,
+// from cell to cell.
 
 #include <abut/field/field.hpp>
-#include <abut/field/field_spot.hpp>
-#include <abut/math/dvec.hpp>
+#include <abut/field/field_cells.hpp>
+#include <abut/field/field_extended.hpp>
 
 #include <optional>
 
 namespace abut {
 namespace {
-
-/// Boxes of more cells along an axis are to be cut first.
-template <int D>
-constexpr std::int32_t most_cells = D == 2 ? 16 : 8;
-
-template <int D>
-using Cell = glm::vec<D, std::int32_t>;
-
-/// Samples in rows: a volume's, a brick's, or the corners of one block without a brick.
-template <int D>
-struct SampleGrid {
-    Cell<D> low, high;    ///< the first and the last cell of the volume that it holds
-    std::uint32_t first;  ///< the sample at its lowest corner
-    glm::vec<D, std::uint32_t> stride;
-    std::int32_t side = 1;  ///< cells of the volume from sample to sample
-    bool coarse = false;
-};
-
-template <int D>
-double value_of(const FieldData<D>& data, const SampleGrid<D>& grid, std::uint32_t sample) {
-    if (grid.coarse) return static_cast<double>(data.coarse[sample]);
-    if (data.steps.empty()) return static_cast<double>(data.distance[sample]);
-    return static_cast<double>(data.steps[sample]) * static_cast<double>(data.step);
-}
-
-/// The last cell of the volume along an axis.
-template <int D>
-std::int32_t last_cell(const FieldData<D>& data, int axis) {
-    return static_cast<std::int32_t>(data.cells[axis]) - 1;
-}
-
-/// The grid in which a cell of the volume lies.
-template <int D>
-SampleGrid<D> grid_of(const FieldData<D>& data, const Cell<D>& cell) {
-    const FieldFrame<D>& frame = data.frame;
-    SampleGrid<D> result;
-    if (data.store == FieldStore::dense) {
-        result = {Cell<D>(0), Cell<D>(data.cells) - 1, 0, frame.stride};
-        return result;
-    }
-    constexpr auto side = static_cast<std::int32_t>(brick_cells<D>);
-    std::uint32_t block = 0, corner = 0, stride = 1;
-    for (int a = 0; a < D; ++a) {
-        const auto at = static_cast<std::uint32_t>(cell[a] / side);
-        block += at * frame.block_row[a];
-        corner += at * frame.corners[a];
-        result.low[a] = cell[a] / side * side;
-        result.high[a] = result.low[a] + side - 1;
-        result.stride[a] = stride;
-        stride *= brick_cells<D> + 1;
-    }
-    const std::uint32_t brick = data.brick[block];
-    if (brick != no_brick) {
-        result.first = brick * brick_samples<D>;
-        return result;
-    }
-    result.first = corner;
-    result.stride = frame.corners;
-    result.side = side;
-    result.coarse = true;
-    return result;
-}
-
-/// The distances at the corners of one cell of a grid, which is all of a coarse one.
-template <int D>
-struct CellValues {
-    DVec<D> low;  ///< the lowest corner, in cells of the volume
-    double side;
-    std::array<double, cell_corners<D>> values;
-
-    /// At a place in cells of the volume.
-    double at(const DVec<D>& place) const {
-        std::array<double, cell_corners<D>> left = values;
-        std::size_t count = left.size();
-        for (int a = 0; a < D; ++a) {
-            const double share = (place[a] - low[a]) / side;
-            count /= 2;
-            for (std::size_t i = 0; i < count; ++i) left[i] = left[2 * i] + share * (left[2 * i + 1] - left[2 * i]);
-        }
-        return left[0];
-    }
-};
-
-template <int D>
-CellValues<D> values_in(const FieldData<D>& data, const SampleGrid<D>& grid, const Cell<D>& cell) {
-    CellValues<D> result;
-    std::uint32_t first = grid.first;
-    for (int a = 0; a < D; ++a) {
-        const std::int32_t at = grid.coarse ? 0 : cell[a] - grid.low[a];
-        first += static_cast<std::uint32_t>(at) * grid.stride[a];
-        result.low[a] = grid.low[a] + at;
-    }
-    result.side = grid.side;
-    for (std::size_t i = 0; i < result.values.size(); ++i) {
-        std::uint32_t sample = first;
-        for (int a = 0; a < D; ++a)
-            if (i >> a & 1) sample += grid.stride[a];
-        result.values[i] = value_of(data, grid, sample);
-    }
-    return result;
-}
-
-/// The next of all places in a box of cells, the first axis the fastest; false behind the last.
-template <int D>
-bool step(Cell<D>& cell, const Cell<D>& low, const Cell<D>& high) {
-    for (int a = 0; a < D; ++a) {
-        if (++cell[a] <= high[a]) return true;
-        cell[a] = low[a];
-    }
-    return false;
-}
-
-template <int D>
-class BoundInBox {
-public:
-    BoundInBox(const FieldData<D>& data, const DVec<D>& low, const DVec<D>& high) : data_(data) {
-        const auto cell = static_cast<double>(data.cell);
-        for (int a = 0; a < D; ++a) {
-            low_[a] = (low[a] - static_cast<double>(data.origin[a])) / cell;
-            high_[a] = (high[a] - static_cast<double>(data.origin[a])) / cell;
-        }
-    }
-
-    DistanceKnown run(DistanceBound<D>& bound) {
-        Cell<D> low, high;
-        std::int64_t cells = 1;
-        bool is_small = true;
-        for (int a = 0; a < D; ++a) {
-            const std::int32_t last = last_cell(data_, a);
-            if (!(low_[a] >= 0 && high_[a] <= last + 1)) return DistanceKnown::nothing;
-            low[a] = std::min(static_cast<std::int32_t>(low_[a]), last);
-            high[a] = std::max(std::min(static_cast<std::int32_t>(std::ceil(high_[a])) - 1, last), low[a]);
-            if (high[a] - low[a] >= most_cells<D>) return DistanceKnown::in_smaller_boxes;
-            cells *= high[a] - low[a] + 1;
-            is_small = is_small && high[a] - low[a] <= 1;
-        }
-        center_ = (low_ + high_) * 0.5;
-        find_gradient();
-        least_ = above_plane_ = std::numeric_limits<double>::infinity();
-        // Grid by grid.
-        Cell<D> at = low;
-        const std::int32_t side =
-            data_.store == FieldStore::dense ? 1 << 30 : static_cast<std::int32_t>(brick_cells<D>);
-        Cell<D> first, last;
-        for (int a = 0; a < D; ++a) {
-            first[a] = low[a] / side;
-            last[a] = high[a] / side;
-        }
-        at = first;
-        do {
-            Cell<D> in = at;
-            for (int a = 0; a < D; ++a) in[a] = std::max(at[a] * side, low[a]);
-            const SampleGrid<D> grid = grid_of(data_, in);
-            if (grid.coarse || is_small)
-                look_at_cells(grid, low, high);
-            else
-                look_at_samples(grid, low, high);
-        } while (step(at, first, last));
-        bound.value = above_plane_;
-        bound.least = least_;
-        bound.gradient = gradient_ / static_cast<double>(data_.cell);
-        return DistanceKnown::bound;
-    }
-
-private:
-    /// For each cell in lengths of a cell, from side to side of the box.
-    void find_gradient() {
-        for (int a = 0; a < D; ++a) {
-            DVec<D> from = center_, to = center_;
-            const double reach = std::max(0.5 * (high_[a] - low_[a]), 0.05);
-            from[a] = std::max(center_[a] - reach, 0.0);
-            to[a] = std::min(center_[a] + reach, static_cast<double>(data_.cells[a]));
-            gradient_[a] = (at(to) - at(from)) / (to[a] - from[a]);
-        }
-    }
-    double at(const DVec<D>& place) const {
-        Cell<D> cell;
-        for (int a = 0; a < D; ++a) cell[a] = std::min(static_cast<std::int32_t>(place[a]), last_cell(data_, a));
-        return values_in(data_, grid_of(data_, cell), cell).at(place);
-    }
-
-    /// Within a cell, along each axis it is linear: what it is over a plane is least at a corner of what is in the box.
-    void look_at_cells(const SampleGrid<D>& grid, const Cell<D>& low, const Cell<D>& high) {
-        Cell<D> first, last;
-        for (int a = 0; a < D; ++a) {
-            first[a] = grid.coarse ? grid.low[a] : std::max(low[a], grid.low[a]);
-            last[a] = grid.coarse ? grid.low[a] : std::min(high[a], grid.high[a]);
-        }
-        Cell<D> cell = first;
-        do {
-            const CellValues<D> values = values_in(data_, grid, cell);
-            for (std::size_t i = 0; i < cell_corners<D>; ++i) {
-                DVec<D> place;
-                for (int a = 0; a < D; ++a)
-                    place[a] =
-                        i >> a & 1 ? std::min(values.low[a] + values.side, high_[a]) : std::max(values.low[a], low_[a]);
-                const double value = values.at(place);
-                least_ = std::min(least_, value);
-                above_plane_ = std::min(above_plane_, value - dot(gradient_, place - center_));
-            }
-        } while (step(cell, first, last));
-    }
-
-    void look_at_samples(const SampleGrid<D>& grid, const Cell<D>& low, const Cell<D>& high) {
-        Cell<D> first, last;
-        for (int a = 0; a < D; ++a) {
-            first[a] = std::max(low[a], grid.low[a]);
-            last[a] = std::min(high[a], grid.high[a]) + 1;
-        }
-        Cell<D> row = first;
-        Cell<D> row_last = last;
-        row_last[0] = first[0];
-        do {
-            std::uint32_t sample = grid.first;
-            DVec<D> place;
-            for (int a = 0; a < D; ++a) {
-                sample += static_cast<std::uint32_t>(row[a] - grid.low[a]) * grid.stride[a];
-                place[a] = row[a];
-            }
-            double plane = dot(gradient_, place - center_);
-            for (std::int32_t i = first[0]; i <= last[0]; ++i, ++sample, plane += gradient_[0]) {
-                const double value = value_of(data_, grid, sample);
-                least_ = std::min(least_, value);
-                above_plane_ = std::min(above_plane_, value - plane);
-            }
-        } while (step(row, first, row_last));
-    }
-
-    const FieldData<D>& data_;
-    DVec<D> low_, high_, center_, gradient_;  ///< in cells
-    double least_ = 0, above_plane_ = 0;
-};
 
 /// The first place in (0, 1] at which a cubic, given at 0, 1/3, 2/3 and 1, is at most 0.
 std::optional<double> first_at_most_zero(const std::array<double, 4>& at) {
@@ -278,9 +46,9 @@ std::optional<double> first_at_most_zero(const std::array<double, 4>& at) {
 template <int D>
 class Crossing {
 public:
-    Crossing(const Field<D>& field, const DVec<D>& origin, const DVec<D>& direction, double reach,
+    Crossing(const FieldData<D>& data, const DVec<D>& origin, const DVec<D>& direction, double reach,
              const DistanceRange& range)
-        : field_(field), data_(field.data()), reach_(reach), range_(range), own_origin_(origin), own_way_(direction) {
+        : data_(data), reach_(reach), range_(range), own_origin_(origin), own_way_(direction) {
         const auto cell = static_cast<double>(data_.cell);
         for (int a = 0; a < D; ++a) {
             origin_[a] = (origin[a] - static_cast<double>(data_.origin[a])) / cell;
@@ -299,7 +67,8 @@ public:
         for (std::int64_t i = 0; i < most_steps; ++i) {
             const DVec<D> place = origin_ + way_ * along;
             if (!is_in_volume(place)) {
-                const auto here = static_cast<double>(field_.distance(to_float(own_origin_ + own_way_ * along)));
+                DVec<D> gradient;
+                const double here = extended_distance(data_, own_origin_ + own_way_ * along, gradient);
                 if (here <= range_.low || here >= range_.high) return {along, true, here <= range_.low};
                 const double room = std::min(here - range_.low, range_.high - here);
                 along = std::min(along + std::max(room, 0.25 * cell) / speed_, enters_volume(along));
@@ -386,7 +155,6 @@ private:
         return DistanceCrossing{from + (until - from) * (is_low ? *low : *high), true, is_low};
     }
 
-    const Field<D>& field_;
     const FieldData<D>& data_;
     double reach_;
     DistanceRange range_;
@@ -394,6 +162,23 @@ private:
     DVec<D> origin_, way_;          ///< in cells
     double speed_ = 0;
 };
+
+/// The look-ups of the volume, and beyond it what `extended_distance` says.
+template <int D>
+float distance_anywhere(const void* object, const Vec<D>& point) {
+    const auto& field = *static_cast<const Field<D>*>(object);
+    if (!is_finite<D>(point) || contains(volume_of(field.data()), point)) return field.distance(point);
+    DVec<D> gradient;
+    return static_cast<float>(extended_distance(field.data(), DVec<D>(point), gradient));
+}
+template <int D>
+FieldSample<D> sample_anywhere(const void* object, const Vec<D>& point) {
+    const auto& field = *static_cast<const Field<D>*>(object);
+    if (!is_finite<D>(point) || contains(volume_of(field.data()), point)) return field.sample(point);
+    DVec<D> gradient;
+    const double distance = extended_distance(field.data(), DVec<D>(point), gradient);
+    return {static_cast<float>(distance), to_float(normalized(gradient))};
+}
 
 }  // namespace
 
@@ -403,22 +188,20 @@ DistanceFunction<D> view(const Field<D>& field) {
     const FieldData<D>& data = field.data();
     result.bounds = bounds(field);
     result.object = &field;
-    result.distance = [](const void* object, const Vec<D>& point) {
-        return static_cast<const Field<D>*>(object)->distance(point);
-    };
-    result.sample = [](const void* object, const Vec<D>& point) {
-        return static_cast<const Field<D>*>(object)->sample(point);
-    };
+    result.distance = distance_anywhere<D>;
+    result.sample = sample_anywhere<D>;
     result.resolution = data.cell;
     if (data.lookup != FieldLookup::linear) return result;
-    // Along each axis it grows as samples do, to which half a step may be added.
-    result.slope = std::sqrt(static_cast<float>(D)) * (1 + data.step / data.cell);
+    result.slope = extended_slope(data);
+    result.gradient = [](const void* object, const DVec<D>& point, DVec<D>& gradient) {
+        return extended_distance(static_cast<const Field<D>*>(object)->data(), point, gradient);
+    };
     result.bound = [](const void* object, const DVec<D>& low, const DVec<D>& high, DistanceBound<D>& bound) {
-        return BoundInBox<D>(static_cast<const Field<D>*>(object)->data(), low, high).run(bound);
+        return extended_bound(static_cast<const Field<D>*>(object)->data(), low, high, bound);
     };
     result.crossing = [](const void* object, const DVec<D>& origin, const DVec<D>& direction, double reach,
                          const DistanceRange& range) {
-        return Crossing<D>(*static_cast<const Field<D>*>(object), origin, direction, reach, range).run();
+        return Crossing<D>(static_cast<const Field<D>*>(object)->data(), origin, direction, reach, range).run();
     };
     return result;
 }

@@ -78,26 +78,6 @@ double reach_from(const CoreSimplex<D>& simplex, const DVec<D>& point) {
     return std::sqrt(most);
 }
 
-template <int D>
-SearchBox<D> box_around(const CoreSimplex<D>& simplex) {
-    DVec<D> low = simplex.points[0], high = low;
-    for (std::size_t i = 1; i < simplex.count; ++i)
-        for (int axis = 0; axis < D; ++axis) {
-            low[axis] = std::min(low[axis], simplex.points[i][axis]);
-            high[axis] = std::max(high[axis], simplex.points[i][axis]);
-        }
-    return {(low + high) * 0.5, (high - low) * 0.5, simplex.least};
-}
-
-/// Where it is least, a function that grows evenly is so at a corner.
-template <int D>
-double lowest_on(const CoreSimplex<D>& simplex, const DistanceBound<D>& bound, const DVec<D>& center) {
-    double result = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < simplex.count; ++i)
-        result = std::min(result, bound.value + dot(bound.gradient, simplex.points[i] - center));
-    return result;
-}
-
 /// Whether the core is known as such: not by its support alone, nor round, nor of points in no order.
 template <int D>
 bool has_simplices(const Convex<D>& convex) {

@@ -10,6 +10,9 @@ namespace {
 /// In parts of the margin of doubt, so that all that is rounded besides stays within it.
 constexpr double search_tolerance = 0.25;
 
+/// The same of a function that bounds itself, beside a convex set: the search leaves out nothing.
+constexpr double bounded_tolerance = 0.5;
+
 /// A plane that leans by this much touches a shape at a corner beside the lowest one.
 constexpr double lean = 0.02;
 
@@ -112,21 +115,24 @@ SignedDistance<D> from_ball(const Convex<D>& ball, const DistanceFunction<D>& fu
     return result;
 }
 
-/// Of a convex set and a function, seen in the function's frame.
+/// Of a convex set and a function, seen in the function's frame; in its own, a box beside a function that doesn't bound
+/// itself, as that is searched box by box.
 template <int D>
 SignedDistance<D> from_convex(const Convex<D>& set, const DistanceFunction<D>& function, double margin,
                               const DistanceWanted& wanted) {
     if (has_nothing(function.bounds)) return nothing_near<D>();
-    // Boxes are searched box by box.
-    const Affine<D> frame = is_plain_box(set) ? own_frame<D>(set) : own_frame<D>(function), back = back_from(frame);
+    const bool by_function = function.bound != nullptr || !is_plain_box(set);
+    const Affine<D> frame = by_function ? own_frame<D>(function) : own_frame<D>(set), back = back_from(frame);
     const DistanceFunction<D> own = moved(function, back);
     const Convex<D> there = moved(set, back);
     const FunctionThere<D> seen(own);
     LeastOptions<D> options;
-    options.tolerance = std::max(search_tolerance * margin, wanted.rough);
+    options.tolerance =
+        std::max((function.bound != nullptr ? bounded_tolerance : search_tolerance) * margin, wanted.rough);
     options.enough = wanted.enough + set.radius;
     options.reach = wanted.reach + set.radius;
-    const Least<D> least = least_in(seen, there, options);
+    const Least<D> least =
+        function.bound != nullptr ? least_bounded(seen, there, options) : least_in(seen, there, options);
     if (!(least.distance < std::numeric_limits<double>::infinity())) return nothing_near<D>();
     SignedDistance<D> result;
     const double around = std::max(size(there), 1e-30);

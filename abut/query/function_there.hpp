@@ -105,18 +105,31 @@ public:
         return std::max({1e-3 * size, rounding, 0.25 * resolution_});
     }
 
-    /// What it is at least in a box, as exactly as the function tells.
+    /// Where the function bounds itself: the distance in double, and how it grows along each axis.
+    double at(const DVec<D>& point, DVec<D>& gradient) const {
+        const double own = function_.gradient(function_.object, back_.point(point), gradient);
+        gradient = back_.transposed(gradient) * factor_;
+        return factor_ * (own - level_);
+    }
+
+    /// A lower bound in a box, as exactly as the function knows it.
     DistanceKnown bound(const DVec<D>& center, const DVec<D>& half, DistanceBound<D>& bound) const {
         if (function_.bound == nullptr) return DistanceKnown::nothing;
         const DVec<D> middle = back_.point(center);
         DVec<D> own_half(0.0);
         for (int i = 0; i < D; ++i)
             for (int j = 0; j < D; ++j) own_half[i] += std::abs(back_.column[static_cast<std::size_t>(j)][i]) * half[j];
+        const DVec<D> wanted = bound.wanted;
+        bound.wanted = function_.place.transposed(wanted) / factor_;
+        bound.enough = bound.enough / factor_ + level_;
         const DistanceKnown known = function_.bound(function_.object, middle - own_half, middle + own_half, bound);
+        bound.wanted = wanted;
+        bound.least = factor_ * (bound.least - level_);
         if (known != DistanceKnown::bound) return known;
         bound.value = factor_ * (bound.value - level_);
-        bound.least = factor_ * (bound.least - level_);
+        bound.wanted_value = factor_ * (bound.wanted_value - level_);
         bound.gradient = back_.transposed(bound.gradient) * factor_;
+        bound.bend *= factor_;
         return known;
     }
 

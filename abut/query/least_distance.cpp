@@ -57,10 +57,7 @@ template <int D>
 class InConvex {
 public:
     InConvex(const FunctionThere<D>& function, const Convex<D>& convex, const LeastOptions<D>& options)
-        : function_(function),
-          convex_(convex),
-          core_(convex),
-          options_(bounded(options, function.function().bound != nullptr)) {
+        : function_(function), convex_(convex), core_(convex), options_(bounded(options, false)) {
         DVec<D> low, high;
         for (int i = 0; i < D; ++i) {
             low[i] = core_support(convex, axis<D>(i, -1)).position[i];
@@ -82,24 +79,12 @@ public:
         if (second != first && best.point == second) go_down(second);
         bool is_piece = false;
         all_.least = least_in(all_, is_piece);
-        // Where it isn't settled soon, first roughly, so that what is exact need look at little.
-        const double finest = options_.tolerance;
-        const int most = options_.most_boxes;
-        const bool is_told = function_.function().bound != nullptr;
-        for (const double rough : {0.0, 1e-3, 1e-4, 0.0}) {
-            options_.tolerance = std::max(rough * size_, finest);
-            if (!wanted(all_.least, options_.tolerance)) continue;
-            options_.most_boxes = rough == 0 && is_told ? std::min(most, least_distance_most_fine_boxes) : most;
+        if (wanted(all_.least)) {
             ways_down_ = 0;
-            const int before = best.boxes;
-            best.boxes = 0;
-            best.doubt = 0;
-            if (has_simplices(convex_) && !(is_plain_box(convex_) && is_told))
+            if (has_simplices(convex_))
                 each_simplex(convex_, [&](const CoreSimplex<D>& simplex) { look_at(simplex); });
             else
                 look_at_boxes(*this, all_, options_);
-            best.boxes += before;
-            if (!is_told || (rough == 0 && best.doubt == 0)) break;
         }
         if (best.distance > options_.reach) best.distance = std::numeric_limits<double>::infinity();
     }
@@ -115,29 +100,14 @@ public:
         const double here = found(near);
         const double least = std::max(around, here - function_.slope() * farthest(near, box));
         if (!(least < best.distance - options_.tolerance && least <= options_.reach)) return least;
-        DistanceBound<D> bound;
-        const DistanceKnown known = function_.bound(box.center, box.half, bound);
-        if (known == DistanceKnown::bound) {
-            const DVec<D> lowest = core_.lowest(bound.gradient);
-            const double bounded =
-                bound.value + std::max(dot(bound.gradient, lowest - box.center), -sum_along(bound.gradient, box.half));
-            if (std::max(bounded, bound.least) < best.distance - options_.tolerance) {
-                const double before = best.distance;
-                found(lowest);
-                if (here <= before || best.distance < before) go_down(best.point);
-            }
-            return std::max({least, bounded, bound.least});
-        }
-        if (known == DistanceKnown::nothing && length(box.half) <= piece_) {
-            is_piece = length(box.half) <= least_guessed_piece * size_;
-            bound = function_.guess(box.center, box.half, function_.at(box.center));
-            const DVec<D> lowest = core_.lowest(bound.gradient);
-            const double guessed =
-                bound.value + std::max(dot(bound.gradient, lowest - box.center), -sum_along(bound.gradient, box.half));
-            if (guessed < best.distance - options_.tolerance) go_down(near);
-            return std::max(least, guessed);
-        }
-        return least;
+        if (length(box.half) > piece_) return least;
+        is_piece = length(box.half) <= least_guessed_piece * size_;
+        const DistanceBound<D> bound = function_.guess(box.center, box.half, function_.at(box.center));
+        const DVec<D> lowest = core_.lowest(bound.gradient);
+        const double guessed =
+            bound.value + std::max(dot(bound.gradient, lowest - box.center), -sum_along(bound.gradient, box.half));
+        if (guessed < best.distance - options_.tolerance) go_down(near);
+        return std::max(least, guessed);
     }
 
     Least<D> best;
@@ -181,6 +151,7 @@ private:
         return false;
     }
 
+    bool wanted(double least) const { return wanted(least, options_.tolerance); }
     bool wanted(double least, double tolerance) const {
         return least < best.distance - tolerance && least <= options_.reach;
     }
@@ -192,14 +163,14 @@ private:
         stack.push(first);
         while (!stack.empty() && best.distance > options_.enough) {
             CoreSimplex<D> simplex = stack.pop();
-            if (!wanted(simplex.least, options_.tolerance)) continue;
+            if (!wanted(simplex.least)) continue;
             if (best.boxes == options_.most_boxes || stack.full()) {
                 best.doubt = std::max({best.doubt, best.distance - std::min(simplex.least, stack.least())});
                 return;
             }
             ++best.boxes;
             simplex.least = std::max(simplex.least, least_of(simplex));
-            if (!wanted(simplex.least, options_.tolerance)) continue;
+            if (!wanted(simplex.least)) continue;
             const auto [i, j] = longest_edge(simplex);
             const DVec<D> middle = (simplex.points[i] + simplex.points[j]) * 0.5;
             if (middle == simplex.points[i] || middle == simplex.points[j]) continue;
@@ -218,26 +189,18 @@ private:
         const DVec<D> middle = middle_of(simplex);
         const double here = found(middle), reach = reach_from(simplex, middle);
         double least = here - function_.slope() * reach;
-        if (!wanted(least, options_.tolerance)) return least;
-        const SearchBox<D> box = box_around(simplex);
-        DistanceBound<D> bound;
-        const DistanceKnown known = function_.bound(box.center, box.half, bound);
-        if (known == DistanceKnown::bound) {
-            least = std::max({least, bound.least, lowest_on(simplex, bound, box.center)});
-        } else if (known == DistanceKnown::nothing && reach <= piece_) {
-            // Between corners it is about as they are, and dips as it does in the middle.
-            double lowest = simplex.values[0], mean = 0;
-            for (std::size_t i = 0; i < simplex.count; ++i) {
-                lowest = std::min(lowest, simplex.values[i]);
-                mean += simplex.values[i] / static_cast<double>(simplex.count);
-            }
-            const double guessed = std::min(lowest, here) - 2 * std::max(mean - here, 0.0);
-            if (!wanted(guessed, guess_tolerance * size_)) return std::numeric_limits<double>::infinity();
-            least = std::max(least, guessed);
-        } else {
-            return least;
+        if (!wanted(least)) return least;
+        if (reach > piece_) return least;
+        // Between corners it is about as they are, and dips as it does in the middle.
+        double lowest = simplex.values[0], mean = 0;
+        for (std::size_t i = 0; i < simplex.count; ++i) {
+            lowest = std::min(lowest, simplex.values[i]);
+            mean += simplex.values[i] / static_cast<double>(simplex.count);
         }
-        if (here <= best.distance && wanted(least, options_.tolerance)) go_down(middle);
+        const double guessed = std::min(lowest, here) - 2 * std::max(mean - here, 0.0);
+        if (!wanted(guessed, guess_tolerance * size_)) return std::numeric_limits<double>::infinity();
+        least = std::max(least, guessed);
+        if (here <= best.distance && wanted(least)) go_down(middle);
         return least;
     }
 

@@ -16,8 +16,8 @@ namespace abut {
 /// So many boxes are looked at before the best place known is taken for the answer: of a function that tells what it is
 /// at least in a box, and of one that tells nothing.
 inline constexpr int least_distance_most_boxes = 4096, least_distance_most_guesses = 2048;
-/// And so many for what is finer than a 10000th of the size.
-inline constexpr int least_distance_most_fine_boxes = 512;
+/// And of a function that bounds itself, beside a convex set: in all, and for what is finer than a 10000th of the size.
+inline constexpr int least_bounded_most_boxes = 512, least_bounded_most_fine_boxes = 48;
 
 template <int D>
 struct LeastOptions {
@@ -39,9 +39,13 @@ struct Least {
     double doubt = 0;
 };
 
-/// In the core of a convex set, without its radius. All in one frame.
+/// In the core of a convex set, without its radius, of a function that doesn't bound itself. All in one frame.
 template <int D>
 Least<D> least_in(const FunctionThere<D>& function, const Convex<D>& convex, const LeastOptions<D>& options);
+
+/// The same for a function that bounds itself.
+template <int D>
+Least<D> least_bounded(const FunctionThere<D>& function, const Convex<D>& convex, const LeastOptions<D>& options);
 
 /// Of the places inside of the function's shape, where dot(normal, p) is least: that is the answer's `distance`.
 /// `bounds` are those of the shape in the frame, and finite.

@@ -20,6 +20,9 @@ inline constexpr int search_most_steps_down = 24, search_most_halvings = 10;
 /// The bound on ways down, each of which costs as much as many boxes.
 inline constexpr int search_most_ways_down = 32;
 
+/// The bounds on looks along a step down, and along a line on which a lower bound grows.
+inline constexpr int search_most_turns = 8, search_most_secants = 4;
+
 /// Boxes that are still to be looked at, the last first: each leaves no more than one behind, and none is cut in two
 /// more often than there is room for.
 template <int D>

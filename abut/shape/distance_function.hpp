@@ -19,18 +19,26 @@ struct FieldSample {
     Vec<D> normal{};                                          ///< of length 1, out of the shape
 };
 
-/// What a distance is at least, in a box: value + dot(gradient, x - middle of the box), and `least` too.
+/// A lower bound of a distance in a box, by planes through its middle: the distance is at least
+/// value + dot(gradient, x - middle), and wanted_value + dot(wanted, x - middle), and `least`.
 template <int D>
 struct DistanceBound {
     double value = 0;
-    DVec<D> gradient{0.0};
+    DVec<D> gradient{0.0};  ///< one that suits the box
     double least = -std::numeric_limits<double>::infinity();
+
+    DVec<D> bend{0.0};  ///< along each axis about how much of the distance the planes miss because the box is so wide
+
+    DVec<D> wanted{0.0};  ///< set by the caller: a gradient
+    double wanted_value = -std::numeric_limits<double>::infinity();
+    /// Set by the caller: if the distance surely is more everywhere in the box, the bound need not be better than that.
+    double enough = std::numeric_limits<double>::infinity();
 };
 
 /// What a function tells of a box.
 enum class DistanceKnown : std::uint8_t {
     nothing,           ///< that isn't told by its distances and its slope
-    in_smaller_boxes,  ///< it is too large to be looked at as a whole
+    in_smaller_boxes,  ///< it is too large to be looked at as a whole; `least` alone is valid
     bound,
 };
 
@@ -58,6 +66,8 @@ struct DistanceFunction : Placement<D> {
     float (*distance)(const void* object, const Vec<D>& point) = nullptr;
     /// The same with the direction; null: told by differences.
     FieldSample<D> (*sample)(const void* object, const Vec<D>& point) = nullptr;
+    /// The distance in double, and how it grows along each axis; set wherever `bound` is.
+    double (*gradient)(const void* object, const DVec<D>& point, DVec<D>& gradient) = nullptr;
     /// How small details are that a search need not look for, in the shape's own frame: a field's cell. 0: unknown.
     float resolution = 0;
     /// At least 1: what is interpolated between samples of a distance may be steeper than that.

@@ -1,0 +1,460 @@
+// The least of a function that bounds itself, over a convex set known by its support function.
+//
+// A plane that the function is nowhere below in a box, and the support function of the set, bound what the box and the
+// set have in common. With the gradient at the least place found so far that bound is exact to second order, whatever
+// the shape of the set: at the least place a support plane of the set is at right angles to it. So the boxes that are
+// left shrink round that place, and their number doesn't grow (Lipschitz bounds alone leave ever more of them wherever
+// the set is flat).
+//
+// Places are improved by conditional gradients with pairwise steps (Frank, Wolfe 1956; Lacoste-Julien, Jaggi, "On the
+// global linear convergence of Frank-Wolfe optimization variants", 2015), which take the support function alone.
+
+#include <abut/convex/gjk.hpp>
+#include <abut/query/search_boxes.hpp>
+
+#include <algorithm>
+
+namespace abut {
+namespace {
+
+/// In parts of the size: so much less it may be elsewhere where the bound on fine boxes is reached.
+constexpr double rough_tolerance = 1e-4;
+
+/// The bound on places that are found as the nearest ones to boxes, each of which costs as much as several boxes.
+constexpr int most_looks_beside = 48;
+
+/// The bound on directions in which a lower bound is improved.
+constexpr int most_rounds = 2;
+
+/// Boxes that are still to be looked at, the one that may hold least first; the earlier one of two alike.
+template <int D>
+class SearchHeap {
+public:
+    struct Entry {
+        SearchBox<D> box;
+        std::int32_t axis;  ///< along which it is to be cut
+        std::uint32_t number;
+    };
+
+    bool empty() const { return count_ == 0; }
+    bool full() const { return count_ + 2 > entries_.size(); }
+    double least() const { return count_ > 0 ? entries_[0].box.least : std::numeric_limits<double>::infinity(); }
+    void push(const SearchBox<D>& box, int axis) {
+        entries_[count_++] = {box, axis, number_++};
+        std::push_heap(entries_.data(), entries_.data() + count_, is_later);
+    }
+    Entry pop() {
+        std::pop_heap(entries_.data(), entries_.data() + count_, is_later);
+        return entries_[--count_];
+    }
+
+private:
+    static bool is_later(const Entry& a, const Entry& b) {
+        return a.box.least != b.box.least ? a.box.least > b.box.least : a.number > b.number;
+    }
+
+    std::array<Entry, least_bounded_most_boxes / 2> entries_;
+    std::size_t count_ = 0;
+    std::uint32_t number_ = 0;
+};
+
+/// A point of a set as a mean of others of it, for steps that take weight from one and give it to another.
+template <int D>
+class MeanOfPoints {
+public:
+    explicit MeanOfPoints(const DVec<D>& point) : count_(1) {
+        points_[0] = point;
+        weights_[0] = 1;
+    }
+
+    /// The one that is farthest up a gradient.
+    std::size_t highest(const DVec<D>& gradient) const {
+        std::size_t result = 0;
+        for (std::size_t i = 1; i < count_; ++i)
+            if (dot(gradient, points_[i]) > dot(gradient, points_[result])) result = i;
+        return result;
+    }
+    const DVec<D>& point(std::size_t i) const { return points_[i]; }
+    double weight(std::size_t i) const { return weights_[i]; }
+
+    void shift(std::size_t from, const DVec<D>& to, double weight) {
+        weights_[from] -= weight;
+        if (!(weights_[from] > 1e-12)) {
+            weight += weights_[from];
+            points_[from] = points_[--count_];
+            weights_[from] = weights_[count_];
+        }
+        for (std::size_t i = 0; i < count_; ++i)
+            if (points_[i] == to) {
+                weights_[i] += weight;
+                return;
+            }
+        if (count_ == points_.size()) merge_lightest();
+        points_[count_] = to;
+        weights_[count_++] = weight;
+    }
+
+private:
+    void merge_lightest() {
+        for (int k = 0; k < 2; ++k) {
+            const std::size_t last = count_ - 1 - static_cast<std::size_t>(k);
+            for (std::size_t i = 0; i < last; ++i)
+                if (weights_[i] < weights_[last]) {
+                    std::swap(weights_[i], weights_[last]);
+                    std::swap(points_[i], points_[last]);
+                }
+        }
+        const double sum = weights_[count_ - 1] + weights_[count_ - 2];
+        const double share = weights_[count_ - 1] / sum;
+        points_[count_ - 2] += (points_[count_ - 1] - points_[count_ - 2]) * share;
+        weights_[count_ - 2] = sum;
+        --count_;
+    }
+
+    std::array<DVec<D>, static_cast<std::size_t>(D) + 3> points_;
+    std::array<double, static_cast<std::size_t>(D) + 3> weights_{};
+    std::size_t count_;
+};
+
+template <int D>
+class LeastBounded {
+public:
+    LeastBounded(const FunctionThere<D>& function, const Convex<D>& convex, const LeastOptions<D>& options)
+        : function_(function), convex_(convex), options_(options) {
+        convex_.radius = 0;
+        if (options_.most_boxes == 0) options_.most_boxes = least_bounded_most_boxes;
+        DVec<D> low(0.0), high(0.0);
+        for (int i = 0; i < D; ++i) {
+            low[i] = lowest(axis<D>(i, 1))[i];
+            high[i] = lowest(axis<D>(i, -1))[i];
+        }
+        all_ = {(low + high) * 0.5, (high - low) * 0.5, -std::numeric_limits<double>::infinity()};
+        size_ = length(all_.half);
+    }
+
+    Least<D> run() {
+        DVec<D> slope;
+        function_.at(all_.center, slope);
+        go_down(lowest(slope));
+        SearchHeap<D> heap;
+        look_at(heap, all_);
+        const double rough = rough_tolerance * size_;
+        while (!heap.empty() && best_.distance > options_.enough && wanted(heap.least())) {
+            const bool is_rough =
+                best_.boxes >= least_bounded_most_fine_boxes && heap.least() >= best_.distance - rough;
+            if (is_rough || best_.boxes >= options_.most_boxes || heap.full()) {
+                best_.doubt = best_.distance - std::min(heap.least(), best_.distance);
+                break;
+            }
+            auto [box, axis, number] = heap.pop();
+            box.half[axis] *= 0.5;
+            if (!(box.center[axis] + box.half[axis] > box.center[axis])) continue;
+            SearchBox<D> low = box, high = box;
+            low.center[axis] -= box.half[axis];
+            high.center[axis] += box.half[axis];
+            look_at(heap, low);
+            look_at(heap, high);
+        }
+        if (best_.distance > options_.reach) best_.distance = std::numeric_limits<double>::infinity();
+        return best_;
+    }
+
+private:
+    /// The gradient of the function where it is least near by, and what that is at least in the set, about the origin.
+    struct Support {
+        DVec<D> gradient;
+        double least;
+    };
+
+    /// The point of the set that is farthest down.
+    DVec<D> lowest(const DVec<D>& gradient) const { return core_support(convex_, -gradient).position; }
+
+    bool wanted(double least) const { return least < best_.distance - options_.tolerance && least <= options_.reach; }
+    /// More than that isn't wanted.
+    double limit() const { return std::min(best_.distance - options_.tolerance, options_.reach); }
+
+    void look_at(SearchHeap<D>& heap, SearchBox<D> box) {
+        ++best_.boxes;
+        // Which support plane of the set is nearest: the box is behind it, or it is the one that bounds.
+        const Support* nearest = nullptr;
+        double behind = -std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < support_count_; ++i) {
+            const Support& support = supports_[i];
+            const double square = length_squared(support.gradient);
+            if (!(square > 0)) continue;
+            const double gap = support.least - dot(support.gradient, box.center);
+            if (gap > sum_along(support.gradient, box.half)) return;
+            if (gap / std::sqrt(square) > behind) {
+                behind = gap / std::sqrt(square);
+                nearest = &support;
+            }
+        }
+        DistanceBound<D> bound;
+        if (nearest != nullptr) bound.wanted = nearest->gradient;
+        bound.enough = limit();
+        const DistanceKnown known = function_.bound(box.center, box.half, bound);
+        box.least = std::max(box.least, bound.least);
+        if (!wanted(box.least)) return;
+        if (known != DistanceKnown::bound) return heap.push(box, longest_axis(box.half));
+        if (nearest != nullptr) {
+            const double in_set = nearest->least - dot(nearest->gradient, box.center);
+            box.least =
+                std::max(box.least, bound.wanted_value + std::max(in_set, -sum_along(nearest->gradient, box.half)));
+            if (!wanted(box.least)) return;
+        }
+        DVec<D> place(0.0);
+        DVec<D> rest(0.0);
+        box.least =
+            std::max(box.least, bound.value + least_in_both(box, bound.gradient, limit() - bound.value, place, rest));
+        if (!wanted(box.least)) return;
+        if (function_.at(place) < best_.distance - options_.tolerance) go_down(place);
+        // Where the distance has a step, as between finer and coarser samples, no gradient leads to its lower side.
+        if (looks_beside_ < most_looks_beside && function_.at(box.center) < best_.distance - rough_tolerance * size_) {
+            ++looks_beside_;
+            const DVec<D> near = nearest_in_set(box.center);
+            const DVec<D> beside = box.center - near;
+            const double square = length_squared(beside);
+            if (square > sum_along(beside, box.half) * (1 + 1e-12) && square > 0) return;
+            if (function_.at(near) < best_.distance - options_.tolerance) go_down(near);
+        }
+        if (!wanted(box.least)) return;
+        // Where the bound loses most.
+        for (int a = 0; a < D; ++a) bound.bend[a] += std::abs(rest[a]) * box.half[a];
+        heap.push(box, longest_axis(largest(bound.bend) > 0 ? bound.bend : box.half));
+    }
+
+    /// A lower bound of a linear function, 0 in the middle of a box, over what the box and the set have in common: for
+    /// any u, that of u over the set and of the rest over the box. The bound is concave in u, and grows along the way
+    /// from the box to the lowest point of the set along u, unless they have that point in common. Goes up that way
+    /// until more than `enough`. `place` becomes a point of the set near the box, `rest` what u leaves to the box.
+    double least_in_both(const SearchBox<D>& box, const DVec<D>& gradient, double enough, DVec<D>& place,
+                         DVec<D>& rest) const {
+        DVec<D> u = gradient;
+        double best = -sum_along(gradient, box.half), largest_step = 0;
+        rest = gradient;
+        for (int round = 0; round < most_rounds; ++round) {
+            const DVec<D> low = lowest(u);
+            if (round == 0) place = low;
+            const DVec<D> from = low - box.center;
+            const double here = dot(u, from) - sum_along(gradient - u, box.half);
+            if (here > best) {
+                best = here;
+                rest = gradient - u;
+                if (best > enough) return best;
+            }
+            DVec<D> way(0.0);
+            for (int a = 0; a < D; ++a) {
+                const double half = box.half[a];
+                way[a] = from[a] - (u[a] > gradient[a]   ? half
+                                    : u[a] < gradient[a] ? -half
+                                                         : std::clamp(from[a], -half, half));
+            }
+            const double square = length_squared(way);
+            if (!(square > 1e-8 * length_squared(box.half))) return best;
+            if (round == 0) largest_step = length(gradient) / length(all_.half);
+            // By where tangents cross, to where it grows no more.
+            double before = 0, at_before = here, grows = square, after = 0, at_after = 0, falls = 0;
+            double step = largest_step;
+            DVec<D> place_before = low, place_after = low;
+            for (int i = 0; i < search_most_secants; ++i) {
+                const DVec<D> there = u + way * step;
+                const DVec<D> lower = lowest(there);
+                const DVec<D> to_low = lower - box.center;
+                const double value = dot(there, to_low) - sum_along(gradient - there, box.half);
+                if (value > best) {
+                    best = value;
+                    rest = gradient - there;
+                    if (best > enough) return best;
+                }
+                double slope = dot(to_low, way);
+                for (int a = 0; a < D; ++a) slope -= (there[a] > gradient[a] ? box.half[a] : -box.half[a]) * way[a];
+                if (slope > 0) {
+                    before = step;
+                    place_before = lower;
+                    at_before = value;
+                    grows = slope;
+                } else {
+                    after = step;
+                    place_after = lower;
+                    at_after = value;
+                    falls = slope;
+                }
+                const double wide = after - before;
+                if (after == 0)
+                    step *= 4;
+                else
+                    step = before + std::clamp((at_after - at_before - falls * wide) / (grows - falls), 0.05 * wide,
+                                               0.95 * wide);
+            }
+            // Between both places is one that is in the box along the way.
+            if (after > 0) {
+                const double share = grows / (grows - falls);
+                place = place_before + (place_after - place_before) * share;
+            }
+            if (!(before > 0)) return best;
+            u += way * before;
+        }
+        return best;
+    }
+
+    DVec<D> nearest_in_set(const DVec<D>& point) const {
+        Convex<D> as_set;
+        as_set.place.offset = point;
+        const CoreDifference<D> difference(convex_, as_set);
+        const GjkResult<D> walk = gjk(difference);
+        if (walk.exit == GjkExit::overlapping || walk.exit == GjkExit::touching) return point;
+        return difference.origin() + walk.simplex.combine(&DifferencePoint<D>::on_a);
+    }
+
+    /// Where a step along a line ended, and how the function grows there and on the far side of it.
+    struct LineEnd {
+        double part = 0, value = 0;
+        DVec<D> gradient, beyond;
+        bool is_turn = false;  ///< beyond it the function rises
+    };
+
+    /// Towards where the function falls no more along a line. It may turn at the side of a cell, where lines from both
+    /// sides cross, or gently, by secants of its slope.
+    LineEnd go_along(const DVec<D>& here, double value, const DVec<D>& gradient, const DVec<D>& way,
+                     double most) const {
+        LineEnd end{0, value, gradient, gradient};
+        double before = 0, value_before = value, falls = std::min(dot(gradient, way), 0.0);
+        double part = most, after = 0, value_after = 0, rises = 0;
+        for (int i = 0; i < search_most_turns; ++i) {
+            DVec<D> slope;
+            const double there = function_.at(here + way * part, slope), along = dot(slope, way);
+            if (there < end.value) {
+                end.value = there;
+                end.part = part;
+                end.gradient = slope;
+            }
+            if (there < value_before && along <= 0) {
+                before = part;
+                value_before = there;
+                falls = along;
+                end.gradient = slope;
+                if (part == most) return end;
+            } else {
+                end.is_turn = true;
+                end.beyond = slope;
+                after = part;
+                value_after = there;
+                rises = along;
+            }
+            if (!end.is_turn) return end;
+            const double wide = after - before;
+            double share = 0.5;
+            if (rises > 0 && falls < 0) {
+                const double crossing = (value_after - rises * wide - value_before) / ((falls - rises) * wide);
+                if (value_before + falls * wide * crossing > end.value - 0.1 * options_.tolerance) break;
+                share = i % 2 == 0 ? crossing : falls / (falls - rises);
+            }
+            if (!(share > 0.01)) share = 0.1;
+            part = before + wide * std::clamp(share, 0.02, 0.98);
+        }
+        return end;
+    }
+
+    /// Of the gradients between two the one that promises least. What they promise is convex: by where tangents cross,
+    /// which is exact after a few steps where the set has corners.
+    DVec<D> combined(const DVec<D>& here, const DVec<D>& first, const DVec<D>& second) const {
+        const DVec<D> change = second - first;
+        double low = 0, high = 1;
+        DVec<D> from = here - lowest(first);
+        double at_low = dot(first, from), falls = dot(change, from);
+        from = here - lowest(second);
+        double at_high = dot(second, from), rises = dot(change, from);
+        if (!(falls < 0)) return first;
+        if (!(rises > 0)) return second;
+        DVec<D> result = at_low < at_high ? first : second;
+        double promised = std::min(at_low, at_high);
+        for (int i = 0; i < search_most_turns; ++i) {
+            const double wide = high - low;
+            const double share = low + std::clamp((at_high - at_low - rises * wide) / (falls - rises), 0.0, wide);
+            const DVec<D> between = first + change * share;
+            from = here - lowest(between);
+            const double there = dot(between, from), grows = dot(change, from);
+            if (there < promised) {
+                promised = there;
+                result = between;
+            }
+            if (there <= at_low + falls * (share - low) + 0.05 * options_.tolerance) break;
+            if (grows < 0) {
+                low = share;
+                at_low = there;
+                falls = grows;
+            } else {
+                high = share;
+                at_high = there;
+                rises = grows;
+            }
+        }
+        return result;
+    }
+
+    /// From a point of the set to where the function is least near by. Where that is on the side of a cell, the set has
+    /// no support plane at right angles to either gradient, but to one between.
+    void go_down(const DVec<D>& from) {
+        MeanOfPoints<D> mean(from);
+        DVec<D> here = from, gradient;
+        double value = function_.at(here, gradient);
+        DVec<D> slope = gradient;
+        DVec<D> low = lowest(slope);
+        for (int step = 0; step < search_most_steps_down && value > options_.enough; ++step) {
+            const double promised = dot(slope, here - low);
+            if (!(promised > 0.25 * options_.tolerance)) break;
+            const std::size_t highest = mean.highest(slope);
+            const DVec<D> way = low - mean.point(highest);
+            const LineEnd end = go_along(here, value, gradient, way, mean.weight(highest));
+            if (end.value < value) {
+                here += way * end.part;
+                mean.shift(highest, low, end.part);
+            }
+            const bool is_far = value - end.value > 0.1 * promised;
+            value = std::min(value, end.value);
+            gradient = end.gradient;
+            if (!end.is_turn)
+                slope = gradient;
+            else
+                slope = combined(here, is_far ? gradient : slope, end.beyond);
+            low = lowest(slope);
+        }
+        if (value < best_.distance) {
+            best_.distance = value;
+            best_.point = here;
+        }
+        add_support({slope, dot(slope, low)});
+    }
+    void add_support(const Support& support) {
+        if (support_count_ == supports_.size()) {
+            for (std::size_t i = 1; i < support_count_; ++i) supports_[i - 1] = supports_[i];
+            --support_count_;
+        }
+        supports_[support_count_++] = support;
+    }
+
+    const FunctionThere<D>& function_;
+    Convex<D> convex_;
+    LeastOptions<D> options_;
+    SearchBox<D> all_;
+    double size_ = 0;  ///< of the core
+    std::array<Support, 8> supports_;
+    std::size_t support_count_ = 0;
+    int looks_beside_ = 0;
+    Least<D> best_;
+};
+
+}  // namespace
+
+template <int D>
+Least<D> least_bounded(const FunctionThere<D>& function, const Convex<D>& convex, const LeastOptions<D>& options) {
+    return LeastBounded<D>(function, convex, options).run();
+}
+
+#define ABUT_INSTANTIATE(D) \
+    template Least<D> least_bounded(const FunctionThere<D>&, const Convex<D>&, const LeastOptions<D>&);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
+
+}  // namespace abut
