@@ -58,7 +58,7 @@ void World<D>::look_between(const IdPair& pair, bool touch) {
     if (std::binary_search(touched_.begin(), touched_.end(), pair)) return;
     const std::optional<Hit<D>> hit = sweep_pair(a, b);
     if (!hit) return;
-    met_.push_back({pair, hit->fraction});
+    met_.push_back({pair.a, pair.b, *hit});
     if (!touch) passed_.push_back(pair);
 }
 
@@ -82,8 +82,8 @@ void World<D>::tell_fractions() {
     fractions_.assign(began_.size(), 1.0f);
     auto met = met_.begin();
     for (std::size_t i = 0; i < began_.size() && met != met_.end(); ++i) {
-        while (met != met_.end() && met->pair < began_[i]) ++met;
-        if (met != met_.end() && met->pair == began_[i]) fractions_[i] = met->fraction;
+        while (met != met_.end() && IdPair{met->a, met->b} < began_[i]) ++met;
+        if (met != met_.end() && IdPair{met->a, met->b} == began_[i]) fractions_[i] = met->hit.fraction;
     }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// The name of an item in a world.
+// The name of an item in a world, and of a pair of them.
 
 #include <compare>
 #include <cstdint>
@@ -14,6 +14,12 @@ struct Id {
 
     explicit operator bool() const { return index != 0; }
     friend auto operator<=>(const Id&, const Id&) = default;
+};
+
+struct IdPair {
+    Id a, b;  ///< a < b
+
+    friend auto operator<=>(const IdPair&, const IdPair&) = default;
 };
 
 }  // namespace abut

@@ -32,7 +32,9 @@ bool World<D>::asked(std::uint32_t slot, const Filter& filter) const {
     const Item& item = items_[slot];
     if (is_empty(box(slot)) || (item.options.sensor && !filter.sensors)) return false;
     if ((filter.layers & item.options.mask) == 0 || (item.options.layers & filter.mask) == 0) return false;
-    return id_of(slot) != filter.ignore;
+    const Id id = id_of(slot);
+    const std::span<const Id> ignored = filter.ignore_ids;
+    return id != filter.ignore && std::find(ignored.begin(), ignored.end(), id) == ignored.end();
 }
 
 /// visit(slot) for the items whose boxes overlap; it returns false to stop.
@@ -100,32 +102,6 @@ std::vector<WorldHit<D>> World<D>::raycast_all(const Ray<D>& ray, const Filter& 
         return a.hit.distance != b.hit.distance ? a.hit.distance < b.hit.distance : a.id < b.id;
     });
     return all;
-}
-
-template <int D>
-std::optional<WorldClosest<D>> World<D>::closest_to(const View<D>& shape, const Filter& filter) const {
-    std::optional<WorldClosest<D>> nearest;
-    if (!can_be_asked(shape)) return nearest;
-    asked_.add(ray_weight);
-    float reach = std::numeric_limits<float>::infinity();
-    const auto any = [&](std::uint32_t slot) -> float {
-        const Item& item = items_[slot];
-        if (!asked(slot, filter) || (std::holds_alternative<Solid<D>>(shape) && item.type == ShapeType::half_space))
-            return reach;
-        const Closest<D> found = abut::closest(shape, placed(item));
-        if (std::isinf(found.distance)) return reach;
-        const Id id = id_of(slot);
-        const bool nearer = !nearest || found.distance < nearest->closest.distance;
-        if (nearer || (found.distance == nearest->closest.distance && id < nearest->id)) {
-            nearest = WorldClosest<D>{id, found};
-            reach = std::max(found.distance, 0.0f);
-        }
-        return reach;
-    };
-    const Aabb<D> box = bounds(shape);
-    moving_.closest(box, any, reach);
-    fixed_.closest(box, any, reach);
-    return nearest;
 }
 
 template <int D>

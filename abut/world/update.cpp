@@ -183,6 +183,7 @@ Events World<D>::update() {
     contacts_.reserve(found_.capacity());
     last_near_.reserve(near_.capacity());
     compare_with_last();
+    touching_index_.build(touching_, most);
 
     for (const std::uint32_t slot : pending_) {
         items_[slot].pending = false;

@@ -16,6 +16,7 @@
 #include <abut/world/partners.hpp>
 #include <abut/world/pretest.hpp>
 #include <abut/world/question_count.hpp>
+#include <abut/world/touching_index.hpp>
 #include <abut/world/way.hpp>
 
 #include <optional>
@@ -55,12 +56,9 @@ struct Filter {
     std::uint32_t mask = 0xffffffff;    ///< only items on one of these layers
     bool sensors = false;               ///< sensors too
     Id ignore{};                        ///< but for this one, such as the one who asks
-};
-
-struct IdPair {
-    Id a, b;  ///< a < b
-
-    friend auto operator<=>(const IdPair&, const IdPair&) = default;
+    /// But for these as well, such as a vehicle's parts. Compared one by one, so for hundreds a layer is faster. The
+    /// ids must last as long as the filter is in use.
+    std::span<const Id> ignore_ids{};
 };
 
 /// What changed with an update; each sorted. Valid until the next update.
@@ -84,6 +82,14 @@ template <int D>
 struct WorldContact {
     Id a, b;
     Contact<D> contact;
+};
+
+/// How two items met between two updates, as abut::sweep reports it of `a`: the normal faces `a`, the point is where
+/// they touched at that moment.
+template <int D>
+struct WorldImpact {
+    Id a, b;
+    Hit<D> hit;
 };
 
 template <int D>
@@ -166,6 +172,31 @@ public:
     AnyShape<D> any_shape(Id id) const;
     std::size_t size() const { return count_; }
 
+    // What an item was added with, as it is now.
+    ItemOptions<D> options(Id id) const;
+    std::uint32_t layers(Id id) const;
+    std::uint32_t mask(Id id) const;
+    bool is_fixed(Id id) const;
+    bool is_sensor(Id id) const;
+    bool is_continuous(Id id) const;
+
+    // Queries see a change at once. The next update treats a pair as if the item had always been so, so that what still
+    // touches has stayed, whatever became of its contact.
+    void set_user(Id id, std::uint64_t user);
+    /// A pair of two items that are now both fixed ends.
+    void set_fixed(Id id, bool fixed);
+    /// A pair that touches goes on touching: it loses its contact, or gets one.
+    void set_sensor(Id id, bool sensor);
+    /// From the last update on: its way since then counts.
+    void set_continuous(Id id, bool continuous);
+
+    /// visit(id) for all items, by index; returns nothing, or false to stop. It may change and remove items; those that
+    /// it adds may be visited or not.
+    template <Visitor<Id> F>
+    void each_item(F&& visit) const {
+        visit_items(go_on_after(visit));
+    }
+
     /// Finds who touches whom. Allocates nothing once it has seen a scene of this size. A pair of which neither moved
     /// since the last update isn't looked at again. Now and then looks at a clock, to learn for which types of shapes
     /// it pays to ask their bounding balls first; the events and contacts are the same whatever it finds. Counts how
@@ -177,6 +208,9 @@ public:
     Events update();
     /// As of the last update, of pairs without a sensor, with normals as felt by who touches several: docs/ghosts.md.
     std::span<const WorldContact<D>> contacts() const { return contacts_; }
+    /// As of the last update, sorted: how the pairs met that are among those that began and met on their way, because
+    /// one of them is continuous. They have one whether they are sensors or not.
+    std::span<const WorldImpact<D>> impacts() const { return met_; }
     UpdateCounts counts() const { return counts_; }
     /// Brings the broad phases up to date with all that was added, moved or removed, so that queries cost what they
     /// cost after an update. Queries do not need it; the events and contacts of the next update are the same without
@@ -184,6 +218,22 @@ public:
     void refresh();
     /// Over the items that move.
     BroadPhaseKind broad_phase() const { return moving_.phase().kind(); }
+
+    /// The items that an item touches as of the last update, sorted, but for those that have been removed since. Pairs
+    /// that only met on their way don't touch. Takes time for what it touches, and for finding that among all pairs as
+    /// much as a binary search.
+    std::vector<Id> touching(Id id) const;
+    /// visit(other) in the same order, without allocating; returns nothing, or false to stop.
+    template <Visitor<Id> F>
+    void each_touching(Id id, F&& visit) const {
+        visit_touching(id, go_on_after(visit));
+    }
+    /// The contact of a pair as of the last update, from the lower id to the higher; false where it has none: it
+    /// doesn't touch, one of the two is a sensor, it only met on its way, or other contacts tell of the same surface
+    /// (docs/ghosts.md).
+    Contact<D> contact(const IdPair& pair) const;
+    /// How a pair met that is among those that began; none where it isn't among `impacts`.
+    std::optional<Hit<D>> impact(const IdPair& pair) const;
 
     /// The first hit, as told at abut::raycast; of equally near ones, the one with the lowest id.
     std::optional<WorldHit<D>> raycast(const Ray<D>& ray, const Filter& filter = {}) const;
@@ -222,6 +272,24 @@ public:
         return closest_to(View<D>(round_points<D>({point}, 0)), filter);
     }
 
+    /// The items that are closest, up to `out.size()` of them, sorted by distance and then by id; their number.
+    /// Distances are signed: of those that overlap the deepest comes first.
+    template <detail::ShapeIn<D> S>
+    std::size_t k_nearest(const S& shape, std::span<WorldClosest<D>> out, const Filter& filter = {}) const {
+        return detail::ask_view(shape, [&](const View<D>& seen) { return nearest_to(seen, out, filter); });
+    }
+    std::size_t k_nearest(const Vec<D>& point, std::span<WorldClosest<D>> out, const Filter& filter = {}) const {
+        return nearest_to(View<D>(round_points<D>({point}, 0)), out, filter);
+    }
+    /// Up to k of them, as a list.
+    template <detail::ShapeIn<D> S>
+    std::vector<WorldClosest<D>> k_nearest(const S& shape, std::size_t k, const Filter& filter = {}) const {
+        return detail::ask_view(shape, [&](const View<D>& seen) { return list_of_nearest(seen, k, filter); });
+    }
+    std::vector<WorldClosest<D>> k_nearest(const Vec<D>& point, std::size_t k, const Filter& filter = {}) const {
+        return list_of_nearest(View<D>(round_points<D>({point}, 0)), k, filter);
+    }
+
     template <detail::ShapeIn<D> S>
     std::vector<Id> overlapping(const S& shape, const Filter& filter = {}) const {
         return detail::ask_view(shape, [&](const View<D>& seen) { return all_overlapping(seen, filter); });
@@ -258,12 +326,6 @@ private:
     };
     static constexpr std::uint32_t no_way = 0xFFFFFFFF;
 
-    /// Two that met on their way.
-    struct Met {
-        IdPair pair;
-        float fraction;
-    };
-
     /// The contact of a pair that touches.
     struct Found {
         WorldContact<D> told;
@@ -287,6 +349,8 @@ private:
     Aabb<D> box_at(const Item& item, const Pose<D>& pose) const;
     BoundingBall<D> ball(const Item& item) const;
     const View<D>& first_placed(std::uint32_t slot);
+    void visit_items(FunctionRef<bool(Id)> visit) const;
+    void visit_touching(Id id, FunctionRef<bool(Id)> visit) const;
     void place(std::uint32_t slot);
     void mark_pending(std::uint32_t slot);
     bool asked(std::uint32_t slot, const Filter& filter) const;
@@ -331,6 +395,8 @@ private:
     std::optional<WorldHit<D>> sweep_between(const View<D>& shape, const Pose<D>& from, const Pose<D>& to,
                                              const Filter& filter) const;
     std::optional<WorldClosest<D>> closest_to(const View<D>& shape, const Filter& filter) const;
+    std::size_t nearest_to(const View<D>& shape, std::span<WorldClosest<D>> out, const Filter& filter) const;
+    std::vector<WorldClosest<D>> list_of_nearest(const View<D>& shape, std::size_t k, const Filter& filter) const;
     std::vector<Id> all_overlapping(const View<D>& shape, const Filter& filter) const;
     void visit_overlapping(const View<D>& shape, const Filter& filter, FunctionRef<bool(Id)> visit) const;
     void visit_in_box(const Aabb<D>& box, const Filter& filter, FunctionRef<bool(Id, const View<D>&)> visit) const;
@@ -353,10 +419,11 @@ private:
     std::vector<IdPair> touching_, touched_;  // now and at the last update
     std::vector<Found> found_, last_found_;
     std::vector<WorldContact<D>> contacts_;
-    std::vector<Met> met_;                      // continuous ones that didn't touch at the last update
+    std::vector<WorldImpact<D>> met_;           // of continuous ones that didn't touch at the last update
     std::vector<IdPair> passed_, last_passed_;  // those of them that don't touch now; the same at the last update
     std::vector<IdPair> began_, stayed_, ended_;
     std::vector<float> fractions_;  // by place in began_
+    TouchingIndex touching_index_;  // of touching_
     UpdateCounts counts_;
     Pretests pretests_;
     /// The first shape of the pair that was looked at last: pairs are sorted.

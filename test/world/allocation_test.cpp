@@ -91,7 +91,8 @@ template <int D>
 void expect_questions_allocate_nothing(std::uint64_t seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Simulation<D> game(seed, 60);
-    int found = 0;
+    int found = 0, touching = 0;
+    std::array<WorldClosest<D>, 5> nearest;
     for (int i = 0; i < 200; ++i) {
         if (i == 100) game.world.update();
         const Vec<D> from = game.any_point(), to = game.any_point();
@@ -107,12 +108,23 @@ void expect_questions_allocate_nothing(std::uint64_t seed) {
                           found += game.world.sweep(shape, Motion<D>::between(there, {from})) ? 1 : 0;
                           found += game.world.closest(placed) ? 1 : 0;
                           found += game.world.closest(from) ? 1 : 0;
+                          found += static_cast<int>(game.world.k_nearest(placed, nearest));
+                          found += static_cast<int>(game.world.k_nearest(from, nearest));
                           game.world.each_overlapping(placed, [&](Id) { ++found; });
+                          game.world.each_item([&](Id id) {
+                              game.world.each_touching(id, [&](Id other) {
+                                  ++touching;
+                                  const IdPair pair{std::min(id, other), std::max(id, other)};
+                                  found += game.world.contact(pair) ? 1 : 0;
+                                  found += game.world.impact(pair) ? 1 : 0;
+                              });
+                          });
                       }),
                       0u);
         });
     }
     EXPECT_GT(found, 600);
+    EXPECT_GT(touching, 600);
 }
 
 TEST(Allocation, QuestionsThatReturnNoListAllocateNothing) {

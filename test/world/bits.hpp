@@ -49,6 +49,10 @@ public:
         put_all(c.a, c.b, c.contact);
     }
     template <int D>
+    void put(const WorldImpact<D>& i) {
+        put_all(i.a, i.b, i.hit);
+    }
+    template <int D>
     void put(const WorldHit<D>& h) {
         put_all(h.id, h.hit);
     }

@@ -57,6 +57,25 @@ void expect_caught(World2& world, Id id) {
     EXPECT_EQ(trips_of([&] { EXPECT_EQ(world.user(id), 0u); }), once);
     EXPECT_EQ(trips_of([&] { EXPECT_EQ(world.pose(id), Pose2{}); }), once);
     EXPECT_EQ(trips_of([&] { EXPECT_TRUE(std::holds_alternative<Convex<2>>(world.shape(id))); }), once);
+    EXPECT_EQ(trips_of([&] { world.set_user(id, 9); }), once);
+    EXPECT_EQ(trips_of([&] { world.set_fixed(id, true); }), once);
+    EXPECT_EQ(trips_of([&] { world.set_sensor(id, true); }), once);
+    EXPECT_EQ(trips_of([&] { world.set_continuous(id, true); }), once);
+    EXPECT_EQ(trips_of([&] { EXPECT_EQ(world.options(id).mask, 0u); }), once);
+    EXPECT_EQ(trips_of([&] { EXPECT_EQ(world.layers(id), 0u); }), once);
+    EXPECT_EQ(trips_of([&] { EXPECT_EQ(world.mask(id), 0u); }), once);
+    EXPECT_EQ(trips_of([&] { EXPECT_FALSE(world.is_fixed(id)); }), once);
+    EXPECT_EQ(trips_of([&] { EXPECT_FALSE(world.is_sensor(id)); }), once);
+    EXPECT_EQ(trips_of([&] { EXPECT_FALSE(world.is_continuous(id)); }), once);
+    EXPECT_EQ(trips_of([&] { EXPECT_TRUE(world.touching(id).empty()); }), once);
+    EXPECT_EQ(trips_of([&] { world.each_touching(id, [](Id) { FAIL(); }); }), once);
+    EXPECT_EQ(trips_of([&] {
+                  EXPECT_FALSE(world.contact({id, id}));
+                  EXPECT_FALSE(world.impact({id, id}));
+              }),
+              0)
+        << "pairs of an update may have gone since";
+    EXPECT_EQ(trips_of([&] { world.overlapping(unit, {.ignore_ids = std::span(&id, 1)}); }), 0);
     EXPECT_EQ(trips_of([&] { world.overlapping(unit, {.ignore = id}); }), 0) << "to ignore nobody is no misuse";
 }
 
@@ -102,6 +121,8 @@ TEST(Misuse, QuestionsThatAreNotFiniteHaveNoAnswer) {
         EXPECT_EQ(trips_of([&] { EXPECT_TRUE(world.raycast_all({{infinity, 0}, {1, 0}, 1}).empty()); }), once);
         EXPECT_EQ(trips_of([&] { EXPECT_FALSE(world.closest(nowhere)); }), once);
         EXPECT_EQ(trips_of([&] { EXPECT_FALSE(world.closest(Circle{{0, 0}, infinity})); }), once);
+        EXPECT_EQ(trips_of([&] { EXPECT_TRUE(world.k_nearest(nowhere, 3).empty()); }), once);
+        EXPECT_EQ(trips_of([&] { EXPECT_TRUE(world.k_nearest(Circle{{0, 0}, nan}, 3).empty()); }), once);
         EXPECT_EQ(trips_of([&] { EXPECT_TRUE(world.overlapping(Circle{nowhere, 1}).empty()); }), once);
         EXPECT_EQ(trips_of([&] { EXPECT_TRUE(world.overlapping(HalfSpace2{{1, 0}, nan}).empty()); }), once);
         EXPECT_EQ(trips_of([&] { world.each_overlapping(Circle{nowhere, 1}, [](Id) { FAIL(); }); }), once);

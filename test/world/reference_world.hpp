@@ -51,6 +51,10 @@ public:
         item.options.mask = mask;
         item.changed = true;
     }
+    void set_user(Id id, std::uint64_t user) { items_.at(id).options.user = user; }
+    void set_fixed(Id id, bool fixed) { set(id, items_.at(id).options.fixed, fixed); }
+    void set_sensor(Id id, bool sensor) { set(id, items_.at(id).options.sensor, sensor); }
+    void set_continuous(Id id, bool continuous) { items_.at(id).options.continuous = continuous; }
     void remove(Id id) { items_.erase(id); }
 
     const std::map<Id, Item>& items() const { return items_; }
@@ -77,7 +81,9 @@ public:
         std::sort(began.begin(), began.end());
         std::sort(ended.begin(), ended.end());
         fractions.clear();
-        for (const IdPair& pair : began) fractions.push_back(met_.contains(pair) ? met_[pair] : 1);
+        for (const IdPair& pair : began) fractions.push_back(met_.contains(pair) ? met_[pair].fraction : 1);
+        impacts.clear();
+        for (const auto& [pair, hit] : met_) impacts.push_back({pair.a, pair.b, hit});
         passed = passed_.size();
         for (auto& [id, item] : items_) {
             item.changed = false;
@@ -107,6 +113,28 @@ public:
         return nearest;
     }
 
+    std::vector<WorldClosest<D>> k_nearest(const View<D>& shape, std::size_t k, const Filter& filter) const {
+        std::vector<WorldClosest<D>> all;
+        for (const auto& [id, item] : items_)
+            if (asked(id, item, filter) && !both_half_spaces(shape, item.view()))
+                all.push_back({id, abut::closest(shape, item.view())});
+        std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+            return std::tie(a.closest.distance, a.id) < std::tie(b.closest.distance, b.id);
+        });
+        all.resize(std::min(k, all.size()));
+        return all;
+    }
+
+    /// Of the items that are there now, as of the last update.
+    std::vector<Id> touching(Id id) const {
+        std::vector<Id> result;
+        for (const IdPair& pair : touching_)
+            if (pair.a == id || pair.b == id) result.push_back(pair.a == id ? pair.b : pair.a);
+        std::erase_if(result, [&](Id other) { return !items_.contains(other); });
+        std::sort(result.begin(), result.end());
+        return result;
+    }
+
     std::vector<Id> overlapping(const View<D>& shape, const Filter& filter) const {
         std::vector<Id> result;
         for (const auto& [id, item] : items_)
@@ -124,17 +152,24 @@ public:
 
     static bool asked(Id id, const Item& item, const Filter& filter) {
         return (filter.layers & item.options.mask) != 0 && (item.options.layers & filter.mask) != 0 &&
-               (filter.sensors || !item.options.sensor) && id != filter.ignore;
+               (filter.sensors || !item.options.sensor) && id != filter.ignore &&
+               std::count(filter.ignore_ids.begin(), filter.ignore_ids.end(), id) == 0;
     }
 
     std::vector<IdPair> began, stayed, ended;
     std::vector<float> fractions;
     std::size_t passed = 0;  ///< of those that began, what doesn't touch
     std::vector<WorldContact<D>> contacts;
+    std::vector<WorldImpact<D>> impacts;
     std::size_t ghosts = 0, left_out = 0;  ///< so far: normals that aren't felt, and those of them without a contact
     UpdateCounts least, most;              ///< of what the world may count, whose boxes are a little wider than need be
 
 private:
+    void set(Id id, bool& option, bool value) {
+        items_.at(id).changed = items_.at(id).changed || option != value;
+        option = value;
+    }
+
     template <class S>
     static std::function<View<D>(const Pose<D>&)> placer(const S& shape) {
         const auto kept = std::make_shared<const decltype(owned(shape))>(owned(shape));
@@ -182,7 +217,7 @@ private:
         if (changed && !touch) ++most.near, ++most.tested;
         if (std::binary_search(touched_.begin(), touched_.end(), pair)) return;
         const std::optional<Hit<D>> hit = sweep_between(a.second, b.second);
-        if (hit) met_[pair] = hit->fraction;
+        if (hit) met_[pair] = *hit;
         if (hit && !touch) passed_.push_back(pair);
     }
 
@@ -249,7 +284,7 @@ private:
 
     std::map<Id, Item> items_;
     std::vector<IdPair> touching_, touched_, passed_;
-    std::map<IdPair, float> met_;
+    std::map<IdPair, Hit<D>> met_;
     struct Found {
         WorldContact<D> told;
         FeltBy felt;

@@ -32,6 +32,7 @@ public:
                 move(id, item.options.pose);
             if (random_.chance(0.03)) set_shape(id);
             if (random_.chance(0.03)) set_filter(id);
+            if (with_all && random_.chance(0.05)) set_an_option(id);
             if (random_.chance(0.02)) {
                 remove(id);
                 if (random_.chance(0.9)) add();
@@ -40,13 +41,16 @@ public:
         if (reference.items().size() < ids.size() || random_.chance(0.1)) add();
     }
 
-    /// A filter of any kind, most often the one that asks for all.
+    /// A filter of any kind, most often the one that asks for all. Valid until the next one.
     Filter filter() {
         Filter result;
         if (random_.chance(0.3)) result.layers = random_bits();
         if (random_.chance(0.3)) result.mask = random_bits();
         result.sensors = random_.chance(0.5);
         if (random_.chance(0.3)) result.ignore = any_id();
+        ignored_.clear();
+        while (with_all && random_.chance(0.4)) ignored_.push_back(any_id());
+        result.ignore_ids = ignored_;
         return result;
     }
 
@@ -97,6 +101,32 @@ public:
         reference.set_filter(id, layers, mask);
     }
 
+    void set_an_option(Id id) {
+        switch (random_.below(4)) {
+            case 0: {
+                const bool fixed = random_.chance(0.3);
+                world.set_fixed(id, fixed);
+                return reference.set_fixed(id, fixed);
+            }
+            case 1: {
+                const bool sensor = random_.chance(0.15);
+                world.set_sensor(id, sensor);
+                return reference.set_sensor(id, sensor);
+            }
+            case 2: {
+                // One continuous item alone makes the broad phases look at all ways.
+                const bool continuous = continuous_ > 0 && random_.chance(continuous_);
+                world.set_continuous(id, continuous);
+                return reference.set_continuous(id, continuous);
+            }
+            default: {
+                const std::uint64_t user = random_.bits();
+                world.set_user(id, user);
+                return reference.set_user(id, user);
+            }
+        }
+    }
+
     template <class Take>
     void with_any_shape(Take&& take) {
         if (!lattice_) return with_random_shape<D>(random_, random_kind<D>(random_), take);
@@ -123,6 +153,7 @@ public:
 
     World<D> world;
     ReferenceWorld<D> reference;
+    bool with_all = false;  ///< sets options, too, and ignores several
     int reused = 0;         ///< items that got a slot another had before
     bool fresh_ids = true;  ///< no id was given twice
 
@@ -143,6 +174,7 @@ private:
     bool lattice_;
     double continuous_;  ///< the part of the items that are
     std::set<Id> given_;
+    std::vector<Id> ignored_;
 };
 
 }  // namespace abut::test

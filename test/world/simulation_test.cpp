@@ -16,6 +16,7 @@ namespace {
 /// How often each answer came out interesting: a test of questions that all say no proves nothing.
 struct Seen {
     int passed = 0, on_the_way = 0, ghosts = 0, left_out = 0;
+    int touching = 0, several_touching = 0, nearest = 0, all_nearest = 0;
     int began = 0, stayed = 0, ended = 0, contacts = 0, untested = 0;
     int hits = 0, several_hits = 0, misses = 0, gaps = 0, depths = 0, overlapping = 0, containing = 0, stopped = 0;
 };
@@ -26,7 +27,9 @@ std::ostream& operator<<(std::ostream& out, const Seen& seen) {
                << seen.several_hits << ", misses " << seen.misses << "; gaps " << seen.gaps << ", depths "
                << seen.depths << "; ghosts " << seen.ghosts << ", left out " << seen.left_out << "; passed "
                << seen.passed << ", met on the way " << seen.on_the_way << "; overlapping " << seen.overlapping
-               << ", containing " << seen.containing << ", stopped " << seen.stopped;
+               << ", containing " << seen.containing << ", stopped " << seen.stopped << "; touching " << seen.touching
+               << ", several " << seen.several_touching << "; nearest " << seen.nearest << ", all there are "
+               << seen.all_nearest;
 }
 
 template <int D>
@@ -77,6 +80,11 @@ void check_shapes(Simulation<D>& game, Seen& seen) {
         ASSERT_EQ(Bits(game.world.closest(placed, filter)), Bits(nearest));
         if (nearest) ++(nearest->closest.distance > 0 ? seen.gaps : seen.depths);
 
+        const std::size_t k = random.below(random.chance(0.7) ? 12 : 200);
+        const auto nearest_k = game.reference.k_nearest(asked, k, filter);
+        ASSERT_EQ(Bits(game.world.k_nearest(placed, k, filter)), Bits(nearest_k));
+        ++(nearest_k.size() < k ? seen.all_nearest : seen.nearest);
+
         const std::vector<Id> all = game.reference.overlapping(asked, filter);
         ASSERT_EQ(game.world.overlapping(placed, filter), all);
         seen.overlapping += all.empty() ? 0 : 1;
@@ -93,6 +101,7 @@ void check_points(Simulation<D>& game, Seen& seen) {
     seen.containing += holders.empty() ? 0 : 1;
     const View<D> as_shape(round_points<D>({point}, 0));
     ASSERT_EQ(Bits(game.world.closest(point, filter)), Bits(game.reference.closest(as_shape, filter)));
+    ASSERT_EQ(Bits(game.world.k_nearest(point, 3, filter)), Bits(game.reference.k_nearest(as_shape, 3, filter)));
 }
 
 template <int D>
@@ -106,12 +115,70 @@ void check_queries(Simulation<D>& game, Seen& seen) {
 
 template <int D>
 void check_items(const Simulation<D>& game) {
-    ASSERT_EQ(game.world.size(), game.reference.items().size());
+    const World<D>& world = game.world;
+    ASSERT_EQ(world.size(), game.reference.items().size());
     for (const auto& [id, item] : game.reference.items()) {
-        ASSERT_TRUE(game.world.contains(id));
-        ASSERT_EQ(game.world.user(id), item.options.user);
-        ASSERT_EQ(game.world.pose(id), item.options.pose);
+        ASSERT_TRUE(world.contains(id));
+        ASSERT_EQ(world.user(id), item.options.user);
+        ASSERT_EQ(world.pose(id), item.options.pose);
+        ASSERT_EQ(world.layers(id), item.options.layers);
+        ASSERT_EQ(world.mask(id), item.options.mask);
+        ASSERT_EQ(world.is_fixed(id), item.options.fixed);
+        ASSERT_EQ(world.is_sensor(id), item.options.sensor);
+        ASSERT_EQ(world.is_continuous(id), item.options.continuous);
     }
+    std::vector<Id> all;
+    world.each_item([&](Id id) { all.push_back(id); });
+    ASSERT_EQ(all, game.all_ids());
+}
+
+/// Whether anything has changed since the last update or not.
+template <int D>
+void check_touching(const Simulation<D>& game, Seen& seen) {
+    for (const Id id : game.all_ids()) {
+        const std::vector<Id> expected = game.reference.touching(id), found = game.world.touching(id);
+        ASSERT_EQ(found, expected);
+        seen.touching += found.empty() ? 0 : 1;
+        seen.several_touching += found.size() > 2 ? 1 : 0;
+        std::vector<Id> first;
+        game.world.each_touching(id, [&](Id other) {
+            first.push_back(other);
+            return false;
+        });
+        ASSERT_EQ(first, std::vector<Id>(found.begin(), found.begin() + (found.empty() ? 0 : 1)));
+    }
+}
+
+/// Of all pairs that touch, or that have begun to, those that are among the lists have what these hold.
+template <int D>
+void check_pairs(const World<D>& world, const Events& events) {
+    std::size_t contacts = 0, impacts = 0;
+    for (const std::span<const IdPair> pairs : {events.began, events.stayed})
+        for (const IdPair& pair : pairs) {
+            const Contact<D> contact = world.contact(pair);
+            ASSERT_EQ(Bits(world.contact({pair.b, pair.a})), Bits(contact));
+            const auto is_of_pair = [&](const auto& entry) { return IdPair{entry.a, entry.b} == pair; };
+            const auto told = std::find_if(world.contacts().begin(), world.contacts().end(), is_of_pair);
+            ASSERT_EQ(static_cast<bool>(contact), told != world.contacts().end());
+            if (contact) {
+                ASSERT_EQ(Bits(contact), Bits(told->contact));
+            }
+            contacts += contact ? 1 : 0;
+            const std::optional<Hit<D>> impact = world.impact(pair);
+            const auto met = std::find_if(world.impacts().begin(), world.impacts().end(), is_of_pair);
+            ASSERT_EQ(impact.has_value(), met != world.impacts().end());
+            if (impact) {
+                ASSERT_EQ(Bits(*impact), Bits(met->hit));
+            }
+            impacts += impact ? 1 : 0;
+        }
+    ASSERT_EQ(contacts, world.contacts().size());
+    ASSERT_EQ(impacts, world.impacts().size());
+    for (const IdPair& pair : events.ended)
+        if (!std::binary_search(events.began.begin(), events.began.end(), pair)) {
+            ASSERT_FALSE(world.contact(pair));
+            ASSERT_FALSE(world.impact(pair));
+        }
 }
 
 template <int D>
@@ -123,6 +190,8 @@ void check_update(Simulation<D>& game, Seen& seen) {
     ASSERT_EQ(Bits(events.ended), Bits(game.reference.ended));
     ASSERT_EQ(Bits(events.fractions), Bits(game.reference.fractions));
     ASSERT_EQ(Bits(game.world.contacts()), Bits(game.reference.contacts));
+    ASSERT_EQ(Bits(game.world.impacts()), Bits(game.reference.impacts));
+    ASSERT_NO_FATAL_FAILURE(check_pairs(game.world, events));
     const UpdateCounts counts = game.world.counts(), least = game.reference.least, most = game.reference.most;
     ASSERT_TRUE(least.near <= counts.near && counts.near <= most.near) << least.near << " " << counts.near;
     ASSERT_TRUE(least.tested <= counts.tested && counts.tested <= most.tested) << least.tested << " " << counts.tested;
@@ -140,13 +209,16 @@ template <int D>
 void play(std::uint64_t seed, int items, int frames, bool lattice, Seen& seen, double continuous = 0) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Simulation<D> game(seed, items, lattice, {}, continuous);
+    game.with_all = true;
     for (int frame = 0; frame < frames; ++frame) {
         SCOPED_TRACE("frame " + std::to_string(frame));
         ASSERT_NO_FATAL_FAILURE(check_queries(game, seen));
         ASSERT_NO_FATAL_FAILURE(check_update(game, seen));
         ASSERT_NO_FATAL_FAILURE(check_queries(game, seen));
         ASSERT_NO_FATAL_FAILURE(check_items(game));
+        ASSERT_NO_FATAL_FAILURE(check_touching(game, seen));
         game.change();
+        ASSERT_NO_FATAL_FAILURE(check_touching(game, seen));
     }
     EXPECT_TRUE(game.fresh_ids);
     EXPECT_GT(game.reused, frames / 10);
@@ -168,12 +240,13 @@ void play_all(std::uint64_t seed, bool lattice) {
     }
     for (const int count :
          {seen.began, seen.stayed, seen.ended, seen.contacts, seen.untested, seen.hits, seen.several_hits, seen.misses,
-          seen.gaps, seen.depths, seen.ghosts, seen.left_out, seen.overlapping, seen.containing, seen.stopped})
+          seen.gaps, seen.depths, seen.ghosts, seen.left_out, seen.overlapping, seen.containing, seen.stopped,
+          seen.touching, seen.several_touching, seen.nearest, 3 * seen.all_nearest})
         EXPECT_GT(count, oracle::amount(frames / 2));
 }
 
 TEST(Simulation, Plane) {
-    play_all<2>(1, false);
+    play_all<2>(11, false);
 }
 TEST(Simulation, Space) {
     play_all<3>(1001, false);

@@ -1,0 +1,86 @@
+// What an item was added with: read, and changed afterwards.
+
+#include <abut/math/assert.hpp>
+#include <abut/world/world.hpp>
+
+namespace abut {
+
+template <int D>
+ItemOptions<D> World<D>::options(Id id) const {
+    const Item* item = find(id);
+    ABUT_ASSERT(item != nullptr);
+    return item != nullptr ? item->options : ItemOptions<D>{.layers = 0, .mask = 0};
+}
+
+template <int D>
+std::uint32_t World<D>::layers(Id id) const {
+    return options(id).layers;
+}
+template <int D>
+std::uint32_t World<D>::mask(Id id) const {
+    return options(id).mask;
+}
+template <int D>
+bool World<D>::is_fixed(Id id) const {
+    return options(id).fixed;
+}
+template <int D>
+bool World<D>::is_sensor(Id id) const {
+    return options(id).sensor;
+}
+template <int D>
+bool World<D>::is_continuous(Id id) const {
+    return options(id).continuous;
+}
+
+template <int D>
+void World<D>::set_user(Id id, std::uint64_t user) {
+    Item* item = find(id);
+    ABUT_ASSERT(item != nullptr);
+    if (item != nullptr) item->options.user = user;
+}
+
+template <int D>
+void World<D>::set_fixed(Id id, bool fixed) {
+    Item* item = find(id);
+    ABUT_ASSERT(item != nullptr);
+    if (item == nullptr || item->options.fixed == fixed) return;
+    const Aabb<D> own = box(id.index - 1);
+    boxes_of(*item).remove(item->place);
+    item->options.fixed = fixed;
+    item->place = boxes_of(*item).add(id.index - 1);
+    boxes_of(*item).set(item->place, own);
+    mark_pending(id.index - 1);
+}
+
+template <int D>
+void World<D>::set_sensor(Id id, bool sensor) {
+    Item* item = find(id);
+    ABUT_ASSERT(item != nullptr);
+    if (item == nullptr || item->options.sensor == sensor) return;
+    item->options.sensor = sensor;
+    mark_pending(id.index - 1);
+}
+
+template <int D>
+void World<D>::set_continuous(Id id, bool continuous) {
+    Item* item = find(id);
+    ABUT_ASSERT(item != nullptr);
+    if (item == nullptr || item->options.continuous == continuous) return;
+    item->options.continuous = continuous;
+    if (continuous)
+        ++continuous_;
+    else
+        --continuous_;
+}
+
+template <int D>
+void World<D>::visit_items(FunctionRef<bool(Id)> visit) const {
+    for (std::uint32_t slot = 0; slot < items_.size(); ++slot)
+        if (const Id id = id_of(slot); find(id) != nullptr && !visit(id)) return;
+}
+
+template class World<2>;
+template class World<3>;
+
+}  // namespace abut

@@ -1,0 +1,71 @@
+// The nearest items of a world, found nearest first by the broad phases.
+
+#include <abut/broad_phase/boxes.hpp>
+#include <abut/math/assert.hpp>
+#include <abut/world/world.hpp>
+
+#include <algorithm>
+
+namespace abut {
+namespace {
+
+/// No two items are equally near.
+template <int D>
+bool is_nearer(const WorldClosest<D>& a, const WorldClosest<D>& b) {
+    return a.closest.distance != b.closest.distance ? a.closest.distance < b.closest.distance : a.id < b.id;
+}
+
+}  // namespace
+
+template <int D>
+std::size_t World<D>::nearest_to(const View<D>& shape, std::span<WorldClosest<D>> out, const Filter& filter) const {
+    const bool finite = is_finite(shape);
+    ABUT_ASSERT(finite);
+    if (!finite || out.empty()) return 0;
+    asked_.add(ray_weight);
+    // A heap: the farthest comes first.
+    std::size_t count = 0;
+    const auto heap = [&] { return out.first(count); };
+    float reach = std::numeric_limits<float>::infinity();
+    const auto any = [&](std::uint32_t slot) -> float {
+        const Item& item = items_[slot];
+        if (!asked(slot, filter) || (std::holds_alternative<Solid<D>>(shape) && item.type == ShapeType::half_space))
+            return reach;
+        const WorldClosest<D> found{id_of(slot), abut::closest(shape, placed(item))};
+        if (std::isinf(found.closest.distance)) return reach;
+        if (count == out.size()) {
+            if (!is_nearer(found, out.front())) return reach;
+            std::pop_heap(heap().begin(), heap().end(), is_nearer<D>);
+            --count;
+        }
+        out[count++] = found;
+        std::push_heap(heap().begin(), heap().end(), is_nearer<D>);
+        if (count == out.size()) reach = std::max(out.front().closest.distance, 0.0f);
+        return reach;
+    };
+    const Aabb<D> box = bounds(shape);
+    moving_.closest(box, any, reach);
+    fixed_.closest(box, any, reach);
+    std::sort_heap(heap().begin(), heap().end(), is_nearer<D>);
+    return count;
+}
+
+template <int D>
+std::optional<WorldClosest<D>> World<D>::closest_to(const View<D>& shape, const Filter& filter) const {
+    WorldClosest<D> nearest;
+    if (nearest_to(shape, {&nearest, 1}, filter) == 0) return std::nullopt;
+    return nearest;
+}
+
+template <int D>
+std::vector<WorldClosest<D>> World<D>::list_of_nearest(const View<D>& shape, std::size_t k,
+                                                       const Filter& filter) const {
+    std::vector<WorldClosest<D>> result(std::min(k, count_));
+    result.resize(nearest_to(shape, result, filter));
+    return result;
+}
+
+template class World<2>;
+template class World<3>;
+
+}  // namespace abut
