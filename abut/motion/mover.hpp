@@ -47,7 +47,8 @@ struct Moved {
     bool grounded = false;   ///< stands on something, or is held up by walls that leave no way down
     MoverTouch<D> ground{};  ///< if grounded: on what
     bool crushed = false;    ///< is in something, and there is no way out
-    /// What it touches and what it ran against, once each, sorted by id and part. Valid until the next move.
+    /// What it touches and what it ran against, once each, sorted by id and part; a field once for each of its sides.
+    /// Valid until the next move.
     std::span<const MoverTouch<D>> touches;
 };
 

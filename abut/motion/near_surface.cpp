@@ -2,6 +2,7 @@
 #include <abut/query/front_touch.hpp>
 
 #include <algorithm>
+#include <array>
 
 namespace abut {
 namespace {
@@ -9,6 +10,12 @@ namespace {
 /// What is in a one-sided part, and behind its front by more than this part of its size, is on its way through. What is
 /// behind it by less has come to stand on it, such as on a platform that rises.
 constexpr double way_through = 0.05;
+
+/// Sides whose normals differ by less are one.
+constexpr double same_side = 0.99;
+
+/// A side is one of those that keep a shape off if its normal has at least this part in the normal there.
+constexpr double least_part = 0.05;
 
 template <int D>
 Aabb<D> moved_box(const Aabb<D>& box, const DVec<D>& move) {
@@ -63,9 +70,16 @@ bool NearSurface<D>::is_passed(const PartName& name) const {
 
 template <int D>
 void NearSurface<D>::each_foot(const DVec<D>& point, double within, FunctionRef<void(const Foot<D>&)> visit) const {
+    each_foot_of_others({}, point, within, visit);
+}
+
+template <int D>
+void NearSurface<D>::each_foot_of_others(const PartName& but, const DVec<D>& point, double within,
+                                         FunctionRef<void(const Foot<D>&)> visit) const {
     const Vec<D> middle = to_float(point);
     parts_.each(grown(Aabb<D>{middle, middle}, static_cast<float>(within)),
                 [&](const PartName& name, const auto& part) {
+                    if (name == but) return;
                     if (!passed_.empty() && is_passed(name)) return;
                     if (!passed_fronts_.empty() && is_passed_front(name)) return;
                     Foot<D> foot;
@@ -136,6 +150,7 @@ std::span<const NearContact<D>> NearSurface<D>::contacts(const DVec<D>& at, doub
         if (!(distance.distance <= reach) || !meet_at_fronts(shape, part, distance.normal)) return std::nullopt;
         if (is_one_sided(shape, part) && is_on_passed_front(distance.on_b())) return std::nullopt;
         NearContact<D> contact{name, -distance.normal, distance.on_b(), distance.distance, {}, false};
+        contact.has_sides = is_function<std::remove_cvref_t<decltype(part)>>;
         name_feature(part, distance.corners.b, distance.corners.count, -distance.normal, name.part, contact.feature);
         return contact;
     };
@@ -157,9 +172,49 @@ std::span<const NearContact<D>> NearSurface<D>::contacts(const DVec<D>& at, doub
             contacts_.push_back(*contact);
         else if (contact->gap < scale_)
             ghosts_.push_back({*contact, felt_plane<D>(part, place, feet, seen)});
+        if constexpr (is_function<std::remove_cvref_t<decltype(part)>>) add_sides(*contact, shape, part, reach);
     });
     tell_ghosts(shape, reach);
     return contacts_;
+}
+
+/// The other sides of a part that is known by its distance alone.
+template <int D>
+void NearSurface<D>::add_sides(const NearContact<D>& nearest, const Convex<D>& shape, const DistanceFunction<D>& part,
+                               double reach) {
+    // The part takes a corner for rounder than it is: the shape is kept off by something that isn't there.
+    const double border = gap_to_border(shape, part, -nearest.normal);
+    const bool kept_off = std::isfinite(border) && border > 1.5 * std::max(nearest.gap, 0.0) + scale_;
+    std::array<FunctionSide<D>, most_sides<D>> sides;
+    const std::size_t count =
+        find_sides<D>(shape, part, kept_off ? std::numeric_limits<double>::infinity() : reach, sides);
+    // Beside x = 0 and y = 0 its distance is about x y / cell, whose normal is along (y, x): each side is so far away
+    // that its gap times its part of the normal is the same.
+    const auto share = [&](const FunctionSide<D>& side) { return side.gap * dot(side.normal, nearest.normal); };
+    const auto is_in_normal = [&](const FunctionSide<D>& side) {
+        return dot(side.normal, nearest.normal) > least_part;
+    };
+    double least_share = std::numeric_limits<double>::infinity();
+    for (const FunctionSide<D>& side : std::span(sides).first(count))
+        if (is_in_normal(side)) least_share = std::min(least_share, share(side));
+    for (const FunctionSide<D>& side : std::span(sides).first(count)) {
+        if (dot(side.normal, nearest.normal) >= same_side) continue;
+        const bool keeps_off = kept_off && is_in_normal(side) && share(side) <= 2 * least_share;
+        if ((side.gap > reach && !keeps_off) || is_covered(nearest.name, side)) continue;
+        NearContact<D> contact{nearest.name, side.normal, side.point, side.gap, nearest.feature, false};
+        contact.has_sides = true;
+        contacts_.push_back(contact);
+    }
+}
+
+/// Whether another part is in front of it.
+template <int D>
+bool NearSurface<D>::is_covered(const PartName& name, const FunctionSide<D>& side) const {
+    const DVec<D> beside = side.point + side.normal * scale_;
+    bool result = false;
+    each_foot_of_others(name, beside, scale_,
+                        [&](const Foot<D>& foot) { result = result || foot.distance < 0.9 * scale_; });
+    return result;
 }
 
 /// Where what covers a place that isn't felt is out of reach of the shape itself, or not felt either, the surface there
@@ -203,6 +258,7 @@ std::optional<FirstTouch<D>> NearSurface<D>::first_touch(const DVec<D>& at, cons
         if (result && touch.along >= path.length) return;
         if (is_one_sided(shape, part) && (is_passed_front(name) || is_on_passed_front(touch.point))) return;
         NearContact<D> contact{name, -touch.normal, touch.point, 0, touch.feature, false};
+        contact.has_sides = is_function<std::remove_cvref_t<decltype(part)>>;
         if (passes(part, contact)) return;
         path.length = touch.along;
         result = FirstTouch<D>{std::min(touch.along / way, 1.0), contact};

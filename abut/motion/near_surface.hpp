@@ -3,6 +3,7 @@
 // What a convex shape is near to in a world, wherever it is put: planes to keep to, and first touches on its way. For
 // .cpp files.
 
+#include <abut/motion/function_sides.hpp>
 #include <abut/motion/near_parts.hpp>
 
 namespace abut {
@@ -16,6 +17,7 @@ struct NearContact {
     double gap = 0;       ///< below zero inside
     Feature feature{};
     bool overlapped = false;  ///< the part and the shape at its start
+    bool has_sides = false;   ///< the part may be met at several sides at once: it is known by its distance alone
 };
 
 template <int D>
@@ -62,6 +64,12 @@ private:
     bool is_passed_front(const PartName& name) const;
     /// Whether a place of a one-sided part lies on one of those as well.
     bool is_on_passed_front(const DVec<D>& point) const;
+    /// Of all parts but one.
+    void each_foot_of_others(const PartName& but, const DVec<D>& point, double within,
+                             FunctionRef<void(const Foot<D>&)> visit) const;
+    bool is_covered(const PartName& name, const FunctionSide<D>& side) const;
+    void add_sides(const NearContact<D>& nearest, const Convex<D>& shape, const DistanceFunction<D>& part,
+                   double reach);
     void tell_ghosts(const Convex<D>& shape, double reach);
 
     struct Ghost {

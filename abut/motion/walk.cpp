@@ -17,6 +17,9 @@ constexpr double swept_skin = 0.5;
 /// to rest isn't pushed.
 constexpr double pushed_skin = 0.25;
 
+/// Sides of one part whose normals differ by more are touches of their own.
+constexpr double same_side = 0.9;
+
 /// What is less than this part of the skin is no way at all.
 constexpr double no_way = 1e-5;
 
@@ -219,16 +222,19 @@ void Walk<D>::tell_contacts() {
 template <int D>
 void Walk<D>::tell(const NearContact<D>& contact) {
     const auto name = [](const MoverTouch<D>& touch) { return PartName{touch.id, touch.feature.part}; };
-    const auto place =
+    auto place =
         std::lower_bound(touches_.begin(), touches_.end(), contact.name,
                          [&](const MoverTouch<D>& touch, const PartName& wanted) { return name(touch) < wanted; });
+    const auto is_part = [&] { return place != touches_.end() && name(*place) == contact.name; };
+    if (contact.has_sides)
+        while (is_part() && dot(DVec<D>(place->normal), contact.normal) < same_side) ++place;
     MoverTouch<D> touch;
     touch.id = contact.name.id;
     touch.feature = contact.feature;
     touch.point = to_float(contact.point);
     touch.normal = to_float(contact.normal);
     touch.is_ground = is_ground(contact);
-    if (place != touches_.end() && name(*place) == contact.name)
+    if (is_part())
         *place = touch;
     else
         touches_.insert(place, touch);
