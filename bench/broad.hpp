@@ -34,5 +34,7 @@ std::vector<Bench> box_query_benches();
 std::vector<Bench> thread_benches();
 std::vector<Bench> temporal_benches();
 std::vector<Bench> world_benches();
+/// What changes to a World cost, and queries after them.
+std::vector<Bench> world_change_benches();
 
 }  // namespace abut::bench

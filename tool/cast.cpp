@@ -39,7 +39,7 @@ template <int D>
 CastResult<D> cast(const Objects<D>& objects, const CastOptions<D>& options, ProgressCall progress) {
     World<D> world;
     for (std::size_t i = 0; i < objects.size(); ++i)
-        if (objects[i].present) world.add(objects[i].placed, {.user = i});
+        if (objects[i].present) world.add(Unowned<D>{objects[i].placed}, {.user = i});
 
     Ray<D> ray = Ray<D>::between(options.from, options.to);
     if (options.bounces > 0) ray.length = std::numeric_limits<float>::infinity();

@@ -12,6 +12,7 @@
 // is the distance, which has no step at the border of the volume, unless the volume cuts the solid.
 
 #include <abut/field/field_data.hpp>
+#include <abut/shape/distance_function.hpp>
 
 namespace abut {
 
