@@ -17,6 +17,7 @@ void NearParts<D>::forget() {
     order_.clear();
     boxes_.clear();
     kept_.clear();
+    composites_.clear();
     points_.clear();
     has_one_sided_ = false;
 }
@@ -40,8 +41,10 @@ void NearParts<D>::gather(const World<D>& world, const Aabb<D>& box, const Filte
                 kept_.push_back({*function});
                 order_.push_back({{id, 0}, place, bounds(*function)});
             } else {
-                each_part<D>(std::get<Composite<D>>(shape), box, [&](const Convex<D>& part, std::uint32_t index) {
-                    take({id, index}, part, shape);
+                // The world makes the view for this call alone.
+                const auto& composite = composites_.emplace_back(std::get<Composite<D>>(shape));
+                each_part<D>(composite, box, [&](const Convex<D>& part, std::uint32_t index) {
+                    take({id, index}, part);
                     return true;
                 });
             }
@@ -58,15 +61,16 @@ void NearParts<D>::gather(const World<D>& world, const Aabb<D>& box, const Filte
     for (const Entry& entry : order_) boxes_.push_back(entry.box);
 }
 
-/// A composite shape may make up its parts as it goes: what they refer to is copied, or asked for again.
+/// A composite shape, the last of `composites_`, may make up its parts as it goes: what they refer to is copied, or the
+/// part is visited again.
 template <int D>
-void NearParts<D>::take(const PartName& name, const Convex<D>& part, const View<D>& shape) {
+void NearParts<D>::take(const PartName& name, const Convex<D>& part) {
     const Aabb<D> box_of_part = bounds(part);
     if (!overlaps(box_of_part, box_)) return;
     has_one_sided_ = has_one_sided_ || part.one_sided;
     Kept kept{part};
     kept.made_up = part.core == Core::function || part.facets != nullptr;
-    kept.shape = &shape;
+    kept.composite = static_cast<std::uint32_t>(composites_.size() - 1);
     if (!kept.made_up && part.core == Core::points && part.points != nullptr) {
         kept.has_points = true;
         kept.first_point = points_.size();
@@ -80,10 +84,10 @@ void NearParts<D>::take(const PartName& name, const Convex<D>& part, const View<
 }
 
 template <int D>
-void NearParts<D>::look_again(const View<D>& shape, const Aabb<D>& box, std::uint32_t part,
+void NearParts<D>::look_again(const Composite<D>& composite, const Aabb<D>& box, std::uint32_t part,
                               FunctionRef<void(const Convex<D>&)> visit) {
     bool found = false;
-    each_part<D>(std::get<Composite<D>>(shape), box, [&](const Convex<D>& again, std::uint32_t index) {
+    each_part<D>(composite, box, [&](const Convex<D>& again, std::uint32_t index) {
         if (index != part || found) return !found;
         found = true;
         visit(again);

@@ -37,7 +37,8 @@ public:
             const PartName& name = order_[i].name;
             const Kept& kept = kept_[order_[i].place];
             if (kept.made_up)
-                look_again(*kept.shape, boxes_[i], name.part, [&](const Convex<D>& part) { visit(name, part); });
+                look_again(composites_[kept.composite], boxes_[i], name.part,
+                           [&](const Convex<D>& part) { visit(name, part); });
             else if (const auto* convex = std::get_if<Convex<D>>(&kept.part))
                 visit(name, *convex);
             else if (const auto* function = std::get_if<DistanceFunction<D>>(&kept.part))
@@ -52,8 +53,8 @@ private:
         std::variant<Convex<D>, Solid<D>, DistanceFunction<D>> part;
         std::size_t first_point = 0;  // in points_, of a part that was given with points of its own
         bool has_points = false;
-        bool made_up = false;            // by the shape, while it was asked: to be asked for again
-        const View<D>* shape = nullptr;  // which it is then a part of
+        bool made_up = false;         // by the shape, for one visit: to be visited again
+        std::uint32_t composite = 0;  // in composites_, which it is then a part of
     };
     struct Entry {
         PartName name;
@@ -61,14 +62,15 @@ private:
         Aabb<D> box;
     };
 
-    void take(const PartName& name, const Convex<D>& part, const View<D>& shape);
-    static void look_again(const View<D>& shape, const Aabb<D>& box, std::uint32_t part,
+    void take(const PartName& name, const Convex<D>& part);
+    static void look_again(const Composite<D>& composite, const Aabb<D>& box, std::uint32_t part,
                            FunctionRef<void(const Convex<D>&)> visit);
 
     Aabb<D> box_ = Aabb<D>::empty();
     std::vector<Entry> order_;
     std::vector<Aabb<D>> boxes_;  // in that order, together
     std::vector<Kept> kept_;
+    std::vector<Composite<D>> composites_;
     std::vector<Vec<D>> points_;
     bool has_one_sided_ = false;
 };
