@@ -1,4 +1,5 @@
 #include <abut/convex/margin.hpp>
+#include <abut/query/first_touch.hpp>
 #include <abut/query/function_motion.hpp>
 #include <abut/query/function_there.hpp>
 #include <abut/shape/view.hpp>
@@ -19,6 +20,9 @@ constexpr double slide_stride = 0.25;
 
 /// Steps of a ray that has used up half of them are at most this part of its way so far: a way may have no end.
 constexpr double widening = 0.05;
+
+/// Of a search for a place that touches, where nothing hangs on its being the deepest.
+constexpr int few_boxes = 8;
 
 /// The bound on looks for the moment at which two touch, once it is known between which two it is.
 constexpr int most_halvings = 40;
@@ -171,26 +175,23 @@ private:
 /// Two parts on their ways, by what tells their distance at a time.
 template <int D>
 struct Course {
-    double end = 1;     ///< times go from 0 to there
-    double speed = 0;   ///< by which the distance changes at most
-    double margin = 0;  ///< of doubt
-    double slide = 1;   ///< how long what slides needn't be looked at
-    double from = 0;    ///< until then nothing touches, as their boxes tell
+    double end = 1;       ///< times go from 0 to there
+    double speed = 0;     ///< by which the distance changes at most
+    double margin = 0;    ///< of doubt
+    double slide = 1;     ///< how long what slides needn't be looked at
+    double from = 0;      ///< until then nothing touches, as their boxes tell
+    bool proves = false;  ///< stretches of it can be proven free
 };
 
-template <int D>
-struct Gained {
-    double time = 0;
-    SignedDistance<D> distance;
-    bool started_inside = false;
-};
-
-/// The first contact gained. distance_at(time, rough) tells a SignedDistance that may be so much above the least;
-/// closing(distance, time) how fast it falls.
-template <int D, class DistanceAt, class Closing>
-std::optional<Gained<D>> first_gain(const Course<D>& course, const DistanceAt& distance_at, const Closing& closing) {
+/// The first contact gained. distance_at(time, wanted) tells a SignedDistance; closing(distance, time) how fast it
+/// falls; is_free(from, until, time) proves that they don't touch between, or tells a time at which they may.
+template <int D, class DistanceAt, class Closing, class IsFree>
+std::optional<Gained<D>> first_gain(const Course<D>& course, const DistanceAt& distance_at, const Closing& closing,
+                                    const IsFree& is_free) {
     const double margin = course.margin;
-    Gained<D> now{course.from, distance_at(course.from, 0.0), false};
+    DistanceWanted at_first;
+    if (course.proves) at_first.reach = margin;
+    Gained<D> now{course.from, distance_at(course.from, at_first), false};
     bool touches = now.distance.distance <= margin;
     double floor = -std::numeric_limits<double>::infinity();
     if (touches) {
@@ -200,7 +201,7 @@ std::optional<Gained<D>> first_gain(const Course<D>& course, const DistanceAt& d
         if (falls > slide_slope * course.speed) {
             const double ahead = std::min(course.end, now.time + 4 * margin / falls);
             const double expected = falls * (ahead - now.time);
-            if (distance_at(ahead, 0.0).distance <= start - 0.25 * expected) return now;
+            if (distance_at(ahead, {}).distance <= start - 0.25 * expected) return now;
         }
         now.started_inside = false;
     }
@@ -212,7 +213,7 @@ std::optional<Gained<D>> first_gain(const Course<D>& course, const DistanceAt& d
             const double share = i % 2 == 0 && above > 0 ? std::clamp(above / (above + below), 0.05, 0.95) : 0.5;
             const double time = before.time + (after.time - before.time) * share;
             if (!(time > before.time && time < after.time)) break;
-            const Gained<D> between{time, distance_at(time, 0.0), false};
+            const Gained<D> between{time, distance_at(time, {}), false};
             (between.distance.distance <= wanted ? after : before) = between;
         }
         // Where it jumps there is nothing between: the last time at which they don't touch.
@@ -220,6 +221,10 @@ std::optional<Gained<D>> first_gain(const Course<D>& course, const DistanceAt& d
     };
     double rough = 0;  // by which it may be less
     for (int step = 0; step < function_sweep_most_steps; ++step) {
+        if (course.proves && !touches) {
+            const auto near_by = [&](double time) { return distance_at(time, {.most_boxes = few_boxes}); };
+            return first_touch(now, course.end, course.speed, margin, near_by, closing, is_free);
+        }
         const double gap = now.distance.distance - rough;
         double stride = touches ? std::max((gap - floor) / course.speed, course.slide)
                                 : std::max(gap, 0.25 * margin) / course.speed;
@@ -229,10 +234,10 @@ std::optional<Gained<D>> first_gain(const Course<D>& course, const DistanceAt& d
         const double time = std::min(now.time + stride, course.end);
         // Far off it needn't be known exactly.
         rough = touches ? 0 : far_off * std::max(gap, 0.0);
-        Gained<D> next{time, distance_at(time, rough), false};
+        Gained<D> next{time, distance_at(time, {.rough = rough}), false};
         if (rough > 0 && next.distance.distance <= 4 * rough + margin) {
             rough = 0;
-            next.distance = distance_at(time, 0.0);
+            next.distance = distance_at(time, {});
         }
         if (touches) {
             if (next.distance.distance <= floor) return refine(now, next, floor + 0.5 * margin);
@@ -244,6 +249,37 @@ std::optional<Gained<D>> first_gain(const Course<D>& course, const DistanceAt& d
         now = next;
     }
     return std::nullopt;
+}
+
+template <int D>
+DVec<D> middle_of(const Convex<D>& part) {
+    const Aabb<D> box = bounds(part);
+    return (DVec<D>(box.min) + DVec<D>(box.max)) * 0.5;
+}
+
+template <class A, class B>
+bool has_convex_bounded(const A& a, const B& b) {
+    constexpr int D = PartDimension<A>::value;
+    if constexpr (std::is_same_v<A, Convex<D>>)
+        return b.bound != nullptr;
+    else if constexpr (std::is_same_v<B, Convex<D>>)
+        return a.bound != nullptr;
+    else
+        return false;
+}
+
+/// Whether what moves stays apart from a function on a stretch of its way; else `time` is when it is abreast of the
+/// place that was found to touch.
+template <int D>
+bool is_free_between(const Convex<D>& first, const Convex<D>& last, double wide, const DistanceFunction<D>& function,
+                     double from, double until, double& time) {
+    DVec<D> place(0.0);
+    if (stays_apart(first, last, wide, function, place)) return true;
+    const DVec<D> start = middle_of(first), way = middle_of(last) - start;
+    const double square = length_squared(way);
+    const double share = square > 0 ? std::clamp(dot(place - start, way) / square, 0.0, 1.0) : 0.5;
+    time = from + (until - from) * share;
+    return false;
 }
 
 template <int D>
@@ -367,13 +403,23 @@ bool part_touch(const A& a, const Path<D>& path, const B& b, std::uint32_t index
     if (!boxes_meet(grown(bounds(a), wide), bounds(b), path.direction, course.from, course.end)) return false;
     course.speed = std::max(slope_of(a), slope_of(b));
     course.slide = slide_stride * std::min(size_of(a), size_of(b));
-    const auto distance_at = [&](double along, double rough) -> SignedDistance<D> {
-        return function_distance(put(a, path.direction * along), b, {.rough = rough});
+    course.proves = has_convex_bounded(a, b);
+    const auto distance_at = [&](double along, const DistanceWanted& wanted) -> SignedDistance<D> {
+        return function_distance(put(a, path.direction * along), b, wanted);
     };
     const auto closing = [&](const SignedDistance<D>& distance, double) {
         return dot(path.direction, distance.normal);
     };
-    const std::optional<Gained<D>> gained = first_gain(course, distance_at, closing);
+    const auto is_free = [&](double from, double until, double& time) -> bool {
+        const DVec<D> start = path.direction * from, end = path.direction * until;
+        if constexpr (std::is_same_v<A, Convex<D>>)
+            return is_free_between(put(a, start), put(a, end), 0, b, from, until, time);
+        else if constexpr (std::is_same_v<B, Convex<D>>)
+            return is_free_between(put(b, -start), put(b, -end), 0, a, from, until, time);
+        else
+            return false;
+    };
+    const std::optional<Gained<D>> gained = first_gain(course, distance_at, closing, is_free);
     if (!gained) return false;
     touch.along = gained->time;
     touch.normal = gained->distance.normal;
@@ -398,8 +444,8 @@ bool first_meeting(const A& a, const RigidPath<D>& path_a, const B& b, const Rig
         std::isfinite(reach_b) ? seen_motion(path_b, path_a, reach_b).speed : std::numeric_limits<double>::infinity();
     const double speed = std::min(speed_a, speed_b);
     if (!std::isfinite(speed) || !(speed > 0)) return false;
-    const auto distance_at = [&](double time, double rough) -> SignedDistance<D> {
-        return function_distance(moved(a, place_at(path_a, time)), moved(b, place_at(path_b, time)), {.rough = rough});
+    const auto distance_at = [&](double time, const DistanceWanted& wanted) -> SignedDistance<D> {
+        return function_distance(moved(a, place_at(path_a, time)), moved(b, place_at(path_b, time)), wanted);
     };
     const auto closing = [&](const SignedDistance<D>& distance, double time) {
         return dot(distance.normal, path_a.velocity(time, distance.on_a) - path_b.velocity(time, distance.on_b()));
@@ -409,7 +455,26 @@ bool first_meeting(const A& a, const RigidPath<D>& path_a, const B& b, const Rig
     course.speed = speed * std::max(slope_of(a), slope_of(b));
     course.margin = function_margin(moved(a, place_at(path_a, 0)), moved(b, place_at(path_b, 0)));
     course.slide = slide_stride * std::min(size_of(a), size_of(b)) / speed;
-    const std::optional<Gained<D>> gained = first_gain(course, distance_at, closing);
+    course.proves = has_convex_bounded(a, b);
+    // In the frame of the function, in which it rests; a point is nowhere farther from the straight way than an 8th of
+    // how it bends.
+    const auto stays_free = [](const auto& part, const RigidPath<D>& path, double reach, const auto& function,
+                               const RigidPath<D>& frame, double from, double until, double& time) {
+        const auto seen_at = [&](double then) {
+            return moved(moved(part, place_at(path, then)), back_from(place_at(frame, then)));
+        };
+        const double wide = seen_motion(path, frame, reach).bend * (until - from) * (until - from) / 8;
+        return is_free_between(seen_at(from), seen_at(until), wide, function, from, until, time);
+    };
+    const auto is_free = [&](double from, double until, double& time) -> bool {
+        if constexpr (std::is_same_v<A, Convex<D>>)
+            return stays_free(a, path_a, reach_a, b, path_b, from, until, time);
+        else if constexpr (std::is_same_v<B, Convex<D>>)
+            return stays_free(b, path_b, reach_b, a, path_a, from, until, time);
+        else
+            return false;
+    };
+    const std::optional<Gained<D>> gained = first_gain(course, distance_at, closing, is_free);
     if (!gained || gained->time > limits.reach) return false;
     Feature feature;
     const MeetingCorners<D>& corners = gained->distance.corners;

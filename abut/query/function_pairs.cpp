@@ -22,6 +22,9 @@ constexpr double leaning_tolerance = 1e-3;
 /// The bounds on boxes above a half-space.
 constexpr int most_boxes_over_solid = 1024, most_boxes_leaning = 128;
 
+/// And of a search on a way, a shorter part of which may take fewer.
+constexpr int most_boxes_of_way = 192;
+
 template <int D>
 bool is_bounded(const Aabb<D>& box) {
     return is_finite(box.min) && is_finite(box.max);
@@ -131,6 +134,7 @@ SignedDistance<D> from_convex(const Convex<D>& set, const DistanceFunction<D>& f
         std::max((function.bound != nullptr ? bounded_tolerance : search_tolerance) * margin, wanted.rough);
     options.enough = wanted.enough + set.radius;
     options.reach = wanted.reach + set.radius;
+    options.most_boxes = wanted.most_boxes;
     const Least<D> least =
         function.bound != nullptr ? least_bounded(seen, there, options) : least_in(seen, there, options);
     if (!(least.distance < std::numeric_limits<double>::infinity())) return nothing_near<D>();
@@ -340,6 +344,25 @@ requires FunctionPair<A, B> SignedDistance<PartDimension<A>::value> function_dis
     }
 }
 
+template <int D>
+bool stays_apart(const Convex<D>& first, const Convex<D>& last, double wide, const DistanceFunction<D>& function,
+                 DVec<D>& place) {
+    if (has_nothing(function.bounds)) return true;
+    const double margin = function_margin(first, function), radius = first.radius + wide;
+    const Affine<D> frame = own_frame<D>(function), back = back_from(frame);
+    const DistanceFunction<D> own = moved(function, back);
+    const FunctionThere<D> seen(own);
+    LeastOptions<D> options;
+    options.tolerance = 0.25 * margin;
+    options.reach = options.enough = radius - 0.75 * margin;
+    options.no_less = radius - function_doubt(first, function);
+    options.most_boxes = most_boxes_of_way;
+    const Least<D> least = least_bounded(seen, moved(first, back), moved(last, back), options);
+    if (least.at_least >= std::min(options.no_less, radius - margin)) return true;
+    place = frame.point(least.point);
+    return false;
+}
+
 template <class A, class B>
 requires FunctionPair<A, B>
 bool function_overlap(const A& a, const B& b) {
@@ -387,11 +410,12 @@ bool part_contact(const A& a, const B& b, double reach, double margin, const Sea
     template bool function_overlap(const A&, const B&);                                      \
     template SignedDistance<D> function_distance(const A&, const B&, const DistanceWanted&); \
     template bool part_contact(const A&, const B&, double, double, const SearchOptions<D>&, PartContact<D>&);
-#define ABUT_INSTANTIATE(D)                                 \
-    ABUT_INSTANTIATE_FOR(D, DistanceFunction<D>, Convex<D>) \
-    ABUT_INSTANTIATE_FOR(D, Convex<D>, DistanceFunction<D>) \
-    ABUT_INSTANTIATE_FOR(D, DistanceFunction<D>, Solid<D>)  \
-    ABUT_INSTANTIATE_FOR(D, Solid<D>, DistanceFunction<D>)  \
+#define ABUT_INSTANTIATE(D)                                                                                      \
+    template bool stays_apart(const Convex<D>&, const Convex<D>&, double, const DistanceFunction<D>&, DVec<D>&); \
+    ABUT_INSTANTIATE_FOR(D, DistanceFunction<D>, Convex<D>)                                                      \
+    ABUT_INSTANTIATE_FOR(D, Convex<D>, DistanceFunction<D>)                                                      \
+    ABUT_INSTANTIATE_FOR(D, DistanceFunction<D>, Solid<D>)                                                       \
+    ABUT_INSTANTIATE_FOR(D, Solid<D>, DistanceFunction<D>)                                                       \
     ABUT_INSTANTIATE_FOR(D, DistanceFunction<D>, DistanceFunction<D>)
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

@@ -49,7 +49,8 @@ double function_doubt(const A& a, const B& b);
 struct DistanceWanted {
     double enough = -std::numeric_limits<double>::infinity();
     double reach = std::numeric_limits<double>::infinity();
-    double rough = 0;  ///< so much above the least is as good
+    double rough = 0;    ///< so much above the least is as good
+    int most_boxes = 0;  ///< of a search for the least of a function that bounds itself; 0: as the search has it
 };
 
 template <class A, class B>
@@ -61,6 +62,12 @@ requires FunctionPair<A, B> SignedDistance<PartDimension<A>::value> part_distanc
     const A& a, const B& b, const SearchOptions<PartDimension<A>::value>& = {}) {
     return function_distance(a, b, {});
 }
+
+/// Whether a convex set on its way is nowhere deeper in a function that bounds itself than its doubt. The way is in the
+/// hull of the set where it begins and where it ends, made `wide` wider; all in one frame. Not: it may be at `place`.
+template <int D>
+bool stays_apart(const Convex<D>& first, const Convex<D>& last, double wide, const DistanceFunction<D>& function,
+                 DVec<D>& place);
 
 /// Stops where a point of both is found.
 template <class A, class B>

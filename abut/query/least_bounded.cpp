@@ -77,6 +77,12 @@ public:
     const DVec<D>& point(std::size_t i) const { return points_[i]; }
     double weight(std::size_t i) const { return weights_[i]; }
 
+    /// A share of all, to a point between two.
+    void shift_all(const DVec<D>& first, const DVec<D>& second, double part, double share) {
+        for (std::size_t i = 0; i < count_; ++i) weights_[i] *= 1 - share;
+        add(first, share * (1 - part));
+        add(second, share * part);
+    }
     void shift(std::size_t from, const DVec<D>& to, double weight) {
         weights_[from] -= weight;
         if (!(weights_[from] > 1e-12)) {
@@ -84,6 +90,11 @@ public:
             points_[from] = points_[--count_];
             weights_[from] = weights_[count_];
         }
+        add(to, weight);
+    }
+
+private:
+    void add(const DVec<D>& to, double weight) {
         for (std::size_t i = 0; i < count_; ++i)
             if (points_[i] == to) {
                 weights_[i] += weight;
@@ -93,8 +104,6 @@ public:
         points_[count_] = to;
         weights_[count_++] = weight;
     }
-
-private:
     void merge_lightest() {
         for (int k = 0; k < 2; ++k) {
             const std::size_t last = count_ - 1 - static_cast<std::size_t>(k);
@@ -119,9 +128,14 @@ private:
 template <int D>
 class LeastBounded {
 public:
-    LeastBounded(const FunctionThere<D>& function, const Convex<D>& convex, const LeastOptions<D>& options)
-        : function_(function), convex_(convex), options_(options) {
+    LeastBounded(const FunctionThere<D>& function, const Convex<D>& convex, const Convex<D>* last,
+                 const LeastOptions<D>& options)
+        : function_(function), convex_(convex), last_(last), options_(options) {
         convex_.radius = 0;
+        if (last_ != nullptr && last_->place.column == convex_.place.column) {
+            travel_ = last_->place.offset - convex_.place.offset;
+            goes_straight_ = true;
+        }
         if (options_.most_boxes == 0) options_.most_boxes = least_bounded_most_boxes;
         DVec<D> low(0.0), high(0.0);
         for (int i = 0; i < D; ++i) {
@@ -140,8 +154,8 @@ public:
         look_at(heap, all_);
         const double rough = rough_tolerance * size_;
         while (!heap.empty() && best_.distance > options_.enough && wanted(heap.least())) {
-            const bool is_rough =
-                best_.boxes >= least_bounded_most_fine_boxes && heap.least() >= best_.distance - rough;
+            const bool is_rough = best_.boxes >= least_bounded_most_fine_boxes &&
+                                  heap.least() >= std::min(best_.distance - rough, options_.no_less);
             if (is_rough || best_.boxes >= options_.most_boxes || heap.full()) {
                 best_.doubt = best_.distance - std::min(heap.least(), best_.distance);
                 break;
@@ -155,6 +169,7 @@ public:
             look_at(heap, low);
             look_at(heap, high);
         }
+        best_.at_least = std::min(heap.least(), limit());
         if (best_.distance > options_.reach) best_.distance = std::numeric_limits<double>::infinity();
         return best_;
     }
@@ -167,7 +182,12 @@ private:
     };
 
     /// The point of the set that is farthest down.
-    DVec<D> lowest(const DVec<D>& gradient) const { return core_support(convex_, -gradient).position; }
+    DVec<D> lowest(const DVec<D>& gradient) const {
+        const DVec<D> low = core_support(convex_, -gradient).position;
+        if (last_ == nullptr) return low;
+        const DVec<D> low_last = goes_straight_ ? low + travel_ : core_support(*last_, -gradient).position;
+        return dot(gradient, low_last - low) < 0 ? low_last : low;
+    }
 
     bool wanted(double least) const { return least < best_.distance - options_.tolerance && least <= options_.reach; }
     /// More than that isn't wanted.
@@ -209,7 +229,8 @@ private:
         if (!wanted(box.least)) return;
         if (function_.at(place) < best_.distance - options_.tolerance) go_down(place);
         // Where the distance has a step, as between finer and coarser samples, no gradient leads to its lower side.
-        if (looks_beside_ < most_looks_beside && function_.at(box.center) < best_.distance - rough_tolerance * size_) {
+        if (last_ == nullptr && looks_beside_ < most_looks_beside &&
+            function_.at(box.center) < best_.distance - rough_tolerance * size_) {
             ++looks_beside_;
             const DVec<D> near = nearest_in_set(box.center);
             const DVec<D> beside = box.center - near;
@@ -355,40 +376,53 @@ private:
         return end;
     }
 
+    /// A gradient between two, and a point between the two that are lowest for it: there both promise as much.
+    struct Combined {
+        DVec<D> gradient, first, second;
+        double part = 0;
+
+        DVec<D> target() const { return first + (second - first) * part; }
+    };
+
     /// Of the gradients between two the one that promises least. What they promise is convex: by where tangents cross,
     /// which is exact after a few steps where the set has corners.
-    DVec<D> combined(const DVec<D>& here, const DVec<D>& first, const DVec<D>& second) const {
+    Combined combined(const DVec<D>& here, const DVec<D>& first, const DVec<D>& second) const {
         const DVec<D> change = second - first;
         double low = 0, high = 1;
-        DVec<D> from = here - lowest(first);
-        double at_low = dot(first, from), falls = dot(change, from);
-        from = here - lowest(second);
-        double at_high = dot(second, from), rises = dot(change, from);
-        if (!(falls < 0)) return first;
-        if (!(rises > 0)) return second;
-        DVec<D> result = at_low < at_high ? first : second;
+        DVec<D> at = lowest(first);
+        Combined result{first, at, at};
+        double at_low = dot(first, here - at), falls = dot(change, here - at);
+        if (!(falls < 0)) return result;
+        at = lowest(second);
+        double at_high = dot(second, here - at), rises = dot(change, here - at);
+        if (!(rises > 0)) return {second, at, at};
+        result.second = at;
+        if (at_high < at_low) result.gradient = second;
         double promised = std::min(at_low, at_high);
         for (int i = 0; i < search_most_turns; ++i) {
             const double wide = high - low;
             const double share = low + std::clamp((at_high - at_low - rises * wide) / (falls - rises), 0.0, wide);
             const DVec<D> between = first + change * share;
-            from = here - lowest(between);
-            const double there = dot(between, from), grows = dot(change, from);
+            at = lowest(between);
+            const double there = dot(between, here - at), grows = dot(change, here - at);
             if (there < promised) {
                 promised = there;
-                result = between;
+                result.gradient = between;
             }
             if (there <= at_low + falls * (share - low) + 0.05 * options_.tolerance) break;
             if (grows < 0) {
                 low = share;
                 at_low = there;
                 falls = grows;
+                result.first = at;
             } else {
                 high = share;
                 at_high = there;
                 rises = grows;
+                result.second = at;
             }
         }
+        result.part = falls / (falls - rises);
         return result;
     }
 
@@ -412,11 +446,27 @@ private:
             }
             const bool is_far = value - end.value > 0.1 * promised;
             value = std::min(value, end.value);
+            const bool rests = end.part == 0;
             gradient = end.gradient;
-            if (!end.is_turn)
+            if (!end.is_turn) {
                 slope = gradient;
-            else
-                slope = combined(here, is_far ? gradient : slope, end.beyond);
+            } else {
+                const Combined both = combined(here, is_far ? gradient : slope, end.beyond);
+                slope = both.gradient;
+                // Where it turns: along the side of the cells, between the points that are lowest for either of them.
+                const DVec<D> along = both.target() - here;
+                const LineEnd further = rests ? go_along(here, value, both.gradient, along, 1) : LineEnd();
+                if (rests && further.value < value) {
+                    here += along * further.part;
+                    mean.shift_all(both.first, both.second, both.part, further.part);
+                    value = further.value;
+                    gradient = further.gradient;
+                    if (further.is_turn) slope = combined(here, slope, further.beyond).gradient;
+                } else if (rests) {
+                    if (further.is_turn) slope = combined(here, slope, further.beyond).gradient;
+                    if (!(dot(slope, here - lowest(slope)) < 0.99 * promised)) break;
+                }
+            }
             low = lowest(slope);
         }
         if (value < best_.distance) {
@@ -435,6 +485,9 @@ private:
 
     const FunctionThere<D>& function_;
     Convex<D> convex_;
+    const Convex<D>* last_;  ///< where it ends; null: it rests
+    DVec<D> travel_{0.0};
+    bool goes_straight_ = false;
     LeastOptions<D> options_;
     SearchBox<D> all_;
     double size_ = 0;  ///< of the core
@@ -448,11 +501,19 @@ private:
 
 template <int D>
 Least<D> least_bounded(const FunctionThere<D>& function, const Convex<D>& convex, const LeastOptions<D>& options) {
-    return LeastBounded<D>(function, convex, options).run();
+    return LeastBounded<D>(function, convex, nullptr, options).run();
 }
 
-#define ABUT_INSTANTIATE(D) \
-    template Least<D> least_bounded(const FunctionThere<D>&, const Convex<D>&, const LeastOptions<D>&);
+template <int D>
+Least<D> least_bounded(const FunctionThere<D>& function, const Convex<D>& first, const Convex<D>& last,
+                       const LeastOptions<D>& options) {
+    return LeastBounded<D>(function, first, &last, options).run();
+}
+
+#define ABUT_INSTANTIATE(D)                                                                             \
+    template Least<D> least_bounded(const FunctionThere<D>&, const Convex<D>&, const LeastOptions<D>&); \
+    template Least<D> least_bounded(const FunctionThere<D>&, const Convex<D>&, const Convex<D>&,        \
+                                    const LeastOptions<D>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

@@ -28,6 +28,8 @@ struct LeastOptions {
     /// Of what is more than that nothing needs to be known.
     double reach = std::numeric_limits<double>::infinity();
     int most_boxes = 0;  ///< 0: the bound above that is the function's
+    /// For `least_bounded`: once it is proven to be no less than that, fine boxes are no longer looked at.
+    double no_less = std::numeric_limits<double>::infinity();
 };
 
 template <int D>
@@ -37,6 +39,8 @@ struct Least {
     int boxes = 0;  ///< that were looked at
     /// It may be so much less elsewhere: more than the tolerance only where the bound on boxes was reached.
     double doubt = 0;
+    /// Nowhere less than that, and at most the reach: of `least_bounded`.
+    double at_least = -std::numeric_limits<double>::infinity();
 };
 
 /// In the core of a convex set, without its radius, of a function that doesn't bound itself. All in one frame.
@@ -46,6 +50,11 @@ Least<D> least_in(const FunctionThere<D>& function, const Convex<D>& convex, con
 /// The same for a function that bounds itself.
 template <int D>
 Least<D> least_bounded(const FunctionThere<D>& function, const Convex<D>& convex, const LeastOptions<D>& options);
+
+/// The same in the hull of the core where it begins and where it ends.
+template <int D>
+Least<D> least_bounded(const FunctionThere<D>& function, const Convex<D>& first, const Convex<D>& last,
+                       const LeastOptions<D>& options);
 
 /// Of the places inside of the function's shape, where dot(normal, p) is least: that is the answer's `distance`.
 /// `bounds` are those of the shape in the frame, and finite.

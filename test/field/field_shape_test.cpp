@@ -3,6 +3,7 @@
 #include "../../scenes/bumpy_ball.hpp"
 #include "../oracle/random.hpp"
 #include <abut/bake/field.hpp>
+#include <abut/math/rigid_path.hpp>
 #include <abut/query/certify.hpp>
 #include <abut/query/contact.hpp>
 #include <abut/query/contains.hpp>
@@ -212,6 +213,63 @@ TEST(FieldShape, LeastOverConvexSets) {
         EXPECT_GT(apart, 3);
         EXPECT_GT(overlapping, 5);
     }
+}
+
+Field3 crate() {
+    return *bake_field(Box3{Vec3(0.0f), {1.5f, 0.5f, 1}}, FieldOptions<3>{.cell = 0.5f});
+}
+
+TEST(FieldShape, LeastOnTheSideOfCells) {
+    // The descent stopped where two cells meet, and 512 boxes on the answer was 0.827131.
+    Pose3 pose;
+    pose.position = {2.25369596f, -0.890709519f, 1.8479532f};
+    pose.rotation = Rotation<3>(0.882785201f, -0.166978911f, -0.209037349f, 0.386149794f);
+    const Field3 field = crate();
+    EXPECT_LE(closest(at(Box3{Vec3(0.0f), {0.5f, 0.3f, 0.4f}}, pose), field).distance, 0.82661f);
+}
+
+TEST(FieldShape, SweepsPassNothing) {
+    const Field3 field = crate();
+    const Box3 box{Vec3(0.0f), {0.5f, 0.3f, 0.4f}};
+    const Cylinder cylinder{{-0.4f, 0, 0}, {0.4f, 0, 0}, 0.4f};
+    oracle::Random random(23);
+    int hits = 0, misses = 0;
+    for (int i = 0; i < 60; ++i) {
+        SCOPED_TRACE(testing::Message() << "seed 23, way " << i);
+        Pose3 from;
+        from.rotation = random.rotation<3>();
+        from.position = to_float(random.direction<3>() * random.uniform(2.4, 3.5));
+        const Vec3 goal = to_float(random.in_cube<3>() * 1.5);
+        Pose3 to{(from.position + (goal - from.position) * 2.0f), random.rotation<3>()};
+        const auto look = [&](const auto& shape, bool turns) {
+            if (!turns) to.rotation = from.rotation;
+            const auto hit = turns ? sweep(shape, from, to, field, Pose3(), Pose3())
+                                   : sweep(at(shape, from), to.position - from.position, field);
+            const double until = hit ? static_cast<double>(hit->fraction) : 1;
+            const RigidPath<3> path = rigid_path(from, to);
+            const auto distance_at = [&](double time) {
+                const Affine<3> place = place_at(path, time);
+                double least = 1e9;
+                // By places of the box around the shape alone, as it is asked of any.
+                const auto there = moved(view(shape), place);
+                for (int k = 0; k < 1000; ++k) {
+                    const DVec<3> way{k % 10 - 4.5, k / 10 % 10 - 4.5, k / 100 - 4.5};
+                    least = std::min(least, shape_distance(field, to_float(support(there, way))));
+                }
+                return least;
+            };
+            for (int k = 0; k < 60; ++k) EXPECT_GE(distance_at(until * k / 60), -1.2e-4) << "at " << until * k / 60;
+            if (hit && !hit->started_inside)
+                EXPECT_LE(closest(moved(view(shape), place_at(path, until)), view(field)).distance, 2e-3f);
+            (hit ? hits : misses) += 1;
+        };
+        look(box, false);
+        look(box, true);
+        look(cylinder, false);
+        look(cylinder, true);
+    }
+    EXPECT_GT(hits, 60);
+    EXPECT_GT(misses, 5);
 }
 
 /// Rays against small steps along them.
