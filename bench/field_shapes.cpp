@@ -1,15 +1,20 @@
-// Balls and boxes beside a field of 128^3 cells, and beside the mesh it was baked of.
+// Balls and boxes beside a field of 128^3 cells, and beside the mesh it was baked of; and boxes and cylinders in any
+// pose beside a crate of 12 x 8 x 12 cells.
 
 #include "bench.hpp"
 #include "field_scene.hpp"
 #include <abut/query/closest.hpp>
 #include <abut/query/contact.hpp>
 #include <abut/query/overlaps.hpp>
+#include <abut/query/sweep.hpp>
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
+#include <abut/shape/cylinder.hpp>
 #include <abut/shape/mesh.hpp>
+#include <abut/shape/placed.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -92,12 +97,132 @@ std::function<Job()> of_boxes(Ask ask) {
     };
 }
 
+/// A crate, and poses around and in it from which something moves to somewhere in it and on.
+struct Ways {
+    static constexpr std::size_t count = 100;
+
+    Ways() {
+        oracle::Random random(5);
+        const Aabb3 box = bounds(field);
+        const Vec3 middle = 0.5f * (box.min + box.max), half = 0.5f * (box.max - box.min);
+        for (std::size_t i = 0; i < count; ++i) {
+            Pose3 pose;
+            pose.rotation = random.rotation<3>();
+            pose.position = middle + to_float(random.in_cube<3>()) * (half + 1.5f);
+            poses.push_back(pose);
+            motions.push_back((middle + to_float(random.in_cube<3>()) * half - pose.position) * 1.25f);
+        }
+    }
+
+    Field3 field = *bake_field(Box3{Vec3(0.0f), {1.5f, 0.5f, 1}}, FieldOptions<3>{.cell = 0.5f});
+    std::vector<Pose3> poses;
+    std::vector<Vec3> motions;
+};
+
+constexpr Box3 crate_box{{0, 0, 0}, {0.5f, 0.3f, 0.4f}};
+constexpr Cylinder crate_cylinder{{-0.4f, 0, 0}, {0.4f, 0, 0}, 0.4f};
+
+bool holds(const Box3&, const Vec3&) {
+    return true;
+}
+bool holds(const Cylinder& cylinder, const Vec3& point) {
+    return glm::length(Vec3(0, point.y, point.z)) <= cylinder.radius;
+}
+
+/// Of the distances on a grid in a shape the least.
+template <class Shape>
+double least_sampled(const Shape& shape, const Pose3& pose, const Field3& field) {
+    constexpr int most = 12;
+    const Aabb3 box = bounds(view(shape));
+    double least = std::numeric_limits<double>::infinity();
+    for (int x = 0; x <= most; ++x)
+        for (int y = 0; y <= most; ++y)
+            for (int z = 0; z <= most; ++z) {
+                const Vec3 own = box.min + (box.max - box.min) * Vec3(x, y, z) / static_cast<float>(most);
+                if (!holds(shape, own)) continue;
+                const Sphere place{pose.position + pose.rotation * own, 0};
+                least = std::min(least, static_cast<double>(closest(place, field).distance));
+            }
+    return least;
+}
+
+/// ask(shape, ways, i) beside sampled(shape, ways, i), and how long the longest takes.
+template <class Shape, class Ask, class Sampled>
+std::function<Job()> of_poses(const Shape& shape, double tolerance, Ask ask, Sampled sampled) {
+    return [=] {
+        const auto ways = std::make_shared<const Ways>();
+        Job job{.items = Ways::count, .values = Ways::count, .tolerance = tolerance, .sides = {}};
+        const auto worst = [=] {
+            using Clock = std::chrono::steady_clock;
+            double longest = 0;
+            for (std::size_t i = 0; i < Ways::count; ++i) {
+                double shortest = std::numeric_limits<double>::infinity();
+                for (int k = 0; k < 5; ++k) {
+                    const auto start = Clock::now();
+                    ask(shape, *ways, i);
+                    shortest =
+                        std::min(shortest, std::chrono::duration<double, std::micro>(Clock::now() - start).count());
+                }
+                longest = std::max(longest, shortest);
+            }
+            return std::vector<Figure>{{"worst, us", longest}};
+        };
+        job.sides.push_back({.who = "abut",
+                             .ask =
+                                 [=](std::span<double> values) {
+                                     for (std::size_t i = 0; i < Ways::count; ++i) values[i] = ask(shape, *ways, i);
+                                 },
+                             .figures = worst});
+        job.sides.push_back({"samples", [=](std::span<double> values) {
+                                 for (std::size_t i = 0; i < Ways::count; ++i) values[i] = sampled(shape, *ways, i);
+                             }});
+        return job;
+    };
+}
+
+constexpr auto pose_gap = [](const auto& shape, const Ways& ways, std::size_t i) {
+    return static_cast<double>(closest(at(shape, ways.poses[i]), ways.field).distance);
+};
+constexpr auto sampled_gap = [](const auto& shape, const Ways& ways, std::size_t i) {
+    return least_sampled(shape, ways.poses[i], ways.field);
+};
+constexpr auto pose_depth = [](const auto& shape, const Ways& ways, std::size_t i) {
+    return std::max(static_cast<double>(contact(at(shape, ways.poses[i]), ways.field).depth), 0.0);
+};
+constexpr auto sampled_depth = [](const auto& shape, const Ways& ways, std::size_t i) {
+    return std::max(-least_sampled(shape, ways.poses[i], ways.field), 0.0);
+};
+constexpr auto pose_fraction = [](const auto& shape, const Ways& ways, std::size_t i) {
+    const auto hit = sweep(at(shape, ways.poses[i]), ways.motions[i], ways.field);
+    return hit ? static_cast<double>(hit->fraction) : 1.0;
+};
+/// The same, unless samples touch before.
+constexpr auto sampled_fraction = [](const auto& shape, const Ways& ways, std::size_t i) {
+    const double told = pose_fraction(shape, ways, i);
+    if (least_sampled(shape, ways.poses[i], ways.field) < 0) return told;
+    for (double time = 0; time < told; time += 0.02) {
+        Pose3 pose = ways.poses[i];
+        pose.position += ways.motions[i] * static_cast<float>(time);
+        if (least_sampled(shape, pose, ways.field) < -1e-3) return time;
+    }
+    return told;
+};
+
 }  // namespace
 
 std::vector<Bench> field_shape_benches() {
-    return {{"field/ball/overlaps", of_balls(touches)}, {"field/ball/closest", of_balls(gap)},
-            {"field/ball/contact", of_balls(depth)},    {"field/box/overlaps", of_boxes(touches)},
-            {"field/box/closest", of_boxes(gap)},       {"field/box/contact", of_boxes(depth)}};
+    return {{"field/ball/overlaps", of_balls(touches)},
+            {"field/ball/closest", of_balls(gap)},
+            {"field/ball/contact", of_balls(depth)},
+            {"field/box/overlaps", of_boxes(touches)},
+            {"field/box/closest", of_boxes(gap)},
+            {"field/box/contact", of_boxes(depth)},
+            {"field/shape/closest/box", of_poses(crate_box, 0.08, pose_gap, sampled_gap)},
+            {"field/shape/closest/cylinder", of_poses(crate_cylinder, 0.08, pose_gap, sampled_gap)},
+            {"field/shape/contact/box", of_poses(crate_box, 0.08, pose_depth, sampled_depth)},
+            {"field/shape/contact/cylinder", of_poses(crate_cylinder, 0.08, pose_depth, sampled_depth)},
+            {"field/shape/sweep/box", of_poses(crate_box, 1e-3, pose_fraction, sampled_fraction)},
+            {"field/shape/sweep/cylinder", of_poses(crate_cylinder, 1e-3, pose_fraction, sampled_fraction)}};
 }
 
 }  // namespace abut::bench
