@@ -18,7 +18,7 @@ namespace abut {
 namespace {
 
 /// In parts of the size: so much less it may be elsewhere where the bound on fine boxes is reached.
-constexpr double rough_tolerance = 1e-4;
+constexpr double rough_tolerance = 1e-5;
 
 /// The bound on places that are found as the nearest ones to boxes, each of which costs as much as several boxes.
 constexpr int most_looks_beside = 48;
