@@ -258,9 +258,10 @@ TEST(FieldShape, SweepsPassNothing) {
                 }
                 return least;
             };
-            for (int k = 0; k < 60; ++k) EXPECT_GE(distance_at(until * k / 60), -1.2e-4) << "at " << until * k / 60;
-            if (hit && !hit->started_inside)
+            for (int k = 0; k < 60; ++k) EXPECT_GE(distance_at(until * k / 60), -2e-5) << "at " << until * k / 60;
+            if (hit && !hit->started_inside) {
                 EXPECT_LE(closest(moved(view(shape), place_at(path, until)), view(field)).distance, 2e-3f);
+            }
             (hit ? hits : misses) += 1;
         };
         look(box, false);
