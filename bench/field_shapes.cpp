@@ -198,14 +198,14 @@ constexpr auto pose_fraction = [](const auto& shape, const Ways& ways, std::size
 };
 /// The same, unless samples touch before.
 constexpr auto sampled_fraction = [](const auto& shape, const Ways& ways, std::size_t i) {
-    const double told = pose_fraction(shape, ways, i);
-    if (least_sampled(shape, ways.poses[i], ways.field) < 0) return told;
-    for (double time = 0; time < told; time += 0.02) {
+    const double reported = pose_fraction(shape, ways, i);
+    if (least_sampled(shape, ways.poses[i], ways.field) < 0) return reported;
+    for (double time = 0; time < reported; time += 0.02) {
         Pose3 pose = ways.poses[i];
         pose.position += ways.motions[i] * static_cast<float>(time);
         if (least_sampled(shape, pose, ways.field) < -1e-3) return time;
     }
-    return told;
+    return reported;
 };
 
 }  // namespace

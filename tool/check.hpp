@@ -29,7 +29,7 @@ struct CheckResult {
 };
 
 /// Takes the objects through the times, which it expects them to be at the first of. A pair of which neither moved
-/// since the frame before isn't tested again. Between the frames pairs are swept. Progress is told in frames. A Problem
+/// since the frame before isn't tested again. Between the frames pairs are swept. Progress counts frames. A Problem
 /// where an object can't be placed, or too many are in one place.
 template <int D>
 Result<CheckResult<D>> check(Objects<D>& objects, const std::vector<double>& times, const CheckOptions& options,

@@ -26,7 +26,7 @@ struct LevelOptions {
 bool is_level(const std::filesystem::path& file);
 
 /// Reads a level, with the tilesets and templates beside it, or below, that it refers to. Lengths stay in the file's
-/// units, axes as they are: y points down. What is left out is told in the level's warnings. A Problem, with what is
+/// units, axes as they are: y points down. Warnings of the level name parts that are left out. A Problem, with what is
 /// wrong and where in the file, for whatever can't be read or used; its message doesn't name the file.
 Result<Level> read_level(const std::filesystem::path& file, const LevelOptions& options = {});
 

@@ -109,9 +109,10 @@ private:
         };
     }
 
-    /// Whether the normal of a part of `shape` is felt at a point. The points of the manifold lie midway between two
-    /// surfaces; `to_surface` of their depths along the normal brings them to this one. Nearly always nothing else is
-    /// near, which is found out first; `place_of()`, the place with the middle of what feels it, takes longer.
+    /// Whether the normal of a part of `shape` is a surface normal at a point. The points of the manifold lie midway
+    /// between two surfaces; `to_surface` of their depths along the normal brings them to this one. Nearly always
+    /// nothing else is near, which is found out first; `place_of()`, the place with the middle of what feels it, takes
+    /// longer.
     template <class Part, class Manifolds, class PlaceOf>
     bool feels(const Part& part, const FeltPlace<D>& point, double to_surface, const Manifolds& manifold_of,
                const View<D>& shape, const EachFoot<D>* others, const PlaceOf& place_of) const {

@@ -60,7 +60,7 @@ Scene walker_and_wall(const Keys& keys, Interpolation interpolation = Interpolat
     return scene;
 }
 
-// Two keys, a train at either side of a house: it was told to be clean.
+// Two keys, a train at either side of a house: `check` reported CLEAN.
 TEST(Between, AThingIsMetThatIsPassedThrough) {
     Scene scene;
     test::add_unit_box(scene, "House", {0, 0, 0});

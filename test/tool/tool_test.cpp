@@ -210,7 +210,7 @@ TEST_F(Tool, BaselineKnowsMoments) {
     EXPECT_EQ(json["contacts"][0]["time"], 3.0);
 }
 
-// A wall between two keys, which a walker goes through in between: it was told to be clean.
+// A wall between two keys, which a walker goes through in between: `check` reported CLEAN.
 TEST_F(Tool, WhatMeetsBetweenFramesIsFound) {
     GltfBuilder builder;
     const int mesh = builder.add_mesh("Box", box_triangles({0.5f, 0.5f, 0.5f}));

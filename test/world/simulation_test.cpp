@@ -158,10 +158,10 @@ void check_pairs(const World<D>& world, const Events& events) {
             const Contact<D> contact = world.contact(pair);
             ASSERT_EQ(Bits(world.contact({pair.b, pair.a})), Bits(contact));
             const auto is_of_pair = [&](const auto& entry) { return IdPair{entry.a, entry.b} == pair; };
-            const auto told = std::find_if(world.contacts().begin(), world.contacts().end(), is_of_pair);
-            ASSERT_EQ(static_cast<bool>(contact), told != world.contacts().end());
+            const auto listed = std::find_if(world.contacts().begin(), world.contacts().end(), is_of_pair);
+            ASSERT_EQ(static_cast<bool>(contact), listed != world.contacts().end());
             if (contact) {
-                ASSERT_EQ(Bits(contact), Bits(told->contact));
+                ASSERT_EQ(Bits(contact), Bits(listed->contact));
             }
             contacts += contact ? 1 : 0;
             const std::optional<Hit<D>> impact = world.impact(pair);
