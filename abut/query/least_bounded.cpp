@@ -9,7 +9,6 @@
 // Places are improved by conditional gradients with pairwise steps (Frank, Wolfe 1956; Lacoste-Julien, Jaggi, "On the
 // global linear convergence of Frank-Wolfe optimization variants", 2015), which take the support function alone.
 
-#include <abut/convex/gjk.hpp>
 #include <abut/query/search_boxes.hpp>
 
 #include <algorithm>
@@ -232,7 +231,7 @@ private:
         if (last_ == nullptr && looks_beside_ < most_looks_beside &&
             function_.at(box.center) < best_.distance - rough_tolerance * size_) {
             ++looks_beside_;
-            const DVec<D> near = nearest_in_set(box.center);
+            const DVec<D> near = nearest_in_core(convex_, box.center);
             const DVec<D> beside = box.center - near;
             const double square = length_squared(beside);
             if (square > sum_along(beside, box.half) * (1 + 1e-12) && square > 0) return;
@@ -316,15 +315,6 @@ private:
             u += way * before;
         }
         return best;
-    }
-
-    DVec<D> nearest_in_set(const DVec<D>& point) const {
-        Convex<D> as_set;
-        as_set.place.offset = point;
-        const CoreDifference<D> difference(convex_, as_set);
-        const GjkResult<D> walk = gjk(difference);
-        if (walk.exit == GjkExit::overlapping || walk.exit == GjkExit::touching) return point;
-        return difference.origin() + walk.simplex.combine(&DifferencePoint<D>::on_a);
     }
 
     /// Where a step along a line ended, and how the function grows there and on the far side of it.

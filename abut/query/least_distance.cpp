@@ -1,4 +1,3 @@
-#include <abut/convex/gjk.hpp>
 #include <abut/query/search_boxes.hpp>
 
 namespace abut {
@@ -35,12 +34,7 @@ public:
             }
             return clamped == own ? point : convex_.place.point(clamped);
         }
-        Convex<D> as_set;
-        as_set.place.offset = point;
-        const CoreDifference<D> difference(convex_, as_set);
-        const GjkResult<D> walk = gjk(difference);
-        if (walk.exit == GjkExit::overlapping || walk.exit == GjkExit::touching) return point;
-        return difference.origin() + walk.simplex.combine(&DifferencePoint<D>::on_a);
+        return nearest_in_core(convex_, point);
     }
 
     DVec<D> lowest(const DVec<D>& gradient) const { return core_support(convex_, -gradient).position; }

@@ -2,6 +2,7 @@
 
 // Branch and bound over boxes, as the searches of least_distance.hpp share it. For .cpp files.
 
+#include <abut/convex/gjk.hpp>
 #include <abut/query/core_simplices.hpp>
 #include <abut/query/least_distance.hpp>
 
@@ -113,6 +114,17 @@ template <int D>
 LeastOptions<D> bounded(LeastOptions<D> options, bool tells) {
     if (options.most_boxes == 0) options.most_boxes = tells ? least_distance_most_boxes : least_distance_most_guesses;
     return options;
+}
+
+/// The point of a convex shape's core that is nearest to a point, by GJK.
+template <int D>
+DVec<D> nearest_in_core(const Convex<D>& convex, const DVec<D>& point) {
+    Convex<D> as_set;
+    as_set.place.offset = point;
+    const CoreDifference<D> difference(convex, as_set);
+    const GjkResult<D> walk = gjk(difference);
+    if (walk.exit == GjkExit::overlapping || walk.exit == GjkExit::touching) return point;
+    return difference.origin() + walk.simplex.combine(&DifferencePoint<D>::on_a);
 }
 
 }  // namespace abut
