@@ -8,6 +8,7 @@ namespace {
 
 /// A box with more samples is to be cut first.
 constexpr std::int64_t most_samples = 1500;
+constexpr std::int64_t few_samples = 64;
 
 /// The way from the box around the surface to a point; false where there is no surface.
 template <int D>
@@ -89,7 +90,8 @@ public:
           half_((high - low) * 0.5) {}
 
     DistanceKnown run(DistanceBound<D>& bound) {
-        if (in_one_cell(bound)) return DistanceKnown::bound;
+        if (find_piece(bound)) return DistanceKnown::bound;
+        if (bound.only_cut && bound.cut_axis >= 0) return DistanceKnown::in_smaller_boxes;
         bool is_within = true, is_beyond = false;
         std::int64_t samples = 1;
         DVec<D> first, last;
@@ -101,8 +103,8 @@ public:
             last[a] = std::clamp(high_[a], 0.0, cells);
             samples *= static_cast<std::int64_t>(std::ceil(last[a]) - std::floor(first[a])) + 1;
         }
-        const double here = distance_at(center_);
-        if (is_within || is_beyond || holds_surface(data_)) {
+        if ((bound.needs_gradient || samples > few_samples) && (is_within || is_beyond || holds_surface(data_))) {
+            const double here = distance_at(center_);
             // Between finer and coarser samples there may be a step, of less than a cell.
             const double step = data_.store == FieldStore::dense ? 0 : cell_;
             bound.least = here - static_cast<double>(extended_slope(data_)) * length(half_) - step;
@@ -115,7 +117,11 @@ public:
         }
         if (samples > most_samples) return DistanceKnown::in_smaller_boxes;
         wanted_ = bound.wanted;
-        find_gradient(bound.bend);
+        needs_gradient_ = bound.needs_gradient;
+        if (needs_gradient_)
+            find_gradient();
+        else
+            own_ = wanted_;
         if (is_within) {
             const AbovePlanes<D> above = above_samples(low_, high_, in_cells(data_, center_), own_, wanted_);
             least_ = above.least;
@@ -132,67 +138,170 @@ public:
     }
 
 private:
-    /// What is linear along each axis is so in a part of a cell; over any plane it is least at a corner.
-    bool in_one_cell(DistanceBound<D>& bound) const {
+    /// Cells of the volume as integers, in spite of rounding.
+    static double snapped(double place) {
+        const double nearest = std::floor(place + 0.5);
+        return std::abs(place - nearest) <= 1e-9 ? nearest : place;
+    }
+
+    /// Whether the box is in one cell, or beside one outside of the volume; else where it is best cut.
+    bool find_piece(DistanceBound<D>& bound) {
+        DVec<D> low, high;
         Cell<D> cell;
+        std::array<bool, static_cast<std::size_t>(D)> is_out{};
+        bool is_outside = false;
+        double widest = 0;
+        const DVec<D> place = in_cells(data_, bound.anchor);
+        const auto cut_at = [&](int a, double at, double wide) {
+            if (!(wide > widest)) return;
+            widest = wide;
+            bound.cut_axis = a;
+            bound.cut = static_cast<double>(data_.origin[a]) + cell_ * at;
+        };
         for (int a = 0; a < D; ++a) {
-            if (!(low_[a] >= 0 && high_[a] <= static_cast<double>(data_.cells[a]))) return false;
-            cell[a] = std::min(static_cast<std::int32_t>(low_[a]), last_cell(data_, a));
+            low[a] = snapped(low_[a]);
+            high[a] = snapped(high_[a]);
+            const auto cells = static_cast<double>(data_.cells[a]);
+            if (low[a] < 0 && high[a] > 0) cut_at(a, 0, 1e6 * (high[a] - low[a]));
+            if (low[a] < cells && high[a] > cells) cut_at(a, cells, 1e6 * (high[a] - low[a]));
+            is_out[static_cast<std::size_t>(a)] = low[a] < 0 || high[a] > cells;
+            is_outside = is_outside || is_out[static_cast<std::size_t>(a)];
+            const double near = std::clamp(low[a], 0.0, cells);
+            cell[a] = std::min(static_cast<std::int32_t>(near), last_cell(data_, a));
         }
-        CellValues<D> part = values_in(data_, grid_of(data_, cell), cell);
+        const bool has_bricks = data_.store != FieldStore::dense;
+        const auto cut_across = [&](double side) {
+            for (int a = 0; a < D; ++a) {
+                if (is_out[static_cast<std::size_t>(a)]) continue;
+                const double from = std::floor(low[a] / side) * side;
+                if (high[a] <= from + side) continue;
+                const double middle = 0.5 * (low[a] + high[a]), before = std::floor(place[a] / side) * side;
+                double best = std::floor(middle / side + 0.5) * side;
+                if (!(best > low[a] && best < high[a])) best = from + side;
+                if (before > low[a] && before < high[a]) best = before;
+                if (before + side > low[a] && before + side < high[a] &&
+                    (!(before > low[a]) || std::abs(before + side - middle) < std::abs(before - middle)))
+                    best = before + side;
+                cut_at(a, best, high[a] - low[a]);
+            }
+        };
+        if (has_bricks) cut_across(static_cast<double>(brick_cells<D>));
+        if (widest > 0) return false;
+        const SampleGrid<D> grid = grid_of(data_, cell);
+        if (!grid.coarse) cut_across(1);
+        if (widest > 0) return false;
+        const CellValues<D> values = values_in(data_, grid, cell);
+        if (is_outside) {
+            if (!outside_corners(values, low, high, bound)) return false;
+        } else {
+            inside_corners(values, bound);
+        }
+        bound.is_smooth = true;
+        finish_corners(bound);
+        return true;
+    }
+
+    /// The values of a cell at the corners of a box; beyond the volume, of the nearest points of the volume.
+    void inside_corners(const CellValues<D>& values, DistanceBound<D>& bound) const {
+        bound.corners = values.values;
         for (int a = 0; a < D; ++a) {
-            if (high_[a] > part.low[a] + part.side) return false;
-            const double from = (low_[a] - part.low[a]) / part.side, until = (high_[a] - part.low[a]) / part.side;
+            const auto cells = static_cast<double>(data_.cells[a]);
+            const double from = (std::clamp(low_[a], 0.0, cells) - values.low[a]) / values.side,
+                         until = (std::clamp(high_[a], 0.0, cells) - values.low[a]) / values.side;
             const std::size_t bit = std::size_t{1} << a;
             for (std::size_t i = 0; i < cell_corners<D>; ++i) {
                 if ((i & bit) != 0) continue;
-                const double before = part.values[i], rise = part.values[i | bit] - before;
-                part.values[i] = before + from * rise;
-                part.values[i | bit] = before + until * rise;
+                const double before = bound.corners[i], rise = bound.corners[i | bit] - before;
+                bound.corners[i] = before + from * rise;
+                bound.corners[i | bit] = before + until * rise;
             }
         }
+    }
+
+    /// Outside, F(y, d) = sqrt(|y|^2 + max(d, 0)^2) is convex, and grows with d: its tangent plane at the anchor is
+    /// nowhere above it. So is that of the distance to the box around the surface. False where all is solid.
+    bool outside_corners(const CellValues<D>& values, const DVec<D>& low, const DVec<D>& high,
+                         DistanceBound<D>& bound) const {
+        inside_corners(values, bound);
+        DVec<D> near, away(0.0), anchor;
+        const DVec<D> place = in_cells(data_, bound.anchor);
+        for (int a = 0; a < D; ++a) {
+            const auto cells = static_cast<double>(data_.cells[a]);
+            const double at = std::clamp(place[a], low[a], high[a]);
+            near[a] = std::clamp(at, 0.0, cells);
+            away[a] = (at - near[a]) * cell_;
+            anchor[a] = static_cast<double>(data_.origin[a]) + cell_ * at;
+        }
+        const double there = values.at(near), beyond = std::max(there, 0.0);
+        bool is_solid = there < 0;
+        for (const double value : bound.corners) is_solid = is_solid || value < 0;
+        if (is_solid && holds_surface(data_)) return false;
+        const double here = std::sqrt(length_squared(away) + beyond * beyond);
+        DVec<D> from_surface(0.0);
+        const double to_surface = way_from_surface(data_, anchor, from_surface) ? length(from_surface) : 0;
+        const bool is_far = to_surface > here;
+        const double steep = is_far || !(here > 0) ? 0 : beyond / here;
+        DVec<D> rise(0.0);
+        if (is_far)
+            rise = from_surface / to_surface;
+        else if (here > 0)
+            rise = away / here;
+        const double constant = is_far ? to_surface : here - steep * there;
+        for (std::size_t i = 0; i < cell_corners<D>; ++i) {
+            double value = constant + steep * bound.corners[i];
+            for (int a = 0; a < D; ++a)
+                if (rise[a] != 0) {
+                    const double own = static_cast<double>(data_.origin[a]) + cell_ * (i >> a & 1 ? high_[a] : low_[a]);
+                    value += rise[a] * (own - anchor[a]);
+                }
+            bound.corners[i] = value;
+        }
+        // How far the tangent plane falls below.
+        const double curved = 0.5 / std::max(is_far ? to_surface : here, cell_);
+        for (int a = 0; a < D; ++a) {
+            const double aside =
+                std::max(std::abs(cell_ * low_[a] + static_cast<double>(data_.origin[a]) - anchor[a]),
+                         std::abs(cell_ * high_[a] + static_cast<double>(data_.origin[a]) - anchor[a]));
+            bound.bend[a] += curved * (1 - rise[a] * rise[a]) * aside * aside;
+        }
+        return true;
+    }
+
+    /// What is linear along each axis is least over any plane at a corner.
+    void finish_corners(DistanceBound<D>& bound) const {
+        const DVec<D>& half = half_;
+        const auto& corners = bound.corners;
+        bound.least = corners[0];
+        for (const double value : corners) bound.least = std::min(bound.least, value);
+        if (!bound.needs_gradient) return;
         for (int a = 0; a < D; ++a) {
             const std::size_t bit = std::size_t{1} << a;
             double rise = 0;
-            for (std::size_t i = 0; i < cell_corners<D>; ++i) rise += (i & bit) != 0 ? part.values[i] : -part.values[i];
-            bound.gradient[a] = half_[a] > 0 ? rise / (static_cast<double>(cell_corners<D>) * half_[a]) : 0;
+            for (std::size_t i = 0; i < cell_corners<D>; ++i) rise += (i & bit) != 0 ? corners[i] : -corners[i];
+            bound.gradient[a] = half[a] > 0 ? rise / (static_cast<double>(cell_corners<D>) * half[a]) : 0;
         }
-        // It bends by its mixed differences alone.
-        for (int a = 0; a < D; ++a)
-            for (int b = 0; b < a; ++b) {
-                const std::size_t bits = (std::size_t{1} << a) | (std::size_t{1} << b);
-                double twist = 0;
-                for (std::size_t i = 0; i < cell_corners<D>; ++i)
-                    twist += (i & bits) == 0 || (i & bits) == bits ? part.values[i] : -part.values[i];
-                twist = std::abs(twist) / static_cast<double>(cell_corners<D>);
-                bound.bend[a] += twist;
-                bound.bend[b] += twist;
-            }
-        bound.value = bound.wanted_value = bound.least = std::numeric_limits<double>::infinity();
+        bound.value = bound.wanted_value = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < cell_corners<D>; ++i) {
-            double own = part.values[i], wanted = own;
+            double own = corners[i], wanted = own;
             for (int a = 0; a < D; ++a) {
-                const double way = i >> a & 1 ? half_[a] : -half_[a];
+                const double way = i >> a & 1 ? half[a] : -half[a];
                 own -= bound.gradient[a] * way;
                 wanted -= bound.wanted[a] * way;
             }
-            bound.least = std::min(bound.least, part.values[i]);
             bound.value = std::min(bound.value, own);
             bound.wanted_value = std::min(bound.wanted_value, wanted);
         }
-        return true;
     }
 
     double distance_at(const DVec<D>& point) const { return distance_and<D>(data_, point, nullptr); }
 
     /// From side to side of the box.
-    void find_gradient(DVec<D>& bend) {
+    void find_gradient() {
         for (int a = 0; a < D; ++a) {
             const double reach = std::max(half_[a], 0.05 * cell_);
             const DVec<D> aside = axis<D>(a, reach);
             const double after = distance_at(center_ + aside), before = distance_at(center_ - aside);
             own_[a] = (after - before) / (2 * reach);
-            bend[a] = half_[a];
         }
     }
 
@@ -320,7 +429,7 @@ private:
             Cell<D> in;
             for (int a = 0; a < D; ++a) in[a] = std::max(at[a] * side, first[a]);
             const SampleGrid<D> grid = grid_of(data_, in);
-            if (grid.coarse || is_small)
+            if (grid.coarse || (is_small && needs_gradient_))
                 look_at_cells(grid, low, high, first, last, result);
             else
                 look_at_samples(grid, low, high, result);
@@ -382,6 +491,7 @@ private:
     DVec<D> low_, high_;     ///< in cells
     DVec<D> center_, half_;  ///< in lengths
     DVec<D> own_, wanted_;   ///< gradients
+    bool needs_gradient_ = true;
     double least_ = std::numeric_limits<double>::infinity(), above_own_ = least_, above_wanted_ = least_;
 };
 

@@ -41,7 +41,13 @@ public:
           back_(inverse(function.place, determinant(function.place))),
           factor_(least_factor<D>(function)),
           level_(function.inner_radius + function.radius / factor_),
-          resolution_(static_cast<double>(function.resolution) * factor_) {}
+          resolution_(static_cast<double>(function.resolution) * factor_) {
+        for (int i = 0; i < D; ++i) {
+            const DVec<D>& column = function.place.column[static_cast<std::size_t>(i)];
+            for (int j = 0; j < D; ++j)
+                if (i != j && !(std::abs(column[j]) <= 1e-12 * column[i])) has_own_axes_ = false;
+        }
+    }
 
     const DistanceFunction<D>& function() const { return function_; }
     /// Of the world in one of the function's own.
@@ -119,24 +125,48 @@ public:
         DVec<D> own_half(0.0);
         for (int i = 0; i < D; ++i)
             for (int j = 0; j < D; ++j) own_half[i] += std::abs(back_.column[static_cast<std::size_t>(j)][i]) * half[j];
-        const DVec<D> wanted = bound.wanted;
+        const DVec<D> wanted = bound.wanted, anchor = bound.anchor;
         bound.wanted = function_.place.transposed(wanted) / factor_;
         bound.enough = bound.enough / factor_ + level_;
+        bound.anchor = back_.point(anchor);
         const DistanceKnown known = function_.bound(function_.object, middle - own_half, middle + own_half, bound);
         bound.wanted = wanted;
+        bound.anchor = anchor;
         bound.least = factor_ * (bound.least - level_);
+        if (bound.cut_axis >= 0) {
+            if (has_own_axes_)
+                bound.cut =
+                    function_.place.offset[bound.cut_axis] +
+                    function_.place.column[static_cast<std::size_t>(bound.cut_axis)][bound.cut_axis] * bound.cut;
+            else
+                bound.cut_axis = -1;
+        }
         if (known != DistanceKnown::bound) return known;
         bound.value = factor_ * (bound.value - level_);
         bound.wanted_value = factor_ * (bound.wanted_value - level_);
         bound.gradient = back_.transposed(bound.gradient) * factor_;
         bound.bend *= factor_;
+        if (bound.is_smooth)
+            for (double& value : bound.corners) value = factor_ * (value - level_);
         return known;
+    }
+
+    /// The half axes of the box that `bound` examines in place of a box of the frame.
+    std::array<DVec<D>, static_cast<std::size_t>(D)> axes_of(const DVec<D>& half) const {
+        std::array<DVec<D>, static_cast<std::size_t>(D)> result = function_.place.column;
+        for (int i = 0; i < D; ++i) {
+            double own_half = 0;
+            for (int j = 0; j < D; ++j) own_half += std::abs(back_.column[static_cast<std::size_t>(j)][i]) * half[j];
+            result[static_cast<std::size_t>(i)] *= own_half;
+        }
+        return result;
     }
 
 private:
     const DistanceFunction<D>& function_;
     Affine<D> back_;
     double factor_, level_, resolution_;
+    bool has_own_axes_ = true;  ///< the axes of the frame are those of the function
 };
 
 }  // namespace abut

@@ -1,14 +1,14 @@
-// The least of a function that bounds itself, over a convex set known by its support function.
+// The minimum of a function that bounds itself, over a convex set known by its support function.
 //
-// A plane that the function is nowhere below in a box, and the support function of the set, bound what the box and the
-// set have in common. With the gradient at the least place found so far that bound is exact to second order, whatever
-// the shape of the set: at the least place a support plane of the set is at right angles to it. So the boxes that are
-// left shrink round that place, and their number doesn't grow (Lipschitz bounds alone leave ever more of them wherever
-// the set is flat).
+// Branch and bound over boxes, cut where the function has kinks and through the best point found so far. Every box that
+// the set can't leave out is bounded by a plane below the function and a support plane of the set. A box with kinks is
+// bounded by the support planes of the best points; a box without one by the convex envelope of its corner values,
+// which is exact at the corners, so that the boxes round a minimum shrink fast to it (envelope.hpp).
 //
 // Places are improved by conditional gradients with pairwise steps (Frank, Wolfe 1956; Lacoste-Julien, Jaggi, "On the
 // global linear convergence of Frank-Wolfe optimization variants", 2015), which take the support function alone.
 
+#include <abut/query/envelope.hpp>
 #include <abut/query/search_boxes.hpp>
 
 #include <algorithm>
@@ -19,11 +19,11 @@ namespace {
 /// In parts of the size: so much less it may be elsewhere where the bound on fine boxes is reached.
 constexpr double rough_tolerance = 1e-5;
 
-/// The bound on places that are found as the nearest ones to boxes, each of which costs as much as several boxes.
-constexpr int most_looks_beside = 48;
-
-/// The bound on directions in which a lower bound is improved.
-constexpr int most_rounds = 2;
+/// The plane that divides a box in two.
+struct Cut {
+    int axis = -1;
+    double at = 0;
+};
 
 /// Boxes that are still to be looked at, the one that may hold least first; the earlier one of two alike.
 template <int D>
@@ -31,15 +31,15 @@ class SearchHeap {
 public:
     struct Entry {
         SearchBox<D> box;
-        std::int32_t axis;  ///< along which it is to be cut
+        Cut cut;
         std::uint32_t number;
     };
 
     bool empty() const { return count_ == 0; }
     bool full() const { return count_ + 2 > entries_.size(); }
     double least() const { return count_ > 0 ? entries_[0].box.least : std::numeric_limits<double>::infinity(); }
-    void push(const SearchBox<D>& box, int axis) {
-        entries_[count_++] = {box, axis, number_++};
+    void push(const SearchBox<D>& box, const Cut& cut) {
+        entries_[count_++] = {box, cut, number_++};
         std::push_heap(entries_.data(), entries_.data() + count_, is_later);
     }
     Entry pop() {
@@ -159,12 +159,15 @@ public:
                 best_.doubt = best_.distance - std::min(heap.least(), best_.distance);
                 break;
             }
-            auto [box, axis, number] = heap.pop();
-            box.half[axis] *= 0.5;
-            if (!(box.center[axis] + box.half[axis] > box.center[axis])) continue;
+            const auto [box, cut, number] = heap.pop();
+            const double from = box.center[cut.axis] - box.half[cut.axis],
+                         until = box.center[cut.axis] + box.half[cut.axis];
+            if (!(from < cut.at && cut.at < until)) continue;
             SearchBox<D> low = box, high = box;
-            low.center[axis] -= box.half[axis];
-            high.center[axis] += box.half[axis];
+            low.center[cut.axis] = 0.5 * (from + cut.at);
+            low.half[cut.axis] = 0.5 * (cut.at - from);
+            high.center[cut.axis] = 0.5 * (cut.at + until);
+            high.half[cut.axis] = 0.5 * (until - cut.at);
             look_at(heap, low);
             look_at(heap, high);
         }
@@ -211,110 +214,80 @@ private:
         DistanceBound<D> bound;
         if (nearest != nullptr) bound.wanted = nearest->gradient;
         bound.enough = limit();
+        bound.anchor = best_.point;
+        bound.needs_gradient = false;
+        bound.only_cut = best_.boxes > 1 && is_in(box, best_.point);
         const DistanceKnown known = function_.bound(box.center, box.half, bound);
         box.least = std::max(box.least, bound.least);
         if (!wanted(box.least)) return;
-        if (known != DistanceKnown::bound) return heap.push(box, longest_axis(box.half));
-        if (nearest != nullptr) {
-            const double in_set = nearest->least - dot(nearest->gradient, box.center);
-            box.least =
-                std::max(box.least, bound.wanted_value + std::max(in_set, -sum_along(nearest->gradient, box.half)));
-            if (!wanted(box.least)) return;
+        Cut cut{bound.cut_axis, bound.cut};
+        if (known == DistanceKnown::bound) {
+            if (nearest != nullptr && !bound.is_smooth) {
+                const double in_set = nearest->least - dot(nearest->gradient, box.center);
+                box.least =
+                    std::max(box.least, bound.wanted_value + std::max(in_set, -sum_along(nearest->gradient, box.half)));
+                if (!wanted(box.least)) return;
+            }
+            if (bound.is_smooth) {
+                const DVec<D> start = nearest != nullptr ? nearest->gradient : DVec<D>(0.0);
+                const EnvelopeBound<D> envelope = bound_smooth(box, bound, start);
+                box.least = std::max(box.least, envelope.bound);
+                if (!wanted(box.least)) return;
+                const DVec<D> place = box.center + envelope.place;
+                if (function_.at(place) < best_.distance - options_.tolerance) go_down(place);
+                if (!wanted(box.least)) return;
+                cut = best_cut(box, bound.bend, place);
+            }
         }
-        DVec<D> place(0.0);
-        DVec<D> rest(0.0);
-        box.least =
-            std::max(box.least, bound.value + least_in_both(box, bound.gradient, limit() - bound.value, place, rest));
-        if (!wanted(box.least)) return;
-        if (function_.at(place) < best_.distance - options_.tolerance) go_down(place);
-        // Where the distance has a step, as between finer and coarser samples, no gradient leads to its lower side.
-        if (last_ == nullptr && looks_beside_ < most_looks_beside &&
-            function_.at(box.center) < best_.distance - rough_tolerance * size_) {
-            ++looks_beside_;
-            const DVec<D> near = nearest_in_core(convex_, box.center);
-            const DVec<D> beside = box.center - near;
-            const double square = length_squared(beside);
-            if (square > sum_along(beside, box.half) * (1 + 1e-12) && square > 0) return;
-            if (function_.at(near) < best_.distance - options_.tolerance) go_down(near);
-        }
-        if (!wanted(box.least)) return;
-        // Where the bound loses most.
-        for (int a = 0; a < D; ++a) bound.bend[a] += std::abs(rest[a]) * box.half[a];
-        heap.push(box, longest_axis(largest(bound.bend) > 0 ? bound.bend : box.half));
+        if (cut.axis < 0) cut = {longest_axis(box.half), 0};
+        if (!(std::abs(cut.at - box.center[cut.axis]) < (1 - 1e-9) * box.half[cut.axis])) cut.at = box.center[cut.axis];
+        heap.push(box, cut);
     }
 
-    /// A lower bound of a linear function, 0 in the middle of a box, over what the box and the set have in common: for
-    /// any u, that of u over the set and of the rest over the box. The bound is concave in u, and grows along the way
-    /// from the box to the lowest point of the set along u, unless they have that point in common. Goes up that way
-    /// until more than `enough`. `place` becomes a point of the set near the box, `rest` what u leaves to the box.
-    double least_in_both(const SearchBox<D>& box, const DVec<D>& gradient, double enough, DVec<D>& place,
-                         DVec<D>& rest) const {
-        DVec<D> u = gradient;
-        double best = -sum_along(gradient, box.half), largest_step = 0;
-        rest = gradient;
-        for (int round = 0; round < most_rounds; ++round) {
-            const DVec<D> low = lowest(u);
-            if (round == 0) place = low;
-            const DVec<D> from = low - box.center;
-            const double here = dot(u, from) - sum_along(gradient - u, box.half);
-            if (here > best) {
-                best = here;
-                rest = gradient - u;
-                if (best > enough) return best;
-            }
-            DVec<D> way(0.0);
-            for (int a = 0; a < D; ++a) {
-                const double half = box.half[a];
-                way[a] = from[a] - (u[a] > gradient[a]   ? half
-                                    : u[a] < gradient[a] ? -half
-                                                         : std::clamp(from[a], -half, half));
-            }
-            const double square = length_squared(way);
-            if (!(square > 1e-8 * length_squared(box.half))) return best;
-            if (round == 0) largest_step = length(gradient) / length(all_.half);
-            // By where tangents cross, to where it grows no more.
-            double before = 0, at_before = here, grows = square, after = 0, at_after = 0, falls = 0;
-            double step = largest_step;
-            DVec<D> place_before = low, place_after = low;
-            for (int i = 0; i < search_most_secants; ++i) {
-                const DVec<D> there = u + way * step;
-                const DVec<D> lower = lowest(there);
-                const DVec<D> to_low = lower - box.center;
-                const double value = dot(there, to_low) - sum_along(gradient - there, box.half);
-                if (value > best) {
-                    best = value;
-                    rest = gradient - there;
-                    if (best > enough) return best;
-                }
-                double slope = dot(to_low, way);
-                for (int a = 0; a < D; ++a) slope -= (there[a] > gradient[a] ? box.half[a] : -box.half[a]) * way[a];
-                if (slope > 0) {
-                    before = step;
-                    place_before = lower;
-                    at_before = value;
-                    grows = slope;
-                } else {
-                    after = step;
-                    place_after = lower;
-                    at_after = value;
-                    falls = slope;
-                }
-                const double wide = after - before;
-                if (after == 0)
-                    step *= 4;
-                else
-                    step = before + std::clamp((at_after - at_before - falls * wide) / (grows - falls), 0.05 * wide,
-                                               0.95 * wide);
-            }
-            // Between both places is one that is in the box along the way.
-            if (after > 0) {
-                const double share = grows / (grows - falls);
-                place = place_before + (place_after - place_before) * share;
-            }
-            if (!(before > 0)) return best;
-            u += way * before;
+    /// The bound of a box without kinks, by the envelope of its corner values. Adds to `bend` what the twist of these
+    /// values makes of it.
+    EnvelopeBound<D> bound_smooth(const SearchBox<D>& box, DistanceBound<D>& bound, const DVec<D>& start) const {
+        add_twist(bound.corners, bound.bend);
+        double steepest = 0;
+        for (int a = 0; a < D; ++a) {
+            if (!(box.half[a] > 0)) continue;
+            double rise = 0;
+            for (std::size_t i = 0; i < bound.corners.size(); ++i)
+                rise += (i >> a & 1) != 0 ? bound.corners[i] : -bound.corners[i];
+            rise /= static_cast<double>(bound.corners.size());
+            steepest = std::max({steepest, bound.bend[a] / box.half[a], 0.5 * std::abs(rise / box.half[a] - start[a])});
         }
-        return best;
+        const auto lowest_from_middle = [&](const DVec<D>& u) { return lowest(u) - box.center; };
+        return envelope_bound<D>(function_.axes_of(box.half), bound.corners, start, limit(),
+                                 std::min(steepest, 8 * function_.slope()), size_, lowest_from_middle);
+    }
+
+    static bool is_in(const SearchBox<D>& box, const DVec<D>& point) {
+        for (int a = 0; a < D; ++a)
+            if (!(std::abs(point[a] - box.center[a]) <= box.half[a])) return false;
+        return true;
+    }
+
+    /// A function that is linear along each axis bends by its mixed differences alone.
+    static void add_twist(const std::array<double, std::size_t{1} << D>& corners, DVec<D>& bend) {
+        for (int a = 0; a < D; ++a)
+            for (int b = 0; b < a; ++b) {
+                const std::size_t bits = (std::size_t{1} << a) | (std::size_t{1} << b);
+                double twist = 0;
+                for (std::size_t i = 0; i < corners.size(); ++i)
+                    twist += (i & bits) == 0 || (i & bits) == bits ? corners[i] : -corners[i];
+                twist = std::abs(twist) / static_cast<double>(corners.size());
+                bend[a] += twist;
+                bend[b] += twist;
+            }
+    }
+
+    /// Across the axis along which the bound loses most, through the best point, where the bound is exact then.
+    Cut best_cut(const SearchBox<D>& box, const DVec<D>& bend, const DVec<D>& place) const {
+        const int a = longest_axis(largest(bend) > 0 ? bend * box.half : box.half);
+        for (const double at : {best_.point[a], place[a]})
+            if (std::abs(at - box.center[a]) < 0.9 * box.half[a]) return {a, at};
+        return {a, box.center[a]};
     }
 
     /// Where a step along a line ended, and how the function grows there and on the far side of it.
@@ -483,7 +456,6 @@ private:
     double size_ = 0;  ///< of the core
     std::array<Support, 8> supports_;
     std::size_t support_count_ = 0;
-    int looks_beside_ = 0;
     Least<D> best_;
 };
 

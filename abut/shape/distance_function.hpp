@@ -7,6 +7,7 @@
 #include <abut/math/aabb.hpp>
 #include <abut/math/vec.hpp>
 
+#include <array>
 #include <cstdint>
 #include <limits>
 
@@ -33,6 +34,18 @@ struct DistanceBound {
     double wanted_value = -std::numeric_limits<double>::infinity();
     /// Set by the caller: if the distance surely is more everywhere in the box, the bound need not be better than that.
     double enough = std::numeric_limits<double>::infinity();
+
+    DVec<D> anchor{0.0};         ///< set by the caller: the point near which the bound should be tight
+    bool needs_gradient = true;  ///< set by the caller; if false, a smooth box has only `least`, `bend` and `corners`
+    bool only_cut = false;       ///< set by the caller: a box that isn't smooth only needs a place to be cut at
+
+    /// Whether the distance has no kink in the box. Then it is nowhere below the function that is linear along each
+    /// axis and has the values `corners` at the corners of the box; bit a of a corner's index chooses the upper side of
+    /// axis a.
+    bool is_smooth = false;
+    std::array<double, std::size_t{1} << D> corners{};
+    int cut_axis = -1;  ///< the axis across which a kink divides the box best; -1: none
+    double cut = 0;     ///< where it does, along that axis
 };
 
 /// What a function tells of a box.

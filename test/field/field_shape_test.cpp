@@ -98,6 +98,65 @@ TEST(FieldShape, BoundsAreBelowAndNear) {
     }
 }
 
+/// The function that is linear along each axis between the values at a box's corners.
+double between_corners(const std::array<double, 8>& corners, const DVec<3>& share) {
+    double result = 0;
+    for (std::size_t i = 0; i < 8; ++i) {
+        double weight = 1;
+        for (int a = 0; a < 3; ++a) weight *= (i >> a & 1) != 0 ? share[a] : 1 - share[a];
+        result += weight * corners[i];
+    }
+    return result;
+}
+
+/// The corner values of a box without a kink bound the distance from below, exactly within a cell, and outside of the
+/// volume at the anchor. A box with a kink is cut where the kink divides it.
+TEST(FieldShape, CornersAreBelowAndTightAtTheAnchor) {
+    oracle::Random random(31);
+    for (const Field3& stone : stones()) {
+        const DistanceFunction<3> seen = view(stone);
+        const Aabb3 volume = stone.volume();
+        int inside = 0, outside = 0, cut = 0;
+        for (int i = 0; i < 3000; ++i) {
+            SCOPED_TRACE(testing::Message() << "seed 31, box " << i);
+            const DVec<3> center = random.in_cube<3>() * 2.0;
+            DVec<3> half;
+            const double size = random.power_of_two(-14, -3);
+            for (int a = 0; a < 3; ++a) half[a] = random.uniform(0, size);
+            DistanceBound<3> bound;
+            bound.needs_gradient = false;
+            bound.anchor = center + random.in_cube<3>() * half;
+            seen.bound(seen.object, center - half, center + half, bound);
+            if (!bound.is_smooth) {
+                if (bound.cut_axis < 0) continue;
+                ++cut;
+                EXPECT_LT(std::abs(bound.cut - center[bound.cut_axis]), half[bound.cut_axis]);
+                continue;
+            }
+            const bool is_within =
+                contains(volume, to_float(center - half)) && contains(volume, to_float(center + half));
+            ++(is_within ? inside : outside);
+            for (int k = 0; k < 32; ++k) {
+                DVec<3> share;
+                for (int a = 0; a < 3; ++a) share[a] = k < 8 ? k >> a & 1 : random.uniform(0, 1);
+                const DVec<3> place = center + (share * 2.0 - 1.0) * half;
+                const double here = shape_distance(stone, to_float(place)),
+                             below = between_corners(bound.corners, share);
+                EXPECT_GE(here, below - 2e-6);
+                if (is_within) {
+                    EXPECT_LE(here, below + 2e-6);
+                }
+            }
+            DVec<3> share;
+            for (int a = 0; a < 3; ++a) share[a] = 0.5 + 0.5 * (bound.anchor[a] - center[a]) / half[a];
+            EXPECT_NEAR(between_corners(bound.corners, share), shape_distance(stone, to_float(bound.anchor)), 2e-6);
+        }
+        EXPECT_GT(inside, 200);
+        EXPECT_GT(outside, 200);
+        EXPECT_GT(cut, 200);
+    }
+}
+
 /// Beyond the volume the distance goes on without a step, and is no more than the true one by what a cell rounds off.
 TEST(FieldShape, ContinuedOutside) {
     oracle::Random random(28);
