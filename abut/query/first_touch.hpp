@@ -30,21 +30,33 @@ struct Gained {
 template <int D, class DistanceAt, class Closing>
 Gained<D> time_between(Gained<D> before, Gained<D> after, double wanted, double margin, const DistanceAt& distance_at,
                        const Closing& closing) {
+    // By regula falsi with the Illinois step: the value at an end that stays twice counts half.
     constexpr int most_looks = 40;
+    double above = before.distance.distance - wanted, below = wanted - after.distance.distance;
+    int stays = 0;  // how often the end after (above zero) or before (below zero) has stayed
     for (int i = 0; i < most_looks; ++i) {
         if (after.distance.distance >= wanted - 0.5 * margin) return after;
-        const double wide = after.time - before.time, above = before.distance.distance - wanted,
-                     below = wanted - after.distance.distance;
+        const double wide = after.time - before.time;
         double time = before.time + 0.5 * wide;
-        if (i % 3 == 0) {
+        if (above < std::numeric_limits<double>::infinity()) {
+            time = before.time + wide * std::clamp(above / (above + below), 0.01, 0.99);
+        } else if (i == 0) {
             const double falls = closing(after.distance, after.time);
             if (falls > 0 && below < falls * wide) time = after.time - below / falls;
-        } else if (i % 3 == 1 && above < std::numeric_limits<double>::infinity()) {
-            time = before.time + wide * std::clamp(above / (above + below), 0.02, 0.98);
         }
         if (!(time > before.time && time < after.time)) break;
         const Gained<D> between{time, distance_at(time), false};
-        (between.distance.distance <= wanted + 0.5 * margin ? after : before) = between;
+        if (between.distance.distance <= wanted + 0.5 * margin) {
+            after = between;
+            below = wanted - after.distance.distance;
+            stays = std::min(stays, 0) - 1;
+            if (stays < -1) above *= 0.5;
+        } else {
+            before = between;
+            above = before.distance.distance - wanted;
+            stays = std::max(stays, 0) + 1;
+            if (stays > 1) below *= 0.5;
+        }
     }
     return after.distance.distance >= wanted - margin ? after : before;
 }
