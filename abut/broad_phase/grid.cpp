@@ -6,6 +6,7 @@
 #include <abut/broad_phase/grid_plan.hpp>
 #include <abut/broad_phase/grid_queries.hpp>
 #include <abut/broad_phase/pair_buffer.hpp>
+#include <abut/broad_phase/room_for_one.hpp>
 #include <abut/broad_phase/sweep_pieces.hpp>
 #include <abut/broad_phase/tell_together.hpp>
 #include <abut/math/assert.hpp>
@@ -146,11 +147,12 @@ std::uint32_t Grid<D>::insert(const Aabb<D>& box) {
     const std::uint32_t index = free_.take(static_cast<std::uint32_t>(size()));
     if (index == size()) {
         ABUT_ASSERT(size() < std::size_t{1} << 27);
+        make_room_for_one(boxes_);
         boxes_.emplace_back();
     }
     boxes_[index] = usable(box);
     if (is_empty(boxes_[index])) {
-        if (size() > reserved_) reserve(size() + size() / 2);
+        if (size() > reserved_) reserve(size() + size() / 4);
         return index;
     }
     const bool found_room = cells_.total > 0 && put(index);
@@ -158,7 +160,7 @@ std::uint32_t Grid<D>::insert(const Aabb<D>& box) {
     // While there are a few boxes only, any cells do.
     constexpr double little = 1000;
     if (!found_room || cost_.time() > 1.5 * planned_.time() + little) {
-        reserve(size() + size() / 2);
+        reserve(size() + size() / 4);
         plan(boxes_, nullptr);
     }
     return index;

@@ -33,7 +33,7 @@ namespace abut {
 /// With an executor `build` and `update` fill the cells on several threads; what lies in them is the same.
 ///
 /// Up to 2^27 items. Memory: at most 62 bytes an item in 3D (54 in 2D), and 50 KB; one byte an item more with an
-/// executor, and up to twice as much once items were inserted, for those to come.
+/// executor, and up to a quarter more once items were inserted, for those to come.
 template <int D>
 class Grid : public BroadPhaseFace<Grid<D>, D> {
 public:

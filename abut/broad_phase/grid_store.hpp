@@ -36,7 +36,10 @@ public:
     void reserve(std::uint32_t most_pages, std::uint32_t most_cells, std::uint32_t guards) {
         meets_nothing_ = guards;
         page_limit_ = most_pages;
+        // Exactly: a resize alone would double what there was.
+        records.reserve(std::size_t{page_size} * most_pages);
         records.resize(std::size_t{page_size} * most_pages);
+        before_.reserve(most_pages);
         before_.resize(most_pages);
         next_.reserve(most_cells);
     }

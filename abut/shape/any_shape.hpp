@@ -3,9 +3,9 @@
 // A shape whose type is forgotten, owned.
 
 #include <abut/shape/bounds_at.hpp>
+#include <abut/shape/counted.hpp>
 #include <abut/shape/placed.hpp>
 
-#include <memory>
 #include <type_traits>
 #include <utility>
 
@@ -28,7 +28,7 @@ public:
     Aabb<D> bounds(const Pose<D>& pose) const { return stored_->bounds(pose); }
 
 private:
-    struct Stored {
+    struct Stored : Counted {
         virtual ~Stored() = default;
         virtual View<D> view() const = 0;
         virtual View<D> moved(const Affine<D>& rigid) const = 0;
@@ -54,11 +54,11 @@ private:
         const S shape;
     };
     template <class S>
-    static std::shared_ptr<const Stored> store(S shape) {
-        return std::make_shared<const StoredOf<S>>(std::move(shape));
+    static CountedPointer<const Stored> store(S shape) {
+        return CountedPointer<const Stored>(new const StoredOf<S>(std::move(shape)));
     }
 
-    std::shared_ptr<const Stored> stored_;
+    CountedPointer<const Stored> stored_;
 };
 
 template <int D>

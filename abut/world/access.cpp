@@ -9,7 +9,14 @@ template <int D>
 ItemOptions<D> World<D>::options(Id id) const {
     const Item* item = find(id);
     ABUT_ASSERT(item != nullptr);
-    return item != nullptr ? item->options : ItemOptions<D>{.layers = 0, .mask = 0};
+    if (item == nullptr) return {.layers = 0, .mask = 0};
+    return {.pose = item->pose,
+            .user = item->user,
+            .layers = item->layers,
+            .mask = item->mask,
+            .fixed = item->fixed,
+            .sensor = item->sensor,
+            .continuous = item->continuous};
 }
 
 template <int D>
@@ -37,17 +44,17 @@ template <int D>
 void World<D>::set_user(Id id, std::uint64_t user) {
     Item* item = find(id);
     ABUT_ASSERT(item != nullptr);
-    if (item != nullptr) item->options.user = user;
+    if (item != nullptr) item->user = user;
 }
 
 template <int D>
 void World<D>::set_fixed(Id id, bool fixed) {
     Item* item = find(id);
     ABUT_ASSERT(item != nullptr);
-    if (item == nullptr || item->options.fixed == fixed) return;
+    if (item == nullptr || item->fixed == fixed) return;
     const Aabb<D> own = box(id.index - 1);
     boxes_of(*item).remove(item->place);
-    item->options.fixed = fixed;
+    item->fixed = fixed;
     item->place = boxes_of(*item).add(id.index - 1);
     boxes_of(*item).set(item->place, own);
     mark_pending(id.index - 1);
@@ -57,8 +64,8 @@ template <int D>
 void World<D>::set_sensor(Id id, bool sensor) {
     Item* item = find(id);
     ABUT_ASSERT(item != nullptr);
-    if (item == nullptr || item->options.sensor == sensor) return;
-    item->options.sensor = sensor;
+    if (item == nullptr || item->sensor == sensor) return;
+    item->sensor = sensor;
     mark_pending(id.index - 1);
 }
 
@@ -66,8 +73,8 @@ template <int D>
 void World<D>::set_continuous(Id id, bool continuous) {
     Item* item = find(id);
     ABUT_ASSERT(item != nullptr);
-    if (item == nullptr || item->options.continuous == continuous) return;
-    item->options.continuous = continuous;
+    if (item == nullptr || item->continuous == continuous) return;
+    item->continuous = continuous;
     if (continuous)
         ++continuous_;
     else

@@ -29,7 +29,7 @@ void World<D>::widen_boxes() {
         const Aabb<D> first = box_at(item, from);
         if (is_empty(first)) continue;
         Way<D>& way = ways_[item.course];
-        way = turning_way(item.own_ball.ball(), first, Motion<D>::between(from, item.options.pose));
+        way = turning_way(item.own_ball.ball(), first, Motion<D>::between(from, item.pose));
         boxes_of(item).widen(item.place, merged(bounds(way), box(slot)));
         widened_ = true;
     }
@@ -46,7 +46,7 @@ template <int D>
 bool World<D>::come_near(std::uint32_t slot, std::uint32_t other) const {
     const Item &a = items_[slot], &b = items_[other];
     if (overlaps(box(slot), box(other))) return true;
-    if (!a.options.continuous && !b.options.continuous) return false;
+    if (!a.continuous && !b.continuous) return false;
     return (has_way(slot) || has_way(other)) && may_meet(way_of(slot), way_of(other));
 }
 
@@ -65,11 +65,11 @@ void World<D>::look_between(const IdPair& pair, bool touch) {
 template <int D>
 std::optional<Hit<D>> World<D>::sweep_pair(std::uint32_t slot, std::uint32_t other) const {
     const auto from = [this](std::uint32_t each) -> const Pose<D>& {
-        return has_way(each) ? courses_[items_[each].course] : items_[each].options.pose;
+        return has_way(each) ? courses_[items_[each].course] : items_[each].pose;
     };
     const Item &a = items_[slot], &b = items_[other];
-    const Pose<D>&from_a = from(slot), &from_b = from(other), &to_a = a.options.pose, &to_b = b.options.pose;
-    const View<D> own_a = a.stored->view(), own_b = b.stored->view();
+    const Pose<D>&from_a = from(slot), &from_b = from(other), &to_a = a.pose, &to_b = b.pose;
+    const View<D> own_a = a.stored.view(), own_b = b.stored.view();
     if (from_a.rotation == to_a.rotation && from_b.rotation == to_b.rotation)
         return abut::sweep(moved(own_a, affine(from_a)), to_a.position - from_a.position, moved(own_b, affine(from_b)),
                            to_b.position - from_b.position);

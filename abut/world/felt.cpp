@@ -19,13 +19,13 @@ constexpr std::size_t few = 48;
 /// What hardly ever moves isn't pushed, and feels nothing.
 template <int D>
 bool World<D>::feels(std::uint32_t slot) const {
-    return !items_[slot].options.fixed;
+    return !items_[slot].fixed;
 }
 
 /// Whether two are parts of one surface for what pairs with both: sensors aren't.
 template <int D>
 bool World<D>::are_solid(std::uint32_t slot, std::uint32_t other) const {
-    return !items_[slot].options.sensor && !items_[other].options.sensor;
+    return !items_[slot].sensor && !items_[other].sensor;
 }
 
 template <int D>
@@ -74,7 +74,7 @@ void World<D>::each_foot_beside(std::uint32_t slot, std::uint32_t other, PlacedV
         return;
     }
     const Item& item = items_[slot];
-    const Filter filter{.layers = item.options.layers, .mask = item.options.mask};
+    const Filter filter{.layers = item.layers, .mask = item.mask};
     for (const ItemBoxes<D>* items : {&moving_, &fixed_})
         items->phase().each_overlapping(near, [&](std::uint32_t place) {
             const std::uint32_t found = items->slot(place);

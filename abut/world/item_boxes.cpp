@@ -1,7 +1,7 @@
 #include <abut/broad_phase/boxes.hpp>
 #include <abut/broad_phase/reach.hpp>
+#include <abut/broad_phase/room_for_one.hpp>
 #include <abut/world/item_boxes.hpp>
-#include <abut/world/room_for_one.hpp>
 
 #include <algorithm>
 

@@ -30,8 +30,8 @@ bool can_be_asked(const Ray<D>& ray) {
 template <int D>
 bool World<D>::asked(std::uint32_t slot, const Filter& filter) const {
     const Item& item = items_[slot];
-    if (is_empty(box(slot)) || (item.options.sensor && !filter.sensors)) return false;
-    if ((filter.layers & item.options.mask) == 0 || (item.options.layers & filter.mask) == 0) return false;
+    if (is_empty(box(slot)) || (item.sensor && !filter.sensors)) return false;
+    if ((filter.layers & item.mask) == 0 || (item.layers & filter.mask) == 0) return false;
     const Id id = id_of(slot);
     const std::span<const Id> ignored = filter.ignore_ids;
     return id != filter.ignore && std::find(ignored.begin(), ignored.end(), id) == ignored.end();

@@ -111,7 +111,7 @@ std::optional<WorldHit<D>> World<D>::sweep_turning(const View<D>& shape, const M
     const bool finite = is_finite(motion.from) && is_finite(motion.move) && is_finite(motion.turn);
     if (!can_be_asked(is_finite(shape) && finite)) return std::nullopt;
     std::optional<WorldHit<D>> first = first_on_way(shape, way_of_shape(shape, motion), filter, [&](const Item& item) {
-        return abut::sweep(shape, motion, item.stored->view(), Motion<D>{.from = item.options.pose});
+        return abut::sweep(shape, motion, item.stored.view(), Motion<D>{.from = item.pose});
     });
     if (first) feel(arrival_of(shape, rigid_path(motion), first->hit), filter, *first);
     return first;
@@ -123,8 +123,8 @@ std::optional<WorldHit<D>> World<D>::sweep_between(const View<D>& shape, const P
     if (!can_be_asked(is_finite(shape) && is_finite(from) && is_finite(to))) return std::nullopt;
     std::optional<WorldHit<D>> first =
         first_on_way(shape, way_of_shape(shape, Motion<D>::between(from, to)), filter, [&](const Item& item) {
-            const Pose<D>& there = item.options.pose;
-            return abut::sweep(shape, from, to, item.stored->view(), there, there);
+            const Pose<D>& there = item.pose;
+            return abut::sweep(shape, from, to, item.stored.view(), there, there);
         });
     if (first) feel(arrival_of(shape, rigid_path(from, to), first->hit), filter, *first);
     return first;

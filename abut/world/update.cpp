@@ -31,7 +31,7 @@ template <int D>
 void World<D>::consider(std::uint32_t slot, std::uint32_t other) {
     if (widened_ && !come_near(slot, other)) return;
     const Item &a = items_[slot], &b = items_[other];
-    if ((a.options.layers & b.options.mask) == 0 || (b.options.layers & a.options.mask) == 0) return;
+    if ((a.layers & b.mask) == 0 || (b.layers & a.mask) == 0) return;
     if (a.type == ShapeType::half_space && b.type == ShapeType::half_space) return;
     near_.push_back({id_of(std::min(slot, other)), id_of(std::max(slot, other))});
 }
@@ -44,14 +44,14 @@ void World<D>::look_at(const IdPair& pair) {
     ++counts_.tested;
     // By its way alone a pair may be near; whether it touches doesn't depend on that.
     const bool touch = (!widened_ || overlaps(box(pair.a.index - 1), box(pair.b.index - 1))) && touch_now(pair);
-    if (a.options.continuous || b.options.continuous) look_between(pair, touch);
+    if (a.continuous || b.continuous) look_between(pair, touch);
 }
 
 /// Keeps the pair if it does.
 template <int D>
 bool World<D>::touch_now(const IdPair& pair) {
     const Item &a = items_[pair.a.index - 1], &b = items_[pair.b.index - 1];
-    Pretests::Entry& entry = pretests_.of(a.type, b.type, a.options.sensor || b.options.sensor);
+    Pretests::Entry& entry = pretests_.of(a.type, b.type, a.sensor || b.sensor);
     if (pretests_.due(entry)) return measure(pair, entry);
     if (!pretests_.asked(entry) || !balls_apart(pair)) return shapes_touch(pair);
     ++counts_.balls;
@@ -89,7 +89,7 @@ const View<D>& World<D>::first_placed(std::uint32_t slot) {
 template <int D>
 bool World<D>::shapes_touch(const IdPair& pair) {
     const Item &a = items_[pair.a.index - 1], &b = items_[pair.b.index - 1];
-    if (a.options.sensor || b.options.sensor) {
+    if (a.sensor || b.sensor) {
         if (!overlaps(first_placed(pair.a.index - 1), placed(b))) return false;
     } else if (!find_contact(pair)) {
         return false;

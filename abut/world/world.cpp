@@ -1,7 +1,9 @@
 #include <abut/broad_phase/boxes.hpp>
+#include <abut/broad_phase/room_for_one.hpp>
 #include <abut/math/assert.hpp>
-#include <abut/world/room_for_one.hpp>
 #include <abut/world/world.hpp>
+
+#include <utility>
 
 namespace abut {
 namespace {
@@ -21,7 +23,7 @@ template <int D>
 const typename World<D>::Item* World<D>::find(Id id) const {
     if (id.index == 0 || id.index > items_.size()) return nullptr;
     const Item& item = items_[id.index - 1];
-    return item.stored && item.generation == id.generation ? &item : nullptr;
+    return item.in_use && item.generation == id.generation ? &item : nullptr;
 }
 
 template <int D>
@@ -34,26 +36,34 @@ Id World<D>::add_shape(const AnyShape<D>& shape, const ItemOptions<D>& options) 
     std::uint32_t slot = static_cast<std::uint32_t>(items_.size());
     if (free_.empty()) {
         make_room_for_one(items_);
-        items_.emplace_back();
+        items_.push_back(Item{.stored = shape});
     } else {
         slot = free_.back();
         free_.pop_back();
+        items_[slot].stored = shape;
     }
     Item& item = items_[slot];
-    item.options = options;
+    item.user = options.user;
+    item.pose = options.pose;
+    item.layers = options.layers;
+    item.mask = options.mask;
+    item.fixed = options.fixed;
+    item.sensor = options.sensor;
+    item.continuous = options.continuous;
+    item.in_use = true;
     ++item.generation;
     ++count_;
     continuous_ += options.continuous ? 1 : 0;
     item.place = boxes_of(item).add(slot);
-    take(slot, shape);
+    take(slot);
     return id_of(slot);
 }
 
+/// The shape that the item has got.
 template <int D>
-void World<D>::take(std::uint32_t slot, const AnyShape<D>& shape) {
+void World<D>::take(std::uint32_t slot) {
     Item& item = items_[slot];
-    item.stored = shape;
-    const View<D> own = item.stored->view();
+    const View<D> own = item.stored.view();
     item.type = shape_type(own);
     item.own_ball = SmallBall<D>::around(bounding_ball(own));
     item.settled = false;
@@ -66,20 +76,21 @@ void World<D>::set_any_shape(Id id, const AnyShape<D>& shape) {
     Item* item = find(id);
     ABUT_ASSERT(item != nullptr);
     if (item == nullptr) return;
-    take(id.index - 1, shape);
+    item->stored = shape;
+    take(id.index - 1);
 }
 
 template <int D>
 void World<D>::move(Id id, const Pose<D>& pose) {
     Item* item = find(id);
     ABUT_ASSERT(item != nullptr);
-    if (item == nullptr || item->options.pose == pose) return;
+    if (item == nullptr || item->pose == pose) return;
     if (item->settled && item->course == no_way) {
         item->course = static_cast<std::uint32_t>(courses_.size());
         make_room_for_one(courses_);
-        courses_.push_back(item->options.pose);
+        courses_.push_back(item->pose);
     }
-    item->options.pose = pose;
+    item->pose = pose;
     place(id.index - 1);
 }
 
@@ -88,8 +99,8 @@ void World<D>::set_filter(Id id, std::uint32_t layers, std::uint32_t mask) {
     Item* item = find(id);
     ABUT_ASSERT(item != nullptr);
     if (item == nullptr) return;
-    item->options.layers = layers;
-    item->options.mask = mask;
+    item->layers = layers;
+    item->mask = mask;
     mark_pending(id.index - 1);
 }
 
@@ -98,9 +109,10 @@ void World<D>::remove(Id id) {
     Item* item = find(id);
     ABUT_ASSERT(item != nullptr);
     if (item == nullptr) return;
-    item->stored.reset();
+    const AnyShape<D> gone = std::move(item->stored);
+    item->in_use = false;
     boxes_of(*item).remove(item->place);
-    continuous_ -= item->options.continuous ? 1 : 0;
+    continuous_ -= item->continuous ? 1 : 0;
     item->course = no_way;
     mark_pending(id.index - 1);
     free_.push_back(id.index - 1);
@@ -110,7 +122,7 @@ void World<D>::remove(Id id) {
 template <int D>
 void World<D>::place(std::uint32_t slot) {
     Item& item = items_[slot];
-    const Aabb<D> box = box_at(item, item.options.pose);
+    const Aabb<D> box = box_at(item, item.pose);
     ABUT_ASSERT(!is_empty(box) || is_finite(placed(item)));
     boxes_of(item).set(item.place, box);
     mark_pending(slot);
@@ -118,12 +130,12 @@ void World<D>::place(std::uint32_t slot) {
 
 template <int D>
 Aabb<D> World<D>::box_at(const Item& item, const Pose<D>& pose) const {
-    return box_for_questions(item.stored->bounds(pose));
+    return box_for_questions(item.stored.bounds(pose));
 }
 
 template <int D>
 BoundingBall<D> World<D>::ball(const Item& item) const {
-    return moved(item.own_ball.ball(), affine(item.options.pose));
+    return moved(item.own_ball.ball(), affine(item.pose));
 }
 
 template <int D>
@@ -143,14 +155,14 @@ template <int D>
 std::uint64_t World<D>::user(Id id) const {
     const Item* item = find(id);
     ABUT_ASSERT(item != nullptr);
-    return item != nullptr ? item->options.user : 0;
+    return item != nullptr ? item->user : 0;
 }
 
 template <int D>
 Pose<D> World<D>::pose(Id id) const {
     const Item* item = find(id);
     ABUT_ASSERT(item != nullptr);
-    return item != nullptr ? item->options.pose : Pose<D>{};
+    return item != nullptr ? item->pose : Pose<D>{};
 }
 
 template <int D>
@@ -164,7 +176,7 @@ template <int D>
 AnyShape<D> World<D>::any_shape(Id id) const {
     const Item* item = find(id);
     ABUT_ASSERT(item != nullptr);
-    return item != nullptr ? *item->stored : AnyShape<D>(Ball<D>{});
+    return item != nullptr ? item->stored : AnyShape<D>(Ball<D>{});
 }
 
 template class World<2>;

@@ -1,6 +1,6 @@
 #pragma once
 
-// How the lists of a world's items grow.
+// How lists that grow item by item get room.
 
 #include <vector>
 
