@@ -7,6 +7,7 @@
 #include <abut/math/aabb.hpp>
 #include <abut/math/executor.hpp>
 #include <abut/math/ray.hpp>
+#include <abut/math/upper_halves.hpp>
 
 #include <cstdint>
 #include <limits>
@@ -72,7 +73,11 @@ public:
     bool empty() const { return phase().size() == 0; }
 
 private:
-    const Phase& phase() const { return static_cast<const Phase&>(*this); }
+    /// All questions pass from the caller's code to the library here.
+    const Phase& phase() const {
+        detail::clear_upper_halves();
+        return static_cast<const Phase&>(*this);
+    }
 };
 
 }  // namespace abut

@@ -40,8 +40,17 @@ private:
         StoredOf(const StoredOf&) = delete;
         StoredOf& operator=(const StoredOf&) = delete;
 
-        View<D> view() const override { return abut::view(shape); }
-        View<D> moved(const Affine<D>& rigid) const override { return abut::moved(abut::view(shape), rigid); }
+        // A user's `bounds` may leave the upper halves in use.
+        View<D> view() const override {
+            const View<D> own(abut::view(shape));
+            detail::clear_upper_halves();
+            return own;
+        }
+        View<D> moved(const Affine<D>& rigid) const override {
+            const auto& own = abut::view(shape);
+            detail::clear_upper_halves();
+            return abut::moved(own, rigid);
+        }
         Aabb<D> bounds(const Pose<D>& pose) const override {
             if constexpr (std::is_same_v<S, Ball<D>> || std::is_same_v<S, Box<D>>) {
                 return bounds_at(shape, pose);

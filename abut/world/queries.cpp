@@ -67,7 +67,7 @@ void World<D>::each_near_ray(const Ray<D>& ray, const Filter& filter, F&& visit)
 }
 
 template <int D>
-std::optional<WorldHit<D>> World<D>::raycast(const Ray<D>& ray, const Filter& filter) const {
+std::optional<WorldHit<D>> World<D>::first_hit(const Ray<D>& ray, const Filter& filter) const {
     std::optional<WorldHit<D>> first;
     each_near_ray(ray, filter, [&](std::uint32_t slot) {
         const std::optional<Hit<D>> hit = abut::raycast(ray, placed(items_[slot]));
@@ -81,7 +81,7 @@ std::optional<WorldHit<D>> World<D>::raycast(const Ray<D>& ray, const Filter& fi
 }
 
 template <int D>
-bool World<D>::raycast_any(const Ray<D>& ray, const Filter& filter) const {
+bool World<D>::any_hit(const Ray<D>& ray, const Filter& filter) const {
     bool any = false;
     each_near_ray(ray, filter, [&](std::uint32_t slot) {
         any = any || abut::raycast(ray, placed(items_[slot]));
@@ -91,7 +91,7 @@ bool World<D>::raycast_any(const Ray<D>& ray, const Filter& filter) const {
 }
 
 template <int D>
-std::vector<WorldHit<D>> World<D>::raycast_all(const Ray<D>& ray, const Filter& filter) const {
+std::vector<WorldHit<D>> World<D>::all_hits(const Ray<D>& ray, const Filter& filter) const {
     std::vector<WorldHit<D>> all;
     each_near_ray(ray, filter, [&](std::uint32_t slot) {
         if (const std::optional<Hit<D>> hit = abut::raycast(ray, placed(items_[slot])))
@@ -132,9 +132,9 @@ std::vector<Id> World<D>::all_overlapping(const View<D>& shape, const Filter& fi
 }
 
 template <int D>
-std::vector<Id> World<D>::containing(const Vec<D>& point, const Filter& filter) const {
+std::vector<Id> World<D>::all_containing(const Vec<D>& point, const Filter& filter) const {
     std::vector<Id> result;
-    if (!can_be_asked(View<D>(round_points<D>({point}, 0)))) return result;
+    if (!can_be_asked(point_view(point))) return result;
     each_near(Aabb<D>{point, point}, filter, [&](std::uint32_t slot) {
         if (abut::contains(placed(items_[slot]), point)) result.push_back(id_of(slot));
         return true;

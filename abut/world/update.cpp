@@ -21,7 +21,7 @@ void World<D>::refresh_boxes() {
 }
 
 template <int D>
-void World<D>::refresh() {
+void World<D>::refresh_now() {
     if (moving_.changed()) moving_.refresh(often_asked_);
     if (fixed_.changed()) fixed_.refresh(1);
 }
@@ -148,7 +148,7 @@ void World<D>::compare_with_last() {
 }
 
 template <int D>
-Events World<D>::update() {
+Events World<D>::find_events() {
     widen_boxes();
     refresh_boxes();
 

@@ -81,7 +81,7 @@ void World<D>::set_any_shape(Id id, const AnyShape<D>& shape) {
 }
 
 template <int D>
-void World<D>::move(Id id, const Pose<D>& pose) {
+void World<D>::move_to(Id id, const Pose<D>& pose) {
     Item* item = find(id);
     ABUT_ASSERT(item != nullptr);
     if (item == nullptr || item->pose == pose) return;

@@ -149,15 +149,24 @@ public:
     /// gives one that can be added.
     template <Ownable S>
     requires(dimension<S> == D) Id add(const S& shape, const ItemOptions<D>& options = {}) {
-        return add_shape(shape, options);
+        const AnyShape<D> stored(shape);
+        detail::clear_upper_halves();
+        return add_shape(stored, options);
     }
     template <class S, class Why = detail::WhyNotKept<D, S>>
     auto add(const S& shape, const ItemOptions<D>& options = {});
     template <Ownable S>
-    requires(dimension<S> == D) void set_shape(Id id, const S& shape) { set_any_shape(id, shape); }
+    requires(dimension<S> == D) void set_shape(Id id, const S& shape) {
+        const AnyShape<D> stored(shape);
+        detail::clear_upper_halves();
+        set_any_shape(id, stored);
+    }
     template <class S, class Why = detail::WhyNotKept<D, S>>
     auto set_shape(Id id, const S& shape);
-    void move(Id id, const Pose<D>& pose);
+    void move(Id id, const Pose<D>& pose) {
+        detail::clear_upper_halves();
+        move_to(id, pose);
+    }
     template <class P, class Why = detail::WhyNoPose<D, P>>
     auto move(Id id, const P& position);
     void set_filter(Id id, std::uint32_t layers, std::uint32_t mask);
@@ -205,7 +214,10 @@ public:
     ///
     /// While any item is continuous, the ways of all that have moved are looked at: what is only put elsewhere then
     /// costs less if it is removed and added.
-    Events update();
+    Events update() {
+        detail::clear_upper_halves();
+        return find_events();
+    }
     /// As of the last update, of pairs without a sensor, with normals as felt by who touches several: docs/ghosts.md.
     std::span<const WorldContact<D>> contacts() const { return contacts_; }
     /// As of the last update, sorted: how the pairs met that are among those that began and met on their way, because
@@ -215,7 +227,10 @@ public:
     /// Brings the broad phases up to date with all that was added, moved or removed, so that queries cost what they
     /// cost after an update. Queries do not need it; the events and contacts of the next update are the same without
     /// it.
-    void refresh();
+    void refresh() {
+        detail::clear_upper_halves();
+        refresh_now();
+    }
     /// Over the items that move.
     BroadPhaseKind broad_phase() const { return moving_.phase().kind(); }
 
@@ -236,11 +251,20 @@ public:
     std::optional<Hit<D>> impact(const IdPair& pair) const;
 
     /// The first hit, as told at abut::raycast; of equally near ones, the one with the lowest id.
-    std::optional<WorldHit<D>> raycast(const Ray<D>& ray, const Filter& filter = {}) const;
+    std::optional<WorldHit<D>> raycast(const Ray<D>& ray, const Filter& filter = {}) const {
+        detail::clear_upper_halves();
+        return first_hit(ray, filter);
+    }
     /// Whether the ray hits anything: stops at what it finds first, such as for a line of sight.
-    bool raycast_any(const Ray<D>& ray, const Filter& filter = {}) const;
+    bool raycast_any(const Ray<D>& ray, const Filter& filter = {}) const {
+        detail::clear_upper_halves();
+        return any_hit(ray, filter);
+    }
     /// The first hit on each item, near to far.
-    std::vector<WorldHit<D>> raycast_all(const Ray<D>& ray, const Filter& filter = {}) const;
+    std::vector<WorldHit<D>> raycast_all(const Ray<D>& ray, const Filter& filter = {}) const {
+        detail::clear_upper_halves();
+        return all_hits(ray, filter);
+    }
 
     /// The first hit of a shape that moves straight, as told at abut::sweep; of equally early ones, the one with the
     /// lowest id. What it touches at the start is hit only if it goes further in.
@@ -269,7 +293,7 @@ public:
     template <class S, class Why = detail::WhyNotIn<D, S>>
     requires(!detail::PointIn<S, D>) auto closest(const S& shape, const Filter& filter = {}) const;
     std::optional<WorldClosest<D>> closest(const Vec<D>& point, const Filter& filter = {}) const {
-        return closest_to(View<D>(round_points<D>({point}, 0)), filter);
+        return closest_to(point_view(point), filter);
     }
 
     /// The items that are closest, up to `out.size()` of them, sorted by distance and then by id; their number.
@@ -279,7 +303,7 @@ public:
         return detail::ask_view(shape, [&](const View<D>& seen) { return nearest_to(seen, out, filter); });
     }
     std::size_t k_nearest(const Vec<D>& point, std::span<WorldClosest<D>> out, const Filter& filter = {}) const {
-        return nearest_to(View<D>(round_points<D>({point}, 0)), out, filter);
+        return nearest_to(point_view(point), out, filter);
     }
     /// Up to k of them, as a list.
     template <detail::ShapeIn<D> S>
@@ -287,7 +311,7 @@ public:
         return detail::ask_view(shape, [&](const View<D>& seen) { return list_of_nearest(seen, k, filter); });
     }
     std::vector<WorldClosest<D>> k_nearest(const Vec<D>& point, std::size_t k, const Filter& filter = {}) const {
-        return list_of_nearest(View<D>(round_points<D>({point}, 0)), k, filter);
+        return list_of_nearest(point_view(point), k, filter);
     }
 
     template <detail::ShapeIn<D> S>
@@ -303,12 +327,16 @@ public:
     }
     template <class S, class F, class Why = detail::WhyNotIn<D, S>>
     auto each_overlapping(const S& shape, F&& visit, const Filter& filter = {}) const;
-    std::vector<Id> containing(const Vec<D>& point, const Filter& filter = {}) const;
+    std::vector<Id> containing(const Vec<D>& point, const Filter& filter = {}) const {
+        detail::clear_upper_halves();
+        return all_containing(point, filter);
+    }
 
     /// visit(id, shape) for the items whose boxes overlap a box, each shape where it is, in no order that is promised;
     /// returns nothing, or false to stop. For questions that aren't asked here.
     template <Visitor<Id, const View<D>&> F>
     void each_in_box(const Aabb<D>& box, F&& visit, const Filter& filter = {}) const {
+        detail::clear_upper_halves();
         visit_in_box(box, filter, go_on_after(visit));
     }
 
@@ -338,7 +366,21 @@ private:
         bool kept = false;  // it is among those that are told
     };
 
+    static View<D> point_view(const Vec<D>& point) {
+        detail::clear_upper_halves();
+        return View<D>(round_points<D>({point}, 0));
+    }
+
+    // The public functions, behind the border to the caller's code.
     Id add_shape(const AnyShape<D>& shape, const ItemOptions<D>& options);
+    void move_to(Id id, const Pose<D>& pose);
+    Events find_events();
+    void refresh_now();
+    std::optional<WorldHit<D>> first_hit(const Ray<D>& ray, const Filter& filter) const;
+    bool any_hit(const Ray<D>& ray, const Filter& filter) const;
+    std::vector<WorldHit<D>> all_hits(const Ray<D>& ray, const Filter& filter) const;
+    std::vector<Id> all_containing(const Vec<D>& point, const Filter& filter) const;
+
     void take(std::uint32_t slot);
     void set_any_shape(Id id, const AnyShape<D>& shape);
     const Item* find(Id id) const;

@@ -5,7 +5,9 @@
 
 #include "probe.hpp"
 
+#include <array>
 #include <cstdio>
+#include <vector>
 
 namespace {
 
@@ -21,6 +23,62 @@ void expect_cleared(const char* door, const F& call) {
     ++failures;
     std::printf("%s: upper halves in use in %d of %d calls of the user's function\n", door, probe::dirty_calls,
                 probe::calls);
+}
+
+/// Of a door that calls no function of the user's: the library, which uses none, leaves them as the door has.
+template <class F>
+void expect_cleared_after(const char* door, const F& call) {
+    probe::return_with_upper_halves_in_use();
+    call();
+    if (!probe::upper_halves_in_use()) return;
+    ++failures;
+    std::printf("%s: upper halves in use after the call\n", door);
+}
+
+/// With questions that find nothing: a visitor, once called, leaves them cleared.
+template <class Phase>
+void try_broad_phase(const char* name) {
+    using namespace abut;
+    std::printf("%s\n", name);
+    const std::vector<Aabb3> boxes{{{0, 0, 0}, {1, 1, 1}}, {{5, 5, 5}, {6, 6, 6}}};
+    const Aabb3 box{{2, 2, 2}, {3, 3, 3}};
+    Phase phase;
+    phase.build(boxes);
+    int sum = 0;
+    const auto count = [&](std::uint32_t) { ++sum; };
+    const auto any = [&](std::uint32_t) { return 10.0f; };
+    std::vector<ItemPair> pairs;
+    expect_cleared_after("each_pair", [&] { phase.each_pair([&](std::uint32_t, std::uint32_t) { ++sum; }); });
+    expect_cleared_after("sorted_pairs", [&] { phase.sorted_pairs(pairs); });
+    expect_cleared_after("each_overlapping", [&] { phase.each_overlapping(box, count); });
+    expect_cleared_after("raycast", [&] { phase.raycast(Ray3{{-4, 3, 3}, {1, 0, 0}, 10}, any); });
+    expect_cleared_after("closest", [&] { phase.closest(Vec3(3, 3, 3), any, 0.5f); });
+}
+
+/// Shapes of the library's own in a world.
+void try_plain_doors() {
+    using namespace abut;
+    [[maybe_unused]] volatile bool sink = false;
+    const Ray3 ray{{1, 3, 1}, {0, -1, 0}, 10};
+    World3 world;
+    Id id;
+    const Box3 box{{0, 0, 0}, {1, 1, 1}};
+    std::array<WorldClosest<3>, 2> nearest;
+    expect_cleared_after("World::add", [&] { id = world.add(box); });
+    expect_cleared_after("World::set_shape", [&] { world.set_shape(id, box); });
+    expect_cleared_after("World::move", [&] { world.move(id, Pose3{{1, 0, 0}}); });
+    expect_cleared_after("World::refresh", [&] { world.refresh(); });
+    expect_cleared_after("World::update", [&] { world.update(); });
+    expect_cleared_after("World::raycast", [&] { sink = world.raycast(ray).has_value(); });
+    expect_cleared_after("World::raycast_any", [&] { sink = world.raycast_any(ray); });
+    expect_cleared_after("World::raycast_all", [&] { sink = world.raycast_all(ray).empty(); });
+    expect_cleared_after("World::containing", [&] { sink = world.containing({0, 0, 0}).empty(); });
+    expect_cleared_after("World::closest", [&] { sink = world.closest(Vec3(3, 0, 0)).has_value(); });
+    expect_cleared_after("World::k_nearest", [&] { sink = world.k_nearest(Vec3(3, 0, 0), nearest) > 0; });
+    expect_cleared_after("World::k_nearest as a list", [&] { sink = world.k_nearest(Vec3(3, 0, 0), 2).empty(); });
+    expect_cleared_after("World::each_in_box", [&] {
+        world.each_in_box(Aabb3{{0, 0, 0}, {1, 1, 1}}, [&](Id, const View<3>&) { sink = true; });
+    });
 }
 
 template <class S>
@@ -65,5 +123,12 @@ int main() {
     try_doors(probe::BySupport{ball}, "by its support function");
     try_doors(probe::ByParts{ball}, "by its parts");
     try_doors(probe::ByDistance{ball}, "by its distance");
+    try_plain_doors();
+    try_broad_phase<abut::BruteForce<3>>("BruteForce");
+    try_broad_phase<abut::Grid<3>>("Grid");
+    try_broad_phase<abut::LayeredGrid<3>>("LayeredGrid");
+    try_broad_phase<abut::SweepAndPrune<3>>("SweepAndPrune");
+    try_broad_phase<abut::Bvh<3>>("Bvh");
+    try_broad_phase<abut::Bsp<3>>("Bsp");
     return failures == 0 ? 0 : 1;
 }

@@ -8,13 +8,17 @@ namespace probe {
 
 int calls = 0, dirty_calls = 0;
 
-namespace {
+void return_with_upper_halves_in_use() {
+    use_upper_halves();
+}
 
 bool upper_halves_in_use() {
     unsigned low = 0, high = 0;
     asm volatile("xgetbv" : "=a"(low), "=d"(high) : "c"(1));  // the state that isn't as it is after a reset
     return (low & 4u) != 0;
 }
+
+namespace {
 
 void look() {
     ++calls;

@@ -15,6 +15,10 @@ inline void use_upper_halves() {
     asm volatile("vpcmpeqd %%ymm15, %%ymm15, %%ymm15" ::: "xmm15");
 }
 
+/// The same in a call, after which a compiler takes them for cleared.
+void return_with_upper_halves_in_use();
+/// As the caller's registers are.
+bool upper_halves_in_use();
 /// False where the processor doesn't tell, or has no upper halves.
 bool can_look();
 
