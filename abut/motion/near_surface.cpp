@@ -69,13 +69,13 @@ bool NearSurface<D>::is_passed(const PartName& name) const {
 }
 
 template <int D>
-void NearSurface<D>::each_foot(const DVec<D>& point, double within, FunctionRef<void(const Foot<D>&)> visit) const {
+void NearSurface<D>::each_foot(const DVec<D>& point, double within, ClosestPointVisitor<D> visit) const {
     each_foot_of_others({}, point, within, visit);
 }
 
 template <int D>
 void NearSurface<D>::each_foot_of_others(const PartName& but, const DVec<D>& point, double within,
-                                         FunctionRef<void(const Foot<D>&)> visit) const {
+                                         ClosestPointVisitor<D> visit) const {
     const Vec<D> middle = to_float(point);
     parts_.each(grown(Aabb<D>{middle, middle}, static_cast<float>(within)),
                 [&](const PartName& name, const auto& part) {
@@ -83,7 +83,7 @@ void NearSurface<D>::each_foot_of_others(const PartName& but, const DVec<D>& poi
                     if (!passed_.empty() && is_passed(name)) return;
                     if (!passed_fronts_.empty() && is_passed_front(name)) return;
                     Foot<D> foot;
-                    if (find_foot(part, point, within, foot)) visit(foot);
+                    if (within > no_others && find_foot(part, point, within, foot)) within = visit(foot);
                 });
 }
 
@@ -160,7 +160,7 @@ std::span<const NearContact<D>> NearSurface<D>::contacts(const DVec<D>& at, doub
         });
     const DVec<D> middle = middle_of(shape, at);
     SeenFromMiddle<D> seen;
-    const auto feet = [this](const DVec<D>& point, double within, FunctionRef<void(const Foot<D>&)> visit) {
+    const auto feet = [this](const DVec<D>& point, double within, ClosestPointVisitor<D> visit) {
         each_foot(point, within, visit);
     };
     parts_.each(box, [&](const PartName& name, const auto& part) {
@@ -212,8 +212,10 @@ template <int D>
 bool NearSurface<D>::is_covered(const PartName& name, const FunctionSide<D>& side) const {
     const DVec<D> beside = side.point + side.normal * scale_;
     bool result = false;
-    each_foot_of_others(name, beside, scale_,
-                        [&](const Foot<D>& foot) { result = result || foot.distance < 0.9 * scale_; });
+    each_foot_of_others(name, beside, scale_, [&](const Foot<D>& foot) {
+        result = result || foot.distance < 0.9 * scale_;
+        return result ? no_others : scale_;
+    });
     return result;
 }
 
@@ -270,10 +272,10 @@ template <int D>
 std::optional<DVec<D>> NearSurface<D>::normal_above(const DVec<D>& point, const DVec<D>& up) {
     constexpr double clear = 0.1;
     const DVec<D> above = point + up * scale_;
-    const auto feet = [this](const DVec<D>& from, double within, FunctionRef<void(const Foot<D>&)> visit) {
+    const auto feet = [this](const DVec<D>& from, double within, ClosestPointVisitor<D> visit) {
         each_foot(from, within, visit);
     };
-    const Foot<D> foot = nearest_foot<D>(feet, above, 2 * scale_, scale_);
+    const Foot<D> foot = nearest_foot<D>(feet, above, 2 * scale_, scale_, clear * scale_);
     if (!(foot.distance > clear * scale_) || !std::isfinite(foot.distance)) return std::nullopt;
     return normalized(above - foot.point);
 }

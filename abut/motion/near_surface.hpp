@@ -55,7 +55,7 @@ public:
 
 private:
     void need(const Aabb<D>& box);
-    void each_foot(const DVec<D>& point, double within, FunctionRef<void(const Foot<D>&)> visit) const;
+    void each_foot(const DVec<D>& point, double within, ClosestPointVisitor<D> visit) const;
     template <class Part>
     bool passes(const Part& part, NearContact<D>& contact);
     bool is_passed(const PartName& name) const;
@@ -66,7 +66,7 @@ private:
     bool is_on_passed_front(const DVec<D>& point) const;
     /// Of all parts but one.
     void each_foot_of_others(const PartName& but, const DVec<D>& point, double within,
-                             FunctionRef<void(const Foot<D>&)> visit) const;
+                             ClosestPointVisitor<D> visit) const;
     bool is_covered(const PartName& name, const FunctionSide<D>& side) const;
     void add_sides(const NearContact<D>& nearest, const Convex<D>& shape, const DistanceFunction<D>& part,
                    double reach);

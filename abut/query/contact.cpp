@@ -89,6 +89,31 @@ ContactAmong<D> deepest_felt(const View<D>& a, const View<D>& b, const QueryOpti
     return result;
 }
 
+/// Two shapes of one part each: their one contact, or what stands in for it.
+template <int D>
+ContactAmong<D> only_contact(const View<D>& a, const View<D>& b, const Deepest<D>& deepest, const Others<D>& others) {
+    ContactAmong<D> result;
+    result.contact = deepest.contact;
+    FeltPair<D> pair(a, b, others);
+    each_part_pair(a, b, 0, [&](const auto& part_a, std::uint32_t index_a, const auto& part_b, std::uint32_t index_b) {
+        PartContact<D> found = deepest.found;
+        const FeltBy by =
+            pair.felt_by(part_a, part_b, found.distance, [&]() -> const Manifold<D>& { return found.manifold; });
+        if (by) return false;
+        const bool is_replaced = pair.replace(part_a, part_b, by, found);
+        if (found.distance.distance > 0) {
+            result.contact = {};
+            return false;
+        }
+        result.felt = by;
+        if (!is_replaced) return false;
+        write(found.distance, found.manifold, result.contact);
+        name_features(part_a, part_b, found.distance, index_a, index_b, result.contact);
+        return false;
+    });
+    return result;
+}
+
 /// Kept out of what is hot, where it would take up room.
 template <int D>
 [[gnu::noinline]] void by_views(const Given<D>& a, const Given<D>& b, const QueryOptions<D>& options,
@@ -139,7 +164,10 @@ ContactAmong<D> contact_among(const View<D>& a, const View<D>& b, const Others<D
     if (!finite) return result;
     const Deepest<D> deepest = deepest_of<D>(a, b, {});
     if (!deepest.contact) return result;
-    if (is_felt(a, b, deepest, 0, others))
+    const bool has_parts = std::holds_alternative<Composite<D>>(a) || std::holds_alternative<Composite<D>>(b);
+    if (!has_parts)
+        result = only_contact(a, b, deepest, others);
+    else if (is_felt(a, b, deepest, 0, others))
         result.contact = deepest.contact;
     else
         result = deepest_felt<D>(a, b, {}, others);

@@ -103,9 +103,12 @@ private:
     /// Of a shape and what is felt beside it.
     auto feet_on(const View<D>& view, const EachFoot<D>* others) const {
         const KeptParts<D>* const kept = is_composite(view) ? kept_ : nullptr;
-        return [&view, others, kept](const DVec<D>& point, double within, FunctionRef<void(const Foot<D>&)> visit) {
-            if (kept == nullptr || !kept->each_foot(point, within, visit)) each_foot_on(view, point, within, visit);
-            if (others != nullptr) (*others)(point, within, visit);
+        return [&view, others, kept](const DVec<D>& point, double within, ClosestPointVisitor<D> visit) {
+            double wanted = within;
+            const auto visit_own = [&](const Foot<D>& foot) { return wanted = visit(foot); };
+            if (kept == nullptr || !kept->each_foot(point, within, visit_own))
+                each_foot_on<D>(view, point, within, visit_own);
+            if (others != nullptr && wanted > no_others) (*others)(point, wanted, visit);
         };
     }
 
@@ -138,7 +141,10 @@ private:
     /// Whether no other is as near to p + s n as a part that has p, by far more than rounding.
     static bool is_alone(const FeltPlace<D>& place, const EachFoot<D>& others) {
         bool alone = true;
-        others(place.point + place.out * place.scale, 1.1 * place.scale, [&](const Foot<D>&) { alone = false; });
+        others(place.point + place.out * place.scale, 1.1 * place.scale, [&](const Foot<D>&) {
+            alone = false;
+            return no_others;
+        });
         return alone;
     }
 

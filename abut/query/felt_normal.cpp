@@ -105,12 +105,15 @@ bool is_free(const Part& part, const FeltPlace<D>& place, const DVec<D>& beside,
     const double surely_nearer = own - rounding * place.scale;
     bool covered = false, doubtful = false;
     each_foot(beside, own + rounding * place.scale, [&](const Foot<D>& foot) {
-        if (is_behind(foot, place.scale)) return;
+        const double still_wanted = own + rounding * place.scale;
+        if (is_behind(foot, place.scale)) return still_wanted;
         covered = covered || foot.distance < surely_nearer;
+        if (covered) return no_others;
         // Another normal, about as near.
         const DVec<D> to_foot = beside - foot.point;
         const DVec<D> aside = to_foot - place.out * dot(to_foot, place.out);
         doubtful = doubtful || foot.distance < nearer || length(aside) > turned_by_rounding * place.scale;
+        return still_wanted;
     });
     return !covered && (!doubtful || is_face(part, place, beside, own));
 }
@@ -164,17 +167,18 @@ Foot<D> foot_on(const DistanceFunction<D>& part, const DVec<D>& point) {
 }
 
 template <int D>
-Foot<D> nearest_foot(EachFoot<D> each_foot, const DVec<D>& point, double within, double scale) {
+Foot<D> nearest_foot(EachFoot<D> each_foot, const DVec<D>& point, double within, double scale, double near_enough) {
     Foot<D> result;
     each_foot(point, within, [&](const Foot<D>& foot) {
-        if (is_behind(foot, scale) || foot.distance > result.distance) return;
-        if (foot.distance < result.distance || is_before(foot.point, result.point)) result = foot;
+        const bool is_farther = is_behind(foot, scale) || foot.distance > result.distance;
+        if (!is_farther && (foot.distance < result.distance || is_before(foot.point, result.point))) result = foot;
+        return result.distance <= near_enough ? no_others : std::min(within, result.distance);
     });
     return result;
 }
 
 template <int D>
-void each_foot_on(const View<D>& shape, const DVec<D>& point, double within, FunctionRef<void(const Foot<D>&)> visit) {
+void each_foot_on(const View<D>& shape, const DVec<D>& point, double within, ClosestPointVisitor<D> visit) {
     if (const auto* convex = std::get_if<Convex<D>>(&shape)) {
         const Foot<D> foot = foot_on(*convex, point);
         if (foot.distance <= within) visit(foot);
@@ -183,8 +187,8 @@ void each_foot_on(const View<D>& shape, const DVec<D>& point, double within, Fun
     const Convex<D> as_part = point_part(point);
     each_part_near(shape, as_part, static_cast<float>(within), [&](const auto& part, std::uint32_t) {
         Foot<D> foot;
-        if (find_foot(part, point, within, foot)) visit(foot);
-        return true;
+        if (find_foot(part, point, within, foot)) within = visit(foot);
+        return within > no_others;
     });
 }
 
@@ -236,11 +240,11 @@ std::optional<FeltPlane<D>> felt_plane(const Part& part, const FeltPlace<D>& pla
     const double way = length(to_middle);
     if (!(way > place.scale)) return std::nullopt;
     const DVec<D> beside = place.point + to_middle * (place.scale / way);
-    if (const auto plane = plane_at(beside, nearest_foot(each_foot, beside, 2 * place.scale, place.scale)))
+    if (const auto plane = plane_at(beside, nearest_foot(each_foot, beside, 2 * place.scale, place.scale, clear)))
         return plane;
     const double within = 1.001 * way;
     if (!std::isfinite(seen.foot.distance) && within > seen.within) {
-        seen.foot = nearest_foot(each_foot, place.middle, within, place.scale);
+        seen.foot = nearest_foot(each_foot, place.middle, within, place.scale, clear);
         seen.within = within;
     }
     return plane_at(place.middle, seen.foot.distance <= within ? seen.foot : Foot<D>());
@@ -256,8 +260,8 @@ std::optional<FeltPlane<D>> felt_plane(const Part& part, const FeltPlace<D>& pla
     template bool is_felt(const DistanceFunction<D>&, const FeltPlace<D>&, EachFoot<D>);                          \
     template std::optional<FeltPlane<D>> felt_plane(const DistanceFunction<D>&, const FeltPlace<D>&, EachFoot<D>, \
                                                     SeenFromMiddle<D>&);                                          \
-    template Foot<D> nearest_foot(EachFoot<D>, const DVec<D>&, double, double);                                   \
-    template void each_foot_on(const View<D>&, const DVec<D>&, double, FunctionRef<void(const Foot<D>&)>);        \
+    template Foot<D> nearest_foot(EachFoot<D>, const DVec<D>&, double, double, double);                           \
+    template void each_foot_on(const View<D>&, const DVec<D>&, double, ClosestPointVisitor<D>);                   \
     template bool has_normal(const Convex<D>&, const FeltPlace<D>&);                                              \
     template bool has_normal(const Solid<D>&, const FeltPlace<D>&);                                               \
     template bool is_felt_there(const Convex<D>&, const FeltPlace<D>&, EachFoot<D>);                              \

@@ -32,14 +32,21 @@ struct Foot {
     double behind = 0;  ///< how far the point is behind a part that is met from its front alone; else 0 or less
 };
 
+/// Is given the closest point of one part after the other; returns how far away others are still wanted, which is no
+/// farther than before. Those beyond may be visited or not.
+template <int D>
+using ClosestPointVisitor = FunctionRef<double(const Foot<D>& foot)>;
+inline constexpr double no_others = -std::numeric_limits<double>::infinity();
+
 /// Tells the feet on all parts that are at most `within` from the point.
 template <int D>
-using EachFoot = FunctionRef<void(const DVec<D>& point, double within, FunctionRef<void(const Foot<D>&)> visit)>;
+using EachFoot = FunctionRef<void(const DVec<D>& point, double within, ClosestPointVisitor<D> visit)>;
 
 /// Of all parts that the point isn't behind, in whatever order they are told; none, with an infinite distance, where
-/// all are farther than `within`. `scale` is s.
+/// all are farther than `within`. `scale` is s. Where one is found that is no farther than `near_enough`, it may be
+/// that one and not the nearest.
 template <int D>
-Foot<D> nearest_foot(EachFoot<D> each_foot, const DVec<D>& point, double within, double scale);
+Foot<D> nearest_foot(EachFoot<D> each_foot, const DVec<D>& point, double within, double scale, double near_enough);
 
 template <int D>
 Foot<D> foot_on(const Convex<D>& part, const DVec<D>& point);
@@ -63,9 +70,31 @@ bool find_foot(const DistanceFunction<D>& part, const DVec<D>& point, double wit
     return foot.distance <= within;
 }
 
+/// All within reach of a point, and a bit more than rounding takes away.
+template <int D>
+Aabb<D> box_around(const DVec<D>& point, double within) {
+    constexpr double wider = 0x1p-22;
+    Aabb<D> result;
+    for (int i = 0; i < D; ++i) {
+        const double reach = within * (1 + wider) + std::abs(point[i]) * wider;
+        result.min[i] = static_cast<float>(point[i] - reach);
+        result.max[i] = static_cast<float>(point[i] + reach);
+    }
+    return result;
+}
+
+/// As `overlaps`, of boxes that aren't empty: without a branch for each side.
+template <int D>
+bool meet(const Aabb<D>& a, const Aabb<D>& b) {
+    unsigned result = 1;
+    for (int i = 0; i < D; ++i)
+        result &= static_cast<unsigned>(a.min[i] <= b.max[i]) & static_cast<unsigned>(b.min[i] <= a.max[i]);
+    return result != 0;
+}
+
 /// Of a shape.
 template <int D>
-void each_foot_on(const View<D>& shape, const DVec<D>& point, double within, FunctionRef<void(const Foot<D>&)> visit);
+void each_foot_on(const View<D>& shape, const DVec<D>& point, double within, ClosestPointVisitor<D> visit);
 
 /// A place on the surface of a part, the way out of the part there (of length 1), and where what feels it has its
 /// middle.

@@ -18,28 +18,6 @@ bool holds_itself(const Convex<D>& part) {
     return false;
 }
 
-/// All within reach of a point, and a bit more than rounding takes away.
-template <int D>
-Aabb<D> box_around(const DVec<D>& point, double within) {
-    constexpr double wider = 0x1p-22;
-    Aabb<D> result;
-    for (int i = 0; i < D; ++i) {
-        const double reach = within * (1 + wider) + std::abs(point[i]) * wider;
-        result.min[i] = static_cast<float>(point[i] - reach);
-        result.max[i] = static_cast<float>(point[i] + reach);
-    }
-    return result;
-}
-
-/// As `overlaps`, of boxes that aren't empty: without a branch for each side.
-template <int D>
-bool meet(const Aabb<D>& a, const Aabb<D>& b) {
-    unsigned result = 1;
-    for (int i = 0; i < D; ++i)
-        result &= static_cast<unsigned>(a.min[i] <= b.max[i]) & static_cast<unsigned>(b.min[i] <= a.max[i]);
-    return result != 0;
-}
-
 }  // namespace
 
 template <int D>
@@ -65,13 +43,14 @@ bool KeptParts<D>::keep(const Composite<D>& shape, const Aabb<D>& box) {
 }
 
 template <int D>
-bool KeptParts<D>::each_foot(const DVec<D>& point, double within, FunctionRef<void(const Foot<D>&)> visit) const {
+bool KeptParts<D>::each_foot(const DVec<D>& point, double within, ClosestPointVisitor<D> visit) const {
     const Aabb<D> around = box_around(point, within);
     if (!contains(box_, around)) return false;
     for (std::uint32_t i = 0; i < count_; ++i) {
         if (!meet(boxes_[i], around)) continue;
         Foot<D> foot;
-        if (find_foot(part(i), point, within, foot)) visit(foot);
+        if (find_foot(part(i), point, within, foot)) within = visit(foot);
+        if (within == no_others) break;
     }
     return true;
 }

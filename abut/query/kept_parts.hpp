@@ -28,7 +28,7 @@ public:
     const Aabb<D>& box(std::uint32_t i) const { return boxes_[i]; }
 
     /// As each_foot_on tells them. False, and nothing was told, where it is asked of places beyond the box.
-    bool each_foot(const DVec<D>& point, double within, FunctionRef<void(const Foot<D>&)> visit) const;
+    bool each_foot(const DVec<D>& point, double within, ClosestPointVisitor<D> visit) const;
 
 private:
     struct Kept {

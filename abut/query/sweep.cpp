@@ -183,7 +183,7 @@ std::optional<Hit<D>> sweep(const View<D>& a, const Vec<D>& motion_a, const View
         const DVec<D> moved_a = DVec<D>(motion_a) * static_cast<double>(result->fraction);
         const Vec<D> point = result->point;
         result->point = to_float(DVec<D>(point) - moved_b);
-        const auto feet = [&](const DVec<D>& from, double within, FunctionRef<void(const Foot<D>&)> visit) {
+        const auto feet = [&](const DVec<D>& from, double within, ClosestPointVisitor<D> visit) {
             each_foot_on(b, from, within, visit);
         };
         feel_hit<D>(straight_arrival<D>(a, moved_a - moved_b), b, feet, *result);

@@ -28,7 +28,7 @@ void feel(const View<D>& a, const RigidPath<D>& path_a, const View<D>& b, const 
           const Meeting<D>& meeting, Hit<D>& hit) {
     if (!std::holds_alternative<Composite<D>>(b)) return;
     const View<D> there = moved(b, place_at(path_b, meeting.time));
-    const auto feet = [&](const DVec<D>& from, double within, FunctionRef<void(const Foot<D>&)> visit) {
+    const auto feet = [&](const DVec<D>& from, double within, ClosestPointVisitor<D> visit) {
         each_foot_on(there, from, within, visit);
     };
     Arrival<D> mover = turning_arrival(a, path_a, meeting.time, meeting.point);

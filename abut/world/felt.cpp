@@ -3,7 +3,6 @@
 
 #include <abut/broad_phase/boxes.hpp>
 #include <abut/query/contact_among.hpp>
-#include <abut/world/placed_views.hpp>
 #include <abut/world/world.hpp>
 
 #include <algorithm>
@@ -35,7 +34,7 @@ void World<D>::find_partners() {
             const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
             if (!are_solid(a, b) || (widened_ && !overlaps(box(a), box(b)))) continue;
             const auto partner = [this](std::uint32_t slot) {
-                return [this, slot]() -> typename Partners<D>::Partner { return {box(slot), slot}; };
+                return [this, slot]() -> Partner { return {box(slot), slot}; };
             };
             if (feels(a)) add(a, partner(b));
             if (feels(b)) add(b, partner(a));
@@ -60,30 +59,41 @@ bool World<D>::is_disturbed(const IdPair& pair) const {
 
 /// Of what the item of the first slot feels beside that of the other.
 template <int D>
-void World<D>::each_foot_beside(std::uint32_t slot, std::uint32_t other, PlacedViews<D>& views, const DVec<D>& point,
-                                double within, FunctionRef<void(const Foot<D>&)> visit) const {
+void World<D>::each_foot_beside(std::uint32_t slot, std::uint32_t other, const DVec<D>& point, double within,
+                                ClosestPointVisitor<D> visit) {
     const Vec<D> middle = to_float(point);
-    const auto visit_item = [&](std::uint32_t item) {
-        each_foot_on(views.of(item, [&] { return placed(items_[item]); }), point, within, visit);
+    Aabb<D> near = grown(Aabb<D>{middle, middle}, static_cast<float>(within));
+    const auto narrow = [&](const Foot<D>& foot) {
+        const double wanted = visit(foot);
+        if (wanted < within) {
+            const Aabb<D> around = box_around(point, std::max(wanted, 0.0));
+            if (abut::contains(near, around)) near = around;
+        }
+        return within = wanted;
     };
-    const Aabb<D> near = grown(Aabb<D>{middle, middle}, static_cast<float>(within));
-    const std::span<const typename Partners<D>::Partner> partners = partners_.of(slot);
+    const auto visit_item = [&](std::uint32_t item) {
+        each_foot_on<D>(views_.of(item, [&] { return placed(items_[item]); }), point, within, narrow);
+        return within > no_others;
+    };
+    const std::span<const Partner> partners = partners_.of(slot);
     if (partners.size() <= few) {
         for (const auto& partner : partners)
-            if (partner.slot != other && overlaps(partner.box, near)) visit_item(partner.slot);
+            if (meet(partner.box, near) && partner.slot != other && !visit_item(partner.slot)) return;
         return;
     }
     const Item& item = items_[slot];
     const Filter filter{.layers = item.layers, .mask = item.mask};
-    for (const ItemBoxes<D>* items : {&moving_, &fixed_})
+    for (const ItemBoxes<D>* items : {&moving_, &fixed_}) {
+        if (within == no_others) return;
         items->phase().each_overlapping(near, [&](std::uint32_t place) {
             const std::uint32_t found = items->slot(place);
             const Item& beside = items_[found];
-            if (found == slot || found == other || !asked(found, filter)) return;
-            if (!overlaps(box(found), near) || !overlaps(box(found), box(slot))) return;
-            if (beside.type == ShapeType::half_space && item.type == ShapeType::half_space) return;
-            visit_item(found);
+            if (found == slot || found == other || !asked(found, filter)) return true;
+            if (!overlaps(box(found), near) || !overlaps(box(found), box(slot))) return true;
+            if (beside.type == ShapeType::half_space && item.type == ShapeType::half_space) return true;
+            return visit_item(found);
         });
+    }
 }
 
 /// Keeps the contact of two items that may touch; false where they don't.
@@ -98,12 +108,10 @@ bool World<D>::find_contact(const IdPair& pair) {
         if (contact) found_.push_back({{pair.a, pair.b, contact}, {}, true});
         return static_cast<bool>(contact);
     }
-    PlacedViews<D> views;
-    const auto beside = [this, &views](std::uint32_t slot, std::uint32_t other) {
-        return
-            [this, &views, slot, other](const DVec<D>& point, double within, FunctionRef<void(const Foot<D>&)> visit) {
-                each_foot_beside(slot, other, views, point, within, visit);
-            };
+    const auto beside = [this](std::uint32_t slot, std::uint32_t other) {
+        return [this, slot, other](const DVec<D>& point, double within, ClosestPointVisitor<D> visit) {
+            each_foot_beside(slot, other, point, within, visit);
+        };
     };
     const auto beside_b = beside(a, b), beside_a = beside(b, a);
     const EachFoot<D> of_a(beside_b), of_b(beside_a);
@@ -123,18 +131,19 @@ typename World<D>::Found* World<D>::find_found(std::vector<Found>& list, const I
 
 /// Whether what stands in for a normal that the item doesn't feel is told by another of its contacts.
 template <int D>
-bool World<D>::is_told(const Found& ghost, const Id& feeler) {
+bool World<D>::is_told(const Found& ghost, const Id& feeler) const {
     const auto seen_by = [&](const WorldContact<D>& told) {
         return DVec<D>(told.contact.normal) * (told.a == feeler ? 1.0 : -1.0);
     };
     const WorldContact<D>& told = ghost.told;
     const double size = std::min(abut::size(shape(told.a)), abut::size(shape(told.b)));
-    const auto partners = partners_.of(feeler.index - 1);
-    return std::any_of(partners.begin(), partners.end(), [&](const auto& partner) {
-        const Id id = id_of(partner.slot);
-        const Found* other = find_found(found_, {std::min(feeler, id), std::max(feeler, id)});
-        return other != nullptr && other != &ghost && other->kept &&
-               tells_of<D>(seen_by(other->told), static_cast<double>(other->told.contact.depth), seen_by(told),
+    const std::uint32_t slot = feeler.index - 1;
+    if (!feels(slot)) return false;
+    const auto others = found_of_.of(slot);
+    return std::any_of(others.begin(), others.end(), [&](std::uint32_t place) {
+        const Found& other = found_[place];
+        return other.kept && &other != &ghost &&
+               tells_of<D>(seen_by(other.told), static_cast<double>(other.told.contact.depth), seen_by(told),
                            static_cast<double>(told.contact.depth), size);
     });
 }
@@ -142,8 +151,18 @@ bool World<D>::is_told(const Found& ghost, const Id& feeler) {
 /// First those that are felt, then, in the order of their ids, what stands in for others and isn't told yet.
 template <int D>
 void World<D>::tell_contacts() {
-    for (Found& found : found_)
-        if (!found.felt) found.kept = false;
+    bool any_ghost = false;
+    for (Found& found : found_) {
+        if (found.felt) continue;
+        found.kept = false;
+        any_ghost = true;
+    }
+    if (any_ghost)
+        found_of_.build(items_.size(), [this](auto&& add) {
+            for (std::uint32_t place = 0; place < found_.size(); ++place)
+                for (const Id& id : {found_[place].told.a, found_[place].told.b})
+                    add(id.index - 1, [place] { return place; });
+        });
     for (Found& found : found_) {
         if (found.felt || !found.told.contact) continue;
         found.kept = (found.felt.a || !is_told(found, found.told.a)) && (found.felt.b || !is_told(found, found.told.b));

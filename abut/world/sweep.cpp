@@ -83,11 +83,11 @@ std::optional<WorldHit<D>> World<D>::first_on_way(const View<D>& shape, const Wa
 /// Of all that is there, seams between items are as little felt as those inside one.
 template <int D>
 void World<D>::feel(const Arrival<D>& mover, const Filter& filter, WorldHit<D>& hit) const {
-    const auto feet = [&](const DVec<D>& from, double within, FunctionRef<void(const Foot<D>&)> visit) {
+    const auto feet = [&](const DVec<D>& from, double within, ClosestPointVisitor<D> visit) {
         const Vec<D> point = to_float(from);
         visit_in_box(grown(Aabb<D>{point, point}, static_cast<float>(within)), filter, [&](Id, const View<D>& item) {
-            each_foot_on(item, from, within, visit);
-            return true;
+            each_foot_on<D>(item, from, within, [&](const Foot<D>& foot) { return within = visit(foot); });
+            return within > no_others;
         });
     };
     feel_hit<D>(mover, shape(hit.id), feet, hit.hit);

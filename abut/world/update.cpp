@@ -169,6 +169,7 @@ Events World<D>::find_events() {
     passed_.clear();
     met_.clear();
     first_.slot = no_way;
+    views_.clear();
     counts_ = {near_.size(), 0, 0};
     for (const IdPair& pair : near_) look_at(pair);
     tell_contacts();

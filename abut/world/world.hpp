@@ -13,9 +13,10 @@
 #include <abut/world/bounding_ball.hpp>
 #include <abut/world/id.hpp>
 #include <abut/world/item_boxes.hpp>
-#include <abut/world/partners.hpp>
+#include <abut/world/placed_views.hpp>
 #include <abut/world/pretest.hpp>
 #include <abut/world/question_count.hpp>
+#include <abut/world/slot_lists.hpp>
 #include <abut/world/touching_index.hpp>
 #include <abut/world/way.hpp>
 
@@ -29,8 +30,6 @@ template <int D>
 struct Arrival;
 template <int D>
 struct Foot;
-template <int D>
-class PlacedViews;
 
 /// How a shape takes part in a world.
 template <int D>
@@ -420,11 +419,11 @@ private:
     bool are_solid(std::uint32_t slot, std::uint32_t other) const;
     void find_partners();
     bool is_disturbed(const IdPair& pair) const;
-    void each_foot_beside(std::uint32_t slot, std::uint32_t other, PlacedViews<D>& views, const DVec<D>& point,
-                          double within, FunctionRef<void(const Foot<D>&)> visit) const;
+    void each_foot_beside(std::uint32_t slot, std::uint32_t other, const DVec<D>& point, double within,
+                          FunctionRef<double(const Foot<D>&)> visit);
     bool find_contact(const IdPair& pair);
     static Found* find_found(std::vector<Found>& list, const IdPair& pair);
-    bool is_told(const Found& ghost, const Id& feeler);
+    bool is_told(const Found& ghost, const Id& feeler) const;
     void tell_contacts();
     void compare_with_last();
     void tell_fractions();
@@ -461,7 +460,14 @@ private:
     double often_asked_ = 0;       // from update to update of late, for each item that moves
 
     std::vector<IdPair> near_, last_near_;
-    Partners<D> partners_;
+    /// An item that pairs with another, and whose box overlaps that one's.
+    struct Partner {
+        Aabb<D> box;
+        std::uint32_t slot;
+    };
+    SlotLists<Partner> partners_;             // of the items that have surface normals of others
+    SlotLists<std::uint32_t> found_of_;       // places in found_, in an update with contacts that stand in for others
+    PlacedViews<D> views_;                    // in an update
     std::vector<char> disturbed_;             // by slot: something near it isn't as it was at the last update
     std::vector<IdPair> touching_, touched_;  // now and at the last update
     std::vector<Found> found_, last_found_;

@@ -133,12 +133,18 @@ TEST(KeptParts, TellTheFeetWithinTheirBoxAlone) {
         const DVec<3> point = random.in_cube<3>() * 1.5;
         const double within = random.uniform(0, 1);
         std::vector<double> by_kept, by_shape;
-        if (!parts.each_foot(point, within, [&](const Foot<3>& foot) { by_kept.push_back(foot.distance); })) {
+        if (!parts.each_foot(point, within, [&](const Foot<3>& foot) {
+                by_kept.push_back(foot.distance);
+                return within;
+            })) {
             ++beyond;
             EXPECT_TRUE(by_kept.empty());
             continue;
         }
-        each_foot_on<3>(View<3>(shape), point, within, [&](const Foot<3>& foot) { by_shape.push_back(foot.distance); });
+        each_foot_on<3>(View<3>(shape), point, within, [&](const Foot<3>& foot) {
+            by_shape.push_back(foot.distance);
+            return within;
+        });
         EXPECT_EQ(by_kept, by_shape);
         told += static_cast<int>(by_kept.size());
     }

@@ -72,6 +72,12 @@ public:
         for (const auto& each : list) put(each);
     }
 
+    /// FNV-1a of the words.
+    std::uint64_t hash() const {
+        std::uint64_t result = 0xcbf29ce484222325;
+        for (const std::uint32_t word : words_) result = (result ^ word) * 0x100000001b3;
+        return result;
+    }
     friend bool operator==(const Bits&, const Bits&) = default;
 
 private:

@@ -226,7 +226,7 @@ private:
     /// All that an item feels beside another one: what pairs with it, is no sensor, and has a box that overlaps its
     /// own.
     auto others(const Entry& feeler, const Entry& but) const {
-        return [this, &feeler, &but](const DVec<D>& point, double within, FunctionRef<void(const Foot<D>&)> visit) {
+        return [this, &feeler, &but](const DVec<D>& point, double within, ClosestPointVisitor<D> visit) {
             const ItemOptions<D>& p = feeler.second.options;
             const View<D> own = feeler.second.view();
             for (const Entry& other : items_) {
