@@ -16,6 +16,8 @@ function(abut_strict target)
         $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Wall;-Wextra;-Wconversion;-Wshadow>
         $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
         $<$<AND:$<BOOL:${ABUT_WERROR}>,$<CXX_COMPILER_ID:GNU,Clang,AppleClang>>:-Werror>)
+    # Of x86's vector units SSE2, AVX2 and AVX-512 are compiled for; those between SSE2 and AVX2 gain little.
+    target_compile_definitions(${target} PRIVATE "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_SSE4)")
 endfunction()
 
 # A static library of the .cpp files in the given folders of abut/, known as abut::NAME; of headers alone where there are none.
