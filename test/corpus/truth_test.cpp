@@ -1,8 +1,10 @@
 // The oracle itself: its depths against every axis there is, in double and in rational numbers, and its gaps against
 // the plane that proves them.
 
+#include "../oracle/axes.hpp"
 #include "pairs.hpp"
 
+#include <boost/multiprecision/cpp_int.hpp>
 #include <gtest/gtest.h>
 
 namespace abut::corpus {

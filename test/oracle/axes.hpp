@@ -1,14 +1,16 @@
 #pragma once
 
-// The axes that can part two polytopes, and whether one does: decided in double where rounding can't matter, and in
-// rational numbers where it could.
+// The axes that can part two polytopes, in doubles and in rational numbers.
 //
 // The difference A - B is a polytope whose edges have the directions of the edges of A and B. The origin is outside of
 // it only if a face of it, spanned by two such directions, says so; where it is flat, its plane or one of its edges.
 
 #include "polytope.hpp"
 
-#include <boost/multiprecision/cpp_int.hpp>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
 
 namespace abut::oracle {
 
@@ -106,15 +108,6 @@ std::array<T, 2> extents(const Setting<T, D>& s, const typename Setting<T, D>::V
     return {T(high_a - low_b), T(high_b - low_a)};
 }
 
-/// The least extent over all axes.
-template <int D>
-struct LeastExtent {
-    bool overlap = true;
-    bool rational = false;
-    double extent = std::numeric_limits<double>::infinity();  ///< along `normal`, to some digits
-    DVec<D> normal{0.0};                                      ///< of length 1, from A to B
-};
-
 inline bool nearly_flat(const Setting<double, 2>&) {
     return false;
 }
@@ -132,56 +125,6 @@ inline bool nearly_flat(const Setting<double, 3>& s) {
     for (const auto& e : s.directions)
         if (std::abs(dot(unit(e), normalized(widest))) > 1e-6) return false;
     return true;
-}
-
-enum class Arithmetic {
-    exact,  ///< yes or no is decided in rational numbers where need be
-    rough,  ///< in double alone
-};
-
-/// The cores, without their radii.
-template <int D>
-LeastExtent<D> least_extent(const Polytope<D>& a, const Polytope<D>& b, Arithmetic arithmetic) {
-    const DVec<D> origin = middle(a);
-    const Setting<double, D> rough(a, b, origin);
-    const bool flat = nearly_flat(rough);
-    // Some twenty roundings of numbers no larger than this, in unit vectors whose own error moves nothing but the axis.
-    const double doubt = 1e-14 * largest_coordinate(a, b);
-
-    LeastExtent<D> result;
-    std::vector<bool> undecided;
-    each_axis(rough, flat, [&](const std::array<double, static_cast<std::size_t>(D)>& axis) {
-        DVec<D> n;
-        for (int i = 0; i < D; ++i) n[i] = axis[static_cast<std::size_t>(i)];
-        undecided.push_back(true);
-        if (length_squared(n) < 1e-280) return;
-        n = normalized(n);
-        std::array<double, static_cast<std::size_t>(D)> unit;
-        for (int i = 0; i < D; ++i) unit[static_cast<std::size_t>(i)] = n[i];
-        const std::array<double, 2> both = extents(rough, unit);
-        for (const double sign : {1.0, -1.0}) {
-            const double extent = both[sign > 0 ? 0 : 1];
-            if (extent < result.extent) {
-                result.extent = extent;
-                result.normal = n * sign;
-            }
-        }
-        undecided.back() = std::min(both[0], both[1]) < doubt;
-    });
-    result.overlap = result.extent > 0;
-    if (std::abs(result.extent) > doubt || arithmetic == Arithmetic::rough) return result;
-
-    using Rational = boost::multiprecision::cpp_rational;
-    const Setting<Rational, D> exact(a, b, origin);
-    result.rational = true;
-    result.overlap = true;
-    std::size_t index = 0;
-    each_axis(exact, flat, [&](const std::array<Rational, static_cast<std::size_t>(D)>& axis) {
-        if (!result.overlap || !undecided[index++]) return;
-        const std::array<Rational, 2> both = extents(exact, axis);
-        result.overlap = both[0] >= 0 && both[1] >= 0;
-    });
-    return result;
 }
 
 }  // namespace abut::oracle

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include <boost/multiprecision/cpp_int.hpp>
+
 namespace abut::oracle {
 
 using Rational = boost::multiprecision::cpp_rational;
