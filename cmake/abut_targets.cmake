@@ -20,6 +20,15 @@ function(abut_strict target)
     target_compile_definitions(${target} PRIVATE "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_SSE4)")
 endfunction()
 
+# The headers that most files of a target include are read once for all of them. Inside somebody else's build, what is
+# compiled beforehand is his to choose. CMAKE_DISABLE_PRECOMPILE_HEADERS compiles each file as it stands.
+#   abut_precompile(abut_core PRIVATE <vector> <abut/math/pose.hpp>)
+function(abut_precompile)
+    if(ABUT_TOP_LEVEL)
+        target_precompile_headers(${ARGN})
+    endif()
+endfunction()
+
 # A static library of the .cpp files in the given folders of abut/, known as abut::NAME; of headers alone where there are none.
 #   abut_library(abut_bake EXPORT_NAME bake FOLDERS bake LINK abut_core)  ->  abut::bake
 # LINK is what users of the library need as well.
