@@ -13,7 +13,7 @@
 #include <abut/broad_phase/temporal.hpp>
 #include <abut/convex/features.hpp>
 #include <abut/field/field.hpp>
-#include <abut/field/field_blob.hpp>
+#include <abut/field/file.hpp>
 #include <abut/field/texture.hpp>
 #include <abut/math/aabb.hpp>
 #include <abut/math/assert.hpp>
@@ -65,7 +65,7 @@
 #include <abut/shape/tile_map.hpp>
 #include <abut/shape/triangle.hpp>
 #include <abut/shape/weld.hpp>
-#include <abut/walk/walk_blob.hpp>
+#include <abut/walk/file.hpp>
+#include <abut/walk/survey.hpp>
 #include <abut/walk/walk_mesh.hpp>
-#include <abut/walk/walk_survey.hpp>
 #include <abut/world/world.hpp>

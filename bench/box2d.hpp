@@ -1,6 +1,6 @@
 #pragma once
 
-// Values in Box2D's words. For the files that include Box2D.
+// Conversions to Box2D's types. Included by files that use Box2D.
 
 #include <abut/math/aabb.hpp>
 #include <abut/math/pose.hpp>

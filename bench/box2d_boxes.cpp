@@ -1,5 +1,5 @@
-// Box2D's broad phase: b2BroadPhase, which tells of new pairs of fattened boxes, and a list of them kept beside it, as
-// b2ContactManager keeps one.
+// Box2D's broad phase: b2BroadPhase, which reports new pairs of fattened boxes, and a pair list as b2ContactManager has
+// one.
 
 #include "box2d.hpp"
 #include "broad_peers.hpp"
@@ -25,7 +25,7 @@ public:
             proxies_.push_back(broad_phase_.CreateProxy(to_box2d(box), as_pointer(proxies_.size())));
     }
 
-    /// Of the boxes themselves.
+    /// Tests the exact boxes.
     std::size_t count(std::span<const Aabb2> boxes) {
         for (std::size_t i = 0; i < boxes.size(); ++i) {
             broad_phase_.MoveProxy(proxies_[i], to_box2d(boxes[i]), to_box2d(boxes[i].min - last_[i].min));

@@ -1,4 +1,5 @@
-// Box2D's narrow phase: b2Distance, the manifolds of polygons and circles, and rays. Polygons without their usual skin.
+// Box2D's narrow phase: b2Distance, manifolds of polygons and circles, and ray casts. Polygons without their default
+// radius.
 
 #include "box2d_shape.hpp"
 #include "each_pair.hpp"
@@ -18,7 +19,7 @@ namespace {
 struct Pair {
     const b2Shape* a;
     const b2Shape* b;
-    b2DistanceInput input;  ///< holds where they are
+    b2DistanceInput input;  ///< contains the poses
 };
 
 struct Scene {
@@ -44,7 +45,7 @@ Side side(const scenes::ConvexPairs<2>& scene, Question question) {
     return {"box2d", each_pair(std::make_shared<const Scene>(scene), std::move(question))};
 }
 
-/// The points are put into the world, where abut tells them too: Box2D has no other way to tell how deep they are.
+/// Points are transformed to world space, as abut's are: Box2D has no other depth.
 double depth_of(const b2Manifold& manifold, const Pair& pair) {
     if (manifold.pointCount == 0) return -1;
     b2WorldManifold world;

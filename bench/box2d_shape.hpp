@@ -1,6 +1,6 @@
 #pragma once
 
-// Shapes as Box2D holds them; polygons without their usual skin. For the files that include Box2D.
+// Conversions to Box2D's shapes; polygons without their default radius. Included by files that use Box2D.
 
 #include "../scenes/convex_shapes.hpp"
 #include "box2d.hpp"

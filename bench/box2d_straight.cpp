@@ -1,4 +1,4 @@
-// Box2D's cast of a shape, and its time of impact of shapes that don't turn.
+// Box2D's shape cast, and its time of impact without rotation.
 
 #include "box2d_shape.hpp"
 #include "each_pair.hpp"
@@ -22,7 +22,7 @@ struct Scene {
             const auto& [a, b] = scene.pairs.pairs[i];
             const b2Vec2 motion = to_box2d(scene.motions[i]);
             Moving& pair = pairs.emplace_back();
-            // The cast moves its B.
+            // The cast moves shape B.
             pair.cast.proxyA.Set(shapes[b.shape].get(), 0);
             pair.cast.proxyB.Set(shapes[a.shape].get(), 0);
             pair.cast.transformA = to_box2d(b.pose);

@@ -34,7 +34,7 @@ b2Sweep sweep_of(const TurningBox<2>& moving) {
 
 }  // namespace
 
-Side box2d_turning(const TurningScene<2>& scene) {
+Side box2d_turning(const RotationScene<2>& scene) {
     auto own = std::make_shared<Scene>();
     own->pairs.resize(scene.pairs.size());
     for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
@@ -52,8 +52,8 @@ Side box2d_turning(const TurningScene<2>& scene) {
     return {"box2d", each_pair(std::shared_ptr<const Scene>(own), [](const Pair& pair, std::size_t) {
                 b2TOIOutput output;
                 b2TimeOfImpact(&output, &pair.input);
-                const bool meets = output.state == b2TOIOutput::e_touching || output.state == b2TOIOutput::e_failed;
-                return meets ? double{output.t} : no_meeting;
+                const bool collides = output.state == b2TOIOutput::e_touching || output.state == b2TOIOutput::e_failed;
+                return collides ? double{output.t} : no_impact;
             })};
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
-// What the queries' visitors have in common, whoever calls them: the ray into a box, the distance of a point from one,
-// and the nearest few of many.
+// Parts shared by all query visitors: ray against box, distance of a point from a box, and the k nearest boxes.
 
 #include "bench.hpp"
 #include <abut/math/aabb.hpp>
@@ -21,23 +20,23 @@
 
 namespace abut::bench {
 
-/// A side that answers each of the queries by answer(query).
+/// A side that answers each query by answer(query).
 template <class Query, class Answer>
 Side each_query(std::string who, std::span<const Query> queries, Answer answer) {
-    return {std::move(who), [asked = std::vector<Query>(queries.begin(), queries.end()),
+    return {std::move(who), [stored = std::vector<Query>(queries.begin(), queries.end()),
                              answer = std::move(answer)](std::span<double> values) {
-                for (std::size_t i = 0; i < values.size(); ++i) values[i] = answer(asked[i]);
+                for (std::size_t i = 0; i < values.size(); ++i) values[i] = answer(stored[i]);
             }};
 }
 
-/// A ray, as it is asked for many boxes.
+/// A ray prepared for many boxes.
 struct RayToBox {
     RayToBox(const Ray3& ray) : origin(ray.origin), inverse(1.0f / ray.direction), length(ray.length) {}
     Vec3 origin, inverse;
     float length;
 };
 
-/// How far along the ray the box begins, 0 inside it; infinite where the ray doesn't touch it.
+/// The distance along the ray to the box, 0 inside it; infinite for a miss.
 inline float entry(const RayToBox& ray, const Aabb3& box) {
     const Vec3 first = (box.min - ray.origin) * ray.inverse, second = (box.max - ray.origin) * ray.inverse;
     const Vec3 low = glm::min(first, second), high = glm::max(first, second);
@@ -50,10 +49,10 @@ inline float squared_distance(const Vec3& point, const Aabb3& box) {
     return glm::dot(gap, gap);
 }
 
-/// The least of many distances, squared.
+/// The k smallest squared distances.
 class Nearest {
 public:
-    static constexpr std::size_t most = 16;
+    static constexpr std::size_t capacity = 16;
 
     explicit Nearest(std::size_t count) : count_(count) { std::fill_n(squares_, count, infinity); }
 
@@ -63,7 +62,7 @@ public:
         for (; i > 0 && squares_[i - 1] > square; --i) squares_[i] = squares_[i - 1];
         squares_[i] = square;
     }
-    /// What is not nearer is none of them.
+    /// Distances that are not smaller are ignored.
     float farthest() const { return squares_[count_ - 1]; }
     double sum_of_distances() const {
         double sum = 0;
@@ -74,7 +73,7 @@ public:
 private:
     static constexpr float infinity = std::numeric_limits<float>::infinity();
     std::size_t count_;
-    float squares_[most];
+    float squares_[capacity];
 };
 
 }  // namespace abut::bench

@@ -1,6 +1,6 @@
 #pragma once
 
-// Many boxes, frame after frame, and a side that counts the pairs of each frame.
+// Scenes of many moving boxes, and sides that count the pairs of each frame.
 
 #include "bench.hpp"
 #include <abut/math/aabb.hpp>
@@ -14,7 +14,7 @@
 
 namespace abut::bench {
 
-/// A scene of boxes that knows how to go on.
+/// A scene of boxes that can advance by a frame.
 template <int D>
 class BoxScene {
 public:
@@ -23,11 +23,11 @@ public:
     virtual void step() = 0;
 };
 
-/// Makes the same scene again for each side, in its first frame: they take turns, and each has to see all frames.
+/// Makes the same scene for each side, at its first frame: sides alternate, and each must see all frames.
 template <int D>
 using MakeScene = std::function<std::unique_ptr<BoxScene<D>>()>;
 
-/// Of a class of scenes/, from what its constructor takes.
+/// Makes a scene of a class in scenes/ from its constructor's arguments.
 template <int D, template <int> class Scene, class... Arguments>
 MakeScene<D> scene_of(Arguments... arguments) {
     class Wrapped final : public BoxScene<D> {
@@ -42,8 +42,8 @@ MakeScene<D> scene_of(Arguments... arguments) {
     return [=]() -> std::unique_ptr<BoxScene<D>> { return std::make_unique<Wrapped>(arguments...); };
 }
 
-/// Counts the overlapping pairs of each frame. The counter is made from the boxes of the first frame, by
-/// Counter(boxes, arguments...), and asked counter.count(boxes) in each of the next.
+/// Counts the overlapping pairs of each frame. The counter is constructed from the first frame's boxes as
+/// Counter(boxes, arguments...), and counter.count(boxes) is called in each later frame.
 template <class Counter, int D, class... Arguments>
 Side count_pairs(std::string who, const MakeScene<D>& make, const Arguments&... arguments) {
     struct State {

@@ -1,4 +1,4 @@
-// Many boxes: all pairs of those that move, queries among those that rest, and a whole world's update.
+// Broad phase benches: pairs of moving boxes, queries of static boxes, and a World's update.
 
 #include "broad.hpp"
 

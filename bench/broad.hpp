@@ -1,6 +1,6 @@
 #pragma once
 
-// The rows about many boxes.
+// The rows of the broad phase.
 
 #include "bench.hpp"
 #include "broad_peers.hpp"
@@ -14,18 +14,18 @@ namespace abut::bench {
 
 inline constexpr std::uint64_t broad_seed = 1;
 
-/// Many frames of a scene, and what is known of it.
+/// A scene over many frames, and its properties.
 template <int D>
 struct BoxFrames {
-    std::size_t count = 0;  ///< boxes
+    std::size_t count = 0;  ///< count of boxes
     MakeScene<D> scene = nullptr;
     Upkeep upkeep = Upkeep::update;
     bool skewed = false;
-    double moved = 1;  ///< the share of the boxes that do
+    double moved = 1;  ///< fraction of the boxes that move
 };
 
-/// A job that counts all pairs of each frame: by every structure of the library, by the lesson's grid and by every peer
-/// whose limits let it in.
+/// A job that counts all pairs of each frame: with every structure of the library, the textbook grid and every peer
+/// whose limits admit the scene.
 template <int D>
 Job pairs_of_frames(const BoxFrames<D>& frames);
 
@@ -34,7 +34,7 @@ std::vector<Bench> box_query_benches();
 std::vector<Bench> thread_benches();
 std::vector<Bench> temporal_benches();
 std::vector<Bench> world_benches();
-/// What changes to a World cost, and queries after them.
+/// The cost of changes to a World, and of queries after them.
 std::vector<Bench> world_change_benches();
 
 }  // namespace abut::bench

@@ -1,4 +1,4 @@
-// All pairs of boxes, frame after frame.
+// All pairs of moving boxes, frame after frame.
 
 #include "../scenes/moving_boxes.hpp"
 #include "../scenes/plain_grid.hpp"
@@ -48,7 +48,7 @@ struct PlainGridPairs {
 
 template <int D>
 Side plain_grid_pairs(const MakeScene<D>& make, bool skewed) {
-    const float cell = skewed ? 8 : 2.5f;  // the best of a few
+    const float cell = skewed ? 8 : 2.5f;  // the best of several tried
     return count_pairs<PlainGridPairs<D>>("plain grid", make, cell);
 }
 constexpr Limits plain_grid_limits{.moving = 100'000, .scratch = 10'000};
@@ -105,7 +105,7 @@ BoxFrames<3> skewed(std::size_t count) {
 
 template <int D>
 Job pairs_of_frames(const BoxFrames<D>& frames) {
-    // So many are verified. They are the first too, in which peers that keep fattened boxes have least to do.
+    // This many frames are verified. They are also the first, in which peers with fattened boxes have least work.
     const std::size_t first = frames.count <= 100'000 ? 8 : 2;
     Job job{.items = frames.count, .values = 1, .rounds = first, .frames = 10, .tolerance = 0, .sides = {}};
     each_side<D, ForPairs<D>>([&]<class Phase>(const Structure<Phase>& structure, std::string who) {

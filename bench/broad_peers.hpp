@@ -1,8 +1,7 @@
 #pragma once
 
-// What the peers' broad phases are asked, each in the words of its own library. Those that keep fattened boxes are
-// asked for the pairs of the boxes themselves, as abut is: one more comparison for each candidate, which a game would
-// have to make as well.
+// The peers' broad phases, each through its own library. Peers with fattened boxes must report the pairs of the exact
+// boxes, as abut does: one more test per candidate, which a game would need too.
 
 #include "bench.hpp"
 #include "box_scene.hpp"
@@ -13,38 +12,38 @@
 
 namespace abut::bench {
 
-/// How a frame begins: with the structure of the last one, or with none.
+/// The start of a frame: with the last frame's structure, or a new one.
 enum class Upkeep { update, scratch };
 
-// How many pairs of boxes overlap in each frame.
+// Counts overlapping pairs per frame.
 
 Side bullet_tree_pairs(const MakeScene<3>& make, Upkeep upkeep);
-/// Has no use for Upkeep::scratch.
+/// Ignores Upkeep::scratch.
 Side bullet_sweep_pairs(const MakeScene<3>& make, Upkeep upkeep);
 Side fcl_tree_pairs(const MakeScene<3>& make, Upkeep upkeep);
 Side fcl_sweep_pairs(const MakeScene<3>& make, Upkeep upkeep);
-/// Keeps nothing from frame to frame.
+/// Has no state between frames.
 Side embree_pairs(const MakeScene<3>& make, Upkeep upkeep);
-/// Keeps nothing from frame to frame.
+/// Has no state between frames.
 template <int D>
 Side cgal_pairs(const MakeScene<D>& make, Upkeep upkeep);
-/// Has no use for Upkeep::scratch.
+/// Ignores Upkeep::scratch.
 Side box2d_pairs(const MakeScene<2>& make, Upkeep upkeep);
 
-// Among boxes that rest. One value a query.
+// Queries of static boxes. One value per query.
 
-/// How many boxes overlap each region.
+/// The count of boxes that overlap each region.
 Side bullet_regions(std::span<const Aabb3> boxes, std::span<const Aabb3> regions);
 Side fcl_regions(std::span<const Aabb3> boxes, std::span<const Aabb3> regions);
 
-/// How many boxes each ray touches.
+/// The count of boxes that each ray hits.
 Side bullet_rays(std::span<const Aabb3> boxes, std::span<const Ray3> rays);
 
-/// How far along each ray the first box lies; the ray's length where there is none.
+/// The distance along each ray to the first box; the ray's length for a miss.
 Side bullet_first_hits(std::span<const Aabb3> boxes, std::span<const Ray3> rays);
 Side embree_first_hits(std::span<const Aabb3> boxes, std::span<const Ray3> rays);
 
-/// How far each point is from the nearest `count` boxes: the sum of their distances.
+/// The sum of the distances of each point to its `count` nearest boxes.
 Side fcl_nearest(std::span<const Aabb3> boxes, std::span<const Vec3> points, std::size_t count);
 Side embree_nearest(std::span<const Aabb3> boxes, std::span<const Vec3> points, std::size_t count);
 

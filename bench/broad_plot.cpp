@@ -1,5 +1,4 @@
-// The two pictures of the documentation: how the time of a frame grows with the number of boxes, and with their
-// density.
+// The two charts of the documentation: time per frame over the number of boxes, and over their density.
 
 #include "../scenes/moving_boxes.hpp"
 #include "broad.hpp"

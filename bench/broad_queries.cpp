@@ -1,4 +1,4 @@
-// Regions, rays and points among many boxes that rest.
+// Region, ray and nearest-neighbour queries of static boxes.
 
 #include "../scenes/moving_boxes.hpp"
 #include "box_queries.hpp"
@@ -21,7 +21,7 @@ Vec3 random_point(oracle::Random& random, const Boxes& scene) {
             random.uniform_float(0, scene.side())};
 }
 
-/// All over the world, and each overlaps about 15 boxes.
+/// Regions everywhere in the world, each of which overlaps about 15 boxes.
 std::vector<Aabb3> random_regions(const Boxes& scene) {
     oracle::Random random(broad_seed);
     std::vector<Aabb3> result;
@@ -33,7 +33,7 @@ std::vector<Aabb3> random_regions(const Boxes& scene) {
     return result;
 }
 
-/// From everywhere to everywhere.
+/// Rays between random points.
 std::vector<Ray3> random_rays(const Boxes& scene) {
     oracle::Random random(broad_seed);
     std::vector<Ray3> result;
@@ -51,7 +51,7 @@ std::vector<Vec3> random_points(const Boxes& scene) {
     return result;
 }
 
-// How abut's structures are asked.
+// Queries of abut's structures.
 
 template <class Phase>
 double count_in_region(const Phase& phase, const Aabb3& region) {
@@ -85,9 +85,9 @@ double distance_to_nearest(const Phase& phase, std::span<const Aabb3> boxes, con
     return nearest.sum_of_distances();
 }
 
-/// The sides of the library: each structure, asked by answer(phase, boxes, query).
+/// The library's sides: each structure answers by answer(phase, boxes, query).
 template <class Query, class Answer>
-Job asked_of_all(const Boxes& scene, std::span<const Query> queries, double tolerance, Answer answer) {
+Job query_all(const Boxes& scene, std::span<const Query> queries, double tolerance, Answer answer) {
     Job job{.items = query_count, .values = query_count, .tolerance = tolerance, .sides = {}};
     const auto boxes = std::make_shared<const std::vector<Aabb3>>(scene.boxes().begin(), scene.boxes().end());
     each_side<3, ForQueries<3>>([&]<class Phase>(const Structure<Phase>& structure, std::string who) {
@@ -107,7 +107,7 @@ constexpr double exact = 0, to_rounding = 1e-3;
 Job regions(std::size_t count) {
     const Boxes scene(count, broad_seed);
     const std::vector<Aabb3> asked = random_regions(scene);
-    Job job = asked_of_all<Aabb3>(scene, asked, exact, [](const auto& phase, auto, const Aabb3& region) {
+    Job job = query_all<Aabb3>(scene, asked, exact, [](const auto& phase, auto, const Aabb3& region) {
         return count_in_region(phase, region);
     });
     job.sides.push_back(bullet_regions(scene.boxes(), asked));
@@ -115,12 +115,12 @@ Job regions(std::size_t count) {
     return job;
 }
 
-/// Each ray is told of all boxes on its way.
+/// Visits all boxes that each ray hits.
 Job rays(std::size_t count) {
     const Boxes scene(count, broad_seed);
     const std::vector<Ray3> asked = random_rays(scene);
-    Job job = asked_of_all<Ray3>(scene, asked, exact,
-                                 [](const auto& phase, auto, const Ray3& ray) { return count_along(phase, ray); });
+    Job job = query_all<Ray3>(scene, asked, exact,
+                              [](const auto& phase, auto, const Ray3& ray) { return count_along(phase, ray); });
     job.sides.push_back(bullet_rays(scene.boxes(), asked));
     return job;
 }
@@ -128,7 +128,7 @@ Job rays(std::size_t count) {
 Job first_hits(std::size_t count) {
     const Boxes scene(count, broad_seed);
     const std::vector<Ray3> asked = random_rays(scene);
-    Job job = asked_of_all<Ray3>(scene, asked, to_rounding, [](const auto& phase, auto boxes, const Ray3& ray) {
+    Job job = query_all<Ray3>(scene, asked, to_rounding, [](const auto& phase, auto boxes, const Ray3& ray) {
         return first_hit(phase, boxes, ray);
     });
     job.sides.push_back(bullet_first_hits(scene.boxes(), asked));
@@ -139,7 +139,7 @@ Job first_hits(std::size_t count) {
 Job nearest(std::size_t count, std::size_t wanted) {
     const Boxes scene(count, broad_seed);
     const std::vector<Vec3> asked = random_points(scene);
-    Job job = asked_of_all<Vec3>(scene, asked, to_rounding, [wanted](const auto& phase, auto boxes, const Vec3& point) {
+    Job job = query_all<Vec3>(scene, asked, to_rounding, [wanted](const auto& phase, auto boxes, const Vec3& point) {
         return distance_to_nearest(phase, boxes, point, wanted);
     });
     job.sides.push_back(fcl_nearest(scene.boxes(), asked, wanted));

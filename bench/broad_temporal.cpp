@@ -1,5 +1,5 @@
-// All pairs of boxes that move little against their spacing: a broad phase in each frame, and one that waits until
-// something can have happened.
+// Pairs of boxes that move slowly relative to their spacing: a broad phase per frame, and a temporal one that skips
+// pairs which can't have come close.
 
 #include "../scenes/moving_boxes.hpp"
 #include "broad.hpp"
@@ -46,17 +46,17 @@ struct TemporalPairs {
     Temporal<3, Inner> phase;
 };
 
-/// `step`: the mean way of a box in a frame, in parts of the spacing: the side of the room that each box has.
+/// `step`: the mean motion of a box per frame, relative to the spacing of boxes.
 Job slow_boxes(std::size_t count, double step) {
     scenes::MovingBoxesOptions options;
     const double spacing = 2.5 / std::cbrt(options.overlaps);
-    constexpr double mean_way = 0.96;  // of steps that are uniform in a cube, in halves of its side
+    constexpr double mean_way = 0.96;  // mean length of a uniform step in a cube, in half edges
     options.speed = step * spacing / mean_way;
-    options.fineness = 1 << 17;  // so that all sums are exact in the world of 10,000
+    options.fineness = 1 << 17;  // makes all sums exact in the world of 10,000
     std::vector<float> top_speeds;
     const scenes::MovingBoxes<3> first(count, broad_seed, options);
-    for (const Vec3& way : first.last_steps())
-        top_speeds.push_back(std::max({std::abs(way.x), std::abs(way.y), std::abs(way.z)}));
+    for (const Vec3& motion : first.last_steps())
+        top_speeds.push_back(std::max({std::abs(motion.x), std::abs(motion.y), std::abs(motion.z)}));
     const MakeScene<3> scene = scene_of<3, scenes::MovingBoxes>(count, broad_seed, options);
     return {.items = count,
             .values = 1,

@@ -1,4 +1,4 @@
-// All pairs of a million moving boxes by one thread and by two, in time on the wall.
+// All pairs of a million moving boxes with one thread and with two, in wall-clock time.
 
 #include "../scenes/moving_boxes.hpp"
 #include "broad.hpp"
@@ -14,7 +14,7 @@ namespace abut::bench {
 
 namespace {
 
-/// Lets each part of a job count for itself.
+/// A counter per part of a job.
 class CountingExecutor final : public Executor {
 public:
     explicit CountingExecutor(std::uint32_t threads) : inner_(threads) {}
@@ -29,10 +29,10 @@ public:
         });
     }
 
-    /// To be called by a visitor, on any thread.
+    /// Called by visitors on any thread.
     static void count_one() { ++*current_; }
 
-    /// How many were counted in the call.
+    /// The sum of all counters.
     template <class Call>
     std::size_t counted(Call call) {
         counts_.assign(std::max<std::size_t>(counts_.size(), 1), {});
@@ -68,7 +68,7 @@ struct ThreadedPairs {
     }
 
     CountingExecutor counting;
-    Executor* executor;  ///< none: one thread alone
+    Executor* executor;  ///< null: a single thread
     Phase phase;
 };
 

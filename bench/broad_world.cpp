@@ -1,4 +1,4 @@
-// A whole World's frame, and the same by hand.
+// A World's frame, and the equivalent without a World.
 
 #include "../scenes/convex_shapes.hpp"
 #include "../scenes/moving_boxes.hpp"
@@ -18,7 +18,7 @@ namespace {
 
 enum class Shapes { mixed, balls };
 
-/// Boxes, capsules and hulls that drift about, or balls, which are cheap to tell apart.
+/// Boxes, capsules and hulls that move, or balls, which have a cheap narrow phase.
 struct MixedScene {
     struct Item {
         scenes::AnyConvex<3> shape;
@@ -46,14 +46,14 @@ struct MixedScene {
     std::vector<Item> items;
 };
 
-/// What is asked of a world in each frame.
+/// The queries of each frame.
 struct WorldFrames {
     std::size_t count = 0;
     Shapes shapes = Shapes::mixed;
-    std::size_t rays = 0;  ///< each as long as 20 mean edges
+    std::size_t rays = 0;  ///< each 20 mean edges long
 };
 
-/// Counts the pairs that touch, with all their contacts, and the rays that hit.
+/// Counts touching pairs, with all contacts, and ray hits.
 Side world_update(std::string who, const WorldFrames& frames, std::optional<BroadPhaseKind> broad_phase = {}) {
     struct State {
         State(const WorldFrames& f, std::optional<BroadPhaseKind> kind)
@@ -75,17 +75,17 @@ Side world_update(std::string who, const WorldFrames& frames, std::optional<Broa
         std::vector<Ray3> rays;
     };
     const auto state = std::make_shared<State>(frames, broad_phase);
-    const auto ask = [state](std::span<double> values) {
+    const auto run = [state](std::span<double> values) {
         for (std::size_t i = 0; i < state->ids.size(); ++i) state->world.move(state->ids[i], state->scene.pose(i));
         const Events events = state->world.update();
         std::size_t found = events.began.size() + events.stayed.size();
         for (const Ray3& ray : state->rays) found += state->world.raycast(ray) ? 1u : 0u;
         values[0] = static_cast<double>(found);
     };
-    return {std::move(who), ask, [state] { state->scene.boxes.step(); }};
+    return {std::move(who), run, [state] { state->scene.boxes.step(); }};
 }
 
-/// Counts them without a World: a broad phase, and a yes or no for each pair of boxes.
+/// Counts them without a World: a broad phase, and an overlap test per pair.
 Side overlaps_by_hand(std::size_t count) {
     struct State {
         explicit State(std::size_t n) : scene(n), views(n), boxes(n) {
@@ -105,7 +105,7 @@ Side overlaps_by_hand(std::size_t count) {
         ForQueries<3> phase;
     };
     const auto state = std::make_shared<State>(count);
-    const auto ask = [state](std::span<double> values) {
+    const auto run = [state](std::span<double> values) {
         state->place();
         state->phase.update(state->boxes);
         std::size_t touching = 0;
@@ -114,7 +114,7 @@ Side overlaps_by_hand(std::size_t count) {
         });
         values[0] = static_cast<double>(touching);
     };
-    return {"abut by hand", ask, [state] { state->scene.boxes.step(); }};
+    return {"abut by hand", run, [state] { state->scene.boxes.step(); }};
 }
 
 Job world(std::size_t count) {
@@ -122,15 +122,15 @@ Job world(std::size_t count) {
             .values = 1,
             .rounds = 8,
             .frames = 10,
-            .tolerance = 1,  // a pair may touch to within the margin of doubt
+            .tolerance = 1,  // touching is decided to within the tolerance
             .sides = {world_update("abut", {.count = count}), overlaps_by_hand(count)}};
 }
 
-/// With the broad phase that it chooses, and with each that it might have chosen.
+/// With the broad phase that the World chooses, and with each alternative.
 Job world_that_chooses(const WorldFrames& frames) {
     return {.items = frames.count,
             .values = 1,
-            .rounds = 80,  // until it has learnt how often it is asked
+            .rounds = 80,  // until its adaptive choice has settled
             .frames = 10,
             .tolerance = 0,
             .sides = {world_update(chosen_side, frames), world_update("abut by Grid", frames, BroadPhaseKind::grid),

@@ -1,5 +1,5 @@
-// What changes to a World cost: a move, and the queries between moves and the next update beside the same queries of a
-// world that is up to date.
+// The cost of changes to a World: a move with its update, and queries between a move and the update, compared with
+// queries of an updated world.
 
 #include "../scenes/moving_boxes.hpp"
 #include "broad.hpp"
@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t items = 5000;
 
-/// Balls or boxes that drift about, with a ray and a region at the place of each.
+/// Moving balls or boxes, with a ray and a region at each position.
 template <class S>
 struct ChangingWorld {
     explicit ChangingWorld(bool doubled = false) : boxes(items, broad_seed) {
@@ -26,7 +26,7 @@ struct ChangingWorld {
             rotations.push_back(pose.rotation);
             ids.push_back(world.add(shape(), {.pose = pose}));
             rays.push_back({center(boxes.boxes()[i]), to_float<3>(random.direction<3>()), 25});
-            // Beyond the reach of all rays and regions, so that what is moved there changes no answer.
+            // Out of reach of all rays and regions, so that moves there change no answer.
             if (doubled) far.push_back(world.add(shape(), {.pose = {pose.position + Vec3(beyond, 0, 0)}}));
         }
         world.update();
@@ -67,11 +67,11 @@ double answer(const Balls& balls, Query query, std::size_t i) {
     return query == Query::ray ? balls.ray(i) : balls.overlap(i);
 }
 
-/// All items have moved; then there is a query for each.
+/// Moves all items, then runs a query for each.
 Job queries_after_moves(Query query) {
     const auto side = [query](std::string who, bool refresh) -> Side {
         const auto balls = std::make_shared<Balls>();
-        const auto ask = [=](std::span<double> values) {
+        const auto run = [=](std::span<double> values) {
             values[0] = 0;
             for (std::size_t i = 0; i < items; ++i) values[0] += answer(*balls, query, i);
         };
@@ -80,7 +80,7 @@ Job queries_after_moves(Query query) {
             balls->move_all();
             if (refresh) balls->world.refresh();
         };
-        return {std::move(who), ask, prepare};
+        return {std::move(who), run, prepare};
     };
     return {.items = items,
             .values = 1,
@@ -90,18 +90,18 @@ Job queries_after_moves(Query query) {
             .sides = {side("abut", false), side("abut refreshed", true)}};
 }
 
-/// Before each query an item has moved, where no query reaches it.
+/// Moves an item before each query, where no query reaches it.
 Job queries_between_moves(Query query) {
     const auto side = [query](std::string who, bool moves) -> Side {
         const auto balls = std::make_shared<Balls>(true);
-        const auto ask = [=](std::span<double> values) {
+        const auto run = [=](std::span<double> values) {
             values[0] = 0;
             for (std::size_t i = 0; i < items; ++i) {
                 if (moves) balls->nudge_far(i);
                 values[0] += answer(*balls, query, i);
             }
         };
-        return {std::move(who), ask, [=] { balls->world.update(); }};
+        return {std::move(who), run, [=] { balls->world.update(); }};
     };
     return {.items = items,
             .values = 1,
@@ -111,7 +111,7 @@ Job queries_between_moves(Query query) {
             .sides = {side("abut", true), side("abut without moves", false)}};
 }
 
-/// A move of each item, and the update after it.
+/// Moves each item, then updates.
 template <class S>
 Job moves() {
     const auto side = [](std::string who, bool update) -> Side {
@@ -121,14 +121,14 @@ Job moves() {
             changing->boxes.step();
             if (update) changing->move_all();
         };
-        const auto ask = [=](std::span<double> values) {
+        const auto run = [=](std::span<double> values) {
             if (update)
                 changing->world.update();
             else
                 changing->move_all();
             values[0] = static_cast<double>(changing->world.pose(changing->ids[items / 2]).position.x);
         };
-        return {std::move(who), ask, change};
+        return {std::move(who), run, change};
     };
     return {.items = items,
             .values = 1,

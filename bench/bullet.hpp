@@ -1,6 +1,6 @@
 #pragma once
 
-// Values in Bullet's words. For the files that include Bullet.
+// Conversions to Bullet's types. Included by files that use Bullet.
 
 #include <abut/math/aabb.hpp>
 #include <abut/math/pose.hpp>

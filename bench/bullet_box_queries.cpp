@@ -27,9 +27,9 @@ struct CountLeaves : btDbvt::ICollide {
     std::size_t count = 0;
 };
 
-/// The tree tells of all that the ray touches: it takes no shorter reach on its way.
+/// The tree visits every box that the ray hits: it can't shorten the ray.
 struct FirstHit : btDbvt::ICollide {
-    FirstHit(std::span<const Aabb3> all, const Ray3& asked) : boxes(all), ray(asked), reach(asked.length) {}
+    FirstHit(std::span<const Aabb3> all, const Ray3& query) : boxes(all), ray(query), reach(query.length) {}
     void Process(const btDbvtNode* leaf) override {
         reach = std::min(reach, entry(ray, boxes[reinterpret_cast<std::uintptr_t>(leaf->data)]));
     }

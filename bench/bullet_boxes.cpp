@@ -1,5 +1,5 @@
-// Bullet's broad phases: btDbvt, the tree of btDbvtBroadphase, which alone is the quicker of the two at all pairs of a
-// frame; and bt32BitAxisSweep3, sweep and prune along three axes, kept sorted.
+// Bullet's broad phases: btDbvt, the tree of btDbvtBroadphase, which on its own is faster at all pairs of a frame; and
+// bt32BitAxisSweep3, sweep and prune on three sorted axes.
 
 #include "broad_peers.hpp"
 #include "bullet.hpp"
@@ -14,7 +14,7 @@ namespace abut::bench {
 
 namespace {
 
-constexpr btScalar margin = 0.2f;  // twice the longest step: quicker here than btDbvtBroadphase's own 0.05, or none
+constexpr btScalar margin = 0.2f;  // twice the longest step: faster here than btDbvtBroadphase's 0.05, or none
 
 void* as_pointer(std::size_t number) {
     return reinterpret_cast<void*>(number);
@@ -33,7 +33,7 @@ struct Tree {
         tree.optimizeTopDown();
     }
 
-    /// One by one, which takes a tenth of the time of a well-made tree.
+    /// Incremental insertion takes a tenth of the time of a well-built tree.
     void build(std::span<const Aabb3> boxes) {
         tree.clear();
         leaves.clear();
@@ -81,7 +81,7 @@ struct SweepPairs {
                                                  1, 1, nullptr));
     }
 
-    /// With room for what moves beyond the first frame's borders.
+    /// Includes a margin for boxes that leave the first frame's bounds.
     static std::unique_ptr<bt32BitAxisSweep3> world(std::span<const Aabb3> boxes) {
         Aabb3 all = Aabb3::empty();
         for (const Aabb3& box : boxes) all = {glm::min(all.min, box.min), glm::max(all.max, box.max)};

@@ -1,4 +1,4 @@
-// Bullet's distances and decisions.
+// Bullet's distances and overlap tests.
 
 #include "bullet_convex.hpp"
 
@@ -17,19 +17,21 @@ using namespace bullet;
 
 namespace {
 
-/// Keeps what a collision algorithm tells, and hands it on to no manifold.
-struct Told : btManifoldResult {
+/// Stores the result of a collision algorithm without a manifold.
+struct ClosestResult : btManifoldResult {
     using btManifoldResult::btManifoldResult;
-    void addContactPoint(const btVector3&, const btVector3&, btScalar told) override { distance = told; }
+    void addContactPoint(const btVector3&, const btVector3&, btScalar distance_found) override {
+        distance = distance_found;
+    }
     double distance = 0;
 };
 
-/// An algorithm as btCollisionDispatcher keeps one for each pair of objects. Those used here remember nothing but what
-/// is in their manifold, which stays empty: one does for all pairs.
+/// A collision algorithm, as btCollisionDispatcher has one per pair. The algorithms used here have no state besides
+/// their manifold, which stays empty: one serves all pairs.
 template <class Algorithm>
-struct Kept {
+struct PairAlgorithm {
     template <class... Rest>
-    explicit Kept(const Rest&... rest) : algorithm(&manifold, {}, nullptr, nullptr, rest...) {}
+    explicit PairAlgorithm(const Rest&... rest) : algorithm(&manifold, {}, nullptr, nullptr, rest...) {}
 
     btCollisionObjectWrapper placed(const btConvexShape* shape, const btTransform& pose) const {
         return {nullptr, shape, &object, pose, -1, -1};
@@ -40,7 +42,7 @@ struct Kept {
     Algorithm algorithm;
 };
 
-/// GJK of the cores of two shapes, from the axis it found last where frames are coherent.
+/// GJK on the core shapes, warm started from the last axis for coherent frames.
 class Search {
 public:
     Search(const scenes::ConvexPairs<3>& scene, Frames frames)
@@ -61,7 +63,7 @@ private:
     std::vector<btVector3> axes_;
 };
 
-/// For btMprPenetration.h: a shape where it is.
+/// A posed shape for btMprPenetration.h.
 struct MprShape {
     const btTransform& getWorldTransform() const { return pose; }
     btVector3 getObjectCenterInWorld() const { return pose.getOrigin(); }
@@ -92,25 +94,26 @@ Side bullet_gap(const scenes::ConvexPairs<3>& scene, Frames frames) {
 }
 
 Side bullet_closest_of_capsules(const scenes::ConvexPairs<3>& scene) {
-    const auto kept = std::make_shared<Kept<btConvexConvexAlgorithm>>(nullptr, 0, 0);
-    return side(scene, [kept, info = btDispatcherInfo()](const Pair& pair, std::size_t) -> double {
-        const btCollisionObjectWrapper a = kept->placed(pair.a, pair.input.m_transformA);
-        const btCollisionObjectWrapper b = kept->placed(pair.b, pair.input.m_transformB);
-        Told told(&a, &b);
-        told.m_closestPointDistanceThreshold = BT_LARGE_FLOAT;
-        kept->algorithm.processCollision(&a, &b, info, &told);
-        return told.distance;
+    const auto algorithm_of_pair = std::make_shared<PairAlgorithm<btConvexConvexAlgorithm>>(nullptr, 0, 0);
+    return side(scene, [algorithm_of_pair, info = btDispatcherInfo()](const Pair& pair, std::size_t) -> double {
+        const btCollisionObjectWrapper a = algorithm_of_pair->placed(pair.a, pair.input.m_transformA);
+        const btCollisionObjectWrapper b = algorithm_of_pair->placed(pair.b, pair.input.m_transformB);
+        ClosestResult result(&a, &b);
+        result.m_closestPointDistanceThreshold = BT_LARGE_FLOAT;
+        algorithm_of_pair->algorithm.processCollision(&a, &b, info, &result);
+        return result.distance;
     });
 }
 
 Side bullet_closest_of_sphere_and_box(const scenes::ConvexPairs<3>& scene) {
-    const auto kept = std::make_shared<Kept<btSphereBoxCollisionAlgorithm>>(false);
-    return side(scene, [kept](const Pair& pair, std::size_t) -> double {
-        const btCollisionObjectWrapper box = kept->placed(pair.b, pair.input.m_transformB);
+    const auto algorithm_of_pair = std::make_shared<PairAlgorithm<btSphereBoxCollisionAlgorithm>>(false);
+    return side(scene, [algorithm_of_pair](const Pair& pair, std::size_t) -> double {
+        const btCollisionObjectWrapper box = algorithm_of_pair->placed(pair.b, pair.input.m_transformB);
         btVector3 on_box, normal;
         btScalar distance = 0;
-        kept->algorithm.getSphereDistance(&box, on_box, normal, distance, pair.input.m_transformA.getOrigin(),
-                                          static_cast<const btSphereShape*>(pair.a)->getRadius(), BT_LARGE_FLOAT);
+        algorithm_of_pair->algorithm.getSphereDistance(
+            &box, on_box, normal, distance, pair.input.m_transformA.getOrigin(),
+            static_cast<const btSphereShape*>(pair.a)->getRadius(), BT_LARGE_FLOAT);
         return distance;
     });
 }

@@ -1,4 +1,4 @@
-// Bullet's contacts: the box detector, and GJK with an expanding polytope, followed for hulls by clipping their faces.
+// Bullet's contacts: the box detector, and GJK with EPA, followed by face clipping for hulls.
 
 #include "bullet_convex.hpp"
 
@@ -21,9 +21,9 @@ void bullet::find_closest(const Pair& pair, Points& points) {
 
 namespace {
 
-constexpr btScalar threshold = 0.02f;  // Bullet's usual contact breaking threshold: it looks no farther
+constexpr btScalar threshold = 0.02f;  // Bullet's default contact breaking threshold: it searches no farther
 
-/// The deepest point by `find`, and then the faces there clipped by one another.
+/// Finds the deepest point with `find`, then clips the faces there.
 template <class Find>
 Side contact_of_hulls(const scenes::ConvexPairs<3>& scene, Find find) {
     struct Scratch {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Scenes of convex shapes as Bullet holds them. For the files that include Bullet.
+// Scenes of convex shapes in Bullet's types. Included by files that use Bullet.
 
 #include "bullet.hpp"
 #include "each_pair.hpp"
@@ -50,7 +50,7 @@ struct Scene {
         for (const scenes::AnyConvex<3>& shape : all)
             shapes.push_back(std::visit([](const auto& s) { return shape_of(s); }, shape));
     }
-    /// Pairs farther apart than `reach` may go without an answer.
+    /// Pairs farther apart than `reach` may be unanswered.
     explicit Scene(const scenes::ConvexPairs<3>& scene, btScalar reach = BT_LARGE_FLOAT) : Scene(scene.shapes) {
         for (const auto& [a, b] : scene.pairs) {
             Pair pair{shapes[a.shape].get(), shapes[b.shape].get(), {}};
@@ -66,13 +66,13 @@ struct Scene {
     std::vector<Pair> pairs;
 };
 
-/// Asks a question of each pair.
+/// Runs a query for each pair.
 template <class Question>
 Side side(const scenes::ConvexPairs<3>& scene, Question question, btScalar reach = BT_LARGE_FLOAT) {
     return {"bullet", each_pair(std::make_shared<const Scene>(scene, reach), std::move(question))};
 }
 
-/// All contact points of a pair; the deepest is kept in full.
+/// Receives all contact points of a pair; stores the deepest.
 struct Points : btStorageResult {
     void setShapeIdentifiersA(int, int) override {}
     void setShapeIdentifiersB(int, int) override {}
@@ -85,7 +85,7 @@ struct Points : btStorageResult {
     int count = 0;
 };
 
-/// GJK, and where it finds an overlap an expanding polytope.
+/// GJK, and EPA for overlaps.
 void find_closest(const Pair& pair, Points& points);
 
 }  // namespace abut::bench::bullet

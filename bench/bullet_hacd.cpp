@@ -14,7 +14,7 @@ std::vector<std::vector<Vec3>> hacd_parts(std::span<const Vec3> points, std::spa
     their_triangles.reserve(triangles.size());
     for (const glm::uvec3& t : triangles) their_triangles.emplace_back(t.x, t.y, t.z);
 
-    // What its own test program sets, but for the bound of concavity, which is out of the way: the number decides.
+    // The settings of its own test program, except that the concavity bound is disabled: the number of parts decides.
     HACD::HACD hacd;
     hacd.SetPoints(their_points.data());
     hacd.SetNPoints(their_points.size());

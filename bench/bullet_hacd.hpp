@@ -1,6 +1,6 @@
 #pragma once
 
-// The approximate decomposition that comes with Bullet: HACD (Mamou, Ghorbel 2009), clusters of triangles.
+// Bullet's approximate convex decomposition: HACD (Mamou, Ghorbel 2009), which clusters triangles.
 
 #include <abut/math/vec.hpp>
 
@@ -12,7 +12,7 @@
 
 namespace abut::bench {
 
-/// The corners of each part's hull. It stops at so many clusters, or at more where it can't join any further.
+/// The vertices of each part's hull. Stops at this many clusters, or at more if no clusters can be merged.
 std::vector<std::vector<Vec3>> hacd_parts(std::span<const Vec3> points, std::span<const glm::uvec3> triangles,
                                           std::size_t clusters, std::size_t corners);
 

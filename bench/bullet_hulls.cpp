@@ -6,7 +6,7 @@ namespace abut::bench {
 
 Side bullet_hull(const SharedPoints& points) {
     return {.who = "bullet",
-            .ask =
+            .run =
                 [points](std::span<double> values) {
                     btConvexHullComputer hull;
                     hull.compute(&(*points)[0].x, sizeof(Vec3), static_cast<int>(points->size()), 0, 0);
@@ -22,7 +22,7 @@ Side bullet_hull(const SharedPoints& points) {
                              edge->getTargetVertex() != first->getSourceVertex(); edge = edge->getNextEdgeOfFace())
                             sum.add(origin, corner(edge->getSourceVertex()), corner(edge->getTargetVertex()));
                     }
-                    sum.tell(values);
+                    sum.write(values);
                 },
             .strays = 1};
 }

@@ -1,4 +1,4 @@
-// Bullet's mesh, or compound of hulls, asked through its dispatcher as btCollisionWorld::contactPairTest does.
+// Bullet's mesh or compound of hulls, queried through its dispatcher as btCollisionWorld::contactPairTest does.
 
 #include "bullet_convex.hpp"
 #include "levels.hpp"
@@ -17,7 +17,7 @@ namespace abut::bench {
 namespace {
 
 struct BulletMesh {
-    /// Its arrays are not const, though nothing is written to them.
+    /// Its arrays are not const, though it only reads them.
     explicit BulletMesh(const LevelScene& scene)
         : points(scene.points),
           triangles(scene.triangles),
@@ -33,11 +33,11 @@ struct BulletMesh {
     btBvhTriangleMeshShape shape;
 };
 
-/// In a tree of boxes.
-struct BulletLumps {
-    explicit BulletLumps(const LevelScene& scene) {
-        for (const Polyhedron& lump : scene.lumps) {
-            hulls.push_back(bullet::shape_of(lump));
+/// With a tree of boxes.
+struct BulletBrushes {
+    explicit BulletBrushes(const LevelScene& scene) {
+        for (const Polyhedron& brush : scene.brushes) {
+            hulls.push_back(bullet::shape_of(brush));
             shape.addChildShape(btTransform::getIdentity(), hulls.back().get());
         }
         shape.createAabbTreeFromChildren();
@@ -57,7 +57,7 @@ struct BulletLevel {
         for (const Pose3& pose : scene.poses) poses.push_back(to_bullet(pose));
     }
 
-    /// How many triangles or hulls it touches. The points of one follow one another.
+    /// The count of triangles or hulls touched. The points of one are consecutive.
     int touched(std::size_t i) {
         struct Count final : btCollisionWorld::ContactResultCallback {
             explicit Count(const btCollisionObject* of) : ground(of) {}
@@ -98,7 +98,7 @@ Side overlaps_with(const SharedLevelScene& scene) {
 }  // namespace
 
 Side bullet_level_overlaps(const SharedLevelScene& scene) {
-    return scene->lumps.empty() ? overlaps_with<BulletMesh>(scene) : overlaps_with<BulletLumps>(scene);
+    return scene->brushes.empty() ? overlaps_with<BulletMesh>(scene) : overlaps_with<BulletBrushes>(scene);
 }
 Side bullet_level_contacts(const SharedLevelScene& scene) {
     return {"bullet", [level = std::make_shared<BulletLevel<BulletMesh>>(*scene)](std::span<double> values) {

@@ -1,4 +1,4 @@
-// Bullet's rays: a convex cast of a point, as btCollisionWorld's are.
+// Bullet's ray casts: convex casts of a point, as in btCollisionWorld.
 
 #include "bullet_convex.hpp"
 
@@ -33,24 +33,24 @@ struct Rays {
 
 template <class Cast>
 Side cast_rays(std::string who, const RayScene<3>& scene) {
-    const auto ask = [all = std::make_shared<const Rays>(scene)](std::span<double> values) {
+    const auto run = [all = std::make_shared<const Rays>(scene)](std::span<double> values) {
         btSphereShape point(0);
         point.setMargin(0);
         for (std::size_t i = 0; i < values.size(); ++i) {
             const Rays::Ray& ray = all->rays[i];
             btVoronoiSimplexSolver simplex;
             btConvexCast::CastResult result;
-            // Squares, usually 1e-4: the cast would end 0.01 before the hull.
+            // Squared tolerance, default 1e-4: the cast would stop 0.01 before the hull.
             result.m_subSimplexCastEpsilon = 1e-7f;
             simplex.setEqualVertexThreshold(1e-10f);
             const bool hit =
                 Cast(&point, ray.shape, &simplex).calcTimeOfImpact(ray.from, ray.to, ray.pose, ray.pose, result);
-            // As btCollisionWorld::rayTestSingle judges it.
+            // The acceptance test of btCollisionWorld::rayTestSingle.
             const bool counts = hit && result.m_normal.length2() > 0.0001f && result.m_fraction < 1;
             values[i] = counts ? double{result.m_fraction} * ray.length : -1;
         }
     };
-    return {std::move(who), ask};
+    return {std::move(who), run};
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace abut::bench {
 
 namespace {
 
-/// Its arrays are not const, though nothing is written to them.
+/// Its arrays are not const, though it only reads them.
 struct BulletMesh {
     explicit BulletMesh(const SharedRayMesh& mesh)
         : points(mesh->points),

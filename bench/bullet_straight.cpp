@@ -1,4 +1,4 @@
-// Bullet's three ways of moving one convex shape straight up to another.
+// Bullet's three algorithms for a linear sweep of convex shapes.
 
 #include "bullet_convex.hpp"
 #include "straight.hpp"
@@ -37,7 +37,7 @@ Side cast_shapes(std::string who, const StraightScene<3>& scene, const MakeCast&
     return {std::move(who),
             each_pair(std::make_shared<const Scene>(scene), [make_cast](const Moving& pair, std::size_t) {
                 btVoronoiSimplexSolver simplex;
-                // Squares, usually 1e-4: they would end 0.01 before.
+                // Squared tolerance, default 1e-4: they would stop 0.01 early.
                 simplex.setEqualVertexThreshold(1e-10f);
                 btConvexCast::CastResult result;
                 result.m_subSimplexCastEpsilon = 1e-7f;

@@ -1,4 +1,4 @@
-// Bullet's conservative advancement of two shapes that move and turn.
+// Bullet's conservative advancement of two shapes that translate and rotate.
 
 #include "bullet_convex.hpp"
 #include "turning.hpp"
@@ -27,7 +27,7 @@ struct Scene {
 
 }  // namespace
 
-Side bullet_turning(const TurningScene<3>& scene) {
+Side bullet_turning(const RotationScene<3>& scene) {
     auto own = std::make_shared<Scene>();
     for (const auto& [a, b] : scene.pairs) own->pairs.push_back({Moving(a), Moving(b)});
     return {"bullet", each_pair(std::shared_ptr<const Scene>(own), [](const Pair& pair, std::size_t) {
@@ -35,8 +35,8 @@ Side bullet_turning(const TurningScene<3>& scene) {
                 btGjkEpaPenetrationDepthSolver penetration;
                 btConvexCast::CastResult result;
                 btContinuousConvexCollision cast(pair.a.shape.get(), pair.b.shape.get(), &simplex, &penetration);
-                const bool meets = cast.calcTimeOfImpact(pair.a.from, pair.a.to, pair.b.from, pair.b.to, result);
-                return meets ? double{result.m_fraction} : no_meeting;
+                const bool collides = cast.calcTimeOfImpact(pair.a.from, pair.a.to, pair.b.from, pair.b.to, result);
+                return collides ? double{result.m_fraction} : no_impact;
             })};
 }
 

@@ -1,8 +1,8 @@
-// libccd in double, called directly: decisions and depths. It tells no gaps.
+// libccd in double, called directly: overlap tests and depths. It has no distances.
 
 #include "each_pair.hpp"
 #include "peers.hpp"
-#include <abut/math/linear.hpp>
+#include <abut/math/affine.hpp>
 
 #include <cmath>
 #include <memory>
@@ -15,7 +15,7 @@ namespace abut::bench {
 
 namespace {
 
-/// A box has its half edges for its only point, a hull its corners.
+/// A box stores its half extents as its only point, a hull its vertices.
 struct Body {
     const std::vector<DVec<3>>* points;
     Affine<3> place;

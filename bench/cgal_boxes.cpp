@@ -1,5 +1,5 @@
-// CGAL's box_self_intersection_d: Zomorodian and Edelsbrunner, "Fast software for box intersection" (2000), a segment
-// tree that is streamed and never stored. It finds all pairs of a set and keeps nothing.
+// CGAL's box_self_intersection_d: Zomorodian and Edelsbrunner, "Fast software for box intersection" (2000), a streamed
+// segment tree that is never stored. It finds all pairs of a set and has no state between frames.
 
 #include "broad_peers.hpp"
 
@@ -13,7 +13,7 @@ namespace abut::bench {
 
 namespace {
 
-/// Sets up to so many are swept along one axis alone. The best of a few: at CGAL's own 10 it takes twice as long.
+/// Sets up to this size are swept along one axis. The best of several tried: CGAL's default 10 takes twice as long.
 std::ptrdiff_t cutoff(std::size_t count) {
     return count <= 10'000 ? 300 : 1500;
 }
@@ -36,7 +36,7 @@ struct Counter {
     explicit Counter(std::span<const Aabb<D>>) {}
 
     std::size_t count(std::span<const Aabb<D>> boxes) {
-        numbered.clear();  // they are reordered below
+        numbered.clear();  // reordered below
         for (const Aabb<D>& box : boxes) numbered.push_back({box, static_cast<std::uint32_t>(numbered.size())});
         std::size_t pairs = 0;
         const auto count_one = [&pairs](const NumberedBox<D>&, const NumberedBox<D>&) { ++pairs; };

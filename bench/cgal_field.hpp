@@ -1,6 +1,6 @@
 #pragma once
 
-// Whether points are inside of a closed mesh: CGAL's Side_of_triangle_mesh, with exact predicates.
+// Point-in-mesh tests with CGAL's Side_of_triangle_mesh and exact predicates.
 
 #include <abut/math/vec.hpp>
 
@@ -16,7 +16,7 @@ class CgalSolid {
 public:
     CgalSolid(std::span<const Vec3> points, std::span<const glm::uvec3> triangles);
 
-    /// 1 inside, 0 outside or on the surface. Makes the tree that it looks in each time.
+    /// 1 inside, 0 outside or on the surface. Builds its tree in each call.
     void inside(std::span<const Vec3> points, std::span<double> out) const;
 
 private:

@@ -23,7 +23,7 @@ Side cgal_hull(const SharedPoints& points) {
                     const auto h = hull.halfedge(face);
                     sum.add(corner(h), corner(hull.next(h)), corner(hull.next(hull.next(h))));
                 }
-                sum.tell(values);
+                sum.write(values);
             }};
 }
 

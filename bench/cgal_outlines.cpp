@@ -1,4 +1,4 @@
-// CGAL's convex partitions of simple polygons without holes, with its exact predicates.
+// CGAL's convex partitions of simple polygons without holes, with exact predicates.
 
 #include "convex_plane.hpp"
 

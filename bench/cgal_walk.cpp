@@ -1,5 +1,5 @@
-// CGAL: the nearest place by a tree of boxes, and the shortest way over triangles (Chen and Han 1990, as Xin and Wang
-// 2009 have it).
+// CGAL: closest points with a tree of boxes, and shortest paths over triangles (Chen and Han 1990, as modified by Xin
+// and Wang 2009).
 
 #include "walk.hpp"
 #include <abut/math/dvec.hpp>
@@ -41,7 +41,7 @@ struct TreeOfSurface {
     }
 };
 
-/// A face has its last corner first: its halfedge is the one that goes on from there.
+/// A face stores its last vertex first: its half-edge starts there.
 Shortest::Face_location location(const WalkPoint& place) {
     return {CGAL::SM_Face_index(place.triangle), {place.weights.z, place.weights.x, place.weights.y}};
 }
@@ -57,13 +57,13 @@ Side cgal_nearest(const SharedWalkPoints& points) {
             }};
 }
 
-Side cgal_ways(const SharedWalkWays& ways) {
-    return {"CGAL, shortest",
-            [ways, surface = std::make_shared<const Surface>(surface_of(*ways->scene))](std::span<double> values) {
+Side cgal_paths(const SharedWalkPaths& paths_to_find) {
+    return {"CGAL, shortest", [paths_to_find, surface = std::make_shared<const Surface>(
+                                                  surface_of(*paths_to_find->scene))](std::span<double> values) {
                 for (std::size_t i = 0; i < values.size(); ++i) {
                     Shortest shortest(*surface);
-                    shortest.add_source_point(location(ways->from[i]));
-                    const Shortest::Face_location to = location(ways->to[i]);
+                    shortest.add_source_point(location(paths_to_find->from[i]));
+                    const Shortest::Face_location to = location(paths_to_find->to[i]);
                     values[i] = shortest.shortest_distance_to_source_points(to.first, to.second).first;
                 }
             }};

@@ -13,7 +13,7 @@ namespace abut::bench {
 
 namespace {
 
-// In pixels. The legend lies right of the field.
+// In pixels. The legend is right of the plot area.
 constexpr float width = 920, height = 560;
 constexpr float left = 70, right = 700, bottom = 60, top = 500;
 constexpr float legend_line = 715, legend_text = 835, legend_step = 24;
@@ -35,10 +35,10 @@ constexpr std::array<Color, 14> palette{{{0, 0, 0},
                                          {13, 148, 136},
                                          {161, 98, 7}}};
 
-/// From values to pixels.
+/// Converts values to pixels.
 struct Axis {
-    Axis(double least, double most, float from, float to)
-        : low(std::log10(least)), high(std::log10(most)), begin(from), end(to) {}
+    Axis(double min, double max, float from, float to)
+        : low(std::log10(min)), high(std::log10(max)), begin(from), end(to) {}
 
     float operator()(double value) const {
         return begin + (end - begin) * static_cast<float>((std::log10(value) - low) / (high - low));
@@ -63,7 +63,7 @@ std::string label(double value) {
     return out.str();
 }
 
-/// visit(value, digit) for 1, 2, ... 9, 10, 20, ... on the axis.
+/// Calls visit(value, digit) for 1, 2, ... 9, 10, 20, ... on the axis.
 template <class Visit>
 void each_tick(const Axis& axis, Visit visit) {
     for (double decade = std::pow(10, std::floor(axis.low)); std::log10(decade) <= axis.high; decade *= 10)
@@ -74,7 +74,7 @@ void each_tick(const Axis& axis, Visit visit) {
 void draw_grid(SvgCanvas& canvas, const Chart& chart, const Axis& x, const Axis& y) {
     const Style text{.stroke = ink};
     const auto style = [](int digit) { return Style{.stroke = digit == 1 ? grid : faint_grid}; };
-    // Where an axis has little more than a decade, there are numbers within it too.
+    // An axis of little more than a decade has labels within the decade too.
     const auto named = [](const Axis& axis, int digit) {
         return digit == 1 || (axis.high - axis.low < 3 && (digit == 2 || digit == 5));
     };

@@ -1,6 +1,6 @@
 #pragma once
 
-// A chart of lines over two logarithmic axes, as SVG.
+// A line chart with two logarithmic axes, as SVG.
 
 #include <cstddef>
 #include <string>
@@ -11,18 +11,18 @@ namespace abut::bench {
 
 struct ChartLine {
     std::string name;
-    std::size_t color = 0;                          ///< a number, of which each has another color
+    std::size_t color = 0;                          ///< index of the color
     std::vector<std::pair<double, double>> points;  ///< x, y above zero; x ascending
-    bool ours = false;                              ///< drawn whole, the others dashed
+    bool ours = false;                              ///< solid line; others are dashed
 };
 
 struct Chart {
     std::string title;
     std::string x_name, y_name;
-    std::vector<ChartLine> lines;  ///< each with a point at least
+    std::vector<ChartLine> lines;  ///< each with at least one point
 };
 
-/// The document. In the legend the lines stand in the order of their last points, the highest first.
+/// The SVG document. The legend is sorted by the lines' last values, the highest first.
 std::string svg(const Chart& chart);
 
 }  // namespace abut::bench

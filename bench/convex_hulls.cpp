@@ -1,5 +1,6 @@
-// The hull of many points, of which few are corners or all. A ball and a sphere are the two ends; rings have two faces
-// of thousands of corners; far from the origin floats put the points on a coarse lattice, so that many are coplanar.
+// Hulls of many points, few or all of which are vertices: balls and spheres are the extremes. Rings have two faces of
+// thousands of vertices.
+// Far from the origin, floats round the points to a coarse lattice, so that many are coplanar.
 
 #include "convex_hulls.hpp"
 
@@ -40,7 +41,7 @@ SharedPoints on_a_disc(std::size_t count) {
         return DVec<3>(p.x, p.y, 0);
     });
 }
-/// Multiples of a number that floats round, so that they lie on a line only to their last bit.
+/// Multiples of a rounded number: collinear up to the last bit only.
 SharedPoints on_a_line(std::size_t count) {
     return drawn(count, [](oracle::Random& random) { return DVec<3>(0.1, 0.2, 0.3) * random.unit(); });
 }
@@ -77,8 +78,8 @@ Job hull_job(const SharedPoints& points, const std::vector<Peer>& peers) {
 
 std::vector<Bench> convex_hull_benches() {
     const std::vector<Peer> all{qhull_hull, cgal_hull, bullet_hull};
-    // The two coplanar rings take CGAL more than ten seconds. Points of a plane are no input for Qhull and no hull of
-    // faces for CGAL.
+    // The two coplanar rings take CGAL more than ten seconds. Coplanar points are no input for Qhull, and no polyhedron
+    // for CGAL.
     return {
         {"convex/hull/ball/100", [=] { return hull_job(in_a_ball(100), all); }},
         {"convex/hull/ball/100000", [=] { return hull_job(in_a_ball(100'000), all); }},

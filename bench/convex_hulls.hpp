@@ -1,7 +1,7 @@
 #pragma once
 
-// Points whose hull is asked for, and what the peers make of them: one file a peer. Two values a hull, the volume and
-// the area of its surface, in the points' own scale, and seen from one of its corners: so neither tells where it is.
+// Point sets for hulls in 3D, and the peers' hulls: one file per peer. Two values per hull, volume and surface area,
+// relative to the points' scale and to one of the vertices: so neither depends on the position.
 
 #include "bench.hpp"
 #include <abut/math/dvec.hpp>
@@ -13,7 +13,7 @@ namespace abut::bench {
 
 using SharedPoints = std::shared_ptr<const std::vector<Vec3>>;
 
-/// Adds up the triangles of a closed surface, counter-clockwise seen from outside.
+/// Sums up the triangles of a closed surface, counter-clockwise seen from outside.
 class SurfaceSum {
 public:
     void add(const DVec<3>& a, const DVec<3>& b, const DVec<3>& c) {
@@ -23,7 +23,7 @@ public:
         six_volumes_ += dot(normal, a - origin_);
         twice_area_ += length(normal);
     }
-    void tell(std::span<double> values) const {
+    void write(std::span<double> values) const {
         values[0] = six_volumes_ / 6;
         values[1] = twice_area_ / 2;
     }
@@ -34,11 +34,11 @@ private:
     bool any_ = false;
 };
 
-/// libqhull_r, on doubles, with what it advises for them: merged facets where rounding leaves them concave.
+/// libqhull_r in double, with its recommended options: facets that rounding makes concave are merged.
 Side qhull_hull(const SharedPoints& points);
 /// convex_hull_3 with exact predicates.
 Side cgal_hull(const SharedPoints& points);
-/// btConvexHullComputer, in whole numbers of a grid of about ten thousand steps.
+/// btConvexHullComputer, in integers on a grid of about ten thousand steps.
 Side bullet_hull(const SharedPoints& points);
 
 }  // namespace abut::bench

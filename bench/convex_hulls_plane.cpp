@@ -1,5 +1,5 @@
-// The hull of many points of the plane, of which few are corners or all; and hulls of few corners, in the plane and in
-// space, which no peer that is a Debian package makes so that they hold all points.
+// Hulls of many points in 2D, few or all of which are vertices; and hulls with a vertex limit, in 2D and 3D. No peer
+// among the Debian packages computes the latter such that they contain all points.
 
 #include "convex_hulls_plane.hpp"
 
@@ -25,8 +25,8 @@ SharedPoints2 drawn(std::size_t count, Make make) {
 
 SharedPoints2 in_a_disc(std::size_t count) {
     return drawn(count, [](oracle::Random& random) {
-        const DVec<2> way = random.direction<2>();
-        return to_float(way * std::sqrt(random.unit()));
+        const DVec<2> direction = random.direction<2>();
+        return to_float(direction * std::sqrt(random.unit()));
     });
 }
 SharedPoints2 on_a_circle(std::size_t count) {
@@ -39,7 +39,7 @@ SharedPoints2 on_a_grid(std::size_t count) {
         return Vec2(x, static_cast<float>(random.below(side)));
     });
 }
-/// Exactly on a line, so that it is the rank that is found.
+/// Exactly collinear, so that the rank is detected.
 SharedPoints2 on_a_line(std::size_t count) {
     return drawn(count, [](oracle::Random& random) {
         const auto x = static_cast<float>(random.below(1u << 20));
@@ -48,29 +48,29 @@ SharedPoints2 on_a_line(std::size_t count) {
 }
 
 Job plane_job(const SharedPoints2& points, bool has_area) {
-    const auto ask = [points](std::span<double> values) {
+    const auto run = [points](std::span<double> values) {
         const Polygon hull = *Polygon::build(*points);
         const std::span<const Vec2> corners = hull.points();
         tell_loop(
             corners.size(), [&](std::size_t i) { return DVec<2>(corners[i]); }, values);
     };
-    Job job{.items = points->size(), .values = 2, .tolerance = 1e-5, .sides = {{"abut", ask}}};
+    Job job{.items = points->size(), .values = 2, .tolerance = 1e-5, .sides = {{"abut", run}}};
     job.sides.push_back(cgal_hull_2(points));
     job.sides.push_back(cgal_akl_toussaint(points));
-    // It takes no points of a line.
+    // It rejects collinear points.
     if (has_area) job.sides.push_back(qhull_hull_2(points));
     return job;
 }
 
-/// Tells the share that the limit adds.
+/// Writes the fraction that the limit adds.
 template <class Shape, class Points, class Size>
 Job limited_job(const Points& points, std::uint32_t limit, Size size) {
     const double full = size(*Shape::build(*points));
-    const auto ask = [=](std::span<double> values) {
+    const auto run = [=](std::span<double> values) {
         const Shape limited = *Shape::build(*points, {.max_vertices = limit});
         values[0] = size(limited) / full - 1;
     };
-    return {.items = points->size(), .values = 1, .sides = {{"abut", ask}}};
+    return {.items = points->size(), .values = 1, .sides = {{"abut", run}}};
 }
 
 Job limited_sphere(std::size_t count, std::uint32_t limit) {

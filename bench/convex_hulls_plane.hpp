@@ -1,7 +1,6 @@
 #pragma once
 
-// Points of the plane whose hull is asked for, and what the peers make of them: one file a peer. Two values a hull: its
-// area and its circumference.
+// Point sets for hulls in 2D, and the peers' hulls: one file per peer. Two values per hull: area and perimeter.
 
 #include "bench.hpp"
 #include <abut/math/dvec.hpp>
@@ -13,7 +12,7 @@ namespace abut::bench {
 
 using SharedPoints2 = std::shared_ptr<const std::vector<Vec2>>;
 
-/// Tells the values of a closed loop, of one direction all along.
+/// Writes the values of a closed polygon of consistent orientation.
 template <class At>
 void tell_loop(std::size_t count, At at, std::span<double> values) {
     values[0] = values[1] = 0;
@@ -24,9 +23,9 @@ void tell_loop(std::size_t count, At at, std::span<double> values) {
     }
 }
 
-/// libqhull_r, on doubles.
+/// libqhull_r in double.
 Side qhull_hull_2(const SharedPoints2& points);
-/// convex_hull_2 and ch_akl_toussaint, with exact predicates; the points are already its own.
+/// convex_hull_2 and ch_akl_toussaint with exact predicates; the points are CGAL's own.
 Side cgal_hull_2(const SharedPoints2& points);
 Side cgal_akl_toussaint(const SharedPoints2& points);
 

@@ -1,5 +1,5 @@
-// Outlines as exact convex parts. A row's answer is how many there are: fewer is better. That they cover the outline is
-// looked at with every call.
+// Exact convex decomposition of polygons. The answer is the count of parts: fewer is better. Every call verifies that
+// they cover the polygon.
 
 #include "convex_plane.hpp"
 

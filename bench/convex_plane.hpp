@@ -1,6 +1,6 @@
 #pragma once
 
-// The sides that take outlines apart.
+// The sides that decompose polygons.
 
 #include "bench.hpp"
 #include <abut/math/vec.hpp>
@@ -11,10 +11,10 @@
 
 namespace abut::bench {
 
-/// Of a ring, as doubles have it; above zero where it is counter-clockwise.
+/// The signed area of a ring in double; positive if counter-clockwise.
 double area_of(std::span<const Vec2> ring);
 
-/// How many parts there are; NaN where they are together larger or smaller than what they should cover.
+/// The count of parts; NaN if their total area differs from the polygon's.
 double count_if_covered(std::size_t count, double area, double expected);
 
 Side cgal_greene(const std::vector<Vec2>& outline);

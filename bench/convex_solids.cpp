@@ -1,6 +1,6 @@
-// Meshes cut into convex parts, beside Bullet's HACD at the same number of parts. The parts differ, so what is told is
-// how much solid they add, in hundredths of the mesh's own; abut's cover the surface, or it tells none. HACD's are
-// hulls of fewer corners that leave some of it out, up to 2 % of the diagonal here, and are let off.
+// Convex decomposition of meshes, compared with Bullet's HACD at the same number of parts. As the parts differ, the
+// answer is the volume that they add, in percent of the mesh's. abut's parts cover the surface, which is verified.
+// HACD's hulls have fewer vertices and leave out up to 2 % of the diagonal here, which is tolerated.
 
 #include "../scenes/solid_meshes.hpp"
 #include "../test/oracle/part_quality.hpp"
@@ -18,20 +18,20 @@ namespace {
 
 constexpr std::uint32_t corners = 64, samples = 20'000;
 
-/// Decomposes each time; how good the parts are is found once, they are always the same.
+/// Decomposes in each call; the quality of the parts is measured once, as it is deterministic.
 template <class Decompose>
 Side side(const char* who, const std::shared_ptr<const Welded>& mesh, std::optional<std::uint32_t> most_parts,
           Decompose decompose) {
-    const auto told = std::make_shared<std::optional<double>>();
+    const auto extra = std::make_shared<std::optional<double>>();
     return {who, [=](std::span<double> values) {
                 const std::vector<Polyhedron> found = decompose(*mesh);
-                if (!*told) {
+                if (!*extra) {
                     const oracle::PartQuality quality =
                         oracle::quality_of(mesh->points, mesh->triangles, found, samples, 1);
                     const bool right = !most_parts || (found.size() <= *most_parts && quality.uncovered == 0);
-                    *told = right ? 100 * quality.extra : std::numeric_limits<double>::quiet_NaN();
+                    *extra = right ? 100 * quality.extra : std::numeric_limits<double>::quiet_NaN();
                 }
-                values[0] = **told;
+                values[0] = **extra;
             }};
 }
 

@@ -10,19 +10,19 @@ namespace abut::bench {
 
 namespace {
 
-constexpr std::uint32_t most_columns = 120;  // of a tile: 28,800 triangles
+constexpr std::uint32_t max_columns = 120;  // per tile: 28,800 triangles
 constexpr int most_polygons = 1 << 15, most_nodes = 65535;
 constexpr float height_unit = 1.0f / 256, climb = 0.25f;
 constexpr unsigned short border = 0xffff;
 
-/// What Detour refuses would be compared with nothing.
+/// Aborts if Detour rejects the mesh: a comparison would be void.
 void must(bool done) {
     if (done) return;
     std::fputs("abut_bench: Detour refuses the scene\n", stderr);
     std::abort();
 }
 
-/// Some squares of the scene.
+/// A rectangle of the scene's squares.
 struct Tile {
     const WalkScene& scene;
     std::uint32_t column, row, columns, rows;
@@ -37,7 +37,7 @@ struct Tile {
     unsigned short corner(std::uint32_t x, std::uint32_t z) const {
         return static_cast<unsigned short>(z * (columns + 1) + x);
     }
-    /// In another tile, or nowhere.
+    /// In another tile, or none.
     static unsigned short beyond(bool has, unsigned short direction) {
         return has ? static_cast<unsigned short>(0x8000 | direction) : border;
     }
@@ -94,7 +94,7 @@ struct Tile {
 
 DetourMesh::DetourMesh(const WalkScene& scene)
     : mesh_(dtAllocNavMesh()), query_(dtAllocNavMeshQuery()), polygons_(scene.triangles.size()) {
-    const std::uint32_t columns = scene.columns, tiles = (columns + most_columns - 1) / most_columns;
+    const std::uint32_t columns = scene.columns, tiles = (columns + max_columns - 1) / max_columns;
     const std::uint32_t width = (columns + tiles - 1) / tiles;
     dtNavMeshParams params{};
     params.tileWidth = params.tileHeight = static_cast<float>(width);

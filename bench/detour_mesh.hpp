@@ -1,6 +1,6 @@
 #pragma once
 
-// A scene of walkers as Detour has it: one polygon a triangle.
+// A scene of walkers for Detour: one polygon per triangle.
 
 #include "walk.hpp"
 
@@ -11,7 +11,7 @@
 
 namespace abut::bench {
 
-/// In tiles, as many as it needs: Detour has 15 bits for the numbers of neighbours in a tile.
+/// In several tiles: Detour has 15 bits for neighbour indices within a tile.
 class DetourMesh {
 public:
     explicit DetourMesh(const WalkScene& scene);
@@ -29,7 +29,7 @@ private:
     std::unique_ptr<dtNavMesh, Free> mesh_;
     std::unique_ptr<dtNavMeshQuery, Free> query_;
     dtQueryFilter filter_;
-    std::vector<dtPolyRef> polygons_;  ///< of triangles
+    std::vector<dtPolyRef> polygons_;  ///< per triangle
 };
 
 }  // namespace abut::bench

@@ -1,6 +1,6 @@
 #pragma once
 
-// One call, one frame: what the sides of the narrow phase have in common.
+// Shared by all sides of the narrow phase: one call per frame.
 
 #include "bench.hpp"
 
@@ -11,11 +11,10 @@
 
 namespace abut::bench {
 
-/// Asks the question of each pair of a frame, and of those of the next frame in the next call, for ever:
-/// question(pair, place), where the place is the same in all frames, and the caches of a question are kept by it.
-/// `scene->pairs` has the frames one after another.
+/// Runs a query for each pair of a frame, and advances to the next frame in the next call, cyclically: question(pair,
+/// place). The place is the same in all frames and indexes caches. `scene->pairs` has the frames one after another.
 template <class Scene, class Question>
-Ask each_pair(std::shared_ptr<const Scene> scene, Question question) {
+Run each_pair(std::shared_ptr<const Scene> scene, Question question) {
     return [scene = std::move(scene), question = std::move(question),
             begin = std::size_t{0}](std::span<double> values) mutable {
         const auto* const pairs = scene->pairs.data() + begin;

@@ -1,4 +1,4 @@
-// Queries of Embree: rtcIntersect1 and rtcPointQuery. The boxes are asked by the same code as abut's.
+// Queries of Embree: rtcIntersect1 and rtcPointQuery. The box tests are abut's code.
 
 #include "box_queries.hpp"
 #include "broad_peers.hpp"
@@ -12,32 +12,32 @@ namespace abut::bench {
 
 namespace {
 
-/// A scene that rests, with what it refers to.
+/// A static scene, with the data it refers to.
 struct Tree {
     explicit Tree(std::span<const Aabb3> all) : items(all.begin(), all.end()), boxes(items) {
         boxes.build(RTC_BUILD_QUALITY_HIGH, intersect);
     }
 
-    static void intersect(const RTCIntersectFunctionNArguments* asked);
+    static void intersect(const RTCIntersectFunctionNArguments* arguments);
 
     std::vector<Aabb3> items;
     EmbreeBoxes boxes;
 };
 
 struct Cast {
-    RTCIntersectContext context;  // Embree hands it on to the boxes
+    RTCIntersectContext context;  // Embree passes it to the boxes' callbacks
     RayToBox ray;
 };
 
-void Tree::intersect(const RTCIntersectFunctionNArguments* asked) {
-    const auto& cast = *reinterpret_cast<const Cast*>(asked->context);
-    const Aabb3& box = static_cast<const EmbreeBoxes*>(asked->geometryUserPtr)->box(asked->primID);
+void Tree::intersect(const RTCIntersectFunctionNArguments* arguments) {
+    const auto& cast = *reinterpret_cast<const Cast*>(arguments->context);
+    const Aabb3& box = static_cast<const EmbreeBoxes*>(arguments->geometryUserPtr)->box(arguments->primID);
     const float distance = entry(cast.ray, box);
-    auto& hit = *reinterpret_cast<RTCRayHit*>(asked->rayhit);
-    if (asked->valid[0] == 0 || !(distance < hit.ray.tfar)) return;
+    auto& hit = *reinterpret_cast<RTCRayHit*>(arguments->rayhit);
+    if (arguments->valid[0] == 0 || !(distance < hit.ray.tfar)) return;
     hit.ray.tfar = distance;
-    hit.hit.primID = asked->primID;
-    hit.hit.geomID = asked->geomID;
+    hit.hit.primID = arguments->primID;
+    hit.hit.geomID = arguments->geomID;
 }
 
 struct Search {
@@ -46,13 +46,13 @@ struct Search {
     Nearest nearest;
 };
 
-/// Whether it has lessened the reach.
-bool add_distance(RTCPointQueryFunctionArguments* asked) {
-    auto& search = *static_cast<Search*>(asked->userPtr);
-    search.nearest.add(squared_distance(search.point, search.boxes.box(asked->primID)));
+/// Returns true if it has shortened the reach.
+bool add_distance(RTCPointQueryFunctionArguments* arguments) {
+    auto& search = *static_cast<Search*>(arguments->userPtr);
+    search.nearest.add(squared_distance(search.point, search.boxes.box(arguments->primID)));
     const float reach = std::sqrt(search.nearest.farthest());
-    if (!(reach < asked->query->radius)) return false;
-    asked->query->radius = reach;
+    if (!(reach < arguments->query->radius)) return false;
+    arguments->query->radius = reach;
     return true;
 }
 

@@ -1,4 +1,4 @@
-// Embree's rtcCollide, which tells of the boxes of two trees that overlap.
+// Embree's rtcCollide, which reports overlapping boxes of two trees.
 
 #include "embree_boxes.hpp"
 
@@ -8,8 +8,8 @@ namespace abut::bench {
 
 namespace {
 
-/// A tree of low quality, sorted along a space-filling curve, new in each frame: quicker here than a better one, or one
-/// that is refitted (whose leaves hold several boxes, and all pairs of two such leaves are told).
+/// Builds a low quality Morton tree per frame: faster here than a better one or refitting, whose leaves hold several
+/// boxes, all pairs of which are reported.
 struct Counter {
     explicit Counter(std::span<const Aabb3> first) : boxes(first) {}
 
@@ -20,10 +20,10 @@ struct Counter {
         return pairs;
     }
 
-    /// Each pair is told both ways round.
+    /// Each pair is reported in both orders.
     static void count_some(void* pairs, RTCCollision* collisions, unsigned count) {
-        for (const RTCCollision& told : std::span(collisions, count))
-            *static_cast<std::size_t*>(pairs) += told.primID0 < told.primID1 ? 1 : 0;
+        for (const RTCCollision& collision : std::span(collisions, count))
+            *static_cast<std::size_t*>(pairs) += collision.primID0 < collision.primID1 ? 1 : 0;
     }
 
     EmbreeBoxes boxes;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Boxes as Embree holds them: a geometry of the user's, of which it knows the bounds.
+// Boxes as an Embree user geometry with bounds.
 
 #include <abut/math/aabb.hpp>
 
@@ -10,7 +10,7 @@
 
 namespace abut::bench {
 
-/// Refers to the boxes. On one thread.
+/// Refers to the boxes. Single-threaded.
 class EmbreeBoxes {
 public:
     explicit EmbreeBoxes(std::span<const Aabb3> boxes) : boxes_(boxes) {}
@@ -21,7 +21,7 @@ public:
         rtcReleaseDevice(device_);
     }
 
-    /// From nothing.
+    /// Builds from scratch.
     void build(RTCBuildQuality quality, RTCIntersectFunctionN intersect = nullptr) {
         rtcReleaseScene(scene_);
         scene_ = rtcNewScene(device_);
@@ -29,12 +29,12 @@ public:
         const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_USER);
         rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(boxes_.size()));
         rtcSetGeometryUserData(geometry, this);
-        rtcSetGeometryBoundsFunction(geometry, tell_bounds, nullptr);
+        rtcSetGeometryBoundsFunction(geometry, get_bounds, nullptr);
         if (intersect != nullptr) rtcSetGeometryIntersectFunction(geometry, intersect);
         rtcSetGeometryBuildQuality(geometry, quality);
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(scene_, geometry);
-        rtcReleaseGeometry(geometry);  // the scene keeps it
+        rtcReleaseGeometry(geometry);  // the scene owns it
         rtcCommitScene(scene_);
     }
 
@@ -42,9 +42,9 @@ public:
     const Aabb3& box(unsigned item) const { return boxes_[item]; }
 
 private:
-    static void tell_bounds(const RTCBoundsFunctionArguments* asked) {
-        const Aabb3& box = static_cast<const EmbreeBoxes*>(asked->geometryUserPtr)->box(asked->primID);
-        RTCBounds& bounds = *asked->bounds_o;
+    static void get_bounds(const RTCBoundsFunctionArguments* arguments) {
+        const Aabb3& box = static_cast<const EmbreeBoxes*>(arguments->geometryUserPtr)->box(arguments->primID);
+        RTCBounds& bounds = *arguments->bounds_o;
         bounds.lower_x = box.min.x;
         bounds.lower_y = box.min.y;
         bounds.lower_z = box.min.z;

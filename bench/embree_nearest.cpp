@@ -34,20 +34,20 @@ Vec3 nearest_of(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) {
 
 struct Question {
     const WalkScene* scene;
-    float least;
+    float min_distance;
     unsigned int triangle = RTC_INVALID_GEOMETRY_ID;
     Vec3 nearest{};
 };
 
-bool look(RTCPointQueryFunctionArguments* arguments) {
+bool add_triangle(RTCPointQueryFunctionArguments* arguments) {
     Question& question = *static_cast<Question*>(arguments->userPtr);
     const glm::uvec3 t = question.scene->triangles[arguments->primID];
     const std::vector<Vec3>& points = question.scene->points;
     const Vec3 point(arguments->query->x, arguments->query->y, arguments->query->z);
     const Vec3 nearest = nearest_of(points[t.x], points[t.y], points[t.z], point);
     const float distance = glm::distance(nearest, point);
-    if (!(distance < question.least)) return false;
-    arguments->query->radius = question.least = distance;
+    if (!(distance < question.min_distance)) return false;
+    arguments->query->radius = question.min_distance = distance;
     question.triangle = arguments->primID;
     question.nearest = nearest;
     return true;
@@ -64,7 +64,7 @@ public:
                                    sizeof(glm::uvec3), scene->triangles.size());
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(all_, geometry);
-        rtcReleaseGeometry(geometry);  // the scene keeps it
+        rtcReleaseGeometry(geometry);  // the scene owns it
         rtcCommitScene(all_);
     }
     Triangles(const Triangles&) = delete;
@@ -79,7 +79,7 @@ public:
         rtcInitPointQueryContext(&context);
         RTCPointQuery query{point.x, point.y, point.z, 0, reach};
         Question question{scene_.get(), reach};
-        rtcPointQuery(all_, &query, &context, look, &question);
+        rtcPointQuery(all_, &query, &context, add_triangle, &question);
         return glm::distance(question.nearest, point);
     }
 

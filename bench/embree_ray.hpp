@@ -1,6 +1,6 @@
 #pragma once
 
-// A ray as Embree takes it.
+// A ray in Embree's format.
 
 #include <abut/math/ray.hpp>
 
@@ -8,7 +8,7 @@
 
 namespace abut::bench {
 
-/// It has hit nothing yet.
+/// A ray without a hit.
 inline RTCRayHit to_embree(const Ray3& ray) {
     RTCRayHit result;
     result.ray = {ray.origin.x,

@@ -25,7 +25,7 @@ public:
         rtcSetGeometryBuildQuality(geometry, wanted);
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(scene_, geometry);
-        rtcReleaseGeometry(geometry);  // the scene keeps it
+        rtcReleaseGeometry(geometry);  // the scene owns it
         rtcCommitScene(scene_);
     }
     Triangles(const Triangles&) = delete;
@@ -66,8 +66,8 @@ Side embree_rays(const SharedRayMesh& scene, Quality quality, Edges edges) {
 }
 
 Side embree_mesh_build(const SharedRayMesh& scene, Quality quality) {
-    return {name(quality, Edges::quick), [scene, quality](std::span<double> values) {
-                values[0] = Triangles(scene, quality, Edges::quick).distance(scene->rays[0]);
+    return {name(quality, Edges::fast), [scene, quality](std::span<double> values) {
+                values[0] = Triangles(scene, quality, Edges::fast).distance(scene->rays[0]);
             }};
 }
 

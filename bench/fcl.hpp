@@ -1,6 +1,6 @@
 #pragma once
 
-// Values in FCL's words. For the files that include FCL.
+// Conversions to FCL's types. Included by files that use FCL.
 
 #include <abut/math/pose.hpp>
 

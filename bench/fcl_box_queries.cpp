@@ -20,10 +20,10 @@ struct NearestOfAll {
     Nearest nearest;
 };
 
-/// Told of an object and the most that is still of interest, which it may lessen.
+/// Receives an object and the current search distance, which it may shorten.
 bool add_distance(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* data, double& reach) {
     auto& search = *static_cast<NearestOfAll*>(data);
-    // The point is a box without extent; which of the two comes first is the tree's affair.
+    // The point is a box without extent; the tree decides which of the two comes first.
     const fcl::AABBd& box = a->getUserData() != nullptr ? a->getAABB() : b->getAABB();
     const Aabb3 found{Vec3(box.min_.x(), box.min_.y(), box.min_.z()), Vec3(box.max_.x(), box.max_.y(), box.max_.z())};
     search.nearest.add(squared_distance(search.point, found));
@@ -45,11 +45,11 @@ Side fcl_regions(std::span<const Aabb3> boxes, std::span<const Aabb3> regions) {
 Side fcl_nearest(std::span<const Aabb3> boxes, std::span<const Vec3> points, std::size_t count) {
     const auto tree = std::make_shared<Tree>(boxes);
     for (auto& object : tree->objects) object->setUserData(tree.get());
-    const std::shared_ptr<fcl::CollisionObjectd> asked = fcl_object({Vec3(0), Vec3(0)});
-    return each_query("fcl", points, [tree, asked, count](const Vec3& point) {
-        move(*asked, {point, point});
+    const std::shared_ptr<fcl::CollisionObjectd> query = fcl_object({Vec3(0), Vec3(0)});
+    return each_query("fcl", points, [tree, query, count](const Vec3& point) {
+        move(*query, {point, point});
         NearestOfAll search{point, Nearest(count)};
-        tree->manager.distance(asked.get(), &search, add_distance);
+        tree->manager.distance(query.get(), &search, add_distance);
         return search.nearest.sum_of_distances();
     });
 }

@@ -1,4 +1,4 @@
-// FCL's broad phases: DynamicAABBTreeCollisionManager, its quickest, and SaPCollisionManager, sweep and prune.
+// FCL's broad phases: DynamicAABBTreeCollisionManager, its fastest, and SaPCollisionManager, sweep and prune.
 
 #include "fcl_boxes.hpp"
 
@@ -11,7 +11,8 @@ namespace abut::bench {
 
 namespace {
 
-/// The tree is only ever refitted, and grows worse by it: every so many frames there is a new one. The best of a few.
+/// The tree is only refitted, which degrades it: it is rebuilt every so many frames. The best interval of several
+/// tried.
 constexpr int frames_a_tree = 16;
 
 struct Tree : FclBoxes<fcl::DynamicAABBTreeCollisionManagerd> {
@@ -50,7 +51,7 @@ Side fcl_tree_pairs(const MakeScene<3>& make, Upkeep upkeep) {
 
 Side fcl_sweep_pairs(const MakeScene<3>& make, Upkeep upkeep) {
     Side side = count_pairs<Counter<Sweep>>("fcl sweep", make, upkeep);
-    side.strays = 1;  // leaves out some pairs that only just touch: one in a thousand of these scenes
+    side.strays = 1;  // misses some pairs that barely touch: one in a thousand of these scenes
     return side;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Boxes as FCL's broad phases hold them, in double as Debian builds it.
+// Boxes in FCL's broad phases, in double as Debian builds it.
 
 #include "fcl.hpp"
 #include <abut/math/aabb.hpp>
@@ -27,7 +27,7 @@ inline std::unique_ptr<fcl::CollisionObjectd> fcl_object(const Aabb3& box) {
     return result;
 }
 
-/// A broad phase of FCL's, with what it refers to.
+/// A broad phase of FCL, with the data it refers to.
 template <class Manager>
 struct FclBoxes {
     explicit FclBoxes(std::span<const Aabb3> boxes) {
@@ -49,7 +49,7 @@ struct FclBoxes {
     Manager manager;
 };
 
-/// The managers hold the boxes themselves: what they tell of, overlaps.
+/// The managers store the exact boxes: reported pairs overlap.
 inline bool count_one(fcl::CollisionObjectd*, fcl::CollisionObjectd*, void* count) {
     ++*static_cast<std::size_t*>(count);
     return false;

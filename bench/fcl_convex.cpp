@@ -45,7 +45,7 @@ Geometry geometry_of(const Polyhedron& hull) {
     return std::make_shared<fcl::Convexd>(points, static_cast<int>(facets.loop_ends.size()), faces);
 }
 
-/// FCL's capsules lie along z, those of the scene along y.
+/// FCL's capsules are along z, those of the scene along y.
 fcl::Transform3d own_frame(const scenes::AnyConvex<3>& shape) {
     fcl::Transform3d result = fcl::Transform3d::Identity();
     if (std::holds_alternative<Capsule3>(shape)) result.linear() << 1, 0, 0, 0, 0, 1, 0, -1, 0;
@@ -79,7 +79,7 @@ struct Scene {
     std::vector<Pair> pairs;
 };
 
-/// Asks a question of each pair.
+/// Runs a query for each pair.
 template <class Question>
 Side side(const scenes::ConvexPairs<3>& scene, Question question) {
     return {"fcl", each_pair(std::make_shared<const Scene>(scene), std::move(question))};
@@ -97,7 +97,7 @@ fcl::CollisionResultd collide(const Pair& pair, const fcl::CollisionRequestd& re
     return result;
 }
 
-// Its usual tolerance, 1e-6: with 1e-4 hulls take a tenth less time, and one in a hundred is off.
+// Its default tolerance, 1e-6: with 1e-4 hulls take 10 % less time, and 1 % of the values are off.
 fcl::DistanceRequestd with_points(bool is_signed) {
     return fcl::DistanceRequestd(true, is_signed);
 }

@@ -1,4 +1,4 @@
-// FCL's mesh of oriented boxes with spheres, in double as Debian builds it.
+// FCL's mesh with a tree of oriented boxes and spheres, in double as Debian builds it.
 
 #include "fcl.hpp"
 #include "levels.hpp"
@@ -30,33 +30,33 @@ struct FclLevel {
         } else {
             const Capsule3& capsule = std::get<Capsule3>(scene.shape);
             shape = std::make_shared<fcl::Capsuled>(capsule.radius, capsule.b.y - capsule.a.y);
-            // FCL's lie along z.
+            // FCL's capsules are along z.
             own_frame.linear() << 1, 0, 0, 0, 0, 1, 0, -1, 0;
         }
         for (const Pose3& pose : scene.poses) poses.push_back(to_fcl(pose) * own_frame);
     }
 
-    /// How many triangles it touches; no more are looked for than `most`.
-    std::size_t touched(std::size_t i, std::size_t most, bool with_places) {
-        const fcl::CollisionRequestd request(most, with_places);
+    /// The count of triangles touched, at most `max_contacts`.
+    std::size_t touched(std::size_t i, std::size_t max_contacts, bool with_places) {
+        const fcl::CollisionRequestd request(max_contacts, with_places);
         result.clear();
         return fcl::collide<double>(model.get(), fcl::Transform3d::Identity(), shape.get(), poses[i], request, result);
     }
 
-    fcl::CollisionResultd result;  ///< its memory stays
+    fcl::CollisionResultd result;  ///< its memory is reused
     std::shared_ptr<Model> model;
     std::shared_ptr<fcl::CollisionGeometryd> shape;
     fcl::Transform3d own_frame;
     std::vector<fcl::Transform3d> poses;
 };
 
-/// More than there are to find.
+/// More than any scene has.
 constexpr std::size_t all = 1000000;
 
-Side touching(const SharedLevelScene& scene, std::size_t most, bool with_places) {
-    return {"fcl", [level = std::make_shared<FclLevel>(*scene), most, with_places](std::span<double> values) {
+Side touching(const SharedLevelScene& scene, std::size_t max_contacts, bool with_places) {
+    return {"fcl", [level = std::make_shared<FclLevel>(*scene), max_contacts, with_places](std::span<double> values) {
                 for (std::size_t i = 0; i < values.size(); ++i)
-                    values[i] = static_cast<double>(level->touched(i, most, with_places));
+                    values[i] = static_cast<double>(level->touched(i, max_contacts, with_places));
             }};
 }
 

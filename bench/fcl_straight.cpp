@@ -1,4 +1,4 @@
-// FCL's continuous collision of boxes that don't turn: conservative advancement, by the GJK of libccd.
+// FCL's continuous collision of boxes without rotation: conservative advancement with libccd's GJK.
 
 #include "each_pair.hpp"
 #include "fcl.hpp"

@@ -1,4 +1,4 @@
-// A million particles over one field: look-ups by the batch, on one thread and on two, in time on the wall.
+// A million particles above one field: batched look-ups, on one thread and on two, in wall-clock time.
 
 #include "bench.hpp"
 #include "tbb_executor.hpp"
@@ -18,7 +18,7 @@ namespace abut::bench {
 
 namespace {
 
-/// A bowl with a knob in it, as in examples/particles.cpp.
+/// A bowl with a knob, as in examples/particles.cpp.
 Field3 bowl(FieldStore store) {
     const FieldOptions<3> fine{.cell = 0.1f, .store = store};
     const Field3 slab = *bake_field(Box3{{0, -0.6f, 0}, {3, 0.6f, 3}}, fine);
@@ -30,7 +30,7 @@ Field3 bowl(FieldStore store) {
 
 constexpr float radius = 0.02f, step = 1.0f / 60;
 
-/// They fall, touch the ground, and lose speed there.
+/// Particles fall, touch the ground and lose speed there.
 struct Particles {
     std::vector<Vec3> position, velocity;
 
@@ -42,7 +42,7 @@ struct Particles {
         }
     }
 
-    /// Returns how many touch the ground.
+    /// Returns the count of particles that touch the ground.
     std::uint32_t advance(const Field3& ground, std::size_t from, std::size_t to) {
         constexpr std::size_t at_once = 512;
         std::array<FieldSample<3>, at_once> samples;
@@ -73,7 +73,7 @@ struct Particles {
     }
 };
 
-/// In flight, most of them touch nothing yet; at rest most do.
+/// In flight, most particles touch nothing; at rest, most do.
 Job particles(std::size_t count, FieldStore store, int frames_before) {
     struct World {
         Field3 ground;
@@ -91,7 +91,7 @@ Job particles(std::size_t count, FieldStore store, int frames_before) {
     job.tolerance = 0;
     for (const std::uint32_t threads : {2u, 1u})
         job.sides.push_back({.who = threads == 2 ? "abut" : "abut alone",
-                             .ask =
+                             .run =
                                  [world, threads, count](std::span<double> values) {
                                      constexpr std::uint32_t parts = 32;
                                      std::array<std::uint32_t, parts> touching{};

@@ -1,5 +1,5 @@
-// Single distances from a field of 256^3 cells: where all of it is in the cache, near the surface, and anywhere. How
-// far off they are, and what the field takes.
+// Single samples of a field of 256^3 cells: all in the cache, near the surface, and anywhere. Figures: error and
+// memory.
 
 #include "bench.hpp"
 #include "cgal_field.hpp"
@@ -21,10 +21,10 @@ namespace {
 
 constexpr std::uint32_t cells = 256;
 
-/// Fills in distances.
+/// Writes distances.
 using LookUp = std::function<void(std::span<const Vec3> at, std::span<double> out)>;
 
-/// Where is asked, and how far off the answers are.
+/// The sample points, and the errors of the answers.
 struct Places {
     SharedFieldScene scene = field_scene();
     float cell = scene->cell(cells);
@@ -32,8 +32,8 @@ struct Places {
 
     // Only near the surface:
     std::vector<double> exact;          ///< signed
-    std::vector<Vec3> samples;          ///< of the lattice, near those
-    std::vector<double> exact_samples;  ///< at these
+    std::vector<Vec3> samples;          ///< lattice samples near them
+    std::vector<double> exact_samples;  ///< exact distances at these
 
     std::vector<double> distances(std::span<const Vec3> points) const {
         std::vector<double> result(points.size()), inside(points.size());
@@ -46,18 +46,17 @@ struct Places {
         return result;
     }
 
-    /// In cells, but for the bytes; signs are counted of samples that are a tenth of a cell or more from the
-    /// surface.
+    /// In cells, except for bytes; signs are compared at samples 0.1 cells or more from the surface.
     std::vector<Figure> figures(const LookUp& look_up, std::size_t bytes) const {
         std::vector<Figure> result{{"megabytes", static_cast<double>(bytes) * 1e-6}};
         if (exact.empty()) return result;
         std::vector<double> found(at.size());
         look_up(at, found);
-        double squares = 0, most = 0, wrong = 0;
+        double squares = 0, max_error = 0, wrong = 0;
         for (std::size_t i = 0; i < at.size(); ++i) {
             const double error = std::abs(found[i] - exact[i]) / static_cast<double>(cell);
             squares += error * error;
-            most = std::max(most, error);
+            max_error = std::max(max_error, error);
         }
         look_up(samples, found);
         for (std::size_t i = 0; i < samples.size(); ++i)
@@ -65,7 +64,7 @@ struct Places {
                 (found[i] < 0) != (exact_samples[i] < 0))
                 ++wrong;
         result.push_back({"off by", std::sqrt(squares / static_cast<double>(at.size()))});
-        result.push_back({"at most", most});
+        result.push_back({"at most", max_error});
         result.push_back({"wrong signs", wrong});
         return result;
     }
@@ -74,7 +73,7 @@ using SharedPlaces = std::shared_ptr<const Places>;
 
 Side side(const char* who, const SharedPlaces& places, std::size_t bytes, const LookUp& look_up) {
     return {.who = who,
-            .ask =
+            .run =
                 [places, look_up](std::span<double> values) {
                     look_up(places->at, values);
                     for (double& value : values) value = near_in_cells(value, places->cell);
@@ -89,10 +88,10 @@ Side one_by_one(const char* who, const SharedPlaces& places, const Field3& field
 }
 
 Side all_at_once(const char* who, const SharedPlaces& places, const Field3& field) {
-    const auto told = std::make_shared<std::vector<float>>(places->at.size());
-    return side(who, places, field.bytes(), [field, told](std::span<const Vec3> at, std::span<double> out) {
-        field.distance(at, std::span(*told).first(at.size()));
-        std::copy_n(told->begin(), at.size(), out.begin());
+    const auto values = std::make_shared<std::vector<float>>(places->at.size());
+    return side(who, places, field.bytes(), [field, values](std::span<const Vec3> at, std::span<double> out) {
+        field.distance(at, std::span(*values).first(at.size()));
+        std::copy_n(values->begin(), at.size(), out.begin());
     });
 }
 
@@ -101,11 +100,11 @@ Side openvdb(const char* who, const SharedPlaces& places, OpenvdbDistances dista
     const OpenvdbField field(scene.points, scene.triangles, scene.corner, places->cell, 3, distances);
     Side result = side(who, places, field.bytes(),
                        [field](std::span<const Vec3> at, std::span<double> out) { field.distance(at, out); });
-    result.strays = 0.02;  // where its signs are wrong
+    result.strays = 0.02;  // its signs are wrong there
     return result;
 }
 
-/// Some round off more than others: in cells, they differ by as much.
+/// Tolerance in cells: some round off edges more than others.
 constexpr double tolerance = 0.4;
 
 Job look_up(const SharedPlaces& places) {
@@ -131,12 +130,12 @@ Job look_up(const SharedPlaces& places) {
                  one_by_one("abut gradient", places, gradient),
                  all_at_once("abut gradient many", places, gradient),
                  one_by_one("abut half cell 16 bit", places, half),
-                 openvdb("openvdb", places, OpenvdbDistances::tidied),
+                 openvdb("openvdb", places, OpenvdbDistances::cleaned),
                  openvdb("openvdb measured", places, OpenvdbDistances::measured)};
     return job;
 }
 
-/// In a box of 16 cells about a point of the surface.
+/// In a box of 16 cells around a surface point.
 Job cached() {
     const auto places = std::make_shared<Places>();
     oracle::Random random(4);
@@ -157,7 +156,7 @@ Job near() {
     return look_up(places);
 }
 
-/// In all of the cube.
+/// In the entire cube.
 Job random_places() {
     const auto places = std::make_shared<Places>();
     oracle::Random random(6);

@@ -11,7 +11,7 @@
 namespace abut::bench {
 
 FieldOptions<3> FieldScene::options(std::uint32_t cells) const {
-    // A little less, so that rounding adds no cell.
+    // Slightly less, so that rounding adds no cell.
     const float size = cell(cells) * (static_cast<float>(cells) - 0.25f);
     return {.cell = cell(cells), .volume = Aabb3{corner, corner + Vec3(size)}};
 }

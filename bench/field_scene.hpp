@@ -1,6 +1,6 @@
 #pragma once
 
-// A closed mesh that fields are baked of, and places near its surface.
+// A closed mesh to bake fields of, and points near its surface.
 
 #include "../test/oracle/random.hpp"
 #include <abut/bake/field.hpp>
@@ -20,24 +20,24 @@ namespace abut::bench {
 struct FieldScene {
     std::vector<Vec3> points;
     std::vector<glm::uvec3> triangles;
-    Vec3 corner{};   ///< the least of the cube
-    float side = 0;  ///< of the cube
+    Vec3 corner{};   ///< minimum corner of the cube
+    float side = 0;  ///< edge of the cube
 
     float cell(std::uint32_t cells) const { return side / static_cast<float>(cells); }
-    /// For a field of just so many cells along each axis.
+    /// Options for a field of exactly this many cells along each axis.
     FieldOptions<3> options(std::uint32_t cells) const;
 };
 using SharedFieldScene = std::shared_ptr<const FieldScene>;
 
 SharedFieldScene field_scene();
 
-/// Up to `reach` from the surface, in no order.
+/// Points up to `reach` from the surface, in random order.
 std::vector<Vec3> places_near(const FieldScene& scene, float reach, std::size_t count, oracle::Random& random);
 
-/// The samples of a field of so many cells that these are closest to.
+/// The lattice samples closest to these points, for a field of this many cells.
 std::vector<Vec3> samples_at(const FieldScene& scene, std::uint32_t cells, std::span<const Vec3> places);
 
-/// In cells, from -1 to 1: beyond that some keep less than others.
+/// Clamped to [-1, 1] cells: beyond that some fields store less than others.
 inline double near_in_cells(double distance, float cell) {
     const double cells = distance / static_cast<double>(cell);
     return cells < -1 ? -1 : cells > 1 ? 1 : cells;

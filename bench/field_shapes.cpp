@@ -1,5 +1,5 @@
-// Balls and boxes beside a field of 128^3 cells, and beside the mesh it was baked of; and boxes and cylinders in any
-// pose beside a crate of 12 x 8 x 12 cells.
+// Balls and boxes against a field of 128^3 cells and against its mesh; and boxes and cylinders in any pose against a
+// crate's field of 12 x 8 x 12 cells.
 
 #include "bench.hpp"
 #include "field_scene.hpp"
@@ -23,7 +23,7 @@ namespace abut::bench {
 namespace {
 
 constexpr std::uint32_t cells = 128;
-constexpr std::size_t asked = 4096;
+constexpr std::size_t shape_count = 4096;
 
 struct Level {
     SharedFieldScene scene = field_scene();
@@ -32,24 +32,25 @@ struct Level {
     float cell = field.cell();
 };
 
-/// Of three cells' radius; their centers are outside and up to twice that from the surface.
+/// Balls with a radius of three cells; their centers are outside, up to twice that from the surface.
 std::vector<Sphere> balls(const Level& level) {
     oracle::Random random(7);
     const float radius = 3 * level.cell;
     std::vector<Sphere> result;
-    for (const Vec3& p : places_near(*level.scene, 2 * radius, 8 * asked, random))
-        if (result.size() < asked && level.field.distance(p) > level.cell) result.push_back({p, radius});
+    for (const Vec3& p : places_near(*level.scene, 2 * radius, 8 * shape_count, random))
+        if (result.size() < shape_count && level.field.distance(p) > level.cell) result.push_back({p, radius});
     return result;
 }
 
-/// Of six cells' size, flat on what is below their middle, up to half a cell above or below it.
+/// Boxes of six cells, aligned to the surface below, up to half a cell above or below it.
 std::vector<Box3> resting_boxes(const Level& level) {
     oracle::Random random(8);
     const float half = 3 * level.cell;
     std::vector<Box3> result;
-    for (const Vec3& p : places_near(*level.scene, 0, asked, random)) {
+    for (const Vec3& p : places_near(*level.scene, 0, shape_count, random)) {
         const Vec3 normal = level.field.sample(p).normal;
-        // By as much as turns y to the normal; straight down has no such turn, but any that turns over will do.
+        // The rotation that takes y to the normal. For the opposite direction it is not unique, and any half turn will
+        // do.
         const float turn = 1 + normal.y;
         const Rotation<3> rotation =
             turn > 1e-3f ? glm::normalize(Rotation<3>(turn, normal.z, 0, -normal.x)) : Rotation<3>(0, 1, 0, 0);
@@ -59,16 +60,17 @@ std::vector<Box3> resting_boxes(const Level& level) {
     return result;
 }
 
-/// ask(shape, field or mesh), one value each.
-template <class Shape, class Ask>
-Job beside_both(const std::shared_ptr<const Level>& level, const std::vector<Shape>& shapes, Ask ask) {
-    // What the two are is not the same: a mesh is a surface, and a field is solid and rounds off what is finer than it.
-    Job job{.items = asked, .values = asked, .tolerance = std::numeric_limits<double>::infinity(), .sides = {}};
+/// Calls ask(shape, field or mesh), one value each.
+template <class Shape, class Run>
+Job beside_both(const std::shared_ptr<const Level>& level, const std::vector<Shape>& shapes, Run run) {
+    // The two differ: a mesh is a surface, and a field is solid and smooths details finer than its cells.
+    Job job{
+        .items = shape_count, .values = shape_count, .tolerance = std::numeric_limits<double>::infinity(), .sides = {}};
     job.sides.push_back({"abut", [=](std::span<double> values) {
-                             for (std::size_t i = 0; i < asked; ++i) values[i] = ask(shapes[i], level->field);
+                             for (std::size_t i = 0; i < shape_count; ++i) values[i] = run(shapes[i], level->field);
                          }});
     job.sides.push_back({"abut mesh", [=](std::span<double> values) {
-                             for (std::size_t i = 0; i < asked; ++i) values[i] = ask(shapes[i], level->mesh);
+                             for (std::size_t i = 0; i < shape_count; ++i) values[i] = run(shapes[i], level->mesh);
                          }});
     return job;
 }
@@ -81,27 +83,27 @@ constexpr auto depth = [](const auto& shape, const auto& ground) {
     return static_cast<double>(contact(shape, ground).depth);
 };
 
-template <class Ask>
-std::function<Job()> of_balls(Ask ask) {
-    return [ask] {
+template <class Run>
+std::function<Job()> of_balls(Run run) {
+    return [run] {
         const auto level = std::make_shared<const Level>();
-        return beside_both(level, balls(*level), ask);
+        return beside_both(level, balls(*level), run);
     };
 }
 
-template <class Ask>
-std::function<Job()> of_boxes(Ask ask) {
-    return [ask] {
+template <class Run>
+std::function<Job()> of_boxes(Run run) {
+    return [run] {
         const auto level = std::make_shared<const Level>();
-        return beside_both(level, resting_boxes(*level), ask);
+        return beside_both(level, resting_boxes(*level), run);
     };
 }
 
-/// A crate, and poses around and in it from which something moves to somewhere in it and on.
-struct Ways {
+/// A crate, and poses around and in it, with motions between them.
+struct PoseMotions {
     static constexpr std::size_t count = 100;
 
-    Ways() {
+    PoseMotions() {
         oracle::Random random(5);
         const Aabb3 box = bounds(field);
         const Vec3 middle = 0.5f * (box.min + box.max), half = 0.5f * (box.max - box.min);
@@ -129,37 +131,37 @@ bool holds(const Cylinder& cylinder, const Vec3& point) {
     return glm::length(Vec3(0, point.y, point.z)) <= cylinder.radius;
 }
 
-/// Of the distances on a grid in a shape the least.
+/// The minimum of distances sampled on a grid in the shape.
 template <class Shape>
-double least_sampled(const Shape& shape, const Pose3& pose, const Field3& field) {
-    constexpr int most = 12;
+double min_sampled(const Shape& shape, const Pose3& pose, const Field3& field) {
+    constexpr int last = 12;
     const Aabb3 box = bounds(view(shape));
-    double least = std::numeric_limits<double>::infinity();
-    for (int x = 0; x <= most; ++x)
-        for (int y = 0; y <= most; ++y)
-            for (int z = 0; z <= most; ++z) {
-                const Vec3 own = box.min + (box.max - box.min) * Vec3(x, y, z) / static_cast<float>(most);
+    double min_distance = std::numeric_limits<double>::infinity();
+    for (int x = 0; x <= last; ++x)
+        for (int y = 0; y <= last; ++y)
+            for (int z = 0; z <= last; ++z) {
+                const Vec3 own = box.min + (box.max - box.min) * Vec3(x, y, z) / static_cast<float>(last);
                 if (!holds(shape, own)) continue;
                 const Sphere place{pose.position + pose.rotation * own, 0};
-                least = std::min(least, static_cast<double>(closest(place, field).distance));
+                min_distance = std::min(min_distance, static_cast<double>(closest(place, field).distance));
             }
-    return least;
+    return min_distance;
 }
 
-/// ask(shape, ways, i) beside sampled(shape, ways, i), and how long the longest takes.
-template <class Shape, class Ask, class Sampled>
-std::function<Job()> of_poses(const Shape& shape, double tolerance, Ask ask, Sampled sampled) {
+/// Compares ask(shape, ways, i) with sampled(shape, ways, i), and measures the slowest call.
+template <class Shape, class Run, class Sampled>
+std::function<Job()> of_poses(const Shape& shape, double tolerance, Run run, Sampled sampled) {
     return [=] {
-        const auto ways = std::make_shared<const Ways>();
-        Job job{.items = Ways::count, .values = Ways::count, .tolerance = tolerance, .sides = {}};
+        const auto motions = std::make_shared<const PoseMotions>();
+        Job job{.items = PoseMotions::count, .values = PoseMotions::count, .tolerance = tolerance, .sides = {}};
         const auto worst = [=] {
             using Clock = std::chrono::steady_clock;
             double longest = 0;
-            for (std::size_t i = 0; i < Ways::count; ++i) {
+            for (std::size_t i = 0; i < PoseMotions::count; ++i) {
                 double shortest = std::numeric_limits<double>::infinity();
                 for (int k = 0; k < 5; ++k) {
                     const auto start = Clock::now();
-                    ask(shape, *ways, i);
+                    run(shape, *motions, i);
                     shortest =
                         std::min(shortest, std::chrono::duration<double, std::micro>(Clock::now() - start).count());
                 }
@@ -168,42 +170,44 @@ std::function<Job()> of_poses(const Shape& shape, double tolerance, Ask ask, Sam
             return std::vector<Figure>{{"worst, us", longest}};
         };
         job.sides.push_back({.who = "abut",
-                             .ask =
+                             .run =
                                  [=](std::span<double> values) {
-                                     for (std::size_t i = 0; i < Ways::count; ++i) values[i] = ask(shape, *ways, i);
+                                     for (std::size_t i = 0; i < PoseMotions::count; ++i)
+                                         values[i] = run(shape, *motions, i);
                                  },
                              .figures = worst});
         job.sides.push_back({"samples", [=](std::span<double> values) {
-                                 for (std::size_t i = 0; i < Ways::count; ++i) values[i] = sampled(shape, *ways, i);
+                                 for (std::size_t i = 0; i < PoseMotions::count; ++i)
+                                     values[i] = sampled(shape, *motions, i);
                              }});
         return job;
     };
 }
 
-constexpr auto pose_gap = [](const auto& shape, const Ways& ways, std::size_t i) {
-    return static_cast<double>(closest(at(shape, ways.poses[i]), ways.field).distance);
+constexpr auto pose_gap = [](const auto& shape, const PoseMotions& motions, std::size_t i) {
+    return static_cast<double>(closest(at(shape, motions.poses[i]), motions.field).distance);
 };
-constexpr auto sampled_gap = [](const auto& shape, const Ways& ways, std::size_t i) {
-    return least_sampled(shape, ways.poses[i], ways.field);
+constexpr auto sampled_gap = [](const auto& shape, const PoseMotions& motions, std::size_t i) {
+    return min_sampled(shape, motions.poses[i], motions.field);
 };
-constexpr auto pose_depth = [](const auto& shape, const Ways& ways, std::size_t i) {
-    return std::max(static_cast<double>(contact(at(shape, ways.poses[i]), ways.field).depth), 0.0);
+constexpr auto pose_depth = [](const auto& shape, const PoseMotions& motions, std::size_t i) {
+    return std::max(static_cast<double>(contact(at(shape, motions.poses[i]), motions.field).depth), 0.0);
 };
-constexpr auto sampled_depth = [](const auto& shape, const Ways& ways, std::size_t i) {
-    return std::max(-least_sampled(shape, ways.poses[i], ways.field), 0.0);
+constexpr auto sampled_depth = [](const auto& shape, const PoseMotions& motions, std::size_t i) {
+    return std::max(-min_sampled(shape, motions.poses[i], motions.field), 0.0);
 };
-constexpr auto pose_fraction = [](const auto& shape, const Ways& ways, std::size_t i) {
-    const auto hit = sweep(at(shape, ways.poses[i]), ways.motions[i], ways.field);
+constexpr auto pose_fraction = [](const auto& shape, const PoseMotions& motions, std::size_t i) {
+    const auto hit = sweep(at(shape, motions.poses[i]), motions.motions[i], motions.field);
     return hit ? static_cast<double>(hit->fraction) : 1.0;
 };
-/// The same, unless samples touch before.
-constexpr auto sampled_fraction = [](const auto& shape, const Ways& ways, std::size_t i) {
-    const double reported = pose_fraction(shape, ways, i);
-    if (least_sampled(shape, ways.poses[i], ways.field) < 0) return reported;
+/// Compares motions, unless samples touch earlier.
+constexpr auto sampled_fraction = [](const auto& shape, const PoseMotions& motions, std::size_t i) {
+    const double reported = pose_fraction(shape, motions, i);
+    if (min_sampled(shape, motions.poses[i], motions.field) < 0) return reported;
     for (double time = 0; time < reported; time += 0.02) {
-        Pose3 pose = ways.poses[i];
-        pose.position += ways.motions[i] * static_cast<float>(time);
-        if (least_sampled(shape, pose, ways.field) < -1e-3) return time;
+        Pose3 pose = motions.poses[i];
+        pose.position += motions.motions[i] * static_cast<float>(time);
+        if (min_sampled(shape, pose, motions.field) < -1e-3) return time;
     }
     return reported;
 };

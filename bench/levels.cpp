@@ -1,5 +1,5 @@
-// A box and a capsule at a terrain of a hundred thousand triangles: does it touch anything, and what, and where? And in
-// a solid level of three thousand lumps: does it touch anything? About half of them touch something.
+// A box and a capsule against a terrain of a hundred thousand triangles: overlap test, contacts and manifolds. The
+// overlap test also against a solid level of three thousand brushes. About half of them touch something.
 
 #include "levels.hpp"
 
@@ -23,7 +23,7 @@ constexpr std::uint32_t columns = 224;
 constexpr std::size_t lump_count = 3000;
 constexpr std::uint64_t seed = 1;
 
-/// The peers calculate with tolerances, Bullet in floats: of what just touches or just doesn't, some say otherwise.
+/// The peers use tolerances, Bullet floats: for barely touching shapes some answers differ.
 constexpr double few = 0.01;
 
 SharedLevelScene scene_of(const std::variant<Box3, Capsule3>& shape) {
@@ -42,11 +42,11 @@ SharedLevelScene scene_of(const std::variant<Box3, Capsule3>& shape) {
 template <class Level>
 Side overlaps_by_abut(const SharedLevelScene& scene, const Level& level) {
     return {"abut", [scene, level](std::span<double> values) {
-                const auto ask = [&](const auto& shape) {
+                const auto run = [&](const auto& shape) {
                     for (std::size_t i = 0; i < values.size(); ++i)
                         values[i] = overlaps(at(shape, scene->poses[i]), level) ? 1 : 0;
                 };
-                std::visit(ask, scene->shape);
+                std::visit(run, scene->shape);
             }};
 }
 
@@ -58,7 +58,7 @@ Job overlaps_at_all(const SharedLevelScene& scene) {
             .sides = {overlaps_by_abut(scene, *Mesh::build(scene->points, scene->triangles)), bullet, fcl}};
 }
 
-/// Boxes of 1 to 4 with corners cut off, here and there over one another.
+/// Boxes of 1 to 4 with truncated corners, partly overlapping.
 Job overlaps_in_solid(const std::variant<Box3, Capsule3>& shape) {
     oracle::Random random(seed);
     constexpr double half = 30;
@@ -81,7 +81,7 @@ Job overlaps_in_solid(const std::variant<Box3, Capsule3>& shape) {
         std::vector<Vec3> corners;
         for (std::uint32_t i = 0; i < part.count; ++i)
             corners.push_back(to_float(part.place.point(DVec<3>(part.vertices()[i]))));
-        scene->lumps.push_back(*Polyhedron::build(corners));
+        scene->brushes.push_back(*Polyhedron::build(corners));
         return true;
     });
     for (std::size_t i = 0; i < query_count; ++i)
@@ -91,7 +91,7 @@ Job overlaps_in_solid(const std::variant<Box3, Capsule3>& shape) {
     return {.items = query_count, .values = query_count, .sides = {overlaps_by_abut(scene, solid), bullet}};
 }
 
-/// Visits the triangles that it touches one by one, whatever is told of their surface as a whole.
+/// Visits the triangles touched one by one, without joining their manifolds.
 template <class Shape, class Visit>
 void each_touched(const Shape& shape, const Mesh& mesh, Visit&& visit) {
     each_part(mesh, bounds(shape), [&](const Triangle3& triangle, std::uint32_t index) {
@@ -100,8 +100,8 @@ void each_touched(const Shape& shape, const Mesh& mesh, Visit&& visit) {
     });
 }
 
-/// How many of the triangles touched each_contact leaves out: those that the peers tell of and it doesn't, as their
-/// normals are not the ground's. NaN, which nothing agrees with, where it tells of one that isn't touched, or twice.
+/// The count of touched triangles that each_contact leaves out as ghost contacts: peers report them, but their normals
+/// are not surface normals. NaN if it reports a triangle that isn't touched, or one twice.
 template <class Shape>
 double ghosts_of(const Shape& shape, const Mesh& mesh) {
     std::vector<std::uint32_t> touched;
@@ -113,8 +113,8 @@ double ghosts_of(const Shape& shape, const Mesh& mesh) {
     return all_are_touched ? static_cast<double>(touched.size()) : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// All contacts, with places, normals and depths. Every side tells how many triangles are touched; abut has its ghosts,
-/// which were counted before, added to what it finds.
+/// All contacts, with positions, normals and depths. Every side reports the count of touched triangles; abut adds its
+/// ghost contacts, counted in advance.
 Job contacts(const SharedLevelScene& scene) {
     const Mesh mesh = *Mesh::build(scene->points, scene->triangles);
     std::vector<double> ghosts;
@@ -124,29 +124,29 @@ Job contacts(const SharedLevelScene& scene) {
         },
         scene->shape);
     const Side ours{"abut", [scene, mesh, ghosts = std::move(ghosts)](std::span<double> values) {
-                        const auto ask = [&](const auto& shape) {
+                        const auto run = [&](const auto& shape) {
                             for (std::size_t i = 0; i < values.size(); ++i) {
                                 values[i] = ghosts[i];
                                 each_contact(at(shape, scene->poses[i]), mesh, [&](const Contact<3>&) { ++values[i]; });
                             }
                         };
-                        std::visit(ask, scene->shape);
+                        std::visit(run, scene->shape);
                     }};
     Side bullet = bullet_level_contacts(scene), fcl = fcl_level_contacts(scene);
     bullet.strays = fcl.strays = few;
     return {.items = query_count, .values = query_count, .sides = {ours, bullet, fcl}};
 }
 
-/// Which triangles are touched, and no more.
+/// Touched triangles only.
 Job touched(const SharedLevelScene& scene) {
     const Side ours{"abut", [scene, mesh = *Mesh::build(scene->points, scene->triangles)](std::span<double> values) {
-                        const auto ask = [&](const auto& shape) {
+                        const auto run = [&](const auto& shape) {
                             for (std::size_t i = 0; i < values.size(); ++i) {
                                 values[i] = 0;
                                 each_touched(at(shape, scene->poses[i]), mesh, [&](std::uint32_t) { ++values[i]; });
                             }
                         };
-                        std::visit(ask, scene->shape);
+                        std::visit(run, scene->shape);
                     }};
     Side fcl = fcl_level_touched(scene);
     fcl.strays = few;

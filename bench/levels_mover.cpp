@@ -1,4 +1,4 @@
-// Characters that walk over rough ground: the cost of one step of a Mover.
+// Characters that walk over rough terrain: the cost of one step of a Mover.
 
 #include "../scenes/terrain.hpp"
 #include "bench.hpp"
@@ -15,10 +15,10 @@ namespace {
 
 constexpr std::size_t walker_count = 256;
 constexpr std::uint64_t seed = 1;
-constexpr std::uint32_t columns = 224;  // of two triangles each, squared: 100,352
+constexpr std::uint32_t columns = 224;  // squares per side, of two triangles each: 100,352
 constexpr int segment_count = 100000;
 
-/// Frames of a sixtieth of a second: a brisk walk, in whole circles, and as much down as it falls in the first of them.
+/// Frames of 1/60 s: a fast walk in circles, with the downward motion of the first frame's fall.
 constexpr float stride = 0.06f, fall = 0.02f;
 constexpr int frames_around = 600;
 
@@ -27,10 +27,10 @@ struct Walkers {
     World<D> world;
     std::vector<Mover<D>> movers;
     std::vector<Vec<D>> positions;
-    std::vector<int> started;  ///< in which frame of its circle it starts
+    std::vector<int> started;  ///< frame of its circle in which it starts
     int frame = 0;
 
-    /// So many above ground that reaches this far from the middle.
+    /// This many walkers above ground that extends this far from the middle.
     void place(oracle::Random& random, double reach) {
         for (std::size_t i = 0; i < walker_count; ++i) {
             movers.emplace_back();
@@ -40,12 +40,12 @@ struct Walkers {
             positions.push_back(position);
             started.push_back(static_cast<int>(random.below(frames_around)));
         }
-        // Until they walk on the ground.
+        // Runs until they walk on the ground.
         std::vector<double> grounded(walker_count);
         for (int i = 0; i < 200; ++i) step(grounded);
     }
 
-    /// Tells how far above the lowest ground each is.
+    /// Writes each walker's height above the lowest ground.
     void step(std::span<double> values) {
         Vec<D> a(0.0f), b(0.0f);
         a[1] = -0.5f;

@@ -1,4 +1,5 @@
-// abut beside its peers: nanoseconds an item, all in one run, on the same scenes, after checking that all say the same.
+// abut compared with its peers: nanoseconds per item, all in one run and on the same scenes, after verifying that all
+// answers agree.
 
 #include "bench.hpp"
 #include "measure.hpp"
@@ -54,7 +55,7 @@ std::vector<Bench> all_benches() {
     return result;
 }
 
-/// Options of the benchmark library's own: the sides of a job take turns.
+/// Options of the benchmark library: the sides of a job are interleaved.
 void set_up_timing() {
     char program[] = "abut_bench", take_turns[] = "--benchmark_enable_random_interleaving=true";
     char* arguments[] = {program, take_turns, nullptr};

@@ -14,13 +14,13 @@ namespace abut::bench {
 namespace {
 
 constexpr int repetitions = 25;
-constexpr double seconds_each = 0.008;     // at least; a call that takes longer is made once
-constexpr double seconds_of_frames = 0.3;  // about, a side: where frames are long, there are fewer repetitions
-constexpr double seconds_of_calls = 1;     // the same where one call is long; three are made at least
+constexpr double seconds_each = 0.008;     // minimum per repetition; a longer call is made once
+constexpr double seconds_of_frames = 0.3;  // approximate total per side: long frames have fewer repetitions
+constexpr double seconds_of_calls = 1;     // approximate total per side for long calls; at least three are made
 
 struct Answers {
     std::vector<double> values;
-    double seconds;  ///< a call, about
+    double seconds;  ///< approximate time per call
 };
 
 Answers answers(const Side& side, const Job& job) {
@@ -28,26 +28,26 @@ Answers answers(const Side& side, const Job& job) {
     for (std::size_t round = 0; round < job.rounds; ++round) {
         if (side.prepare) side.prepare();
         const auto begin = std::chrono::steady_clock::now();
-        side.ask(std::span(result.values).subspan(round * job.values, job.values));
+        side.run(std::span(result.values).subspan(round * job.values, job.values));
         result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     }
     return result;
 }
 
-/// How many frames a repetition has, and how many of those there are, where a call takes so long.
+/// The frames per repetition, and the repetitions, by the time per call.
 struct Effort {
     Effort(double seconds, std::size_t wanted_frames)
         : frames(seconds > too_long ? 2 : static_cast<int>(wanted_frames)),
-          repetitions(static_cast<int>(std::clamp(seconds_of_frames / (seconds * frames), 1.0, most))) {}
+          repetitions(static_cast<int>(std::clamp(seconds_of_frames / (seconds * frames), 1.0, max_repetitions))) {}
 
     int frames, repetitions;
 
 private:
     static constexpr double too_long = 0.5;
-    static constexpr double most = abut::bench::repetitions;
+    static constexpr double max_repetitions = abut::bench::repetitions;
 };
 
-/// Compares the values of a row's side with abut's.
+/// Compares a side's values with abut's.
 void compare(const std::vector<double>& ours, const std::vector<double>& theirs, double tolerance, double strays,
              Row& row) {
     std::size_t count = 0, first = 0;
@@ -74,7 +74,7 @@ double mean(const std::vector<double>& numbers) {
     return std::accumulate(numbers.begin(), numbers.end(), 0.0) / static_cast<double>(numbers.size());
 }
 
-/// Keeps the time of a call from every repetition, by the number of the side that the benchmark is named by.
+/// Stores the time per call of every repetition, by the side's index in the benchmark's name.
 class Collector : public benchmark::BenchmarkReporter {
 public:
     Collector(std::size_t sides, bool on_the_wall) : times_(sides), on_the_wall_(on_the_wall) {}
@@ -88,7 +88,7 @@ public:
                     static_cast<double>(run.iterations));
     }
 
-    /// Of one call, in seconds, one for each repetition.
+    /// Seconds per call, one for each repetition.
     const std::vector<double>& times(std::size_t side) const { return times_[side]; }
 
 private:
@@ -104,7 +104,7 @@ void time_calls(benchmark::State& state, const Side& side, std::size_t value_cou
             side.prepare();
             state.ResumeTiming();
         }
-        side.ask(values);
+        side.run(values);
         benchmark::ClobberMemory();
     }
 }
@@ -130,7 +130,7 @@ std::vector<Row> measure(const Bench& bench) {
         compare(ours, values, job.tolerance, side.strays, row);
     }
 
-    // The time of the thread, most often, not of the clock on the wall: what else the machine does should not count.
+    // Usually the thread's processor time and not wall-clock time, so that other processes don't count.
     const auto add = [&job](std::size_t number, const Side& side, double seconds) {
         benchmark::internal::Benchmark* registered = benchmark::RegisterBenchmark(
             std::to_string(number).c_str(),
@@ -145,7 +145,7 @@ std::vector<Row> measure(const Bench& bench) {
         }
     };
     for (std::size_t i = 0; i < job.sides.size(); ++i) add(i, job.sides[i], seconds_a_call[i]);
-    // To stop the clock between frames takes time as well, half a microsecond. A side that does nothing tells how much.
+    // Pausing the clock between frames takes about 0.5 us. An empty side measures that overhead.
     const Side nothing{"", [](std::span<double>) {}, [] {}};
     if (job.frames > 0) add(job.sides.size(), nothing, 0);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// From a job to the rows of the table: first whether all sides agree, then how long each takes.
+// Turns a job into rows of the table: verifies that all sides agree, then measures each.
 
 #include "bench.hpp"
 
@@ -12,18 +12,18 @@ namespace abut::bench {
 struct Row {
     std::string bench;
     std::string who;
-    double ns = 0;                ///< an item: the median over the repetitions
-    bool is_mean = false;         ///< ... or the mean, where frames were timed
-    bool on_the_wall = false;     ///< not the processor's time
-    double ratio = 0;             ///< abut's ns / this one's
-    double over_best = 0;         ///< of the side that chooses: its ns / the least of abut's others; 0 of any other
-    double answer = 0;            ///< the sum of all values of the verified calls
-    std::string difference;       ///< from abut's values; empty: none
-    std::vector<Figure> figures;  ///< what its side tells of itself
-    bool agrees = true;           ///< no difference but for the forgiven strays
+    double ns = 0;                ///< per item: the median over repetitions
+    bool is_mean = false;         ///< the mean instead, if frames were timed
+    bool on_the_wall = false;     ///< wall-clock time instead of processor time
+    double ratio = 0;             ///< abut's ns / this side's ns
+    double over_best = 0;         ///< for the side that chooses: its ns / the minimum of abut's others; else 0
+    double answer = 0;            ///< sum of all values of the verified calls
+    std::string difference;       ///< difference from abut's values; empty: none
+    std::vector<Figure> figures;  ///< figures of the side
+    bool agrees = true;           ///< no difference beyond the tolerated ones
 };
 
-/// One row a side. The sides take turns, in random order, so that a machine that changes its speed changes it for all.
+/// One row per side. Sides are interleaved in random order, so that changes of the machine's speed affect all alike.
 std::vector<Row> measure(const Bench& bench);
 
 }  // namespace abut::bench

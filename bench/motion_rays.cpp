@@ -1,5 +1,5 @@
-// The first hit of rays that have nothing to do with one another, at meshes of which each is a kind: a scan, closed and
-// finely rough; a terrain; and a large one. And what it takes to build for them.
+// First hits of incoherent rays on meshes of different kinds: a scan, closed and finely rough; a terrain; and a large
+// mesh. Also tree builds.
 
 #include "motion_rays.hpp"
 
@@ -15,15 +15,15 @@ namespace {
 constexpr std::size_t ray_count = 16384;
 constexpr std::uint64_t seed = 1;
 
-// Far hits are rounded by as much, and each library passes some edge on its own side.
+// Tolerance for distant hits, and for rays at edges, which libraries assign to different sides.
 constexpr double tolerance = 1e-3, few = 1e-3;
 
-/// Embree reads sixteen bytes of each point, also of the last.
+/// Embree reads sixteen bytes of each point, including the last.
 void make_room_to_read(RayMesh& mesh) {
     mesh.points.reserve(mesh.points.size() + 2);
 }
 
-/// About a stone of radius 1, from all sides at whatever is in or about it.
+/// Rays around a stone of radius 1, from all directions to points in and around it.
 SharedRayMesh scan() {
     oracle::Random random(seed);
     scenes::BumpyBall ball = scenes::bumpy_ball(147, 0.2, 0.001, random);
@@ -37,7 +37,7 @@ SharedRayMesh scan() {
     return result;
 }
 
-/// From above the ground, at another place of it: most go a long way just over it.
+/// Rays from above the ground to another point of it: most travel far just above it.
 SharedRayMesh terrain(std::uint32_t columns) {
     oracle::Random random(seed);
     scenes::Terrain ground = scenes::random_terrain(columns, random);
@@ -72,9 +72,9 @@ Job rays(const SharedRayMesh& scene) {
     return {.items = ray_count,
             .values = ray_count,
             .tolerance = tolerance,
-            .sides = {ours, straying(embree_rays(scene, Quality::usual, Edges::quick)),
+            .sides = {ours, straying(embree_rays(scene, Quality::usual, Edges::fast)),
                       straying(embree_rays(scene, Quality::usual, Edges::robust)),
-                      straying(embree_rays(scene, Quality::high, Edges::quick)),
+                      straying(embree_rays(scene, Quality::high, Edges::fast)),
                       straying(embree_rays(scene, Quality::high, Edges::robust)), straying(bullet_rays(scene))}};
 }
 

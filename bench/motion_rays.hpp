@@ -1,7 +1,7 @@
 #pragma once
 
-// Rays at one mesh, and what the peers make of it: one file a peer. One value a ray: the distance, or -1 for a miss. A
-// build tells how far a ray goes afterwards.
+// Ray casts against one mesh, and the peers' answers: one file per peer. One value per ray: the distance, or -1 for a
+// miss. A build job reports the distance of a ray afterwards.
 
 #include "bench.hpp"
 #include <abut/math/ray.hpp>
@@ -22,11 +22,11 @@ struct RayMesh {
 using SharedRayMesh = std::shared_ptr<const RayMesh>;
 
 enum class Quality { usual, high };
-enum class Edges { quick, robust };
+enum class Edges { fast, robust };
 
 Side embree_rays(const SharedRayMesh& scene, Quality quality, Edges edges);
 Side embree_mesh_build(const SharedRayMesh& scene, Quality quality);
-/// btBvhTriangleMeshShape, its tree quantised.
+/// btBvhTriangleMeshShape with a quantised tree.
 Side bullet_rays(const SharedRayMesh& scene);
 Side bullet_mesh_build(const SharedRayMesh& scene);
 

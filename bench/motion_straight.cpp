@@ -1,4 +1,4 @@
-// One shape moves straight up to another, or past it.
+// Linear sweeps of one shape against another.
 
 #include "narrow.hpp"
 #include "straight.hpp"
@@ -10,19 +10,19 @@ namespace abut::bench {
 
 namespace {
 
-/// How near or deep they come, about.
+/// Approximate minimum distance or maximum depth.
 template <class A, class B>
 float least_distance(const A& a, const Pose<dimension<A>>& pose, const Vec<dimension<A>>& motion, const B& there) {
     constexpr int moments = 64;
-    float least = std::numeric_limits<float>::infinity();
+    float min_distance = std::numeric_limits<float>::infinity();
     for (int i = 0; i <= moments; ++i) {
         const Pose<dimension<A>> now{pose.position + motion * (static_cast<float>(i) / moments), pose.rotation};
-        least = std::min(least, closest(scenes::placed(a, now), there).distance);
+        min_distance = std::min(min_distance, closest(scenes::placed(a, now), there).distance);
     }
-    return least;
+    return min_distance;
 }
 
-/// From without, towards a point in or near the other shape and as far behind it; what grazes it is left out.
+/// Motions from outside to a point in or near the other shape and as far beyond it; grazing motions are left out.
 template <class A, class B>
 StraightScene<dimension<A>> straight(const Kind<A>& kind_a, const Kind<B>& kind_b, std::size_t count = pair_count) {
     constexpr int D = dimension<A>;
@@ -57,7 +57,7 @@ Side abut_straight(const StraightScene<dimension<A>>& scene) {
             })};
 }
 
-// The peers stop a little before the other shape, Box2D by 0.005 along the normal.
+// The peers stop slightly early, Box2D by 0.005 along the normal.
 
 Job job(std::vector<Side> sides) {
     return {.items = pair_count, .values = pair_count, .tolerance = 0.05, .sides = std::move(sides)};

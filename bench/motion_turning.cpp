@@ -1,4 +1,4 @@
-// Boxes that turn on their way, from pose to pose: when do they meet?
+// Sweeps with rotation: the time of impact of boxes between two poses.
 
 #include "../test/oracle/random.hpp"
 #include "each_pair.hpp"
@@ -16,12 +16,12 @@ namespace {
 constexpr std::size_t pair_count = 1024;
 constexpr double pi = 3.14159265358979323846;
 
-/// As wide as they like, or twenty times as long.
+/// Random proportions, or rods with an aspect ratio of twenty.
 enum class Form { any, rod };
 
 template <int D>
-Angle<D> turn_by(oracle::Random& random, double most) {
-    const double angle = random.uniform(-most, most);
+Angle<D> turn_by(oracle::Random& random, double max_angle) {
+    const double angle = random.uniform(-max_angle, max_angle);
     if constexpr (D == 2)
         return static_cast<float>(angle);
     else
@@ -36,23 +36,23 @@ Box<D> box_of(oracle::Random& random, Form form) {
     return result;
 }
 
-/// Two boxes that start apart and come near one another midway, each turning by up to `most`; about half of them meet.
-/// Those that barely do, or barely don't, are left out.
+/// Two boxes that start apart and come close midway, each rotating by up to `max_angle`; about half of them collide.
+/// Pairs that barely collide, or barely don't, are left out.
 template <int D>
-TurningScene<D> turning(Form form, double most) {
+RotationScene<D> rotating_boxes(Form form, double max_angle) {
     oracle::Random random(1);
-    TurningScene<D> scene;
+    RotationScene<D> scene;
     const double aside = form == Form::rod ? 1.5 : 4;
     while (scene.pairs.size() < pair_count) {
         TurningPair<D> pair;
         Motion<D> motions[2];
-        const DVec<D> way = random.direction<D>() * random.uniform(2, 5);
+        const DVec<D> motion = random.direction<D>() * random.uniform(2, 5);
         TurningBox<D>* const both[2] = {&pair.a, &pair.b};
         for (int i = 0; i < 2; ++i) {
-            const DVec<D> half = way * (i == 0 ? 0.5 : -0.5);
+            const DVec<D> half = motion * (i == 0 ? 0.5 : -0.5);
             motions[i] = {{to_float(half), random.rotation<D>()},
                           to_float(-2.0 * half + random.in_cube<D>() * aside),
-                          turn_by<D>(random, most)};
+                          turn_by<D>(random, max_angle)};
             *both[i] = {box_of<D>(random, form), motions[i].from, pose_at(motions[i], 1), motions[i].turn};
         }
         const TurningBox<D>&a = pair.a, &b = pair.b;
@@ -69,12 +69,12 @@ TurningScene<D> turning(Form form, double most) {
 }
 
 template <int D>
-Side abut_turning(const TurningScene<D>& scene) {
-    return {"abut", each_pair(std::make_shared<const TurningScene<D>>(scene),
+Side abut_turning(const RotationScene<D>& scene) {
+    return {"abut", each_pair(std::make_shared<const RotationScene<D>>(scene),
                               [](const TurningPair<D>& pair, std::size_t) -> double {
                                   const auto& [a, b] = pair;
                                   const auto hit = sweep(a.box, a.from, a.to, b.box, b.from, b.to);
-                                  return hit ? hit->fraction : no_meeting;
+                                  return hit ? hit->fraction : no_impact;
                               })};
 }
 
@@ -84,16 +84,16 @@ Side straying(Side side, double share) {
 }
 
 Job job(std::vector<Side> sides) {
-    // Peers stop early, by a slop in space.
+    // Peers stop early by a distance tolerance.
     return {.items = pair_count, .values = pair_count, .tolerance = 0.02, .sides = std::move(sides)};
 }
 
-Job in_plane(double most) {
-    const TurningScene<2> scene = turning<2>(Form::any, most);
+Job in_plane(double max_angle) {
+    const RotationScene<2> scene = rotating_boxes<2>(Form::any, max_angle);
     return job({abut_turning(scene), straying(box2d_turning(scene), 1)});
 }
-Job in_space(Form form, double most) {
-    const TurningScene<3> scene = turning<3>(form, most);
+Job in_space(Form form, double max_angle) {
+    const RotationScene<3> scene = rotating_boxes<3>(form, max_angle);
     return job({abut_turning(scene), straying(bullet_turning(scene), 1), straying(fcl_turning(scene), 1)});
 }
 

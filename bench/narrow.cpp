@@ -1,5 +1,5 @@
-// Pairs of shapes: distances, decisions, contacts, overlaps and rays. Each pair from nothing, but for those named
-// coherent: there each call is about the next frame of a motion, and what a side can keep of the last one, it keeps.
+// Pairs of shapes: distances, overlap tests, contacts, intersections and ray casts. Each call starts cold, except in
+// coherent rows: there each call is about the next frame of a motion, and sides may warm start.
 
 #include "narrow.hpp"
 

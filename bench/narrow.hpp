@@ -1,6 +1,6 @@
 #pragma once
 
-// What the narrow benches share: how scenes are drawn, and abut's side of a job.
+// Shared by the narrow phase benches: random scenes, and abut's sides.
 
 #include "../scenes/moving_pairs.hpp"
 #include "bench.hpp"
@@ -21,13 +21,12 @@ using scenes::ConvexPairs;
 using scenes::Gaps;
 
 constexpr std::size_t pair_count = 1024;
-/// More than a processor learns by heart: of 1024 pairs that are asked again and again it comes to know which way each
-/// branch goes.
+/// Too many for branch prediction to memorise: for 1024 repeated pairs a processor learns each branch.
 constexpr std::size_t many = 65536;
-constexpr std::size_t hull_count = 32;  // so many different ones on each side
+constexpr std::size_t hull_count = 32;  // count of distinct hulls on each side
 constexpr std::uint64_t seed = 1;
 
-/// Shapes to be drawn at random.
+/// Random shapes.
 template <class S>
 struct Kind {
     using Shape = S;
@@ -44,7 +43,7 @@ inline constexpr Kind<Polyhedron> hulls{[](oracle::Random& random) { return scen
 
 inline constexpr Kind<Circle> circles{scenes::random_ball<2>, pair_count};
 inline constexpr Kind<Polygon> polygons{
-    // of 3 to 8 corners
+    // of 3 to 8 vertices
     [](oracle::Random& random) { return scenes::random_polygon(random, 3 + random.below(6)); }, pair_count};
 
 template <class S>
@@ -64,14 +63,14 @@ ConvexPairs<dimension<A>> resting(const Kind<A>& a, const Kind<B>& b, const Gaps
     return scenes::resting_pairs(maker, count, gaps);
 }
 
-/// Which gaps the pairs have midway, and between which ones they stay.
+/// The distances of pairs midway, and their range over all frames.
 struct Course {
     Gaps midway, always;
     Along along = Along::any;
 };
 inline constexpr Course always_apart{{0.3, 1}, {0.01, 2}};
 inline constexpr Course touching{{-0.25, -0.05}, {-0.4, -0.005, 0.001}, Along::surface};
-inline constexpr Course mostly_apart{{-0.05, 0.3}, {-0.3, 0.6, 0.001}};  // about one in ten touches at any time
+inline constexpr Course mostly_apart{{-0.05, 0.3}, {-0.3, 0.6, 0.001}};  // about 10 % touch at any time
 
 template <class A, class B>
 ConvexPairs<dimension<A>> moving(const Kind<A>& a, const Kind<B>& b, const Course& course) {
@@ -85,7 +84,7 @@ ConvexPairs<dimension<A>> moving(const Kind<A>& a, const Kind<B>& b, const Cours
 template <class S>
 using PlacedShape = decltype(scenes::placed(std::declval<const S&>(), Pose<dimension<S>>()));
 
-/// The pairs of a scene whose shapes are all of type A and B, as a game holds them.
+/// The pairs of a scene in their static types A and B, as a game holds them.
 template <class A, class B>
 struct OwnPairs {
     explicit OwnPairs(const ConvexPairs<dimension<A>>& from) : scene(from) {
@@ -100,7 +99,7 @@ struct OwnPairs {
     std::vector<std::pair<PlacedShape<A>, PlacedShape<B>>> pairs;
 };
 
-/// question(a, b, options), where coherent frames have a cache for each pair.
+/// Runs question(a, b, options); coherent frames have a cache per pair.
 template <class A, class B, class Question>
 Side abut_side(const ConvexPairs<dimension<A>>& scene, Question question) {
     auto own = std::make_shared<const OwnPairs<A, B>>(scene);
@@ -134,7 +133,7 @@ Side abut_contact(const ConvexPairs<dimension<A>>& scene) {
     });
 }
 
-/// A peer that is known to be off in such a share of its values.
+/// A peer with a known fraction of wrong values.
 inline Side straying(Side side, double share) {
     side.strays = share;
     return side;

@@ -1,4 +1,4 @@
-// How far apart: pairs in space, and hulls above a terrain.
+// Distances: pairs in 3D, and hulls above a terrain.
 
 #include "narrow.hpp"
 #include "upper_halves.hpp"
@@ -10,8 +10,8 @@ namespace {
 
 constexpr Gaps apart{0.01, 1}, mixed{-0.3, 0.5};
 
-// The quicker of Bullet's two GJKs stops too early in a few of a thousand pairs, and either is off in some of large
-// hulls: abut's gaps prove themselves (certify), and its depths are the oracle's.
+// The faster of Bullet's two GJKs stops too early in a few of a thousand pairs, and either is off for some large hulls:
+// abut's distances carry certificates (certify), and its depths equal the oracle's.
 constexpr double few = 0.01, some = 0.02;
 
 template <class A, class B>
@@ -34,7 +34,7 @@ Job closest_mixed(const Kind<A>& a, const Kind<B>& b) {
                        straying(fcl_signed_closest(scene), few)});
 }
 
-// What Bullet and FCL have a closed form for.
+// Pairs for which Bullet and FCL have closed forms.
 
 Job capsules_at(const Gaps& gaps, std::size_t count = pair_count) {
     const ConvexPairs<3> scene = resting(capsules, capsules, gaps, count);
@@ -47,12 +47,12 @@ Job sphere_and_box_apart(std::size_t count = pair_count) {
 Job sphere_and_box_mixed(std::size_t count = pair_count) {
     const ConvexPairs<3> scene = resting(spheres, boxes<3>, mixed, count);
     std::vector<Side> sides{abut_closest<Sphere, Box3>(scene), bullet_closest_of_sphere_and_box(scene)};
-    // FCL takes a twentieth of a millisecond where its polytope has to grow into a round shape.
+    // FCL takes 0.05 ms where EPA must approximate a round shape.
     if (count == pair_count) sides.push_back(straying(fcl_signed_closest(scene), few));
     return job(scene, std::move(sides));
 }
 
-/// A caller that leaves the upper halves of its vector registers in use, beside one that doesn't.
+/// A caller that leaves the upper halves of vector registers dirty, compared with one that doesn't.
 Job sphere_and_box_dirty() {
     const ConvexPairs<3> scene = resting(spheres, boxes<3>, apart);
     const auto in_use = [](const Sphere& a, const Box3& b, const QueryOptions<3>&) -> double {
@@ -66,7 +66,7 @@ Job sphere_and_box_dirty() {
     return job(scene, {abut_side<Sphere, Box3>(scene, in_use), other});
 }
 
-/// Hulls above a terrain of 20,000 triangles, as high as a walker's foot or a flying thing.
+/// Hulls above a terrain of 20,000 triangles, at the height of a walker's lower end or of a flying object.
 MeshScene hulls_above_terrain() {
     oracle::Random random(seed);
     MeshScene scene{scenes::random_terrain(100, random), {}, {}};

@@ -1,4 +1,4 @@
-// Where and how deep they touch.
+// Contact points and depths.
 
 #include "narrow.hpp"
 
@@ -8,8 +8,8 @@ namespace {
 
 constexpr Gaps shallow{-0.03, -0.01}, deep{-0.4, -0.1};
 
-// The oracle confirms abut's depths. Both peers have the box detector of ODE, which takes the axis across two edges
-// only where it is clearly better than a face, and so tells more than the least depth.
+// The oracle confirms abut's depths. Both peers use ODE's box detector, which prefers face axes over edge axes and so
+// overestimates depths.
 constexpr double few = 0.01, some = 0.15;
 
 Job boxes_with(const ConvexPairs<3>& scene, double strays) {
@@ -25,7 +25,7 @@ Job sliding_stacks() {
     return boxes_with(scenes::sliding_stacks(pair_count, random), 0);
 }
 
-// libccd stops at a face of its polytope that is not the nearest one.
+// libccd stops at a face of its polytope that is not the closest one.
 
 Job hulls_with(const ConvexPairs<3>& scene) {
     return job(scene, {abut_contact<Polyhedron, Polyhedron>(scene), straying(bullet_contact_of_hulls(scene), few),
@@ -42,7 +42,7 @@ Job hulls_mostly_apart() {
 Job capsule_and_box_at(const Gaps& gaps) {
     const ConvexPairs<3> scene = resting(capsules, boxes<3>, gaps);
     std::vector<Side> sides{abut_contact<Capsule3, Box3>(scene), straying(bullet_contact(scene), few)};
-    // FCL takes milliseconds where its polytope has to grow into a round shape.
+    // FCL takes milliseconds where EPA must approximate a round shape.
     if (gaps.low >= shallow.low) sides.push_back(straying(fcl_depth(scene), few));
     return job(scene, std::move(sides));
 }

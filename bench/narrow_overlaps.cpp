@@ -1,4 +1,4 @@
-// Do they touch: yes or no.
+// Overlap tests.
 
 #include "narrow.hpp"
 

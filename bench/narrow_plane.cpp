@@ -1,4 +1,4 @@
-// In the plane: distances, decisions, contacts and overlaps.
+// 2D: distances, overlap tests, contacts and intersections.
 
 #include "narrow.hpp"
 #include <abut/query/intersection.hpp>
@@ -31,7 +31,7 @@ Job overlap_of(const Kind<S>& kind, const Gaps& gaps) {
     return job(scene, {abut_overlaps<S, S>(scene), box2d_overlaps(scene)});
 }
 
-/// Box2D tells one contact of 65,536 for none.
+/// Box2D misses one contact of 65,536.
 template <class S>
 Job contact_with(const ConvexPairs<2>& scene) {
     return job(scene, {abut_contact<S, S>(scene), straying(box2d_contact_of_polygons(scene), 2e-5)});
@@ -49,7 +49,7 @@ Job polygon_and_circle_at(const Gaps& gaps, std::size_t count = pair_count) {
     return job(scene, {abut_contact<Polygon, Circle>(scene), box2d_contact_of_polygon_and_circle(scene)});
 }
 
-/// The area of what both have in common.
+/// The area of the intersection.
 Job intersection_of_polygons() {
     const ConvexPairs<2> scene = resting(octagons, octagons, mixed);
     const Side ours = abut_side<Polygon, Polygon>(

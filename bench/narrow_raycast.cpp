@@ -1,4 +1,4 @@
-// Rays, each against one shape.
+// Ray casts against single shapes.
 
 #include "narrow.hpp"
 #include <abut/query/raycast.hpp>
@@ -10,10 +10,10 @@ namespace abut::bench {
 
 namespace {
 
-// Bullet's cast ends a little before round shapes, and hits a few that it should miss; rays cut by the shapes' own
-// formulas, and by the hulls' planes, in double confirm abut's values.
+// Bullet's cast stops slightly before round shapes, and hits a few that it should miss. Closed forms in double, and the
+// planes of hulls, confirm abut's values.
 
-/// From without, towards points in and near the shape; rays that graze it are left out.
+/// Rays from outside to points in and near the shape; grazing rays are left out.
 template <class S>
 RayScene<dimension<S>> rays_at(const Kind<S>& kind, std::size_t count = pair_count) {
     constexpr int D = dimension<S>;

@@ -10,7 +10,7 @@
 namespace abut::bench {
 namespace {
 
-// The mesh as OpenVDB asks for it: points in its own index space.
+// The mesh in OpenVDB's interface: points in index space.
 class Triangles {
 public:
     Triangles(std::span<const Vec3> points, std::span<const glm::uvec3> triangles,
@@ -46,9 +46,9 @@ OpenvdbField::OpenvdbField(std::span<const Vec3> points, std::span<const glm::uv
     const auto transform = openvdb::math::Transform::createLinearTransform(static_cast<double>(cell));
     transform->postTranslate(openvdb::Vec3d(origin.x, origin.y, origin.z));
     const Triangles mesh(points, triangles, *transform);
-    const int flags = distances == OpenvdbDistances::tidied ? 0
-                                                            : openvdb::tools::DISABLE_INTERSECTING_VOXEL_REMOVAL |
-                                                                  openvdb::tools::DISABLE_RENORMALIZATION;
+    const int flags = distances == OpenvdbDistances::cleaned ? 0
+                                                             : openvdb::tools::DISABLE_INTERSECTING_VOXEL_REMOVAL |
+                                                                   openvdb::tools::DISABLE_RENORMALIZATION;
     oneapi::tbb::task_arena one_thread(1);
     grid_ = one_thread.execute([&] {
         return std::make_shared<Grid>(
@@ -59,7 +59,7 @@ OpenvdbField::OpenvdbField(std::span<const Vec3> points, std::span<const glm::uv
 
 void OpenvdbField::distance(std::span<const Vec3> points, std::span<double> out) const {
     const openvdb::FloatGrid::ConstAccessor accessor = grid_->grid->getConstAccessor();
-    // Not by its GridSampler, which asks the transform anew, through a virtual function, for each point.
+    // GridSampler is not used: it applies the transform through a virtual function per point.
     for (std::size_t i = 0; i < points.size(); ++i) {
         const openvdb::Vec3d place(points[i].x, points[i].y, points[i].z);
         out[i] = static_cast<double>(

@@ -13,17 +13,17 @@
 namespace abut::bench {
 
 enum class OpenvdbDistances {
-    tidied,    ///< as it makes them where nothing else is said: what crosses itself is cut away, and all is smoothed
-    measured,  ///< as they come from the triangles
+    cleaned,   ///< default options: self-intersections are removed, and the field is smoothed
+    measured,  ///< unmodified distances to the triangles
 };
 
 class OpenvdbField {
 public:
-    /// With voxels from `origin` on, and so many of them kept on each side of the surface.
+    /// Bakes with voxels from `origin` on and this half width of the band.
     OpenvdbField(std::span<const Vec3> points, std::span<const glm::uvec3> triangles, const Vec3& origin, float cell,
                  float band, OpenvdbDistances distances);
 
-    /// At each point, interpolated between the eight voxels around it.
+    /// Trilinear interpolation at each point.
     void distance(std::span<const Vec3> points, std::span<double> out) const;
 
     std::size_t bytes() const;

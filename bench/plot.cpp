@@ -6,7 +6,7 @@ namespace abut::bench {
 
 namespace {
 
-/// A side's place in the list, which it is added to.
+/// The index of a side in the list, which it is added to.
 std::size_t number_of(const std::string& who, std::vector<std::string>& sides) {
     const auto found = std::ranges::find(sides, who);
     const auto number = static_cast<std::size_t>(found - sides.begin());

@@ -1,6 +1,6 @@
 #pragma once
 
-// What a picture of the bench is made of: a job for each place on its x axis.
+// A chart of the bench: one job per x value.
 
 #include "bench.hpp"
 #include "chart.hpp"
@@ -25,8 +25,8 @@ struct Plot {
 
 std::vector<Plot> broad_plots();
 
-/// Adds what was measured at one place on the x axis to the lines, one a side. `sides`: all so far, by which a side has
-/// the same color in all charts.
+/// Adds the rows measured at one x value to the lines, one per side. `sides`: all sides so far, so that a side has the
+/// same color in all charts.
 void add_rows(Chart& chart, double x, std::span<const Row> rows, std::vector<std::string>& sides);
 
 }  // namespace abut::bench

@@ -1,5 +1,5 @@
-// In which order turned boxes in the cells of a grid can be taken away: by the line that sweeps over them, and for a
-// thousand of them by looking at all pairs too. No peer that is a Debian package has this question.
+// Disassembly order of rotated boxes in the cells of a grid: by sweep line, and for a thousand boxes also by all pairs.
+// No peer among the Debian packages has this query.
 
 #include "../test/oracle/random.hpp"
 #include "bench.hpp"
@@ -17,7 +17,7 @@ namespace {
 
 constexpr Vec2 away(0.3f, 1);
 
-/// The boxes have their numbers in any order.
+/// The boxes are numbered in random order.
 std::vector<Convex<2>> boxes_in_cells(std::size_t count) {
     oracle::Random random(7);
     const auto columns = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(count))));
@@ -33,10 +33,13 @@ std::vector<Convex<2>> boxes_in_cells(std::size_t count) {
     return boxes;
 }
 
-/// The lowest of those that nobody is above, again and again; who is above whom, by a plane between each two.
+/// Removes the lowest box that nothing is above, repeatedly; separating planes decide which of two boxes is above the
+/// other.
 std::vector<std::uint32_t> order_by_pairs(std::span<const Convex<2>> boxes) {
     const DVec<2> up = normalized(DVec<2>(away)), right(up.y, -up.x);
-    const auto reach = [](const Convex<2>& box, const DVec<2>& way) { return dot(support(box, way), way); };
+    const auto reach = [](const Convex<2>& box, const DVec<2>& direction) {
+        return dot(support(box, direction), direction);
+    };
     std::vector<std::vector<std::uint32_t>> lowers(boxes.size());
     std::vector<std::uint32_t> waits(boxes.size(), 0);
     for (std::uint32_t i = 0; i < boxes.size(); ++i)

@@ -1,6 +1,6 @@
 #pragma once
 
-// The broad phases of the library that the rows compare: the one list to extend.
+// The library's broad phases that the rows compare: the one list to extend.
 
 #include "bench.hpp"
 #include <abut/broad_phase/brute_force.hpp>
@@ -17,18 +17,18 @@
 
 namespace abut::bench {
 
-/// "abut" in the table, the side that all ratios are about: what docs/broad_phases.md says to take.
+/// "abut" in the table, the reference for ratios: the recommendation of docs/broad_phases.md.
 template <int D>
 using ForPairs = Grid<D>;
 template <int D>
 using ForQueries = Bvh<D>;
 
-/// The most boxes that a side is given, so that a frame takes it less than a second, and the whole bench minutes.
+/// The maximum number of boxes for a side, so that a frame takes it less than a second, and the bench minutes.
 struct Limits {
     std::size_t moving = 1'000'000;
-    std::size_t skewed = moving;   ///< where sizes and places are
-    std::size_t scratch = moving;  ///< where it is built anew in each frame
-    std::size_t queries = moving;  ///< in a structure of so many that rest
+    std::size_t skewed = moving;   ///< for skewed sizes and positions
+    std::size_t scratch = moving;  ///< for a rebuild per frame
+    std::size_t queries = moving;  ///< for queries of this many static boxes
 };
 
 template <class Phase>
@@ -38,7 +38,7 @@ struct Structure {
     Limits limits = {};
 };
 
-/// visit(structure) for each.
+/// Calls visit(structure) for each.
 template <int D, class Visit>
 void each_structure(Visit visit) {
     visit(Structure<BruteForce<D>>{"BruteForce", {.moving = 1000}});
@@ -50,13 +50,13 @@ void each_structure(Visit visit) {
     visit(Structure<ChosenBroadPhase<D>>{"chosen"});
 }
 
-/// Tells the one that chooses how its boxes are used; the others don't care.
+/// Informs the adaptive structure how its boxes are used; others ignore it.
 template <class Phase>
 void tell(Phase& phase, const BroadPhaseHistory& history) {
     if constexpr (requires { phase.tell(history); }) phase.tell(history);
 }
 
-/// visit(structure, who) for the one that is "abut", and then for the others.
+/// Calls visit(structure, who) for the one that is "abut", and then for the others.
 template <int D, class Taken, class Visit>
 void each_side(Visit visit) {
     visit(Structure<Taken>{""}, std::string("abut"));

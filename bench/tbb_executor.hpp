@@ -1,6 +1,6 @@
 #pragma once
 
-// abut's Executor by oneTBB: what a game that has it would write.
+// abut's Executor with oneTBB, as a game that uses it would write it.
 
 #include <abut/math/executor.hpp>
 

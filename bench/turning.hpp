@@ -1,6 +1,6 @@
 #pragma once
 
-// Boxes that move and turn, from pose to pose in one step, and the peers that say when two of them meet.
+// Sweeps of boxes with rotation, and the peers' times of impact.
 
 #include "bench.hpp"
 #include <abut/math/motion.hpp>
@@ -12,25 +12,25 @@ namespace abut::bench {
 
 template <int D>
 struct TurningBox {
-    Box<D> box;  ///< about the origin of what moves
+    Box<D> box;  ///< about the origin of the moving frame
     Pose<D> from, to;
-    Angle<D> turn;  ///< what leads from the one to the other: by up to half a turn
+    Angle<D> turn;  ///< rotation between the poses: by up to half a turn
 };
 template <int D>
 struct TurningPair {
     TurningBox<D> a, b;
 };
 template <int D>
-struct TurningScene {
+struct RotationScene {
     std::vector<TurningPair<D>> pairs;
 };
 
-// The fraction at which they meet, or `no_meeting`.
+// The fraction of impact, or `no_impact`.
 
-constexpr double no_meeting = 2;
+constexpr double no_impact = 2;
 
-Side box2d_turning(const TurningScene<2>& scene);
-Side bullet_turning(const TurningScene<3>& scene);
-Side fcl_turning(const TurningScene<3>& scene);
+Side box2d_turning(const RotationScene<2>& scene);
+Side bullet_turning(const RotationScene<3>& scene);
+Side fcl_turning(const RotationScene<3>& scene);
 
 }  // namespace abut::bench

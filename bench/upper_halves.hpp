@@ -7,8 +7,8 @@
 
 namespace abut::bench {
 
-/// Closest(sphere, box).distance, where the caller has left the upper halves of its vector registers in use; or not,
-/// where the processor has none.
+/// closest(sphere, box).distance, with the upper halves of vector registers dirty or not. Without AVX both are the
+/// same.
 float distance_with_upper_halves_in_use(const Sphere& sphere, const Box3& box);
 float distance_with_upper_halves_cleared(const Sphere& sphere, const Box3& box);
 

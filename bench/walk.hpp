@@ -1,6 +1,6 @@
 #pragma once
 
-// Walkers, nearest places and ways on hills, and the peers that have such.
+// Walkers, closest points and paths on hills, and the peers that have them.
 
 #include "bench.hpp"
 #include <abut/walk/walk_mesh.hpp>
@@ -13,8 +13,8 @@
 
 namespace abut::bench {
 
-/// Round hills with small bumps: `columns` x `columns` squares of edge 1, two triangles each, y up. Heights are
-/// multiples of 1/256, places whole numbers, as Detour keeps them.
+/// Smooth hills with small bumps: `columns` x `columns` squares of edge 1, two triangles each, y up. Heights are
+/// multiples of 1/256 and coordinates integers, as Detour stores them.
 struct WalkScene {
     std::uint32_t columns = 0;
     std::vector<Vec3> points;
@@ -24,35 +24,35 @@ struct WalkScene {
 using SharedWalkScene = std::shared_ptr<const WalkScene>;
 SharedWalkScene walk_scene(std::uint32_t columns);
 
-/// Walkers that go straight on, level, and now and then another way; those that don't get through, at once.
+/// Walkers that go straight at a constant speed and change their direction from time to time; blocked ones do so at
+/// once.
 struct WalkSteps {
     SharedWalkScene scene;
     float length = 0;
     std::vector<WalkPoint> starts;
-    std::vector<Vec3> headings;       ///< level, of that length
-    std::vector<std::uint32_t> ways;  ///< of each walker at first, one of `headings`
+    std::vector<Vec3> headings;                   ///< horizontal, of that length
+    std::vector<std::uint32_t> initial_headings;  ///< initial index in `headings`, per walker
 };
 using SharedWalkSteps = std::shared_ptr<const WalkSteps>;
 
 inline constexpr std::uint32_t frames_a_way = 64;
-/// Frames in a row before it is another side's turn, so that each walks in its own caches. Places are compared after
-/// the first.
+/// Consecutive frames per side, so that each side runs with warm caches. Positions are compared after the first.
 inline constexpr std::uint32_t frames_a_turn = 8;
-/// Which way a walker goes next.
-inline std::uint32_t next_way(const WalkSteps& steps, std::uint32_t way) {
-    return (way + 389) % static_cast<std::uint32_t>(steps.headings.size());
+/// The next heading of a walker.
+inline std::uint32_t next_heading(const WalkSteps& steps, std::uint32_t heading) {
+    return (heading + 389) % static_cast<std::uint32_t>(steps.headings.size());
 }
 
-/// The side whose walkers advance() frame by frame, tell(values) where they are, and know a lost_share() of their
-/// steps; `lost` is what that is called.
+/// A side with walkers: advance() moves them by a frame, tell(values) writes their positions, and lost_share() is the
+/// fraction of lost steps, named `lost`.
 template <class Walkers>
 Side walking_side(const char* who, const char* lost, std::shared_ptr<Walkers> walkers, std::size_t values_count) {
     return {.who = who,
-            .ask =
+            .run =
                 [walkers, later = std::vector<double>(values_count)](std::span<double> values) mutable {
                     for (std::uint32_t frame = 0; frame < frames_a_turn; ++frame) {
                         walkers->advance();
-                        walkers->tell(frame == 0 ? values : later);
+                        walkers->write(frame == 0 ? values : later);
                     }
                 },
             .figures =
@@ -63,31 +63,31 @@ Side walking_side(const char* who, const char* lost, std::shared_ptr<Walkers> wa
                 }};
 }
 
-/// moveAlongSurface: the places seen from above, as it tells no heights; `with_heights` sets them by getPolyHeight, as
+/// moveAlongSurface: horizontal positions only, as it has no heights; `with_heights` sets heights by getPolyHeight, as
 /// dtPathCorridor does.
 Side detour_steps(const SharedWalkSteps& steps, bool with_heights);
 
 struct WalkPoints {
     SharedWalkScene scene;
     std::vector<Vec3> points;
-    float reach = 0;  ///< farther than the farthest of them is away
+    float reach = 0;  ///< above the maximum distance of any point
 };
 using SharedWalkPoints = std::shared_ptr<const WalkPoints>;
 
-/// Each tells how far away the nearest place of the surface is.
+/// Each writes the distance of the closest surface point.
 Side detour_nearest(const SharedWalkPoints& points);
 Side cgal_nearest(const SharedWalkPoints& points);
 Side embree_nearest(const SharedWalkPoints& points);
 
-struct WalkWays {
+struct WalkPaths {
     SharedWalkScene scene;
     std::vector<WalkPoint> from, to;
 };
-using SharedWalkWays = std::shared_ptr<const WalkWays>;
+using SharedWalkPaths = std::shared_ptr<const WalkPaths>;
 
-/// findPath and findStraightPath: how long the ways are.
-Side detour_ways(const SharedWalkWays& ways);
-/// The shortest that there are, over any triangles: Surface_mesh_shortest_path.
-Side cgal_ways(const SharedWalkWays& ways);
+/// findPath and findStraightPath: the lengths of paths.
+Side detour_paths(const SharedWalkPaths& paths);
+/// Exact shortest paths over any triangles: Surface_mesh_shortest_path.
+Side cgal_paths(const SharedWalkPaths& paths);
 
 }  // namespace abut::bench

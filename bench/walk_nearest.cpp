@@ -1,4 +1,4 @@
-// The nearest place of hills: of points near to where they were last, of points above, and of points far away.
+// Closest points on hills: of points near their last positions, of points above, and of distant points.
 
 #include "../test/oracle/random.hpp"
 #include "walk.hpp"
@@ -19,15 +19,15 @@ WalkPoint random_place(const WalkScene& scene, oracle::Random& random) {
     return {triangle, Vec3(DVec<3>(first, second, 1 - first - second))};
 }
 
-/// Points up to `away` from the surface, each near a place of it.
+/// Points up to `away` from the surface, each near a surface point.
 WalkPoints points_near(std::uint32_t columns, float away, std::vector<WalkPoint>& places) {
     constexpr std::uint64_t seed = 3;
     oracle::Random random(seed);
     WalkPoints result{walk_scene(columns), {}, away + 0.01f};
     for (std::size_t i = 0; i < point_count; ++i) {
         places.push_back(random_place(*result.scene, random));
-        const DVec<3> way = random.direction<3>() * (random.unit() * static_cast<double>(away));
-        result.points.push_back(to_float(DVec<3>(result.scene->mesh.to_world(places.back())) + way));
+        const DVec<3> direction = random.direction<3>() * (random.unit() * static_cast<double>(away));
+        result.points.push_back(to_float(DVec<3>(result.scene->mesh.to_world(places.back())) + direction));
     }
     return result;
 }
@@ -36,7 +36,7 @@ double distance(const WalkPoints& points, std::size_t i, const WalkPoint& place)
     return length(DVec<3>(points.scene->mesh.to_world(place)) - DVec<3>(points.points[i]));
 }
 
-/// `places`: where those that look near them begin.
+/// `places`: start points of local searches.
 Job nearest(std::uint32_t columns, float away, bool near_last) {
     std::vector<WalkPoint> places;
     const auto points = std::make_shared<const WalkPoints>(points_near(columns, away, places));
@@ -62,7 +62,7 @@ Job nearest(std::uint32_t columns, float away, bool near_last) {
         job.sides = {in_reach, anywhere};
     }
     Side detour = detour_nearest(points);
-    detour.strays = 1;  // what is below a point comes first, and its heights are rounded
+    detour.strays = 1;  // prefers the polygon below a point, and its heights are rounded
     job.sides.push_back(std::move(detour));
     job.sides.push_back(embree_nearest(points));
     job.sides.push_back(cgal_nearest(points));

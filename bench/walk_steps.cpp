@@ -1,4 +1,4 @@
-// Ten thousand walkers on hills, one step each in turn: a twentieth of a cell, one cell, ten cells.
+// Ten thousand walkers on hills, one step each: 1/20 cell, one cell, ten cells.
 
 #include "../test/oracle/random.hpp"
 #include "walk.hpp"
@@ -17,35 +17,36 @@ SharedWalkSteps make_steps(std::uint32_t columns, float length) {
     WalkSteps steps{walk_scene(columns), length, {}, {}, {}};
     constexpr std::uint32_t headings = 1024;
     for (std::uint32_t i = 0; i < headings; ++i) {
-        const DVec<2> way = random.direction<2>() * static_cast<double>(length);
-        steps.headings.push_back(Vec3(DVec<3>(way.x, 0, way.y)));
+        const DVec<2> direction = random.direction<2>() * static_cast<double>(length);
+        steps.headings.push_back(Vec3(DVec<3>(direction.x, 0, direction.y)));
     }
     const auto count = static_cast<std::uint32_t>(steps.scene->triangles.size());
     for (std::size_t i = 0; i < walker_count; ++i) {
         const std::uint32_t triangle = random.below(count);
         const double first = random.unit(), second = (1 - first) * random.unit();
         steps.starts.push_back({triangle, Vec3(DVec<3>(first, second, 1 - first - second))});
-        steps.ways.push_back(random.below(headings));
+        steps.initial_headings.push_back(random.below(headings));
     }
     return std::make_shared<const WalkSteps>(std::move(steps));
 }
 
-/// Steps of space, the level ones that the peers are given.
+/// Steps in world space, the horizontal ones of the peers.
 class LevelWalkers {
 public:
-    explicit LevelWalkers(const SharedWalkSteps& steps) : steps_(steps), places_(steps->starts), ways_(steps->ways) {}
+    explicit LevelWalkers(const SharedWalkSteps& steps)
+        : steps_(steps), places_(steps->starts), headings_(steps->initial_headings) {}
 
     void advance() {
         for (std::size_t i = 0; i < places_.size(); ++i) {
-            const Walked walked = steps_->scene->mesh.walk(places_[i], steps_->headings[ways_[i]]);
+            const Walked walked = steps_->scene->mesh.walk(places_[i], steps_->headings[headings_[i]]);
             places_[i] = walked.place;
             const bool is_lost = walked.met != WalkMet::nothing;
             lost_ += is_lost;
-            if (is_lost || (frame_ + i) % frames_a_way == 0) ways_[i] = next_way(*steps_, ways_[i]);
+            if (is_lost || (frame_ + i) % frames_a_way == 0) headings_[i] = next_heading(*steps_, headings_[i]);
         }
         ++frame_;
     }
-    void tell(std::span<double> values) const {
+    void write(std::span<double> values) const {
         for (std::size_t i = 0; i < places_.size(); ++i) {
             const Vec3 place = steps_->scene->mesh.to_world(places_[i]);
             values[2 * i] = place.x;
@@ -57,11 +58,11 @@ public:
 protected:
     SharedWalkSteps steps_;
     std::vector<WalkPoint> places_;
-    std::vector<std::uint32_t> ways_;
+    std::vector<std::uint32_t> headings_;
     std::size_t frame_ = 0, lost_ = 0;
 };
 
-/// Steps in the frames of triangles, which the surface turns: straight on, step after step.
+/// Steps in the triangles' frames, transported along the surface: geodesics.
 class StraightWalkers : public LevelWalkers {
 public:
     explicit StraightWalkers(const SharedWalkSteps& steps) : LevelWalkers(steps) {
@@ -76,7 +77,7 @@ public:
             const bool is_lost = walked.met != WalkMet::nothing;
             lost_ += is_lost;
             if (is_lost || (frame_ + i) % frames_a_way == 0) {
-                ways_[i] = next_way(*steps_, ways_[i]);
+                headings_[i] = next_heading(*steps_, headings_[i]);
                 steps_on_[i] = anew(i);
             }
         }
@@ -85,7 +86,7 @@ public:
 
 private:
     Vec2 anew(std::size_t i) const {
-        return steps_->scene->mesh.to_plane(places_[i].triangle, steps_->headings[ways_[i]]);
+        return steps_->scene->mesh.to_plane(places_[i].triangle, steps_->headings[headings_[i]]);
     }
 
     std::vector<Vec2> steps_on_;
@@ -96,8 +97,8 @@ Side by_abut(const char* who, const SharedWalkSteps& steps) {
     return walking_side(who, "at borders", std::make_shared<Walkers>(steps), 2 * walker_count);
 }
 
-/// What Detour walks is as long seen from above, and straight so; abut's way is as long on the surface, and straight
-/// there. On slopes the ends are apart by a share of the step.
+/// Detour's steps have their length and are straight seen from above; abut's have their length on the surface, and are
+/// straight there. On slopes the end points differ.
 Job walk(std::uint32_t columns, float length) {
     const SharedWalkSteps steps = make_steps(columns, length);
     Job job;

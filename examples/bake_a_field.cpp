@@ -1,5 +1,5 @@
-// A mesh becomes a field of distances before the game starts. From then on one look-up tells how far its surface is and
-// which way out: a ball rolls into a valley by nothing else, and a lamp throws the shadow of its rim.
+// Bakes a signed distance field of a mesh. At run time one look-up returns the distance to the surface and its normal:
+// a ball rolls into a valley, and a lamp casts soft shadows of its rim.
 
 #include <abut/abut.hpp>
 #include <abut/bake.hpp>
@@ -15,7 +15,7 @@ struct Ground {
     std::vector<glm::uvec3> triangles;
 };
 
-/// A valley along z, as a closed mesh: its profile goes round counter-clockwise, all of it is seen from corner 0.
+/// A valley along z as a closed mesh. Its profile is counter-clockwise and star-shaped around corner 0.
 Ground valley() {
     const std::vector<abut::Vec2> profile{{0, 1}, {-4, 3}, {-4, 0}, {4, 0}, {4, 3}};
     const auto count = static_cast<std::uint32_t>(profile.size());
@@ -52,11 +52,11 @@ int main() {
         const float along = glm::dot(velocity, out);
         if (along < 0) velocity -= out * along;
     }
-    const float rest = 1 + radius * std::sqrt(1.25f);  // where it touches both slopes
+    const float rest = 1 + radius * std::sqrt(1.25f);  // touches both slopes
     std::printf("at rest at (%.2f, %.2f), %.3f above the ground\n", static_cast<double>(ball.x),
                 static_cast<double>(ball.y), static_cast<double>(field->distance(ball)));
 
-    // The same field as a shape, and as what light has to pass.
+    // Uses the field as a shape, and as an occluder of light.
     const bool touches = abut::overlaps(abut::Sphere{ball, radius + 0.1f}, *field);
     const float lit = field->shadow({2, 2, 0}, {-1, 9, 0}), dark = field->shadow({-2, 2, 0}, {-9, 4, 0});
     std::printf("light: %.2f on one slope, %.2f on the other, from behind the rim\n", static_cast<double>(lit),

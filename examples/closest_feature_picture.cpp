@@ -1,5 +1,5 @@
-// The regions by which the closest place on a shape is found: the picture of docs/drawing.md.
-//   example_closest_feature_picture [FILE]          without a file, to the standard output
+// Draws the Voronoi regions of a shape's features. The picture of docs/drawing.md.
+// example_closest_feature_picture [FILE]          writes to stdout without a file
 #include <abut/abut.hpp>
 #include <abut/draw.hpp>
 
@@ -11,7 +11,7 @@ namespace {
 const abut::Style outline{{30, 41, 59}, 2}, regions{{37, 99, 235, 140}, 1, {37, 99, 235, 64}};
 const abut::Style walls{{37, 99, 235, 170}, 1, {37, 99, 235, 14}}, answer{{225, 29, 72}, 2};
 
-/// A part of a canvas, with an origin and a view of its own.
+/// A part of a canvas with its own origin and view.
 class Panel final : public abut::Canvas<2> {
 public:
     Panel(abut::Canvas<2>& whole, const abut::Vec2& origin) : whole_(whole), origin_(origin) {}

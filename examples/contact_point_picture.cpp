@@ -1,5 +1,5 @@
-// What a contact point is: here, and elsewhere. The picture of docs/contact.md.
-//   example_contact_point_picture [FILE]          without a file, to the standard output
+// Draws different definitions of a contact point. The picture of docs/contact.md.
+// example_contact_point_picture [FILE]          writes to stdout without a file
 #include <abut/abut.hpp>
 #include <abut/draw/draw.hpp>
 #include <abut/draw/svg.hpp>
@@ -12,7 +12,7 @@ namespace {
 const abut::Style blue{{37, 99, 235}, 2, {37, 99, 235, 38}}, orange{{217, 119, 6}, 2, {245, 158, 11, 56}};
 const abut::Style mark{{225, 29, 72}, 2, {225, 29, 72, 50}}, help{{225, 29, 72, 150}, 1.5f, abut::transparent, true};
 
-/// The same pair in each panel.
+/// The pair drawn in each panel.
 struct Pair {
     explicit Pair(float x) : a{{x, 1.9f}, {1.25f, 0.9f}}, b{{x + 0.45f, 3.25f}, {1, 0.95f}, abut::Turn::by(0.2f)} {}
 

@@ -1,11 +1,11 @@
-// A crate slides over a floor of many parts until it meets a wall; a bullet doesn't pass through a thin one.
+// A crate slides over a floor of many triangles and hits a wall; a bullet doesn't tunnel through a thin wall.
 #include <abut/abut.hpp>
 
 #include <cstdio>
 #include <vector>
 
 int main() {
-    // A floor of triangles, and a wall that stands on it.
+    // A floor of triangles, and a wall on it.
     std::vector<abut::Vec3> points;
     std::vector<glm::uvec3> triangles;
     for (std::uint32_t i = 0; i <= 16; ++i) {
@@ -18,23 +18,23 @@ int main() {
     const abut::Mesh floor = *abut::Mesh::build(points, triangles);
     const abut::Box3 wall{{12, 1, 0}, {0.0005f, 1, 4}};
 
-    // It rests on the floor: sliding along is no hit, whatever seams it comes over.
+    // The crate rests on the floor: sliding over internal edges is no hit.
     const abut::Box3 crate{{2, 0.5f, 0.3f}, {0.5f, 0.5f, 0.5f}};
     const abut::Vec3 push{14, 0, 0};
     if (sweep(crate, push, floor)) return 1;
-    const auto meets = sweep(crate, push, wall);
-    if (!meets) return 1;
-    std::printf("the crate slides %.4f and meets the wall at %.4f %.4f %.4f\n", static_cast<double>(meets->distance),
-                static_cast<double>(meets->point.x), static_cast<double>(meets->point.y),
-                static_cast<double>(meets->point.z));
+    const auto hit = sweep(crate, push, wall);
+    if (!hit) return 1;
+    std::printf("the crate slides %.4f and hits the wall at %.4f %.4f %.4f\n", static_cast<double>(hit->distance),
+                static_cast<double>(hit->point.x), static_cast<double>(hit->point.y),
+                static_cast<double>(hit->point.z));
 
-    // Some thousand times its own size in one step.
+    // The bullet moves some thousand times its own size in one step.
     const abut::Sphere bullet{{-40, 1.2f, 0}, 0.005f};
     const auto shot = sweep(bullet, {100, 0, 0}, wall);
     if (!shot || !(shot->normal.x < -0.999f)) return 1;
     std::printf("the bullet hits it at %.4f of its step\n", static_cast<double>(shot->fraction));
 
-    // Both move: the fraction is of the same time for both.
+    // Both move: the fraction is the same time for both.
     const abut::Capsule3 gate{{20, 0, 0}, {20, 2, 0}, 0.1f};
     const auto both = sweep(bullet, {100, 0, 0}, gate, {-10, 0, 0});
     if (!both || !(both->point.x > 10 && both->point.x < 20)) return 1;

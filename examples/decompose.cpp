@@ -1,5 +1,5 @@
-// A mesh that isn't convex becomes convex parts before the game starts, and the parts one shape. What rolls over it
-// never feels where part meets part.
+// Decomposes a mesh to convex parts and combines them to one shape. A ball rolls over the seams without ghost
+// collisions.
 
 #include <abut/abut.hpp>
 #include <abut/bake.hpp>
@@ -12,8 +12,8 @@
 
 namespace {
 
-/// A platform in the shape of an L, its top at y = 1: the outline goes round counter-clockwise seen from above, and all
-/// of it is seen from corner 3.
+/// An L-shaped platform with its top at y = 1. The outline is counter-clockwise seen from above, and star-shaped around
+/// corner 3.
 struct Platform {
     std::vector<abut::Vec3> points;
     std::vector<glm::uvec3> triangles;
@@ -41,7 +41,7 @@ Platform platform() {
 
 int main() {
     const Platform mesh = platform();
-    const auto good = abut::repair(mesh.points, mesh.triangles);  // files are rarely as good as this one
+    const auto good = abut::repair(mesh.points, mesh.triangles);  // meshes from files usually need repair
     if (!good) return 1;
     std::printf("mesh: %s\n", abut::described(good->repairs).c_str());
 
@@ -55,7 +55,7 @@ int main() {
     const std::vector<abut::AnyShape<3>> children(parts->begin(), parts->end());
     const abut::Compound3 ground = *abut::Compound3::build(children);
 
-    // A ball rolls along one arm, round the corner and along the other, over the seam.
+    // A ball rolls along one arm, around the corner and along the other arm, over the seam.
     abut::Sphere ball{{5.5f, 1.5f, -1}, 0.5f};
     float lean = 0;
     int steps = 0;
@@ -64,7 +64,7 @@ int main() {
         constexpr int count = 64;
         for (int i = 0; i < count; ++i, ++steps) {
             ball.center += motion / static_cast<float>(count);
-            // A little lower, so that it touches wherever it is.
+            // Slightly lower, so that it touches everywhere.
             const abut::Sphere lower{ball.center - abut::Vec3(0, 1e-3f, 0), ball.radius};
             abut::each_contact(lower, ground, [&](const abut::Contact<3>& contact) {
                 lean = std::max({lean, std::abs(contact.normal.x), std::abs(contact.normal.z)});
@@ -77,7 +77,7 @@ int main() {
 
     const auto wall = abut::sweep(abut::Sphere{{6, 0.5f, -5}, 0.5f}, abut::Vec3(-5, 0, 0), ground);
     if (!wall) return 1;
-    std::printf("from outside it meets the other arm after %g\n", static_cast<double>(wall->distance));
+    std::printf("from outside it hits the other arm after %g\n", static_cast<double>(wall->distance));
     const bool as_expected =
         parts->size() == 2 && went_round && lean < 1e-6f && std::abs(wall->distance - 3.5f) < 1e-4f;
     return as_expected ? 0 : 1;

@@ -1,6 +1,6 @@
-// An island with two lakes as convex parts: as few as can be found, without a corner within another part's edge, and
-// fewer that cover a little more. The picture of docs/decompose_outline.md.
-//   example_decompose_picture [FILE]          without a file, to the standard output
+// Draws three convex decompositions of a polygon with two holes: one with the fewest parts, one without T-junctions,
+// and one that covers slightly more with even fewer parts. The picture of docs/decompose_outline.md.
+// example_decompose_picture [FILE]          writes to stdout without a file
 #include <abut/bake/decompose_outline.hpp>
 #include <abut/draw/draw.hpp>
 #include <abut/draw/svg.hpp>

@@ -1,4 +1,4 @@
-// Do these two touch? And if they don't, how far are they apart?
+// Do these two shapes touch? If not, how far apart are they?
 #include <abut/abut.hpp>
 
 #include <cstdio>

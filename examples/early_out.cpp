@@ -1,4 +1,4 @@
-// In which order shall a guard ask whether it sees the player? Whatever refuses most for its price comes first.
+// Orders the tests that decide whether a guard sees the player: the test that rejects most per cost goes first.
 #include <abut/abut.hpp>
 #include <abut/query/early_out.hpp>
 
@@ -25,7 +25,7 @@ int main() {
         return glm::dot(to_player, to_player) < 15 * 15;
     };
 
-    // The ray, which costs most, was written first. It doesn't stay there.
+    // The ray cast, the most expensive test, is listed first. It doesn't stay first.
     abut::EarlyOut sees{not_hidden, in_front, in_range};
     int seen = 0;
     for (int frame = 0; frame < 10; ++frame) {

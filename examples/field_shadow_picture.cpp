@@ -1,5 +1,5 @@
-// Soft shadows of a lamp, told by a distance field. The picture of docs/fields.md.
-//   example_field_shadow_picture [FILE]          without a file, to the standard output
+// Draws soft shadows of a lamp, computed with a signed distance field. The picture of docs/fields.md.
+// example_field_shadow_picture [FILE]          writes to stdout without a file
 #include <abut/bake/combine_fields.hpp>
 #include <abut/bake/field.hpp>
 #include <abut/draw/draw.hpp>
@@ -17,18 +17,18 @@
 
 namespace {
 
-/// From one direction to another, seen from the lamp.
+/// An interval of directions, seen from the lamp.
 struct Run {
     float from, to;
 };
 
-/// A dark place, ring by ring around the lamp, from one side to the other.
+/// A dark region: one interval per ring around the lamp.
 struct Stain {
     std::vector<abut::Vec2> left, right;
     Run last{};
 };
 
-/// Where the numbers of a ring are less than the level. Its first and its last one are not.
+/// The intervals of a ring in which values are below the level. The first and the last value are not.
 std::vector<Run> runs_below(std::span<const float> ring, float level, float spacing) {
     std::vector<Run> result;
     for (std::size_t i = 1; i < ring.size(); ++i) {
@@ -47,10 +47,10 @@ bool overlap(const Run& a, const Run& b) {
     return a.from < b.to && b.from < a.to;
 }
 
-/// Rings around a lamp, and how much light each of their points gets.
+/// Concentric rings around a lamp with the light at each of their points.
 struct Rings {
     abut::Vec2 lamp;
-    float spacing, angle;  ///< from ring to ring, from direction to direction
+    float spacing, angle;  ///< between rings, between directions
     std::vector<std::vector<float>> light;
 
     abut::Vec2 place(float ring, float direction) const {
@@ -59,8 +59,8 @@ struct Rings {
     }
 };
 
-/// Fills all places where the light is less than the level: runs of neighbouring rings that go on in one another alone
-/// are one polygon.
+/// Fills all regions with less light than the level. A run of intervals of neighbouring rings that overlap one to one
+/// becomes one polygon.
 void draw_below(abut::SvgCanvas& canvas, const Rings& rings, float level, const abut::Style& style) {
     std::vector<Stain> open;
     const auto go_round = [&](Stain& stain, float ring, float from, float to) {

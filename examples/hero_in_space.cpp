@@ -1,11 +1,11 @@
-// A character in a 3D world in 20 lines: over hills and stairs, along a wall, and never through anything.
+// A 3D character controller in 20 lines: walks over hills and stairs and along a wall, and never through anything.
 #include <abut/abut.hpp>
 
 #include <cstdio>
 #include <vector>
 
 int main() {
-    // Hills of triangles, a flight of stairs, and a wall across.
+    // Hills of triangles, stairs, and a wall across the path.
     std::vector<abut::Vec3> points;
     std::vector<glm::uvec3> triangles;
     for (std::uint32_t z = 0; z <= 20; ++z)

@@ -1,4 +1,4 @@
-// A platformer's hero in 20 lines: walks up a step and a slope, jumps, and lands on a platform that takes it along.
+// A 2D platformer character in 20 lines: walks up a step and a slope, jumps, and lands on a platform that carries it.
 #include <abut/abut.hpp>
 
 #include <algorithm>
@@ -30,6 +30,6 @@ int main() {
     }
     std::printf("came as far as %.2f, as high as %.2f, and %s the lift\n", static_cast<double>(farthest),
                 static_cast<double>(highest), rode ? "rode" : "missed");
-    // The wall stops it, by about the skin.
+    // The wall stops it at a distance of about the skin.
     return rode && farthest > 24.5f && farthest < 24.65f ? 0 : 1;
 }

@@ -1,5 +1,5 @@
-// A hero who can't leave the level: a place on a walk mesh, a door that is closed, things that are found by the world,
-// and a monster that comes after.
+// A character that can't leave the level: a position on a walk mesh, a closed door, items found through a World, and a
+// monster that follows a path.
 #include <abut/abut.hpp>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t columns = 24, rows = 12, wall = 12, door = 6;
 
-/// Two rooms of hills. The wall between them is what isn't there, but for one square, the doorway.
+/// Two rooms of hills. Missing triangles form the wall between them, except for one square, the doorway.
 abut::WalkMesh make_level(std::vector<std::uint8_t>& is_door) {
     std::vector<abut::Vec3> points;
     std::vector<glm::uvec3> triangles;
@@ -30,13 +30,13 @@ abut::WalkMesh make_level(std::vector<std::uint8_t>& is_door) {
     return *abut::WalkMesh::build(points, triangles);
 }
 
-/// One step of at most `reach` on the shortest way to a target; false where there is none.
+/// Moves one step of at most `reach` along the shortest path to a target; false if there is none.
 bool follow(const abut::WalkMesh& level, abut::WalkPoint& place, const abut::WalkPoint& target, float reach,
             const abut::WalkAllow& allow) {
-    const auto way = level.path(place, target, {.allow = allow});
-    if (!way) return false;
+    const auto path = level.path(place, target, {.allow = allow});
+    if (!path) return false;
     const abut::Vec3 here = level.to_world(place);
-    for (const abut::Vec3& next : *way) {
+    for (const abut::Vec3& next : *path) {
         const float distance = glm::length(next - here);
         if (distance < 1e-3f) continue;
         place = level.walk(place, (next - here) * std::min(1.0f, reach / distance), {.allow = allow}).place;
@@ -57,7 +57,7 @@ int main() {
         return is_open || (is_door[from.triangle] == 0 && is_door[to.triangle] == 0);
     };
 
-    // What lies about stands on the level, wherever it was put.
+    // Items are placed on the level's surface.
     abut::World3 world;
     const auto put = [&](const abut::Vec3& where, std::uint32_t layer, std::uint32_t mask) {
         const abut::Vec3 ground = level.to_world(level.nearest(where));
@@ -71,7 +71,7 @@ int main() {
     const abut::Id hero_id = put({4, 0, 6.4f}, hero_layer, coin_layer | key_layer | monster_layer);
     const abut::Id monster_id = put({1, 0, 1}, monster_layer, hero_layer);
 
-    // As a player would, to the right, until something is in the way: the door.
+    // Walks to the right, as a player would, until the door blocks it.
     bool met_door = false;
     for (int frame = 0; frame < 200 && !met_door; ++frame) {
         const abut::Walked walked = level.walk(hero, abut::Vec3(hero_speed, 0, 0), {.allow = may_pass});
@@ -85,7 +85,7 @@ int main() {
     int coins = 0, frame = 0;
     bool is_caught = false;
     for (; frame < 2000 && !is_caught; ++frame) {
-        // To the key, then to the nearest coin; with none left it waits.
+        // Goes to the key, then to the nearest coin; waits if none is left.
         const auto next =
             world.closest(level.to_world(hero), {.mask = is_open ? coin_layer : key_layer, .sensors = true});
         if (next) follow(level, hero, level.nearest(world.pose(next->id).position), hero_speed, may_pass);

@@ -1,4 +1,4 @@
-// A laser in space, from mirror to mirror until it meets its target.
+// A 3D laser that is reflected by mirrors until it hits its target.
 #include <abut/abut.hpp>
 
 #include <cstdio>

@@ -1,5 +1,5 @@
-// A laser from mirror to mirror until it meets a wall. The picture of docs/laser.md.
-//   example_laser_picture [FILE]          without a file, to the standard output
+// Draws a laser that is reflected by mirrors until it hits a wall. The picture of docs/laser.md.
+// example_laser_picture [FILE]          writes to stdout without a file
 #include <abut/abut.hpp>
 #include <abut/draw/draw.hpp>
 #include <abut/draw/svg.hpp>
@@ -22,7 +22,7 @@ int main(int count, char** arguments) {
     for (const abut::Id id : room.overlapping(canvas.shown()))
         draw(canvas, room.shape(id), room.user(id) == is_wall ? wall : mirror);
 
-    // The laser hits at most 50 times: it could go to and fro between two mirrors for ever.
+    // The number of hits is limited to 50: two parallel mirrors could reflect it forever.
     int hits = 0;
     const auto each_hit = [&](const abut::Ray2& piece, const abut::WorldHit<2>& hit) {
         canvas.line(piece.origin, hit.hit.point, light);

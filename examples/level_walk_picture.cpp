@@ -1,7 +1,8 @@
-// The path of a character through a level of a real game: the picture of docs/mover.md, or one of your own.
-//   example_level_walk_picture freedoom1.wad [FILE]     E1M1 from above, from the player's start along a way it finds
-//   example_level_walk_picture LEVEL.sol [FILE]         a level of Neverball from above: where the ball rolls by itself
-// The levels come with the Debian packages freedoom and neverball-data. Without a file there is nothing to draw.
+// Draws the path of a character through a level of a real game: the picture of docs/mover.md, or a level of your own.
+// example_level_walk_picture freedoom1.wad [FILE]     E1M1 from above, from the player's start along a path that it
+// finds
+// example_level_walk_picture LEVEL.sol [FILE]         a level of Neverball from above, in which a ball rolls
+// The levels come with the Debian packages freedoom and neverball-data. Without a level nothing is drawn.
 #include "../scenes/neverball.hpp"
 #include "../scenes/wad.hpp"
 #include <abut/abut.hpp>
@@ -23,7 +24,8 @@ bool write(const abut::SvgCanvas& canvas, const char* name) {
            (file == stdout || std::fclose(file) == 0);
 }
 
-/// Squares of 16 with room for somebody 17 wide to each side, the farthest from the start in steps, and the way there.
+/// Grid cells of 16 units with clearance for a character of radius 17, the cell that is farthest from the start in
+/// steps, and the path to it.
 std::vector<abut::Vec2> way_through(const abut::World2& world, const abut::Aabb2& all, const abut::Vec2& start) {
     constexpr float cell = 16;
     const int columns = static_cast<int>((all.max.x - all.min.x) / cell) + 1;
@@ -82,7 +84,7 @@ int draw_map(const char* name, const char* out) {
         for (const glm::uvec2& line : *lines)
             canvas.line(map.points[line.x], map.points[line.y], lines == &map.ledges ? ledge : wall);
 
-    abut::Mover2 mover({.up = {0, 0}, .step_height = 0, .stick = 0});  // from above there is no up
+    abut::Mover2 mover({.up = {0, 0}, .step_height = 0, .stick = 0});  // seen from above there is no up
     const abut::Circle player{{0, 0}, 16};
     abut::Vec2 position = *map.start;
     int frame = 0;
@@ -102,7 +104,7 @@ int draw_map(const char* name, const char* out) {
     return write(canvas, out) && arrived && frame > 100 ? 0 : 1;
 }
 
-/// From above: x to the right, z down.
+/// A projection from above: x to the right, z down.
 abut::Vec2 from_above(const abut::Vec3& point) {
     return {point.x, -point.z};
 }
@@ -135,10 +137,10 @@ int draw_level(const char* name, const char* out) {
     abut::Vec3 position = level->balls[0].position;
     float fall = 0;
     int turn = 0;
-    // Straight on until it comes to a wall or to where the ground ends; then to the left.
-    const std::array<abut::Vec3, 4> ways{{{0, 0, -1}, {-1, 0, 0}, {0, 0, 1}, {1, 0, 0}}};
+    // Goes straight on until a wall or the end of the ground, then turns left.
+    const std::array<abut::Vec3, 4> directions{{{0, 0, -1}, {-1, 0, 0}, {0, 0, 1}, {1, 0, 0}}};
     for (int frame = 0; frame < 6000; ++frame) {
-        const abut::Vec3 ahead = ways[static_cast<std::size_t>(turn % 4)] * (0.1f * radius);
+        const abut::Vec3 ahead = directions[static_cast<std::size_t>(turn % 4)] * (0.1f * radius);
         const bool ends = !world.raycast(abut::Ray3{position + ahead * 12.0f, {0, -1, 0}, 6 * radius});
         if (ends && fall < 0.02f) {
             ++turn;

@@ -1,5 +1,5 @@
-// The path of a character through a level of the plane. The picture of docs/mover.md.
-//   example_mover_picture [FILE]          without a file, to the standard output
+// Draws the path of a character through a 2D level. The picture of docs/mover.md.
+// example_mover_picture [FILE]          writes to stdout without a file
 #include <abut/abut.hpp>
 #include <abut/draw/draw.hpp>
 #include <abut/draw/svg.hpp>

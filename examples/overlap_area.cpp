@@ -1,5 +1,6 @@
-// How much of a unit stands in the zone? A zone is held by whoever has the most of himself in it.
-// The overlap of two shapes is a shape too, with an area and a middle. A round unit is taken as a polygon first.
+// How much of a unit stands in the zone? The unit with the largest overlap area owns the zone.
+// The intersection of two shapes is a shape too, with an area and a centroid. A round unit is converted to a polygon
+// first.
 #include <abut/query/intersection.hpp>
 #include <abut/shape/ball.hpp>
 

@@ -1,5 +1,5 @@
-// A level known by a formula: hills, as far as one likes, without a triangle. Two functions beside the type, and balls
-// roll over them in a world as over any other shape.
+// A level given by a distance function: unbounded hills without a triangle. Two functions make the type a shape; balls
+// roll over it in a World.
 #include <abut/abut.hpp>
 
 #include <array>
@@ -9,12 +9,12 @@
 
 namespace game {
 
-/// Paraboloids side by side: bumps of height 0.5, one each 4 units.
+/// Repeated paraboloids: bumps of height 0.5 every 4 units.
 struct Hills {};
 
 float height(float x, float z) {
     const auto bump = [](float t) {
-        const float off = t - 4 * std::floor(t / 4 + 0.5f);  // from the nearest top
+        const float off = t - 4 * std::floor(t / 4 + 0.5f);  // from the nearest summit
         return 0.25f - off * off / 16;
     };
     return bump(x) + bump(z);
@@ -25,7 +25,7 @@ abut::Aabb3 bounds(const Hills&) {
     return {{-far, -far, -far}, {far, 0.5f, far}};
 }
 
-/// How high above them a point is, times the cosine of the steepest slope: never more than it is away.
+/// A lower bound of the distance: the height of a point above the hills times the cosine of the steepest slope.
 float signed_distance(const Hills&, const abut::Vec3& point) {
     constexpr float steepest = 0.8164966f;  // a slope of 1/4 + 1/4 along x and z: 1 / sqrt(1 + 1/4 + 1/4)
     return (point.y - height(point.x, point.z)) * steepest;
@@ -59,7 +59,7 @@ int main() {
         }
         world.update();
         for (const auto& [a, b, contact] : world.contacts()) {
-            // The ground was added first, and stays where it is.
+            // The ground was added first, and is fixed.
             const bool on_ground = world.user(b) == 0 && a != balls[0].id;
             for (const auto& [id, side] : {std::pair(a, -1.0f), std::pair(b, 1.0f)})
                 for (Body& ball : balls) {

@@ -1,5 +1,6 @@
-// A level of your own: voxels. Two functions, found by their argument, make it a shape that answers every question, in
-// a World too: `bounds`, and `each_part`, which shows what is in a box. No tree is needed where a grid knows its cells.
+// A user-defined level of voxels. Two functions found by argument-dependent lookup make it a shape for all queries and
+// for a World:
+// `bounds`, and `each_part`, which visits the parts in a box. A grid needs no tree to find its cells.
 
 #include <abut/abut.hpp>
 
@@ -21,8 +22,8 @@ abut::Aabb3 bounds(const Voxels& v) {
     return {{0, 0, 0}, {v.width, v.depth, v.height}};
 }
 
-/// Calls visit(part, number) for the cells in the box, and perhaps some more; it returns false to stop. A part is any
-/// convex shape.
+/// Calls visit(part, number) for the cells in the box, and possibly more; the visitor returns false to stop. A part is
+/// any convex shape.
 template <class Visit>
 void each_part(const Voxels& v, const abut::Aabb3& box, Visit&& visit) {
     const auto cell = [](float at, int count) {
@@ -55,7 +56,7 @@ int main() {
     world.add(level, {.pose = {{100, 0, 0}}, .fixed = true});
     const auto hit = world.raycast(abut::Ray3::between({98, 8.5f, 1.5f}, {120, 8.5f, 1.5f}));
     if (!hit) return 1;
-    std::printf("a ray in the world meets voxel %u after %g\n", hit->hit.feature.part,
+    std::printf("a ray in the world hits voxel %u after %g\n", hit->hit.feature.part,
                 static_cast<double>(hit->hit.distance));
     const bool as_expected =
         landed->distance == 3.5f && hit->hit.distance == 10 && landed->feature.part == hit->hit.feature.part &&

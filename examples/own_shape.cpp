@@ -1,4 +1,4 @@
-// A shape of one's own: an ellipsoid, which abut hasn't got. Two functions beside the type, and every question works.
+// A user-defined shape, an ellipsoid. Two functions beside the type make all queries work.
 #include <abut/abut.hpp>
 
 #include <cmath>
@@ -14,7 +14,7 @@ abut::Aabb3 bounds(const Ellipsoid& e) {
     return {e.center - e.radii, e.center + e.radii};
 }
 
-/// The point of it that is farthest along a direction.
+/// The support function: the point of the ellipsoid that is farthest in a direction.
 abut::Vec3 support(const Ellipsoid& e, const abut::Vec3& direction) {
     const abut::Vec3 scaled = e.radii * direction;
     const float length = std::sqrt(scaled.x * scaled.x + scaled.y * scaled.y + scaled.z * scaled.z);
@@ -32,6 +32,6 @@ int main() {
         abut::raycast({{5, 0, 0}, {-1, 0, 0}}, abut::at(egg, {.rotation = abut::turn_about({0, 1, 0}, 1.5708f)}));
     if (!hit) return 1;
 
-    std::printf("the egg is %g above the table; lying down, a ray meets it at %g\n", gap, hit->point.x);
+    std::printf("the egg is %g above the table; lying down, a ray hits it at %g\n", gap, hit->point.x);
     return std::abs(gap - 0.25f) < 1e-4f && std::abs(hit->point.x - 1.5f) < 1e-4f ? 0 : 1;
 }

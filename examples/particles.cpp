@@ -1,4 +1,5 @@
-// A million particles fall on a level, bounce and come to rest: a field tells each of them how far the ground is.
+// A million particles fall on a level, bounce and come to rest. A signed distance field returns each particle's
+// distance to the ground.
 #include <abut/bake/combine_fields.hpp>
 #include <abut/bake/field.hpp>
 #include <abut/field/field.hpp>
@@ -17,7 +18,7 @@
 
 namespace {
 
-/// Two threads that wait for work, the caller's and one more: what a game has already.
+/// A pool of two threads, the caller's and one more, as most games have.
 class TwoThreads : public abut::Executor {
 public:
     TwoThreads() : helper_([this](const std::stop_token& stop) { help(stop); }) {}
@@ -70,7 +71,7 @@ private:
     std::atomic<std::uint32_t> next_ = 0;
     std::uint64_t job_ = 0;
     bool helping_ = false;
-    std::jthread helper_;  // last: it must not start before the others are there
+    std::jthread helper_;  // declared last: it uses the members above
 };
 
 struct Particles {
@@ -79,7 +80,7 @@ struct Particles {
 
 constexpr float radius = 0.02f, step = 1.0f / 60, bounce = 0.4f, friction = 0.95f;
 
-/// Moves some of them on by a step. Returns how many touched the ground.
+/// Moves a range of particles by a step. Returns how many touched the ground.
 std::uint32_t advance(const abut::Field3& ground, std::span<abut::Vec3> position, std::span<abut::Vec3> velocity) {
     constexpr std::size_t at_once = 512;
     abut::FieldSample<3> samples[at_once];
@@ -91,7 +92,7 @@ std::uint32_t advance(const abut::Field3& ground, std::span<abut::Vec3> position
         for (std::size_t i = 0; i < count; ++i) {
             v[i].y -= 9.81f * step;
             x[i] += v[i] * step;
-            if (x[i].y < bottom) {  // over the edge: again from above
+            if (x[i].y < bottom) {  // fell over the edge: restarts from above
                 x[i] = {0.5f * x[i].x, 2, 0.5f * x[i].z};
                 v[i] = {};
             }
@@ -112,7 +113,7 @@ std::uint32_t advance(const abut::Field3& ground, std::span<abut::Vec3> position
 }  // namespace
 
 int main() {
-    // A bowl: a slab with the upper side of a ball taken out of it, and a knob in the middle.
+    // A bowl: a slab minus a ball, with a knob in the middle.
     const abut::FieldOptions<3> options{.cell = 0.1f, .store = abut::FieldStore::dense};
     const auto slab = abut::bake_field(abut::Box3{{0, -0.6f, 0}, {3, 0.6f, 3}}, options);
     const auto hole = abut::bake_field(abut::Sphere{{0, 1.5f, 0}, 2.2f}, options);

@@ -1,5 +1,5 @@
-// Pick what the mouse is over: on a screen the topmost of the things that hold the point, by the game's own order; in
-// space the first thing that the ray through the mouse meets.
+// Picks the item below the mouse: on a 2D screen the topmost item that contains the point, in the game's own order; in
+// 3D the first item that the ray through the mouse hits.
 #include <abut/abut.hpp>
 
 #include <cstdio>
@@ -13,22 +13,22 @@ namespace {
 bool pick_on_a_screen() {
     enum Thing : std::uint64_t { nothing, window, button, badge };
     const char* const names[] = {"nothing", "window", "button", "badge"};
-    const int layer[] = {-1, 0, 1, 1};  // what is drawn over what; of two on one layer, the one that came later
+    const int layer[] = {-1, 0, 1, 1};  // drawing order; on one layer the later one is on top
 
     abut::World2 screen;
     screen.add(abut::Box2{{400, 300}, {300, 200}}, {.user = window});
-    screen.add(abut::rounded(abut::Box2{{400, 200}, {60, 10}}, 10), {.user = button});  // with round corners
+    screen.add(abut::rounded(abut::Box2{{400, 200}, {60, 10}}, 10), {.user = button});  // with rounded corners
     screen.add(abut::Circle{{470, 220}, 12}, {.user = badge});
 
     const auto under = [&](abut::Vec2 mouse) {
         std::uint64_t top = nothing;
-        for (const abut::Id id : screen.containing(mouse))  // in the order in which they came
+        for (const abut::Id id : screen.containing(mouse))  // in the order of insertion
             if (layer[screen.user(id)] >= layer[top]) top = screen.user(id);
         std::printf("at %g, %g: %s\n", mouse.x, mouse.y, names[top]);
         return top;
     };
     return under({400, 200}) == button && under({468, 218}) == badge && under({120, 450}) == window &&
-           under({331, 181}) == window &&  // the corner that isn't there
+           under({331, 181}) == window &&  // outside of the rounded corner
            under({50, 50}) == nothing;
 }
 

@@ -1,5 +1,5 @@
-// Which of many boxes overlap? The lesson's answer: a grid. Each box goes into every cell it touches, and only boxes
-// that share a cell are compared. (The library's own broad phases answer the same, many times faster.)
+// Which of many boxes overlap? The textbook solution is a uniform grid: each box is inserted in every cell that it
+// touches, and only boxes of one cell are compared. The library's broad phases give the same pairs many times faster.
 #include "../scenes/plain_grid.hpp"
 
 #include <cstdio>

@@ -1,5 +1,5 @@
-// A picture of the questions and their answers, as SVG: the one in the README.
-//   example_plain_overlap_picture [FILE]          without a file, to the standard output
+// Draws the queries and their results as SVG: the picture of the README.
+// example_plain_overlap_picture [FILE]          writes to stdout without a file
 #include <abut/abut.hpp>
 #include <abut/draw/draw.hpp>
 #include <abut/draw/svg.hpp>
@@ -23,7 +23,7 @@ int main(int count, char** arguments) {
         canvas.text({x, 0.45f}, text, {{100, 116, 139}});
     };
 
-    // How far apart are they, and where?
+    // Closest points and distance.
     const auto crate = abut::rounded(abut::Box2{{1.9f, 2.5f}, {0.8f, 0.5f}, abut::Turn::by(0.5f)}, 0.2f);
     const auto rock = abut::Polygon::build({{4.2f, 4}, {5.3f, 3.7f}, {5.7f, 4.7f}, {4.9f, 5.6f}, {3.9f, 5.1f}});
     if (!rock) return 1;
@@ -35,7 +35,7 @@ int main(int count, char** arguments) {
     name({4.8f, 4.65f}, "b", orange);
     label(3.2f, "closest(a, b)", "%.2f apart", gap.distance);
 
-    // Where do they touch, and which way is out?
+    // Contact points, normal and depth.
     const abut::Box2 table{{8.4f, 2.4f}, {1.7f, 0.75f}};
     const abut::Box2 box{{9.8f, 3.85f}, {1, 0.9f}, abut::Turn::by(0.16f)};
     const abut::Contact<2> contact = abut::contact(table, box);
@@ -46,7 +46,7 @@ int main(int count, char** arguments) {
     name({10.5f, 4.2f}, "b", orange);
     label(8.8f, "contact(a, b)", "%.2f deep", contact.depth);
 
-    // What does a ray meet first?
+    // The first hit of a ray.
     const abut::Capsule2 pill{{14, 2.3f}, {16.2f, 3.1f}, 0.75f};
     const auto ray = abut::Ray2::between({12.7f, 5.5f}, {16.1f, 1.6f});
     const auto hit = abut::raycast(ray, pill);

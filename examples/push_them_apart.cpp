@@ -1,5 +1,6 @@
-// Push them apart: crates that were dropped into one another and into the floor come to lie side by side.
-// A contact says which way and how far. Moving a crate changes its other contacts, so it goes round until all are well.
+// Depenetration: crates that overlap each other and the floor are moved apart until they lie side by side.
+// A contact has a direction and a depth. Moving a crate changes its other contacts, so the loop runs until no overlap
+// is left.
 #include <abut/abut.hpp>
 
 #include <algorithm>
@@ -10,7 +11,7 @@ namespace {
 
 const abut::HalfSpace2 the_floor{{0, 1}, 0};
 
-/// Moves all that overlap; returns how deep the deepest were.
+/// Moves all overlapping crates; returns the maximum depth.
 float push_apart(std::vector<abut::Box2>& crates) {
     float deepest = 0;
     for (std::size_t i = 0; i < crates.size(); ++i) {

@@ -1,5 +1,6 @@
-// From one arrangement of pieces to another, one straight move at a time. The picture of docs/rearrangement.md.
-//   example_rearrange_picture [FILE]          without a file, to the standard output
+// Draws a motion plan from one arrangement of pieces to another, one straight move at a time. The picture of
+// docs/rearrangement.md.
+// example_rearrange_picture [FILE]          writes to stdout without a file
 #include <abut/abut.hpp>
 #include <abut/draw/draw.hpp>
 #include <abut/draw/svg.hpp>
@@ -9,7 +10,7 @@
 
 namespace {
 
-/// The pieces of a square, each about its own origin, and where that is.
+/// The pieces of a square, each about its own origin, and their positions.
 struct Square {
     std::vector<abut::Polygon> pieces;
     std::vector<abut::Pose2> poses;
@@ -26,7 +27,7 @@ struct Square {
 int main(int count, char** arguments) {
     const abut::Color colors[] = {{37, 99, 235}, {217, 119, 6}, {22, 163, 74}, {147, 51, 234}, {8, 145, 178}};
 
-    // Packed without a gap; and each corner piece in the place of the one across, turned to fit.
+    // The start is packed without gaps; in the goal each corner piece takes the opposite corner, rotated to fit.
     Square square;
     square.add({0.5f, 0.5f}, {{0, 0}, {2, 0}, {0, 2}});
     square.add({3.5f, 0.5f}, {{2, 0}, {4, 0}, {4, 2}});
@@ -41,7 +42,7 @@ int main(int count, char** arguments) {
     const abut::Rearrangement<2> plan = rearrange(square.pieces, square.poses, to);
     if (!plan) return 1;
 
-    // One panel for the start, and one after each few of the moves.
+    // One panel for the start, and one after every few moves.
     constexpr int panels = 5;
     constexpr float width = 36, height = 33;
     abut::SvgCanvas canvas({{0, 0}, {panels * width, height}}, 6, {248, 250, 252});

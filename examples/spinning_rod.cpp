@@ -1,5 +1,5 @@
-// A rod is thrown through a row of posts, spinning. Where it starts and where it ends it touches none of them, and the
-// straight way of its middle passes between two: only the turning sweep tells which post it strikes, and when.
+// A rod is thrown through a row of posts, spinning. It touches none of them at its start and its end, and its centre
+// passes between two of them. Only a sweep with rotation finds which post it hits, and when.
 #include <abut/abut.hpp>
 
 #include <cstdio>
@@ -11,7 +11,7 @@ int main() {
     std::vector<abut::Circle> posts;
     for (int i = -3; i <= 3; ++i) posts.push_back({{static_cast<float>(i) * 1.2f + 0.6f, 0}, 0.1f});
 
-    // Six units up in one step, and once and a quarter around meanwhile.
+    // Moves up by six units in one step and rotates by one and a quarter turns.
     const abut::Motion2 thrown{{{0, -3}}, {0, 6}, 7.854f};
     std::optional<abut::Hit<2>> first;
     for (const abut::Circle& post : posts)
@@ -22,9 +22,10 @@ int main() {
         return 1;
     }
     const abut::Pose2 there = abut::pose_at(thrown, first->fraction);
-    std::printf("it strikes after %.3f of its way, at %.3f, %.3f\n", first->fraction, first->point.x, first->point.y);
+    std::printf("it hits at fraction %.3f of its motion, at %.3f, %.3f\n", first->fraction, first->point.x,
+                first->point.y);
 
-    // What a game that looks only at the beginning and the end of the step would see.
+    // Discrete tests at the start and the end of the step miss the post.
     bool seen = false, touches = false;
     for (const abut::Circle& post : posts) {
         for (const float fraction : {0.0f, 1.0f})

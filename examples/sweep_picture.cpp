@@ -1,5 +1,5 @@
-// A sweep, in the world and in the difference of the two shapes. The picture of docs/motion.md.
-//   example_sweep_picture [FILE]          without a file, to the standard output
+// Draws a sweep in world space and in the Minkowski difference of the two shapes. The picture of docs/motion.md.
+// example_sweep_picture [FILE]          writes to stdout without a file
 #include <abut/abut.hpp>
 #include <abut/draw/draw.hpp>
 #include <abut/draw/svg.hpp>
@@ -14,7 +14,7 @@ const abut::Style blue{{37, 99, 235}, 2, {37, 99, 235, 38}}, orange{{217, 119, 6
 const abut::Style mark{{225, 29, 72}, 2, {225, 29, 72, 50}}, grey{{100, 116, 139}, 1.5f, {100, 116, 139, 30}};
 const abut::Style faint{{37, 99, 235, 120}, 1.5f, abut::transparent, true};
 
-/// What is drawn about the origin goes to a place of its own.
+/// Translates everything that is drawn.
 abut::Aabb2 window(float x, float y, float width, float height) {
     return {{-x, -y}, {width - x, height - y}};
 }
@@ -30,7 +30,7 @@ int main(int count, char** arguments) {
     const auto hit = sweep(mover, motion, wall, {.trace = &trace});
     if (!hit) return 1;
 
-    // In the world.
+    // World space.
     abut::SvgCanvas canvas(window(4.9f, 4.9f, 8.6f, 8.2f), 60, {248, 250, 252});
     canvas.set_point_size(9);
     canvas.set_text_height(18);
@@ -44,7 +44,8 @@ int main(int count, char** arguments) {
     canvas.text({-3.3f, 2.2f}, "a", blue);
     canvas.text({2.75f, 0.4f}, "b", orange);
 
-    // In the difference, whose origin stands below: all ways to move b that bring a point of it onto one of a's.
+    // Configuration space: the Minkowski difference, which is all translations of b that bring one of its points onto a
+    // point of a.
     const abut::Polygon difference = minkowski_difference(mover, wall);
     const abut::Vec2 place{1.2f, -2.4f};
     const auto there = [&](const abut::Vec2& point) { return point * 0.55f + place; };

@@ -1,4 +1,5 @@
-// Who is beside whom among ten thousand snails? Most frames nothing can have happened: nobody goes far in one.
+// Which of ten thousand snails are close to each other? A temporal broad phase skips pairs that can't have come close
+// since the last test.
 #include <abut/broad_phase/temporal.hpp>
 
 #include <cstdio>
@@ -14,7 +15,7 @@ int main() {
         boxes.push_back({place - 0.25f, place + 0.25f});
         velocities.push_back(
             {static_cast<float>(i * 37 % 21 - 10) / 1000, static_cast<float>(i * 61 % 21 - 10) / 1000});
-        top_speeds.push_back(0.011f);  // a second, along each axis; more than the fastest goes, as floats round
+        top_speeds.push_back(0.011f);  // per second, along each axis; above the maximum speed by more than rounding
     }
 
     abut::Temporal<2> snails;
@@ -33,9 +34,9 @@ int main() {
 
     const abut::TemporalCounts& counts = snails.counts();
     std::printf("%d pairs after a minute\n", pairs);
-    std::printf("searched for the neighbours of a snail %.0f times, in place of %.0f\n",
+    std::printf("searched for the neighbours of a snail %.0f times, instead of %.0f\n",
                 static_cast<double>(counts.searches), static_cast<double>(counts.plain_searches));
-    std::printf("looked at a pair %.0f times, in place of %.0f\n", static_cast<double>(counts.looks),
+    std::printf("tested a pair %.0f times, instead of %.0f\n", static_cast<double>(counts.looks),
                 static_cast<double>(counts.plain_looks));
 
     abut::Bvh<2> plain;

@@ -1,4 +1,4 @@
-// Trigger, enter and leave: a door is open while the player stands in front of it.
+// Trigger events: a door is open while the player is in front of it.
 #include <abut/abut.hpp>
 
 #include <cstdio>
@@ -7,8 +7,7 @@ int main() {
     abut::World3 world;
     const abut::Id player = world.add(abut::Capsule3{{0, 0.5f, 0}, {0, 1.5f, 0}, 0.4f});
     const abut::Id zone = world.add(abut::Box3{{10, 1, 0}, {2, 1, 2}}, {.fixed = true, .sensor = true});
-    world.add(abut::HalfSpace3{{0, 1, 0}, 0.1f},
-              {.fixed = true});  // the floor: touched all the time, and not asked for
+    world.add(abut::HalfSpace3{{0, 1, 0}, 0.1f}, {.fixed = true});  // the floor: always touched, and filtered out
 
     const abut::IdPair at_door{player, zone};  // the lower id first
     int opened_at = -1, closed_at = -1;

@@ -1,4 +1,4 @@
-// Which units are in this rectangle? The player drags one over the map; what it touches is selected.
+// Which units are in this rectangle? The player drags it over the map; units that overlap it are selected.
 #include <abut/abut.hpp>
 
 #include <cstdio>

@@ -1,6 +1,6 @@
 #pragma once
 
-// A closed surface with bumps, as a scanner might see a stone.
+// A closed bumpy surface, similar to a scanned stone.
 
 #include "../test/oracle/random.hpp"
 #include <abut/math/dvec.hpp>
@@ -18,7 +18,7 @@ struct BumpyBall {
     std::vector<glm::uvec3> triangles;
 };
 
-/// The point of the unit circle after so many quarters, without angles: the same bits everywhere.
+/// The point of the unit circle after a number of quarter turns, without trigonometric functions: deterministic.
 inline DVec<2> on_circle(double quarters) {
     const int whole = static_cast<int>(quarters);
     const double t = quarters - whole, scale = 1 / (1 + t * t);
@@ -35,17 +35,18 @@ inline DVec<2> on_circle(double quarters) {
     }
 }
 
-/// Of radius 1 about the origin, outwards: `rows` rings of 2 `rows` squares, each two triangles, those around the poles
-/// one. Waves as high as `waves`, and on them each corner up or down by as much as `roughness`.
+/// A mesh of radius 1 about the origin, oriented outwards: `rows` rings of 2 `rows` quads of two triangles; those at
+/// the poles have one.
+/// Waves have amplitude `waves`, and vertices are displaced by up to `roughness`.
 inline BumpyBall bumpy_ball(std::uint32_t rows, double waves, double roughness, oracle::Random& random) {
     BumpyBall result;
     const std::uint32_t columns = 2 * rows;
     const auto add = [&](std::uint32_t row, std::uint32_t column) {
         const DVec<2> down = on_circle(2.0 * row / rows), around = on_circle(4.0 * column / columns);
-        const DVec<3> way(down.y * around.x, down.y * around.y, down.x);
-        const DVec<2> ripple = on_circle(64.0 + 9 * way.x + 7 * way.y + 11 * way.z);
-        const double lump = way.x * way.y * way.z * 3 + 0.2 * ripple.y;
-        result.points.push_back(to_float(way * (1 + waves * lump + random.uniform(-roughness, roughness))));
+        const DVec<3> direction(down.y * around.x, down.y * around.y, down.x);
+        const DVec<2> ripple = on_circle(64.0 + 9 * direction.x + 7 * direction.y + 11 * direction.z);
+        const double bump = direction.x * direction.y * direction.z * 3 + 0.2 * ripple.y;
+        result.points.push_back(to_float(direction * (1 + waves * bump + random.uniform(-roughness, roughness))));
     };
     add(0, 0);
     for (std::uint32_t row = 1; row < rows; ++row)

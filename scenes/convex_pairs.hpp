@@ -1,6 +1,6 @@
 #pragma once
 
-// Pairs of convex shapes, placed at a wanted distance from one another: once, or over a sequence of frames.
+// Pairs of convex shapes at given distances: once, or over a sequence of frames.
 
 #include "convex_shapes.hpp"
 #include <abut/query/closest.hpp>
@@ -19,8 +19,7 @@ struct PlacedPair {
     Placed<D> a, b;
 };
 
-/// Shapes, and pairs of them by index. Over several frames the pairs of one follow those of the one before, each pair
-/// in its place.
+/// Shapes, and pairs of them by index. Over several frames a pair keeps its position in the list.
 template <int D>
 struct ConvexPairs {
     std::size_t count() const { return pairs.size() / frames; }
@@ -30,16 +29,17 @@ struct ConvexPairs {
     std::size_t frames = 1;
 };
 
-/// Which signed distances are wanted.
+/// The signed distances of pairs.
 struct Gaps {
     double low, high;
-    double doubtful = 0.01;  ///< none is nearer to zero: what touches is beyond doubt
+    double min_distance = 0.01;  ///< minimum absolute distance: overlap is unambiguous
 
-    bool allow(double gap) const { return low <= gap && gap <= high && !(-doubtful < gap && gap < doubtful); }
+    bool allow(double gap) const { return low <= gap && gap <= high && !(-min_distance < gap && gap < min_distance); }
 };
 
-/// One of `a` and one of `b`, drawn and turned at random. B is put down far off in a random direction and brought near
-/// along the line of closest approach, until the gap is as wanted, evenly; below zero, as deep along that line.
+/// Draws one shape of `a` and one of `b` with random rotations. B starts far off in a random direction and moves along
+/// the line of closest approach until the distance is uniform in the given range; negative distances are depths along
+/// that line.
 template <int D, class A, class B>
 class PairMaker {
 public:

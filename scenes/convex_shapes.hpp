@@ -1,6 +1,6 @@
 #pragma once
 
-// Convex shapes of size about 1, drawn at random, each about the origin of its own frame.
+// Random convex shapes of size about 1, each about the origin of its own frame.
 
 #include "../test/oracle/random.hpp"
 #include <abut/shape/ball.hpp>
@@ -49,13 +49,12 @@ std::vector<Vec<D>> random_directions(oracle::Random& random, std::size_t count)
     return result;
 }
 
-/// The hull of points on a sphere of radius 1: each is a corner.
+/// The hull of points on the unit sphere: each is a vertex.
 inline Polyhedron random_hull(oracle::Random& random, std::size_t corners) {
     return *Polyhedron::build(random_directions<3>(random, corners));
 }
 
-/// The hull of points on a circle of radius 1: each is a corner, and none so near to the next that another library
-/// would weld them.
+/// The hull of points on the unit circle: each is a vertex, far enough from the next that no library welds them.
 inline Polygon random_polygon(oracle::Random& random, std::size_t corners) {
     for (;;) {
         const Polygon polygon = *Polygon::build(random_directions<2>(random, corners));

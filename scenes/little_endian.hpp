@@ -1,6 +1,6 @@
 #pragma once
 
-// Numbers of a binary file, the lowest byte first.
+// Reads little-endian numbers of a binary file.
 
 #include <abut/math/result.hpp>
 
@@ -14,7 +14,7 @@
 
 namespace abut::scenes {
 
-/// All but `holds` take places that the bytes hold.
+/// All functions except `holds` require that the range is inside the bytes.
 class LittleEndian {
 public:
     explicit LittleEndian(std::vector<char> bytes) : bytes_(std::move(bytes)) {}
@@ -27,7 +27,7 @@ public:
     std::int32_t i16(std::size_t at) const { return static_cast<std::int16_t>(u16(at)); }
     std::int32_t i32(std::size_t at) const { return static_cast<std::int32_t>(u32(at)); }
     float f32(std::size_t at) const { return std::bit_cast<float>(u32(at)); }
-    /// As far as the first zero, if there is one.
+    /// Text up to the first zero byte, if there is one.
     std::string text(std::size_t at, std::size_t count) const {
         const std::string_view all(bytes_.data() + at, count);
         return std::string(all.substr(0, all.find('\0')));

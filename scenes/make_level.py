@@ -3,7 +3,7 @@
 
     make_level.py OUTPUT.gltf|OUTPUT.glb [--blocks N] [--faults FAULTS.json]
 
-Everything in it meets face to face except for the faults of the table FAULTS, planted so that
+Everything in it touches face to face except for the faults of the table FAULTS, planted so that
 a collision check has something to find. Metres, seconds, Y up. The bytes are the same on every
 machine: what comes from sin and cos is rounded far above their error before it is written.
 """
@@ -115,7 +115,7 @@ HOUSE_BOXES = (
     ("Crate_Sunk",      5.55,  6.15,  0,     0.6,  -1.5,  -0.9,  "crate"),
     ("Crate_By_Door",   0.02,  0.52,  0,     0.5,  -0.6,  -0.1,  "crate"),
 )
-SHELF_BOXES = (  # about its own origin, at the foot of the wall behind
+SHELF_BOXES = (  # about its own origin, at the base of the wall behind
     ("Upright_1", 0, 0.5, 0, 1.16, -1, -0.95, "plank"),
     ("Upright_2", 0, 0.5, 0, 1.16, 0.95, 1, "plank"),
     ("Board_1", 0, 0.5, 0.56, 0.6, -0.95, 0.95, "plank"),

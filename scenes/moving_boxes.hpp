@@ -1,7 +1,7 @@
 #pragma once
 
-// Boxes that drift about and bounce off the walls of their world, as the items of a game do: each frame is much like
-// the one before, and after many frames nothing is where it began.
+// Boxes that move and bounce off the walls of their world, as game objects do: frames are coherent, and after many
+// frames every box has moved far.
 
 #include "../test/oracle/random.hpp"
 #include <abut/math/aabb.hpp>
@@ -14,21 +14,21 @@
 namespace abut::scenes {
 
 struct MovingBoxesOptions {
-    double overlaps = 2;           ///< how many others a box overlaps, about
-    std::size_t one_in_moves = 1;  ///< the first of so many moves, the others rest
-    double speed = 0.1;            ///< the most a frame along each axis
-    double fineness = 1024;        ///< coordinates and steps are multiples of one part in so many: a power of two
+    double overlaps = 2;           ///< mean number of overlaps per box
+    std::size_t one_in_moves = 1;  ///< the first of every so many boxes moves, the others rest
+    double speed = 0.1;            ///< maximum per frame along each axis
+    double fineness = 1024;        ///< coordinates and steps are multiples of the reciprocal of this power of two
 };
 
-/// Edges of 0.5 to 2, and by default at most 0.1 a frame along each axis, and about one overlapping pair a box. Every
-/// coordinate is a multiple of 1/1024, so that no library rounds a box on its way in, and which boxes touch is the same
-/// to all.
+/// Edges from 0.5 to 2, motion of at most 0.1 per frame along each axis, and about one overlapping pair per box by
+/// default. Every coordinate is a multiple of 1/1024, so that no library rounds a box and all libraries find the same
+/// pairs.
 template <int D>
 class MovingBoxes {
 public:
     MovingBoxes(std::size_t count, std::uint64_t seed, const MovingBoxesOptions& options = {})
         : fineness_(options.fineness), boxes_(count), velocities_(count) {
-        // A box overlaps those whose centres lie in a box of 2.5, two mean edges.
+        // A box overlaps boxes whose centres lie in a box of edge 2.5, two mean edges.
         const double volume = power(2.5) * static_cast<double>(count) / options.overlaps;
         while (power(side_) < volume) ++side_;
         oracle::Random random(seed);
@@ -45,9 +45,9 @@ public:
     }
 
     std::span<const Aabb<D>> boxes() const { return boxes_; }
-    /// How far each has moved in the last step.
+    /// The motion of each box in the last step.
     std::span<const Vec<D>> last_steps() const { return velocities_; }
-    /// The boxes lie in a cube from 0 to here, but for what has just run into a wall.
+    /// The world is a cube from 0 to this, exceeded only by boxes that have just hit a wall.
     float side() const { return side_; }
 
     void step() {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Pairs of convex shapes over many frames: each moves a little from one to the next, there and back, for ever.
+// Pairs of convex shapes over many frames: each moves slightly per frame, back and forth.
 
 #include "convex_pairs.hpp"
 
@@ -14,11 +14,11 @@ namespace abut::scenes {
 inline constexpr std::size_t moving_frames = 64;
 inline constexpr float turn_per_frame = 0.01f;
 
-/// What B does from one frame to the next.
+/// The motion of B per frame.
 template <int D>
 struct Step {
     Vec<D> move;
-    Vec<D> axis;  ///< of length 1, to turn about; in the plane its first coordinate tells which way round
+    Vec<D> axis;  ///< unit rotation axis; in 2D the sign of its first coordinate is the direction
 };
 
 inline Rotation<2> turned(const Vec2& axis, float radians) {
@@ -28,14 +28,14 @@ inline Rotation<3> turned(const Vec3& axis, float radians) {
     return turn_about(axis, radians);
 }
 
-/// The pair in each frame. Midway, there and back, it is as given; when that is, tells the phase.
+/// The pair in each frame. At the middle of its oscillation it is as given; the phase determines that frame.
 template <int D>
 std::vector<PlacedPair<D>> swung(const PlacedPair<D>& midway, const Step<D>& step, std::size_t phase) {
     constexpr int half = moving_frames / 2;
     std::vector<PlacedPair<D>> result;
     for (std::size_t frame = 0; frame < moving_frames; ++frame) {
-        const int way = static_cast<int>((frame + phase) % moving_frames) - half;
-        const float steps = static_cast<float>(std::abs(way) - half / 2);
+        const int direction = static_cast<int>((frame + phase) % moving_frames) - half;
+        const float steps = static_cast<float>(std::abs(direction) - half / 2);
         const Pose<D> turn{Vec<D>(0), turned(step.axis, steps * turn_per_frame)};
         Pose<D>& pose = result.emplace_back(midway).b.pose;
         pose = {pose.position + steps * step.move, (turn * Pose<D>{Vec<D>(0), pose.rotation}).rotation};
@@ -43,7 +43,7 @@ std::vector<PlacedPair<D>> swung(const PlacedPair<D>& midway, const Step<D>& ste
     return result;
 }
 
-/// Puts the pairs' own frames into those of the scene.
+/// Converts the pairs' own frames to those of the scene.
 template <int D>
 void interleave(const std::vector<std::vector<PlacedPair<D>>>& of_pairs, ConvexPairs<D>& scene) {
     scene.frames = moving_frames;
@@ -51,21 +51,22 @@ void interleave(const std::vector<std::vector<PlacedPair<D>>>& of_pairs, ConvexP
         for (const std::vector<PlacedPair<D>>& pair : of_pairs) scene.pairs.push_back(pair[frame]);
 }
 
-enum class Along { any, surface };  ///< which way: anywhere, or at right angles to the line of closest approach
+enum class Along { any, surface };  ///< direction of motion: any, or perpendicular to the line of closest approach
 
-/// Midway at a gap from `midway`, always at one in `always`. 0.01 to 0.02 a frame.
+/// Pairs with a distance from `midway` at the middle of the oscillation, and from `always` in all frames. They move
+/// 0.01 to 0.02 per frame.
 template <int D, class A, class B>
 ConvexPairs<D> moving_pairs(PairMaker<D, A, B>& maker, std::size_t count, const Gaps& midway, const Gaps& always,
                             Along along, oracle::Random& random) {
     std::vector<std::vector<PlacedPair<D>>> found;
     while (found.size() < count) {
         const PlacedPair<D> middle = maker.make(midway);
-        Vec<D> way = to_float<D>(random.direction<D>());
+        Vec<D> direction = to_float<D>(random.direction<D>());
         if (along == Along::surface) {
             const Vec<D> normal = maker.closest(middle).normal;
-            way = glm::normalize(way - glm::dot(way, normal) * normal);
+            direction = glm::normalize(direction - glm::dot(direction, normal) * normal);
         }
-        const Step<D> step{random.uniform_float(0.01, 0.02) * way, to_float<D>(random.direction<D>())};
+        const Step<D> step{random.uniform_float(0.01, 0.02) * direction, to_float<D>(random.direction<D>())};
         const std::vector<PlacedPair<D>> pair = swung(middle, step, random.below(moving_frames));
         if (std::ranges::all_of(pair, [&](const auto& at) { return always.allow(maker.closest(at).distance); }))
             found.push_back(pair);
@@ -80,7 +81,7 @@ struct StackedBoxes {
     PlacedPair<3> pair;
 };
 
-/// B lies on a face of A, turned about its normal and sunk in by 0.01 to 0.03.
+/// B rests on a face of A, rotated about its normal, with a depth of 0.01 to 0.03.
 inline StackedBoxes stacked_boxes(std::size_t number, oracle::Random& random) {
     const Box3 below = random_box<3>(random), above = random_box<3>(random);
     const Pose3 pose{to_float<3>(random.in_cube<3>() * 10.0), random.rotation<3>()};
@@ -100,15 +101,15 @@ inline ConvexPairs<3> resting_stacks(std::size_t count, oracle::Random& random) 
     return result;
 }
 
-/// They slide on one another, and don't fall off.
+/// Boxes that slide on one another and don't fall off.
 inline ConvexPairs<3> sliding_stacks(std::size_t count, oracle::Random& random) {
     ConvexPairs<3> result;
     std::vector<std::vector<PlacedPair<3>>> found;
     while (found.size() < count) {
         const StackedBoxes stack = stacked_boxes(found.size(), random);
         const Rotation<3>& rotation = stack.pair.a.pose.rotation;
-        const Vec2 way = random.uniform_float(0.01, 0.02) * to_float<2>(random.direction<2>());
-        const Step<3> step{rotate(rotation, {way.x, 0, way.y}), rotate(rotation, {0, 1, 0})};
+        const Vec2 direction = random.uniform_float(0.01, 0.02) * to_float<2>(random.direction<2>());
+        const Step<3> step{rotate(rotation, {direction.x, 0, direction.y}), rotate(rotation, {0, 1, 0})};
         const std::vector<PlacedPair<3>> pair = swung(stack.pair, step, random.below(moving_frames));
         const auto lies = [&](const PlacedPair<3>& at) {
             const float gap = closest(placed(stack.below, at.a.pose), placed(stack.above, at.b.pose)).distance;

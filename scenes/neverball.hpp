@@ -1,7 +1,7 @@
 #pragma once
 
-// Levels of Neverball, as its files `.sol` of version 8 hold them: convex lumps in space, some of which are moved along
-// paths. What is only drawn is passed over.
+// Reads levels of Neverball, files `.sol` of version 8: convex brushes in 3D, some of which move along paths. Purely
+// visual data is skipped.
 
 #include "little_endian.hpp"
 #include <abut/math/vec.hpp>
@@ -18,19 +18,19 @@
 
 namespace abut::scenes {
 
-/// The lump lies where dot(normal, p) <= offset.
-struct NeverballSide {
+/// A half-space of a brush: dot(normal, p) <= offset.
+struct NeverballHalfSpace {
     Vec3 normal{};
     float offset = 0;
 };
 
-/// Of lengths in the world, with y up. Lists of a lump and of a body are places in the lists of the level.
-struct NeverballLump {
+/// A convex brush, with y up. Lists of a brush and of a body are indices into lists of the level.
+struct NeverballBrush {
     std::vector<std::uint32_t> points, edges, sides;
-    bool detail = false;  ///< only seen: nothing in the game touches it
+    bool detail = false;  ///< visual only: nothing collides with it
 };
 
-/// On its way from here to the next, if it moves at all.
+/// A stop of a path, and the segment to the next one.
 struct NeverballStop {
     Vec3 position{};
     float seconds = 0;
@@ -39,8 +39,8 @@ struct NeverballStop {
 };
 
 struct NeverballBody {
-    std::uint32_t first_lump = 0, lumps = 0;
-    std::optional<std::uint32_t> stop;  ///< where it begins; its lumps are as seen from there
+    std::uint32_t first_brush = 0, brushes = 0;
+    std::optional<std::uint32_t> stop;  ///< initial stop; brushes are relative to it
 };
 
 struct NeverballBall {
@@ -51,16 +51,16 @@ struct NeverballBall {
 struct NeverballLevel {
     std::vector<Vec3> points;
     std::vector<glm::uvec2> edges;
-    std::vector<NeverballSide> sides;
-    std::vector<NeverballLump> lumps;
+    std::vector<NeverballHalfSpace> sides;
+    std::vector<NeverballBrush> brushes;
     std::vector<NeverballStop> stops;
     std::vector<NeverballBody> bodies;
-    std::vector<NeverballBall> goals, balls;  ///< goals are round places on the ground; balls are where it begins
+    std::vector<NeverballBall> goals, balls;  ///< goals are circles on the ground; balls are start positions
 };
 
 namespace detail {
 
-/// Goes through the file from front to back; once something is wrong, all is.
+/// Reads the file front to back; after the first error all reads fail.
 class NeverballReader {
 public:
     NeverballReader(std::string name, std::vector<char> bytes) : name_(std::move(name)), bytes_(std::move(bytes)) {}
@@ -77,7 +77,7 @@ public:
     }
 
 private:
-    // In the order in which the file counts them; its own order of what follows is another.
+    // Counts are in the file's order, which differs from the order of the data.
     enum Kind {
         text,
         words,
@@ -88,7 +88,7 @@ private:
         places_on_pictures,
         corners,
         triangles,
-        lumps,
+        brushes,
         nodes,
         stops,
         bodies,
@@ -121,12 +121,12 @@ private:
             edge.x = index(points);
             edge.y = index(points);
         });
-        each(level_.sides, sides, 16, [&](NeverballSide& side) {
+        each(level_.sides, sides, 16, [&](NeverballHalfSpace& side) {
             side.normal = position();
             side.offset = number();
         });
         skip(8 * count_[places_on_pictures] + 12 * count_[corners] + 16 * count_[triangles]);
-        each(lists_, lumps, 36, [&](Lists& lists) {
+        each(lists_, brushes, 36, [&](Lists& lists) {
             lists.flags = bits();
             for (Range* range : {&lists.points, &lists.edges, &lists.triangles, &lists.sides}) *range = this->range();
         });
@@ -142,12 +142,12 @@ private:
         skip(4 * count_[indices]);
         if (problem_) return;
         for (const Lists& lists : lists_) {
-            NeverballLump lump;
-            lump.detail = (lists.flags & 1) != 0;
-            take(lists.points, table, points, lump.points);
-            take(lists.edges, table, edges, lump.edges);
-            take(lists.sides, table, sides, lump.sides);
-            level_.lumps.push_back(std::move(lump));
+            NeverballBrush brush;
+            brush.detail = (lists.flags & 1) != 0;
+            take(lists.points, table, points, brush.points);
+            take(lists.edges, table, edges, brush.edges);
+            take(lists.sides, table, sides, brush.sides);
+            level_.brushes.push_back(std::move(brush));
         }
     }
 
@@ -166,9 +166,10 @@ private:
         if (stop >= 0) body.stop = within(stop, stops);
         skip(8);
         const Range range = this->range();
-        body.first_lump = static_cast<std::uint32_t>(range.first);
-        body.lumps = static_cast<std::uint32_t>(range.count);
-        if (range.first + range.count > count_[lumps]) fail(ProblemCode::index_out_of_range, "a body has no such lump");
+        body.first_brush = static_cast<std::uint32_t>(range.first);
+        body.brushes = static_cast<std::uint32_t>(range.count);
+        if (range.first + range.count > count_[brushes])
+            fail(ProblemCode::index_out_of_range, "a body has no such brush");
         skip(8);
     }
 
@@ -180,7 +181,7 @@ private:
         Range points, edges, triangles, sides;
     };
 
-    /// Of so many bytes each, or more.
+    /// A list of records of at least this many bytes each.
     template <class T, class Read>
     void each(std::vector<T>& list, Kind kind, std::size_t size, Read read) {
         if (!has(size * count_[kind])) return;
@@ -190,12 +191,12 @@ private:
             if (problem_) return;
         }
     }
-    /// What a range of the table of indices names.
+    /// The values of a range of the index table.
     void take(const Range& range, std::size_t table, Kind kind, std::vector<std::uint32_t>& result) {
         if (problem_) return;
         at_ = table;
         if (range.first + range.count > count_[indices])
-            return fail(ProblemCode::index_out_of_range, "a lump has no such part");
+            return fail(ProblemCode::index_out_of_range, "a brush has no such part");
         at_ = table + 4 * range.first;
         for (std::size_t i = 0; i < range.count && !problem_; ++i) result.push_back(index(kind));
     }
@@ -255,7 +256,7 @@ private:
 
 }  // namespace detail
 
-/// Bad data is told by what is wrong and the byte where that was seen, as index.
+/// Parses a level. A Problem describes invalid data, with the byte offset as index.
 inline Result<NeverballLevel> neverball_level(const std::string& name, std::vector<char> bytes) {
     return detail::NeverballReader(name, std::move(bytes)).read();
 }
@@ -265,39 +266,39 @@ inline Result<NeverballLevel> read_neverball(const std::string& path) {
     return neverball_level(path, *std::move(bytes));
 }
 
-/// The hull of its points, where the file has them.
-inline Result<Polyhedron> polyhedron(const NeverballLevel& level, const NeverballLump& lump) {
+/// The hull of the brush's vertices, if the file has them.
+inline Result<Polyhedron> polyhedron(const NeverballLevel& level, const NeverballBrush& brush) {
     std::vector<Vec3> points;
-    for (const std::uint32_t i : lump.points) points.push_back(level.points[i]);
+    for (const std::uint32_t i : brush.points) points.push_back(level.points[i]);
     return Polyhedron::build(points);
 }
 
-/// visit(body, lump, polyhedron) for all that is touched in the game, as seen from where the body is.
+/// Calls visit(body, brush, polyhedron) for all colliding brushes, relative to their body.
 template <class Visit>
 void each_solid(const NeverballLevel& level, Visit&& visit) {
     for (const NeverballBody& body : level.bodies)
-        for (std::uint32_t i = 0; i < body.lumps; ++i) {
-            const NeverballLump& lump = level.lumps[body.first_lump + i];
-            if (lump.detail) continue;
-            if (const Result<Polyhedron> shape = polyhedron(level, lump)) visit(body, lump, *shape);
+        for (std::uint32_t i = 0; i < body.brushes; ++i) {
+            const NeverballBrush& brush = level.brushes[body.first_brush + i];
+            if (brush.detail) continue;
+            if (const Result<Polyhedron> shape = polyhedron(level, brush)) visit(body, brush, *shape);
         }
 }
 inline Vec3 start_of(const NeverballLevel& level, const NeverballBody& body) {
     return body.stop ? level.stops[*body.stop].position : Vec3(0.0f);
 }
 
-/// All that is touched, as it is in the beginning; a Problem where there is nothing.
+/// All colliding brushes in their initial positions; a Problem if there is none.
 inline Result<Compound3> compound(const NeverballLevel& level) {
     std::vector<AnyShape<3>> children;
-    each_solid(level, [&](const NeverballBody& body, const NeverballLump&, const Polyhedron& shape) {
+    each_solid(level, [&](const NeverballBody& body, const NeverballBrush&, const Polyhedron& shape) {
         children.push_back(at(shape, Pose3{start_of(level, body)}));
     });
     return Compound3::build(children);
 }
 
-/// The same as items of a world, each lump one; what stands still is fixed. The lumps of body i have i as `user`.
+/// Adds all colliding brushes to a world, one item each; static ones are fixed. Items of body i have `user` i.
 inline void add_to(World3& world, const NeverballLevel& level) {
-    each_solid(level, [&](const NeverballBody& body, const NeverballLump&, const Polyhedron& shape) {
+    each_solid(level, [&](const NeverballBody& body, const NeverballBrush&, const Polyhedron& shape) {
         world.add(shape, {.pose = {start_of(level, body)},
                           .user = static_cast<std::uint64_t>(&body - level.bodies.data()),
                           .fixed = !body.stop});

@@ -1,6 +1,6 @@
 #pragma once
 
-// Outlines that are hard to take apart: stars, combs, plates full of holes. Same numbers on every machine.
+// Polygons that are hard to decompose: stars, combs, plates with holes. Deterministic.
 
 #include "../test/oracle/random.hpp"
 #include "bumpy_ball.hpp"
@@ -19,7 +19,7 @@ struct Outline {
     std::vector<std::vector<Vec2>> holes;
 };
 
-/// Around a point at even angles, each corner at a random distance from `inner` x `radius` to `radius`.
+/// A star around a point: vertices at equal angles with random distances from `inner` x `radius` to `radius`.
 /// Counter-clockwise.
 inline std::vector<Vec2> star(std::uint32_t corners, double inner, std::uint64_t seed, DVec<2> middle = DVec<2>(0.0),
                               double radius = 1) {
@@ -30,8 +30,8 @@ inline std::vector<Vec2> star(std::uint32_t corners, double inner, std::uint64_t
     return result;
 }
 
-/// Points and notches in turn: the points at random distances from 0.7 to 1 of the origin, the notches from 0.3 to 0.6.
-/// Counter-clockwise; half of the corners are reflex.
+/// Alternating spikes at random distances from 0.7 to 1 of the origin and notches from 0.3 to 0.6. Counter-clockwise;
+/// half of the vertices are reflex.
 inline std::vector<Vec2> spiky_star(std::uint32_t corners, std::uint64_t seed) {
     oracle::Random random(seed);
     std::vector<Vec2> result;
@@ -41,7 +41,7 @@ inline std::vector<Vec2> spiky_star(std::uint32_t corners, std::uint64_t seed) {
     return result;
 }
 
-/// A bar with teeth upwards, 4 corners each, all of whose roots lie on one line. Counter-clockwise.
+/// A bar with teeth of 4 vertices each, whose roots are collinear. Counter-clockwise.
 inline std::vector<Vec2> comb(std::uint32_t teeth) {
     std::vector<Vec2> result{{0, -1}, {static_cast<float>(2 * teeth - 1), -1}};
     for (std::uint32_t i = teeth; i-- > 0;) {
@@ -54,7 +54,7 @@ inline std::vector<Vec2> comb(std::uint32_t teeth) {
     return result;
 }
 
-/// A square of `rows` x `rows` stars of `corners` corners as holes.
+/// A square with `rows` x `rows` stars of `corners` vertices as holes.
 inline Outline plate(std::uint32_t rows, std::uint32_t corners, std::uint64_t seed) {
     const auto side = static_cast<float>(rows);
     Outline result{{{0, 0}, {side, 0}, {side, side}, {0, side}}, {}};
@@ -63,8 +63,8 @@ inline Outline plate(std::uint32_t rows, std::uint32_t corners, std::uint64_t se
     return result;
 }
 
-/// Through all of the points, each once, without touching itself: edges that cross are exchanged for ones that don't
-/// until there are none. Empty where that doesn't come to an end. Few points: each step looks at all pairs of edges.
+/// A simple polygon through all points: crossing edges are exchanged (2-opt) until none cross. Empty if that doesn't
+/// terminate. Quadratic in the number of points per step.
 inline std::vector<Vec2> simple_ring(std::vector<Vec2> points) {
     const std::size_t count = points.size();
     const auto corner = [&](std::size_t i) { return points[i % count]; };
@@ -72,7 +72,7 @@ inline std::vector<Vec2> simple_ring(std::vector<Vec2> points) {
         return orientation(a, b, p) == 0 && std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x) &&
                std::min(a.y, b.y) <= p.y && p.y <= std::max(a.y, b.y);
     };
-    const auto meet = [&](std::size_t i, std::size_t j) {
+    const auto crosses = [&](std::size_t i, std::size_t j) {
         const Vec2 a = corner(i), b = corner(i + 1), c = corner(j), d = corner(j + 1);
         if (j == i + 1) return on(a, b, d) || on(c, d, a);
         if ((j + 1) % count == i) return on(a, b, c) || on(c, d, b);
@@ -83,7 +83,7 @@ inline std::vector<Vec2> simple_ring(std::vector<Vec2> points) {
         bool met = false;
         for (std::size_t i = 0; i < count && !met; ++i)
             for (std::size_t j = i + 1; j < count && !met; ++j)
-                if (meet(i, j)) {
+                if (crosses(i, j)) {
                     met = true;
                     std::reverse(points.begin() + static_cast<std::ptrdiff_t>(i) + 1,
                                  points.begin() + static_cast<std::ptrdiff_t>(j) + 1);

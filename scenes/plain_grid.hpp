@@ -1,7 +1,6 @@
 #pragma once
 
-// The uniform hash grid as a lesson on collision detection has it, made right and left slow: what every broad phase of
-// the library is compared with.
+// A textbook uniform hash grid, correct and slow: the baseline of every broad phase of the library.
 
 #include <abut/math/aabb.hpp>
 
@@ -17,12 +16,12 @@
 
 namespace abut::scenes {
 
-/// Boxes are finite, and at most about 2^31 cells from the origin.
+/// Requires finite boxes, at most about 2^31 cells from the origin.
 template <int D>
 class PlainGrid {
 public:
-    /// A good cell is about as large as the larger boxes: far smaller ones put a box into many cells, far larger ones
-    /// many boxes into a cell.
+    /// The cell should be about as large as the larger boxes: smaller cells put a box into many cells, larger ones many
+    /// boxes into a cell.
     explicit PlainGrid(float cell) : cell_(cell) {}
 
     void build(std::span<const Aabb<D>> boxes) {
@@ -32,8 +31,8 @@ public:
             each_cell(boxes_[item], [&](const Cell& cell) { items_.emplace(cell, item); });
     }
 
-    /// Every pair of overlapping boxes once, as visit(i, j) with i < j, sorted. Two boxes may share several cells: the
-    /// set keeps one of each pair.
+    /// Calls visit(i, j) with i < j for every overlapping pair once, sorted. Two boxes may share several cells: the set
+    /// removes duplicates.
     template <class Visit>
     void each_pair(Visit visit) const {
         std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;
@@ -59,10 +58,10 @@ private:
         }
     };
 
-    /// Rounds down, below zero too: a plain conversion would make one cell of -1 and 0.
+    /// Rounds down, also below zero: a conversion would merge the cells -1 and 0.
     std::int32_t cell_of(float coordinate) const { return static_cast<std::int32_t>(std::floor(coordinate / cell_)); }
 
-    /// visit(cell) for all cells that the box touches.
+    /// Calls visit(cell) for all cells that the box touches.
     template <class Visit>
     void each_cell(const Aabb<D>& box, Visit visit) const {
         Cell low, high;

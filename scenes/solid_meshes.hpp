@@ -1,6 +1,6 @@
 #pragma once
 
-// Closed surfaces that are anything but convex: a knotted tube, and buildings of cubes.
+// Closed non-convex meshes: a knotted tube, and buildings of cubes.
 
 #include "bumpy_ball.hpp"
 #include <abut/math/dvec.hpp>
@@ -20,10 +20,11 @@ struct SolidMesh {
     std::vector<glm::uvec3> triangles;
 };
 
-/// The trefoil as a tube: `rings` of `sides` corners each, twice as many triangles. About 6 across, of radius 0.5.
+/// A trefoil knot as a tube: `rings` of `sides` vertices each, and twice as many triangles. About 6 across, with radius
+/// 0.5.
 inline SolidMesh knotted_tube(std::uint32_t rings, std::uint32_t sides) {
     const auto along = [&](std::uint32_t ring) {
-        const double at = 4.0 * ring / rings;  // quarters of a turn
+        const double at = 4.0 * ring / rings;  // in quarter turns
         const DVec<2> once = on_circle(at), twice = on_circle(2 * at), thrice = on_circle(3 * at);
         return DVec<3>(once.y + 2 * twice.y, once.x - 2 * twice.x, -thrice.y);
     };
@@ -31,7 +32,7 @@ inline SolidMesh knotted_tube(std::uint32_t rings, std::uint32_t sides) {
     for (std::uint32_t ring = 0; ring < rings; ++ring) {
         const DVec<3> here = along(ring);
         const DVec<3> forwards = normalized(along((ring + 1) % rings) - along((ring + rings - 1) % rings));
-        // Outwards from the middle axis, as far as that is across the tube: nowhere along it.
+        // The component of the radial direction that is perpendicular to the tube.
         const DVec<3> out =
             normalized(DVec<3>(here.x, here.y, 0) - forwards * (dot(forwards, DVec<3>(here.x, here.y, 0))));
         const DVec<3> up = cross(forwards, out);
@@ -51,8 +52,8 @@ inline SolidMesh knotted_tube(std::uint32_t rings, std::uint32_t sides) {
     return result;
 }
 
-/// The surface of unit cubes: storeys from the lowest up, each of rows, where '#' is a cube. Two triangles for each
-/// side of a cube that has no neighbour there.
+/// The surface of unit cubes: storeys from the lowest up, each of rows, where '#' is a cube. Two triangles per exposed
+/// side.
 inline SolidMesh of_cubes(const std::vector<std::vector<std::string_view>>& storeys) {
     const auto filled = [&](std::int64_t x, std::int64_t y, std::int64_t z) {
         if (x < 0 || y < 0 || z < 0 || z >= static_cast<std::int64_t>(storeys.size())) return false;
@@ -80,17 +81,17 @@ inline SolidMesh of_cubes(const std::vector<std::vector<std::string_view>>& stor
                                            static_cast<std::int64_t>(z)};
                 if (!filled(at[0], at[1], at[2])) continue;
                 for (int axis = 0; axis < 3; ++axis)
-                    for (const int way : {-1, 1}) {
+                    for (const int sign : {-1, 1}) {
                         std::array<std::int64_t, 3> beside = at;
-                        beside[static_cast<std::size_t>(axis)] += way;
+                        beside[static_cast<std::size_t>(axis)] += sign;
                         if (!filled(beside[0], beside[1], beside[2]))
-                            add_side(DVec<3>(at[0], at[1], at[2]), axis, way > 0);
+                            add_side(DVec<3>(at[0], at[1], at[2]), axis, sign > 0);
                     }
             }
     return result;
 }
 
-/// Four walls with a door and two windows, and a floor: 1 thick, 10 by 8 by 6.
+/// Four walls with a door and two windows, and a floor: walls 1 thick, 10 by 8 by 6.
 inline SolidMesh house() {
     const std::vector<std::string_view> floor(8, "##########"),
         walls = {"##########", "#        #", "#        #", "#        #",

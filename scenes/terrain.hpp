@@ -1,6 +1,6 @@
 #pragma once
 
-// Hilly ground as a grid of triangles.
+// Hilly terrain as a triangle grid.
 
 #include "../test/oracle/random.hpp"
 #include <abut/math/vec.hpp>
@@ -18,7 +18,7 @@ struct Terrain {
     std::vector<glm::uvec3> triangles;
 };
 
-/// Two triangles a square, row by row, over points that stand row by row, one more in each.
+/// Two triangles per square, row by row. Vertices are row by row too, one more per row.
 inline std::vector<glm::uvec3> grid_triangles(std::uint32_t columns, std::uint32_t rows) {
     std::vector<glm::uvec3> result;
     for (std::uint32_t row = 0; row < rows; ++row)
@@ -30,8 +30,7 @@ inline std::vector<glm::uvec3> grid_triangles(std::uint32_t columns, std::uint32
     return result;
 }
 
-/// `columns` x `columns` squares of edge 1, two triangles each, y up, heights from -0.5 to 0.5, in the middle of the
-/// world.
+/// `columns` x `columns` squares of edge 1, centred at the origin, y up, with heights from -0.5 to 0.5.
 inline Terrain random_terrain(std::uint32_t columns, oracle::Random& random) {
     Terrain result;
     const float middle = 0.5f * static_cast<float>(columns);

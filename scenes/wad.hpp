@@ -1,6 +1,6 @@
 #pragma once
 
-// The maps of a Doom WAD as levels of the plane, seen from above.
+// Reads the maps of a Doom WAD as 2D levels, seen from above.
 
 #include "little_endian.hpp"
 #include <abut/math/vec.hpp>
@@ -17,12 +17,13 @@ namespace abut::scenes {
 struct WadMap {
     std::string name;
     std::vector<Vec2> points;
-    std::vector<glm::uvec2> one_sided;  ///< walls: the void is to the left of each
+    std::vector<glm::uvec2> one_sided;  ///< walls: the outside is to the left of each
     std::vector<glm::uvec2> lines;      ///< of all kinds
-    std::vector<glm::uvec2> barriers;   ///< between two places, and passed by no player
-    std::vector<glm::uvec2> ledges;     ///< passed from the left to the right alone: a step down, too high to climb
-    std::optional<Vec2> start;          ///< of the first player
-    std::size_t nodes = 0;              ///< of the map's own tree, of all lines
+    std::vector<glm::uvec2> barriers;   ///< two-sided lines that block the player
+    std::vector<glm::uvec2>
+        ledges;  ///< two-sided lines passable from left to right only: a step down that is too high to climb
+    std::optional<Vec2> start;  ///< of the first player
+    std::size_t nodes = 0;      ///< count of nodes of the map's own BSP tree
 };
 
 namespace detail {
@@ -31,19 +32,19 @@ struct WadLump {
     std::size_t at = 0, size = 0;
 };
 
-/// E1M1 or MAP01.
+/// True for names such as E1M1 or MAP01.
 inline bool names_a_map(const std::string& name) {
     const auto digit = [&](std::size_t i) { return std::isdigit(static_cast<unsigned char>(name[i])) != 0; };
     return (name.size() == 4 && name[0] == 'E' && digit(1) && name[2] == 'M' && digit(3)) ||
            (name.size() == 5 && name.substr(0, 3) == "MAP" && digit(3) && digit(4));
 }
 
-/// The lumps of one map.
+/// The data lumps (the file format's term) of one map.
 struct WadMapLumps {
     enum Kind { things, lines, sides, points, sectors, nodes, kinds };
     static constexpr std::array<const char*, kinds> names{"THINGS",   "LINEDEFS", "SIDEDEFS",
                                                           "VERTEXES", "SECTORS",  "NODES"};
-    static constexpr std::array<std::size_t, kinds> sizes{10, 14, 30, 4, 26, 28};  // of a record
+    static constexpr std::array<std::size_t, kinds> sizes{10, 14, 30, 4, 26, 28};  // bytes per record
 
     std::string name;
     std::array<std::optional<WadLump>, kinds> lumps;
@@ -52,14 +53,14 @@ struct WadMapLumps {
     std::size_t place(Kind kind, std::size_t i) const { return lumps[kind]->at + i * sizes[kind]; }
 };
 
-/// As a player of the game is: no step up is higher than that, and no opening lower.
+/// Size of the game's player: the highest step up, and the lowest opening.
 constexpr int wad_step = 24, wad_height = 56;
 
 struct WadFloor {
     int floor = 0, ceiling = 0;
 };
 
-/// Of the sector that a side of a line looks at; none where the numbers name nothing.
+/// The floor of the sector on a side of a line; none if an index is invalid.
 inline std::optional<WadFloor> floor_beside(const LittleEndian& bytes, const WadMapLumps& map, std::uint32_t side) {
     if (side >= map.count(WadMapLumps::sides)) return std::nullopt;
     const std::uint32_t sector = bytes.u16(map.place(WadMapLumps::sides, side) + 28);
@@ -68,7 +69,7 @@ inline std::optional<WadFloor> floor_beside(const LittleEndian& bytes, const Wad
     return WadFloor{bytes.i16(at), bytes.i16(at + 2)};
 }
 
-/// False where a line names points or places that aren't there.
+/// Returns false if a line has an invalid index.
 inline bool read_lines(const LittleEndian& bytes, const WadMapLumps& lumps, WadMap& map) {
     constexpr std::uint32_t none = 0xffff, blocks = 1;
     for (std::size_t i = 0; i < lumps.count(WadMapLumps::lines); ++i) {
@@ -85,7 +86,7 @@ inline bool read_lines(const LittleEndian& bytes, const WadMapLumps& lumps, WadM
                    on_left = floor_beside(bytes, lumps, left);
         if (!on_right || !on_left) return false;
         if (flags & blocks) map.barriers.push_back(line);
-        // Doors and lifts are such lines: they are taken for open.
+        // Doors and lifts are such lines: they count as open.
         if (flags & blocks || does != 0) continue;
         const int step = on_left->floor - on_right->floor;
         const int opening = std::min(on_left->ceiling, on_right->ceiling) - std::max(on_left->floor, on_right->floor);
@@ -117,7 +118,7 @@ inline std::optional<WadMap> read_map(const LittleEndian& bytes, const WadMapLum
 
 }  // namespace detail
 
-/// In the order of the file.
+/// All maps, in file order.
 inline Result<std::vector<WadMap>> wad_maps(const std::string& name, std::vector<char> content) {
     const LittleEndian bytes(std::move(content));
     constexpr std::size_t entry_size = 16;

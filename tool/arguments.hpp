@@ -1,10 +1,10 @@
 #pragma once
 
-// Arguments as they are typed, and what they mean.
+// Parsers for the values of command line options.
 
-#include "check.hpp"
-#include "faults.hpp"
-#include "verbs.hpp"
+#include "tool/check/check.hpp"
+#include "tool/faults/faults.hpp"
+#include "tool/verbs.hpp"
 #include <abut/math/result.hpp>
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace abut::tool {
 
-/// A finite length, not below zero.
+/// A finite length of at least 0.
 Result<float> parse_length(const std::string& text);
 
 inline constexpr std::size_t max_frames = 1'000'000;
@@ -21,17 +21,17 @@ inline constexpr std::size_t max_frames = 1'000'000;
 /// A number of frames, 1 to `max_frames`.
 Result<std::size_t> parse_frames(const std::string& text);
 
-/// X,Y or X,Y,Z: as many finite numbers as there are dimensions.
+/// X,Y or X,Y,Z: finite numbers, one per dimension.
 template <int D>
 Result<Vec<D>> parse_point(const std::string& text);
 
-/// How often a ray is thrown back, 1 to a hundred thousand.
+/// Number of reflections of a ray, 1 to 100000.
 Result<std::size_t> parse_bounces(const std::string& text);
 
-/// The most corners of a convex part, 4 to a million.
+/// Maximum number of vertices of a convex part, 4 to a million.
 Result<std::uint32_t> parse_vertices(const std::string& text);
 
-/// The most parts of a mesh, 1 to a hundred thousand.
+/// Maximum number of parts of a mesh, 1 to 100000.
 Result<std::uint32_t> parse_parts(const std::string& text);
 
 /// The side of a cell: finite, above 0.
@@ -43,22 +43,22 @@ Result<float> parse_cells(const std::string& text);
 /// AXIS=N: x, y or z, and a finite number.
 Result<FieldSlice> parse_slice(const std::string& text);
 
-/// A share, from 0 to 1.
+/// A fraction, from 0 to 1.
 Result<double> parse_share(const std::string& text);
 
-/// A moment in seconds, finite.
+/// A time in seconds, finite.
 Result<double> parse_time(const std::string& text);
 
-/// RADIUS,HEIGHT: a radius above 0, and a height of at least twice as much.
+/// RADIUS,HEIGHT: a radius above 0, and a height of at least twice the radius.
 Result<Character> parse_character(const std::string& text);
 
-/// WIDTH, or LEAST,WIDTH: from 0 up, and the width above the least. Without LEAST it is a tenth of the width.
+/// WIDTH, or LEAST,WIDTH with 0 <= LEAST < WIDTH. LEAST defaults to a tenth of WIDTH.
 Result<GapRange> parse_gap(const std::string& text);
 
-/// x, y or z, with or without a sign before it, or none.
+/// x, y or z with an optional sign, or none.
 Result<UpDirection> parse_up(const std::string& text);
 
-/// Two patterns with one ':' between them.
+/// Two glob patterns separated by one ':'.
 Result<PairPattern> parse_pair(const std::string& text);
 
 }  // namespace abut::tool

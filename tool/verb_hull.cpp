@@ -1,8 +1,8 @@
-#include "meshes.hpp"
-#include "progress.hpp"
-#include "stopwatch.hpp"
-#include "verbs.hpp"
-#include "written.hpp"
+#include "tool/shared/format.hpp"
+#include "tool/shared/meshes.hpp"
+#include "tool/shared/progress.hpp"
+#include "tool/shared/stopwatch.hpp"
+#include "tool/verbs.hpp"
 #include <abut/io/write_mesh.hpp>
 #include <abut/shape/polyhedron.hpp>
 
@@ -14,13 +14,13 @@
 namespace abut::tool {
 namespace {
 
-constexpr std::size_t most_hulls = 100;
+constexpr std::size_t max_listed = 100;
 
 struct NamedHull {
     std::string name;
-    std::size_t points = 0;  ///< that it is the hull of
+    std::size_t points = 0;  ///< count of input points
     Polyhedron hull;
-    double added = 0;  ///< by the limit
+    double added = 0;  ///< distance added by the vertex limit
 };
 
 struct HullReport {
@@ -39,7 +39,8 @@ Result<std::vector<NamedHull>> hulls_of(const HullRequest& request, const std::v
         const std::string where = request.mesh + ": object '" + object.name + "': ";
         if (!hull) return Problem{hull.problem().code, where + hull.problem().message};
         if (hull->rank() < 2)
-            return Problem{ProblemCode::degenerate, where + "all its points lie on a line, and so would its hull"};
+            return Problem{ProblemCode::degenerate,
+                           where + "all its points are collinear, so that its hull would be a segment"};
         next.hull = *hull;
         result.push_back(std::move(next));
         progress(result.size(), objects.size());
@@ -50,14 +51,14 @@ Result<std::vector<NamedHull>> hulls_of(const HullRequest& request, const std::v
 std::string text_report(const HullRequest& request, const HullReport& report) {
     std::string text = fmt::format("{} -> {}\n\n  {:>8}  {:>8}  {:>8}  {:>10}  {:>8}\n", request.mesh, request.output,
                                    "points", "vertices", "faces", "volume", "added");
-    for (std::size_t i = 0; i < report.hulls.size() && i < most_hulls; ++i) {
+    for (std::size_t i = 0; i < report.hulls.size() && i < max_listed; ++i) {
         const NamedHull& hull = report.hulls[i];
         text += fmt::format("  {:8}  {:8}  {:8}  {:>10}  {:>8}  {}\n", hull.points, hull.hull.points().size(),
                             hull.hull.facets().normals.size(), number(hull.hull.volume()),
                             hull.added == 0 ? "-" : number(hull.added), hull.name);
     }
-    if (report.hulls.size() > most_hulls)
-        text += fmt::format("  and {} more (--json lists them all)\n", report.hulls.size() - most_hulls);
+    if (report.hulls.size() > max_listed)
+        text += fmt::format("  and {} more (--json lists them all)\n", report.hulls.size() - max_listed);
     text += "\n";
     for (const std::string& warning : report.warnings) text += "note: " + warning + "\n";
     return text + fmt::format("{}; read in {} s, built in {} s, written in {} s\n",
@@ -88,7 +89,7 @@ std::string json_report(const HullRequest& request, const HullReport& report) {
         {"volume", volume},
         {"warnings", report.warnings},
         {"seconds", {{"read", report.read_seconds}, {"build", report.hull_seconds}, {"write", report.write_seconds}}}};
-    return written(json);
+    return to_text(json);
 }
 
 }  // namespace
@@ -98,7 +99,7 @@ Result<ExitCode> run_hull(const HullRequest& request) {
     Stopwatch watch;
     Result<Meshes> meshes = load_meshes(request.mesh, request.files);
     if (!meshes) return meshes.problem();
-    if (!request.each) meshes->objects = {together(meshes->objects, name_of(request.mesh))};
+    if (!request.each) meshes->objects = {merge_meshes(meshes->objects, name_of(request.mesh))};
     HullReport report{{}, meshes->warnings, watch.lap(), 0, 0};
     Result<std::vector<NamedHull>> hulls = hulls_of(request, meshes->objects);
     if (!hulls) return hulls.problem();

@@ -1,6 +1,6 @@
-#include "left_out.hpp"
-#include "verbs.hpp"
-#include "written.hpp"
+#include "tool/shared/format.hpp"
+#include "tool/shared/left_out.hpp"
+#include "tool/verbs.hpp"
 
 #include <cmath>
 
@@ -9,7 +9,7 @@
 namespace abut::tool {
 namespace {
 
-constexpr std::size_t most_objects = 100;
+constexpr std::size_t max_listed = 100;
 
 template <int D>
 std::string size_of(const Aabb<D>& box) {
@@ -18,7 +18,7 @@ std::string size_of(const Aabb<D>& box) {
     Vec<D> first = box.min;
     for (int i = 0; i < D; ++i) {
         text += (i == 0 ? "" : " x ") + number(static_cast<double>(size[i]));
-        // Boxes are rounded outwards, and what is a rounding below zero is zero.
+        // Boxes are rounded outwards: a coordinate that is a rounding error below zero is printed as zero.
         if (std::abs(first[i]) < 1e-6f * size[i]) first[i] = 0;
     }
     return text + ", from " + vector(first) + " on";
@@ -35,7 +35,7 @@ std::string line_of(const Object<2>& object) {
                        object.type.empty() ? "" : " (" + object.type + ")");
 }
 
-// What else the file holds, and all of it together.
+// Summary of the file's other contents, and totals.
 std::string summary(const Scene& scene, const SceneObjects& objects, const std::vector<double>& times) {
     std::size_t triangles = 0;
     for (std::size_t i = 0; i < objects.size(); ++i) triangles += objects[i].parts;
@@ -51,7 +51,7 @@ std::string summary(const Scene& scene, const SceneObjects& objects, const std::
 }
 std::string summary(const Level& level, const LevelObjects& objects, const std::vector<double>&) {
     std::string text;
-    for (std::size_t i = 0; i < level.points.size() && i < most_objects; ++i) {
+    for (std::size_t i = 0; i < level.points.size() && i < max_listed; ++i) {
         const LevelPoint& point = level.points[i];
         text += fmt::format("  {:11}  {:>14}  {}{}\n", "point", vector(point.position), point.path,
                             point.type.empty() ? "" : " (" + point.type + ")");
@@ -103,10 +103,10 @@ std::string text_info(const std::string& name, const File<D>& file, const Object
     std::string list;
     for (std::size_t i = 0; i < objects.size(); ++i) {
         if (objects[i].present) box = merged(box, objects[i].box);
-        if (i < most_objects) list += line_of(objects[i]);
+        if (i < max_listed) list += line_of(objects[i]);
     }
-    if (objects.size() > most_objects)
-        list += fmt::format("  and {} more (--json lists them all)\n", objects.size() - most_objects);
+    if (objects.size() > max_listed)
+        list += fmt::format("  and {} more (--json lists them all)\n", objects.size() - max_listed);
     std::string text = fmt::format("{}\n\n{}\n", name, list);
     for (const std::string& warning : file.warnings) text += "note: " + warning + "\n";
     text += summary(file, objects, times);
@@ -131,7 +131,7 @@ std::string json_info(const File<D>& file, const ObjectsOf<D>& objects, const st
     add_rest(file, json);
     json["frames"] = times.size();
     json["warnings"] = file.warnings;
-    return written(json);
+    return to_text(json);
 }
 
 template <int D>

@@ -1,4 +1,4 @@
-#include "verbs.hpp"
+#include "tool/verbs.hpp"
 
 #include <abut/io/write_file.hpp>
 

@@ -1,11 +1,11 @@
 #pragma once
 
-// The verbs of the tool. Each prints its report on stdout and returns what the program exits with; what goes wrong
-// comes back as the one line for stderr, without the "abut: " before it.
+// The verbs of the tool. Each prints its report on stdout and returns the exit code. A Problem's message is the line
+// for stderr, without the prefix "abut: ".
 
-#include "check.hpp"
-#include "faults.hpp"
-#include "files.hpp"
+#include "tool/check/check.hpp"
+#include "tool/faults/faults.hpp"
+#include "tool/shared/files.hpp"
 #include <abut/math/result.hpp>
 #include <abut/math/vec.hpp>
 
@@ -23,19 +23,19 @@ enum ExitCode : int { fine = 0, found = 1, unusable = 2 };
 struct CheckRequest {
     std::string scene;
     std::optional<std::string> baseline;
-    std::optional<std::size_t> frames;  ///< none: the file's own key times
+    std::optional<std::size_t> frames;  ///< default: the file's key times
     bool json = false;
     FileOptions files;
     CheckOptions options;
-    FaultOptions faults;  ///< without what the other options tell as well
+    FaultOptions faults;  ///< `allow` and `pairs` are taken from the other options
 };
 
 Result<ExitCode> run_check(const CheckRequest& request);
 
 struct CastRequest {
     std::string scene;
-    std::optional<std::string> picture;  ///< a file to write one to, as SVG
-    std::optional<double> time;          ///< none: the first moment
+    std::optional<std::string> picture;  ///< SVG file to write
+    std::optional<double> time;          ///< default: the first time
     bool json = false;
     FileOptions files;
     std::string from, to;  ///< X,Y,Z, or X,Y in a level
@@ -55,8 +55,8 @@ Result<ExitCode> run_info(const InfoRequest& request);
 
 struct HullRequest {
     std::string mesh, output;
-    std::uint32_t max_vertices = 0;  ///< of each hull; 0: no limit
-    bool each = false;               ///< one hull an object
+    std::uint32_t max_vertices = 0;  ///< per hull; 0: no limit
+    bool each = false;               ///< one hull per object
     bool json = false;
     FileOptions files;
 };
@@ -65,18 +65,18 @@ Result<ExitCode> run_hull(const HullRequest& request);
 
 struct DecomposeRequest {
     std::string mesh, output;
-    std::optional<std::string> picture;  ///< a file to write one to, as SVG
+    std::optional<std::string> picture;  ///< SVG file to write
     std::uint32_t max_parts = 32;
     double concavity = 0.05;
-    std::uint32_t max_vertices = 64;  ///< of each part
-    bool rooms = false;               ///< surfaces that are seen from inside stay as they are
+    std::uint32_t max_vertices = 64;  ///< per part
+    bool rooms = false;               ///< closed surfaces that face inwards stay as they are
     bool json = false;
     FileOptions files;
 };
 
 Result<ExitCode> run_decompose(const DecomposeRequest& request);
 
-/// Across an axis, 0 to 2, at a coordinate.
+/// A slice perpendicular to an axis (0 to 2) at a coordinate.
 struct FieldSlice {
     int axis = 0;
     float at = 0;
@@ -84,9 +84,9 @@ struct FieldSlice {
 
 struct FieldRequest {
     std::string mesh, output;
-    std::optional<std::string> picture;  ///< a file to write one to, as SVG
-    std::vector<FieldSlice> slices;      ///< for the picture; none: the middle of each axis
-    float cell = 0;                      ///< 0: a 64th of the longest side
+    std::optional<std::string> picture;  ///< SVG file to write
+    std::vector<FieldSlice> slices;      ///< for the picture; default: the middle of each axis
+    float cell = 0;                      ///< 0: 1/64 of the longest side
     float padding = 3, band = 3;         ///< in cells
     bool dense = false, gradient = false, quantised = false;
     bool json = false;
@@ -95,34 +95,34 @@ struct FieldRequest {
 
 Result<ExitCode> run_field(const FieldRequest& request);
 
-/// How the name of a file ends that holds a field.
+/// File extension of a field.
 inline constexpr std::string_view field_ending = ".field";
 
-/// What is in such a file.
+/// Prints the contents of a field file.
 Result<ExitCode> run_field_info(const InfoRequest& request);
 
 struct WalkRequest {
     std::string mesh;
-    std::string name;                            ///< a pattern for nodes and meshes; empty: all
-    std::optional<std::string> output, picture;  ///< files to write to: the baked mesh, and an SVG
-    std::optional<Vec3> from, to;                ///< both or none
-    std::optional<float> reach;                  ///< how far off the mesh they may be; none: any distance
+    std::string name;                            ///< a glob pattern for nodes and meshes; empty: all
+    std::optional<std::string> output, picture;  ///< files to write: the baked mesh, and an SVG
+    std::optional<Vec3> from, to;                ///< both or neither
+    std::optional<float> reach;                  ///< maximum distance of both from the mesh; default: any
     bool json = false;
     FileOptions files;
 };
 
 Result<ExitCode> run_walk(const WalkRequest& request);
 
-/// How the name of a file ends that holds a walk mesh.
+/// File extension of a walk mesh.
 inline constexpr std::string_view walk_ending = ".walk";
 
-/// How a line on stderr is written: with "abut: " before it and the end of a line behind it, all on one.
+/// Formats a line for stderr: "abut: ", the message with control characters replaced by blanks, and a newline.
 std::string one_line(std::string message);
 
-/// A whole file, or what is wrong with it, beginning with the file.
+/// Writes a file. The message of a Problem begins with the file.
 std::optional<Problem> write_picture(const std::string& file, const std::string& document);
 
-/// Everything at once on stdout.
+/// Writes text to stdout and returns the exit code; a Problem if writing fails.
 Result<ExitCode> print(const std::string& text, ExitCode code);
 
 }  // namespace abut::tool

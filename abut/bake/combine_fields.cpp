@@ -1,8 +1,7 @@
 #include <abut/bake/combine_fields.hpp>
-#include <abut/bake/field_fill.hpp>
-#include <abut/bake/field_grid.hpp>
-#include <abut/bake/samples_like.hpp>
-#include <abut/bake/zero_set.hpp>
+#include <abut/bake/field/fill.hpp>
+#include <abut/bake/field/grid.hpp>
+#include <abut/bake/field/isosurface.hpp>
 #include <abut/math/dvec.hpp>
 
 #include <algorithm>
@@ -14,26 +13,25 @@
 namespace abut {
 namespace {
 
-enum class Operation : std::uint8_t { least, most, without, blended, grown };
+enum class Operation : std::uint8_t { union_of, max_samples, difference, smooth_union, grown };
 
-/// What becomes of two distances, and which share the second one's gradient has in that of the result: the sign of the
-/// share is the gradient's.
+/// The result of combining two distances, and the weights of their gradients in the gradient of the result.
 struct Combined {
     float distance = 0, first = 1, second = 0;
 };
 Combined combined(Operation operation, float a, float b, float size) {
     switch (operation) {
-        case Operation::least:
+        case Operation::union_of:
             return a <= b ? Combined{a, 1, 0} : Combined{b, 0, 1};
-        case Operation::most:
+        case Operation::max_samples:
             return a >= b ? Combined{a, 1, 0} : Combined{b, 0, 1};
-        case Operation::without:
+        case Operation::difference:
             return a >= -b ? Combined{a, 1, 0} : Combined{-b, 0, -1};
-        case Operation::blended: {
-            const float apart = std::abs(a - b), least = std::min(a, b);
+        case Operation::smooth_union: {
+            const float apart = std::abs(a - b), union_of = std::min(a, b);
             if (!(apart < size)) return a <= b ? Combined{a, 1, 0} : Combined{b, 0, 1};
-            const float share = (size - apart) / size, other = 0.5f * share;
-            const float distance = least - 0.25f * share * share * size;
+            const float weight = (size - apart) / size, other = 0.5f * weight;
+            const float distance = union_of - 0.25f * weight * weight * size;
             return a <= b ? Combined{distance, 1 - other, other} : Combined{distance, other, 1 - other};
         }
         case Operation::grown:
@@ -49,13 +47,13 @@ public:
                    const SampleLattice<D>& lattice)
         : a_(a), b_(b), operation_(operation), size_(size), lattice_(lattice) {}
 
-    void tell(const SampleBlock<D>& block, const SampleValues<D>& values) const override {
+    void evaluate(const SampleBlock<D>& block, const SampleValues<D>& values) const override {
         const std::uint32_t count = block.samples();
-        std::array<Vec<D>, most> places;
+        std::array<Vec<D>, max_samples> places;
         for (std::uint32_t i = 0; i < count; ++i) places[i] = to_float(lattice_.at(block.sample(i)));
         const std::span<const Vec<D>> points = std::span(places).first(count);
         if (values.gradient != nullptr) {
-            std::array<FieldSample<D>, most> a, b;
+            std::array<FieldSample<D>, max_samples> a, b;
             a_.sample(points, std::span(a).first(count));
             if (b_ != nullptr) b_->sample(points, std::span(b).first(count));
             for (std::uint32_t i = 0; i < count; ++i) {
@@ -65,13 +63,13 @@ public:
                                                          DVec<D>(b[i].normal) * static_cast<double>(here.second)));
             }
         } else {
-            std::array<float, most> a, b{};
+            std::array<float, max_samples> a, b{};
             a_.distance(points, std::span(a).first(count));
             if (b_ != nullptr) b_->distance(points, std::span(b).first(count));
             for (std::uint32_t i = 0; i < count; ++i)
                 values.distance[i] = combined(operation_, a[i], b[i], size_).distance;
         }
-        if (values.doubtful != nullptr) std::fill_n(values.doubtful, count, std::uint8_t{0});
+        if (values.uncertain != nullptr) std::fill_n(values.uncertain, count, std::uint8_t{0});
     }
     double distance(const DVec<D>& point) const override {
         const Vec<D> place = to_float(point);
@@ -80,7 +78,7 @@ public:
     }
 
 private:
-    static constexpr std::uint32_t most = most_block_samples<D>;
+    static constexpr std::uint32_t max_samples = max_block_samples<D>;
 
     const Field<D>& a_;
     const Field<D>* b_;
@@ -90,7 +88,7 @@ private:
 };
 
 template <int D>
-float doubt_in_cells(const Field<D>& field, const Field<D>* other, float cell, bool shifts) {
+float extra_band_in_cells(const Field<D>& field, const Field<D>* other, float cell, bool shifts) {
     double result = 1;
     for (const Field<D>* one : {&field, other}) {
         if (one == nullptr) continue;
@@ -103,28 +101,28 @@ float doubt_in_cells(const Field<D>& field, const Field<D>* other, float cell, b
 
 template <int D>
 Result<Field<D>> fill(const Field<D>& a, const Field<D>* b, Operation operation, float size,
-                      const FieldOptions<D>& user, const Aabb<D>& surface, const Aabb<D>& volume) {
-    if (user.closest_points)
-        return Problem{ProblemCode::bad_argument,
-                       "closest points of what fields are combined to: see field_redistance"};
-    if (!std::isfinite(size)) return Problem{ProblemCode::bad_argument, "a length that is not finite"};
-    FieldOptions<D> options = samples_like(user, b != nullptr && b->cell() < a.cell() ? *b : a, volume);
-    FieldWork work(options);
-    if (!work.begin(0)) return FieldWork::cancelled();
+                      const FieldOptions<D>& requested, const Aabb<D>& surface, const Aabb<D>& volume) {
+    if (requested.closest_points)
+        return Problem{ProblemCode::bad_argument, "combined fields have no closest points: see field_redistance"};
+    if (!std::isfinite(size)) return Problem{ProblemCode::bad_argument, "the length is not finite"};
+    FieldOptions<D> options = aligned_options(requested, b != nullptr && b->cell() < a.cell() ? *b : a, volume);
+    BakeJob work(options);
+    if (!work.begin(0)) return BakeJob::cancelled();
     Result<FieldData<D>> grid = field_grid(surface, options);
     if (!grid) return grid.problem();
-    const bool shifts = operation == Operation::blended || operation == Operation::grown;
-    options.band = std::max(options.band + doubt_in_cells(a, b, grid->cell, shifts), 3.0f);
+    const bool shifts = operation == Operation::smooth_union || operation == Operation::grown;
+    options.band = std::max(options.band + extra_band_in_cells(a, b, grid->cell, shifts), 3.0f);
     FieldReport report;
     report.closed = true;
     const CombinedSource<D> source(a, b, operation, size, lattice_of(*grid));
     Result<Field<D>> field = fill_field(*std::move(grid), source, options, work, report);
     if (!field) return field;
     if (options.report != nullptr) *options.report = report;
-    // Where the surface is can only be said now. What the volume cuts reaches out of it, and must be seen to.
+    // The surface's bounds are known only now. A surface cut by the volume extends beyond it and must not be bounded by
+    // its samples.
     if (!contains(field->volume(), surface)) return field;
     FieldData<D> data = field->data();
-    data.surface = zero_box(data);
+    data.surface = isosurface_bounds(data);
     return Field<D>(std::move(data));
 }
 
@@ -132,19 +130,19 @@ Result<Field<D>> fill(const Field<D>& a, const Field<D>* b, Operation operation,
 
 template <int D>
 Result<Field<D>> field_union(const Field<D>& a, const Field<D>& b, const FieldOptions<D>& options) {
-    return fill(a, &b, Operation::least, 0.0f, options, merged(a.data().surface, b.data().surface),
+    return fill(a, &b, Operation::union_of, 0.0f, options, merged(a.data().surface, b.data().surface),
                 merged(a.volume(), b.volume()));
 }
 
 template <int D>
 Result<Field<D>> field_intersection(const Field<D>& a, const Field<D>& b, const FieldOptions<D>& options) {
-    return fill(a, &b, Operation::most, 0.0f, options, merged(a.data().surface, b.data().surface),
+    return fill(a, &b, Operation::max_samples, 0.0f, options, merged(a.data().surface, b.data().surface),
                 merged(a.volume(), b.volume()));
 }
 
 template <int D>
 Result<Field<D>> field_difference(const Field<D>& a, const Field<D>& b, const FieldOptions<D>& options) {
-    return fill(a, &b, Operation::without, 0.0f, options, merged(a.data().surface, b.data().surface),
+    return fill(a, &b, Operation::difference, 0.0f, options, merged(a.data().surface, b.data().surface),
                 merged(a.volume(), b.volume()));
 }
 
@@ -152,7 +150,7 @@ template <int D>
 Result<Field<D>> field_smooth_union(const Field<D>& a, const Field<D>& b, float radius,
                                     const FieldOptions<D>& options) {
     if (!(radius >= 0)) return Problem{ProblemCode::bad_argument, "the radius of a blend is below 0"};
-    return fill(a, &b, Operation::blended, radius, options,
+    return fill(a, &b, Operation::smooth_union, radius, options,
                 grown(merged(a.data().surface, b.data().surface), 0.25f * radius), merged(a.volume(), b.volume()));
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Convex parts that stand for a mesh: approximate convex decomposition.
+// Approximate convex decomposition of meshes.
 
 #include <abut/math/function_ref.hpp>
 #include <abut/math/result.hpp>
@@ -18,52 +18,57 @@
 
 namespace abut {
 
-/// What became of a mesh. The same on every machine.
+/// Properties of the result. They are the same on every machine.
 struct DecomposeReport {
-    bool closed = false;       ///< every connected surface of it encloses a solid
-    double mesh_volume = 0;    ///< what the closed surfaces enclose; where bodies overlap each counts
-    double parts_volume = 0;   ///< of all parts; where parts overlap each counts
-    double farthest = 0;       ///< no point of the surface is farther than this from some part, which is rounding alone
-    std::size_t vertices = 0;  ///< of all parts
-    std::vector<double> concavity;  ///< one a part, as that of the options; of joined parts no less than it is
+    bool closed = false;       ///< every connected component of the surface encloses a solid
+    double mesh_volume = 0;    ///< sum of the volumes enclosed by closed components, even if they overlap
+    double parts_volume = 0;   ///< sum of the parts' volumes, even if they overlap
+    double farthest = 0;       ///< upper bound of the distance of a surface point from the nearest part; only rounding
+    std::size_t vertices = 0;  ///< total number of the parts' vertices
+    std::vector<double> concavity;  ///< one per part, in units of the option; an upper bound for merged parts
 };
 
 struct DecomposeOptions {
-    /// There are never more parts; at least 1. Fewer where fewer are near enough.
+    /// Maximum number of parts, at least 1. Fewer are returned if they suffice.
     std::uint32_t max_parts = 32;
 
-    /// A part is cut no further, and parts are joined, where the hull is as near as this to what it stands for, as a
-    /// share of half the longest side of the mesh's box; from 0 on. That is the larger of two: the farthest way from
-    /// the hull's surface to that of the piece, and 0.3 times the radius of a ball as large as what the hull adds.
-    /// Bodies that are convex as they came are not joined with others. CoACD's threshold, with its scale. The first
-    /// is found to a tenth of this or 0.003, whichever is more (of joined parts to half of this, of a sum that is more
-    /// than it need be), both without what `max_vertices` adds: with less than 0.003, what is convex already may be cut
-    /// once more.
+    /// Threshold of concavity, at least 0, as a share of half the longest side of the mesh's bounding box. Parts within
+    /// it are not cut further, and parts are merged if the result stays within it. It is CoACD's threshold with its
+    /// scale.
+    ///
+    /// The concavity is the larger of two lengths: the Hausdorff distance from the hull's surface to the piece, and 0.3
+    /// times the radius of a ball with the volume that the hull adds. Components that are convex already are not merged
+    /// with others. The Hausdorff distance has a precision of a tenth of the threshold, but at least 0.003; for merged
+    /// parts it is an upper bound with half the threshold as precision. The effect of `max_vertices` is not included.
+    /// With a threshold below 0.003, convex pieces may be cut once more.
     double concavity = 0.05;
 
-    /// Of each part: above 3, or 0 for as many as its hull has. A part with more becomes a larger one, which may reach
-    /// farther out than `concavity`.
+    /// Maximum number of vertices of a part, above 3; 0: no limit. A part with more is replaced by a larger one, which
+    /// may exceed `concavity`.
     std::uint32_t max_vertices = 64;
 
-    /// Is told now and then which share of the work is done, in [0, 1], never less than before; false cancels.
+    /// Receives the share of the work that is done, in [0, 1], never decreasing; returning false cancels.
     std::optional<FunctionRef<bool(double done)>> progress = std::nullopt;
 
-    DecomposeReport* report = nullptr;  ///< where wanted
+    DecomposeReport* report = nullptr;  ///< optional output
 };
 
-/// Convex parts that together cover the mesh: every point of its surface, and all that closed surfaces enclose, to
-/// `DecomposeReport::farthest`. What is made of convex bodies, connected or not, comes back as those.
+/// Decomposes a mesh into convex parts that cover it: every point of the surface and everything that closed surfaces
+/// enclose, to within `DecomposeReport::farthest`. A mesh of convex bodies, connected or not, is decomposed into
+/// exactly these.
 ///
-/// Points in exactly the same place are one, whatever their numbers. Surfaces that are connected by these are
-/// decomposed each by itself. Where one is closed (as many triangles run along each edge one way as the other) and
-/// wound outwards, its parts are solid, and one inside of it wound inwards is a hollow. Any other is taken as a thin
-/// shell: its parts may be flat. Triangles with two equal corners are left out. A Problem where no triangle is left
-/// (`empty_input`), an index names no point (`index_out_of_range`, with the triangle's number), a point is NaN or
-/// infinite (`not_finite`), an option is outside of its limits (`bad_argument`), or progress said so (`cancelled`).
+/// Points with equal coordinates are welded, and each connected component of the surface is decomposed by itself. A
+/// component is solid if it is closed (every edge is traversed equally often in both directions) and oriented outwards;
+/// one inside it that is oriented inwards is a cavity. Any other component is a thin shell, and its parts may be flat.
+/// Triangles with two equal corners are ignored.
 ///
-/// Planes cut what is least convex in two, those that leave least to cut, with a look at the cuts that will follow; at
-/// last what has been cut too often is joined again. After Wei, Liu, Ling, Su: "Approximate convex decomposition for 3D
-/// meshes with collision-aware concavity and tree search" (2022), with other measures: docs/decompose.md.
+/// A Problem if no triangle is left (`empty_input`), an index names no point (`index_out_of_range`, with the triangle's
+/// number), a point is NaN or infinite (`not_finite`), an option is outside its limits (`bad_argument`), or `progress`
+/// returned false (`cancelled`).
+///
+/// The piece whose hull adds the most volume is cut by the plane that leaves the least to cut, with a lookahead of one
+/// cut. At last, parts that were cut needlessly are merged. After Wei, Liu, Ling, Su: "Approximate convex decomposition
+/// for 3D meshes with collision-aware concavity and tree search" (2022), with other measures: docs/decompose.md.
 Result<std::vector<Polyhedron>> decompose(std::span<const Vec3> points, std::span<const glm::uvec3> triangles,
                                           const DecomposeOptions& options = {});
 Result<std::vector<Polyhedron>> decompose(const Mesh& mesh, const DecomposeOptions& options = {});

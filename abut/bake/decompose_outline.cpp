@@ -1,8 +1,7 @@
-#include <abut/bake/convex_partition.hpp>
 #include <abut/bake/decompose_outline.hpp>
-#include <abut/bake/outline_flips.hpp>
-#include <abut/bake/outline_sweep.hpp>
-#include <abut/convex/hull_input.hpp>
+#include <abut/bake/outline/partition.hpp>
+#include <abut/bake/outline/triangulate.hpp>
+#include <abut/convex/hull/hull_input.hpp>
 #include <abut/math/dvec.hpp>
 #include <abut/math/predicates.hpp>
 
@@ -15,12 +14,12 @@ namespace {
 
 using outline::Partition;
 
-/// Up to so many corners are solved as one,
-constexpr std::uint32_t solved_at_once = 128;
-/// and up to so many in large patches.
-constexpr std::uint32_t few_corners = 2000;
+/// Up to this number of corners the minimum partition is computed at once.
+constexpr std::uint32_t max_exact_corners = 128;
+/// Up to this number of corners large patches are improved.
+constexpr std::uint32_t max_large_patch_corners = 2000;
 
-/// Of the loop of a piece, as a part of it has it: straight corners left out, from the least.
+/// Makes the polygon of a face: without its straight corners, starting at the smallest.
 class PartMaker {
 public:
     explicit PartMaker(OutlineReport& report) : report_(report) {}
@@ -69,13 +68,13 @@ private:
 std::optional<Problem> problem_with(std::span<const Vec2> outline, const OutlineOptions& options) {
     if (outline.empty()) return Problem{ProblemCode::empty_input, "the outline has no points", 0};
     if (!std::isfinite(options.concavity) || options.concavity < 0)
-        return Problem{ProblemCode::bad_argument, "concavity is a finite length, not below 0", 0};
+        return Problem{ProblemCode::bad_argument, "concavity is not a finite length of at least 0", 0};
     if (options.concavity > 0 && options.conforming)
-        return Problem{ProblemCode::bad_argument, "only exact parts are conforming: concavity is not 0", 0};
+        return Problem{ProblemCode::bad_argument, "conforming parts must be exact: concavity is not 0", 0};
     return std::nullopt;
 }
 
-/// The holes, without the points of those that are to be filled.
+/// The holes; those to be filled are empty.
 std::vector<std::vector<Vec2>> open_holes(double width, std::span<const std::vector<Vec2>> holes,
                                           OutlineReport& report) {
     std::vector<std::vector<Vec2>> result(holes.begin(), holes.end());
@@ -88,38 +87,38 @@ std::vector<std::vector<Vec2>> open_holes(double width, std::span<const std::vec
     return result;
 }
 
-/// Into few convex pieces.
+/// Partitions the region into few convex faces.
 void cut(Partition& partition, OutlineReport& report) {
     report.reflex_corners = partition.reflex_corners();
     const std::size_t corners = partition.corners();
     partition.merge_all();
     const auto cuts = static_cast<std::int64_t>((report.reflex_corners + 1) / 2);
-    report.least_pieces = static_cast<std::size_t>(std::max<std::int64_t>(1, partition.pieces_less_holes() + cuts));
-    const auto is_least = [&] { return partition.face_count() == report.least_pieces; };
-    if (is_least())
+    report.min_pieces = static_cast<std::size_t>(std::max<std::int64_t>(1, partition.pieces_less_holes() + cuts));
+    const auto is_optimal = [&] { return partition.face_count() == report.min_pieces; };
+    if (is_optimal())
         report.optimal = true;
-    else if (corners <= solved_at_once)
-        report.optimal = partition.improve(solved_at_once, 3, false).optimal;
-    else if (corners <= few_corners)
+    else if (corners <= max_exact_corners)
+        report.optimal = partition.improve(max_exact_corners, 3, false).optimal;
+    else if (corners <= max_large_patch_corners)
         partition.improve(32, 3, false);
-    else if (partition.improve(8, 1, true).worthwhile)
+    else if (partition.improve(8, 1, true).is_worthwhile)
         partition.improve(16, 2, false);
-    report.optimal = report.optimal || is_least();
+    report.optimal = report.optimal || is_optimal();
 }
 
 }  // namespace
 
 Result<std::vector<Polygon>> decompose(std::span<const Vec2> outline, std::span<const std::vector<Vec2>> holes,
                                        const OutlineOptions& options) {
-    OutlineReport unread;
-    OutlineReport& report = options.report != nullptr ? *options.report : unread;
+    OutlineReport unused;
+    OutlineReport& report = options.report != nullptr ? *options.report : unused;
     report = {};
     if (auto problem = problem_with(outline, options)) return *problem;
     Result<outline::Triangulation> triangles =
         options.concavity > 0 ? outline::triangulate(outline, open_holes(options.concavity, holes, report))
                               : outline::triangulate(outline, holes);
     if (!triangles) return triangles.problem();
-    if (triangles->origins.empty()) return Problem{ProblemCode::degenerate, "the outline has nothing inside", 0};
+    if (triangles->origins.empty()) return Problem{ProblemCode::degenerate, "the interior of the outline is empty", 0};
     report.repeated_points = triangles->repeated_points;
     report.touching_points = triangles->touching_points;
     report.cancelled_edges = triangles->cancelled_edges;

@@ -1,5 +1,5 @@
 #include <abut/bake/fit.hpp>
-#include <abut/bake/fit_candidates.hpp>
+#include <abut/bake/parts/fit_candidates.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -12,15 +12,15 @@
 namespace abut {
 namespace {
 
-/// How far corners of the part are outside at most, and how far the shape is outside of the part.
-struct Reach {
+/// The largest distance of a corner of the part outside the shape, and of a point of the shape outside the part.
+struct Excess {
     double of_part = 0, of_shape = 0;
 };
 
-/// A convex function, such as the distance to a convex body, is largest at the ends of a capsule.
-Reach reach(const Polyhedron& part, const Capsule<3>& capsule) {
+/// The distance from a convex body is a convex function: on a capsule it is largest at the ends.
+Excess excess(const Polyhedron& part, const Capsule<3>& capsule) {
     const double radius = static_cast<double>(capsule.radius);
-    Reach result;
+    Excess result;
     for (const Vec3& corner : part.points())
         result.of_part = std::max(result.of_part, distance_to_axis(capsule, DVec<3>(corner)) - radius);
     for (const Vec3& end : {capsule.a, capsule.b})
@@ -28,10 +28,10 @@ Reach reach(const Polyhedron& part, const Capsule<3>& capsule) {
     return result;
 }
 
-Reach reach(const Polyhedron& part, const Box<3>& box) {
+Excess excess(const Polyhedron& part, const Box<3>& box) {
     const glm::dquat turn = glm::normalize(glm::dquat(box.rotation));
     const DVec<3> half(box.half), center(box.center);
-    Reach result;
+    Excess result;
     for (const Vec3& corner : part.points()) {
         const DVec<3> at = glm::conjugate(turn) * (DVec<3>(corner) - center);
         DVec<3> beyond(0.0);
@@ -49,39 +49,39 @@ Reach reach(const Polyhedron& part, const Box<3>& box) {
 template <class S>
 struct Candidate {
     Candidate(const Polyhedron& part, const S& candidate) : shape(candidate) {
-        const Reach far = reach(part, shape);
-        error = std::max(far.of_part, far.of_shape);
-        outside = far.of_part;
+        const Excess beyond = excess(part, shape);
+        error = std::max(beyond.of_part, beyond.of_shape);
+        excess_of_part = beyond.of_part;
     }
 
     S shape;
     double error = 0;
-    double outside = 0;  ///< the most that the part is
+    double excess_of_part = 0;  ///< largest distance of a corner of the part outside the shape
 };
 
-/// The middle one of its half edges.
+/// The middle one of the box's half edges.
 double breadth_of(const Box<3>& box) {
     const Vec3& half = box.half;
     return static_cast<double>(std::max(std::min(half.x, half.y), std::min(std::max(half.x, half.y), half.z)));
 }
 
-using Round = std::optional<Candidate<Capsule<3>>>;
+using RoundCandidate = std::optional<Candidate<Capsule<3>>>;
 
-/// How good a candidate is, once it is as large as it has to be.
-Round rated(const Polyhedron& part, const std::optional<Capsule<3>>& capsule, bool hold) {
+/// Evaluates a candidate, grown first if it has to contain the part.
+RoundCandidate rated(const Polyhedron& part, const std::optional<Capsule<3>>& capsule, bool hold) {
     if (!capsule) return std::nullopt;
     Candidate<Capsule<3>> result(part, *capsule);
     if (!hold) return result;
     Capsule<3> larger = *capsule;
-    larger.radius = std::nextafter(static_cast<float>(static_cast<double>(larger.radius) + result.outside),
+    larger.radius = std::nextafter(static_cast<float>(static_cast<double>(larger.radius) + result.excess_of_part),
                                    std::numeric_limits<float>::infinity());
     return Candidate<Capsule<3>>(part, larger);
 }
 
-Round best_capsule(const Polyhedron& part, const Axes& axes, bool hold) {
-    Round best;
+RoundCandidate best_capsule(const Polyhedron& part, const Axes& axes, bool hold) {
+    RoundCandidate best;
     for (const DVec<3>& axis : axes) {
-        const Round next = rated(part, capsule_near(part, axis), hold);
+        const RoundCandidate next = rated(part, fit_capsule(part, axis), hold);
         if (next && (!best || next->error < best->error)) best = next;
     }
     return best;
@@ -93,21 +93,21 @@ std::optional<Fit> fit(const Polyhedron& part, const FitOptions& options) {
     if (part.rank() < 2) return std::nullopt;
     const bool is_solid = part.rank() == 3;
     const Axes principal = principal_axes(part);
-    const Candidate<Box<3>> box(part, box_about(part, principal));
+    const Candidate<Box<3>> box(part, oriented_box_around(part, principal));
     const double size = part.ball().radius, tolerance = options.tolerance * breadth_of(box.shape);
-    const Round capsule = is_solid ? best_capsule(part, principal, options.hold) : std::nullopt;
-    const Round ball = is_solid ? rated(part, ball_near(part), options.hold) : std::nullopt;
+    const RoundCandidate capsule = is_solid ? best_capsule(part, principal, options.hold) : std::nullopt;
+    const RoundCandidate ball = is_solid ? rated(part, fit_ball(part), options.hold) : std::nullopt;
 
-    double least = box.error;
-    for (const Round& round : {capsule, ball})
-        if (round) least = std::min(least, round->error);
-    const double enough = std::min(least + 0.1 * tolerance, tolerance);
+    double best_error = box.error;
+    for (const RoundCandidate& round : {capsule, ball})
+        if (round) best_error = std::min(best_error, round->error);
+    const double max_error = std::min(best_error + 0.1 * tolerance, tolerance);
     const auto as_fit = [&](const auto& candidate, const auto& shape) {
-        return Fit{shape, candidate.error, candidate.outside <= 1e-6 * size};
+        return Fit{shape, candidate.error, candidate.excess_of_part <= 1e-6 * size};
     };
-    if (ball && ball->error <= enough) return as_fit(*ball, Ball<3>{ball->shape.a, ball->shape.radius});
-    if (capsule && capsule->error <= enough) return as_fit(*capsule, capsule->shape);
-    if (box.error <= enough) return as_fit(box, box.shape);
+    if (ball && ball->error <= max_error) return as_fit(*ball, Ball<3>{ball->shape.a, ball->shape.radius});
+    if (capsule && capsule->error <= max_error) return as_fit(*capsule, capsule->shape);
+    if (box.error <= max_error) return as_fit(box, box.shape);
     return std::nullopt;
 }
 

@@ -1,10 +1,10 @@
-#include <abut/bake/fill_holes.hpp>
 #include <abut/bake/repair.hpp>
-#include <abut/bake/wind.hpp>
+#include <abut/bake/repair/fill_holes.hpp>
+#include <abut/bake/repair/orientation.hpp>
 #include <abut/math/coincident.hpp>
-#include <abut/shape/check_triangles.hpp>
-#include <abut/shape/half_edges.hpp>
-#include <abut/shape/tidy.hpp>
+#include <abut/shape/mesh/check_triangles.hpp>
+#include <abut/shape/mesh/clean_up.hpp>
+#include <abut/shape/mesh/half_edges.hpp>
 #include <abut/shape/weld.hpp>
 
 #include <algorithm>
@@ -15,15 +15,15 @@
 namespace abut {
 namespace {
 
-constexpr std::uint32_t most_hole_edges = 1000;
+constexpr std::uint32_t max_hole_edges = 1000;
 
 std::optional<Problem> problem_of(std::span<const Vec3> points, std::span<const glm::uvec3> triangles,
                                   const RepairOptions& options) {
     if (!std::isfinite(options.weld_distance) || options.weld_distance < 0)
         return Problem{ProblemCode::bad_argument, "the weld distance is not a finite number of at least 0"};
     if (!(options.hole_area >= 0 && options.hole_area <= 1))
-        return Problem{ProblemCode::bad_argument, "the share of area of holes is not from 0 to 1"};
-    if (options.hole_edges > most_hole_edges)
+        return Problem{ProblemCode::bad_argument, "hole_area is not between 0 and 1"};
+    if (options.hole_edges > max_hole_edges)
         return Problem{ProblemCode::bad_argument, "holes to fill have more than 1000 edges"};
     return problem_of_triangles(points, triangles, "a surface");
 }
@@ -54,29 +54,28 @@ Result<Repaired> repair(std::span<const Vec3> points, std::span<const glm::uvec3
     Welded surface = weld(points, triangles, options.weld_distance);
     count_points(points, triangles, surface, repairs);
     repairs.triangles_lost = triangles.size() - surface.triangles.size();
-    repairs.triangles_double = drop_doubles(surface);
+    repairs.triangles_double = remove_duplicate_triangles(surface);
 
-    const std::vector<glm::uvec3> as_it_came = surface.triangles;
-    Patches patches = wind_alike(surface);
+    const std::vector<glm::uvec3> original = surface.triangles;
+    Patches patches = orient_consistently(surface);
     const FilledHoles filled = fill_holes(surface, patches, options.hole_edges, options.hole_area);
     repairs.holes_filled = filled.holes;
     repairs.triangles_added = filled.triangles;
     if (options.face_outwards) {
-        const Insides insides = face_outwards(surface, patches);
+        const InwardSurfaces insides = orient_outwards(surface, patches);
         repairs.cavities = insides.cavities;
         repairs.rooms = insides.rooms;
     }
-    for (std::size_t i = 0; i < as_it_came.size(); ++i)
-        repairs.triangles_turned += surface.triangles[i] != as_it_came[i];
-    repairs.triangles_lost += drop_slivers(surface);
+    for (std::size_t i = 0; i < original.size(); ++i) repairs.triangles_turned += surface.triangles[i] != original[i];
+    repairs.triangles_lost += remove_slivers(surface);
     if (surface.triangles.empty()) return Problem{ProblemCode::degenerate, "no triangle has an area"};
 
-    // Corners of what went may be used no more.
+    // Corners of removed triangles may be unused now.
     surface = weld(surface.points, surface.triangles);
     const EdgeFaults faults = edge_faults(surface.triangles);
-    repairs.open_edges = faults.open;
-    repairs.crowded_edges = faults.crowded;
-    repairs.disagreeing_edges = faults.disagreeing;
+    repairs.open_edges = faults.boundary;
+    repairs.non_manifold_edges = faults.non_manifold;
+    repairs.disagreeing_edges = faults.inconsistent;
     result.closed = faults.closed;
     result.points = std::move(surface.points);
     result.triangles = std::move(surface.triangles);
@@ -105,7 +104,7 @@ std::string described(const Repairs& repairs) {
     text += "; ";
     const std::size_t before = text.size();
     add(repairs.open_edges, "open edge", "open edges", "");
-    add(repairs.crowded_edges, "edge", "edges", " of more than two triangles");
+    add(repairs.non_manifold_edges, "edge", "edges", " of more than two triangles");
     add(repairs.disagreeing_edges, "edge", "edges", " whose triangles can't agree");
     if (text.size() == before)
         text.resize(before - 2);

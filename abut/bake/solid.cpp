@@ -1,5 +1,5 @@
 #include <abut/bake/solid.hpp>
-#include <abut/convex/hull.hpp>
+#include <abut/convex/hull/hull.hpp>
 #include <abut/math/aabb.hpp>
 #include <abut/math/dvec.hpp>
 
@@ -32,14 +32,14 @@ std::vector<Edge> sorted_edges(std::span<const glm::uvec3> triangles) {
     return edges;
 }
 
-/// The same edge seen from the other side; nothing where there is none, or where there are several.
+/// The opposite half-edge. Null if there is none, or if there are several.
 const Edge* twin(std::span<const Edge> edges, const Edge& edge) {
     const auto [first, last] = std::equal_range(edges.begin(), edges.end(), Edge{edge.to, edge.from, 0}, before);
     return last - first == 1 ? &*first : nullptr;
 }
 
-/// How far a point is in front of the plane through three others, counter-clockwise seen from the front. Zero where
-/// these lie on a line.
+/// The signed distance from the plane through three points, counter-clockwise seen from the front. Zero if these are
+/// collinear.
 class Plane {
 public:
     Plane(const Vec3& a, const Vec3& b, const Vec3& c)
@@ -53,11 +53,11 @@ private:
     DVec<3> normal_;
 };
 
-/// The farthest corner of a hull in a direction, by going from corner to corner as long as that leads on: on a convex
-/// body there is no other summit. Begins where the last one was found, which for triangles in order is next door.
-class Climber {
+/// The support function of a hull by hill climbing from vertex to vertex; a convex body has no other local maximum.
+/// Each search starts at the previous result (a warm start): consecutive triangles are neighbours.
+class HillClimb {
 public:
-    explicit Climber(const Hull3& hull) : hull_(hull), first_(hull.points.size() + 1, 0) {
+    explicit HillClimb(const Hull3& hull) : hull_(hull), first_(hull.points.size() + 1, 0) {
         for (const std::uint32_t corner : hull.loops) ++first_[corner + 1];
         for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
         next_.resize(hull.loops.size());
@@ -73,14 +73,14 @@ public:
     const Vec3& farthest(const DVec<3>& direction) {
         const auto reach = [&](std::uint32_t corner) { return dot(direction, DVec<3>(hull_.points[corner])); };
         double best = reach(at_);
-        for (bool climbs = true; climbs;) {
-            climbs = false;
+        for (bool is_improving = true; is_improving;) {
+            is_improving = false;
             for (std::uint32_t i = first_[at_]; i < first_[at_ + 1]; ++i) {
-                const double further = reach(next_[i]);
-                if (further <= best) continue;
-                best = further;
+                const double next_reach = reach(next_[i]);
+                if (next_reach <= best) continue;
+                best = next_reach;
                 at_ = next_[i];
-                climbs = true;
+                is_improving = true;
                 break;
             }
         }
@@ -89,8 +89,8 @@ public:
 
 private:
     const Hull3& hull_;
-    std::vector<std::uint32_t> first_;  // where a corner's neighbours begin in next_
-    std::vector<std::uint32_t> next_;   // each edge is there from both its ends: one in each loop it is part of
+    std::vector<std::uint32_t> first_;  // one per vertex: where its neighbours begin in next_
+    std::vector<std::uint32_t> next_;   // each edge occurs for both its ends, once in each loop
     std::uint32_t at_ = 0;
 };
 
@@ -118,25 +118,25 @@ double signed_volume(std::span<const Vec3> points, std::span<const glm::uvec3> t
 bool is_convex_solid(std::span<const Vec3> points, std::span<const glm::uvec3> triangles) {
     constexpr std::size_t tetrahedron = 4;
     if (triangles.size() < tetrahedron) return false;
-    const double margin = 1e-5 * bounding_radius(points);
+    const double tolerance = 1e-5 * bounding_radius(points);
 
-    // 1. Closed; and across each edge the neighbour bends back. This is where nearly everything concave is found out.
+    // 1. The surface is closed, and no edge is reflex. This test rejects nearly every concave surface.
     const std::vector<Edge> edges = sorted_edges(triangles);
     for (const Edge& edge : edges) {
         const Edge* other = twin(edges, edge);
         if (other == nullptr) return false;
         const Plane plane(points[edge.from], points[edge.to], points[edge.opposite]);
-        if (plane.height(points[other->opposite]) > margin) return false;
+        if (plane.height(points[other->opposite]) > tolerance) return false;
     }
     if (!(signed_volume(points, triangles) > 0)) return false;
 
-    // 2. Many small bends the wrong way, each within the margin, can add up, and so can separate bodies.
+    // 2. Many reflex edges within the tolerance can add up, and disconnected bodies pass the first test.
     const Result<Hull3> corners = hull(points);
     if (!corners || corners->rank < 3) return false;
-    Climber climber(*corners);
+    HillClimb hill_climb(*corners);
     return std::all_of(triangles.begin(), triangles.end(), [&](const glm::uvec3& t) {
         const Plane plane(points[t.x], points[t.y], points[t.z]);
-        return plane.height(climber.farthest(plane.normal())) <= margin;
+        return plane.height(hill_climb.farthest(plane.normal())) <= tolerance;
     });
 }
 

@@ -7,7 +7,7 @@
 #include <abut/math/aabb.hpp>
 #include <abut/math/executor.hpp>
 #include <abut/math/ray.hpp>
-#include <abut/math/upper_halves.hpp>
+#include <abut/math/simd/upper_halves.hpp>
 
 #include <cstdint>
 #include <limits>

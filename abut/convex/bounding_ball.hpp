@@ -1,6 +1,6 @@
 #pragma once
 
-// A ball around points: where two balls are apart, so is what they hold.
+// A bounding ball of points: if two bounding balls are disjoint, so are their contents.
 
 #include <abut/math/dvec.hpp>
 
@@ -14,7 +14,7 @@ struct BoundingBall {
     double radius = 0;
 };
 
-/// About the middle of the box around the points, of which there is one at least. Right to rounding.
+/// Centred on the middle of the bounding box; right to rounding. There is at least one point.
 template <int D>
 BoundingBall<D> ball_around(std::span<const Vec<D>> points) {
     DVec<D> low(points[0]), high = low;

@@ -13,11 +13,11 @@ Face<D> corner(const Convex<D>& convex, const DVec<D>& direction) {
 }
 
 template <int D>
-DVec<D> vertex(const Convex<D>& convex, std::uint32_t i) {
+DVec<D> placed_vertex(const Convex<D>& convex, std::uint32_t i) {
     return convex.place.point(DVec<D>(convex.vertices()[i]));
 }
 
-/// An edge of the plane with its normal on the side that `direction` looks to; a corner where it has no length.
+/// An edge in 2D with its normal on the side of `direction`; a vertex if it has no length.
 Face<2> edge_along(const DVec<2>& a, std::uint32_t index_a, const DVec<2>& b, std::uint32_t index_b,
                    const DVec<2>& direction) {
     Face<2> face;
@@ -31,21 +31,21 @@ Face<2> edge_along(const DVec<2>& a, std::uint32_t index_a, const DVec<2>& b, st
 
 Face<3> triangle_along(const Convex<3>& convex, const DVec<3>& direction) {
     Face<3> face;
-    for (std::uint32_t i = 0; i < 3; ++i) face.push_back(vertex(convex, i), i);
+    for (std::uint32_t i = 0; i < 3; ++i) face.push_back(placed_vertex(convex, i), i);
     face.normal = normalized(cross(face.points[1] - face.points[0], face.points[2] - face.points[0]), DVec<3>(0.0));
     if (dot(face.normal, direction) < 0) face.normal = -face.normal;
     return face;
 }
 
-/// Which normal looks most along `direction` where the placement turns them apart: each is placed first.
+/// The normal nearest to `direction` after placement, for placements that aren't similarities.
 std::size_t normal_along(const Convex<3>& convex, const DVec<3>& direction) {
     std::size_t best = 0;
-    double most = -2;
+    double maximum = -2;
     for (std::size_t i = 0; i < convex.facets->normals.size(); ++i) {
         const DVec<3> normal(convex.facets->normals[i]);
         const double along = dot(normalized(mapped_normal(convex.place, normal), DVec<3>(0.0)), direction);
-        if (along > most) {
-            most = along;
+        if (along > maximum) {
+            maximum = along;
             best = i;
         }
     }
@@ -59,23 +59,23 @@ Face<3> facet_along(const Convex<3>& convex, const DVec<3>& direction) {
     Face<3> face;
     face.normal = normalized(mapped_normal(convex.place, DVec<3>(facets.normals[best])), DVec<3>(0.0));
     const std::size_t begin = best == 0 ? 0 : facets.loop_ends[best - 1], corners = facets.loop_ends[best] - begin;
-    const std::size_t kept = std::min(corners, Face<3>::capacity / 2);
-    for (std::size_t i = 0; i < kept; ++i) {
-        const std::uint32_t index = facets.loops[begin + i * corners / kept];
-        face.push_back(vertex(convex, index), index);
+    const std::size_t selected = std::min(corners, Face<3>::capacity / 2);
+    for (std::size_t i = 0; i < selected; ++i) {
+        const std::uint32_t index = facets.loops[begin + i * corners / selected];
+        face.push_back(placed_vertex(convex, index), index);
     }
     return face;
 }
 
 Face<3> box_face_along(const Convex<3>& convex, const DVec<3>& direction) {
     int best = 0;
-    double sign = 1, most = -1;
+    double sign = 1, maximum = -1;
     DVec<3> normal(0.0);
     for (int i = 0; i < 3; ++i) {
         const DVec<3> n = normalized(mapped_normal(convex.place, axis<3>(i)), DVec<3>(0.0));
         const double along = dot(n, direction);
-        if (std::abs(along) > most) {
-            most = std::abs(along);
+        if (std::abs(along) > maximum) {
+            maximum = std::abs(along);
             best = i;
             sign = along < 0 ? -1 : 1;
             normal = n * sign;
@@ -92,14 +92,14 @@ Face<3> box_face_along(const Convex<3>& convex, const DVec<3>& direction) {
         point[v] *= c[1];
         const std::uint32_t index = (point[0] < 0 ? 1u : 0u) | (point[1] < 0 ? 2u : 0u) | (point[2] < 0 ? 4u : 0u);
         const DVec<3> position = convex.place.point(point);
-        // The face of a box without thickness is an edge or a corner.
+        // The face of a box without thickness is an edge or a vertex.
         if (face.count > 0 && (position == face.points[0] || position == face.points[face.count - 1])) continue;
         face.push_back(position, index);
     }
     return face;
 }
 
-/// A flat end as a ring of points, a line along the side, or a corner.
+/// A flat end as a ring of points, a line along the side, or a vertex.
 Face<3> discs_face_along(const Convex<3>& convex, const DVec<3>& direction) {
     const DVec<3> a(convex.own[0]), b(convex.own[1]);
     const double radius_a = static_cast<double>(convex.disc_radius[0]),
@@ -110,7 +110,7 @@ Face<3> discs_face_along(const Convex<3>& convex, const DVec<3>& direction) {
     const bool at_b = along > 0;
     Face<3> face;
     if (std::abs(along) >= aligned && (at_b ? radius_b : radius_a) > 0) {
-        // Eight directions by halving right angles: the ring is the same on every machine.
+        // Eight directions by bisecting right angles: the ring has the same bits on every machine.
         const DVec<3> x = perpendicular(u), y = cross(u, x);
         const double diagonal = std::sqrt(0.5);
         const DVec<3> ring[8] = {x,  (x + y) * diagonal,  y,  (y - x) * diagonal,
@@ -130,16 +130,16 @@ Face<3> discs_face_along(const Convex<3>& convex, const DVec<3>& direction) {
     return face;
 }
 
-/// A face a million times as long as wide is an edge: its normal is rounding, and its sides don't end it.
+/// Reduces a face that is a million times longer than wide to an edge: its normal is rounding.
 void thin_to_edge(Face<3>& face) {
     if (face.count < 3) return;
     const auto farthest_from = [&](std::size_t from) {
         std::size_t best = from;
-        double most = 0;
+        double maximum = 0;
         for (std::size_t i = 0; i < face.count; ++i) {
             const double distance = length_squared(face.points[i] - face.points[from]);
-            if (distance > most) {
-                most = distance;
+            if (distance > maximum) {
+                maximum = distance;
                 best = i;
             }
         }
@@ -173,8 +173,8 @@ Face<3> any_face_along(const Convex<3>& convex, const DVec<3>& direction) {
     if (convex.count == 3) return triangle_along(convex, direction);
     if (convex.count != 2) return corner(convex, direction);
     Face<3> face;
-    face.push_back(vertex(convex, 0), 0);
-    face.push_back(vertex(convex, 1), 1);
+    face.push_back(placed_vertex(convex, 0), 0);
+    face.push_back(placed_vertex(convex, 1), 1);
     return face;
 }
 

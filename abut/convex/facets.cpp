@@ -1,4 +1,4 @@
-#include <abut/convex/buckets.hpp>
+#include <abut/convex/bucket_sort.hpp>
 #include <abut/convex/facets.hpp>
 
 #include <algorithm>
@@ -7,7 +7,7 @@ namespace abut {
 
 std::vector<FacetEdge> facet_edges(std::span<const std::uint32_t> loops, std::span<const std::uint32_t> loop_ends) {
     if (loops.empty()) return {};
-    // In the bucket of its lower end: the higher one, then which way it runs, then the face.
+    // A bucket per lower end; the key holds the higher end, the direction and the face.
     constexpr std::uint64_t falling = std::uint64_t{1} << 32, high_unit = falling << 1;
     const auto each_side = [&](auto visit) {
         std::size_t begin = 0;

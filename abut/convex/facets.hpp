@@ -10,29 +10,30 @@
 
 namespace abut {
 
-/// An edge between two faces. On the Gauss map it is the arc between their normals.
+/// An edge between two faces; the arc between their normals on the Gauss map.
 struct FacetEdge {
-    std::uint32_t from, to;     ///< its point numbers, from < to
-    std::uint32_t left, right;  ///< its faces: `left` runs along it from `from` to `to`, `right` the other way
+    std::uint32_t from, to;  ///< its vertex numbers, from < to
+    std::uint32_t left,
+        right;  ///< its faces: `left` runs along it from `from` to `to`, `right` in the opposite direction
 };
 
-/// Faces as loops of point numbers, counter-clockwise seen from outside.
+/// Faces as loops of vertex numbers, counter-clockwise seen from outside.
 struct Facets {
-    std::span<const Vec3> normals;             ///< one a face, of length 1, outwards
-    std::span<const std::uint32_t> loops;      ///< the point numbers of all faces, one after the other
-    std::span<const std::uint32_t> loop_ends;  ///< one a face: where its loop ends in `loops`; it begins where the last
-                                               ///< ended
-    std::span<const FacetEdge> edges;          ///< each once, in the order of (from, to)
-    std::span<const double> offsets{};         ///< one a face: dot(normal, p) <= offset for all points; none: not known
+    std::span<const Vec3> normals;         ///< one per face, of length 1, outwards
+    std::span<const std::uint32_t> loops;  ///< the vertex numbers of all faces, one after the other
+    std::span<const std::uint32_t>
+        loop_ends;                      ///< one per face: the end of its loop in `loops`, where the next loop begins
+    std::span<const FacetEdge> edges;   ///< each once, sorted by (from, to)
+    std::span<const double> offsets{};  ///< one per face: dot(normal, p) <= offset for all points; empty: unknown
 
-    /// The point numbers of one face.
+    /// The vertex numbers of one face.
     std::span<const std::uint32_t> loop(std::size_t face) const {
         const std::size_t begin = face == 0 ? 0 : loop_ends[face - 1];
         return loops.subspan(begin, loop_ends[face] - begin);
     }
 };
 
-/// The edges of a closed surface given as loops.
+/// The edges of a closed surface of loops.
 std::vector<FacetEdge> facet_edges(std::span<const std::uint32_t> loops, std::span<const std::uint32_t> loop_ends);
 
 }  // namespace abut

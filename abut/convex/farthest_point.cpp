@@ -1,6 +1,5 @@
-// Compiled once for each kind of vector unit by Highway, which takes the best of them when the program runs. Products
-// and sums are rounded one by one in all of them, and the largest of some numbers doesn't depend on the order in which
-// they are compared.
+// Highway compiles this file once for each SIMD target and selects the best at run time. Products and sums are rounded
+// one by one in all of them, and a maximum doesn't depend on the order of the comparisons.
 
 #include <abut/convex/farthest_point.hpp>
 
@@ -10,8 +9,8 @@
 #define HWY_TARGET_INCLUDE "abut/convex/farthest_point.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-// After them: once for each target.
-#include <abut/convex/farthest_lane-inl.h>
+// After Highway's headers, because it is included once for each target.
+#include <abut/convex/farthest_simd-inl.h>
 
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE {
@@ -37,7 +36,7 @@ Vector along(const Vec3* points, const Vector* direction) {
     return hn::Add(xy, hn::Mul(hn::PromoteTo(d, z), direction[2]));
 }
 
-/// Each lane keeps the first of its largest; the lanes are compared at the end, and then what is left over.
+/// Each lane holds the first of its maxima. The lanes are compared at the end, and then the remainder.
 template <int D>
 std::uint32_t farthest(const Vec<D>* points, std::size_t count, const DVec<D>& direction) {
     const Doubles d;
@@ -46,26 +45,26 @@ std::uint32_t farthest(const Vec<D>* points, std::size_t count, const DVec<D>& d
     for (int i = 0; i < D; ++i) axes[i] = hn::Set(d, direction[i]);
 
     constexpr double lowest = -std::numeric_limits<double>::infinity();
-    Vector most = hn::Set(d, lowest), best = hn::Zero(d), index = hn::Iota(d, 0.0);
+    Vector maximum = hn::Set(d, lowest), best = hn::Zero(d), index = hn::Iota(d, 0.0);
     const Vector step = hn::Set(d, static_cast<double>(lanes));
     std::size_t i = 0;
     for (; i + lanes <= count; i += lanes) {
         const Vector here = along(points + i, axes);
-        const auto farther = hn::Gt(here, most);
-        most = hn::IfThenElse(farther, here, most);
+        const auto farther = hn::Gt(here, maximum);
+        maximum = hn::IfThenElse(farther, here, maximum);
         best = hn::IfThenElse(farther, index, best);
         index = hn::Add(index, step);
     }
 
-    HWY_ALIGN double most_of[hn::MaxLanes(d)];
-    HWY_ALIGN double best_of[hn::MaxLanes(d)];
-    hn::Store(most, d, most_of);
-    hn::Store(best, d, best_of);
-    double result = best_of[0], value = most_of[0];
+    HWY_ALIGN double lane_max[hn::MaxLanes(d)];
+    HWY_ALIGN double lane_best[hn::MaxLanes(d)];
+    hn::Store(maximum, d, lane_max);
+    hn::Store(best, d, lane_best);
+    double result = lane_best[0], value = lane_max[0];
     for (std::size_t lane = 1; lane < lanes; ++lane)
-        if (most_of[lane] > value || (most_of[lane] == value && best_of[lane] < result)) {
-            value = most_of[lane];
-            result = best_of[lane];
+        if (lane_max[lane] > value || (lane_max[lane] == value && lane_best[lane] < result)) {
+            value = lane_max[lane];
+            result = lane_best[lane];
         }
     for (; i < count; ++i) {
         double here = static_cast<double>(points[i][0]) * direction[0];
@@ -85,7 +84,7 @@ std::uint32_t farthest_in_space(const Vec3* points, std::size_t count, const DVe
     return farthest<3>(points, count, direction);
 }
 
-std::uint32_t farthest_of_lanes(const PointLanes& points, const DVec<3>& direction) {
+std::uint32_t farthest_of_lanes(const PointSoa& points, const DVec<3>& direction) {
     return farthest_lane(points, direction);
 }
 
@@ -105,7 +104,7 @@ std::uint32_t farthest_point(std::span<const Vec2> points, const DVec<2>& direct
 std::uint32_t farthest_point(std::span<const Vec3> points, const DVec<3>& direction) {
     return HWY_DYNAMIC_DISPATCH(farthest_in_space)(points.data(), points.size(), direction);
 }
-std::uint32_t farthest_point(const PointLanes& points, const DVec<3>& direction) {
+std::uint32_t farthest_point(const PointSoa& points, const DVec<3>& direction) {
     return HWY_DYNAMIC_DISPATCH(farthest_of_lanes)(points, direction);
 }
 

@@ -1,15 +1,15 @@
 #pragma once
 
-// What a place on a shape is called: a corner, an edge or a face, by number.
+// The names of the features of a shape: a vertex, an edge or a face, by number.
 
 #include <algorithm>
 #include <cstdint>
 
 namespace abut {
 
-/// The numbers are the shape's own. Points are counted as the shape lists them; a box's corners have bit i set where
-/// axis i is at its low end. Faces, in 3D alone: of a polyhedron as `facets()` lists them; of a box 2 * axis, plus one
-/// at the low end; of a triangle 0 on the side from which it is counter-clockwise, 1 on the other.
+/// The numbers are the shape's own. Points are numbered as the shape lists them. A vertex of a box has bit i set if it
+/// is at the low end of axis i. Faces, in 3D alone: a polyhedron's as `facets()` lists them; a box' as 2 * axis, plus
+/// one at the low end; a triangle's 0 on the side from which it is counter-clockwise, 1 on the other.
 enum class FeatureKind : std::uint8_t {
     none,    ///< a round or unnamed place
     vertex,  ///< index: of the point

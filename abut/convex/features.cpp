@@ -4,12 +4,12 @@
 namespace abut {
 namespace {
 
-/// What is nearer than this, seen from coordinates of size 1, may be rounding: its direction means nothing then.
-constexpr double on_it = 0x1p-30;
+/// A smaller distance, relative to the coordinates, may be rounding, and has no direction.
+constexpr double relative_rounding = 0x1p-30;
 
-/// Names the part of a box where the axes in `fixed` are at one end, those in `low` at the low one.
+/// Sets the feature of a box at which the axes in `fixed` are at one end, and those in `low` at the low end.
 template <int D>
-void name_on_box(ClosestFeature<D>& result, std::uint32_t fixed, std::uint32_t low) {
+void set_box_feature(ClosestFeature<D>& result, std::uint32_t fixed, std::uint32_t low) {
     std::uint32_t free_count = 0, free = 0, first_fixed = D;
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(D); ++i) {
         if ((fixed >> i & 1u) == 0) {
@@ -63,9 +63,9 @@ ClosestFeature<3> closest_on_many(const Convex<3>& core, const DVec<3>& point, c
 template <int D>
 ClosestFeature<D> closest_on_points(const Convex<D>& core, const DVec<D>& point, const Affine<D>& place) {
     if (core.facets != nullptr || core.count > 3) return closest_on_many(core, point, place);
-    Affine<D> seen = place;
-    seen.offset -= point;
-    const auto corner = [&](std::uint32_t i) { return seen.point(DVec<D>(core.vertices()[i])); };
+    Affine<D> relative = place;
+    relative.offset -= point;
+    const auto corner = [&](std::uint32_t i) { return relative.point(DVec<D>(core.vertices()[i])); };
     const DVec<D> origin(0.0);
     ClosestFeature<D> result = core.count == 3 ? closest_on_triangle(corner(0), corner(1), corner(2), origin)
                                                : closest_on_segment(corner(0), corner(core.count - 1), origin);
@@ -105,7 +105,7 @@ ClosestFeature<D> closest_on_segment(const DVec<D>& a, const DVec<D>& b, const D
     }
     result.point = point + nearest;
     result.distance = length(nearest);
-    const bool outside = result.distance > on_it * std::max(largest(from), largest(to));
+    const bool outside = result.distance > relative_rounding * std::max(largest(from), largest(to));
     result.normal = outside ? normalized(-nearest) : otherwise;
     return result;
 }
@@ -116,11 +116,11 @@ ClosestFeature<D> closest_on_box(const DVec<D>& half, const DVec<D>& point) {
     result.point = point;
     std::uint32_t outside = 0, low = 0;
     int nearest_side = 0;
-    double most = -std::numeric_limits<double>::infinity();
+    double largest_distance = -std::numeric_limits<double>::infinity();
     for (int i = 0; i < D; ++i) {
         const double beyond = std::abs(point[i]) - half[i];
-        if (beyond > most) {
-            most = beyond;
+        if (beyond > largest_distance) {
+            largest_distance = beyond;
             nearest_side = i;
         }
         if (!(beyond > 0)) continue;
@@ -129,15 +129,15 @@ ClosestFeature<D> closest_on_box(const DVec<D>& half, const DVec<D>& point) {
         result.point[i] = std::copysign(half[i], point[i]);
     }
     if (outside != 0) {
-        name_on_box(result, outside, low);
+        set_box_feature(result, outside, low);
         result.distance = length(point - result.point);
         result.normal = normalized(point - result.point);
         return result;
     }
     const bool at_low_end = point[nearest_side] < 0;
-    name_on_box(result, 1u << nearest_side, at_low_end ? 1u << nearest_side : 0u);
+    set_box_feature(result, 1u << nearest_side, at_low_end ? 1u << nearest_side : 0u);
     result.point[nearest_side] = at_low_end ? -half[nearest_side] : half[nearest_side];
-    result.distance = most;
+    result.distance = largest_distance;
     result.normal = axis<D>(nearest_side, at_low_end ? -1 : 1);
     return result;
 }

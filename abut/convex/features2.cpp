@@ -1,4 +1,4 @@
-// Polygons: the point is seen at the origin, and each edge has the line it lies on.
+// Closest features of polygons. Coordinates are relative to the query point.
 
 #include <abut/convex/features.hpp>
 
@@ -7,39 +7,39 @@
 namespace abut {
 namespace {
 
-/// What is not farther behind a side than this, seen from coordinates of size 1, may be on it: rounding.
-constexpr double on_it = 0x1p-40;
+/// A point no farther behind an edge than this, relative to the coordinates, may lie on it.
+constexpr double relative_rounding = 0x1p-40;
 
 struct Side {
     DVec<2> a, b;
-    DVec<2> out;    ///< of length 1; zero where a and b are the same: other sides end there too
-    double beyond;  ///< of the origin, along `out`
+    DVec<2> out;    ///< of length 1; zero if a and b are equal
+    double beyond;  ///< the distance of the origin along `out`
 
     bool proper() const { return out != DVec<2>(0.0); }
-    bool faces_origin() const { return proper() && beyond >= -on_it * std::max(largest(a), largest(b)); }
+    bool faces_origin() const { return proper() && beyond >= -relative_rounding * std::max(largest(a), largest(b)); }
 };
 
-/// A convex loop seen from the point: corner(i) for i < count, counter-clockwise, or clockwise where `turn` is -1.
+/// A convex loop relative to the query point: corner(i) for i < count, counter-clockwise, or clockwise if `turn` is -1.
 template <class Corner>
 class Loop {
 public:
     Loop(std::uint32_t count, double turn, const Corner& corner) : count_(count), turn_(turn), corner_(corner) {}
 
-    /// Seen from the point.
+    /// Relative to the query point.
     ClosestFeature<2> closest() const {
-        double most = -std::numeric_limits<double>::infinity();
+        double largest_distance = -std::numeric_limits<double>::infinity();
         std::uint32_t nearest_side = 0;
         bool outside = false;
         for (std::uint32_t i = 0; i < count_; ++i) {
             const Side side = side_at(i);
             outside = outside || side.faces_origin();
-            if (!side.proper() || side.beyond <= most) continue;
-            most = side.beyond;
+            if (!side.proper() || side.beyond <= largest_distance) continue;
+            largest_distance = side.beyond;
             nearest_side = i;
         }
-        const bool is_point = !(most > -std::numeric_limits<double>::infinity());
+        const bool is_point = !(largest_distance > -std::numeric_limits<double>::infinity());
         if (is_point) return closest_on_segment(corner_(0), corner_(0), DVec<2>(0.0));
-        return outside ? closest_in_front() : on_line_at_foot(nearest_side, most);
+        return outside ? closest_in_front() : on_line_inside(nearest_side, largest_distance);
     }
 
 private:
@@ -61,12 +61,12 @@ private:
         return result;
     }
 
-    /// From inside. Of sides that lie on one line, to rounding, the one that the foot is on.
-    ClosestFeature<2> on_line_at_foot(std::uint32_t nearest_side, double most) const {
+    /// For a query point inside. Of collinear edges it takes the edge that contains the projection.
+    ClosestFeature<2> on_line_inside(std::uint32_t nearest_side, double largest_distance) const {
         for (std::uint32_t i = 0; i < count_; ++i) {
             const Side side = side_at(i);
-            const double doubt = on_it * std::max(largest(side.a), largest(side.b));
-            if (!side.proper() || side.beyond < most - doubt) continue;
+            const double tolerance = relative_rounding * std::max(largest(side.a), largest(side.b));
+            if (!side.proper() || side.beyond < largest_distance - tolerance) continue;
             if (closest_on_segment(side.a, side.b, DVec<2>(0.0)).kind == FeatureKind::edge) return on_line(i, side);
         }
         return on_line(nearest_side, side_at(nearest_side));
@@ -107,13 +107,13 @@ ClosestFeature<2> closest_on_loop(std::uint32_t count, double turn, const DVec<2
 
 ClosestFeature<2> closest_on_triangle(const DVec<2>& a, const DVec<2>& b, const DVec<2>& c, const DVec<2>& point) {
     const std::array<DVec<2>, 3> corners{a - point, b - point, c - point};
-    // Seen from the corner of the two shorter sides: of a needle the others round them away.
-    double area = 0, least = std::numeric_limits<double>::infinity();
+    // The area from the corner of the two shorter edges: on a needle the long ones would round it away.
+    double area = 0, minimum = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < 3; ++i) {
         const DVec<2> u = corners[(i + 1) % 3] - corners[i], v = corners[(i + 2) % 3] - corners[i];
         const double product = largest(u) * largest(v);
-        if (!(product < least)) continue;
-        least = product;
+        if (!(product < minimum)) continue;
+        minimum = product;
         area = cross(u, v);
     }
     const double turn = area < 0 ? -1 : 1;
@@ -121,11 +121,11 @@ ClosestFeature<2> closest_on_triangle(const DVec<2>& a, const DVec<2>& b, const 
 }
 
 ClosestFeature<2> closest_on_polygon(std::span<const Vec2> points, const DVec<2>& point, const Affine<2>& place) {
-    Affine<2> seen = place;
-    seen.offset -= point;
+    Affine<2> relative = place;
+    relative.offset -= point;
     const double turn = cross(place.column[0], place.column[1]) < 0 ? -1 : 1;
     return closest_on_loop(static_cast<std::uint32_t>(points.size()), turn, point,
-                           [&](std::uint32_t i) { return seen.point(DVec<2>(points[i])); });
+                           [&](std::uint32_t i) { return relative.point(DVec<2>(points[i])); });
 }
 
 }  // namespace abut

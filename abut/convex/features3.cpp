@@ -1,31 +1,31 @@
-// Triangles and polyhedra in space: the point is seen at the origin.
+// Closest features of triangles and polyhedra. Coordinates are relative to the query point.
 
 #include <abut/convex/features.hpp>
-#include <abut/convex/hull.hpp>
+#include <abut/convex/hull/hull.hpp>
 
 #include <limits>
 
 namespace abut {
 namespace {
 
-/// What is not farther behind a face than this may be on it: for rounding, seen from coordinates of size 1, and in
-/// parts of the extent, for faces of a hull that are not quite in one plane.
-constexpr double on_it = 0x1p-40, on_hull = 2 * hull_flatness;
-/// A face whose normal the placement shrinks by more than this has become a line.
+/// A point no farther behind a face than this may lie on it: relative to the coordinates for rounding, and relative to
+/// the extent for nearly coplanar faces of a hull.
+constexpr double relative_rounding = 0x1p-40, face_tolerance = 2 * hull_flatness;
+/// A face whose normal the placement shrinks below this has become a line.
 constexpr double flattened = 0x1p-40;
-/// A triangle whose sides meet at no greater sine than this is a line.
+/// A triangle whose sides enclose no larger sine than this is a line.
 constexpr double no_area = 0x1p-30;
-/// Normals of length 1 that agree to within this are the same but for rounding to float.
+/// Unit normals that differ by no more than this are equal, but for rounding to float.
 constexpr double same_normal = 0x1p-22;
 
-/// The plane of a face, midway between its lowest and highest corner.
+/// The plane of a face, midway between its lowest and highest vertex.
 struct Plane {
-    DVec<3> normal{0.0};  ///< of length 1; zero where the face has no area: other faces cover what it covers
-    double beyond = 0;    ///< of the origin, along the normal
-    double doubt = 0;     ///< the origin may be in front of the face where it is behind by no more than this
+    DVec<3> normal{0.0};   ///< of length 1; zero if the face has no area, and other faces cover it
+    double beyond = 0;     ///< the distance of the origin along the normal
+    double tolerance = 0;  ///< the origin may be in front of the face if it is no farther behind than this
 
     bool proper() const { return normal != DVec<3>(0.0); }
-    bool faces_origin() const { return proper() && beyond >= -doubt; }
+    bool faces_origin() const { return proper() && beyond >= -tolerance; }
 };
 
 ClosestFeature<3> on_plane(const Plane& plane, std::uint32_t face) {
@@ -43,19 +43,18 @@ ClosestFeature<3> named(ClosestFeature<3> on_segment, std::uint32_t from, std::u
     return on_segment;
 }
 
-/// Whether a place on the plane of a loop lies within it, by counting crossings along the axis closest to the normal.
-/// The sides of edges would do, but that those of a hull's face aren't quite in one plane: a short edge may run
-/// anywhere, and its outer side be where the face is.
+/// Point in polygon by crossing number, along the axis closest to the normal. Tests against the edges' planes fail
+/// here: the vertices of a hull's face aren't quite coplanar, so a short edge may have any direction.
 template <class Corner>
 bool is_within(const DVec<3>& place, const DVec<3>& normal, std::uint32_t count, const Corner& corner) {
     const DVec<3> steep{std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};
     const int up = steep.x >= steep.y && steep.x >= steep.z ? 0 : (steep.y >= steep.z ? 1 : 2);
-    const auto seen = [&](const DVec<3>& p) { return DVec<2>(p[(up + 1) % 3], p[(up + 2) % 3]); };
-    const DVec<2> from = seen(place);
+    const auto relative = [&](const DVec<3>& p) { return DVec<2>(p[(up + 1) % 3], p[(up + 2) % 3]); };
+    const DVec<2> from = relative(place);
     bool result = false;
-    DVec<2> a = seen(corner(count - 1)) - from;
+    DVec<2> a = relative(corner(count - 1)) - from;
     for (std::uint32_t i = 0; i < count; ++i) {
-        const DVec<2> b = seen(corner(i)) - from;
+        const DVec<2> b = relative(corner(i)) - from;
         const bool rising = b.y > 0;
         if ((a.y > 0) != rising && (cross(a, b) > 0) == rising) result = !result;
         a = b;
@@ -63,12 +62,12 @@ bool is_within(const DVec<3>& place, const DVec<3>& normal, std::uint32_t count,
     return result;
 }
 
-/// The closest place of a face with corner(i) for i < count, named by name(i).
+/// The closest point on a face with corner(i) for i < count, whose vertex numbers are name(i).
 template <class Corner, class Name>
 ClosestFeature<3> closest_on_face(std::uint32_t face, const Plane& plane, std::uint32_t count, const Corner& corner,
                                   const Name& name) {
-    const ClosestFeature<3> foot = on_plane(plane, face);
-    if (is_within(foot.point, plane.normal, count, corner)) return foot;
+    const ClosestFeature<3> projection = on_plane(plane, face);
+    if (is_within(projection.point, plane.normal, count, corner)) return projection;
     ClosestFeature<3> best;
     best.distance = std::numeric_limits<double>::infinity();
     std::uint32_t previous = count - 1;
@@ -80,7 +79,7 @@ ClosestFeature<3> closest_on_face(std::uint32_t face, const Plane& plane, std::u
     return best;
 }
 
-/// Of points on a line: the segment between its ends.
+/// For collinear points: the segment between their ends.
 template <class Corner>
 ClosestFeature<3> closest_on_row(std::uint32_t count, const Corner& corner) {
     const auto farthest_from = [&](std::uint32_t start) {
@@ -93,38 +92,38 @@ ClosestFeature<3> closest_on_row(std::uint32_t count, const Corner& corner) {
     return named(closest_on_segment(corner(from), corner(to), DVec<3>(0.0)), from, to);
 }
 
-/// A placed polyhedron, seen from the point.
+/// A placed polyhedron, relative to the query point.
 class Surface {
 public:
-    Surface(std::span<const Vec3> points, const Facets& facets, const Affine<3>& seen)
-        : points_(points), facets_(facets), seen_(seen) {
-        const DVec<3>&u = seen.column[0], &v = seen.column[1], &w = seen.column[2];
+    Surface(std::span<const Vec3> points, const Facets& facets, const Affine<3>& relative)
+        : points_(points), facets_(facets), relative_(relative) {
+        const DVec<3>&u = relative.column[0], &v = relative.column[1], &w = relative.column[2];
         const double along_u = length(u), along_v = length(v), along_w = length(w);
-        least_normal_ = flattened * std::max({along_u * along_v, along_v * along_w, along_w * along_u});
+        min_normal_ = flattened * std::max({along_u * along_v, along_v * along_w, along_w * along_u});
         Vec3 low = points[0], high = low;
         for (const Vec3& point : points)
             for (int i = 0; i < 3; ++i) {
                 low[i] = std::min(low[i], point[i]);
                 high[i] = std::max(high[i], point[i]);
             }
-        doubt_ = on_hull * largest(DVec<3>(high) - DVec<3>(low)) * std::max({along_u, along_v, along_w});
+        tolerance_ = face_tolerance * largest(DVec<3>(high) - DVec<3>(low)) * std::max({along_u, along_v, along_w});
     }
 
     std::uint32_t face_count() const { return static_cast<std::uint32_t>(facets_.normals.size()); }
 
     Plane plane(std::uint32_t face) const {
-        const DVec<3> normal = mapped_normal(seen_, own_normal(face));
+        const DVec<3> normal = mapped_normal(relative_, own_normal(face));
         Plane result;
-        if (length(normal) > least_normal_) result.normal = normalized(normal);
+        if (length(normal) > min_normal_) result.normal = normalized(normal);
         double low = std::numeric_limits<double>::infinity(), high = -low;
         for (const std::uint32_t i : facets_.loop(face)) {
             const DVec<3> p = corner(i);
             low = std::min(low, dot(result.normal, p));
             high = std::max(high, dot(result.normal, p));
-            result.doubt = std::max(result.doubt, on_it * largest(p));
+            result.tolerance = std::max(result.tolerance, relative_rounding * largest(p));
         }
         result.beyond = -0.5 * (low + high);
-        result.doubt += doubt_;
+        result.tolerance += tolerance_;
         return result;
     }
 
@@ -136,11 +135,11 @@ public:
     }
 
     std::uint32_t corner_count() const { return static_cast<std::uint32_t>(points_.size()); }
-    DVec<3> corner(std::uint32_t i) const { return seen_.point(DVec<3>(points_[i])); }
+    DVec<3> corner(std::uint32_t i) const { return relative_.point(DVec<3>(points_[i])); }
 
 private:
-    /// Before it is placed: the stored one without its rounding to float. The normal of a sliver, made of its corners,
-    /// may be anything, and then the stored one is right: all of the hull lies behind it.
+    /// The normal before placement: the stored one without its rounding to float. For a sliver the normal from the
+    /// vertices may be anything; the stored one is right, because all of the hull lies behind it.
     DVec<3> own_normal(std::uint32_t face) const {
         const std::span<const std::uint32_t> loop = facets_.loop(face);
         const DVec<3> stored = normalized(DVec<3>(facets_.normals[face])), first(points_[loop[0]]);
@@ -156,12 +155,12 @@ private:
 
     std::span<const Vec3> points_;
     const Facets& facets_;
-    const Affine<3>& seen_;
-    double least_normal_ = 0;
-    double doubt_ = 0;
+    const Affine<3>& relative_;
+    double min_normal_ = 0;
+    double tolerance_ = 0;
 };
 
-/// Seen from the point, outside or near the surface: the closest of all faces that look at it.
+/// For a query point outside or near the surface: the closest of all faces that it is in front of.
 ClosestFeature<3> closest_in_front(const Surface& surface) {
     ClosestFeature<3> best;
     best.distance = std::numeric_limits<double>::infinity();
@@ -175,14 +174,14 @@ ClosestFeature<3> closest_in_front(const Surface& surface) {
     return best;
 }
 
-/// Whether all of the surface lies behind the plane through the closest place, to within the doubt.
-bool is_way_out(const Surface& surface, const ClosestFeature<3>& found, double doubt) {
+/// Whether all of the surface lies behind the plane through the closest point, to within the tolerance.
+bool is_outward_normal(const Surface& surface, const ClosestFeature<3>& found, double tolerance) {
     for (std::uint32_t i = 0; i < surface.corner_count(); ++i)
-        if (dot(found.normal, surface.corner(i) - found.point) > doubt) return false;
+        if (dot(found.normal, surface.corner(i) - found.point) > tolerance) return false;
     return true;
 }
 
-ClosestFeature<3> closest_seen(const Surface& surface) {
+ClosestFeature<3> closest_on_surface(const Surface& surface) {
     Plane nearest;
     std::uint32_t nearest_face = 0;
     for (std::uint32_t face = 0; face < surface.face_count(); ++face) {
@@ -195,9 +194,10 @@ ClosestFeature<3> closest_seen(const Surface& surface) {
         return closest_on_row(surface.corner_count(), [&](std::uint32_t i) { return surface.corner(i); });
     if (!nearest.faces_origin()) return on_plane(nearest, nearest_face);
     ClosestFeature<3> result = closest_in_front(surface);
-    // Just below an edge between two faces of almost one plane, the point may be taken to neither. Then it is inside.
-    const bool near_edge = result.kind != FeatureKind::face && result.distance <= nearest.doubt;
-    if (near_edge && !is_way_out(surface, result, nearest.doubt)) {
+    // Just below an edge between two nearly coplanar faces, neither face may contain the projection. The point is
+    // inside.
+    const bool near_edge = result.kind != FeatureKind::face && result.distance <= nearest.tolerance;
+    if (near_edge && !is_outward_normal(surface, result, nearest.tolerance)) {
         result.normal = nearest.normal;
         result.distance = nearest.beyond;
     }
@@ -225,9 +225,9 @@ ClosestFeature<3> closest_on_triangle(const DVec<3>& a, const DVec<3>& b, const 
 
 ClosestFeature<3> closest_on_polyhedron(std::span<const Vec3> points, const Facets& facets, const DVec<3>& point,
                                         const Affine<3>& place) {
-    Affine<3> seen = place;
-    seen.offset -= point;
-    ClosestFeature<3> result = closest_seen(Surface(points, facets, seen));
+    Affine<3> relative = place;
+    relative.offset -= point;
+    ClosestFeature<3> result = closest_on_surface(Surface(points, facets, relative));
     result.point += point;
     return result;
 }

@@ -5,21 +5,21 @@
 namespace abut {
 namespace {
 
-/// From so many points on, several at a time are faster than one.
-constexpr std::uint32_t many = 32;
+/// From this count on SIMD is faster.
+constexpr std::uint32_t min_simd_count = 32;
 
 template <int D>
 CorePoint<D> farthest_of(const Vec<D>* points, std::uint32_t count, const DVec<D>& direction) {
-    if (count >= many) {
+    if (count >= min_simd_count) {
         const std::uint32_t best = farthest_point(std::span<const Vec<D>>(points, count), direction);
         return {DVec<D>(points[best]), best};
     }
     std::uint32_t best = 0;
-    double most = dot(DVec<D>(points[0]), direction);
+    double maximum = dot(DVec<D>(points[0]), direction);
     for (std::uint32_t i = 1; i < count; ++i) {
         const double along = dot(DVec<D>(points[i]), direction);
-        if (along > most) {
-            most = along;
+        if (along > maximum) {
+            maximum = along;
             best = i;
         }
     }
@@ -37,14 +37,14 @@ CorePoint<D> farthest_corner(const Vec<D>& half, const DVec<D>& direction) {
     return result;
 }
 
-/// Of two discs across w = b - a the rims are farthest along r, the part of d at right angles to w:
+/// The support point of two discs across w = b - a. The rims are farthest along r, the component of d orthogonal to w:
 ///
 ///     r = d - w (w . d) / (w . w),    (a + r/|r| ra) . d = a . d + ra |r|
 DVec<3> farthest_on_discs(const Convex<3>& convex, const DVec<3>& direction) {
     const DVec<3> a(convex.own[0]), b(convex.own[1]);
     const double radius_a = static_cast<double>(convex.disc_radius[0]),
                  radius_b = static_cast<double>(convex.disc_radius[1]);
-    // Discs in one place lie across the third axis.
+    // Coincident discs are orthogonal to the third axis.
     const DVec<3> w = a == b ? axis<3>(2) : b - a;
     const double ww = dot(w, w);
     const double along = dot(w, direction);
@@ -52,7 +52,8 @@ DVec<3> farthest_on_discs(const Convex<3>& convex, const DVec<3>& direction) {
     const double rr = dot(r, r), dd = dot(direction, direction);
     DVec<3> rim(0.0);
     double reach = 0;
-    // Nothing but rounding, it would lead off the disc; and with few digits left it is set right once more.
+    // A vector r that is nothing but rounding would lead off the disc. With few digits left it is orthogonalised once
+    // more.
     if (rr > 1e-18 * dd) {
         reach = std::sqrt(rr);
         rim = r / reach;
@@ -83,8 +84,7 @@ CorePoint<D> local_support(const Convex<D>& convex, const DVec<D>& direction) {
     return {};
 }
 
-/// How far a placed core that is a box reaches from its middle along each axis: to the corner that core_support finds,
-/// to the bit.
+/// The half extents of the bounding box of a placed box core, to the same bits as the corner that core_support finds.
 template <int D>
 DVec<D> reach_of_box(const Convex<D>& convex) {
     DVec<D> reach(0.0);
@@ -117,11 +117,12 @@ Convex<D> round_points(std::initializer_list<Vec<D>> points, float radius) {
 template <int D>
 Placement<D> mapped(const Placement<D>& placement, const Affine<D>& map) {
     const double factor_squared = length_squared(map.column[0]);
-    const double doubt = 1e-12 * factor_squared;
+    const double tolerance = 1e-12 * factor_squared;
     bool similar = true;
     for (std::size_t i = 0; i < static_cast<std::size_t>(D); ++i) {
-        similar = similar && std::abs(length_squared(map.column[i]) - factor_squared) <= doubt;
-        for (std::size_t j = 0; j < i; ++j) similar = similar && std::abs(dot(map.column[i], map.column[j])) <= doubt;
+        similar = similar && std::abs(length_squared(map.column[i]) - factor_squared) <= tolerance;
+        for (std::size_t j = 0; j < i; ++j)
+            similar = similar && std::abs(dot(map.column[i], map.column[j])) <= tolerance;
     }
     Placement<D> result = placement;
     result.place = map * placement.place;
@@ -181,7 +182,7 @@ Aabb<D> bounds(const Convex<D>& convex) {
     Aabb<D> result;
     constexpr float infinity = std::numeric_limits<float>::infinity();
     if (convex.core == Core::points && convex.points == nullptr && convex.inner_radius == 0) {
-        // Of so few all are placed for less than is asked for them.
+        // For so few points, placing all of them is cheaper than support queries.
         DVec<D> low = convex.place.point(DVec<D>(convex.own[0])), high = low;
         for (std::uint32_t i = 1; i < convex.count; ++i) {
             const DVec<D> corner = convex.place.point(DVec<D>(convex.own[i]));

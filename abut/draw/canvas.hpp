@@ -1,6 +1,6 @@
 #pragma once
 
-// What draws: a few calls that the user fills with his engine's. Nothing here knows a screen.
+// The drawing interface: a few calls that the user implements with his engine. It is independent of any screen.
 
 #include <abut/math/aabb.hpp>
 
@@ -12,7 +12,7 @@ namespace abut {
 
 struct Color {
     std::uint8_t red = 0, green = 0, blue = 0;
-    std::uint8_t alpha = 255;  ///< 0: not to be seen, 255: covers all
+    std::uint8_t alpha = 255;  ///< 0: invisible, 255: opaque
 
     bool visible() const { return alpha > 0; }
 
@@ -23,34 +23,35 @@ inline constexpr Color transparent{0, 0, 0, 0};
 
 struct Style {
     Color stroke{51, 65, 85, 255};
-    float width = 1;           ///< of lines, in the canvas's own unit, most often pixels
+    float width = 1;           ///< of lines, in the canvas's own unit, mostly pixels
     Color fill = transparent;  ///< of areas
-    bool dashed = false;       ///< a canvas without dashes draws whole lines
+    bool dashed = false;       ///< a canvas without dashes draws solid lines
 };
 
-/// Something to draw on. `line`, `point` and `shown` must be filled; the others have a plain version made of those.
+/// A surface to draw on. `line`, `point` and `shown` must be implemented; the others have default implementations based
+/// on these.
 template <int D>
 class Canvas {
 public:
     virtual ~Canvas() = default;
 
-    /// The part of the world to be seen, finite. What has no end is cut off at it, arrows are sized by it, and parts of
-    /// levels and items of worlds that lie outside are left out.
+    /// The visible part of the world, finite. Unbounded shapes are clipped to it, arrows are scaled by it, and parts of
+    /// levels and items of worlds outside are not drawn.
     virtual Aabb<D> shown() const = 0;
 
     virtual void line(const Vec<D>& a, const Vec<D>& b, const Style& style) = 0;
 
-    /// A mark for a place, as large as is good to see.
+    /// A mark of a place, in a readable size.
     virtual void point(const Vec<D>& position, const Style& style) = 0;
 
-    /// A closed line through three points or more, and the area in it. Flat and convex, except that in 3D an outline
-    /// that is not to be filled may be bent. By default its lines.
+    /// A closed line through at least three points, and its area. It is flat and convex; in 3D an unfilled one need not
+    /// be flat. By default its lines.
     virtual void polygon(std::span<const Vec<D>> points, const Style& style);
 
-    /// By default a polygon in 2D, the outlines across the three axes in 3D.
+    /// By default a polygon in 2D, and great circles across the three axes in 3D.
     virtual void ball(const Vec<D>& center, float radius, const Style& style);
 
-    /// UTF-8, centred at the position, in the color of the stroke. By default nothing.
+    /// UTF-8, centered at the position, in the stroke's color. By default nothing.
     virtual void text(const Vec<D>& position, std::string_view text, const Style& style);
 };
 

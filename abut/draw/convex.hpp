@@ -1,6 +1,6 @@
 #pragma once
 
-// How a convex set is drawn: an outline in the plane, lines and faces in space. Behind `draw`.
+// Drawing of convex sets: an outline in 2D, edges and faces in 3D. The implementation of `draw`.
 
 #include <abut/convex/support.hpp>
 #include <abut/draw/canvas.hpp>
@@ -10,13 +10,13 @@ namespace abut {
 void draw_convex(Canvas<2>& canvas, const Convex<2>& convex, const Style& style);
 void draw_convex(Canvas<3>& canvas, const Convex<3>& convex, const Style& style);
 
-/// Whether the set is one point with a ball around it.
+/// True for a point with a radius.
 template <int D>
 bool is_ball(const Convex<D>& convex) {
     return convex.core == Core::points && convex.count == 1 && convex.inner_radius == 0;
 }
 
-/// Draws such a set.
+/// Draws a set for which `is_ball` is true.
 template <int D>
 void draw_ball(Canvas<D>& canvas, const Convex<D>& convex, const Style& style) {
     const Vec<D> center = to_float(convex.place.point(DVec<D>(convex.vertices()[0])));

@@ -1,5 +1,5 @@
-// Polytopes are drawn by their faces and edges, rounded ones with an arc from face to face at each corner; everything
-// else by outlines along the axes of the shape. What is round is filled by its farthest points all around.
+// Polytopes are drawn by their faces and edges; rounded ones have an arc between adjacent faces at each corner. Other
+// shapes are drawn by outlines along their axes, and filled by their support points in all directions.
 
 #include <abut/draw/convex.hpp>
 #include <abut/draw/outline.hpp>
@@ -17,13 +17,13 @@ namespace {
 
 using FaceLoop = PlacedFaces::FaceLoop;
 
-std::vector<Vec3> pushed_out(const PlacedFaces& polytope, const FaceLoop& face, double radius) {
+std::vector<Vec3> offset_face(const PlacedFaces& polytope, const FaceLoop& face, double radius) {
     std::vector<Vec3> result;
     for (const std::uint32_t i : face.corners) result.push_back(to_float(polytope.corners[i] + face.normal * radius));
     return result;
 }
 
-/// Lines along the arc about `center` from one direction to another by way of `middle`.
+/// Draws the arc about `center` from one direction to another through `middle`.
 void draw_arc(Canvas<3>& canvas, const DVec<3>& center, double radius, const DVec<3>& from, const DVec<3>& middle,
               const DVec<3>& to, int halvings, const Style& style) {
     if (halvings == 0) {
@@ -34,8 +34,8 @@ void draw_arc(Canvas<3>& canvas, const DVec<3>& center, double radius, const DVe
     draw_arc(canvas, center, radius, middle, normalized(middle + to, middle), to, halvings - 1, style);
 }
 
-/// visit(i, j, face, other): each edge once, with the face on whose loop it runs from i to j and the one where it runs
-/// back.
+/// Calls visit(i, j, face, other) once for each edge. It runs from i to j on the loop of `face`, and back on that of
+/// `other`.
 template <class Visit>
 void each_edge(const PlacedFaces& polytope, Visit&& visit) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, const FaceLoop*> sides;
@@ -50,7 +50,8 @@ void each_edge(const PlacedFaces& polytope, Visit&& visit) {
 
 void draw_edges(Canvas<3>& canvas, const PlacedFaces& polytope, double radius, const Style& style) {
     if (radius > 0)
-        for (const FaceLoop& face : polytope.faces) canvas.polygon(pushed_out(polytope, face, radius), unfilled(style));
+        for (const FaceLoop& face : polytope.faces)
+            canvas.polygon(offset_face(polytope, face, radius), unfilled(style));
     each_edge(polytope, [&](std::uint32_t i, std::uint32_t j, const FaceLoop& face, const FaceLoop& other) {
         const DVec<3>&a = polytope.corners[i], &b = polytope.corners[j];
         if (radius > 0) {
@@ -66,8 +67,7 @@ void draw_edges(Canvas<3>& canvas, const PlacedFaces& polytope, double radius, c
 
 // --- lines and fill of round shapes ---
 
-/// Directions in which to look at a shape: its own axes, as normals of the world, right-handed. z is the axis of what
-/// has one.
+/// The shape's own axes as normals in the world, right-handed. z is the axis of symmetry, if there is one.
 struct Frame {
     DVec<3> x, y, z;
 };
@@ -112,7 +112,7 @@ void draw_outlines(Canvas<3>& canvas, const Convex<3>& convex, const Style& styl
     if (!pointed) draw_outline(canvas, convex, frame.x, frame.y, frame.z * slightly, style);
 }
 
-/// The directions a, b, c are those of a triangle on the unit ball, counter-clockwise seen from outside.
+/// Fills the surface between three directions, a triangle on the unit ball, counter-clockwise seen from outside.
 void fill_between(Canvas<3>& canvas, const Convex<3>& convex, const DVec<3>& a, const DVec<3>& b, const DVec<3>& c,
                   int halvings, const Style& style) {
     if (halvings == 0) {
@@ -128,12 +128,12 @@ void fill_between(Canvas<3>& canvas, const Convex<3>& convex, const DVec<3>& a, 
     fill_between(canvas, convex, ab, bc, ca, halvings - 1, style);
 }
 
-/// An octahedron of directions, each face divided into 64.
+/// The directions of an octahedron with each face divided into 64.
 void fill_all_around(Canvas<3>& canvas, const Convex<3>& convex, const Style& style) {
     const Frame frame = frame_of(convex);
     const std::array<DVec<3>, 4> equator{frame.x, frame.y, -frame.x, -frame.y};
-    // Not quite along the axis, where a flat end is equally far all over: its farthest point would be what rounding
-    // makes of it.
+    // The directions are slightly off the axis: along it all points of a flat end are equally far, and rounding would
+    // choose the support point.
     const DVec<3> top = frame.z + frame.x * 1e-7, bottom = frame.x * 1e-7 - frame.z;
     for (std::size_t i = 0; i < 4; ++i) {
         const DVec<3>&from = equator[i], &to = equator[(i + 1) % 4];
@@ -153,7 +153,7 @@ void draw_convex(Canvas<3>& canvas, const Convex<3>& convex, const Style& style)
     const PlacedFaces shape = placed_faces(convex);
     const bool flat_faces = !shape.faces.empty();
     if (style.fill.visible() && flat_faces && convex.radius == 0)
-        for (const FaceLoop& face : shape.faces) canvas.polygon(pushed_out(shape, face, 0), fill_only(style));
+        for (const FaceLoop& face : shape.faces) canvas.polygon(offset_face(shape, face, 0), fill_only(style));
     else if (style.fill.visible())
         fill_all_around(canvas, convex, style);
     if (!style.stroke.visible()) return;

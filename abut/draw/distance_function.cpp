@@ -1,7 +1,7 @@
 #include <abut/draw/convex.hpp>
 #include <abut/draw/distance_function.hpp>
 #include <abut/query/function_there.hpp>
-#include <abut/shape/view.hpp>
+#include <abut/shape/view/view.hpp>
 
 #include <array>
 #include <vector>
@@ -11,7 +11,7 @@ namespace {
 
 /// Cells along the longest side.
 template <int D>
-constexpr int most_cells = D == 2 ? 64 : 24;
+constexpr int max_cells = D == 2 ? 64 : 24;
 
 template <int D>
 struct Corner {
@@ -19,8 +19,8 @@ struct Corner {
     double distance;
 };
 
-/// A cell is cut into simplices along the ways from its lowest corner to its highest, one axis after the other (Kuhn,
-/// "Some combinatorial lemmas in topology", 1960), so that neighbours are cut alike.
+/// The axis orders of Kuhn's simplices: each is a path from a cell's lowest corner to its highest, one axis at a time
+/// (Kuhn, "Some combinatorial lemmas in topology", 1960). Neighbouring cells are cut consistently.
 template <int D>
 constexpr auto orders() {
     if constexpr (D == 2)
@@ -30,15 +30,15 @@ constexpr auto orders() {
 }
 
 template <int D>
-Vec<D> zero_between(const Corner<D>& a, const Corner<D>& b) {
-    const double share = a.distance / (a.distance - b.distance);
-    return to_float(a.point + (b.point - a.point) * share);
+Vec<D> zero_crossing(const Corner<D>& a, const Corner<D>& b) {
+    const double fraction = a.distance / (a.distance - b.distance);
+    return to_float(a.point + (b.point - a.point) * fraction);
 }
 
 template <int D>
 using Simplex = std::array<Corner<D>, static_cast<std::size_t>(D) + 1>;
 
-/// The inside corners first, then the others, each in their order.
+/// A stable partition: inside corners first. Returns their number.
 template <int D>
 std::size_t sort_by_side(Simplex<D>& simplex) {
     std::size_t inside = 0;
@@ -57,10 +57,11 @@ void draw_simplex(Canvas<2>& canvas, Simplex<2> simplex, const Style& style) {
     if (inside == 3) {
         for (const Corner<2>& corner : simplex) area.push_back(to_float(corner.point));
     } else if (inside == 1) {
-        area = {to_float(simplex[0].point), zero_between(simplex[0], simplex[1]), zero_between(simplex[0], simplex[2])};
+        area = {to_float(simplex[0].point), zero_crossing(simplex[0], simplex[1]),
+                zero_crossing(simplex[0], simplex[2])};
     } else {
-        area = {to_float(simplex[0].point), to_float(simplex[1].point), zero_between(simplex[1], simplex[2]),
-                zero_between(simplex[0], simplex[2])};
+        area = {to_float(simplex[0].point), to_float(simplex[1].point), zero_crossing(simplex[1], simplex[2]),
+                zero_crossing(simplex[0], simplex[2])};
     }
     if (style.fill.visible()) canvas.polygon(area, fill_only(style));
     if (inside < 3) canvas.line(area[inside], area[inside + 1], style);
@@ -71,12 +72,12 @@ void draw_simplex(Canvas<3>& canvas, Simplex<3> simplex, const Style& style) {
     if (inside == 0 || inside == 4) return;
     std::vector<Vec3> face;
     if (inside == 2) {
-        face = {zero_between(simplex[0], simplex[2]), zero_between(simplex[0], simplex[3]),
-                zero_between(simplex[1], simplex[3]), zero_between(simplex[1], simplex[2])};
+        face = {zero_crossing(simplex[0], simplex[2]), zero_crossing(simplex[0], simplex[3]),
+                zero_crossing(simplex[1], simplex[3]), zero_crossing(simplex[1], simplex[2])};
     } else {
-        const std::size_t alone = inside == 1 ? 0 : 3;
+        const std::size_t apex = inside == 1 ? 0 : 3;
         for (std::size_t i = 0; i < 4; ++i)
-            if (i != alone) face.push_back(zero_between(simplex[alone], simplex[i]));
+            if (i != apex) face.push_back(zero_crossing(simplex[apex], simplex[i]));
     }
     canvas.polygon(face, style);
 }
@@ -95,27 +96,27 @@ void draw_function(Canvas<D>& canvas, const DistanceFunction<D>& function, const
         longest = std::max(longest, side[i]);
     }
     if (!(longest > 0) || !std::isfinite(longest)) return;
-    // Half a cell more on every side, so that what touches the box has both its sides in the grid.
-    const double cell = longest / most_cells<D>;
+    // The grid extends half a cell beyond the box on every side, so surfaces that touch it have samples on both sides.
+    const double cell = longest / max_cells<D>;
     glm::vec<D, int> cells;
     for (int i = 0; i < D; ++i) {
         cells[i] = static_cast<int>(side[i] / cell) + 2;
         low[i] -= 0.5 * (cells[i] * cell - side[i]);
     }
-    const FunctionThere<D> seen(function);
-    const double reach = seen.slope() * std::sqrt(static_cast<double>(D)) * cell;
+    const FunctionThere<D> function_view(function);
+    const double reach = function_view.slope() * std::sqrt(static_cast<double>(D)) * cell;
     glm::vec<D, int> at(0);
     for (;;) {
         DVec<D> corner = low;
         for (int i = 0; i < D; ++i) corner[i] += at[i] * cell;
-        if (std::abs(seen.at(corner)) <= reach || (D == 2 && style.fill.visible())) {
+        if (std::abs(function_view.at(corner)) <= reach || (D == 2 && style.fill.visible())) {
             for (const auto& order : orders<D>()) {
                 Simplex<D> simplex;
                 DVec<D> point = corner;
-                simplex[0] = {point, seen.at(point)};
+                simplex[0] = {point, function_view.at(point)};
                 for (std::size_t i = 0; i < order.size(); ++i) {
                     point[order[i]] += cell;
-                    simplex[i + 1] = {point, seen.at(point)};
+                    simplex[i + 1] = {point, function_view.at(point)};
                 }
                 draw_simplex(canvas, simplex, style);
             }

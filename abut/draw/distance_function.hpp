@@ -1,9 +1,9 @@
 #pragma once
 
-// How a shape known by its distance is drawn: where the distance is 0, simplex by simplex of a grid. Behind `draw`.
+// Draws the zero level set of a signed distance function by marching simplices. The implementation of `draw`.
 
 #include <abut/draw/canvas.hpp>
-#include <abut/shape/distance_function.hpp>
+#include <abut/shape/view/distance_function.hpp>
 
 namespace abut {
 

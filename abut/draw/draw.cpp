@@ -11,14 +11,14 @@
 namespace abut {
 namespace {
 
-/// The diagonal of what is shown.
+/// The diagonal of the visible box.
 template <int D>
 double diagonal(const Canvas<D>& canvas) {
     const Aabb<D> box = canvas.shown();
     return length(DVec<D>(box.max) - DVec<D>(box.min));
 }
 
-/// How long an arrow is that shows a direction, and the most that its head is.
+/// The length of an arrow that shows a direction, and the maximum length of its head.
 template <int D>
 double arrow_length(const Canvas<D>& canvas) {
     return diagonal(canvas) / 16;
@@ -28,7 +28,7 @@ double head_length(const Canvas<D>& canvas) {
     return diagonal(canvas) / 64;
 }
 
-/// The flat sides in which an arrow's head is drawn, by a direction across it: one in 2D, two crossing ones in 3D.
+/// The directions across an arrow in which its head is drawn: one in 2D, two in 3D.
 std::vector<DVec<2>> across(const DVec<2>& along) {
     return {perpendicular(along)};
 }
@@ -42,7 +42,7 @@ void draw_normal(Canvas<D>& canvas, const Vec<D>& position, const Vec<D>& normal
     draw_arrow(canvas, position, to_float(DVec<D>(position) + DVec<D>(normal) * arrow_length(canvas)), style);
 }
 
-/// Where a line that starts at `origin` leaves the box for good; below zero where it never meets it.
+/// The parameter at which a line from `origin` leaves the box; negative if it misses.
 template <int D>
 double leaves_at(const DVec<D>& origin, const DVec<D>& direction, const Aabb<D>& box) {
     double enter = 0, leave = std::numeric_limits<double>::infinity();
@@ -67,8 +67,8 @@ void draw(Canvas<D>& canvas, const View<D>& shape, const Style& style) {
     if (!is_finite(shape)) return;
     if (const auto* convex = std::get_if<Convex<D>>(&shape))
         draw_convex(canvas, *convex, style);
-    else if (const auto* solid = std::get_if<Solid<D>>(&shape))
-        draw_solid(canvas, *solid, style);
+    else if (const auto* solid = std::get_if<HalfSpaceView<D>>(&shape))
+        draw_half_space(canvas, *solid, style);
     else if (const auto* function = std::get_if<DistanceFunction<D>>(&shape))
         draw_function(canvas, *function, style);
     else

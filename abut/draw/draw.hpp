@@ -1,8 +1,8 @@
 #pragma once
 
-// draw(canvas, thing, style) for shapes, answers, rays, boxes and worlds.
+// draw(canvas, thing, style) for shapes, query results, rays, boxes and worlds.
 //
-// What can't be drawn, because a number of it is NaN or infinite where it may not be, is left out.
+// Things with invalid numbers, NaN or infinite, are not drawn.
 
 #include <abut/draw/canvas.hpp>
 #include <abut/math/ray.hpp>
@@ -14,11 +14,10 @@
 
 namespace abut {
 
-/// The outline in 2D, filled where the style says so. In 3D the edges, and of round shapes some lines around them;
-/// a fill covers the surface. Curves are right to 1/800 of the shape's size. Half-spaces are cut off at what the canvas
-/// shows, composite shapes drawn part by part, of
-/// distance functions the surface as a grid of 64 cells (in 3D 24) along the longest side of what is
-/// shown of it tells.
+/// Draws a shape: in 2D the outline, filled if the style has a fill; in 3D the edges, and some lines around round
+/// shapes; a fill covers the surface. Curves have an error of at most 1/800 of the shape's size. Half-spaces are
+/// clipped to the visible box, and composite shapes are drawn part by part. The surface of a distance function is drawn
+/// on a grid of 64 cells (24 in 3D) along the longest visible side.
 template <int D>
 void draw(Canvas<D>& canvas, const View<D>& shape, const Style& style = {});
 
@@ -27,36 +26,35 @@ requires(dimension<S> == D) void draw(Canvas<D>& canvas, const S& shape, const S
     draw(canvas, View<D>(view(shape)), style);
 }
 
-/// A box of a broad phase, which may be empty or without bound.
+/// A box of a broad phase, possibly empty or unbounded.
 template <int D>
 void draw(Canvas<D>& canvas, const Aabb<D>& box, const Style& style = {});
 
-/// What a broad phase was built from.
+/// The boxes from which a broad phase was built.
 template <int D>
 void draw(Canvas<D>& canvas, std::span<const Aabb<D>> boxes, const Style& style = {});
 
-/// An arrow; of an endless ray as far as the canvas shows.
+/// An arrow; an infinite ray is clipped to the visible box.
 template <int D>
 void draw(Canvas<D>& canvas, const Ray<D>& ray, const Style& style = {});
 
-/// The point with its normal.
+/// The point and its normal.
 template <int D>
 void draw(Canvas<D>& canvas, const Hit<D>& hit, const Style& style = {});
 
-/// Both points, the line between them, and the normal at the one on A.
+/// Both points, the line between them, and the normal at the point on A.
 template <int D>
 void draw(Canvas<D>& canvas, const Closest<D>& closest, const Style& style = {});
 
-/// Each point with the normal, and with a line as long as the shapes are deep in one another there. Nothing where they
-/// don't touch.
+/// Each point with the normal and a line as long as the depth there. Nothing if the shapes don't touch.
 template <int D>
 void draw(Canvas<D>& canvas, const Contact<D>& contact, const Style& style = {});
 
-/// All items, sensors too, that reach into what the canvas shows.
+/// All items, including sensors, that reach into the visible box.
 template <int D>
 void draw(Canvas<D>& canvas, const World<D>& world, const Style& style = {});
 
-/// A line with a head at its end, in the color of the stroke.
+/// A line with a head at its end, in the stroke's color.
 template <int D>
 void draw_arrow(Canvas<D>& canvas, const Vec<D>& from, const Vec<D>& to, const Style& style = {});
 

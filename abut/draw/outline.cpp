@@ -1,13 +1,13 @@
-// A polygon inscribed in a convex set by its support function alone. Between two points of the outline a and b lies
-// something exactly if the farthest point along the normal of the chord ab lies beyond the chord:
+// An inscribed polygon of a convex set, from its support function alone. Between two points a and b of the outline, the
+// outline bulges exactly if the support point along the normal of the chord ab is beyond the chord:
 //
 //        m
-//      .---.            gain(m) > tolerance: m is a new point, go on with am and mb
-//     /     \           else the chord is the outline
+//      .---.            gain(m) > tolerance: m is a new point; continue with am and mb
+//     /     \           otherwise the chord is the outline
 //    a-------b
 //
 // The sandwich algorithm, after Rote, "The convergence rate of the sandwich algorithm for approximating convex
-// functions" (1992): the error falls with the square of the number of points, and corners are found exactly.
+// functions" (1992): the error decreases with the square of the number of points, and corners are found exactly.
 
 #include <abut/draw/outline.hpp>
 
@@ -17,14 +17,14 @@
 namespace abut {
 namespace {
 
-/// Of the set's size. A circle becomes 64 points.
+/// Relative to the set's size. A circle becomes 64 points.
 constexpr double curve_tolerance = 1.0 / 800;
-/// Corners closer to the chord than this are nobody's to see.
+/// Corners closer to the chord are invisible.
 constexpr double corner_tolerance = 1e-6;
-/// Halvings of a quarter: a bound for support functions that contradict themselves.
-constexpr int deepest = 12;
-/// Directions are turned by this angle within their plane: where a whole side is equally far, the point is a corner of
-/// the outline then, and not what rounding makes of it.
+/// Maximum number of bisections of a quarter; a bound for inconsistent support functions.
+constexpr int max_depth = 12;
+/// Directions are rotated by this angle within their plane. If a whole side is equally far, the support point is then a
+/// corner of the outline and not determined by rounding.
 constexpr double slight_turn = 1e-7;
 
 template <int D>
@@ -57,7 +57,7 @@ private:
         const DVec<2> turned = direction + DVec<2>(-direction.y, direction.x) * slight_turn;
         return support(convex_, plane_.x * turned.x + plane_.y * turned.y + plane_.tilt);
     }
-    DVec<2> seen(const DVec<D>& v) const { return {dot(plane_.x, v), dot(plane_.y, v)}; }
+    DVec<2> projected(const DVec<D>& v) const { return {dot(plane_.x, v), dot(plane_.y, v)}; }
 
     void add(const DVec<D>& point) {
         const Vec<D> position = to_float(point);
@@ -65,11 +65,11 @@ private:
     }
 
     void add_between(const DVec<D>& a, const DVec<D>& b, int depth) {
-        const DVec<2> chord = seen(b - a);
-        if (depth == deepest || !(length(chord) > tolerance_)) return;
+        const DVec<2> chord = projected(b - a);
+        if (depth == max_depth || !(length(chord) > tolerance_)) return;
         const DVec<2> out = normalized(DVec<2>(chord.y, -chord.x));
         const DVec<D> middle = farthest(out);
-        if (!(dot(seen(middle - a), out) > tolerance_)) return;
+        if (!(dot(projected(middle - a), out) > tolerance_)) return;
         add_between(a, middle, depth + 1);
         add(middle);
         add_between(middle, b, depth + 1);

@@ -1,6 +1,6 @@
 #pragma once
 
-// A convex set with flat faces, as its corners and the loops of its faces. For the drawing functions.
+// The corners and face loops of a convex set with flat faces. For the drawing functions.
 
 #include <abut/convex/support.hpp>
 
@@ -8,17 +8,17 @@
 
 namespace abut {
 
-/// In the world, without the ball around the set.
+/// In world coordinates, without the set's radius.
 struct PlacedFaces {
     struct FaceLoop {
-        DVec<3> normal;                      ///< of length 1, outwards; zero where the placement has flattened the face
+        DVec<3> normal;                      ///< unit length, outwards; zero if the placement has flattened the face
         std::vector<std::uint32_t> corners;  ///< counter-clockwise seen from outside
     };
     std::vector<DVec<3>> corners;
     std::vector<FaceLoop> faces;
 };
 
-/// Box, triangle (two faces, back to back) or polyhedron; without faces for anything else.
+/// The faces of a box, a triangle (two faces, back to back) or a polyhedron; other sets have none.
 PlacedFaces placed_faces(const Convex<3>& convex);
 
 }  // namespace abut

@@ -1,20 +1,19 @@
 #pragma once
 
-// Things in space on a flat canvas, without perspective.
+// An orthographic projection from 3D onto a 2D canvas.
 
 #include <abut/draw/canvas.hpp>
 
 namespace abut {
 
-/// Draws on a canvas of the plane what an eye far away sees. Nothing hides what lies behind it: what is drawn later
-/// covers what was drawn before.
+/// Draws 3D things on a 2D canvas by orthographic projection. Nothing is hidden: later drawings cover earlier ones.
 class Projected final : public Canvas<3> {
 public:
-    /// The eye is far away in the direction `towards_eye` and sees `up` upwards; of any length, not along one another.
-    /// The origin of space lies at the origin of the plane, and lengths stay as they are. Refers to the flat canvas.
+    /// The eye is infinitely far away in the direction `towards_eye`, with `up` upwards; both of any length but not
+    /// parallel. The origin is mapped to the origin, and lengths are preserved. Refers to the 2D canvas.
     Projected(Canvas<2>& flat, const Aabb3& shown, const Vec3& towards_eye, const Vec3& up);
 
-    /// Where a point of space is drawn.
+    /// The projection of a point.
     Vec2 operator()(const Vec3& point) const;
 
     Aabb3 shown() const override { return shown_; }

@@ -6,10 +6,10 @@
 namespace abut {
 namespace {
 
-/// To 1/100, without trailing zeros. Neither streams nor printf: those follow the locale.
+/// Two decimals without trailing zeros. Streams and printf depend on the locale.
 std::string number(double value) {
-    constexpr double most = 1e9;
-    const long long hundredths = std::isnan(value) ? 0 : std::llround(std::clamp(value, -most, most) * 100);
+    constexpr double max_number = 1e9;
+    const long long hundredths = std::isnan(value) ? 0 : std::llround(std::clamp(value, -max_number, max_number) * 100);
     const long long size = hundredths < 0 ? -hundredths : hundredths;
     std::string result(hundredths < 0 ? "-" : "");
     result += std::to_string(size / 100);
@@ -33,7 +33,7 @@ std::string hexadecimal(const Color& color) {
     return result;
 }
 
-/// A tag being written at the end of a document.
+/// Writes a tag at the end of a document.
 class Tag {
 public:
     Tag(std::string& out, std::string_view name) : out_(out) { (out_ += '<') += name; }
@@ -57,7 +57,7 @@ public:
 
     void empty() { out_ += "/>\n"; }
     void open() { out_ += ">\n"; }
-    /// With characters replaced that mean something to XML, or that it doesn't allow.
+    /// Escapes characters that XML reserves, and replaces those that it forbids.
     void text(std::string_view text, std::string_view name) {
         out_ += '>';
         for (const char c : text) {

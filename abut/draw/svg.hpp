@@ -1,6 +1,6 @@
 #pragma once
 
-// Pictures as SVG: the canvas for documentation, reports and tests.
+// An SVG canvas for documentation, reports and tests.
 
 #include <abut/draw/canvas.hpp>
 
@@ -8,15 +8,14 @@
 
 namespace abut {
 
-/// A part of the plane at a number of pixels a unit; y points up in the world and down in the picture. Numbers are
-/// written to 1/100 of a pixel, the same everywhere: equal drawings make equal documents, byte by byte.
+/// A rectangle of the plane at a number of pixels per unit; y points up in the world and down in the picture. Numbers
+/// are written to 1/100 of a pixel. Equal drawings give equal documents on every machine, byte by byte.
 class SvgCanvas final : public Canvas<2> {
 public:
-    /// `shown` is finite, `pixels_a_unit` above zero. Without a background the picture is transparent.
+    /// `shown` is finite, `pixels_a_unit` positive. Without a background the picture is transparent.
     SvgCanvas(const Aabb2& shown, float pixels_a_unit, Color background = transparent);
 
-    /// What follows is drawn with texts so many pixels high (by default 14) and points so many pixels wide (by default
-    /// 7).
+    /// The height of texts (default 14 pixels) and the size of points (default 7 pixels) for what is drawn next.
     void set_text_height(float pixels) { text_height_ = pixels; }
     void set_point_size(float pixels) { point_size_ = pixels; }
 
@@ -27,7 +26,7 @@ public:
     void ball(const Vec2& center, float radius, const Style& style) override;
     void text(const Vec2& position, std::string_view text, const Style& style) override;
 
-    /// The whole document, with all that was drawn so far.
+    /// The whole document with everything drawn so far.
     std::string document() const;
 
 private:

@@ -9,15 +9,15 @@
 namespace abut {
 namespace {
 
-/// The opacity of the first step, as a part of the last one's.
+/// The opacity of the first step, relative to that of the last.
 constexpr double faintest = 0.25;
 
 Style faded(Style style, double strength) {
-    const auto weaker = [&](std::uint8_t alpha) {
+    const auto scaled = [&](std::uint8_t alpha) {
         return static_cast<std::uint8_t>(static_cast<double>(alpha) * strength + 0.5);
     };
-    style.stroke.alpha = weaker(style.stroke.alpha);
-    style.fill.alpha = weaker(style.fill.alpha);
+    style.stroke.alpha = scaled(style.stroke.alpha);
+    style.fill.alpha = scaled(style.fill.alpha);
     return style;
 }
 
@@ -38,7 +38,7 @@ Vec<D> middle_of(std::span<const Vec<D>> points) {
     return to_float(sum / static_cast<double>(points.size()));
 }
 
-/// Draws steps; each method returns the place for the step's number, or nothing where the step can't be drawn.
+/// Draws steps. Each function returns the position of the step's number, or nothing if the step can't be drawn.
 template <int D>
 class TraceDrawing {
 public:
@@ -78,8 +78,8 @@ public:
         if (!is_finite(step.axis) || !std::isfinite(step.min_a + step.max_a + step.min_b + step.max_b)) return {};
         const DVec<D> axis(step.axis), aside = perpendicular(axis);
         const auto place = [&](float along, double off) {
-            const DVec<D> foot = middle_ - axis * dot(axis, middle_);
-            return to_float(foot + axis * static_cast<double>(along) + aside * (off * diagonal_));
+            const DVec<D> projection = middle_ - axis * dot(axis, middle_);
+            return to_float(projection + axis * static_cast<double>(along) + aside * (off * diagonal_));
         };
         const double off = 0.2 + 0.03 * static_cast<double>(axes_++ % 6);
         canvas_.line(place(step.min_a, off), place(step.max_a, off), style);
@@ -99,26 +99,26 @@ public:
     std::optional<Vec<D>> draw(const SweepStep<D>& step, const Style& style) {
         if (!is_finite(step.position) || !is_finite(step.normal) || !std::isfinite(step.distance)) return {};
         mark_origin();
-        const Vec<D> foot = along(step.position, step.normal, -static_cast<double>(step.distance));
-        const double offset = dot(DVec<D>(step.normal), DVec<D>(foot));
+        const Vec<D> projection = along(step.position, step.normal, -static_cast<double>(step.distance));
+        const double offset = dot(DVec<D>(step.normal), DVec<D>(projection));
         canvas_.line(Vec<D>(0), step.position, style);
         canvas_.point(step.position, style);
-        canvas_.line(step.position, foot, dashed(style));
+        canvas_.line(step.position, projection, dashed(style));
         abut::draw(canvas_, HalfSpace<D>{step.normal, static_cast<float>(offset)}, dashed(style));
         return along(step.position, step.normal, diagonal_ / 40);
     }
 
 private:
-    static Vec<D> along(const Vec<D>& from, const Vec<D>& direction, double far) {
-        return to_float(DVec<D>(from) + DVec<D>(direction) * far);
+    static Vec<D> along(const Vec<D>& from, const Vec<D>& direction, double distance) {
+        return to_float(DVec<D>(from) + DVec<D>(direction) * distance);
     }
 
     void mark_origin() {
         if (origin_marked_) return;
         origin_marked_ = true;
         for (int i = 0; i < D; ++i) {
-            const Vec<D> arm = to_float(axis<D>(i, diagonal_ / 64));
-            canvas_.line(-arm, arm, whole_);
+            const Vec<D> half_axis = to_float(axis<D>(i, diagonal_ / 64));
+            canvas_.line(-half_axis, half_axis, whole_);
         }
     }
 
@@ -136,7 +136,7 @@ private:
     DVec<D> middle_;
     double diagonal_;
     bool origin_marked_ = false;
-    int axes_ = 0;  ///< so far: beside one another, not on one another
+    int axes_ = 0;  ///< axes drawn so far; they are placed side by side
 };
 
 }  // namespace
@@ -147,10 +147,10 @@ void draw(Canvas<D>& canvas, const Trace<D>& trace, const Style& style) {
     const auto count = static_cast<double>(trace.steps.size());
     for (std::size_t i = 0; i < trace.steps.size(); ++i) {
         const double done = static_cast<double>(i + 1) / count;
-        const Style mine = faded(style, faintest + (1 - faintest) * done);
+        const Style step_style = faded(style, faintest + (1 - faintest) * done);
         const std::optional<Vec<D>> place =
-            std::visit([&](const auto& step) { return drawing.draw(step, mine); }, trace.steps[i]);
-        if (place) canvas.text(*place, std::to_string(i + 1), mine);
+            std::visit([&](const auto& step) { return drawing.draw(step, step_style); }, trace.steps[i]);
+        if (place) canvas.text(*place, std::to_string(i + 1), step_style);
     }
 }
 

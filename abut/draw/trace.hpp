@@ -1,22 +1,22 @@
 #pragma once
 
-// What the engines did, step by step, as a picture.
+// Draws the steps that the engines traced.
 
-#include <abut/convex/trace.hpp>
+#include <abut/convex/gjk/trace.hpp>
 #include <abut/draw/canvas.hpp>
 
 namespace abut {
 
-/// Every step with its number in the trace, from 1, beside what it shows; later ones stronger.
+/// Draws every step with its number in the trace, from 1; later ones are stronger.
 ///
-/// - GJK: the simplex, and the line from the origin to its closest point. Penetration: the face with its normal, and
-///   the line from the origin to its plane. A sweep: the ray as far as it has come, and from there to the plane
-///   (dashed) that it may go on to. All lie in the difference A - B, whose origin is marked.
-/// - An axis: what A (a line) and B (dashed) cover of it, side by side, off the middle of what is shown.
-/// - A cut: the line or plane that cuts, dashed, and what it left, filled where the style says so.
+/// - GJK: the simplex, and the line from the origin to its closest point. EPA: the face with its normal, and the line
+///   from the origin to its plane. Conservative advancement: the ray so far, and from its end to the plane (dashed) up
+///   to which it may advance. All lie in the Minkowski difference A - B, whose origin is marked.
+/// - A separating axis: the projections of A (a line) and B (dashed), side by side, away from the center of the view.
+/// - Clipping: the line or plane that clips, dashed, and the remaining part, filled if the style has a fill.
 ///
-/// The difference, axes and cuts seldom go well on one canvas: clear the trace between questions, or give each kind a
-/// canvas of its own. Steps with numbers that are NaN or infinite are left out.
+/// The Minkowski difference, axes and clips rarely fit on one canvas: clear the trace between queries, or use one
+/// canvas per kind. Steps with NaN or infinite numbers are not drawn.
 template <int D>
 void draw(Canvas<D>& canvas, const Trace<D>& trace, const Style& style = {});
 

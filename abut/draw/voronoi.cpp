@@ -9,16 +9,16 @@
 namespace abut {
 namespace {
 
-// --- in the plane ---
+// --- 2D ---
 
-/// A corner of a region, and what the line from it to the next corner belongs to.
+/// A corner of a region, and the border to which the line to the next corner belongs.
 struct RegionCorner {
     DVec<2> position;
     std::size_t border;
 };
 using Region = std::vector<RegionCorner>;
 
-/// What of a region lies behind a line, dot(normal, p) <= offset; the new side belongs to `border`.
+/// Clips a region to dot(normal, p) <= offset; the new side belongs to `border`.
 Region cut(const Region& region, const DVec<2>& normal, double offset, std::size_t border) {
     Region result;
     for (std::size_t i = 0; i < region.size(); ++i) {
@@ -39,7 +39,7 @@ void fill(Canvas<2>& canvas, const Region& region, const Style& style) {
     canvas.polygon(points, fill_only(style));
 }
 
-/// A polygon's outline with the regions outside and inside of it; also of a segment, whose two sides are two edges.
+/// A polygon's outline with its Voronoi regions, outside and inside. A segment counts as two edges.
 class Regions {
 public:
     Regions(Canvas<2>& canvas, const std::vector<Vec2>& outline) : canvas_(canvas) {
@@ -88,7 +88,7 @@ private:
         const DVec<2>&past = along_[before(i)], &ahead = along_[i];
         return cut(cut(shown_, -past, -dot(past, corner(i)), i), ahead, dot(ahead, corner(i)), i);
     }
-    /// Where edge i is less deep below than any other.
+    /// The part of the interior nearest to edge i.
     Region inside_of_edge(std::size_t i) const {
         if (corners_.size() < 3) return {};
         const std::size_t outline = corners_.size();
@@ -98,7 +98,7 @@ private:
             if (k != i) result = cut(result, normals_[k] - normals_[i], height(k) - height(i), k);
         return result;
     }
-    /// Of edge i, along its normal.
+    /// The offset of edge i along its normal.
     double height(std::size_t i) const { return dot(normals_[i], corner(i)); }
 
     void draw_ray(const DVec<2>& origin, const DVec<2>& direction, const Style& style) const {
@@ -128,7 +128,7 @@ void draw_regions(Canvas<2>& canvas, const Convex<2>& core, const Style& style) 
     if (loop.size() > 1) Regions(canvas, loop).draw(style);
 }
 
-// --- in space ---
+// --- 3D ---
 
 void draw_regions(Canvas<3>& canvas, const Convex<3>& core, const Style& style) {
     if (is_ball(core)) return;

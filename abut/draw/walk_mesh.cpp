@@ -8,9 +8,9 @@
 namespace abut {
 namespace {
 
-constexpr std::size_t walk_parts = 64;
+constexpr std::size_t walk_segments = 64;
 
-/// For what is of less importance.
+/// The style of less important lines.
 Style paler(Style style) {
     style.stroke.alpha = static_cast<std::uint8_t>(style.stroke.alpha / 3);
     style.width *= 0.5f;
@@ -28,7 +28,7 @@ bool is_shown(const Aabb3& shown, const std::array<Vec3, 3>& corner) {
     return overlaps(box, shown);
 }
 
-/// Lines over areas: first what is filled, then the inner edges, the borders last.
+/// Lines cover areas: fills come first, then inner edges, and borders last.
 enum class Layer { areas, edges, borders };
 
 void draw_triangle(Canvas<3>& canvas, const WalkMesh& mesh, std::uint32_t triangle, Layer layer, const Style& style) {
@@ -48,16 +48,16 @@ void draw_triangle(Canvas<3>& canvas, const WalkMesh& mesh, std::uint32_t triang
     }
 }
 
-/// The point of a line from which its end is far enough that an arrow between them can be seen, else the last but one.
+/// The last point far enough from the end for a visible arrow between them; otherwise the last but one.
 std::size_t arrow_start(const Aabb3& shown, std::span<const Vec3> points) {
     const DVec<3> end(points.back());
-    const double far = length(DVec<3>(shown.max) - DVec<3>(shown.min)) / 20;
+    const double min_length = length(DVec<3>(shown.max) - DVec<3>(shown.min)) / 20;
     for (std::size_t i = points.size() - 1; i-- > 0;)
-        if (length(DVec<3>(points[i]) - end) >= far) return i;
+        if (length(DVec<3>(points[i]) - end) >= min_length) return i;
     return points.size() - 2;
 }
 
-/// With a point where it starts, and a head where it ends.
+/// Draws a point at the start and an arrow head at the end.
 void draw_line(Canvas<3>& canvas, std::span<const Vec3> points, const Style& style) {
     if (points.empty()) return;
     canvas.point(points.front(), style);
@@ -84,10 +84,10 @@ void draw(Canvas<3>& canvas, const WalkMesh& mesh, const Style& style) {
 }
 
 void draw(Canvas<3>& canvas, const WalkPath& path, const Style& style) {
-    draw_way(canvas, path.points, style);
+    draw_path(canvas, path.points, style);
 }
 
-void draw_way(Canvas<3>& canvas, std::span<const Vec3> points, const Style& style) {
+void draw_path(Canvas<3>& canvas, std::span<const Vec3> points, const Style& style) {
     draw_line(canvas, points, style);
     for (std::size_t i = 1; i + 1 < points.size(); ++i) canvas.point(points[i], style);
 }
@@ -95,8 +95,8 @@ void draw_way(Canvas<3>& canvas, std::span<const Vec3> points, const Style& styl
 void draw_walk(Canvas<3>& canvas, const WalkMesh& mesh, const WalkPoint& from, const Vec3& step, const Style& style) {
     std::vector<Vec3> points{mesh.to_world(from)};
     WalkPoint place = from;
-    Vec3 part = step / static_cast<float>(walk_parts);
-    for (std::size_t i = 0; i < walk_parts; ++i) {
+    Vec3 part = step / static_cast<float>(walk_segments);
+    for (std::size_t i = 0; i < walk_segments; ++i) {
         const Walked walked = mesh.walk(place, part);
         place = walked.place;
         part = walked.turn * part;

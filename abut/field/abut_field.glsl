@@ -2,12 +2,12 @@
 // abut/field/texture.hpp makes. For GLSL ES 3.00 (WebGL 2, OpenGL ES 3.0) and GLSL 3.30 or later; put it after your
 // #version line.
 //
-//   #define ABUT_2D             before it: a field of the plane; all positions and normals are vec2
-//   #define ABUT_FIELD_FILTER   before it: asks the hardware to interpolate. The texture then has GL_LINEAR; one fetch
-//                               instead of eight, and on most cards the place within a cell is rounded to 1/256. Not
-//                               for r32f in WebGL 2 without OES_texture_float_linear.
-//   #define ABUT_SHADOW_STEPS n before it: a shadow takes at most so many steps, otherwise 256; what is behind them
-//                               casts none
+//   #define ABUT_2D             before it: a 2D field; all positions and normals are vec2
+//   #define ABUT_FIELD_FILTER   before it: the hardware interpolates. The texture must have GL_LINEAR. It takes one
+//                               fetch instead of eight; most cards round the position in a cell to 1/256. Not for
+//                               r32f in WebGL 2 without OES_texture_float_linear.
+//   #define ABUT_SHADOW_STEPS n before it: maximum number of steps of a shadow ray (default 256); obstacles behind
+//                               them cast no shadow
 //
 // The texture has no mipmaps: set GL_TEXTURE_MIN_FILTER to GL_NEAREST or GL_LINEAR. Set the uniforms from the
 // FieldTexture:
@@ -17,7 +17,7 @@
 //   abut_decode             scale, offset
 //   abut_surface_min, _max  surface.min, surface.max
 //
-// What is asked of this file is asked in the frame that the field was baked in.
+// All positions and directions are in the frame in which the field was baked.
 
 #ifndef ABUT_SHADOW_STEPS
 #define ABUT_SHADOW_STEPS 256
@@ -43,13 +43,13 @@ uniform highp vec2 abut_decode;
 uniform highp ABUT_VEC abut_surface_min;
 uniform highp ABUT_VEC abut_surface_max;
 
-// --- within ----------------------------------------------------------------------------------------------------------
+// --- internal --------------------------------------------------------------------------------------------------------
 
 float abut_texel(ABUT_IVEC at) {
     return abut_decode.x * texelFetch(abut_texture, at, 0).r + abut_decode.y;
 }
 
-// In cells, kept within the volume.
+// The position in cells, clamped to the volume.
 ABUT_VEC abut_place(ABUT_VEC p) {
     return clamp((p - abut_origin) / abut_cell, ABUT_VEC(0.0), ABUT_VEC(textureSize(abut_texture, 0) - 1));
 }
@@ -64,7 +64,7 @@ float abut_fetched(ABUT_VEC place) {
     return mix(mix(abut_texel(low), abut_texel(low + ivec2(1, 0)), t.x),
                mix(abut_texel(low + ivec2(0, 1)), abut_texel(low + ivec2(1, 1)), t.x), t.y);
 }
-// How the distance grows along each axis, a cell.
+// The gradient per cell.
 ABUT_VEC abut_slope(ABUT_VEC place) {
     ABUT_IVEC low = abut_low(place);
     ABUT_VEC t = place - ABUT_VEC(low);
@@ -73,7 +73,7 @@ ABUT_VEC abut_slope(ABUT_VEC place) {
     return vec2(mix(b - a, d - c, t.y), mix(c, d, t.x) - mix(a, b, t.x));
 }
 #else
-// At four corners of a layer of a cell.
+// The distances at four corners of a cell, in one layer.
 vec4 abut_layer(ABUT_IVEC low) {
     return vec4(abut_texel(low), abut_texel(low + ivec3(1, 0, 0)), abut_texel(low + ivec3(0, 1, 0)),
                 abut_texel(low + ivec3(1, 1, 0)));
@@ -85,7 +85,7 @@ float abut_fetched(ABUT_VEC place) {
     vec2 row = mix(layer.xy, layer.zw, t.y);
     return mix(row.x, row.y, t.x);
 }
-// How the distance grows along each axis, a cell.
+// The gradient per cell.
 ABUT_VEC abut_slope(ABUT_VEC place) {
     ABUT_IVEC low = abut_low(place);
     ABUT_VEC t = place - ABUT_VEC(low);
@@ -105,16 +105,16 @@ float abut_within(ABUT_VEC place) {
 #endif
 }
 
-// --- what to call ----------------------------------------------------------------------------------------------------
+// --- public functions ------------------------------------------------------------------------------------------------
 
-// The signed distance. Outside of the volume a lower bound: the surface is at least about as far.
+// The signed distance. Outside the volume it is a lower bound, up to interpolation.
 float abut_distance(ABUT_VEC p) {
     ABUT_VEC place = abut_place(p);
     float within = abut_within(place);
     float away = length(p - (abut_origin + abut_cell * place));
     if (away <= 1e-5 * abut_cell) return within;
-    // The surface lies behind the plane through the volume's nearest point, and in its box. A solid that the volume cuts
-    // ends with it.
+    // The surface lies behind the plane through the volume's nearest point, and in its bounding box. A solid that the
+    // volume cuts ends at its border.
     ABUT_VEC high = abut_origin + abut_cell * ABUT_VEC(textureSize(abut_texture, 0) - 1);
     bool cut = any(lessThan(abut_surface_min, abut_origin)) || any(greaterThan(abut_surface_max, high));
     float free = within < 0.0 && cut ? 0.0 : max(abs(within) - abut_cell, 0.0);
@@ -122,7 +122,7 @@ float abut_distance(ABUT_VEC p) {
     return (within < 0.0 && !cut ? -1.0 : 1.0) * max(length(vec2(away, free)), to_box);
 }
 
-// The direction in which the distance grows most, of length 1; outside of the volume that of its nearest point.
+// The unit direction of the steepest increase; outside the volume, that of its nearest point.
 ABUT_VEC abut_normal(ABUT_VEC p) {
     ABUT_VEC slope = abut_slope(abut_place(p));
     float size = length(slope);
@@ -131,32 +131,33 @@ ABUT_VEC abut_normal(ABUT_VEC p) {
     return size > 1e-3 * abut_cell ? slope / size : first;
 }
 
-// How much of a light arrives at a point, in [0, 1], as Field::shadow tells it. `softness` is the radius of the light as a
-// share of its distance; 0 makes hard shadows.
+// The share of a light that arrives at a point, in [0, 1], as Field::shadow computes it. `softness` is the radius of the
+// light divided by its distance; 0 makes hard shadows.
 float abut_shadow(ABUT_VEC p, ABUT_VEC light, float softness) {
     ABUT_VEC to_light = light - p;
-    float way_to_light = length(to_light);
+    float light_distance = length(to_light);
     float here = abut_distance(p);
     if (here < -abut_cell) return 0.0;
-    if (way_to_light == 0.0) return here > 0.0 ? 1.0 : 0.0;
+    if (light_distance == 0.0) return here > 0.0 ? 1.0 : 0.0;
     float at_light = abut_distance(light);
     if (at_light <= 0.0) return 0.0;
 
-    // The least slope, clearance over way, squared: by parabolas over 1 / way through the last three places, held against
-    // the balls that the last two keep free (Aaltonen). x = 1 / way, y = squared slope, z = way.
-    float least = at_light / way_to_light * (at_light / way_to_light);
+    // The minimum squared slope, clearance / distance along the ray: by parabolas in 1 / distance through the last three
+    // samples, bounded below by the free balls of the last two (Aaltonen). x = 1 / distance, y = squared slope,
+    // z = distance.
+    float minimum = at_light / light_distance * (at_light / light_distance);
     vec3 first = vec3(0.0), second = vec3(0.0), last = vec3(0.0);
-    ABUT_VEC direction = to_light / way_to_light;
-    float way = abut_cell;
+    ABUT_VEC direction = to_light / light_distance;
+    float along = abut_cell;
     for (int i = 0; i < ABUT_SHADOW_STEPS; ++i) {
-        if (way >= way_to_light) break;
-        float clear = abut_distance(p + direction * way);
+        if (along >= light_distance) break;
+        float clear = abut_distance(p + direction * along);
         if (clear <= 0.0) return 0.0;
         first = second;
         second = last;
-        float slope = clear / way;
-        last = vec3(1.0 / way, slope * slope, way);
-        least = min(least, last.y);
+        float slope = clear / along;
+        last = vec3(1.0 / along, slope * slope, along);
+        minimum = min(minimum, last.y);
         if (i >= 2) {
             float after = last.z * (last.y - 1.0), before = second.z * (second.y - 1.0);
             float bend = (before - after) / (second.x - last.x), x = 0.5 * (bend * second.x - before);
@@ -167,12 +168,12 @@ float abut_shadow(ABUT_VEC p, ABUT_VEC light, float softness) {
                 lowest < first.x) {
                 float square = last.y + (lowest - last.x) * (rise + (lowest - second.x) * curve);
                 float candidate = max(square, 1.0 - x * x / bend);
-                if (candidate > 0.0) least = min(least, candidate);
+                if (candidate > 0.0) minimum = min(minimum, candidate);
             }
         }
-        way += max(0.7 * clear, 0.5 * abut_cell);
+        along += max(0.7 * clear, 0.5 * abut_cell);
     }
-    if (least >= softness * softness) return 1.0;
-    float share = sqrt(least) / softness;
+    if (minimum >= softness * softness) return 1.0;
+    float share = sqrt(minimum) / softness;
     return share * share * (3.0 - 2.0 * share);
 }

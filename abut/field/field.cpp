@@ -1,7 +1,7 @@
+#include <abut/field/check.hpp>
 #include <abut/field/field.hpp>
-#include <abut/field/field_batch.hpp>
-#include <abut/field/field_check.hpp>
-#include <abut/field/field_look_up.hpp>
+#include <abut/field/look_up/batch.hpp>
+#include <abut/field/look_up/look_up.hpp>
 #include <abut/field/packed_direction.hpp>
 #include <abut/math/assert.hpp>
 
@@ -12,7 +12,7 @@
 namespace abut {
 namespace {
 
-/// From one to the next along each axis, where the first axis is the fastest.
+/// The strides of a grid whose first axis is the fastest.
 template <int D>
 glm::vec<D, std::uint32_t> strides(const glm::vec<D, std::uint32_t>& counts) {
     glm::vec<D, std::uint32_t> result(1);
@@ -92,16 +92,16 @@ template <int D>
 Aabb<D> bounds(const Field<D>& field) {
     const FieldData<D>& data = field.data();
     Aabb<D> result = data.surface;
-    // Nothing is solid outside of the volume, unless all is. Linear between distances that are right, the solid doesn't
-    // leave a box that it should be in: the distance from each of its sides is linear.
+    // Nothing outside the volume is solid, unless everything is. The linear interpolation of exact distances keeps the
+    // solid in any box that contains it, because the distance from a side of the box is linear.
     const Aabb<D> volume = volume_of(data);
     for (int a = 0; a < D; ++a) {
         const float size = std::max(std::abs(volume.min[a]), std::abs(volume.max[a]));
-        // With gradients it is off by a fraction of a cell.
+        // With gradients the interpolation has an error of a fraction of a cell.
         const float around = data.lookup == FieldLookup::gradient ? data.cell : 0;
-        const float doubt = 0.5f * data.step + 0x1p-20f * size + around;
-        result.min[a] = std::max(result.min[a] - doubt, volume.min[a]);
-        result.max[a] = std::min(result.max[a] + doubt, volume.max[a]);
+        const float tolerance = 0.5f * data.step + 0x1p-20f * size + around;
+        result.min[a] = std::max(result.min[a] - tolerance, volume.min[a]);
+        result.max[a] = std::min(result.max[a] + tolerance, volume.max[a]);
         if (!(result.min[a] <= result.max[a])) return Aabb<D>::empty();
     }
     return result;

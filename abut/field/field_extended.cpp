@@ -1,4 +1,4 @@
-#include <abut/field/field_cells.hpp>
+#include <abut/field/cells.hpp>
 #include <abut/field/field_extended.hpp>
 
 #include <limits>
@@ -89,9 +89,9 @@ public:
           center_((low + high) * 0.5),
           half_((high - low) * 0.5) {}
 
-    DistanceKnown run(DistanceBound<D>& bound) {
-        if (find_piece(bound)) return DistanceKnown::bound;
-        if (bound.only_cut && bound.cut_axis >= 0) return DistanceKnown::in_smaller_boxes;
+    DistanceBoundStatus run(DistanceBound<D>& bound) {
+        if (find_piece(bound)) return DistanceBoundStatus::valid;
+        if (bound.only_cut && bound.cut_axis >= 0) return DistanceBoundStatus::box_too_large;
         bool is_within = true, is_beyond = false;
         std::int64_t samples = 1;
         DVec<D> first, last;
@@ -107,16 +107,16 @@ public:
             const double here = distance_at(center_);
             // Between finer and coarser samples there may be a step, of less than a cell.
             const double step = data_.store == FieldStore::dense ? 0 : cell_;
-            bound.least = here - static_cast<double>(extended_slope(data_)) * length(half_) - step;
-            if (bound.least > bound.enough) {
-                bound.value = bound.least;
+            bound.lower_bound = here - static_cast<double>(extended_slope(data_)) * length(half_) - step;
+            if (bound.lower_bound > bound.sufficient) {
+                bound.value = bound.lower_bound;
                 bound.gradient = DVec<D>(0.0);
-                bound.wanted_value = bound.least + least_in_box(bound.wanted, half_);
-                return DistanceKnown::bound;
+                bound.requested_value = bound.lower_bound + least_in_box(bound.requested_gradient, half_);
+                return DistanceBoundStatus::valid;
             }
         }
-        if (samples > most_samples) return DistanceKnown::in_smaller_boxes;
-        wanted_ = bound.wanted;
+        if (samples > most_samples) return DistanceBoundStatus::box_too_large;
+        wanted_ = bound.requested_gradient;
         needs_gradient_ = bound.needs_gradient;
         if (needs_gradient_)
             find_gradient();
@@ -132,9 +132,9 @@ public:
         }
         bound.value = above_own_;
         bound.gradient = own_;
-        bound.wanted_value = above_wanted_;
-        bound.least = std::max(bound.least, least_);
-        return DistanceKnown::bound;
+        bound.requested_value = above_wanted_;
+        bound.lower_bound = std::max(bound.lower_bound, least_);
+        return DistanceBoundStatus::valid;
     }
 
 private:
@@ -262,7 +262,7 @@ private:
             const double aside =
                 std::max(std::abs(cell_ * low_[a] + static_cast<double>(data_.origin[a]) - anchor[a]),
                          std::abs(cell_ * high_[a] + static_cast<double>(data_.origin[a]) - anchor[a]));
-            bound.bend[a] += curved * (1 - rise[a] * rise[a]) * aside * aside;
+            bound.curvature[a] += curved * (1 - rise[a] * rise[a]) * aside * aside;
         }
         return true;
     }
@@ -271,8 +271,8 @@ private:
     void finish_corners(DistanceBound<D>& bound) const {
         const DVec<D>& half = half_;
         const auto& corners = bound.corners;
-        bound.least = corners[0];
-        for (const double value : corners) bound.least = std::min(bound.least, value);
+        bound.lower_bound = corners[0];
+        for (const double value : corners) bound.lower_bound = std::min(bound.lower_bound, value);
         if (!bound.needs_gradient) return;
         for (int a = 0; a < D; ++a) {
             const std::size_t bit = std::size_t{1} << a;
@@ -280,16 +280,16 @@ private:
             for (std::size_t i = 0; i < cell_corners<D>; ++i) rise += (i & bit) != 0 ? corners[i] : -corners[i];
             bound.gradient[a] = half[a] > 0 ? rise / (static_cast<double>(cell_corners<D>) * half[a]) : 0;
         }
-        bound.value = bound.wanted_value = std::numeric_limits<double>::infinity();
+        bound.value = bound.requested_value = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < cell_corners<D>; ++i) {
             double own = corners[i], wanted = own;
             for (int a = 0; a < D; ++a) {
                 const double way = i >> a & 1 ? half[a] : -half[a];
                 own -= bound.gradient[a] * way;
-                wanted -= bound.wanted[a] * way;
+                wanted -= bound.requested_gradient[a] * way;
             }
             bound.value = std::min(bound.value, own);
-            bound.wanted_value = std::min(bound.wanted_value, wanted);
+            bound.requested_value = std::min(bound.requested_value, wanted);
         }
     }
 
@@ -503,8 +503,8 @@ double extended_distance(const FieldData<D>& data, const DVec<D>& point, DVec<D>
 }
 
 template <int D>
-DistanceKnown extended_bound(const FieldData<D>& data, const DVec<D>& low, const DVec<D>& high,
-                             DistanceBound<D>& bound) {
+DistanceBoundStatus extended_bound(const FieldData<D>& data, const DVec<D>& low, const DVec<D>& high,
+                                   DistanceBound<D>& bound) {
     return BoundInBox<D>(data, low, high).run(bound);
 }
 
@@ -521,10 +521,11 @@ bool holds_surface(const FieldData<D>& data) {
     return true;
 }
 
-#define ABUT_INSTANTIATE(D)                                                                                        \
-    template double extended_distance(const FieldData<D>&, const DVec<D>&, DVec<D>&);                              \
-    template DistanceKnown extended_bound(const FieldData<D>&, const DVec<D>&, const DVec<D>&, DistanceBound<D>&); \
-    template float extended_slope(const FieldData<D>&);                                                            \
+#define ABUT_INSTANTIATE(D)                                                                          \
+    template double extended_distance(const FieldData<D>&, const DVec<D>&, DVec<D>&);                \
+    template DistanceBoundStatus extended_bound(const FieldData<D>&, const DVec<D>&, const DVec<D>&, \
+                                                DistanceBound<D>&);                                  \
+    template float extended_slope(const FieldData<D>&);                                              \
     template bool holds_surface(const FieldData<D>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

@@ -11,8 +11,8 @@
 // to what interpolation is right to; nor is it less than the distance to the box around the surface. The larger of both
 // is the distance, which has no step at the border of the volume, unless the volume cuts the solid.
 
-#include <abut/field/field_data.hpp>
-#include <abut/shape/distance_function.hpp>
+#include <abut/field/data.hpp>
+#include <abut/shape/view/distance_function.hpp>
 
 namespace abut {
 
@@ -22,8 +22,8 @@ double extended_distance(const FieldData<D>& data, const DVec<D>& point, DVec<D>
 
 /// What it is at least in a box of the field's own frame.
 template <int D>
-DistanceKnown extended_bound(const FieldData<D>& data, const DVec<D>& low, const DVec<D>& high,
-                             DistanceBound<D>& bound);
+DistanceBoundStatus extended_bound(const FieldData<D>& data, const DVec<D>& low, const DVec<D>& high,
+                                   DistanceBound<D>& bound);
 
 /// From point to point it changes by no more than this times what they are apart. Along each axis it grows as samples
 /// do, to which half a step may be added.

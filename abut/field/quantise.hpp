@@ -1,15 +1,15 @@
 #pragma once
 
-// Fields that take half the memory.
+// Quantisation of fields to half the memory.
 
-#include <abut/field/field_data.hpp>
+#include <abut/field/data.hpp>
 
 namespace abut {
 
-/// Keeps the distances of the samples as multiples of a 32767th of the largest of them, in 16 bits: right to half of
-/// that. Of a sparse field that is next to nothing, as its samples lie near the surface; of a dense one whose distances
-/// go to 100 cells, 0.0015 of a cell. Those at the corners of blocks stay as they are. Nothing where it is done
-/// already.
+/// Quantises the distances of the samples to 16 bits, with a step of a 32767th of the largest. The error is at most
+/// half a step. In a sparse field it is negligible, because its samples are near the surface; in a dense field with
+/// distances up to 100 cells it is 0.0015 cells. Distances at the corners of blocks are unchanged. A quantised field is
+/// not changed.
 template <int D>
 void quantise(FieldData<D>& data);
 

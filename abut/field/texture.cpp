@@ -11,9 +11,9 @@
 namespace abut {
 namespace {
 
-/// As many steps from the least to the greatest as 8 bits have with room for the offset, which is a whole number of
-/// them: so that 0 is a step.
-constexpr double steps_of_8_bits = 252;
+/// Steps between the lowest and the highest distance in 8 bits. It leaves capacity for the offset, which is rounded to
+/// a step so that 0 is represented exactly.
+constexpr double steps_in_8_bits = 252;
 
 template <class T>
 void append(std::vector<std::byte>& bytes, T value) {
@@ -26,14 +26,14 @@ glm::vec<D, std::uint32_t> texels_along(const Field<D>& field, double cell) {
     const FieldData<D>& data = field.data();
     glm::vec<D, std::uint32_t> result;
     for (int i = 0; i < D; ++i) {
-        // What is left over of a last cell is covered by a whole one; a hair of rounding isn't something left over.
+        // A partial last cell is rounded up, except for rounding errors.
         const double cells = static_cast<double>(data.cell) * data.cells[i] / cell;
         result[i] = static_cast<std::uint32_t>(std::min(std::ceil(cells * (1 - 1e-6)), 0x1p31)) + 1;
     }
     return result;
 }
 
-/// The field at all texels, by rows.
+/// The distances at all texels, row by row.
 template <int D>
 std::vector<float> distances(const Field<D>& field, const glm::vec<D, std::uint32_t>& size, double cell) {
     std::size_t rows = size[1];
@@ -77,20 +77,20 @@ Result<FieldTexture<D>> to_texture(const Field<D>& field, const TextureOptions& 
     for (int i = 0; i < D; ++i)
         texture.box.max[i] = static_cast<float>(static_cast<double>(texture.box.min[i]) + cell * (size[i] - 1));
 
-    // Shaders have no empty boxes.
+    // An empty box cannot be passed to a shader.
     texture.surface = field.data().surface;
     if (texture.surface == Aabb<D>::empty()) texture.surface = texture.box;
 
     std::vector<float> values = distances(field, size, cell);
     if (options.range > 0)
         for (float& value : values) value = std::clamp(value, -options.range, options.range);
-    const auto [least, most] = std::minmax_element(values.begin(), values.end());
-    const double low = *least, high = *most, largest = std::max(std::abs(low), std::abs(high));
+    const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
+    const double low = *lowest, high = *highest, largest = std::max(std::abs(low), std::abs(high));
 
     switch (options.format) {
         case TextureFormat::r8_snorm: {
-            // With one and the same distance everywhere any step will do.
-            const double step = high > low ? (high - low) / steps_of_8_bits : std::max(largest, 1e-30) / 127;
+            // If all distances are equal, any step is valid.
+            const double step = high > low ? (high - low) / steps_in_8_bits : std::max(largest, 1e-30) / 127;
             const double middle = std::nearbyint(0.5 * (low + high) / step);
             texture.scale = static_cast<float>(127 * step);
             texture.offset = static_cast<float>(middle * step);
@@ -101,7 +101,7 @@ Result<FieldTexture<D>> to_texture(const Field<D>& field, const TextureOptions& 
             break;
         }
         case TextureFormat::r16f: {
-            // A power of two, by which dividing is exact, puts the largest into [0.5, 1).
+            // Dividing by a power of two is exact; the largest distance becomes a number in [0.5, 1).
             int exponent = 0;
             std::frexp(largest, &exponent);
             exponent = std::clamp(exponent, -100, 100);

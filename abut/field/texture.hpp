@@ -1,6 +1,6 @@
 #pragma once
 
-// A field as a texture, for shaders: abut/field/abut_field.glsl looks things up in it.
+// A field as a texture for shaders; abut/field/abut_field.glsl reads it.
 
 #include <abut/field/field.hpp>
 #include <abut/math/aabb.hpp>
@@ -13,7 +13,7 @@
 
 namespace abut {
 
-/// One number a texel, in the formats that OpenGL, OpenGL ES 3.0 and WebGL 2 have.
+/// Single-channel formats of OpenGL, OpenGL ES 3.0 and WebGL 2.
 enum class TextureFormat : std::uint8_t {
     r8_snorm,  ///< GL_R8_SNORM, GL_RED, GL_BYTE: the hardware filters it
     r16f,      ///< GL_R16F, GL_RED, GL_HALF_FLOAT: the hardware filters it
@@ -23,38 +23,37 @@ enum class TextureFormat : std::uint8_t {
 struct TextureOptions {
     TextureFormat format = TextureFormat::r16f;
 
-    /// Distances beyond it count as it, inside as outside: with 8 bits a smaller one makes finer steps. They stay lower
-    /// bounds. 0: none is cut off.
+    /// Distances are clamped to this magnitude. With 8 bits a smaller range has finer steps. Clamped distances are
+    /// lower bounds. 0: no clamping.
     float range = 0;
 
-    /// How far texels are apart; 0: as the field's samples are.
+    /// The spacing of texels; 0: that of the field's samples.
     float cell = 0;
 };
 
-/// The distances at the points box.min + cell * (column, row, layer), the columns fastest, without gaps between rows
-/// (GL_UNPACK_ALIGNMENT 1), in the machine's order of bytes.
+/// The distances at the points box.min + cell * (column, row, layer), columns fastest, without padding between rows
+/// (GL_UNPACK_ALIGNMENT 1), in the machine's byte order.
 template <int D>
 struct FieldTexture {
     TextureFormat format = TextureFormat::r16f;
     std::uint32_t width = 0, height = 0;
-    std::uint32_t depth = 1;  ///< 1 in the plane
+    std::uint32_t depth = 1;  ///< 1 in 2D
     std::vector<std::byte> bytes;
 
-    /// A distance is scale * texel + offset, where texels of r8_snorm are in [-1, 1] as shaders see them.
+    /// distance = scale * texel + offset, where texels of r8_snorm are in [-1, 1], as in a shader.
     float scale = 1, offset = 0;
-    /// What no texel is farther off than, but for the rounding of a few floats. With 8 bits this is half a step; with
-    /// 16 bits a texel is off by up to a 2048th of its distance, so that those at the surface are much finer; with 32
-    /// bits it is 0.
+    /// Maximum error of a texel, except for the rounding of a few floats. With 8 bits it is half a step. With 16 bits
+    /// an error is up to a 2048th of the distance, so it is much smaller near the surface. With 32 bits it is 0.
     float error = 0;
 
-    Aabb<D> box{};  ///< from the first texel to the last, at their middles
+    Aabb<D> box{};  ///< from the center of the first texel to that of the last
     float cell = 1;
-    Aabb<D> surface{};  ///< around all places where the distance is 0; where it is so nowhere, the same as `box`
+    Aabb<D> surface{};  ///< bounds of the zero level set; equal to `box` if it is empty
 };
 
-/// A Problem where a number of the options is negative or not finite (`bad_argument`), or there would be more than
-/// 2^31 texels (`too_large`). What a graphics card takes is less: 2048 texels along an axis of space mostly, and 256 is
-/// all that WebGL 2 promises.
+/// Converts a field to a texture. A Problem if an option is negative or not finite (`bad_argument`), or if there would
+/// be more than 2^31 texels (`too_large`). Graphics cards have lower limits: mostly 2048 texels along an axis in 3D,
+/// and WebGL 2 guarantees only 256.
 template <int D>
 Result<FieldTexture<D>> to_texture(const Field<D>& field, const TextureOptions& options = {});
 template <int D>
@@ -62,7 +61,7 @@ Result<FieldTexture<D>> to_texture(const Field<D>& field, TextureFormat format) 
     return to_texture(field, TextureOptions{.format = format});
 }
 
-/// The distance of the texel with this number, as a shader sees it.
+/// The distance of a texel as a shader reads it.
 template <int D>
 float texel_distance(const FieldTexture<D>& texture, std::size_t texel);
 

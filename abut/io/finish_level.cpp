@@ -11,21 +11,21 @@ namespace {
 
 class Paths {
 public:
-    // Each path is taken by the first that comes along with it; the next ones get a number.
-    template <class Thing>
-    void make_unique(Thing& thing) {
-        if (taken_.insert(thing.path).second) return;
-        std::size_t& number = numbers_.try_emplace(thing.path, 2).first->second;
+    // The first object or point with a path keeps it; later ones get a number as suffix.
+    template <class Named>
+    void make_unique(Named& named) {
+        if (taken_.insert(named.path).second) return;
+        std::size_t& number = numbers_.try_emplace(named.path, 2).first->second;
         std::string suffix;
         do suffix = "#" + std::to_string(number++);
-        while (!taken_.insert(thing.path + suffix).second);
-        thing.path += suffix;
-        thing.name += suffix;
+        while (!taken_.insert(named.path + suffix).second);
+        named.path += suffix;
+        named.name += suffix;
     }
 
 private:
     std::unordered_set<std::string> taken_;
-    std::unordered_map<std::string, std::size_t> numbers_;  ///< the next to try
+    std::unordered_map<std::string, std::size_t> numbers_;  ///< the next suffix to try
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
 
-// What every reader's level goes through, and how readers say what they left out.
+// Post-processing shared by all level readers, and warnings for whatever they leave out.
 
 #include <abut/io/level.hpp>
 #include <abut/math/result.hpp>
@@ -11,10 +11,10 @@
 
 namespace abut {
 
-/// One line for each kind of thing that is left out, with how many there were and the first of them.
+/// Collects warnings: one line for each kind of thing left out, with the count and the path of the first one.
 class LeftOut {
 public:
-    /// `one` and `many` begin the line: "text object is", "text objects are".
+    /// `one` and `many` are the singular and the plural that begin the line: "text object is", "text objects are".
     void add(const char* one, const char* many, const char* what, const std::string& such_as);
     std::vector<std::string> lines() const;
 
@@ -27,7 +27,8 @@ private:
     std::vector<Kind> kinds_;
 };
 
-/// Makes paths unique ("Crate", "Crate#2"), each object's and point's own. A Problem where there is nothing in it.
+/// Makes the paths of all objects and points unique ("Crate", "Crate#2"). Returns a Problem (`empty_input`) for a level
+/// without any.
 Result<Level> finish_level(Level level);
 
 }  // namespace abut

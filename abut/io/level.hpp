@@ -1,8 +1,8 @@
 #pragma once
 
-// A level of the plane as it stands in a file: named shapes and named places.
-// Plain data, in the file's own units and axes; nothing here knows which format it came from. In Tiled maps and in SVG
-// files y points down: what is low in y is high on the screen, and a turn by a positive angle is clockwise there.
+// A 2D level as stored in a file: named shapes and named points.
+// Plain data in the file's own units and axes, independent of the format. In Tiled maps and SVG files y points down: a
+// low y is high on the screen, and a positive angle rotates clockwise there.
 
 #include <abut/io/outlines.hpp>
 #include <abut/shape/ball.hpp>
@@ -22,11 +22,11 @@
 
 namespace abut {
 
-/// What an author has written to a thing. Numbers as text: the shortest that is read as the same number.
+/// A custom property of an object. Numbers are stored as the shortest text that parses to the same number.
 struct LevelProperty {
-    std::string name;   ///< of a part of a structure "outer.inner"
-    std::string type;   ///< "string", "int", "float", "bool", ..., as the file calls it
-    std::string value;  ///< of a bool "true" or "false"
+    std::string name;   ///< members of a class value are named "outer.inner"
+    std::string type;   ///< as the file names it: "string", "int", "float", "bool", ...
+    std::string value;  ///< a bool is "true" or "false"
 
     friend bool operator==(const LevelProperty&, const LevelProperty&) = default;
 };
@@ -34,22 +34,22 @@ struct LevelProperty {
 using Ellipse = Stretched<Circle>;
 using RoundedBox = Rounded<Box2>;
 
-/// What the shapes of a level are. Convex ones as they are; a polygon that isn't convex is a closed Chain, which is
-/// solid in `contains`; lines are open ones.
+/// The shape types of a level. Convex shapes keep their type. A polygon that isn't convex is a closed Chain, which is
+/// solid in `contains`. Polylines are open Chains.
 using LevelShape =
     std::variant<Polygon, Box2, Circle, Capsule2, Ellipse, RoundedBox, TileMap, Chain, Outlines, Compound2>;
 
 struct LevelObject {
-    std::string path;  ///< "Group/Layer/Name": unique in a level that `read_level` made
-    std::string name;  ///< the last part of it
-    std::string type;  ///< the class that its author gave it
+    std::string path;  ///< "Group/Layer/Name": unique in a level that `read_level` returned
+    std::string name;  ///< the last component of the path
+    std::string type;  ///< the class that the author assigned
     std::vector<LevelProperty> properties;
     LevelShape shape;
-    Pose2 pose;           ///< the shape stands there: at(shape, pose)
-    bool filled = false;  ///< of a closed line: what it goes around belongs to it
+    Pose2 pose;           ///< places the shape: at(shape, pose)
+    bool filled = false;  ///< for a closed Chain or Outlines: the enclosed area belongs to the object
 };
 
-/// A named place, such as where a player enters.
+/// A named point, such as a spawn point.
 struct LevelPoint {
     std::string path, name, type;
     std::vector<LevelProperty> properties;
@@ -57,25 +57,25 @@ struct LevelPoint {
 };
 
 struct Level {
-    std::vector<LevelObject> objects;   ///< in the order of the file
-    std::vector<LevelPoint> points;     ///< the same
-    std::vector<std::string> warnings;  ///< what was left out or taken differently, one line each
+    std::vector<LevelObject> objects;   ///< in file order
+    std::vector<LevelPoint> points;     ///< in file order
+    std::vector<std::string> warnings;  ///< one line each for whatever was left out or changed
 };
 
 /// "polygon", "box", "circle", "capsule", "ellipse", "rounded box", "tiles", "chain", "outlines" or "compound".
 std::string_view kind(const LevelShape& shape);
 
-/// How many parts the answers about it tell apart: tiles that aren't empty, segments, children; 1 for a convex one.
+/// Count of parts that query results distinguish: non-empty tiles, segments or children; 1 for a convex shape.
 std::size_t count_parts(const LevelShape& shape);
 
-/// Refers to the object.
+/// A view that refers to the object.
 View<2> view(const LevelObject& object);
 Aabb2 bounds(const LevelObject& object);
 
-/// The value of a property; null where there is none.
+/// The value of a property; null if there is none of that name.
 const std::string* property(const std::vector<LevelProperty>& properties, std::string_view name);
 
-/// Those of a class, or of a name.
+/// All points with this class or this name.
 std::vector<const LevelPoint*> points_called(const Level& level, std::string_view type_or_name);
 
 }  // namespace abut

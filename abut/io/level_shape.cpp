@@ -11,34 +11,36 @@
 namespace abut {
 namespace {
 
-// Of a length, what rounding may make of a right angle or of two equal lengths.
-constexpr double slack = 1e-9;
+// Relative tolerance that absorbs rounding of a right angle or of two equal lengths.
+constexpr double relative_tolerance = 1e-9;
 constexpr double quarter_turn = 1.57079632679489661923;
-// More pieces than this are a mistake of the tolerance, not a finer curve.
-constexpr double most_pieces = 4096;
+// More segments than this indicate a mistaken tolerance and not a finer curve.
+constexpr double max_arc_segments = 4096;
 
 bool is_finite(const DVec<2>& v) {
-    constexpr double most = std::numeric_limits<float>::max();
-    return std::abs(v.x) <= most && std::abs(v.y) <= most;
+    constexpr double max_value = std::numeric_limits<float>::max();
+    return std::abs(v.x) <= max_value && std::abs(v.y) <= max_value;
 }
 
 Problem out_of_range() {
     return {ProblemCode::not_finite, "a coordinate is out of the range of floats"};
 }
-Problem nothing_left(const char* what) {
+Problem degenerate_problem(const char* what) {
     return {ProblemCode::degenerate, what};
 }
 
-bool keeps_right_angles(const Affine<2>& map) {
-    return std::abs(dot(map.column[0], map.column[1])) <= slack * length(map.column[0]) * length(map.column[1]);
+bool preserves_right_angles(const Affine<2>& map) {
+    return std::abs(dot(map.column[0], map.column[1])) <=
+           relative_tolerance * length(map.column[0]) * length(map.column[1]);
 }
-bool keeps_circles(const Affine<2>& map) {
+bool preserves_circles(const Affine<2>& map) {
     const double a = length(map.column[0]), b = length(map.column[1]);
-    return keeps_right_angles(map) && std::abs(a - b) <= slack * std::max(a, b);
+    return preserves_right_angles(map) && std::abs(a - b) <= relative_tolerance * std::max(a, b);
 }
 
-// Where the map turns x to. Both columns are at right angles; of one that is gone the other tells.
-Turn turn_of(const Affine<2>& map) {
+// The rotation of the x axis under the map. The columns are perpendicular; the second determines the first if that is
+// zero.
+Turn rotation_of(const Affine<2>& map) {
     const DVec<2> otherwise = normalized(DVec<2>(map.column[1].y, -map.column[1].x));
     const DVec<2> along = normalized(map.column[0], otherwise);
     return {static_cast<float>(along.x), static_cast<float>(along.y)};
@@ -47,25 +49,25 @@ Turn turn_of(const Affine<2>& map) {
 Box2 box(const Affine<2>& map, const DVec<2>& size) {
     const Vec2 middle = to_float(map.point(0.5 * size));
     const Vec2 half(0.5 * size.x * length(map.column[0]), 0.5 * size.y * length(map.column[1]));
-    // A turn by a quarter, or a mirror, is no turn at all for a box.
+    // A box is invariant under mirroring, and a rotation by 90 degrees only exchanges its half extents.
     if (map.column[0].y == 0 && map.column[1].x == 0) return {middle, half};
     if (map.column[0].x == 0 && map.column[1].y == 0) return {middle, {half.y, half.x}};
-    return {middle, half, turn_of(map)};
+    return {middle, half, rotation_of(map)};
 }
 
-// In how many pieces of the same angle an arc is cut.
-std::size_t arc_pieces(double radius, double angle, double tolerance) {
-    // A chord over the angle a is radius * (1 - cos(a / 2)) off its arc, which is less than radius * a^2 / 8.
-    const double pieces = std::ceil(std::abs(angle) * std::sqrt(radius / (8 * tolerance)));
-    return static_cast<std::size_t>(std::clamp(pieces, 1.0, most_pieces));
+// Count of segments of equal angle that approximate an arc.
+std::size_t arc_segments(double radius, double angle, double tolerance) {
+    // A chord over the angle a deviates from its arc by radius * (1 - cos(a / 2)) <= radius * a^2 / 8.
+    const double segments = std::ceil(std::abs(angle) * std::sqrt(radius / (8 * tolerance)));
+    return static_cast<std::size_t>(std::clamp(segments, 1.0, max_arc_segments));
 }
 
 int sign(double x) {
     return x > 0 ? 1 : x < 0 ? -1 : 0;
 }
 
-// Changes from above zero to below and back, once round.
-std::size_t changes(std::span<const Vec2> points, int axis) {
+// Count of sign changes of the edge directions along an axis, once around the closed polygon.
+std::size_t sign_changes(std::span<const Vec2> points, int axis) {
     int first = 0, last = 0;
     std::size_t count = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -79,7 +81,7 @@ std::size_t changes(std::span<const Vec2> points, int axis) {
     return count + (first != last ? 1 : 0);
 }
 
-// It turns one way at all of its corners, and goes round only once.
+// A polygon is convex if all corners have the same orientation and it winds around only once.
 bool is_convex(std::span<const Vec2> points) {
     int turns = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -88,7 +90,7 @@ bool is_convex(std::span<const Vec2> points) {
         if (turns != 0 && turn != turns) return false;
         turns = turn;
     }
-    return turns != 0 && changes(points, 0) <= 2 && changes(points, 1) <= 2;
+    return turns != 0 && sign_changes(points, 0) <= 2 && sign_changes(points, 1) <= 2;
 }
 
 bool has_area(std::span<const Vec2> points) {
@@ -99,19 +101,19 @@ bool has_area(std::span<const Vec2> points) {
 
 }  // namespace
 
-Affine<2> shifted(const DVec<2>& by) {
+Affine<2> translation_by(const DVec<2>& by) {
     Affine<2> result;
     result.offset = by;
     return result;
 }
 
-Affine<2> scaled(const DVec<2>& by) {
+Affine<2> scaling_by(const DVec<2>& by) {
     Affine<2> result;
     result.column = {DVec<2>(by.x, 0), DVec<2>(0, by.y)};
     return result;
 }
 
-Affine<2> turned(double degrees) {
+Affine<2> rotation_by(double degrees) {
     const double quarters = degrees / 90, whole = std::round(quarters);
     SinCos turn = sin_cos(quarters * quarter_turn);
     if (quarters == whole) {
@@ -124,15 +126,15 @@ Affine<2> turned(double degrees) {
     return result;
 }
 
-std::vector<DVec<2>> rounded_outline(const DVec<2>& size, const DVec<2>& radii, double tolerance) {
-    const std::size_t pieces = arc_pieces(std::max(radii.x, radii.y), quarter_turn, tolerance);
+std::vector<DVec<2>> rounded_rectangle_points(const DVec<2>& size, const DVec<2>& radii, double tolerance) {
+    const std::size_t segments = arc_segments(std::max(radii.x, radii.y), quarter_turn, tolerance);
     std::vector<DVec<2>> points;
     const DVec<2> corners[] = {{size.x, size.y}, {0, size.y}, {0, 0}, {size.x, 0}};
     for (std::size_t quarter = 0; quarter < 4; ++quarter) {
         const DVec<2> middle(std::clamp(corners[quarter].x, radii.x, size.x - radii.x),
                              std::clamp(corners[quarter].y, radii.y, size.y - radii.y));
-        for (std::size_t i = 0; i <= pieces; ++i) {
-            const double part = static_cast<double>(quarter) + static_cast<double>(i) / static_cast<double>(pieces);
+        for (std::size_t i = 0; i <= segments; ++i) {
+            const double part = static_cast<double>(quarter) + static_cast<double>(i) / static_cast<double>(segments);
             const SinCos at = sin_cos(quarter_turn * part);
             points.push_back(middle + DVec<2>(radii.x * at.cos, radii.y * at.sin));
         }
@@ -144,55 +146,55 @@ Result<PlacedShape> place_rectangle(const Affine<2>& map, const DVec<2>& size) {
     if (!is_finite(map.offset) || !is_finite(map.point(size)) || !is_finite(map.point({size.x, 0})) ||
         !is_finite(map.point({0, size.y})))
         return out_of_range();
-    if (keeps_right_angles(map)) {
+    if (preserves_right_angles(map)) {
         const Box2 result = box(map, size);
-        if (result.half == Vec2(0, 0)) return nothing_left("a rectangle without extent");
+        if (result.half == Vec2(0, 0)) return degenerate_problem("a rectangle without extent");
         return PlacedShape{result, {}, false};
     }
     const DVec<2> corners[] = {{0, 0}, {size.x, 0}, size, {0, size.y}};
-    return place_line(map, corners, true, true);
+    return place_polyline(map, corners, true, true);
 }
 
 Result<PlacedShape> place_rounded_rectangle(const Affine<2>& map, const DVec<2>& size, const DVec<2>& radii,
                                             double tolerance) {
-    const DVec<2> most(std::min(radii.x, 0.5 * size.x), std::min(radii.y, 0.5 * size.y));
-    if (!(most.x > 0 && most.y > 0)) return place_rectangle(map, size);
-    if (2.0 * most == size) return place_ellipse(map * shifted(0.5 * size), most);
-    if (!keeps_circles(map) || most.x != most.y)
-        return place_line(map, rounded_outline(size, most, tolerance), true, true);
-    const auto radius = static_cast<float>(most.x * length(map.column[0]));
-    const DVec<2> inner = size - 2.0 * most;
+    const DVec<2> clamped_radii(std::min(radii.x, 0.5 * size.x), std::min(radii.y, 0.5 * size.y));
+    if (!(clamped_radii.x > 0 && clamped_radii.y > 0)) return place_rectangle(map, size);
+    if (2.0 * clamped_radii == size) return place_ellipse(map * translation_by(0.5 * size), clamped_radii);
+    if (!preserves_circles(map) || clamped_radii.x != clamped_radii.y)
+        return place_polyline(map, rounded_rectangle_points(size, clamped_radii, tolerance), true, true);
+    const auto radius = static_cast<float>(clamped_radii.x * length(map.column[0]));
+    const DVec<2> inner = size - 2.0 * clamped_radii;
     if (inner.x > 0 && inner.y > 0) {
-        const Result<PlacedShape> core = place_rectangle(map * shifted(most), inner);
+        const Result<PlacedShape> core = place_rectangle(map * translation_by(clamped_radii), inner);
         if (!core) return core.problem();
         return PlacedShape{RoundedBox{std::get<Box2>(core->shape), radius}, {}, false};
     }
-    const DVec<2> a = map.point(most), b = map.point(size - most);
+    const DVec<2> a = map.point(clamped_radii), b = map.point(size - clamped_radii);
     if (!is_finite(a) || !is_finite(b)) return out_of_range();
     return PlacedShape{Capsule2{to_float(a), to_float(b), radius}, {}, false};
 }
 
 Result<PlacedShape> place_ellipse(const Affine<2>& map, const DVec<2>& radii) {
-    const Affine<2> whole = map * scaled(radii);
+    const Affine<2> whole = map * scaling_by(radii);
     const DVec<2>&u = whole.column[0], &v = whole.column[1];
     if (!is_finite(whole.offset) || !is_finite(u) || !is_finite(v)) return out_of_range();
     const Vec2 middle = to_float(whole.offset);
-    if (keeps_circles(whole)) {
+    if (preserves_circles(whole)) {
         const auto radius = static_cast<float>(length(u));
-        if (radius == 0) return nothing_left("a circle without extent");
+        if (radius == 0) return degenerate_problem("a circle without extent");
         return PlacedShape{Circle{middle, radius}, {}, false};
     }
-    // The half axes are the eigenvectors of M M^T, as long as the roots of its eigenvalues.
+    // The half axes are the eigenvectors of M M^T; their lengths are the square roots of the eigenvalues.
     const double p = u.x * u.x + v.x * v.x, q = u.x * u.y + v.x * v.y, r = u.y * u.y + v.y * v.y;
     const double longer = 0.5 * (p + r) + length(DVec<2>(0.5 * (p - r), q));
     const double half = std::sqrt(longer), other = std::abs(cross(u, v)) / half;
-    if (!(static_cast<float>(other) > 0)) return nothing_left("an ellipse without an area");
+    if (!(static_cast<float>(other) > 0)) return degenerate_problem("an ellipse without an area");
     const DVec<2> along = normalized(p >= r ? DVec<2>(longer - r, q) : DVec<2>(q, longer - p));
     const Pose2 pose{middle, {static_cast<float>(along.x), static_cast<float>(along.y)}};
     return PlacedShape{Ellipse{Circle{{}, 1}, Vec2(half, other)}, pose, false};
 }
 
-Result<PlacedShape> place_line(const Affine<2>& map, std::span<const DVec<2>> points, bool closed, bool filled) {
+Result<PlacedShape> place_polyline(const Affine<2>& map, std::span<const DVec<2>> points, bool closed, bool filled) {
     std::vector<Vec2> line;
     line.reserve(points.size());
     for (const DVec<2>& point : points) {
@@ -202,7 +204,7 @@ Result<PlacedShape> place_line(const Affine<2>& map, std::span<const DVec<2>> po
         if (line.empty() || line.back() != rounded) line.push_back(rounded);
     }
     while (closed && line.size() > 1 && line.back() == line.front()) line.pop_back();
-    if (line.size() < 2) return nothing_left("a line without length");
+    if (line.size() < 2) return degenerate_problem("a line without length");
     const bool encloses = closed && line.size() >= 3 && has_area(line);
     if (encloses && filled && is_convex(line)) {
         Result<Polygon> built = Polygon::build(line);
@@ -218,7 +220,7 @@ AnyShape<2> any_shape(const PlacedShape& shape) {
     return std::visit([&](const auto& inner) { return AnyShape<2>(at(inner, shape.pose)); }, shape.shape);
 }
 
-Result<PlacedShape> joined(std::vector<PlacedShape> shapes) {
+Result<PlacedShape> join_shapes(std::vector<PlacedShape> shapes) {
     if (shapes.size() == 1) return std::move(shapes.front());
     std::vector<AnyShape<2>> children;
     bool filled = false;

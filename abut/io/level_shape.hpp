@@ -1,9 +1,9 @@
 #pragma once
 
-// From the outlines that drawings are made of, placed by any affine map, to shapes: exactly where there is one.
+// Converts the primitives of drawings, transformed by any affine map, to shapes; exactly if a shape type fits.
 
 #include <abut/io/level.hpp>
-#include <abut/math/linear.hpp>
+#include <abut/math/affine.hpp>
 #include <abut/math/result.hpp>
 
 #include <span>
@@ -11,42 +11,45 @@
 
 namespace abut {
 
-/// A shape in its place.
+/// A shape with its pose.
 struct PlacedShape {
     LevelShape shape;
     Pose2 pose;
     bool filled = false;  ///< as in LevelObject
 };
 
-/// Of these, a Problem is of code `degenerate` where nothing is left to touch, or `not_finite` where a coordinate is
-/// beyond the range of floats. `tolerance` is how far a line may be from the curve that it stands for, before the map.
+/// All functions below return a Problem of code `degenerate` if the shape has no extent left, and of code `not_finite`
+/// if a coordinate is out of the range of floats. `tolerance` is the maximum distance of a polyline from the curve that
+/// it approximates, before the map is applied.
 
-/// From the origin to `size`; at an angle to itself after a skew, and a polygon then.
+/// A rectangle from the origin to `size`. A map with skew makes it a polygon.
 Result<PlacedShape> place_rectangle(const Affine<2>& map, const DVec<2>& size);
 
-/// The same with round corners: by quarters of an ellipse with these radii, at most half of the size.
+/// A rectangle from the origin to `size` with corners rounded by quarter ellipses of these radii, at most half of the
+/// size.
 Result<PlacedShape> place_rounded_rectangle(const Affine<2>& map, const DVec<2>& size, const DVec<2>& radii,
                                             double tolerance);
 
-/// Around the origin. An ellipse stays one whatever the map.
+/// An ellipse around the origin. It stays an ellipse under any affine map.
 Result<PlacedShape> place_ellipse(const Affine<2>& map, const DVec<2>& radii);
 
-/// A line through the points; one with an area if it is closed and `filled`: a polygon where that is convex. Points
-/// that are the same as the one before are left out.
-Result<PlacedShape> place_line(const Affine<2>& map, std::span<const DVec<2>> points, bool closed, bool filled);
+/// A polyline through the points. It has an area if it is `closed` and `filled`, and is then a Polygon if it is convex.
+/// Consecutive equal points are merged.
+Result<PlacedShape> place_polyline(const Affine<2>& map, std::span<const DVec<2>> points, bool closed, bool filled);
 
-/// Several shapes as one: of one, that one.
-Result<PlacedShape> joined(std::vector<PlacedShape> shapes);
+/// A compound of several shapes; a single shape is returned unchanged.
+Result<PlacedShape> join_shapes(std::vector<PlacedShape> shapes);
 
-/// As a value of its own.
+/// A type-erased copy of the shape at its pose.
 AnyShape<2> any_shape(const PlacedShape& shape);
 
-/// Turned by degrees, clockwise where y points down; by quarters of a turn exactly.
-Affine<2> turned(double degrees);
-Affine<2> shifted(const DVec<2>& by);
-Affine<2> scaled(const DVec<2>& by);
+/// Rotation in degrees, clockwise where y points down. Exact for multiples of 90 degrees.
+Affine<2> rotation_by(double degrees);
+Affine<2> translation_by(const DVec<2>& by);
+Affine<2> scaling_by(const DVec<2>& by);
 
-/// A rectangle from the origin to `size` with round corners, as points, counter-clockwise where y points up.
-std::vector<DVec<2>> rounded_outline(const DVec<2>& size, const DVec<2>& radii, double tolerance);
+/// The corners of a polygon that approximates a rounded rectangle from the origin to `size`, counter-clockwise where y
+/// points up.
+std::vector<DVec<2>> rounded_rectangle_points(const DVec<2>& size, const DVec<2>& radii, double tolerance);
 
 }  // namespace abut

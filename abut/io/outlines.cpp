@@ -6,21 +6,21 @@
 namespace abut {
 namespace {
 
-// How often the chain goes round the point, counter-clockwise: its segments that cross the way from the point along x.
-// Sunday, "Inclusion of a point in a polygon" (2001).
+// The winding number of the chain around the point, counter-clockwise positive: sums signed crossings of its segments
+// with the ray from the point along +x. Sunday, "Inclusion of a point in a polygon" (2001).
 int winding_number(const Chain& chain, const Vec2& point) {
     if (!chain.closed()) return 0;
     Aabb2 ahead{point, point};
     ahead.max.x = std::numeric_limits<float>::infinity();
-    int turns = 0;
+    int winding = 0;
     each_part(chain, ahead, [&](const Convex<2>&, std::uint32_t index) {
         const Segment2 s = chain.segment(index);
         const bool from_below = s.a.y <= point.y, to_below = s.b.y <= point.y;
-        if (from_below && !to_below && orientation(s.a, s.b, point) > 0) ++turns;
-        if (!from_below && to_below && orientation(s.a, s.b, point) < 0) --turns;
+        if (from_below && !to_below && orientation(s.a, s.b, point) > 0) ++winding;
+        if (!from_below && to_below && orientation(s.a, s.b, point) < 0) --winding;
         return true;
     });
-    return turns;
+    return winding;
 }
 
 }  // namespace
@@ -33,22 +33,22 @@ Aabb2 bounds(const Outlines& outlines) {
 
 void each_part(const Outlines& outlines, const Aabb2& box, PartVisitor<2> visit) {
     std::uint32_t first = 0;
-    bool goes_on = true;
+    bool continues = true;
     for (const Chain& chain : outlines.chains) {
         each_part(chain, box, [&](const Convex<2>& part, std::uint32_t index) {
-            goes_on = visit(part, first + index);
-            return goes_on;
+            continues = visit(part, first + index);
+            return continues;
         });
-        if (!goes_on) return;
+        if (!continues) return;
         first += chain.size();
     }
 }
 
 bool solid_contains(const Outlines& outlines, const Vec2& point) {
     if (outlines.rule == FillRule::none) return false;
-    int turns = 0;
-    for (const Chain& chain : outlines.chains) turns += winding_number(chain, point);
-    return outlines.rule == FillRule::nonzero ? turns != 0 : turns % 2 != 0;
+    int winding = 0;
+    for (const Chain& chain : outlines.chains) winding += winding_number(chain, point);
+    return outlines.rule == FillRule::nonzero ? winding != 0 : winding % 2 != 0;
 }
 
 std::uint32_t part_neighbour(const Outlines& outlines, std::uint32_t part, std::uint32_t end) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Several lines as one shape, and what they enclose together: a body with holes.
+// Several chains as one shape, with a fill rule for the area they enclose: a polygon with holes.
 
 #include <abut/shape/chain.hpp>
 
@@ -9,16 +9,16 @@
 
 namespace abut {
 
-/// What lies inside of lines that go around one another. As SVG has it:
+/// Decides by winding numbers which area the chains enclose, as in SVG:
 /// https://www.w3.org/TR/SVG2/painting.html#FillRuleProperty
 enum class FillRule : std::uint8_t {
-    none,      ///< nothing: they are lines
-    nonzero,   ///< what they wind around, taken together, other than zero times: a hole goes round the other way
-    even_odd,  ///< what they wind around an odd number of times
+    none,      ///< no area: the chains are lines
+    nonzero,   ///< points with a nonzero sum of winding numbers: a hole winds in the other direction
+    even_odd,  ///< points with an odd sum of winding numbers
 };
 
-/// The union of some chains. Its parts are their segments, numbered on from chain to chain. Only `contains` takes what
-/// they enclose as solid, by the rule; open chains enclose nothing.
+/// A union of chains. The parts are the segments, numbered consecutively from chain to chain. Only `contains` treats
+/// the area enclosed by the fill rule as solid. Open chains enclose nothing.
 struct Outlines {
     std::vector<Chain> chains;  ///< at least one
     FillRule rule = FillRule::none;
@@ -29,10 +29,10 @@ Aabb2 bounds(const Outlines& outlines);
 /// Visits the segments whose boxes overlap `box`; the visitor returns false to stop.
 void each_part(const Outlines& outlines, const Aabb2& box, PartVisitor<2> visit);
 
-/// Whether the point is inside by the rule, decided exactly.
+/// True if the point is inside by the fill rule. Decided exactly.
 bool solid_contains(const Outlines& outlines, const Vec2& point);
 
-/// The segment that goes on at an end: 0, before the segment, 1, after it.
+/// The neighbouring segment at an end of a segment: `end` 0 is the start of the segment, 1 its end.
 std::uint32_t part_neighbour(const Outlines& outlines, std::uint32_t part, std::uint32_t end);
 
 }  // namespace abut

@@ -1,9 +1,9 @@
-#include <abut/io/file_bytes.hpp>
-#include <abut/io/inflate.hpp>
+#include <abut/io/file/decompress.hpp>
+#include <abut/io/file/read_file.hpp>
+#include <abut/io/file/referenced_files.hpp>
 #include <abut/io/read_level.hpp>
-#include <abut/io/read_svg.hpp>
-#include <abut/io/read_tiled.hpp>
-#include <abut/io/referenced_files.hpp>
+#include <abut/io/svg/read_svg.hpp>
+#include <abut/io/tiled/read_tiled.hpp>
 
 #include <string>
 #include <system_error>
@@ -12,8 +12,8 @@
 namespace abut {
 namespace {
 
-// A text of so many bytes becomes a tree of ten times as many.
-constexpr std::size_t most_bytes = std::size_t{256} << 20;
+// The parsed tree takes about ten times as much memory as the text.
+constexpr std::size_t max_bytes = std::size_t{256} << 20;
 
 std::string lower(std::string text) {
     for (char& c : text)
@@ -23,14 +23,14 @@ std::string lower(std::string text) {
 
 Problem too_large(std::uintmax_t bytes) {
     return {ProblemCode::too_large,
-            "has " + std::to_string(bytes >> 20) + " MB; the limit is " + std::to_string(most_bytes >> 20) + " MB"};
+            "has " + std::to_string(bytes >> 20) + " MB; the limit is " + std::to_string(max_bytes >> 20) + " MB"};
 }
 
-Result<std::vector<std::byte>> limited_file_bytes(const std::filesystem::path& file) {
+Result<std::vector<std::byte>> read_limited_file(const std::filesystem::path& file) {
     std::error_code error;
     const std::uintmax_t size = std::filesystem::file_size(file, error);
-    if (!error && size > most_bytes) return too_large(size);
-    return file_bytes(file);
+    if (!error && size > max_bytes) return too_large(size);
+    return read_file(file);
 }
 
 bool is_gzip(std::span<const std::byte> bytes) {
@@ -50,7 +50,7 @@ Result<Level> read_level(std::span<const std::byte> bytes, std::string_view exte
                          const LevelOptions& options) {
     const std::string ending = lower(std::string(extension));
     if (bytes.empty()) return Problem{ProblemCode::empty_input, "is empty"};
-    if (bytes.size() > most_bytes) return too_large(bytes.size());
+    if (bytes.size() > max_bytes) return too_large(bytes.size());
     if (options.tolerance && !(*options.tolerance > 0))
         return Problem{ProblemCode::bad_argument, "the tolerance must be above zero"};
     if (ending == ".tmx" || ending == ".tmj" || ending == ".json")
@@ -58,20 +58,20 @@ Result<Level> read_level(std::span<const std::byte> bytes, std::string_view exte
     if (ending != ".svg" && ending != ".svgz")
         return Problem{ProblemCode::bad_format, "'" + ending + "' is not a known format of levels"};
     if (!is_gzip(bytes)) return read_svg(bytes, options.tolerance);
-    const Result<std::vector<std::byte>> whole = inflated(bytes, most_bytes);
+    const Result<std::vector<std::byte>> whole = decompress_zlib(bytes, max_bytes);
     if (!whole) return whole.problem();
     return read_svg(*whole, options.tolerance);
 }
 
 Result<Level> read_level(const std::filesystem::path& file, const LevelOptions& options) {
-    const Result<std::vector<std::byte>> bytes = limited_file_bytes(file);
+    const Result<std::vector<std::byte>> bytes = read_limited_file(file);
     if (!bytes) return bytes.problem();
     const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
     const ReferencedFiles files(folder, options.allow_outside);
     const auto open = [&](const std::string& name) -> Result<std::vector<std::byte>> {
         const Result<std::filesystem::path> path = files.find(name);
         if (!path) return path.problem();
-        return limited_file_bytes(*path);
+        return read_limited_file(*path);
     };
     return read_level(*bytes, file.extension().string(), open, options);
 }

@@ -1,9 +1,9 @@
 #pragma once
 
-// A level of the plane from a file: Tiled maps and SVG drawings.
+// Reads 2D levels from files: Tiled maps and SVG drawings.
 
 #include <abut/io/level.hpp>
-#include <abut/io/tiled_files.hpp>
+#include <abut/io/tiled/files.hpp>
 #include <abut/math/result.hpp>
 
 #include <cstddef>
@@ -15,24 +15,24 @@
 namespace abut {
 
 struct LevelOptions {
-    /// SVG: how far a line may be from the curve that it stands for, in the file's units, above zero. Without it a
-    /// thousandth of each curve's own extent. Circles and ellipses are exact, but for those without fill.
+    /// SVG: maximum distance of a polyline from the curve that it approximates, in the file's units, above 0. Default:
+    /// 1e-3 of each curve's extent. Circles and ellipses are exact, except those without fill.
     std::optional<double> tolerance = {};
-    /// Tiled: read tilesets and templates outside of the map's folder too, such as "../tilesets/a.tsx".
+    /// Tiled: allow tilesets and templates outside of the map's folder, such as "../tilesets/a.tsx".
     bool allow_outside = false;
 };
 
-/// Whether the file's name ends as that of a level: .tmx .tmj .json .svg .svgz, in any case.
+/// True if the file's extension is that of a level, in any case: .tmx .tmj .json .svg .svgz.
 bool is_level(const std::filesystem::path& file);
 
-/// Reads a level, with the tilesets and templates beside it, or below, that it refers to. Lengths stay in the file's
-/// units, axes as they are: y points down. Warnings of the level name parts that are left out. A Problem, with what is
-/// wrong and where in the file, for whatever can't be read or used; its message doesn't name the file.
+/// Reads a level, including the tilesets and templates in its folder and below that it refers to. Units and axes are
+/// those of the file: y points down. Warnings list whatever is left out. Returns a Problem, with the location in the
+/// file, for input that can't be read or used. The message doesn't name the file.
 Result<Level> read_level(const std::filesystem::path& file, const LevelOptions& options = {});
 
-/// The same from memory. `extension` names the format as the end of a file's name would (".tmx"); `open` gives the
-/// files that the level refers to, by their path from there; names that lead out of its folder by their text don't come
-/// that far unless the options allow it.
+/// Reads a level from memory. `extension` names the format as a file's extension would (".tmx"). `open` returns the
+/// bytes of files that the level refers to, by their path relative to the level. Names outside of its folder are
+/// rejected before `open` is called, unless the options allow them.
 Result<Level> read_level(std::span<const std::byte> bytes, std::string_view extension, tiled::OpenFile open,
                          const LevelOptions& options = {});
 

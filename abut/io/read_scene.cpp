@@ -1,8 +1,8 @@
-#include <abut/io/file_bytes.hpp>
-#include <abut/io/gltf_container.hpp>
-#include <abut/io/gltf_document.hpp>
-#include <abut/io/read_assimp.hpp>
-#include <abut/io/read_gltf.hpp>
+#include <abut/io/file/read_file.hpp>
+#include <abut/io/gltf/container.hpp>
+#include <abut/io/gltf/document.hpp>
+#include <abut/io/gltf/read_gltf.hpp>
+#include <abut/io/mesh/read_assimp.hpp>
 #include <abut/io/read_scene.hpp>
 
 #include <algorithm>
@@ -20,18 +20,18 @@ std::string lower(std::string text) {
     return text;
 }
 
-// Nothing where it is for Assimp to read: another format, version 1, or triangles compressed with Draco.
+// Returns nothing for files that Assimp has to read: other formats, glTF 1.0 and Draco-compressed triangles.
 std::optional<Result<Scene>> read_if_gltf(std::span<const std::byte> bytes, const std::string& extension,
                                           const std::filesystem::path& folder, const ReadOptions& options) {
     if (extension != ".gltf" && extension != ".glb") return std::nullopt;
     const bool binary = extension == ".glb" || gltf::is_container(bytes);
     const Result<gltf::Document> document = gltf::parse(bytes, binary);
     if (!document) return document.problem();
-    if (!gltf::is_plain(*document)) return std::nullopt;
+    if (!gltf::is_supported(*document)) return std::nullopt;
     return gltf::read_gltf(*document, folder, options);
 }
 
-std::optional<Problem> refuse(std::span<const std::byte> bytes, const std::string& extension) {
+std::optional<Problem> check_format(std::span<const std::byte> bytes, const std::string& extension) {
     if (bytes.empty()) return Problem{ProblemCode::empty_input, "is empty"};
     if (!assimp_knows(extension))
         return Problem{ProblemCode::bad_format, extension.empty() ? "has no ending that names a format"
@@ -47,10 +47,10 @@ Result<Scene> finished(Result<Scene> scene, const ReadOptions& options) {
 }  // namespace
 
 Result<Scene> read_scene(const std::filesystem::path& file, const ReadOptions& options) {
-    const Result<std::vector<std::byte>> bytes = file_bytes(file);
+    const Result<std::vector<std::byte>> bytes = read_file(file);
     if (!bytes) return bytes.problem();
     const std::string extension = lower(file.extension().string());
-    if (const std::optional<Problem> problem = refuse(*bytes, extension)) return *problem;
+    if (const std::optional<Problem> problem = check_format(*bytes, extension)) return *problem;
     const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
     std::optional<Result<Scene>> scene = read_if_gltf(*bytes, extension, folder, options);
     return finished(scene ? *std::move(scene) : read_assimp(file, options), options);
@@ -58,7 +58,7 @@ Result<Scene> read_scene(const std::filesystem::path& file, const ReadOptions& o
 
 Result<Scene> read_scene(std::span<const std::byte> bytes, std::string_view extension, const ReadOptions& options) {
     const std::string ending = lower(std::string(extension));
-    if (const std::optional<Problem> problem = refuse(bytes, ending)) return *problem;
+    if (const std::optional<Problem> problem = check_format(bytes, ending)) return *problem;
     std::optional<Result<Scene>> scene = read_if_gltf(bytes, ending, {}, options);
     return finished(scene ? *std::move(scene) : read_assimp(bytes, ending, options), options);
 }

@@ -1,8 +1,8 @@
 #pragma once
 
-// A scene from a file: the front door of abut::io.
+// Reads 3D scenes from files.
 
-#include <abut/io/finish_scene.hpp>
+#include <abut/io/mesh/finish_scene.hpp>
 #include <abut/io/scene.hpp>
 #include <abut/math/result.hpp>
 
@@ -13,14 +13,13 @@
 
 namespace abut {
 
-/// Reads a scene: glTF 2.0 by this library itself, anything else by Assimp. Lengths stay in the file's units, axes as
-/// they are. Points and lines are left out, skinned meshes taken in bind pose, both with a warning in the scene.
-/// A Problem, with what is wrong and where in the file, for whatever can't be read or used (see `finish_scene`); its
-/// message doesn't name the file.
+/// Reads a scene: glTF 2.0 natively, any other format through Assimp. Units and axes are those of the file. Points and
+/// lines are left out and skinned meshes read in bind pose, both with a warning. Returns a Problem, with the location
+/// in the file, for input that can't be read or used (see `finish_scene`). The message doesn't name the file.
 Result<Scene> read_scene(const std::filesystem::path& file, const ReadOptions& options = {});
 
-/// The same from memory. `extension` names the format as the end of a file's name would (".glb"); files that a scene
-/// refers to can't be reached.
+/// Reads a scene from memory. `extension` names the format as a file's extension would (".glb"). Files that the scene
+/// refers to are not read.
 Result<Scene> read_scene(std::span<const std::byte> bytes, std::string_view extension, const ReadOptions& options = {});
 
 }  // namespace abut

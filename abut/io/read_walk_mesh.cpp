@@ -1,9 +1,9 @@
-#include <abut/io/file_bytes.hpp>
-#include <abut/io/glob.hpp>
-#include <abut/io/placed_meshes.hpp>
+#include <abut/io/file/glob.hpp>
+#include <abut/io/file/read_file.hpp>
+#include <abut/io/mesh/placed_meshes.hpp>
 #include <abut/io/read_scene.hpp>
 #include <abut/io/read_walk_mesh.hpp>
-#include <abut/walk/walk_blob.hpp>
+#include <abut/walk/file.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -13,14 +13,14 @@
 namespace abut {
 namespace {
 
-/// Of a mesh of several parts each is a geometry, with its number behind the name.
+/// The file's name of a mesh: readers append a number for each primitive of a mesh of several primitives.
 std::string_view mesh_name(const Geometry& geometry) {
     return std::string_view(geometry.name).substr(0, geometry.name.find(", primitive "));
 }
 
-/// The names of what a walk mesh could be made of, for a message.
+/// All object names in the scene, for a message; at most 12 of them.
 std::string names_in(const Scene& scene) {
-    constexpr std::size_t most = 12;
+    constexpr std::size_t max_listed = 12;
     std::vector<std::string> names;
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         const SceneNode& node = scene.nodes[i];
@@ -31,28 +31,29 @@ std::string names_in(const Scene& scene) {
     }
     std::sort(names.begin(), names.end());
     std::string result;
-    for (std::size_t i = 0; i < names.size() && i < most; ++i) result += (i == 0 ? "" : ", ") + names[i];
-    if (names.size() > most) result += " and " + std::to_string(names.size() - most) + " more";
+    for (std::size_t i = 0; i < names.size() && i < max_listed; ++i) result += (i == 0 ? "" : ", ") + names[i];
+    if (names.size() > max_listed) result += " and " + std::to_string(names.size() - max_listed) + " more";
     return result;
 }
 
 }  // namespace
 
 Result<NamedWalkMesh> walk_mesh_of(const Scene& scene, std::string_view name) {
-    bool is_there = name.empty();
-    const auto takes = [&](std::size_t node, std::uint32_t geometry) {
-        const bool taken = name.empty() || matches(name, path(scene, node)) || matches(name, scene.nodes[node].name) ||
-                           matches(name, mesh_name(scene.geometries[geometry]));
-        is_there = is_there || taken;
-        return taken;
+    bool is_found = name.empty();
+    const auto filter = [&](std::size_t node, std::uint32_t geometry) {
+        const bool is_match = name.empty() || glob_matches(name, path(scene, node)) ||
+                              glob_matches(name, scene.nodes[node].name) ||
+                              glob_matches(name, mesh_name(scene.geometries[geometry]));
+        is_found = is_found || is_match;
+        return is_match;
     };
-    Result<PlacedMeshes> placed = placed_meshes(scene, takes);
-    if (!is_there)
+    Result<PlacedMeshes> placed = placed_meshes(scene, filter);
+    if (!is_found)
         return Problem{ProblemCode::empty_input,
                        "nothing in it is named '" + std::string(name) + "'; there are " + names_in(scene)};
     if (!placed) return placed.problem();
-    const Geometry whole = together(placed->objects, {});
-    Result<WalkMesh> mesh = WalkMesh::build(whole.points, whole.triangles, whole.normals);
+    const Geometry merged = merge_meshes(placed->objects, {});
+    Result<WalkMesh> mesh = WalkMesh::build(merged.points, merged.triangles, merged.normals);
     if (!mesh) return mesh.problem();
     NamedWalkMesh result{*std::move(mesh), {}, std::move(placed->warnings)};
     for (Geometry& object : placed->objects) result.objects.push_back(std::move(object.name));
@@ -60,7 +61,7 @@ Result<NamedWalkMesh> walk_mesh_of(const Scene& scene, std::string_view name) {
 }
 
 Result<WalkMesh> read_walk_mesh(const std::filesystem::path& file, std::string_view name) {
-    const Result<std::vector<std::byte>> bytes = file_bytes(file);
+    const Result<std::vector<std::byte>> bytes = read_file(file);
     if (!bytes) return bytes.problem();
     if (is_walk_mesh(*bytes)) {
         if (!name.empty()) return Problem{ProblemCode::bad_argument, "a baked walk mesh has no names in it"};

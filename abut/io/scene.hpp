@@ -1,7 +1,7 @@
 #pragma once
 
-// A scene as it stands in a file: a tree of named nodes, the triangles they carry, and how the nodes move.
-// Plain data, in the file's own units and axes; nothing here knows which format it came from.
+// A 3D scene as stored in a file: a tree of named nodes, their triangle meshes and their animations.
+// Plain data in the file's own units and axes, independent of the format.
 
 #include <abut/math/vec.hpp>
 
@@ -17,41 +17,42 @@
 
 namespace abut {
 
-/// Triangles as an importer found them. Points may be there more than once, or be used by no triangle.
+/// An indexed triangle mesh as imported. Points may be duplicated or unused.
 struct Geometry {
-    std::string name;  ///< of the mesh it came from
+    std::string name;  ///< of the file's mesh
     std::vector<Vec3> points;
     std::vector<glm::uvec3> triangles;
-    /// One a point, of any length, where they were asked for and the file has them; else none.
+    /// One normal per point, of any length, if normals were requested and the file has them; else empty.
     std::vector<Vec3> normals = {};
-    /// Triangles of zero area that the file has too.
+    /// Count of triangles of zero area that the file has and that are left out here.
     std::uint64_t left_out = 0;
 };
 
 struct SceneNode {
     static constexpr std::uint32_t no_parent = std::numeric_limits<std::uint32_t>::max();
 
-    std::string name;  ///< empty for an importer's helper node, which has no part in paths
+    std::string name;  ///< empty for an importer's helper node, which is left out of paths
     std::uint32_t parent = no_parent;
-    glm::dmat4 local{1.0};                  ///< into the parent's space; any affine map
+    glm::dmat4 local{1.0};                  ///< transform to the parent's space; any affine map
     std::vector<std::uint32_t> geometries;  ///< indices into Scene::geometries
 };
 
 enum class Interpolation : std::uint8_t { linear, step, cubic };
 
-/// Values at times in seconds, in order of time; before the first and after the last the value stays.
+/// Keyframes: values at times in seconds, sorted by time. The value is constant before the first key and after the
+/// last.
 /// Rotations are interpolated along the shortest arc.
 template <class Value>
 struct KeyTrack {
     Interpolation interpolation = Interpolation::linear;
     std::vector<double> times;
-    std::vector<Value> values;        ///< one for each time
-    std::vector<Value> in_tangents;   ///< one for each time if cubic, else none; per second, before the key
-    std::vector<Value> out_tangents;  ///< the same, after the key
+    std::vector<Value> values;        ///< one per time
+    std::vector<Value> in_tangents;   ///< one per time if cubic, else empty; per second, before the key
+    std::vector<Value> out_tangents;  ///< one per time if cubic, else empty; per second, after the key
 };
 
-/// How one node moves: its local transform is translation * rotation * scale.
-/// Where a track has no keys, that part stays as it is in the node's own transform.
+/// The animation of one node: its local transform is translation * rotation * scale.
+/// A component without keys stays as it is in the node's own transform.
 struct NodeMotion {
     std::uint32_t node = 0;
     KeyTrack<glm::dvec3> translation;
@@ -59,7 +60,7 @@ struct NodeMotion {
     KeyTrack<glm::dvec3> scale;
 };
 
-/// A clip. Times of its keys count from `start`.
+/// An animation clip. Key times count from `start`.
 struct Animation {
     std::string name;
     double start = 0;   ///< seconds on the scene's own clock
@@ -67,43 +68,44 @@ struct Animation {
     std::vector<NodeMotion> motions;
 };
 
-/// A node some of whose triangles have no area, and are left out. If it has no others it has no geometry and no shape.
+/// Count of zero-area triangles that were left out of a node. A node without other triangles has no geometry.
 struct NodeLeftOut {
     std::uint32_t node = 0;
     std::uint64_t triangles = 0;
 };
 
-/// The clips share one clock: those that move different nodes run together, those that move the same node one after
-/// another (see `schedule`). A node follows the latest of its clips that has begun; before the first of them it rests.
+/// A node tree with meshes and animation clips. All clips share one clock: clips that move different nodes run at the
+/// same time, clips that move the same node run one after another (see `schedule`). A node follows the latest of its
+/// clips that has started; before the first one it has its own transform.
 struct Scene {
     std::vector<Geometry> geometries;
     std::vector<SceneNode> nodes;  ///< parents before their children
     std::vector<Animation> animations;
-    std::vector<std::string> warnings;  ///< what was left out or taken differently, one line each
-    std::vector<NodeLeftOut> left_out;  ///< in the order of the nodes, without those of which nothing is left out
+    std::vector<std::string> warnings;  ///< one line each for whatever was left out or changed
+    std::vector<NodeLeftOut> left_out;  ///< sorted by node; only nodes with triangles left out
 };
 
-/// The names on the way to a node, joined by '/'. Unique in a scene that `read_scene` made.
+/// The names from the root to a node, joined by '/'. Paths are unique in a scene that `read_scene` returned.
 std::string path(const Scene& scene, std::size_t node);
 
-/// Gives every animation its start: each begins as soon as no earlier one that moves a node of its own is running.
+/// Sets every animation's start: the earliest time at which no earlier animation of any of its nodes is running.
 void schedule(Scene& scene);
 
-/// The times of all keys, in order, thinned to at most `max_per_second`; the first and the last are always there.
-/// {0} for a scene without animation.
+/// All key times, sorted and thinned to at most `max_per_second`. The first and the last key time are always included.
+/// Returns {0} for a scene without animation.
 std::vector<double> key_times(const Scene& scene, double max_per_second = 30);
 
-/// The times at which a node may begin to move otherwise, in order: those of all keys, and the starts of the clips.
+/// All times at which a node's motion may change, sorted: key times and starts of clips.
 std::vector<double> motion_times(const Scene& scene);
 
-/// `count` >= 1 times evenly spread from the first key to the last; {0} for a scene without animation.
+/// `count` >= 1 evenly spaced times from the first key to the last; {0} for a scene without animation.
 std::vector<double> frame_times(const Scene& scene, std::size_t count);
 
-/// Every node's transform into the world at a time in seconds, in the order of the nodes.
+/// Computes every node's transform to world space at a time in seconds, in node order.
 void world_matrices(const Scene& scene, double time, std::vector<glm::dmat4>& out);
 
-/// The same just before that time: where a node jumps then, as by a step, two keys at one time or the start of its next
-/// clip, it is still where it was.
+/// Computes the transforms in the limit from before `time`. They differ from `world_matrices` where a node jumps at
+/// that time: at a step key, at two keys of one time or at the start of its next clip.
 void world_matrices_before(const Scene& scene, double time, std::vector<glm::dmat4>& out);
 
 }  // namespace abut

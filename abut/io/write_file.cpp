@@ -10,11 +10,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Problem cannot(const std::string& why) {
+Problem write_problem(const std::string& why) {
     return {ProblemCode::unreadable, "can't be written: " + why};
 }
-Problem cannot(int error) {
-    return cannot(std::generic_category().message(error));
+Problem write_problem(int error) {
+    return write_problem(std::generic_category().message(error));
 }
 
 std::optional<Problem> write_all(std::FILE* file, std::span<const std::byte> bytes) {
@@ -22,21 +22,21 @@ std::optional<Problem> write_all(std::FILE* file, std::span<const std::byte> byt
     const bool is_written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
     const int error = errno;
     errno = 0;
-    if (std::fclose(file) != 0) return cannot(errno);
-    if (!is_written) return cannot(error);
+    if (std::fclose(file) != 0) return write_problem(errno);
+    if (!is_written) return write_problem(error);
     return std::nullopt;
 }
 
-/// A new file beside the one that is meant.
-struct Opened {
+/// A new file in the folder of the target.
+struct TemporaryFile {
     std::FILE* file = nullptr;
     fs::path path;
 };
 
-Opened open_beside(const fs::path& file) {
-    constexpr int most_tries = 100;
-    for (int i = 0; i < most_tries; ++i) {
-        Opened result{nullptr, file};
+TemporaryFile open_temporary(const fs::path& file) {
+    constexpr int max_attempts = 100;
+    for (int i = 0; i < max_attempts; ++i) {
+        TemporaryFile result{nullptr, file};
         result.path += ".part" + std::to_string(i);
         errno = 0;
         result.file = std::fopen(result.path.c_str(), "wbx");
@@ -50,21 +50,21 @@ Opened open_beside(const fs::path& file) {
 std::optional<Problem> write_file(const fs::path& file, std::span<const std::byte> bytes) {
     std::error_code error;
     const fs::file_status status = fs::status(file, error);
-    if (fs::is_directory(status)) return cannot("it is a directory");
+    if (fs::is_directory(status)) return write_problem("it is a directory");
     if (fs::exists(status) && !fs::is_regular_file(status)) {
         std::FILE* opened = std::fopen(file.c_str(), "wb");
-        return opened != nullptr ? write_all(opened, bytes) : cannot(errno);
+        return opened != nullptr ? write_all(opened, bytes) : write_problem(errno);
     }
-    // A link keeps pointing to what it does.
+    // A symbolic link stays: its target is replaced.
     const fs::path target = fs::exists(status) ? fs::canonical(file, error) : file;
-    const Opened beside = open_beside(target);
-    if (beside.file == nullptr) return cannot(errno);
-    std::optional<Problem> problem = write_all(beside.file, bytes);
+    const TemporaryFile temporary = open_temporary(target);
+    if (temporary.file == nullptr) return write_problem(errno);
+    std::optional<Problem> problem = write_all(temporary.file, bytes);
     if (!problem) {
-        fs::rename(beside.path, target, error);
-        if (error) problem = cannot(error.message());
+        fs::rename(temporary.path, target, error);
+        if (error) problem = write_problem(error.message());
     }
-    if (problem) fs::remove(beside.path, error);
+    if (problem) fs::remove(temporary.path, error);
     return problem;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// A whole file, or none.
+// Writes a file atomically: readers see the old content or the new content.
 
 #include <abut/math/result.hpp>
 
@@ -12,10 +12,10 @@
 
 namespace abut {
 
-/// Writes all bytes under another name in the same folder, and only then takes the place of the file, so that nobody
-/// ever sees half of it; what was there stays where that fails. What isn't a regular file, such as a pipe, is just
-/// written to. A Problem (`unreadable`) where the folder isn't there, or the file can't be written; its message doesn't
-/// name the file.
+/// Writes all bytes to a temporary file in the same folder and then renames it to `file`. On failure the old file
+/// stays.
+/// A path that exists and is not a regular file, such as a pipe, is written to directly. Returns a Problem
+/// (`unreadable`) if the folder doesn't exist or the file can't be written. The message doesn't name the file.
 std::optional<Problem> write_file(const std::filesystem::path& file, std::span<const std::byte> bytes);
 std::optional<Problem> write_file(const std::filesystem::path& file, std::string_view text);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Meshes to files: what abut::bake makes, for whatever comes next in the pipeline.
+// Writes meshes to files, for the next step of an asset pipeline.
 
 #include <abut/io/scene.hpp>
 #include <abut/math/result.hpp>
@@ -13,21 +13,20 @@
 
 namespace abut {
 
-/// A convex part as a mesh: its corners, and its faces cut into triangles, counter-clockwise seen from outside. Of a
-/// segment or a point it has no triangles, and can't be written.
+/// Converts a polyhedron to a mesh: its vertices, and its faces triangulated, counter-clockwise seen from outside. A
+/// segment or a point gives a mesh without triangles, which can't be written.
 Geometry mesh_of(const Polyhedron& polyhedron, std::string name = {});
 
-/// What makes meshes impossible to write: there are none (`empty_input`), one has no triangles (`empty_input`), a
-/// coordinate that isn't finite (`not_finite`), a corner that isn't there (`index_out_of_range`). The index is the
-/// mesh's.
+/// Checks that meshes can be written. The Problem is `empty_input` for no meshes or a mesh without triangles,
+/// `not_finite` for a coordinate, and `index_out_of_range` for a triangle. Its index is that of the mesh.
 std::optional<Problem> problem_of(std::span<const Geometry> meshes);
 
-/// Whether `write_meshes` knows the format that a name ends in: .gltf, .glb or .obj, in capitals or not.
+/// True if `write_meshes` supports the file's extension, in any case: .gltf, .glb or .obj.
 bool can_write_meshes(const std::filesystem::path& file);
 
-/// Writes a file in the format that its name ends in (see `write_gltf`, `write_glb`, `write_obj`), whole or not at all
-/// (see `write_file`). A Problem for meshes that can't be written, for a name with another ending (`bad_argument`), and
-/// where the file can't be written (`unreadable`); its message doesn't name the file.
+/// Writes meshes in the format of the file's extension (see `write_gltf`, `write_glb`, `write_obj`), atomically as
+/// `write_file` does. Returns a Problem for meshes that can't be written, for another extension (`bad_argument`), and
+/// if the file can't be written (`unreadable`). The message doesn't name the file.
 std::optional<Problem> write_meshes(const std::filesystem::path& file, std::span<const Geometry> meshes);
 
 }  // namespace abut

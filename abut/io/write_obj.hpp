@@ -1,6 +1,6 @@
 #pragma once
 
-// Meshes as Wavefront OBJ.
+// Writes meshes as Wavefront OBJ.
 
 #include <abut/io/scene.hpp>
 #include <abut/math/result.hpp>
@@ -10,9 +10,9 @@
 
 namespace abut {
 
-/// Text with an `o` line for each mesh, its points (`v`, as few digits as bring back the same floats) and triangles
-/// (`f`, counted from 1 over all meshes). In names, whatever would end the line or start another word becomes '_'; one
-/// without a name is "part". A Problem for meshes that can't be written (see `problem_of`).
+/// Returns OBJ text: for each mesh an `o` line, its points (`v`, with the fewest digits that parse to the same floats)
+/// and its triangles (`f`, indices from 1 across all meshes). Blanks and control characters in names become '_'; an
+/// unnamed mesh is "part". Returns a Problem for meshes that can't be written (see `problem_of`).
 Result<std::string> write_obj(std::span<const Geometry> meshes);
 
 }  // namespace abut

@@ -1,6 +1,6 @@
 #pragma once
 
-// The axis-aligned box: what the broad phases see of the world.
+// The axis-aligned bounding box (AABB), which the broad phases work on.
 
 #include <abut/math/next_float.hpp>
 #include <abut/math/vec.hpp>
@@ -11,13 +11,14 @@
 
 namespace abut {
 
-/// An axis-aligned box, closed: touching counts as overlapping. An infinite coordinate means no bound on that side.
+/// An axis-aligned box. It is closed: touching counts as overlapping. An infinite coordinate means unbounded on that
+/// side.
 template <int D>
 struct Aabb {
     Vec<D> min{};
     Vec<D> max{};
 
-    /// Holds nothing, overlaps nothing, and is the neutral element of `merged`.
+    /// The empty box. It overlaps nothing and is the neutral element of `merged`.
     static Aabb empty() {
         return {Vec<D>(std::numeric_limits<float>::infinity()), Vec<D>(-std::numeric_limits<float>::infinity())};
     }
@@ -30,7 +31,7 @@ Aabb(glm::vec<D, float>, glm::vec<D, float>) -> Aabb<D>;
 using Aabb2 = Aabb<2>;
 using Aabb3 = Aabb<3>;
 
-/// False also where either box is empty or has a coordinate that is not a number.
+/// Also false if either box is empty or has a NaN coordinate.
 template <int D>
 bool overlaps(const Aabb<D>& a, const Aabb<D>& b) {
     bool result = true;
@@ -46,13 +47,13 @@ bool contains(const Aabb<D>& box, const Vec<D>& point) {
     return result;
 }
 
-/// True where b lies in a altogether.
+/// True if a contains all of b.
 template <int D>
 bool contains(const Aabb<D>& a, const Aabb<D>& b) {
     return contains(a, b.min) && contains(a, b.max);
 }
 
-/// The least box that holds both.
+/// The smallest box that contains both.
 template <int D>
 Aabb<D> merged(const Aabb<D>& a, const Aabb<D>& b) {
     Aabb<D> result;
@@ -63,7 +64,7 @@ Aabb<D> merged(const Aabb<D>& a, const Aabb<D>& b) {
     return result;
 }
 
-/// The box that reaches `distance` farther on every side; rounded outwards, so that nothing within reach is lost.
+/// The box extended by `distance` on every side, rounded outwards.
 template <int D>
 Aabb<D> grown(const Aabb<D>& box, float distance) {
     Aabb<D> result;
@@ -74,13 +75,13 @@ Aabb<D> grown(const Aabb<D>& box, float distance) {
     return result;
 }
 
-/// The middle; of a box without bound on a side, some point in it.
+/// The center; for an unbounded box some point in it.
 template <int D>
 Vec<D> center(const Aabb<D>& box) {
     Vec<D> result;
-    constexpr float most = std::numeric_limits<float>::max();
+    constexpr float largest = std::numeric_limits<float>::max();
     for (int i = 0; i < D; ++i)
-        result[i] = 0.5f * std::clamp(box.min[i], -most, most) + 0.5f * std::clamp(box.max[i], -most, most);
+        result[i] = 0.5f * std::clamp(box.min[i], -largest, largest) + 0.5f * std::clamp(box.max[i], -largest, largest);
     return result;
 }
 

@@ -5,7 +5,7 @@
 
 namespace abut {
 
-// Alone in its file, and weak: a program's own definition wins, also where all objects are linked.
+// Alone in its file, and weak: a program's own definition wins, even if all objects are linked.
 #if defined(__GNUC__)
 __attribute__((weak))
 #endif

@@ -1,12 +1,12 @@
 #pragma once
 
-// Misuse by the programmer: checked in debug builds, replaceable by the user.
+// Assertions for misuse by the programmer: checked in debug builds, replaceable by the user.
 
 namespace abut {
 
-/// Called when an ABUT_ASSERT fails. The library's own prints the expression with its place on stderr and aborts.
-/// A program replaces it as it would replace `operator new`: by defining a function of this name and signature.
-/// If that one returns, the library goes on with the answer documented for release builds.
+/// Called if an ABUT_ASSERT fails. The default prints the expression and its location to stderr and aborts. A program
+/// replaces it by defining a function with this signature, as for `operator new`. If it returns, the library continues
+/// with the behaviour documented for release builds.
 void assert_failed(const char* expression, const char* file, int line);
 
 }  // namespace abut

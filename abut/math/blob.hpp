@@ -1,6 +1,6 @@
 #pragma once
 
-// Numbers as bytes, the same on every machine, the lowest byte first: what baked things are saved as.
+// Binary serialisation: numbers as little-endian bytes, the same on every machine. Baked data is saved in this form.
 
 #include <abut/math/vec.hpp>
 
@@ -16,7 +16,7 @@
 
 namespace abut {
 
-/// In the order of a little-endian machine, or back.
+/// Converts a number to or from little-endian order.
 template <class T>
 requires std::is_arithmetic_v<T> || std::is_enum_v<T> T little(T number) {
     if constexpr (std::endian::native == std::endian::little || sizeof(T) == 1) {
@@ -30,8 +30,8 @@ requires std::is_arithmetic_v<T> || std::is_enum_v<T> T little(T number) {
     }
 }
 
-/// By words of 64 bits, the last filled up with zeros. Each step takes different states to different ones, so that a
-/// blob with one wrong word always differs.
+/// A checksum over 64-bit words; the last word is padded with zeros. Each step is a bijection of the state, so a single
+/// wrong word is always detected.
 inline std::uint64_t blob_checksum(std::span<const std::byte> bytes) {
     std::uint64_t result = bytes.size();
     for (std::size_t i = 0; i < bytes.size(); i += sizeof(std::uint64_t)) {
@@ -43,7 +43,7 @@ inline std::uint64_t blob_checksum(std::span<const std::byte> bytes) {
     return result;
 }
 
-/// Numbers that an item is made of: a vector's coordinates.
+/// The scalar type of an item: for a vector that of its coordinates.
 template <class T>
 struct BlobScalar {
     using type = T;
@@ -73,7 +73,7 @@ public:
             }
         }
     }
-    /// Of all bytes so far.
+    /// Appends the checksum of all bytes so far.
     void checksum() { number(blob_checksum(bytes)); }
 
     std::vector<std::byte> bytes;
@@ -85,14 +85,14 @@ private:
     }
 };
 
-/// Takes numbers from the front.
+/// Reads numbers from the front of the bytes.
 class BlobReader {
 public:
     explicit BlobReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
 
     std::size_t left() const { return bytes_.size(); }
 
-    /// False where there are too few bytes left.
+    /// Returns false if there are too few bytes left.
     template <class T>
     bool number(T& value) {
         if (bytes_.size() < sizeof(T)) return false;
@@ -101,7 +101,7 @@ public:
         bytes_ = bytes_.subspan(sizeof(T));
         return true;
     }
-    /// The same; it is known before there is memory for them.
+    /// Reads `count` numbers. The number of bytes is checked before memory is allocated.
     template <class T>
     bool array(std::vector<T>& values, std::uint64_t count) {
         if (count > bytes_.size() / sizeof(T)) return false;
@@ -121,8 +121,8 @@ public:
         }
         return true;
     }
-    /// Takes the last bytes, a checksum, off the end. False where they aren't that of the `whole` before them, or too
-    /// few are left.
+    /// Removes the checksum from the end. Returns false if it doesn't match the bytes of `whole` before it, or if too
+    /// few bytes are left.
     bool checksum(std::span<const std::byte> whole) {
         std::uint64_t sum = 0;
         if (bytes_.size() < sizeof(sum)) return false;

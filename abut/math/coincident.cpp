@@ -6,7 +6,7 @@
 namespace abut {
 namespace {
 
-/// Of a position; -0 counts as 0.
+/// The hash of a position; -0 counts as 0.
 std::size_t hash_of(const Vec3& p) {
     std::uint64_t hash = 0;
     for (glm::length_t i = 0; i < 3; ++i) {
@@ -19,7 +19,7 @@ std::size_t hash_of(const Vec3& p) {
 
 }  // namespace
 
-// Points come to a table in the order of their indices, so that the first of several there is the lowest.
+// Points are inserted in ascending order, so the first point of a position has the lowest index.
 std::vector<std::uint32_t> first_coincident(std::span<const Vec3> points) {
     constexpr std::uint32_t none = 0xFFFFFFFF;
     const std::size_t mask = std::bit_ceil(2 * points.size() + 1) - 1;

@@ -1,7 +1,7 @@
 #pragma once
 
-// Arithmetic on double vectors, for .cpp files. Written out term by term: the order of the operations is part of the
-// answer.
+// Arithmetic on double vectors, for .cpp files. Written out term by term, since the order of operations affects the
+// bits of the result.
 
 #include <abut/math/vec.hpp>
 
@@ -37,9 +37,9 @@ double length(const glm::vec<D, double>& v) {
 /// The largest absolute coordinate.
 template <int D>
 double largest(const glm::vec<D, double>& v) {
-    double most = 0;
-    for (int i = 0; i < D; ++i) most = std::max(most, std::abs(v[i]));
-    return most;
+    double result = 0;
+    for (int i = 0; i < D; ++i) result = std::max(result, std::abs(v[i]));
+    return result;
 }
 
 template <int D>
@@ -49,7 +49,7 @@ glm::vec<D, double> axis(int i, double sign = 1) {
     return result;
 }
 
-/// v at length 1, safe against overflow and underflow; `otherwise` where v is zero.
+/// v normalised, safe against overflow and underflow; `otherwise` if v is zero.
 template <int D>
 glm::vec<D, double> normalized(const glm::vec<D, double>& v, const glm::vec<D, double>& otherwise = axis<D>(0)) {
     const double squared = dot(v, v);
@@ -60,8 +60,8 @@ glm::vec<D, double> normalized(const glm::vec<D, double>& v, const glm::vec<D, d
     return u / length(u);
 }
 
-/// v at length 1, of numbers that were floats, whose squares are nothing special in double; the first axis where v is
-/// zero. What is a unit vector but for its rounding to floats needs no root: the series leaves out a third power.
+/// v normalised, for coordinates that were floats, so that squares can't overflow; the first axis if v is zero. A
+/// vector that is a unit vector up to float rounding needs no square root: the series omits the third power.
 template <int D>
 glm::vec<D, double> unit(const glm::vec<D, double>& v) {
     const double square = dot(v, v), excess = square - 1;
@@ -69,14 +69,14 @@ glm::vec<D, double> unit(const glm::vec<D, double>& v) {
     return square == 0 ? axis<D>(0) : v * (1 / std::sqrt(square));
 }
 
-/// A unit vector at right angles to v.
+/// A unit vector perpendicular to v.
 inline DVec<2> perpendicular(const DVec<2>& v) {
     return normalized<2>(DVec<2>{-v.y, v.x});
 }
 inline DVec<3> perpendicular(const DVec<3>& v) {
     const DVec<3> a{std::abs(v.x), std::abs(v.y), std::abs(v.z)};
-    const int least = a.x <= a.y && a.x <= a.z ? 0 : (a.y <= a.z ? 1 : 2);
-    return normalized<3>(cross(v, axis<3>(least)));
+    const int smallest = a.x <= a.y && a.x <= a.z ? 0 : (a.y <= a.z ? 1 : 2);
+    return normalized<3>(cross(v, axis<3>(smallest)));
 }
 
 template <int D>
@@ -84,7 +84,7 @@ Vec<D> to_float(const glm::vec<D, double>& v) {
     return Vec<D>(v);
 }
 
-/// A unit vector in float. Rounding a unit vector of doubles keeps its length to one ulp.
+/// A float vector in double.
 template <int D>
 DVec<D> to_double(const glm::vec<D, float>& v) {
     return DVec<D>(v);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Several threads: what a game's job system has to offer, for those calls that take it.
+// The interface to a game's job system, for calls that run on several threads.
 
 #include <abut/math/function_ref.hpp>
 
@@ -8,13 +8,13 @@
 
 namespace abut {
 
-/// Runs the parts of a job side by side. Fill the two functions by what you have; abut starts no threads of its own.
+/// Runs the parts of a job in parallel. Implement both functions; abut starts no threads of its own.
 class Executor {
 public:
     virtual ~Executor() = default;
 
-    /// How many parts may run at the same time, at least 1. A job is cut into about so many parts or a few times as
-    /// many; no answer depends on it.
+    /// The number of parts that may run at the same time, at least 1. A job is divided into about this number of parts
+    /// or a few times as many; results don't depend on it.
     virtual std::uint32_t workers() const = 0;
 
     /// Calls part(0) to part(count - 1), each once, in any order and on any threads; returns when all have returned.

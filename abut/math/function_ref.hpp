@@ -1,8 +1,8 @@
 #pragma once
 
-// A reference to something callable: two pointers, no allocation. How a visitor reaches a .cpp file.
+// A non-owning reference to a callable: two pointers, no allocation. It passes visitors into .cpp files.
 
-#include <abut/math/upper_halves.hpp>
+#include <abut/math/simd/upper_halves.hpp>
 
 #include <memory>
 #include <type_traits>

@@ -8,8 +8,8 @@ namespace abut {
 
 void prefer_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #ifdef __linux__
-    // Where it is refused, small pages do as well, only slower.
-    [[maybe_unused]] const int refused = madvise(memory, bytes, MADV_HUGEPAGE);
+    // If the call fails, small pages work as well, but slower.
+    [[maybe_unused]] const int failed = madvise(memory, bytes, MADV_HUGEPAGE);
 #endif
 }
 

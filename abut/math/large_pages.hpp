@@ -1,7 +1,7 @@
 #pragma once
 
-// An allocator for large arrays that are read here and there: it asks the system for large pages, where there are any.
-// With small ones, to find where a page lies takes as long as to fetch what is on it.
+// An allocator for large arrays with random access: it asks the system for large pages. With small pages a TLB miss
+// costs as much as the memory access.
 
 #include <cstddef>
 #include <new>
@@ -10,7 +10,7 @@ namespace abut {
 
 inline constexpr std::size_t large_page = std::size_t{1} << 21;
 
-/// The memory, aligned to `large_page`, is better held in large pages. A wish: nothing else changes by it.
+/// Asks the system to back the memory, aligned to `large_page`, by large pages. Only a hint.
 void prefer_large_pages(void* memory, std::size_t bytes);
 
 template <class T>
@@ -32,7 +32,7 @@ struct LargePages {
     friend bool operator==(const LargePages&, const LargePages&) { return true; }
 
 private:
-    /// What is left over at the end has small pages.
+    /// The remainder at the end has small pages.
     static bool is_large(std::size_t count) { return count * sizeof(T) >= large_page; }
     static std::align_val_t alignment(std::size_t count) {
         return std::align_val_t{is_large(count) ? large_page : alignof(T)};

@@ -7,14 +7,15 @@
 namespace abut {
 namespace {
 
-/// What turns `from` into `to`, the short way.
-double spin_between(const Turn& from, const Turn& to) {
+/// The angle of the shortest rotation from `from` to `to`.
+double rotation_between(const Turn& from, const Turn& to) {
     const DVec<2> a = unit(from), b = unit(to);
     return angle_of(dot(a, b), cross(a, b));
 }
 
-/// Of the quaternion q = to * conjugate(from), (cos(angle / 2), axis sin(angle / 2)) or the same below zero.
-DVec<3> spin_between(const glm::quat& from, const glm::quat& to) {
+/// The rotation vector of the quaternion q = to * conjugate(from), which is (cos(angle / 2), axis sin(angle / 2)) up to
+/// the sign.
+DVec<3> rotation_between(const glm::quat& from, const glm::quat& to) {
     const glm::dquat a(from), b(to);
     const double w = b.w * a.w + b.x * a.x + b.y * a.y + b.z * a.z;
     const DVec<3> v(b.x * a.w - b.w * a.x + b.z * a.y - b.y * a.z, b.y * a.w - b.w * a.y + b.x * a.z - b.z * a.x,
@@ -25,11 +26,11 @@ DVec<3> spin_between(const glm::quat& from, const glm::quat& to) {
 }
 
 template <int D>
-RigidPath<D> path_from(const Pose<D>& from, const DVec<D>& move, const Spin<D>& spin) {
+RigidPath<D> path_from(const Pose<D>& from, const DVec<D>& move, const AngularVelocity<D>& angular_velocity) {
     RigidPath<D> result;
     set_affine(result.start, from);
     result.move = move;
-    result.spin = spin;
+    result.angular_velocity = angular_velocity;
     return result;
 }
 
@@ -43,15 +44,17 @@ RigidPath<3> rigid_path(const Motion3& motion) {
 }
 
 RigidPath<2> rigid_path(const Pose2& from, const Pose2& to) {
-    return path_from<2>(from, DVec<2>(to.position) - DVec<2>(from.position), spin_between(from.rotation, to.rotation));
+    return path_from<2>(from, DVec<2>(to.position) - DVec<2>(from.position),
+                        rotation_between(from.rotation, to.rotation));
 }
 RigidPath<3> rigid_path(const Pose3& from, const Pose3& to) {
-    return path_from<3>(from, DVec<3>(to.position) - DVec<3>(from.position), spin_between(from.rotation, to.rotation));
+    return path_from<3>(from, DVec<3>(to.position) - DVec<3>(from.position),
+                        rotation_between(from.rotation, to.rotation));
 }
 
 template <int D>
 Affine<D> place_at(const RigidPath<D>& path, double time) {
-    const TurningAxis<D> axis(path.spin);
+    const RotationAxis<D> axis(path.angular_velocity);
     const SinCos turned = sin_cos(axis.rate * time);
     Affine<D> result;
     for (std::size_t i = 0; i < static_cast<std::size_t>(D); ++i)
@@ -64,7 +67,7 @@ template Affine<3> place_at(const RigidPath<3>&, double);
 
 template <int D>
 Motion<D> Motion<D>::between(const Pose<D>& from, const Pose<D>& to) {
-    return {from, to.position - from.position, Angle<D>(spin_between(from.rotation, to.rotation))};
+    return {from, to.position - from.position, Angle<D>(rotation_between(from.rotation, to.rotation))};
 }
 template struct Motion<2>;
 template struct Motion<3>;
@@ -78,11 +81,11 @@ Pose2 pose_at(const Motion2& motion, float fraction) {
 
 Pose3 pose_at(const Motion3& motion, float fraction) {
     const RigidPath<3> path = rigid_path(motion);
-    const double time = static_cast<double>(fraction), rate = length(path.spin);
+    const double time = static_cast<double>(fraction), rate = length(path.angular_velocity);
     const SinCos half = sin_cos(0.5 * rate * time);
-    const DVec<3> v = rate > 0 ? path.spin * (half.sin / rate) : DVec<3>(0.0);
+    const DVec<3> v = rate > 0 ? path.angular_velocity * (half.sin / rate) : DVec<3>(0.0);
     const glm::dquat q(motion.from.rotation);
-    // (cos, v) * q, of length 1 again.
+    // (cos, v) * q, normalised.
     glm::dquat turned(
         half.cos * q.w - (v.x * q.x + v.y * q.y + v.z * q.z), half.cos * q.x + v.x * q.w + (v.y * q.z - v.z * q.y),
         half.cos * q.y + v.y * q.w + (v.z * q.x - v.x * q.z), half.cos * q.z + v.z * q.w + (v.x * q.y - v.y * q.x));

@@ -1,6 +1,6 @@
 #pragma once
 
-// The floats next to one, as std::nextafter has them, without a call.
+// The adjacent floats, equal to std::nextafter but inline.
 
 #include <bit>
 #include <cstdint>
@@ -8,15 +8,15 @@
 
 namespace abut {
 
-/// The least float above x; infinity and NaN as they are.
+/// The smallest float above x; infinity and NaN are unchanged.
 inline float next_up(float x) {
     if (!(x < std::numeric_limits<float>::infinity())) return x;
-    // Of the two zeros the positive one.
+    // Turns -0 into 0.
     const auto bits = std::bit_cast<std::uint32_t>(x + 0.0f);
     return std::bit_cast<float>(x < 0 ? bits - 1 : bits + 1);
 }
 
-/// The greatest float below x; minus infinity and NaN as they are.
+/// The largest float below x; minus infinity and NaN are unchanged.
 inline float next_down(float x) {
     return -next_up(-x);
 }

@@ -1,4 +1,4 @@
-#include <abut/math/linear.hpp>
+#include <abut/math/affine.hpp>
 #include <abut/math/pose.hpp>
 #include <abut/math/set_affine.hpp>
 #include <abut/math/sin_cos.hpp>

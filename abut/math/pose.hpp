@@ -1,6 +1,6 @@
 #pragma once
 
-// A pose: where a thing is and how it is turned.
+// Poses: position and rotation.
 
 #include <abut/math/vec.hpp>
 
@@ -11,31 +11,32 @@
 
 namespace abut {
 
-/// A rotation in the plane, counter-clockwise, as a unit vector.
+/// A rotation in the plane, counter-clockwise, as a unit vector (cos, sin).
 struct Turn {
     float cos = 1;
     float sin = 0;
 
     constexpr Turn() = default;
     constexpr Turn(float cosine, float sine) : cos(cosine), sin(sine) {}
-    /// A lone number would be an angle to its writer and a cosine to the compiler, in Pose2{position, 0.785f} too.
+    /// Deleted, since a single number would be an angle to the reader and a cosine to the compiler, also in
+    /// Pose2{position, 0.785f}.
     Turn(float angle) = delete;  // write Turn::by(angle) for an angle
 
-    /// By an angle in radians; the same bits on every machine (no trigonometry of the C library). NaN and infinity trip
-    /// ABUT_ASSERT, and turn by nothing.
+    /// The rotation by an angle in radians; the same bits on every machine, without trigonometry of the C library. NaN
+    /// and infinity trip ABUT_ASSERT and give the identity.
     static Turn by(float radians);
 
     friend bool operator==(const Turn&, const Turn&) = default;
 };
 
-/// How a thing is turned: a Turn in 2D, a unit quaternion in 3D. Questions normalise it, so that a rotation that has
-/// drifted from length 1 turns, and never scales.
+/// A rotation: a Turn in 2D, a unit quaternion in 3D. Queries normalise it, so a rotation that has drifted from length
+/// 1 never scales.
 template <int D>
 using Rotation = std::conditional_t<D == 2, Turn, glm::quat>;
 
 namespace detail {
 
-/// A constant wherever glm's types are; its quaternions are none under GLM_FORCE_INTRINSICS.
+/// The identity. It is a constant expression unless GLM_FORCE_INTRINSICS changes glm's quaternions.
 template <int D>
 constexpr Rotation<D> identity_rotation() {
     if constexpr (D == 2)
@@ -51,7 +52,7 @@ inline const Rotation<D> no_rotation = detail::identity_rotation<D>();
 template <>
 inline constexpr Turn no_rotation<2> = detail::identity_rotation<2>();
 
-/// Turned by `rotation` about the origin, then moved by `position`.
+/// A rigid transform: rotates by `rotation` about the origin, then translates by `position`.
 template <int D>
 struct Pose {
     Vec<D> position{};
@@ -62,17 +63,17 @@ struct Pose {
 using Pose2 = Pose<2>;
 using Pose3 = Pose<3>;
 
-/// By an angle in radians about an axis of length 1; the same bits on every machine.
+/// The rotation by an angle in radians about an axis of length 1; the same bits on every machine.
 glm::quat turn_about(const Vec3& axis, float radians);
 
 Vec2 rotate(const Turn& rotation, const Vec2& v);
 Vec3 rotate(const glm::quat& rotation, const Vec3& v);
 
-/// Where a point of the thing is in the world.
+/// Maps a local point to world space.
 Vec2 operator*(const Pose2& pose, const Vec2& point);
 Vec3 operator*(const Pose3& pose, const Vec3& point);
 
-/// First `inner`, then `outer`.
+/// Composition: applies `inner` first, then `outer`.
 Pose2 operator*(const Pose2& outer, const Pose2& inner);
 Pose3 operator*(const Pose3& outer, const Pose3& inner);
 

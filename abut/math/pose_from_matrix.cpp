@@ -1,4 +1,4 @@
-#include <abut/math/linear.hpp>
+#include <abut/math/affine.hpp>
 #include <abut/math/pose_from_matrix.hpp>
 
 #include <algorithm>
@@ -11,10 +11,10 @@
 namespace abut {
 namespace {
 
-/// A rotation may be off by so much: its axes' lengths, and the cosines between them.
+/// Tolerance of a rotation's axis lengths and of the cosines between axes.
 constexpr double tolerance = 1e-4;
 
-/// The last row may be off by so much, which multiplies coordinates.
+/// Tolerance of the last row, which multiplies coordinates.
 constexpr double tolerance_of_last_row = 1e-6;
 
 template <int D>
@@ -57,14 +57,14 @@ std::optional<Problem> problem_of(const Matrix<D>& matrix, const Affine<D>& map)
     return std::nullopt;
 }
 
-/// Of a matrix that is nearly a rotation, the nearest one, normalised.
+/// The rotation nearest to a matrix that is nearly one, normalised.
 Turn rotation_of(const Affine<2>& map) {
     const DVec<2> u = normalized(DVec<2>(map.column[0].x + map.column[1].y, map.column[0].y - map.column[1].x));
     return {static_cast<float>(u.x), static_cast<float>(u.y)};
 }
 
-/// The mean of a matrix and its inverse transpose, which comes to the nearest rotation by squares (Higham, "Computing
-/// the polar decomposition - with applications", 1986); then Shepperd, "Quaternion from rotation matrix", 1978.
+/// The nearest rotation in least squares, by averaging the matrix with its inverse transpose (Higham, "Computing the
+/// polar decomposition - with applications", 1986); then Shepperd, "Quaternion from rotation matrix", 1978.
 glm::quat rotation_of(Affine<3> map) {
     for (int i = 0; i < 2; ++i) {
         const std::array<DVec<3>, 3> c = map.column;
@@ -73,15 +73,15 @@ glm::quat rotation_of(Affine<3> map) {
             map.column[axis] = (c[axis] + cross(c[(axis + 1) % 3], c[(axis + 2) % 3]) / d) * 0.5;
     }
     const DVec<3>&x = map.column[0], &y = map.column[1], &z = map.column[2];
-    // Four times the square of each; the largest is at least 1.
+    // Four times the square of each component; the largest is at least 1.
     const double ww = 1 + x.x + y.y + z.z, xx = 1 + x.x - y.y - z.z, yy = 1 - x.x + y.y - z.z, zz = 1 - x.x - y.y + z.z;
-    const double most = std::max({ww, xx, yy, zz});
+    const double largest_square = std::max({ww, xx, yy, zz});
     glm::dquat q;
-    if (most == ww)
+    if (largest_square == ww)
         q = {ww, y.z - z.y, z.x - x.z, x.y - y.x};
-    else if (most == xx)
+    else if (largest_square == xx)
         q = {y.z - z.y, xx, x.y + y.x, z.x + x.z};
-    else if (most == yy)
+    else if (largest_square == yy)
         q = {z.x - x.z, x.y + y.x, yy, y.z + z.y};
     else
         q = {x.y - y.x, z.x + x.z, y.z + z.y, zz};

@@ -1,6 +1,6 @@
-// Below, u = 2^-53 is what an operation in double may be off by, relative to its result. Nothing under- or overflows:
-// a float is a multiple of 2^-149 below 2^128, and so products of three are multiples of 2^-447 and below 2^384, those
-// of differences below 2^387.
+// Error bounds use u = 2^-53, the relative rounding error of a double operation. Nothing underflows or overflows: a
+// float is a multiple of 2^-149 below 2^128, so products of three are multiples of 2^-447 below 2^384, and products of
+// differences are below 2^387.
 
 #include <abut/math/dvec.hpp>
 #include <abut/math/predicates.hpp>
@@ -16,9 +16,9 @@ int sign(double value) {
     return value > 0 ? 1 : value < 0 ? -1 : 0;
 }
 
-/// rounded + lost == a + b, exactly (Knuth).
+/// rounded + error == a + b, exactly (Knuth).
 struct Sum {
-    double rounded, lost;
+    double rounded, error;
 };
 
 Sum two_sum(double a, double b) {
@@ -26,7 +26,7 @@ Sum two_sum(double a, double b) {
     return {sum, (a - (sum - b_in_sum)) + (b - b_in_sum)};
 }
 
-/// The same of a * b (Dekker).
+/// rounded + error == a * b, exactly (Dekker).
 Sum two_product(double a, double b) {
     const auto upper_half = [](double x) {
         const double scaled = 0x1.0000002p27 * x;
@@ -37,22 +37,22 @@ Sum two_product(double a, double b) {
     return {product, ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low};
 }
 
-/// An exact sum of up to 48 doubles, in parts that don't overlap: of growing magnitude, none of them zero, each larger
-/// than all before it together. So the last has the sign of the sum.
+/// An expansion: an exact sum of up to 48 doubles as nonoverlapping components of increasing magnitude, none of them
+/// zero. The last component has the sign of the sum.
 class Expansion {
 public:
     void add(double term) {
-        std::size_t kept = 0;
+        std::size_t count = 0;
         for (std::size_t i = 0; i < count_; ++i) {
             const Sum sum = two_sum(term, parts_[i]);
-            if (sum.lost != 0) parts_[kept++] = sum.lost;
+            if (sum.error != 0) parts_[count++] = sum.error;
             term = sum.rounded;
         }
-        if (term != 0) parts_[kept++] = term;
-        count_ = kept;
+        if (term != 0) parts_[count++] = term;
+        count_ = count;
     }
 
-    /// Adds the product of two floats times a third.
+    /// Adds the product of a double `product` (of two floats) and a float.
     void add_product(double product, double factor) {
         // Two halves of 26 bits (Dekker), times 24: neither product is rounded.
         const double scaled = 0x1.0000002p27 * product;
@@ -69,17 +69,17 @@ private:
 };
 
 bool is_exact(const DVec<2>& from, const DVec<2>& to) {
-    return two_sum(to.x, -from.x).lost == 0 && two_sum(to.y, -from.y).lost == 0;
+    return two_sum(to.x, -from.x).error == 0 && two_sum(to.y, -from.y).error == 0;
 }
 
-/// Where differences lose nothing, as they do between floats of usual exponents, two products tell: rounding keeps
-/// their order, and where it makes them equal, what they lost tells. Else the determinant of | a 1 |, | b 1 |, | c 1 |:
-/// six products of two floats, which are exact in double.
+/// If the differences are exact, as between floats of usual exponents, two products decide: rounding is monotonic, and
+/// equal rounded products are decided by their errors. Otherwise the determinant of | a 1 |, | b 1 |, | c 1 | is
+/// expanded into six products of two floats, which are exact in double.
 int exact_orientation(const DVec<2>& a, const DVec<2>& b, const DVec<2>& c) {
     if (is_exact(a, b) && is_exact(a, c)) {
         const DVec<2> p = b - a, q = c - a;
         const Sum left = two_product(p.x, q.y), right = two_product(p.y, q.x);
-        return left.rounded != right.rounded ? sign(left.rounded - right.rounded) : sign(left.lost - right.lost);
+        return left.rounded != right.rounded ? sign(left.rounded - right.rounded) : sign(left.error - right.error);
     }
     Expansion sum;
     const auto add_cross = [&](const DVec<2>& p, const DVec<2>& q) {
@@ -92,7 +92,7 @@ int exact_orientation(const DVec<2>& a, const DVec<2>& b, const DVec<2>& c) {
     return sum.sign();
 }
 
-/// The same of four rows: [b c d] - [a c d] + [a b d] - [a b c], where [p q r] = dot(cross(p, q), r).
+/// The determinant of four rows: [b c d] - [a c d] + [a b d] - [a b c], where [p q r] = dot(cross(p, q), r).
 int exact_orientation(const DVec<3>& a, const DVec<3>& b, const DVec<3>& c, const DVec<3>& d) {
     Expansion sum;
     const auto add_triple = [&](const DVec<3>& p, const DVec<3>& q, const DVec<3>& r) {
@@ -114,8 +114,8 @@ int exact_orientation(const DVec<3>& a, const DVec<3>& b, const DVec<3>& c, cons
 int orientation(const Vec2& a, const Vec2& b, const Vec2& c) {
     const DVec<2> p = DVec<2>(b) - DVec<2>(a), q = DVec<2>(c) - DVec<2>(a);
     const double left = p.x * q.y, right = p.y * q.x, turn = left - right;
-    // Each product is made of two differences and rounded itself, 3 u; the last difference adds u. The bound is twice
-    // the first order of that, 8 u; it is 0 only where both products are 0 exactly.
+    // Each product of two rounded differences is off by 3 u; the final difference adds u. The bound is twice the
+    // first-order error, 8 u; it is 0 only if both products are exactly 0.
     const double bound = 0x1p-50 * (std::abs(left) + std::abs(right));
     if (std::abs(turn) >= bound) return sign(turn);
     return exact_orientation(DVec<2>(a), DVec<2>(b), DVec<2>(c));
@@ -128,7 +128,7 @@ int turn_towards(const Vec2& a, const Vec2& b, const DVec<2>& c) {
     Expansion sum;
     const auto add_product = [&](double factor, double number) {
         const Sum product = two_product(factor, number);
-        sum.add(product.lost);
+        sum.add(product.error);
         sum.add(product.rounded);
     };
     sum.add(from.x * to.y);
@@ -149,7 +149,8 @@ int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
         volume += (left - right) * r[i];
         magnitude += (std::abs(left) + std::abs(right)) * std::abs(r[i]);
     }
-    // left and right: 3 u; their difference: 4 u; times r[i], a difference: 6 u; the two sums: 8 u. Twice that.
+    // left and right: 3 u; their difference: 4 u; times r[i], a difference: 6 u; the two sums: 8 u. The bound is twice
+    // that.
     if (std::abs(volume) >= 0x1p-49 * magnitude) return sign(volume);
     return exact_orientation(DVec<3>(a), DVec<3>(b), DVec<3>(c), DVec<3>(d));
 }
@@ -159,11 +160,11 @@ bool on_line(const Vec2& a, const Vec2& b, const Vec2& p) {
 }
 
 bool on_line(const Vec3& a, const Vec3& b, const Vec3& p) {
-    // The three coordinates of cross(b - a, p - a), each from the shadows of the points along an axis.
-    const auto shadow_on_line = [&](int x, int y) {
+    // The three coordinates of cross(b - a, p - a), each from projections of the points along an axis.
+    const auto projection_on_line = [&](int x, int y) {
         return orientation(Vec2(a[x], a[y]), Vec2(b[x], b[y]), Vec2(p[x], p[y])) == 0;
     };
-    return shadow_on_line(0, 1) && shadow_on_line(1, 2) && shadow_on_line(2, 0);
+    return projection_on_line(0, 1) && projection_on_line(1, 2) && projection_on_line(2, 0);
 }
 
 bool in_plane(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) {
@@ -171,11 +172,11 @@ bool in_plane(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) {
 }
 
 int sign_of_sum(double a, double b, double c) {
-    // a + b is off by half an ulp at most. Where c all but cancels it, their sum is exact and at least as much, half
-    // the ulp of the larger: the rounding tells only where nothing else is left.
+    // a + b is off by at most half an ulp. If c nearly cancels it, the next sum is exact and not smaller than that; the
+    // rounding error decides only if the sum is 0.
     const Sum two = two_sum(a, b);
     const double three = two.rounded + c;
-    return sign(three != 0 ? three : two.lost);
+    return sign(three != 0 ? three : two.error);
 }
 
 }  // namespace abut

@@ -5,8 +5,8 @@ namespace abut {
 
 template <int D>
 Ray<D> Ray<D>::between(const Vec<D>& a, const Vec<D>& b) {
-    const DVec<D> way = DVec<D>(b) - DVec<D>(a);
-    return {a, to_float(normalized(way)), static_cast<float>(abut::length(way))};
+    const DVec<D> offset = DVec<D>(b) - DVec<D>(a);
+    return {a, to_float(normalized(offset)), static_cast<float>(abut::length(offset))};
 }
 
 template struct Ray<2>;

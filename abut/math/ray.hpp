@@ -1,6 +1,6 @@
 #pragma once
 
-// A ray: a piece of a straight line, with a direction.
+// Rays: directed line segments, possibly infinite.
 
 #include <abut/math/vec.hpp>
 
@@ -11,10 +11,10 @@ namespace abut {
 template <int D>
 struct Ray {
     Vec<D> origin{};
-    Vec<D> direction{};  ///< of length 1; or 0, of a ray that is its origin alone and hits only what contains that
-    float length = std::numeric_limits<float>::infinity();  ///< how far it reaches; may be infinite or zero
+    Vec<D> direction{};                                     ///< unit vector; or 0 for a ray that is only its origin
+    float length = std::numeric_limits<float>::infinity();  ///< length; may be infinite or zero
 
-    /// From a to b. Where a == b the ray has length 0 and some direction.
+    /// The ray from a to b. If a == b it has length 0 and an arbitrary direction.
     static Ray between(const Vec<D>& a, const Vec<D>& b);
 };
 template <int D>
@@ -23,8 +23,8 @@ Ray(glm::vec<D, float>, glm::vec<D, float>, float) -> Ray<D>;
 using Ray2 = Ray<2>;
 using Ray3 = Ray<3>;
 
-/// A box on its way, in double: it reaches `half` each way from its center, which moves from `center` along
-/// `direction`, of any length, 0 to `length` times.
+/// A moving box (swept AABB), in double. It has half extents `half`, and its center moves from `center` to `center +
+/// direction * length`; the direction may have any length.
 template <int D>
 struct MovingBox {
     DVec<D> center{0.0};

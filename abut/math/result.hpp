@@ -1,6 +1,6 @@
 #pragma once
 
-// What a builder returns that takes data from outside: the thing, or what is wrong with the data.
+// The result of a builder that takes outside data: a value or a Problem.
 
 #include <abut/math/assert.hpp>
 
@@ -25,11 +25,11 @@ enum class ProblemCode : std::uint8_t {
     cancelled,           ///< the caller asked to stop
 };
 
-/// What is wrong, and where.
+/// An error: a code, a message, and an index into the input.
 struct Problem {
     ProblemCode code = ProblemCode::bad_argument;
     std::string message;    ///< one line for a person, without a full stop
-    std::size_t index = 0;  ///< which item of the input, where that makes sense
+    std::size_t index = 0;  ///< index of the offending input item, if there is one
 };
 
 /// A value or a Problem; never throws.
@@ -47,7 +47,7 @@ public:
     T* operator->() { return &value(); }
     const T* operator->() const { return &const_cast<Result*>(this)->value(); }
 
-    /// What is wrong; only where there is no value.
+    /// The Problem; only if there is no value.
     const Problem& problem() const {
         const Problem* result = std::get_if<1>(&state_);
         ABUT_ASSERT(result != nullptr);

@@ -1,8 +1,8 @@
 #pragma once
 
-// Motions in double, as the engines follow them. For .cpp files.
+// Rigid motions in double, for time of impact queries. For .cpp files.
 
-#include <abut/math/linear.hpp>
+#include <abut/math/affine.hpp>
 #include <abut/math/motion.hpp>
 #include <abut/math/sin_cos.hpp>
 
@@ -10,51 +10,51 @@
 
 namespace abut {
 
-/// How fast a thing turns, in radians for the whole of its motion; in 3D along the axis.
+/// Angular velocity in radians per unit of time (the whole motion); in 3D along the axis.
 template <int D>
-using Spin = std::conditional_t<D == 2, double, DVec<3>>;
+using AngularVelocity = std::conditional_t<D == 2, double, DVec<3>>;
 
-/// How fast a vector moves that turns with it: spin x v.
-inline DVec<2> turned_by(double spin, const DVec<2>& v) {
-    return {-spin * v.y, spin * v.x};
+/// The velocity of a vector that rotates: angular_velocity x v.
+inline DVec<2> rotational_velocity(double angular_velocity, const DVec<2>& v) {
+    return {-angular_velocity * v.y, angular_velocity * v.x};
 }
-inline DVec<3> turned_by(const DVec<3>& spin, const DVec<3>& v) {
-    return cross(spin, v);
-}
-
-inline double rate_of(double spin) {
-    return std::abs(spin);
-}
-inline double rate_of(const DVec<3>& spin) {
-    return length(spin);
+inline DVec<3> rotational_velocity(const DVec<3>& angular_velocity, const DVec<3>& v) {
+    return cross(angular_velocity, v);
 }
 
-/// A vector that turns evenly, told by how far it has turned.
-struct TurningVector2 {
+inline double angular_speed(double angular_velocity) {
+    return std::abs(angular_velocity);
+}
+inline double angular_speed(const DVec<3>& angular_velocity) {
+    return length(angular_velocity);
+}
+
+/// A vector that rotates at constant angular velocity, as a function of the angle.
+struct RotatingVector2 {
     DVec<2> first;
 
     DVec<2> at(const SinCos& s) const { return {first.x * s.cos - first.y * s.sin, first.y * s.cos + first.x * s.sin}; }
 };
-/// In space: along the axis, and across it at the angle 0 and a quarter of a turn later.
-struct TurningVector3 {
+/// In 3D: the component along the axis, and the components across it at angle 0 and a quarter turn later.
+struct RotatingVector3 {
     DVec<3> along, even, odd;
 
     DVec<3> at(const SinCos& s) const { return along + even * s.cos + odd * s.sin; }
 };
 template <int D>
-using TurningVector = std::conditional_t<D == 2, TurningVector2, TurningVector3>;
+using RotatingVector = std::conditional_t<D == 2, RotatingVector2, RotatingVector3>;
 
-/// What vectors turn about: in the plane the pivot, in space an axis of length 1; the angle grows by `rate` in the time
-/// from 0 to 1.
-struct TurningAxis2 {
-    explicit TurningAxis2(double spin) : rate(spin) {}
-    TurningVector2 of(const DVec<2>& v) const { return {v}; }
+/// The rotation axis: the pivot in 2D, a unit vector in 3D. The angle grows by `rate` over time 0 to 1.
+struct RotationAxis2 {
+    explicit RotationAxis2(double angular_velocity) : rate(angular_velocity) {}
+    RotatingVector2 of(const DVec<2>& v) const { return {v}; }
 
     double rate;
 };
-struct TurningAxis3 {
-    explicit TurningAxis3(const DVec<3>& spin) : rate(length(spin)), axis(rate > 0 ? spin / rate : DVec<3>(0.0)) {}
-    TurningVector3 of(const DVec<3>& v) const {
+struct RotationAxis3 {
+    explicit RotationAxis3(const DVec<3>& angular_velocity)
+        : rate(length(angular_velocity)), axis(rate > 0 ? angular_velocity / rate : DVec<3>(0.0)) {}
+    RotatingVector3 of(const DVec<3>& v) const {
         const DVec<3> along = axis * dot(axis, v);
         return {along, v - along, cross(axis, v)};
     }
@@ -63,47 +63,49 @@ struct TurningAxis3 {
     DVec<3> axis;
 };
 template <int D>
-using TurningAxis = std::conditional_t<D == 2, TurningAxis2, TurningAxis3>;
+using RotationAxis = std::conditional_t<D == 2, RotationAxis2, RotationAxis3>;
 
-/// A motion in the time from 0 to 1.
+/// A rigid motion over time 0 to 1.
 template <int D>
 struct RigidPath {
-    Affine<D> start;  ///< the pose at first; its offset is what the thing turns about
+    Affine<D> start;  ///< the initial pose; its offset is the center of rotation
     DVec<D> move{0.0};
-    Spin<D> spin{};
+    AngularVelocity<D> angular_velocity{};
 
     DVec<D> pivot(double time) const { return start.offset + move * time; }
-    /// Of a point of the thing that is at `place` at that time.
-    DVec<D> velocity(double time, const DVec<D>& place) const { return move + turned_by(spin, place - pivot(time)); }
+    /// The velocity of a point of the body that is at `place` at that time.
+    DVec<D> velocity(double time, const DVec<D>& place) const {
+        return move + rotational_velocity(angular_velocity, place - pivot(time));
+    }
 };
 
-/// The most that a point moves and bends, |x'| and |x''|, in the time from 0 to 1.
-struct SeenMotion {
-    double speed, bend;
+/// Upper bounds of a point's relative speed |x'| and acceleration |x''| over time 0 to 1.
+struct RelativeMotionBounds {
+    double speed, acceleration;
 };
 
-/// Of the points of a thing on a path that are at most `reach` from its pivot, as the frame of another path sees them.
-/// There, with p from the frame's pivot to the thing's and y from that to the point, x = R^T (p + y), so that
+/// Bounds for the points of a body within `reach` of its pivot, in the rotating frame of another path. With p from the
+/// frame's pivot to the body's, and y from that to the point, x = R^T (p + y), so that
 ///
 ///     |x'|  <= |p'| + w |p| + (v + w) |y|,
-///     |x''| <= 2 w |p'| + w^2 |p| + (v + w)^2 |y|,    w, v the rates of the frame and of the path.
+///     |x''| <= 2 w |p'| + w^2 |p| + (v + w)^2 |y|,    w, v the angular speeds of the frame and of the path.
 template <int D>
-SeenMotion seen_motion(const RigidPath<D>& path, const RigidPath<D>& frame, double reach) {
-    const double w = rate_of(frame.spin), both = w + rate_of(path.spin);
-    // A straight way is farthest from a point at one of its ends.
+RelativeMotionBounds relative_motion_bounds(const RigidPath<D>& path, const RigidPath<D>& frame, double reach) {
+    const double w = angular_speed(frame.angular_velocity), both_rates = w + angular_speed(path.angular_velocity);
+    // The distance to a point on a line segment is largest at an end.
     const double p = std::max(length(path.pivot(0) - frame.pivot(0)), length(path.pivot(1) - frame.pivot(1)));
     const double speed = length(path.move - frame.move);
-    return {speed + w * p + both * reach, 2 * w * speed + w * w * p + both * both * reach};
+    return {speed + w * p + both_rates * reach, 2 * w * speed + w * w * p + both_rates * both_rates * reach};
 }
 
 RigidPath<2> rigid_path(const Motion2& motion);
 RigidPath<3> rigid_path(const Motion3& motion);
 
-/// Turning the short way, without the rounding of its angle to floats.
+/// The motion by the shortest rotation, without rounding the angle to float.
 RigidPath<2> rigid_path(const Pose2& from, const Pose2& to);
 RigidPath<3> rigid_path(const Pose3& from, const Pose3& to);
 
-/// Where the path has come to.
+/// The transform of the body at a time.
 template <int D>
 Affine<D> place_at(const RigidPath<D>& path, double time);
 

@@ -1,8 +1,8 @@
 #pragma once
 
-// Poses as affine maps, written where they are wanted. For .cpp files.
+// Poses to affine maps, written in place. For .cpp files.
 
-#include <abut/math/linear.hpp>
+#include <abut/math/affine.hpp>
 
 namespace abut {
 
@@ -10,14 +10,14 @@ inline DVec<2> unit(const Turn& turn) {
     return unit(DVec<2>(turn.cos, turn.sin));
 }
 
-/// affine(pose), where a call and a copy would cost more than it does.
+/// affine(pose), inline and without a copy.
 inline void set_affine(Affine<2>& map, const Pose2& pose) {
     const DVec<2> u = unit(pose.rotation);
     map.column[0] = u;
-    map.column[1] = DVec<2>(0 - u.y, u.x);  // no zero below zero, as in a product of maps
+    map.column[1] = DVec<2>(0 - u.y, u.x);  // 0 - y avoids -0, as in a product of maps
     map.offset = DVec<2>(pose.position);
 }
-/// The matrix of q / |q|; in double no square of a float overflows, or vanishes unless the float is zero.
+/// The matrix of q / |q|; in double the square of a float can't overflow, and it vanishes only for 0.
 inline void set_affine(Affine<3>& map, const Pose3& pose) {
     const double w = static_cast<double>(pose.rotation.w), x = static_cast<double>(pose.rotation.x),
                  y = static_cast<double>(pose.rotation.y), z = static_cast<double>(pose.rotation.z);
@@ -32,7 +32,7 @@ inline void set_affine(Affine<3>& map, const Pose3& pose) {
     map.offset = DVec<3>(pose.position);
 }
 
-/// affine(pose).point(point). Kept out of what is hot, where it would take up room.
+/// affine(pose).point(point), not inlined, to keep hot code small.
 template <int D>
 [[gnu::noinline]] DVec<D> placed(const DVec<D>& point, const Pose<D>& pose) {
     Affine<D> place;

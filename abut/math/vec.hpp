@@ -1,6 +1,6 @@
 #pragma once
 
-// The vocabulary of positions: glm's vectors, float at the doors, double inside.
+// Vector types: glm's vectors, float in the public interface and double inside.
 
 #include <cmath>
 #include <cstddef>
@@ -19,12 +19,12 @@ using Vec = glm::vec<D, float>;
 using Vec2 = Vec<2>;
 using Vec3 = Vec<3>;
 
-/// The same in double: what the engines calculate in.
+/// A double vector, for internal arithmetic.
 template <int D>
 using DVec = glm::vec<D, double>;
 
-// glm's configuration macros change the layout of its types, and with it the meaning of every pose in memory, or the
-// types themselves, which the library then isn't linked for.
+// glm's configuration macros change the layout or type of its vectors, which would break the binary interface of the
+// library.
 static_assert(sizeof(Vec2) == 2 * sizeof(float) && sizeof(Vec3) == 3 * sizeof(float) && alignof(Vec3) == alignof(float),
               "abut needs glm's packed vectors: build without GLM_FORCE_DEFAULT_ALIGNED_GENTYPES");
 static_assert(std::is_same_v<glm::length_t, int>,

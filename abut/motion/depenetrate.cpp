@@ -1,5 +1,5 @@
 #include <abut/motion/depenetrate.hpp>
-#include <abut/motion/shortest_way.hpp>
+#include <abut/motion/push/shortest_push.hpp>
 
 namespace abut {
 
@@ -10,9 +10,9 @@ Depenetration<D> depenetrate_convex(const Convex<D>& shape, const World<D>& worl
     ABUT_ASSERT(finite);
     if (!finite) return result;
     const double touching = 1e-5 * abut::size(shape);
-    const ShortestWay<D> way = shortest_way_out(shape, world, filter, 10 * touching);
-    result.push = to_float(way.push);
-    result.depth = way.found || way.depth <= touching ? 0 : static_cast<float>(way.depth);
+    const ShortestPush<D> found = shortest_push(shape, world, filter, 10 * touching);
+    result.push = to_float(found.push);
+    result.depth = found.found || found.depth <= touching ? 0 : static_cast<float>(found.depth);
     return result;
 }
 

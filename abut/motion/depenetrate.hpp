@@ -1,6 +1,6 @@
 #pragma once
 
-// How does a shape get out of what it is in?
+// Depenetration: a short translation that separates a shape from everything it overlaps.
 
 #include <abut/world/world.hpp>
 
@@ -8,24 +8,24 @@ namespace abut {
 
 template <int D>
 struct Depenetration {
-    Vec<D> push{};    ///< to be added to the shape's position
-    float depth = 0;  ///< in the deepest place after the push; 0: it is free
+    Vec<D> push{};    ///< translation to add to the shape's position
+    float depth = 0;  ///< penetration depth that remains after the push; 0: the shape is free
 
-    /// Whether it gets out.
+    /// True if the push separates the shape.
     explicit operator bool() const { return depth == 0; }
 };
 
 template <int D>
 Depenetration<D> depenetrate_convex(const Convex<D>& shape, const World<D>& world, const Filter& filter);
 
-/// A short push that takes a convex shape out of all that it is in. It is looked for along lines: out of each part, out
-/// of all at once, and evenly all around; and from where a line is free, by sliding back towards the start. Beside all
-/// ways there are, in the plane and out of up to eight convex parts that overlap one another, it is the shortest in 97
-/// %, by 2 %. What lies between here and there is not in its way.
+/// Finds a short push that separates a convex shape from everything it overlaps. It searches along lines: out of each
+/// part, out of all parts at once, and in evenly spread directions. From each free point it slides back towards the
+/// start. Measured in 2D with up to eight overlapping convex parts, the push is the shortest one in 97 % of the cases,
+/// to within 2 %. Obstacles between the start and the end are ignored.
 ///
-/// A shape that is free stays where it is; one that isn't ends 1e-4 of its size from what it was in. Where no line
-/// leaves what it is in, such as between two half-spaces, or none within 256 parts, it stays, and the depth tells how
-/// far it is in the deepest. Allocates nothing.
+/// A free shape stays where it is; otherwise it ends 1e-4 of its size from what it overlapped. If no line leaves the
+/// obstacles, such as between two half-spaces, or needs more than 256 parts, the shape stays and `depth` is its deepest
+/// penetration. Doesn't allocate.
 template <Shape S>
 requires(detail::is_convex_view<detail::ViewOf<S>>) Depenetration<dimension<S>> depenetrate(
     const S& shape, const World<dimension<S>>& world, const Filter& filter = {}) {

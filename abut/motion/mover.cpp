@@ -1,5 +1,5 @@
 #include <abut/motion/mover.hpp>
-#include <abut/motion/walk.hpp>
+#include <abut/motion/mover/move_and_slide.hpp>
 
 namespace abut {
 namespace {
@@ -15,8 +15,8 @@ MoverTouch<D> touch_of(const NearContact<D>& contact) {
     return result;
 }
 
-/// The cosine; the same bits everywhere.
-double least_rise(float steepest) {
+/// The cosine of the slope angle; the same bits on every machine.
+double min_rise_for(float steepest) {
     return static_cast<double>(Turn::by(std::clamp(steepest, 0.0f, 1.55f)).cos);
 }
 
@@ -24,15 +24,15 @@ double least_rise(float steepest) {
 
 template <int D>
 struct Mover<D>::Memory {
-    NearSurface<D> near;
+    NearbySurface<D> near;
     std::vector<MoverTouch<D>> touches;
-    // Where it was left standing, and on what, as that was then.
+    // The ground at the end of the last move, with its pose then, and the mover's position.
     Id ground;
     Pose<D> ground_pose;
     Vec<D> position{};
 
-    /// How far the ground has taken since what stands at its position.
-    Vec<D> ride(const World<D>& world, const Vec<D>& from) const {
+    /// The translation of the ground since then, at the mover's position.
+    Vec<D> carried_by_ground(const World<D>& world, const Vec<D>& from) const {
         if (!ground || from != position || !world.contains(ground)) return Vec<D>(0.0f);
         const Pose<D> now = world.pose(ground);
         if (now == ground_pose) return Vec<D>(0.0f);
@@ -73,39 +73,40 @@ Moved<D> Mover<D>::move_convex(const World<D>& world, const Convex<D>& shape, co
     Memory& memory = *memory_;
     memory.touches.clear();
     const auto goes_through = [&](const NearContact<D>& contact) { return (*passes)(touch_of(contact)); };
-    const Passes<D> asks(goes_through);
-    NearSurface<D>& near = memory.near;
-    near.begin(world, options_.filter, shape, DVec<D>(position), passes != nullptr ? &asks : nullptr);
+    const Passes<D> filter(goes_through);
+    NearbySurface<D>& near = memory.near;
+    near.begin(world, options_.filter, shape, DVec<D>(position), passes != nullptr ? &filter : nullptr);
 
-    WalkRules<D> rules;
-    rules.up = normalized(DVec<D>(options_.up), DVec<D>(0.0));
-    rules.step_height = static_cast<double>(options_.step_height);
-    rules.stick = static_cast<double>(options_.stick);
-    rules.least_rise = least_rise(options_.steepest);
-    rules.skin = options_.skin > 0 ? static_cast<double>(options_.skin) : 0.01 * near.size();
+    MoveSettings<D> settings;
+    settings.up = normalized(DVec<D>(options_.up), DVec<D>(0.0));
+    settings.step_height = static_cast<double>(options_.step_height);
+    settings.snap_distance = static_cast<double>(options_.stick);
+    settings.min_rise = min_rise_for(options_.steepest);
+    settings.skin = options_.skin > 0 ? static_cast<double>(options_.skin) : 0.01 * near.size();
 
-    // What it will probably ask about, at once.
-    const DVec<D> wanted(motion);
-    const DVec<D> ridden(memory.ride(world, position));
-    near.expect(ridden + wanted, rules.up * rules.skin, rules.up * -rules.stick, 4 * rules.skin);
+    // The region that the move will probably need.
+    const DVec<D> requested(motion);
+    const DVec<D> carried(memory.carried_by_ground(world, position));
+    near.prefetch(carried + requested, settings.up * settings.skin, settings.up * -settings.snap_distance,
+                  4 * settings.skin);
 
-    Walk<D> walk(near, rules, DVec<D>(position), memory.touches);
-    if (ridden != DVec<D>(0.0)) walk.go_along(ridden);
-    result.carried = to_float(walk.at() - DVec<D>(position));
-    result.pushed = to_float(walk.get_out());
+    MoveAndSlide<D> solver(near, settings, DVec<D>(position), memory.touches);
+    if (carried != DVec<D>(0.0)) solver.carry(carried);
+    result.carried = to_float(solver.at() - DVec<D>(position));
+    result.pushed = to_float(solver.separate());
 
-    const bool walks = dot(wanted, rules.up) <= 1e-6 * length(wanted);
-    const bool stood = walks && walk.ground() != nullptr;
-    walk.slide(wanted);
-    if (stood) walk.stick();
+    const bool may_stand = dot(requested, settings.up) <= 1e-6 * length(requested);
+    const bool stood_before = may_stand && solver.ground() != nullptr;
+    solver.slide(requested);
+    if (stood_before) solver.snap_to_ground();
 
-    walk.tell_contacts();
-    result.position = to_float(walk.at());
-    result.motion = to_float(walk.allowed(wanted));
-    result.crushed = walk.depth() > 0.1 * rules.skin;
+    solver.report_contacts();
+    result.position = to_float(solver.at());
+    result.motion = to_float(solver.allowed(requested));
+    result.crushed = solver.depth() > 0.1 * settings.skin;
     memory.ground = {};
-    const NearContact<D>* ground = walks ? walk.ground() : nullptr;
-    if (ground == nullptr && walks) ground = walk.groove();
+    const NearContact<D>* ground = may_stand ? solver.ground() : nullptr;
+    if (ground == nullptr && may_stand) ground = solver.supporting_groove();
     if (ground != nullptr) {
         result.grounded = true;
         result.ground = touch_of(*ground);

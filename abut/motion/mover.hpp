@@ -1,6 +1,6 @@
 #pragma once
 
-// Move and slide: a character that walks through a world.
+// Move and slide: a character controller.
 
 #include <abut/world/world.hpp>
 
@@ -9,15 +9,15 @@
 
 namespace abut {
 
-/// Lengths are of the world, angles in radians.
+/// Lengths are in world units, angles in radians.
 template <int D>
 struct MoverOptions {
-    Vec<D> up = second_axis();  ///< of any length; 0: there is none, such as seen from above or in water, and no ground
-    float step_height = 0.3f;   ///< steps and edges up to so high are climbed
-    float steepest = 0.87f;     ///< slopes that rise by at most this angle are ground; what is steeper is a wall
-    float stick = 0.3f;         ///< on its way it is kept to ground that sinks by up to so much, for each move
-    float skin = 0;             ///< the gap that it keeps to all things, about; 0: a hundredth of the shape's size
-    Filter filter{};            ///< what it meets; the character itself, if it is in the world, is to be ignored
+    Vec<D> up = second_axis();  ///< of any length; 0: there is no up (top-down view, water), and no ground
+    float step_height = 0.3f;   ///< maximum height of steps and edges that are climbed
+    float steepest = 0.87f;     ///< maximum slope angle of ground; steeper slopes are walls
+    float stick = 0.3f;         ///< maximum drop per move over which it is snapped down to the ground
+    float skin = 0;             ///< gap kept to all obstacles, approximately; 0: a hundredth of the shape's size
+    Filter filter{};            ///< what it collides with; must exclude the character itself if it is in the world
 
 private:
     static constexpr Vec<D> second_axis() {
@@ -27,36 +27,36 @@ private:
     }
 };
 
-/// What it meets: where, and how.
+/// A contact of the mover.
 template <int D>
 struct MoverTouch {
     Id id;
-    Feature feature{};        ///< of what is met
-    Vec<D> point{};           ///< on its surface
-    Vec<D> normal{};          ///< of length 1, facing the mover, as the surface is felt
-    bool is_ground = false;   ///< it can be stood on
-    bool overlapped = false;  ///< told to `passes` alone: the mover was in it at the start of the move
+    Feature feature{};        ///< feature of the obstacle
+    Vec<D> point{};           ///< point on the obstacle's surface
+    Vec<D> normal{};          ///< unit normal of the surface, facing the mover
+    bool is_ground = false;   ///< true: the mover can stand on it
+    bool overlapped = false;  ///< only for `passes`: the mover overlapped it at the start of the move
 };
 
 template <int D>
 struct Moved {
-    Vec<D> position{};  ///< where it is now
-    Vec<D> motion{};    ///< what is left of the motion that was asked for, as all that touches allows: for the velocity
-    Vec<D> carried{};   ///< how far the ground took it along before that, in `position`
-    Vec<D> pushed{};    ///< how far it was pushed out of what it was in, in `position`
-    bool grounded = false;   ///< stands on something, or is held up by walls that leave no way down
-    MoverTouch<D> ground{};  ///< if grounded: on what
-    bool crushed = false;    ///< is in something, and there is no way out
-    /// What it touches and what it ran against, once each, sorted by id and part; a field once for each of its sides.
-    /// Valid until the next move.
+    Vec<D> position{};       ///< the new position
+    Vec<D> motion{};         ///< the requested motion as far as the contacts allow it; for the velocity
+    Vec<D> carried{};        ///< translation by the moving ground, included in `position`
+    Vec<D> pushed{};         ///< depenetration push, included in `position`
+    bool grounded = false;   ///< stands on ground, or is supported by walls that leave no way down
+    MoverTouch<D> ground{};  ///< the ground contact, if grounded
+    bool crushed = false;    ///< overlaps something and can't be separated
+    /// Contacts at the end and obstacles that stopped it, once each, sorted by id and part; a field appears once for
+    /// each of its surface planes. Valid until the next move.
     std::span<const MoverTouch<D>> touches;
 };
 
-/// Whether the mover goes through what it meets, such as a platform from below.
+/// Returns true if the mover passes through the contact, such as a platform from below.
 template <int D>
 using MoverPasses = FunctionRef<bool(const MoverTouch<D>&)>;
 
-/// A platform that is stood on, and passed from below and from the sides. For `passes`.
+/// A one-way platform: solid from above, passable from below and from the sides. For `passes`.
 template <int D>
 bool passes_one_way(const MoverTouch<D>& touch, const Vec<D>& up) {
     float rise = 0;
@@ -64,18 +64,17 @@ bool passes_one_way(const MoverTouch<D>& touch, const Vec<D>& up) {
     return touch.overlapped || rise < 0.5f;
 }
 
-/// One for each character: it remembers the ground, to ride on it, and keeps its memory, so that moves don't allocate
-/// once warm. A move looks at the world as it is, and changes nothing in it.
+/// A character controller; each character needs its own. It remembers the ground, to move with it, and its buffers, so
+/// moves don't allocate once warm. A move doesn't change the world.
 ///
-/// What a move does: it goes along with the ground if that has moved since; gets out of what it is in; then goes the
-/// way asked, slides along what it meets and around corners, climbs steps, and goes down to ground that sinks. Every
-/// way it goes has been swept, so that it never ends in anything, unless it is crushed. It never goes farther than
-/// asked, but for climbing and sinking. A motion with a part along `up` leaves the ground.
+/// A move first follows the ground if that has moved, then separates from what it overlaps. Then it moves by the
+/// requested motion, slides along obstacles and around corners, climbs steps, and snaps down to sinking ground. Every
+/// translation is swept, so it never ends in an obstacle unless it is crushed. It never moves farther than requested,
+/// except for climbing and snapping. A motion with a component along `up` leaves the ground.
 ///
-/// On ground it goes along the slope at the speed asked, and what pulls it down is left out: it doesn't creep. Against
-/// a wall, or a slope that is too steep, what is left of the motion is the nearest one that all planes of contact
-/// allow at once, so it comes to rest in corners of any angle and stays there. What it slides over has no seams, see
-/// each_contact.
+/// On ground it moves along the slope at the requested speed; the downward component is dropped, so it doesn't creep.
+/// Against walls and steep slopes the remaining motion is the nearest one that all contact planes allow at once, so it
+/// comes to rest in corners of any angle. Internal edges of the surface cause no ghost collisions, see each_contact.
 ///
 /// In the spirit of b2World_CollideMover and b2SolvePlanes of Box2D 3.1, and of the clipped velocities of Quake.
 template <int D>
@@ -89,14 +88,14 @@ public:
     const MoverOptions<D>& options() const { return options_; }
     void set_options(const MoverOptions<D>& options);
 
-    /// Moves a convex shape, which is about the mover's position. What is not finite trips ABUT_ASSERT and stays where
-    /// it is.
+    /// Moves a convex shape, given relative to the mover's position. Input that isn't finite trips ABUT_ASSERT and
+    /// doesn't move.
     template <Shape S>
     requires(detail::is_convex_view<detail::ViewOf<S>>&& dimension<S> ==
              D) Moved<D> move(const World<D>& world, const S& shape, const Vec<D>& position, const Vec<D>& motion) {
         return move_convex(world, view(shape), position, motion, nullptr);
     }
-    /// The same where `passes` is asked whether what it meets is passed.
+    /// The overload with a filter: `passes` is called for each contact and returns true to pass through it.
     template <Shape S>
     requires(detail::is_convex_view<detail::ViewOf<S>>&& dimension<S> ==
              D) Moved<D> move(const World<D>& world, const S& shape, const Vec<D>& position, const Vec<D>& motion,

@@ -1,14 +1,13 @@
 #pragma once
 
-// From one arrangement of things to another, by moving one at a time.
+// Rearrangement: moves shapes from one arrangement to another, one at a time.
 
 #include <abut/math/pose.hpp>
 #include <abut/motion/removal_order.hpp>
 
 namespace abut {
 
-/// One thing moves straight from one place to another, without turning; or it turns about its place, which then stays
-/// the same, by any way it likes.
+/// One move of one shape: a translation without rotation, or a rotation in place by any path.
 template <int D>
 struct Move {
     std::uint32_t shape = 0;
@@ -17,15 +16,15 @@ struct Move {
 
 template <int D>
 struct Rearrangement {
-    std::vector<Move<D>> moves;        ///< in this order, each from where the shape was left
-    std::vector<std::uint32_t> stuck;  ///< empty, or shapes that block one another: then there are no moves
+    std::vector<Move<D>> moves;        ///< in order; each starts where the shape was left
+    std::vector<std::uint32_t> stuck;  ///< empty on success; else shapes that block one another, and there are no moves
 
     explicit operator bool() const { return stuck.empty(); }
 };
 
 template <int D>
 struct RearrangeOptions {
-    Vec<D> away = last_axis();  ///< the way to where there is room without end; of any length but zero
+    Vec<D> away = last_axis();  ///< direction towards unlimited free space; of any length but zero
 
 private:
     static constexpr Vec<D> last_axis() {
@@ -35,17 +34,17 @@ private:
     }
 };
 
-/// Moves that take the shapes, each on top of the position it carries itself, from one list of poses to another. None
-/// runs into another by more than the margin of doubt: each straight move was tried by `sweep`, and things turn only
-/// where nothing is within reach. In neither arrangement do shapes overlap by more than that.
+/// Plans moves that take the shapes from one list of poses to another; poses apply after the shapes' own positions. No
+/// shape penetrates another by more than the tolerance: each translation is verified by `sweep`, and shapes rotate only
+/// where nothing is within reach. In both arrangements shapes must not overlap by more than the tolerance.
 ///
-/// What can go straight to its place does so; what stands right and in nobody's way stays. The others, and what lies
-/// above them, are taken away in a removal order, each to a place of its own beyond all others, and brought back in the
-/// reverse removal order of the new arrangement: at most five moves each.
+/// Shapes that can move straight to their target do so first; a shape that is in place and blocks nothing stays. The
+/// others, and the shapes above them, are removed in a disassembly order, each to a place of its own beyond all others,
+/// and returned in the reverse disassembly order of the new arrangement: at most five moves each.
 ///
-/// In 2D, with room in one direction, that always succeeds. In 3D the shapes of either arrangement may block one
-/// another along `away`; then the axes are tried, and if they do along each of them, those that do along `away` are
-/// named. Lists of different lengths, NaN and infinity trip ABUT_ASSERT, and name all as stuck.
+/// In 2D this always succeeds if one direction is free. In 3D the shapes of either arrangement may block one another
+/// along `away`; then the axes are tried. If all fail, `stuck` holds the shapes that block one another along `away`.
+/// Lists of different lengths, NaN and infinity trip ABUT_ASSERT, and all shapes are stuck.
 template <int D>
 Rearrangement<D> rearrange(std::span<const Convex<D>> shapes, std::span<const Pose<D>> from,
                            std::span<const Pose<D>> to, const RearrangeOptions<D>& options = {});

@@ -1,8 +1,8 @@
 #pragma once
 
-// In which order things can be taken away, one at a time and all in one direction.
+// Disassembly order: the order in which shapes can be removed, one at a time, along one direction.
 
-#include <abut/shape/view.hpp>
+#include <abut/shape/view/view.hpp>
 
 #include <cstdint>
 #include <iterator>
@@ -12,26 +12,27 @@
 namespace abut {
 
 struct RemovalOrder {
-    /// Indices of shapes: the first leaves first. All of them; or those that can leave before the others block one
-    /// another.
+    /// Indices of the shapes in order of removal. If the shapes block one another, only those that can be removed
+    /// before.
     std::vector<std::uint32_t> order;
-    /// Empty where all can leave. Else each of these shapes is blocked by the one after it, and the last by the first.
+    /// Empty if all shapes can be removed. Else each of these shapes is blocked by the next one, and the last by the
+    /// first.
     std::vector<std::uint32_t> cycle;
 
     explicit operator bool() const { return cycle.empty(); }
 };
 
-/// An order in which the shapes can be moved away along `direction` (of any length but zero), each as far as one likes,
-/// without running into those that are still there. To slide along another is no obstacle, and neither is one that is
-/// met by no more than the margin of doubt to the side. Of several that could leave next it is the lowest index.
+/// Finds an order in which the shapes can be translated along `direction` (of any length but zero) to infinity without
+/// penetrating the remaining ones. Sliding along a shape doesn't block, and neither does an overlap of the projections
+/// by no more than the tolerance. Of several removable shapes the lowest index goes first.
 ///
-/// In 2D there always is one, for shapes that overlap by no more than that margin (Guibas, Yao, "On translating a set
-/// of rectangles", 1980): O(n log n). In 3D there always is one for balls, and for axis-aligned boxes along an axis;
-/// other shapes may block one another, as three sticks can: then a cycle of them is named. O(n log n) and a look at
-/// each pair of which one's box passes the other's.
+/// In 2D an order always exists for shapes that overlap by no more than the tolerance (Guibas, Yao, "On translating a
+/// set of rectangles", 1980): O(n log n). In 3D it always exists for balls, and for axis-aligned boxes along an axis.
+/// Other shapes may block one another, as three rods can; then the cycle is reported. 3D takes O(n log n) and a test of
+/// each pair whose swept boxes overlap.
 ///
-/// NaN and infinity trip ABUT_ASSERT; in release a shape with one blocks nothing and is blocked by nothing, and along a
-/// direction with one, or of no length, nothing is blocked.
+/// NaN and infinity trip ABUT_ASSERT. In release such a shape blocks nothing and isn't blocked; along an invalid
+/// direction nothing is blocked.
 template <int D>
 RemovalOrder removal_order(std::span<const Convex<D>> shapes, const Vec<D>& direction);
 
@@ -42,7 +43,7 @@ using ElementOf = std::remove_cvref_t<decltype(*std::begin(std::declval<const Sh
 
 }  // namespace detail
 
-/// Many convex shapes of one type, such as a std::vector<Polygon>.
+/// A range of convex shapes of one type, such as a std::vector<Polygon>.
 template <class Shapes>
 concept ConvexShapes =
     Shape<detail::ElementOf<Shapes>> && detail::is_convex_view<detail::ViewOf<detail::ElementOf<Shapes>>>;

@@ -1,4 +1,4 @@
-#include <abut/convex/gjk.hpp>
+#include <abut/convex/gjk/gjk.hpp>
 #include <abut/query/certify.hpp>
 #include <abut/query/function_there.hpp>
 #include <abut/query/part_pairs.hpp>
@@ -11,7 +11,7 @@ template <int D, class Visit>
 void with_part(const View<D>& shape, std::uint32_t number, Visit&& visit) {
     if (const auto* convex = std::get_if<Convex<D>>(&shape))
         visit(*convex);
-    else if (const auto* solid = std::get_if<Solid<D>>(&shape))
+    else if (const auto* solid = std::get_if<HalfSpaceView<D>>(&shape))
         visit(*solid);
     else if (const auto* function = std::get_if<DistanceFunction<D>>(&shape))
         visit(*function);
@@ -28,7 +28,7 @@ double extent(const Convex<D>& part, const DVec<D>& direction, const DVec<D>& or
     return dot(direction, core_support(part, direction).position - origin) + part.radius;
 }
 template <int D>
-double extent(const Solid<D>& part, const DVec<D>& direction, const DVec<D>& origin) {
+double extent(const HalfSpaceView<D>& part, const DVec<D>& direction, const DVec<D>& origin) {
     const bool along = length_squared(direction - part.normal) <= 1e-12;
     return along ? part.offset - dot(part.normal, origin) : std::numeric_limits<double>::infinity();
 }
@@ -40,7 +40,7 @@ double outside(const Convex<D>& part, const DVec<D>& point) {
     return std::max(0.0, part_distance(part, as_shape, {}).distance);
 }
 template <int D>
-double outside(const Solid<D>& part, const DVec<D>& point) {
+double outside(const HalfSpaceView<D>& part, const DVec<D>& point) {
     return std::max(0.0, dot(part.normal, point) - part.offset);
 }
 
@@ -57,11 +57,11 @@ DVec<D> common_point(const Convex<D>& a, const Convex<D>& b) {
     return difference.origin() + on_a + normalized(between) * along;
 }
 template <int D>
-DVec<D> common_point(const Convex<D>& a, const Solid<D>& b) {
+DVec<D> common_point(const Convex<D>& a, const HalfSpaceView<D>& b) {
     return support(a, -b.normal);
 }
 template <int D>
-DVec<D> common_point(const Solid<D>& a, const Convex<D>& b) {
+DVec<D> common_point(const HalfSpaceView<D>& a, const Convex<D>& b) {
     return common_point(b, a);
 }
 
@@ -86,12 +86,12 @@ double margin_of(const Convex<D>& a, const Convex<D>& b) {
            16 * unit_in_the_last_place(std::max(reach(a, origin), reach(b, origin)));
 }
 template <int D>
-double margin_of(const Convex<D>& a, const Solid<D>& b) {
+double margin_of(const Convex<D>& a, const HalfSpaceView<D>& b) {
     const double beyond = std::abs(extent(a, -b.normal, DVec<D>(0.0)) + b.offset);
     return 1e-5 * size(a) + 16 * unit_in_the_last_place(std::max(2 * size(a), beyond));
 }
 template <int D>
-double margin_of(const Solid<D>& a, const Convex<D>& b) {
+double margin_of(const HalfSpaceView<D>& a, const Convex<D>& b) {
     return margin_of(b, a);
 }
 /// How far rounding the coordinates of a point to floats moves it at most.
@@ -158,7 +158,8 @@ Measured<D> measured(const Convex<D>& a, const DistanceFunction<D>& b, const DVe
     return {there - a.radius, outside(core, deepest), common};
 }
 template <int D>
-Measured<D> measured(const DistanceFunction<D>& a, const Solid<D>& b, const DVec<D>& on_a, const DVec<D>&, double) {
+Measured<D> measured(const DistanceFunction<D>& a, const HalfSpaceView<D>& b, const DVec<D>& on_a, const DVec<D>&,
+                     double) {
     return {dot(b.normal, on_a) - b.offset, outside(a, on_a), on_a};
 }
 template <int D>
@@ -203,8 +204,8 @@ Certificate<D> certify(const View<D>& a, const View<D>& b, const Closest<D>& ans
     Certificate<D> result;
     with_part(a, answer.feature_a.part, [&](const auto& part_a) {
         with_part(b, answer.feature_b.part, [&](const auto& part_b) {
-            constexpr bool solids =
-                std::is_same_v<decltype(part_a), const Solid<D>&> && std::is_same_v<decltype(part_b), const Solid<D>&>;
+            constexpr bool solids = std::is_same_v<decltype(part_a), const HalfSpaceView<D>&> &&
+                                    std::is_same_v<decltype(part_b), const HalfSpaceView<D>&>;
             if constexpr (!solids) result = certificate<D>(part_a, part_b, answer);
         });
     });

@@ -34,8 +34,8 @@ Certificate<D> certify(const View<D>& a, const View<D>& b, const Closest<D>& ans
 template <class A, class B>
 requires Pair<A, B> Certificate<dimension<A>> certify(const A& a, const B& b, const Closest<dimension<A>>& answer) {
     constexpr int D = dimension<A>;
-    return detail::ask_view(a, [&](const View<D>& x) {
-        return detail::ask_view(b, [&](const View<D>& y) { return certify(x, y, answer); });
+    return detail::with_view(a, [&](const View<D>& x) {
+        return detail::with_view(b, [&](const View<D>& y) { return certify(x, y, answer); });
     });
 }
 template <class A, class B, class Why = detail::WhyNoPair<A, B>>

@@ -1,5 +1,5 @@
 #include <abut/convex/features.hpp>
-#include <abut/convex/round_pairs.hpp>
+#include <abut/convex/pairs/round3.hpp>
 #include <abut/query/closed_form.hpp>
 
 namespace abut {
@@ -91,7 +91,7 @@ template <int D>
 bool closed_form(const Convex<D>& a, const Convex<D>& b, SignedDistance<D>& result) {
     if (complexity(b) <= complexity(a)) return distance_from(a, b, result);
     if (!distance_from(b, a, result)) return false;
-    turn_round(result);
+    swap_roles(result);
     return true;
 }
 

@@ -4,7 +4,7 @@
 // another, a segment, a triangle, a box or a polygon of few sides, or deep in a polyhedron; a segment against another,
 // a triangle or a box. For .cpp files.
 
-#include <abut/convex/signed_distance.hpp>
+#include <abut/convex/gjk/signed_distance.hpp>
 
 namespace abut {
 

@@ -16,7 +16,7 @@ template <int D, class Other, class Visit>
 void each_part_within_reach(const View<D>& shape, const Other& other, Visit&& visit) {
     if (const auto* convex = std::get_if<Convex<D>>(&shape))
         visit(*convex, 0u);
-    else if (const auto* solid = std::get_if<Solid<D>>(&shape))
+    else if (const auto* solid = std::get_if<HalfSpaceView<D>>(&shape))
         visit(*solid, 0u);
     else if (const auto* function = std::get_if<DistanceFunction<D>>(&shape))
         visit(*function, 0u);
@@ -34,7 +34,7 @@ public:
     void search(const View<D>& a, const View<D>& b) {
         if (const auto* convex = std::get_if<Convex<D>>(&b))
             look_around<false>(a, *convex, 0);
-        else if (const auto* solid = std::get_if<Solid<D>>(&b))
+        else if (const auto* solid = std::get_if<HalfSpaceView<D>>(&b))
             look_around<false>(a, *solid, 0);
         else if (const auto* function = std::get_if<DistanceFunction<D>>(&b))
             look_around<false>(a, *function, 0);
@@ -69,7 +69,7 @@ private:
             if constexpr (is_convex && std::is_same_v<Other, Convex<D>>)
                 if (any_ && vicinity && least_.distance > 0 && vicinity->is_beyond(other, least_.distance))
                     return reach();
-            if constexpr (std::is_same_v<Part, Solid<D>> && std::is_same_v<Part, Other>)
+            if constexpr (std::is_same_v<Part, HalfSpaceView<D>> && std::is_same_v<Part, Other>)
                 ABUT_ASSERT(two_half_spaces_pair);
             else if constexpr (of_a)
                 look_at(part, index, other, other_index);
@@ -113,7 +113,7 @@ void answer(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& optio
 
 /// Kept out of what is hot, where it would take up room.
 template <int D>
-[[gnu::noinline]] void by_views(const Given<D>& a, const Given<D>& b, const QueryOptions<D>& options,
+[[gnu::noinline]] void by_views(const ShapeRef<D>& a, const ShapeRef<D>& b, const QueryOptions<D>& options,
                                 Closest<D>& result) {
     answer(convex_of(a), convex_of(b), options, result);
 }
@@ -128,7 +128,7 @@ Closest<D> closest(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>
 }
 
 template <int D>
-Closest<D> closest(const Given<D>& a, const Given<D>& b, const QueryOptions<D>& options) {
+Closest<D> closest(const ShapeRef<D>& a, const ShapeRef<D>& b, const QueryOptions<D>& options) {
     Closest<D> result;
     if (options.trace != nullptr || !direct_closest(a, b, options.cache, result)) by_views(a, b, options, result);
     return result;
@@ -148,6 +148,6 @@ template Closest<2> closest(const View<2>&, const View<2>&, const QueryOptions<2
 template Closest<3> closest(const View<3>&, const View<3>&, const QueryOptions<3>&);
 template Closest<2> closest(const Convex<2>&, const Convex<2>&, const QueryOptions<2>&);
 template Closest<3> closest(const Convex<3>&, const Convex<3>&, const QueryOptions<3>&);
-template Closest<3> closest(const Given<3>&, const Given<3>&, const QueryOptions<3>&);
+template Closest<3> closest(const ShapeRef<3>&, const ShapeRef<3>&, const QueryOptions<3>&);
 
 }  // namespace abut

@@ -5,7 +5,7 @@
 #include <abut/query/feature.hpp>
 #include <abut/query/options.hpp>
 #include <abut/shape/ball.hpp>
-#include <abut/shape/refused.hpp>
+#include <abut/shape/view/constraints.hpp>
 
 #include <limits>
 
@@ -36,9 +36,9 @@ Closest<D> closest(const View<D>& a, const View<D>& b, const QueryOptions<D>& op
 template <int D>
 Closest<D> closest(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options = {});
 template <int D>
-Closest<D> closest(const Given<D>& a, const Given<D>& b, const QueryOptions<D>& options = {});
+Closest<D> closest(const ShapeRef<D>& a, const ShapeRef<D>& b, const QueryOptions<D>& options = {});
 template <>
-Closest<2> closest(const Given<2>& a, const Given<2>& b, const QueryOptions<2>& options);
+Closest<2> closest(const ShapeRef<2>& a, const ShapeRef<2>& b, const QueryOptions<2>& options);
 
 /// The signed distance of two shapes with the points and direction it is measured at.
 /// Right to within 1e-5 x the size of the smaller; the depth of cylinders, cones and shapes known by a support function
@@ -46,7 +46,7 @@ Closest<2> closest(const Given<2>& a, const Given<2>& b, const QueryOptions<2>& 
 template <class A, class B>
 requires Pair<A, B> Closest<dimension<A>> closest(const A& a, const B& b,
                                                   const QueryOptions<dimension<A>>& options = {}) {
-    return detail::ask(a, b, [&](const auto& x, const auto& y) { return closest(x, y, options); });
+    return detail::with_views(a, b, [&](const auto& x, const auto& y) { return closest(x, y, options); });
 }
 template <class A, class B, class Why = detail::WhyNoPair<A, B>>
 requires(!(Shape<A> && detail::PointIn<B, detail::dimension_or_3<A>>)) auto closest(

@@ -9,11 +9,11 @@ using namespace placed_sides;
 template <class Core>
 inline void write(const SideAndCorner<Core>& found, const Placed<Core>& reference, const Placed<Core>& other,
                   std::uint32_t side, std::uint32_t corner, bool reference_is_a, Closest<2>& result) {
-    const Both out = found.normal * reference.place.scale, on_other = other.place.position + found.arm;
+    const Double2 out = found.normal * reference.place.scale, on_other = other.place.position + found.arm;
     static constexpr double towards_b[2] = {-1, 1};
     result.distance = static_cast<float>(found.gap);
-    lanes::store(out * lanes::both(towards_b[reference_is_a ? 1 : 0]), &result.normal.x);
-    lanes::store(on_other - out * lanes::both(found.gap), reference_is_a ? &result.on_a.x : &result.on_b.x);
+    lanes::store(out * lanes::double2(towards_b[reference_is_a ? 1 : 0]), &result.normal.x);
+    lanes::store(on_other - out * lanes::double2(found.gap), reference_is_a ? &result.on_a.x : &result.on_b.x);
     lanes::store(on_other, reference_is_a ? &result.on_b.x : &result.on_a.x);
     name_side(reference.core, side, reference_is_a ? result.feature_a : result.feature_b);
     name_corner(other.core.number(corner), reference_is_a ? result.feature_b : result.feature_a);
@@ -23,9 +23,9 @@ inline void write(const SideAndCorner<Core>& found, const Placed<Core>& referenc
 template <class Core>
 [[gnu::always_inline]] inline bool closest_corners(const Placed<Core>& a, const Placed<Core>& b, std::uint32_t corner_a,
                                                    std::uint32_t corner_b, Closest<2>& result) {
-    const Both arm_a = a.place.vector(a.core.corner(corner_a)) * a.place.scale;
-    const Both arm_b = b.place.vector(b.core.corner(corner_b)) * b.place.scale;
-    const Both between = (b.place.position - a.place.position) + (arm_b - arm_a);
+    const Double2 arm_a = a.place.vector(a.core.corner(corner_a)) * a.place.scale;
+    const Double2 arm_b = b.place.vector(b.core.corner(corner_b)) * b.place.scale;
+    const Double2 between = (b.place.position - a.place.position) + (arm_b - arm_a);
     const double square = lanes::dot(between, between)[0];
     if (!(square > 0 && square < without_end && a.core.is_farthest(corner_a, a.place.back(between)) &&
           b.core.is_farthest(corner_b, -b.place.back(between))))
@@ -33,7 +33,7 @@ template <class Core>
     // The root and the quotient side by side, not one after the other.
     const double gap = std::sqrt(square), per_gap = gap * (1 / square);
     result.distance = static_cast<float>(gap);
-    lanes::store(between * lanes::both(per_gap), &result.normal.x);
+    lanes::store(between * lanes::double2(per_gap), &result.normal.x);
     lanes::store(a.place.position + arm_a, &result.on_a.x);
     lanes::store(b.place.position + arm_b, &result.on_b.x);
     name_corner(a.core.number(corner_a), result.feature_a);
@@ -61,7 +61,7 @@ inline void remember_axis(const Closest<2>& result, Cache& cache) {
 
 /// What was nearest last time is so still: the same corner before the same side, or the same two corners.
 template <class Core>
-inline bool closest_again(const Given<2>& given_a, const Given<2>& given_b, Cache& cache, Closest<2>& result) {
+inline bool closest_again(const ShapeRef<2>& given_a, const ShapeRef<2>& given_b, Cache& cache, Closest<2>& result) {
     if (cache.count == 0 || cache.count > 2) return false;
     Placed<Core> a(given_a), b(given_b);
     const std::uint32_t number_a = cache.corner_a[0], number_b = cache.corner_b[0];
@@ -78,12 +78,12 @@ inline bool closest_again(const Given<2>& given_a, const Given<2>& given_b, Cach
 /// From the side with the widest gap: the other's lowest corner is before it, or before one of its ends. Where they
 /// overlap, the least move apart is along that side's normal.
 template <class Core>
-[[gnu::noinline]] bool closest_anew(const Given<2>& given_a, const Given<2>& given_b, Cache* cache,
+[[gnu::noinline]] bool closest_anew(const ShapeRef<2>& given_a, const ShapeRef<2>& given_b, Cache* cache,
                                     Closest<2>& result) {
     Placed<Core> a(given_a), b(given_b);
     if (!set_scales(a.place, b.place)) return false;
     Rigid2 seen[2];
-    SideGap widest;
+    EdgeGap widest;
     if (!find_widest(a, b, seen, widest)) return false;
     const bool a_is_reference = widest.of == 0;
     const Placed<Core>&reference = a_is_reference ? a : b, &other = a_is_reference ? b : a;
@@ -108,7 +108,7 @@ template <class Core>
 }
 
 template <class Core>
-bool closest_of(const Given<2>& a, const Given<2>& b, Cache* cache, Closest<2>& result) {
+bool closest_of(const ShapeRef<2>& a, const ShapeRef<2>& b, Cache* cache, Closest<2>& result) {
     return (cache != nullptr && closest_again<Core>(a, b, *cache, result)) || closest_anew<Core>(a, b, cache, result);
 }
 
@@ -116,8 +116,8 @@ template <class Core>
 inline bool parts(const Placed<Core>& reference, const Placed<Core>& other, std::uint32_t number, double reach) {
     if (number >= reference.core.count()) return false;
     const std::uint32_t side = reference.core.number(number);
-    const Both normal = reference.place.vector(reference.core.normal(side));
-    const Both between = other.place.position - reference.place.position;
+    const Double2 normal = reference.place.vector(reference.core.normal(side));
+    const Double2 between = other.place.position - reference.place.position;
     const double lowest =
         other.core.lowest(other.place.back(normal)) * (reference.place.scale[0] * other.place.scale[0]);
     const double away = lanes::dot(normal, between)[0] * reference.place.scale[0];
@@ -127,7 +127,7 @@ inline bool parts(const Placed<Core>& reference, const Placed<Core>& other, std:
 }
 
 template <class Core>
-bool parted(const Given<2>& given_a, const Given<2>& given_b, const Cache& cache, double reach) {
+bool parted(const ShapeRef<2>& given_a, const ShapeRef<2>& given_b, const Cache& cache, double reach) {
     Placed<Core> a(given_a), b(given_b);
     if (!set_scales(a.place, b.place)) return false;
     return cache.corner_a[0] != cache.corner_a[1] ? parts(a, b, cache.corner_a[0], reach)
@@ -136,12 +136,12 @@ bool parted(const Given<2>& given_a, const Given<2>& given_b, const Cache& cache
 
 }  // namespace
 
-bool closest_polygons(const Given<2>& a, const Given<2>& b, Cache* cache, Closest<2>& result) {
+bool closest_polygons(const ShapeRef<2>& a, const ShapeRef<2>& b, Cache* cache, Closest<2>& result) {
     if (is_polygon(a) && is_polygon(b)) return closest_of<PolygonCore>(a, b, cache, result);
     return is_box(a) && is_box(b) && closest_of<BoxCore>(a, b, cache, result);
 }
 
-bool parted_again(const Given<2>& a, const Given<2>& b, const Cache& cache, double reach) {
+bool parted_again(const ShapeRef<2>& a, const ShapeRef<2>& b, const Cache& cache, double reach) {
     if (cache.count != 2) return false;
     if (is_polygon(a) && is_polygon(b)) return parted<PolygonCore>(a, b, cache, reach);
     return is_box(a) && is_box(b) && parted<BoxCore>(a, b, cache, reach);

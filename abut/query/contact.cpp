@@ -116,7 +116,7 @@ ContactAmong<D> only_contact(const View<D>& a, const View<D>& b, const Deepest<D
 
 /// Kept out of what is hot, where it would take up room.
 template <int D>
-[[gnu::noinline]] void by_views(const Given<D>& a, const Given<D>& b, const QueryOptions<D>& options,
+[[gnu::noinline]] void by_views(const ShapeRef<D>& a, const ShapeRef<D>& b, const QueryOptions<D>& options,
                                 Contact<D>& result) {
     answer(convex_of(a), convex_of(b), options, result);
 }
@@ -132,7 +132,7 @@ Contact<D> contact(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>
 }
 
 template <int D>
-Contact<D> contact(const Given<D>& a, const Given<D>& b, const QueryOptions<D>& options) {
+Contact<D> contact(const ShapeRef<D>& a, const ShapeRef<D>& b, const QueryOptions<D>& options) {
     Contact<D> result;
     result.normal[0] = 1;
     if (options.trace != nullptr || !direct_contact(a, b, static_cast<double>(options.margin), options.cache, result))
@@ -181,6 +181,6 @@ template Contact<2> contact(const View<2>&, const View<2>&, const QueryOptions<2
 template Contact<3> contact(const View<3>&, const View<3>&, const QueryOptions<3>&);
 template Contact<2> contact(const Convex<2>&, const Convex<2>&, const QueryOptions<2>&);
 template Contact<3> contact(const Convex<3>&, const Convex<3>&, const QueryOptions<3>&);
-template Contact<3> contact(const Given<3>&, const Given<3>&, const QueryOptions<3>&);
+template Contact<3> contact(const ShapeRef<3>&, const ShapeRef<3>&, const QueryOptions<3>&);
 
 }  // namespace abut

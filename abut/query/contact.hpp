@@ -4,7 +4,7 @@
 
 #include <abut/query/feature.hpp>
 #include <abut/query/options.hpp>
-#include <abut/shape/refused.hpp>
+#include <abut/shape/view/constraints.hpp>
 
 #include <array>
 #include <cstddef>
@@ -63,16 +63,16 @@ Contact<D> contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& op
 template <int D>
 Contact<D> contact(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options = {});
 template <int D>
-Contact<D> contact(const Given<D>& a, const Given<D>& b, const QueryOptions<D>& options = {});
+Contact<D> contact(const ShapeRef<D>& a, const ShapeRef<D>& b, const QueryOptions<D>& options = {});
 template <>
-Contact<2> contact(const Given<2>& a, const Given<2>& b, const QueryOptions<2>& options);
+Contact<2> contact(const ShapeRef<2>& a, const ShapeRef<2>& b, const QueryOptions<2>& options);
 
 /// The contact of two touching or overlapping shapes; of composite ones, of their deepest pair of parts, or, where that
 /// isn't felt, the deepest that each_contact tells. With a margin, of shapes up to so far apart as well.
 template <class A, class B>
 requires Pair<A, B> Contact<dimension<A>> contact(const A& a, const B& b,
                                                   const QueryOptions<dimension<A>>& options = {}) {
-    return detail::ask(a, b, [&](const auto& x, const auto& y) { return contact(x, y, options); });
+    return detail::with_views(a, b, [&](const auto& x, const auto& y) { return contact(x, y, options); });
 }
 template <class A, class B, class Why = detail::WhyNoPair<A, B>>
 auto contact(const A& a, const B& b, const QueryOptions<detail::dimension_or_3<A>>& options = {});

@@ -11,23 +11,23 @@ constexpr double parallel = 1e-6;
 
 /// The two ends of an edge, one in each lane, as the reference sees them.
 struct Edge {
-    Both x, y;
+    Double2 x, y;
     std::uint32_t names[2];
 };
 
 /// Cut off at both ends of the reference's side, and how far along that its ends are then. By arithmetic without a
 /// branch: which ends are cut off can't be guessed. Nothing is left where both are beyond one end.
 template <class Core>
-inline Both cut_off(const Core& reference, std::uint32_t side, Edge& edge) {
-    const Both normal = reference.normal(side), x = lanes::first(normal), y = lanes::second(normal);
-    const Both ends = x * reference.ends_y(side) - y * reference.ends_x(side);
-    const Both from = lanes::first(ends), to = lanes::second(ends), at = x * edge.y - y * edge.x;
-    const Both kept = lanes::lesser(lanes::greater(at, from), to);
+inline Double2 cut_off(const Core& reference, std::uint32_t side, Edge& edge) {
+    const Double2 normal = reference.normal(side), x = lanes::first(normal), y = lanes::second(normal);
+    const Double2 ends = x * reference.ends_y(side) - y * reference.ends_x(side);
+    const Double2 from = lanes::first(ends), to = lanes::second(ends), at = x * edge.y - y * edge.x;
+    const Double2 kept = lanes::lesser(lanes::greater(at, from), to);
     const std::uint32_t below = lanes::bits(at < from), above = lanes::bits(at > to);
     const double run = at[1] - at[0], per_run = run != 0 ? 1 / run : 0;
-    const Both part = (kept - at) * lanes::both(per_run);
-    edge.x += lanes::both(edge.x[1] - edge.x[0]) * part;
-    edge.y += lanes::both(edge.y[1] - edge.y[0]) * part;
+    const Double2 part = (kept - at) * lanes::double2(per_run);
+    edge.x += lanes::double2(edge.x[1] - edge.x[0]) * part;
+    edge.y += lanes::double2(edge.y[1] - edge.y[0]) * part;
     const std::uint32_t start = reference.contact_number(side) + 1,
                         end = reference.contact_number(reference.after(side)) + 1;
     for (std::uint32_t i = 0; i < 2; ++i) edge.names[i] |= (start * (below >> i & 1u) | end * (above >> i & 1u)) << 16;
@@ -39,17 +39,17 @@ inline Both cut_off(const Core& reference, std::uint32_t side, Edge& edge) {
 template <class Core>
 inline bool add_points(const Placed<Core>& reference, std::uint32_t side, const Edge& edge, double depth, double margin,
                        double slack, Contact<2>& result) {
-    const Both normal = reference.core.normal(side), x = lanes::first(normal), y = lanes::second(normal);
-    const Both gaps = (x * edge.x + y * edge.y) - lanes::both(reference.core.offset(side));
-    const Both depths = lanes::lesser(-gaps, lanes::both(depth));
+    const Double2 normal = reference.core.normal(side), x = lanes::first(normal), y = lanes::second(normal);
+    const Double2 gaps = (x * edge.x + y * edge.y) - lanes::double2(reference.core.offset(side));
+    const Double2 depths = lanes::lesser(-gaps, lanes::double2(depth));
     if (!(std::max(depths[0], depths[1]) >= depth - slack)) return false;
-    const Both half = depths * Both{0.5, 0.5}, middle_x = edge.x + x * half, middle_y = edge.y + y * half;
+    const Double2 half = depths * Double2{0.5, 0.5}, middle_x = edge.x + x * half, middle_y = edge.y + y * half;
     const Placing& place = reference.place;
-    const Both cos = place.cos * place.scale, sin = lanes::first(place.sin) * place.scale;
-    const Both world_x = (cos * middle_x - sin * middle_y) + lanes::first(place.position);
-    const Both world_y = (sin * middle_x + cos * middle_y) + lanes::second(place.position);
-    const std::uint32_t near = lanes::bits(depths >= lanes::both(-margin - slack));
-    const Both told = margin > 0 ? depths : lanes::greater(depths, Both{0, 0});
+    const Double2 cos = place.cos * place.scale, sin = lanes::first(place.sin) * place.scale;
+    const Double2 world_x = (cos * middle_x - sin * middle_y) + lanes::first(place.position);
+    const Double2 world_y = (sin * middle_x + cos * middle_y) + lanes::second(place.position);
+    const std::uint32_t near = lanes::bits(depths >= lanes::double2(-margin - slack));
+    const Double2 told = margin > 0 ? depths : lanes::greater(depths, Double2{0, 0});
     for (std::uint32_t i = 0; i < 2; ++i)
         if ((near >> i & 1) != 0)
             result.points.push_back({{static_cast<float>(world_x[i]), static_cast<float>(world_y[i])},
@@ -59,11 +59,12 @@ inline bool add_points(const Placed<Core>& reference, std::uint32_t side, const 
 }
 
 template <class Core>
-bool contact_of(const Given<2>& given_a, const Given<2>& given_b, double margin, Cache* cache, Contact<2>& result) {
+bool contact_of(const ShapeRef<2>& given_a, const ShapeRef<2>& given_b, double margin, Cache* cache,
+                Contact<2>& result) {
     Placed<Core> a(given_a), b(given_b);
     if (!set_scales(a.place, b.place) || !a.core.has_area() || !b.core.has_area()) return false;
     Rigid2 seen[2];
-    SideGap widest;
+    EdgeGap widest;
     if (!find_widest(a, b, seen, widest)) return false;
     const bool a_is_reference = widest.of == 0;
     const Placed<Core>&reference = a_is_reference ? a : b, &other = a_is_reference ? b : a;
@@ -75,27 +76,27 @@ bool contact_of(const Given<2>& given_a, const Given<2>& given_b, double margin,
     const std::uint32_t side = widest.side, corner = widest.corner;
     const SideAndCorner<Core> found(reference, other, side, corner);
     if (found.beside != Beside::within) return false;
-    const Both down = -other.place.back(found.normal);
+    const Double2 down = -other.place.back(found.normal);
     const std::uint32_t facing = other.core.facing(corner, down);
-    const Both faces = other.core.normal(facing);
+    const Double2 faces = other.core.normal(facing);
     // Of two sides as good as parallel, A's is the reference.
     const double alignment = lanes::dot(faces, down)[0] * (a.place.scale[0] * b.place.scale[0]);
     if (!a_is_reference && !(alignment < 1 - parallel)) return false;
 
     const Rigid2& of_other = seen[widest.of];
-    const Both x = other.core.ends_x(facing), y = other.core.ends_y(facing);
-    const Both cos = lanes::both(of_other.cos), sin = lanes::both(of_other.sin);
-    Edge edge{(cos * x - sin * y) + lanes::both(of_other.x),
-              (sin * x + cos * y) + lanes::both(of_other.y),
+    const Double2 x = other.core.ends_x(facing), y = other.core.ends_y(facing);
+    const Double2 cos = lanes::double2(of_other.cos), sin = lanes::double2(of_other.sin);
+    Edge edge{(cos * x - sin * y) + lanes::double2(of_other.x),
+              (sin * x + cos * y) + lanes::double2(of_other.y),
               {other.core.contact_number(facing), other.core.contact_number(other.core.after(facing))}};
-    const Both along = cut_off(reference.core, side, edge);
+    const Double2 along = cut_off(reference.core, side, edge);
     const double slack = 1e-6 * std::min(a.core.extent(), b.core.extent());
     if (!(std::abs(along[0] - along[1]) > slack)) return false;
 
     const double depth = -found.gap;
     if (!add_points(reference, side, edge, depth, margin, slack, result)) return false;
     static constexpr double towards_b[2] = {-1, 1};
-    const Both out = found.normal * reference.place.scale * lanes::both(towards_b[a_is_reference ? 1 : 0]);
+    const Double2 out = found.normal * reference.place.scale * lanes::double2(towards_b[a_is_reference ? 1 : 0]);
     lanes::store(out, &result.normal.x);
     result.depth = static_cast<float>(depth);
     name_side(reference.core, side, a_is_reference ? result.feature_a : result.feature_b);
@@ -109,7 +110,7 @@ bool contact_of(const Given<2>& given_a, const Given<2>& given_b, double margin,
 
 }  // namespace
 
-bool contact_polygons(const Given<2>& a, const Given<2>& b, double margin, Cache* cache, Contact<2>& result) {
+bool contact_polygons(const ShapeRef<2>& a, const ShapeRef<2>& b, double margin, Cache* cache, Contact<2>& result) {
     if (!(margin >= 0)) return false;
     if (is_polygon(a) && is_polygon(b)) return contact_of<PolygonCore>(a, b, margin, cache, result);
     return is_box(a) && is_box(b) && contact_of<BoxCore>(a, b, margin, cache, result);

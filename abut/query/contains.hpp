@@ -2,7 +2,7 @@
 
 // Is a point in a shape?
 
-#include <abut/shape/refused.hpp>
+#include <abut/shape/view/constraints.hpp>
 
 namespace abut {
 
@@ -13,7 +13,7 @@ bool contains(const View<D>& shape, const Vec<D>& point);
 /// composites, the points of the parts count.
 template <Shape S>
 bool contains(const S& shape, const Vec<dimension<S>>& point) {
-    return detail::ask_view(shape, [&](const View<dimension<S>>& seen) { return contains(seen, point); });
+    return detail::with_view(shape, [&](const View<dimension<S>>& seen) { return contains(seen, point); });
 }
 template <class S, int D, class Why = detail::WhyNotIn<D, S>>
 auto contains(const S& shape, const glm::vec<D, float>& point);

@@ -1,7 +1,7 @@
-#include <abut/convex/box_pair.hpp>
-#include <abut/convex/box_triangle.hpp>
-#include <abut/convex/plane_pair.hpp>
-#include <abut/convex/round_manifold.hpp>
+#include <abut/convex/manifold/round_manifold.hpp>
+#include <abut/convex/pairs/box3.hpp>
+#include <abut/convex/pairs/box_triangle.hpp>
+#include <abut/convex/pairs/pair2.hpp>
 #include <abut/query/closed_form.hpp>
 #include <abut/query/convex_pair.hpp>
 
@@ -48,7 +48,7 @@ BoxTriangle triangle_distance(const Convex<3>& a, const Convex<3>& b, double rea
     if (are_box_and_triangle(a, b)) return box_triangle_distance(a, b, reach, result);
     if (!are_box_and_triangle(b, a)) return BoxTriangle::unknown;
     const BoxTriangle answer = box_triangle_distance(b, a, reach, result);
-    if (answer == BoxTriangle::meeting) turn_round(result);
+    if (answer == BoxTriangle::overlapping) swap_roles(result);
     return answer;
 }
 
@@ -60,11 +60,11 @@ namespace {
 
 /// What both must have for a quick way.
 struct Outlines {
-    Outline a, b;
+    PlacedPolygon a, b;
     bool known;
 
     Outlines(const Convex<2>& first, const Convex<2>& second)
-        : known(set_outline(first, a) && set_outline(second, b)) {}
+        : known(set_placed_polygon(first, a) && set_placed_polygon(second, b)) {}
 };
 
 }  // namespace
@@ -72,24 +72,24 @@ struct Outlines {
 template <>
 bool part_overlaps(const Convex<2>& a, const Convex<2>& b, const SearchOptions<2>& options) {
     const Outlines outlines(a, b);
-    const PlaneAnswer answer =
-        outlines.known ? plane_near(outlines.a, outlines.b, 0, options.cache) : PlaneAnswer::unknown;
-    if (answer == PlaneAnswer::unknown) return any_overlap(a, b, options);
+    const PairAnswer2 answer =
+        outlines.known ? pair2_within(outlines.a, outlines.b, 0, options.cache) : PairAnswer2::unknown;
+    if (answer == PairAnswer2::unknown) return any_overlap(a, b, options);
     if (options.trace != nullptr) any_overlap<2>(a, b, {nullptr, options.trace});
-    return answer == PlaneAnswer::within;
+    return answer == PairAnswer2::within;
 }
 template <>
 bool part_overlaps(const Convex<3>& a, const Convex<3>& b, const SearchOptions<3>& options) {
     if (are_plain_boxes(a, b)) return boxes_overlap(a, b, options);
     const BoxTriangle answer = triangle_overlap(a, b, options);
-    return answer == BoxTriangle::unknown ? any_overlap(a, b, options) : answer == BoxTriangle::meeting;
+    return answer == BoxTriangle::unknown ? any_overlap(a, b, options) : answer == BoxTriangle::overlapping;
 }
 
 template <>
 SignedDistance<2> part_distance(const Convex<2>& a, const Convex<2>& b, const SearchOptions<2>& options) {
     SignedDistance<2> result;
     const Outlines outlines(a, b);
-    if (!outlines.known || plane_distance(outlines.a, outlines.b, options.cache, result) == PlaneAnswer::unknown) {
+    if (!outlines.known || pair2_distance(outlines.a, outlines.b, options.cache, result) == PairAnswer2::unknown) {
         any_distance(a, b, options, result);
     } else if (options.trace != nullptr) {
         SignedDistance<2> searched;
@@ -110,16 +110,16 @@ template <>
 bool part_touch(const Convex<2>& a, const Convex<2>& b, double reach, double margin, const SearchOptions<2>& options,
                 PartContact<2>& contact) {
     const Outlines outlines(a, b);
-    const PlaneAnswer answer = outlines.known ? plane_contact(outlines.a, outlines.b, reach, margin, options.cache,
+    const PairAnswer2 answer = outlines.known ? pair2_contact(outlines.a, outlines.b, reach, margin, options.cache,
                                                               contact.distance, contact.manifold)
-                                              : PlaneAnswer::unknown;
-    if (answer == PlaneAnswer::unknown) return any_touch(a, b, reach, options, contact);
+                                              : PairAnswer2::unknown;
+    if (answer == PairAnswer2::unknown) return any_touch(a, b, reach, options, contact);
     if (options.trace != nullptr) {
         PartContact<2> searched;
         if (any_touch<2>(a, b, reach, {nullptr, options.trace}, searched))
             add_points<2>(a, b, margin, {nullptr, options.trace}, searched);
     }
-    return answer == PlaneAnswer::within;
+    return answer == PairAnswer2::within;
 }
 template <>
 bool part_touch(const Convex<3>& a, const Convex<3>& b, double reach, double margin, const SearchOptions<3>& options,
@@ -129,7 +129,7 @@ bool part_touch(const Convex<3>& a, const Convex<3>& b, double reach, double mar
     const BoxTriangle answer = triangle_distance(a, b, reach, options, contact.distance);
     if (answer == BoxTriangle::unknown) return any_touch(a, b, reach, options, contact);
     contact.manifold.count = 0;
-    return answer == BoxTriangle::meeting && contact.distance.distance <= reach;
+    return answer == BoxTriangle::overlapping && contact.distance.distance <= reach;
 }
 
 template <int D>

@@ -4,8 +4,8 @@
 // separating axes of boxes and polygons, or the searches that take any pair. All ways give the same answers. For .cpp
 // files.
 
-#include <abut/convex/manifold.hpp>
-#include <abut/convex/signed_distance.hpp>
+#include <abut/convex/gjk/signed_distance.hpp>
+#include <abut/convex/manifold/manifold.hpp>
 
 namespace abut {
 

@@ -3,7 +3,7 @@
 // The core of a convex set as simplices, to be cut in two and in two again. For .cpp files.
 
 #include <abut/convex/support.hpp>
-#include <abut/shape/distance_function.hpp>
+#include <abut/shape/view/distance_function.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -90,7 +90,7 @@ bool has_simplices(const Convex<D>& convex) {
 /// Calls visit(simplex) for simplices that cover it.
 template <int D, class Visit>
 void each_simplex(const Convex<D>& convex, Visit&& visit) {
-    const auto corner = [&](std::uint32_t i) { return convex.place.point(own_corner(convex, i)); };
+    const auto corner = [&](std::uint32_t i) { return convex.place.point(local_corner(convex, i)); };
     CoreSimplex<D> simplex;
     if (convex.core == Core::box) {
         // Along the ways from one corner to the opposite one, one axis after the other.

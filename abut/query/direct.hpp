@@ -11,13 +11,13 @@ namespace abut {
 
 enum class DirectAnswer : std::uint8_t { no, yes, unknown };
 
-DirectAnswer direct_overlap(const Given<2>& a, const Given<2>& b, Cache* cache);
-DirectAnswer direct_overlap(const Given<3>& a, const Given<3>& b, Cache* cache);
+DirectAnswer direct_overlap(const ShapeRef<2>& a, const ShapeRef<2>& b, Cache* cache);
+DirectAnswer direct_overlap(const ShapeRef<3>& a, const ShapeRef<3>& b, Cache* cache);
 
 // False where they have no answer: `result` is as it was then.
 
-bool direct_closest(const Given<3>& a, const Given<3>& b, Cache* cache, Closest<3>& result);
+bool direct_closest(const ShapeRef<3>& a, const ShapeRef<3>& b, Cache* cache, Closest<3>& result);
 
-bool direct_contact(const Given<3>& a, const Given<3>& b, double margin, Cache* cache, Contact<3>& result);
+bool direct_contact(const ShapeRef<3>& a, const ShapeRef<3>& b, double margin, Cache* cache, Contact<3>& result);
 
 }  // namespace abut

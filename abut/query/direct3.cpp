@@ -1,8 +1,8 @@
-#include <abut/convex/box_point-inl.h>
-#include <abut/convex/round_lanes-inl.h>
-#include <abut/convex/round_pairs.hpp>
+#include <abut/convex/pairs/box_point-inl.h>
+#include <abut/convex/pairs/round3.hpp>
+#include <abut/convex/pairs/round3_simd-inl.h>
 #include <abut/math/set_affine.hpp>
-#include <abut/math/turned-inl.h>
+#include <abut/math/simd/rotation-inl.h>
 #include <abut/query/box_features.hpp>
 #include <abut/query/direct.hpp>
 #include <abut/query/direct_boxes.hpp>
@@ -28,8 +28,8 @@ constexpr Feature segment_features[3] = {
     {0, 0, FeatureKind::vertex}, {0, edge_index(0, 1), FeatureKind::edge}, {0, 1, FeatureKind::vertex}};
 
 inline bool closest_of_segments(const SegmentPair& pair, Closest<3>& result) {
-    SegmentMeeting meeting;
-    if (!meet(pair, meeting)) return false;
+    SegmentClosest meeting;
+    if (!closest_on_segments(pair, meeting)) return false;
     result.distance = static_cast<float>(meeting.distance[0]);
     lanes::store(meeting.normal, result.normal);
     lanes::store(meeting.on_a, result.on_a);
@@ -40,24 +40,24 @@ inline bool closest_of_segments(const SegmentPair& pair, Closest<3>& result) {
 }
 
 /// The ends as `convex(capsule, pose)` places them.
-SegmentPair placed_segments_of(const Given<3>& a, const Given<3>& b) {
+SegmentPair placed_segments_of(const ShapeRef<3>& a, const ShapeRef<3>& b) {
     const Capsule3 &first = a.as<Capsule3>(), &second = b.as<Capsule3>();
     Affine<3> place_a, place_b;
     if (a.pose != nullptr) set_affine(place_a, *a.pose);
     if (b.pose != nullptr) set_affine(place_b, *b.pose);
-    return {lanes::spatial(place_a.point(DVec<3>(first.a))),
-            lanes::spatial(place_a.point(DVec<3>(first.b))),
-            lanes::spatial(place_b.point(DVec<3>(second.a))),
-            lanes::spatial(place_b.point(DVec<3>(second.b))),
+    return {lanes::double3(place_a.point(DVec<3>(first.a))),
+            lanes::double3(place_a.point(DVec<3>(first.b))),
+            lanes::double3(place_b.point(DVec<3>(second.a))),
+            lanes::double3(place_b.point(DVec<3>(second.b))),
             lanes::loaded_twice(first.radius),
             lanes::loaded_twice(second.radius)};
 }
-[[gnu::noinline]] bool closest_of_placed_capsules(const Given<3>& a, const Given<3>& b, Closest<3>& result) {
+[[gnu::noinline]] bool closest_of_placed_capsules(const ShapeRef<3>& a, const ShapeRef<3>& b, Closest<3>& result) {
     return is_finite(a.as<Capsule3>().radius) && is_finite(b.as<Capsule3>().radius) &&
            closest_of_segments(placed_segments_of(a, b), result);
 }
 
-bool closest_of_capsules(const Given<3>& a, const Given<3>& b, Closest<3>& result) {
+bool closest_of_capsules(const ShapeRef<3>& a, const ShapeRef<3>& b, Closest<3>& result) {
     if (a.pose != nullptr || b.pose != nullptr) return closest_of_placed_capsules(a, b, result);
     const Capsule3 &first = a.as<Capsule3>(), &second = b.as<Capsule3>();
     if (!is_finite(first.radius) || !is_finite(second.radius)) return false;
@@ -67,12 +67,12 @@ bool closest_of_capsules(const Given<3>& a, const Given<3>& b, Closest<3>& resul
         result);
 }
 
-inline DVec<3> center_of(const Given<3>& ball) {
+inline DVec<3> center_of(const ShapeRef<3>& ball) {
     const DVec<3> center(ball.as<Sphere>().center);
     return ball.pose == nullptr ? center : placed<3>(center, *ball.pose);
 }
 
-bool closest_of_balls(const Given<3>& a, const Given<3>& b, Closest<3>& result) {
+bool closest_of_balls(const ShapeRef<3>& a, const ShapeRef<3>& b, Closest<3>& result) {
     SignedDistance<3> distance;
     distance_of_points(center_of(a), static_cast<double>(a.as<Sphere>().radius), center_of(b),
                        static_cast<double>(b.as<Sphere>().radius), distance);
@@ -99,14 +99,14 @@ double sum_of(const DVec<3>& v) {
 }
 
 /// `on_box` and `normal` are as from the box to the ball; the distance in both lanes.
-inline void write(const lanes::Spatial& on_box, const lanes::Spatial& normal, lanes::Both distance, std::size_t place,
-                  bool ball_is_a, Closest<3>& result) {
+inline void write(const lanes::Double3& on_box, const lanes::Double3& normal, lanes::Double2 distance,
+                  std::size_t place, bool ball_is_a, Closest<3>& result) {
     using namespace lanes;
-    const Spatial on_ball = on_box + normal * distance;
+    const Double3 on_ball = on_box + normal * distance;
     const Feature& feature = box_features[place];
     result.distance = static_cast<float>(distance[0]);
     if (ball_is_a) {
-        store(normal * both(-1), result.normal);
+        store(normal * double2(-1), result.normal);
         store(on_ball, result.on_a);
         store(on_ball - normal * distance, result.on_b);
         result.feature_a.kind = FeatureKind::vertex;
@@ -119,41 +119,41 @@ inline void write(const lanes::Spatial& on_box, const lanes::Spatial& normal, la
         result.feature_b.kind = FeatureKind::vertex;
     }
 }
-inline std::size_t place_of(const BoxPlace& place) {
+inline std::size_t place_of(const BoxClosestPoint& place) {
     return place.fixed + 8 * place.low;
 }
 
 /// Placed by poses, or one in the other.
-[[gnu::noinline]] bool closest_of_any_ball_and_box(const Given<3>& ball, const Given<3>& box_given, bool ball_is_a,
-                                                   Closest<3>& result) {
+[[gnu::noinline]] bool closest_of_any_ball_and_box(const ShapeRef<3>& ball, const ShapeRef<3>& box_given,
+                                                   bool ball_is_a, Closest<3>& result) {
     const Box3& box = box_given.as<Box3>();
     Affine<3> place;
     set_place(box, box_given.pose, place);
     const DVec<3> center = center_of(ball), half(box.half), seen = place.transposed(center - place.offset);
     const double radius = static_cast<double>(ball.as<Sphere>().radius);
     if (!std::isfinite(sum_of(seen) + sum_of(half) + radius)) return false;
-    BoxPlace nearest;
-    const bool outside = nearest_from_outside(lanes::spatial(half), lanes::spatial(seen), nearest);
+    BoxClosestPoint nearest;
+    const bool outside = nearest_from_outside(lanes::double3(half), lanes::double3(seen), nearest);
     if (!outside) nearest_from_inside(half, seen, nearest);
-    const DVec<3> way = place.vector(lanes::vector(nearest.way));
+    const DVec<3> way = place.vector(lanes::vector(nearest.offset));
     const DVec<3> on_box = center - (outside ? way : way * nearest.distance[0]);
-    write(lanes::spatial(on_box), lanes::spatial(way) * nearest.per_length, nearest.distance - lanes::both(radius),
+    write(lanes::double3(on_box), lanes::double3(way) * nearest.per_length, nearest.distance - lanes::double2(radius),
           place_of(nearest), ball_is_a, result);
     return true;
 }
 
-bool closest_of_ball_and_box(const Given<3>& ball_given, const Given<3>& box_given, bool ball_is_a,
+bool closest_of_ball_and_box(const ShapeRef<3>& ball_given, const ShapeRef<3>& box_given, bool ball_is_a,
                              Closest<3>& result) {
     using namespace lanes;
     const Sphere& ball = ball_given.as<Sphere>();
     const Box3& box = box_given.as<Box3>();
     if (ball_given.pose == nullptr && box_given.pose == nullptr && is_finite(ball.radius) && is_finite(box.half.x) &&
         is_finite(box.half.y) && is_finite(box.half.z)) {
-        const Spatial center = loaded(ball.center), half = loaded(box.half);
+        const Double3 center = loaded(ball.center), half = loaded(box.half);
         const Turned turn = turned(box.rotation);
-        BoxPlace nearest;
+        BoxClosestPoint nearest;
         if (nearest_from_outside(half, turn.transposed(center - loaded(box.center)), nearest)) {
-            const Spatial way = turn.vector(nearest.way);
+            const Double3 way = turn.vector(nearest.offset);
             write(center - way, way * nearest.per_length, nearest.distance - loaded_twice(ball.radius),
                   place_of(nearest), ball_is_a, result);
             return true;
@@ -162,7 +162,7 @@ bool closest_of_ball_and_box(const Given<3>& ball_given, const Given<3>& box_giv
     return closest_of_any_ball_and_box(ball_given, box_given, ball_is_a, result);
 }
 
-bool are_boxes_in_place(const Given<3>& a, const Given<3>& b) {
+bool are_boxes_in_place(const ShapeRef<3>& a, const ShapeRef<3>& b) {
     return a.kind == ShapeKind::box && b.kind == ShapeKind::box && a.pose == nullptr && b.pose == nullptr;
 }
 
@@ -187,7 +187,7 @@ void set_radius(BallAround& ball, const DVec<3>& center, double radius) {
 }
 
 /// Of boxes, spheres and polyhedra.
-bool set_ball(const Given<3>& given, BallAround& ball) {
+bool set_ball(const ShapeRef<3>& given, BallAround& ball) {
     if (given.kind == ShapeKind::box) {
         const Box3& box = given.as<Box3>();
         ball.center = DVec<3>(box.center);
@@ -211,7 +211,7 @@ bool set_ball(const Given<3>& given, BallAround& ball) {
 }
 
 /// Whether the balls around two shapes are farther apart than `reach`, which is known of most pairs at once.
-bool far_apart(const Given<3>& a, const Given<3>& b, double reach) {
+bool far_apart(const ShapeRef<3>& a, const ShapeRef<3>& b, double reach) {
     BallAround first{}, second{};
     if (!(reach >= 0) || !set_ball(a, first) || !set_ball(b, second)) return false;
     // (r + s)^2 is at most 2 (r^2 + s^2), and (r + s + t)^2 at most 3 (r^2 + s^2 + t^2).
@@ -225,12 +225,12 @@ bool far_apart(const Given<3>& a, const Given<3>& b, double reach) {
 
 }  // namespace
 
-DirectAnswer direct_overlap(const Given<3>& a, const Given<3>& b, Cache* cache) {
+DirectAnswer direct_overlap(const ShapeRef<3>& a, const ShapeRef<3>& b, Cache* cache) {
     if (are_boxes_in_place(a, b) && cache == nullptr) return direct_overlap(a.as<Box3>(), b.as<Box3>());
     return far_apart(a, b, 0) ? DirectAnswer::no : DirectAnswer::unknown;
 }
 
-bool direct_closest(const Given<3>& a, const Given<3>& b, Cache*, Closest<3>& result) {
+bool direct_closest(const ShapeRef<3>& a, const ShapeRef<3>& b, Cache*, Closest<3>& result) {
     if (a.kind == ShapeKind::capsule && b.kind == ShapeKind::capsule) return closest_of_capsules(a, b, result);
     if (a.kind == ShapeKind::ball && b.kind == ShapeKind::ball) return closest_of_balls(a, b, result);
     if (a.kind == ShapeKind::ball && b.kind == ShapeKind::box) return closest_of_ball_and_box(a, b, true, result);
@@ -238,7 +238,7 @@ bool direct_closest(const Given<3>& a, const Given<3>& b, Cache*, Closest<3>& re
     return false;
 }
 
-bool direct_contact(const Given<3>& a, const Given<3>& b, double margin, Cache* cache, Contact<3>& result) {
+bool direct_contact(const ShapeRef<3>& a, const ShapeRef<3>& b, double margin, Cache* cache, Contact<3>& result) {
     if (are_boxes_in_place(a, b)) return direct_contact(a.as<Box3>(), b.as<Box3>(), margin, cache, result);
     return far_apart(a, b, margin);
 }

@@ -1,6 +1,6 @@
-#include <abut/convex/box_axes.hpp>
-#include <abut/convex/box_pair.hpp>
-#include <abut/math/turned-inl.h>
+#include <abut/convex/pairs/box3.hpp>
+#include <abut/convex/pairs/box_axes.hpp>
+#include <abut/math/simd/rotation-inl.h>
 #include <abut/query/box_features.hpp>
 #include <abut/query/direct_boxes.hpp>
 #include <abut/query/write_answer.hpp>
@@ -8,14 +8,14 @@
 namespace abut {
 namespace {
 
-using lanes::Both;
-using lanes::Spatial;
+using lanes::Double2;
+using lanes::Double3;
 
 /// Where two boxes are, and how A sees B.
 struct Boxes {
     lanes::Turned turn_a, turn_b;
-    Spatial half_a, half_b, between;  ///< the last one in the world
-    Spatial axis_b[3], middle;        ///< along the axes of A
+    Double3 half_a, half_b, between;  ///< the last one in the world
+    Double3 axis_b[3], middle;        ///< along the axes of A
 
     Boxes(const Box3& a, const Box3& b)
         : turn_a(lanes::turned(a.rotation)),
@@ -29,15 +29,15 @@ struct Boxes {
 
     /// `has_volume` of both.
     bool have_volume() const {
-        const Both x = lanes::lower(half_a.xy, half_b.xy), y = lanes::upper(half_a.xy, half_b.xy);
-        const Both z = lanes::lower(half_a.z, half_b.z);
-        const Both most = lanes::greater(lanes::greater(x, y), z), least = lanes::lesser(lanes::lesser(x, y), z);
-        return lanes::bits(least > most * lanes::both(static_cast<double>(1e-4f))) == 3;
+        const Double2 x = lanes::lower(half_a.xy, half_b.xy), y = lanes::upper(half_a.xy, half_b.xy);
+        const Double2 z = lanes::lower(half_a.z, half_b.z);
+        const Double2 most = lanes::greater(lanes::greater(x, y), z), least = lanes::lesser(lanes::lesser(x, y), z);
+        return lanes::bits(least > most * lanes::double2(static_cast<double>(1e-4f))) == 3;
     }
 
     /// Whether the axis that parted them last parts them still, by more than `reach`, as of their views.
     bool parted_along(const std::array<float, 3>& kept, double reach) const {
-        const Spatial axis{lanes::loaded(kept.data()), lanes::loaded_twice(kept[2])};
+        const Double3 axis{lanes::loaded(kept.data()), lanes::loaded_twice(kept[2])};
         const double apart = dot(axis, between)[0];
         const double covered =
             (dot(magnitude(turn_a.transposed(axis)), half_a) + dot(magnitude(turn_b.transposed(axis)), half_b))[0];
@@ -49,21 +49,21 @@ struct Boxes {
 
 /// The gaps along the normals of the faces, as of `widest_face_gap`.
 struct FaceGaps {
-    Both a_xy, a_z, b_xy, b_z;
-    Spatial sizes[3];
+    Double2 a_xy, a_z, b_xy, b_z;
+    Double3 sizes[3];
 
     explicit FaceGaps(const Boxes& boxes)
         : sizes{magnitude(boxes.axis_b[0]), magnitude(boxes.axis_b[1]), magnitude(boxes.axis_b[2])} {
-        const Spatial &half_a = boxes.half_a, &half_b = boxes.half_b;
-        const Spatial reach_a =
+        const Double3 &half_a = boxes.half_a, &half_b = boxes.half_b;
+        const Double3 reach_a =
             half_a + sizes[0] * lanes::first(half_b.xy) + sizes[1] * lanes::second(half_b.xy) + sizes[2] * half_b.z;
-        const Spatial gap_a = magnitude(boxes.middle) - reach_a;
+        const Double3 gap_a = magnitude(boxes.middle) - reach_a;
         a_xy = gap_a.xy;
         a_z = gap_a.z;
     }
     void add_those_of_b(const Boxes& boxes) {
-        const Spatial& half_b = boxes.half_b;
-        Both apart[3], reach_b[3];
+        const Double3& half_b = boxes.half_b;
+        Double2 apart[3], reach_b[3];
         for (std::size_t i = 0; i < 3; ++i) {
             apart[i] = lanes::magnitude(dot(boxes.axis_b[i], boxes.middle));
             reach_b[i] = dot(sizes[i], boxes.half_a);
@@ -74,10 +74,12 @@ struct FaceGaps {
 
     /// All numbers of both boxes are in the gaps of A.
     bool finite() const { return lanes::finite(a_xy + a_z); }
-    bool a_wider_than(double reach) const { return lanes::bits(lanes::greater(a_xy, a_z) > lanes::both(reach)) != 0; }
+    bool a_wider_than(double reach) const {
+        return lanes::bits(lanes::greater(a_xy, a_z) > lanes::double2(reach)) != 0;
+    }
     bool wider_than(double reach) const {
-        const Both most = lanes::greater(lanes::greater(a_xy, b_xy), lanes::greater(a_z, b_z));
-        return lanes::bits(most > lanes::both(reach)) != 0;
+        const Double2 most = lanes::greater(lanes::greater(a_xy, b_xy), lanes::greater(a_z, b_z));
+        return lanes::bits(most > lanes::double2(reach)) != 0;
     }
     BoxFaceGap widest() const {
         std::array<double, 6> gaps;
@@ -89,7 +91,7 @@ struct FaceGaps {
     }
 };
 
-void put(const Spatial& v, double* numbers) {
+void put(const Double3& v, double* numbers) {
     lanes::put(v.xy, numbers);
     numbers[2] = v.z[0];
 }
@@ -108,7 +110,7 @@ void set_place(const Box3& box, const lanes::Turned& turn, Affine<3>& place) {
     put(lanes::loaded(box.center), &place.offset.x);
 }
 
-const Feature& feature_of(const BoxPart& part) {
+const Feature& feature_of(const BoxFeature& part) {
     return box_features[(part.free ^ 7u) + 8 * part.low];
 }
 
@@ -138,7 +140,7 @@ bool direct_contact(const Box3& a, const Box3& b, double margin, Cache* cache, C
     Affine<3> place_a, place_b;
     set_place(a, boxes.turn_a, place_a);
     set_place(b, boxes.turn_b, place_b);
-    BoxMeeting meeting;
+    BoxClosest meeting;
     SignedDistance<3> distance;
     Manifold<3> points;
     const BoxContact contact = contact_in_frame(frame, gaps.widest(), BoxPlacement(place_a), BoxPlacement(place_b),

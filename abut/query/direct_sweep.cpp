@@ -1,4 +1,4 @@
-#include <abut/convex/moving_sides.hpp>
+#include <abut/convex/toi/moving_polygon2.hpp>
 #include <abut/query/direct_sweep.hpp>
 #include <abut/query/given_outline.hpp>
 #include <abut/query/part_pairs.hpp>
@@ -18,14 +18,14 @@ constexpr double least_slope = 1e-6;
 /// all four.
 class OutlineCore : public PolygonCore {
 public:
-    OutlineCore(ShapeKind kind, const Sides& sides) : PolygonCore(sides), kind_(kind) {}
+    OutlineCore(ShapeKind kind, const PolygonSoa& sides) : PolygonCore(sides), kind_(kind) {}
 
     std::uint32_t number(std::uint32_t i) const {
         if (kind_ == ShapeKind::ball) return 0;
         const std::uint32_t number = sides().corner_number(i);
         return is_stick() ? ~number & 1 : number;
     }
-    bool is_farthest(std::uint32_t i, Both direction) const {
+    bool is_farthest(std::uint32_t i, Double2 direction) const {
         if (kind_ == ShapeKind::ball) return true;
         return is_stick() ? direction[0] * corner(i)[0] >= 0 : PolygonCore::is_farthest(i, direction);
     }
@@ -39,20 +39,22 @@ private:
 template <class Core>
 struct Moving {
     Placed<Core> shape;
-    Both motion;
+    Double2 motion;
     double radius = 0;
 
-    Moving(const Given<2>& given, const Vec2& moves) : shape(given), motion(lanes::loaded(&moves.x)) {}
-    Moving(ShapeKind kind, const Outline& outline, const Vec2& moves)
+    Moving(const ShapeRef<2>& given, const Vec2& moves) : shape(given), motion(lanes::loaded(&moves.x)) {}
+    Moving(ShapeKind kind, const PlacedPolygon& outline, const Vec2& moves)
         : shape(Core(kind, outline.sides), outline.place), motion(lanes::loaded(&moves.x)), radius(outline.radius) {}
 
-    Both arm(std::uint32_t corner) const { return shape.place.vector(shape.core.corner(corner)) * shape.place.scale; }
-    Both seen(Both vector) const { return shape.place.back(vector) * shape.place.scale; }
+    Double2 arm(std::uint32_t corner) const {
+        return shape.place.vector(shape.core.corner(corner)) * shape.place.scale;
+    }
+    Double2 seen(Double2 vector) const { return shape.place.back(vector) * shape.place.scale; }
 };
 
 /// The motion, as A makes it and B sees it, and what is looked for.
 struct Way {
-    Both motion;
+    Double2 motion;
     double length;
     double most;    ///< up to which part of it they may come to touch
     double radius;  ///< of both balls
@@ -61,16 +63,16 @@ struct Way {
     double sure_depth() const { return beyond_sliding * doubts.slide; }
 };
 
-inline bool find_passage(const PolygonCore& a, const PolygonCore& b, const Rigid2 (&seen)[2], const Both (&coming)[2],
-                         const Way& way, Passage& passage) {
+inline bool find_passage(const PolygonCore& a, const PolygonCore& b, const Rigid2 (&seen)[2],
+                         const Double2 (&coming)[2], const Way& way, Passage& passage) {
     const DVec<2> ways[2] = {{coming[0][0], coming[0][1]}, {coming[1][0], coming[1][1]}};
-    return passage_of_sides(a.sides(), b.sides(), seen, ways, way.radius, way.sure_depth(), way.most, passage);
+    return passage_of_polygons(a.sides(), b.sides(), seen, ways, way.radius, way.sure_depth(), way.most, passage);
 }
-inline bool find_passage(const BoxCore& a, const BoxCore& b, const Rigid2 (&seen)[2], const Both (&coming)[2],
+inline bool find_passage(const BoxCore& a, const BoxCore& b, const Rigid2 (&seen)[2], const Double2 (&coming)[2],
                          const Way& way, Passage& passage) {
-    const Both half[2] = {a.half_lanes(), b.half_lanes()};
-    const Both place[2] = {lanes::both(seen[0].x, seen[0].y), lanes::both(seen[1].x, seen[1].y)};
-    return passage_of_boxes(half, lanes::both(seen[0].cos, seen[0].sin), place, coming, way.radius, way.sure_depth(),
+    const Double2 half[2] = {a.half_lanes(), b.half_lanes()};
+    const Double2 place[2] = {lanes::double2(seen[0].x, seen[0].y), lanes::double2(seen[1].x, seen[1].y)};
+    return passage_of_boxes(half, lanes::double2(seen[0].cos, seen[0].sin), place, coming, way.radius, way.sure_depth(),
                             way.most, passage);
 }
 
@@ -93,19 +95,19 @@ inline bool enters_balls(double closing, const Way& way) {
 struct RoundTouch {
     double enters = 0;
     double closing = 0;
-    Both normal{0, 0};  ///< from the one that moves
+    Double2 normal{0, 0};  ///< from the one that moves
 };
 
 /// `between`: to the other; the point moves by `motion`. No: it passes on one side, which `normal` tells, of no certain
 /// length. Nothing is divided by the length of the motion before it must be: areas are compared, of the motion and what
 /// is across it.
-inline DirectAnswer find_touch(Both between, Both motion, const Way& way, RoundTouch& touch) {
+inline DirectAnswer find_touch(Double2 between, Double2 motion, const Way& way, RoundTouch& touch) {
     const double square = lanes::dot(motion, motion)[0], per_square = 1 / square, per_radius = 1 / way.radius;
-    const Both crossed = motion * lanes::swapped(between);
+    const Double2 crossed = motion * lanes::swapped(between);
     const double across = crossed[0] - crossed[1], ahead = lanes::dot(between, motion)[0];
     const double passes = way.radius + way.sure_depth();
     if (across * across > passes * passes * square) {
-        touch.normal = lanes::swapped(motion) * lanes::both(-across, across);
+        touch.normal = lanes::swapped(motion) * lanes::double2(-across, across);
         return DirectAnswer::no;
     }
     const double chord = way.radius * way.radius * square - across * across;
@@ -113,12 +115,12 @@ inline DirectAnswer find_touch(Both between, Both motion, const Way& way, RoundT
     const double half = std::sqrt(chord);
     touch.enters = (ahead - half) * per_square;
     touch.closing = half * per_radius;
-    touch.normal = (between - motion * lanes::both(touch.enters)) * lanes::both(per_radius);
+    touch.normal = (between - motion * lanes::double2(touch.enters)) * lanes::double2(per_radius);
     return DirectAnswer::yes;
 }
 
 /// `normal`: from A.
-inline void write(double time, const Way& way, Both point, Both normal, Hit<2>& hit) {
+inline void write(double time, const Way& way, Double2 point, Double2 normal, Hit<2>& hit) {
     hit.fraction = static_cast<float>(time);
     hit.distance = static_cast<float>(time * way.length);
     lanes::store(point, &hit.point.x);
@@ -134,17 +136,17 @@ public:
 
     DirectAnswer tell(std::optional<Hit<2>>& result) const {
         const Placed<Core>& shape = reference_.shape;
-        const Both velocity = other_.motion - reference_.motion;
-        const Both out = shape.place.vector(shape.core.normal(passage_.side)) * shape.place.scale;
+        const Double2 velocity = other_.motion - reference_.motion;
+        const Double2 out = shape.place.vector(shape.core.normal(passage_.side)) * shape.place.scale;
         const double closing = -lanes::dot(out, velocity)[0];
         if (!(closing > least_slope * way_.length)) return DirectAnswer::unknown;
         const DirectAnswer on_way = is_on_way(passage_.enters, closing, way_);
         if (on_way != DirectAnswer::yes) return on_way;
         const double time = std::min(passage_.enters, way_.most);
 
-        const Both arm = other_.arm(passage_.corner);
-        const Both between = (other_.shape.place.position - shape.place.position) + velocity * lanes::both(time);
-        const Both seen = reference_.seen(arm + between);
+        const Double2 arm = other_.arm(passage_.corner);
+        const Double2 between = (other_.shape.place.position - shape.place.position) + velocity * lanes::double2(time);
+        const Double2 seen = reference_.seen(arm + between);
         const Beside beside = shape.core.beside(passage_.side, seen);
         if (beside == Beside::within) {
             if (way_.radius > 0 && !enters_balls(closing, way_)) return DirectAnswer::unknown;
@@ -164,18 +166,18 @@ public:
 
 private:
     bool a_is_reference() const { return passage_.of == 0; }
-    Both from_a(Both out) const {
+    Double2 from_a(Double2 out) const {
         static constexpr double towards_b[2] = {1, -1};
-        return out * lanes::both(towards_b[passage_.of]);
+        return out * lanes::double2(towards_b[passage_.of]);
     }
     /// By the two corners, or the one told twice, of a place on B.
     static void name(const Moving<Core>& b, std::uint32_t i, std::uint32_t j, Hit<2>& hit) {
         name_end_or_edge<2>({b.shape.core.number(i), b.shape.core.number(j)}, 0, hit.feature);
     }
 
-    void tell_at_corner(double time, Both arm, Both out, Hit<2>& hit) const {
-        const Both point = other_.shape.place.position + arm + other_.motion * lanes::both(time);
-        write(time, way_, point - out * lanes::both(other_.radius), from_a(out), hit);
+    void tell_at_corner(double time, Double2 arm, Double2 out, Hit<2>& hit) const {
+        const Double2 point = other_.shape.place.position + arm + other_.motion * lanes::double2(time);
+        write(time, way_, point - out * lanes::double2(other_.radius), from_a(out), hit);
         if (a_is_reference())
             name(other_, passage_.corner, passage_.corner, hit);
         else
@@ -184,18 +186,18 @@ private:
 
     /// Where faces meet face to face, the corner that was found may lie past an end of the side; then that end touches
     /// the edge from the corner to the next.
-    bool end_touches(Both corner, std::uint32_t end, Both next) const {
+    bool end_touches(Double2 corner, std::uint32_t end, Double2 next) const {
         const Core& core = reference_.shape.core;
-        const Both out = core.normal(passage_.side), along = lanes::swapped(out) * Both{-1, 1};
+        const Double2 out = core.normal(passage_.side), along = lanes::swapped(out) * Double2{-1, 1};
         const double here = lanes::dot(along, corner - core.corner(end))[0],
                      there = lanes::dot(along, next - core.corner(end))[0];
         const double part = here / (here - there), rises = lanes::dot(out, next - corner)[0];
         return part >= 0 && part <= 1 && part * rises <= 0.25 * way_.doubts.touch;
     }
-    void tell_at_end(double time, std::uint32_t end, std::uint32_t next, Both out, Hit<2>& hit) const {
-        const Both point =
-            reference_.shape.place.position + reference_.arm(end) + reference_.motion * lanes::both(time);
-        write(time, way_, point + out * lanes::both(reference_.radius), from_a(out), hit);
+    void tell_at_end(double time, std::uint32_t end, std::uint32_t next, Double2 out, Hit<2>& hit) const {
+        const Double2 point =
+            reference_.shape.place.position + reference_.arm(end) + reference_.motion * lanes::double2(time);
+        write(time, way_, point + out * lanes::double2(reference_.radius), from_a(out), hit);
         if (a_is_reference())
             name(other_, passage_.corner, next, hit);
         else
@@ -205,8 +207,9 @@ private:
     /// Past the end of a side the shapes are round about two corners. That these are the farthest along the normal
     /// proves what is told: a plane parts the two until then, or all the time.
     DirectAnswer tell_round(std::uint32_t end, std::optional<Hit<2>>& result) const {
-        const Both end_arm = reference_.arm(end), corner_arm = other_.arm(passage_.corner);
-        const Both between = (other_.shape.place.position - reference_.shape.place.position) + (corner_arm - end_arm);
+        const Double2 end_arm = reference_.arm(end), corner_arm = other_.arm(passage_.corner);
+        const Double2 between =
+            (other_.shape.place.position - reference_.shape.place.position) + (corner_arm - end_arm);
         RoundTouch touch;
         const DirectAnswer found = find_touch(between, reference_.motion - other_.motion, way_, touch);
         if (found == DirectAnswer::unknown || !reference_.shape.core.is_farthest(end, reference_.seen(touch.normal)) ||
@@ -216,9 +219,9 @@ private:
         const DirectAnswer on_way = is_on_way(touch.enters, touch.closing, way_);
         if (on_way != DirectAnswer::yes) return on_way;
         const double time = std::min(touch.enters, way_.most);
-        const Both point = reference_.shape.place.position + end_arm + reference_.motion * lanes::both(time);
+        const Double2 point = reference_.shape.place.position + end_arm + reference_.motion * lanes::double2(time);
         Hit<2>& hit = result.emplace();
-        write(time, way_, point + touch.normal * lanes::both(reference_.radius), from_a(touch.normal), hit);
+        write(time, way_, point + touch.normal * lanes::double2(reference_.radius), from_a(touch.normal), hit);
         const std::uint32_t of_b = a_is_reference() ? passage_.corner : end;
         name(a_is_reference() ? other_ : reference_, of_b, of_b, hit);
         return DirectAnswer::yes;
@@ -244,29 +247,29 @@ DirectAnswer sweep_moving(Moving<Core>& a, Moving<Core>& b, std::optional<Hit<2>
     if (!(way.length > 0 && way.length < without_end && far < without_end)) return DirectAnswer::unknown;
     way.most = way.length > far ? far / way.length : 1;
     way.doubts = Doubts({a.shape.core.extent() + a.radius, 0}, {b.shape.core.extent() + b.radius, 0}, far);
-    const Both coming[2] = {a.seen(way.motion), b.seen(-way.motion)};
+    const Double2 coming[2] = {a.seen(way.motion), b.seen(-way.motion)};
     Passage passage;
     if (!find_passage(a.shape.core, b.shape.core, seen, coming, way, passage)) return DirectAnswer::no;
-    if (!passage.gets_deep()) return DirectAnswer::unknown;
+    if (!passage.penetrates()) return DirectAnswer::unknown;
     return passage.of == 0 ? SideTouch<Core>(a, b, passage, way).tell(result)
                            : SideTouch<Core>(b, a, passage, way).tell(result);
 }
 
 template <class Core>
-DirectAnswer sweep_cores(const Given<2>& given_a, const Vec2& motion_a, const Given<2>& given_b, const Vec2& motion_b,
-                         std::optional<Hit<2>>& result) {
+DirectAnswer sweep_cores(const ShapeRef<2>& given_a, const Vec2& motion_a, const ShapeRef<2>& given_b,
+                         const Vec2& motion_b, std::optional<Hit<2>>& result) {
     Moving<Core> a(given_a, motion_a), b(given_b, motion_b);
     return sweep_moving(a, b, result);
 }
 
 /// A box of no width about a segment, or of no size about a point.
-void set_stick(const DVec<2>& a, const DVec<2>& b, Outline& outline) {
+void set_stick(const DVec<2>& a, const DVec<2>& b, PlacedPolygon& outline) {
     const DVec<2> middle = 0.5 * (a + b), along = normalized(b - a);
     outline.place = {along.x, along.y, middle.x, middle.y};
     outline.set_box({0.5 * length(b - a), 0});
 }
 
-bool set_moving_outline(const Given<2>& given, Outline& outline) {
+bool set_moving_outline(const ShapeRef<2>& given, PlacedPolygon& outline) {
     outline.radius = 0;
     switch (given.kind) {
         case ShapeKind::ball: {
@@ -287,32 +290,32 @@ bool set_moving_outline(const Given<2>& given, Outline& outline) {
             return true;
         }
         default:
-            return set_outline(given, outline);
+            return set_placed_polygon(given, outline);
     }
 }
 
-DirectAnswer sweep_outlines(const Given<2>& given_a, const Vec2& motion_a, const Given<2>& given_b,
+DirectAnswer sweep_outlines(const ShapeRef<2>& given_a, const Vec2& motion_a, const ShapeRef<2>& given_b,
                             const Vec2& motion_b, std::optional<Hit<2>>& result) {
-    Outline outline_a, outline_b;
+    PlacedPolygon outline_a, outline_b;
     if (!set_moving_outline(given_a, outline_a) || !set_moving_outline(given_b, outline_b))
         return DirectAnswer::unknown;
     Moving<OutlineCore> a(given_a.kind, outline_a, motion_a), b(given_b.kind, outline_b, motion_b);
     return sweep_moving(a, b, result);
 }
 
-inline Both center_of(const Given<2>& given) {
+inline Double2 center_of(const ShapeRef<2>& given) {
     const Circle& circle = given.as<Circle>();
     if (given.pose == nullptr) return lanes::loaded(&circle.center.x);
     const DVec<2> center = placed<2>(DVec<2>(circle.center), *given.pose);
-    return lanes::both(center.x, center.y);
+    return lanes::double2(center.x, center.y);
 }
 
-DirectAnswer sweep_circles(const Given<2>& given_a, const Vec2& motion_a, const Given<2>& given_b, const Vec2& motion_b,
-                           std::optional<Hit<2>>& result) {
+DirectAnswer sweep_circles(const ShapeRef<2>& given_a, const Vec2& motion_a, const ShapeRef<2>& given_b,
+                           const Vec2& motion_b, std::optional<Hit<2>>& result) {
     const double radius_a = static_cast<double>(given_a.as<Circle>().radius),
                  radius_b = static_cast<double>(given_b.as<Circle>().radius);
-    const Both center = center_of(given_a), moves_a = lanes::loaded(&motion_a.x);
-    const Both between = center_of(given_b) - center;
+    const Double2 center = center_of(given_a), moves_a = lanes::loaded(&motion_a.x);
+    const Double2 between = center_of(given_b) - center;
     const double far = 2 * (std::abs(between[0]) + std::abs(between[1]) + std::abs(radius_a + radius_b));
     Way way;
     way.motion = moves_a - lanes::loaded(&motion_b.x);
@@ -332,7 +335,7 @@ DirectAnswer sweep_circles(const Given<2>& given_a, const Vec2& motion_a, const 
     if (on_way != DirectAnswer::yes) return on_way;
     const double time = std::min(touch.enters, way.most);
     Hit<2>& hit = result.emplace();
-    const Both point = center + moves_a * lanes::both(time) + touch.normal * lanes::both(radius_a);
+    const Double2 point = center + moves_a * lanes::double2(time) + touch.normal * lanes::double2(radius_a);
     write(time, way, point, touch.normal, hit);
     hit.feature.kind = FeatureKind::vertex;
     return DirectAnswer::yes;
@@ -340,7 +343,7 @@ DirectAnswer sweep_circles(const Given<2>& given_a, const Vec2& motion_a, const 
 
 }  // namespace
 
-DirectAnswer direct_sweep(const Given<2>& a, const Vec2& motion_a, const Given<2>& b, const Vec2& motion_b,
+DirectAnswer direct_sweep(const ShapeRef<2>& a, const Vec2& motion_a, const ShapeRef<2>& b, const Vec2& motion_b,
                           std::optional<Hit<2>>& result) {
     if (is_polygon(a) && is_polygon(b)) return sweep_cores<PolygonCore>(a, motion_a, b, motion_b, result);
     if (is_box(a) && is_box(b)) return sweep_cores<BoxCore>(a, motion_a, b, motion_b, result);

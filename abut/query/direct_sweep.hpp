@@ -12,7 +12,7 @@ namespace abut {
 
 /// Unknown where the answer isn't plain, as of what starts in touch, slides or grazes. Unless they touch, `result` is
 /// as it was.
-DirectAnswer direct_sweep(const Given<2>& a, const Vec2& motion_a, const Given<2>& b, const Vec2& motion_b,
+DirectAnswer direct_sweep(const ShapeRef<2>& a, const Vec2& motion_a, const ShapeRef<2>& b, const Vec2& motion_b,
                           std::optional<Hit<2>>& result);
 
 }  // namespace abut

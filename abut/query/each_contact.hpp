@@ -24,8 +24,8 @@ template <class A, class B, Visitor<Contact<dimension<A>>> F>
 requires Pair<A, B>
 void each_contact(const A& a, const B& b, F&& visit, const QueryOptions<dimension<A>>& options = {}) {
     constexpr int D = dimension<A>;
-    detail::ask_view(a, [&](const View<D>& x) {
-        detail::ask_view(b, [&](const View<D>& y) { each_contact_of<D>(x, y, options, go_on_after(visit)); });
+    detail::with_view(a, [&](const View<D>& x) {
+        detail::with_view(b, [&](const View<D>& y) { each_contact_of<D>(x, y, options, go_on_after(visit)); });
     });
 }
 template <class A, class B, class F, class Why = detail::WhyNoPair<A, B>>

@@ -71,9 +71,9 @@ public:
             const auto plane =
                 felt_plane<D>(part_a, place, feet_on(a_, others_.of_b), has_own_middle(part_b, b_) ? anew : seen_by_b_);
             if (plane) {
-                turn_round(for_b.emplace(contact).distance);
+                swap_roles(for_b.emplace(contact).distance);
                 const bool rests = rest_on(part_b, *plane, *for_b);
-                turn_round(for_b->distance);
+                swap_roles(for_b->distance);
                 if (!rests) for_b.reset();
             }
         }
@@ -89,7 +89,8 @@ private:
         explicit Middle(const View<D>& view) : view_(view) {}
         const DVec<D>& get() const {
             if (!found_)
-                found_ = std::holds_alternative<Solid<D>>(view_) ? DVec<D>(0.0) : DVec<D>(center(bounds(view_)));
+                found_ =
+                    std::holds_alternative<HalfSpaceView<D>>(view_) ? DVec<D>(0.0) : DVec<D>(center(bounds(view_)));
             return *found_;
         }
 
@@ -153,13 +154,13 @@ private:
         const bool flat = part.core == Core::points && part.count <= D && part.radius == 0;
         return !flat && is_composite(shape);
     }
-    static bool has_own_middle(const Solid<D>&, const View<D>&) { return true; }
+    static bool has_own_middle(const HalfSpaceView<D>&, const View<D>&) { return true; }
     static bool has_own_middle(const DistanceFunction<D>&, const View<D>&) { return false; }
 
     static DVec<D> middle_beside(const Convex<D>& part, const View<D>& shape, const DVec<D>& of_shape, const DVec<D>&) {
         return has_own_middle(part, shape) ? middle_of(part, {}) : of_shape;
     }
-    static DVec<D> middle_beside(const Solid<D>& part, const View<D>&, const DVec<D>&, const DVec<D>& beside) {
+    static DVec<D> middle_beside(const HalfSpaceView<D>& part, const View<D>&, const DVec<D>&, const DVec<D>& beside) {
         return middle_of(part, beside);
     }
 
@@ -202,7 +203,7 @@ private:
         return true;
     }
     /// A half-space has its own.
-    static bool rest_on(const Solid<D>&, const FeltPlane<D>&, PartContact<D>&) { return false; }
+    static bool rest_on(const HalfSpaceView<D>&, const FeltPlane<D>&, PartContact<D>&) { return false; }
     /// Of a function it would have to be searched.
     static bool rest_on(const DistanceFunction<D>&, const FeltPlane<D>&, PartContact<D>&) { return false; }
 

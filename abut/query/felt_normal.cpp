@@ -1,4 +1,4 @@
-#include <abut/convex/round_pairs.hpp>
+#include <abut/convex/pairs/round3.hpp>
 #include <abut/query/felt_normal.hpp>
 #include <abut/query/function_there.hpp>
 
@@ -40,7 +40,7 @@ DVec<D> inner_point(const Convex<D>& part, const DVec<D>& beside) {
     return part.place.point(sum / static_cast<double>(part.count));
 }
 template <int D>
-DVec<D> inner_point(const Solid<D>&, const DVec<D>& beside) {
+DVec<D> inner_point(const HalfSpaceView<D>&, const DVec<D>& beside) {
     return beside;
 }
 template <int D>
@@ -55,7 +55,7 @@ bool has_flat_sides(const Convex<D>& part) {
     return part.core == Core::box || (part.core == Core::points && part.count > static_cast<std::uint32_t>(D));
 }
 template <int D>
-bool has_flat_sides(const Solid<D>&) {
+bool has_flat_sides(const HalfSpaceView<D>&) {
     return false;
 }
 template <int D>
@@ -132,9 +132,9 @@ template <int D>
 bool find_foot(const Convex<D>& part, const DVec<D>& point, double within, Foot<D>& foot) {
     if constexpr (D == 3) {
         if (is_round_points(part, 3)) {
-            const TriangleFoot answer = foot_on_triangle(part, point, within, foot.distance, foot.point);
-            if (answer == TriangleFoot::beyond) return false;
-            if (answer == TriangleFoot::found) {
+            const TriangleClosest answer = closest_point_on_triangle(part, point, within, foot.distance, foot.point);
+            if (answer == TriangleClosest::beyond) return false;
+            if (answer == TriangleClosest::found) {
                 foot.behind = part.one_sided ? dot(normalized(front(part)), foot.point - point) : 0;
                 return foot.distance <= within;
             }
@@ -153,7 +153,7 @@ Foot<D> foot_on(const Convex<D>& part, const DVec<D>& point) {
     return result;
 }
 template <int D>
-Foot<D> foot_on(const Solid<D>& part, const DVec<D>& point) {
+Foot<D> foot_on(const HalfSpaceView<D>& part, const DVec<D>& point) {
     const double distance = dot(part.normal, point) - part.offset;
     return {distance, point - part.normal * distance};
 }
@@ -253,7 +253,7 @@ std::optional<FeltPlane<D>> felt_plane(const Part& part, const FeltPlace<D>& pla
 #define ABUT_INSTANTIATE(D)                                                                                       \
     template bool find_foot(const Convex<D>&, const DVec<D>&, double, Foot<D>&);                                  \
     template Foot<D> foot_on(const Convex<D>&, const DVec<D>&);                                                   \
-    template Foot<D> foot_on(const Solid<D>&, const DVec<D>&);                                                    \
+    template Foot<D> foot_on(const HalfSpaceView<D>&, const DVec<D>&);                                            \
     template Foot<D> foot_on(const DistanceFunction<D>&, const DVec<D>&);                                         \
     template bool has_normal(const DistanceFunction<D>&, const FeltPlace<D>&);                                    \
     template bool is_felt_there(const DistanceFunction<D>&, const FeltPlace<D>&, EachFoot<D>);                    \
@@ -263,14 +263,14 @@ std::optional<FeltPlane<D>> felt_plane(const Part& part, const FeltPlace<D>& pla
     template Foot<D> nearest_foot(EachFoot<D>, const DVec<D>&, double, double, double);                           \
     template void each_foot_on(const View<D>&, const DVec<D>&, double, ClosestPointVisitor<D>);                   \
     template bool has_normal(const Convex<D>&, const FeltPlace<D>&);                                              \
-    template bool has_normal(const Solid<D>&, const FeltPlace<D>&);                                               \
+    template bool has_normal(const HalfSpaceView<D>&, const FeltPlace<D>&);                                       \
     template bool is_felt_there(const Convex<D>&, const FeltPlace<D>&, EachFoot<D>);                              \
-    template bool is_felt_there(const Solid<D>&, const FeltPlace<D>&, EachFoot<D>);                               \
+    template bool is_felt_there(const HalfSpaceView<D>&, const FeltPlace<D>&, EachFoot<D>);                       \
     template bool is_felt(const Convex<D>&, const FeltPlace<D>&, EachFoot<D>);                                    \
-    template bool is_felt(const Solid<D>&, const FeltPlace<D>&, EachFoot<D>);                                     \
+    template bool is_felt(const HalfSpaceView<D>&, const FeltPlace<D>&, EachFoot<D>);                             \
     template std::optional<FeltPlane<D>> felt_plane(const Convex<D>&, const FeltPlace<D>&, EachFoot<D>,           \
                                                     SeenFromMiddle<D>&);                                          \
-    template std::optional<FeltPlane<D>> felt_plane(const Solid<D>&, const FeltPlace<D>&, EachFoot<D>,            \
+    template std::optional<FeltPlane<D>> felt_plane(const HalfSpaceView<D>&, const FeltPlace<D>&, EachFoot<D>,    \
                                                     SeenFromMiddle<D>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

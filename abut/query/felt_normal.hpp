@@ -51,7 +51,7 @@ Foot<D> nearest_foot(EachFoot<D> each_foot, const DVec<D>& point, double within,
 template <int D>
 Foot<D> foot_on(const Convex<D>& part, const DVec<D>& point);
 template <int D>
-Foot<D> foot_on(const Solid<D>& part, const DVec<D>& point);
+Foot<D> foot_on(const HalfSpaceView<D>& part, const DVec<D>& point);
 /// Where its distance points to.
 template <int D>
 Foot<D> foot_on(const DistanceFunction<D>& part, const DVec<D>& point);
@@ -60,7 +60,7 @@ Foot<D> foot_on(const DistanceFunction<D>& part, const DVec<D>& point);
 template <int D>
 bool find_foot(const Convex<D>& part, const DVec<D>& point, double within, Foot<D>& foot);
 template <int D>
-bool find_foot(const Solid<D>& part, const DVec<D>& point, double within, Foot<D>& foot) {
+bool find_foot(const HalfSpaceView<D>& part, const DVec<D>& point, double within, Foot<D>& foot) {
     foot = foot_on(part, point);
     return foot.distance <= within;
 }
@@ -153,7 +153,7 @@ DVec<D> middle_of(const Convex<D>& part, const DVec<D>&) {
     return DVec<D>(center(bounds(part)));
 }
 template <int D>
-DVec<D> middle_of(const Solid<D>&, const DVec<D>& beside) {
+DVec<D> middle_of(const HalfSpaceView<D>&, const DVec<D>& beside) {
     return beside;
 }
 template <int D>

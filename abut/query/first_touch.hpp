@@ -6,7 +6,7 @@
 // nothing touches before takes a single search in the hull of what moves, over the whole stretch. Where that fails, the
 // stretch is cut in two.
 
-#include <abut/convex/signed_distance.hpp>
+#include <abut/convex/gjk/signed_distance.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
-#include <abut/convex/margin.hpp>
+#include <abut/convex/tolerance.hpp>
 #include <abut/query/first_touch.hpp>
 #include <abut/query/function_motion.hpp>
 #include <abut/query/function_there.hpp>
-#include <abut/shape/view.hpp>
+#include <abut/shape/view/view.hpp>
 
 #include <optional>
 
@@ -101,7 +101,7 @@ public:
         bool started_inside = false;
     };
 
-    PointOnWay(const DistanceFunction<D>& function, const Beam<D>& beam)
+    PointOnWay(const DistanceFunction<D>& function, const DRay<D>& beam)
         : function_(function), seen_(function), beam_(beam) {
         line_ = {seen_.back().point(beam.origin), seen_.back().vector(beam.direction)};
     }
@@ -167,7 +167,7 @@ private:
 
     const DistanceFunction<D>& function_;
     FunctionThere<D> seen_;
-    const Beam<D>& beam_;
+    const DRay<D>& beam_;
     OwnLine<D> line_;
     double least_ = 0, step_ = 0;
 };
@@ -304,7 +304,7 @@ DistanceFunction<D> put(const DistanceFunction<D>& part, const DVec<D>& by) {
     return result;
 }
 template <int D>
-Solid<D> put(const Solid<D>& part, const DVec<D>& by) {
+HalfSpaceView<D> put(const HalfSpaceView<D>& part, const DVec<D>& by) {
     return {part.normal, part.offset + dot(part.normal, by)};
 }
 
@@ -334,7 +334,7 @@ double reach_of(const Part& part) {
 template <class Part>
 double size_of(const Part& part) {
     constexpr int D = PartDimension<Part>::value;
-    if constexpr (std::is_same_v<Part, Solid<D>>)
+    if constexpr (std::is_same_v<Part, HalfSpaceView<D>>)
         return std::numeric_limits<double>::infinity();
     else
         return size(part);
@@ -364,7 +364,7 @@ bool ball_touches(const Convex<D>& ball, const DistanceFunction<D>& function, co
                   std::uint32_t index, PartTouch<D>& touch) {
     const DVec<D> center = ball.place.point(DVec<D>(ball.vertices()[0]));
     const DVec<D> direction = ball_moves ? path.direction : -path.direction;
-    const Beam<D> beam{center, direction, path.length};
+    const DRay<D> beam{center, direction, path.length};
     const DistanceFunction<D> wide = rounded(function, ball.radius);
     typename PointOnWay<D>::Gain gain;
     if (!PointOnWay<D>(wide, beam).run(0.5 * function_margin(ball, function), gain)) return false;
@@ -381,7 +381,7 @@ bool ball_touches(const Convex<D>& ball, const DistanceFunction<D>& function, co
 }  // namespace
 
 template <int D>
-bool part_hit(const Beam<D>& beam, const DistanceFunction<D>& part, PartHit<D>& hit) {
+bool part_hit(const DRay<D>& beam, const DistanceFunction<D>& part, PartHit<D>& hit) {
     typename PointOnWay<D>::Gain gain;
     if (!PointOnWay<D>(part, beam).run(0, gain)) return false;
     hit = {gain.along, gain.out, gain.started_inside, Feature()};
@@ -425,7 +425,7 @@ bool part_touch(const A& a, const Path<D>& path, const B& b, std::uint32_t index
     touch.normal = gained->distance.normal;
     touch.point = gained->distance.on_a;
     touch.started_inside = gained->started_inside;
-    const MeetingCorners<D>& corners = gained->distance.corners;
+    const ClosestCorners<D>& corners = gained->distance.corners;
     if constexpr (std::is_same_v<B, Convex<D>>)
         name_feature(b, corners.b, corners.count, -touch.normal, index, touch.feature);
     else
@@ -438,10 +438,10 @@ requires FunctionPair<A, B>
 bool first_meeting(const A& a, const RigidPath<D>& path_a, const B& b, const RigidPath<D>& path_b,
                    const TurningLimits& limits, const SearchOptions<D>&, Meeting<D>& meeting) {
     const double reach_a = reach_of(a), reach_b = reach_of(b);
-    const double speed_a =
-        std::isfinite(reach_a) ? seen_motion(path_a, path_b, reach_a).speed : std::numeric_limits<double>::infinity();
-    const double speed_b =
-        std::isfinite(reach_b) ? seen_motion(path_b, path_a, reach_b).speed : std::numeric_limits<double>::infinity();
+    const double speed_a = std::isfinite(reach_a) ? relative_motion_bounds(path_a, path_b, reach_a).speed
+                                                  : std::numeric_limits<double>::infinity();
+    const double speed_b = std::isfinite(reach_b) ? relative_motion_bounds(path_b, path_a, reach_b).speed
+                                                  : std::numeric_limits<double>::infinity();
     const double speed = std::min(speed_a, speed_b);
     if (!std::isfinite(speed) || !(speed > 0)) return false;
     const auto distance_at = [&](double time, const DistanceWanted& wanted) -> SignedDistance<D> {
@@ -463,7 +463,8 @@ bool first_meeting(const A& a, const RigidPath<D>& path_a, const B& b, const Rig
         const auto seen_at = [&](double then) {
             return moved(moved(part, place_at(path, then)), back_from(place_at(frame, then)));
         };
-        const double wide = seen_motion(path, frame, reach).bend * (until - from) * (until - from) / 8;
+        const double wide =
+            relative_motion_bounds(path, frame, reach).acceleration * (until - from) * (until - from) / 8;
         return is_free_between(seen_at(from), seen_at(until), wide, function, from, until, time);
     };
     const auto is_free = [&](double from, double until, double& time) -> bool {
@@ -477,7 +478,7 @@ bool first_meeting(const A& a, const RigidPath<D>& path_a, const B& b, const Rig
     const std::optional<Gained<D>> gained = first_gain(course, distance_at, closing, is_free);
     if (!gained || gained->time > limits.reach) return false;
     Feature feature;
-    const MeetingCorners<D>& corners = gained->distance.corners;
+    const ClosestCorners<D>& corners = gained->distance.corners;
     if constexpr (std::is_same_v<B, Convex<D>>)
         name_feature(moved(b, place_at(path_b, gained->time)), corners.b, corners.count, -gained->distance.normal, 0,
                      feature);
@@ -491,11 +492,11 @@ bool first_meeting(const A& a, const RigidPath<D>& path_a, const B& b, const Rig
     template bool first_meeting(const A&, const RigidPath<D>&, const B&, const RigidPath<D>&, const TurningLimits&, \
                                 const SearchOptions<D>&, Meeting<D>&);
 #define ABUT_INSTANTIATE(D)                                                          \
-    template bool part_hit(const Beam<D>&, const DistanceFunction<D>&, PartHit<D>&); \
+    template bool part_hit(const DRay<D>&, const DistanceFunction<D>&, PartHit<D>&); \
     ABUT_INSTANTIATE_FOR(D, DistanceFunction<D>, Convex<D>)                          \
     ABUT_INSTANTIATE_FOR(D, Convex<D>, DistanceFunction<D>)                          \
-    ABUT_INSTANTIATE_FOR(D, DistanceFunction<D>, Solid<D>)                           \
-    ABUT_INSTANTIATE_FOR(D, Solid<D>, DistanceFunction<D>)                           \
+    ABUT_INSTANTIATE_FOR(D, DistanceFunction<D>, HalfSpaceView<D>)                   \
+    ABUT_INSTANTIATE_FOR(D, HalfSpaceView<D>, DistanceFunction<D>)                   \
     ABUT_INSTANTIATE_FOR(D, DistanceFunction<D>, DistanceFunction<D>)
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

@@ -19,7 +19,7 @@ namespace abut {
 inline constexpr int function_ray_most_steps = 1024, function_sweep_most_steps = 256;
 
 template <int D>
-bool part_hit(const Beam<D>& beam, const DistanceFunction<D>& part, PartHit<D>& hit);
+bool part_hit(const DRay<D>& beam, const DistanceFunction<D>& part, PartHit<D>& hit);
 
 template <int D, class A, class B>
 requires FunctionPair<A, B>

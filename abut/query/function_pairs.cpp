@@ -1,8 +1,8 @@
-#include <abut/convex/margin.hpp>
+#include <abut/convex/tolerance.hpp>
 #include <abut/math/assert.hpp>
 #include <abut/query/function_pairs.hpp>
 #include <abut/query/least_distance.hpp>
-#include <abut/shape/view.hpp>
+#include <abut/shape/view/view.hpp>
 
 namespace abut {
 namespace {
@@ -39,7 +39,7 @@ double finite_size(const Convex<D>& part) {
     return size(part);
 }
 template <int D>
-double finite_size(const Solid<D>&) {
+double finite_size(const HalfSpaceView<D>&) {
     return std::numeric_limits<double>::infinity();
 }
 template <int D>
@@ -51,7 +51,7 @@ double finite_size(const DistanceFunction<D>& part) {
 template <int D>
 double largest_asked(const DistanceFunction<D>& function, const Convex<D>& other) {
     const Affine<D> back = inverse(function.place, determinant(function.place));
-    return largest(back.point(reference_point(other))) * least_factor<D>(function);
+    return largest(back.point(reference_point(other))) * min_scale_factor<D>(function);
 }
 template <int D>
 double largest_own(const DistanceFunction<D>& function) {
@@ -59,10 +59,10 @@ double largest_own(const DistanceFunction<D>& function) {
     for (int i = 0; i < D; ++i)
         for (const float bound : {function.bounds.min[i], function.bounds.max[i]})
             if (std::isfinite(bound)) most = std::max(most, std::abs(static_cast<double>(bound)));
-    return most * least_factor<D>(function);
+    return most * min_scale_factor<D>(function);
 }
 template <int D>
-double largest_asked(const DistanceFunction<D>& function, const Solid<D>&) {
+double largest_asked(const DistanceFunction<D>& function, const HalfSpaceView<D>&) {
     return largest_own(function);
 }
 template <int D>
@@ -86,8 +86,8 @@ bool is_ball(const Convex<D>& part) {
 
 /// The corners that are as deep as the deepest place of a convex set, as far as they can be told.
 template <int D>
-MeetingCorners<D> corners_at(const Convex<D>& set, const DVec<D>& place, const DVec<D>& out, double slack) {
-    MeetingCorners<D> result;
+ClosestCorners<D> corners_at(const Convex<D>& set, const DVec<D>& place, const DVec<D>& out, double slack) {
+    ClosestCorners<D> result;
     constexpr std::uint32_t few = 8;
     const bool has_few =
         set.inner_radius == 0 && (set.core == Core::box || (set.core == Core::points && set.count <= few));
@@ -96,7 +96,7 @@ MeetingCorners<D> corners_at(const Convex<D>& set, const DVec<D>& place, const D
     std::size_t count = 0;
     const std::uint32_t corners = set.core == Core::box ? 1u << D : set.count;
     for (std::uint32_t i = 0; i < corners && count < result.a.size(); ++i)
-        if (dot(out, set.place.point(own_corner(set, i)) - place) <= slack) result.a[count++] = i;
+        if (dot(out, set.place.point(local_corner(set, i)) - place) <= slack) result.a[count++] = i;
     result.count = std::max<std::size_t>(count, 1);
     return result;
 }
@@ -150,7 +150,7 @@ SignedDistance<D> from_convex(const Convex<D>& set, const DistanceFunction<D>& f
 
 /// Of a function and a half-space.
 template <int D>
-SignedDistance<D> over_solid(const DistanceFunction<D>& function, const Solid<D>& solid, const DVec<D>& normal,
+SignedDistance<D> over_solid(const DistanceFunction<D>& function, const HalfSpaceView<D>& solid, const DVec<D>& normal,
                              double tolerance, double off, const DistanceWanted& wanted, int most_boxes) {
     if (has_nothing(function.bounds)) return nothing_near<D>();
     const bool has_bounds = is_bounded(function.bounds);
@@ -242,7 +242,7 @@ Manifold<D> points_of_face(const Convex<D>& set, const DistanceFunction<D>& func
     }
     if (!has_deepest)
         candidates.push_back(meeting_point(distance.on_a, out, distance.distance, true, distance.corners.a[0]));
-    return thinned(candidates, distance.normal, slack);
+    return reduced_manifold(candidates, distance.normal, slack);
 }
 
 /// Directions across a normal, evenly around.
@@ -259,7 +259,7 @@ std::array<DVec<D>, D == 2 ? 2 : 4> around(const DVec<D>& normal) {
 
 /// The points of a function's shape on a plane: the lowest, and those that are lowest for planes that lean.
 template <int D>
-Manifold<D> points_on_plane(const DistanceFunction<D>& function, const Solid<D>& solid,
+Manifold<D> points_on_plane(const DistanceFunction<D>& function, const HalfSpaceView<D>& solid,
                             const SignedDistance<D>& distance, double margin, double doubt) {
     ManifoldCandidates<D> candidates;
     const double slack = 2 * doubt;
@@ -279,7 +279,7 @@ Manifold<D> points_on_plane(const DistanceFunction<D>& function, const Solid<D>&
         if (leaning.distance <= margin + slack) add(leaning.on_a, leaning.distance, name);
         ++name;
     }
-    return thinned(candidates, distance.normal, slack);
+    return reduced_manifold(candidates, distance.normal, slack);
 }
 
 }  // namespace
@@ -293,7 +293,7 @@ double function_margin(const A& a, const B& b) {
         asked = largest_asked(a, b);
     else
         asked = largest_asked(b, a);
-    return margin_of_doubt(std::isfinite(smaller) ? smaller : 0, asked + (std::isfinite(smaller) ? smaller : 0));
+    return tolerance_for(std::isfinite(smaller) ? smaller : 0, asked + (std::isfinite(smaller) ? smaller : 0));
 }
 
 template <class A, class B>
@@ -331,12 +331,12 @@ requires FunctionPair<A, B> SignedDistance<PartDimension<A>::value> function_dis
         } else {
             SignedDistance<D> result = over_solid(b, a, a.normal, search_tolerance * margin, search_tolerance * margin,
                                                   wanted, most_boxes_over_solid);
-            if (std::isfinite(result.distance)) turn_round(result);
+            if (std::isfinite(result.distance)) swap_roles(result);
             return result;
         }
     } else if constexpr (std::is_same_v<B, Convex<D>>) {
         SignedDistance<D> result = is_ball(b) ? from_ball(b, a, wanted) : from_convex(b, a, margin, wanted);
-        if (std::isfinite(result.distance)) turn_round(result);
+        if (std::isfinite(result.distance)) swap_roles(result);
         return result;
     } else {
         return over_solid(a, b, b.normal, search_tolerance * margin, search_tolerance * margin, wanted,
@@ -392,11 +392,11 @@ bool part_contact(const A& a, const B& b, double reach, double margin, const Sea
         contact.manifold = points_of_face(a, b, distance, margin);
     } else if constexpr (std::is_same_v<B, Convex<D>>) {
         SignedDistance<D> turned = distance;
-        turn_round(turned);
+        swap_roles(turned);
         contact.manifold = points_of_face(b, a, turned, margin);
-    } else if constexpr (std::is_same_v<A, Solid<D>>) {
+    } else if constexpr (std::is_same_v<A, HalfSpaceView<D>>) {
         SignedDistance<D> turned = distance;
-        turn_round(turned);
+        swap_roles(turned);
         contact.manifold = points_on_plane(b, a, turned, margin, function_margin(a, b));
     } else {
         contact.manifold = points_on_plane(a, b, distance, margin, function_margin(a, b));
@@ -414,8 +414,8 @@ bool part_contact(const A& a, const B& b, double reach, double margin, const Sea
     template bool stays_apart(const Convex<D>&, const Convex<D>&, double, const DistanceFunction<D>&, DVec<D>&); \
     ABUT_INSTANTIATE_FOR(D, DistanceFunction<D>, Convex<D>)                                                      \
     ABUT_INSTANTIATE_FOR(D, Convex<D>, DistanceFunction<D>)                                                      \
-    ABUT_INSTANTIATE_FOR(D, DistanceFunction<D>, Solid<D>)                                                       \
-    ABUT_INSTANTIATE_FOR(D, Solid<D>, DistanceFunction<D>)                                                       \
+    ABUT_INSTANTIATE_FOR(D, DistanceFunction<D>, HalfSpaceView<D>)                                               \
+    ABUT_INSTANTIATE_FOR(D, HalfSpaceView<D>, DistanceFunction<D>)                                               \
     ABUT_INSTANTIATE_FOR(D, DistanceFunction<D>, DistanceFunction<D>)
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

@@ -9,8 +9,8 @@
 // diameter of the largest ball in both.
 
 #include <abut/query/convex_pair.hpp>
-#include <abut/shape/distance_function.hpp>
 #include <abut/shape/half_space.hpp>
+#include <abut/shape/view/distance_function.hpp>
 
 #include <type_traits>
 
@@ -21,7 +21,7 @@ struct PartDimension;
 template <int D>
 struct PartDimension<Convex<D>> : std::integral_constant<int, D> {};
 template <int D>
-struct PartDimension<Solid<D>> : std::integral_constant<int, D> {};
+struct PartDimension<HalfSpaceView<D>> : std::integral_constant<int, D> {};
 template <int D>
 struct PartDimension<DistanceFunction<D>> : std::integral_constant<int, D> {};
 

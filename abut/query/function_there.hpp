@@ -3,7 +3,7 @@
 // A distance function as a search sees it: in double, in lengths of the world, in a frame that suits it. For .cpp
 // files.
 
-#include <abut/shape/distance_function.hpp>
+#include <abut/shape/view/distance_function.hpp>
 
 #include <cmath>
 
@@ -39,7 +39,7 @@ public:
     explicit FunctionThere(const DistanceFunction<D>& function)
         : function_(function),
           back_(inverse(function.place, determinant(function.place))),
-          factor_(least_factor<D>(function)),
+          factor_(min_scale_factor<D>(function)),
           level_(function.inner_radius + function.radius / factor_),
           resolution_(static_cast<double>(function.resolution) * factor_) {
         for (int i = 0; i < D; ++i) {
@@ -119,20 +119,21 @@ public:
     }
 
     /// A lower bound in a box, as exactly as the function knows it.
-    DistanceKnown bound(const DVec<D>& center, const DVec<D>& half, DistanceBound<D>& bound) const {
-        if (function_.bound == nullptr) return DistanceKnown::nothing;
+    DistanceBoundStatus bound(const DVec<D>& center, const DVec<D>& half, DistanceBound<D>& bound) const {
+        if (function_.bound == nullptr) return DistanceBoundStatus::unknown;
         const DVec<D> middle = back_.point(center);
         DVec<D> own_half(0.0);
         for (int i = 0; i < D; ++i)
             for (int j = 0; j < D; ++j) own_half[i] += std::abs(back_.column[static_cast<std::size_t>(j)][i]) * half[j];
-        const DVec<D> wanted = bound.wanted, anchor = bound.anchor;
-        bound.wanted = function_.place.transposed(wanted) / factor_;
-        bound.enough = bound.enough / factor_ + level_;
+        const DVec<D> wanted = bound.requested_gradient, anchor = bound.anchor;
+        bound.requested_gradient = function_.place.transposed(wanted) / factor_;
+        bound.sufficient = bound.sufficient / factor_ + level_;
         bound.anchor = back_.point(anchor);
-        const DistanceKnown known = function_.bound(function_.object, middle - own_half, middle + own_half, bound);
-        bound.wanted = wanted;
+        const DistanceBoundStatus known =
+            function_.bound(function_.object, middle - own_half, middle + own_half, bound);
+        bound.requested_gradient = wanted;
         bound.anchor = anchor;
-        bound.least = factor_ * (bound.least - level_);
+        bound.lower_bound = factor_ * (bound.lower_bound - level_);
         if (bound.cut_axis >= 0) {
             if (has_own_axes_)
                 bound.cut =
@@ -141,11 +142,11 @@ public:
             else
                 bound.cut_axis = -1;
         }
-        if (known != DistanceKnown::bound) return known;
+        if (known != DistanceBoundStatus::valid) return known;
         bound.value = factor_ * (bound.value - level_);
-        bound.wanted_value = factor_ * (bound.wanted_value - level_);
+        bound.requested_value = factor_ * (bound.requested_value - level_);
         bound.gradient = back_.transposed(bound.gradient) * factor_;
-        bound.bend *= factor_;
+        bound.curvature *= factor_;
         if (bound.is_smooth)
             for (double& value : bound.corners) value = factor_ * (value - level_);
         return known;

@@ -2,7 +2,7 @@
 
 // Plain shapes of the plane as outlines, from the shapes as they were given. For .cpp files.
 
-#include <abut/convex/sides.hpp>
+#include <abut/convex/polygon_soa.hpp>
 #include <abut/math/set_affine.hpp>
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
@@ -13,7 +13,7 @@
 
 namespace abut {
 
-inline Rigid2 place_of(const Given<2>& given) {
+inline Rigid2 place_of(const ShapeRef<2>& given) {
     return given.pose != nullptr ? rigid(*given.pose) : Rigid2{1, 0, 0, 0};
 }
 
@@ -26,7 +26,7 @@ inline Rigid2 place_of_box(const Box2& box, const Pose2* pose) {
 
 /// Of one kind, so that what is asked of it can be compiled for that kind.
 template <ShapeKind kind>
-inline bool set_outline_of(const Given<2>& given, Outline& outline) {
+inline bool set_outline_of(const ShapeRef<2>& given, PlacedPolygon& outline) {
     if constexpr (kind != ShapeKind::box && kind != ShapeKind::ball) outline.place = place_of(given);
     outline.radius = 0;
     if constexpr (kind == ShapeKind::ball) {
@@ -49,13 +49,13 @@ inline bool set_outline_of(const Given<2>& given, Outline& outline) {
     } else {
         const Polygon& polygon = given.as<Polygon>();
         if (polygon.sides() == nullptr) return false;
-        outline.sides.refer_to(polygon.sides(), polygon.side_count());
+        outline.sides.view_rows(polygon.sides(), polygon.side_count());
     }
     return true;
 }
 
 /// Of any kind. False where it has none.
-inline bool set_outline(const Given<2>& given, Outline& outline) {
+inline bool set_placed_polygon(const ShapeRef<2>& given, PlacedPolygon& outline) {
     switch (given.kind) {
         case ShapeKind::ball:
             return set_outline_of<ShapeKind::ball>(given, outline);

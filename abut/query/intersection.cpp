@@ -1,6 +1,6 @@
-#include <abut/convex/clip.hpp>
-#include <abut/convex/polygon_clip.hpp>
-#include <abut/convex/signed_distance.hpp>
+#include <abut/convex/gjk/signed_distance.hpp>
+#include <abut/convex/manifold/clip.hpp>
+#include <abut/convex/manifold/polygon_clip.hpp>
 #include <abut/math/assert.hpp>
 #include <abut/query/intersection.hpp>
 #include <abut/query/overlaps.hpp>
@@ -34,10 +34,10 @@ bool convex_intersection(const Convex<D>& a, const Convex<D>& b, PolytopeOf<D>& 
 }
 
 /// Rounded to floats, from the lexicographically least corner on; 0 has no sign.
-void round_loop(const ClippedLoop& loop, std::array<Vec2, 2 * most_sides>& rounded) {
+void round_loop(const ClippedLoop& loop, std::array<Vec2, 2 * max_soa_edges>& rounded) {
     const auto less = [](const Vec2& a, const Vec2& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); };
     std::size_t least = 0;
-    std::array<Vec2, 2 * most_sides> corners;
+    std::array<Vec2, 2 * max_soa_edges> corners;
     for (std::size_t i = 0; i < loop.count; ++i) {
         corners[i] = to_float(loop.points[i]) + Vec2(0);
         if (less(corners[i], corners[least])) least = i;
@@ -49,8 +49,8 @@ void round_loop(const ClippedLoop& loop, std::array<Vec2, 2 * most_sides>& round
 /// Polygons of few sides that overlap by more than rounding. False: nothing is known.
 bool quick_intersection(const Convex<2>& a, const Convex<2>& b, Polygon& out) {
     if (a.radius > 0 || b.radius > 0 || !is_finite(a) || !is_finite(b)) return false;
-    Outline outline_a, outline_b;
-    if (!set_outline(a, outline_a) || !set_outline(b, outline_b)) return false;
+    PlacedPolygon outline_a, outline_b;
+    if (!set_placed_polygon(a, outline_a) || !set_placed_polygon(b, outline_b)) return false;
     if (outline_a.is_point() || outline_b.is_point()) return false;
     const PolygonPair pair(outline_a, outline_b);
     const double scale =
@@ -59,7 +59,7 @@ bool quick_intersection(const Convex<2>& a, const Convex<2>& b, Polygon& out) {
                   std::abs(pair.sides(1).x[0]), std::abs(pair.sides(1).y[0])});
     ClippedLoop loop;
     if (!(scale < 1e37) || !clip_polygons(pair, loop)) return false;
-    std::array<Vec2, 2 * most_sides> rounded;
+    std::array<Vec2, 2 * max_soa_edges> rounded;
     round_loop(loop, rounded);
     // What rounding to floats alone may have opened isn't told from touching here.
     return out.set_outline(std::span(rounded.data(), loop.count), 1e-6 * scale);

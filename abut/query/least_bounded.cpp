@@ -212,20 +212,20 @@ private:
             }
         }
         DistanceBound<D> bound;
-        if (nearest != nullptr) bound.wanted = nearest->gradient;
-        bound.enough = limit();
+        if (nearest != nullptr) bound.requested_gradient = nearest->gradient;
+        bound.sufficient = limit();
         bound.anchor = best_.point;
         bound.needs_gradient = false;
         bound.only_cut = best_.boxes > 1 && is_in(box, best_.point);
-        const DistanceKnown known = function_.bound(box.center, box.half, bound);
-        box.least = std::max(box.least, bound.least);
+        const DistanceBoundStatus known = function_.bound(box.center, box.half, bound);
+        box.least = std::max(box.least, bound.lower_bound);
         if (!wanted(box.least)) return;
         Cut cut{bound.cut_axis, bound.cut};
-        if (known == DistanceKnown::bound) {
+        if (known == DistanceBoundStatus::valid) {
             if (nearest != nullptr && !bound.is_smooth) {
                 const double in_set = nearest->least - dot(nearest->gradient, box.center);
-                box.least =
-                    std::max(box.least, bound.wanted_value + std::max(in_set, -sum_along(nearest->gradient, box.half)));
+                box.least = std::max(box.least,
+                                     bound.requested_value + std::max(in_set, -sum_along(nearest->gradient, box.half)));
                 if (!wanted(box.least)) return;
             }
             if (bound.is_smooth) {
@@ -236,7 +236,7 @@ private:
                 const DVec<D> place = box.center + envelope.place;
                 if (function_.at(place) < best_.distance - options_.tolerance) go_down(place);
                 if (!wanted(box.least)) return;
-                cut = best_cut(box, bound.bend, place);
+                cut = best_cut(box, bound.curvature, place);
             }
         }
         if (cut.axis < 0) cut = {longest_axis(box.half), 0};
@@ -247,7 +247,7 @@ private:
     /// The bound of a box without kinks, by the envelope of its corner values. Adds to `bend` what the twist of these
     /// values makes of it.
     EnvelopeBound<D> bound_smooth(const SearchBox<D>& box, DistanceBound<D>& bound, const DVec<D>& start) const {
-        add_twist(bound.corners, bound.bend);
+        add_twist(bound.corners, bound.curvature);
         double steepest = 0;
         for (int a = 0; a < D; ++a) {
             if (!(box.half[a] > 0)) continue;
@@ -255,7 +255,8 @@ private:
             for (std::size_t i = 0; i < bound.corners.size(); ++i)
                 rise += (i >> a & 1) != 0 ? bound.corners[i] : -bound.corners[i];
             rise /= static_cast<double>(bound.corners.size());
-            steepest = std::max({steepest, bound.bend[a] / box.half[a], 0.5 * std::abs(rise / box.half[a] - start[a])});
+            steepest =
+                std::max({steepest, bound.curvature[a] / box.half[a], 0.5 * std::abs(rise / box.half[a] - start[a])});
         }
         const auto lowest_from_middle = [&](const DVec<D>& u) { return lowest(u) - box.center; };
         return envelope_bound<D>(function_.axes_of(box.half), bound.corners, start, limit(),

@@ -30,16 +30,16 @@ public:
         const double falls = slope_ * length(box.half), least = here - falls;
         if (!(least < best.distance - options_.tolerance && least <= options_.reach)) return least;
         DistanceBound<D> bound_a, bound_b;
-        const DistanceKnown known_a = a_.bound(box.center, box.half, bound_a),
-                            known_b = b_.bound(box.center, box.half, bound_b);
-        const bool told_a = known_a == DistanceKnown::bound, told_b = known_b == DistanceKnown::bound;
+        const DistanceBoundStatus known_a = a_.bound(box.center, box.half, bound_a),
+                                  known_b = b_.bound(box.center, box.half, bound_b);
+        const bool told_a = known_a == DistanceBoundStatus::valid, told_b = known_b == DistanceBoundStatus::valid;
         const bool both =
-            (told_a || known_a == DistanceKnown::nothing) && (told_b || known_b == DistanceKnown::nothing);
+            (told_a || known_a == DistanceBoundStatus::unknown) && (told_b || known_b == DistanceBoundStatus::unknown);
         const bool is_small = both && !(told_a && told_b) && length(box.half) <= piece_;
         if (!told_a) bound_a = is_small ? plane_of(a_, box, of_a) : level_at(of_a - falls);
         if (!told_b) bound_b = is_small ? plane_of(b_, box, of_b) : level_at(of_b - falls);
         const auto lowest = [&](const DistanceBound<D>& bound) {
-            return std::max(bound.value - sum_along(bound.gradient, box.half), bound.least);
+            return std::max(bound.value - sum_along(bound.gradient, box.half), bound.lower_bound);
         };
         DistanceBound<D> between;
         between.value = 0.5 * (bound_a.value + bound_b.value);

@@ -45,15 +45,15 @@ public:
         const double here = function_.at(box.center);
         if (here - function_.slope() * length(box.half) > options_.off) return nothing;
         DistanceBound<D> bound;
-        const DistanceKnown known = function_.bound(box.center, box.half, bound);
-        const bool is_told = known == DistanceKnown::bound;
-        const bool is_small = known == DistanceKnown::nothing && length(box.half) <= piece_;
+        const DistanceBoundStatus known = function_.bound(box.center, box.half, bound);
+        const bool is_told = known == DistanceBoundStatus::valid;
+        const bool is_small = known == DistanceBoundStatus::unknown && length(box.half) <= piece_;
         if (!is_told && !is_small) {
             if (here <= options_.off) look_down(box.center);
             return lowest;
         }
         if (!is_told) bound = function_.guess(box.center, box.half, here);
-        if (is_told && std::max(bound.least, bound.value - sum_along(bound.gradient, box.half)) > options_.off)
+        if (is_told && std::max(bound.lower_bound, bound.value - sum_along(bound.gradient, box.half)) > options_.off)
             return nothing;
         // Of the plane below which the shape is, in the box: for any weight above zero a bound.
         const double square = length_squared(bound.gradient);

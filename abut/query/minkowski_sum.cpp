@@ -1,5 +1,5 @@
-#include <abut/convex/hull.hpp>
-#include <abut/convex/minkowski.hpp>
+#include <abut/convex/hull/hull.hpp>
+#include <abut/convex/hull/minkowski.hpp>
 #include <abut/math/assert.hpp>
 #include <abut/query/minkowski_sum.hpp>
 

@@ -2,7 +2,7 @@
 
 // Parts that are met from their front alone: a chain's segments, one-way platforms. For .cpp files.
 
-#include <abut/shape/view.hpp>
+#include <abut/shape/view/view.hpp>
 
 namespace abut {
 
@@ -12,7 +12,7 @@ bool goes_at_front(const Convex<D>& part, const DVec<D>& way) {
     return !part.one_sided || dot(front(part), way) < 0;
 }
 template <int D>
-bool goes_at_front(const Solid<D>&, const DVec<D>&) {
+bool goes_at_front(const HalfSpaceView<D>&, const DVec<D>&) {
     return true;
 }
 template <int D>
@@ -26,7 +26,7 @@ bool leaves_by_front(const Convex<D>& part, const DVec<D>& way_out) {
     return !part.one_sided || dot(front(part), way_out) > 0;
 }
 template <int D>
-bool leaves_by_front(const Solid<D>&, const DVec<D>&) {
+bool leaves_by_front(const HalfSpaceView<D>&, const DVec<D>&) {
     return true;
 }
 template <int D>

@@ -2,8 +2,8 @@
 
 // What every question takes as its optional last argument.
 
-#include <abut/convex/cache.hpp>
-#include <abut/convex/trace.hpp>
+#include <abut/convex/gjk/cache.hpp>
+#include <abut/convex/gjk/trace.hpp>
 
 namespace abut {
 

@@ -6,11 +6,11 @@ namespace abut {
 namespace {
 
 template <int D>
-bool part_overlaps(const Convex<D>& a, const Solid<D>& b, const SearchOptions<D>&) {
+bool part_overlaps(const Convex<D>& a, const HalfSpaceView<D>& b, const SearchOptions<D>&) {
     return part_distance(a, b).distance <= 0;
 }
 template <int D>
-bool part_overlaps(const Solid<D>& a, const Convex<D>& b, const SearchOptions<D>& options) {
+bool part_overlaps(const HalfSpaceView<D>& a, const Convex<D>& b, const SearchOptions<D>& options) {
     return part_overlaps(b, a, options);
 }
 
@@ -24,7 +24,7 @@ bool overlaps(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& opt
 }
 
 template <int D>
-bool overlaps(const Given<D>& a, const Given<D>& b, const QueryOptions<D>& options) {
+bool overlaps(const ShapeRef<D>& a, const ShapeRef<D>& b, const QueryOptions<D>& options) {
     if (options.trace == nullptr) {
         const DirectAnswer answer = direct_overlap(a, b, options.cache);
         if (answer != DirectAnswer::unknown) return answer == DirectAnswer::yes;
@@ -52,7 +52,7 @@ template bool overlaps(const View<2>&, const View<2>&, const QueryOptions<2>&);
 template bool overlaps(const View<3>&, const View<3>&, const QueryOptions<3>&);
 template bool overlaps(const Convex<2>&, const Convex<2>&, const QueryOptions<2>&);
 template bool overlaps(const Convex<3>&, const Convex<3>&, const QueryOptions<3>&);
-template bool overlaps(const Given<2>&, const Given<2>&, const QueryOptions<2>&);
-template bool overlaps(const Given<3>&, const Given<3>&, const QueryOptions<3>&);
+template bool overlaps(const ShapeRef<2>&, const ShapeRef<2>&, const QueryOptions<2>&);
+template bool overlaps(const ShapeRef<3>&, const ShapeRef<3>&, const QueryOptions<3>&);
 
 }  // namespace abut

@@ -3,7 +3,7 @@
 // Do two shapes have a point in common?
 
 #include <abut/query/options.hpp>
-#include <abut/shape/refused.hpp>
+#include <abut/shape/view/constraints.hpp>
 
 namespace abut {
 
@@ -12,13 +12,13 @@ bool overlaps(const View<D>& a, const View<D>& b, const QueryOptions<D>& options
 template <int D>
 bool overlaps(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options = {});
 template <int D>
-bool overlaps(const Given<D>& a, const Given<D>& b, const QueryOptions<D>& options = {});
+bool overlaps(const ShapeRef<D>& a, const ShapeRef<D>& b, const QueryOptions<D>& options = {});
 
 /// True where they overlap or touch. Cheaper than `closest`: stops at the first axis that parts them.
 template <class A, class B>
 requires Pair<A, B>
 bool overlaps(const A& a, const B& b, const QueryOptions<dimension<A>>& options = {}) {
-    return detail::ask(a, b, [&](const auto& x, const auto& y) { return overlaps(x, y, options); });
+    return detail::with_views(a, b, [&](const auto& x, const auto& y) { return overlaps(x, y, options); });
 }
 template <class A, class B, class Why = detail::WhyNoPair<A, B>>
 auto overlaps(const A& a, const B& b, const QueryOptions<detail::dimension_or_3<A>>& options = {});

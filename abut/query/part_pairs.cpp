@@ -5,7 +5,7 @@
 namespace abut {
 
 template <int D>
-SignedDistance<D> part_distance(const Convex<D>& a, const Solid<D>& b, const SearchOptions<D>&) {
+SignedDistance<D> part_distance(const Convex<D>& a, const HalfSpaceView<D>& b, const SearchOptions<D>&) {
     const CorePoint<D> lowest = core_support(a, -b.normal);
     SignedDistance<D> result;
     result.normal = -b.normal;
@@ -16,14 +16,14 @@ SignedDistance<D> part_distance(const Convex<D>& a, const Solid<D>& b, const Sea
 }
 
 template <int D>
-SignedDistance<D> part_distance(const Solid<D>& a, const Convex<D>& b, const SearchOptions<D>&) {
+SignedDistance<D> part_distance(const HalfSpaceView<D>& a, const Convex<D>& b, const SearchOptions<D>&) {
     SignedDistance<D> result = part_distance(b, a);
-    turn_round(result);
+    swap_roles(result);
     return result;
 }
 
 template <int D>
-bool part_contact(const Convex<D>& a, const Solid<D>& b, double reach, double margin, const SearchOptions<D>&,
+bool part_contact(const Convex<D>& a, const HalfSpaceView<D>& b, double reach, double margin, const SearchOptions<D>&,
                   PartContact<D>& contact) {
     contact.distance = part_distance(a, b);
     if (contact.distance.distance > reach) return false;
@@ -32,17 +32,17 @@ bool part_contact(const Convex<D>& a, const Solid<D>& b, double reach, double ma
 }
 
 template <int D>
-bool part_contact(const Solid<D>& a, const Convex<D>& b, double reach, double margin, const SearchOptions<D>& options,
-                  PartContact<D>& contact) {
+bool part_contact(const HalfSpaceView<D>& a, const Convex<D>& b, double reach, double margin,
+                  const SearchOptions<D>& options, PartContact<D>& contact) {
     if (!part_contact(b, a, reach, margin, options, contact)) return false;
-    turn_round(contact.distance);
+    swap_roles(contact.distance);
     return true;
 }
 
 namespace {
 
 /// Of a box, whose corners tell by their bits what they span. Without guesses at which it is: it is another each time.
-void name_box_feature(const CornerNumbers<3>& corners, std::size_t count, Feature& feature) {
+void name_box_feature(const CornerIndices<3>& corners, std::size_t count, Feature& feature) {
     const std::uint32_t first = corners[0];
     std::uint32_t free = 0, seen = 0;
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -74,7 +74,7 @@ std::uint32_t face_number(const Convex<3>& part, const DVec<3>& out) {
 }  // namespace
 
 template <int D>
-void name_feature(const Convex<D>& part, const CornerNumbers<D>& corners, std::size_t count,
+void name_feature(const Convex<D>& part, const CornerIndices<D>& corners, std::size_t count,
                   [[maybe_unused]] const DVec<D>& out, std::uint32_t number, Feature& feature) {
     feature.part = number;
     feature.index = 0;
@@ -105,22 +105,22 @@ void name_feature(const Convex<D>& part, const CornerNumbers<D>& corners, std::s
 }
 
 template <int D>
-void name_feature(const Solid<D>&, const CornerNumbers<D>&, std::size_t, const DVec<D>&, std::uint32_t number,
+void name_feature(const HalfSpaceView<D>&, const CornerIndices<D>&, std::size_t, const DVec<D>&, std::uint32_t number,
                   Feature& feature) {
     feature = {number, 0, FeatureKind::none};
 }
 
 #define ABUT_INSTANTIATE(D)                                                                                           \
-    template SignedDistance<D> part_distance(const Convex<D>&, const Solid<D>&, const SearchOptions<D>&);             \
-    template SignedDistance<D> part_distance(const Solid<D>&, const Convex<D>&, const SearchOptions<D>&);             \
-    template bool part_contact(const Convex<D>&, const Solid<D>&, double, double, const SearchOptions<D>&,            \
+    template SignedDistance<D> part_distance(const Convex<D>&, const HalfSpaceView<D>&, const SearchOptions<D>&);     \
+    template SignedDistance<D> part_distance(const HalfSpaceView<D>&, const Convex<D>&, const SearchOptions<D>&);     \
+    template bool part_contact(const Convex<D>&, const HalfSpaceView<D>&, double, double, const SearchOptions<D>&,    \
                                PartContact<D>&);                                                                      \
-    template bool part_contact(const Solid<D>&, const Convex<D>&, double, double, const SearchOptions<D>&,            \
+    template bool part_contact(const HalfSpaceView<D>&, const Convex<D>&, double, double, const SearchOptions<D>&,    \
                                PartContact<D>&);                                                                      \
-    template void name_feature(const Convex<D>&, const CornerNumbers<D>&, std::size_t, const DVec<D>&, std::uint32_t, \
+    template void name_feature(const Convex<D>&, const CornerIndices<D>&, std::size_t, const DVec<D>&, std::uint32_t, \
                                Feature&);                                                                             \
-    template void name_feature(const Solid<D>&, const CornerNumbers<D>&, std::size_t, const DVec<D>&, std::uint32_t,  \
-                               Feature&);
+    template void name_feature(const HalfSpaceView<D>&, const CornerIndices<D>&, std::size_t, const DVec<D>&,         \
+                               std::uint32_t, Feature&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

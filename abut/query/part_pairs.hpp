@@ -7,7 +7,7 @@
 #include <abut/query/feature.hpp>
 #include <abut/query/function_pairs.hpp>
 #include <abut/query/options.hpp>
-#include <abut/shape/view.hpp>
+#include <abut/shape/view/view.hpp>
 
 namespace abut {
 
@@ -17,7 +17,7 @@ template <int D, class Other, class Visit>
 void each_part_near(const View<D>& shape, const Other& other, float reach, Visit&& visit) {
     if (const auto* convex = std::get_if<Convex<D>>(&shape))
         visit(*convex, 0u);
-    else if (const auto* solid = std::get_if<Solid<D>>(&shape))
+    else if (const auto* solid = std::get_if<HalfSpaceView<D>>(&shape))
         visit(*solid, 0u);
     else if (const auto* function = std::get_if<DistanceFunction<D>>(&shape))
         visit(*function, 0u);
@@ -27,14 +27,15 @@ void each_part_near(const View<D>& shape, const Other& other, float reach, Visit
 }
 
 /// Calls visit(part_a, index_a, part_b, index_b) for at least all pairs of parts that are at most `reach` apart; each
-/// part is a Convex, a Solid or a DistanceFunction, never both a Solid. The visitor returns false to stop.
+/// part is a Convex, a HalfSpaceView or a DistanceFunction, never both a HalfSpaceView. The visitor returns false to
+/// stop.
 template <int D, class Visit>
 void each_part_pair(const View<D>& a, const View<D>& b, float reach, Visit&& visit) {
     each_part_near(a, b, reach, [&]<class PartA>(const PartA& part_a, std::uint32_t index_a) {
         [[maybe_unused]] constexpr bool two_half_spaces_pair = false;
         bool go_on = true;
         each_part_near(b, part_a, reach, [&]<class PartB>(const PartB& part_b, std::uint32_t index_b) {
-            if constexpr (std::is_same_v<PartA, Solid<D>> && std::is_same_v<PartB, Solid<D>>)
+            if constexpr (std::is_same_v<PartA, HalfSpaceView<D>> && std::is_same_v<PartB, HalfSpaceView<D>>)
                 ABUT_ASSERT(two_half_spaces_pair);
             else
                 go_on = visit(part_a, index_a, part_b, index_b);
@@ -46,33 +47,33 @@ void each_part_pair(const View<D>& a, const View<D>& b, float reach, Visit&& vis
 
 /// The signed distance of a convex set and a half-space, in either order. There is nothing to search.
 template <int D>
-SignedDistance<D> part_distance(const Convex<D>& a, const Solid<D>& b, const SearchOptions<D>& options = {});
+SignedDistance<D> part_distance(const Convex<D>& a, const HalfSpaceView<D>& b, const SearchOptions<D>& options = {});
 template <int D>
-SignedDistance<D> part_distance(const Solid<D>& a, const Convex<D>& b, const SearchOptions<D>& options = {});
+SignedDistance<D> part_distance(const HalfSpaceView<D>& a, const Convex<D>& b, const SearchOptions<D>& options = {});
 
 /// The contact of a convex set and a half-space, as that of two convex parts.
 template <int D>
-bool part_contact(const Convex<D>& a, const Solid<D>& b, double reach, double margin, const SearchOptions<D>& options,
-                  PartContact<D>& contact);
+bool part_contact(const Convex<D>& a, const HalfSpaceView<D>& b, double reach, double margin,
+                  const SearchOptions<D>& options, PartContact<D>& contact);
 template <int D>
-bool part_contact(const Solid<D>& a, const Convex<D>& b, double reach, double margin, const SearchOptions<D>& options,
-                  PartContact<D>& contact);
+bool part_contact(const HalfSpaceView<D>& a, const Convex<D>& b, double reach, double margin,
+                  const SearchOptions<D>& options, PartContact<D>& contact);
 
 /// There it is found in one step.
 template <int D>
-bool part_touch(const Convex<D>& a, const Solid<D>& b, double reach, double margin, const SearchOptions<D>& options,
-                PartContact<D>& contact) {
+bool part_touch(const Convex<D>& a, const HalfSpaceView<D>& b, double reach, double margin,
+                const SearchOptions<D>& options, PartContact<D>& contact) {
     return part_contact(a, b, reach, margin, options, contact);
 }
 template <int D>
-bool part_touch(const Solid<D>& a, const Convex<D>& b, double reach, double margin, const SearchOptions<D>& options,
-                PartContact<D>& contact) {
+bool part_touch(const HalfSpaceView<D>& a, const Convex<D>& b, double reach, double margin,
+                const SearchOptions<D>& options, PartContact<D>& contact) {
     return part_contact(a, b, reach, margin, options, contact);
 }
 template <int D>
-void add_points(const Convex<D>&, const Solid<D>&, double, const SearchOptions<D>&, PartContact<D>&) {}
+void add_points(const Convex<D>&, const HalfSpaceView<D>&, double, const SearchOptions<D>&, PartContact<D>&) {}
 template <int D>
-void add_points(const Solid<D>&, const Convex<D>&, double, const SearchOptions<D>&, PartContact<D>&) {}
+void add_points(const HalfSpaceView<D>&, const Convex<D>&, double, const SearchOptions<D>&, PartContact<D>&) {}
 
 /// What the engines are told for each pair of parts: a cache is of one pair, so only of shapes that are a part
 /// themselves.
@@ -85,11 +86,11 @@ SearchOptions<D> search_options(const View<D>& a, const View<D>& b, const QueryO
 /// The feature of a part that its witness point lies on, by the corners it is made of; `out` is the normal out of it.
 /// Written where it is wanted: a feature that is handed on is read before its parts have arrived in memory.
 template <int D>
-void name_feature(const Convex<D>& part, const CornerNumbers<D>& corners, std::size_t count, const DVec<D>& out,
+void name_feature(const Convex<D>& part, const CornerIndices<D>& corners, std::size_t count, const DVec<D>& out,
                   std::uint32_t number, Feature& feature);
 /// Of a part without faces, by the two corners, or the one told twice, of its place.
 template <int D>
-void name_end_or_edge(const CornerNumbers<D>& corners, std::uint32_t number, Feature& feature) {
+void name_end_or_edge(const CornerIndices<D>& corners, std::uint32_t number, Feature& feature) {
     // By arithmetic: which of them it is can't be guessed, and compilers make a branch of a choice.
     const std::uint32_t differ = corners[0] != corners[1] ? 1 : 0;
     const std::uint32_t edge = edge_index(corners[0], corners[1]);
@@ -99,11 +100,11 @@ void name_end_or_edge(const CornerNumbers<D>& corners, std::uint32_t number, Fea
     static_assert(static_cast<int>(FeatureKind::edge) == static_cast<int>(FeatureKind::vertex) + 1);
 }
 template <int D>
-void name_feature(const Solid<D>& part, const CornerNumbers<D>& corners, std::size_t count, const DVec<D>& out,
+void name_feature(const HalfSpaceView<D>& part, const CornerIndices<D>& corners, std::size_t count, const DVec<D>& out,
                   std::uint32_t number, Feature& feature);
 
 template <int D>
-void name_feature(const DistanceFunction<D>&, const CornerNumbers<D>&, std::size_t, const DVec<D>&,
+void name_feature(const DistanceFunction<D>&, const CornerIndices<D>&, std::size_t, const DVec<D>&,
                   std::uint32_t number, Feature& feature) {
     feature = {number, 0, FeatureKind::none};
 }
@@ -112,7 +113,7 @@ void name_feature(const DistanceFunction<D>&, const CornerNumbers<D>&, std::size
 template <int D, class PartA, class PartB, class Answer>
 void name_features(const PartA& part_a, const PartB& part_b, const SignedDistance<D>& distance, std::uint32_t number_a,
                    std::uint32_t number_b, Answer& answer) {
-    const MeetingCorners<D>& corners = distance.corners;
+    const ClosestCorners<D>& corners = distance.corners;
     name_feature(part_a, corners.a, corners.count, distance.normal, number_a, answer.feature_a);
     name_feature(part_b, corners.b, corners.count, -distance.normal, number_b, answer.feature_b);
 }

@@ -3,9 +3,9 @@
 // Polygons of few sides and boxes of the plane, placed, as lanes of their own numbers: what is asked of two of one kind
 // stays in registers. For .cpp files.
 
-#include <abut/convex/cache.hpp>
-#include <abut/convex/side_gaps.hpp>
-#include <abut/math/lanes-inl.h>
+#include <abut/convex/gjk/cache.hpp>
+#include <abut/convex/pairs/edge_gaps2.hpp>
+#include <abut/math/simd/double2-inl.h>
 #include <abut/query/feature.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/polygon.hpp>
@@ -14,78 +14,78 @@
 
 namespace abut::placed_sides {
 
-using lanes::Both;
+using lanes::Double2;
 
 /// Where a point is along a side, by bits; where polygons can't tell, as of what is not a number, `nowhere`.
 enum class Beside : std::uint32_t { within = 0, past_end = 1, before_start = 2, nowhere = 3 };
 
-// Corners and sides of a shape in its own frame, counted as `Sides` does.
+// Corners and sides of a shape in its own frame, counted as `PolygonSoa` does.
 
 class PolygonCore {
 public:
     using Shape = Polygon;
-    explicit PolygonCore(const Sides& sides) : sides_(sides) {}
-    explicit PolygonCore(const Polygon& polygon) { sides_.refer_to(polygon.sides(), polygon.side_count()); }
+    explicit PolygonCore(const PolygonSoa& sides) : sides_(sides) {}
+    explicit PolygonCore(const Polygon& polygon) { sides_.view_rows(polygon.sides(), polygon.side_count()); }
 
     std::uint32_t count() const { return sides_.count; }
     /// The number that the shape gives a corner; and back.
     std::uint32_t number(std::uint32_t i) const { return i; }
     std::uint32_t after(std::uint32_t i) const { return sides_.after(i); }
     std::uint32_t before(std::uint32_t i) const { return sides_.before(i); }
-    Both corner(std::uint32_t i) const { return lanes::both(sides_.x[i], sides_.y[i]); }
-    Both normal(std::uint32_t side) const { return lanes::both(sides_.normal_x[side], sides_.normal_y[side]); }
+    Double2 corner(std::uint32_t i) const { return lanes::double2(sides_.x[i], sides_.y[i]); }
+    Double2 normal(std::uint32_t side) const { return lanes::double2(sides_.normal_x[side], sides_.normal_y[side]); }
     double offset(std::uint32_t side) const { return sides_.offset[side]; }
     /// How large its numbers are.
     double size() const { return std::abs(sides_.x[0]) + std::abs(sides_.y[0]) + 2 * sides_.size; }
     /// At least how far it reaches from the origin of its own frame.
     double radius() const { return size(); }
     /// The least of dot(direction, corner).
-    double lowest(Both direction) const {
-        const Both x = lanes::first(direction), y = lanes::second(direction);
-        Both least = lanes::both(std::numeric_limits<double>::infinity());
+    double lowest(Double2 direction) const {
+        const Double2 x = lanes::first(direction), y = lanes::second(direction);
+        Double2 least = lanes::double2(std::numeric_limits<double>::infinity());
         for (std::size_t i = 0; i < sides_.count; i += 2)
             least = lanes::lesser(x * lanes::at(sides_.x + i) + y * lanes::at(sides_.y + i), least);
         return std::min(least[0], least[1]);
     }
     /// Whether no corner lies farther in that direction: it is between the normals of the corner's two sides.
-    bool is_farthest(std::uint32_t i, Both direction) const {
+    bool is_farthest(std::uint32_t i, Double2 direction) const {
         const std::uint32_t last = (i == 0 ? sides_.count : i) - 1;
-        return lanes::bits(turned(lanes::both(sides_.normal_x[i], sides_.normal_x[last]),
-                                  lanes::both(sides_.normal_y[i], sides_.normal_y[last]), lanes::first(direction),
-                                  lanes::second(direction)) <= Both{0, 0}) == 3;
+        return lanes::bits(turned(lanes::double2(sides_.normal_x[i], sides_.normal_x[last]),
+                                  lanes::double2(sides_.normal_y[i], sides_.normal_y[last]), lanes::first(direction),
+                                  lanes::second(direction)) <= Double2{0, 0}) == 3;
     }
-    Beside beside(std::uint32_t side, Both point) const {
+    Beside beside(std::uint32_t side, Double2 point) const {
         const std::uint32_t end = after(side);
-        const Both crosses = turned(lanes::both(sides_.normal_x[side]), lanes::both(sides_.normal_y[side]),
-                                    lanes::first(point) - lanes::both(sides_.x[end], sides_.x[side]),
-                                    lanes::second(point) - lanes::both(sides_.y[end], sides_.y[side]));
-        return static_cast<Beside>(lanes::bits(crosses <= Both{0, 0}) ^ 3);
+        const Double2 crosses = turned(lanes::double2(sides_.normal_x[side]), lanes::double2(sides_.normal_y[side]),
+                                       lanes::first(point) - lanes::double2(sides_.x[end], sides_.x[side]),
+                                       lanes::second(point) - lanes::double2(sides_.y[end], sides_.y[side]));
+        return static_cast<Beside>(lanes::bits(crosses <= Double2{0, 0}) ^ 3);
     }
     /// Of the two sides at a corner the one that looks most along a direction, the one after it of equals.
-    std::uint32_t facing(std::uint32_t corner, Both direction) const {
+    std::uint32_t facing(std::uint32_t corner, Double2 direction) const {
         const std::uint32_t last = (corner == 0 ? sides_.count : corner) - 1;
-        const Both looks = lanes::both(sides_.normal_x[corner], sides_.normal_x[last]) * lanes::first(direction) +
-                           lanes::both(sides_.normal_y[corner], sides_.normal_y[last]) * lanes::second(direction);
+        const Double2 looks = lanes::double2(sides_.normal_x[corner], sides_.normal_x[last]) * lanes::first(direction) +
+                              lanes::double2(sides_.normal_y[corner], sides_.normal_y[last]) * lanes::second(direction);
         const std::uint32_t before = lanes::bits(looks < lanes::swapped(looks)) & 1;
         return corner ^ ((corner ^ last) & (0u - before));
     }
     /// The ends of a side, one in each lane.
-    Both ends_x(std::uint32_t side) const { return lanes::both(sides_.x[side], sides_.x[after(side)]); }
-    Both ends_y(std::uint32_t side) const { return lanes::both(sides_.y[side], sides_.y[after(side)]); }
+    Double2 ends_x(std::uint32_t side) const { return lanes::double2(sides_.x[side], sides_.x[after(side)]); }
+    Double2 ends_y(std::uint32_t side) const { return lanes::double2(sides_.y[side], sides_.y[after(side)]); }
     /// What contacts call a corner.
     std::uint32_t contact_number(std::uint32_t i) const { return i; }
     bool has_area() const { return true; }
     /// About half the diagonal of the box around it.
     double extent() const { return sides_.size; }
-    const Sides& sides() const { return sides_; }
+    const PolygonSoa& sides() const { return sides_; }
 
 private:
     /// Not above zero: clockwise from the first, or along it; counter-clockwise from the second.
-    static Both turned(Both normal_x, Both normal_y, Both x, Both y) {
-        return (normal_x * y - normal_y * x) * Both{1, -1};
+    static Double2 turned(Double2 normal_x, Double2 normal_y, Double2 x, Double2 y) {
+        return (normal_x * y - normal_y * x) * Double2{1, -1};
     }
 
-    Sides sides_;
+    PolygonSoa sides_;
 };
 
 class BoxCore {
@@ -97,74 +97,74 @@ public:
     std::uint32_t number(std::uint32_t i) const { return i ^ i >> 1; }
     std::uint32_t after(std::uint32_t i) const { return (i + 1) & 3; }
     std::uint32_t before(std::uint32_t i) const { return (i + 3) & 3; }
-    Both corner(std::uint32_t i) const { return half_ * quadrant(i); }
-    Both normal(std::uint32_t side) const {
+    Double2 corner(std::uint32_t i) const { return half_ * quadrant(i); }
+    Double2 normal(std::uint32_t side) const {
         alignas(16) static constexpr double normals[8] = {0, 1, -1, 0, 0, -1, 1, 0};
         return lanes::at(normals + 2 * side);
     }
     double offset(std::uint32_t side) const { return half_[1 - (side & 1)]; }
     double size() const { return 3 * (half_[0] + half_[1]); }
     double radius() const { return half_[0] + half_[1]; }
-    double lowest(Both direction) const {
-        const Both reach = lanes::magnitude(direction) * half_;
+    double lowest(Double2 direction) const {
+        const Double2 reach = lanes::magnitude(direction) * half_;
         return -(reach[0] + reach[1]);
     }
-    bool is_farthest(std::uint32_t i, Both direction) const {
-        return lanes::bits(direction * quadrant(i) >= Both{0, 0}) == 3;
+    bool is_farthest(std::uint32_t i, Double2 direction) const {
+        return lanes::bits(direction * quadrant(i) >= Double2{0, 0}) == 3;
     }
-    Beside beside(std::uint32_t side, Both point) const {
-        const Both across = normal(side), along = lanes::swapped(across) * Both{-1, 1};
+    Beside beside(std::uint32_t side, Double2 point) const {
+        const Double2 across = normal(side), along = lanes::swapped(across) * Double2{-1, 1};
         const double place = lanes::dot(along, point)[0], end = half_[side & 1];
         return static_cast<Beside>((place > end ? 1u : 0u) | (place < -end ? 2u : 0u));
     }
-    std::uint32_t facing(std::uint32_t corner, Both direction) const {
+    std::uint32_t facing(std::uint32_t corner, Double2 direction) const {
         // By turns, the side before a corner looks along x or along y.
-        const Both looks = direction * quadrant(corner);
+        const Double2 looks = direction * quadrant(corner);
         const std::uint32_t is_last = lanes::bits(looks > lanes::swapped(looks)) >> (corner & 1) & 1;
         return (corner + 3 * is_last) & 3;
     }
-    Both ends_x(std::uint32_t side) const {
+    Double2 ends_x(std::uint32_t side) const {
         alignas(16) static constexpr double signs[8] = {1, -1, -1, -1, -1, 1, 1, 1};
         return lanes::first(half_) * lanes::at(signs + 2 * side);
     }
-    Both ends_y(std::uint32_t side) const {
+    Double2 ends_y(std::uint32_t side) const {
         alignas(16) static constexpr double signs[8] = {1, 1, 1, -1, -1, -1, -1, 1};
         return lanes::second(half_) * lanes::at(signs + 2 * side);
     }
     std::uint32_t contact_number(std::uint32_t i) const { return (i + 2) & 3; }
-    bool has_area() const { return lanes::bits(half_ > Both{0, 0}) == 3; }
+    bool has_area() const { return lanes::bits(half_ > Double2{0, 0}) == 3; }
     double extent() const { return half_[0] + half_[1]; }
     DVec<2> half() const { return {half_[0], half_[1]}; }
-    Both half_lanes() const { return half_; }
+    Double2 half_lanes() const { return half_; }
 
 private:
-    static Both quadrant(std::uint32_t i) {
+    static Double2 quadrant(std::uint32_t i) {
         alignas(16) static constexpr double quadrants[8] = {1, 1, -1, 1, -1, -1, 1, -1};
         return lanes::at(quadrants + 2 * i);
     }
 
-    Both half_;
+    Double2 half_;
 };
 
 /// How a shape is placed, by the numbers of its pose: a turned vector is as long as they are until it is scaled.
 struct Placing {
-    Both position, turn;
-    Both cos, sin;  ///< sine and minus sine
-    Both scale;
+    Double2 position, turn;
+    Double2 cos, sin;  ///< sine and minus sine
+    Double2 scale;
 
     Placing(const Polygon&, const Pose2* pose) : Placing(pose_or_none(pose)) {}
     explicit Placing(const Rigid2& place)
-        : position(lanes::both(place.x, place.y)), turn(lanes::both(place.cos, place.sin)) {}
+        : position(lanes::double2(place.x, place.y)), turn(lanes::double2(place.cos, place.sin)) {}
     Placing(const Box2& box, const Pose2*)
         : position(lanes::loaded(&box.center.x)), turn(lanes::loaded(&box.rotation.cos)) {}
 
-    void set_scale(Both inverse_length) {
+    void set_scale(Double2 inverse_length) {
         cos = lanes::first(turn);
-        sin = lanes::second(turn) * Both{1, -1};
+        sin = lanes::second(turn) * Double2{1, -1};
         scale = inverse_length;
     }
-    Both vector(Both v) const { return cos * v - sin * lanes::swapped(v); }
-    Both back(Both v) const { return cos * v + sin * lanes::swapped(v); }
+    Double2 vector(Double2 v) const { return cos * v - sin * lanes::swapped(v); }
+    Double2 back(Double2 v) const { return cos * v + sin * lanes::swapped(v); }
 
 private:
     explicit Placing(const Pose2& pose)
@@ -172,9 +172,9 @@ private:
 };
 
 inline bool set_scales(Placing& a, Placing& b) {
-    const Both squares = lanes::squared_lengths(a.turn, b.turn);
+    const Double2 squares = lanes::squared_lengths(a.turn, b.turn);
     if (!lanes::are_near_one(squares)) return false;
-    const Both scales = lanes::inverse_root(squares);
+    const Double2 scales = lanes::inverse_root(squares);
     a.set_scale(lanes::first(scales));
     b.set_scale(lanes::second(scales));
     return true;
@@ -185,7 +185,7 @@ struct Placed {
     Core core;
     Placing place;
 
-    explicit Placed(const Given<2>& given) : Placed(given.as<typename Core::Shape>(), given.pose) {}
+    explicit Placed(const ShapeRef<2>& given) : Placed(given.as<typename Core::Shape>(), given.pose) {}
     Placed(const typename Core::Shape& shape, const Pose2* pose) : core(shape), place(shape, pose) {}
     Placed(const Core& known, const Rigid2& where) : core(known), place(where) {}
 };
@@ -206,15 +206,15 @@ inline void name_side(const Core& core, std::uint32_t side, Feature& feature) {
 /// A side of one and a corner of the other, both where they were placed.
 template <class Core>
 struct SideAndCorner {
-    Both arm, normal;  ///< of the corner, from where it is placed; of the side, not yet scaled
+    Double2 arm, normal;  ///< of the corner, from where it is placed; of the side, not yet scaled
     double gap;
     Beside beside;
 
     SideAndCorner(const Placed<Core>& reference, const Placed<Core>& other, std::uint32_t side, std::uint32_t corner) {
         arm = other.place.vector(other.core.corner(corner)) * other.place.scale;
-        const Both offset = other.place.position - reference.place.position;
-        const Both seen = reference.place.back(arm + offset) * reference.place.scale;
-        const Both own_normal = reference.core.normal(side);
+        const Double2 offset = other.place.position - reference.place.position;
+        const Double2 seen = reference.place.back(arm + offset) * reference.place.scale;
+        const Double2 own_normal = reference.core.normal(side);
         normal = reference.place.vector(own_normal);
         gap = lanes::dot(own_normal, seen)[0] - reference.core.offset(side);
         beside = reference.core.beside(side, seen);
@@ -224,9 +224,9 @@ struct SideAndCorner {
 /// How each sees the other.
 template <class Core>
 inline void set_seen(const Placed<Core>& a, const Placed<Core>& b, Rigid2 (&seen)[2]) {
-    const Both turn = a.place.back(b.place.turn) * (a.place.scale * b.place.scale);
-    const Both between = b.place.position - a.place.position;
-    const Both from_a = a.place.back(between) * a.place.scale, from_b = b.place.back(-between) * b.place.scale;
+    const Double2 turn = a.place.back(b.place.turn) * (a.place.scale * b.place.scale);
+    const Double2 between = b.place.position - a.place.position;
+    const Double2 from_a = a.place.back(between) * a.place.scale, from_b = b.place.back(-between) * b.place.scale;
     seen[0].cos = seen[1].cos = turn[0];
     seen[0].sin = turn[1];
     seen[1].sin = -turn[1];
@@ -237,16 +237,16 @@ inline void set_seen(const Placed<Core>& a, const Placed<Core>& b, Rigid2 (&seen
 }
 
 inline void find_widest_gap(const PolygonCore& a, const PolygonCore& b, const Rigid2 (&seen)[2], double doubt,
-                            SideGap& found) {
-    widest_gap(a.sides(), b.sides(), seen, without_end, doubt, found);
+                            EdgeGap& found) {
+    widest_edge_gap(a.sides(), b.sides(), seen, without_end, doubt, found);
 }
-inline void find_widest_gap(const BoxCore& a, const BoxCore& b, const Rigid2 (&seen)[2], double doubt, SideGap& found) {
+inline void find_widest_gap(const BoxCore& a, const BoxCore& b, const Rigid2 (&seen)[2], double doubt, EdgeGap& found) {
     gap_of_boxes(a.half(), b.half(), seen, doubt, found);
 }
 
 /// Of all sides the one that parts them most, and how each sees the other. False where a number isn't finite.
 template <class Core>
-inline bool find_widest(const Placed<Core>& a, const Placed<Core>& b, Rigid2 (&seen)[2], SideGap& widest) {
+inline bool find_widest(const Placed<Core>& a, const Placed<Core>& b, Rigid2 (&seen)[2], EdgeGap& widest) {
     set_seen(a, b, seen);
     const double size = std::abs(seen[0].x) + std::abs(seen[0].y) + a.core.size() + b.core.size();
     if (!(size < without_end)) return false;
@@ -256,7 +256,7 @@ inline bool find_widest(const Placed<Core>& a, const Placed<Core>& b, Rigid2 (&s
 
 /// Of sides that part them; the sides of what overlaps are all tried each time.
 template <class Core>
-inline void remember_side(const Placed<Core>& reference, const Placed<Core>& other, const SideGap& widest,
+inline void remember_side(const Placed<Core>& reference, const Placed<Core>& other, const EdgeGap& widest,
                           Cache& cache) {
     auto &of_reference = widest.of == 0 ? cache.corner_a : cache.corner_b,
          &of_other = widest.of == 0 ? cache.corner_b : cache.corner_a;
@@ -266,10 +266,10 @@ inline void remember_side(const Placed<Core>& reference, const Placed<Core>& oth
     of_other[0] = of_other[1] = other.core.number(widest.corner);
 }
 
-inline bool is_polygon(const Given<2>& given) {
+inline bool is_polygon(const ShapeRef<2>& given) {
     return given.kind == ShapeKind::polytope && given.as<Polygon>().sides() != nullptr;
 }
-inline bool is_box(const Given<2>& given) {
+inline bool is_box(const ShapeRef<2>& given) {
     return given.kind == ShapeKind::box && given.pose == nullptr;
 }
 

@@ -6,7 +6,7 @@
 // cone of directions of each corner, so it is at most the sum of what it is at directions around, times the weights
 // that combine these: 1 / cos(half the angle) between two of them.
 
-#include <abut/convex/hull.hpp>
+#include <abut/convex/hull/hull.hpp>
 #include <abut/math/assert.hpp>
 #include <abut/query/polytope.hpp>
 

@@ -8,7 +8,7 @@
 #include <abut/shape/polyhedron.hpp>
 #include <abut/shape/segment.hpp>
 #include <abut/shape/triangle.hpp>
-#include <abut/shape/view.hpp>
+#include <abut/shape/view/view.hpp>
 
 #include <concepts>
 #include <cstddef>

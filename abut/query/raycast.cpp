@@ -11,11 +11,11 @@ namespace abut {
 namespace {
 
 template <int D>
-bool first_hit(const Beam<D>& beam, const Composite<D>& composite, const QueryOptions<D>& options, PartHit<D>& first) {
+bool first_hit(const DRay<D>& beam, const Composite<D>& composite, const QueryOptions<D>& options, PartHit<D>& first) {
     bool any = false;
     if constexpr (D == 3)
         if (first_triangle_hit(beam, composite, options, first, any)) return any;
-    Beam<D> rest = beam;
+    DRay<D> rest = beam;
     each_part_along<D>(composite, beam.origin, beam.direction, beam.length,
                        [&](const Convex<D>& part, std::uint32_t index) -> float {
                            PartHit<D> hit;
@@ -37,14 +37,14 @@ void find_first_hit(const Ray<D>& ray, const Asked& shape, const Find& find, std
     const bool finite = is_finite(shape) && can_be_asked(ray);
     ABUT_ASSERT(finite);
     if (!finite) return;
-    const Beam<D> beam = beam_of(ray);
+    const DRay<D> beam = beam_of(ray);
     PartHit<D> first;
     if (find(beam, first)) tell(beam, first, result.emplace());
 }
 
 template <int D>
 void answer(const Ray<D>& ray, const Convex<D>& shape, const QueryOptions<D>& options, std::optional<Hit<D>>& result) {
-    const auto find = [&](const Beam<D>& beam, PartHit<D>& first) {
+    const auto find = [&](const DRay<D>& beam, PartHit<D>& first) {
         return part_hit(beam, shape, 0, options.trace, first);
     };
     find_first_hit(ray, shape, find, result);
@@ -52,13 +52,13 @@ void answer(const Ray<D>& ray, const Convex<D>& shape, const QueryOptions<D>& op
 
 /// Calls visit(hit) for each part that the beam meets; it returns the new reach.
 template <int D, class Visit>
-void visit_hits(const Beam<D>& beam, const View<D>& shape, const QueryOptions<D>& options, Visit visit) {
+void visit_hits(const DRay<D>& beam, const View<D>& shape, const QueryOptions<D>& options, Visit visit) {
     PartHit<D> hit;
     if (const auto* convex = std::get_if<Convex<D>>(&shape)) {
         if (part_hit(beam, *convex, 0, options.trace, hit)) visit(hit);
         return;
     }
-    if (const auto* solid = std::get_if<Solid<D>>(&shape)) {
+    if (const auto* solid = std::get_if<HalfSpaceView<D>>(&shape)) {
         if (part_hit(beam, *solid, hit)) visit(hit);
         return;
     }
@@ -69,7 +69,7 @@ void visit_hits(const Beam<D>& beam, const View<D>& shape, const QueryOptions<D>
     const auto& composite = std::get<Composite<D>>(shape);
     if constexpr (D == 3)
         if (each_triangle_hit(beam, composite, options, visit)) return;
-    Beam<D> rest = beam;
+    DRay<D> rest = beam;
     each_part_along<D>(composite, beam.origin, beam.direction, beam.length,
                        [&](const Convex<D>& part, std::uint32_t index) -> float {
                            if (part_hit(rest, part, index, options.trace, hit)) rest.length = visit(hit);
@@ -85,7 +85,7 @@ void each_hit(const Ray<D>& ray, const View<D>& shape, FunctionRef<float(const H
     const bool finite = is_finite(shape) && can_be_asked(ray);
     ABUT_ASSERT(finite);
     if (!finite) return;
-    const Beam<D> beam = beam_of(ray);
+    const DRay<D> beam = beam_of(ray);
     double reach = beam.length;
     visit_hits(beam, shape, options, [&](const PartHit<D>& found) {
         Hit<D> hit;
@@ -118,7 +118,7 @@ std::optional<Hit<D>> raycast(const Ray<D>& ray, const Convex<D>& shape, const Q
 template <int D>
 std::optional<Hit<D>> raycast(const Ray<D>& ray, const Composite<D>& shape, const QueryOptions<D>& options) {
     std::optional<Hit<D>> result;
-    const auto find = [&](const Beam<D>& beam, PartHit<D>& first) { return first_hit(beam, shape, options, first); };
+    const auto find = [&](const DRay<D>& beam, PartHit<D>& first) { return first_hit(beam, shape, options, first); };
     find_first_hit(ray, static_cast<const Placement<D>&>(shape), find, result);
     return result;
 }
@@ -128,10 +128,10 @@ std::optional<Hit<D>> raycast(const Ray<D>& ray, const View<D>& shape, const Que
     if (const auto* convex = std::get_if<Convex<D>>(&shape)) return raycast(ray, *convex, options);
     if (const auto* composite = std::get_if<Composite<D>>(&shape)) return raycast(ray, *composite, options);
     std::optional<Hit<D>> result;
-    const auto find = [&](const Beam<D>& beam, PartHit<D>& first) {
+    const auto find = [&](const DRay<D>& beam, PartHit<D>& first) {
         const auto* function = std::get_if<DistanceFunction<D>>(&shape);
         return function != nullptr ? part_hit(beam, *function, first)
-                                   : part_hit(beam, std::get<Solid<D>>(shape), first);
+                                   : part_hit(beam, std::get<HalfSpaceView<D>>(shape), first);
     };
     find_first_hit(ray, shape, find, result);
     return result;

@@ -6,7 +6,7 @@
 #include <abut/math/ray.hpp>
 #include <abut/query/hit.hpp>
 #include <abut/query/options.hpp>
-#include <abut/shape/refused.hpp>
+#include <abut/shape/view/constraints.hpp>
 
 #include <concepts>
 #include <limits>
@@ -27,7 +27,7 @@ std::optional<Hit<D>> raycast(const Ray<D>& ray, const Convex<D>& shape, const Q
 template <int D>
 std::optional<Hit<D>> raycast(const Ray<D>& ray, const Composite<D>& shape, const QueryOptions<D>& options = {});
 template <int D>
-std::optional<Hit<D>> raycast(const Ray<D>& ray, const Given<D>& shape, const QueryOptions<D>& options = {});
+std::optional<Hit<D>> raycast(const Ray<D>& ray, const ShapeRef<D>& shape, const QueryOptions<D>& options = {});
 
 /// A mesh where it was made, without a view of it.
 std::optional<Hit<3>> raycast(const Ray<3>& ray, const Mesh& mesh, const QueryOptions<3>& options = {});
@@ -49,7 +49,7 @@ std::optional<Hit<dimension<S>>> raycast(const Ray<dimension<S>>& ray, const S& 
         detail::clear_upper_halves();
         return raycast(ray, seen, options);
     } else {
-        const auto& seen = detail::view_beside<S, S>(shape);
+        const auto& seen = detail::view_for_pair<S, S>(shape);
         detail::clear_upper_halves();
         return raycast(ray, seen, options);
     }
@@ -85,7 +85,7 @@ requires std::invocable < Visit&, const Hit<dimension<S>>
             return visit(hit);
         }
     };
-    detail::ask_view(shape, [&](const View<D>& seen) {
+    detail::with_view(shape, [&](const View<D>& seen) {
         each_hit<D>(ray, seen, FunctionRef<float(const Hit<D>&)>(reach_after), options);
     });
 }
@@ -94,8 +94,8 @@ requires std::invocable < Visit&, const Hit<dimension<S>>
 template <Shape S>
 void raycast_all(const Ray<dimension<S>>& ray, const S& shape, std::vector<Hit<dimension<S>>>& out,
                  const QueryOptions<dimension<S>>& options = {}) {
-    detail::ask_view(shape,
-                     [&](const View<dimension<S>>& seen) { raycast_all<dimension<S>>(ray, seen, out, options); });
+    detail::with_view(shape,
+                      [&](const View<dimension<S>>& seen) { raycast_all<dimension<S>>(ray, seen, out, options); });
 }
 
 }  // namespace abut

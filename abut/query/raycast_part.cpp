@@ -1,4 +1,4 @@
-#include <abut/convex/margin.hpp>
+#include <abut/convex/tolerance.hpp>
 #include <abut/query/one_sided.hpp>
 #include <abut/query/part_pairs.hpp>
 #include <abut/query/raycast_part.hpp>
@@ -31,7 +31,7 @@ double start_doubt(const Convex<D>& part, const DVec<D>& start) {
     double farthest = 0;
     for (std::uint32_t i = 0; i < part.count; ++i)
         farthest = std::max(farthest, largest(part.place.point(DVec<D>(part.vertices()[i])) - start));
-    return margin_of_doubt(0, farthest);
+    return tolerance_for(0, farthest);
 }
 
 }  // namespace
@@ -39,7 +39,7 @@ double start_doubt(const Convex<D>& part, const DVec<D>& start) {
 /// The plane is never behind the surface, so nothing is passed (conservative advancement; Mirtich, "Impulse-based
 /// dynamic simulation", 1996).
 template <int D>
-bool part_hit_by_advance(const Beam<D>& beam, const Convex<D>& part, std::uint32_t index, Trace<D>* trace,
+bool part_hit_by_advance(const DRay<D>& beam, const Convex<D>& part, std::uint32_t index, Trace<D>* trace,
                          PartHit<D>& hit) {
     const double doubt = 1e-7 * size(part);
     double along = 0, last_approach = 0;
@@ -69,7 +69,7 @@ bool part_hit_by_advance(const Beam<D>& beam, const Convex<D>& part, std::uint32
 }
 
 template <int D>
-bool part_hit(const Beam<D>& beam, const Convex<D>& part, std::uint32_t index, Trace<D>* trace, PartHit<D>& hit) {
+bool part_hit(const DRay<D>& beam, const Convex<D>& part, std::uint32_t index, Trace<D>* trace, PartHit<D>& hit) {
     if (beam.rests()) return part_hit_by_advance(beam, part, index, trace, hit);
     if (!goes_at_front(part, beam.direction)) return false;
     const RayEntry<D> entry = ray_entry(part, beam);
@@ -85,7 +85,7 @@ bool part_hit(const Beam<D>& beam, const Convex<D>& part, std::uint32_t index, T
 }
 
 template <int D>
-bool part_hit(const Beam<D>& beam, const Solid<D>& part, PartHit<D>& hit) {
+bool part_hit(const DRay<D>& beam, const HalfSpaceView<D>& part, PartHit<D>& hit) {
     const double height = dot(part.normal, beam.origin) - part.offset, approach = -dot(beam.direction, part.normal);
     if (!(approach > 0) && !(beam.rests() && height <= 0)) return false;
     const double along = beam.rests() ? 0 : std::max(height / approach, 0.0);
@@ -94,9 +94,9 @@ bool part_hit(const Beam<D>& beam, const Solid<D>& part, PartHit<D>& hit) {
 }
 
 #define ABUT_INSTANTIATE(D)                                                                                     \
-    template bool part_hit_by_advance(const Beam<D>&, const Convex<D>&, std::uint32_t, Trace<D>*, PartHit<D>&); \
-    template bool part_hit(const Beam<D>&, const Convex<D>&, std::uint32_t, Trace<D>*, PartHit<D>&);            \
-    template bool part_hit(const Beam<D>&, const Solid<D>&, PartHit<D>&);
+    template bool part_hit_by_advance(const DRay<D>&, const Convex<D>&, std::uint32_t, Trace<D>*, PartHit<D>&); \
+    template bool part_hit(const DRay<D>&, const Convex<D>&, std::uint32_t, Trace<D>*, PartHit<D>&);            \
+    template bool part_hit(const DRay<D>&, const HalfSpaceView<D>&, PartHit<D>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

@@ -14,7 +14,7 @@ namespace abut {
 
 /// Without a direction it is as long as its origin.
 template <int D>
-Beam<D> beam_of(const Ray<D>& ray) {
+DRay<D> beam_of(const Ray<D>& ray) {
     const DVec<D> direction(ray.direction);
     if (direction == DVec<D>(0.0)) return {DVec<D>(ray.origin), direction, 0};
     return {DVec<D>(ray.origin), unit(direction), static_cast<double>(ray.length)};
@@ -30,7 +30,7 @@ bool can_be_asked(const Ray<D>& ray) {
 }
 
 template <int D>
-inline void tell(const Beam<D>& beam, double along, const DVec<D>& normal, Hit<D>& hit) {
+inline void tell(const DRay<D>& beam, double along, const DVec<D>& normal, Hit<D>& hit) {
     hit.distance = static_cast<float>(along);
     hit.fraction = beam.length > 0 && beam.length <= static_cast<double>(std::numeric_limits<float>::max())
                        ? std::min(1.0f, static_cast<float>(along / beam.length))
@@ -39,7 +39,7 @@ inline void tell(const Beam<D>& beam, double along, const DVec<D>& normal, Hit<D
     hit.normal = to_float(unit(normal));
 }
 template <int D>
-void tell(const Beam<D>& beam, const PartHit<D>& first, Hit<D>& hit) {
+void tell(const DRay<D>& beam, const PartHit<D>& first, Hit<D>& hit) {
     tell(beam, first.along, first.normal, hit);
     hit.started_inside = first.started_inside;
     hit.feature = first.feature;

@@ -1,10 +1,10 @@
-#include <abut/convex/ray_triangle.hpp>
+#include <abut/convex/ray/triangle.hpp>
 #include <abut/math/assert.hpp>
 #include <abut/query/raycast.hpp>
 #include <abut/query/raycast_tell.hpp>
 #include <abut/query/raycast_triangles.hpp>
 #include <abut/shape/mesh.hpp>
-#include <abut/shape/mesh_rays.hpp>
+#include <abut/shape/mesh/rays.hpp>
 
 namespace abut {
 namespace {
@@ -16,13 +16,13 @@ bool is_unplaced(const Composite<3>& composite) {
 
 /// A composite as the beam meets it.
 struct Target {
-    const Beam<3>& beam;
-    Beam<3> own{};
+    const DRay<3>& beam;
+    DRay<3> own{};
     Affine<3> seen{};
     bool placed = false;
     double unit = 1, astray = 0, wanted_side = 0;
 
-    MeshBeam mesh_beam() const {
+    MeshRay mesh_beam() const {
         return {beam, placed ? own : beam, unit, astray, placed ? &seen : nullptr, wanted_side};
     }
 };
@@ -65,7 +65,7 @@ bool aim(const Composite<3>& composite, const QueryOptions<3>& options, Target& 
 
 /// Decides where no closed form does; `part_of` places a triangle in the world.
 template <class PartOf>
-auto by_advance(const Beam<3>& beam, const PartOf& part_of, Trace<3>* trace) {
+auto by_advance(const DRay<3>& beam, const PartOf& part_of, Trace<3>* trace) {
     return [&beam, part_of, trace](const Triangle3& triangle, double most, RayEntry<3>& entry) {
         PartHit<3> hit;
         if (!part_hit_by_advance({beam.origin, beam.direction, most}, part_of(triangle), 0, trace, hit)) return false;
@@ -87,20 +87,20 @@ PartHit<3> part_hit(const RayEntry<3>& entry, std::uint32_t triangle) {
 
 // A beam that rests hits no triangle: what starts on one leaves it.
 
-bool first_triangle_hit(const Beam<3>& beam, const Composite<3>& composite, const QueryOptions<3>& options,
+bool first_triangle_hit(const DRay<3>& beam, const Composite<3>& composite, const QueryOptions<3>& options,
                         PartHit<3>& first, bool& found) {
     Target target{beam};
     if (!aim(composite, options, target)) return false;
     if (beam.rests()) return true;
     const auto undecided = by_advance(beam, parts_of(composite), options.trace);
     MeshHit hit;
-    if (!find_first_hit(*composite.triangles, target.mesh_beam(), UndecidedTriangle(undecided), hit)) return false;
+    if (!find_first_hit(*composite.triangles, target.mesh_beam(), RobustTriangleTest(undecided), hit)) return false;
     found = hit.triangle != nullptr;
     if (found) first = part_hit(hit.entry, *hit.triangle);
     return true;
 }
 
-bool each_triangle_hit(const Beam<3>& beam, const Composite<3>& composite, const QueryOptions<3>& options,
+bool each_triangle_hit(const DRay<3>& beam, const Composite<3>& composite, const QueryOptions<3>& options,
                        HitVisitor visit) {
     Target target{beam};
     if (!aim(composite, options, target)) return false;
@@ -109,7 +109,7 @@ bool each_triangle_hit(const Beam<3>& beam, const Composite<3>& composite, const
     const auto tell = [&](const RayEntry<3>& entry, std::uint32_t triangle) {
         return visit(part_hit(entry, triangle));
     };
-    return find_each_hit(*composite.triangles, target.mesh_beam(), UndecidedTriangle(undecided), MeshHitCall(tell));
+    return find_each_hit(*composite.triangles, target.mesh_beam(), RobustTriangleTest(undecided), MeshHitCall(tell));
 }
 
 std::optional<Hit<3>> raycast(const Ray<3>& ray, const Mesh& mesh, const QueryOptions<3>& options) {
@@ -117,13 +117,13 @@ std::optional<Hit<3>> raycast(const Ray<3>& ray, const Mesh& mesh, const QueryOp
     const bool finite = can_be_asked(ray);
     ABUT_ASSERT(finite);
     if (!finite) return result;
-    const Beam<3> beam = beam_of(ray);
+    const DRay<3> beam = beam_of(ray);
     if (beam.rests()) return result;
     const auto undecided = by_advance(
         beam, [](const Triangle3& triangle) { return convex(triangle); }, options.trace);
-    const MeshBeam seen{beam, beam, 1, 0, nullptr, options.back_faces ? 0.0 : 1.0};
+    const MeshRay seen{beam, beam, 1, 0, nullptr, options.back_faces ? 0.0 : 1.0};
     MeshHit first;
-    if (!find_first_hit(triangle_tree(mesh), seen, UndecidedTriangle(undecided), first)) {
+    if (!find_first_hit(triangle_tree(mesh), seen, RobustTriangleTest(undecided), first)) {
         result = raycast(ray, view(mesh), options);
     } else if (first.triangle != nullptr) {
         Hit<3>& hit = result.emplace();

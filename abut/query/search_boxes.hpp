@@ -2,7 +2,7 @@
 
 // Branch and bound over boxes, as the searches of least_distance.hpp share it. For .cpp files.
 
-#include <abut/convex/gjk.hpp>
+#include <abut/convex/gjk/gjk.hpp>
 #include <abut/query/core_simplices.hpp>
 #include <abut/query/least_distance.hpp>
 

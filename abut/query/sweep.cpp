@@ -47,7 +47,7 @@ public:
     void search(const View<D>& a, const View<D>& b) {
         if (const auto* convex = std::get_if<Convex<D>>(&a))
             meet(*convex, 0, b);
-        else if (const auto* solid = std::get_if<Solid<D>>(&a))
+        else if (const auto* solid = std::get_if<HalfSpaceView<D>>(&a))
             meet(*solid, 0, b);
         else if (const auto* function = std::get_if<DistanceFunction<D>>(&a))
             meet(*function, 0, b);
@@ -72,10 +72,10 @@ private:
             each_part_met(*composite, part, path_.direction, [&](const Convex<D>& other, std::uint32_t other_index) {
                 look_at(part, index, other, other_index);
             });
-        else if constexpr (std::is_same_v<Part, Solid<D>>)
+        else if constexpr (std::is_same_v<Part, HalfSpaceView<D>>)
             ABUT_ASSERT(two_half_spaces_pair);
         else
-            look_at(part, index, std::get<Solid<D>>(b), 0);
+            look_at(part, index, std::get<HalfSpaceView<D>>(b), 0);
     }
 
     /// Calls visit(part, index) for the parts of a composite shape that another one, moving along `direction`, may
@@ -133,8 +133,9 @@ void find_first_touch(const Shapes& a, const Vec<D>& motion_a, const Shapes& b, 
 }
 
 /// Kept out of what is hot, where it would take up room.
-[[gnu::noinline]] void sweep_views(const Given<2>& a, const Vec2& motion_a, const Given<2>& b, const Vec2& motion_b,
-                                   const QueryOptions<2>& options, std::optional<Hit<2>>& result) {
+[[gnu::noinline]] void sweep_views(const ShapeRef<2>& a, const Vec2& motion_a, const ShapeRef<2>& b,
+                                   const Vec2& motion_b, const QueryOptions<2>& options,
+                                   std::optional<Hit<2>>& result) {
     result = sweep(convex_of(a), motion_a, convex_of(b), motion_b, options);
 }
 
@@ -152,7 +153,7 @@ std::optional<Hit<D>> sweep(const Convex<D>& a, const Vec<D>& motion_a, const Co
 }
 
 template <>
-std::optional<Hit<2>> sweep(const Given<2>& a, const Vec2& motion_a, const Given<2>& b, const Vec2& motion_b,
+std::optional<Hit<2>> sweep(const ShapeRef<2>& a, const Vec2& motion_a, const ShapeRef<2>& b, const Vec2& motion_b,
                             const QueryOptions<2>& options) {
     std::optional<Hit<2>> result;
     if (options.trace != nullptr || direct_sweep(a, motion_a, b, motion_b, result) == DirectAnswer::unknown)
@@ -160,7 +161,7 @@ std::optional<Hit<2>> sweep(const Given<2>& a, const Vec2& motion_a, const Given
     return result;
 }
 template <>
-std::optional<Hit<3>> sweep(const Given<3>& a, const Vec3& motion_a, const Given<3>& b, const Vec3& motion_b,
+std::optional<Hit<3>> sweep(const ShapeRef<3>& a, const Vec3& motion_a, const ShapeRef<3>& b, const Vec3& motion_b,
                             const QueryOptions<3>& options) {
     return sweep(convex_of(a), motion_a, convex_of(b), motion_b, options);
 }

@@ -6,7 +6,7 @@
 #include <abut/query/hit.hpp>
 #include <abut/query/options.hpp>
 #include <abut/query/sweep_turning.hpp>
-#include <abut/shape/refused.hpp>
+#include <abut/shape/view/constraints.hpp>
 
 #include <optional>
 
@@ -19,7 +19,7 @@ template <int D>
 std::optional<Hit<D>> sweep(const Convex<D>& a, const Vec<D>& motion_a, const Convex<D>& b, const Vec<D>& motion_b,
                             const QueryOptions<D>& options = {});
 template <int D>
-std::optional<Hit<D>> sweep(const Given<D>& a, const Vec<D>& motion_a, const Given<D>& b, const Vec<D>& motion_b,
+std::optional<Hit<D>> sweep(const ShapeRef<D>& a, const Vec<D>& motion_a, const ShapeRef<D>& b, const Vec<D>& motion_b,
                             const QueryOptions<D>& options = {});
 
 /// The first touch of two shapes that both move straight, without turning, in the same time.
@@ -35,7 +35,8 @@ template <class A, class B>
 requires Pair<A, B> std::optional<Hit<dimension<A>>> sweep(const A& a, const Vec<dimension<A>>& motion_a, const B& b,
                                                            const Vec<dimension<A>>& motion_b,
                                                            const QueryOptions<dimension<A>>& options = {}) {
-    return detail::ask(a, b, [&](const auto& x, const auto& y) { return sweep(x, motion_a, y, motion_b, options); });
+    return detail::with_views(a, b,
+                              [&](const auto& x, const auto& y) { return sweep(x, motion_a, y, motion_b, options); });
 }
 
 /// The same where B rests.

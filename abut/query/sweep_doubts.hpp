@@ -2,7 +2,7 @@
 
 // What of two parts that come to touch may be rounding. For .cpp files.
 
-#include <abut/convex/margin.hpp>
+#include <abut/convex/tolerance.hpp>
 #include <abut/math/dvec.hpp>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ struct Doubts {
         const double larger = std::isfinite(a.size) && std::isfinite(b.size) ? std::max(a.size, b.size) : smaller;
         // Where they touch, some coordinate is all but half as large as the size. (9e-7 of that is 16 ulp.)
         constexpr double all_but_half = 4.5e-7 / sixteen_ulp;
-        margin = margin_of_doubt(smaller, all_but_half * larger);
+        margin = tolerance_for(smaller, all_but_half * larger);
         touch = touch_part * margin + a.noise + b.noise + 1e-15 * length;
         slide = slide_part * margin + 2e-15 * length;
         stride = std::max(stride_part * smaller, 16 * (slide + touch));

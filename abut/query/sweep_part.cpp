@@ -1,5 +1,5 @@
-#include <abut/convex/ray_ball.hpp>
-#include <abut/convex/ray_portal.hpp>
+#include <abut/convex/ray/ball.hpp>
+#include <abut/convex/ray/portal.hpp>
 #include <abut/query/sweep_doubts.hpp>
 #include <abut/query/sweep_part.hpp>
 
@@ -27,7 +27,7 @@ void put(const Convex<D>& from, const DVec<D>& by, Convex<D>& part) {
     part.place.offset = from.place.offset + by;
 }
 template <int D>
-void put(const Solid<D>& from, const DVec<D>& by, Solid<D>& part) {
+void put(const HalfSpaceView<D>& from, const DVec<D>& by, HalfSpaceView<D>& part) {
     part.offset = from.offset + dot(from.normal, by);
 }
 
@@ -37,7 +37,7 @@ double extent(const Convex<D>& part, const DVec<D>& normal) {
     return dot(normal, core_support(part, normal).position) + part.radius;
 }
 template <int D>
-double extent(const Solid<D>& part, const DVec<D>&) {
+double extent(const HalfSpaceView<D>& part, const DVec<D>&) {
     return part.offset;
 }
 
@@ -73,7 +73,7 @@ Reach reach_of(const Convex<D>& part) {
     return {least, part.core == Core::function ? 6e-7 * least : 0};
 }
 template <int D>
-Reach reach_of(const Solid<D>&) {
+Reach reach_of(const HalfSpaceView<D>&) {
     return {std::numeric_limits<double>::infinity(), 0};
 }
 
@@ -84,7 +84,7 @@ public:
         : a_(a), b_(b), path_(path), options_(options) {
         const Reach reach_a = reach_of(a), reach_b = reach_of(b);
         DVec<D> between(0.0);
-        if constexpr (std::is_same_v<A, Solid<D>>) {
+        if constexpr (std::is_same_v<A, HalfSpaceView<D>>) {
             origin_ = some_point(b);
         } else {
             origin_ = some_point(a);
@@ -135,7 +135,7 @@ private:
     /// from; `from` is the center.
     Quick ray(const Convex<D>& ball, const Convex<D>& other, const DVec<D>& direction, PartTouch<D>& touch,
               DVec<D>& out) {
-        const Beam<D> beam{center_of(ball), direction, path_.length + doubts_.touch};
+        const DRay<D> beam{center_of(ball), direction, path_.length + doubts_.touch};
         const RayEntry<D> entry = is_ball(other)
                                       ? enter_ball(beam, center_of(other) - beam.origin, other.radius + ball.radius)
                                       : ray_entry(grown(other, ball.radius), beam);
@@ -174,8 +174,8 @@ private:
     }
     Quick polytopes(PartTouch<D>& touch) {
         if (!is_polytope(a_) || !is_polytope(b_)) return Quick::undecided;
-        const PortalHit<D> hit = enter_difference(a_, b_, path_.direction,
-                                                  PortalNeeds{0.25 * doubts_.touch, beyond_sliding * doubts_.slide});
+        const PortalHit<D> hit = enter_difference(
+            a_, b_, path_.direction, PortalTolerances{0.25 * doubts_.touch, beyond_sliding * doubts_.slide});
         if (hit.answer == PortalAnswer::undecided) return Quick::undecided;
         if (hit.answer == PortalAnswer::misses) return Quick::misses;
         const double closing = dot(path_.direction, hit.normal);
@@ -187,7 +187,7 @@ private:
         touch.normal = hit.normal;
         touch.started_inside = false;
         touch.point = origin_ + path_.direction * touch.along;
-        CornerNumbers<D> corners{};
+        CornerIndices<D> corners{};
         std::size_t count = 0;
         for (std::size_t i = 0; i < D; ++i) {
             touch.point += hit.corners[i].on_a * hit.weights[i];
@@ -208,7 +208,7 @@ private:
         touch.normal = now.distance.normal;
         touch.point = origin_ + now.distance.on_a;
         touch.started_inside = starts_there && now.distance.distance < -doubts_.margin;
-        const MeetingCorners<D>& corners = now.distance.corners;
+        const ClosestCorners<D>& corners = now.distance.corners;
         name_feature(b_, corners.b, corners.count, -now.distance.normal, index, touch.feature);
         return true;
     }
@@ -232,7 +232,7 @@ private:
     /// How far the plane across the normal parts them; the distance of their points is no less.
     double proven_gap(const Moment& now) const {
         const DVec<D>& normal = now.distance.normal;
-        if constexpr (std::is_same_v<A, Solid<D>> || std::is_same_v<B, Solid<D>>)
+        if constexpr (std::is_same_v<A, HalfSpaceView<D>> || std::is_same_v<B, HalfSpaceView<D>>)
             return now.distance.distance;
         else
             return -extent(b_, -normal) - extent(a_, normal) - now.along * now.closing -
@@ -358,13 +358,13 @@ bool part_touch(const A& a, const Path<D>& path, const B& b, std::uint32_t index
     return Approach<D, A, B>(a, path, b, options).run(index, touch);
 }
 
-#define ABUT_INSTANTIATE(D)                                                                                            \
-    template bool part_touch(const Convex<D>&, const Path<D>&, const Convex<D>&, std::uint32_t,                        \
-                             const SweepOptions<D>&, PartTouch<D>&);                                                   \
-    template bool part_touch(const Convex<D>&, const Path<D>&, const Solid<D>&, std::uint32_t, const SweepOptions<D>&, \
-                             PartTouch<D>&);                                                                           \
-    template bool part_touch(const Solid<D>&, const Path<D>&, const Convex<D>&, std::uint32_t, const SweepOptions<D>&, \
-                             PartTouch<D>&);
+#define ABUT_INSTANTIATE(D)                                                                            \
+    template bool part_touch(const Convex<D>&, const Path<D>&, const Convex<D>&, std::uint32_t,        \
+                             const SweepOptions<D>&, PartTouch<D>&);                                   \
+    template bool part_touch(const Convex<D>&, const Path<D>&, const HalfSpaceView<D>&, std::uint32_t, \
+                             const SweepOptions<D>&, PartTouch<D>&);                                   \
+    template bool part_touch(const HalfSpaceView<D>&, const Path<D>&, const Convex<D>&, std::uint32_t, \
+                             const SweepOptions<D>&, PartTouch<D>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

@@ -9,7 +9,7 @@ namespace {
 
 template <int D>
 bool is_finite(const RigidPath<D>& path) {
-    double sum = rate_of(path.spin);
+    double sum = angular_speed(path.angular_velocity);
     for (int i = 0; i < D; ++i) sum += path.start.offset[i] + path.move[i];
     for (const DVec<D>& column : path.start.column)
         for (int i = 0; i < D; ++i) sum += column[i];
@@ -96,8 +96,8 @@ std::optional<Hit<D>> sweep(const Convex<D>& a, const Motion<D>& motion_a, const
     return between(a, rigid_path(motion_a), b, rigid_path(motion_b), options);
 }
 template <int D>
-std::optional<Hit<D>> sweep(const Given<D>& a, const Motion<D>& motion_a, const Given<D>& b, const Motion<D>& motion_b,
-                            const QueryOptions<D>& options) {
+std::optional<Hit<D>> sweep(const ShapeRef<D>& a, const Motion<D>& motion_a, const ShapeRef<D>& b,
+                            const Motion<D>& motion_b, const QueryOptions<D>& options) {
     return sweep(convex_of(a), motion_a, convex_of(b), motion_b, options);
 }
 template <int D>
@@ -112,7 +112,7 @@ std::optional<Hit<D>> sweep(const Convex<D>& a, const Pose<D>& from_a, const Pos
     return between(a, rigid_path(from_a, to_a), b, rigid_path(from_b, to_b), options);
 }
 template <int D>
-std::optional<Hit<D>> sweep(const Given<D>& a, const Pose<D>& from_a, const Pose<D>& to_a, const Given<D>& b,
+std::optional<Hit<D>> sweep(const ShapeRef<D>& a, const Pose<D>& from_a, const Pose<D>& to_a, const ShapeRef<D>& b,
                             const Pose<D>& from_b, const Pose<D>& to_b, const QueryOptions<D>& options) {
     return sweep(convex_of(a), from_a, to_a, convex_of(b), from_b, to_b, options);
 }
@@ -130,7 +130,7 @@ std::optional<Hit<D>> sweep(const View<D>& a, const Pose<D>& from_a, const Pose<
 #define ABUT_INSTANTIATE(D)            \
     ABUT_INSTANTIATE_FOR(D, View<D>)   \
     ABUT_INSTANTIATE_FOR(D, Convex<D>) \
-    ABUT_INSTANTIATE_FOR(D, Given<D>)
+    ABUT_INSTANTIATE_FOR(D, ShapeRef<D>)
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

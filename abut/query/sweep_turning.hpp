@@ -14,8 +14,8 @@ template <int D>
 std::optional<Hit<D>> sweep(const Convex<D>& a, const Motion<D>& motion_a, const Convex<D>& b,
                             const Motion<D>& motion_b, const QueryOptions<D>& options = {});
 template <int D>
-std::optional<Hit<D>> sweep(const Given<D>& a, const Motion<D>& motion_a, const Given<D>& b, const Motion<D>& motion_b,
-                            const QueryOptions<D>& options = {});
+std::optional<Hit<D>> sweep(const ShapeRef<D>& a, const Motion<D>& motion_a, const ShapeRef<D>& b,
+                            const Motion<D>& motion_b, const QueryOptions<D>& options = {});
 template <int D>
 std::optional<Hit<D>> sweep(const View<D>& a, const Pose<D>& from_a, const Pose<D>& to_a, const View<D>& b,
                             const Pose<D>& from_b, const Pose<D>& to_b, const QueryOptions<D>& options = {});
@@ -23,7 +23,7 @@ template <int D>
 std::optional<Hit<D>> sweep(const Convex<D>& a, const Pose<D>& from_a, const Pose<D>& to_a, const Convex<D>& b,
                             const Pose<D>& from_b, const Pose<D>& to_b, const QueryOptions<D>& options = {});
 template <int D>
-std::optional<Hit<D>> sweep(const Given<D>& a, const Pose<D>& from_a, const Pose<D>& to_a, const Given<D>& b,
+std::optional<Hit<D>> sweep(const ShapeRef<D>& a, const Pose<D>& from_a, const Pose<D>& to_a, const ShapeRef<D>& b,
                             const Pose<D>& from_b, const Pose<D>& to_b, const QueryOptions<D>& options = {});
 
 /// The first contact that is gained while both shapes move and turn; none where there is none. Each shape is as it is
@@ -43,7 +43,8 @@ template <class A, class B>
 requires Pair<A, B> std::optional<Hit<dimension<A>>> sweep(const A& a, const Motion<dimension<A>>& motion_a, const B& b,
                                                            const Motion<dimension<A>>& motion_b,
                                                            const QueryOptions<dimension<A>>& options = {}) {
-    return detail::ask(a, b, [&](const auto& x, const auto& y) { return sweep(x, motion_a, y, motion_b, options); });
+    return detail::with_views(a, b,
+                              [&](const auto& x, const auto& y) { return sweep(x, motion_a, y, motion_b, options); });
 }
 
 /// The same of one that moves and one that doesn't.
@@ -65,8 +66,8 @@ requires Pair<A, B> std::optional<Hit<dimension<A>>> sweep(const A& a, const Pos
                                                            const Pose<dimension<A>>& from_b,
                                                            const Pose<dimension<A>>& to_b,
                                                            const QueryOptions<dimension<A>>& options = {}) {
-    return detail::ask(a, b,
-                       [&](const auto& x, const auto& y) { return sweep(x, from_a, to_a, y, from_b, to_b, options); });
+    return detail::with_views(
+        a, b, [&](const auto& x, const auto& y) { return sweep(x, from_a, to_a, y, from_b, to_b, options); });
 }
 
 }  // namespace abut

@@ -36,7 +36,10 @@ template <int D>
 class SeenMoving {
 public:
     SeenMoving(const Around<D>& ball, const RigidPath<D>& path, const RigidPath<D>& frame)
-        : ball_(ball), path_(path), frame_(frame), bend_(seen_motion(path, frame, length(ball.center)).bend) {}
+        : ball_(ball),
+          path_(path),
+          frame_(frame),
+          bend_(relative_motion_bounds(path, frame, length(ball.center)).acceleration) {}
 
     /// A box around it and a margin, rounded outwards.
     Aabb<D> box(const Piece& piece, double margin) const {
@@ -98,7 +101,7 @@ public:
     }
 
 private:
-    static constexpr bool is_solid = std::is_same_v<Other, Solid<D>>;
+    static constexpr bool is_solid = std::is_same_v<Other, HalfSpaceView<D>>;
 
     const Composite<D>& composite_;
     bool is_empty_ = false;
@@ -115,7 +118,7 @@ public:
     template <class PartA, class PartB>
     void look_at(const PartA& a, const PartB& b) {
         [[maybe_unused]] constexpr bool two_half_spaces_pair = false;
-        if constexpr (std::is_same_v<PartA, Solid<D>> && std::is_same_v<PartB, Solid<D>>) {
+        if constexpr (std::is_same_v<PartA, HalfSpaceView<D>> && std::is_same_v<PartB, HalfSpaceView<D>>) {
             ABUT_ASSERT(two_half_spaces_pair);
         } else if constexpr (std::is_same_v<PartB, Composite<D>>) {
             const PartsNear<D, PartA> near(b, path_b_, a, path_a_);

@@ -3,7 +3,7 @@
 // When any part of one shape first meets any part of another, both on rigid paths. For .cpp files.
 
 #include <abut/query/turning_search.hpp>
-#include <abut/shape/view.hpp>
+#include <abut/shape/view/view.hpp>
 
 namespace abut {
 

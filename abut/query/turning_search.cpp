@@ -1,6 +1,6 @@
-#include <abut/convex/manifold.hpp>
-#include <abut/convex/margin.hpp>
-#include <abut/convex/turning_gap.hpp>
+#include <abut/convex/manifold/manifold.hpp>
+#include <abut/convex/toi/separation_function.hpp>
+#include <abut/convex/tolerance.hpp>
 #include <abut/query/one_sided.hpp>
 #include <abut/query/part_pairs.hpp>
 #include <abut/query/turning_search.hpp>
@@ -21,7 +21,7 @@ double radius_of(const Convex<D>& set) {
 
 /// With the least that rounding can be: of coordinates as large as the larger of the two.
 double margin_of(double size_a, double size_b) {
-    return margin_of_doubt(std::min(size_a, size_b), std::max(size_a, size_b));
+    return tolerance_for(std::min(size_a, size_b), std::max(size_a, size_b));
 }
 
 /// By how much a depth that is told may be above the least.
@@ -55,12 +55,13 @@ public:
     /// How far the gap proves them apart, along the axis across the features that are nearest. A thorough search, for
     /// what touches and where that leads nowhere, tries axes that stand still or turn with one of the two as well.
     double open_to(double from, double until, double level, double slack, const SignedDistance<D>& now, bool thorough) {
-        const Spin<D> still{};
-        const Spin<D> across = spin_across(a, b, now.normal, now.corners);
+        const AngularVelocity<D> still{};
+        const AngularVelocity<D> across = axis_angular_velocity(a, b, now.normal, now.corners);
         double time = follow(across, from, until, level, slack, now);
         if (time >= until || !thorough) return time;
-        for (const Spin<D>& spin : {still, a.path().spin, b.path().spin})
-            if (spin != across) time = std::max(time, follow(spin, from, until, level, slack, now));
+        for (const AngularVelocity<D>& angular_velocity : {still, a.path().angular_velocity, b.path().angular_velocity})
+            if (angular_velocity != across)
+                time = std::max(time, follow(angular_velocity, from, until, level, slack, now));
         return time;
     }
 
@@ -88,27 +89,29 @@ public:
     }
 
     double margin;
-    TurningSet<D> a, b;
+    RotatingSet<D> a, b;
     double doubt;  ///< by how much a depth may be above the least
 
 private:
     static constexpr double far = 10;  ///< from an end, in margins
 
     /// On a core of corners, of which a place is made of some: far from each of them.
-    bool is_amid_side(const Convex<D>& set, const MeetingCorners<D>& meeting, const CornerNumbers<D>& corners,
+    bool is_amid_side(const Convex<D>& set, const ClosestCorners<D>& meeting, const CornerIndices<D>& corners,
                       const DVec<D>& place) const {
         if (corners[0] == corners[1] || meeting.count < 2) return false;
         bool result = true;
         for (std::size_t i = 0; i < meeting.count; ++i)
-            result = result && has_corner(set, corners[i]) &&
-                     length_squared(set.place.point(own_corner(set, corners[i])) - place) > far * far * margin * margin;
+            result =
+                result && has_corner(set, corners[i]) &&
+                length_squared(set.place.point(local_corner(set, corners[i])) - place) > far * far * margin * margin;
         return result;
     }
 
-    double follow(const Spin<D>& spin, double from, double until, double level, double slack,
+    double follow(const AngularVelocity<D>& angular_velocity, double from, double until, double level, double slack,
                   const SignedDistance<D>& now) {
-        TurningGap<D> gap(a, b, now.normal, spin, from);
-        return open_until(gap, from, until, gap.at_first(now.normal, now.distance, now.on_a, now.on_b()), level, slack)
+        SeparationFunction<D> gap(a, b, now.normal, angular_velocity, from);
+        return separated_until(gap, from, until, gap.at_first(now.normal, now.distance, now.on_a, now.on_b()), level,
+                               slack)
             .time;
     }
 
@@ -121,7 +124,7 @@ private:
 template <int D, bool first_is_solid>
 class SolidPair {
 public:
-    SolidPair(const Solid<D>& solid, const RigidPath<D>& path_of_solid, const Convex<D>& convex,
+    SolidPair(const HalfSpaceView<D>& solid, const RigidPath<D>& path_of_solid, const Convex<D>& convex,
               const RigidPath<D>& path_of_set)
         : margin(margin_of(radius_of(convex), radius_of(convex))),
           a(first_is_solid ? foot_of(solid) : convex, first_is_solid ? path_of_solid : path_of_set,
@@ -129,13 +132,13 @@ public:
           b(first_is_solid ? convex : foot_of(solid), first_is_solid ? path_of_set : path_of_solid,
             first_is_solid ? 0.02 * margin : never),
           doubt(depth_doubt(convex)),
-          turning_(path_of_solid.spin),
+          turning_(path_of_solid.angular_velocity),
           normal_(turning_.of(path_of_solid.start.vector(solid.normal))) {}
 
     SignedDistance<D> distance(double time) {
         go_to(time);
         SignedDistance<D> result = part_distance(set(), solid_);
-        if (first_is_solid) turn_round(result);
+        if (first_is_solid) swap_roles(result);
         return result;
     }
     bool has_one_way_out(const SignedDistance<D>&) const { return true; }
@@ -143,8 +146,10 @@ public:
         return manifold_with_plane(set(), solid_.normal, solid_.offset, margin);
     }
     double open_to(double from, double until, double level, double slack, const SignedDistance<D>& now, bool) {
-        TurningGap<D> gap(a, b, now.normal, first_is_solid ? a.path().spin : b.path().spin, from);
-        return open_until(gap, from, until, gap.at_first(now.normal, now.distance, now.on_a, now.on_b()), level, slack)
+        SeparationFunction<D> gap(a, b, now.normal,
+                                  first_is_solid ? a.path().angular_velocity : b.path().angular_velocity, from);
+        return separated_until(gap, from, until, gap.at_first(now.normal, now.distance, now.on_a, now.on_b()), level,
+                               slack)
             .time;
     }
     void go_to(double time) {
@@ -175,13 +180,13 @@ public:
     }
 
     double margin;
-    TurningSet<D> a, b;
+    RotatingSet<D> a, b;
     double doubt;  ///< by how much a depth may be above the least
 
 private:
     static constexpr double never = -1;
 
-    static Convex<D> foot_of(const Solid<D>& solid) {
+    static Convex<D> foot_of(const HalfSpaceView<D>& solid) {
         Convex<D> result;
         result.place.offset = solid.normal * solid.offset;
         return result;
@@ -189,9 +194,9 @@ private:
     const Convex<D>& foot() const { return first_is_solid ? a.here() : b.here(); }
     const Convex<D>& set() const { return first_is_solid ? b.here() : a.here(); }
 
-    TurningAxis<D> turning_;
-    TurningVector<D> normal_;
-    Solid<D> solid_;
+    RotationAxis<D> turning_;
+    RotatingVector<D> normal_;
+    HalfSpaceView<D> solid_;
 };
 
 /// Whether two that touch, or are about to, go further in at once.
@@ -320,25 +325,27 @@ bool first_meeting(const Convex<D>& a, const RigidPath<D>& path_a, const Convex<
 }
 
 template <int D>
-bool first_meeting(const Convex<D>& a, const RigidPath<D>& path_a, const Solid<D>& b, const RigidPath<D>& path_b,
-                   const TurningLimits& limits, const SearchOptions<D>&, Meeting<D>& meeting) {
+bool first_meeting(const Convex<D>& a, const RigidPath<D>& path_a, const HalfSpaceView<D>& b,
+                   const RigidPath<D>& path_b, const TurningLimits& limits, const SearchOptions<D>&,
+                   Meeting<D>& meeting) {
     SolidPair<D, false> pair(b, path_b, a, path_a);
     return Search<D, decltype(pair)>(pair, limits).run(meeting);
 }
 
 template <int D>
-bool first_meeting(const Solid<D>& a, const RigidPath<D>& path_a, const Convex<D>& b, const RigidPath<D>& path_b,
-                   const TurningLimits& limits, const SearchOptions<D>&, Meeting<D>& meeting) {
+bool first_meeting(const HalfSpaceView<D>& a, const RigidPath<D>& path_a, const Convex<D>& b,
+                   const RigidPath<D>& path_b, const TurningLimits& limits, const SearchOptions<D>&,
+                   Meeting<D>& meeting) {
     SolidPair<D, true> pair(a, path_a, b, path_b);
     return Search<D, decltype(pair)>(pair, limits).run(meeting);
 }
 
-#define ABUT_INSTANTIATE(D)                                                                                   \
-    template bool first_meeting(const Convex<D>&, const RigidPath<D>&, const Convex<D>&, const RigidPath<D>&, \
-                                const TurningLimits&, const SearchOptions<D>&, Meeting<D>&);                  \
-    template bool first_meeting(const Convex<D>&, const RigidPath<D>&, const Solid<D>&, const RigidPath<D>&,  \
-                                const TurningLimits&, const SearchOptions<D>&, Meeting<D>&);                  \
-    template bool first_meeting(const Solid<D>&, const RigidPath<D>&, const Convex<D>&, const RigidPath<D>&,  \
+#define ABUT_INSTANTIATE(D)                                                                                          \
+    template bool first_meeting(const Convex<D>&, const RigidPath<D>&, const Convex<D>&, const RigidPath<D>&,        \
+                                const TurningLimits&, const SearchOptions<D>&, Meeting<D>&);                         \
+    template bool first_meeting(const Convex<D>&, const RigidPath<D>&, const HalfSpaceView<D>&, const RigidPath<D>&, \
+                                const TurningLimits&, const SearchOptions<D>&, Meeting<D>&);                         \
+    template bool first_meeting(const HalfSpaceView<D>&, const RigidPath<D>&, const Convex<D>&, const RigidPath<D>&, \
                                 const TurningLimits&, const SearchOptions<D>&, Meeting<D>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

@@ -2,7 +2,7 @@
 
 // When two parts first meet, both on rigid paths. For .cpp files.
 
-#include <abut/convex/search_options.hpp>
+#include <abut/convex/gjk/search_options.hpp>
 #include <abut/convex/support.hpp>
 #include <abut/math/rigid_path.hpp>
 #include <abut/query/feature.hpp>
@@ -48,10 +48,12 @@ template <int D>
 bool first_meeting(const Convex<D>& a, const RigidPath<D>& path_a, const Convex<D>& b, const RigidPath<D>& path_b,
                    const TurningLimits& limits, const SearchOptions<D>& options, Meeting<D>& meeting);
 template <int D>
-bool first_meeting(const Convex<D>& a, const RigidPath<D>& path_a, const Solid<D>& b, const RigidPath<D>& path_b,
-                   const TurningLimits& limits, const SearchOptions<D>& options, Meeting<D>& meeting);
+bool first_meeting(const Convex<D>& a, const RigidPath<D>& path_a, const HalfSpaceView<D>& b,
+                   const RigidPath<D>& path_b, const TurningLimits& limits, const SearchOptions<D>& options,
+                   Meeting<D>& meeting);
 template <int D>
-bool first_meeting(const Solid<D>& a, const RigidPath<D>& path_a, const Convex<D>& b, const RigidPath<D>& path_b,
-                   const TurningLimits& limits, const SearchOptions<D>& options, Meeting<D>& meeting);
+bool first_meeting(const HalfSpaceView<D>& a, const RigidPath<D>& path_a, const Convex<D>& b,
+                   const RigidPath<D>& path_b, const TurningLimits& limits, const SearchOptions<D>& options,
+                   Meeting<D>& meeting);
 
 }  // namespace abut

@@ -27,8 +27,8 @@ class Together {
 public:
     explicit Together(Pair& pair)
         : pair_(pair),
-          speed_(std::min(seen_motion(pair.a.path(), pair.b.path(), pair.reach_a()).speed,
-                          seen_motion(pair.b.path(), pair.a.path(), pair.reach_b()).speed)) {}
+          speed_(std::min(relative_motion_bounds(pair.a.path(), pair.b.path(), pair.reach_a()).speed,
+                          relative_motion_bounds(pair.b.path(), pair.a.path(), pair.reach_b()).speed)) {}
 
     /// Until when they are surely not apart by more than the margin, at the end of the span at the latest; the distance
     /// at its beginning is less.
@@ -113,7 +113,7 @@ private:
         const double first = gap_at(span.from, place_at(path, span.from).point(own));
         if (!(first >= 0)) return false;
         const double time = span.until - span.from, most = std::sqrt(first) + std::sqrt(last);
-        return 0.5 * seen_motion(path, frame, length(own)).bend * time * time <= most * most;
+        return 0.5 * relative_motion_bounds(path, frame, length(own)).acceleration * time * time <= most * most;
     }
 
     /// Inside, by no more than is sure.
@@ -131,7 +131,7 @@ private:
         return foot.distance > 0 ? foot.point : middle;
     }
     static DVec<D> nearest_to_middle(const Convex<D>& part) { return middle_of(part, part.place.offset); }
-    static DVec<D> nearest_to_middle(const Solid<D>& part) { return part.normal * part.offset; }
+    static DVec<D> nearest_to_middle(const HalfSpaceView<D>& part) { return part.normal * part.offset; }
 
     Pair& pair_;
     double speed_;  ///< the most at which they may come apart

@@ -2,7 +2,7 @@
 
 // Which of many parts may be near a shape, told for less than their distances would take. For .cpp files.
 
-#include <abut/convex/gjk.hpp>
+#include <abut/convex/gjk/gjk.hpp>
 
 namespace abut {
 
@@ -21,7 +21,7 @@ public:
     bool is_beyond(const Convex<D>& part, double distance) const {
         const double enough = distance + part.radius + shape_.radius;
         if (part.core != Core::points || part.count > 3 || part.inner_radius > 0)
-            return gjk(CoreDifference<D>(shape_, part), enough).proven > enough;
+            return gjk(CoreDifference<D>(shape_, part), enough).lower_bound > enough;
         Affine<D> seen = part.place;
         seen.offset -= middle_;
         std::array<DVec<D>, 3> corners;

@@ -12,17 +12,17 @@
 namespace abut {
 namespace {
 
-constexpr int most_spans = (1 << 24) - 1;    // the bits that Recast has for their numbers
-constexpr std::size_t most_in_column = 250;  // and for how many are above one another
+constexpr int max_spans = (1 << 24) - 1;          // Recast's span numbers have 24 bits
+constexpr std::size_t max_spans_in_column = 250;  // Recast's limit of spans in a column
 
-/// Detail: points every so many cells, where the height is off by more than so many cells of height.
+/// Detail points every 4 cells, if the height error exceeds one cell height.
 constexpr float detail_distance = 4, detail_error = 1;
-/// How far the border of a region may be from the cells', and how long a piece of it is, in cells.
+/// Maximum error of a region's contour, and maximum length of its segments, in cells.
 constexpr float contour_error = 1;
 constexpr int contour_length = 40;
-/// The floor is cut into squares of so many cells: there are at most 127 points for details of a polygon.
-constexpr int square = 40;
-/// Regions of fewer cells are joined to their neighbours where that can be.
+/// The floor is cut into squares of this many cells: a polygon has at most 127 detail points.
+constexpr int square_cells = 40;
+/// Regions of fewer cells are merged with their neighbours if possible.
 constexpr int small_region = 400;
 
 class Context : public rcContext {
@@ -60,21 +60,21 @@ Problem cancelled() {
     return {ProblemCode::cancelled, "cancelled", 0};
 }
 Problem nothing(const char* why) {
-    return {ProblemCode::empty_input, std::string("nothing of the level can be walked on: ") + why, 0};
+    return {ProblemCode::empty_input, std::string("no part of the level is walkable: ") + why, 0};
 }
 
-/// The pipeline, one stage after another.
+/// Recast's stages, in order.
 class Pipeline {
 public:
-    Pipeline(const RecastPlan& plan, FunctionRef<bool(double)> tell) : plan_(plan), tell_(tell) {}
+    Pipeline(const RecastPlan& plan, FunctionRef<bool(double)> report) : plan_(plan), report_(report) {}
 
     std::optional<Problem> measure(std::span<const Vec3> points, std::span<const glm::uvec3> triangles,
                                    std::span<const std::uint8_t> floor) {
         heights_.reset(rcAllocHeightfield());
-        const float least[3] = {0, 0, 0};
-        const float most[3] = {plan_.cell * static_cast<float>(plan_.columns), plan_.top,
-                               plan_.cell * static_cast<float>(plan_.rows)};
-        if (!heights_ || !rcCreateHeightfield(&context_, *heights_, plan_.columns, plan_.rows, least, most, plan_.cell,
+        const float min[3] = {0, 0, 0};
+        const float max[3] = {plan_.cell * static_cast<float>(plan_.columns), plan_.top,
+                              plan_.cell * static_cast<float>(plan_.rows)};
+        if (!heights_ || !rcCreateHeightfield(&context_, *heights_, plan_.columns, plan_.rows, min, max, plan_.cell,
                                               plan_.cell_height))
             return context_.problem("the grid");
         std::vector<float> numbers;
@@ -84,7 +84,7 @@ public:
         std::vector<int> corners;
         std::vector<unsigned char> areas;
         for (std::size_t begin = 0; begin < triangles.size(); begin += batch) {
-            if (!tell_(0.3 * static_cast<double>(begin) / static_cast<double>(triangles.size()))) return cancelled();
+            if (!report_(0.3 * static_cast<double>(begin) / static_cast<double>(triangles.size()))) return cancelled();
             const std::size_t end = std::min(triangles.size(), begin + batch);
             corners.clear();
             areas.clear();
@@ -100,13 +100,13 @@ public:
     }
 
     std::optional<Problem> find_floor() {
-        if (!tell_(0.3)) return cancelled();
+        if (!report_(0.3)) return cancelled();
         rcFilterLowHangingWalkableObstacles(&context_, plan_.climb, *heights_);
         rcFilterLedgeSpans(&context_, plan_.height, plan_.ledge, *heights_);
         rcFilterWalkableLowHeightSpans(&context_, plan_.height, *heights_);
         if (std::optional<Problem> problem = problem_of_spans()) return problem;
 
-        if (!tell_(0.4)) return cancelled();
+        if (!report_(0.4)) return cancelled();
         floor_.reset(rcAllocCompactHeightfield());
         if (!floor_ || !rcBuildCompactHeightfield(&context_, plan_.height, plan_.climb, *heights_, *floor_))
             return context_.problem("the floor");
@@ -115,43 +115,44 @@ public:
             return context_.problem("the walker's radius");
         const auto is_left = [](unsigned char area) { return area != RC_NULL_AREA; };
         if (std::none_of(floor_->areas, floor_->areas + floor_->spanCount, is_left))
-            return nothing("no floor is as wide as the walker's radius asks");
+            return nothing("no floor is wide enough for the walker's radius");
         cut_into_squares();
         return std::nullopt;
     }
 
     std::optional<Problem> find_regions() {
-        if (!tell_(0.45)) return cancelled();
+        if (!report_(0.45)) return cancelled();
         if (!rcBuildDistanceField(&context_, *floor_)) return context_.problem("the distances");
-        if (!tell_(0.5)) return cancelled();
-        if (!rcBuildRegions(&context_, *floor_, 0, plan_.least_region, small_region))
+        if (!report_(0.5)) return cancelled();
+        if (!rcBuildRegions(&context_, *floor_, 0, plan_.min_region, small_region))
             return context_.problem("the regions");
-        if (!tell_(0.75)) return cancelled();
+        if (!report_(0.75)) return cancelled();
         contours_.reset(rcAllocContourSet());
         if (!contours_ || !rcBuildContours(&context_, *floor_, contour_error, contour_length, *contours_))
             return context_.problem("the contours");
-        if (contours_->nconts == 0) return nothing("no part of the floor is as large as the least area");
+        if (contours_->nconts == 0) return nothing("no part of the floor is as large as the minimum area");
         return std::nullopt;
     }
 
     std::optional<Problem> cut() {
-        if (!tell_(0.8)) return cancelled();
+        if (!report_(0.8)) return cancelled();
         polygons_.reset(rcAllocPolyMesh());
         constexpr int corners_each = 6;
         if (!polygons_ || !rcBuildPolyMesh(&context_, *contours_, corners_each, *polygons_))
             return context_.problem("the polygons");
         contours_.reset();
-        if (!tell_(0.85)) return cancelled();
+        if (!report_(0.85)) return cancelled();
         details_.reset(rcAllocPolyMeshDetail());
         if (!details_ || !rcBuildPolyMeshDetail(&context_, *polygons_, *floor_, detail_distance * plan_.cell,
                                                 detail_error * plan_.cell_height, *details_))
             return context_.problem("the heights of the polygons");
         floor_.reset();
-        if (polygons_->npolys == 0) return nothing("no polygon is left of it");
+        if (polygons_->npolys == 0) return nothing("no polygon is left");
         return std::nullopt;
     }
 
-    /// Heights are told of the tops of cells, and those of details a cell above that; the floor is half a cell below.
+    /// Recast's heights are those of the tops of cells, and detail heights are one cell higher; the floor is half a
+    /// cell lower.
     RecastPolygons result() const {
         RecastPolygons result;
         result.warnings = context_.warnings();
@@ -166,31 +167,31 @@ public:
     }
 
 private:
-    /// Squares side by side are areas of their own, over whose borders no region goes.
+    /// Adjacent squares get different areas, so that no region extends beyond its square.
     void cut_into_squares() {
         for (int row = 0; row < plan_.rows; ++row)
             for (int column = 0; column < plan_.columns; ++column) {
                 const rcCompactCell& cell = floor_->cells[row * plan_.columns + column];
-                const int area = 1 + column / square % 2 + 2 * (row / square % 2);
+                const int area = 1 + column / square_cells % 2 + 2 * (row / square_cells % 2);
                 for (unsigned int i = cell.index, end = i + cell.count; i < end; ++i)
                     if (floor_->areas[i] != RC_NULL_AREA) floor_->areas[i] = static_cast<unsigned char>(area);
             }
     }
 
-    /// Beyond what Recast has bits for, it would go on with other numbers.
+    /// Recast overflows beyond these limits without an error.
     std::optional<Problem> problem_of_spans() const {
         std::size_t count = 0;
         for (int i = 0; i < plan_.columns * plan_.rows; ++i) {
             std::size_t above = 0;
             for (const rcSpan* span = heights_->spans[i]; span != nullptr; span = span->next)
                 above += span->area != RC_NULL_AREA;
-            if (above > most_in_column)
+            if (above > max_spans_in_column)
                 return Problem{ProblemCode::too_large, "more than 250 floors lie above one another", 0};
             count += above;
         }
-        if (count > static_cast<std::size_t>(most_spans))
-            return Problem{ProblemCode::too_large, "the floor has 2^24 cells or more: take larger ones", 0};
-        if (count == 0) return nothing("above none of it there is room of the walker's height");
+        if (count > static_cast<std::size_t>(max_spans))
+            return Problem{ProblemCode::too_large, "the floor has 2^24 cells or more: use larger ones", 0};
+        if (count == 0) return nothing("no floor has enough clearance for the walker's height");
         return std::nullopt;
     }
 
@@ -211,7 +212,7 @@ private:
     }
 
     const RecastPlan& plan_;
-    FunctionRef<bool(double)> tell_;
+    FunctionRef<bool(double)> report_;
     Context context_;
     Heightfield heights_;
     CompactField floor_;
@@ -224,8 +225,8 @@ private:
 
 Result<RecastPolygons> recast_polygons(std::span<const Vec3> points, std::span<const glm::uvec3> triangles,
                                        std::span<const std::uint8_t> floor, const RecastPlan& plan,
-                                       FunctionRef<bool(double done)> tell) {
-    Pipeline pipeline(plan, tell);
+                                       FunctionRef<bool(double done)> report) {
+    Pipeline pipeline(plan, report);
     if (std::optional<Problem> problem = pipeline.measure(points, triangles, floor)) return *std::move(problem);
     if (std::optional<Problem> problem = pipeline.find_floor()) return *std::move(problem);
     if (std::optional<Problem> problem = pipeline.find_regions()) return *std::move(problem);

@@ -13,13 +13,13 @@
 namespace abut {
 namespace {
 
-/// Seen along the second axis.
+/// The projection along the second axis.
 DVec<2> flat(const DVec<3>& p) {
     return {p.x, p.z};
 }
 
-/// Corners above one another, step by step, are the lowest of them.
-std::vector<std::uint32_t> joined_corners(std::span<const DVec<3>> corners, double step) {
+/// Maps corners above one another, within a step each, to the lowest of them.
+std::vector<std::uint32_t> merge_corners(std::span<const DVec<3>> corners, double step) {
     const auto key = [&](std::uint32_t i) { return std::tuple(corners[i].x, corners[i].z, corners[i].y, i); };
     std::vector<std::uint32_t> order(corners.size()), same(corners.size());
     std::iota(order.begin(), order.end(), 0u);
@@ -36,9 +36,9 @@ std::vector<std::uint32_t> joined_corners(std::span<const DVec<3>> corners, doub
 
 constexpr std::uint32_t none = 0xffffffffu;
 
-/// A point that a polygon has on one of its sides, or a corner that it has there.
+/// A point on a side of a polygon, or another corner on it.
 struct SidePoint {
-    std::uint32_t from, to;  ///< the corners, the lower first
+    std::uint32_t from, to;  ///< the corners, the lower number first
     double along;            ///< in [0, 1], from `from`
     double height;
     std::uint32_t polygon, point, corner;
@@ -49,7 +49,7 @@ struct SidePoint {
 class Stitcher {
 public:
     Stitcher(std::span<const DVec<3>> corners, std::span<const CutPolygon> polygons, const StitchOptions& options)
-        : polygons_(polygons), options_(options), same_(joined_corners(corners, options.step)) {
+        : polygons_(polygons), options_(options), same_(merge_corners(corners, options.step)) {
         result_.points.assign(corners.begin(), corners.end());
         for (const CutPolygon& polygon : polygons)
             number_.emplace_back(std::max(polygon.points.size(), polygon.corners.size()), none);
@@ -72,7 +72,7 @@ private:
         return static_cast<std::uint32_t>(result_.points.size() - 1);
     }
 
-    /// Numbers the corners and what is within, and keeps what is on sides.
+    /// Numbers the corners and inner points, and collects the points on sides.
     void number_points(std::uint32_t index) {
         const CutPolygon& polygon = polygons_[index];
         const std::size_t count = polygon.corners.size();
@@ -86,13 +86,13 @@ private:
                 }
         }
         for (std::size_t i = count; i < polygon.points.size() && !is_thin; ++i) {
-            double least = std::numeric_limits<double>::infinity();
+            double nearest_distance = std::numeric_limits<double>::infinity();
             std::optional<SidePoint> nearest;
             for (std::size_t k = 0; k < count; ++k) {
                 double away = 0;
                 const std::optional<SidePoint> found = on_side(polygon, k, polygon.points[i], &away);
-                if (!found || !(away < least)) continue;
-                least = away;
+                if (!found || !(away < nearest_distance)) continue;
+                nearest_distance = away;
                 nearest = found;
             }
             if (nearest) {
@@ -105,42 +105,42 @@ private:
         }
     }
 
-    /// Where a point is on a side, if it is there.
+    /// The position of a point on a side, if it lies on it.
     std::optional<SidePoint> on_side(const CutPolygon& polygon, std::size_t side_number, const DVec<3>& point,
                                      double* off = nullptr) const {
         const std::uint32_t a = corner(polygon, side_number), b = corner(polygon, side_number + 1);
         const std::uint32_t from = std::min(a, b), to = std::max(a, b);
         const DVec<2> start = flat(result_.points[from]), side = flat(result_.points[to]) - start;
-        const DVec<2> way = flat(point) - start;
-        const double square = dot(side, side), along = dot(way, side) / square;
-        const double away = std::abs(cross(side, way)) / std::sqrt(square);
+        const DVec<2> offset = flat(point) - start;
+        const double square = dot(side, side), along = dot(offset, side) / square;
+        const double away = std::abs(cross(side, offset)) / std::sqrt(square);
         if (off != nullptr) *off = away;
-        if (!(away <= options_.near) || !(along > 0 && along < 1)) return std::nullopt;
+        if (!(away <= options_.tolerance) || !(along > 0 && along < 1)) return std::nullopt;
         return SidePoint{from, to, along, point.y, none, none, none};
     }
 
-    /// All corners of it on a line: nothing is left of it but that sides of its neighbours are cut at its corners.
+    /// True if all corners are collinear. Such a polygon only splits the sides of its neighbours.
     bool has_no_area(const CutPolygon& polygon) const {
         double sum = 0;
         for (std::size_t i = 1; i + 1 < polygon.corners.size(); ++i)
             sum += area({corner(polygon, 0), corner(polygon, i), corner(polygon, i + 1)});
-        return std::abs(sum) <= options_.near * options_.near;
+        return std::abs(sum) <= options_.tolerance * options_.tolerance;
     }
 
-    /// Numbers what is on sides: one number for points of several polygons at the same place.
+    /// Numbers the points on sides: points of several polygons at the same position get one number.
     void join_sides() {
         std::sort(on_sides_.begin(), on_sides_.end(),
                   [](const SidePoint& a, const SidePoint& b) { return a.key() < b.key(); });
         for (std::size_t i = 0; i < on_sides_.size();) {
             const SidePoint first = on_sides_[i];
             const DVec<3> from = result_.points[first.from], to = result_.points[first.to];
-            const double near = options_.near / length(flat(to) - flat(from));
+            const double tolerance = options_.tolerance / length(flat(to) - flat(from));
             double sum = 0;
             std::size_t end = i;
             std::uint32_t number = none;
             for (; end < on_sides_.size(); ++end) {
                 const SidePoint& next = on_sides_[end];
-                if (next.from != first.from || next.to != first.to || next.along - first.along > near) break;
+                if (next.from != first.from || next.to != first.to || next.along - first.along > tolerance) break;
                 sum += next.height;
                 number = std::min(number, next.corner);
             }
@@ -155,7 +155,7 @@ private:
         }
     }
 
-    /// A cut of the side between two corners.
+    /// A split of the side between two corners.
     struct Cut {
         std::uint32_t from, to;
         double along;
@@ -172,7 +172,7 @@ private:
         return {first, last};
     }
 
-    /// All corners and cuts of a polygon, going round: side by side, each with both its corners.
+    /// The corners and splits around a polygon: one list per side, with both its ends.
     using Sides = std::vector<std::vector<std::uint32_t>>;
     Sides sides_of(const CutPolygon& polygon) const {
         Sides result;
@@ -186,7 +186,7 @@ private:
         return result;
     }
 
-    /// Twice the area seen along the second axis, above 0 where it faces along it.
+    /// Twice the projected area along the second axis, positive if the triangle faces along it.
     double area(const glm::uvec3& t) const {
         const DVec<2> a = flat(result_.points[t.x]);
         return -cross(flat(result_.points[t.y]) - a, flat(result_.points[t.z]) - a);
@@ -199,28 +199,29 @@ private:
         std::vector<glm::uvec3> triangles;
         for (const glm::uvec3& t : polygon.triangles)
             add_triangle({number_[index][t.x], number_[index][t.y], number_[index][t.z]}, sides, triangles);
-        std::vector<std::uint32_t> round;
-        for (const std::vector<std::uint32_t>& side : sides) round.insert(round.end(), side.begin(), side.end() - 1);
-        if (!fills(triangles, round)) {
-            triangles = cut_from_middle(polygon, round);
-            ++result_.mended;
+        std::vector<std::uint32_t> boundary;
+        for (const std::vector<std::uint32_t>& side : sides)
+            boundary.insert(boundary.end(), side.begin(), side.end() - 1);
+        if (!fills(triangles, boundary)) {
+            triangles = cut_from_middle(polygon, boundary);
+            ++result_.repaired;
         }
         result_.triangles.insert(result_.triangles.end(), triangles.begin(), triangles.end());
     }
 
-    std::vector<glm::uvec3> cut_from_middle(const CutPolygon& polygon, std::span<const std::uint32_t> round) {
+    std::vector<glm::uvec3> cut_from_middle(const CutPolygon& polygon, std::span<const std::uint32_t> boundary) {
         DVec<3> middle(0.0);
         for (std::size_t i = 0; i < polygon.corners.size(); ++i) middle += result_.points[corner(polygon, i)];
         const std::uint32_t number = add_point(middle / static_cast<double>(polygon.corners.size()));
         std::vector<glm::uvec3> result;
-        for (std::size_t i = 0; i < round.size(); ++i) {
-            const glm::uvec3 t{number, round[i], round[(i + 1) % round.size()]};
+        for (std::size_t i = 0; i < boundary.size(); ++i) {
+            const glm::uvec3 t{number, boundary[i], boundary[(i + 1) % boundary.size()]};
             result.push_back(area(t) < 0 ? glm::uvec3(t.x, t.z, t.y) : t);
         }
         return result;
     }
 
-    /// A cut between a and b, where these are on one side; else none.
+    /// The middle split between a and b if both are on one side; otherwise none.
     static std::uint32_t cut_between(std::uint32_t a, std::uint32_t b, const Sides& sides) {
         for (const std::vector<std::uint32_t>& side : sides) {
             const auto at = std::find(side.begin(), side.end(), a), to = std::find(side.begin(), side.end(), b);
@@ -231,58 +232,59 @@ private:
         return none;
     }
 
-    /// A triangle, cut at all that is on its sides. One without area is left out.
+    /// Adds a triangle, split at all points on its sides. A triangle without area is removed.
     void add_triangle(glm::uvec3 t, const Sides& sides, std::vector<glm::uvec3>& triangles) const {
         if (area(t) < 0) std::swap(t.y, t.z);
         if (!has_area(t)) return;
-        std::vector<glm::uvec3> open{t};
-        while (!open.empty()) {
-            const glm::uvec3 next = open.back();
-            open.pop_back();
-            bool whole = true;
-            for (int k = 0; k < 3 && whole; ++k) {
+        std::vector<glm::uvec3> stack{t};
+        while (!stack.empty()) {
+            const glm::uvec3 next = stack.back();
+            stack.pop_back();
+            bool uncut = true;
+            for (int k = 0; k < 3 && uncut; ++k) {
                 const std::uint32_t a = next[k], b = next[(k + 1) % 3], c = next[(k + 2) % 3];
                 const std::uint32_t cut = cut_between(a, b, sides);
                 if (cut == none) continue;
-                whole = false;
-                open.push_back({a, cut, c});
-                open.push_back({cut, b, c});
+                uncut = false;
+                stack.push_back({a, cut, c});
+                stack.push_back({cut, b, c});
             }
-            if (whole) triangles.push_back(next);
+            if (uncut) triangles.push_back(next);
         }
     }
 
-    bool has_area(const glm::uvec3& t) const { return area(t) > options_.near * options_.near; }
+    bool has_area(const glm::uvec3& t) const { return area(t) > options_.tolerance * options_.tolerance; }
 
-    /// Whether triangles have an area each, and their border is the ring.
-    bool fills(std::span<const glm::uvec3> triangles, std::span<const std::uint32_t> round) const {
+    /// True if all triangles have an area and their boundary is the given one.
+    bool fills(std::span<const glm::uvec3> triangles, std::span<const std::uint32_t> boundary) const {
         using Side = std::pair<std::uint32_t, std::uint32_t>;
-        double whole = 0, sum = 0;
-        for (std::size_t i = 1; i + 1 < round.size(); ++i) whole += area({round[0], round[i], round[i + 1]});
+        double total = 0, sum = 0;
+        for (std::size_t i = 1; i + 1 < boundary.size(); ++i)
+            total += area({boundary[0], boundary[i], boundary[i + 1]});
         std::vector<Side> sides, border, needed;
         for (const glm::uvec3& t : triangles) {
             if (!has_area(t)) return false;
             sum += area(t);
             for (int k = 0; k < 3; ++k) sides.emplace_back(t[k], t[(k + 1) % 3]);
         }
-        for (std::size_t i = 0; i < round.size(); ++i) {
-            const std::uint32_t a = round[i], b = round[(i + 1) % round.size()];
-            needed.push_back(whole > 0 ? Side(a, b) : Side(b, a));
+        for (std::size_t i = 0; i < boundary.size(); ++i) {
+            const std::uint32_t a = boundary[i], b = boundary[(i + 1) % boundary.size()];
+            needed.push_back(total > 0 ? Side(a, b) : Side(b, a));
         }
         std::sort(sides.begin(), sides.end());
         std::sort(needed.begin(), needed.end());
         for (const Side& side : sides)
             if (!std::binary_search(sides.begin(), sides.end(), Side(side.second, side.first))) border.push_back(side);
         return std::adjacent_find(sides.begin(), sides.end()) == sides.end() && border == needed &&
-               std::abs(sum - std::abs(whole)) <= 1e-9 * std::abs(whole);
+               std::abs(sum - std::abs(total)) <= 1e-9 * std::abs(total);
     }
 
     std::span<const CutPolygon> polygons_;
     StitchOptions options_;
     std::vector<std::uint32_t> same_;
-    std::vector<std::vector<std::uint32_t>> number_;  ///< of the points of each polygon, in the result
+    std::vector<std::vector<std::uint32_t>> number_;  ///< one list per polygon: numbers of its points in the result
     std::vector<SidePoint> on_sides_;
-    std::vector<Cut> cuts_;  ///< in the order of their sides, and along them
+    std::vector<Cut> cuts_;  ///< sorted by sides, then along them
     Stitched result_;
 };
 

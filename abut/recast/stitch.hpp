@@ -1,6 +1,6 @@
 #pragma once
 
-// Polygons that were triangulated each by itself become one surface. Not for users.
+// Stitches polygons that were triangulated separately into one surface. Not for users.
 
 #include <abut/math/vec.hpp>
 
@@ -13,26 +13,28 @@
 
 namespace abut {
 
-/// A polygon, convex seen along the second axis, cut into triangles with further points on its sides and within.
+/// A polygon, convex in projection along the second axis, with its triangulation and further points on its sides and
+/// inside.
 struct CutPolygon {
-    std::vector<std::uint32_t> corners;  ///< of the surface, in the order in which they go round, either way
-    std::vector<DVec<3>> points;         ///< first the corners, then the others, in any order
-    std::vector<glm::uvec3> triangles;   ///< of `points`
+    std::vector<std::uint32_t> corners;  ///< numbers of the surface's corners around the polygon, in either orientation
+    std::vector<DVec<3>> points;         ///< the corners first, then the others in any order
+    std::vector<glm::uvec3> triangles;   ///< indices into `points`
 };
 
 struct Stitched {
     std::vector<DVec<3>> points;
     std::vector<glm::uvec3> triangles;  ///< facing along the second axis
-    std::size_t mended = 0;  ///< polygons whose triangles didn't fill them, and were cut anew from their middle
+    std::size_t repaired = 0;  ///< polygons whose triangles didn't fill them, and were triangulated from their center
 };
 
 struct StitchOptions {
-    double near = 1e-3;  ///< points of `CutPolygon` within so much of a side lie on it, seen along the second axis
-    double step = 0;     ///< corners above one another by at most so much are one
+    /// distance from a side within which points of `CutPolygon` lie on it, in projection along the second axis
+    double tolerance = 1e-3;
+    double step = 0;  ///< corners above one another by at most this are merged
 };
 
-/// One surface, without cracks: sides of polygons between the same two corners are cut at the same points, which all of
-/// those polygons have there, at the mean of their heights.
+/// Stitches polygons without cracks: sides between the same two corners are split at the same points by all their
+/// polygons, at the mean of their heights.
 Stitched stitch(std::span<const DVec<3>> corners, std::span<const CutPolygon> polygons, const StitchOptions& options);
 
 }  // namespace abut

@@ -1,18 +1,18 @@
 #pragma once
 
-// A shape whose type is forgotten, owned.
+// A type-erased shape that owns its data.
 
-#include <abut/shape/bounds_at.hpp>
 #include <abut/shape/counted.hpp>
 #include <abut/shape/placed.hpp>
+#include <abut/shape/view/bounds_at.hpp>
 
 #include <type_traits>
 #include <utility>
 
 namespace abut {
 
-/// Any shape of a dimension as a value: a shape again, that answers as the one it was made from does. Owns all that it
-/// is made of, so that none is made of a view. Copies share it.
+/// Any shape of a dimension as a value. Queries give the same answers as for the shape it was made from. It owns
+/// its data, so it can't be made of a view. Copies share the data.
 template <int D>
 class AnyShape {
 public:
@@ -20,11 +20,11 @@ public:
     requires(!std::is_same_v<S, AnyShape> && Ownable<S> && dimension<S> == D) AnyShape(const S& shape)
         : stored_(store(owned(shape))) {}
 
-    /// Made with each call; refers to this shape and must not outlive it.
+    /// A view of the shape. Each call makes one; it refers to this shape and must not outlive it.
     View<D> view() const { return stored_->view(); }
-    /// The same moved and turned, by a map that keeps all lengths.
+    /// A view of the shape after a rigid map.
     View<D> moved(const Affine<D>& rigid) const { return stored_->moved(rigid); }
-    /// The box of the shape moved and turned by a pose; empty where it is not finite.
+    /// The bounding box of the shape at a pose; empty if a number is NaN or infinite.
     Aabb<D> bounds(const Pose<D>& pose) const { return stored_->bounds(pose); }
 
 private:

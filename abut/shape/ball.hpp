@@ -1,15 +1,15 @@
 #pragma once
 
-// Circle and sphere: all points within a distance of one.
+// Circle and sphere.
 
-#include <abut/shape/given.hpp>
+#include <abut/shape/view/shape_ref.hpp>
 
 namespace abut {
 
 template <int D>
 struct Ball {
     Vec<D> center{};
-    float radius = 0;  ///< not below zero; zero is a point
+    float radius = 0;  ///< at least 0; 0 is a point
 };
 template <int D>
 Ball(glm::vec<D, float>, float) -> Ball<D>;
@@ -22,7 +22,7 @@ Convex<D> convex(const Ball<D>& ball);
 template <int D>
 Convex<D> convex(const Ball<D>& ball, const Pose<D>& pose);
 template <int D>
-Given<D> given(const Ball<D>& ball) {
+ShapeRef<D> shape_ref(const Ball<D>& ball) {
     return {ShapeKind::ball, &ball};
 }
 

@@ -1,15 +1,15 @@
 #pragma once
 
-// Boxes: turned ones, and the axis-aligned ones of the broad phase as shapes.
+// Oriented boxes, and the axis-aligned boxes of the broad phase as shapes.
 
-#include <abut/shape/given.hpp>
+#include <abut/shape/view/shape_ref.hpp>
 
 namespace abut {
 
 template <int D>
 struct Box {
     Vec<D> center{};
-    Vec<D> half{};                                          ///< half the length of each edge; not below zero
+    Vec<D> half{};                                          ///< half the length of each edge; at least 0
     Rotation<D> rotation = detail::identity_rotation<D>();  ///< about the center
 };
 template <int D>
@@ -23,7 +23,7 @@ Convex<D> convex(const Box<D>& box);
 template <int D>
 Convex<D> convex(const Box<D>& box, const Pose<D>& pose);
 template <int D>
-Given<D> given(const Box<D>& box) {
+ShapeRef<D> shape_ref(const Box<D>& box) {
     return {ShapeKind::box, &box};
 }
 

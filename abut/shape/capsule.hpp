@@ -1,8 +1,8 @@
 #pragma once
 
-// Capsule: all points within a distance of a segment.
+// Capsule: all points within `radius` of a segment.
 
-#include <abut/shape/given.hpp>
+#include <abut/shape/view/shape_ref.hpp>
 
 namespace abut {
 
@@ -23,7 +23,7 @@ Convex<D> convex(const Capsule<D>& capsule);
 template <int D>
 Convex<D> convex(const Capsule<D>& capsule, const Pose<D>& pose);
 template <int D>
-Given<D> given(const Capsule<D>& capsule) {
+ShapeRef<D> shape_ref(const Capsule<D>& capsule) {
     return {ShapeKind::capsule, &capsule};
 }
 

@@ -33,11 +33,11 @@ Aabb2 box_of(const Segment2& s) {
 }  // namespace
 
 Result<Chain> Chain::build(std::span<const Vec2> points, bool closed, const ChainOptions& options) {
-    const std::size_t least = closed ? 3 : 2;
-    if (points.size() < least)
+    const std::size_t min_count = closed ? 3 : 2;
+    if (points.size() < min_count)
         return Problem{ProblemCode::empty_input,
-                       std::string(closed ? "a closed" : "an open") + " chain needs at least " + std::to_string(least) +
-                           " points, and there are " + std::to_string(points.size()),
+                       std::string(closed ? "a closed" : "an open") + " chain needs at min_count " +
+                           std::to_string(min_count) + " points, and there are " + std::to_string(points.size()),
                        points.size()};
     for (std::size_t i = 0; i < points.size(); ++i)
         if (!is_finite(points[i]))
@@ -110,18 +110,17 @@ void each_part_near(const Chain& chain, const Aabb2& box, PartReachVisitor<2> vi
 
 bool solid_contains(const Chain& chain, const Vec2& point) {
     if (!chain.closed()) return false;
-    // How often the segments that cross the way from the point along x go round it: Sunday, "Inclusion of a point in a
-    // polygon" (2001).
+    // The winding number, from signed crossings of a ray along x: Sunday, "Inclusion of a point in a polygon" (2001).
     Aabb2 ahead{point, point};
     ahead.max.x = std::numeric_limits<float>::infinity();
-    int turns = 0;
+    int winding = 0;
     chain.data_->tree.each_overlapping(ahead, [&](std::uint32_t index) {
         const Segment2 s = chain.data_->segment(index);
         const bool from_below = s.a.y <= point.y, to_below = s.b.y <= point.y;
-        if (from_below && !to_below && orientation(s.a, s.b, point) > 0) ++turns;
-        if (!from_below && to_below && orientation(s.a, s.b, point) < 0) --turns;
+        if (from_below && !to_below && orientation(s.a, s.b, point) > 0) ++winding;
+        if (!from_below && to_below && orientation(s.a, s.b, point) < 0) --winding;
     });
-    return turns != 0;
+    return winding != 0;
 }
 
 }  // namespace abut

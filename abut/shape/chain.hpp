@@ -1,10 +1,10 @@
 #pragma once
 
-// Line of the plane with corners: level geometry in 2D.
+// Polyline: level geometry in 2D.
 
 #include <abut/math/result.hpp>
 #include <abut/shape/segment.hpp>
-#include <abut/shape/view.hpp>
+#include <abut/shape/view/view.hpp>
 
 #include <initializer_list>
 #include <memory>
@@ -13,20 +13,21 @@
 namespace abut {
 
 struct ChainOptions {
-    /// Rays, sweeps and contacts meet a segment only from the right of the way from its first point to its second: from
-    /// outside, where a closed chain runs counter-clockwise. Which side that is of something in a segment, the least
-    /// way out tells. What goes in at the back of a segment is met by it again after they have been apart. `overlaps`,
-    /// `closest` and `contains` know no sides.
+    /// Rays, sweeps and contacts hit a segment only from its front, the right side of the direction from its first
+    /// point to its second. The front of a closed chain that runs counter-clockwise is outside. A shape that overlaps a
+    /// segment is in front of it if the shortest separating direction leads to the front. A shape that entered from the
+    /// back collides again once it has been clear of the segment. `overlaps`, `closest` and `contains` ignore sides.
     bool one_sided = false;
 };
 
-/// The union of its segments, of zero thickness; part i goes from point i to the next, the last of a closed chain back
-/// to the first. Only `contains` takes a closed chain as solid: what it winds around. It may cross and overlap itself.
-/// Immutable: copies share the data. Memory: the points, and about 50 bytes a segment for the tree.
+/// The union of its segments, of zero thickness. Part i goes from point i to the next; the last part of a closed chain
+/// goes back to the first point. Only `contains` treats a closed chain as solid, where its winding number isn't zero.
+/// A chain may cross and overlap itself. Immutable: copies share the data. Memory: the points, and about 50 bytes a
+/// segment for the tree.
 class Chain {
 public:
-    /// At least two points, of a closed chain three. A Problem where there are fewer, where a coordinate is not finite
-    /// (its index is the point's), or where a segment has no length (the segment's).
+    /// Takes at least two points, or three for a closed chain. Returns a Problem if there are fewer, if a coordinate is
+    /// not finite (index: the point) or if a segment has no length (index: the segment).
     static Result<Chain> build(std::span<const Vec2> points, bool closed, const ChainOptions& options = {});
     static Result<Chain> build(std::initializer_list<Vec2> points, bool closed, const ChainOptions& options = {});
 
@@ -34,10 +35,10 @@ public:
     bool closed() const;
     bool one_sided() const;
 
-    std::uint32_t size() const;  ///< of segments
+    std::uint32_t size() const;  ///< number of segments
     Segment2 segment(std::uint32_t index) const;
 
-    /// The segment that goes on at an end: 0, before the segment, 1, after it; or no_neighbour.
+    /// The adjacent segment at end 0 (first point) or 1 (second point), or no_neighbour.
     std::uint32_t neighbour(std::uint32_t segment, std::uint32_t end) const;
 
 private:
@@ -58,16 +59,16 @@ Aabb2 bounds(const Chain& chain);
 /// Visits the segments whose boxes overlap `box`; the visitor returns false to stop.
 void each_part(const Chain& chain, const Aabb2& box, PartVisitor<2> visit);
 
-/// Visits the segments whose boxes the moving box meets, roughly in the order in which it does; the visitor returns the
-/// new, shorter reach.
+/// Visits the segments whose boxes the moving box overlaps, roughly front to back. The visitor returns the new, shorter
+/// reach.
 void each_part_along(const Chain& chain, const MovingBox<2>& box, PartReachVisitor<2> visit);
 
-/// Visits the segments, roughly those first whose boxes are nearest to `box`; the visitor returns the new, shorter
-/// reach.
+/// Visits the segments, roughly nearest first by the distance of their boxes to `box`. The visitor returns the new,
+/// shorter reach.
 void each_part_near(const Chain& chain, const Aabb2& box, PartReachVisitor<2> visit);
 
-/// Whether a closed chain winds around the point, decided exactly; false for an open one. Points of the line itself are
-/// told by the segments.
+/// True if a closed chain winds around the point, decided exactly; false for an open chain. Points on the chain itself
+/// are left to the tests of its segments.
 bool solid_contains(const Chain& chain, const Vec2& point);
 
 inline std::uint32_t part_neighbour(const Chain& chain, std::uint32_t part, std::uint32_t side) {

@@ -20,13 +20,12 @@ Problem problem_of(std::size_t index, ProblemCode code, const char* what) {
     return {code, "child " + std::to_string(index) + what, index};
 }
 
-/// The same way by a direction of length 1, `unit` of which make one of the box's own; no farther than the reach, which
-/// is in those.
+/// The same motion with a direction of length 1, cut off at `reach`, which counts lengths of the original direction.
 template <int D>
-MovingBox<D> by_unit(const MovingBox<D>& box, double unit, double reach) {
+MovingBox<D> with_unit_direction(const MovingBox<D>& box, double direction_length, double reach) {
     MovingBox<D> result = box;
-    result.direction = box.direction / unit;
-    result.length = std::min(box.length, reach) * unit;
+    result.direction = box.direction / direction_length;
+    result.length = std::min(box.length, reach) * direction_length;
     return result;
 }
 
@@ -41,7 +40,7 @@ Result<Compound<D>> Compound<D>::build(std::span<const AnyShape<D>> children) {
     data->views.reserve(children.size());
     for (std::size_t i = 0; i < children.size(); ++i) {
         const View<D> child = children[i].view();
-        if (std::holds_alternative<Solid<D>>(child))
+        if (std::holds_alternative<HalfSpaceView<D>>(child))
             return problem_of<D>(i, ProblemCode::bad_argument, " is a half-space, which has no bounds");
         if (std::holds_alternative<DistanceFunction<D>>(child))
             return problem_of<D>(i, ProblemCode::bad_argument, " is a distance function, which has no convex parts");
@@ -87,19 +86,20 @@ void Compound<D>::each_part(const Aabb<D>& box, PartVisitor<D> visit) const {
 
 template <int D>
 void Compound<D>::each_part_along(const MovingBox<D>& box, PartReachVisitor<D> visit) const {
-    const double unit = length(box.direction);
-    if (!(unit > 0)) return;
+    const double direction_length = length(box.direction);
+    if (!(direction_length > 0)) return;
     double reach = box.length;
     data_->tree.sweep(box, [&](std::uint32_t index) -> float {
-        const auto look_at = [&](const Convex<D>& part, std::uint32_t) -> float {
+        const auto visit_part = [&](const Convex<D>& part, std::uint32_t) -> float {
             reach = std::min(reach, static_cast<double>(visit(part, index)));
-            return static_cast<float>(reach * unit);
+            return static_cast<float>(reach * direction_length);
         };
         const View<D>& one = child(index);
         if (const auto* part = std::get_if<Convex<D>>(&one))
-            look_at(*part, index);
+            visit_part(*part, index);
         else
-            abut::each_part_along<D>(std::get<Composite<D>>(one), by_unit(box, unit, reach), look_at);
+            abut::each_part_along<D>(std::get<Composite<D>>(one), with_unit_direction(box, direction_length, reach),
+                                     visit_part);
         return static_cast<float>(reach);
     });
 }
@@ -108,14 +108,14 @@ template <int D>
 void Compound<D>::each_part_near(const Aabb<D>& box, PartReachVisitor<D> visit) const {
     float reach = std::numeric_limits<float>::infinity();
     data_->tree.closest(box, [&](std::uint32_t index) -> float {
-        const auto look_at = [&](const Convex<D>& part, std::uint32_t) -> float {
+        const auto visit_part = [&](const Convex<D>& part, std::uint32_t) -> float {
             return reach = std::min(reach, visit(part, index));
         };
         const View<D>& one = child(index);
         if (const auto* part = std::get_if<Convex<D>>(&one))
-            look_at(*part, index);
+            visit_part(*part, index);
         else
-            abut::each_part_near<D>(std::get<Composite<D>>(one), box, look_at);
+            abut::each_part_near<D>(std::get<Composite<D>>(one), box, visit_part);
         return reach;
     });
 }

@@ -1,17 +1,17 @@
 #pragma once
 
-// The half-space: everything on one side of a line or plane, such as the ground.
+// Half-space: all points on one side of a line (2D) or plane (3D), such as the ground.
 
 #include <abut/math/aabb.hpp>
-#include <abut/math/linear.hpp>
+#include <abut/math/affine.hpp>
 
 namespace abut {
 
-/// Solid where dot(normal, p) <= offset. Two of them don't pair.
+/// Solid where dot(normal, p) <= offset. Two half-spaces can't be queried as a pair.
 template <int D>
 struct HalfSpace {
-    Vec<D> normal{};   ///< of length 1, out of the solid
-    float offset = 0;  ///< of its border from the origin, along the normal
+    Vec<D> normal{};   ///< unit vector, out of the solid
+    float offset = 0;  ///< signed distance of the plane from the origin, along the normal
 };
 template <int D>
 HalfSpace(glm::vec<D, float>, float) -> HalfSpace<D>;
@@ -19,37 +19,37 @@ HalfSpace(glm::vec<D, float>, float) -> HalfSpace<D>;
 using HalfSpace2 = HalfSpace<2>;
 using HalfSpace3 = HalfSpace<3>;
 
-/// A half-space as the questions see it: placed, in double.
+/// The view of a half-space: placed in the world, in double.
 template <int D>
-struct Solid {
+struct HalfSpaceView {
     DVec<D> normal{0.0};  ///< of length 1
     double offset = 0;
 };
 
 template <int D>
-Solid<D> solid(const HalfSpace<D>& half_space);
+HalfSpaceView<D> half_space_view(const HalfSpace<D>& half_space);
 
-/// The same half-space moved, turned or stretched by `map`.
+/// The half-space under an affine map.
 template <int D>
-Solid<D> mapped(const Solid<D>& solid, const Affine<D>& map);
+HalfSpaceView<D> mapped(const HalfSpaceView<D>& view, const Affine<D>& map);
 
-/// By a map that keeps all lengths.
+/// The half-space under a rigid map.
 template <int D>
-Solid<D> moved(const Solid<D>& solid, const Affine<D>& rigid) {
-    return mapped(solid, rigid);
+HalfSpaceView<D> moved(const HalfSpaceView<D>& view, const Affine<D>& rigid) {
+    return mapped(view, rigid);
 }
 
-/// With its border `radius` farther out.
+/// The half-space with its plane moved out by `radius`.
 template <int D>
-Solid<D> rounded(const Solid<D>& solid, double radius);
+HalfSpaceView<D> rounded(const HalfSpaceView<D>& view, double radius);
 
-/// Without bound but on the solid's own side, where that is along an axis.
+/// The bounding box: infinite, except on the side of the plane if the normal is along an axis.
 template <int D>
-Aabb<D> bounds(const Solid<D>& solid);
+Aabb<D> bounds(const HalfSpaceView<D>& view);
 
 template <int D>
 Aabb<D> bounds(const HalfSpace<D>& half_space) {
-    return bounds(solid(half_space));
+    return bounds(half_space_view(half_space));
 }
 
 }  // namespace abut

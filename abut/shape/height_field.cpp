@@ -1,5 +1,5 @@
 #include <abut/math/assert.hpp>
-#include <abut/shape/grid_blocks.hpp>
+#include <abut/shape/grid_hierarchy.hpp>
 #include <abut/shape/height_field.hpp>
 
 #include <vector>
@@ -7,12 +7,12 @@
 namespace abut {
 namespace {
 
-/// The lowest and the highest of some ground.
-struct Heights {
+/// The range of heights in a block.
+struct HeightRange {
     float min = std::numeric_limits<float>::infinity();
     float max = -std::numeric_limits<float>::infinity();
 };
-Heights merged(const Heights& a, const Heights& b) {
+HeightRange merged(const HeightRange& a, const HeightRange& b) {
     return {std::min(a.min, b.min), std::max(a.max, b.max)};
 }
 
@@ -20,8 +20,8 @@ Aabb3 box_of(const Triangle3& t) {
     return merged(merged(Aabb3{t.a, t.a}, Aabb3{t.b, t.b}), Aabb3{t.c, t.c});
 }
 
-/// So many cells are looked at one by one, without asking the blocks.
-constexpr std::uint64_t few_cells = 64;
+/// A box that overlaps at most this many cells visits them directly, without the hierarchy.
+constexpr std::uint64_t max_direct_cells = 64;
 
 }  // namespace
 
@@ -29,8 +29,8 @@ struct HeightField::Data {
     std::vector<float> heights;
     std::uint32_t columns = 0, rows = 0;  ///< of heights
     Vec2 cell{};
-    std::vector<bool> holes;  ///< by cell; empty: there are none
-    GridBlocks<Heights> blocks;
+    std::vector<bool> holes;  ///< by cell; empty: no holes
+    GridHierarchy<HeightRange> blocks;
 
     std::uint32_t cell_columns() const { return columns - 1; }
     std::uint32_t cell_rows() const { return rows - 1; }
@@ -42,13 +42,13 @@ struct HeightField::Data {
     Vec3 corner(std::uint32_t x, std::uint32_t y) const {
         return {static_cast<float>(x) * cell.x, static_cast<float>(y) * cell.y, height(x, y)};
     }
-    Heights of_cell(std::uint32_t x, std::uint32_t y) const {
+    HeightRange of_cell(std::uint32_t x, std::uint32_t y) const {
         if (is_hole(cell_at(x, y))) return {};
         const float a = height(x, y), b = height(x + 1, y), c = height(x + 1, y + 1), d = height(x, y + 1);
         return {std::min(std::min(a, b), std::min(c, d)), std::max(std::max(a, b), std::max(c, d))};
     }
     Aabb3 box_of_block(std::uint32_t level, std::uint32_t x, std::uint32_t y) const {
-        const Heights z = level == 0 ? of_cell(x, y) : blocks.at(level, x, y);
+        const HeightRange z = level == 0 ? of_cell(x, y) : blocks.at(level, x, y);
         if (!(z.min <= z.max)) return Aabb3::empty();
         const auto place = [](std::uint32_t index, float width) { return static_cast<float>(index) * width; };
         return {
@@ -63,16 +63,16 @@ struct HeightField::Data {
     /// Calls visit(triangle, index) for the triangles whose boxes are within reach; it returns the new reach.
     template <class Reach, class Visit>
     void each_within(Reach reach, Visit&& visit) const {
-        const auto look_at_cell = [&](std::uint32_t x, std::uint32_t y) {
+        const auto visit_cell = [&](std::uint32_t x, std::uint32_t y) {
             for (std::uint32_t which = 0; which < 2 && !reach.over(); ++which) {
                 const Triangle3 t = triangle(x, y, which);
                 double measure;
                 if (reach.measure(box_of(t), measure)) reach.shrink(visit(t, 2 * cell_at(x, y) + which));
             }
         };
-        blocks.walk(
+        blocks.traverse(
             reach, [this](std::uint32_t level, std::uint32_t x, std::uint32_t y) { return box_of_block(level, x, y); },
-            look_at_cell);
+            visit_cell);
     }
 };
 
@@ -89,9 +89,9 @@ Result<HeightField> HeightField::build(std::span<const float> heights, std::uint
     const std::size_t rows = heights.size() / columns;
     if (rows < 2)
         return Problem{ProblemCode::bad_argument, "a height field needs at least two rows, and there is 1", 0};
-    constexpr std::size_t most_cells = std::size_t{1} << 30;
-    if ((columns - 1) * (rows - 1) > most_cells)
-        return Problem{ProblemCode::too_large, "a height field has at most 2^30 cells", most_cells};
+    constexpr std::size_t max_cells = std::size_t{1} << 30;
+    if ((columns - 1) * (rows - 1) > max_cells)
+        return Problem{ProblemCode::too_large, "a height field has at most 2^30 cells", max_cells};
     for (std::size_t i = 0; i < heights.size(); ++i)
         if (!std::isfinite(heights[i]))
             return Problem{ProblemCode::not_finite, "height " + std::to_string(i) + " is not finite", i};
@@ -168,7 +168,7 @@ std::uint32_t HeightField::neighbour(std::uint32_t triangle, std::uint32_t edge)
 Aabb3 bounds(const HeightField& field) {
     Aabb3 result = Aabb3::empty();
     const HeightField::Data& data = *field.data_;
-    const Heights& all = data.blocks.all();
+    const HeightRange& all = data.blocks.all();
     if (!(all.min <= all.max)) return result;
     result.min = Vec3(0, 0, all.min);
     result.max = data.corner(data.columns - 1, data.rows - 1);
@@ -183,7 +183,7 @@ void each_part(const HeightField& field, const Aabb3& box,
     if (!overlaps(query, bounds(field))) return;
     const CellRange columns(query.min.x, query.max.x, data.cell.x, data.cell_columns());
     const CellRange rows(query.min.y, query.max.y, data.cell.y, data.cell_rows());
-    if (std::uint64_t{columns.size()} * rows.size() > few_cells) {
+    if (std::uint64_t{columns.size()} * rows.size() > max_direct_cells) {
         constexpr float on = std::numeric_limits<float>::infinity();
         data.each_within(BoxReach<3>(query, 0),
                          [&](const Triangle3& t, std::uint32_t index) { return visit(t, index) ? on : -on; });

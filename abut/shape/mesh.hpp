@@ -4,7 +4,7 @@
 
 #include <abut/math/result.hpp>
 #include <abut/shape/triangle.hpp>
-#include <abut/shape/view.hpp>
+#include <abut/shape/view/view.hpp>
 
 #include <memory>
 #include <span>
@@ -13,27 +13,27 @@
 
 namespace abut {
 
-/// The union of its triangles, each of zero thickness and the same from both sides; part i is triangle i of the input.
-/// Only `contains` takes a closed mesh as solid. Immutable: copies share the data, so one mesh at many poses costs one
-/// tree. Memory: the input, 12 bytes a triangle for its neighbours, and 34 to 39 for the tree where neighbours have
-/// corners at the same positions, about 90 where none have.
+/// The union of its triangles, each of zero thickness and two-sided. Part i is triangle i of the input. Only `contains`
+/// treats a closed mesh as solid. Immutable: copies share the data, so one mesh at many poses needs one tree. Memory:
+/// the input, 12 bytes a triangle for adjacency, and 34 to 39 bytes a triangle for the tree if neighbours share corner
+/// positions, else about 90.
 class Mesh {
 public:
-    /// Any number of triangles but zero, also flat, doubled or crossing ones. A Problem where a coordinate is not
-    /// finite or an index is out of range: it says which point or triangle.
+    /// Takes one or more triangles; degenerate, duplicate and intersecting ones are allowed. Returns a Problem if a
+    /// coordinate is not finite or an index is out of range; it names the point or triangle.
     static Result<Mesh> build(std::span<const Vec3> points, std::span<const glm::uvec3> triangles);
 
     std::span<const Vec3> points() const;
     std::span<const glm::uvec3> triangles() const;
     Triangle3 triangle(std::uint32_t index) const;
 
-    /// Whether the triangles bound a volume: each edge is shared by equally many triangles in both directions, points
-    /// at the same position counted as one.
+    /// True if the mesh is watertight: each edge is used equally often in both directions. Points at the same position
+    /// count as one.
     bool closed() const;
 
-    /// The triangle that shares the edge from a corner to the next, points at the same position counted as one;
-    /// no_neighbour at the border, and where another triangle's edge only lies along it; many_neighbours where more
-    /// than two share it. Whether the two go round it in opposite ways, as those of a surface do, is not looked at.
+    /// The adjacent triangle across the edge from corner `edge` to the next; points at the same position count as one.
+    /// It is no_neighbour at a boundary edge and at a T-junction, and many_neighbours at a non-manifold edge. The
+    /// orientation of the two triangles isn't compared.
     std::uint32_t neighbour(std::uint32_t triangle, std::uint32_t edge) const;
 
 private:
@@ -58,21 +58,21 @@ Aabb3 bounds(const Mesh& mesh);
 /// Visits the triangles whose boxes overlap `box`; the visitor returns false to stop.
 void each_part(const Mesh& mesh, const Aabb3& box, FunctionRef<bool(const Triangle3& part, std::uint32_t index)> visit);
 
-/// Visits the triangles whose boxes the moving box meets, roughly in the order in which it does; the visitor returns
-/// the new, shorter reach.
+/// Visits the triangles whose boxes the moving box overlaps, roughly front to back. The visitor returns the new,
+/// shorter reach.
 void each_part_along(const Mesh& mesh, const MovingBox<3>& box,
                      FunctionRef<float(const Triangle3& part, std::uint32_t index)> visit);
 
-/// Visits the triangles, roughly those first whose boxes are nearest to `box`; the visitor returns the new, shorter
-/// reach.
+/// Visits the triangles, roughly nearest first by the distance of their boxes to `box`. The visitor returns the new,
+/// shorter reach.
 void each_part_near(const Mesh& mesh, const Aabb3& box,
                     FunctionRef<float(const Triangle3& part, std::uint32_t index)> visit);
 
-/// For rays; not for users.
+/// The tree of the mesh, for ray casts. Not for users.
 const MeshTree& triangle_tree(const Mesh& mesh);
 
-/// Whether a closed mesh goes round the point; false for one that isn't closed. Points of the surface itself are told
-/// by the triangles.
+/// True if a closed mesh winds around the point; false for a mesh that isn't closed. Points on the surface itself are
+/// left to the tests of its triangles.
 bool solid_contains(const Mesh& mesh, const Vec3& point);
 
 inline std::uint32_t part_neighbour(const Mesh& mesh, std::uint32_t part, std::uint32_t side) {

@@ -1,14 +1,14 @@
 #pragma once
 
-// Composable views of a shape: moved and turned, rounded, stretched. They refer to an lvalue and own an rvalue.
+// Composable adapters of a shape: placed by a pose, rounded, stretched. They refer to an lvalue and own an rvalue.
 
-#include <abut/shape/refused.hpp>
+#include <abut/shape/view/constraints.hpp>
 
 #include <utility>
 
 namespace abut {
 
-/// `shape` moved and turned by `pose`, on top of the position it carries itself.
+/// `shape` at `pose`, which is applied after the shape's own position.
 template <class S>
 struct At {
     S shape;
@@ -22,7 +22,7 @@ struct Rounded {
     float radius;
 };
 
-/// `shape` with each coordinate multiplied by a factor, about the origin of its own frame.
+/// `shape` scaled along each axis, about the origin of its local frame.
 template <class S>
 struct Stretched {
     S shape;
@@ -37,7 +37,7 @@ requires Shape<std::remove_cvref_t<S>> At<S> at(S&& shape, const Pose<dimension<
 template <class S, class P, class Why = detail::WhyNotAt<std::remove_cvref_t<S>, P>>
 auto at(S&& shape, const P& pose);
 
-/// `radius` is not below zero.
+/// `radius` is at least 0.
 template <class S>
 requires Shape<std::remove_cvref_t<S>> Rounded<S> rounded(S&& shape, float radius) {
     return {std::forward<S>(shape), radius};
@@ -47,7 +47,7 @@ auto rounded(S&& shape, float radius);
 
 namespace detail {
 
-/// Whether S is `rounded` somewhere outside of a `stretched`.
+/// True if S contains a `rounded` outside a `stretched`.
 template <class S>
 inline constexpr bool rounded_after_stretching = false;
 template <class S>
@@ -67,7 +67,7 @@ inline constexpr bool rounded_after_stretching<Rounded<S>> = was_stretched<std::
 
 }  // namespace detail
 
-/// A factor below zero mirrors, zero flattens.
+/// A negative factor mirrors, 0 flattens.
 template <class S>
 requires Shape<std::remove_cvref_t<S>> Stretched<S> stretched(S&& shape,
                                                               const Vec<dimension<std::remove_cvref_t<S>>>& scale) {
@@ -85,13 +85,13 @@ inline constexpr bool is_at = false;
 template <class S>
 inline constexpr bool is_at<At<S>> = true;
 
-/// Shapes of the plane are put where they are wanted at once.
+/// Primitives take the pose when their view is made.
 template <class S, int D>
 concept PlacedByPose = requires(const S& shape, const Pose<D>& pose) {
     convex(shape, pose);
 };
 
-/// A shape that carries no position of its own can be, too.
+/// Polytopes, whose vertices have no placement of their own, take an affine map when their view is made.
 template <class S, int D>
 concept HasOwnFrame = requires(const S& shape, const Affine<D>& place) {
     convex(shape, place);
@@ -109,16 +109,16 @@ auto view(const At<S>& shape) {
     else
         return moved(view(std::as_const(shape.shape)), affine(shape.pose));
 }
-/// Of one that isn't placed by a pose already.
+/// Only for a shape that isn't placed by a pose already.
 template <class S>
-requires(detail::HasGiven<std::remove_cvref_t<S>> &&
-         !detail::is_at<std::remove_cvref_t<S>>) Given<dimension<std::remove_cvref_t<S>>> given(const At<S>& shape) {
-    const auto inner = given(std::as_const(shape.shape));
+requires(detail::HasShapeRef<std::remove_cvref_t<S>> && !detail::is_at<std::remove_cvref_t<S>>)
+    ShapeRef<dimension<std::remove_cvref_t<S>>> shape_ref(const At<S>& shape) {
+    const auto inner = shape_ref(std::as_const(shape.shape));
     return {inner.kind, inner.shape, &shape.pose};
 }
 template <class S>
 auto view(const Rounded<S>& shape) {
-    // As an lvalue: of the two functions called rounded, only the one for views then takes it as it is.
+    // Passed as an lvalue, so that overload resolution takes the function for views, not the adapter.
     const auto inner = view(std::as_const(shape.shape));
     return rounded(inner, static_cast<double>(shape.radius));
 }
@@ -146,7 +146,7 @@ struct Owned<Stretched<S>> {
     using type = Stretched<typename Owned<std::remove_cvref_t<S>>::type>;
 };
 
-/// Whether S is a view, which refers to a shape of a type that is forgotten, or is made of one.
+/// True if S is a view, which refers to a shape of an erased type, or an adapter of one.
 template <class S>
 inline constexpr bool is_view = false;
 template <int D>
@@ -166,23 +166,22 @@ inline constexpr bool is_view<Stretched<S>> = is_view<std::remove_cvref_t<S>>;
 
 }  // namespace detail
 
-/// A shape that can be kept, by `owned`, by an AnyShape and by a World: any but a view, such as World::shape returns,
-/// which only refers to a shape that another owns.
+/// A shape that `owned`, AnyShape and World can own: any shape but a view, such as World::shape returns.
 template <class S>
 concept Ownable = Shape<S> && !detail::is_view<S>;
 
 namespace detail {
 
-/// No type for a shape of dimension D that can be kept.
+/// No type if S is an ownable shape of dimension D; else the reason why it isn't.
 template <int D, class S>
-requires(!ShapeIn<S, D> || !Ownable<S>) using WhyNotKept =
+requires(!ShapeIn<S, D> || !Ownable<S>) using WhyNotOwnable =
     std::conditional_t<!Shape<S>, this_is_no_shape,
                        std::conditional_t<!ShapeIn<S, D>, this_shape_has_another_dimension,
                                           this_view_only_refers_to_a_shape_that_another_owns_so_use_any_shape>>;
 
 }  // namespace detail
 
-/// A view as a shape that can be kept, for who sees to it that the shape it refers to outlives all copies.
+/// A view as an ownable shape. The caller ensures that the shape it refers to outlives all copies.
 template <int D>
 struct Unowned {
     View<D> shape;
@@ -196,7 +195,7 @@ Aabb<D> bounds(const Unowned<D>& shape) {
     return bounds(shape.shape);
 }
 
-/// The same shape with all that it referred to copied into it: what may be kept.
+/// A copy of the shape that owns everything it referred to.
 template <Ownable S>
 S owned(const S& shape) {
     return shape;

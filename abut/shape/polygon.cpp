@@ -1,6 +1,6 @@
-#include <abut/convex/hull.hpp>
-#include <abut/convex/limited_hull.hpp>
-#include <abut/convex/sides.hpp>
+#include <abut/convex/hull/hull.hpp>
+#include <abut/convex/hull/limited/limited_hull.hpp>
+#include <abut/convex/polygon_soa.hpp>
 #include <abut/math/dvec.hpp>
 #include <abut/math/set_affine.hpp>
 #include <abut/shape/polygon.hpp>
@@ -13,8 +13,7 @@ namespace {
 
 constexpr Vec2 zero(0.0f);
 
-/// Calls visit(a, b) for the triangles of a fan: the first corner, from which a and b are seen, and the edge from a to
-/// b.
+/// Calls visit(a, b) for each triangle of the fan around the first vertex; a and b are relative to it.
 template <class Visit>
 void each_triangle(std::span<const Vec2> points, Visit visit) {
     const DVec<2> origin(points[0]);
@@ -29,13 +28,13 @@ void set_points(Convex<2>& convex, const Polygon& polygon) {
     convex.sides = polygon.sides();
 }
 
-/// Whether a loop is sure to be the outline of a hull: it begins with its least corner, turns left at each, once around
-/// in all, and isn't nearly as thin as what counts as flat; `thick` is a width that it has to have as well.
-bool is_outline(std::span<const Vec2> loop, double thick) {
+/// True if a loop is certain to be a hull loop: it starts at the lexicographically smallest vertex, turns left at each
+/// vertex, winds once, and is clearly wider than the flatness tolerance and than `min_width`.
+bool is_hull_loop(std::span<const Vec2> loop, double min_width) {
     if (loop.size() < 3) return false;
     double area = 0;
     DVec<2> low(loop[0]), high(loop[0]);
-    std::size_t turns_back = 0;
+    std::size_t x_reversals = 0;
     const DVec<2> first(loop[0]);
     DVec<2> from(loop.back()), at(loop[0]);
     bool was_right = at.x > from.x || (at.x == from.x && at.y > from.y);
@@ -45,7 +44,7 @@ bool is_outline(std::span<const Vec2> loop, double thick) {
         const double left = u.x * v.y, right = u.y * v.x;
         if (!(left - right > 1e-14 * (std::abs(left) + std::abs(right)))) return false;
         const bool is_right = v.x > 0 || (v.x == 0 && v.y > 0);
-        turns_back += is_right != was_right ? 1 : 0;
+        x_reversals += is_right != was_right ? 1 : 0;
         was_right = is_right;
         area += cross(at - first, v);
         low = {std::min(low.x, at.x), std::min(low.y, at.y)};
@@ -56,7 +55,7 @@ bool is_outline(std::span<const Vec2> loop, double thick) {
     for (const Vec2& corner : loop.subspan(1))
         if (corner.x < loop[0].x || (corner.x == loop[0].x && corner.y < loop[0].y)) return false;
     const double extent = std::max(high.x - low.x, high.y - low.y);
-    return turns_back == 2 && area > extent * std::max(16 * hull_tolerance * extent, thick);
+    return x_reversals == 2 && area > extent * std::max(16 * hull_tolerance * extent, min_width);
 }
 
 }  // namespace
@@ -78,8 +77,8 @@ Result<Polygon> Polygon::build(std::initializer_list<Vec2> points) {
     return build(std::span<const Vec2>(points.begin(), points.size()));
 }
 
-bool Polygon::set_outline(std::span<const Vec2> loop, double thick) {
-    if (!is_outline(loop, thick)) return false;
+bool Polygon::set_outline(std::span<const Vec2> loop, double min_width) {
+    if (!is_hull_loop(loop, min_width)) return false;
     points_.assign(loop.begin(), loop.end());
     write_sides();
     return true;
@@ -87,9 +86,9 @@ bool Polygon::set_outline(std::span<const Vec2> loop, double thick) {
 
 void Polygon::write_sides() {
     const auto count = static_cast<std::uint32_t>(points_.size());
-    const bool few = count > 2 && count <= most_sides;
-    sides_.resize(few ? numbers_for_sides(count) : 0);
-    if (few) abut::write_sides(points_, sides_.data());
+    const bool has_soa = count > 2 && count <= max_soa_edges;
+    sides_.resize(has_soa ? soa_size(count) : 0);
+    if (has_soa) abut::write_polygon_soa(points_, sides_.data());
 }
 
 std::span<const Vec2> Polygon::points() const {

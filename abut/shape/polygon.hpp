@@ -1,10 +1,10 @@
 #pragma once
 
-// The convex polygon: the hull of any points of the plane, as a value.
+// Convex polygon: the convex hull of any points in the plane.
 
-#include <abut/convex/hull_options.hpp>
+#include <abut/convex/hull/hull_options.hpp>
 #include <abut/math/result.hpp>
-#include <abut/shape/given.hpp>
+#include <abut/shape/view/shape_ref.hpp>
 
 #include <initializer_list>
 #include <span>
@@ -12,48 +12,49 @@
 
 namespace abut {
 
-/// Convex, filled, of any number of corners; without build() the single point 0. Points that lie on a line, or all in
-/// one place, make a valid polygon of no area.
+/// A filled convex polygon with any number of vertices. A default-constructed polygon is the single point 0. Collinear
+/// or coincident points make a valid polygon of zero area.
 class Polygon {
 public:
     Polygon() = default;
 
-    /// The hull of the points, in any order, copies allowed. A Problem only where there are none (`empty_input`) or one
-    /// is NaN or infinite (`not_finite`, with its index).
+    /// The convex hull of the points, in any order; duplicates are allowed. Returns a Problem only if there are no
+    /// points (`empty_input`) or one is NaN or infinite (`not_finite`, index: the point).
     static Result<Polygon> build(std::span<const Vec2> points);
     static Result<Polygon> build(std::initializer_list<Vec2> points);
 
-    /// The same with no more corners than `options.max_vertices`. Where the hull has more, this is a larger polygon
-    /// with corners of its own, by as little area as is found: it has every point of the input within it, exactly.
-    /// Otherwise it is the hull, bit by bit. A Problem as well where the limit is below 3 (`bad_argument`), or such
-    /// corners are beyond the range of floats (`too_large`). See docs/limited_hulls.md.
+    /// A hull with at most `options.max_vertices` vertices. If the exact hull has more, the result is a larger polygon
+    /// with new vertices that contains every input point exactly and adds as little area as the search finds. Otherwise
+    /// it is the exact hull, bit for bit. Also returns a Problem if the limit is below 3 (`bad_argument`) or if a
+    /// vertex would leave the range of floats (`too_large`). See docs/limited_hulls.md.
     static Result<Polygon> build(std::span<const Vec2> points, const HullOptions& options);
 
-    /// The corners, counter-clockwise from the lexicographically least, none of them between two others on a straight
-    /// line. They are points of the input, and don't depend on its order.
+    /// The vertices, counter-clockwise from the lexicographically smallest; none is collinear with its neighbours. They
+    /// are input points, unless a vertex limit made others, and don't depend on the input's order.
     std::span<const Vec2> points() const;
 
-    /// 0: a point, 1: a segment, 2: an area. No wider than 1.2e-7 of the extent is a segment.
+    /// 0: a point, 1: a segment, 2: an area. A hull no wider than 1.2e-7 of its extent is a segment.
     int rank() const;
 
-    /// In double: an area leaves the range of float long before its corners do.
+    /// The area, in double since it overflows a float long before the coordinates do.
     double area() const;
 
-    /// The centre of gravity: of the area, or of the segment or point where there is none.
+    /// The centroid of the area, or of the segment or point if the area is zero.
     Vec2 centroid() const;
 
-    /// Of length 1, out of the longest edge (the first of several); of a segment, at right angles to it; of a point,
-    /// the first axis. Of the thin overlap of two shapes it is that of the line they touch in, to either side.
+    /// The unit normal of the longest edge (the first of equals). For a segment it is perpendicular to it; for a point
+    /// it is the first axis. For the thin overlap of two touching shapes it is the contact normal, up to the sign.
     Vec2 normal() const;
 
-    /// For `Convex::sides`: null where there are too few corners for an area, or too many.
+    /// The precomputed edge data for `Convex::sides`; null if there are fewer than three vertices or too many.
     const double* sides() const { return sides_.empty() ? nullptr : sides_.data(); }
-    /// Of those.
+    /// The number of edges in `sides()`.
     std::uint32_t side_count() const { return static_cast<std::uint32_t>(points_.size()); }
 
-    /// Becomes a loop that is surely what `points` promises of it, without the work of a hull, and allocates nothing
-    /// where there is room. False, and as it was, where the loop may be anything else, or isn't wider than `thick`.
-    bool set_outline(std::span<const Vec2> loop, double thick = 0);
+    /// Sets the vertices from a loop that already is a convex hull loop, in O(n), without allocation if the capacity
+    /// suffices. Returns false and leaves the polygon unchanged if the loop isn't certain to satisfy the conditions of
+    /// `points()` or isn't wider than `min_width`.
+    bool set_outline(std::span<const Vec2> loop, double min_width = 0);
 
 private:
     void write_sides();
@@ -64,7 +65,7 @@ private:
 
 Convex<2> convex(const Polygon& polygon, const Affine<2>& place = {});
 Convex<2> convex(const Polygon& polygon, const Pose2& pose);
-inline Given<2> given(const Polygon& polygon) {
+inline ShapeRef<2> shape_ref(const Polygon& polygon) {
     return {ShapeKind::polytope, &polygon};
 }
 

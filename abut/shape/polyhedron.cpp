@@ -1,5 +1,5 @@
-#include <abut/convex/hull.hpp>
-#include <abut/convex/limited_hull.hpp>
+#include <abut/convex/hull/hull.hpp>
+#include <abut/convex/hull/limited/limited_hull.hpp>
 #include <abut/math/dvec.hpp>
 #include <abut/shape/polyhedron.hpp>
 
@@ -18,7 +18,7 @@ struct Polyhedron::Data {
         : hull(std::move(built)),
           facets{hull.normals, hull.loops, hull.loop_ends, hull.edges, hull.offsets},
           columns(3 * padded_count(hull.points.size())),
-          lanes(lay_out(hull.points, columns.data())),
+          lanes(make_soa(hull.points, columns.data())),
           ball(ball_around<3>(hull.points)) {}
     Data(const Data&) = delete;
     Data& operator=(const Data&) = delete;
@@ -26,7 +26,7 @@ struct Polyhedron::Data {
     Hull3 hull;
     Facets facets;  ///< refers to `hull`
     std::vector<float> columns;
-    PointLanes lanes;  ///< refers to `columns`
+    PointSoa lanes;  ///< refers to `columns`
     BoundingBall<3> ball;
 };
 
@@ -78,8 +78,8 @@ BoundingBall<3> Polyhedron::ball() const {
     return data_ ? data_->ball : BoundingBall<3>();
 }
 
-const PointLanes* Polyhedron::lanes() const {
-    return data_ && fits_lanes(data_->lanes) ? &data_->lanes : nullptr;
+const PointSoa* Polyhedron::lanes() const {
+    return data_ && fits_soa(data_->lanes) ? &data_->lanes : nullptr;
 }
 
 Vec3 Polyhedron::normal() const {
@@ -87,15 +87,15 @@ Vec3 Polyhedron::normal() const {
     if (rank() == 0) return to_float(axis<3>(0));
     if (rank() == 1) return to_float(perpendicular(DVec<3>(corners[1]) - DVec<3>(corners[0])));
     std::size_t largest_face = 0;
-    double most = 0;
+    double largest_area = 0;
     for (std::size_t face = 0; face < facets().normals.size(); ++face) {
         const std::span<const std::uint32_t> loop = facets().loop(face);
         const DVec<3> origin(corners[loop[0]]);
         DVec<3> area(0.0);
         for (std::size_t i = 1; i + 1 < loop.size(); ++i)
             area += cross(DVec<3>(corners[loop[i]]) - origin, DVec<3>(corners[loop[i + 1]]) - origin);
-        if (length_squared(area) > most) {
-            most = length_squared(area);
+        if (length_squared(area) > largest_area) {
+            largest_area = length_squared(area);
             largest_face = face;
         }
     }

@@ -1,11 +1,11 @@
 #pragma once
 
-// The convex polyhedron: the hull of any points of space with its faces, as a value.
+// Convex polyhedron: the convex hull of any points in space, with its faces.
 
 #include <abut/convex/bounding_ball.hpp>
-#include <abut/convex/hull_options.hpp>
+#include <abut/convex/hull/hull_options.hpp>
 #include <abut/math/result.hpp>
-#include <abut/shape/given.hpp>
+#include <abut/shape/view/shape_ref.hpp>
 
 #include <initializer_list>
 #include <memory>
@@ -13,64 +13,64 @@
 
 namespace abut {
 
-/// Convex, solid, of any number of corners; without build() the single point 0. Points that lie in a plane, on a line
-/// or all in one place make a valid polyhedron of no volume. Copies are cheap and share what was built, which never
-/// changes: spans and views of it stay valid as long as any copy lives.
+/// A solid convex polyhedron with any number of vertices. A default-constructed polyhedron is the single point 0.
+/// Coplanar, collinear or coincident points make a valid polyhedron of zero volume. Copies are cheap and share
+/// immutable data: spans and views stay valid as long as any copy lives.
 class Polyhedron {
 public:
     Polyhedron() = default;
 
-    /// The hull of the points, in any order, copies allowed, n log n for n points of any usual shape. A Problem only
-    /// where there are none (`empty_input`) or one is NaN or infinite (`not_finite`, with its index). A point
-    /// within 1.2e-7 of the extent (the longest side of the bounding box) of the hull of the others may be left out of
-    /// it.
+    /// The convex hull of the points, in any order; duplicates are allowed. It takes O(n log n) for usual inputs.
+    /// Returns a Problem only if there are no points (`empty_input`) or one is NaN or infinite (`not_finite`, index:
+    /// the point). Points within 1.2e-7 of the extent (the longest side of the bounding box) of the hull of the others
+    /// may be dropped.
     static Result<Polyhedron> build(std::span<const Vec3> points);
     static Result<Polyhedron> build(std::initializer_list<Vec3> points);
 
-    /// The same with no more corners than `options.max_vertices`. Where the hull has more, this is a larger polyhedron
-    /// with corners of its own, by as little volume as is found: it has every point of the input within the convex hull
-    /// of its corners, exactly. Points that lie in a plane stay in it, and are held as seen along the axis nearest to
-    /// its normal. Otherwise it is the hull, bit by bit. A Problem as well where the limit is below 4 (`bad_argument`),
-    /// or such corners are beyond the range of floats (`too_large`). See docs/limited_hulls.md.
+    /// A hull with at most `options.max_vertices` vertices. If the exact hull has more, the result is a larger
+    /// polyhedron with new vertices that contains every input point exactly and adds as little volume as the search
+    /// finds. Coplanar points stay in their plane, and containment holds in the projection along the axis nearest to
+    /// its normal. Otherwise it is the exact hull, bit for bit. Also returns a Problem if the limit is below 4
+    /// (`bad_argument`) or if a vertex would leave the range of floats (`too_large`). See docs/limited_hulls.md.
     static Result<Polyhedron> build(std::span<const Vec3> points, const HullOptions& options);
 
-    /// The corners, in lexicographical order. They are points of the input, unless a limit made others, and don't
-    /// depend on its order.
+    /// The vertices, in lexicographical order. They are input points, unless a vertex limit made others, and don't
+    /// depend on the input's order.
     std::span<const Vec3> points() const;
 
-    /// The faces, in lexicographical order of their loops, each from its lowest point number. Every edge belongs to two
-    /// faces, one each way. Neighbours whose corners lie in a slab 1e-6 of the extent thick, with a convex outline, are
-    /// one face. A flat polygon has two faces back to back; a segment or a point has none.
+    /// The faces, in lexicographical order of their loops; each loop starts at its lowest vertex. Every edge belongs to
+    /// two faces, once in each direction. Neighbouring faces within a slab of 1e-6 of the extent are merged if the
+    /// result is convex. A flat polygon has two faces back to back; a segment or a point has none.
     const Facets& facets() const;
 
-    /// One a face: the face's plane is dot(normal, p) == offset. No point of the input is above it, whether it became a
-    /// corner or not: dot(normal, p) <= offset as double has it. Across an axis, and where the shape is flat, the plane
-    /// touches the farthest of them; elsewhere it is pushed out farther by no more than 1.6e-7 of the extent, and by
-    /// 4e-8 where no point was left out. The corners of a face lie below its plane by no more than 1.3e-6 of the
-    /// extent. In double, as the planes of distant shapes need it.
+    /// The plane offset of each face: its plane is dot(normal, p) == offset. No input point is above it in double
+    /// arithmetic, whether it became a vertex or not: dot(normal, p) <= offset. Planes across an axis, and planes of
+    /// flat shapes, touch the farthest point. Other planes are pushed out by at most 1.6e-7 of the extent, or 4e-8 if
+    /// no point was dropped. The vertices of a face are below its plane by at most 1.3e-6 of the extent. Offsets are
+    /// double, as shapes far from the origin need it.
     std::span<const double> offsets() const;
 
-    /// 0: a point, 1: a segment, 2: a flat polygon, 3: a solid. No thicker than 1.2e-7 of the extent counts as flat.
+    /// 0: a point, 1: a segment, 2: a flat polygon, 3: a solid. A hull no thicker than 1.2e-7 of its extent is flat.
     int rank() const;
 
-    /// In double: a volume leaves the range of float long before its corners do.
+    /// The volume, in double since it overflows a float long before the coordinates do.
     double volume() const;
 
-    /// Of all faces; of a flat polygon both.
+    /// The surface area; of a flat polygon that of both faces.
     double area() const;
 
-    /// The centre of gravity: of the volume, or of the polygon, segment or point where there is none.
+    /// The centroid of the volume, or of the polygon, segment or point if the volume is zero.
     Vec3 centroid() const;
 
-    /// Of length 1, out of the largest face (the first of several); of a segment, at right angles to it; of a point,
-    /// the first axis. Of the thin or flat overlap of two shapes it is that of the plane they touch in, to either side.
+    /// The unit normal of the largest face (the first of equals). For a segment it is perpendicular to it; for a point
+    /// it is the first axis. For the thin overlap of two touching shapes it is the contact normal, up to the sign.
     Vec3 normal() const;
 
-    /// A ball that holds all corners, to the rounding of doubles.
+    /// A ball that contains all vertices, to the rounding of doubles.
     BoundingBall<3> ball() const;
 
-    /// The corners once more, for vector units; null where there are none of use to them.
-    const PointLanes* lanes() const;
+    /// The vertices as a structure of arrays for SIMD; null if it isn't useful.
+    const PointSoa* lanes() const;
 
 private:
     struct Data;
@@ -78,7 +78,7 @@ private:
 };
 
 Convex<3> convex(const Polyhedron& polyhedron, const Affine<3>& place = {});
-inline Given<3> given(const Polyhedron& polyhedron) {
+inline ShapeRef<3> shape_ref(const Polyhedron& polyhedron) {
     return {ShapeKind::polytope, &polyhedron};
 }
 

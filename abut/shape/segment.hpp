@@ -1,8 +1,8 @@
 #pragma once
 
-// The straight piece between two points.
+// Line segment between two points.
 
-#include <abut/shape/given.hpp>
+#include <abut/shape/view/shape_ref.hpp>
 
 namespace abut {
 
@@ -22,7 +22,7 @@ Convex<D> convex(const Segment<D>& segment);
 template <int D>
 Convex<D> convex(const Segment<D>& segment, const Pose<D>& pose);
 template <int D>
-Given<D> given(const Segment<D>& segment) {
+ShapeRef<D> shape_ref(const Segment<D>& segment) {
     return {ShapeKind::segment, &segment};
 }
 

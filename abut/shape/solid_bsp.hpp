@@ -1,13 +1,13 @@
 #pragma once
 
-// Solid level geometry as a tree of planes whose leaves are solid or open: a BSP. In 2D from segments, in 3D from
-// triangles, in both from convex lumps (brushes).
+// Solid level geometry as a binary space partitioning tree (BSP tree) whose leaves are solid or open. Built from
+// segments in 2D, from triangles in 3D, or from brushes (convex pieces) in both.
 
 #include <abut/broad_phase/visit.hpp>
 #include <abut/math/aabb.hpp>
 #include <abut/math/result.hpp>
 #include <abut/shape/half_space.hpp>
-#include <abut/shape/view.hpp>
+#include <abut/shape/view/view.hpp>
 
 #include <cstdint>
 #include <memory>
@@ -24,67 +24,63 @@ namespace abut {
 template <int D>
 struct SolidTree;
 
-/// Where a motion comes from the open into the solid.
+/// The point at which a ray enters the solid.
 template <int D>
 struct SolidEntry {
-    double along = 0;     ///< in lengths of the direction
-    DVec<D> normal{0.0};  ///< of any length, out of the solid
+    double along = 0;     ///< in lengths of the ray's direction
+    DVec<D> normal{0.0};  ///< out of the solid, of any length
     std::uint32_t face = 0;
-    bool has_face = false;  ///< false where no face is there: of open geometry
+    bool has_face = false;  ///< false if there is no face, as in open geometry
     bool started_inside = false;
 };
 
-/// Fuchs, Kedem, Naylor, "On visible surface generation by a priori tree structures" (1980); Thibault, Naylor, "Set
-/// operations on polyhedra using binary space partitioning trees" (1987).
+/// A solid BSP tree. Fuchs, Kedem, Naylor, "On visible surface generation by a priori tree structures" (1980);
+/// Thibault, Naylor, "Set operations on polyhedra using binary space partitioning trees" (1987).
 ///
-/// Faces are segments in 2D: the solid lies to the left of each, so that an outline that runs counter-clockwise is
-/// solid inside. In 3D they are triangles, counter-clockwise seen from the open side. One tree holds pillars and rooms:
-/// where the faces bound a negative area or volume as a whole, as those of a room do, the solid goes on without end
-/// outside.
+/// Faces are segments in 2D, with the solid on their left, so a counter-clockwise loop is solid inside. In 3D they are
+/// triangles, counter-clockwise seen from the open side. One tree holds both solids and rooms: if the faces bound a
+/// negative area or volume in total, as those of a room do, the solid is unbounded outside.
 ///
-/// Closed geometry (every corner in 2D, every edge in 3D is left as often as it is come to) may overlap itself, repeat
-/// faces, touch, and be as thin as floats allow: solid is what it winds around. Open geometry makes a tree as well:
-/// there a leaf is what its last plane says, open in front and solid behind, which is right as long as no face lies
-/// within the solid. So it is where closed surfaces in 3D meet in T-junctions. A wall of no thickness, two faces back
-/// to back in the open, is not solid.
+/// Closed geometry may self-overlap, repeat faces, touch itself, and be arbitrarily thin: the solid is where the
+/// winding number is positive. Geometry is closed if every vertex (2D) or edge (3D) has equally many incoming and
+/// outgoing faces. Open geometry also makes a tree, but its leaves are classified by their last plane: open in front
+/// and solid behind. That is right if no face lies within the solid. It also applies to closed 3D surfaces with
+/// T-junctions. A wall of zero thickness, two faces back to back in the open, is not solid.
 ///
-/// Planes are those of faces, where balance asks for it also such as stand across an axis; the next is the one that
-/// leaves both sides alike and cuts the fewest faces. Faces in one plane share a node. On which side of a face a point
-/// is, is decided exactly; where a face has been cut, the end of the piece is known to about 1e-12 of the largest
-/// coordinate.
+/// Splitting planes are those of faces, or axis-aligned planes if they balance the tree better; the cost is the
+/// imbalance and the number of cut faces. Coplanar faces share a node. The side of a face is decided by exact
+/// predicates; the end of a cut face is accurate to about 1e-12 of the largest coordinate.
 ///
-/// In every question but the ray's and the point's the level is the union of its parts, which are convex and solid: the
-/// lumps that it was built from, by their numbers, or else, of faces, the cells that the tree cuts the solid into, from
-/// 0 on. What is in them is as deep as the least way out of one of them, so where cells meet, as where lumps overlap or
-/// touch, depth is that of each by itself, and normals are those of the whole surface (docs/ghosts.md). Where the solid
-/// goes on without end, its cells do as far beyond the bounds of the faces as those are wide. `nearest_face` tells
-/// which of the faces an answer is about.
+/// For all queries but rays and points the level is the union of its parts, which are convex and solid. They are the
+/// input brushes, by index; or for faces the convex cells of the tree, numbered from 0. The depth is the shortest
+/// separating translation of one part. Where parts overlap or touch, depth is that of each by itself, and normals are
+/// those of the whole surface (docs/ghosts.md). Cells of an unbounded solid extend beyond the bounds of the faces by
+/// their width. `nearest_face` maps an answer to a face.
 ///
-/// Immutable: copies share the data. Memory, the input and the parts included: about 440 bytes a segment, 780 a
-/// triangle, 4 kilobytes a lump of nine sides.
+/// Immutable: copies share the data. Memory, with the input and the parts: about 440 bytes a segment, 780 a triangle, 4
+/// kilobytes a brush of nine sides.
 template <int D>
 class SolidBsp {
 public:
     using Face = glm::vec<D, std::uint32_t>;
 
-    /// Any number of faces but zero; those of no length or area are left out. A Problem where a coordinate is not
-    /// finite (its index is the point's) or an index is out of range (the face's).
+    /// Takes one or more faces; degenerate faces are ignored. Returns a Problem if a coordinate is not finite (index:
+    /// the point) or a point index is out of range (index: the face).
     static Result<SolidBsp> build(std::span<const Vec<D>> points, std::span<const Face> faces);
 
-    /// The union of convex lumps: the k-th is where all half-spaces from ends[k - 1] (from the first, for k = 0) up to
-    /// ends[k] overlap. A lump of no volume is left out. Faces are numbered as the half-spaces are. A Problem where
-    /// there is no lump, a number isn't finite, the ends aren't ascending up to the number of half-spaces, or a lump
-    /// has no bound (the index is that of the half-space or lump). Sides that shall be in one plane need the same
-    /// numbers, but for the sign.
+    /// The union of brushes. Brush k is the intersection of the half-spaces from ends[k - 1] (0 for k = 0) up to
+    /// ends[k]. A brush of zero volume is ignored. Faces are numbered as the half-spaces. Returns a Problem if there is
+    /// no brush, a number isn't finite, `ends` isn't ascending or is out of range, or a brush is unbounded (index: the
+    /// half-space or brush). Coplanar sides need the same numbers up to the sign.
     static Result<SolidBsp> from_brushes(std::span<const HalfSpace<D>> sides, std::span<const std::uint32_t> ends);
 
-    /// Whether the point is in the solid; a point on its border is. Exact, but for points nearer to where faces cut one
-    /// another than a rounding of doubles (and of brushes: nearer to a side). False of a point that isn't finite.
+    /// True if the point is in the solid or on its boundary. Exact, except within rounding of a cut (for brushes: of a
+    /// side). False for a point that isn't finite.
     bool contains(const Vec<D>& point) const;
 
-    /// Visits the faces in an order in which none is behind a later one, seen from the eye: `visit(face)` or
-    /// `visit(face, std::span<const Vec<D>> corners)`, which returns nothing, or false to stop. A face that is cut
-    /// comes in pieces, each with its number; a piece is a segment or a convex polygon. Those that look away come too.
+    /// Visits the faces front to back as seen from the eye: `visit(face)` or `visit(face, std::span<const Vec<D>>
+    /// corners)`, which returns nothing, or false to stop. A cut face comes in several pieces, each a segment or a
+    /// convex polygon. Faces that point away from the eye are visited too.
     template <class F>
     void front_to_back(const Vec<D>& eye, F&& visit) const {
         visit_from(eye, [&visit](std::uint32_t face, std::span<const Vec<D>> corners) -> bool {
@@ -103,19 +99,18 @@ public:
         });
     }
 
-    /// Where something that moves from the origin along the direction, at most `length` times, comes into the solid.
-    /// One that starts inside comes out first. Along a face is no way in: the ray counts as in front of it. What
-    /// raycast is made of.
+    /// Casts a ray of at most `length` lengths of the direction: the first point where it enters the solid. A ray that
+    /// starts inside has to leave first. A ray along a face counts as in front of it. The base of raycast.
     bool enter(const Vec<D>& origin, const DVec<D>& direction, double length, SolidEntry<D>& entry) const;
 
-    /// The face that is nearest to a point, of several the one of the lowest number: whose material a contact there is
-    /// about. Nothing where no face has an extent, or the point isn't finite.
+    /// The face nearest to a point, the lowest index of equals; for the material of a contact. Nothing if no face has
+    /// an extent or the point isn't finite.
     std::optional<std::uint32_t> nearest_face(const Vec<D>& point) const;
 
-    /// Of all faces.
+    /// The box around all faces.
     Aabb<D> bounds() const;
 
-    /// Of all parts.
+    /// The box around all parts.
     Aabb<D> part_bounds() const;
     void each_part(const Aabb<D>& box, PartVisitor<D> visit) const;
     void each_part_along(const MovingBox<D>& box, PartReachVisitor<D> visit) const;
@@ -123,9 +118,9 @@ public:
     std::size_t part_count() const;
 
     std::size_t node_count() const;
-    /// Of nodes on the way from the root to the deepest leaf; never above 256.
+    /// The number of nodes on the longest path from the root to a leaf; at most 256.
     std::size_t depth() const;
-    /// Of faces, those that were cut counted by their pieces.
+    /// The number of faces, with cut faces counted by their pieces.
     std::size_t piece_count() const;
 
 private:
@@ -142,7 +137,7 @@ extern template class SolidBsp<3>;
 using SolidBsp2 = SolidBsp<2>;
 using SolidBsp3 = SolidBsp<3>;
 
-/// Of all parts: beyond its faces, where the solid goes on without end.
+/// The box around all parts. For an unbounded solid it extends beyond the faces.
 template <int D>
 Aabb<D> bounds(const SolidBsp<D>& level) {
     return level.part_bounds();
@@ -154,7 +149,7 @@ void each_part(const SolidBsp<D>& level, const Aabb<D>& box, std::type_identity_
     level.each_part(box, visit);
 }
 
-/// Visits those that the moving box meets, roughly in the order in which it does; the visitor returns the new, shorter
+/// Visits the parts whose boxes the moving box overlaps, roughly front to back. The visitor returns the new, shorter
 /// reach.
 template <int D>
 void each_part_along(const SolidBsp<D>& level, const MovingBox<D>& box,
@@ -162,13 +157,15 @@ void each_part_along(const SolidBsp<D>& level, const MovingBox<D>& box,
     level.each_part_along(box, visit);
 }
 
-/// Visits them, roughly those first whose boxes are nearest to `box`; the visitor returns the new, shorter reach.
+/// Visits the parts, roughly nearest first by the distance of their boxes to `box`. The visitor returns the new,
+/// shorter reach.
 template <int D>
 void each_part_near(const SolidBsp<D>& level, const Aabb<D>& box, std::type_identity_t<PartReachVisitor<D>> visit) {
     level.each_part_near(box, visit);
 }
 
-/// Whether the point is in the solid, by the tree, as far as the parts go: solid around a room is endless to the tree.
+/// True if the tree classifies the point as solid and it is within the bounds of the parts: an unbounded solid ends
+/// there.
 template <int D>
 bool solid_contains(const SolidBsp<D>& level, const Vec<D>& point) {
     return contains(bounds(level), point) && level.contains(point);

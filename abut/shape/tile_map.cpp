@@ -1,6 +1,6 @@
 #include <abut/math/assert.hpp>
 #include <abut/shape/box.hpp>
-#include <abut/shape/grid_blocks.hpp>
+#include <abut/shape/grid_hierarchy.hpp>
 #include <abut/shape/segment.hpp>
 #include <abut/shape/tile_map.hpp>
 #include <abut/shape/triangle.hpp>
@@ -10,24 +10,24 @@
 namespace abut {
 namespace {
 
-/// The columns and rows of what is not empty in a block, from the first to before the last.
-struct Filled {
+/// The range of columns and rows in a block that hold non-empty tiles.
+struct OccupiedRange {
     std::uint32_t first_column = 0xffffffffu, first_row = 0xffffffffu, end_column = 0, end_row = 0;
 
     bool any() const { return first_column < end_column; }
 };
-Filled merged(const Filled& a, const Filled& b) {
+OccupiedRange merged(const OccupiedRange& a, const OccupiedRange& b) {
     return {std::min(a.first_column, b.first_column), std::min(a.first_row, b.first_row),
             std::max(a.end_column, b.end_column), std::max(a.end_row, b.end_row)};
 }
 
-Convex<2> one_way(const Vec2& from, const Vec2& to) {
+Convex<2> one_way_edge(const Vec2& from, const Vec2& to) {
     Convex<2> result = convex(Segment2{from, to});
     result.one_sided = true;
     return result;
 }
 
-Convex<2> in_box(Tile tile, const Aabb2& box) {
+Convex<2> tile_shape(Tile tile, const Aabb2& box) {
     const Vec2 low = box.min, high = box.max, low_high(low.x, high.y), high_low(high.x, low.y);
     const Vec2 middle = center(box);
     switch (tile) {
@@ -51,15 +51,15 @@ Convex<2> in_box(Tile tile, const Aabb2& box) {
             return convex(Triangle2{low_high, low, high});
         case Tile::slope_high_x_high_y:
             return convex(Triangle2{high, low_high, high_low});
-        // The front is to the right of the way.
+        // The front of a segment is on the right of its direction.
         case Tile::one_way_low_x:
-            return one_way(low_high, low);
+            return one_way_edge(low_high, low);
         case Tile::one_way_high_x:
-            return one_way(high_low, high);
+            return one_way_edge(high_low, high);
         case Tile::one_way_low_y:
-            return one_way(low, high_low);
+            return one_way_edge(low, high_low);
         case Tile::one_way_high_y:
-            return one_way(high, low_high);
+            return one_way_edge(high, low_high);
     }
     return round_points<2>({middle}, 0);
 }
@@ -70,31 +70,31 @@ struct TileMap::Data {
     std::vector<Tile> tiles;
     std::uint32_t columns = 0, rows = 0;
     Vec2 cell{};
-    GridBlocks<Filled> blocks;
+    GridHierarchy<OccupiedRange> blocks;
 
     Aabb2 box_of(std::uint32_t first_column, std::uint32_t first_row, std::uint32_t end_column,
                  std::uint32_t end_row) const {
         return {{static_cast<float>(first_column) * cell.x, static_cast<float>(first_row) * cell.y},
                 {static_cast<float>(end_column) * cell.x, static_cast<float>(end_row) * cell.y}};
     }
-    Aabb2 box_of(const Filled& filled) const {
+    Aabb2 box_of(const OccupiedRange& filled) const {
         return filled.any() ? box_of(filled.first_column, filled.first_row, filled.end_column, filled.end_row)
                             : Aabb2::empty();
     }
-    Filled of_tile(std::uint32_t x, std::uint32_t y) const {
-        return tiles[x + y * columns] == Tile::empty ? Filled() : Filled{x, y, x + 1, y + 1};
+    OccupiedRange of_tile(std::uint32_t x, std::uint32_t y) const {
+        return tiles[x + y * columns] == Tile::empty ? OccupiedRange() : OccupiedRange{x, y, x + 1, y + 1};
     }
     Aabb2 box_of_tile(std::uint32_t x, std::uint32_t y) const { return box_of(x, y, x + 1, y + 1); }
 
-    /// Calls visit(part, index) for the tiles that are within reach; it returns the new reach.
+    /// Calls visit(part, index) for the tiles within reach; it returns the new reach.
     template <class Reach, class Visit>
     void each_within(Reach reach, Visit&& visit) const {
         const auto box_of_block = [this](std::uint32_t level, std::uint32_t x, std::uint32_t y) {
             return box_of(level == 0 ? of_tile(x, y) : blocks.at(level, x, y));
         };
-        blocks.walk(reach, box_of_block, [&](std::uint32_t x, std::uint32_t y) {
+        blocks.traverse(reach, box_of_block, [&](std::uint32_t x, std::uint32_t y) {
             const std::uint32_t index = x + y * columns;
-            reach.shrink(visit(in_box(tiles[index], box_of_tile(x, y)), index));
+            reach.shrink(visit(tile_shape(tiles[index], box_of_tile(x, y)), index));
         });
     }
 };
@@ -105,9 +105,9 @@ Result<TileMap> TileMap::build(std::span<const Tile> tiles, std::uint32_t column
         return Problem{
             ProblemCode::bad_argument,
             std::to_string(tiles.size()) + " tiles are no whole number of rows of " + std::to_string(columns), 0};
-    constexpr std::size_t most_tiles = std::size_t{1} << 31;
-    if (tiles.size() > most_tiles)
-        return Problem{ProblemCode::too_large, "a tile map has at most 2^31 tiles", most_tiles};
+    constexpr std::size_t max_tiles = std::size_t{1} << 31;
+    if (tiles.size() > max_tiles)
+        return Problem{ProblemCode::too_large, "a tile map has at most 2^31 tiles", max_tiles};
     for (std::size_t i = 0; i < tiles.size(); ++i)
         if (tiles[i] > Tile::one_way_high_y)
             return Problem{ProblemCode::bad_argument,
@@ -151,7 +151,7 @@ Aabb2 TileMap::box(std::uint32_t index) const {
 }
 
 Convex<2> TileMap::part(std::uint32_t index) const {
-    return in_box(tile(index), box(index));
+    return tile_shape(tile(index), box(index));
 }
 
 std::uint32_t TileMap::neighbour(std::uint32_t tile, std::uint32_t side) const {
@@ -172,7 +172,7 @@ void each_part(const TileMap& map, const Aabb2& box, PartVisitor<2> visit) {
     const TileMap::Data& data = *map.data_;
     const Aabb2 query = usable(box);
     if (is_empty(query)) return;
-    const Filled& all = data.blocks.all();
+    const OccupiedRange& all = data.blocks.all();
     const CellRange columns(query.min.x, query.max.x, data.cell.x, all.end_column);
     const CellRange rows(query.min.y, query.max.y, data.cell.y, all.end_row);
     for (std::uint32_t y = std::max(rows.begin, all.first_row); y < rows.end; ++y)
@@ -181,7 +181,7 @@ void each_part(const TileMap& map, const Aabb2& box, PartVisitor<2> visit) {
             const Tile tile = data.tiles[index];
             if (tile == Tile::empty) continue;
             const Aabb2 of_tile = data.box_of_tile(x, y);
-            if (overlaps(query, of_tile) && !visit(in_box(tile, of_tile), index)) return;
+            if (overlaps(query, of_tile) && !visit(tile_shape(tile, of_tile), index)) return;
         }
 }
 

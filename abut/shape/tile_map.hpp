@@ -1,16 +1,16 @@
 #pragma once
 
-// A grid of tiles: level geometry in 2D.
+// Tile map: level geometry in 2D on a regular grid.
 
 #include <abut/math/result.hpp>
-#include <abut/shape/view.hpp>
+#include <abut/shape/view/view.hpp>
 
 #include <memory>
 #include <span>
 
 namespace abut {
 
-/// What is in a tile. Low and high are ends of an axis, whichever way is up.
+/// The shape of a tile. Low and high are the ends of an axis.
 enum class Tile : std::uint8_t {
     empty,
     full,
@@ -18,24 +18,23 @@ enum class Tile : std::uint8_t {
     half_high_x,
     half_low_y,
     half_high_y,
-    slope_low_x_low_y,  ///< the triangle in the corner of low x and low y, cut off by the diagonal
+    slope_low_x_low_y,  ///< the triangle at the corner of low x and low y, bounded by the diagonal
     slope_high_x_low_y,
     slope_low_x_high_y,
     slope_high_x_high_y,
-    one_way_low_x,  ///< the edge at low x alone, met from outside the tile: by what comes going along +x
+    one_way_low_x,  ///< only the edge at low x; it stops motion along +x that comes from outside the tile
     one_way_high_x,
     one_way_low_y,
     one_way_high_y,
 };
 
-/// The union of its tiles, each of them solid but the one-way ones, which are one-sided segments (ChainOptions tells
-/// what that means). Tile (column, row) has the number column + row * columns, its part's, and reaches from
-/// (column, row) to (column + 1, row + 1), times the size of a cell. Immutable: copies share the data. Memory: the
-/// tiles, and about 1.1 bytes for each.
+/// The union of its tiles. All tiles are solid except the one-way tiles, which are one-sided segments (see
+/// ChainOptions). Tile (column, row) is part column + row * columns and covers (column, row) to (column + 1, row + 1),
+/// times the cell size. Immutable: copies share the data. Memory: the tiles, and about 1.1 bytes for each.
 class TileMap {
 public:
-    /// Rows one after the other, that of low y first. A Problem where there are no tiles, the last row isn't whole, a
-    /// tile is none of the kinds (its index), or `cell` isn't above zero or makes a coordinate infinite.
+    /// Takes the tiles row by row, from low y. Returns a Problem if there are no tiles, if the last row is incomplete,
+    /// if a tile has an unknown kind (index: the tile), or if `cell` isn't positive or makes a coordinate infinite.
     static Result<TileMap> build(std::span<const Tile> tiles, std::uint32_t columns, const Vec2& cell);
     static Result<TileMap> build(std::span<const Tile> tiles, std::uint32_t columns, float cell);
 
@@ -44,14 +43,15 @@ public:
     std::uint32_t rows() const;
     Vec2 cell() const;
 
-    std::uint32_t size() const;  ///< of tiles, the empty ones counted
+    std::uint32_t size() const;  ///< number of tiles, including empty ones
     Tile tile(std::uint32_t index) const { return tiles()[index]; }
-    Aabb2 box(std::uint32_t index) const;  ///< of the whole tile
+    Aabb2 box(std::uint32_t index) const;  ///< the box of the whole cell
 
-    /// Of the tile without its placement; of an empty one a point in it.
+    /// The shape of the tile in the map's frame; for an empty tile a point in it.
     Convex<2> part(std::uint32_t index) const;
 
-    /// The tile beyond a side, 2 * axis plus one at the low end; no_neighbour where that is empty or outside.
+    /// The adjacent tile across side 2 * axis (high end) or 2 * axis + 1 (low end); no_neighbour if it is empty or
+    /// outside.
     std::uint32_t neighbour(std::uint32_t tile, std::uint32_t side) const;
 
 private:
@@ -66,18 +66,18 @@ private:
     std::shared_ptr<const Data> data_;
 };
 
-/// Of all that is not empty, by whole columns and rows; empty where all is.
+/// The box around all non-empty tiles; empty if there are none.
 Aabb2 bounds(const TileMap& map);
 
-/// Visits the tiles that are not empty and whose boxes overlap `box`; the visitor returns false to stop.
+/// Visits the non-empty tiles whose boxes overlap `box`; the visitor returns false to stop.
 void each_part(const TileMap& map, const Aabb2& box, PartVisitor<2> visit);
 
-/// Visits the tiles that are not empty and that the moving box meets, roughly in the order in which it does; the
-/// visitor returns the new, shorter reach.
+/// Visits the non-empty tiles that the moving box overlaps, roughly front to back. The visitor returns the new, shorter
+/// reach.
 void each_part_along(const TileMap& map, const MovingBox<2>& box, PartReachVisitor<2> visit);
 
-/// Visits the tiles that are not empty, roughly those first that are nearest to `box`; the visitor returns the new,
-/// shorter reach.
+/// Visits the non-empty tiles, roughly nearest first by the distance to `box`. The visitor returns the new, shorter
+/// reach.
 void each_part_near(const TileMap& map, const Aabb2& box, PartReachVisitor<2> visit);
 
 inline std::uint32_t part_neighbour(const TileMap& map, std::uint32_t part, std::uint32_t side) {

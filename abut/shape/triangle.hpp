@@ -1,8 +1,8 @@
 #pragma once
 
-// The triangle: filled, in 3D of zero thickness, the same from both sides.
+// Triangle: filled; in 3D of zero thickness and two-sided.
 
-#include <abut/shape/given.hpp>
+#include <abut/shape/view/shape_ref.hpp>
 
 namespace abut {
 
@@ -23,7 +23,7 @@ Convex<D> convex(const Triangle<D>& triangle);
 template <int D>
 Convex<D> convex(const Triangle<D>& triangle, const Pose<D>& pose);
 template <int D>
-Given<D> given(const Triangle<D>& triangle) {
+ShapeRef<D> shape_ref(const Triangle<D>& triangle) {
     return {ShapeKind::triangle, &triangle};
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Files give each face corners of its own; whether faces meet is told by where their corners are.
+// Welding: merges points, so that faces which share positions share vertices.
 
 #include <abut/math/vec.hpp>
 
@@ -16,14 +16,14 @@ struct Welded {
     std::vector<glm::uvec3> triangles;
 };
 
-/// The same triangles in the same order, points at exactly the same position made one, points that no triangle uses
-/// left out, the others in the order of their first use. -0 becomes 0. Triangles with two equal corners go. Indices are
-/// in range, coordinates not NaN. O(n log n).
+/// Merges points at exactly the same position. Triangles stay in order; unused points are dropped, and the others are
+/// in the order of first use. -0 becomes 0. Triangles with two equal corners are removed. Indices must be in range and
+/// coordinates not NaN. O(n log n).
 Welded weld(std::span<const Vec3> points, std::span<const glm::uvec3> triangles);
 
-/// The same where points at most `distance` apart, finite and not below 0, count as one: each in the order of the
-/// points becomes the nearest of those that were kept before it, or is kept itself. So no point is moved farther than
-/// the distance, and those left are farther apart than that. O(n) but for points that are chosen to collide.
+/// Merges points that are at most `distance` apart (finite, at least 0). In order, each point is merged into the
+/// nearest point retained so far, or is retained. So no point moves farther than `distance`, and retained points are
+/// farther apart than that. O(n), except for adversarial hash collisions.
 Welded weld(std::span<const Vec3> points, std::span<const glm::uvec3> triangles, double distance);
 
 }  // namespace abut

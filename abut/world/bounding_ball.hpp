@@ -3,7 +3,7 @@
 // Balls around shapes: where two balls are apart, so are the shapes in them.
 
 #include <abut/convex/bounding_ball.hpp>
-#include <abut/shape/view.hpp>
+#include <abut/shape/view/view.hpp>
 
 namespace abut {
 

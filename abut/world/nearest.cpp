@@ -29,7 +29,8 @@ std::size_t World<D>::nearest_to(const View<D>& shape, std::span<WorldClosest<D>
     float reach = std::numeric_limits<float>::infinity();
     const auto any = [&](std::uint32_t slot) -> float {
         const Item& item = items_[slot];
-        if (!asked(slot, filter) || (std::holds_alternative<Solid<D>>(shape) && item.type == ShapeType::half_space))
+        if (!asked(slot, filter) ||
+            (std::holds_alternative<HalfSpaceView<D>>(shape) && item.type == ShapeType::half_space))
             return reach;
         const WorldClosest<D> found{id_of(slot), abut::closest(shape, placed(item))};
         if (std::isinf(found.closest.distance)) return reach;

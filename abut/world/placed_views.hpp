@@ -2,7 +2,7 @@
 
 // Views of items where they are, each made once while many questions are asked about a few of them.
 
-#include <abut/shape/view.hpp>
+#include <abut/shape/view/view.hpp>
 
 #include <cstdint>
 #include <vector>

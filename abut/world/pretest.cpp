@@ -6,7 +6,7 @@ namespace abut {
 
 template <int D>
 ShapeType shape_type(const View<D>& view) {
-    if (std::holds_alternative<Solid<D>>(view)) return ShapeType::half_space;
+    if (std::holds_alternative<HalfSpaceView<D>>(view)) return ShapeType::half_space;
     if (std::holds_alternative<Composite<D>>(view)) return ShapeType::composite;
     if (std::holds_alternative<DistanceFunction<D>>(view)) return ShapeType::distance;
     const Convex<D>& convex = std::get<Convex<D>>(view);

@@ -4,7 +4,7 @@
 // and on how they lie, so it is measured, for each pair of types of shapes.
 
 #include <abut/query/early_out.hpp>
-#include <abut/shape/view.hpp>
+#include <abut/shape/view/view.hpp>
 
 namespace abut {
 

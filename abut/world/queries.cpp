@@ -109,7 +109,7 @@ void World<D>::visit_overlapping(const View<D>& shape, const Filter& filter, Fun
     if (!can_be_asked(shape)) return;
     each_near(bounds(shape), filter, [&](std::uint32_t slot) {
         const Item& item = items_[slot];
-        if (std::holds_alternative<Solid<D>>(shape) && item.type == ShapeType::half_space) return true;
+        if (std::holds_alternative<HalfSpaceView<D>>(shape) && item.type == ShapeType::half_space) return true;
         return !overlaps(shape, placed(item)) || visit(id_of(slot));
     });
 }

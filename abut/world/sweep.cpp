@@ -58,7 +58,7 @@ std::optional<WorldHit<D>> World<D>::first_on_way(const View<D>& shape, const Wa
         const Item& item = items_[slot];
         double enters = 0;
         if (!asked(slot, filter) || (!whole.over() && !whole.measure(box(slot), enters))) return reach;
-        if (std::holds_alternative<Solid<D>>(shape) && item.type == ShapeType::half_space) return reach;
+        if (std::holds_alternative<HalfSpaceView<D>>(shape) && item.type == ShapeType::half_space) return reach;
         const std::optional<Hit<D>> hit = sweep_at(item);
         if (!hit || hit->fraction > reach) return reach;
         const Id id = id_of(slot);

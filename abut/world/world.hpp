@@ -152,7 +152,7 @@ public:
         detail::clear_upper_halves();
         return add_shape(stored, options);
     }
-    template <class S, class Why = detail::WhyNotKept<D, S>>
+    template <class S, class Why = detail::WhyNotOwnable<D, S>>
     auto add(const S& shape, const ItemOptions<D>& options = {});
     template <Ownable S>
     requires(dimension<S> == D) void set_shape(Id id, const S& shape) {
@@ -160,7 +160,7 @@ public:
         detail::clear_upper_halves();
         set_any_shape(id, stored);
     }
-    template <class S, class Why = detail::WhyNotKept<D, S>>
+    template <class S, class Why = detail::WhyNotOwnable<D, S>>
     auto set_shape(Id id, const S& shape);
     void move(Id id, const Pose<D>& pose) {
         detail::clear_upper_halves();
@@ -269,25 +269,25 @@ public:
     /// lowest id. What it touches at the start is hit only if it goes further in.
     template <detail::ShapeIn<D> S>
     std::optional<WorldHit<D>> sweep(const S& shape, const Vec<D>& motion, const Filter& filter = {}) const {
-        return detail::ask_view(shape, [&](const View<D>& seen) { return sweep_straight(seen, motion, filter); });
+        return detail::with_view(shape, [&](const View<D>& seen) { return sweep_straight(seen, motion, filter); });
     }
     /// The same of a shape that turns on the way; it is as it is in the frame that the motion moves.
     template <detail::ShapeIn<D> S>
     std::optional<WorldHit<D>> sweep(const S& shape, const Motion<D>& motion, const Filter& filter = {}) const {
-        return detail::ask_view(shape, [&](const View<D>& seen) { return sweep_turning(seen, motion, filter); });
+        return detail::with_view(shape, [&](const View<D>& seen) { return sweep_turning(seen, motion, filter); });
     }
     /// The same from pose to pose, turning the short way.
     template <detail::ShapeIn<D> S>
     std::optional<WorldHit<D>> sweep(const S& shape, const Pose<D>& from, const Pose<D>& to,
                                      const Filter& filter = {}) const {
-        return detail::ask_view(shape, [&](const View<D>& seen) { return sweep_between(seen, from, to, filter); });
+        return detail::with_view(shape, [&](const View<D>& seen) { return sweep_between(seen, from, to, filter); });
     }
     template <class S, class... Motions, class Why = detail::WhyNoSweepInWorld<D, S, Motions...>>
     auto sweep(const S& shape, const Motions&... motions) const;
 
     template <detail::ShapeIn<D> S>
     std::optional<WorldClosest<D>> closest(const S& shape, const Filter& filter = {}) const {
-        return detail::ask_view(shape, [&](const View<D>& seen) { return closest_to(seen, filter); });
+        return detail::with_view(shape, [&](const View<D>& seen) { return closest_to(seen, filter); });
     }
     template <class S, class Why = detail::WhyNotIn<D, S>>
     requires(!detail::PointIn<S, D>) auto closest(const S& shape, const Filter& filter = {}) const;
@@ -299,7 +299,7 @@ public:
     /// Distances are signed: of those that overlap the deepest comes first.
     template <detail::ShapeIn<D> S>
     std::size_t k_nearest(const S& shape, std::span<WorldClosest<D>> out, const Filter& filter = {}) const {
-        return detail::ask_view(shape, [&](const View<D>& seen) { return nearest_to(seen, out, filter); });
+        return detail::with_view(shape, [&](const View<D>& seen) { return nearest_to(seen, out, filter); });
     }
     std::size_t k_nearest(const Vec<D>& point, std::span<WorldClosest<D>> out, const Filter& filter = {}) const {
         return nearest_to(point_view(point), out, filter);
@@ -307,7 +307,7 @@ public:
     /// Up to k of them, as a list.
     template <detail::ShapeIn<D> S>
     std::vector<WorldClosest<D>> k_nearest(const S& shape, std::size_t k, const Filter& filter = {}) const {
-        return detail::ask_view(shape, [&](const View<D>& seen) { return list_of_nearest(seen, k, filter); });
+        return detail::with_view(shape, [&](const View<D>& seen) { return list_of_nearest(seen, k, filter); });
     }
     std::vector<WorldClosest<D>> k_nearest(const Vec<D>& point, std::size_t k, const Filter& filter = {}) const {
         return list_of_nearest(point_view(point), k, filter);
@@ -315,14 +315,14 @@ public:
 
     template <detail::ShapeIn<D> S>
     std::vector<Id> overlapping(const S& shape, const Filter& filter = {}) const {
-        return detail::ask_view(shape, [&](const View<D>& seen) { return all_overlapping(seen, filter); });
+        return detail::with_view(shape, [&](const View<D>& seen) { return all_overlapping(seen, filter); });
     }
     template <class S, class Why = detail::WhyNotIn<D, S>>
     auto overlapping(const S& shape, const Filter& filter = {}) const;
     /// visit(id), in no order that is promised; returns nothing, or false to stop.
     template <detail::ShapeIn<D> S, Visitor<Id> F>
     void each_overlapping(const S& shape, F&& visit, const Filter& filter = {}) const {
-        detail::ask_view(shape, [&](const View<D>& seen) { visit_overlapping(seen, filter, go_on_after(visit)); });
+        detail::with_view(shape, [&](const View<D>& seen) { visit_overlapping(seen, filter, go_on_after(visit)); });
     }
     template <class S, class F, class Why = detail::WhyNotIn<D, S>>
     auto each_overlapping(const S& shape, F&& visit, const Filter& filter = {}) const;

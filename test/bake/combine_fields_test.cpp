@@ -2,8 +2,8 @@
 #include "../field/analytic.hpp"
 #include "../oracle/random.hpp"
 #include <abut/bake/combine_fields.hpp>
-#include <abut/bake/field_samples.hpp>
-#include <abut/bake/zero_set.hpp>
+#include <abut/bake/field/isosurface.hpp>
+#include <abut/bake/field/samples.hpp>
 #include <abut/convex/features.hpp>
 #include <abut/field/packed_direction.hpp>
 
@@ -168,7 +168,7 @@ TEST(CombineFields, RedistancedByTheNearestOfAllPieces) {
         const auto bound = combined(what, a, b, {.store = FieldStore::dense});
         const auto field = field_redistance(*bound, {.store = FieldStore::dense, .closest_points = true});
         ASSERT_TRUE(field);
-        const auto pieces = zero_set<3>(bound->data());
+        const auto pieces = isosurface<3>(bound->data());
         const FieldData<3>& data = field->data();
         ASSERT_EQ(data.distance.size(), bound->data().distance.size());
         const SampleLattice<3> lattice{DVec<3>(data.origin), static_cast<double>(data.cell)};
@@ -206,7 +206,7 @@ TEST(CombineFields, InSpaceToo) {
             // The box of the surface is tight.
             const auto exact = field_redistance(*field);
             ASSERT_TRUE(exact);
-            for (const auto& piece : zero_set<3>(field->data()))
+            for (const auto& piece : isosurface<3>(field->data()))
                 for (const Vec3& corner : piece) ASSERT_TRUE(contains(grown(field->data().surface, 1e-5f), corner));
             if (what == What::common) {
                 EXPECT_GT(field->data().surface.min.x, 0.0f);
@@ -240,13 +240,13 @@ TEST(CombineFields, ThePiecesAreTheSurface) {
     // All of it, and nothing twice: as long, and as large.
     for (const FieldStore store : {FieldStore::dense, FieldStore::sparse}) {
         double around = 0, area = 0;
-        for (const auto& [a, b] : zero_set<2>(field_of(oracle::ball<2>({0.01, 0.02}, 1), store).data()))
+        for (const auto& [a, b] : isosurface<2>(field_of(oracle::ball<2>({0.01, 0.02}, 1), store).data()))
             around += length(DVec<2>(b) - DVec<2>(a));
-        for (const auto& [a, b, c] : zero_set<3>(field_of(oracle::ball<3>({0.01, 0.02, 0}, 1), store).data()))
+        for (const auto& [a, b, c] : isosurface<3>(field_of(oracle::ball<3>({0.01, 0.02, 0}, 1), store).data()))
             area += 0.5 * length(cross(DVec<3>(b) - DVec<3>(a), DVec<3>(c) - DVec<3>(a)));
         // Every edge belongs to two.
         std::map<std::array<float, 6>, int> edges;
-        for (const auto& piece : zero_set<3>(field_of(oracle::ball<3>({0.01, 0.02, 0}, 1), store).data()))
+        for (const auto& piece : isosurface<3>(field_of(oracle::ball<3>({0.01, 0.02, 0}, 1), store).data()))
             for (std::size_t i = 0; i < 3; ++i) {
                 Vec3 a = piece[i], b = piece[(i + 1) % 3];
                 if (a == b) continue;

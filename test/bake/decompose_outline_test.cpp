@@ -47,7 +47,7 @@ std::vector<Polygon> checked(const Ring& ring, const Rings& holes, const Whole& 
         EXPECT_EQ(oracle.fault_of_junctions(), "");
     }
     EXPECT_EQ(report.pieces, parts->size());
-    EXPECT_LE(report.least_pieces, parts->size());
+    EXPECT_LE(report.min_pieces, parts->size());
     if (told != nullptr) *told = report;
     return *parts;
 }
@@ -82,7 +82,7 @@ TEST(DecomposeOutline, TellsWhatItDid) {
     const Ring ring{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
     EXPECT_EQ(checked(ring, {}, oracle::twice_area(ring), {}, &report).size(), 2u);
     EXPECT_EQ(report.reflex_corners, 1u);
-    EXPECT_EQ(report.least_pieces, 2u);
+    EXPECT_EQ(report.min_pieces, 2u);
     EXPECT_TRUE(report.optimal);
     EXPECT_EQ(report.area, 3);
     EXPECT_EQ(report.area_added, 0);

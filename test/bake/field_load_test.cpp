@@ -5,7 +5,7 @@
 #include "../oracle/random.hpp"
 #include <abut/bake/combine_fields.hpp>
 #include <abut/bake/field.hpp>
-#include <abut/field/field_blob.hpp>
+#include <abut/field/file.hpp>
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 

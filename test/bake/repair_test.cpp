@@ -4,7 +4,7 @@
 #include "../oracle/random.hpp"
 #include <abut/bake/repair.hpp>
 #include <abut/bake/solid.hpp>
-#include <abut/shape/half_edges.hpp>
+#include <abut/shape/mesh/half_edges.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -151,7 +151,7 @@ TEST(Repair, FacesOutwards) {
     const Repaired result = repaired(two);
     EXPECT_DOUBLE_EQ(volume(result), 2);
     EXPECT_EQ(result.repairs.triangles_turned, 12u);
-    EXPECT_EQ(result.repairs.crowded_edges, 1u);
+    EXPECT_EQ(result.repairs.non_manifold_edges, 1u);
     EXPECT_TRUE(result.closed);
 }
 
@@ -215,7 +215,7 @@ TEST(Repair, FillsSmallHolesAlone) {
         EXPECT_GE(result.repairs.holes_filled, 1u);
         EXPECT_EQ(result.repairs.triangles_added, 6u) << "loops of as many edges as there were";
         EXPECT_NEAR(volume(result), whole, 0.01 * whole);
-        EXPECT_EQ(edge_faults(result.triangles).crowded, 0u);
+        EXPECT_EQ(edge_faults(result.triangles).non_manifold, 0u);
     }
 }
 
@@ -281,7 +281,7 @@ TEST(Repair, ClosesCracksWhereACornerLiesOnAnEdge) {
     EXPECT_TRUE(result.closed) << described(result.repairs);
     EXPECT_DOUBLE_EQ(volume(result), 64);
     EXPECT_EQ(result.repairs.holes_filled, 1u);
-    EXPECT_EQ(edge_faults(result.triangles).crowded, 0u);
+    EXPECT_EQ(edge_faults(result.triangles).non_manifold, 0u);
 }
 
 TEST(Repair, CutsTheNeighboursOfTrianglesWithoutArea) {
@@ -313,7 +313,7 @@ TEST(Repair, WallsBetweenBoxesGo) {
     const Repaired merged = repaired(alike);
     EXPECT_EQ(merged.repairs.triangles_double, 4u);
     EXPECT_TRUE(merged.closed);
-    EXPECT_EQ(merged.repairs.crowded_edges, 0u);
+    EXPECT_EQ(merged.repairs.non_manifold_edges, 0u);
     EXPECT_EQ(merged.triangles.size(), 20u);
     EXPECT_DOUBLE_EQ(volume(merged), 2);
 }
@@ -326,7 +326,7 @@ TEST(Repair, FinsOfTwoSidesStayOnce) {
     EXPECT_EQ(result.repairs.triangles_double, 2u);
     EXPECT_EQ(result.triangles.size(), 14u);
     EXPECT_EQ(result.repairs.open_edges, 3u);
-    EXPECT_EQ(result.repairs.crowded_edges, 1u);
+    EXPECT_EQ(result.repairs.non_manifold_edges, 1u);
 }
 
 TEST(Repair, HolesGetNoEdgeThatIsThere) {
@@ -335,7 +335,7 @@ TEST(Repair, HolesGetNoEdgeThatIsThere) {
         if (other_diagonal) sheet.triangles = {{0, 1, 3}, {1, 2, 3}};
         const Repaired result = repaired(sheet, {.hole_area = 1});
         EXPECT_TRUE(result.closed);
-        EXPECT_EQ(result.repairs.crowded_edges, 0u) << described(result.repairs);
+        EXPECT_EQ(result.repairs.non_manifold_edges, 0u) << described(result.repairs);
         EXPECT_EQ(result.triangles.size(), 4u);
     }
 }
@@ -416,13 +416,13 @@ TEST(Repair, OfAnyHeapIsGoodToUseAndSolidsAreRepairedOnce) {
             for (int k = 0; k < 3; ++k) ASSERT_LT(t[k], result->points.size());
         const EdgeFaults faults = edge_faults(result->triangles);
         EXPECT_EQ(faults.closed, result->closed);
-        EXPECT_EQ(faults.open, result->repairs.open_edges);
+        EXPECT_EQ(faults.boundary, result->repairs.open_edges);
         if (result->closed) {
-            EXPECT_EQ(faults.open, 0u);
+            EXPECT_EQ(faults.boundary, 0u);
         }
         const Result<Repaired> again = repair(result->points, result->triangles, options);
         ASSERT_TRUE(again);
-        again_changed += result->closed && faults.crowded == 0 && changed(again->repairs);
+        again_changed += result->closed && faults.non_manifold == 0 && changed(again->repairs);
         closed += result->closed;
         filled += result->repairs.holes_filled > 0;
     }

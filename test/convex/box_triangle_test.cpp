@@ -2,7 +2,7 @@
 // distance.
 
 #include "../oracle/random.hpp"
-#include <abut/convex/box_triangle.hpp>
+#include <abut/convex/pairs/box_triangle.hpp>
 #include <abut/query/felt_normal.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/placed.hpp>
@@ -91,14 +91,14 @@ TEST_P(BoxTriangleFamily, AnswersAsTheSearches) {
         const BoxTriangle answer = box_triangle_distance(box, triangle, 0, found);
         const BoxTriangle overlap = box_triangle_overlap(box, triangle);
         if (overlap != BoxTriangle::unknown && std::abs(truth.distance) > margin) {
-            EXPECT_EQ(overlap, truth.distance < 0 ? BoxTriangle::meeting : BoxTriangle::apart);
+            EXPECT_EQ(overlap, truth.distance < 0 ? BoxTriangle::overlapping : BoxTriangle::apart);
         }
         if (answer == BoxTriangle::apart) {
             EXPECT_GT(truth.distance, -margin);
         }
         apart += answer == BoxTriangle::apart ? 1 : 0;
         unknown += answer == BoxTriangle::unknown ? 1 : 0;
-        if (answer != BoxTriangle::meeting) continue;
+        if (answer != BoxTriangle::overlapping) continue;
         ++meeting;
         EXPECT_NEAR(found.distance, truth.distance, margin + 1e-7 * pair.size);
         EXPECT_NEAR(length(found.normal), 1, 1e-12);
@@ -128,7 +128,7 @@ TEST(BoxTriangle, OfABoxOnAFloor) {
     const Box3 box{{0, 0.75f, 0}, {1, 1, 1}};
     const Triangle3 floor{{-4, 0, -4}, {-4, 0, 8}, {8, 0, -4}};
     SignedDistance<3> found;
-    ASSERT_EQ(box_triangle_distance(convex(box), convex(floor), 0, found), BoxTriangle::meeting);
+    ASSERT_EQ(box_triangle_distance(convex(box), convex(floor), 0, found), BoxTriangle::overlapping);
     EXPECT_EQ(found.distance, -0.25);
     EXPECT_EQ(found.normal, DVec<3>(0, -1, 0));
     EXPECT_EQ(found.on_a.y, -0.25);
@@ -136,7 +136,7 @@ TEST(BoxTriangle, OfABoxOnAFloor) {
     EXPECT_EQ(found.corners.count, 3u);
 }
 
-TEST(TriangleFoot, IsThatOfTheDistance) {
+TEST(TriangleClosest, IsThatOfTheDistance) {
     int beyond = 0, found_some = 0;
     for (std::uint64_t seed = 0; seed < 20000; ++seed) {
         SCOPED_TRACE(testing::Message() << "seed " << seed);
@@ -150,12 +150,12 @@ TEST(TriangleFoot, IsThatOfTheDistance) {
         const double margin = 1e-9 * size, within = size * random.uniform(0, 1);
         double distance = 0;
         DVec<3> foot;
-        const TriangleFoot answer = foot_on_triangle(triangle, DVec<3>(point), within, distance, foot);
-        if (answer == TriangleFoot::beyond) {
+        const TriangleClosest answer = closest_point_on_triangle(triangle, DVec<3>(point), within, distance, foot);
+        if (answer == TriangleClosest::beyond) {
             ++beyond;
             EXPECT_GT(truth.distance, within - margin);
         }
-        if (answer != TriangleFoot::found) continue;
+        if (answer != TriangleClosest::found) continue;
         ++found_some;
         EXPECT_NEAR(distance, truth.distance, margin);
         EXPECT_LE(length(foot - truth.on_b()), 1e-6 * size);

@@ -2,7 +2,7 @@
 
 #include "../oracle/pair.hpp"
 #include "../oracle/vector_units.hpp"
-#include <abut/convex/box_pair.hpp>
+#include <abut/convex/pairs/box3.hpp>
 #include <abut/query/certify.hpp>
 #include <abut/query/contact.hpp>
 #include <abut/query/overlaps.hpp>

@@ -1,7 +1,7 @@
 // Cuts of single bodies, the half-spaces of bodies, and the clipping of one by another.
 
 #include "../oracle/random.hpp"
-#include <abut/convex/clip.hpp>
+#include <abut/convex/manifold/clip.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/polygon.hpp>
 #include <abut/shape/polyhedron.hpp>

@@ -2,9 +2,9 @@
 
 #include "../oracle/distance.hpp"
 #include "../oracle/pair.hpp"
-#include <abut/convex/gjk.hpp>
-#include <abut/convex/penetration.hpp>
-#include <abut/convex/signed_distance.hpp>
+#include <abut/convex/gjk/epa.hpp>
+#include <abut/convex/gjk/gjk.hpp>
+#include <abut/convex/gjk/signed_distance.hpp>
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/cylinder.hpp>
@@ -26,8 +26,8 @@ TEST(Gjk, EndsAsThePairIs) {
     const Box3 box{{0, 0, 0}, {1, 1, 1}};
     const auto apart = gjk(difference<3>(box, Box3{{5, 0.5f, 0}, {1, 1, 1}}));
     EXPECT_EQ(apart.exit, GjkExit::separated);
-    EXPECT_DOUBLE_EQ(apart.reached, 3);
-    EXPECT_TRUE(apart.agreed());
+    EXPECT_DOUBLE_EQ(apart.upper_bound, 3);
+    EXPECT_TRUE(apart.converged());
     EXPECT_EQ(gjk(difference<3>(box, Box3{{1, 0.5f, 0.25f}, {1, 1, 1}})).exit, GjkExit::overlapping);
     EXPECT_EQ(gjk(difference<3>(Segment<3>{{0, 0, 0}, {1, 0, 0}}, Segment<3>{{1, 0, 0}, {2, 5, 0}})).exit,
               GjkExit::touching);
@@ -46,7 +46,7 @@ TEST(Gjk, SaysWhereItStopsAtTheLastDigit) {
     const auto stuck =
         gjk(difference<3>(needle, Segment<3>{{-0.00684267143f, -64, -128}, {0.00342133571f, -64, -128}}));
     EXPECT_EQ(stuck.exit, GjkExit::no_progress);
-    EXPECT_TRUE(stuck.agreed());
+    EXPECT_TRUE(stuck.converged());
 }
 
 /// A support function that never says the same twice: no walk can end well on it.
@@ -69,7 +69,7 @@ TEST(Engines, EndOnANonsensicalSupportFunction) {
             const auto result = signed_distance<3>(view(shape), view(point));
             EXPECT_TRUE(std::isfinite(result.distance));
             EXPECT_NEAR(length(result.normal), 1, 1e-12);
-            const auto deep = penetration(difference<3>(shape, point));
+            const auto deep = epa(difference<3>(shape, point));
             EXPECT_TRUE(std::isfinite(deep.depth));
             EXPECT_NEAR(length(deep.normal), 1, 1e-12);
             convex_overlap<3>(view(shape), view(point));
@@ -77,29 +77,27 @@ TEST(Engines, EndOnANonsensicalSupportFunction) {
 }
 
 TEST(Penetration, OfPolytopesIsExact) {
-    const auto deep = penetration(difference<3>(Box3{{0, 0, 0}, {1, 1, 1}}, Box3{{1.75f, 0.5f, 0}, {1, 2, 1}}));
-    EXPECT_EQ(deep.exit, PenetrationExit::exact);
+    const auto deep = epa(difference<3>(Box3{{0, 0, 0}, {1, 1, 1}}, Box3{{1.75f, 0.5f, 0}, {1, 2, 1}}));
+    EXPECT_EQ(deep.exit, EpaExit::exact);
     EXPECT_DOUBLE_EQ(deep.depth, 0.25);
     EXPECT_EQ(deep.normal, DVec<3>(1, 0, 0));
-    const auto flat = penetration(difference<2>(Box2{{0, 0}, {3, 1}}, Box2{{0.5f, -0.5f}, {1, 1}}));
-    EXPECT_EQ(flat.exit, PenetrationExit::exact);
+    const auto flat = epa(difference<2>(Box2{{0, 0}, {3, 1}}, Box2{{0.5f, -0.5f}, {1, 1}}));
+    EXPECT_EQ(flat.exit, EpaExit::exact);
     EXPECT_DOUBLE_EQ(flat.depth, 1.5);
     EXPECT_EQ(flat.normal, DVec<2>(0, -1));
 }
 
 TEST(Penetration, WithoutThicknessIsFlat) {
-    const auto crossing =
-        penetration(difference<3>(Segment<3>{{-1, 0, 0}, {1, 0, 0}}, Segment<3>{{0, -1, 0}, {0, 1, 0}}));
-    EXPECT_EQ(crossing.exit, PenetrationExit::flat);
+    const auto crossing = epa(difference<3>(Segment<3>{{-1, 0, 0}, {1, 0, 0}}, Segment<3>{{0, -1, 0}, {0, 1, 0}}));
+    EXPECT_EQ(crossing.exit, EpaExit::flat);
     EXPECT_EQ(crossing.depth, 0);
     EXPECT_DOUBLE_EQ(std::abs(crossing.normal.z), 1);
-    const auto in_a_row =
-        penetration(difference<3>(Segment<3>{{-1, 0, 0}, {1, 0, 0}}, Segment<3>{{0, 0, 0}, {5, 0, 0}}));
-    EXPECT_EQ(in_a_row.exit, PenetrationExit::flat);
+    const auto in_a_row = epa(difference<3>(Segment<3>{{-1, 0, 0}, {1, 0, 0}}, Segment<3>{{0, 0, 0}, {5, 0, 0}}));
+    EXPECT_EQ(in_a_row.exit, EpaExit::flat);
     EXPECT_EQ(in_a_row.depth, 0);
     EXPECT_DOUBLE_EQ(in_a_row.normal.x, 0);
-    const auto points = penetration(difference<2>(Circle{{1, 1}, 3}, Circle{{1, 1}, 2}));
-    EXPECT_EQ(points.exit, PenetrationExit::flat);
+    const auto points = epa(difference<2>(Circle{{1, 1}, 3}, Circle{{1, 1}, 2}));
+    EXPECT_EQ(points.exit, EpaExit::flat);
     EXPECT_EQ(points.depth, 0);
 }
 
@@ -107,8 +105,8 @@ TEST(Penetration, AtItsBoundIsStillAValidMove) {
     // A coin and a needle through its middle: out by half the needle's length, in nearly any direction.
     const Cylinder coin{{0, 0, 0}, {0, 0.001f, 0}, 1};
     const auto needle = stretched(Sphere{{0, 0, 0}, 1}, Vec3(0.001f, 1, 0.001f));
-    const auto deep = penetration(difference<3>(coin, needle));
-    EXPECT_EQ(deep.exit, PenetrationExit::bound_reached);
+    const auto deep = epa(difference<3>(coin, needle));
+    EXPECT_EQ(deep.exit, EpaExit::bound_reached);
     EXPECT_LT(deep.depth, 1.01);
     EXPECT_GE(deep.depth, 1);
     EXPECT_NEAR(dot(deep.normal, difference<3>(coin, needle).support(deep.normal).position), deep.depth, 1e-12);

@@ -1,6 +1,6 @@
 #include "point_sets.hpp"
 #include <abut/convex/facets.hpp>
-#include <abut/convex/hull.hpp>
+#include <abut/convex/hull/hull.hpp>
 
 #include <algorithm>
 #include <string>

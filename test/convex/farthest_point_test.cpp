@@ -3,7 +3,7 @@
 #include "../oracle/random.hpp"
 #include "../oracle/vector_units.hpp"
 #include <abut/convex/farthest_point.hpp>
-#include <abut/convex/point_lanes.hpp>
+#include <abut/convex/point_soa.hpp>
 
 #include <vector>
 
@@ -44,7 +44,7 @@ protected:
             if constexpr (D == 3) {
                 if (!(largest(direction) > 0)) continue;
                 std::vector<float> memory(3 * padded_count(points.size()));
-                const PointLanes lanes = lay_out(points, memory.data());
+                const PointSoa lanes = make_soa(points, memory.data());
                 EXPECT_EQ(farthest_point(lanes, direction), expected);
                 // Where floats would run over, or under.
                 const double scale = random.power_of_two(-300, 300);
@@ -68,7 +68,7 @@ TEST_P(FarthestPoint, IsFoundAmongThoseThatFloatsTakeForAsFar) {
                                          across * random.uniform(-1, 1) + other * random.uniform(-1, 1)));
         std::vector<float> memory(3 * padded_count(points.size()));
         const std::uint32_t expected = one_by_one<3>(points, direction);
-        EXPECT_EQ(farthest_point(lay_out(points, memory.data()), direction), expected);
+        EXPECT_EQ(farthest_point(make_soa(points, memory.data()), direction), expected);
         const auto in_float = [&](const Vec3& p) {
             const Vec3 d = to_float(direction);
             return p.x * d.x + p.y * d.y + p.z * d.z;

@@ -4,7 +4,7 @@
 #include <abut/convex/features.hpp>
 #include <abut/shape/polygon.hpp>
 #include <abut/shape/polyhedron.hpp>
-#include <abut/shape/view.hpp>
+#include <abut/shape/view/view.hpp>
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include "../oracle/degenerate.hpp"
 #include "../oracle/pair.hpp"
 #include <abut/convex/features.hpp>
-#include <abut/convex/hull.hpp>
+#include <abut/convex/hull/hull.hpp>
 
 #include <gtest/gtest.h>
 
@@ -318,7 +318,7 @@ void check(const oracle::Sample<D>& sample, Random& random, Tally& tally) {
         const DVec<D> point = point_near(solid, random);
         const auto found = closest_feature(core, point);
         const double truth = oracle::truth(solid, as_polytope(point)).distance;
-        const double margin = oracle::margin_of_doubt(solid, as_polytope(point)) + 1e-14 * largest(point);
+        const double margin = oracle::tolerance_for(solid, as_polytope(point)) + 1e-14 * largest(point);
         const auto expect_within = [&](double error, const char* what) {
             EXPECT_LE(error, margin) << what << ", truly " << truth << " away";
         };

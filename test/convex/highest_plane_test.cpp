@@ -2,7 +2,7 @@
 
 #include "../oracle/random.hpp"
 #include "../oracle/vector_units.hpp"
-#include <abut/convex/highest_plane.hpp>
+#include <abut/convex/hull/highest_plane.hpp>
 #include <abut/math/dvec.hpp>
 
 #include <cmath>

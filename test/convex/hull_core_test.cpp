@@ -1,10 +1,9 @@
 // Dropping what is deep inside changes no hull: nothing that is dropped matters, and much is.
 #include "point_sets.hpp"
-#include <abut/convex/hull.hpp>
-#include <abut/convex/hull_core.hpp>
-#include <abut/convex/hull_grid.hpp>
-#include <abut/convex/hull_input.hpp>
-#include <abut/convex/hull_spread.hpp>
+#include <abut/convex/hull/hull.hpp>
+#include <abut/convex/hull/hull_grid.hpp>
+#include <abut/convex/hull/hull_input.hpp>
+#include <abut/convex/hull/interior_filter.hpp>
 
 #include <algorithm>
 #include <string>
@@ -105,7 +104,7 @@ TEST(HullCore, IsInsideOfTheRestExactly) {
             SCOPED_TRACE(clouds[kind].name + ", seed " + std::to_string(seed));
             Random random(seed);
             const std::vector<Vec3> points = sorted(placed(clouds[kind].make(random), random));
-            const std::vector<Vec3> rest = sorted(without_core(points));
+            const std::vector<Vec3> rest = sorted(without_interior_points(points));
             ASSERT_TRUE(std::includes(points.begin(), points.end(), rest.begin(), rest.end(),
                                       [](const Vec3& a, const Vec3& b) { return less<3>(a, b); }));
             all += points.size();
@@ -131,16 +130,16 @@ TEST(HullCore, DoesNotDependOnTheOrder) {
         SCOPED_TRACE(clouds[kind].name + ", seed " + std::to_string(kind));
         Random random(kind);
         std::vector<Vec3> points = clouds[kind].make(random);
-        const std::vector<Vec3> once = sorted(without_core(points));
+        const std::vector<Vec3> once = sorted(without_interior_points(points));
         for (std::size_t i = points.size(); i > 1; --i)
             std::swap(points[i - 1], points[random.below(static_cast<std::uint32_t>(i))]);
-        EXPECT_EQ(sorted(without_core(points)), once);
+        EXPECT_EQ(sorted(without_interior_points(points)), once);
     }
 }
 
 TEST(HullCore, IsMostOfABall) {
     Random random(5);
-    EXPECT_LT(without_core(in_a_ball(random, 100000)).size(), 10000u);
+    EXPECT_LT(without_interior_points(in_a_ball(random, 100000)).size(), 10000u);
 }
 
 TEST(HullCore, IsLeftAloneWhereFloatsMightOverflow) {
@@ -148,7 +147,7 @@ TEST(HullCore, IsLeftAloneWhereFloatsMightOverflow) {
     const std::vector<Vec3> ball = in_a_ball(random, 3000);
     for (const float scale : {1e38f, 1e-38f}) {
         std::vector<Vec3> points = stretched(ball, Vec3(scale));
-        EXPECT_EQ(without_core(points), points);
+        EXPECT_EQ(without_interior_points(points), points);
         EXPECT_EQ(abut::hull(points)->rank, 3);
     }
 }

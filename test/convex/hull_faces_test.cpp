@@ -1,7 +1,7 @@
 // Neighbouring faces are joined until none are left that could be.
 #include "point_sets.hpp"
-#include <abut/convex/hull.hpp>
-#include <abut/convex/hull_input.hpp>
+#include <abut/convex/hull/hull.hpp>
+#include <abut/convex/hull/hull_input.hpp>
 
 #include <algorithm>
 #include <set>

@@ -1,10 +1,10 @@
 // The planes of a hull's faces: no input point is outside of them, and they are pushed out no farther than that needs.
 #include "point_sets.hpp"
-#include <abut/convex/hull.hpp>
-#include <abut/convex/hull_grid.hpp>
-#include <abut/convex/hull_input.hpp>
-#include <abut/convex/hull_planes.hpp>
-#include <abut/convex/quickhull.hpp>
+#include <abut/convex/hull/hull.hpp>
+#include <abut/convex/hull/hull_grid.hpp>
+#include <abut/convex/hull/hull_input.hpp>
+#include <abut/convex/hull/hull_planes.hpp>
+#include <abut/convex/hull/quickhull.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // The hull engines: exact arithmetic, hulls found by trying every plane, and the laws that every hull keeps.
 #include "point_sets.hpp"
-#include <abut/convex/hull.hpp>
-#include <abut/convex/hull_input.hpp>
-#include <abut/convex/quickhull.hpp>
+#include <abut/convex/hull/hull.hpp>
+#include <abut/convex/hull/hull_input.hpp>
+#include <abut/convex/hull/quickhull.hpp>
 #include <abut/math/predicates.hpp>
 
 #include <algorithm>

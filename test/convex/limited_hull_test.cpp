@@ -2,9 +2,9 @@
 
 #include "held.hpp"
 #include "point_sets.hpp"
-#include <abut/convex/hull_input.hpp>
-#include <abut/convex/inner_hull.hpp>
-#include <abut/convex/limited_hull.hpp>
+#include <abut/convex/hull/hull_input.hpp>
+#include <abut/convex/hull/limited/inner_hull.hpp>
+#include <abut/convex/hull/limited/limited_hull.hpp>
 #include <abut/shape/polyhedron.hpp>
 
 #include <cmath>

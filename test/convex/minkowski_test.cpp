@@ -1,6 +1,6 @@
 #include "../oracle/random.hpp"
-#include <abut/convex/hull.hpp>
-#include <abut/convex/minkowski.hpp>
+#include <abut/convex/hull/hull.hpp>
+#include <abut/convex/hull/minkowski.hpp>
 
 #include <algorithm>
 #include <set>

@@ -4,7 +4,7 @@
 #include "../oracle/least_box.hpp"
 #include "held.hpp"
 #include "nasty_sets.hpp"
-#include <abut/convex/limited_hull.hpp>
+#include <abut/convex/hull/limited/limited_hull.hpp>
 #include <abut/shape/polygon.hpp>
 #include <abut/shape/polyhedron.hpp>
 

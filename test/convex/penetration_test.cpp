@@ -1,8 +1,8 @@
 // Where the penetration search begins is nothing to its answer, and something to its cost.
 
 #include "../oracle/random.hpp"
-#include <abut/convex/gjk.hpp>
-#include <abut/convex/penetration.hpp>
+#include <abut/convex/gjk/epa.hpp>
+#include <abut/convex/gjk/gjk.hpp>
 #include <abut/shape/placed.hpp>
 #include <abut/shape/polyhedron.hpp>
 
@@ -36,9 +36,9 @@ TEST(Penetration, IsTheSameFromAnyStart) {
         const Polyhedron a = round_hull(random), b = round_hull(random);
         const CoreDifference<3> difference(convex(a), convex(b, affine(near_pose(random, 0.05, 1.6))));
         const GjkResult<3> walk = gjk(difference);
-        const Penetration<3> fresh = penetration(difference), begun = penetration(difference, {}, &walk.simplex);
+        const EpaResult<3> fresh = epa(difference), begun = epa(difference, {}, &walk.simplex);
         EXPECT_NEAR(begun.depth, fresh.depth, 1e-7);
-        EXPECT_EQ(begun.exit, PenetrationExit::exact);
+        EXPECT_EQ(begun.exit, EpaExit::exact);
         started += walk.simplex.count == 4 ? 1 : 0;
     }
     EXPECT_GT(started, 400);
@@ -53,13 +53,13 @@ TEST(Penetration, TellsTheCacheWhatHoldsFaceAndOrigin) {
         const CoreDifference<3> difference(convex(a), convex(b, affine(near_pose(random, 1.6, 1.85))));
         Cache cache;
         Trace<3> first;
-        const Penetration<3> found = penetration(difference, {&cache, &first});
+        const EpaResult<3> found = epa(difference, {&cache, &first});
         if (found.depth < 0 || cache.count != 4) continue;
         ++told;
         const GjkResult<3> walk = gjk(difference, std::numeric_limits<double>::infinity(), {.cache = &cache});
         EXPECT_EQ(walk.exit, GjkExit::overlapping);
         Trace<3> again;
-        EXPECT_NEAR(penetration(difference, {nullptr, &again}, &walk.simplex).depth, found.depth, 1e-7);
+        EXPECT_NEAR(epa(difference, {nullptr, &again}, &walk.simplex).depth, found.depth, 1e-7);
         cold += steps_of(first);
         warm += steps_of(again);
     }

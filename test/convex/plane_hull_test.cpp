@@ -3,9 +3,9 @@
 
 #include "held.hpp"
 #include "point_sets.hpp"
-#include <abut/convex/hull_input.hpp>
-#include <abut/convex/limited_hull.hpp>
-#include <abut/convex/outer_polygon.hpp>
+#include <abut/convex/hull/hull_input.hpp>
+#include <abut/convex/hull/limited/limited_hull.hpp>
+#include <abut/convex/hull/limited/outer_polygon.hpp>
 #include <abut/math/predicates.hpp>
 #include <abut/shape/polygon.hpp>
 

@@ -1,8 +1,8 @@
 // The quick ways of the plane against the searches that they save.
 
 #include "../oracle/pair.hpp"
-#include <abut/convex/clip.hpp>
-#include <abut/convex/plane_pair.hpp>
+#include <abut/convex/manifold/clip.hpp>
+#include <abut/convex/pairs/pair2.hpp>
 #include <abut/query/certify.hpp>
 #include <abut/query/contact.hpp>
 #include <abut/query/intersection.hpp>
@@ -33,10 +33,10 @@ Closest<2> as_closest(const SignedDistance<2>& distance) {
 /// The same answers as those of the searches; certified; and the same again from a cache.
 void expect_agreement(const Convex<2>& a, const Convex<2>& b, double margin, Told& told) {
     ++told.pairs;
-    Outline outline_a, outline_b;
-    if (!set_outline(a, outline_a) || !set_outline(b, outline_b)) return;
+    PlacedPolygon outline_a, outline_b;
+    if (!set_placed_polygon(a, outline_a) || !set_placed_polygon(b, outline_b)) return;
     SignedDistance<2> quick;
-    if (plane_distance(outline_a, outline_b, nullptr, quick) == PlaneAnswer::unknown) return;
+    if (pair2_distance(outline_a, outline_b, nullptr, quick) == PairAnswer2::unknown) return;
     ++told.told;
     const SignedDistance<2> searched = signed_distance(a, b);
     told.overlapping += searched.distance <= 0 ? 1 : 0;
@@ -44,30 +44,30 @@ void expect_agreement(const Convex<2>& a, const Convex<2>& b, double margin, Tol
     EXPECT_NEAR(length(quick.normal), 1, 1e-12);
     EXPECT_TRUE(certify(View<2>(a), View<2>(b), as_closest(quick)));
 
-    const PlaneAnswer near = plane_near(outline_a, outline_b, 0, nullptr);
+    const PairAnswer2 near = pair2_within(outline_a, outline_b, 0, nullptr);
     const bool certain = std::abs(searched.distance) > margin;
     if (certain) {
-        EXPECT_EQ(near, searched.distance <= 0 ? PlaneAnswer::within : PlaneAnswer::beyond);
+        EXPECT_EQ(near, searched.distance <= 0 ? PairAnswer2::within : PairAnswer2::beyond);
     }
     Cache cache;
     for (int time = 0; time < 3; ++time) {
         SignedDistance<2> again;
-        ASSERT_NE(plane_distance(outline_a, outline_b, &cache, again), PlaneAnswer::unknown);
+        ASSERT_NE(pair2_distance(outline_a, outline_b, &cache, again), PairAnswer2::unknown);
         EXPECT_NEAR(again.distance, quick.distance, 1e-3 * margin);
         if (certain) {
-            EXPECT_EQ(plane_near(outline_a, outline_b, 0, &cache), near);
+            EXPECT_EQ(pair2_within(outline_a, outline_b, 0, &cache), near);
         }
     }
 }
 
 /// The deepest point is as deep, and each lies midway between surfaces that are as deep there as it says.
 void expect_same_contact(const Convex<2>& a, const Convex<2>& b, double margin) {
-    Outline outline_a, outline_b;
-    if (!set_outline(a, outline_a) || !set_outline(b, outline_b)) return;
+    PlacedPolygon outline_a, outline_b;
+    if (!set_placed_polygon(a, outline_a) || !set_placed_polygon(b, outline_b)) return;
     SignedDistance<2> distance;
     Manifold<2> quick;
-    const PlaneAnswer answer = plane_contact(outline_a, outline_b, 0, 0, nullptr, distance, quick);
-    if (answer != PlaneAnswer::within) return;
+    const PairAnswer2 answer = pair2_contact(outline_a, outline_b, 0, 0, nullptr, distance, quick);
+    if (answer != PairAnswer2::within) return;
     const Manifold<2> plain = manifold(a, b, distance, 0);
     double deepest = 0;
     for (std::size_t i = 0; i < quick.count; ++i) deepest = std::max(deepest, quick.points[i].depth);
@@ -97,7 +97,7 @@ TEST(PlanePairs, AgreeWithTheSearches) {
         Random random(seed);
         const Kind kind_a = kinds[random.below(7)], kind_b = kinds[random.below(7)];
         const auto pair = oracle::random_pair<2>(random, kind_a, kind_b);
-        const double margin = oracle::margin_of_doubt(pair.a.solid, pair.b.solid);
+        const double margin = oracle::tolerance_for(pair.a.solid, pair.b.solid);
         expect_agreement(convex_of(pair.a), convex_of(pair.b), margin, told);
         expect_same_contact(convex_of(pair.a), convex_of(pair.b), margin);
     }
@@ -197,7 +197,7 @@ TEST(PlaneIntersection, IsThatOfTheGeneralCut) {
         std::vector<Vec2> corners;
         for (const DVec<2>& corner : clip(a, b)) corners.push_back(to_float(corner));
         const bool meet = intersection(a, b, quick);
-        const double margin = oracle::margin_of_doubt(pair.a.solid, pair.b.solid);
+        const double margin = oracle::tolerance_for(pair.a.solid, pair.b.solid);
         if (meet == corners.empty()) {
             EXPECT_LE(std::abs(signed_distance(a, b).distance), margin);
             continue;

@@ -3,7 +3,7 @@
 // Sets of points that hulls find hard, each in another way.
 
 #include "../oracle/random.hpp"
-#include <abut/math/linear.hpp>
+#include <abut/math/affine.hpp>
 
 #include <cmath>
 #include <functional>

@@ -4,9 +4,9 @@
 #include "../oracle/pair.hpp"
 #include "../oracle/vector_units.hpp"
 #include "point_sets.hpp"
-#include <abut/convex/gjk.hpp>
-#include <abut/convex/quick_distance.hpp>
-#include <abut/convex/quick_walk.hpp>
+#include <abut/convex/gjk/fast_distance.hpp>
+#include <abut/convex/gjk/gjk.hpp>
+#include <abut/convex/gjk/gjk_fast.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/placed.hpp>
 #include <abut/shape/polyhedron.hpp>
@@ -61,34 +61,34 @@ struct HullPair {
     Convex<3> a, b;
 };
 
-TEST(QuickWalk, FindsTheDistanceOfTheCarefulWalk) {
+TEST(GjkFast, FindsTheDistanceOfTheCarefulWalk) {
     int found = 0, apart = 0;
     const int count = oracle::amount(1000);
     for (int i = 0; i < count; ++i) {
         SCOPED_TRACE(i);
         const HullPair pair(static_cast<std::uint64_t>(i));
         const GjkResult<3> careful = gjk(CoreDifference<3>(pair.a, pair.b));
-        if (careful.proven > 1e-5 * size(pair.a)) ++apart;
+        if (careful.lower_bound > 1e-5 * size(pair.a)) ++apart;
         Cache inside, cache;
         SignedDistance<3> quick, again;
-        if (!quick_distance(pair.a, pair.b, {.cache = &cache}, quick, inside)) continue;
+        if (!fast_distance(pair.a, pair.b, {.cache = &cache}, quick, inside)) continue;
         ++found;
-        EXPECT_TRUE(careful.agreed());
-        const double doubt = 1e-9 * (careful.reached + size(pair.a) + size(pair.b));
-        EXPECT_NEAR(quick.distance, careful.reached, doubt);
+        EXPECT_TRUE(careful.converged());
+        const double doubt = 1e-9 * (careful.upper_bound + size(pair.a) + size(pair.b));
+        EXPECT_NEAR(quick.distance, careful.upper_bound, doubt);
         // A slab between the two as wide as the distance is the proof of it.
         const double to_a = dot(support(pair.a, quick.normal) - quick.on_a, quick.normal);
         const double to_b = dot(support(pair.b, -quick.normal) - quick.on_b(), -quick.normal);
         EXPECT_LE(std::abs(to_a), doubt);
         EXPECT_LE(std::abs(to_b), doubt);
-        ASSERT_TRUE(quick_distance(pair.a, pair.b, {.cache = &cache}, again, inside));
+        ASSERT_TRUE(fast_distance(pair.a, pair.b, {.cache = &cache}, again, inside));
         EXPECT_NEAR(again.distance, quick.distance, 1e-12 * (quick.distance + size(pair.a)));
     }
     EXPECT_GT(apart, count / 3);
     EXPECT_GT(found, apart * 9 / 10);
 }
 
-TEST(QuickWalk, DecidesOnlyWhatIsCertain) {
+TEST(GjkFast, DecidesOnlyWhatIsCertain) {
     int overlapping = 0, separated = 0;
     const int count = oracle::amount(1000);
     for (int i = 0; i < count; ++i) {
@@ -97,7 +97,7 @@ TEST(QuickWalk, DecidesOnlyWhatIsCertain) {
         const double distance = signed_distance(pair.a, pair.b).distance;
         Cache cache;
         for (int round = 0; round < 2; ++round) {
-            const auto quick = quick_overlap(pair.a, pair.b, {.cache = &cache});
+            const auto quick = fast_overlap(pair.a, pair.b, {.cache = &cache});
             if (!quick) continue;
             ++(*quick ? overlapping : separated);
             EXPECT_EQ(*quick, distance <= 0) << distance;
@@ -107,7 +107,7 @@ TEST(QuickWalk, DecidesOnlyWhatIsCertain) {
     EXPECT_GT(separated, count / 3);
 }
 
-TEST(QuickWalk, IsNoHarmFromTheCacheOfAnotherPair) {
+TEST(GjkFast, IsNoHarmFromTheCacheOfAnotherPair) {
     for (int i = 0; i < 500; ++i) {
         SCOPED_TRACE(i);
         const HullPair pair(static_cast<std::uint64_t>(i));
@@ -118,8 +118,8 @@ TEST(QuickWalk, IsNoHarmFromTheCacheOfAnotherPair) {
         for (std::uint32_t& corner : cache.corner_b) corner = random.below(20);
         Cache inside, none;
         SignedDistance<3> with, without;
-        if (!quick_distance(pair.a, pair.b, {.cache = &cache}, with, inside)) continue;
-        if (!quick_distance(pair.a, pair.b, {}, without, none)) continue;
+        if (!fast_distance(pair.a, pair.b, {.cache = &cache}, with, inside)) continue;
+        if (!fast_distance(pair.a, pair.b, {}, without, none)) continue;
         EXPECT_NEAR(with.distance, without.distance, 2e-9 * without.distance);
     }
 }
@@ -132,10 +132,11 @@ protected:
         const auto note = [&](double number) { result.push_back(std::bit_cast<std::uint64_t>(number)); };
         for (std::uint64_t seed = 0; seed < 200; ++seed) {
             const HullPair pair(seed);
-            QuickSimplex simplex;
-            QuickGap gap;
-            result.push_back(static_cast<std::uint64_t>(quick_gap(pair.a, pair.b, simplex, gap, nullptr)));
-            for (const double number : {gap.reached, gap.proven, gap.on_a.x, gap.on_a.y, gap.on_a.z}) note(number);
+            GjkFastSimplex simplex;
+            GjkFastDistance gap;
+            result.push_back(static_cast<std::uint64_t>(gjk_fast_distance(pair.a, pair.b, simplex, gap, nullptr)));
+            for (const double number : {gap.upper_bound, gap.lower_bound, gap.on_a.x, gap.on_a.y, gap.on_a.z})
+                note(number);
             for (int i = 0; i < 3; ++i) note(simplex.toward[i]);
             result.insert(result.end(), simplex.corner_a.begin(), simplex.corner_a.end());
             result.insert(result.end(), simplex.corner_b.begin(), simplex.corner_b.end());

@@ -1,10 +1,9 @@
 // The quickhull's surface is closed and convex, decided in whole numbers alone, and holds every point: exactly where
 // nothing may be left out.
 #include "point_sets.hpp"
-#include <abut/convex/hull.hpp>
-#include <abut/convex/hull_grid.hpp>
-#include <abut/convex/hull_input.hpp>
-#include <abut/convex/hull_spread.hpp>
+#include <abut/convex/hull/hull.hpp>
+#include <abut/convex/hull/hull_grid.hpp>
+#include <abut/convex/hull/hull_input.hpp>
 
 #include <algorithm>
 #include <string>

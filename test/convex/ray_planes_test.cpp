@@ -2,7 +2,7 @@
 
 #include "../oracle/random.hpp"
 #include "../oracle/vector_units.hpp"
-#include <abut/convex/ray_planes.hpp>
+#include <abut/convex/ray/planes.hpp>
 
 #include <vector>
 

@@ -3,7 +3,7 @@
 #include "../oracle/distance.hpp"
 #include "../oracle/pair.hpp"
 #include <abut/convex/features.hpp>
-#include <abut/convex/sat.hpp>
+#include <abut/convex/gjk/sat.hpp>
 #include <abut/shape/cylinder.hpp>
 
 #include <gtest/gtest.h>
@@ -76,7 +76,7 @@ TYPED_TEST(SatOracle, AgreesOnThePairsThatOverlap) {
         const CoreDifference<D> cores(std::get<Convex<D>>(pair.a.view), std::get<Convex<D>>(pair.b.view));
         const SeparatingAxis<D> found = separating_axis(cores);
         const oracle::Truth<D> truth = oracle::truth(pair.a.solid, pair.b.solid);
-        const double margin = oracle::margin_of_doubt(pair.a.solid, pair.b.solid);
+        const double margin = oracle::tolerance_for(pair.a.solid, pair.b.solid);
         ++pairs;
         EXPECT_NEAR(length(found.normal), 1, 1e-12);
         if (truth.overlap) {

@@ -1,7 +1,7 @@
 // The closest point of a simplex, worked out by hand and against trying many weights.
 
 #include "../oracle/random.hpp"
-#include <abut/convex/simplex.hpp>
+#include <abut/convex/gjk/simplex.hpp>
 
 #include <gtest/gtest.h>
 
@@ -104,7 +104,7 @@ TEST(Simplex, OfRandomTetrahedraIsNoFartherThanAnyCombination) {
 TEST(Simplex, NearAFaceFindsTheClosestPoint) {
     const DVec<3> target(1, 1, 5);
     const auto simplex = simplex_of<3>({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}});
-    const Simplex<3> face = face_near({simplex.points[0], simplex.points[1], simplex.points[2]}, target);
+    const Simplex<3> face = closest_subsimplex({simplex.points[0], simplex.points[1], simplex.points[2]}, target);
     EXPECT_LT(length(face.combine(&DifferencePoint<3>::position) - DVec<3>(1, 1, 0)), 1e-15);
     EXPECT_LT(length(face.combine(&DifferencePoint<3>::on_a) - DVec<3>(1, 1, 0)), 1e-15);
 }

@@ -2,13 +2,13 @@
 
 #include "../oracle/check.hpp"
 #include "../oracle/pair.hpp"
-#include <abut/convex/turning_gap.hpp>
+#include <abut/convex/toi/separation_function.hpp>
 
 namespace abut {
 namespace {
 
 template <int D>
-Spin<D> random_spin(oracle::Random& random, double most) {
+AngularVelocity<D> random_spin(oracle::Random& random, double most) {
     if constexpr (D == 2)
         return random.uniform(-most, most);
     else
@@ -18,9 +18,9 @@ Spin<D> random_spin(oracle::Random& random, double most) {
 template <int D>
 struct Case {
     oracle::SamplePair<D> pair;
-    TurningSet<D> a, b;
+    RotatingSet<D> a, b;
     DVec<D> normal;
-    Spin<D> spin;
+    AngularVelocity<D> angular_velocity;
 
     explicit Case(oracle::Random& random)
         : pair{oracle::Maker<D>(oracle::Random(random.bits()), random.in_cube<D>(), 1).make(kind(random)),
@@ -28,10 +28,10 @@ struct Case {
           a(std::get<Convex<D>>(pair.a.view), path(random, 0), 0),
           b(std::get<Convex<D>>(pair.b.view), path(random, 6), 0),
           normal(random.direction<D>()),
-          spin(random_spin<D>(random, 4)) {
+          angular_velocity(random_spin<D>(random, 4)) {
         // Half of the axes turn with one of the two.
-        if (random.chance(0.25)) spin = a.path().spin;
-        if (random.chance(0.25)) spin = b.path().spin;
+        if (random.chance(0.25)) angular_velocity = a.path().angular_velocity;
+        if (random.chance(0.25)) angular_velocity = b.path().angular_velocity;
         if (random.chance(0.7)) {
             const DVec<D> way = b.path().pivot(0) - a.path().pivot(0);
             normal = normalized(way + random.in_cube<D>() * length(way));
@@ -45,7 +45,7 @@ private:
     static RigidPath<D> path(oracle::Random& random, double away) {
         RigidPath<D> result = rigid_path(Motion<D>{{to_float(random.in_cube<D>() * away), random.rotation<D>()}});
         result.move = random.in_cube<D>() * 2.0;
-        result.spin = random_spin<D>(random, random.chance(0.2) ? 0 : 7);
+        result.angular_velocity = random_spin<D>(random, random.chance(0.2) ? 0 : 7);
         return result;
     }
 };
@@ -55,7 +55,7 @@ void expect_bend_holds(std::uint64_t seed, double& sharpest) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     oracle::Random random(seed);
     Case<D> c(random);
-    TurningGap<D> gap(c.a, c.b, c.normal, c.spin, 0);
+    SeparationFunction<D> gap(c.a, c.b, c.normal, c.angular_velocity, 0);
     // Of one corner of each, placed by hand.
     const auto& core_a = c.a.here();
     const auto& core_b = c.b.here();
@@ -64,13 +64,14 @@ void expect_bend_holds(std::uint64_t seed, double& sharpest) {
     const DVec<D> direction_a = random.direction<D>(), direction_b = random.direction<D>();
     const DVec<D> on_a = core_support(core_a, direction_a).position - c.a.path().start.offset,
                   on_b = core_support(core_b, direction_b).position - c.b.path().start.offset;
-    const TurningAxis<D> turn_a(c.a.path().spin), turn_b(c.b.path().spin), turn_n(c.spin);
+    const RotationAxis<D> turn_a(c.a.path().angular_velocity), turn_b(c.b.path().angular_velocity),
+        turn_n(c.angular_velocity);
     const auto between = [&](double time) {
         const DVec<D> b = c.b.path().pivot(time) + turn_b.of(on_b).at(sin_cos(turn_b.rate * time));
         const DVec<D> a = c.a.path().pivot(time) + turn_a.of(on_a).at(sin_cos(turn_a.rate * time));
         return dot(turn_n.of(c.normal).at(sin_cos(turn_n.rate * time)), b - a);
     };
-    const double bend = gap.bend(), h = 1e-3;
+    const double bend = gap.acceleration_bound(), h = 1e-3;
     for (int i = 1; i < 20; ++i) {
         const double time = i / 20.0;
         const double measured = (between(time + h) - 2 * between(time) + between(time - h)) / (h * h);
@@ -79,7 +80,7 @@ void expect_bend_holds(std::uint64_t seed, double& sharpest) {
     }
 }
 
-TEST(TurningGap, BendsNoMoreThanTold) {
+TEST(SeparationFunction, BendsNoMoreThanTold) {
     double sharpest = 0;
     for (std::uint64_t seed = 1; seed <= 1000; ++seed) {
         expect_bend_holds<2>(seed, sharpest);
@@ -97,9 +98,9 @@ void expect_open(std::uint64_t seed, Tally& tally) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     oracle::Random random(seed);
     Case<D> c(random);
-    TurningGap<D> gap(c.a, c.b, c.normal, c.spin, 0);
+    SeparationFunction<D> gap(c.a, c.b, c.normal, c.angular_velocity, 0);
     const double level = gap.at(0).gap - random.uniform(0.01, 2), slack = 1e-3;
-    const OpenUntil open = open_until(gap, 0, 1, gap.at(0), level, slack);
+    const SeparatedUntil open = separated_until(gap, 0, 1, gap.at(0), level, slack);
     ASSERT_GE(open.time, 0);
     ASSERT_LE(open.time, 1);
     EXPECT_EQ(open.gap, gap.at(open.time).gap);
@@ -107,7 +108,7 @@ void expect_open(std::uint64_t seed, Tally& tally) {
     (open.time == 1 ? tally.whole : open.gap <= level + slack ? tally.closed : tally.cut) += 1;
 }
 
-TEST(TurningGap, IsOpenUntilToldAndFoundClosedThere) {
+TEST(SeparationFunction, IsOpenUntilToldAndFoundClosedThere) {
     Tally tally;
     for (std::uint64_t seed = 1; seed <= 2000; ++seed) {
         expect_open<2>(seed, tally);
@@ -118,20 +119,20 @@ TEST(TurningGap, IsOpenUntilToldAndFoundClosedThere) {
     EXPECT_EQ(tally.cut, 0);  // the bound on steps is far off
 }
 
-TEST(TurningGap, ThatIsClosedIsNotFollowed) {
+TEST(SeparationFunction, ThatIsClosedIsNotFollowed) {
     oracle::Random random(1);
     Case<3> c(random);
-    TurningGap<3> gap(c.a, c.b, c.normal, c.spin, 0);
-    EXPECT_EQ(open_until(gap, 0.25, 1, gap.at(0.25), gap.at(0.25).gap + 1, 0.1).time, 0.25);
+    SeparationFunction<3> gap(c.a, c.b, c.normal, c.angular_velocity, 0);
+    EXPECT_EQ(separated_until(gap, 0.25, 1, gap.at(0.25), gap.at(0.25).gap + 1, 0.1).time, 0.25);
 }
 
 /// The rate by which a gap goes on is that of the axis and the corners.
-TEST(TurningGap, TellsItsRate) {
+TEST(SeparationFunction, TellsItsRate) {
     int smooth = 0;
     for (std::uint64_t seed = 1; seed <= 300; ++seed) {
         oracle::Random random(seed);
         Case<3> c(random);
-        TurningGap<3> gap(c.a, c.b, c.normal, c.spin, 0);
+        SeparationFunction<3> gap(c.a, c.b, c.normal, c.angular_velocity, 0);
         const double time = random.uniform(0.1, 0.9), h = 1e-5;
         const double before = gap.at(time - h).gap, after = gap.at(time + h).gap, rate = gap.at(time).rate;
         smooth += std::abs((after - before) / (2 * h) - rate) < 1e-3 ? 1 : 0;

@@ -14,7 +14,7 @@ Known known_of(const SamplePair<D>& pair) {
     const Truth<D> truth = oracle::truth(pair.a.solid, pair.b.solid, Arithmetic::rough);
     const double size_a = oracle::size(pair.a.solid), size_b = oracle::size(pair.b.solid);
     const bool by_support = pair.a.kind == Kind::cloud || pair.b.kind == Kind::cloud;
-    return {truth.distance, oracle::margin_of_doubt(pair.a.solid, pair.b.solid),
+    return {truth.distance, oracle::tolerance_for(pair.a.solid, pair.b.solid),
             by_support ? depth_slack * std::min(size_a, size_b) : 0, truth.unproved, size_a + size_b};
 }
 

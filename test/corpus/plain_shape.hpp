@@ -14,13 +14,13 @@ using oracle::Sample;
 /// Refers to what the sample keeps.
 struct PlainSample {
     Sample<2> sample;
-    Given<2> given;
+    ShapeRef<2> given;
 };
 
 template <class S>
 PlainSample plain_sample(Kind kind, S shape, oracle::Polytope<2> solid) {
     auto keeper = std::make_shared<const S>(std::move(shape));
-    return {{kind, keeper, View<2>(view(*keeper)), std::move(solid)}, given(*keeper)};
+    return {{kind, keeper, View<2>(view(*keeper)), std::move(solid)}, shape_ref(*keeper)};
 }
 
 /// A box through three corners of one, in their order.

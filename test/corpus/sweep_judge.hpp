@@ -54,7 +54,7 @@ MovingPair<D> set_in_motion(const SamplePair<D>& pair, Random random) {
     const DVec<D> way = some_way(random, pair, there.normal);
     const double larger = std::max(oracle::size(pair.a.solid), oracle::size(pair.b.solid));
     // A point has no size.
-    const double least = std::max(10 * oracle::margin_of_doubt(pair.a.solid, pair.b.solid), 1e-4);
+    const double least = std::max(10 * oracle::tolerance_for(pair.a.solid, pair.b.solid), 1e-4);
     const double smaller = std::max(smaller_size(pair.a, pair.b), least);
     const auto length = [&] {
         if (random.chance(0.1)) return smaller * random.power_of_two(-20, -2);
@@ -106,7 +106,7 @@ public:
         : pair_(pair),
           motion_(pair.motion),
           size_(smaller_size(pair.a, pair.b)),
-          margin_(oracle::margin_of_doubt(pair.a.solid, pair.b.solid)) {}
+          margin_(oracle::tolerance_for(pair.a.solid, pair.b.solid)) {}
 
     /// Of what `sweep` says of the pair.
     SweepVerdict judge(const std::optional<Hit<D>>& hit) {

@@ -32,8 +32,8 @@ std::vector<Question> questions(std::size_t count) {
         const auto a = peer_shape(pair.a), b = peer_shape(pair.b);
         if (!a || !b) continue;
         const double distance = oracle::truth(pair.a.solid, pair.b.solid, oracle::Arithmetic::rough).distance;
-        result.push_back({place.family, place.seed, *a, *b, distance,
-                          oracle::margin_of_doubt(pair.a.solid, pair.b.solid), std::min(a->size, b->size)});
+        result.push_back({place.family, place.seed, *a, *b, distance, oracle::tolerance_for(pair.a.solid, pair.b.solid),
+                          std::min(a->size, b->size)});
     }
     return result;
 }

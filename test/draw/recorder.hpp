@@ -4,7 +4,7 @@
 
 #include "../oracle/random.hpp"
 #include <abut/draw/canvas.hpp>
-#include <abut/shape/view.hpp>
+#include <abut/shape/view/view.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -64,8 +64,8 @@ TEST(DrawWalkMesh, HasAStyleForEachTriangle) {
     const WalkMesh mesh = squares();
     draw(canvas, mesh, [&](std::uint32_t triangle) {
         Style style = plain;
-        style.fill.red = static_cast<std::uint8_t>(mesh.island(triangle));
-        if (mesh.island(triangle) == 1) style.stroke = transparent;
+        style.fill.red = static_cast<std::uint8_t>(mesh.component(triangle));
+        if (mesh.component(triangle) == 1) style.stroke = transparent;
         return style;
     });
     ASSERT_EQ(canvas.polygons.size(), 8u);

@@ -3,8 +3,8 @@
 
 #include "../oracle/vector_units.hpp"
 #include "analytic.hpp"
-#include <abut/field/field_look_up.hpp>
-#include <abut/field/field_spot.hpp>
+#include <abut/field/look_up/look_up.hpp>
+#include <abut/field/look_up/stencil.hpp>
 #include <abut/field/quantise.hpp>
 
 #include <bit>
@@ -72,7 +72,7 @@ void expect_same(const Field<D>& field) {
                 ASSERT_TRUE(same_bits(samples[i].normal, one.normal)) << i;
                 if constexpr (D == 3)
                     if (field.data().lookup == FieldLookup::gradient && contains(field.volume(), points[i])) {
-                        const FieldSample<3> plain = gradient_sample_plainly(field.data(), points[i]);
+                        const FieldSample<3> plain = gradient_sample_reference(field.data(), points[i]);
                         ASSERT_EQ(plain.distance, one.distance) << i;
                         ASSERT_EQ(plain.normal, one.normal) << i;
                     }

@@ -2,7 +2,7 @@
 
 #include "../oracle/seal.hpp"
 #include "analytic.hpp"
-#include <abut/field/field_blob.hpp>
+#include <abut/field/file.hpp>
 #include <abut/field/quantise.hpp>
 
 #include <cstdint>

@@ -74,7 +74,7 @@ TEST(FieldShape, BoundsAreBelowAndNear) {
             const double size = random.power_of_two(-14, -2);
             for (int a = 0; a < 3; ++a) half[a] = random.uniform(0, size);
             DistanceBound<3> bound;
-            if (seen.bound(seen.object, center - half, center + half, bound) != DistanceKnown::bound) continue;
+            if (seen.bound(seen.object, center - half, center + half, bound) != DistanceBoundStatus::valid) continue;
             ++told;
             double least = 1e9, least_above = 1e9;
             for (int k = 0; k < 64; ++k) {
@@ -83,14 +83,14 @@ TEST(FieldShape, BoundsAreBelowAndNear) {
                     place[a] += half[a] * (k < 8 ? ((k >> a & 1) != 0 ? 1 : -1) : random.uniform(-1, 1));
                 const double here = shape_distance(stone, to_float(place));
                 const double plane = bound.value + dot(bound.gradient, place - center);
-                EXPECT_GE(here, bound.least - 2e-6);
+                EXPECT_GE(here, bound.lower_bound - 2e-6);
                 EXPECT_GE(here, plane - 2e-6);
                 least = std::min(least, here);
                 least_above = std::min(least_above, here - plane);
             }
             // A box in one cell tells its least exactly, and one of many no worse than a cell does.
             const double slack = size < 0.002 ? 0.05 * size + 2e-6 : 0.1;
-            EXPECT_LE(least - bound.least, slack + 1.8 * size);
+            EXPECT_LE(least - bound.lower_bound, slack + 1.8 * size);
             far_off += least_above > slack ? 1 : 0;
         }
         EXPECT_GT(told, 500);

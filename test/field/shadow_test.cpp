@@ -1,7 +1,7 @@
 #include "../oracle/random.hpp"
 #include "analytic.hpp"
 #include <abut/field/field.hpp>
-#include <abut/field/shadow_walk.hpp>
+#include <abut/field/shadow_ray.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -221,10 +221,10 @@ TEST(FieldShadow, StepsHaveABound) {
     data.distance.assign(41 * 41, 1e-6f);
     const Field2 field(data);
     const auto places = [&](std::uint32_t limit) {
-        ShadowWalk<2> walk(field.data(), {0, 0.01f}, {4, 0.01f});
+        ShadowRay<2> walk(field.data(), {0, 0.01f}, {4, 0.01f});
         if (limit > 0) walk.limit(limit);
         int result = 0;
-        for (; walk.goes_on(); ++result) walk.tell(field.distance(walk.place()));
+        for (; walk.is_running(); ++result) walk.advance(field.distance(walk.place()));
         EXPECT_GT(walk.light(0), 0);
         return result;
     };

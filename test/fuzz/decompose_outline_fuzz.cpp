@@ -63,7 +63,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         require(!parts.problem().message.empty());
         return 0;
     }
-    require(!parts->empty() && report.pieces == parts->size() && report.least_pieces <= parts->size());
+    require(!parts->empty() && report.pieces == parts->size() && report.min_pieces <= parts->size());
     const oracle::OutlineParts oracle(rings[0], holes, *parts);
     require(oracle.fault_of_corners().empty());
     require(oracle.fault_of_overlaps().empty());

@@ -4,8 +4,8 @@
 #include "../oracle/finite_answers.hpp"
 #include "../oracle/random.hpp"
 #include "../oracle/seal.hpp"
-#include <abut/field/field_blob.hpp>
-#include <abut/field/field_check.hpp>
+#include <abut/field/check.hpp>
+#include <abut/field/file.hpp>
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/capsule.hpp>

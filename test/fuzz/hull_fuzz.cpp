@@ -1,9 +1,9 @@
 // Hulls of any points, in the plane and in space, with any limit: nothing is left out, nothing sticks out that isn't
 // asked for, and what comes out are numbers.
 
-#include <abut/convex/hull.hpp>
-#include <abut/convex/hull_input.hpp>
-#include <abut/convex/limited_hull.hpp>
+#include <abut/convex/hull/hull.hpp>
+#include <abut/convex/hull/hull_input.hpp>
+#include <abut/convex/hull/limited/limited_hull.hpp>
 #include <abut/math/dvec.hpp>
 #include <abut/math/predicates.hpp>
 

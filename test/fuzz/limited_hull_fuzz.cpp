@@ -1,9 +1,9 @@
 // Hulls with a vertex limit of any points, in the plane and in space, stretched, flat, far away: every point is held
 // exactly, no limit is exceeded, and nothing is larger than the bounding box.
 
-#include <abut/convex/hull.hpp>
-#include <abut/convex/hull_input.hpp>
-#include <abut/convex/limited_hull.hpp>
+#include <abut/convex/hull/hull.hpp>
+#include <abut/convex/hull/hull_input.hpp>
+#include <abut/convex/hull/limited/limited_hull.hpp>
 #include <abut/math/dvec.hpp>
 #include <abut/math/predicates.hpp>
 
@@ -88,7 +88,7 @@ void check_plane(const std::vector<Vec2>& points, std::uint32_t limit) {
         area += 0.5 * cross(DVec<2>(a) - origin, DVec<2>(b) - origin);
         for (const Vec2& point : points) require(orientation(a, b, point) >= 0);
     }
-    const DVec<2> side = greatest_corner<2>(points) - least_corner<2>(points);
+    const DVec<2> side = max_corner<2>(points) - min_corner<2>(points);
     if (limit >= 4) require(area <= side.x * side.y * (1 + 1e-9));
 }
 
@@ -125,7 +125,7 @@ void check_space(const std::vector<Vec3>& points, std::uint32_t limit) {
             require(dot(DVec<3>(built->normals[face]), DVec<3>(point)) <= built->offsets[face]);
     if (built->rank < 3) return;
     check_held(built->points, points);
-    const DVec<3> side = greatest_corner<3>(points) - least_corner<3>(points);
+    const DVec<3> side = max_corner<3>(points) - min_corner<3>(points);
     if (limit >= 8 && full.rank == 3) require(built->volume <= side.x * side.y * side.z * (1 + 1e-9));
 }
 

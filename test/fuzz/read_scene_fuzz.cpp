@@ -3,11 +3,11 @@
 // Assimp isn't ours, leaks and crashes on some bytes (the tool gives it a process of its own), and would be all that is
 // found.
 
-#include <abut/io/gltf_container.hpp>
-#include <abut/io/gltf_document.hpp>
-#include <abut/io/read_gltf.hpp>
+#include <abut/io/gltf/container.hpp>
+#include <abut/io/gltf/document.hpp>
+#include <abut/io/gltf/read_gltf.hpp>
+#include <abut/io/mesh/scene_bytes.hpp>
 #include <abut/io/read_scene.hpp>
-#include <abut/io/scene_bytes.hpp>
 #include <abut/math/vec.hpp>
 
 #include <cstddef>
@@ -64,7 +64,7 @@ std::string_view extension_of(std::string_view text) {
 bool is_for_assimp(std::span<const std::byte> bytes, std::string_view extension) {
     if (extension != ".glb" && extension != ".gltf") return true;
     const Result<gltf::Document> document = gltf::parse(bytes, gltf::is_container(bytes));
-    return document && !gltf::is_plain(*document);
+    return document && !gltf::is_supported(*document);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // Mesh repair on any triangles: a surface whose numbers are right, or a Problem with a message.
 
 #include <abut/bake/repair.hpp>
-#include <abut/shape/half_edges.hpp>
+#include <abut/shape/mesh/half_edges.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -78,8 +78,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         }
     for (const bool used : is_used) require(used);
     const EdgeFaults faults = edge_faults(result->triangles);
-    require(faults.closed == result->closed && faults.open == result->repairs.open_edges &&
-            faults.crowded == result->repairs.crowded_edges && faults.disagreeing == result->repairs.disagreeing_edges);
+    require(faults.closed == result->closed && faults.boundary == result->repairs.open_edges &&
+            faults.non_manifold == result->repairs.non_manifold_edges &&
+            faults.inconsistent == result->repairs.disagreeing_edges);
     require(!described(result->repairs).empty());
     return 0;
 }

@@ -1,7 +1,7 @@
 // Bytes as walk meshes: whatever they are, they are refused or make a mesh that can be walked on and saved again.
 
 #include "../oracle/seal.hpp"
-#include <abut/walk/walk_blob.hpp>
+#include <abut/walk/file.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -33,14 +33,14 @@ void walk_about(const WalkMesh& mesh) {
     require(far > 0);
     const WalkOptions options{.max_crossings = 1000};
     for (std::uint32_t triangle = 0; triangle < std::min<std::size_t>(mesh.triangles().size(), 64); ++triangle) {
-        require(mesh.island(triangle) < mesh.report().islands);
+        require(mesh.component(triangle) < mesh.report().components);
         if (!mesh.is_walkable(triangle)) continue;
         for (int axis = 0; axis < 3; ++axis) {
             Vec3 step(0);
             step[axis] = far;
             const Walked walked = mesh.walk({triangle, {0.25f, 0.25f, 0.5f}}, step, options);
             require_place(mesh, walked.place);
-            require(mesh.island(walked.place.triangle) == mesh.island(triangle));
+            require(mesh.component(walked.place.triangle) == mesh.component(triangle));
             require_place(mesh, mesh.walk(walked.place, -(walked.turn * step), options).place);
             require_place(mesh, mesh.nearest(mesh.to_world(walked.place) + step));
             if (mesh.nearest_along(box.min, step)) require_place(mesh, *mesh.nearest_along(box.min, step));

@@ -131,7 +131,7 @@ TEST(IncludeDirection, FindsWhatRunsTheOtherWay) {
         {"abut/shape/box.hpp", "#include <abut/attic/box.hpp>"},
         {"abut/shape/box.hpp", "#include \"../../test/oracle/exact.hpp\""},
         {"abut/shape/box.cpp", "#include <scenes/level.hpp>"},
-        {"abut/shape/box.cpp", "#include <tool/report.hpp>"},
+        {"abut/shape/box.cpp", "#include <tool/check/report.hpp>"},
         {"abut/shape/box.cpp", "#include <bench/peers.hpp>"},
         {"abut/shape/box.cpp", "#include <examples/touch.hpp>"},
         {"abut/shape/box.hpp", "#include <hwy/highway.h>"},

@@ -1,7 +1,7 @@
 // The glTF reader against Assimp's, on a file that both read right, and where Assimp doesn't.
 
 #include "gltf_builder.hpp"
-#include <abut/io/read_assimp.hpp>
+#include <abut/io/mesh/read_assimp.hpp>
 #include <abut/io/read_scene.hpp>
 
 #include <cstdint>

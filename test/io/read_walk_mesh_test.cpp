@@ -4,7 +4,7 @@
 #include <abut/io/read_scene.hpp>
 #include <abut/io/read_walk_mesh.hpp>
 #include <abut/math/dvec.hpp>
-#include <abut/walk/walk_blob.hpp>
+#include <abut/walk/file.hpp>
 
 #include <limits>
 #include <string>
@@ -63,7 +63,7 @@ TEST_F(ReadWalkMesh, TakesAllWithoutAName) {
     write("level.gltf", level());
     const WalkMesh mesh = read("level.gltf");
     EXPECT_EQ(mesh.triangles().size(), 2u + 2 + 2 + 12);
-    EXPECT_EQ(mesh.report().islands, 3u) << described(mesh.report());
+    EXPECT_EQ(mesh.report().components, 3u) << described(mesh.report());
     EXPECT_EQ(bounds(mesh), (Aabb3{{0, 0, 0}, {10, 10, 10}}));
 }
 
@@ -77,7 +77,7 @@ TEST_F(ReadWalkMesh, TakesWhatANameDescribes) {
     EXPECT_EQ(bounds(read("level.gltf", "Floor")), floor);
     EXPECT_EQ(bounds(read("level.gltf", "Planks")), bridge) << "by the mesh's name, all of its parts";
     EXPECT_EQ(read("level.gltf", "Planks").triangles().size(), 2u);
-    EXPECT_EQ(read("level.gltf", "Tile").report().islands, 2u) << "a mesh that is shown twice";
+    EXPECT_EQ(read("level.gltf", "Tile").report().components, 2u) << "a mesh that is shown twice";
     EXPECT_EQ(read("level.gltf", "?????").triangles().size(), 2u + 12) << "Floor and Crate";
     EXPECT_EQ(read("level.gltf", "Level/*oo*").triangles().size(), 4u) << "Floor and Room/NavMesh";
     EXPECT_EQ(read("level.gltf", "*").triangles().size(), 18u);
@@ -154,7 +154,7 @@ TEST_F(ReadWalkMesh, ReadsWhatAssimpReads) {
     const WalkMesh floor = read("floor.obj", "floor");
     EXPECT_EQ(floor.triangles().size(), 2u);
     EXPECT_LT(length(DVec<3>(floor.smooth_normal({0, {1, 0, 0}})) - DVec<3>(0.6, 0.8, 0)), 1e-6);
-    EXPECT_EQ(read("floor.obj").report().islands, 1u);
+    EXPECT_EQ(read("floor.obj").report().components, 1u);
     write("triangle.stl",
           "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
           "endloop\nendfacet\nendsolid a\n");
@@ -168,10 +168,10 @@ TEST_F(ReadWalkMesh, MendsTrianglesWithoutArea) {
     const WalkMesh flat = read("flat.obj");
     EXPECT_EQ(flat.report().flat, 1u) << described(flat.report());
     EXPECT_EQ(flat.report().border, 7u);
-    EXPECT_EQ(flat.report().islands, 1u);
+    EXPECT_EQ(flat.report().components, 1u);
     write("polygon.obj", "o floor\n" + points + "f 2 1 5 4 3\nf 4 5 8 7\nf 3 4 7 6\n");
     const WalkMesh polygon = read("polygon.obj");
-    EXPECT_EQ(polygon.report().islands, 1u) << described(polygon.report());
+    EXPECT_EQ(polygon.report().components, 1u) << described(polygon.report());
     EXPECT_EQ(polygon.report().border, 7u);
 }
 
@@ -183,7 +183,7 @@ TEST_F(ReadWalkMesh, ReadsBakedOnes) {
     EXPECT_EQ(save(read("nav.walk")), bytes);
     EXPECT_EQ(complaint("nav.walk", "NavMesh"), "a baked walk mesh has no names in it");
     write("cut.walk", std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size() - 1));
-    EXPECT_EQ(complaint("cut.walk"), "the walk mesh is damaged: its checksum is another");
+    EXPECT_EQ(complaint("cut.walk"), "the walk mesh is damaged: its checksum is wrong");
 }
 
 TEST_F(ReadWalkMesh, RefusesInALine) {

@@ -1,4 +1,4 @@
-#include <abut/io/scene_bytes.hpp>
+#include <abut/io/mesh/scene_bytes.hpp>
 
 #include <algorithm>
 #include <cstdint>

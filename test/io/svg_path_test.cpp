@@ -1,7 +1,7 @@
 // Path data against what it stands for: by hand, and curves against their own formulas.
 
 #include "../oracle/random.hpp"
-#include <abut/io/svg_path.hpp>
+#include <abut/io/svg/path.hpp>
 #include <abut/math/dvec.hpp>
 
 #include <algorithm>
@@ -69,7 +69,7 @@ TEST(SvgPath, SaysWhereItStopsUnderstanding) {
     EXPECT_EQ(flat("M1 2 Linf 3"), "path data: a number was expected at character 7");
     EXPECT_EQ(flat("M1 2 L1e999 3"), "path data: a number was expected at character 7");
     EXPECT_EQ(text(svg::flatten_path("M0 0C0 9 9 9 9 0", 1e-9)),
-              "path data: a curve of more than 4096 pieces for this tolerance at character 17");
+              "path data: a curve needs more than 4096 segments for this tolerance at character 17");
 }
 
 double distance_to(const std::vector<Point>& line, const Point& p) {

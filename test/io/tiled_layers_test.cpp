@@ -206,7 +206,7 @@ TEST(TiledLayers, SaysWhatIsWrongAndWhere) {
     EXPECT_EQ(csv("1"), "PROBLEM: line 3: layer 'L': 1 tiles, where 2 were expected\n");
     EXPECT_EQ(csv("1,2,3"), "PROBLEM: line 3: layer 'L': 3 tiles, where 2 were expected\n");
     EXPECT_EQ(csv("1,x"), "PROBLEM: line 3: layer 'L': tile 1: a number was expected\n");
-    EXPECT_EQ(csv("1 2"), "PROBLEM: line 3: layer 'L': tile 0: a comma was expected behind it\n");
+    EXPECT_EQ(csv("1 2"), "PROBLEM: line 3: layer 'L': tile 0: a comma was expected after it\n");
     EXPECT_EQ(csv("1", "width='-2' height='1'"),
               "PROBLEM: line 3: width: a whole number from 0 to 4294967295 was expected\n");
     EXPECT_EQ(csv("1", "width='100000' height='10000'"),
@@ -242,7 +242,7 @@ TEST(TiledLayers, SaysWhatIsWrongAndWhere) {
     std::string deep;
     for (int i = 0; i < 70; ++i) deep += "<group name='g'>";
     for (int i = 0; i < 70; ++i) deep += "</group>";
-    EXPECT_EQ(read_as_text(".tmx", tmx(deep)), "PROBLEM: line 3: groups in one another over 64 deep\n");
+    EXPECT_EQ(read_as_text(".tmx", tmx(deep)), "PROBLEM: line 3: groups are nested more than 64 deep\n");
 }
 
 // The same level with JSON and with XML tilesets, its tiles as an array and compressed.

@@ -162,8 +162,8 @@ TEST(TiledObjects, WhatIsLeftOutIsTold) {
                          "<object id='5' name='dot' x='1' y='2'><polyline points='0,0 0,0'/></object></objectgroup>")),
         "L/a: point 1,2\n"
         "note: 1 image layer is left out: 'Sky'\n"
-        "note: 1 layer has a parallax, which is not looked at: 'L'\n"
-        "note: 1 layer is hidden in the editor, and read all the same: 'L'\n"
+        "note: 1 layer has a parallax, which is ignored: 'L'\n"
+        "note: 1 layer is hidden in the editor, but read: 'L'\n"
         "note: 2 texts are left out, such as 'L/Hello'\n"
         "note: 2 objects are left out, without extent, such as 'L/flat'\n");
 }

@@ -2,9 +2,9 @@
 
 #include "../oracle/random.hpp"
 #include "gltf_builder.hpp"
-#include <abut/io/base64.hpp>
-#include <abut/io/file_bytes.hpp>
-#include <abut/io/read_assimp.hpp>
+#include <abut/io/file/base64.hpp>
+#include <abut/io/file/read_file.hpp>
+#include <abut/io/mesh/read_assimp.hpp>
 #include <abut/io/read_scene.hpp>
 #include <abut/io/write_file.hpp>
 #include <abut/io/write_gltf.hpp>
@@ -83,7 +83,7 @@ protected:
         }
     }
     std::string text_of(const std::filesystem::path& file) {
-        const std::vector<std::byte> bytes = *file_bytes(file);
+        const std::vector<std::byte> bytes = *read_file(file);
         return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
     }
     std::size_t files_in_folder() {

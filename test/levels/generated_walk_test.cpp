@@ -24,7 +24,7 @@ Pieces<D> pieces_of(const Level<D>& level) {
         const std::uint32_t count = convex.core == Core::box ? 1u << D : convex.count;
         EXPECT_TRUE(convex.core == Core::box || convex.core == Core::points);
         for (std::uint32_t i = 0; i < count; ++i)
-            corners.push_back(to_float(convex.place.point(own_corner(convex, i))));
+            corners.push_back(to_float(convex.place.point(local_corner(convex, i))));
         result.add(oracle::hull_of<D>(corners));
     }
     result.build();

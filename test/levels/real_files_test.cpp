@@ -41,7 +41,7 @@ std::vector<char> small_level() {
     Bytes out;
     out.i32(0x4c4f53af);
     out.i32(8);
-    // Text, words, materials, points, edges, sides, ..., lumps, nodes, stops, bodies, items, goals, ...
+    // Text, words, materials, points, edges, sides, ..., brushes, nodes, stops, bodies, items, goals, ...
     for (const int count : {5, 1, 2, 8, 1, 6, 1, 1, 1, 3, 1, 2, 2, 1, 1, 1, 1, 1, 1, 1, 15}) out.i32(count);
     out.text("hello", 5);
     out.zeros(8);
@@ -84,11 +84,11 @@ TEST(NeverballFile, IsRead) {
     ASSERT_TRUE(level) << level.problem().message;
     EXPECT_EQ(level->points.size(), 8u);
     EXPECT_EQ(level->points[6], Vec3(-1, 1, 1));
-    ASSERT_EQ(level->lumps.size(), 3u);
-    EXPECT_TRUE(level->lumps[1].detail);
-    EXPECT_EQ(level->lumps[2].points.size(), 8u);
-    EXPECT_EQ(level->lumps[2].sides.back(), 5u);
-    EXPECT_EQ(level->edges[level->lumps[0].edges[0]], glm::uvec2(0, 1));
+    ASSERT_EQ(level->brushes.size(), 3u);
+    EXPECT_TRUE(level->brushes[1].detail);
+    EXPECT_EQ(level->brushes[2].points.size(), 8u);
+    EXPECT_EQ(level->brushes[2].sides.back(), 5u);
+    EXPECT_EQ(level->edges[level->brushes[0].edges[0]], glm::uvec2(0, 1));
     EXPECT_EQ(level->sides[1].normal, Vec3(-1, 0, 0));
     ASSERT_EQ(level->bodies.size(), 2u);
     EXPECT_FALSE(level->bodies[0].stop);
@@ -133,7 +133,7 @@ TEST(NeverballFile, SpoiledIsNamedOrRead) {
             ++tried;
             if (level) {
                 const auto solid = scenes::compound(*level);
-                EXPECT_TRUE(!solid || solid->size() <= level->lumps.size() * level->bodies.size());
+                EXPECT_TRUE(!solid || solid->size() <= level->brushes.size() * level->bodies.size());
             } else {
                 ++named;
                 EXPECT_TRUE(level.problem().message.starts_with("small: "));
@@ -152,12 +152,12 @@ TEST(NeverballFile, SaysWhatItIsnt) {
     EXPECT_EQ(scenes::read_neverball("/nowhere/x.sol").problem().code, ProblemCode::not_found);
 }
 
-/// How far the points of a lump stand out of its sides, at most.
-double off_sides(const scenes::NeverballLevel& level, const scenes::NeverballLump& lump) {
+/// How far the points of a brush stand out of its sides, at most.
+double off_sides(const scenes::NeverballLevel& level, const scenes::NeverballBrush& brush) {
     double result = 0;
-    for (const std::uint32_t i : lump.points)
-        for (const std::uint32_t k : lump.sides) {
-            const scenes::NeverballSide& side = level.sides[k];
+    for (const std::uint32_t i : brush.points)
+        for (const std::uint32_t k : brush.sides) {
+            const scenes::NeverballHalfSpace& side = level.sides[k];
             const double height = dot(DVec<3>(side.normal), DVec<3>(level.points[i]));
             result = std::max(result, height - static_cast<double>(side.offset));
         }
@@ -167,37 +167,37 @@ double off_sides(const scenes::NeverballLevel& level, const scenes::NeverballLum
 TEST(NeverballFile, AllLevelsOfThePackage) {
     const std::vector<std::string> files = neverball_files();
     if (files.empty()) GTEST_SKIP() << no_neverball;
-    std::size_t lumps = 0, details = 0, rough = 0, paths = 0;
+    std::size_t brushes = 0, details = 0, rough = 0, paths = 0;
     double worst = 0;
     for (const std::string& file : files) {
         const auto level = scenes::read_neverball(file);
         ASSERT_TRUE(level) << level.problem().message;
         std::size_t of_bodies = 0;
         for (const scenes::NeverballBody& body : level->bodies) {
-            of_bodies += body.lumps;
+            of_bodies += body.brushes;
             paths += body.stop ? 1 : 0;
         }
-        EXPECT_EQ(of_bodies, level->lumps.size()) << file;
+        EXPECT_EQ(of_bodies, level->brushes.size()) << file;
         EXPECT_FALSE(level->balls.empty()) << file;
-        lumps += level->lumps.size();
-        for (const scenes::NeverballLump& lump : level->lumps) {
-            const double off = off_sides(*level, lump);
+        brushes += level->brushes.size();
+        for (const scenes::NeverballBrush& brush : level->brushes) {
+            const double off = off_sides(*level, brush);
             rough += off > 3e-4 ? 1 : 0;
-            details += lump.detail ? 1 : 0;
+            details += brush.detail ? 1 : 0;
             worst = std::max(worst, off);
         }
         if (file.ends_with("map-fwp/rings.sol")) {
-            EXPECT_EQ(level->lumps.size(), 3647u);
+            EXPECT_EQ(level->brushes.size(), 3647u);
             EXPECT_EQ(level->points.size(), 12102u);
         }
     }
     EXPECT_EQ(files.size(), 183u);
-    std::cout << files.size() << " levels: " << lumps << " lumps, " << details << " of them details, " << paths
-              << " bodies on paths; of " << rough << " lumps points stand out by more than 3e-4, at most by " << worst
+    std::cout << files.size() << " levels: " << brushes << " brushes, " << details << " of them details, " << paths
+              << " bodies on paths; of " << rough << " brushes points stand out by more than 3e-4, at most by " << worst
               << '\n';
     // The files are rounded: corners of planes that are nearly parallel.
     EXPECT_LT(worst, 4e-3);
-    EXPECT_LT(rough * 300, lumps);
+    EXPECT_LT(rough * 300, brushes);
 }
 
 /// Two rooms beside one another and a step between them.

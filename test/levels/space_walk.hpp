@@ -29,13 +29,13 @@ inline oracle::Polytope<3> polytope_of(const Polyhedron& shape, const Vec3& offs
     return result;
 }
 
-/// Each lump an item, or all that stand still one compound. Bodies on paths stand where they begin, and are items.
+/// Each brush an item, or all that stand still one compound. Bodies on paths stand where they begin, and are items.
 class SpaceLevel {
 public:
     SpaceLevel(const scenes::NeverballLevel& level, bool as_compound) {
         std::vector<AnyShape<3>> still;
         scenes::each_solid(
-            level, [&](const scenes::NeverballBody& body, const scenes::NeverballLump&, const Polyhedron& shape) {
+            level, [&](const scenes::NeverballBody& body, const scenes::NeverballBrush&, const Polyhedron& shape) {
                 const Vec3 start = scenes::start_of(level, body);
                 pieces_.add(polytope_of(shape, start));
                 if (as_compound && !body.stop)

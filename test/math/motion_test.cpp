@@ -62,7 +62,7 @@ void expect_ends_where_told(std::uint64_t seed) {
     EXPECT_TRUE(near(pose_at(motion, 0) * point, from * point, 1e-6));
     EXPECT_TRUE(near(pose_at(motion, 1) * point, to * point, 1e-6));
     const RigidPath<D> path = rigid_path(from, to);
-    EXPECT_LE(rate_of(path.spin), pi * (1 + 1e-15));
+    EXPECT_LE(angular_speed(path.angular_velocity), pi * (1 + 1e-15));
     const Affine<D> last = affine(to);
     EXPECT_LE(length(place_at(path, 1).point(DVec<D>(point)) - last.point(DVec<D>(point))), 1e-14);
     // Evenly: a third of the way and another third is two thirds.

@@ -1,5 +1,5 @@
 #include "../oracle/random.hpp"
-#include <abut/math/linear.hpp>
+#include <abut/math/affine.hpp>
 #include <abut/math/motion.hpp>
 #include <abut/math/pose.hpp>
 

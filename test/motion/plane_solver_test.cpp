@@ -1,7 +1,7 @@
 // The nearest move that planes allow: against trying all sets of planes, and in corners as narrow as they come.
 
 #include "../oracle/random.hpp"
-#include <abut/motion/plane_solver.hpp>
+#include <abut/motion/push/plane_solver.hpp>
 
 #include <limits>
 #include <vector>
@@ -18,7 +18,7 @@ constexpr std::uint64_t seed = 20260722;
 template <int D>
 bool is_allowed(const std::vector<MovePlane<D>>& planes, const DVec<D>& move, double tolerance) {
     for (const MovePlane<D>& plane : planes)
-        if (dot(plane.normal, move) < -plane.room - tolerance) return false;
+        if (dot(plane.normal, move) < -plane.clearance - tolerance) return false;
     return true;
 }
 
@@ -37,7 +37,7 @@ DVec<D> nearest_by_trying(const std::vector<MovePlane<D>>& planes, const DVec<D>
         for (const MovePlane<D>& plane : in) {
             std::vector<double> row;
             for (const MovePlane<D>& other : in) row.push_back(dot(plane.normal, other.normal));
-            row.push_back(-plane.room - dot(plane.normal, wanted));
+            row.push_back(-plane.clearance - dot(plane.normal, wanted));
             rows.push_back(row);
         }
         bool regular = true;

@@ -1,7 +1,7 @@
 // From one arrangement to another: every plan is carried out step by step, with all distances looked at on the way.
 
 #include "arrangements.hpp"
-#include <abut/motion/margin.hpp>
+#include <abut/motion/order/pair_tolerance.hpp>
 #include <abut/motion/rearrange.hpp>
 #include <abut/query/closest.hpp>
 
@@ -34,8 +34,7 @@ void expect_carried_out(std::span<const Convex<D>> shapes, std::vector<Pose<D>> 
             const Convex<D> mover = moved(shapes[move.shape], affine(between));
             for (std::uint32_t j = 0; j < placed.size(); ++j) {
                 if (j == move.shape || !overlaps(bounds(mover), bounds(placed[j]))) continue;
-                ASSERT_GE(static_cast<double>(closest(mover, placed[j]).distance),
-                          -3 * margin_of_doubt(mover, placed[j]))
+                ASSERT_GE(static_cast<double>(closest(mover, placed[j]).distance), -3 * tolerance_for(mover, placed[j]))
                     << move.shape << " runs into " << j << ", " << where;
             }
         }

@@ -1,9 +1,9 @@
 // Taking things away one at a time: by hand, thousands of random arrangements, and what can't be taken apart.
 
 #include "arrangements.hpp"
-#include <abut/motion/margin.hpp>
+#include <abut/motion/order/pair_tolerance.hpp>
+#include <abut/motion/order/projection.hpp>
 #include <abut/motion/removal_order.hpp>
-#include <abut/motion/shadow.hpp>
 #include <abut/query/closest.hpp>
 #include <abut/query/sweep.hpp>
 #include <abut/shape/cylinder.hpp>
@@ -67,7 +67,7 @@ void expect_takes_apart(std::span<const Convex<2>> shapes, const Vec2& direction
         gone[i] = true;
         for (std::uint32_t j = 0; j < shapes.size(); ++j)
             if (!gone[j] && sweep(shapes[i], far, shapes[j])) {
-                ASSERT_LE(depth_aside(shapes[i], shapes[j], up), margin_of_doubt(shapes[i], shapes[j]))
+                ASSERT_LE(projected_depth(shapes[i], shapes[j], up), tolerance_for(shapes[i], shapes[j]))
                     << i << " runs into " << j << ", seed " << seed;
             }
     }
@@ -78,7 +78,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> all_waits(std::span<const C
     std::vector<std::pair<std::uint32_t, std::uint32_t>> result;
     for (std::uint32_t i = 0; i < shapes.size(); ++i)
         for (std::uint32_t j = 0; j < shapes.size(); ++j)
-            if (i != j && depth_aside(shapes[i], shapes[j], up) > margin_of_doubt(shapes[i], shapes[j]) &&
+            if (i != j && projected_depth(shapes[i], shapes[j], up) > tolerance_for(shapes[i], shapes[j]) &&
                 dot(DVec<2>(closest(shapes[i], shapes[j]).normal), up) > 0)
                 result.emplace_back(i, j);
     return result;

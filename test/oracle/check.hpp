@@ -36,7 +36,7 @@ double rounded_gap_along(const Polytope<D>& a, const Polytope<D>& b, const DVec<
 template <int D>
 void check_pair(const Sample<D>& a, const Sample<D>& b, Tally& tally) {
     const Truth<D> truth = oracle::truth(a.solid, b.solid);
-    const double margin = margin_of_doubt(a.solid, b.solid);
+    const double margin = tolerance_for(a.solid, b.solid);
     ASSERT_LE(truth.unproved, 0.2 * margin) << "the oracle itself is wrong";
     ++tally.pairs;
     tally.overlapping += truth.overlap ? 1 : 0;

@@ -3,9 +3,9 @@
 // The least turned box around points, by a search from many beginnings: slow, and good.
 
 #include "random.hpp"
-#include <abut/convex/hull.hpp>
+#include <abut/convex/hull/hull.hpp>
+#include <abut/math/affine.hpp>
 #include <abut/math/dvec.hpp>
-#include <abut/math/linear.hpp>
 
 #include <algorithm>
 #include <array>

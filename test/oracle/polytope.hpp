@@ -3,7 +3,7 @@
 // Polytopes as plain lists of corners, edges and triangles, with a ball around them: what the oracle understands.
 // Nothing here knows of GJK, support functions or penetration searches.
 
-#include <abut/math/linear.hpp>
+#include <abut/math/affine.hpp>
 
 #include <algorithm>
 #include <array>
@@ -105,7 +105,7 @@ double placing_error(const Polytope<D>& polytope) {
 
 /// How far an answer about a and b may be off, and how near to touching a yes or no may go either way.
 template <int D>
-double margin_of_doubt(const Polytope<D>& a, const Polytope<D>& b) {
+double tolerance_for(const Polytope<D>& a, const Polytope<D>& b) {
     return 1e-5 * std::min(size(a), size(b)) + 16 * ulp(largest_coordinate(a, b)) +
            std::max(placing_error(a), placing_error(b));
 }

@@ -1,7 +1,7 @@
 // Closed forms against the searches that they save, and by hand.
 
 #include "../oracle/pair.hpp"
-#include <abut/convex/round_manifold.hpp>
+#include <abut/convex/manifold/round_manifold.hpp>
 #include <abut/query/certify.hpp>
 #include <abut/query/closed_form.hpp>
 #include <abut/query/contact.hpp>
@@ -77,7 +77,7 @@ TYPED_TEST(ClosedFormOracle, AgreesWithTheSearches) {
         ++told;
         const SignedDistance<D> searched = signed_distance(a, b);
         overlapping += searched.distance <= 0 ? 1 : 0;
-        const double margin = oracle::margin_of_doubt(pair.a.solid, pair.b.solid);
+        const double margin = oracle::tolerance_for(pair.a.solid, pair.b.solid);
         EXPECT_NEAR(form->distance, searched.distance, 0.1 * margin);
         EXPECT_NEAR(length(form->normal), 1, 1e-12);
         EXPECT_NEAR(oracle::gap_along(pair.a.solid, pair.b.solid, form->normal) - a.radius - b.radius, form->distance,

@@ -137,7 +137,7 @@ TYPED_TEST(ContactLaws, HoldForEveryKindOfPair) {
                 const auto pair = oracle::random_pair<D>(random, static_cast<oracle::Kind>(kind_a),
                                                          static_cast<oracle::Kind>(kind_b));
                 const auto& [a, b] = pair;
-                const double margin = margin_of_doubt(a.solid, b.solid);
+                const double margin = tolerance_for(a.solid, b.solid);
                 const Closest<D> whole = closest(a.view, b.view);
                 const Contact<D> touch = contact(a.view, b.view);
 

@@ -212,7 +212,7 @@ template <int D>
 double doubt_of(const oracle::Sample<D>& a, const oracle::Sample<D>& b, const PolytopeOf<D>& found) {
     double rounding = 0;
     for (const Vec<D>& point : found.points()) rounding = std::max(rounding, oracle::rounding_of(point));
-    return oracle::margin_of_doubt(a.solid, b.solid) + 2 * rounding;
+    return oracle::tolerance_for(a.solid, b.solid) + 2 * rounding;
 }
 
 template <class T>
@@ -258,7 +258,7 @@ void check_overlap(const oracle::Sample<D>& a, const oracle::Sample<D>& b, oracl
     PolytopeOf<D> found, swapped;
     const bool yes = intersection(convex_of(a), convex_of(b), found);
     EXPECT_EQ(yes, overlaps(a.view, b.view));
-    if (std::abs(truth.distance) > oracle::margin_of_doubt(a.solid, b.solid)) {
+    if (std::abs(truth.distance) > oracle::tolerance_for(a.solid, b.solid)) {
         EXPECT_EQ(yes, truth.overlap);
         EXPECT_EQ(intersection(convex_of(b), convex_of(a), swapped), yes);
     }
@@ -279,7 +279,7 @@ void check_overlap(const oracle::Sample<D>& a, const oracle::Sample<D>& b, oracl
     EXPECT_TRUE(oracle::is_unit(found.normal()));
 
     // Whatever is in both lies in it.
-    const bool clear = exact || truth.distance < -oracle::margin_of_doubt(a.solid, b.solid);
+    const bool clear = exact || truth.distance < -oracle::tolerance_for(a.solid, b.solid);
     for (int i = 0; clear && i < 8; ++i) {
         const auto corners_a = oracle::corners_seen_from(a.solid, DVec<D>(0.0));
         DVec<D> sum(0.0);
@@ -353,7 +353,7 @@ TYPED_TEST(IntersectionLaws, MovingBothMovesIt) {
         oracle::Random random(seed);
         const auto [a, b] = oracle::random_pair<D>(random, oracle::Kind::polytope, oracle::Kind::box);
         PolytopeOf<D> found, moved;
-        if (closest(a.view, b.view).distance > -oracle::margin_of_doubt(a.solid, b.solid)) continue;
+        if (closest(a.view, b.view).distance > -oracle::tolerance_for(a.solid, b.solid)) continue;
         ++overlapping;
         ASSERT_TRUE(intersection(convex_of(a), convex_of(b), found));
         const Pose<D> pose{to_float(random.direction<D>() * oracle::size(a.solid)), random.rotation<D>()};

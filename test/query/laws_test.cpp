@@ -38,7 +38,7 @@ protected:
                                                              static_cast<oracle::Kind>(kind_b));
                     const auto answer = closest(pair.a.view, pair.b.view);
                     overlapping += answer.distance <= 0 ? 1 : 0;
-                    visit(Case{pair.a, pair.b, answer, margin_of_doubt(pair.a.solid, pair.b.solid),
+                    visit(Case{pair.a, pair.b, answer, tolerance_for(pair.a.solid, pair.b.solid),
                                2 * oracle::rounding_of(answer.on_a) + 2 * oracle::rounding_of(answer.on_b), random});
                 }
         EXPECT_GT(overlapping, pairs * 3 / 10);
@@ -125,7 +125,7 @@ TYPED_TEST(Laws, ContainingAPointIsADistanceNotAboveZero) {
                                                    (oracle::size(c.a.solid) * c.random.uniform(0, D == 2 ? 1.3 : 1)));
         const auto found = closest(c.a.view, point);
         const auto solid = oracle::hull_of<D>({point});
-        const double margin = margin_of_doubt(c.a.solid, solid) + oracle::rounding_of(point);
+        const double margin = tolerance_for(c.a.solid, solid) + oracle::rounding_of(point);
         EXPECT_NEAR(found.distance, truth(c.a.solid, solid).distance, margin);
         if (std::abs(static_cast<double>(found.distance)) > margin) {
             EXPECT_EQ(contains(c.a.view, point), found.distance <= 0);

@@ -285,7 +285,7 @@ struct Seen {
 template <int D>
 void expect_difference_knows(const oracle::Sample<D>& a, const oracle::Sample<D>& b, Seen& seen) {
     const oracle::Truth<D> truth = oracle::truth(a.solid, b.solid);
-    const double margin = oracle::margin_of_doubt(a.solid, b.solid);
+    const double margin = oracle::tolerance_for(a.solid, b.solid);
     const PolytopeOf<D> difference = minkowski_difference(convex_of(a), convex_of(b));
     const Closest<D> from_zero = closest(difference, Vec<D>(0)), between = closest(a.view, b.view);
     ++seen.pairs;

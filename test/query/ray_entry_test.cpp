@@ -6,7 +6,7 @@
 #include "../oracle/check.hpp"
 #include "../oracle/degenerate.hpp"
 #include "../oracle/pair.hpp"
-#include <abut/convex/signed_distance.hpp>
+#include <abut/convex/gjk/signed_distance.hpp>
 #include <abut/query/closest.hpp>
 #include <abut/query/raycast.hpp>
 #include <abut/query/raycast_part.hpp>
@@ -23,7 +23,7 @@ struct Said {
 };
 
 template <int D>
-Beam<D> beam_of(const Ray<D>& ray) {
+DRay<D> beam_of(const Ray<D>& ray) {
     return {DVec<D>(ray.origin), normalized(DVec<D>(ray.direction)), static_cast<double>(ray.length)};
 }
 
@@ -36,7 +36,7 @@ double distance_from(const Convex<D>& shape, const DVec<D>& place) {
 
 template <int D>
 void check(const Convex<D>& shape, const Ray<D>& ray, Said& said) {
-    const Beam<D> beam = beam_of(ray);
+    const DRay<D> beam = beam_of(ray);
     const RayEntry<D> entry = ray_entry(shape, beam);
     const double margin = 1e-5 * size(shape) + 16 * oracle::ulp(largest(beam.origin)) + 1e-9 * beam.length;
     // A ray that comes from where nothing is to be told enters where it goes deeper than the margin.

@@ -82,7 +82,7 @@ TEST(RaycastStart, AboveATriangle) {
     each_start<3>(10'000, [](const Corners<3>& c, const Ray3& ray, double along, const DVec<3>& up) {
         hits_it_from(Triangle3{c[0], c[1], c[2]}, ray, along, up);
         // And by the search alone, which is asked where the ray runs in at a sharp corner.
-        const Beam<3> beam{DVec<3>(ray.origin), normalized(DVec<3>(ray.direction)), 1e9};
+        const DRay<3> beam{DVec<3>(ray.origin), normalized(DVec<3>(ray.direction)), 1e9};
         PartHit<3> hit;
         const Triangle3 triangle{c[0], c[1], c[2]};
         ASSERT_TRUE(part_hit_by_advance<3>(beam, convex(triangle), 0, nullptr, hit));

@@ -153,7 +153,7 @@ TYPED_TEST(RaycastOracle, AgreesOnEveryKindOfShape) {
                 point.place.offset = at(fraction);
                 return truth(a.solid, point, oracle::Arithmetic::rough).distance;
             };
-            const double margin = margin_of_doubt(a.solid, oracle::hull_of<D>({ray.origin})) +
+            const double margin = tolerance_for(a.solid, oracle::hull_of<D>({ray.origin})) +
                                   oracle::ulp(largest(from)) * 4 + 1e-5 * oracle::size(a.solid);
             const double least = least_between_0_and_1(distance_at), start = distance_at(0);
             const auto hit = raycast(ray, a.view);

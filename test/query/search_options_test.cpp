@@ -65,7 +65,7 @@ TYPED_TEST(SearchOptionsTest, ACacheOfAnotherPairDoesNoHarm) {
         const auto kind = [&] { return static_cast<oracle::Kind>(random.below(oracle::kind_count)); };
         const oracle::Kind kind_a = kind(), kind_b = kind();
         const auto pair = oracle::random_pair<D>(random, kind_a, kind_b);
-        const double margin = margin_of_doubt(pair.a.solid, pair.b.solid);
+        const double margin = tolerance_for(pair.a.solid, pair.b.solid);
         if (random.chance(0.2)) {
             for (auto& corner : cache.corner_a) corner = random.below(20);
             for (auto& corner : cache.corner_b) corner = random.below(20);

@@ -25,7 +25,7 @@ struct MovingPair {
           motion_b(of_b),
           path_a(rigid_path(of_a)),
           path_b(rigid_path(of_b)),
-          margin(margin_of_doubt(pair.a.solid, pair.b.solid)),
+          margin(tolerance_for(pair.a.solid, pair.b.solid)),
           speed(length(path_b.move - path_a.move) + swing(pair.a, path_a) + swing(pair.b, path_b)) {}
 
     oracle::Truth<D> truth(double time) const {
@@ -44,7 +44,7 @@ private:
         double reach = 0;
         for (const DVec<D>& corner : corners_seen_from(shape.solid, DVec<D>(0.0)))
             reach = std::max(reach, length(corner));
-        return rate_of(path.spin) * reach;
+        return angular_speed(path.angular_velocity) * reach;
     }
 };
 

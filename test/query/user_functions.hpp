@@ -8,7 +8,7 @@
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/capsule.hpp>
-#include <abut/shape/distance_function.hpp>
+#include <abut/shape/view/distance_function.hpp>
 
 namespace abut::users {
 

@@ -63,7 +63,7 @@ TEST(BakeWalkMesh, KeepsAwayFromATable) {
     const Result<WalkMesh> mesh = level.bake({.report = &report});
     ASSERT_TRUE(mesh) << mesh.problem().message;
     expect_clean(*mesh, report);
-    EXPECT_EQ(mesh->report().islands, 2u);
+    EXPECT_EQ(mesh->report().components, 2u);
     EXPECT_TRUE(is_floor(*mesh, {1, 0, 1}));
     EXPECT_TRUE(is_floor(*mesh, {5, 0.8f, 5}));
     EXPECT_FALSE(joined(*mesh, {1, 0, 1}, {5, 0.8f, 5}));
@@ -77,14 +77,14 @@ TEST(BakeWalkMesh, KeepsAwayFromATable) {
 
     const Result<WalkMesh> reached = level.bake({.starts = std::vector<Vec3>{{1, 0, 1}}, .report = &report});
     ASSERT_TRUE(reached) << reached.problem().message;
-    EXPECT_EQ(reached->report().islands, 1u);
+    EXPECT_EQ(reached->report().components, 1u);
     EXPECT_EQ(report.left_out, 1u);
     EXPECT_TRUE(is_floor(*reached, {1, 0, 1}));
     EXPECT_FALSE(is_floor(*reached, {5, 0.8f, 5}));
 
-    const Result<WalkMesh> large = level.bake({.least_area = 3});
+    const Result<WalkMesh> large = level.bake({.min_area = 3});
     ASSERT_TRUE(large) << large.problem().message;
-    EXPECT_EQ(large->report().islands, 1u);
+    EXPECT_EQ(large->report().components, 1u);
     EXPECT_FALSE(is_floor(*large, {5, 0.8f, 5}));
 }
 
@@ -181,7 +181,7 @@ TEST(BakeWalkMesh, TakesAnyDirectionAsUp) {
         SCOPED_TRACE(std::to_string(up.x) + " " + std::to_string(up.y) + " " + std::to_string(up.z));
         const Result<WalkMesh> mesh = other.bake({.up = up});
         ASSERT_TRUE(mesh) << mesh.problem().message;
-        EXPECT_EQ(mesh->report().islands, 2u);
+        EXPECT_EQ(mesh->report().components, 2u);
         EXPECT_FALSE(changed(mesh->report()));
         for (std::uint32_t i = 0; i < mesh->triangles().size(); ++i)
             EXPECT_GT(dot(DVec<3>(mesh->normal({i, {1, 0, 0}})), DVec<3>(up)), 2.9);
@@ -223,8 +223,8 @@ TEST(BakeWalkMesh, FollowsHillsWithoutCracks) {
         const Result<WalkMesh> mesh = level.bake({.radius = 0.3f, .max_slope = 1.3f, .report = &report});
         ASSERT_TRUE(mesh) << mesh.problem().message;
         expect_clean(*mesh, report);
-        EXPECT_EQ(mesh->report().islands, 1u);
-        EXPECT_EQ(mesh->report().pinched, 0u);
+        EXPECT_EQ(mesh->report().components, 1u);
+        EXPECT_EQ(mesh->report().non_manifold_vertices, 0u);
         // Corners are on the level, and what is between them is nearly.
         const Result<WalkMesh> ground = WalkMesh::build(level.points, level.triangles);
         ASSERT_TRUE(ground);
@@ -289,7 +289,7 @@ TEST(BakeWalkMesh, HasNoCracksAmongRuins) {
         const Result<WalkMesh> mesh = level.bake({.radius = 0.25f, .max_slope = 1, .report = &report});
         ASSERT_TRUE(mesh) << mesh.problem().message;
         expect_clean(*mesh, report);
-        islands += mesh->report().islands;
+        islands += mesh->report().components;
     }
     EXPECT_GT(islands, 24u) << "the ruins are in nobody's way";
 }
@@ -336,7 +336,7 @@ TEST(BakeWalkMesh, IsRightAtAnyScale) {
         for (float* length : {&options.radius, &options.height, &options.max_step}) *length *= scale;
         const Result<WalkMesh> mesh = level.bake(options);
         ASSERT_TRUE(mesh) << mesh.problem().message;
-        EXPECT_EQ(mesh->report().islands, 2u);
+        EXPECT_EQ(mesh->report().components, 2u);
         EXPECT_FALSE(changed(mesh->report()));
     }
 }
@@ -377,7 +377,7 @@ TEST(BakeWalkMesh, SaysWhatLeftNothing) {
     level = {};
     level.floor(0, 0, 4, 4);
     EXPECT_NE(why({.radius = 3}).find("radius"), std::string::npos);
-    EXPECT_NE(why({.least_area = 100}).find("least area"), std::string::npos);
+    EXPECT_NE(why({.min_area = 100}).find("minimum area"), std::string::npos);
 }
 
 TEST(BakeWalkMesh, NamesBadOptionsAndLevels) {
@@ -391,7 +391,7 @@ TEST(BakeWalkMesh, NamesBadOptionsAndLevels) {
         EXPECT_EQ(code_of(level.bake({.max_step = number})), ProblemCode::bad_argument);
         EXPECT_EQ(code_of(level.bake({.max_slope = number})), ProblemCode::bad_argument);
         EXPECT_EQ(code_of(level.bake({.cell = number})), ProblemCode::bad_argument);
-        EXPECT_EQ(code_of(level.bake({.least_area = number})), ProblemCode::bad_argument);
+        EXPECT_EQ(code_of(level.bake({.min_area = number})), ProblemCode::bad_argument);
     }
     EXPECT_EQ(code_of(level.bake({.height = 0.3f})), ProblemCode::bad_argument);
     EXPECT_EQ(code_of(level.bake({.max_slope = 1.56f})), ProblemCode::bad_argument);

@@ -80,7 +80,7 @@ inline bool is_floor(const WalkMesh& mesh, const Vec3& place, double off = 0.05)
 /// Whether there is a way from one place to the other.
 inline bool joined(const WalkMesh& mesh, const Vec3& from, const Vec3& to) {
     const Above a = at(mesh, from), b = at(mesh, to);
-    return a.found && b.found && mesh.island(a.triangle) == mesh.island(b.triangle);
+    return a.found && b.found && mesh.component(a.triangle) == mesh.component(b.triangle);
 }
 
 /// Seen along the second axis.

@@ -39,7 +39,7 @@ TEST(Stitch, LeavesWhatFitsAsItIs) {
     const Stitched surface = stitch(corners, polygons, {});
     EXPECT_EQ(surface.points, corners);
     EXPECT_EQ(surface.triangles.size(), 4u);
-    EXPECT_EQ(surface.mended, 0u);
+    EXPECT_EQ(surface.repaired, 0u);
     EXPECT_DOUBLE_EQ(area_of(surface), 2);
     EXPECT_EQ(mesh_of(surface).report().border, 6u);
 }
@@ -55,7 +55,7 @@ TEST(Stitch, CutsBothSidesAtThePointsOfEither) {
     right.triangles = {{0, 5, 3}, {5, 4, 3}, {4, 1, 3}, {1, 2, 3}};
     const std::vector<CutPolygon> polygons{left, right};
     const Stitched surface = stitch(corners, polygons, {});
-    EXPECT_EQ(surface.mended, 0u);
+    EXPECT_EQ(surface.repaired, 0u);
     EXPECT_DOUBLE_EQ(area_of(surface), 2);
     ASSERT_EQ(surface.points.size(), 9u);
     const auto has = [&](const DVec<3>& point) {
@@ -65,7 +65,7 @@ TEST(Stitch, CutsBothSidesAtThePointsOfEither) {
     EXPECT_TRUE(has({1, 0.3, 0.75}));
     EXPECT_TRUE(has({0.5, 0.1, 0.5}));
     const WalkMeshReport report = mesh_of(surface).report();
-    EXPECT_EQ(report.islands, 1u);
+    EXPECT_EQ(report.components, 1u);
     EXPECT_EQ(report.border, 6u) << "the side between them is no border";
     EXPECT_FALSE(changed(report));
 }
@@ -79,8 +79,9 @@ TEST(Stitch, JoinsCornersAboveOneAnother) {
     right.points = {doubled[6], doubled[7], doubled[5], doubled[2]};
     right.triangles = {{0, 1, 2}, {0, 2, 3}};
     const std::vector<CutPolygon> polygons{square(0), right};
-    EXPECT_EQ(mesh_of(stitch(doubled, polygons, {.step = 0.25})).report().islands, 1u);
-    EXPECT_EQ(mesh_of(stitch(doubled, polygons, {.step = 0.15})).report().islands, 2u) << "only one of them is joined";
+    EXPECT_EQ(mesh_of(stitch(doubled, polygons, {.step = 0.25})).report().components, 1u);
+    EXPECT_EQ(mesh_of(stitch(doubled, polygons, {.step = 0.15})).report().components, 2u)
+        << "only one of them is joined";
 }
 
 TEST(Stitch, CutsAnewWhatItsTrianglesDoNotFill) {
@@ -90,10 +91,10 @@ TEST(Stitch, CutsAnewWhatItsTrianglesDoNotFill) {
     right.points.push_back({1, 0.5, 0.5});
     const std::vector<CutPolygon> polygons{left, right};
     const Stitched surface = stitch(corners, polygons, {});
-    EXPECT_EQ(surface.mended, 2u);
+    EXPECT_EQ(surface.repaired, 2u);
     EXPECT_DOUBLE_EQ(area_of(surface), 2);
     const WalkMeshReport report = mesh_of(surface).report();
-    EXPECT_EQ(report.islands, 1u);
+    EXPECT_EQ(report.components, 1u);
     EXPECT_EQ(report.border, 6u);
     EXPECT_FALSE(changed(report));
 }
@@ -107,11 +108,11 @@ TEST(Stitch, CutsSidesAtTheCornersOfPolygonsWithoutArea) {
         for (const std::uint32_t i : polygon->corners) polygon->points.push_back(more[i]);
     const std::vector<CutPolygon> polygons{square(0), thin, right};
     const Stitched surface = stitch(more, polygons, {});
-    EXPECT_EQ(surface.mended, 0u);
+    EXPECT_EQ(surface.repaired, 0u);
     EXPECT_EQ(surface.points, more);
     EXPECT_DOUBLE_EQ(area_of(surface), 2);
     const WalkMeshReport report = mesh_of(surface).report();
-    EXPECT_EQ(report.islands, 1u);
+    EXPECT_EQ(report.components, 1u);
     EXPECT_EQ(report.border, 6u);
 }
 
@@ -120,7 +121,7 @@ TEST(Stitch, TurnsAllUp) {
     for (glm::uvec3& t : other.triangles) std::swap(t.y, t.z);
     const std::vector<CutPolygon> polygons{other, square(1)};
     const Stitched surface = stitch(corners, polygons, {});
-    EXPECT_EQ(surface.mended, 0u);
+    EXPECT_EQ(surface.repaired, 0u);
     EXPECT_DOUBLE_EQ(area_of(surface), 2);
 }
 

@@ -1,7 +1,7 @@
 // Polygon and Polyhedron take every non-empty set of finite points, and every question answers on what they make of it.
 #include "../oracle/random.hpp"
-#include <abut/convex/hull_input.hpp>
-#include <abut/math/linear.hpp>
+#include <abut/convex/hull/hull_input.hpp>
+#include <abut/math/affine.hpp>
 #include <abut/math/predicates.hpp>
 #include <abut/query/closest.hpp>
 #include <abut/query/contact.hpp>

@@ -3,7 +3,7 @@
 #include "../oracle/random.hpp"
 #include "meshes.hpp"
 #include <abut/math/coincident.hpp>
-#include <abut/shape/mesh_tree_plan.hpp>
+#include <abut/shape/mesh/tree_topology.hpp>
 #include <abut/shape/weld.hpp>
 
 #include <algorithm>
@@ -68,7 +68,7 @@ int checked_depth(const MeshTree& tree, std::uint32_t ref, const Aabb3& box, con
     return 0;
 }
 
-TEST(MeshTreePlan, MakesTheSameTreeAgain) {
+TEST(MeshTreeTopology, MakesTheSameTreeAgain) {
     Random random(11);
     std::vector<Welded> meshes;
     const Surface box = test::box_surface({-1, 0, 2}, {1, 3, 3}),
@@ -84,23 +84,23 @@ TEST(MeshTreePlan, MakesTheSameTreeAgain) {
     for (const Welded& mesh : meshes) {
         SCOPED_TRACE(std::to_string(mesh.triangles.size()) + " triangles");
         const MeshTree tree = tree_of(mesh);
-        const std::optional<MeshTree> again = build_mesh_tree(mesh.points, mesh.triangles, plan_of(tree));
+        const std::optional<MeshTree> again = build_mesh_tree(mesh.points, mesh.triangles, topology_of(tree));
         ASSERT_TRUE(again);
         expect_same(tree, *again);
     }
 }
 
-TEST(MeshTreePlan, AnyOtherPlanMakesASoundTreeOrNone) {
+TEST(MeshTreeTopology, AnyOtherPlanMakesASoundTreeOrNone) {
     constexpr std::uint64_t seed = 5;
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
     const Surface hills = test::random_terrain(random, 8, 0.8).surface();
     const Welded mesh = weld(hills.points, hills.triangles);
-    const MeshTreePlan whole = plan_of(tree_of(mesh));
+    const MeshTreeTopology whole = topology_of(tree_of(mesh));
     ASSERT_GT(whole.children.size(), 8u);
     std::size_t made = 0, refused = 0;
     for (int i = 0; i < 20000; ++i) {
-        MeshTreePlan plan = whole;
+        MeshTreeTopology plan = whole;
         const auto one_of = [&](const auto& list) { return random.below(static_cast<std::uint32_t>(list.size())); };
         for (std::uint32_t change = 0; change < 1 + random.below(2); ++change) switch (random.below(5)) {
                 case 0:
@@ -133,35 +133,35 @@ TEST(MeshTreePlan, AnyOtherPlanMakesASoundTreeOrNone) {
     EXPECT_GT(refused, 10000u);
 }
 
-TEST(MeshTreePlan, AreAsLongAsTheyShouldBeAndNotTooDeep) {
+TEST(MeshTreeTopology, AreAsLongAsTheyShouldBeAndNotTooDeep) {
     Random random(3);
     const Surface hills = test::random_terrain(random, 20, 0.8).surface();
     const Welded mesh = weld(hills.points, hills.triangles);
-    const MeshTreePlan whole = plan_of(tree_of(mesh));
-    const auto is_made = [&](const MeshTreePlan& plan) {
+    const MeshTreeTopology whole = topology_of(tree_of(mesh));
+    const auto is_made = [&](const MeshTreeTopology& plan) {
         return build_mesh_tree(mesh.points, mesh.triangles, plan).has_value();
     };
     EXPECT_TRUE(is_made(whole));
     const auto changed = [&](auto&& change) {
-        MeshTreePlan plan = whole;
+        MeshTreeTopology plan = whole;
         change(plan);
         return is_made(plan);
     };
-    EXPECT_FALSE(changed([](MeshTreePlan& plan) { plan.order.pop_back(); }));
-    EXPECT_FALSE(changed([](MeshTreePlan& plan) { plan.corners.pop_back(); }));
-    EXPECT_FALSE(changed([](MeshTreePlan& plan) { plan.counts.pop_back(); }));
-    EXPECT_FALSE(changed([](MeshTreePlan& plan) { plan.counts.push_back(0); }));
-    EXPECT_FALSE(changed([](MeshTreePlan& plan) { plan.children.pop_back(); }));
-    EXPECT_FALSE(changed([](MeshTreePlan& plan) { plan.children.resize(plan.children.size() - 8); }));
-    EXPECT_FALSE(changed([](MeshTreePlan& plan) { plan.children.clear(); }));
-    EXPECT_FALSE(changed([](MeshTreePlan& plan) { plan = {}; }));
+    EXPECT_FALSE(changed([](MeshTreeTopology& plan) { plan.order.pop_back(); }));
+    EXPECT_FALSE(changed([](MeshTreeTopology& plan) { plan.corners.pop_back(); }));
+    EXPECT_FALSE(changed([](MeshTreeTopology& plan) { plan.counts.pop_back(); }));
+    EXPECT_FALSE(changed([](MeshTreeTopology& plan) { plan.counts.push_back(0); }));
+    EXPECT_FALSE(changed([](MeshTreeTopology& plan) { plan.children.pop_back(); }));
+    EXPECT_FALSE(changed([](MeshTreeTopology& plan) { plan.children.resize(plan.children.size() - 8); }));
+    EXPECT_FALSE(changed([](MeshTreeTopology& plan) { plan.children.clear(); }));
+    EXPECT_FALSE(changed([](MeshTreeTopology& plan) { plan = {}; }));
 
     // One leaf a node, and the next node: as deep as there are leaves, but for the depth that searches have room for.
     for (const std::uint32_t nodes :
          {static_cast<std::uint32_t>(bvh_depth), static_cast<std::uint32_t>(bvh_depth) + 1}) {
         Welded few = mesh;
         few.triangles.resize(nodes + 1);
-        MeshTreePlan chain;
+        MeshTreeTopology chain;
         for (std::uint32_t i = 0; i <= nodes; ++i) {
             chain.order.push_back(i);
             chain.corners.push_back(0 | 1 << 3 | 2 << 6);

@@ -112,7 +112,7 @@ void add_box(const Vec<D>& low, const Vec<D>& high, std::vector<HalfSpace<D>>& s
     ends.push_back(static_cast<std::uint32_t>(sides.size()));
 }
 
-/// Three lumps: of these the second has no volume.
+/// Three brushes: of these the second has no volume.
 template <int D>
 SolidBsp<D> three_lumps() {
     std::vector<HalfSpace<D>> sides;
@@ -133,7 +133,7 @@ void expect_lumps_by_hand() {
     Vec<D> low(0.0f), high(4.0f);
     high[0] = 10;
     EXPECT_EQ(bounds(level), (Aabb<D>{low, high}));
-    // A ball within is deep, by the least way out of a lump.
+    // A ball within is deep, by the least way out of a brush.
     Vec<D> center(2.0f);
     center[0] = 1.5f;
     const Contact<D> deep = contact(level, Ball<D>{center, 0.25f});
@@ -153,15 +153,15 @@ void expect_lumps_by_hand() {
     ASSERT_TRUE(hit);
     EXPECT_NEAR(hit->fraction, 1.75 / 4, 1e-6);
     EXPECT_EQ(hit->feature.part, 2u);
-    // The level's own ray tells the side, that of its parts the lump.
+    // The level's own ray tells the side, that of its parts the brush.
     const Ray<D> ray = Ray<D>::between(center, center + way);
-    const auto side = raycast(ray, level), lump = raycast(ray, at(level, Pose<D>{}));
-    ASSERT_TRUE(side && lump);
+    const auto side = raycast(ray, level), brush = raycast(ray, at(level, Pose<D>{}));
+    ASSERT_TRUE(side && brush);
     EXPECT_EQ(side->distance, 2);
-    EXPECT_EQ(lump->distance, 2);
+    EXPECT_EQ(brush->distance, 2);
     EXPECT_EQ(side->feature.part, 4u * D + 2);
-    EXPECT_EQ(lump->feature.part, 2u);
-    EXPECT_EQ(level.nearest_face(lump->point), side->feature.part);
+    EXPECT_EQ(brush->feature.part, 2u);
+    EXPECT_EQ(level.nearest_face(brush->point), side->feature.part);
 }
 
 TEST(SolidParts, AreTheLumpsByNumber) {

@@ -61,8 +61,8 @@ TEST(Arguments, WhatLevelsAreCheckedWith) {
     const Result<GapRange> gap = parse_gap("0.5");
     ASSERT_TRUE(gap);
     EXPECT_EQ(gap->width, 0.5f);
-    EXPECT_FLOAT_EQ(gap->least, 0.05f);
-    EXPECT_EQ(parse_gap("0,2")->least, 0);
+    EXPECT_FLOAT_EQ(gap->min_width, 0.05f);
+    EXPECT_EQ(parse_gap("0,2")->min_width, 0);
     for (const char* bad : {"", "0", "-1", "2,1", "1,1", "nan", "1,inf", ",1", "1,2,3"})
         EXPECT_FALSE(parse_gap(bad)) << bad;
 

@@ -1,8 +1,8 @@
 // What meets between two frames.
 
 #include "scene_of.hpp"
-#include "tool/check.hpp"
-#include "tool/scene_objects.hpp"
+#include "tool/check/check.hpp"
+#include "tool/objects/scene_objects.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -257,7 +257,7 @@ TEST(Between, WhatChangesItsShapeIsLookedAtAtFrames) {
     const auto result = check<3>(objects, {0, 1}, {}, [](std::size_t, std::size_t) {});
     ASSERT_TRUE(result);
     EXPECT_TRUE(result->findings.empty());
-    EXPECT_EQ(objects.unfollowed(), std::vector<std::string>{"Walker"});
+    EXPECT_EQ(objects.discontinuous(), std::vector<std::string>{"Walker"});
 }
 
 TEST(Between, ClearanceHoldsOnTheWayToo) {
@@ -317,13 +317,13 @@ TEST(NearPairs, TooManyAreAProblem) {
         std::string path, name, type;
     };
     const std::vector<Thing> things(5);
-    const Selection all(things, {});
-    NearPairs<3> enough(all, 10), few(all, 9);
+    const PairFilter all(things, {});
+    OverlappingPairs<3> enough(all, 10), few(all, 9);
     EXPECT_FALSE(enough.find(boxes));
     EXPECT_EQ(enough.pairs().size(), 10u);
     const std::optional<Problem> problem = few.find(boxes);
     ASSERT_TRUE(problem);
-    EXPECT_EQ(problem->message, "more than 9 pairs of objects are in one place: --pairs asks about fewer");
+    EXPECT_EQ(problem->message, "more than 9 pairs of objects overlap: --pairs selects fewer");
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
-#include "tool/check.hpp"
+#include "tool/check/check.hpp"
 
 #include "scene_of.hpp"
-#include "tool/scene_objects.hpp"
+#include "tool/objects/scene_objects.hpp"
 
 #include <gtest/gtest.h>
 
@@ -132,9 +132,9 @@ TEST(Check, PatternsAreForPathsAndForNames) {
     object.path = "Level/Walls/North";
     object.name = "North";
     for (const char* pattern : {"North", "N*", "Level/Walls/North", "*/North", "Level*"})
-        EXPECT_TRUE(describes(pattern, object)) << pattern;
+        EXPECT_TRUE(matches_name(pattern, object)) << pattern;
     for (const char* pattern : {"Walls", "Level", "Walls/North", "South"})
-        EXPECT_FALSE(describes(pattern, object)) << pattern;
+        EXPECT_FALSE(matches_name(pattern, object)) << pattern;
 }
 
 TEST(Check, ABodyInsideOfAnotherThatIsNotConvex) {

@@ -1,4 +1,4 @@
-#include "tool/duplicates.hpp"
+#include "tool/faults/duplicates.hpp"
 
 #include "level_of.hpp"
 

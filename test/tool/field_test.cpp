@@ -2,8 +2,8 @@
 
 #include "../../scenes/solid_meshes.hpp"
 #include "tool_runs.hpp"
-#include <abut/field/field_blob.hpp>
-#include <abut/io/file_bytes.hpp>
+#include <abut/field/file.hpp>
+#include <abut/io/file/read_file.hpp>
 #include <abut/io/write_obj.hpp>
 
 namespace abut {
@@ -26,7 +26,7 @@ protected:
     std::string cube() const { return write_mesh("cube.obj", scenes::of_cubes({{"#"}})); }
     template <int D>
     static Field<D> loaded(const std::string& file) {
-        const Result<std::vector<std::byte>> bytes = file_bytes(file);
+        const Result<std::vector<std::byte>> bytes = read_file(file);
         EXPECT_TRUE(bytes) << file;
         Result<Field<D>> field = load_field<D>(*bytes);
         EXPECT_TRUE(field) << (field ? "" : field.problem().message);
@@ -126,8 +126,7 @@ TEST_F(FieldVerb, TellsWhatIsInDoubt) {
     EXPECT_GT(open["doubtful"], 0);
     const Ran ran = run({"field", file, "-o", out("open.field")});
     EXPECT_EQ(ran.code, 1);
-    for (const char* said :
-         {"not closed, 3 edges at which it stops, 1 triangle turned round", "% of the samples in doubt"})
+    for (const char* said : {"not closed, 3 edges on the boundary, 1 triangle reversed", "% of the samples uncertain"})
         EXPECT_NE(ran.out.find(said), std::string::npos) << said << "\n" << ran.out;
     EXPECT_LT(loaded<3>(out("open.field")).distance({0.5f, 0.5f, 0.5f}), 0) << "it is written all the same";
 }
@@ -195,10 +194,10 @@ TEST_F(FieldVerb, InfoTellsWhatIsInAField) {
     std::string bytes = content(out("cube.field"));
     EXPECT_EQ(refusal({"info", out("none.field")}), "abut: " + out("none.field") + ": no such file");
     EXPECT_EQ(refusal({"info", write("text.field", "no field at all").string()}),
-              "abut: " + out("text.field") + ": this is no field: it begins with other bytes");
+              "abut: " + out("text.field") + ": this is not a field: its signature is wrong");
     bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
     EXPECT_EQ(refusal({"info", write("damaged.field", bytes).string()}),
-              "abut: " + out("damaged.field") + ": the field is damaged: its checksum is another");
+              "abut: " + out("damaged.field") + ": the field is damaged: its checksum is wrong");
 }
 
 TEST_F(FieldVerb, RefusesInOneLine) {
@@ -217,8 +216,7 @@ TEST_F(FieldVerb, RefusesInOneLine) {
     EXPECT_EQ(refused({"-o", out("c.field"), "--band", "0"}), "abut: --band: '0' is not a number from 1 to 1000000");
     EXPECT_EQ(refused({"-o", out("c.field"), "--picture", out("c.svg"), "--slice", "w=1"}),
               "abut: --slice: 'w=1' is not an axis and a number, such as z=0.3");
-    EXPECT_EQ(refused({"-o", out("c.field"), "--slice", "z=1"}),
-              "abut: --slice says where --picture cuts: name that too");
+    EXPECT_EQ(refused({"-o", out("c.field"), "--slice", "z=1"}), "abut: --slice needs --picture");
     EXPECT_EQ(refused({"-o", out("c.field"), "--cell", "1e-5"}),
               "abut: " + file +
                   ": the field would have more than 2^31 samples: a larger --cell or a smaller --padding makes fewer");

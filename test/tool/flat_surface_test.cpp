@@ -1,4 +1,4 @@
-#include "tool/flat_surface.hpp"
+#include "tool/objects/flat_surface.hpp"
 
 #include "../oracle/random.hpp"
 #include <abut/abut.hpp>

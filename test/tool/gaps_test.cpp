@@ -1,8 +1,8 @@
-#include "tool/gaps.hpp"
+#include "tool/faults/gaps.hpp"
 
 #include "../oracle/random.hpp"
 #include "level_of.hpp"
-#include "tool/necks.hpp"
+#include "tool/faults/necks.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -234,7 +234,7 @@ TEST(Gaps, TheWidestWaysOfAGridGoThroughNecks) {
         const auto place = [&](int cell) { return Vec2(DVec<2>(cell % cells + 0.5, cell / cells + 0.5) * step); };
         for (int cell = 0; cell < cells * cells; ++cell) {
             float least = 10;
-            for (const StandingObject<2>& object : objects)
+            for (const ViewedObject<2>& object : objects)
                 least = std::min(least, closest(object.shape, place(cell)).distance);
             clearance.push_back(static_cast<double>(least));
         }
@@ -372,7 +372,7 @@ TEST(Gaps, OnlyBetweenWantedObjects) {
         level.add_box(std::to_string(i), {1.5f * static_cast<float>(i), 0}, {1.5f * static_cast<float>(i) + 1, 1});
     GapOptions<2> options{0.8, 0.1};
     EXPECT_EQ(find_gaps(FacetTree<2>(level.view_of().objects), options).size(), 2u);
-    options.wanted = [](std::size_t a, std::size_t b) { return a + b == 3; };
+    options.is_selected = [](std::size_t a, std::size_t b) { return a + b == 3; };
     EXPECT_EQ(find_gaps(FacetTree<2>(level.view_of().objects), options).size(), 1u);
 }
 

@@ -115,8 +115,8 @@ TEST_F(HullVerb, RefusesInOneLine) {
     EXPECT_EQ(refused(file, file), "abut: " + file + ": is the mesh itself, and would be overwritten");
     EXPECT_EQ(refused(out("none.glb"), out("hull.obj")), "abut: " + out("none.glb") + ": no such file");
     EXPECT_TRUE(refused(write("empty.glb", "").string(), out("hull.obj")).ends_with(": is empty"));
-    EXPECT_TRUE(refused(write("plan.svg", "<svg/>").string(), out("hull.obj"))
-                    .ends_with(": is a level of the plane, and has no meshes"));
+    EXPECT_TRUE(
+        refused(write("plan.svg", "<svg/>").string(), out("hull.obj")).ends_with(": is a 2D level, and has no meshes"));
     EXPECT_EQ(refusal({"hull", file}), "abut: --output is required");
 
     GltfBuilder nan;
@@ -136,7 +136,7 @@ TEST_F(HullVerb, RefusesInOneLine) {
     line.add_mesh("Box", box_triangles({1, 1, 1}));
     line.add_node("Box", ",\"mesh\":0,\"scale\":[1,0,0]");
     EXPECT_TRUE(refused(write("line.gltf", line.text()).string(), out("hull.obj"))
-                    .ends_with("all its points lie on a line, and so would its hull"));
+                    .ends_with("all its points are collinear, so that its hull would be a segment"));
     EXPECT_FALSE(std::filesystem::exists(out("hull.obj"))) << "nothing is written";
 }
 

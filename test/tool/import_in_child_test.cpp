@@ -1,4 +1,4 @@
-#include "tool/import_in_child.hpp"
+#include "tool/shared/import_in_child.hpp"
 
 #include "../io/gltf_builder.hpp"
 

@@ -1,4 +1,4 @@
-#include "tool/leaks.hpp"
+#include "tool/faults/leaks.hpp"
 
 #include "level_of.hpp"
 
@@ -12,7 +12,7 @@ std::vector<LevelLeak> leaks_of(const test::Triangles& triangles, bool meant_clo
     test::add_object(scene, "Thing", triangles);
     const test::SpaceLevel level(std::move(scene));
     if (!meant_closed) return find_leaks(level.view_of().objects, nullptr);
-    return find_leaks(level.view_of().objects, [](const StandingObject<3>&) { return true; });
+    return find_leaks(level.view_of().objects, [](const ViewedObject<3>&) { return true; });
 }
 
 test::Triangles cube() {
@@ -142,7 +142,7 @@ TEST(Leaks, AFinMakesACrowdedEdge) {
     fin.triangles.emplace_back(t.x, t.y, static_cast<std::uint32_t>(fin.points.size()) - 1);
     const std::vector<LevelLeak> leaks = leaks_of(fin);
     ASSERT_EQ(leaks.size(), 1u);
-    EXPECT_EQ(leaks[0].kind, LeakKind::crowded);
+    EXPECT_EQ(leaks[0].kind, LeakKind::non_manifold);
     EXPECT_EQ(leaks[0].count, 1u);
 }
 
@@ -164,7 +164,7 @@ TEST(Leaks, AMeshIsToldOnceWithAllItsObjects) {
     scene.nodes.push_back(copy);
     const test::SpaceLevel level(std::move(scene));
     const std::vector<LevelLeak> leaks =
-        find_leaks(level.view_of().objects, [](const StandingObject<3>& object) { return object.name == "B"; });
+        find_leaks(level.view_of().objects, [](const ViewedObject<3>& object) { return object.name == "B"; });
     ASSERT_EQ(leaks.size(), 1u);
     EXPECT_EQ(leaks[0].object, 0u);
     EXPECT_EQ(leaks[0].objects, 2u);

@@ -3,7 +3,7 @@
 // Levels for the checks of levels, made in memory: of polygons in the plane, of scenes in space.
 
 #include "scene_of.hpp"
-#include "tool/level_view.hpp"
+#include "tool/objects/level_view.hpp"
 #include <abut/abut.hpp>
 
 #include <cmath>
@@ -25,7 +25,7 @@ public:
         const Result<Polygon> built = Polygon::build(outline);
         ASSERT_TRUE(built);
         polygons_.push_back(*built);
-        tool::StandingObject<2> object = standing(name, view(polygons_.back()), outline);
+        tool::ViewedObject<2> object = standing(name, view(polygons_.back()), outline);
         object.filled = true;
         object.convex = true;
         for (std::uint32_t i = 0; i < outline.size(); ++i)
@@ -38,7 +38,7 @@ public:
         const Result<Chain> built = Chain::build(points, false);
         ASSERT_TRUE(built);
         chains_.push_back(*built);
-        tool::StandingObject<2> object = standing(name, view(chains_.back()), points);
+        tool::ViewedObject<2> object = standing(name, view(chains_.back()), points);
         for (std::uint32_t i = 0; i + 1 < points.size(); ++i) object.surface.facets.push_back({i, i + 1});
         object.surface.two_sided.assign(object.surface.facets.size(), true);
         level_.objects.push_back(std::move(object));
@@ -49,9 +49,8 @@ public:
 
 private:
     template <class Shape>
-    tool::StandingObject<2> standing(const std::string& name, const Shape& shape,
-                                     const std::vector<Vec2>& points) const {
-        tool::StandingObject<2> object;
+    tool::ViewedObject<2> standing(const std::string& name, const Shape& shape, const std::vector<Vec2>& points) const {
+        tool::ViewedObject<2> object;
         object.path = object.name = name;
         object.model = level_.objects.size();
         object.shape = View<2>(shape);

@@ -67,7 +67,7 @@ TEST_F(ToolOnLevels, OptionsOfCheck) {
     const std::string old = write("old.json", run({"check", "--json", file}).out).string();
     EXPECT_EQ(json_of({"check", file, "--baseline", old}, 0)["known"], 1);
     const Ran ran = run({"check", file});
-    EXPECT_NE(ran.out.find("3 deep, near (8.5, 5); moving b by (3, 0) parts them"), std::string::npos) << ran.out;
+    EXPECT_NE(ran.out.find("3 deep, near (8.5, 5); moving b by (3, 0) separates them"), std::string::npos) << ran.out;
 }
 
 TEST_F(ToolOnLevels, CheckKnowsTheInsideOfWhatIsNotConvex) {
@@ -131,9 +131,9 @@ TEST_F(ToolOnLevels, CheckTellsSpawnsInWalls) {
     EXPECT_EQ(json_of({"check", file, "--spawn", "exit"}, 1)["spawns"].size(), 1u);
     EXPECT_EQ(json_of({"check", file, "--spawn", "enemy*"}, 0)["spawn_points"], 1);
     EXPECT_EQ(refusal({"check", file, "--spawn", "nobody"}), "abut: " + file + ": --spawn: nothing is named 'nobody'");
-    EXPECT_EQ(refusal({"check", file, "--up", "z"}), "abut: " + file + ": --up: a map of the plane has no such axis");
+    EXPECT_EQ(refusal({"check", file, "--up", "z"}), "abut: " + file + ": --up: a 2D level has no such axis");
     EXPECT_EQ(refusal({"check", file, "--closed", "Walls"}),
-              "abut: " + file + ": --closed: leaks are looked for in scenes of space alone");
+              "abut: " + file + ": --closed: leaks are checked in 3D only");
 }
 
 TEST_F(ToolOnLevels, CheckTellsSpawnsUnderTheGround) {
@@ -201,7 +201,7 @@ TEST_F(ToolOnLevels, CheckTellsWhatIsThereTwice) {
     const Ran ran = run({"check", there_and_back});
     EXPECT_NE(ran.out.find("1 segment is there again, the first is number 1, at (4.5, 0)"), std::string::npos)
         << ran.out;
-    EXPECT_NE(ran.out.find("FAULTS FOUND: 1 object has doubled segments"), std::string::npos) << ran.out;
+    EXPECT_NE(ran.out.find("FAULTS FOUND: 1 object has duplicate segments"), std::string::npos) << ran.out;
 }
 
 TEST_F(ToolOnLevels, CastInTheFilesOwnCoordinates) {

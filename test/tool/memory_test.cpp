@@ -1,6 +1,6 @@
 // The tool where there is less memory than is wanted.
 
-#include "tool/import_in_child.hpp"
+#include "tool/shared/import_in_child.hpp"
 #include "tool_runs.hpp"
 
 #include <algorithm>
@@ -51,7 +51,7 @@ TEST_F(Memory, ContactsBeyondTheLimitAreCountedAlone) {
 TEST_F(Memory, WantOfItIsOneLine) {
     const std::string heap = boxes_in_one_place(1200);
     expect_one_line(run_within(60, {"check", heap, "--json"}),
-                    heap + ": needs more memory than there is: --pairs asks about fewer objects");
+                    heap + ": needs more memory than there is: --pairs selects fewer objects");
     GltfBuilder builder;
     builder.add_node("Box", builder.add_mesh("Box", test::box_triangles({1, 1, 1})));
     const std::string box = write("box.gltf", builder.text()).string();

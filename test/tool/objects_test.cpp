@@ -1,5 +1,5 @@
 #include "scene_of.hpp"
-#include "tool/scene_objects.hpp"
+#include "tool/objects/scene_objects.hpp"
 
 #include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // What a bar is told while the work goes on.
 
 #include "scene_of.hpp"
-#include "tool/cast.hpp"
-#include "tool/check.hpp"
-#include "tool/scene_objects.hpp"
+#include "tool/cast/cast.hpp"
+#include "tool/check/check.hpp"
+#include "tool/objects/scene_objects.hpp"
 
 #include <string>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "tool/spawns.hpp"
+#include "tool/faults/spawns.hpp"
 
 #include "level_of.hpp"
 
@@ -13,7 +13,7 @@ constexpr Character person{0.3f, 1.8f};
 
 std::vector<SpawnFinding<3>> faults_of(Scene scene, const SpawnOptions<3>& options) {
     const test::SpaceLevel level(std::move(scene));
-    return find_spawn_faults(level.view_of(), usual_spawns(level.view_of()), options);
+    return find_spawn_faults(level.view_of(), default_spawns(level.view_of()), options);
 }
 
 SpawnOptions<3> standing() {
@@ -127,11 +127,11 @@ TEST(Spawns, NamesAndPatterns) {
     scene.nodes.back().parent = 4;  // so that "spawns" is a group
     const test::SpaceLevel level(std::move(scene));
     std::vector<std::string> names;
-    for (const std::size_t i : usual_spawns(level.view_of())) names.push_back(level.view_of().places[i].path);
+    for (const std::size_t i : default_spawns(level.view_of())) names.push_back(level.view_of().places[i].path);
     EXPECT_EQ(names, (std::vector<std::string>{"PLAYER_START.001", "Respawner", "spawns/Spawn_A"}));
-    EXPECT_EQ(described_places(level.view_of(), "S*").size(), 2u) << "Start and Spawn_A";
-    EXPECT_EQ(described_places(level.view_of(), "spawns/*").size(), 1u);
-    EXPECT_TRUE(described_places(level.view_of(), "spawn").empty());
+    EXPECT_EQ(matching_places(level.view_of(), "S*").size(), 2u) << "Start and Spawn_A";
+    EXPECT_EQ(matching_places(level.view_of(), "spawns/*").size(), 1u);
+    EXPECT_TRUE(matching_places(level.view_of(), "spawn").empty());
 }
 
 TEST(Spawns, OnAMapSeenFromAbove) {
@@ -140,7 +140,7 @@ TEST(Spawns, OnAMapSeenFromAbove) {
     level.add_place("spawn 1", {2, 1.2f});
     level.add_place("spawn 2", {2, 0.25f});
     level.add_place("spawn 3", {2, 1.5f});
-    const std::vector<std::size_t> spawns = usual_spawns(level.view_of());
+    const std::vector<std::size_t> spawns = default_spawns(level.view_of());
     const std::vector<SpawnFinding<2>> sized = find_spawn_faults(level.view_of(), spawns, {Character{0.4f, 0.8f}});
     ASSERT_EQ(sized.size(), 2u);
     EXPECT_NEAR(sized[0].depth, 0.2, 1e-5);

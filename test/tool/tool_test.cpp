@@ -232,8 +232,7 @@ TEST_F(Tool, WhatMeetsBetweenFramesIsFound) {
     EXPECT_LT(between["distance"].get<double>(), -0.5);
     EXPECT_GE(between["last_time"].get<double>(), between["deepest_time"].get<double>());
     const Ran ran = run({"check", file});
-    EXPECT_NE(ran.out.find("between frames 0 and 1: they meet at 0.4 s (0.4 of the way)"), std::string::npos)
-        << ran.out;
+    EXPECT_NE(ran.out.find("between frames 0 and 1: they touch at 0.4 s (fraction 0.4)"), std::string::npos) << ran.out;
     EXPECT_NE(ran.out.find("FAULTS FOUND: 1 pair collides"), std::string::npos) << ran.out;
     const std::string old = write("old.json", json.dump()).string();
     EXPECT_EQ(checked({file, "--baseline", old}, 0)["known"], 1);
@@ -375,7 +374,7 @@ TEST_F(Tool, TellsSpawnsGapsDuplicatesAndLeaks) {
     const Ran text = run({"check", file, "--gap", "0.7", "--closed", "O*"});
     for (const char* part : {"spawns\n", "gaps narrower than 0.7\n", "duplicates\n", "leaks\n", "again as B copy",
                              "is 0.25 deep in A; free at", "0.5 wide at", "a hole of 3 edges",
-                             "FAULTS FOUND: 1 pair collides, 1 spawn is no place to be"})
+                             "FAULTS FOUND: 1 pair collides, 1 spawn is blocked or out of place"})
         EXPECT_NE(text.out.find(part), std::string::npos) << part << " in\n" << text.out;
 
     // Somebody as wide as that looks for the same passages.

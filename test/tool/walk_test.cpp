@@ -2,8 +2,8 @@
 
 #include "tool_runs.hpp"
 #include <abut/io/read_walk_mesh.hpp>
-#include <abut/walk/walk_blob.hpp>
-#include <abut/walk/walk_survey.hpp>
+#include <abut/walk/file.hpp>
+#include <abut/walk/survey.hpp>
 
 #include <cmath>
 #include <string>
@@ -74,8 +74,8 @@ TEST_F(WalkVerb, TellsWhatThereIs) {
     const Ran ran = run({"walk", file});
     EXPECT_EQ(ran.code, 0);
     EXPECT_EQ(ran.err, "");
-    for (const char* said : {"mesh        32 triangles of 2 objects: 2 islands, 26 border edges\n",
-                             "island 0    28 triangles, area 14, from (0, 0, 0) to (5, 0, 3)\n",
+    for (const char* said : {"mesh        32 triangles of 2 objects: 2 components, 26 border edges\n",
+                             "component 0 28 triangles, area 14, from (0, 0, 0) to (5, 0, 3)\n",
                              "rim 16 long, 1 hole: 4 round (2.5, 0, 1.5)\n", "rim 6 long\n"})
         EXPECT_NE(ran.out.find(said), std::string::npos) << said << "\n" << ran.out;
 }
@@ -98,10 +98,10 @@ TEST_F(WalkVerb, FindsTheWay) {
 
     const Ran ran = run({"walk", file, "--from", "1.5,0.25,1.5", "--to", "3.5,-0.5,1.5"});
     EXPECT_EQ(ran.code, 0);
-    for (const char* said : {"from        (1.5, 0.25, 1.5): on triangle ", " of island 0 at (1.5, 0, 1.5), 0.25 off\n",
-                             "   4. (3.5, 0, 1.5)\n"})
+    for (const char* said : {"from        (1.5, 0.25, 1.5): on triangle ",
+                             " of component 0 at (1.5, 0, 1.5), 0.25 off\n", "   4. (3.5, 0, 1.5)\n"})
         EXPECT_NE(ran.out.find(said), std::string::npos) << said << "\n" << ran.out;
-    EXPECT_TRUE(ran.out.ends_with("\nWAY: 2.414 long, from (1.5, 0, 1.5) to (3.5, 0, 1.5)\n")) << ran.out;
+    EXPECT_TRUE(ran.out.ends_with("\nPATH: 2.414 long, from (1.5, 0, 1.5) to (3.5, 0, 1.5)\n")) << ran.out;
 }
 
 TEST_F(WalkVerb, TellsThatThereIsNone) {
@@ -111,7 +111,8 @@ TEST_F(WalkVerb, TellsThatThereIsNone) {
     EXPECT_EQ(json["to"]["island"], 1);
     const Ran ran = run({"walk", file, "--from", "0.5,0,0.5", "--to", "0.5,2,0.5"});
     EXPECT_EQ(ran.code, 1);
-    EXPECT_TRUE(ran.out.ends_with("\nNO WAY: (0.5, 0, 0.5) is on island 0, (0.5, 2, 0.5) on island 1\n")) << ran.out;
+    EXPECT_TRUE(ran.out.ends_with("\nNO PATH: (0.5, 0, 0.5) is on component 0, (0.5, 2, 0.5) on component 1\n"))
+        << ran.out;
 }
 
 TEST_F(WalkVerb, ReachesAsFarAsItIsTold) {
@@ -126,7 +127,7 @@ TEST_F(WalkVerb, ReachesAsFarAsItIsTold) {
     EXPECT_EQ(within("0.24", 1)["way"], nullptr);
     const Ran ran = run({"walk", file, "--from", "0.5,0,0.5", "--to", "4.5,0,9.5", "--reach", "1"});
     EXPECT_EQ(ran.code, 1);
-    EXPECT_TRUE(ran.out.ends_with("\nNO WAY: (4.5, 0, 9.5) is 6.5 off the mesh, farther than 1\n")) << ran.out;
+    EXPECT_TRUE(ran.out.ends_with("\nNO PATH: (4.5, 0, 9.5) is 6.5 off the mesh, farther than 1\n")) << ran.out;
 }
 
 TEST_F(WalkVerb, TakesWhatIsNamed) {
@@ -152,30 +153,28 @@ TEST_F(WalkVerb, WritesWhatAGameLoads) {
     EXPECT_EQ(info["borders"], json["borders"]);
     EXPECT_EQ(info["report"], json["report"]);
     const Ran ran = run({"info", baked});
-    EXPECT_NE(ran.out.find("mesh        28 triangles of a baked mesh: 1 island"), std::string::npos) << ran.out;
+    EXPECT_NE(ran.out.find("mesh        28 triangles of a baked mesh: 1 component"), std::string::npos) << ran.out;
 
     std::string bytes = content(baked);
     bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
     EXPECT_EQ(refusal({"walk", write("damaged.walk", bytes).string()}),
-              "abut: " + out("damaged.walk") + ": the walk mesh is damaged: its checksum is another");
+              "abut: " + out("damaged.walk") + ": the walk mesh is damaged: its checksum is wrong");
     EXPECT_EQ(refusal({"walk", baked, "--name", "room"}), "abut: " + baked + ": is baked, and has no names for --name");
 }
 
 TEST_F(WalkVerb, NamesWhatIsWrong) {
     const std::string pinched = write("pinched.obj", squares("floor", {"####", "#.##", "##.#", "####"}, 0)).string();
     EXPECT_EQ(walked({pinched})["pinched"], (Json{{2, 0, 2}}));
-    EXPECT_NE(run({"walk", pinched}).out.find("pinched     1 point that nobody gets through: (2, 0, 2)\n"),
-              std::string::npos);
+    EXPECT_NE(run({"walk", pinched}).out.find("vertices    1 non-manifold vertex: (2, 0, 2)\n"), std::string::npos);
     const std::string wall =
         write("wall.obj", squares("floor", {"##"}, 0) + "v 1 0 0\nv 1 0 1\nv 1 1 1\nv 1 1 0\nf -4 -3 -2 -1\n").string();
     EXPECT_EQ(walked({wall})["crowded"].size(), 1u);
-    EXPECT_NE(run({"walk", wall}).out.find("crowded     1 edge of more than two triangles: (1, 0, 0.5)\n"),
-              std::string::npos);
+    EXPECT_NE(run({"walk", wall}).out.find("edges       1 non-manifold edge: (1, 0, 0.5)\n"), std::string::npos);
     std::string strip = "o strip\nv 0 0 0\nv 0 1 0\nv 4 0 0\nv 4 1 0\nv 2 0 3\nv 2 1 3\n";
     strip += "f 1 2 4\nf 1 4 3\nf 3 4 6\nf 3 6 5\nf 5 6 1\nf 5 1 2\n";
     const std::string moebius = write("moebius.obj", strip).string();
     EXPECT_EQ(walked({moebius})["mirrored"].size(), 1u);
-    EXPECT_NE(run({"walk", moebius}).out.find("mirrored    1 edge where the surface turns over: ("), std::string::npos);
+    EXPECT_NE(run({"walk", moebius}).out.find("mirrored    1 edge of inconsistent orientation: ("), std::string::npos);
 }
 
 TEST_F(WalkVerb, DrawsTheMesh) {
@@ -198,9 +197,9 @@ TEST_F(WalkVerb, DrawsTheMesh) {
 TEST_F(WalkVerb, RefusesInOneLine) {
     const std::string file = room();
     const auto refused = [&](const std::vector<std::string>& more) { return refusal("walk", file, more); };
-    EXPECT_EQ(refused({"--from", "1,2,3"}), "abut: --from says where a way starts: name --to too");
-    EXPECT_EQ(refused({"--to", "1,2,3"}), "abut: --to says where a way ends: name --from too");
-    EXPECT_EQ(refused({"--reach", "1"}), "abut: --reach is how far off --from and --to may be: name them too");
+    EXPECT_EQ(refused({"--from", "1,2,3"}), "abut: --from needs --to");
+    EXPECT_EQ(refused({"--to", "1,2,3"}), "abut: --to needs --from");
+    EXPECT_EQ(refused({"--reach", "1"}), "abut: --reach needs --from and --to");
     for (const char* point : {"1,2", "a,b,c", "1,2,nan", "1,2,3,4", ""})
         EXPECT_EQ(refused({"--from", point, "--to", "0,0,0"}),
                   "abut: --from: '" + std::string(point) +
@@ -215,7 +214,7 @@ TEST_F(WalkVerb, RefusesInOneLine) {
               "abut: " + out("none/r.svg") + ": can't be written: No such file or directory");
     EXPECT_EQ(refusal({"walk", out("none.obj")}), "abut: " + out("none.obj") + ": no such file");
     const std::string flat = write("flat.svg", "<svg/>").string();
-    EXPECT_EQ(refusal({"walk", flat}), "abut: " + flat + ": is a level of the plane, and has no meshes");
+    EXPECT_EQ(refusal({"walk", flat}), "abut: " + flat + ": is a 2D level, and has no meshes");
     const std::string line = write("line.obj", "o a\nv 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n").string();
     EXPECT_EQ(refusal({"walk", line}), "abut: " + line + ": no triangle of the walk mesh has an area");
     const std::string baked = out("same.walk");

@@ -4,8 +4,8 @@
 #include "../oracle/seal.hpp"
 #include "../shape/meshes.hpp"
 #include "walk_surfaces.hpp"
-#include <abut/walk/walk_blob.hpp>
-#include <abut/walk/walk_data.hpp>
+#include <abut/walk/data.hpp>
+#include <abut/walk/file.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -77,7 +77,7 @@ void expect_same(const WalkMesh& mesh) {
     EXPECT_TRUE(same_bits(a.points, b.points));
     EXPECT_TRUE(same_bits(a.triangles, b.triangles));
     EXPECT_TRUE(same_bits(a.walk, b.walk));
-    EXPECT_TRUE(same_bits(a.islands, b.islands));
+    EXPECT_TRUE(same_bits(a.components, b.components));
     EXPECT_TRUE(same_bits(a.normals, b.normals));
     EXPECT_TRUE(same_bits(a.corner_normals, b.corner_normals));
     EXPECT_EQ(a.given_normals, b.given_normals);
@@ -106,12 +106,12 @@ TEST(WalkBlob, IsTheSameMeshAgain) {
     const Surface mixed = odd();
     const WalkMesh mesh = built(mixed);
     const WalkMeshReport& report = mesh.report();
-    EXPECT_GT(report.doubled, 0u);
+    EXPECT_GT(report.duplicates, 0u);
     EXPECT_GT(report.flat, 0u);
     EXPECT_GT(report.left_out, 0u);
     EXPECT_GT(report.turned, 0u);
-    EXPECT_GT(report.crowded, 0u);
-    EXPECT_GT(report.islands, 1u);
+    EXPECT_GT(report.non_manifold_edges, 0u);
+    EXPECT_GT(report.components, 1u);
     expect_same(mesh);
     expect_same(built(mixed, normals_of(mixed)));
     expect_same(built(mixed, {}, areas_of(mixed.triangles.size())));
@@ -148,8 +148,8 @@ TEST(WalkBlob, IsTheSameMeshAgainForAnyTriangles) {
         const Result<WalkMesh> mesh = WalkMesh::build(soup.points, soup.triangles, normals, areas);
         if (!mesh) continue;
         turned += mesh->report().turned;
-        pinched += mesh->report().pinched;
-        crowded += mesh->report().crowded;
+        pinched += mesh->report().non_manifold_vertices;
+        crowded += mesh->report().non_manifold_edges;
         mirrored += mesh->report().mirrored;
         expect_same(*mesh);
     }
@@ -231,16 +231,16 @@ TEST_F(ForgedWalkBlob, SaysOfItselfWhatIsTrue) {
     Bytes same = bytes;
     oracle::seal(same);
     EXPECT_EQ(same, bytes);
-    EXPECT_EQ(refused(version, 2u), "the walk mesh is of another version");
-    EXPECT_EQ(refused(flags, std::uint8_t{2}), "the walk mesh is of a kind that there isn't");
-    EXPECT_EQ(refused(flags, std::uint8_t{0}), "the walk mesh goes on behind its end");
+    EXPECT_EQ(refused(version, 2u), "the walk mesh has an unknown version");
+    EXPECT_EQ(refused(flags, std::uint8_t{2}), "the walk mesh is of an unknown kind");
+    EXPECT_EQ(refused(flags, std::uint8_t{0}), "the walk mesh has extra bytes at its end");
     for (std::size_t i = 0; i < 5; ++i)
         for (const std::uint64_t count : {std::uint64_t{4}, std::uint64_t{1} << 40, UINT64_MAX})
-            EXPECT_EQ(refused(counts + 8 * i, count), "the walk mesh has other triangles than it says") << i;
-    EXPECT_EQ(refused(counts, std::uint64_t{0}), "the walk mesh has other triangles than it says");
+            EXPECT_EQ(refused(counts + 8 * i, count), "the counts of the walk mesh contradict its triangles") << i;
+    EXPECT_EQ(refused(counts, std::uint64_t{0}), "the counts of the walk mesh contradict its triangles");
     for (std::size_t i = 0; i < 5; ++i)
         for (const std::uint64_t count : {std::uint64_t{5}, std::uint64_t{1} << 40, UINT64_MAX})
-            EXPECT_EQ(refused(sizes + 8 * i, count), "the walk mesh ends too soon") << i;
+            EXPECT_EQ(refused(sizes + 8 * i, count), "the walk mesh is truncated") << i;
 }
 
 TEST_F(ForgedWalkBlob, HasTrianglesThatThereCanBe) {
@@ -250,14 +250,14 @@ TEST_F(ForgedWalkBlob, HasTrianglesThatThereCanBe) {
     EXPECT_EQ(refused(points + 4, 2e15f), "point 0 has a coordinate above 1e15");
     EXPECT_EQ(refused(triangles + 4, 4u), "triangle 0 names point 4 of 4");
     EXPECT_EQ(refused(triangles + 4, 0u), "triangle 0 of the walk mesh has no area");
-    EXPECT_EQ(refused(normals + 8, 0.5f), "normal 0 of the walk mesh has another length than 1");
+    EXPECT_EQ(refused(normals + 8, 0.5f), "normal 0 of the walk mesh is not of unit length");
     EXPECT_EQ(refused(normals + 8, std::numeric_limits<float>::infinity()), "normal 0 is not finite");
 }
 
 TEST_F(ForgedWalkBlob, GoesOnInWhatIsBesideIt) {
     if constexpr (std::endian::native != std::endian::little) GTEST_SKIP() << "numbers are put in as they are here";
     const auto wrong = [](int triangle) {
-        return "triangle " + std::to_string(triangle) + " of the walk mesh goes on in what isn't beside it";
+        return "triangle " + std::to_string(triangle) + " of the walk mesh is linked to a side that isn't adjacent";
     };
     // Side 2 of triangle 0 is side 0 of triangle 1.
     std::uint32_t code = 0;
@@ -291,14 +291,14 @@ TEST_F(ForgedWalkBlob, GoesOnInWhatIsBesideIt) {
     oracle::seal(parted);
     const Result<WalkMesh> two = load_walk_mesh(parted);
     ASSERT_TRUE(two) << two.problem().message;
-    EXPECT_EQ(two->report().islands, 2u);
+    EXPECT_EQ(two->report().components, 2u);
     EXPECT_EQ(two->report().border, 6u);
     EXPECT_EQ(save(*two), parted);
 }
 
 TEST_F(ForgedWalkBlob, HasATreeOfItsTriangles) {
     if constexpr (std::endian::native != std::endian::little) GTEST_SKIP() << "numbers are put in as they are here";
-    const std::string wrong = "the tree of the walk mesh is none of its triangles";
+    const std::string wrong = "the tree of the walk mesh doesn't match its triangles";
     EXPECT_EQ(refused(order, 1u), wrong) << "twice the same";
     EXPECT_EQ(refused(order, 2u), wrong) << "one that is left out";
     EXPECT_EQ(refused(order, 3u), wrong) << "one that there isn't";
@@ -313,7 +313,7 @@ TEST_F(ForgedWalkBlob, IsWalkedOnSomewhere) {
     oracle::seal(none);
     const Result<WalkMesh> mesh = load_walk_mesh(none);
     ASSERT_FALSE(mesh);
-    EXPECT_EQ(mesh.problem().message, "no triangle of the walk mesh is walked on");
+    EXPECT_EQ(mesh.problem().message, "no triangle of the walk mesh is walkable");
 }
 
 }  // namespace

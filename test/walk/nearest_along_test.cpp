@@ -243,7 +243,7 @@ TEST_P(WalkNearestAlong, is_the_same_bits_everywhere) {
 
 INSTANTIATE_TEST_SUITE_P(Each, WalkNearestAlong, oracle::vector_units(), oracle::name_of_unit);
 
-TEST(WalkNearestAlongInput, nothing_is_met_on_no_way) {
+TEST(WalkNearestAlongInput, a_ray_of_length_zero_or_not_finite_hits_nothing) {
     const Surface surface = flat(3, 3);
     const Result<WalkMesh> mesh = WalkMesh::build(surface.points, surface.triangles);
     ASSERT_TRUE(mesh);

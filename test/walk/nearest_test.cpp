@@ -6,9 +6,9 @@
 #include "../query/hash.hpp"
 #include "long_vectors.hpp"
 #include "walk_surfaces.hpp"
-#include <abut/walk/walk_data.hpp>
+#include <abut/walk/data.hpp>
+#include <abut/walk/nearest_on.hpp>
 #include <abut/walk/walk_mesh.hpp>
-#include <abut/walk/walk_nearest_on.hpp>
 
 #include <algorithm>
 #include <cstdlib>
@@ -309,7 +309,7 @@ TEST_P(WalkNearest, leaves_out_what_is_left_out) {
     surface.triangles.emplace_back(last - 2, last - 1, last);
     const Result<WalkMesh> mesh = WalkMesh::build(surface.points, surface.triangles);
     ASSERT_TRUE(mesh);
-    EXPECT_GT(mesh->report().doubled, 0u);
+    EXPECT_GT(mesh->report().duplicates, 0u);
     EXPECT_GT(mesh->report().left_out + mesh->report().flat, 0u);
     Random random(6);
     for (int i = 0; i < 200; ++i) check(*mesh, near_by(surface, random), random);
@@ -332,7 +332,7 @@ TEST_P(WalkNearest, is_the_same_bits_everywhere) {
 }
 
 /// This program's assertions go on.
-TEST(WalkNearestInput, nothing_is_told_of_what_is_nowhere) {
+TEST(WalkNearestInput, a_point_that_is_not_finite_gives_a_valid_place_or_none) {
     const Surface surface = flat(3, 3);
     const Result<WalkMesh> mesh = WalkMesh::build(surface.points, surface.triangles);
     ASSERT_TRUE(mesh);

@@ -52,7 +52,7 @@ TEST(path_oracle, flat_ground_with_holes_against_corners_that_see_one_another) {
         Ground ground = grid(size, size, [&](int x, int y) { return squares.at(x, y); });
         if (ground.triangles.empty()) continue;
         const WalkMesh flat = ground.mesh();
-        EXPECT_EQ(flat.report().pinched, 0u);
+        EXPECT_EQ(flat.report().non_manifold_vertices, 0u);
         // The same in space, turned.
         const glm::quat rotation = random.rotation<3>();
         for (Vec3& point : ground.points) point = rotate(rotation, point) + Vec3(3, -7, 20);
@@ -215,12 +215,12 @@ TEST(path_oracle, the_nearest_reachable_place_is_the_nearest) {
         const std::optional<WalkPath> path = mesh.find_path(from, to, {.nearest_reachable = true});
         ASSERT_TRUE(path);
         expect_whole(mesh, from, to, *path, 1e-5);
-        EXPECT_EQ(path->reached, mesh.island(from.triangle) == mesh.island(to.triangle));
+        EXPECT_EQ(path->reached, mesh.component(from.triangle) == mesh.component(to.triangle));
         // Of the start's island alone.
         Ground island;
         island.points = ground.points;
         for (std::uint32_t t = 0; t < ground.triangles.size(); ++t)
-            if (mesh.island(t) == mesh.island(from.triangle)) island.triangles.push_back(ground.triangles[t]);
+            if (mesh.component(t) == mesh.component(from.triangle)) island.triangles.push_back(ground.triangles[t]);
         const WalkMesh alone = island.mesh();
         const Vec3 end = mesh.to_world(to);
         EXPECT_NEAR(distance(path->points.back(), end), distance(alone.to_world(alone.nearest(end)), end), 1e-6);

@@ -42,7 +42,7 @@ WalkPoint anywhere(const WalkMesh& mesh, oracle::Random& random) {
     return place.weights == Vec3(0.0f) ? WalkPoint{place.triangle, {1, 0, 0}} : place;
 }
 
-TEST(path_soup, ways_are_found_on_each_island_and_are_as_long_as_their_points_are_apart) {
+TEST(path_soup, paths_are_found_on_each_component_and_are_as_long_as_their_points_are_apart) {
     const std::vector<float> costs = {1, 2.5f, 0.4f}, closed = {1, std::numeric_limits<float>::infinity(), 0.4f};
     int paths = 0, mirrored = 0, apart = 0;
     // In the first three a way went to the other end of a portal and back, 3.46 too long of 8.37.
@@ -62,7 +62,7 @@ TEST(path_soup, ways_are_found_on_each_island_and_are_as_long_as_their_points_ar
         for (int i = 0; i < 10; ++i) {
             const WalkPoint from = anywhere(mesh, random);
             const WalkPoint to = anywhere(mesh, random);
-            const bool joined = mesh.island(from.triangle) == mesh.island(to.triangle);
+            const bool joined = mesh.component(from.triangle) == mesh.component(to.triangle);
             apart += !joined;
             for (int question = 0; question < 4; ++question) {
                 WalkPathOptions options;

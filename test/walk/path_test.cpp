@@ -87,7 +87,7 @@ TEST(path, from_edges_and_corners_leads_straight_away_to_either_side) {
             }
 }
 
-TEST(path, does_not_lead_through_a_pinched_point) {
+TEST(path, does_not_lead_through_a_non_manifold_vertex) {
     // Two rooms that meet at a corner, and a corridor around.
     const auto rooms = [](bool corridor) {
         return grid(6, 6, [=](int x, int y) {
@@ -164,7 +164,7 @@ Ground band(int count, int half_turns) {
     return result;
 }
 
-TEST(path, leads_round_a_moebius_strip_the_short_way) {
+TEST(path, leads_around_a_moebius_strip_by_the_short_side) {
     const WalkMesh mesh = band(60, 1).mesh();
     ASSERT_GT(mesh.report().mirrored, 0u);
     for (int from = 0; from < 60; from += 7)
@@ -232,7 +232,7 @@ TEST(path, keeps_to_doors_that_may_be_crossed) {
     EXPECT_NEAR(found(mesh, to, from, options).length, 6, 1e-6);
 }
 
-TEST(path, unreachable_ends_are_told_and_the_nearest_place_found) {
+TEST(path, unreachable_ends_are_reported_and_the_nearest_place_found) {
     const WalkMesh mesh = grid(9, 5, [](int x, int) { return x != 5; }).mesh();
     const WalkPoint from = mesh.nearest({0.5f, 2.5f, 0}), to = mesh.nearest({8.25f, 1.75f, 0});
     EXPECT_FALSE(mesh.find_path(from, to));

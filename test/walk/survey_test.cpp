@@ -4,7 +4,7 @@
 #include "../shape/meshes.hpp"
 #include "walk_surfaces.hpp"
 #include <abut/math/dvec.hpp>
-#include <abut/walk/walk_survey.hpp>
+#include <abut/walk/survey.hpp>
 
 #include <algorithm>
 #include <array>
@@ -52,11 +52,11 @@ double turned_round(const WalkBorder& border) {
 TEST(WalkSurvey, TellsARoomWithPillars) {
     const WalkMesh mesh = built(floor_of(7, 5, [](int x, int y) { return !(y == 2 && (x == 1 || x == 4 || x == 5)); }));
     const WalkSurvey found = survey(mesh);
-    ASSERT_EQ(found.islands.size(), 1u);
-    EXPECT_EQ(found.islands[0].triangles, 64u);
-    EXPECT_DOUBLE_EQ(found.islands[0].area, 32);
-    EXPECT_EQ(found.islands[0].box, (Aabb3{{0, 0, 0}, {7, 5, 0}}));
-    EXPECT_TRUE(mesh.is_walkable(found.islands[0].place.triangle));
+    ASSERT_EQ(found.components.size(), 1u);
+    EXPECT_EQ(found.components[0].triangles, 64u);
+    EXPECT_DOUBLE_EQ(found.components[0].area, 32);
+    EXPECT_EQ(found.components[0].box, (Aabb3{{0, 0, 0}, {7, 5, 0}}));
+    EXPECT_TRUE(mesh.is_walkable(found.components[0].place.triangle));
     ASSERT_EQ(found.borders.size(), 3u);
     EXPECT_TRUE(found.borders[0].is_rim);
     EXPECT_EQ(found.borders[0].points.size(), 24u);
@@ -65,8 +65,8 @@ TEST(WalkSurvey, TellsARoomWithPillars) {
     for (const std::size_t hole : {1u, 2u}) EXPECT_FALSE(found.borders[hole].is_rim);
     EXPECT_EQ(std::minmax(found.borders[1].length, found.borders[2].length), std::minmax(4.0, 6.0));
     EXPECT_DOUBLE_EQ(turned_round(found.borders[1]) + turned_round(found.borders[2]), -2 * 3);
-    EXPECT_TRUE(found.pinched.empty());
-    EXPECT_TRUE(found.crowded.empty());
+    EXPECT_TRUE(found.non_manifold_vertices.empty());
+    EXPECT_TRUE(found.non_manifold_edges.empty());
     EXPECT_TRUE(found.mirrored.empty());
 }
 
@@ -76,13 +76,13 @@ TEST(WalkSurvey, TellsIslandsByTheirFirstTriangles) {
     for (Vec3& p : far.points) p = Vec3(p.y, 4, p.x) * 2.0f;
     const WalkMesh mesh = built(joined(surface, far));
     const WalkSurvey found = survey(mesh);
-    ASSERT_EQ(found.islands.size(), 2u);
-    EXPECT_DOUBLE_EQ(found.islands[0].area, 2);
-    EXPECT_DOUBLE_EQ(found.islands[1].area, 32);
-    EXPECT_EQ(found.islands[1].box, (Aabb3{{0, 8, 0}, {6, 8, 6}}));
-    for (std::uint32_t i = 0; i < 2; ++i) EXPECT_EQ(mesh.island(found.islands[i].place.triangle), i);
+    ASSERT_EQ(found.components.size(), 2u);
+    EXPECT_DOUBLE_EQ(found.components[0].area, 2);
+    EXPECT_DOUBLE_EQ(found.components[1].area, 32);
+    EXPECT_EQ(found.components[1].box, (Aabb3{{0, 8, 0}, {6, 8, 6}}));
+    for (std::uint32_t i = 0; i < 2; ++i) EXPECT_EQ(mesh.component(found.components[i].place.triangle), i);
     ASSERT_EQ(found.borders.size(), 3u);
-    for (const std::size_t i : {0u, 1u, 2u}) EXPECT_EQ(found.borders[i].island, i == 0 ? 0u : 1u);
+    for (const std::size_t i : {0u, 1u, 2u}) EXPECT_EQ(found.borders[i].component, i == 0 ? 0u : 1u);
     EXPECT_NE(found.borders[1].is_rim, found.borders[2].is_rim);
     EXPECT_DOUBLE_EQ(found.borders[1].length + found.borders[2].length, 24 + 8);
 }
@@ -93,16 +93,16 @@ TEST(WalkSurvey, PlacesLieInTheMiddleOfTheLargestTriangle) {
     surface.triangles.emplace_back(2u, 3u, 12u);
     const WalkMesh mesh = built(surface);
     const WalkSurvey found = survey(mesh);
-    ASSERT_EQ(found.islands.size(), 1u);
-    EXPECT_EQ(found.islands[0].place.triangle, 6u);
-    const DVec<3> off = DVec<3>(mesh.to_world(found.islands[0].place)) - DVec<3>(2.0 / 3, 11.0 / 3, 0);
+    ASSERT_EQ(found.components.size(), 1u);
+    EXPECT_EQ(found.components[0].place.triangle, 6u);
+    const DVec<3> off = DVec<3>(mesh.to_world(found.components[0].place)) - DVec<3>(2.0 / 3, 11.0 / 3, 0);
     EXPECT_LT(length(off), 1e-6);
 }
 
 TEST(WalkSurvey, ClosedSurfacesHaveNoBorder) {
     const WalkSurvey found = survey(built(test::box_surface({-1, -1, -1}, {1, 1, 1})));
-    ASSERT_EQ(found.islands.size(), 1u);
-    EXPECT_DOUBLE_EQ(found.islands[0].area, 24);
+    ASSERT_EQ(found.components.size(), 1u);
+    EXPECT_DOUBLE_EQ(found.components[0].area, 24);
     EXPECT_TRUE(found.borders.empty());
 }
 
@@ -120,25 +120,25 @@ TEST(WalkSurvey, NamesWhatIsPinchedAndCrowded) {
     // Two pillars that touch at a corner: nobody comes through between them, so that one border goes round both.
     const WalkSurvey pinched =
         survey(built(floor_of(4, 4, [](int x, int y) { return (x != 1 || y != 1) && (x != 2 || y != 2); })));
-    EXPECT_EQ(pinched.pinched, (std::vector<Vec3>{{2, 2, 0}}));
+    EXPECT_EQ(pinched.non_manifold_vertices, (std::vector<Vec3>{{2, 2, 0}}));
     ASSERT_EQ(pinched.borders.size(), 2u);
     for (const WalkBorder& border : pinched.borders) EXPECT_DOUBLE_EQ(border.length, border.is_rim ? 16 : 8);
 
     Surface wall = floor_of(2, 1, [](int, int) { return true; });
     wall.add_quad({Vec3{1, 0, 0}, {1, 0, 1}, {1, 1, 1}, {1, 1, 0}}, false);
     const WalkSurvey crowded = survey(built(wall));
-    ASSERT_EQ(crowded.crowded.size(), 1u);
-    EXPECT_EQ(crowded.crowded[0].from + crowded.crowded[0].to, Vec3(2, 1, 0));
-    EXPECT_EQ(crowded.islands.size(), 2u) << "the floor goes on below the wall";
+    ASSERT_EQ(crowded.non_manifold_edges.size(), 1u);
+    EXPECT_EQ(crowded.non_manifold_edges[0].from + crowded.non_manifold_edges[0].to, Vec3(2, 1, 0));
+    EXPECT_EQ(crowded.components.size(), 2u) << "the floor goes on below the wall";
 }
 
 /// All that is told, found again in the plainest way by `beyond`.
 void expect_as_plain(const WalkMesh& mesh) {
     const WalkSurvey found = survey(mesh);
     const WalkMeshReport& report = mesh.report();
-    EXPECT_EQ(found.islands.size(), report.islands);
-    EXPECT_EQ(found.pinched.size(), report.pinched);
-    EXPECT_EQ(found.crowded.size(), report.crowded);
+    EXPECT_EQ(found.components.size(), report.components);
+    EXPECT_EQ(found.non_manifold_vertices.size(), report.non_manifold_vertices);
+    EXPECT_EQ(found.non_manifold_edges.size(), report.non_manifold_edges);
     EXPECT_EQ(found.mirrored.size(), report.mirrored);
 
     using Edge = std::tuple<float, float, float, float, float, float>;
@@ -177,11 +177,11 @@ void expect_as_plain(const WalkMesh& mesh) {
             }
         if (reached.size() < here.size()) pinched.push_back(place);
     }
-    for (const Vec3& p : found.pinched) told_pinched.push_back({p.x, p.y, p.z});
+    for (const Vec3& p : found.non_manifold_vertices) told_pinched.push_back({p.x, p.y, p.z});
     std::sort(told_pinched.begin(), told_pinched.end());
     EXPECT_EQ(told_pinched, pinched);
 
-    std::vector<double> rims(report.islands, -1), longest(report.islands, -1);
+    std::vector<double> rims(report.components, -1), longest(report.components, -1);
     for (const WalkBorder& border : found.borders) {
         double length = 0;
         for (std::size_t i = 0; i < border.points.size(); ++i) {
@@ -190,10 +190,10 @@ void expect_as_plain(const WalkMesh& mesh) {
             length += abut::length(DVec<3>(b) - DVec<3>(a));
         }
         EXPECT_NEAR(border.length, length, 1e-9);
-        longest[border.island] = std::max(longest[border.island], border.length);
+        longest[border.component] = std::max(longest[border.component], border.length);
         if (border.is_rim) {
-            EXPECT_EQ(rims[border.island], -1) << "two rims";
-            rims[border.island] = border.length;
+            EXPECT_EQ(rims[border.component], -1) << "two rims";
+            rims[border.component] = border.length;
         }
     }
     EXPECT_EQ(rims, longest);
@@ -202,11 +202,11 @@ void expect_as_plain(const WalkMesh& mesh) {
     EXPECT_EQ(told, plain);
 
     std::size_t triangles = 0;
-    for (std::uint32_t i = 0; i < found.islands.size(); ++i) {
-        triangles += found.islands[i].triangles;
-        EXPECT_EQ(mesh.island(found.islands[i].place.triangle), i);
+    for (std::uint32_t i = 0; i < found.components.size(); ++i) {
+        triangles += found.components[i].triangles;
+        EXPECT_EQ(mesh.component(found.components[i].place.triangle), i);
     }
-    EXPECT_EQ(triangles, count - report.doubled - report.left_out);
+    EXPECT_EQ(triangles, count - report.duplicates - report.left_out);
 }
 
 TEST(WalkSurvey, IsAsThePlainestWayTells) {
@@ -226,9 +226,9 @@ TEST(WalkSurvey, IsAsThePlainestWayTells) {
         if (!mesh) continue;
         expect_as_plain(*mesh);
         borders += mesh->report().border;
-        pinched += mesh->report().pinched;
+        pinched += mesh->report().non_manifold_vertices;
         mirrored += mesh->report().mirrored;
-        crowded += mesh->report().crowded;
+        crowded += mesh->report().non_manifold_edges;
     }
     EXPECT_GT(borders, 1000u);
     EXPECT_GT(pinched, 300u);

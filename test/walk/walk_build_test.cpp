@@ -75,7 +75,7 @@ void expect_ways_lead_back(const WalkMesh& mesh) {
             }
             EXPECT_TRUE(mesh.is_walkable(there->triangle));
             EXPECT_EQ(mesh.beyond(*there), (WalkSide{t, side}));
-            EXPECT_EQ(mesh.island(there->triangle), mesh.island(t));
+            EXPECT_EQ(mesh.component(there->triangle), mesh.component(t));
         }
     EXPECT_EQ(borders, mesh.report().border);
 }
@@ -83,9 +83,9 @@ void expect_ways_lead_back(const WalkMesh& mesh) {
 TEST(WalkBuild, TakesASquareAsItIs) {
     const Surface surface = square();
     const WalkMesh mesh = built(surface);
-    EXPECT_EQ(mesh.report(), (WalkMeshReport{.border = 4, .islands = 1}));
+    EXPECT_EQ(mesh.report(), (WalkMeshReport{.border = 4, .components = 1}));
     EXPECT_FALSE(changed(mesh.report()));
-    EXPECT_EQ(described(mesh.report()), "1 island, 4 border edges");
+    EXPECT_EQ(described(mesh.report()), "1 component, 4 border edges");
     EXPECT_EQ(std::vector<Vec3>(mesh.points().begin(), mesh.points().end()), surface.points);
     EXPECT_EQ(std::vector<glm::uvec3>(mesh.triangles().begin(), mesh.triangles().end()), surface.triangles);
     EXPECT_EQ(mesh.beyond({0, 2}), (WalkSide{1, 0}));
@@ -104,14 +104,14 @@ TEST(WalkBuild, JoinsByPositionsNotByNumbers) {
     const Surface apart{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-0.0f, 0, -0.0f}, {1, 1, 0}, {0, 1, 0}},
                         {{0, 1, 2}, {3, 4, 5}}};
     const WalkMesh mesh = built(apart);
-    EXPECT_EQ(mesh.report(), (WalkMeshReport{.border = 4, .islands = 1}));
+    EXPECT_EQ(mesh.report(), (WalkMeshReport{.border = 4, .components = 1}));
     EXPECT_EQ(mesh.beyond({0, 2}), (WalkSide{1, 0}));
     EXPECT_EQ(mesh.triangles()[1], glm::uvec3(3, 4, 5)) << "numbers are kept as given";
     EXPECT_EQ(mesh.points().size(), 6u);
 
     Surface cracked = apart;
     cracked.points[4].x = std::nextafter(1.0f, 2.0f);
-    EXPECT_EQ(built(cracked).report(), (WalkMeshReport{.border = 6, .pinched = 1, .islands = 2}))
+    EXPECT_EQ(built(cracked).report(), (WalkMeshReport{.border = 6, .non_manifold_vertices = 1, .components = 2}))
         << "what is one rounding apart is apart";
 }
 
@@ -119,9 +119,9 @@ TEST(WalkBuild, LeavesOutAllButTheFirstOfDoubles) {
     Surface surface = square();
     surface.triangles = {{0, 1, 2}, {2, 0, 1}, {0, 2, 3}, {1, 0, 2}};
     const WalkMesh mesh = built(surface);
-    EXPECT_EQ(mesh.report(), (WalkMeshReport{.doubled = 2, .border = 4, .islands = 1}));
+    EXPECT_EQ(mesh.report(), (WalkMeshReport{.duplicates = 2, .border = 4, .components = 1}));
     EXPECT_TRUE(changed(mesh.report()));
-    EXPECT_EQ(described(mesh.report()), "1 island, 2 triangles there twice, 4 border edges");
+    EXPECT_EQ(described(mesh.report()), "1 component, 2 triangles there twice, 4 border edges");
     EXPECT_TRUE(mesh.is_walkable(0) && mesh.is_walkable(2));
     EXPECT_FALSE(mesh.is_walkable(1) || mesh.is_walkable(3));
     EXPECT_EQ(mesh.triangles()[1], glm::uvec3(2, 0, 1)) << "as given";
@@ -137,9 +137,9 @@ TEST(WalkBuild, CutsTheNeighbourOfATriangleWithoutArea) {
     const Result<WalkMesh> result = WalkMesh::build(surface.points, surface.triangles, {}, areas);
     ASSERT_TRUE(result);
     const WalkMesh& mesh = *result;
-    EXPECT_EQ(mesh.report(), (WalkMeshReport{.flat = 1, .border = 5, .islands = 1}));
+    EXPECT_EQ(mesh.report(), (WalkMeshReport{.flat = 1, .border = 5, .components = 1}));
     EXPECT_TRUE(changed(mesh.report()));
-    EXPECT_EQ(described(mesh.report()), "1 island, 1 triangle without area cut away, 5 border edges");
+    EXPECT_EQ(described(mesh.report()), "1 component, 1 triangle without area cut away, 5 border edges");
     for (std::uint32_t i = 0; i < 5; ++i) EXPECT_TRUE(mesh.is_walkable(i)) << i;
     for (std::uint32_t i = 0; i < 3; ++i) {
         EXPECT_EQ(mesh.triangles()[i], surface.triangles[i]) << "untouched";
@@ -158,8 +158,8 @@ TEST(WalkBuild, LeavesOutTrianglesWithoutAreaThatNothingLiesBeyond) {
     surface.triangles.emplace_back(0u, 1u, 4u);  // flat; its longest side is a border
     surface.triangles.emplace_back(2u, 2u, 3u);  // a corner twice
     const WalkMesh mesh = built(surface);
-    EXPECT_EQ(mesh.report(), (WalkMeshReport{.left_out = 2, .border = 4, .islands = 1}));
-    EXPECT_EQ(described(mesh.report()), "1 island, 2 triangles without area left out, 4 border edges");
+    EXPECT_EQ(mesh.report(), (WalkMeshReport{.left_out = 2, .border = 4, .components = 1}));
+    EXPECT_EQ(described(mesh.report()), "1 component, 2 triangles without area left out, 4 border edges");
     EXPECT_FALSE(mesh.is_walkable(2) || mesh.is_walkable(3));
     EXPECT_EQ(mesh.triangles()[2], glm::uvec3(0, 1, 4)) << "as given";
     EXPECT_EQ(bounds(mesh), (Aabb3{{0, 0, 0}, {1, 1, 0}})) << "of what is walked on";
@@ -171,7 +171,7 @@ TEST(WalkBuild, ATriangleWithTwoCornersAtOnePositionHasNoArea) {
     surface.points.push_back({1, 1, 0});
     surface.triangles.emplace_back(0u, 2u, 4u);
     const WalkMesh mesh = built(surface);
-    EXPECT_EQ(mesh.report(), (WalkMeshReport{.left_out = 1, .border = 4, .islands = 1}));
+    EXPECT_EQ(mesh.report(), (WalkMeshReport{.left_out = 1, .border = 4, .components = 1}));
 }
 
 TEST(WalkBuild, TurnsTheFewToTheMany) {
@@ -179,8 +179,8 @@ TEST(WalkBuild, TurnsTheFewToTheMany) {
     surface.points.insert(surface.points.end(), {{2, 0, 0}, {2, 1, 0}});
     surface.triangles = {{0, 1, 2}, {0, 3, 2}, {1, 4, 5}, {1, 5, 2}};
     const WalkMesh mesh = built(surface);
-    EXPECT_EQ(mesh.report(), (WalkMeshReport{.turned = 1, .border = 6, .islands = 1}));
-    EXPECT_EQ(described(mesh.report()), "1 island, 1 triangle turned, 6 border edges");
+    EXPECT_EQ(mesh.report(), (WalkMeshReport{.turned = 1, .border = 6, .components = 1}));
+    EXPECT_EQ(described(mesh.report()), "1 component, 1 triangle turned, 6 border edges");
     EXPECT_EQ(mesh.triangles()[1], glm::uvec3(0, 2, 3)) << "corners 1 and 2 exchanged";
     for (std::uint32_t i : {0u, 2u, 3u}) EXPECT_EQ(mesh.triangles()[i], surface.triangles[i]);
     for (std::uint32_t i = 0; i < 4; ++i) EXPECT_EQ(mesh.normal({i, {1, 0, 0}}), Vec3(0, 0, 1));
@@ -192,11 +192,11 @@ TEST(WalkBuild, TurnsTheFewToTheMany) {
 TEST(WalkBuild, EachPatchKeepsItsOwnSide) {
     // A floor and a ceiling that looks down: nothing is turned, nothing assumes that any way is up.
     const WalkMesh mesh = built(test::joined(square(), test::reversed(square())));
-    EXPECT_EQ(mesh.report().doubled, 2u);
+    EXPECT_EQ(mesh.report().duplicates, 2u);
     Surface ceiling = test::reversed(square());
     for (Vec3& point : ceiling.points) point.z = 3;
     const WalkMesh room = built(test::joined(square(), ceiling));
-    EXPECT_EQ(room.report(), (WalkMeshReport{.border = 8, .islands = 2}));
+    EXPECT_EQ(room.report(), (WalkMeshReport{.border = 8, .components = 2}));
     EXPECT_EQ(room.normal({0, {1, 0, 0}}), Vec3(0, 0, 1));
     EXPECT_EQ(room.normal({2, {1, 0, 0}}), Vec3(0, 0, -1));
 }
@@ -213,9 +213,9 @@ TEST(WalkBuild, OfThreeAtAnEdgeTheFlattestGoOn) {
         EXPECT_EQ(mesh.normal({floor, {1, 0, 0}}), mesh.normal({other, {1, 0, 0}})) << "one of them was turned";
         EXPECT_EQ(mesh.report().turned, 1u);
         EXPECT_EQ(mesh.report().mirrored, 0u);
-        EXPECT_EQ(mesh.report().crowded, 1u);
+        EXPECT_EQ(mesh.report().non_manifold_edges, 1u);
         EXPECT_EQ(mesh.report().border, 7u);
-        EXPECT_EQ(mesh.report().islands, 2u);
+        EXPECT_EQ(mesh.report().components, 2u);
         EXPECT_TRUE(changed(mesh.report()));
         expect_ways_lead_back(mesh);
     }
@@ -226,9 +226,9 @@ TEST(WalkBuild, OfFourAtAnEdgeBothPairsGoOn) {
     const WalkMesh mesh = built(book({{1, 0}, {-0.87f, -0.5f}, {0.87f, 0.5f}, {-1, 0.01f}}));
     EXPECT_EQ(beyond_spine(mesh, 0), 3u);
     EXPECT_EQ(beyond_spine(mesh, 1), 2u);
-    EXPECT_EQ(mesh.report().crowded, 1u);
+    EXPECT_EQ(mesh.report().non_manifold_edges, 1u);
     EXPECT_EQ(mesh.report().border, 8u);
-    EXPECT_EQ(mesh.report().islands, 2u);
+    EXPECT_EQ(mesh.report().components, 2u);
     expect_ways_lead_back(mesh);
 }
 
@@ -252,9 +252,9 @@ TEST(WalkBuild, AnEdgeOfMoreThan64IsABorder) {
             pages.emplace_back(x, 1000 - x * x);
         }
         const WalkMesh mesh = built(book(pages));
-        EXPECT_EQ(mesh.report().crowded, 1u);
+        EXPECT_EQ(mesh.report().non_manifold_edges, 1u);
         EXPECT_EQ(mesh.report().border, count == 64 ? 128u : 195u);
-        EXPECT_EQ(mesh.report().islands, count == 64 ? 32u : 65u);
+        EXPECT_EQ(mesh.report().components, count == 64 ? 32u : 65u);
         expect_ways_lead_back(mesh);
     }
 }
@@ -265,9 +265,9 @@ TEST(WalkBuild, AMoebiusStripTurnsOverOnce) {
                         {{0, 2, 3}, {0, 3, 1}, {2, 4, 5}, {2, 5, 3}, {4, 1, 0}, {4, 0, 5}}};
     const WalkMesh mesh = built(strip);
     EXPECT_EQ(mesh.report().mirrored, 1u);
-    EXPECT_EQ(mesh.report().islands, 1u);
+    EXPECT_EQ(mesh.report().components, 1u);
     EXPECT_EQ(mesh.report().border, 6u);
-    EXPECT_EQ(mesh.report().pinched, 0u);
+    EXPECT_EQ(mesh.report().non_manifold_vertices, 0u);
     EXPECT_NE(described(mesh.report()).find("1 edge where the surface turns over"), std::string::npos);
     expect_ways_lead_back(mesh);
 }
@@ -275,9 +275,9 @@ TEST(WalkBuild, AMoebiusStripTurnsOverOnce) {
 TEST(WalkBuild, BowTiesArePinched) {
     const Surface bow{{{0, 0, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {-1, -1, 0}}, {{0, 1, 2}, {0, 3, 4}}};
     const WalkMesh mesh = built(bow);
-    EXPECT_EQ(mesh.report(), (WalkMeshReport{.border = 6, .pinched = 1, .islands = 2}));
+    EXPECT_EQ(mesh.report(), (WalkMeshReport{.border = 6, .non_manifold_vertices = 1, .components = 2}));
     EXPECT_FALSE(changed(mesh.report())) << "nothing was done about it";
-    EXPECT_EQ(described(mesh.report()), "2 islands, 1 pinched point, 6 border edges");
+    EXPECT_EQ(described(mesh.report()), "2 components, 1 non-manifold vertex, 6 border edges");
 
     // Two squares that touch at a corner, and a way round from the one to the other: one island, pinched all the same.
     Surface ring{{}, {}};
@@ -292,8 +292,8 @@ TEST(WalkBuild, BowTiesArePinched) {
     add(1, -1);
     add(0, -1);
     const WalkMesh round = built(ring);
-    EXPECT_EQ(round.report().pinched, 1u);
-    EXPECT_EQ(round.report().islands, 1u);
+    EXPECT_EQ(round.report().non_manifold_vertices, 1u);
+    EXPECT_EQ(round.report().components, 1u);
 }
 
 TEST(WalkBuild, CountsIslandsInTheOrderOfTheirFirstTriangles) {
@@ -306,9 +306,9 @@ TEST(WalkBuild, CountsIslandsInTheOrderOfTheirFirstTriangles) {
     surface.triangles.insert(surface.triangles.begin(), {3, 3, 3});
     std::swap(surface.triangles[2], surface.triangles[8]);
     const WalkMesh mesh = built(surface);
-    EXPECT_EQ(mesh.report(), (WalkMeshReport{.left_out = 1, .border = 16, .islands = 4}));
+    EXPECT_EQ(mesh.report(), (WalkMeshReport{.left_out = 1, .border = 16, .components = 4}));
     const std::vector<std::uint32_t> expected{0, 0, 1, 2, 2, 3, 3, 1, 0};
-    for (std::uint32_t i = 1; i < 9; ++i) EXPECT_EQ(mesh.island(i), expected[i]) << i;
+    for (std::uint32_t i = 1; i < 9; ++i) EXPECT_EQ(mesh.component(i), expected[i]) << i;
 }
 
 TEST(WalkBuild, NamesWhatIsWrong) {

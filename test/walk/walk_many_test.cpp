@@ -85,7 +85,7 @@ private:
         if (walked.met == WalkMet::nothing && lost > 0) return fault(walker, before, "has lost a part of its way");
         if (mesh_.report().border == 0 && walked.met != WalkMet::nothing)
             return fault(walker, before, "has met a border that isn't there");
-        if (mesh_.island(before.triangle) != mesh_.island(walker.place.triangle))
+        if (mesh_.component(before.triangle) != mesh_.component(walker.place.triangle))
             return fault(walker, before, "is on another island");
         // Nobody can come farther than by the length of the way.
         if (abut::length(where(walker.place) - where(before)) > length * (1 + 1e-6) + 1e-6 * size_)

@@ -147,7 +147,7 @@ TEST(WalkPlace, CornersAreWhereTheyWereGiven) {
         scenes::BumpyBall ball = scenes::bumpy_ball(8, 0.2, 0.02, random);
         for (Vec3& point : ball.points) point = to_float(DVec<3>(point) * scale);
         const WalkMesh mesh = *WalkMesh::build(ball.points, ball.triangles);
-        EXPECT_EQ(mesh.report(), (WalkMeshReport{.islands = 1})) << "closed, whatever its scale";
+        EXPECT_EQ(mesh.report(), (WalkMeshReport{.components = 1})) << "closed, whatever its scale";
         for (std::uint32_t i = 0; i < mesh.triangles().size(); ++i)
             for (int k = 0; k < 3; ++k) {
                 Vec3 weights(0.0f);

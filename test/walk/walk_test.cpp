@@ -171,7 +171,7 @@ TEST(Walk, StaysOnItsIsland) {
     for (int i = 0; i < 2000; ++i) {
         const WalkPoint place{random.below(static_cast<std::uint32_t>(mesh.triangles().size())), {0.25f, 0.25f, 0.5f}};
         const Walked walked = mesh.walk(place, to_float(random.direction<3>() * 20.0));
-        EXPECT_EQ(mesh.island(walked.place.triangle), mesh.island(place.triangle));
+        EXPECT_EQ(mesh.component(walked.place.triangle), mesh.component(place.triangle));
     }
 }
 

@@ -127,11 +127,11 @@ void check_pair(std::uint64_t seed, Seen& seen) {
     const double far = random.chance(0.3) ? random.power_of_two(0, 20) : 0;
     const Pose<D> pose_a = random_pose<D>(random, far);
     with_placed<D>(random, size_a, pose_a, [&](const View<D>& a, const BoundingBall<D>& ball_a) {
-        if (std::holds_alternative<Solid<D>>(a)) return;
+        if (std::holds_alternative<HalfSpaceView<D>>(a)) return;
         const DVec<D> towards = random.direction<D>();
         const Pose<D> turned{Vec<D>(0.0f), random.rotation<D>()};
         with_placed<D>(random, size_b, turned, [&](const View<D>& b, const BoundingBall<D>& ball_b) {
-            if (std::holds_alternative<Solid<D>>(b)) return;
+            if (std::holds_alternative<HalfSpaceView<D>>(b)) return;
             const double reach = (ball_a.radius + ball_b.radius) * (1 + random.uniform(-1, 1) * 1e-3) *
                                  (random.chance(0.5) ? 1 : random.uniform(0.3, 1));
             Affine<D> shift;

@@ -177,7 +177,7 @@ private:
     }
 
     static bool both_half_spaces(const View<D>& a, const View<D>& b) {
-        return std::holds_alternative<Solid<D>>(a) && std::holds_alternative<Solid<D>>(b);
+        return std::holds_alternative<HalfSpaceView<D>>(a) && std::holds_alternative<HalfSpaceView<D>>(b);
     }
 
     static std::vector<IdPair> difference(const std::vector<IdPair>& a, const std::vector<IdPair>& b) {

@@ -148,7 +148,8 @@ std::optional<WorldHit<D>> first_of_all(const ReferenceWorld<D>& reference, cons
     std::optional<WorldHit<D>> first;
     for (const auto& [id, item] : reference.items()) {
         const View<D> view = item.view();
-        const bool solids = std::holds_alternative<Solid<D>>(shape) && std::holds_alternative<Solid<D>>(view);
+        const bool solids =
+            std::holds_alternative<HalfSpaceView<D>>(shape) && std::holds_alternative<HalfSpaceView<D>>(view);
         if (solids || !ReferenceWorld<D>::asked(id, item, filter)) continue;
         const std::optional<Hit<D>> hit = sweep_at(item);
         if (hit && (!first || hit->fraction < first->hit.fraction)) first = WorldHit<D>{id, *hit};

@@ -12,5 +12,5 @@ int main() {
         std::printf("%s\n", mesh.problem().message.c_str());
         return 1;
     }
-    return mesh->report().islands == 1 ? 0 : 1;
+    return mesh->report().components == 1 ? 0 : 1;
 }

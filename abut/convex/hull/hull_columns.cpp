@@ -1,0 +1,168 @@
+#include <abut/convex/hull/hull_columns.hpp>
+#include <abut/convex/hull/hull_input.hpp>
+#include <abut/math/dvec.hpp>
+#include <abut/math/predicates.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace abut {
+namespace {
+
+constexpr std::size_t worth_filtering = 64, worth_counting = 2048;
+
+/// Akl-Toussaint octagon: eight extreme points, and a test for points surely inside.
+class Octagon {
+public:
+    explicit Octagon(std::span<const Vec2> points);
+
+    bool surely_inside(const Vec2& point) const {
+        const DVec<2> p(point);
+        if (p.x > box_low_.x && p.x < box_high_.x && p.y > box_low_.y && p.y < box_high_.y) return true;
+        return count_ == 2 ? between(point) : count_ >= 3 && left_of_all(p);
+    }
+
+private:
+    struct Edge {
+        DVec<2> from{0.0}, along{0.0};
+        double rounding_error = 0;  ///< of the cross product with the vector to any point
+    };
+
+    /// For two extreme points: on the line between them, exactly.
+    bool between(const Vec2& point) const {
+        return less(least_, point) && less(point, greatest_) && orientation(least_, greatest_, point) == 0;
+    }
+
+    bool left_of_all(const DVec<2>& p) const {
+        for (std::size_t i = 0; i < count_; ++i) {
+            const Edge& edge = edges_[i];
+            if (!(edge.along.x * (p.y - edge.from.y) - edge.along.y * (p.x - edge.from.x) > edge.rounding_error))
+                return false;
+        }
+        return true;
+    }
+
+    std::array<Edge, 8> edges_;
+    std::size_t count_ = 0;
+    Vec2 least_{0.0f}, greatest_{0.0f};     ///< if there are only two
+    DVec<2> box_low_{0.0}, box_high_{0.0};  ///< an open box inside; empty if none was found
+};
+
+Octagon::Octagon(std::span<const Vec2> points) {
+    // Counter-clockwise from the lowest. Any of several equal ones will do.
+    std::array<DVec<2>, 8> corners;
+    corners.fill(DVec<2>(points[0]));
+    const auto reaches = [](const DVec<2>& p) {
+        return std::array{-p.y, p.x - p.y, p.x, p.x + p.y, p.y, p.y - p.x, -p.x, -p.x - p.y};
+    };
+    std::array<double, 8> reach = reaches(corners[0]);
+    for (const Vec2& point : points) {
+        const DVec<2> p(point);
+        const std::array<double, 8> found = reaches(p);
+        bool farther = false;
+        for (std::size_t i = 0; i < 8; ++i) farther |= found[i] > reach[i];
+        if (!farther) continue;
+        for (std::size_t i = 0; i < 8; ++i)
+            if (found[i] > reach[i]) {
+                reach[i] = found[i];
+                corners[i] = p;
+            }
+    }
+    const double width = reach[2] + reach[6], height = reach[4] + reach[0];
+    for (std::size_t i = 0; i < 8; ++i) {
+        const DVec<2> along = corners[(i + 1) % 8] - corners[i];
+        if (along == DVec<2>(0.0)) continue;
+        // Each product has three roundings of 2^-53, their difference one more; twice that.
+        const double rounding_error = 0x1p-50 * (std::abs(along.x) * height + std::abs(along.y) * width);
+        edges_[count_++] = {corners[i], along, rounding_error};
+    }
+    if (count_ == 2) {
+        const std::array ends{to_float(edges_[0].from), to_float(edges_[1].from)};
+        const bool in_order = less(ends[0], ends[1]);
+        least_ = ends[in_order ? 0 : 1];
+        greatest_ = ends[in_order ? 1 : 0];
+    }
+    // The box between the diagonal corners.
+    const DVec<2> low(std::max(corners[7].x, corners[5].x), std::max(corners[7].y, corners[1].y));
+    const DVec<2> high(std::min(corners[1].x, corners[3].x), std::min(corners[3].y, corners[5].y));
+    if (count_ >= 3 && low.x < high.x && low.y < high.y && left_of_all(low) && left_of_all(high) &&
+        left_of_all({low.x, high.y}) && left_of_all({high.x, low.y})) {
+        box_low_ = low;
+        box_high_ = high;
+    }
+}
+
+struct Candidate {
+    std::uint32_t key;  ///< in the order of x
+    NumberedPoint point;
+};
+
+/// Integers in the order of floats; 0 and -0 are equal.
+std::uint32_t key_of(float value) {
+    const auto bits = std::bit_cast<std::uint32_t>(value + 0.0f);
+    return (bits & 0x80000000u) != 0 ? ~bits : bits | 0x80000000u;
+}
+
+/// Stable radix sort by key.
+void sort(std::vector<Candidate>& candidates) {
+    if (candidates.size() < worth_counting) {
+        std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+            return a.key != b.key ? a.key < b.key : a.point.number < b.point.number;
+        });
+        return;
+    }
+    constexpr unsigned digit_bits = 11, digits = 3;
+    constexpr std::uint32_t mask = (1u << digit_bits) - 1;
+    std::array<std::vector<std::uint32_t>, digits> starts;
+    for (auto& start : starts) start.assign(mask + 2, 0);
+    for (const Candidate& candidate : candidates)
+        for (unsigned digit = 0; digit < digits; ++digit)
+            ++starts[digit][(candidate.key >> digit * digit_bits & mask) + 1];
+    std::vector<Candidate> other(candidates.size());
+    for (unsigned digit = 0; digit < digits; ++digit) {
+        std::vector<std::uint32_t>& start = starts[digit];
+        for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
+        for (const Candidate& candidate : candidates)
+            other[start[candidate.key >> digit * digit_bits & mask]++] = candidate;
+        candidates.swap(other);
+    }
+}
+
+std::vector<Candidate> candidates_of(std::span<const Vec2> points) {
+    std::vector<Candidate> result;
+    result.reserve(points.size());
+    const auto add = [&](std::uint32_t i) { result.push_back({key_of(points[i].x), {points[i], i}}); };
+    if (points.size() < worth_filtering) {
+        for (std::uint32_t i = 0; i < points.size(); ++i) add(i);
+        return result;
+    }
+    const Octagon octagon(points);
+    for (std::uint32_t i = 0; i < points.size(); ++i)
+        if (!octagon.surely_inside(points[i])) add(i);
+    return result;
+}
+
+}  // namespace
+
+std::vector<HullColumn> hull_columns(std::span<const Vec2> points) {
+    std::vector<Candidate> candidates = candidates_of(points);
+    sort(candidates);
+    std::vector<HullColumn> result;
+    result.reserve(candidates.size());
+    for (std::size_t begin = 0, end = 0; begin < candidates.size(); begin = end) {
+        HullColumn column{candidates[begin].point, candidates[begin].point};
+        for (end = begin + 1; end < candidates.size() && candidates[end].key == candidates[begin].key; ++end) {
+            const NumberedPoint& next = candidates[end].point;
+            if (next.point.y < column.lowest.point.y) column.lowest = next;
+            if (next.point.y > column.highest.point.y) column.highest = next;
+        }
+        result.push_back(column);
+    }
+    return result;
+}
+
+}  // namespace abut

@@ -1,0 +1,62 @@
+#pragma once
+
+// Checks and helpers for the input of hulls in 2D and 3D.
+
+#include <abut/math/dvec.hpp>
+#include <abut/math/result.hpp>
+#include <abut/math/vec.hpp>
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace abut {
+
+/// Nothing if the hull of the points can be built. Otherwise the problem, with the number of the first bad point.
+template <int D>
+std::optional<Problem> problem_with(std::span<const glm::vec<D, float>> points) {
+    if (points.empty()) return Problem{ProblemCode::empty_input, "there are no points to build from", 0};
+    for (std::size_t i = 0; i < points.size(); ++i)
+        if (!is_finite<D>(points[i]))
+            return Problem{ProblemCode::not_finite, "point " + std::to_string(i) + " is not finite", i};
+    return std::nullopt;
+}
+
+/// The lexicographical order.
+template <int D>
+bool less(const glm::vec<D, float>& a, const glm::vec<D, float>& b) {
+    for (int i = 0; i < D - 1; ++i)
+        if (a[i] != b[i]) return a[i] < b[i];
+    return a[D - 1] < b[D - 1];
+}
+
+/// The same point, with 0 for -0: two that compare equal then have equal bits.
+template <int D>
+glm::vec<D, float> without_negative_zero(const glm::vec<D, float>& point) {
+    return point + glm::vec<D, float>(0.0f);
+}
+
+/// The least and the greatest coordinate on every axis.
+template <int D>
+DVec<D> min_corner(std::span<const glm::vec<D, float>> points) {
+    DVec<D> result(points[0]);
+    for (const Vec<D>& point : points)
+        for (int i = 0; i < D; ++i) result[i] = std::min(result[i], static_cast<double>(point[i]));
+    return result;
+}
+template <int D>
+DVec<D> max_corner(std::span<const glm::vec<D, float>> points) {
+    DVec<D> result(points[0]);
+    for (const Vec<D>& point : points)
+        for (int i = 0; i < D; ++i) result[i] = std::max(result[i], static_cast<double>(point[i]));
+    return result;
+}
+
+/// The longest side of the bounding box.
+template <int D>
+double extent(std::span<const Vec<D>> points) {
+    return largest(max_corner<D>(points) - min_corner<D>(points));
+}
+
+}  // namespace abut

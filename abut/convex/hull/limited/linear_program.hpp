@@ -1,0 +1,30 @@
+#pragma once
+
+// Linear programming in 3D over a few half-spaces.
+
+#include <abut/math/vec.hpp>
+
+#include <optional>
+#include <span>
+
+namespace abut {
+
+/// A line in 2D, a plane in 3D: dot(normal, p) == offset, with larger values above it.
+template <int D>
+struct Plane {
+    DVec<D> normal;
+    double offset = 0;
+};
+
+/// The same plane with its sides swapped.
+template <int D>
+Plane<D> flipped(const Plane<D>& plane) {
+    return {-plane.normal, -plane.offset};
+}
+
+/// The point with the minimum dot(cost, p) above (or on) all planes, by the dual simplex method (Lemke 1954). Nothing
+/// if there is none, or none within 1e4 times `size` of the origin. The normals have length 1; the point may be below a
+/// plane by 1e-11 times `size`. Intended for some ten planes, because each step tests all of them.
+std::optional<DVec<3>> lowest_above(std::span<const Plane<3>> planes, const DVec<3>& cost, double size);
+
+}  // namespace abut

@@ -1,0 +1,20 @@
+#pragma once
+
+// The intersection of two polygons of few edges: the smaller one is cut with the edge lines of the larger one, on the
+// stack.
+
+#include <abut/convex/pairs/polygon2.hpp>
+
+namespace abut {
+
+/// Corners in the world, counter-clockwise; some may coincide or be collinear.
+struct ClippedLoop {
+    std::array<DVec<2>, std::size_t{2} * max_soa_edges> points;
+    std::size_t count = 0;
+};
+
+/// Returns false if one of them has almost no area, which takes the general algorithm. Corners of the polygon that is
+/// cut stay in place; a corner within rounding of a line lies on it.
+bool clip_polygons(const PolygonPair& pair, ClippedLoop& loop);
+
+}  // namespace abut

@@ -1,0 +1,74 @@
+#pragma once
+
+// The closest features of two boxes, in the frame of A. For .cpp files.
+
+#include <abut/convex/gjk/signed_distance.hpp>
+#include <abut/convex/pairs/box_frame.hpp>
+
+namespace abut {
+
+/// A vertex, edge or face of a box by its bits: the axes at whose low end it is, and the axes along which it extends.
+struct BoxFeature {
+    std::uint32_t low = 0, free = 0;
+};
+
+struct BoxClosest {
+    double distance = 0;
+    Triple normal{};  ///< from A to B, of length 1
+    Triple on_a{};
+    BoxFeature part_a, part_b;
+};
+
+/// Converts a result in B's frame, with B first, into A's frame; `frame` is A's.
+inline void swap_roles(const BoxFrame& frame, BoxClosest& closest) {
+    const Triple n{closest.normal[0], closest.normal[1], closest.normal[2]};
+    const double d = closest.distance;
+    const Triple p{closest.on_a[0] + n[0] * d, closest.on_a[1] + n[1] * d, closest.on_a[2] + n[2] * d};
+    const auto& axes = frame.axis_b;
+    for (std::size_t i = 0; i < 3; ++i) {
+        closest.normal[i] = -(axes[0][i] * n[0] + axes[1][i] * n[1] + axes[2][i] * n[2]);
+        closest.on_a[i] = frame.middle[i] + (axes[0][i] * p[0] + axes[1][i] * p[1] + axes[2][i] * p[2]);
+    }
+    std::swap(closest.part_a, closest.part_b);
+}
+
+/// The corners that span a feature, by number; three of a face. If there are fewer than three, the last is repeated.
+struct BoxFeatureCorners {
+    std::array<std::uint32_t, 3> numbers;
+    std::size_t count;
+
+    explicit BoxFeatureCorners(const BoxFeature& part) {
+        static constexpr std::uint32_t bits[8][3] = {{0, 0, 0}, {0, 1, 1}, {0, 2, 2}, {0, 1, 2},
+                                                     {0, 4, 4}, {0, 1, 4}, {0, 2, 4}, {0, 1, 2}};
+        for (std::size_t i = 0; i < 3; ++i) numbers[i] = part.low | bits[part.free][i];
+        count = part.free == 0 ? 1 : (part.free & (part.free - 1)) == 0 ? 2 : 3;
+    }
+};
+
+/// Converts a result in the frame of A, or with `by_b` in the frame of B with B first, to the world, without the
+/// corners. It writes component by component: reading a vector as a whole right after its components were written
+/// stalls.
+inline void set_world_distance(const BoxPlacement& box, const BoxClosest& closest, bool by_b,
+                               SignedDistance<3>& result) {
+    const double one = box.one, one_normal = by_b ? -one : one, beyond = by_b ? closest.distance : 0;
+    const Triple &n = closest.normal, &p = closest.on_a;
+    const Triple on_a{p[0] + n[0] * beyond, p[1] + n[1] * beyond, p[2] + n[2] * beyond};
+    const Affine<3>& place = box.place;
+    result.distance = closest.distance;
+    for (int i = 0; i < 3; ++i) {
+        const double x = place.column[0][i], y = place.column[1][i], z = place.column[2][i];
+        result.normal[i] = (x * n[0] + y * n[1] + z * n[2]) * one_normal;
+        result.on_a[i] = place.offset[i] + (x * on_a[0] + y * on_a[1] + z * on_a[2]) * one;
+    }
+}
+
+inline void set_corners(const BoxClosest& closest, bool by_b, ClosestCorners<3>& corners) {
+    const BoxFeatureCorners first(closest.part_a), second(closest.part_b);
+    corners.count = std::max(first.count, second.count);
+    for (std::size_t i = 0; i < 3; ++i) {
+        corners.a[i] = by_b ? second.numbers[i] : first.numbers[i];
+        corners.b[i] = by_b ? first.numbers[i] : second.numbers[i];
+    }
+}
+
+}  // namespace abut

@@ -1,0 +1,89 @@
+#pragma once
+
+// Closed forms in 3D: the signed distance of a point or a segment from a segment, a box or a triangle, and the depth of
+// a point in a polyhedron.
+//
+// Each result is proven: for disjoint cores by a separating plane at the distance of the closest points, for
+// overlapping cores by all faces of their Minkowski difference. If rounding prevents the proof, such as for nearly
+// parallel segments that nearly touch, there is no result, and the caller needs a general algorithm.
+
+#include <abut/convex/gjk/signed_distance.hpp>
+
+namespace abut {
+
+/// Whether the core has this number of points, in any placement.
+template <int D>
+bool is_round_points(const Convex<D>& convex, std::uint32_t count) {
+    return convex.core == Core::points && convex.count == count && convex.inner_radius == 0;
+}
+
+/// A polyhedron with facets; points, segments and triangles have none.
+inline bool is_plain_hull(const Convex<3>& convex) {
+    return convex.core == Core::points && convex.count > 3 && convex.facets != nullptr &&
+           !convex.facets->normals.empty() && has_similarity_placement(convex);
+}
+
+/// Two points on two segments by their parameters from 0 to 1.
+struct SegmentParameters {
+    double on_a, on_b;
+};
+
+/// The parameter clamped to [0, 1].
+inline double clamp_to_segment(double part) {
+    const double from_start = part > 0 ? part : 0;
+    return from_start < 1 ? from_start : 1;
+}
+
+/// The closest parameters of nearly parallel segments, or points: an end of one and its projection onto the other.
+template <int D>
+SegmentParameters closest_end_parameters(const DVec<D>& u, const DVec<D>& v, const DVec<D>& w);
+
+/// The closest points of the segments from a along u and from b along v, w = a - b: the ends of the common
+/// perpendicular, or an end of one and its projection onto the other. Ericson, Real-Time Collision Detection (2005),
+/// 5.1.9.
+template <int D>
+inline SegmentParameters closest_parameters(const DVec<D>& u, const DVec<D>& v, const DVec<D>& w) {
+    // Below this square of the sine of their angle the segments count as parallel.
+    constexpr double parallel = 1e-12;
+    const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w);
+    const double whole = uu * vv - uv * uv;
+    if (!(whole > parallel * uu * vv)) return closest_end_parameters(u, v, w);
+    // All steps run without branches, which can't be predicted. A step that isn't needed changes nothing.
+    const double one = 1 / whole, one_u = 1 / uu, one_v = 1 / vv;
+    const double first = clamp_to_segment((uv * vw - vv * uw) * one);
+    const double on_b = clamp_to_segment((vw + uv * first) * one_v);
+    return {clamp_to_segment((uv * on_b - uw) * one_u), on_b};
+}
+
+/// A point of a core in the world.
+template <int D>
+inline DVec<D> core_corner(const Convex<D>& convex, std::uint32_t i) {
+    return convex.place.point(DVec<D>(convex.vertices()[i]));
+}
+
+// Each function gives the signed distance from A to B, with the balls around them. False: there is no result, and
+// `result` is undefined.
+
+bool point_point(const Convex<3>& a, const Convex<3>& b, SignedDistance<3>& result);
+bool segment_point(const Convex<3>& segment, const Convex<3>& point, SignedDistance<3>& result);
+
+template <int D>
+bool segment_segment(const Convex<D>& a, const Convex<D>& b, SignedDistance<D>& result);
+
+bool box_point(const Convex<3>& box, const Convex<3>& point, SignedDistance<3>& result);
+bool box_segment(const Convex<3>& box, const Convex<3>& segment, SignedDistance<3>& result);
+
+bool triangle_point(const Convex<3>& triangle, const Convex<3>& point, SignedDistance<3>& result);
+bool triangle_segment(const Convex<3>& triangle, const Convex<3>& segment, SignedDistance<3>& result);
+
+enum class TriangleClosest : std::uint8_t { found, beyond, unknown };
+
+/// The closest point of a triangle with the ball around it, and its distance. Returns `beyond` without a result if the
+/// distance is above `within`. Returns `unknown` for slivers, and for a point in the core of a triangle with a ball.
+TriangleClosest closest_point_on_triangle(const Convex<3>& triangle, const DVec<3>& point, double within,
+                                          double& distance, DVec<3>& closest);
+
+/// Gives a result if the point is inside the polyhedron.
+bool hull_point(const Convex<3>& hull, const Convex<3>& point, SignedDistance<3>& result);
+
+}  // namespace abut

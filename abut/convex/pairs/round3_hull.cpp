@@ -1,0 +1,57 @@
+// A point inside a polyhedron.
+
+#include <abut/convex/farthest_point.hpp>
+#include <abut/convex/pairs/round3.hpp>
+
+namespace abut {
+namespace {
+
+/// A point with a smaller depth, relative to its depth below the farthest face, may be outside.
+constexpr double relative_tolerance = 1e-5;
+
+/// The plane of a face, midway between its lowest and highest corner.
+double offset_of(const Convex<3>& hull, std::uint32_t face, const DVec<3>& normal) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const std::uint32_t i : hull.facets->loop(face)) {
+        const double along = dot(normal, DVec<3>(hull.vertices()[i]));
+        low = std::min(low, along);
+        high = std::max(high, along);
+    }
+    return 0.5 * (low + high);
+}
+
+}  // namespace
+
+bool hull_point(const Convex<3>& hull, const Convex<3>& point, SignedDistance<3>& result) {
+    const DVec<3> seen =
+        hull.place.transposed(core_corner(point, 0) - hull.place.offset) * (1 / (hull.scale * hull.scale));
+    const Facets& facets = *hull.facets;
+    const auto corner = [&](std::uint32_t i) { return DVec<3>(hull.vertices()[facets.loops[i]]); };
+    // For most points outside one face decides.
+    const std::uint32_t likely = farthest_point(facets.normals, seen);
+    if (dot(DVec<3>(facets.normals[likely]), seen - corner(facets.loop_ends[likely] - 1)) >= 0) return false;
+    double nearest = -std::numeric_limits<double>::infinity(), farthest = 0;
+    std::uint32_t face = 0, begin = 0;
+    for (std::uint32_t i = 0; i < facets.normals.size(); ++i) {
+        const double beyond = dot(DVec<3>(facets.normals[i]), seen - corner(begin));
+        begin = facets.loop_ends[i];
+        if (!(beyond < 0)) return false;
+        farthest = std::min(farthest, beyond);
+        if (beyond <= nearest) continue;
+        nearest = beyond;
+        face = i;
+    }
+    if (!(nearest < relative_tolerance * farthest)) return false;
+
+    const DVec<3> normal = normalized(DVec<3>(facets.normals[face]));
+    const double beyond = dot(normal, seen) - offset_of(hull, face, normal);
+    result.distance = beyond * hull.scale - hull.radius - point.radius;
+    result.normal = normalized(hull.place.vector(normal));
+    result.on_a = hull.place.point(seen - normal * beyond) + result.normal * hull.radius;
+    const std::span<const std::uint32_t> loop = facets.loop(face);
+    for (std::size_t i = 0; i < 3; ++i) result.corners.a[i] = loop[std::min(i, loop.size() - 1)];
+    result.corners.count = 3;
+    return true;
+}
+
+}  // namespace abut

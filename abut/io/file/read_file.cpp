@@ -1,0 +1,26 @@
+#include <abut/io/file/read_file.hpp>
+
+#include <fstream>
+#include <system_error>
+
+namespace abut {
+
+Result<std::vector<std::byte>> read_file(const std::filesystem::path& file) {
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(file, error);
+    if (status.type() == std::filesystem::file_type::not_found) return Problem{ProblemCode::not_found, "no such file"};
+    if (error) return Problem{ProblemCode::unreadable, "can't be read: " + error.message()};
+    if (std::filesystem::is_directory(status)) return Problem{ProblemCode::unreadable, "is a directory"};
+    if (!std::filesystem::is_regular_file(status)) return Problem{ProblemCode::unreadable, "is not a regular file"};
+
+    const std::uintmax_t size = std::filesystem::file_size(file, error);
+    std::ifstream stream(file, std::ios::binary);
+    if (error || !stream) return Problem{ProblemCode::unreadable, "can't be opened for reading"};
+    std::vector<std::byte> bytes(size);
+    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
+    if (stream.gcount() != static_cast<std::streamsize>(size))
+        return Problem{ProblemCode::unreadable, "ends early while being read"};
+    return bytes;
+}
+
+}  // namespace abut

@@ -1,0 +1,456 @@
+#include <abut/io/gltf/container.hpp>
+#include <abut/io/gltf/document.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include <glm/ext/quaternion_geometric.hpp>
+#include <nlohmann/json.hpp>
+
+namespace abut::gltf {
+namespace {
+
+using Json = nlohmann::json;
+
+// The array element that a message refers to.
+struct Where {
+    const char* array;
+    std::size_t index;
+};
+
+std::string text(const Where& where) {
+    return std::string(where.array) + "[" + std::to_string(where.index) + "]";
+}
+
+const Json* member(const Json& object, const char* key) {
+    if (!object.is_object()) return nullptr;
+    const auto found = object.find(key);
+    return found == object.end() ? nullptr : &*found;
+}
+
+// Names only serve people, so a name of the wrong type is ignored.
+std::string name_in(const Json& object) {
+    const Json* name = member(object, "name");
+    return name != nullptr && name->is_string() ? name->get<std::string>() : std::string();
+}
+
+// Reads the JSON in one pass. Only the first error is recorded; invalid values are replaced by defaults until the end.
+class Reader {
+public:
+    explicit Reader(const Json& root) : root_(root) {}
+
+    Result<Document> read(std::span<const std::byte> binary);
+
+private:
+    void fail(ProblemCode code, std::string message) {
+        if (!problem_) problem_ = Problem{code, std::move(message)};
+    }
+    void fail(const Where& where, const char* key, const char* what) {
+        fail(ProblemCode::bad_format, text(where) + "." + key + ": " + what);
+    }
+
+    std::size_t count(const char* array) const {
+        const Json* found = member(root_, array);
+        return found == nullptr ? 0 : found->size();
+    }
+    template <class Visit>
+    void each(const char* array, Visit visit);
+    template <class Visit>
+    void each_member(const Json& object, const char* key, const Where& where, Visit visit);
+
+    std::optional<std::uint64_t> unsigned_integer(const Json& value);
+    std::uint64_t unsigned_integer(const Json& object, const char* key, std::uint64_t default_value,
+                                   const Where& where);
+    std::uint32_t type_number(const Json& object, const char* key, std::uint32_t default_value, const Where& where);
+    std::uint32_t index(const Json& value, std::size_t size, const Where& where, const char* key);
+    std::uint32_t index(const Json& object, const char* key, const char* array, const Where& where);
+    template <int N>
+    bool numbers(const Json& object, const char* key, double (&out)[N], const Where& where);
+
+    void read_version();
+    void read_buffers();
+    void read_accessors();
+    void read_sparse(const Json& json, Accessor& accessor, const Where& where);
+    void read_meshes();
+    void read_nodes();
+    void read_version_1_nodes();
+    void read_roots();
+    void read_animations();
+    void check_tree();
+
+    const Json& root_;
+    Document document_;
+    std::vector<std::uint32_t> parents_;
+    std::optional<Problem> problem_;
+};
+
+template <class Visit>
+void Reader::each(const char* array, Visit visit) {
+    const Json* found = member(root_, array);
+    if (found == nullptr) return;
+    if (!found->is_array()) return fail(ProblemCode::bad_format, std::string(array) + ": an array was expected");
+    std::size_t i = 0;
+    for (const Json& element : *found) {
+        if (!element.is_object()) return fail(ProblemCode::bad_format, text({array, i}) + ": an object was expected");
+        visit(element, Where{array, i++});
+    }
+}
+
+template <class Visit>
+void Reader::each_member(const Json& object, const char* key, const Where& where, Visit visit) {
+    const Json* found = member(object, key);
+    if (found == nullptr) return;
+    if (!found->is_array()) return fail(where, key, "an array was expected");
+    for (const Json& element : *found) visit(element);
+}
+
+// Accepts 3.0 for 3: some exporters write integers as floats.
+std::optional<std::uint64_t> Reader::unsigned_integer(const Json& value) {
+    if (value.is_number_unsigned()) return value.get<std::uint64_t>();
+    if (!value.is_number_float()) return std::nullopt;
+    const double number = value.get<double>();
+    constexpr double max_exact = 9007199254740992.0;  // 2^53: larger integers are not all representable
+    if (!(number >= 0 && number <= max_exact && number == std::floor(number))) return std::nullopt;
+    return static_cast<std::uint64_t>(number);
+}
+
+std::uint64_t Reader::unsigned_integer(const Json& object, const char* key, std::uint64_t default_value,
+                                       const Where& where) {
+    const Json* value = member(object, key);
+    if (value == nullptr) return default_value;
+    const std::optional<std::uint64_t> number = unsigned_integer(*value);
+    if (!number) fail(where, key, "a whole number was expected");
+    return number.value_or(default_value);
+}
+
+std::uint32_t Reader::type_number(const Json& object, const char* key, std::uint32_t default_value,
+                                  const Where& where) {
+    const std::uint64_t number = unsigned_integer(object, key, default_value, where);
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>(number, none));
+}
+
+std::uint32_t Reader::index(const Json& value, std::size_t size, const Where& where, const char* key) {
+    const std::optional<std::uint64_t> number = unsigned_integer(value);
+    if (!number) {
+        fail(where, key, "a whole number was expected");
+    } else if (*number >= size) {
+        fail(ProblemCode::index_out_of_range, text(where) + "." + key + ": index " + std::to_string(*number) +
+                                                  " is out of range (" + std::to_string(size) + " exist)");
+    } else {
+        return static_cast<std::uint32_t>(*number);
+    }
+    return none;
+}
+
+std::uint32_t Reader::index(const Json& object, const char* key, const char* array, const Where& where) {
+    const Json* value = member(object, key);
+    return value == nullptr ? none : index(*value, count(array), where, key);
+}
+
+template <int N>
+bool Reader::numbers(const Json& object, const char* key, double (&out)[N], const Where& where) {
+    const Json* value = member(object, key);
+    if (value == nullptr) return false;
+    if (!value->is_array() || value->size() != N) {
+        fail(where, key, "an array of numbers was expected, of another length");
+        return false;
+    }
+    std::size_t i = 0;
+    for (const Json& element : *value) {
+        if (!element.is_number()) {
+            fail(where, key, "a number was expected");
+            return false;
+        }
+        out[i++] = element.get<double>();
+    }
+    return true;
+}
+
+void Reader::read_version() {
+    const Json* asset = member(root_, "asset");
+    const Json* version = asset == nullptr ? nullptr : member(*asset, "version");
+    const Json* nodes = member(root_, "nodes");
+    if (version != nullptr && version->is_string()) {
+        const auto& number = version->get_ref<const std::string&>();
+        if (number.starts_with("1."))
+            document_.version = 1;
+        else if (!number.starts_with("2."))
+            fail(ProblemCode::bad_format, "glTF version " + number + " is unknown");
+    } else if (nodes != nullptr && nodes->is_object()) {
+        document_.version = 1;
+    }
+}
+
+void Reader::read_buffers() {
+    each("buffers", [&](const Json& json, const Where& where) {
+        Buffer buffer;
+        buffer.length = unsigned_integer(json, "byteLength", 0, where);
+        if (const Json* uri = member(json, "uri")) {
+            if (uri->is_string())
+                buffer.uri = uri->get<std::string>();
+            else
+                fail(where, "uri", "a string was expected");
+        }
+        document_.buffers.push_back(std::move(buffer));
+    });
+    each("bufferViews", [&](const Json& json, const Where& where) {
+        BufferView view;
+        view.buffer = index(json, "buffer", "buffers", where);
+        view.offset = unsigned_integer(json, "byteOffset", 0, where);
+        view.length = unsigned_integer(json, "byteLength", 0, where);
+        view.stride = unsigned_integer(json, "byteStride", 0, where);
+        document_.views.push_back(view);
+    });
+}
+
+void Reader::read_sparse(const Json& json, Accessor& accessor, const Where& where) {
+    const Json* sparse = member(json, "sparse");
+    if (sparse == nullptr) return;
+    const Json* indices = member(*sparse, "indices");
+    const Json* values = member(*sparse, "values");
+    if (indices == nullptr || values == nullptr) return fail(where, "sparse", "indices or values are missing");
+    accessor.sparse_count = unsigned_integer(*sparse, "count", 0, where);
+    accessor.sparse_indices_view = index(*indices, "bufferView", "bufferViews", where);
+    accessor.sparse_indices_offset = unsigned_integer(*indices, "byteOffset", 0, where);
+    accessor.sparse_indices_component = type_number(*indices, "componentType", 0, where);
+    accessor.sparse_values_view = index(*values, "bufferView", "bufferViews", where);
+    accessor.sparse_values_offset = unsigned_integer(*values, "byteOffset", 0, where);
+}
+
+void Reader::read_accessors() {
+    static constexpr std::pair<std::string_view, std::uint32_t> types[] = {
+        {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}};
+    each("accessors", [&](const Json& json, const Where& where) {
+        Accessor accessor;
+        accessor.view = index(json, "bufferView", "bufferViews", where);
+        accessor.offset = unsigned_integer(json, "byteOffset", 0, where);
+        accessor.count = unsigned_integer(json, "count", 0, where);
+        accessor.component = type_number(json, "componentType", 0, where);
+        if (const Json* normalized = member(json, "normalized"))
+            accessor.normalized = normalized->is_boolean() && normalized->get<bool>();
+        const Json* type = member(json, "type");
+        if (type != nullptr && type->is_string())
+            for (const auto& [name, components] : types)
+                if (type->get_ref<const std::string&>() == name) accessor.components = components;
+        read_sparse(json, accessor, where);
+        document_.accessors.push_back(accessor);
+    });
+}
+
+void Reader::read_meshes() {
+    each("meshes", [&](const Json& json, const Where& where) {
+        Mesh mesh;
+        mesh.name = name_in(json);
+        each_member(json, "primitives", where, [&](const Json& part) {
+            Primitive primitive;
+            if (const Json* attributes = member(part, "attributes")) {
+                primitive.positions = index(*attributes, "POSITION", "accessors", where);
+                primitive.normals = index(*attributes, "NORMAL", "accessors", where);
+            }
+            primitive.indices = index(part, "indices", "accessors", where);
+            primitive.mode = type_number(part, "mode", 4, where);
+            const Json* extensions = member(part, "extensions");
+            primitive.draco = extensions != nullptr && member(*extensions, "KHR_draco_mesh_compression") != nullptr;
+            mesh.morphs = mesh.morphs || member(part, "targets") != nullptr;
+            mesh.primitives.push_back(primitive);
+        });
+        document_.meshes.push_back(std::move(mesh));
+    });
+}
+
+void Reader::read_nodes() {
+    each("nodes", [&](const Json& json, const Where& where) {
+        Node node;
+        node.name = name_in(json);
+        node.mesh = index(json, "mesh", "meshes", where);
+        node.skinned = index(json, "skin", "skins", where) != none;
+        const Json* extensions = member(json, "extensions");
+        node.instanced = extensions != nullptr && member(*extensions, "EXT_mesh_gpu_instancing") != nullptr;
+        each_member(json, "children", where, [&](const Json& child) {
+            node.children.push_back(index(child, count("nodes"), where, "children"));
+        });
+        double m[16];
+        node.has_matrix = numbers(json, "matrix", m, where);
+        if (node.has_matrix)
+            for (int i = 0; i < 16; ++i) node.matrix[i / 4][i % 4] = m[i];
+        double v[3];
+        if (numbers(json, "translation", v, where)) node.translation = {v[0], v[1], v[2]};
+        if (numbers(json, "scale", v, where)) node.scale = {v[0], v[1], v[2]};
+        double q[4];
+        if (numbers(json, "rotation", q, where)) node.rotation = glm::dquat(q[3], q[0], q[1], q[2]);
+        document_.nodes.push_back(std::move(node));
+    });
+}
+
+// Version 1 refers to objects by name and not by index.
+void Reader::read_version_1_nodes() {
+    const Json* nodes = member(root_, "nodes");
+    if (nodes == nullptr || !nodes->is_object()) return;
+    std::map<std::string, std::uint32_t> numbers_of;
+    for (const auto& [key, value] : nodes->items())
+        numbers_of.emplace(key, static_cast<std::uint32_t>(numbers_of.size()));
+    for (const auto& [key, value] : nodes->items()) {
+        Node node;
+        node.name = key;
+        const Where where{"nodes", document_.nodes.size()};
+        each_member(value, "children", where, [&](const Json& child) {
+            const auto found = child.is_string() ? numbers_of.find(child.get<std::string>()) : numbers_of.end();
+            if (found == numbers_of.end()) return fail(where, "children", "there is no such node");
+            node.children.push_back(found->second);
+        });
+        document_.nodes.push_back(std::move(node));
+    }
+}
+
+void Reader::read_animations() {
+    each("animations", [&](const Json& json, const Where& where) {
+        Animation animation;
+        animation.name = name_in(json);
+        each_member(json, "samplers", where, [&](const Json& part) {
+            Sampler sampler;
+            sampler.input = index(part, "input", "accessors", where);
+            sampler.output = index(part, "output", "accessors", where);
+            const Json* curve = member(part, "interpolation");
+            if (curve != nullptr && *curve == "STEP") sampler.curve = Curve::step;
+            if (curve != nullptr && *curve == "CUBICSPLINE") sampler.curve = Curve::cubic;
+            animation.samplers.push_back(sampler);
+        });
+        each_member(json, "channels", where, [&](const Json& part) {
+            const Json* target = member(part, "target");
+            const Json* sampler = member(part, "sampler");
+            const Json* path = target == nullptr ? nullptr : member(*target, "path");
+            if (sampler == nullptr || path == nullptr) return fail(where, "channels", "sampler or target is missing");
+            Channel channel;
+            channel.sampler = index(*sampler, animation.samplers.size(), where, "channels");
+            channel.node = index(*target, "node", "nodes", where);
+            if (*path == "translation")
+                channel.target = Target::translation;
+            else if (*path == "rotation")
+                channel.target = Target::rotation;
+            else if (*path == "scale")
+                channel.target = Target::scale;
+            else
+                channel.target = Target::weights;
+            animation.channels.push_back(channel);
+        });
+        document_.animations.push_back(std::move(animation));
+    });
+}
+
+// Verifies that the nodes form a forest.
+void Reader::check_tree() {
+    const std::vector<Node>& nodes = document_.nodes;
+    parents_.assign(nodes.size(), none);
+    for (std::uint32_t i = 0; i < nodes.size(); ++i)
+        for (const std::uint32_t child : nodes[i].children) {
+            if (parents_[child] != none)
+                return fail(ProblemCode::bad_format, "node tree: " + name_of(document_, child) + " has two parents, " +
+                                                         name_of(document_, parents_[child]) + " and " +
+                                                         name_of(document_, i));
+            parents_[child] = i;
+        }
+    // Every node has at max_exact one parent, so what can't be reached from a root goes round in a unvisited.
+    std::vector<std::uint32_t> stack;
+    for (std::uint32_t i = 0; i < nodes.size(); ++i)
+        if (parents_[i] == none) stack.push_back(i);
+    std::vector<bool> seen(nodes.size(), false);
+    while (!stack.empty()) {
+        const std::uint32_t node = stack.back();
+        stack.pop_back();
+        seen[node] = true;
+        stack.insert(stack.end(), nodes[node].children.begin(), nodes[node].children.end());
+    }
+    const auto unvisited = std::find(seen.begin(), seen.end(), false);
+    if (unvisited != seen.end())
+        fail(ProblemCode::bad_format,
+             "node tree: " + name_of(document_, static_cast<std::uint32_t>(unvisited - seen.begin())) +
+                 " is part of a cycle");
+}
+
+// Collects the roots of the default scene. A node listed together with one of its ancestors is no root.
+void Reader::read_roots() {
+    std::vector<bool> listed(document_.nodes.size(), false);
+    const Json* scenes = member(root_, "scenes");
+    if (scenes == nullptr || scenes->empty()) {
+        for (std::size_t i = 0; i < listed.size(); ++i) listed[i] = parents_[i] == none;
+    } else {
+        const Json* scene = member(root_, "scene");
+        const std::size_t shown = scene == nullptr ? 0 : index(*scene, scenes->size(), {"scene", 0}, "scene");
+        std::size_t i = 0;
+        each("scenes", [&](const Json& json, const Where& where) {
+            if (i++ != shown) return;
+            each_member(json, "nodes", where, [&](const Json& node) {
+                const std::uint32_t root = index(node, listed.size(), where, "nodes");
+                if (root != none) listed[root] = true;
+            });
+        });
+    }
+    for (std::uint32_t i = 0; i < listed.size(); ++i) {
+        bool has_listed_ancestor = false;
+        for (std::uint32_t ancestor = parents_[i]; ancestor != none; ancestor = parents_[ancestor])
+            has_listed_ancestor = has_listed_ancestor || listed[ancestor];
+        if (listed[i] && !has_listed_ancestor) document_.roots.push_back(i);
+    }
+}
+
+Result<Document> Reader::read(std::span<const std::byte> binary) {
+    document_.binary = binary;
+    read_version();
+    if (document_.version == 1) {
+        read_version_1_nodes();
+        if (!problem_) check_tree();
+    } else {
+        const Json* required = member(root_, "extensionsRequired");
+        if (required != nullptr && required->is_array())
+            for (const Json& extension : *required)
+                if (extension.is_string()) document_.required_extensions.push_back(extension.get<std::string>());
+        read_buffers();
+        read_accessors();
+        read_meshes();
+        read_nodes();
+        read_animations();
+        if (!problem_) check_tree();
+        if (!problem_) read_roots();
+    }
+    if (problem_) return *problem_;
+    return std::move(document_);
+}
+
+// nlohmann's parser reports the position of an error only by an exception.
+Result<Json> parse_json(std::string_view text) {
+    while (!text.empty() && text.back() == '\0') text.remove_suffix(1);
+    try {
+        return Json::parse(text);
+    } catch (const Json::parse_error& error) {
+        return Problem{ProblemCode::bad_format, "JSON: syntax error at byte " + std::to_string(error.byte), error.byte};
+    } catch (const Json::exception&) {
+        return Problem{ProblemCode::bad_format, "JSON: a number is too large"};
+    }
+}
+
+}  // namespace
+
+Result<Document> parse(std::span<const std::byte> bytes, bool binary_container) {
+    Container container{{reinterpret_cast<const char*>(bytes.data()), bytes.size()}, {}};
+    if (binary_container) {
+        const Result<Container> opened = open_container(bytes);
+        if (!opened) return opened.problem();
+        container = *opened;
+    }
+    const Result<Json> json = parse_json(container.json);
+    if (!json) return json.problem();
+    if (!json->is_object()) return Problem{ProblemCode::bad_format, "JSON: an object was expected"};
+    return Reader(*json).read(container.binary);
+}
+
+std::string name_of(const Document& document, std::uint32_t node) {
+    const std::string& name = document.nodes[node].name;
+    return name.empty() ? "node " + std::to_string(node) : "node '" + name + "'";
+}
+
+}  // namespace abut::gltf

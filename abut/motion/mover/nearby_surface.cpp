@@ -1,0 +1,286 @@
+#include <abut/motion/mover/nearby_surface.hpp>
+#include <abut/query/front_touch.hpp>
+
+#include <algorithm>
+#include <array>
+
+namespace abut {
+namespace {
+
+/// A shape deeper behind a one-sided front than this part of its size is passing through. A shallower one stands on it,
+/// such as on a rising platform.
+constexpr double pass_through_depth = 0.05;
+
+/// Planes whose normals are closer than this cosine count once.
+constexpr double same_side = 0.99;
+
+/// A plane supports the shape if its normal has at least this component in the contact normal.
+constexpr double min_normal_share = 0.05;
+
+template <int D>
+Aabb<D> moved_box(const Aabb<D>& box, const DVec<D>& move) {
+    const Vec<D> by = to_float(move);
+    return {box.min + by, box.max + by};
+}
+
+}  // namespace
+
+template <int D>
+void NearbySurface<D>::begin(const World<D>& world, const Filter& filter, const Convex<D>& shape, const DVec<D>& start,
+                             const Passes<D>* passes) {
+    world_ = &world;
+    filter_ = filter;
+    shape_ = shape;
+    start_ = start;
+    passes_ = passes;
+    size_ = abut::size(shape);
+    scale_ = felt_scale * size_;
+    parts_.clear();
+    passed_.clear();
+    passed_fronts_.clear();
+    contacts_valid_ = false;
+}
+
+template <int D>
+Convex<D> NearbySurface<D>::shape_at(const DVec<D>& at) const {
+    Convex<D> result = shape_;
+    result.place.offset += at;
+    return result;
+}
+
+template <int D>
+void NearbySurface<D>::prefetch(const DVec<D>& move, const DVec<D>& lift, const DVec<D>& drop, double around) {
+    const Aabb<D> box = bounds(shape_at(start_));
+    const Aabb<D> swept = merged(box, moved_box(box, move));
+    const Aabb<D> all = merged(swept, merged(moved_box(swept, lift), moved_box(swept, drop)));
+    gather(grown(all, static_cast<float>(around)));
+}
+
+/// The new region includes the old one, so that moving back and forth doesn't gather repeatedly.
+template <int D>
+void NearbySurface<D>::gather(const Aabb<D>& box) {
+    if (contains(parts_.box(), box)) return;
+    parts_.gather(*world_, merged(parts_.box(), box), filter_);
+}
+
+template <int D>
+bool NearbySurface<D>::is_passed(const PartName& name) const {
+    return std::find(passed_.begin(), passed_.end(), name) != passed_.end();
+}
+
+template <int D>
+void NearbySurface<D>::each_closest_point(const DVec<D>& point, double within, ClosestPointVisitor<D> visit) const {
+    each_closest_point_of_others({}, point, within, visit);
+}
+
+template <int D>
+void NearbySurface<D>::each_closest_point_of_others(const PartName& but, const DVec<D>& point, double within,
+                                                    ClosestPointVisitor<D> visit) const {
+    const Vec<D> middle = to_float(point);
+    parts_.each(grown(Aabb<D>{middle, middle}, static_cast<float>(within)),
+                [&](const PartName& name, const auto& part) {
+                    if (name == but) return;
+                    if (!passed_.empty() && is_passed(name)) return;
+                    if (!passed_fronts_.empty() && is_passed_front(name)) return;
+                    Foot<D> foot;
+                    if (within > no_others && find_foot(part, point, within, foot)) within = visit(foot);
+                });
+}
+
+template <int D>
+void NearbySurface<D>::find_passed_fronts(const Convex<D>& shape, const Aabb<D>& box) {
+    passed_fronts_.clear();
+    if (!parts_.has_one_sided()) return;
+    parts_.each(box, [&](const PartName& name, const auto& part) {
+        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(part)>, Convex<D>>) {
+            if (!part.one_sided) return;
+            const SignedDistance<D> distance = part_distance(shape, part, {});
+            if (!(distance.distance < 0)) return;
+            const DVec<D> out = normalized(front(part));
+            const double depth = dot(out, distance.on_b() - support(shape, -out));
+            if (depth > pass_through_depth * size_) passed_fronts_.push_back(name);
+        }
+    });
+}
+
+template <int D>
+bool NearbySurface<D>::is_passed_front(const PartName& name) const {
+    return std::find(passed_fronts_.begin(), passed_fronts_.end(), name) != passed_fronts_.end();
+}
+
+/// Another part may share the point at a seam.
+template <int D>
+bool NearbySurface<D>::is_on_passed_front(const DVec<D>& point) const {
+    if (passed_fronts_.empty()) return false;
+    bool result = false;
+    const Vec<D> middle = to_float(point);
+    parts_.each(grown(Aabb<D>{middle, middle}, static_cast<float>(scale_)),
+                [&](const PartName& name, const auto& part) {
+                    result = result || (is_passed_front(name) && foot_on(part, point).distance <= scale_);
+                });
+    return result;
+}
+
+/// Passed parts are stored and hide nothing.
+template <int D>
+template <class Part>
+bool NearbySurface<D>::passes(const Part& part, NearContact<D>& contact) {
+    if (passes_ == nullptr) return false;
+    contact.overlapped = part_distance(shape_at(start_), part, {}).distance < 0;
+    if (!(*passes_)(contact)) return false;
+    passed_.push_back(contact.name);
+    return true;
+}
+
+template <int D>
+std::span<const NearContact<D>> NearbySurface<D>::contacts(const DVec<D>& at, double reach) {
+    if (contacts_valid_ && contacts_at_ == at && contacts_reach_ == reach) return contacts_;
+    contacts_valid_ = true;
+    contacts_at_ = at;
+    contacts_reach_ = reach;
+    contacts_.clear();
+    ghosts_.clear();
+    passed_.clear();
+    const Convex<D> shape = shape_at(at);
+    const Aabb<D> box = grown(bounds(shape), static_cast<float>(reach));
+    gather(box);
+    find_passed_fronts(shape, box);
+    const auto contact_with = [&](const PartName& name, const auto& part) -> std::optional<NearContact<D>> {
+        const SignedDistance<D> distance = part_distance(shape, part, {});
+        if (!(distance.distance <= reach) || !meet_at_fronts(shape, part, distance.normal)) return std::nullopt;
+        if (is_one_sided(shape, part) && is_on_passed_front(distance.on_b())) return std::nullopt;
+        NearContact<D> contact{name, -distance.normal, distance.on_b(), distance.distance, {}, false};
+        contact.is_sdf = is_function<std::remove_cvref_t<decltype(part)>>;
+        name_feature(part, distance.corners.b, distance.corners.count, -distance.normal, name.part, contact.feature);
+        return contact;
+    };
+    if (passes_ != nullptr)
+        parts_.each(box, [&](const PartName& name, const auto& part) {
+            if (std::optional<NearContact<D>> contact = contact_with(name, part)) passes(part, *contact);
+        });
+    const DVec<D> middle = middle_of(shape, at);
+    SeenFromMiddle<D> seen;
+    const auto closest_points = [this](const DVec<D>& point, double within, ClosestPointVisitor<D> visit) {
+        each_closest_point(point, within, visit);
+    };
+    parts_.each(box, [&](const PartName& name, const auto& part) {
+        if (!passed_.empty() && is_passed(name)) return;
+        const std::optional<NearContact<D>> contact = contact_with(name, part);
+        if (!contact) return;
+        const FeltPlace<D> place{contact->point, contact->normal, middle, scale_};
+        if (is_felt<D>(part, place, closest_points))
+            contacts_.push_back(*contact);
+        else if (contact->gap < scale_)
+            ghosts_.push_back({*contact, felt_plane<D>(part, place, closest_points, seen)});
+        if constexpr (is_function<std::remove_cvref_t<decltype(part)>>) add_sides(*contact, shape, part, reach);
+    });
+    resolve_ghosts(shape, reach);
+    return contacts_;
+}
+
+/// Adds the other contact planes of a signed distance function.
+template <int D>
+void NearbySurface<D>::add_sides(const NearContact<D>& nearest, const Convex<D>& shape, const DistanceFunction<D>& part,
+                                 double reach) {
+    // A field rounds its corners: the shape is held off by a surface that isn't there.
+    const double surface_distance = distance_to_surface(shape, part, -nearest.normal);
+    const bool is_held_off =
+        std::isfinite(surface_distance) && surface_distance > 1.5 * std::max(nearest.gap, 0.0) + scale_;
+    std::array<SdfPlane<D>, max_sdf_planes<D>> sides;
+    const std::size_t count =
+        find_sdf_planes<D>(shape, part, is_held_off ? std::numeric_limits<double>::infinity() : reach, sides);
+    // Beside x = 0 and y = 0 its distance is about x y / cell, whose normal is along (y, x): each side is so far away
+    // that its gap times its part of the normal is the same.
+    const auto share = [&](const SdfPlane<D>& side) { return side.gap * dot(side.normal, nearest.normal); };
+    const auto is_in_normal = [&](const SdfPlane<D>& side) {
+        return dot(side.normal, nearest.normal) > min_normal_share;
+    };
+    double min_share = std::numeric_limits<double>::infinity();
+    for (const SdfPlane<D>& side : std::span(sides).first(count))
+        if (is_in_normal(side)) min_share = std::min(min_share, share(side));
+    for (const SdfPlane<D>& side : std::span(sides).first(count)) {
+        if (dot(side.normal, nearest.normal) >= same_side) continue;
+        const bool holds_off = is_held_off && is_in_normal(side) && share(side) <= 2 * min_share;
+        if ((side.gap > reach && !holds_off) || is_covered(nearest.name, side)) continue;
+        NearContact<D> contact{nearest.name, side.normal, side.point, side.gap, nearest.feature, false};
+        contact.is_sdf = true;
+        contacts_.push_back(contact);
+    }
+}
+
+/// True if another part is in front of the plane.
+template <int D>
+bool NearbySurface<D>::is_covered(const PartName& name, const SdfPlane<D>& side) const {
+    const DVec<D> beside = side.point + side.normal * scale_;
+    bool result = false;
+    each_closest_point_of_others(name, beside, scale_, [&](const Foot<D>& foot) {
+        result = result || foot.distance < 0.9 * scale_;
+        return result ? no_others : scale_;
+    });
+    return result;
+}
+
+/// A contact that the internal-edge filter dropped is restored if what covers it is out of reach or was dropped too.
+template <int D>
+void NearbySurface<D>::resolve_ghosts(const Convex<D>& shape, double reach) {
+    for (const Ghost& ghost : ghosts_) {
+        NearContact<D> contact = ghost.contact;
+        if (ghost.plane) {
+            contact.normal = ghost.plane->normal;
+            contact.point = ghost.plane->point;
+            contact.gap = dot(contact.normal, support(shape, -contact.normal) - contact.point);
+        }
+        const bool reported = std::any_of(contacts_.begin(), contacts_.end(), [&](const NearContact<D>& other) {
+            return tells_of<D>(other.normal, -other.gap, contact.normal, -contact.gap, size_);
+        });
+        if (contact.gap <= reach && !reported) contacts_.push_back(contact);
+    }
+}
+
+template <int D>
+std::optional<FirstTouch<D>> NearbySurface<D>::first_touch(const DVec<D>& at, const DVec<D>& move, double grown_by) {
+    std::optional<FirstTouch<D>> result;
+    const double distance = length(move);
+    if (!(distance > 0)) return result;
+    Convex<D> shape = shape_at(at);
+    shape.radius += grown_by;
+    const Aabb<D> first_box = bounds(shape);
+    // A time of impact may be early by the tolerance.
+    const Aabb<D> box = grown(merged(first_box, moved_box(first_box, move)), static_cast<float>(1e-4 * size_));
+    gather(box);
+    find_passed_fronts(shape_at(at), grown(bounds(shape_at(at)), static_cast<float>(1e-4 * size_)));
+    Path<D> path{move / distance, distance};
+    if (passes_ != nullptr) {
+        passed_.clear();
+        contacts_valid_ = false;
+    }
+    parts_.each(box, [&](const PartName& name, const auto& part) {
+        PartTouch<D> touch;
+        if (!front_touch(shape, path, part, name.part, SweepOptions<D>{}, touch)) return;
+        if (result && touch.along >= path.length) return;
+        if (is_one_sided(shape, part) && (is_passed_front(name) || is_on_passed_front(touch.point))) return;
+        NearContact<D> contact{name, -touch.normal, touch.point, 0, touch.feature, false};
+        contact.is_sdf = is_function<std::remove_cvref_t<decltype(part)>>;
+        if (passes(part, contact)) return;
+        path.length = touch.along;
+        result = FirstTouch<D>{std::min(touch.along / distance, 1.0), contact};
+    });
+    return result;
+}
+
+template <int D>
+std::optional<DVec<D>> NearbySurface<D>::normal_above(const DVec<D>& point, const DVec<D>& up) {
+    constexpr double clear = 0.1;
+    const DVec<D> above = point + up * scale_;
+    const auto closest_points = [this](const DVec<D>& from, double within, ClosestPointVisitor<D> visit) {
+        each_closest_point(from, within, visit);
+    };
+    const Foot<D> foot = nearest_foot<D>(closest_points, above, 2 * scale_, scale_, clear * scale_);
+    if (!(foot.distance > clear * scale_) || !std::isfinite(foot.distance)) return std::nullopt;
+    return normalized(above - foot.point);
+}
+
+template class NearbySurface<2>;
+template class NearbySurface<3>;
+
+}  // namespace abut

@@ -1,0 +1,135 @@
+#include <abut/math/assert.hpp>
+#include <abut/math/coincident.hpp>
+#include <abut/shape/mesh.hpp>
+#include <abut/shape/mesh/adjacency.hpp>
+#include <abut/shape/mesh/check_triangles.hpp>
+#include <abut/shape/mesh/tree.hpp>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <tuple>
+#include <vector>
+
+namespace abut {
+
+struct Mesh::Data {
+    std::vector<Vec3> points;
+    std::vector<glm::uvec3> triangles;
+    MeshTree tree;
+    MeshAdjacency adjacency;
+};
+
+namespace {
+
+constexpr glm::length_t x = 0, y = 1, z = 2;
+
+bool before(const Vec3& a, const Vec3& b) {
+    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+}
+
+/// Twice the signed area of a, b and the point, projected along x; positive on the left of ab. An edge gives the same
+/// value in both directions (up to the sign), so that adjacent triangles agree about every point.
+double side(const Vec3& a, const Vec3& b, const Vec3& point) {
+    if (before(b, a)) return -side(b, a, point);
+    const DVec<3> from(a), ab = DVec<3>(b) - from, ap = DVec<3>(point) - from;
+    return ab[y] * ap[z] - ab[z] * ap[y];
+}
+
+/// The signed crossing of the triangle by the line through the point along x: 1, -1 or 0.
+int winding_number(const Triangle3& t, const Vec3& point) {
+    int winding = 0;
+    const std::array<Vec3, 4> corner{t.a, t.b, t.c, t.a};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const bool from_below = corner[i].z <= point.z, to_below = corner[i + 1].z <= point.z;
+        if (from_below == to_below) continue;
+        const double left = side(corner[i], corner[i + 1], point);
+        if (from_below && left > 0) ++winding;
+        if (to_below && left < 0) --winding;
+    }
+    return winding;
+}
+
+/// True if the plane of the triangle lies at larger x than the point.
+bool is_beyond(const Triangle3& t, const Vec3& point) {
+    const DVec<3> a(t.a);
+    const DVec<3> normal = cross(DVec<3>(t.b) - a, DVec<3>(t.c) - a);
+    const double height = dot(normal, DVec<3>(point) - a);
+    return normal[x] > 0 ? height < 0 : height > 0;
+}
+
+}  // namespace
+
+Result<Mesh> Mesh::build(std::span<const Vec3> points, std::span<const glm::uvec3> triangles) {
+    if (std::optional<Problem> problem = problem_of_triangles(points, triangles, "a mesh")) return *std::move(problem);
+    auto data = std::make_shared<Data>();
+    data->points.assign(points.begin(), points.end());
+    data->triangles.assign(triangles.begin(), triangles.end());
+    const std::vector<std::uint32_t> same = first_coincident(points);
+    data->adjacency = build_mesh_adjacency(triangles, same);
+    data->tree = build_mesh_tree(points, triangles, same);
+    return Mesh(std::move(data));
+}
+
+std::span<const Vec3> Mesh::points() const {
+    return data_->points;
+}
+std::span<const glm::uvec3> Mesh::triangles() const {
+    return data_->triangles;
+}
+bool Mesh::closed() const {
+    return data_->adjacency.closed;
+}
+
+std::uint32_t Mesh::neighbour(std::uint32_t triangle, std::uint32_t edge) const {
+    ABUT_ASSERT(triangle < data_->triangles.size() && edge < 3);
+    return data_->adjacency.neighbours[triangle][edge];
+}
+
+Triangle3 Mesh::triangle(std::uint32_t index) const {
+    const glm::uvec3& t = data_->triangles[index];
+    return {data_->points[t.x], data_->points[t.y], data_->points[t.z]};
+}
+
+Aabb3 bounds(const Mesh& mesh) {
+    return mesh.data_->tree.root(0).box;
+}
+
+void each_part(const Mesh& mesh, const Aabb3& box,
+               FunctionRef<bool(const Triangle3& part, std::uint32_t index)> visit) {
+    find_overlapping(mesh.data_->tree, box,
+                     [&](std::uint32_t index) -> bool { return visit(mesh.triangle(index), index); });
+}
+
+void each_part_along(const Mesh& mesh, const MovingBox<3>& box,
+                     FunctionRef<float(const Triangle3& part, std::uint32_t index)> visit) {
+    find_within(mesh.data_->tree, RayReach<3>::of_box(box),
+                [&](std::uint32_t index) -> float { return visit(mesh.triangle(index), index); });
+}
+
+void each_part_near(const Mesh& mesh, const Aabb3& box,
+                    FunctionRef<float(const Triangle3& part, std::uint32_t index)> visit) {
+    constexpr float any = std::numeric_limits<float>::infinity();
+    find_within(mesh.data_->tree, BoxReach<3>(box, any),
+                [&](std::uint32_t index) -> float { return visit(mesh.triangle(index), index); });
+}
+
+const MeshTree& triangle_tree(const Mesh& mesh) {
+    return mesh.data_->tree;
+}
+
+bool solid_contains(const Mesh& mesh, const Vec3& point) {
+    if (!mesh.closed()) return false;
+    Aabb3 ahead{point, point};
+    ahead.max.x = std::numeric_limits<float>::infinity();
+    int winding = 0;
+    find_overlapping(mesh.data_->tree, ahead, [&](std::uint32_t index) -> bool {
+        const Triangle3 t = mesh.triangle(index);
+        const int crossing = winding_number(t, point);
+        if (crossing != 0 && is_beyond(t, point)) winding += crossing;
+        return true;
+    });
+    return winding != 0;
+}
+
+}  // namespace abut

@@ -1,0 +1,176 @@
+#include <abut/math/assert.hpp>
+#include <abut/math/predicates.hpp>
+#include <abut/shape/solid_bsp.hpp>
+#include <abut/shape/solid_bsp/cells.hpp>
+#include <abut/shape/solid_bsp/tree.hpp>
+#include <abut/shape/solid_bsp/winding.hpp>
+
+#include <string>
+
+namespace abut {
+namespace {
+
+/// Relative to the largest coordinate: far above the rounding of doubles, far below that of floats.
+constexpr double relative_margin = 0x1p-40;
+
+bool has_extent(const SolidTree<2>& tree, const glm::uvec2& face) {
+    return tree.points[face.x] != tree.points[face.y];
+}
+bool has_extent(const SolidTree<3>& tree, const glm::uvec3& face) {
+    return !on_line(tree.points[face.x], tree.points[face.y], tree.points[face.z]);
+}
+
+template <int D>
+std::optional<Problem> problem_of(std::span<const Vec<D>> points, std::span<const glm::vec<D, std::uint32_t>> faces) {
+    const std::string face = D == 2 ? "segment " : "triangle ";
+    if (faces.empty()) return Problem{ProblemCode::empty_input, "a level needs at least one face", 0};
+    for (std::size_t i = 0; i < points.size(); ++i)
+        if (!is_finite(points[i]))
+            return Problem{ProblemCode::not_finite,
+                           "point " + std::to_string(i) + " has a coordinate that is not finite", i};
+    for (std::size_t i = 0; i < faces.size(); ++i)
+        for (int j = 0; j < D; ++j)
+            if (faces[i][j] >= points.size())
+                return Problem{ProblemCode::index_out_of_range,
+                               face + std::to_string(i) + " names point " + std::to_string(faces[i][j]) + " of " +
+                                   std::to_string(points.size()),
+                               i};
+    return std::nullopt;
+}
+
+/// The leaves that contain a point: whether some, and whether all, are solid.
+template <int D>
+struct LeafSummary {
+    bool some = false, all = true;
+};
+template <int D>
+void classify(const SolidTree<D>& tree, std::uint32_t at, const Vec<D>& point, LeafSummary<D>& around) {
+    while (at < open_leaf) {
+        const SolidNode<D>& node = tree.nodes[at];
+        const int side = side_of(tree, node.plane, point);
+        if (side == 0) classify(tree, node.back, point, around);
+        at = side < 0 ? node.back : node.front;
+    }
+    around.some = around.some || at == solid_leaf;
+    around.all = around.all && at == solid_leaf;
+}
+
+template <int D>
+bool visit_pieces(const SolidTree<D>& tree, std::uint32_t at, const Vec<D>& eye,
+                  FunctionRef<bool(std::uint32_t, std::span<const Vec<D>>)> visit) {
+    while (at < open_leaf) {
+        const SolidNode<D>& node = tree.nodes[at];
+        const bool in_front = side_of(tree, node.plane, eye) >= 0;
+        if (!visit_pieces(tree, in_front ? node.front : node.back, eye, visit)) return false;
+        for (std::uint32_t i = node.first_piece; i < node.first_piece + node.pieces; ++i) {
+            const SolidPiece& piece = tree.pieces[i];
+            if (!visit(piece.face, {tree.corners.data() + piece.first_corner, piece.corners})) return false;
+        }
+        at = in_front ? node.back : node.front;
+    }
+    return true;
+}
+
+}  // namespace
+
+template <int D>
+Result<SolidBsp<D>> SolidBsp<D>::build(std::span<const Vec<D>> points, std::span<const Face> faces) {
+    if (auto problem = problem_of<D>(points, faces)) return *std::move(problem);
+    auto tree = std::make_shared<SolidTree<D>>();
+    tree->points.assign(points.begin(), points.end());
+    tree->faces.assign(faces.begin(), faces.end());
+
+    double largest_coordinate = 0;
+    std::vector<SolidFragment<D>> fragments;
+    for (std::uint32_t i = 0; i < faces.size(); ++i) {
+        if (!has_extent(*tree, faces[i])) continue;
+        SolidFragment<D> fragment{i, {}};
+        for (int j = 0; j < D; ++j) {
+            fragment.corners.push_back({DVec<D>(points[faces[i][j]]), faces[i][j]});
+            largest_coordinate = std::max(largest_coordinate, largest(fragment.corners.back().position));
+        }
+        fragments.push_back(std::move(fragment));
+    }
+    const double margin = relative_margin * largest_coordinate;
+    const SolidWinding<D> winding(*tree, margin);
+    const auto plane = [&](std::uint32_t face) { return plane_of_face(*tree, face); };
+    const auto sides = [&](const DVec<D>& place, const SolidPlane<D>& at) -> std::optional<SolidSides> {
+        return winding.closed() ? winding.beside(place, at) : SolidSides();
+    };
+    build_tree<D>(*tree, {std::move(fragments), margin, plane, sides});
+    add_cells<D>(*tree, margin);
+    tree->parts.finish();
+    return SolidBsp(std::move(tree));
+}
+
+template <int D>
+bool SolidBsp<D>::contains(const Vec<D>& point) const {
+    const bool finite = is_finite(point);
+    ABUT_ASSERT(finite);
+    if (!finite) return false;
+    LeafSummary<D> around;
+    classify(*tree_, tree_->root, point, around);
+    return around.some;
+}
+
+template <int D>
+void SolidBsp<D>::visit_from(const Vec<D>& eye, PieceCall visit) const {
+    ABUT_ASSERT(is_finite(eye));
+    if (is_finite(eye)) visit_pieces<D>(*tree_, tree_->root, eye, visit);
+}
+
+template <int D>
+Aabb<D> SolidBsp<D>::bounds() const {
+    return tree_->bounds;
+}
+template <int D>
+void SolidBsp<D>::each_part(const Aabb<D>& box, PartVisitor<D> visit) const {
+    tree_->parts.each_part(box, visit);
+}
+template <int D>
+void SolidBsp<D>::each_part_along(const MovingBox<D>& box, PartReachVisitor<D> visit) const {
+    tree_->parts.each_part_along(box, visit);
+}
+template <int D>
+void SolidBsp<D>::each_part_near(const Aabb<D>& box, PartReachVisitor<D> visit) const {
+    tree_->parts.each_part_near(box, visit);
+}
+template <int D>
+Aabb<D> SolidBsp<D>::part_bounds() const {
+    return tree_->parts.bounds();
+}
+template <int D>
+std::size_t SolidBsp<D>::part_count() const {
+    return tree_->parts.size();
+}
+template <int D>
+std::size_t SolidBsp<D>::node_count() const {
+    return tree_->nodes.size();
+}
+template <int D>
+std::size_t SolidBsp<D>::depth() const {
+    return tree_->depth;
+}
+template <int D>
+std::size_t SolidBsp<D>::piece_count() const {
+    return tree_->pieces.size();
+}
+
+#define ABUT_INSTANTIATE(D)                                                                                       \
+    template Result<SolidBsp<D>> SolidBsp<D>::build(std::span<const Vec<D>>, std::span<const SolidBsp<D>::Face>); \
+    template bool SolidBsp<D>::contains(const Vec<D>&) const;                                                     \
+    template void SolidBsp<D>::visit_from(const Vec<D>&, SolidBsp<D>::PieceCall) const;                           \
+    template Aabb<D> SolidBsp<D>::bounds() const;                                                                 \
+    template void SolidBsp<D>::each_part(const Aabb<D>&, PartVisitor<D>) const;                                   \
+    template void SolidBsp<D>::each_part_along(const MovingBox<D>&, PartReachVisitor<D>) const;                   \
+    template void SolidBsp<D>::each_part_near(const Aabb<D>&, PartReachVisitor<D>) const;                         \
+    template Aabb<D> SolidBsp<D>::part_bounds() const;                                                            \
+    template std::size_t SolidBsp<D>::part_count() const;                                                         \
+    template std::size_t SolidBsp<D>::node_count() const;                                                         \
+    template std::size_t SolidBsp<D>::depth() const;                                                              \
+    template std::size_t SolidBsp<D>::piece_count() const;
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
+
+}  // namespace abut

@@ -1,0 +1,100 @@
+#include "tool/check/check.hpp"
+
+#include "tool/check/swept_pairs.hpp"
+
+#include <utility>
+
+namespace abut::tool {
+namespace {
+
+template <int D>
+class Checker {
+public:
+    Checker(Objects<D>& objects, const CheckOptions& options)
+        : objects_(objects),
+          options_(options),
+          filter_(objects, options.pairs),
+          overlapping_(filter_),
+          swept_pairs_(objects, options.limits, filter_),
+          findings_(options.max_findings) {}
+
+    std::optional<Problem> test(std::size_t frame);
+    std::optional<Problem> advance(std::size_t frame, double from, double to);
+    CheckResult<D> finish(std::size_t frames);
+
+private:
+    Objects<D>& objects_;
+    const CheckOptions& options_;
+    PairFilter filter_;
+    OverlappingPairs<D> overlapping_;
+    SweptPairs<D> swept_pairs_;
+    Findings<D> findings_;
+    std::vector<Aabb<D>> boxes_;
+    std::uint64_t tested_ = 0;
+};
+
+template <int D>
+std::optional<Problem> Checker<D>::test(std::size_t frame) {
+    boxes_.resize(objects_.size());
+    for (std::size_t i = 0; i < objects_.size(); ++i)
+        boxes_[i] = objects_[i].present ? grown(objects_[i].box, 0.5f * options_.limits.clearance) : Aabb<D>::empty();
+    if (std::optional<Problem> problem = overlapping_.find(boxes_)) return problem;
+    for (const Pair& pair : overlapping_.pairs()) {
+        const Object<D>&a = objects_[pair.first], &b = objects_[pair.second];
+        if (frame > 0 && !a.moved && !b.moved) {
+            findings_.extend(pair, frame);
+            continue;
+        }
+        ++tested_;
+        std::optional<PairContact<D>> contact = pair_contact(ObjectAt<D>(a), ObjectAt<D>(b), options_.limits);
+        if (contact) findings_.add(pair, frame, *std::move(contact));
+    }
+    findings_.end_frame();
+    return std::nullopt;
+}
+
+// Sweeps from a frame to the next one and tests that frame.
+template <int D>
+std::optional<Problem> Checker<D>::advance(std::size_t frame, double from, double to) {
+    std::optional<Problem> problem;
+    objects_.each_stage(from, to, [&](const Stage<D>& stage) {
+        if (!problem) problem = swept_pairs_.test(stage, findings_);
+    });
+    if (!problem) problem = objects_.go_to(to);
+    if (!problem) problem = test(frame + 1);
+    if (!problem) swept_pairs_.end(frame, findings_);
+    return problem;
+}
+
+template <int D>
+CheckResult<D> Checker<D>::finish(std::size_t frames) {
+    CheckResult<D> result;
+    result.findings = findings_.take();
+    result.left_out = findings_.left_out();
+    result.tested = tested_;
+    result.swept = swept_pairs_.swept();
+    result.possible = filter_.count(objects_.size()) * frames;
+    return result;
+}
+
+}  // namespace
+
+template <int D>
+Result<CheckResult<D>> check(Objects<D>& objects, const std::vector<double>& times, const CheckOptions& options,
+                             ProgressCall progress) {
+    Checker<D> checker(objects, options);
+    for (std::size_t frame = 0; frame < times.size(); ++frame) {
+        std::optional<Problem> problem =
+            frame == 0 ? checker.test(0) : checker.advance(frame - 1, times[frame - 1], times[frame]);
+        if (problem) return *std::move(problem);
+        progress(frame + 1, times.size());
+    }
+    return checker.finish(times.size());
+}
+
+template Result<CheckResult<2>> check(Objects<2>& objects, const std::vector<double>& times,
+                                      const CheckOptions& options, ProgressCall progress);
+template Result<CheckResult<3>> check(Objects<3>& objects, const std::vector<double>& times,
+                                      const CheckOptions& options, ProgressCall progress);
+
+}  // namespace abut::tool

@@ -1,0 +1,67 @@
+#include "tool/check/pair_contact.hpp"
+
+#include <algorithm>
+
+namespace abut::tool {
+namespace {
+
+// Default allowed depth relative to the smaller object's size: objects that rest on others may penetrate this far.
+constexpr float default_allow = 1e-3f;
+// Tolerance of queries relative to the smaller object's size: smaller gaps count as touching.
+constexpr float tolerance = 1e-5f;
+
+// Tests if an interior point of one body is inside the other, a filled mesh. The sum of the point's depths below both
+// surfaces is a lower bound of the separating distance. It is exact for balls and for identical bodies.
+template <int D>
+std::optional<PairContact<D>> contained(const ObjectAt<D>& outer, const ObjectAt<D>& inner, float allow) {
+    if (!outer.object.filled) return std::nullopt;
+    const Vec<D> point = inner.pose * inner.object.inside.point;
+    if (!contains(outer.box, point) || !contains(outer.placed, point)) return std::nullopt;
+    const Closest<D> nearest = closest(outer.placed, point);
+    const float depth = nearest.distance + inner.object.inside.depth;
+    if (!(depth > allow)) return std::nullopt;
+    // The normal points from the closest surface point to the interior point.
+    return PairContact<D>{-depth, allow, -nearest.normal, {point}, true};
+}
+
+}  // namespace
+
+template <int D>
+float smaller_size(const Object<D>& a, const Object<D>& b) {
+    return std::min(a.radius, b.radius);
+}
+
+template <int D>
+float allowed_depth(const Object<D>& a, const Object<D>& b, const Limits& limits) {
+    return limits.allow.value_or(default_allow * smaller_size(a, b));
+}
+
+template <int D>
+std::optional<PairContact<D>> pair_contact(const ObjectAt<D>& a, const ObjectAt<D>& b, const Limits& limits) {
+    const float allow = allowed_depth(a.object, b.object, limits);
+    const bool has_clearance = limits.clearance > 0;
+    if (has_clearance || overlaps(a.placed, b.placed)) {
+        const Contact<D> c = contact(a.placed, b.placed, {.margin = limits.clearance});
+        const bool is_deep = c && c.depth > allow;
+        const bool is_close = c && has_clearance && (c.depth < -tolerance * smaller_size(a.object, b.object)) &&
+                              (c.depth > -limits.clearance);
+        if (is_deep || is_close) {
+            PairContact<D> result{-c.depth, allow, c.normal, {}, false};
+            for (const auto& point : c.points) result.points.push_back(point.position);
+            return result;
+        }
+    }
+    if (std::optional<PairContact<D>> result = contained(a, b, allow)) return result;
+    std::optional<PairContact<D>> result = contained(b, a, allow);
+    if (result) result->normal = -result->normal;
+    return result;
+}
+
+template float smaller_size(const Object<2>& a, const Object<2>& b);
+template float smaller_size(const Object<3>& a, const Object<3>& b);
+template float allowed_depth(const Object<2>& a, const Object<2>& b, const Limits& limits);
+template float allowed_depth(const Object<3>& a, const Object<3>& b, const Limits& limits);
+template std::optional<PairContact<2>> pair_contact(const ObjectAt<2>& a, const ObjectAt<2>& b, const Limits& limits);
+template std::optional<PairContact<3>> pair_contact(const ObjectAt<3>& a, const ObjectAt<3>& b, const Limits& limits);
+
+}  // namespace abut::tool

@@ -1,0 +1,149 @@
+#include "tool/check/swept_pairs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace abut::tool {
+namespace {
+
+// A pair that touches and separates more often than this on a stage is not followed further.
+constexpr int max_touches = 32;
+// Sampling steps while a pair is in contact: at most this motion relative to the smaller object's size, and at most
+// this fraction of a stage. The first step is the allowed depth, at least `min_step`.
+constexpr double max_step = 0.05, max_stage_fraction = 1.0 / 64, min_step = 1e-4;
+
+template <int D>
+Motion<D> remaining(const Motion<D>& motion, double from) {
+    const auto left = static_cast<float>(1 - from);
+    return {pose_at(motion, static_cast<float>(from)), motion.move * left, motion.turn * left};
+}
+
+double angle_of(float turn) {
+    return std::abs(static_cast<double>(turn));
+}
+double angle_of(const Vec3& turn) {
+    return static_cast<double>(glm::length(turn));
+}
+
+// A box that contains the object during the entire motion. A point's path deviates from the straight motion by at most
+// the sagitta of its arc.
+template <int D>
+Aabb<D> swept_box(const Object<D>& object, const Motion<D>& motion) {
+    if (motion == Motion<D>{object.pose, {}, {}}) return object.box;
+    const Pose<D> end = pose_at(motion, 1.0f);
+    const auto box_at = [&](const Pose<D>& pose) {
+        return bounds(moved(object.shape, affine(Pose<D>{Vec<D>(0.0f), pose.rotation})));
+    };
+    const double half = std::min(0.5 * angle_of(motion.turn), 3.2);
+    const double height = static_cast<double>(object.reach) * (half < 1.5 ? 1 - std::cos(half) : 2);
+    const Aabb<D> rotation = grown(merged(box_at(motion.from), box_at(end)), static_cast<float>(1.0001 * height));
+    const Vec<D> low = glm::min(motion.from.position, end.position),
+                 high = glm::max(motion.from.position, end.position);
+    return {low + rotation.min, high + rotation.max};
+}
+
+// An object at a fraction of a motion.
+template <int D>
+struct PosedObject {
+    Pose<D> pose;
+    View<D> placed;
+    Aabb<D> box;
+
+    PosedObject(const Object<D>& object, const Motion<D>& motion, double fraction)
+        : pose(pose_at(motion, static_cast<float>(fraction))),
+          placed(moved(object.shape, affine(pose))),
+          box(bounds(placed)) {}
+};
+
+}  // namespace
+
+template <int D>
+void SweptPairs<D>::add_contact(const Pair& pair, double first, double time, PairContact<D>&& contact) {
+    const auto [entry, is_new] = contacts_.try_emplace(pair);
+    Finding<D>& finding = entry->second;
+    if (is_new) {
+        finding.a = pair.first;
+        finding.b = pair.second;
+        finding.between = true;
+        finding.time = first;
+    }
+    finding.last_time = time;
+    if (contact.distance >= finding.distance) return;
+    finding.deepest_time = time;
+    finding.distance = contact.distance;
+    finding.allow = contact.allow;
+    finding.normal = contact.normal;
+    finding.points = std::move(contact.points);
+    finding.inside = contact.inside;
+}
+
+template <int D>
+void SweptPairs<D>::test(const Pair& pair, const Stage<D>& stage, float clearance) {
+    const Object<D>&a = objects_[pair.first], &b = objects_[pair.second];
+    const Motion<D>&motion_a = stage.motions[pair.first], &motion_b = stage.motions[pair.second];
+    const double rotation = speed(Motion<D>{{}, {}, motion_a.turn}, static_cast<double>(a.reach)) +
+                            speed(Motion<D>{{}, {}, motion_b.turn}, static_cast<double>(b.reach));
+    const double max_motion = speed(Motion<D>{{}, motion_a.move - motion_b.move, {}}, 0) + rotation;
+    if (!(max_motion > 0)) return;
+    ++swept_;
+    const double size = static_cast<double>(smaller_size(a, b));
+    const double first_step = std::max(static_cast<double>(allowed_depth(a, b, limits_)), min_step * size) / max_motion;
+    const double longest = std::max(max_step * size / max_motion, max_stage_fraction);
+    const auto time_of = [&](double fraction) { return stage.from + (stage.to - stage.from) * fraction; };
+    const PosedObject<D> first_a(a, motion_a, 0), first_b(b, motion_b, 0);
+    const Closest<D> gap = closest(first_a.placed, first_b.placed);
+    if (static_cast<double>(gap.distance) > 1.001 * (max_motion + static_cast<double>(clearance))) return;
+    const View<D> rounded_a = clearance > 0 ? rounded(a.shape, static_cast<double>(clearance)) : a.shape;
+
+    double fraction = 0;
+    for (int touch = 0; touch < max_touches && fraction < 1; ++touch) {
+        const std::optional<Hit<D>> hit =
+            sweep(rounded_a, remaining(motion_a, fraction), b.shape, remaining(motion_b, fraction), QueryOptions<D>{});
+        if (!hit) return;
+        const double first = fraction = fraction + (1 - fraction) * static_cast<double>(hit->fraction);
+        for (double step = first_step;; step = std::min(2 * step, longest)) {
+            fraction = std::min(fraction + step, 1.0);
+            const PosedObject<D> posed_a(a, motion_a, fraction), posed_b(b, motion_b, fraction);
+            const ObjectAt<D> object_a(a, posed_a.pose, posed_a.placed, posed_a.box);
+            const ObjectAt<D> object_b(b, posed_b.pose, posed_b.placed, posed_b.box);
+            std::optional<PairContact<D>> contact = pair_contact(object_a, object_b, limits_);
+            const bool is_separate = !contact && !overlaps(posed_a.placed, posed_b.placed);
+            if (contact) add_contact(pair, time_of(first), time_of(fraction), *std::move(contact));
+            if (is_separate || fraction >= 1) break;
+        }
+    }
+}
+
+template <int D>
+std::optional<Problem> SweptPairs<D>::test(const Stage<D>& stage, const Findings<D>& at_first) {
+    if (std::find(stage.parts.begin(), stage.parts.end(), StageMotion::moves) == stage.parts.end()) return std::nullopt;
+    boxes_.resize(objects_.size());
+    for (std::size_t i = 0; i < boxes_.size(); ++i)
+        boxes_[i] = stage.parts[i] == StageMotion::discontinuous
+                        ? Aabb<D>::empty()
+                        : grown(swept_box(objects_[i], stage.motions[i]), 0.5f * limits_.clearance);
+    if (std::optional<Problem> problem = overlapping_.find(boxes_)) return problem;
+    for (const Pair& pair : overlapping_.pairs()) {
+        const bool moves =
+            stage.parts[pair.first] == StageMotion::moves || stage.parts[pair.second] == StageMotion::moves;
+        if (!moves || at_first.has(pair)) continue;
+        test(pair, stage, 0);
+        if (limits_.clearance > 0 && !contacts_.contains(pair)) test(pair, stage, limits_.clearance);
+    }
+    return std::nullopt;
+}
+
+template <int D>
+void SweptPairs<D>::end(std::size_t first, Findings<D>& findings) {
+    for (auto& [pair, finding] : contacts_) {
+        finding.first = finding.last = finding.deepest = first;
+        if (!findings.has(pair)) findings.add(std::move(finding));
+    }
+    contacts_.clear();
+}
+
+template class SweptPairs<2>;
+template class SweptPairs<3>;
+
+}  // namespace abut::tool

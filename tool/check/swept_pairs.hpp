@@ -1,0 +1,44 @@
+#pragma once
+
+// Contacts between frames, by continuous sweeps.
+
+#include "tool/check/findings.hpp"
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+namespace abut::tool {
+
+/// Sweeps pairs from one frame to the next, stage by stage. Pairs in contact at the first frame are skipped. From the
+/// time of impact on, a pair is sampled until it separates, to find contacts deeper than allowed.
+template <int D>
+class SweptPairs {
+public:
+    /// Refers to all arguments.
+    SweptPairs(const Objects<D>& objects, const Limits& limits, const PairFilter& selection)
+        : objects_(objects), limits_(limits), overlapping_(selection) {}
+
+    /// Sweeps all pairs through a stage; `at_first` has the contacts of the frame before it.
+    std::optional<Problem> test(const Stage<D>& stage, const Findings<D>& at_first);
+
+    /// Adds contacts found since the frame `first` to `findings`, which is at the next frame by now. Pairs in contact
+    /// there are skipped.
+    void end(std::size_t first, Findings<D>& findings);
+
+    /// Count of pairs swept so far.
+    std::uint64_t swept() const { return swept_; }
+
+private:
+    void test(const Pair& pair, const Stage<D>& stage, float clearance);
+    void add_contact(const Pair& pair, double first, double time, PairContact<D>&& contact);
+
+    const Objects<D>& objects_;
+    const Limits& limits_;
+    OverlappingPairs<D> overlapping_;
+    std::vector<Aabb<D>> boxes_;
+    std::map<Pair, Finding<D>> contacts_;
+    std::uint64_t swept_ = 0;
+};
+
+}  // namespace abut::tool

@@ -1,0 +1,48 @@
+#pragma once
+
+// Finds passages that are too narrow for a character, though light passes through.
+//
+// A neck is a segment between two surface points that face each other. Its open diametral ball contains no surface, so
+// that its length is a local minimum. Its midpoint is free: in front of the nearby surfaces, in no filled object, and
+// not below the back of a surface. Necks that are translates of one another, as between two walls, count as one neck at
+// their common midpoint.
+//
+// A neck is a passage if light passes through it, following the middle of the passage as it bends. There must be a
+// direction across the neck for which, both ways, nothing is in the way and the passage gets no narrower until it is at
+// least `width` wide. The bottom of a crack, a niche and the angle of a corner are therefore no passages.
+//
+// If the midpoints of several passages see each other and are closer than `width`, only the narrowest is reported.
+//
+// Limits: openings with three or five corners where no two points face each other are not found. Narrow bends without a
+// place of the given width within 256 steps of half a neck's width count as passages.
+
+#include "tool/faults/facet_tree.hpp"
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace abut::tool {
+
+template <int D>
+struct GapOptions {
+    double width = 0;                          ///< passages narrower than this are reported
+    double min_width = 0;                      ///< and wider than this: narrower gaps are seams
+    std::optional<DVec<D>> up = std::nullopt;  ///< unit vector towards which backs of grounds are searched
+    std::function<bool(std::size_t, std::size_t)> is_selected = nullptr;  ///< filter of object pairs; all by default
+};
+
+template <int D>
+struct Gap {
+    std::size_t a = 0, b = 0;  ///< objects; a <= b
+    float width = 0;           ///< minimum width
+    Vec<D> position{};         ///< midpoint of the neck
+    Vec<D> on_a{}, on_b{};     ///< end points of the neck
+};
+
+/// Finds all passages, sorted by objects, the narrowest first. Tests all pairs of facets closer than `width`.
+template <int D>
+std::vector<Gap<D>> find_gaps(const FacetTree<D>& facets, const GapOptions<D>& options);
+
+}  // namespace abut::tool

@@ -1,0 +1,264 @@
+#include "tool/faults/spawns.hpp"
+
+#include "tool/shared/name_pattern.hpp"
+#include <abut/abut.hpp>
+#include <abut/math/dvec.hpp>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+namespace abut::tool {
+namespace {
+
+// Default allowed depth relative to the smaller one's size: characters on the ground may penetrate this far.
+constexpr float default_allow = 1e-3f;
+// The cosine of the steepest slope to stand on: 60 degrees.
+constexpr float min_slope_cosine = 0.5f;
+// Maximum distance of a free position, in sizes of the character, or of the object that a point is in.
+constexpr float max_free_distance = 4;
+// Clearance of a free position from the object it left, relative to the character's size.
+constexpr float clearance = 1e-3f;
+// Height above a point spawn at which the search for its ground starts, relative to the level's size: covers rounding.
+constexpr float ground_search_height = 1e-4f;
+// Maximum number of objects that a spawn is moved out of, one after another.
+constexpr int max_push_outs = 4;
+
+bool is_at_or_below(std::string_view path, std::string_view above) {
+    return path.starts_with(above) && (path.size() == above.size() || path[above.size()] == '/');
+}
+
+std::string lower_case(std::string text) {
+    for (char& c : text)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return text;
+}
+
+bool has_usual_name(const std::string& name) {
+    const std::string lower = lower_case(name);
+    constexpr std::array<std::string_view, 4> words{"spawn", "player_start", "playerstart", "player start"};
+    return std::any_of(words.begin(), words.end(),
+                       [&](std::string_view word) { return lower.find(word) != std::string::npos; });
+}
+
+template <int D>
+struct Overlap {
+    std::size_t object = 0;
+    float depth = 0;
+};
+
+template <int D>
+class SpawnCheck {
+public:
+    SpawnCheck(const LevelView<D>& level, std::vector<ViewedObject<D>> obstacles, std::vector<std::size_t> numbers,
+               const SpawnOptions<D>& options)
+        : level_(level),
+          obstacles_(std::move(obstacles)),
+          numbers_(std::move(numbers)),
+          options_(options),
+          facets_(obstacles_) {
+        std::vector<Aabb<D>> boxes;
+        for (const ViewedObject<D>& object : obstacles_) {
+            boxes.push_back(object.box);
+            world_.add(Unowned<D>{object.shape}, {.fixed = true});
+        }
+        tree_.build(boxes);
+        world_.update();
+    }
+
+    std::optional<SpawnFinding<D>> test(std::size_t place) const;
+
+private:
+    Capsule<D> character_at(const Vec<D>& place) const;
+    float size() const { return options_.character ? 0.5f * options_.character->height : 0; }
+    float allowed(const ViewedObject<D>& object) const;
+    float depth_in(const ViewedObject<D>& object, const Vec<D>& place) const;
+    std::optional<Overlap<D>> deepest(const Vec<D>& place) const;
+    std::optional<Vec<D>> free_place(const Vec<D>& place) const;
+    Vec<D> pushed_out_of(const ViewedObject<D>& object, const Vec<D>& place) const;
+
+    const LevelView<D>& level_;
+    std::vector<ViewedObject<D>> obstacles_;
+    std::vector<std::size_t> numbers_;  // indices in the level
+    const SpawnOptions<D>& options_;
+    FacetTree<D> facets_;
+    World<D> world_;
+    Bvh<D> tree_;
+};
+
+template <int D>
+Capsule<D> SpawnCheck<D>::character_at(const Vec<D>& place) const {
+    if (!options_.character) return {place, place, 0};
+    const auto [radius, height] = *options_.character;
+    if (!options_.up) return {place, place, radius};
+    return {place + *options_.up * radius, place + *options_.up * (height - radius), radius};
+}
+
+template <int D>
+float SpawnCheck<D>::allowed(const ViewedObject<D>& object) const {
+    const float smaller = options_.character ? std::min(size(), object.radius) : object.radius;
+    return options_.allow.value_or(default_allow * smaller);
+}
+
+// The depth of a character at a position in an object, minus the penetration that a slope explains.
+template <int D>
+float SpawnCheck<D>::depth_in(const ViewedObject<D>& object, const Vec<D>& place) const {
+    const Capsule<D> character = character_at(place);
+    const Vec<D> middle = (character.a + character.b) * 0.5f;
+    float depth = 0;
+    if (options_.character) {
+        each_contact(character, object.shape, [&](const Contact<D>& contact) {
+            float contact_depth = contact.depth;
+            if (options_.up) {
+                const float cosine = -glm::dot(contact.normal, *options_.up);
+                if (cosine >= min_slope_cosine) contact_depth -= options_.character->radius * (1 - cosine);
+            }
+            depth = std::max(depth, contact_depth);
+        });
+    }
+    // A body that contains the whole character has no surface contact.
+    if (depth <= 0 && object.filled && contains(object.shape, middle))
+        depth = std::abs(closest(object.shape, middle).distance) + character.radius;
+    return depth;
+}
+
+template <int D>
+std::optional<Overlap<D>> SpawnCheck<D>::deepest(const Vec<D>& place) const {
+    const Capsule<D> character = character_at(place);
+    std::vector<std::uint32_t> near;
+    tree_.each_overlapping(bounds(view(character)), [&](std::uint32_t i) { near.push_back(i); });
+    std::sort(near.begin(), near.end());
+    std::optional<Overlap<D>> result;
+    for (const std::uint32_t i : near) {
+        const float depth = depth_in(obstacles_[i], place);
+        if (depth > allowed(obstacles_[i]) && (!result || depth > result->depth)) result = {i, depth};
+    }
+    return result;
+}
+
+// Moves the character out of a body that contains its centre: through the closest surface point, plus its own extent.
+template <int D>
+Vec<D> SpawnCheck<D>::pushed_out_of(const ViewedObject<D>& object, const Vec<D>& place) const {
+    const Capsule<D> character = character_at(place);
+    const Vec<D> middle = (character.a + character.b) * 0.5f;
+    if (!object.filled || !contains(object.shape, middle)) return place;
+    const Closest<D> nearest = closest(object.shape, middle);
+    const float separation = std::abs(nearest.distance);
+    // A mesh reports the distance to its surface, and a convex body the separating direction.
+    const Vec<D> outwards = nearest.distance < 0 ? nearest.normal : -nearest.normal;
+    const float half = glm::length(character.b - character.a) * 0.5f;
+    const float along = options_.up && half > 0 ? std::abs(glm::dot(outwards, *options_.up)) * half : 0;
+    const float gap = options_.character ? clearance * size() : allowed(object);
+    return place + outwards * (separation + along + character.radius + gap);
+}
+
+template <int D>
+std::optional<Vec<D>> SpawnCheck<D>::free_place(const Vec<D>& place) const {
+    Vec<D> position = place;
+    for (int i = 0; i < max_push_outs; ++i) {
+        const std::optional<Overlap<D>> overlap = deepest(position);
+        if (!overlap) break;
+        const Vec<D> outside = pushed_out_of(obstacles_[overlap->object], position);
+        position = outside;
+        if (options_.character) {
+            const Depenetration<D> separation = depenetrate(character_at(position), world_);
+            position += separation.push;
+            if (!separation && outside == place) return std::nullopt;
+        }
+    }
+    const std::optional<Overlap<D>> initial = deepest(place);
+    const float scale = options_.character ? size() : obstacles_[initial->object].radius;
+    if (deepest(position) || glm::distance(position, place) > max_free_distance * scale) return std::nullopt;
+    return position;
+}
+
+template <int D>
+std::optional<SpawnFinding<D>> SpawnCheck<D>::test(std::size_t place) const {
+    const Vec<D> position = level_.places[place].position;
+    SpawnFinding<D> finding;
+    finding.place = place;
+    if (const std::optional<Overlap<D>> overlap = deepest(position)) {
+        finding.object = numbers_[overlap->object];
+        finding.depth = overlap->depth;
+        finding.free = free_place(position);
+        return finding;
+    }
+    if (!options_.up) return std::nullopt;
+    // Starts inside the character: the ground may be slightly above its lowest point.
+    const Capsule<D> character = character_at(position);
+    const float above_place = options_.character || obstacles_.empty()
+                                  ? 0
+                                  : ground_search_height * glm::distance(tree_.bounds().min, tree_.bounds().max);
+    const DVec<D> inside((character.a + character.b) * 0.5f + *options_.up * above_place), up(*options_.up);
+    constexpr double far = std::numeric_limits<double>::infinity();
+    const auto above = facets_.first_hit(inside, up, far);
+    if (above && above->from_behind && !facets_[above->facet].two_sided) {
+        finding.fault = SpawnFault::beneath;
+        finding.object = numbers_[facets_[above->facet].object];
+        return finding;
+    }
+    if (facets_.first_hit(inside, -up, far)) return std::nullopt;
+    finding.fault = SpawnFault::no_ground;
+    return finding;
+}
+
+}  // namespace
+
+template <int D>
+std::vector<std::size_t> matching_places(const LevelView<D>& level, const std::string& pattern) {
+    std::vector<std::size_t> result;
+    for (std::size_t i = 0; i < level.places.size(); ++i)
+        if (const NamedPlace<D>& place = level.places[i];
+            matches_name(pattern, place) || (!place.type.empty() && glob_matches(pattern, place.type)))
+            result.push_back(i);
+    return result;
+}
+
+template <int D>
+std::vector<std::size_t> default_spawns(const LevelView<D>& level) {
+    std::vector<std::size_t> named;
+    for (std::size_t i = 0; i < level.places.size(); ++i)
+        if (has_usual_name(level.places[i].name) || has_usual_name(level.places[i].type)) named.push_back(i);
+    std::vector<std::size_t> result;
+    for (const std::size_t i : named)
+        if (std::none_of(named.begin(), named.end(), [&](std::size_t other) {
+                return other != i && is_at_or_below(level.places[other].path, level.places[i].path);
+            }))
+            result.push_back(i);
+    return result;
+}
+
+template <int D>
+std::vector<SpawnFinding<D>> find_spawn_faults(const LevelView<D>& level, const std::vector<std::size_t>& spawns,
+                                               const SpawnOptions<D>& options) {
+    std::vector<ViewedObject<D>> obstacles;
+    std::vector<std::size_t> numbers;
+    for (std::size_t i = 0; i < level.objects.size(); ++i) {
+        const bool is_marker = std::any_of(spawns.begin(), spawns.end(), [&](std::size_t spawn) {
+            return is_at_or_below(level.objects[i].path, level.places[spawn].path);
+        });
+        if (is_marker) continue;
+        obstacles.push_back(level.objects[i]);
+        numbers.push_back(i);
+    }
+    std::vector<SpawnFinding<D>> result;
+    const SpawnCheck<D> check(level, std::move(obstacles), std::move(numbers), options);
+    for (const std::size_t spawn : spawns)
+        if (std::optional<SpawnFinding<D>> finding = check.test(spawn)) result.push_back(*finding);
+    return result;
+}
+
+template std::vector<std::size_t> matching_places(const LevelView<2>&, const std::string&);
+template std::vector<std::size_t> matching_places(const LevelView<3>&, const std::string&);
+template std::vector<std::size_t> default_spawns(const LevelView<2>&);
+template std::vector<std::size_t> default_spawns(const LevelView<3>&);
+template std::vector<SpawnFinding<2>> find_spawn_faults(const LevelView<2>&, const std::vector<std::size_t>&,
+                                                        const SpawnOptions<2>&);
+template std::vector<SpawnFinding<3>> find_spawn_faults(const LevelView<3>&, const std::vector<std::size_t>&,
+                                                        const SpawnOptions<3>&);
+
+}  // namespace abut::tool
