@@ -79,11 +79,12 @@ std::vector<std::string> notes_of(const File<D>& file, const Objects<D>& objects
                                     hidden.front()));
     const std::vector<std::string> unfollowed = objects.discontinuous();
     if (!unfollowed.empty())
-        notes.push_back(fmt::format("{} at some times, and not swept between frames there, such as '{}'",
-                                    unfollowed.size() == 1
-                                        ? "1 object jumps or changes its shape"
-                                        : fmt::format("{} objects jump or change their shapes", unfollowed.size()),
-                                    unfollowed.front()));
+        notes.push_back(fmt::format(
+            "{} not swept between frames there, such as '{}'",
+            unfollowed.size() == 1
+                ? "1 object jumps or changes its shape at some times and is"
+                : fmt::format("{} objects jump or change their shape at some times and are", unfollowed.size()),
+            unfollowed.front()));
     double gap = 0;
     for (std::size_t i = 1; i < times.size(); ++i) gap = std::max(gap, times[i] - times[i - 1]);
     if (gap > max_frame_time && !chose_frames) notes.push_back(more_frames_note(gap, times.back() - times.front()));
