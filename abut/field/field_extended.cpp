@@ -8,7 +8,11 @@ namespace {
 
 /// A box with more samples is to be cut first.
 constexpr std::int64_t most_samples = 1500;
+/// A box with no more is bounded by them at once, without a first bound by the slope.
 constexpr std::int64_t few_samples = 64;
+
+/// A box is cut at the border of the volume before it is cut between cells.
+constexpr double border_first = 1e6;
 
 /// The way from the box around the surface to a point; false where there is no surface.
 template <int D>
@@ -162,8 +166,8 @@ private:
             low[a] = snapped(low_[a]);
             high[a] = snapped(high_[a]);
             const auto cells = static_cast<double>(data_.cells[a]);
-            if (low[a] < 0 && high[a] > 0) cut_at(a, 0, 1e6 * (high[a] - low[a]));
-            if (low[a] < cells && high[a] > cells) cut_at(a, cells, 1e6 * (high[a] - low[a]));
+            if (low[a] < 0 && high[a] > 0) cut_at(a, 0, border_first * (high[a] - low[a]));
+            if (low[a] < cells && high[a] > cells) cut_at(a, cells, border_first * (high[a] - low[a]));
             is_out[static_cast<std::size_t>(a)] = low[a] < 0 || high[a] > cells;
             is_outside = is_outside || is_out[static_cast<std::size_t>(a)];
             const double near = std::clamp(low[a], 0.0, cells);

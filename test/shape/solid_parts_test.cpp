@@ -133,7 +133,7 @@ void expect_lumps_by_hand() {
     Vec<D> low(0.0f), high(4.0f);
     high[0] = 10;
     EXPECT_EQ(bounds(level), (Aabb<D>{low, high}));
-    // A ball within is deep, by the least way out of a brush.
+    // A ball within is deep, by its least depth in a brush.
     Vec<D> center(2.0f);
     center[0] = 1.5f;
     const Contact<D> deep = contact(level, Ball<D>{center, 0.25f});
