@@ -14,8 +14,6 @@
 namespace abut::tool {
 namespace {
 
-constexpr std::size_t max_listed = 100;
-
 struct NamedHull {
     std::string name;
     std::size_t points = 0;  ///< count of input points

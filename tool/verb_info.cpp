@@ -9,8 +9,6 @@
 namespace abut::tool {
 namespace {
 
-constexpr std::size_t max_listed = 100;
-
 template <int D>
 std::string size_of(const Aabb<D>& box) {
     const Vec<D> size = box.max - box.min;

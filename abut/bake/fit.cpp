@@ -47,8 +47,8 @@ Excess excess(const Polyhedron& part, const Box<3>& box) {
 }
 
 template <class S>
-struct Candidate {
-    Candidate(const Polyhedron& part, const S& candidate) : shape(candidate) {
+struct RatedShape {
+    RatedShape(const Polyhedron& part, const S& candidate) : shape(candidate) {
         const Excess beyond = excess(part, shape);
         error = std::max(beyond.of_part, beyond.of_shape);
         excess_of_part = beyond.of_part;
@@ -65,23 +65,23 @@ double breadth_of(const Box<3>& box) {
     return static_cast<double>(std::max(std::min(half.x, half.y), std::min(std::max(half.x, half.y), half.z)));
 }
 
-using RoundCandidate = std::optional<Candidate<Capsule<3>>>;
+using RatedRound = std::optional<RatedShape<Capsule<3>>>;
 
 /// Evaluates a candidate, grown first if it has to contain the part.
-RoundCandidate rated(const Polyhedron& part, const std::optional<Capsule<3>>& capsule, bool hold) {
+RatedRound rated(const Polyhedron& part, const std::optional<Capsule<3>>& capsule, bool hold) {
     if (!capsule) return std::nullopt;
-    Candidate<Capsule<3>> result(part, *capsule);
+    RatedShape<Capsule<3>> result(part, *capsule);
     if (!hold) return result;
     Capsule<3> larger = *capsule;
     larger.radius = std::nextafter(static_cast<float>(static_cast<double>(larger.radius) + result.excess_of_part),
                                    std::numeric_limits<float>::infinity());
-    return Candidate<Capsule<3>>(part, larger);
+    return RatedShape<Capsule<3>>(part, larger);
 }
 
-RoundCandidate best_capsule(const Polyhedron& part, const Axes& axes, bool hold) {
-    RoundCandidate best;
+RatedRound best_capsule(const Polyhedron& part, const Axes& axes, bool hold) {
+    RatedRound best;
     for (const DVec<3>& axis : axes) {
-        const RoundCandidate next = rated(part, fit_capsule(part, axis), hold);
+        const RatedRound next = rated(part, fit_capsule(part, axis), hold);
         if (next && (!best || next->error < best->error)) best = next;
     }
     return best;
@@ -93,13 +93,13 @@ std::optional<Fit> fit(const Polyhedron& part, const FitOptions& options) {
     if (part.rank() < 2) return std::nullopt;
     const bool is_solid = part.rank() == 3;
     const Axes principal = principal_axes(part);
-    const Candidate<Box<3>> box(part, oriented_box_around(part, principal));
+    const RatedShape<Box<3>> box(part, oriented_box_around(part, principal));
     const double size = part.ball().radius, tolerance = options.tolerance * breadth_of(box.shape);
-    const RoundCandidate capsule = is_solid ? best_capsule(part, principal, options.hold) : std::nullopt;
-    const RoundCandidate ball = is_solid ? rated(part, fit_ball(part), options.hold) : std::nullopt;
+    const RatedRound capsule = is_solid ? best_capsule(part, principal, options.hold) : std::nullopt;
+    const RatedRound ball = is_solid ? rated(part, fit_ball(part), options.hold) : std::nullopt;
 
     double best_error = box.error;
-    for (const RoundCandidate& round : {capsule, ball})
+    for (const RatedRound& round : {capsule, ball})
         if (round) best_error = std::min(best_error, round->error);
     const double max_error = std::min(best_error + 0.1 * tolerance, tolerance);
     const auto as_fit = [&](const auto& candidate, const auto& shape) {

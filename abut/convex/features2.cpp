@@ -8,7 +8,7 @@ namespace abut {
 namespace {
 
 /// A point no farther behind an edge than this, relative to the coordinates, may lie on it.
-constexpr double relative_rounding = 0x1p-40;
+constexpr double plane_rounding = 0x1p-40;
 
 struct Side {
     DVec<2> a, b;
@@ -16,7 +16,7 @@ struct Side {
     double beyond;  ///< the distance of the origin along `out`
 
     bool proper() const { return out != DVec<2>(0.0); }
-    bool faces_origin() const { return proper() && beyond >= -relative_rounding * std::max(largest(a), largest(b)); }
+    bool faces_origin() const { return proper() && beyond >= -plane_rounding * std::max(largest(a), largest(b)); }
 };
 
 /// A convex loop relative to the query point: corner(i) for i < count, counter-clockwise, or clockwise if `turn` is -1.
@@ -65,7 +65,7 @@ private:
     ClosestFeature<2> on_line_inside(std::uint32_t nearest_side, double largest_distance) const {
         for (std::uint32_t i = 0; i < count_; ++i) {
             const Side side = side_at(i);
-            const double tolerance = relative_rounding * std::max(largest(side.a), largest(side.b));
+            const double tolerance = plane_rounding * std::max(largest(side.a), largest(side.b));
             if (!side.proper() || side.beyond < largest_distance - tolerance) continue;
             if (closest_on_segment(side.a, side.b, DVec<2>(0.0)).kind == FeatureKind::edge) return on_line(i, side);
         }

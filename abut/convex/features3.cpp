@@ -10,7 +10,7 @@ namespace {
 
 /// A point no farther behind a face than this may lie on it: relative to the coordinates for rounding, and relative to
 /// the extent for nearly coplanar faces of a hull.
-constexpr double relative_rounding = 0x1p-40, face_tolerance = 2 * hull_flatness;
+constexpr double space_rounding = 0x1p-40, face_tolerance = 2 * hull_flatness;
 /// A face whose normal the placement shrinks below this has become a line.
 constexpr double flattened = 0x1p-40;
 /// A triangle whose sides enclose no larger sine than this is a line.
@@ -120,7 +120,7 @@ public:
             const DVec<3> p = corner(i);
             low = std::min(low, dot(result.normal, p));
             high = std::max(high, dot(result.normal, p));
-            result.tolerance = std::max(result.tolerance, relative_rounding * largest(p));
+            result.tolerance = std::max(result.tolerance, space_rounding * largest(p));
         }
         result.beyond = -0.5 * (low + high);
         result.tolerance += tolerance_;

@@ -1,6 +1,7 @@
 #include <abut/io/file/decompress.hpp>
 #include <abut/io/file/read_file.hpp>
 #include <abut/io/file/referenced_files.hpp>
+#include <abut/io/file/scanner.hpp>
 #include <abut/io/read_level.hpp>
 #include <abut/io/svg/read_svg.hpp>
 #include <abut/io/tiled/read_tiled.hpp>
@@ -14,12 +15,6 @@ namespace {
 
 // The parsed tree takes about ten times as much memory as the text.
 constexpr std::size_t max_bytes = std::size_t{256} << 20;
-
-std::string lower(std::string text) {
-    for (char& c : text)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return text;
-}
 
 Problem too_large(std::uintmax_t bytes) {
     return {ProblemCode::too_large,
@@ -40,7 +35,7 @@ bool is_gzip(std::span<const std::byte> bytes) {
 }  // namespace
 
 bool is_level(const std::filesystem::path& file) {
-    const std::string extension = lower(file.extension().string());
+    const std::string extension = lower_case(file.extension().string());
     for (const char* known : {".tmx", ".tmj", ".json", ".svg", ".svgz"})
         if (extension == known) return true;
     return false;
@@ -48,7 +43,7 @@ bool is_level(const std::filesystem::path& file) {
 
 Result<Level> read_level(std::span<const std::byte> bytes, std::string_view extension, tiled::OpenFile open,
                          const LevelOptions& options) {
-    const std::string ending = lower(std::string(extension));
+    const std::string ending = lower_case(std::string(extension));
     if (bytes.empty()) return Problem{ProblemCode::empty_input, "is empty"};
     if (bytes.size() > max_bytes) return too_large(bytes.size());
     if (options.tolerance && !(*options.tolerance > 0))

@@ -1,4 +1,5 @@
 #include <abut/io/file/read_file.hpp>
+#include <abut/io/file/scanner.hpp>
 #include <abut/io/gltf/container.hpp>
 #include <abut/io/gltf/document.hpp>
 #include <abut/io/gltf/read_gltf.hpp>
@@ -13,12 +14,6 @@
 
 namespace abut {
 namespace {
-
-std::string lower(std::string text) {
-    for (char& c : text)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return text;
-}
 
 // Returns nothing for files that Assimp has to read: other formats, glTF 1.0 and Draco-compressed triangles.
 std::optional<Result<Scene>> read_if_gltf(std::span<const std::byte> bytes, const std::string& extension,
@@ -49,7 +44,7 @@ Result<Scene> finished(Result<Scene> scene, const ReadOptions& options) {
 Result<Scene> read_scene(const std::filesystem::path& file, const ReadOptions& options) {
     const Result<std::vector<std::byte>> bytes = read_file(file);
     if (!bytes) return bytes.problem();
-    const std::string extension = lower(file.extension().string());
+    const std::string extension = lower_case(file.extension().string());
     if (const std::optional<Problem> problem = check_format(*bytes, extension)) return *problem;
     const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
     std::optional<Result<Scene>> scene = read_if_gltf(*bytes, extension, folder, options);
@@ -57,7 +52,7 @@ Result<Scene> read_scene(const std::filesystem::path& file, const ReadOptions& o
 }
 
 Result<Scene> read_scene(std::span<const std::byte> bytes, std::string_view extension, const ReadOptions& options) {
-    const std::string ending = lower(std::string(extension));
+    const std::string ending = lower_case(std::string(extension));
     if (const std::optional<Problem> problem = check_format(bytes, ending)) return *problem;
     std::optional<Result<Scene>> scene = read_if_gltf(bytes, ending, {}, options);
     return finished(scene ? *std::move(scene) : read_assimp(bytes, ending, options), options);

@@ -1,5 +1,6 @@
 #include <abut/math/coincident.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/math/no_index.hpp>
 #include <abut/math/sin_cos.hpp>
 #include <abut/recast/bake_walk_mesh.hpp>
 #include <abut/recast/recast_polygons.hpp>
@@ -166,12 +167,11 @@ struct CompactSurface {
 };
 
 CompactSurface with_points(std::span<const Vec3> points, std::vector<glm::uvec3> triangles) {
-    constexpr std::uint32_t none = 0xffffffffu;
-    std::vector<std::uint32_t> number(points.size(), none);
+    std::vector<std::uint32_t> number(points.size(), no_index);
     CompactSurface result{{}, std::move(triangles)};
     for (glm::uvec3& t : result.triangles)
         for (int k = 0; k < 3; ++k) {
-            if (number[t[k]] == none) {
+            if (number[t[k]] == no_index) {
                 number[t[k]] = static_cast<std::uint32_t>(result.points.size());
                 result.points.push_back(points[t[k]]);
             }
@@ -189,10 +189,6 @@ std::vector<glm::uvec3> reachable(const WalkMesh& mesh, std::span<const Vec3> st
     for (std::uint32_t i = 0; i < mesh.triangles().size(); ++i)
         if (mesh.is_walkable(i) && is_reachable[mesh.component(i)] != 0) result.push_back(mesh.triangles()[i]);
     return result;
-}
-
-Problem cancelled() {
-    return {ProblemCode::cancelled, "cancelled", 0};
 }
 
 }  // namespace

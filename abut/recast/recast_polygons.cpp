@@ -56,9 +56,6 @@ using Contours = std::unique_ptr<rcContourSet, Release<rcContourSet, rcFreeConto
 using Polygons = std::unique_ptr<rcPolyMesh, Release<rcPolyMesh, rcFreePolyMesh>>;
 using Details = std::unique_ptr<rcPolyMeshDetail, Release<rcPolyMeshDetail, rcFreePolyMeshDetail>>;
 
-Problem cancelled() {
-    return {ProblemCode::cancelled, "cancelled", 0};
-}
 Problem nothing(const char* why) {
     return {ProblemCode::empty_input, std::string("no part of the level is walkable: ") + why, 0};
 }

@@ -16,6 +16,11 @@
 
 namespace abut {
 
+/// The answer after a callback returned false.
+inline Problem cancelled() {
+    return {ProblemCode::cancelled, "cancelled", 0};
+}
+
 /// The second axis is up. Horizontal lengths are in cells, vertical ones in cell heights.
 struct RecastPlan {
     float cell = 0, cell_height = 0;

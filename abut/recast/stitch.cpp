@@ -1,4 +1,5 @@
 #include <abut/math/dvec.hpp>
+#include <abut/math/no_index.hpp>
 #include <abut/recast/stitch.hpp>
 
 #include <algorithm>
@@ -34,8 +35,6 @@ std::vector<std::uint32_t> merge_corners(std::span<const DVec<3>> corners, doubl
     return same;
 }
 
-constexpr std::uint32_t none = 0xffffffffu;
-
 /// A point on a side of a polygon, or another corner on it.
 struct SidePoint {
     std::uint32_t from, to;  ///< the corners, the lower number first
@@ -52,7 +51,7 @@ public:
         : polygons_(polygons), options_(options), same_(merge_corners(corners, options.step)) {
         result_.points.assign(corners.begin(), corners.end());
         for (const CutPolygon& polygon : polygons)
-            number_.emplace_back(std::max(polygon.points.size(), polygon.corners.size()), none);
+            number_.emplace_back(std::max(polygon.points.size(), polygon.corners.size()), no_index);
     }
 
     Stitched run() {
@@ -116,7 +115,7 @@ private:
         const double away = std::abs(cross(side, offset)) / std::sqrt(square);
         if (off != nullptr) *off = away;
         if (!(away <= options_.tolerance) || !(along > 0 && along < 1)) return std::nullopt;
-        return SidePoint{from, to, along, point.y, none, none, none};
+        return SidePoint{from, to, along, point.y, no_index, no_index, no_index};
     }
 
     /// True if all corners are collinear. Such a polygon only splits the sides of its neighbours.
@@ -137,20 +136,20 @@ private:
             const double tolerance = options_.tolerance / length(flat(to) - flat(from));
             double sum = 0;
             std::size_t end = i;
-            std::uint32_t number = none;
+            std::uint32_t number = no_index;
             for (; end < on_sides_.size(); ++end) {
                 const SidePoint& next = on_sides_[end];
                 if (next.from != first.from || next.to != first.to || next.along - first.along > tolerance) break;
                 sum += next.height;
                 number = std::min(number, next.corner);
             }
-            if (number == none) {
+            if (number == no_index) {
                 DVec<3> point = from + (to - from) * first.along;
                 point.y = sum / static_cast<double>(end - i);
                 number = add_point(point);
             }
             for (; i < end; ++i)
-                if (on_sides_[i].point != none) number_[on_sides_[i].polygon][on_sides_[i].point] = number;
+                if (on_sides_[i].point != no_index) number_[on_sides_[i].polygon][on_sides_[i].point] = number;
             cuts_.push_back({first.from, first.to, first.along, number});
         }
     }
@@ -227,9 +226,9 @@ private:
             const auto at = std::find(side.begin(), side.end(), a), to = std::find(side.begin(), side.end(), b);
             if (at == side.end() || to == side.end()) continue;
             const auto first = std::min(at, to), last = std::max(at, to);
-            return last - first > 1 ? *(first + (last - first) / 2) : none;
+            return last - first > 1 ? *(first + (last - first) / 2) : no_index;
         }
-        return none;
+        return no_index;
     }
 
     /// Adds a triangle, split at all points on its sides. A triangle without area is removed.
@@ -244,7 +243,7 @@ private:
             for (int k = 0; k < 3 && uncut; ++k) {
                 const std::uint32_t a = next[k], b = next[(k + 1) % 3], c = next[(k + 2) % 3];
                 const std::uint32_t cut = cut_between(a, b, sides);
-                if (cut == none) continue;
+                if (cut == no_index) continue;
                 uncut = false;
                 stack.push_back({a, cut, c});
                 stack.push_back({cut, b, c});

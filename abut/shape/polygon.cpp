@@ -11,7 +11,7 @@
 namespace abut {
 namespace {
 
-constexpr Vec2 zero(0.0f);
+constexpr Vec2 origin2(0.0f);
 
 /// Calls visit(a, b) for each triangle of the fan around the first vertex; a and b are relative to it.
 template <class Visit>
@@ -92,7 +92,7 @@ void Polygon::write_sides() {
 }
 
 std::span<const Vec2> Polygon::points() const {
-    return points_.empty() ? std::span<const Vec2>(&zero, 1) : std::span<const Vec2>(points_);
+    return points_.empty() ? std::span<const Vec2>(&origin2, 1) : std::span<const Vec2>(points_);
 }
 
 int Polygon::rank() const {

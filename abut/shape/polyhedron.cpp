@@ -8,7 +8,7 @@
 namespace abut {
 namespace {
 
-constexpr Vec3 zero(0.0f);
+constexpr Vec3 origin3(0.0f);
 constexpr Facets no_facets;
 
 }  // namespace
@@ -47,7 +47,7 @@ Result<Polyhedron> Polyhedron::build(std::initializer_list<Vec3> points) {
 }
 
 std::span<const Vec3> Polyhedron::points() const {
-    return data_ ? std::span<const Vec3>(data_->hull.points) : std::span<const Vec3>(&zero, 1);
+    return data_ ? std::span<const Vec3>(data_->hull.points) : std::span<const Vec3>(&origin3, 1);
 }
 
 const Facets& Polyhedron::facets() const {
@@ -71,7 +71,7 @@ double Polyhedron::area() const {
 }
 
 Vec3 Polyhedron::centroid() const {
-    return data_ ? data_->hull.centroid : zero;
+    return data_ ? data_->hull.centroid : origin3;
 }
 
 BoundingBall<3> Polyhedron::ball() const {

@@ -7,8 +7,6 @@
 namespace abut::tool {
 namespace {
 
-constexpr std::size_t max_listed = 100;
-
 template <int D>
 std::string place(const CastReport<D>& report, const CastHit<D>& hit) {
     const Object<D>& object = report.objects[hit.object];

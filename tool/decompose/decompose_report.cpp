@@ -10,8 +10,6 @@
 namespace abut::tool {
 namespace {
 
-constexpr std::size_t max_listed = 100;
-
 const char* kind_of(const Fit& fit) {
     constexpr const char* kinds[] = {"ball", "capsule", "box"};
     return kinds[fit.shape.index()];

@@ -12,7 +12,6 @@ namespace abut::tool {
 namespace {
 
 // Limits of the text report; --json lists all.
-constexpr std::size_t max_listed = 100;
 constexpr std::size_t max_listed_places = 5;
 
 std::string and_more(std::size_t listed, std::size_t all, const char* what) {

@@ -15,7 +15,7 @@ constexpr double target_bands = 9;    // contour bands on the side of the surfac
 
 constexpr Color sand_near{255, 247, 230}, sand_far{217, 160, 102}, blue_near{219, 234, 254}, blue_far{29, 78, 216};
 constexpr Style band_border{{71, 85, 105, 110}, 0.6f}, zero_border{{15, 23, 42}, 1.4f},
-    surface_line{{220, 38, 38}, 0.7f}, label{{15, 23, 42}, 1};
+    surface_style{{220, 38, 38}, 0.7f}, label{{15, 23, 42}, 1};
 
 // A planar slice of the volume: a 2D box, and the map from its points to the volume.
 template <int D>
@@ -115,7 +115,7 @@ void draw_cut(SvgCanvas& canvas, std::span<const std::array<Vec3, 3>> triangles,
         }
         if (ends.size() != 2) continue;
         if (contains(box, ends[0]) && contains(box, ends[1]))
-            canvas.line(ends[0] + shift, ends[1] + shift, surface_line);
+            canvas.line(ends[0] + shift, ends[1] + shift, surface_style);
     }
 }
 

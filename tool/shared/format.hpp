@@ -23,6 +23,9 @@ Json numbers(const Vec<D>& v) {
 /// JSON text on one line, with a newline.
 std::string to_text(const Json& json);
 
+/// A report lists at most this number of things of a kind; its JSON lists them all.
+inline constexpr std::size_t max_listed = 100;
+
 /// A number with four significant digits.
 std::string number(double value);
 

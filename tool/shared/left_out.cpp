@@ -6,7 +6,7 @@ namespace abut::tool {
 namespace {
 
 // Limit of the text report; --json lists all.
-constexpr std::size_t max_listed = 10;
+constexpr std::size_t max_named = 10;
 
 std::uint64_t count_triangles(const std::vector<LeftOutOf>& left_out) {
     std::uint64_t result = 0;
@@ -30,11 +30,11 @@ std::vector<LeftOutOf> left_out_of(const Level&) {
 std::string text_of(const std::vector<LeftOutOf>& left_out) {
     if (left_out.empty()) return {};
     std::string text = counted(count_triangles(left_out), "triangle", "triangles") + " of zero area:";
-    for (std::size_t i = 0; i < left_out.size() && i < max_listed; ++i)
+    for (std::size_t i = 0; i < left_out.size() && i < max_named; ++i)
         text += fmt::format("{} {} of '{}'{}", i == 0 ? "" : ",", left_out[i].triangles, left_out[i].path,
                             left_out[i].has_shape ? "" : ", which has no others and so no shape");
-    if (left_out.size() > max_listed)
-        text += " and of " + counted(left_out.size() - max_listed, "more object", "more objects");
+    if (left_out.size() > max_named)
+        text += " and of " + counted(left_out.size() - max_named, "more object", "more objects");
     return text;
 }
 

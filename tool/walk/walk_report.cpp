@@ -10,7 +10,7 @@
 namespace abut::tool {
 namespace {
 
-constexpr std::size_t max_listed = 20, max_listed_points = 100;
+constexpr std::size_t max_listed_areas = 20, max_listed_points = 100;
 
 Vec3 middle(const Aabb3& box) {
     return to_float((DVec<3>(box.min) + DVec<3>(box.max)) * 0.5);
@@ -37,23 +37,24 @@ std::string borders_line(const WalkSurvey& survey, std::uint32_t component) {
     }
     if (holes.empty()) return text;
     text += ", " + counted(holes.size(), "hole", "holes") + ": ";
-    for (std::size_t i = 0; i < holes.size() && i < max_listed; ++i)
+    for (std::size_t i = 0; i < holes.size() && i < max_listed_areas; ++i)
         text += (i == 0 ? "" : ", ") + number(holes[i]->length) + " round " + vector(middle(box_of(*holes[i])));
-    if (holes.size() > max_listed) text += fmt::format(", and {} more", holes.size() - max_listed);
+    if (holes.size() > max_listed_areas) text += fmt::format(", and {} more", holes.size() - max_listed_areas);
     return text;
 }
 
 std::string components_text(const WalkSurvey& survey) {
     std::string text;
-    for (std::uint32_t i = 0; i < survey.components.size() && i < max_listed; ++i) {
+    for (std::uint32_t i = 0; i < survey.components.size() && i < max_listed_areas; ++i) {
         const WalkComponent& component = survey.components[i];
         text += fmt::format("component {:<2}{}, area {}, from {} to {}\n", i,
                             counted(component.triangles, "triangle", "triangles"), number(component.area),
                             vector(component.box.min), vector(component.box.max));
         text += "            " + borders_line(survey, i) + "\n";
     }
-    if (survey.components.size() > max_listed)
-        text += fmt::format("            and {} more (--json lists them all)\n", survey.components.size() - max_listed);
+    if (survey.components.size() > max_listed_areas)
+        text += fmt::format("            and {} more (--json lists them all)\n",
+                            survey.components.size() - max_listed_areas);
     return text;
 }
 
@@ -62,9 +63,9 @@ template <class Items, class Place>
 std::string places_line(const char* title, const Items& items, const char* one, const char* many, Place place) {
     if (items.empty()) return {};
     std::string text = fmt::format("{:<12}{}: ", title, counted(items.size(), one, many));
-    for (std::size_t i = 0; i < items.size() && i < max_listed; ++i)
+    for (std::size_t i = 0; i < items.size() && i < max_listed_areas; ++i)
         text += (i == 0 ? "" : ", ") + vector(place(items[i]));
-    if (items.size() > max_listed) text += fmt::format(", and {} more", items.size() - max_listed);
+    if (items.size() > max_listed_areas) text += fmt::format(", and {} more", items.size() - max_listed_areas);
     return text + "\n";
 }
 

@@ -25,24 +25,24 @@ void shorten_edges(Triangulation& triangles) {
     };
     const auto set_twins = [&](std::uint32_t half_edge, std::uint32_t twin) {
         twins[half_edge] = twin;
-        if (twin != none) twins[twin] = half_edge;
+        if (twin != no_index) twins[twin] = half_edge;
     };
 
     std::vector<std::uint32_t> queue;
     std::vector<bool> is_queued(origins.size(), false);
     const auto push = [&](std::uint32_t half_edge) {
-        if (twins[half_edge] == none || is_queued[half_edge]) return;
+        if (twins[half_edge] == no_index || is_queued[half_edge]) return;
         is_queued[half_edge] = true;
         queue.push_back(half_edge);
     };
     for (std::uint32_t i = 0; i < origins.size(); ++i)
-        if (twins[i] != none && i < twins[i]) push(i);
+        if (twins[i] != no_index && i < twins[i]) push(i);
     // The loop ends because the lengths only decrease; the bound limits the time for extreme outlines.
     for (std::size_t flips = 0; !queue.empty() && flips < 8 * origins.size();) {
         const std::uint32_t edge = queue.back();
         queue.pop_back();
         is_queued[edge] = false;
-        if (twins[edge] == none) continue;
+        if (twins[edge] == no_index) continue;
         const std::uint32_t twin = twins[edge];
         const std::uint32_t a = origins[edge], b = origins[twin];
         const std::uint32_t left = origins[before(edge)], right = origins[before(twin)];

@@ -14,7 +14,7 @@ constexpr std::size_t is_worthwhile = 40;
 Partition::FaceNumbers Partition::number_faces() const {
     FaceNumbers result;
     result.first = faces();
-    result.of.assign(origins_.size(), none);
+    result.of.assign(origins_.size(), no_index);
     for (std::uint32_t face = 0; face < result.first.size(); ++face) {
         std::uint32_t edge = result.first[face];
         do {
@@ -34,12 +34,12 @@ bool Partition::may_join(const Patch& patch, std::uint32_t half_edge, std::uint3
     const auto in_patch = [&](std::uint32_t edge) {
         return std::ranges::find(patch.faces, numbers.of[edge]) != patch.faces.end();
     };
-    if (twin == none || in_patch(twin)) return false;
+    if (twin == no_index || in_patch(twin)) return false;
     added.clear();
     for (std::uint32_t edge = next_[twin]; edge != twin; edge = next_[edge]) {
         added.push_back(edge);
         if (patch.loop.size() + added.size() - 1 > corners) return false;
-        if (twins_[edge] != none && in_patch(twins_[edge])) return false;
+        if (twins_[edge] != no_index && in_patch(twins_[edge])) return false;
     }
     return true;
 }
@@ -117,7 +117,7 @@ void Partition::recut(const Patch& patch, const OptimalPartition& parts, FaceNum
     std::size_t used = 0;
     for (const std::uint32_t edge : patch.inner) {
         --faces_at_[origins_[edge]];
-        next_[edge] = none;
+        next_[edge] = no_index;
     }
     const auto half_edge = [&](std::uint32_t from, std::uint32_t to) {
         if (to == from + 1 || (to == 0 && from + 1 == patch.loop.size())) return patch.loop[from];
@@ -148,7 +148,7 @@ void Partition::recut(const Patch& patch, const OptimalPartition& parts, FaceNum
         }
     }
     face_count_ -= patch.faces.size() - parts.size();
-    for (std::size_t i = parts.size(); i < patch.faces.size(); ++i) numbers.first[patch.faces[i]] = none;
+    for (std::size_t i = parts.size(); i < patch.faces.size(); ++i) numbers.first[patch.faces[i]] = no_index;
 }
 
 Improvement Partition::improve(std::uint32_t corners, int rounds, bool promising_only) {
@@ -161,13 +161,14 @@ Improvement Partition::improve(std::uint32_t corners, int rounds, bool promising
         std::fill(numbers.done.begin(), numbers.done.end(), false);
         for (std::uint32_t i = 0; i < numbers.first.size(); ++i) {
             const auto face = round % 2 == 0 ? i : static_cast<std::uint32_t>(numbers.first.size() - 1 - i);
-            if (numbers.first[face] == none) continue;
+            if (numbers.first[face] == no_index) continue;
             ++left;
             if (numbers.done[face]) continue;
             const bool grown = grow(patch, face, corners, numbers);
             for (const std::uint32_t covered : patch.faces) numbers.done[covered] = true;
-            result.optimal = result.optimal && (patch.faces.size() == 1 || grown) &&
-                             std::ranges::all_of(patch.loop, [&](std::uint32_t edge) { return twins_[edge] == none; });
+            result.optimal =
+                result.optimal && (patch.faces.size() == 1 || grown) &&
+                std::ranges::all_of(patch.loop, [&](std::uint32_t edge) { return twins_[edge] == no_index; });
             if (!grown || !may_improve(patch, promising_only)) continue;
             solve(patch, solver);
             if (solver.size() > patch.faces.size()) continue;

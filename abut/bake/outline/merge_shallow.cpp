@@ -82,7 +82,7 @@ void Partition::merge_shallow(double concavity) {
         if (depth <= concavity) queue.push({depth, edge, union_find.changes(a) + union_find.changes(b)});
     };
     for (std::uint32_t edge = 0; edge < origins_.size(); ++edge)
-        if (next_[edge] != none && twins_[edge] != none && edge < twins_[edge]) consider(edge);
+        if (next_[edge] != no_index && twins_[edge] != no_index && edge < twins_[edge]) consider(edge);
     while (!queue.empty()) {
         const Candidate best = queue.top();
         queue.pop();

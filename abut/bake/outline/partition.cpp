@@ -38,21 +38,21 @@ void Partition::remove(std::uint32_t half_edge) {
         before_[after] = before;
         --faces_at_[origins_[edge]];
     }
-    for (const std::uint32_t edge : {half_edge, twins_[half_edge]}) next_[edge] = none;
+    for (const std::uint32_t edge : {half_edge, twins_[half_edge]}) next_[edge] = no_index;
     --face_count_;
 }
 
 /// The last half-edge around the interior from the origin of a boundary half-edge.
 std::uint32_t Partition::last_around(std::uint32_t first) const {
     std::uint32_t last = first;
-    while (twins_[before_[last]] != none) last = twins_[before_[last]];
+    while (twins_[before_[last]] != no_index) last = twins_[before_[last]];
     return last;
 }
 
 std::vector<std::uint8_t> Partition::split_counts() const {
     std::vector<std::uint8_t> result(origins_.size(), 0);
     for (std::uint32_t first = 0; first < origins_.size(); ++first) {
-        if (twins_[first] != none) continue;
+        if (twins_[first] != no_index) continue;
         const Vec2 &corner = at(first), &after = at(next_[first]);
         const std::uint32_t last = last_around(first);
         const Vec2& before = at(before_[last]);
@@ -72,19 +72,19 @@ void Partition::merge_all() {
     const std::vector<std::uint8_t> split_count = split_counts();
     for (int round = 0; round <= 2; ++round)
         for (std::uint32_t edge = 0; edge < origins_.size(); ++edge)
-            if (split_count[edge] == round && twins_[edge] != none && edge < twins_[edge] && next_[edge] != none &&
-                convex_without(edge))
+            if (split_count[edge] == round && twins_[edge] != no_index && edge < twins_[edge] &&
+                next_[edge] != no_index && convex_without(edge))
                 remove(edge);
 }
 
 std::size_t Partition::corners() const {
-    return static_cast<std::size_t>(std::ranges::count(twins_, none));
+    return static_cast<std::size_t>(std::ranges::count(twins_, no_index));
 }
 
 std::size_t Partition::reflex_corners() const {
     std::size_t result = 0;
     for (std::uint32_t first = 0; first < origins_.size(); ++first) {
-        if (twins_[first] != none) continue;
+        if (twins_[first] != no_index) continue;
         const std::uint32_t last = last_around(first);
         if (last != first && orientation(at(before_[last]), at(first), at(next_[first])) < 0) ++result;
     }
@@ -95,7 +95,7 @@ std::vector<std::uint32_t> Partition::faces() const {
     std::vector<std::uint32_t> result;
     std::vector<bool> seen(origins_.size(), false);
     for (std::uint32_t first = 0; first < origins_.size(); ++first) {
-        if (next_[first] == none || seen[first]) continue;
+        if (next_[first] == no_index || seen[first]) continue;
         result.push_back(first);
         std::uint32_t edge = first;
         do {

@@ -6,22 +6,22 @@ namespace abut::outline {
 std::uint32_t ReflexChains::add(std::uint32_t point, std::uint32_t below, std::uint32_t above, Link link) {
     const auto node = static_cast<std::uint32_t>(nodes_.size());
     nodes_.push_back({point, below, above, link});
-    if (below != none) nodes_[below].above = node;
-    if (above != none) nodes_[above].below = node;
+    if (below != no_index) nodes_[below].above = node;
+    if (above != no_index) nodes_[above].below = node;
     return node;
 }
 
 ReflexChain ReflexChains::begin(std::uint32_t point) {
-    const std::uint32_t node = add(point, none, none, none);
+    const std::uint32_t node = add(point, no_index, no_index, no_index);
     return {node, node, node};
 }
 
 void ReflexChains::join_twins(std::uint32_t half_edge, Link link) {
-    if (link == none) return;
+    if (link == no_index) return;
     std::uint32_t other = link;
     if (link >= open) {
         std::uint32_t& first = open_links_[link - open];
-        if (first == none) {
+        if (first == no_index) {
             first = half_edge;
             return;
         }
@@ -38,7 +38,7 @@ bool ReflexChains::cut(std::uint32_t middle) {
     const auto first = static_cast<std::uint32_t>(made_.origins.size());
     for (const std::uint32_t origin : {below.point, above.point, node.point}) {
         made_.origins.push_back(origin);
-        made_.twins.push_back(none);
+        made_.twins.push_back(no_index);
     }
     join_twins(first + 1, node.link);
     join_twins(first + 2, below.link);
@@ -49,37 +49,37 @@ bool ReflexChains::cut(std::uint32_t middle) {
 }
 
 void ReflexChains::cut_below(std::uint32_t node) {
-    while (nodes_[node].below != none && nodes_[nodes_[node].below].below != none && cut(nodes_[node].below)) {
+    while (nodes_[node].below != no_index && nodes_[nodes_[node].below].below != no_index && cut(nodes_[node].below)) {
     }
 }
 
 void ReflexChains::cut_above(std::uint32_t node) {
-    while (nodes_[node].above != none && nodes_[nodes_[node].above].above != none && cut(nodes_[node].above)) {
+    while (nodes_[node].above != no_index && nodes_[nodes_[node].above].above != no_index && cut(nodes_[node].above)) {
     }
 }
 
 void ReflexChains::add_on_top(ReflexChain& chain, std::uint32_t point) {
-    chain.top = chain.last = add(point, chain.top, none, none);
+    chain.top = chain.last = add(point, chain.top, no_index, no_index);
     cut_below(chain.top);
 }
 
 void ReflexChains::add_at_bottom(ReflexChain& chain, std::uint32_t point) {
-    chain.bottom = chain.last = add(point, none, chain.bottom, none);
+    chain.bottom = chain.last = add(point, no_index, chain.bottom, no_index);
     cut_above(chain.bottom);
 }
 
 ReflexChain ReflexChains::split(ReflexChain& chain, std::uint32_t point) {
     const Link link = open + static_cast<Link>(open_links_.size());
-    open_links_.push_back(none);
+    open_links_.push_back(no_index);
     const std::uint32_t last = chain.last, after = nodes_[last].above;
-    ReflexChain upper{none, chain.top, none};
-    const std::uint32_t again = add(nodes_[last].point, none, after, nodes_[last].link);
+    ReflexChain upper{no_index, chain.top, no_index};
+    const std::uint32_t again = add(nodes_[last].point, no_index, after, nodes_[last].link);
     if (chain.top == last) upper.top = again;
-    upper.bottom = upper.last = add(point, none, again, link);
+    upper.bottom = upper.last = add(point, no_index, again, link);
     cut_above(upper.bottom);
 
     nodes_[last].link = link;
-    chain.top = chain.last = add(point, last, none, none);
+    chain.top = chain.last = add(point, last, no_index, no_index);
     cut_below(chain.top);
     return upper;
 }
@@ -88,7 +88,7 @@ void ReflexChains::join(ReflexChain& lower, const ReflexChain& upper) {
     const Node& seam = nodes_[upper.bottom];
     nodes_[lower.top].link = seam.link;
     nodes_[lower.top].above = seam.above;
-    if (seam.above != none) nodes_[seam.above].below = lower.top;
+    if (seam.above != no_index) nodes_[seam.above].below = lower.top;
     lower.last = lower.top;
     if (upper.top != upper.bottom) lower.top = upper.top;
 }

@@ -16,9 +16,9 @@ namespace {
 /// An edge from left to right. Several rings may run along it.
 struct Edge {
     std::uint32_t left, right;
-    std::uint32_t tag;           ///< the input edge that contains it
-    std::uint32_t along = none;  ///< the next coincident edge
-    std::uint32_t next = none;   ///< the next edge with the same left point
+    std::uint32_t tag;               ///< the input edge that contains it
+    std::uint32_t along = no_index;  ///< the next coincident edge
+    std::uint32_t next = no_index;   ///< the next edge with the same left point
 };
 
 /// An edge that the sweep line crosses, and the region between it and the next one above.
@@ -100,7 +100,7 @@ std::optional<Problem> Sweep::sort_points() {
     for (const std::span<const Vec2> ring : rings_) {
         first_tags_.push_back(static_cast<std::uint32_t>(count));
         count += ring.size();
-        if (count >= none / 8) return Problem{ProblemCode::too_large, "there are too many points", 0};
+        if (count >= no_index / 8) return Problem{ProblemCode::too_large, "there are too many points", 0};
     }
     first_tags_.push_back(static_cast<std::uint32_t>(count));
 
@@ -138,7 +138,7 @@ void Sweep::start(std::uint32_t edge) {
 
 void Sweep::add_edges() {
     edges_.reserve(numbers_.size());
-    first_edges_.assign(points_.size(), none);
+    first_edges_.assign(points_.size(), no_index);
     for (std::size_t ring = 0; ring < rings_.size(); ++ring)
         for (std::uint32_t tag = first_tags_[ring]; tag < first_tags_[ring + 1]; ++tag) {
             const std::uint32_t last = tag + 1 == first_tags_[ring + 1] ? first_tags_[ring] : tag + 1;
@@ -161,7 +161,8 @@ void Sweep::order_starting(std::uint32_t point) {
         return orientation(points_[point], points_[edges_[a].right], points_[edges_[b].right]);
     };
     starting_.clear();
-    for (std::uint32_t edge = first_edges_[point]; edge != none; edge = edges_[edge].next) starting_.push_back(edge);
+    for (std::uint32_t edge = first_edges_[point]; edge != no_index; edge = edges_[edge].next)
+        starting_.push_back(edge);
     std::ranges::sort(starting_, [&](std::uint32_t a, std::uint32_t b) {
         const int side = turn(a, b);
         if (side != 0) return side > 0;
@@ -176,10 +177,10 @@ void Sweep::order_starting(std::uint32_t point) {
         }
         const std::uint32_t first = starting_[unique_count - 1], right = edges_[first].right;
         std::uint32_t last = first;
-        while (edges_[last].along != none) last = edges_[last].along;
-        for (std::uint32_t part = edge; part != none;) {
+        while (edges_[last].along != no_index) last = edges_[last].along;
+        for (std::uint32_t part = edge; part != no_index;) {
             const std::uint32_t following = edges_[part].along;
-            edges_[part].along = none;
+            edges_[part].along = no_index;
             if (edges_[part].right != right) {
                 edges_.push_back({right, edges_[part].right, edges_[part].tag});
                 edges_[part].right = right;
@@ -210,7 +211,7 @@ std::optional<Problem> Sweep::crossing(const StatusEdge& a, const StatusEdge& b)
 /// The rings whose boundary the edge is. Pairs that run along it in both directions cancel.
 std::span<const std::uint32_t> Sweep::rings_across(std::uint32_t edge) {
     across_.clear();
-    for (; edge != none; edge = edges_[edge].along) across_.push_back(ring_of(edges_[edge].tag));
+    for (; edge != no_index; edge = edges_[edge].along) across_.push_back(ring_of(edges_[edge].tag));
     if (across_.size() == 1) return across_;
     std::ranges::sort(across_);
     std::size_t unique_count = 0;
@@ -240,7 +241,7 @@ void Sweep::split_passing(Status::iterator from, Status::iterator to, std::uint3
         if (i->right != point) {
             ++result_.touching_points;
             if (ending_[i->right] == i) ending_[i->right] = status_end_;
-            for (std::uint32_t edge = i->edge; edge != none; edge = edges_[edge].along) {
+            for (std::uint32_t edge = i->edge; edge != no_index; edge = edges_[edge].along) {
                 edges_.push_back({point, edges_[edge].right, edges_[edge].tag});
                 start(static_cast<std::uint32_t>(edges_.size() - 1));
             }

@@ -2,6 +2,7 @@
 
 // Triangulates an outline with holes by a plane sweep, the first step of its decomposition.
 
+#include <abut/math/no_index.hpp>
 #include <abut/math/result.hpp>
 #include <abut/math/vec.hpp>
 
@@ -12,8 +13,6 @@
 #include <vector>
 
 namespace abut::outline {
-
-inline constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 /// A triangulation in half-edges: those of triangle t are 3 t, 3 t + 1 and 3 t + 2, counter-clockwise.
 struct Triangulation {

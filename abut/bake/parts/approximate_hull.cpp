@@ -2,6 +2,7 @@
 #include <abut/convex/farthest_point.hpp>
 #include <abut/convex/hull/hull.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/math/no_index.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +10,8 @@
 namespace abut {
 namespace {
 
-constexpr std::uint32_t none = 0xffffffffu;
 constexpr double min_tolerance = 0.9;  // in grid steps: the rounding of a point
-constexpr double steps = 65535;        // a plane's height at a point stays below 2^53, exact in double
+constexpr double grid_steps = 65535;   // a plane's height at a point stays below 2^53, exact in double
 
 }  // namespace
 
@@ -22,7 +22,7 @@ std::uint32_t ApproximateHull::add(std::uint32_t a, std::uint32_t b, std::uint32
     facet.offset = dot(facet.normal, points_[a]);
     const double inverse_length = 1 / length(facet.normal);
     raised_planes_.push_back({facet.normal * inverse_length, facet.offset * inverse_length + tolerance_});
-    facet.outside = facet.farthest = none;
+    facet.outside = facet.farthest = no_index;
     facet.height = 0;
     facet.alive = true;
     facets_.push_back(facet);
@@ -82,7 +82,7 @@ void ApproximateHull::insert_apex(std::uint32_t apex, std::uint32_t seen) {
         facets_[neighbor].twin[2] = 3 * facet + 1;
     }
     for (const std::uint32_t old : visible_)
-        for (std::uint32_t point = facets_[old].outside, next; point != none; point = next) {
+        for (std::uint32_t point = facets_[old].outside, next; point != no_index; point = next) {
             next = next_[point];
             if (point != apex) assign_outside(point, first);
         }
@@ -164,25 +164,25 @@ void ApproximateHull::build(std::span<const DVec<3>> points, double tolerance) {
             max[i] = std::max(max[i], p[i]);
         }
     const double extent = largest(max - min_);
-    step_ = extent / steps;
+    step_ = extent / grid_steps;
     corners_.clear();
     facets_.clear();
     raised_planes_.clear();
     flat_hull_.clear();
     volume_ = area_ = 0;
     points_.clear();
-    next_.assign(points.size(), none);
-    leaving_.assign(points.size(), none);
-    const double inverse = extent > 0 ? steps / extent : 0;
+    next_.assign(points.size(), no_index);
+    leaving_.assign(points.size(), no_index);
+    const double inverse = extent > 0 ? grid_steps / extent : 0;
     for (const DVec<3>& p : points) {
         const DVec<3> at = (p - min_) * inverse;
         points_.emplace_back(std::floor(at.x + 0.5), std::floor(at.y + 0.5), std::floor(at.z + 0.5));
     }
-    tolerance_ = std::max(tolerance * steps, min_tolerance);
+    tolerance_ = std::max(tolerance * grid_steps, min_tolerance);
     if (!build_tetrahedron(2 * min_tolerance)) return;
     // Quickhull: each iteration adds a point to the hull or discards a facet's outside set.
     for (std::uint32_t f = 0; f < facets_.size(); ++f)
-        if (facets_[f].alive && facets_[f].farthest != none) insert_apex(facets_[f].farthest, f);
+        if (facets_[f].alive && facets_[f].farthest != no_index) insert_apex(facets_[f].farthest, f);
     finish();
 }
 

@@ -11,7 +11,7 @@
 namespace abut {
 namespace {
 
-constexpr double hull_tolerance = 1e-3;
+constexpr double merged_hull_tolerance = 1e-3;
 
 /// The vertices and bounds of a part's hull.
 struct PartHull {
@@ -31,7 +31,7 @@ public:
     Merger(std::vector<MergePart>& parts, const DistanceThreshold& threshold, ApproximateHull& hull)
         : parts_(parts), threshold_(threshold), hull_(hull), alive_(parts.size(), true) {
         for (const MergePart& part : parts) {
-            hull_.build(part.points, hull_tolerance);
+            hull_.build(part.points, merged_hull_tolerance);
             add_part_hull(part.points);
         }
     }
@@ -53,7 +53,7 @@ public:
             MergePart part = merged(best.a, best.b);
             if (!needed && part.hull_distance > threshold_.limit) continue;
             alive_[best.a] = alive_[best.b] = false;
-            hull_.build(part.points, hull_tolerance);
+            hull_.build(part.points, merged_hull_tolerance);
             add_part_hull(part.points);
             parts_.push_back(std::move(part));
             alive_.push_back(true);
@@ -84,7 +84,7 @@ private:
     void build_hull_of_both(std::uint32_t a, std::uint32_t b) {
         points_of_both_ = part_hulls_[a].corners;
         points_of_both_.insert(points_of_both_.end(), part_hulls_[b].corners.begin(), part_hulls_[b].corners.end());
-        hull_.build(points_of_both_, hull_tolerance);
+        hull_.build(points_of_both_, merged_hull_tolerance);
     }
 
     double hull_size_of_both(std::uint32_t a, std::uint32_t b) const {

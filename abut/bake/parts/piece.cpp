@@ -1,6 +1,7 @@
 #include <abut/bake/parts/piece.hpp>
 #include <abut/bake/solid.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/math/no_index.hpp>
 #include <abut/shape/mesh/half_edges.hpp>
 
 #include <algorithm>
@@ -14,8 +15,6 @@
 
 namespace abut {
 namespace {
-
-constexpr std::uint32_t none = 0xffffffffu;
 
 /// One side of a cut. Points have the numbers of the piece that is cut.
 struct Side {
@@ -115,7 +114,8 @@ private:
     void split(const glm::uvec3& triangle) {
         std::array<std::array<std::uint32_t, 4>, 2> loops{};
         std::array<std::size_t, 2> counts{};
-        std::uint32_t down = none, up = none;  // where the triangle's boundary crosses the plane downwards and upwards
+        std::uint32_t down = no_index,
+                      up = no_index;  // where the triangle's boundary crosses the plane downwards and upwards
         for (int i = 0; i < 3; ++i) {
             const std::uint32_t from = triangle[i], to = triangle[(i + 1) % 3];
             const double at = heights_[from], next = heights_[to];
@@ -319,11 +319,11 @@ std::vector<Piece> connected_components(const Piece& piece) {
     }
     for (const CapEdge& edge : piece.cap_edges) unite(edge.from, edge.to);
 
-    std::vector<std::uint32_t> number(piece.points.size(), none), renumbered(piece.points.size(), none);
+    std::vector<std::uint32_t> number(piece.points.size(), no_index), renumbered(piece.points.size(), no_index);
     std::vector<Piece> result;
     const auto piece_of = [&](std::uint32_t point) -> Piece& {
         std::uint32_t& place = number[root(point)];
-        if (place == none) {
+        if (place == no_index) {
             place = static_cast<std::uint32_t>(result.size());
             Piece& fresh = result.emplace_back();
             fresh.closed = piece.closed;
@@ -332,7 +332,7 @@ std::vector<Piece> connected_components(const Piece& piece) {
         return result[place];
     };
     const auto add_point = [&](Piece& into, std::uint32_t point) {
-        if (renumbered[point] == none) {
+        if (renumbered[point] == no_index) {
             renumbered[point] = static_cast<std::uint32_t>(into.points.size());
             into.points.push_back(piece.points[point]);
         }

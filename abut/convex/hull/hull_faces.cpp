@@ -3,14 +3,13 @@
 #include <abut/convex/bucket_sort.hpp>
 #include <abut/convex/hull/hull_faces.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/math/no_index.hpp>
 
 #include <algorithm>
 #include <cmath>
 
 namespace abut {
 namespace {
-
-constexpr std::uint32_t none = 0xffffffffu;
 
 /// Faces with a larger angle between their normals (45 degrees) are never merged, however small they are. Otherwise the
 /// two sides of a thin plate and its rim would become one face.
@@ -26,7 +25,7 @@ public:
 
 private:
     DVec<3> point(std::uint32_t h) const { return DVec<3>(points_[origin_[h]]); }
-    bool alive(std::uint32_t h) const { return next_[h] != none; }
+    bool alive(std::uint32_t h) const { return next_[h] != no_index; }
     bool coplanar(std::uint32_t triangle, std::uint32_t half_edge) const;
     void link(std::uint32_t before, std::uint32_t after);
     bool between_two_faces(std::uint32_t h) const;
@@ -57,9 +56,9 @@ FaceMesh::FaceMesh(std::span<const GridPoint> points, const TriangleSurface& sur
       flatness_(flatness),
       origin_(surface.origin),
       twin_(surface.twin),
-      next_(surface.origin.size(), none),
-      previous_(surface.origin.size(), none),
-      face_(surface.origin.size(), none),
+      next_(surface.origin.size(), no_index),
+      previous_(surface.origin.size(), no_index),
+      face_(surface.origin.size(), no_index),
       seen_in_(points.size(), 0) {}
 
 void FaceMesh::link(std::uint32_t before, std::uint32_t after) {
@@ -82,7 +81,7 @@ void FaceMesh::join_coplanar() {
     // Coplanar neighbours get one face number by flood fill.
     std::vector<std::uint32_t> stack;
     for (std::uint32_t seed = 0; seed < triangle_normals_.size(); ++seed) {
-        if (face_[3 * seed] != none) continue;
+        if (face_[3 * seed] != no_index) continue;
         const auto face = static_cast<std::uint32_t>(area_.size());
         area_.emplace_back(0.0);
         const auto take = [&](std::uint32_t triangle) {
@@ -95,13 +94,13 @@ void FaceMesh::join_coplanar() {
             const std::uint32_t triangle = stack.back();
             stack.pop_back();
             for (std::uint32_t h = 3 * triangle; h < 3 * triangle + 3; ++h)
-                if (face_[twin_[h]] == none && coplanar(triangle, h)) take(twin_[h] / 3);
+                if (face_[twin_[h]] == no_index && coplanar(triangle, h)) take(twin_[h] / 3);
         }
     }
 
     // The half-edges between different faces form the loops. A coplanar part of a convex surface has one loop, which
     // visits each of its points once.
-    start_.assign(area_.size(), none);
+    start_.assign(area_.size(), no_index);
     for (std::uint32_t h = 0; h < origin_.size(); ++h) {
         if (face_[h] == face_[twin_[h]]) continue;
         std::uint32_t after = following(h);
@@ -126,7 +125,7 @@ void FaceMesh::remove_origin(std::uint32_t h) {
     link(back, next_[back_after]);
     twin_[before] = back;
     twin_[back] = before;
-    next_[h] = next_[back_after] = none;
+    next_[h] = next_[back_after] = no_index;
     start_[face_[before]] = before;
     start_[face_[back]] = back;
 }
@@ -187,12 +186,12 @@ void FaceMesh::join(std::uint32_t h) {
     const std::uint32_t other = twin_[h], face = face_[h], gone = face_[other];
     for (std::uint32_t i = next_[other]; i != other; i = next_[i]) face_[i] = face;
     area_[face] += area_[gone];
-    start_[gone] = none;
+    start_[gone] = no_index;
     start_[face] = next_[h];
     const std::uint32_t at_origin = next_[other], at_end = next_[h];
     link(previous_[h], at_origin);
     link(previous_[other], at_end);
-    next_[h] = next_[other] = none;
+    next_[h] = next_[other] = no_index;
 }
 
 /// Merges neighbours into a face until none fits. Of the finished neighbours it tests only those that failed when this
@@ -227,14 +226,14 @@ void FaceMesh::join_flat() {
     });
     std::vector<bool> done(start_.size(), false);
     for (const std::uint64_t face : order.keys)
-        if (start_[face] != none) join_around(static_cast<std::uint32_t>(face), done);
+        if (start_[face] != no_index) join_around(static_cast<std::uint32_t>(face), done);
 }
 
 HullFaces FaceMesh::faces() const {
     HullFaces result;
     for (std::size_t face = 0; face < start_.size(); ++face) {
         const std::uint32_t start = start_[face];
-        if (start == none) continue;
+        if (start == no_index) continue;
         result.normals.push_back(to_float(normalized(area_[face])));
         result.loops.push_back(origin_[start]);
         for (std::uint32_t h = next_[start]; h != start; h = next_[h]) result.loops.push_back(origin_[h]);

@@ -5,6 +5,7 @@
 #include <abut/convex/hull/highest_plane.hpp>
 #include <abut/convex/hull/quickhull.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/math/no_index.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +15,6 @@
 namespace abut {
 namespace {
 
-constexpr std::uint32_t none = 0xffffffffu;
-
 double distance_squared_to_segment(const DVec<3>& p, const DVec<3>& a, const DVec<3>& b) {
     const DVec<3> along = b - a;
     const double weight = std::clamp(dot(p - a, along) / length_squared(along), 0.0, 1.0);
@@ -24,7 +23,7 @@ double distance_squared_to_segment(const DVec<3>& p, const DVec<3>& a, const DVe
 
 /// An upper bound of the rounding error of a height, in steps of the grid: six roundings of a plane's normal and offset
 /// and five of the point's terms, 2^-53 each, of sums below sqrt(3) 2^28.
-constexpr double rounding_error = 0x1p-20;
+constexpr double facet_rounding_error = 0x1p-20;
 
 /// A bucket priority queue of facets by the height of the points above them, highest first, so that significant corners
 /// come before those that are only rounding. Great heights have four levels per power of 2; small ones, below 2^-8 of
@@ -54,15 +53,15 @@ private:
     /// A point relative to the first, in the outside set of a facet.
     struct PointEntry {
         glm::vec<3, std::int32_t> place;
-        std::uint32_t next_outside = none;  ///< the next point above the same facet
+        std::uint32_t next_outside = no_index;  ///< the next point above the same facet
     };
     /// Fills a cache line.
     struct alignas(64) Facet {
         OrientedPlane plane;                    ///< with a unit normal
         std::array<std::uint32_t, 3> corner{};  ///< half-edge i runs from corner i to corner i + 1
         std::array<std::uint32_t, 3> twin{};
-        std::uint32_t outside = none;   ///< the head of the linked list of points above it
-        std::uint32_t farthest = none;  ///< of these
+        std::uint32_t outside = no_index;   ///< the head of the linked list of points above it
+        std::uint32_t farthest = no_index;  ///< of these
     };
     /// A facet in the queue; it is outdated if its slot was reused.
     struct QueueEntry {
@@ -70,7 +69,7 @@ private:
     };
 
     std::uint32_t add_facet(std::uint32_t a, std::uint32_t b, std::uint32_t c);
-    bool alive(std::uint32_t facet) const { return facets_[facet].corner[0] != none; }
+    bool alive(std::uint32_t facet) const { return facets_[facet].corner[0] != no_index; }
     GridPoint grid_place(std::uint32_t point) const { return GridPoint(entries_[point].place); }
     DVec<3> position(std::uint32_t point) const { return DVec<3>(entries_[point].place); }
     GridPoint normal_of(const Facet& facet) const {
@@ -111,7 +110,7 @@ private:
 };
 
 Quickhull::Quickhull(std::span<const GridPoint> points, double tolerance)
-    : tolerance_(tolerance), leaving_(points.size(), none) {
+    : tolerance_(tolerance), leaving_(points.size(), no_index) {
     entries_.reserve(points.size());
     for (const GridPoint& point : points) entries_.push_back({glm::vec<3, std::int32_t>(point - points[0])});
 }
@@ -130,7 +129,7 @@ std::uint32_t Quickhull::add_facet(std::uint32_t a, std::uint32_t b, std::uint32
     const DVec<3> normal(normal_of(facet));
     facet.plane.normal = normal * (1 / length(normal));
     facet.plane.offset = dot(facet.plane.normal, position(a));
-    facet.outside = facet.farthest = none;
+    facet.outside = facet.farthest = no_index;
     born_[place] = births_++;
     return place;
 }
@@ -144,7 +143,7 @@ double Quickhull::exact_height(const Facet& facet, std::uint32_t point) const {
 /// The height above the facet, in steps of the grid; its sign is exact.
 double Quickhull::height(const Facet& facet, std::uint32_t point) const {
     const double rounded = rounded_height(facet.plane, point);
-    return std::abs(rounded) > rounding_error ? rounded : exact_height(facet, point);
+    return std::abs(rounded) > facet_rounding_error ? rounded : exact_height(facet, point);
 }
 
 /// The distance of a point above the facet from the triangle, not from its plane: beyond a sharp corner a point can be
@@ -164,10 +163,10 @@ double Quickhull::distance(const Facet& facet, std::uint32_t point) const {
 /// The next point to insert above the facet; none if all are near enough to be left out. The hull only expands, so they
 /// stay near enough.
 std::uint32_t Quickhull::next_eye(const Facet& facet) const {
-    if (facet.outside == none || height(facet, facet.farthest) > tolerance_) return facet.farthest;
-    std::uint32_t result = none;
+    if (facet.outside == no_index || height(facet, facet.farthest) > tolerance_) return facet.farthest;
+    std::uint32_t result = no_index;
     double max_height = 0;
-    for (std::uint32_t point = facet.outside; point != none; point = entries_[point].next_outside) {
+    for (std::uint32_t point = facet.outside; point != no_index; point = entries_[point].next_outside) {
         const double above = height(facet, point);
         if (above > max_height && distance(facet, point) > tolerance_) {
             max_height = above;
@@ -181,7 +180,7 @@ std::uint32_t Quickhull::next_eye(const Facet& facet) const {
 /// facets are connected without holes, and the horizon visits each of its points once.
 void Quickhull::see(std::uint32_t eye, std::uint32_t seen) {
     const auto take = [&](std::uint32_t facet) {
-        facets_[facet].corner[0] = none;
+        facets_[facet].corner[0] = no_index;
         visible_.push_back(facet);
     };
     visible_.clear();
@@ -204,7 +203,7 @@ void Quickhull::see(std::uint32_t eye, std::uint32_t seen) {
 void Quickhull::take_orphans(std::uint32_t eye) {
     orphans_.clear();
     for (const std::uint32_t old : visible_) {
-        for (std::uint32_t point = facets_[old].outside; point != none; point = entries_[point].next_outside)
+        for (std::uint32_t point = facets_[old].outside; point != no_index; point = entries_[point].next_outside)
             if (point != eye) orphans_.push_back(point);
         free_.push_back(old);
     }
@@ -247,10 +246,10 @@ void Quickhull::assign_orphans() {
 
     cone_height_.assign(cone_.size(), 0.0);
     for (std::size_t k = 0; k < count; ++k) {
-        if (max_heights_[k] < -rounding_error) continue;
+        if (max_heights_[k] < -facet_rounding_error) continue;
         auto best = static_cast<std::size_t>(best_facets_[k]);
         double above = max_heights_[k];
-        if (above <= rounding_error) {
+        if (above <= facet_rounding_error) {
             above = 0;
             for (std::size_t f = 0; f < cone_.size(); ++f) {
                 const double here = height(facets_[cone_[f]], orphans_[k]);
@@ -302,13 +301,13 @@ void Quickhull::run(std::array<std::uint32_t, 4> start) {
         bucket->pop_back();
         if (!alive(facet) || born_[facet] != born) continue;
         const std::uint32_t eye = next_eye(facets_[facet]);
-        if (eye != none) insert(eye, facet);
+        if (eye != no_index) insert(eye, facet);
     }
 }
 
 double Quickhull::farthest_left_out(const Facet& facet) const {
     double result = 0;
-    for (std::uint32_t point = facet.outside; point != none; point = entries_[point].next_outside)
+    for (std::uint32_t point = facet.outside; point != no_index; point = entries_[point].next_outside)
         result = std::max(result, distance(facet, point));
     return result;
 }

@@ -9,7 +9,7 @@
 namespace abut {
 namespace {
 
-using Loop = std::vector<std::uint32_t>;
+using VertexLoop = std::vector<std::uint32_t>;
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
 /// The bound on cuts beyond the face planes; it was never reached in tests.
@@ -18,7 +18,7 @@ constexpr int max_trims = 256;
 enum class Side : std::uint8_t { behind, on, in_front };
 
 /// Joins edges head to tail into closed loops. The in-degree of each corner equals its out-degree.
-std::vector<Loop> closed_loops(std::vector<Edge> edges) {
+std::vector<VertexLoop> closed_loops(std::vector<Edge> edges) {
     std::sort(edges.begin(), edges.end());
     std::vector<bool> used(edges.size(), false);
     const auto unused_from = [&](std::uint32_t tail) {
@@ -26,10 +26,10 @@ std::vector<Loop> closed_loops(std::vector<Edge> edges) {
         while (i < edges.size() && edges[i].first == tail && used[i]) ++i;
         return i < edges.size() && edges[i].first == tail ? i : edges.size();
     };
-    std::vector<Loop> result;
+    std::vector<VertexLoop> result;
     for (std::size_t first = 0; first < edges.size(); ++first) {
         if (used[first]) continue;
-        Loop& loop = result.emplace_back();
+        VertexLoop& loop = result.emplace_back();
         for (std::size_t i = first; i < edges.size(); i = unused_from(edges[i].second)) {
             used[i] = true;
             loop.push_back(edges[i].first);
@@ -53,16 +53,16 @@ public:
 
     bool cuts() const { return std::find(sides_.begin(), sides_.end(), Side::in_front) != sides_.end(); }
 
-    std::vector<Loop> run() {
+    std::vector<VertexLoop> run() {
         find_crossings();
-        std::vector<Loop> loops;
-        for (const Loop& loop : body_.loops) {
-            Loop remaining = cut_loop(loop);
+        std::vector<VertexLoop> loops;
+        for (const VertexLoop& loop : body_.loops) {
+            VertexLoop remaining = cut_loop(loop);
             if (!remaining.empty()) loops.push_back(std::move(remaining));
         }
-        std::vector<Loop> caps;
+        std::vector<VertexLoop> caps;
         if constexpr (D == 3)
-            for (Loop& cap : closed_loops(std::move(openings_)))
+            for (VertexLoop& cap : closed_loops(std::move(openings_)))
                 if (cap.size() > 2) caps.push_back(std::move(cap));
         const std::size_t faces = loops.size();
         loops.insert(loops.end(), caps.begin(), caps.end());
@@ -77,13 +77,13 @@ private:
     }
 
     template <class Visit>
-    static void each_edge(const Loop& loop, Visit&& visit) {
+    static void each_edge(const VertexLoop& loop, Visit&& visit) {
         for (std::size_t i = 0; i < loop.size(); ++i) visit(loop[i], loop[i + 1 == loop.size() ? 0 : i + 1]);
     }
 
     /// Adds one new point for every edge that crosses the plane, shared by its loops.
     void find_crossings() {
-        for (const Loop& loop : body_.loops)
+        for (const VertexLoop& loop : body_.loops)
             each_edge(loop, [&](std::uint32_t i, std::uint32_t j) {
                 if (crosses(i, j)) crossings_.push_back(std::minmax(i, j));
             });
@@ -103,8 +103,8 @@ private:
 
     /// The remaining part of a loop. The edge across a removed part is an opening, and the new face runs along it in
     /// the opposite direction.
-    Loop cut_loop(const Loop& loop) {
-        Loop remaining;
+    VertexLoop cut_loop(const VertexLoop& loop) {
+        VertexLoop remaining;
         bool gap = false, gap_at_start = false;
         const auto append = [&](std::uint32_t point) {
             const bool again = !remaining.empty() && remaining.back() == point;
@@ -131,7 +131,7 @@ private:
     void remove_unused_points() {
         constexpr std::uint32_t unused = 0xffffffffu;
         std::vector<std::uint32_t> number(body_.points.size(), unused);
-        for (const Loop& loop : body_.loops)
+        for (const VertexLoop& loop : body_.loops)
             for (const std::uint32_t i : loop) number[i] = 0;
         std::uint32_t count = 0;
         for (std::size_t i = 0; i < number.size(); ++i) {
@@ -140,7 +140,7 @@ private:
             number[i] = count++;
         }
         body_.points.resize(count);
-        for (Loop& loop : body_.loops)
+        for (VertexLoop& loop : body_.loops)
             for (std::uint32_t& i : loop) i = number[i];
     }
 
@@ -173,14 +173,14 @@ double largest_term(const Convex<D>& convex) {
 
 /// Records a cut, with points relative to `origin`: the new faces or, for a flat body, the remainder.
 template <int D>
-void write(Trace<D>& trace, const ClipPlane<D>& plane, const ClipBody<D>& body, std::vector<Loop> caps,
+void write(Trace<D>& trace, const ClipPlane<D>& plane, const ClipBody<D>& body, std::vector<VertexLoop> caps,
            const DVec<D>& origin) {
     ClipStep<D> step;
     step.normal = to_float(plane.normal);
     step.offset = static_cast<float>(plane.offset + dot(plane.normal, origin));
     const bool flat = D == 2 || body.loops.size() <= 2;
     if (caps.empty() && flat && !body.empty()) caps = {body.loops[0]};
-    for (const Loop& loop : caps)
+    for (const VertexLoop& loop : caps)
         for (const std::uint32_t i : loop) step.points.push_back(to_float(origin + body.points[i]));
     trace.steps.push_back(std::move(step));
 }
@@ -213,7 +213,7 @@ public:
 
 private:
     void apply(const ClipPlane<D>& plane) {
-        std::vector<Loop> caps = cut(body_, plane, rounding_);
+        std::vector<VertexLoop> caps = cut(body_, plane, rounding_);
         if (trace_ != nullptr) write(*trace_, plane, body_, std::move(caps), origin_);
     }
 
@@ -246,9 +246,9 @@ private:
 }  // namespace
 
 template <int D>
-std::vector<Loop> cut(ClipBody<D>& body, const ClipPlane<D>& plane, double tolerance) {
+std::vector<VertexLoop> cut(ClipBody<D>& body, const ClipPlane<D>& plane, double tolerance) {
     Cut<D> cut(body, plane, tolerance);
-    return cut.cuts() ? cut.run() : std::vector<Loop>();
+    return cut.cuts() ? cut.run() : std::vector<VertexLoop>();
 }
 
 template <int D>
@@ -256,8 +256,8 @@ std::vector<DVec<D>> clip(const Convex<D>& a, const Convex<D>& b, Trace<D>* trac
     return size(b) < size(a) ? Clipping<D>(b, a, trace).run() : Clipping<D>(a, b, trace).run();
 }
 
-#define ABUT_INSTANTIATE(D)                                                    \
-    template std::vector<Loop> cut(ClipBody<D>&, const ClipPlane<D>&, double); \
+#define ABUT_INSTANTIATE(D)                                                          \
+    template std::vector<VertexLoop> cut(ClipBody<D>&, const ClipPlane<D>&, double); \
     template std::vector<DVec<D>> clip(const Convex<D>&, const Convex<D>&, Trace<D>*);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

@@ -9,7 +9,7 @@ namespace {
 /// more than the tolerance.
 constexpr double min_area_ratio = 1e-3;
 
-struct Loop {
+struct PlanarLoop {
     double x[2 * max_soa_edges], y[2 * max_soa_edges];
     std::size_t count = 0;
 
@@ -20,7 +20,7 @@ struct Loop {
 };
 
 /// Removes the part in front of a line. Each cut of a convex loop adds at most one corner.
-void cut(const Loop& from, const double* heights, double tolerance, Loop& to) {
+void cut(const PlanarLoop& from, const double* heights, double tolerance, PlanarLoop& to) {
     to.count = 0;
     for (std::size_t i = 0; i < from.count; ++i) {
         const std::size_t j = i + 1 == from.count ? 0 : i + 1;
@@ -44,8 +44,8 @@ bool clip_polygons(const PolygonPair& pair, ClippedLoop& loop) {
     const double tolerance =
         0x1p-47 * (std::abs(seen.x) + std::abs(seen.y) + 2 * (body.size + tool.size) + std::abs(body.x[0]) +
                    std::abs(body.y[0]) + std::abs(tool.x[0]) + std::abs(tool.y[0]));
-    Loop loops[2];
-    Loop *now = &loops[0], *next = &loops[1];
+    PlanarLoop loops[2];
+    PlanarLoop *now = &loops[0], *next = &loops[1];
     for (std::uint32_t i = 0; i < body.count; ++i) now->push_back(body.x[i], body.y[i]);
     for (std::uint32_t side = 0; side < tool.count && now->count > 0; ++side) {
         const DVec<2> normal = seen.vector(tool.normal(side));

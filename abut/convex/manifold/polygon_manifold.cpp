@@ -5,7 +5,7 @@ namespace abut {
 namespace {
 
 /// An edge in the frame of the reference polygon.
-struct Edge {
+struct ProjectedEdge {
     DVec<2> ends[2];
     std::uint32_t names[2];
     DVec<2> normal;
@@ -30,7 +30,7 @@ inline std::uint32_t facing_edge(const PolygonSoa& sides, std::uint32_t corner, 
     return last_alignment > next_alignment ? last : corner;
 }
 
-void find_reference_edge(const PolygonPair& pair, const ClosestFeatures2& closest, Edge& edge) {
+void find_reference_edge(const PolygonPair& pair, const ClosestFeatures2& closest, ProjectedEdge& edge) {
     const PolygonSoa& sides = pair.sides(closest.of);
     const std::uint32_t side = facing_edge(sides, closest.reference_corners[0], closest.normal, edge.alignment);
     const std::uint32_t after = sides.after(side);
@@ -41,7 +41,7 @@ void find_reference_edge(const PolygonPair& pair, const ClosestFeatures2& closes
     edge.normal = sides.normal(side);
 }
 
-void find_other_edge(const PolygonPair& pair, const ClosestFeatures2& closest, Edge& edge) {
+void find_other_edge(const PolygonPair& pair, const ClosestFeatures2& closest, ProjectedEdge& edge) {
     const PolygonSoa& sides = pair.sides(1 - closest.of);
     const Rigid2& seen = pair.seen_from(closest.of);
     const DVec<2> direction = -pair.seen_from(1 - closest.of).vector(closest.normal);
@@ -62,7 +62,7 @@ struct Candidates {
 
 /// Clips an edge to the range of the reference edge along `across`. Returns false if nothing remains. It has no
 /// branches, which can't be predicted.
-inline bool cut_to(const Edge& reference, const DVec<2>& across, Edge& edge, double (&along)[2]) {
+inline bool cut_to(const ProjectedEdge& reference, const DVec<2>& across, ProjectedEdge& edge, double (&along)[2]) {
     using namespace lanes;
     const double low = dot(across, reference.ends[0]), high = dot(across, reference.ends[1]);
     const Double2 from{low, low}, to{high, high}, at{dot(across, edge.ends[0]), dot(across, edge.ends[1])};
@@ -112,7 +112,7 @@ void set_polygon_manifold(const PolygonPair& pair, const ClosestFeatures2& close
     const double tolerance = 1e-6 * std::min(a.sides.size + a.radius, b.sides.size + b.radius);
     const double depth = -distance.distance;
     const Rigid2& place = pair.polygon(closest.of).place;
-    Edge of_reference, of_other;
+    ProjectedEdge of_reference, of_other;
     find_reference_edge(pair, closest, of_reference);
     find_other_edge(pair, closest, of_other);
 
@@ -123,8 +123,8 @@ void set_polygon_manifold(const PolygonPair& pair, const ClosestFeatures2& close
                      of_b = first_is_a ? of_other.alignment : of_reference.alignment;
         const bool a_is_reference = of_a >= of_b - 1e-6;
         const bool same = a_is_reference == first_is_a;
-        const Edge& reference = same ? of_reference : of_other;
-        Edge& incident = same ? of_other : of_reference;
+        const ProjectedEdge& reference = same ? of_reference : of_other;
+        ProjectedEdge& incident = same ? of_other : of_reference;
         const DVec<2> out = same ? closest.normal : -closest.normal, across(-out.y, out.x);
         const double reference_radius = a_is_reference ? a.radius : b.radius;
         const double incident_radius = a_is_reference ? b.radius : a.radius;

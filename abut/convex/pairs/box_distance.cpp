@@ -4,7 +4,7 @@ namespace abut {
 namespace {
 
 /// The tolerance of two bounds that should agree, relative to the sum of all coordinates.
-constexpr double relative_tolerance = 1e-10;
+constexpr double box_tolerance = 1e-10;
 
 /// The corner of B nearest to A.
 struct NearestCorner {
@@ -69,7 +69,7 @@ bool from_a_to_corner(const BoxFrame& frame, std::uint32_t& number, BoxClosest& 
     for (std::size_t i = 0; i < 3; ++i)
         plane -= std::abs(between[i]) * frame.half_a[i] + std::abs(rotated[i]) * frame.half_b[i];
     closest.distance = std::sqrt(square);
-    if (!(square - plane <= relative_tolerance * frame.scale() * closest.distance)) {
+    if (!(square - plane <= box_tolerance * frame.scale() * closest.distance)) {
         number = 0;
         for (std::size_t j = 0; j < 3; ++j) number |= rotated[j] > 0 ? 1u << j : 0u;
         return false;
@@ -130,7 +130,7 @@ bool closest_on_edges(const BoxFrame& frame, std::size_t number, BoxClosest& clo
     }
     const double on_b = (edge_b[i] * between[i] - dot(edge_b, between)) / square;
     const double on_a = between[i] + edge_b[i] * on_b;
-    const double tolerance = relative_tolerance * frame.scale();
+    const double tolerance = box_tolerance * frame.scale();
     if (std::abs(on_a) > frame.half_a[i] + tolerance || std::abs(on_b) > frame.half_b[j] + tolerance) return false;
     closest.on_a[i] = std::clamp(on_a, -frame.half_a[i], frame.half_a[i]);
     closest.distance = (dot(axis, frame.middle) - reach) * one;

@@ -9,7 +9,7 @@ namespace abut {
 namespace {
 
 /// The rounding error of a point, relative to the largest coordinate.
-constexpr double relative_tolerance = 1e-10;
+constexpr double triangle_tolerance = 1e-10;
 /// Slivers, whose edges enclose no sine above a thousandth, are left to the general algorithms.
 constexpr double min_sine_squared = 1e-6;
 
@@ -84,7 +84,7 @@ void widen_by_edges(const TriangleInBox& local, double max_distance, double roun
         const DVec<3> edge = local.corner[j == 2 ? 0 : j + 1] - from, ends = cross(edge, from);
         const DVec<3> reach(std::abs(edge.x), std::abs(edge.y), std::abs(edge.z));
         const DVec<3> squared(edge.x * edge.x, edge.y * edge.y, edge.z * edge.z);
-        const double no_axis = 1e-18 * (squared.x + squared.y + squared.z);
+        const double min_square = 1e-18 * (squared.x + squared.y + squared.z);
         // The axis i, and those beside it.
         const auto widen = [&](int i, int u, int v) {
             const double low = ends[i] + to_low[i], high = ends[i] + to_high[i];
@@ -93,7 +93,7 @@ void widen_by_edges(const TriangleInBox& local, double max_distance, double roun
             // In most cases it is no wider than the face's, which needs no square root to decide.
             const double threshold = best.width + rounding;
             if (width < 0 && threshold <= 0 && width * width >= threshold * threshold * square) return;
-            if (!(square > no_axis)) return;
+            if (!(square > min_square)) return;
             const double one = 1 / std::sqrt(square);
             if (!(width * one > threshold)) return;
             best.width = width * one;
@@ -113,7 +113,7 @@ void widen_by_edges(const TriangleInBox& local, double max_distance, double roun
 class ContactFeatures {
 public:
     ContactFeatures(const TriangleInBox& local, const Gap& gap, double scale)
-        : local_(local), gap_(gap), tolerance_(relative_tolerance * scale) {
+        : local_(local), gap_(gap), tolerance_(triangle_tolerance * scale) {
         const double level = 10 * tolerance_;
         for (int i = 0; i < 3; ++i) {
             const std::uint32_t bit = 1u << i;
@@ -159,7 +159,7 @@ private:
             return largest(offset - ab * part) <= tolerance_;
         }
         const DVec<3> ac = local_.corner[2] - from, area = cross(ab, ac);
-        const double square = length_squared(area), min_weight = -relative_tolerance * square;
+        const double square = length_squared(area), min_weight = -triangle_tolerance * square;
         const double b = dot(area, cross(offset, ac)), c = dot(area, cross(ab, offset));
         return b >= min_weight && c >= min_weight && b + c <= square - min_weight;
     }
@@ -235,7 +235,7 @@ BoxTriangle box_triangle_overlap(const Convex<3>& box, const Convex<3>& triangle
     Gap gap = widest_face_gap(local, balls);
     if (gap.width > balls) return BoxTriangle::apart;
     if (gap.thin) return BoxTriangle::unknown;
-    widen_by_edges(local, balls, relative_tolerance * local.scale(), gap);
+    widen_by_edges(local, balls, triangle_tolerance * local.scale(), gap);
     if (gap.width > balls) return BoxTriangle::apart;
     return gap.width > 0 ? BoxTriangle::unknown : BoxTriangle::overlapping;
 }
@@ -248,7 +248,7 @@ BoxTriangle box_triangle_distance(const Convex<3>& box, const Convex<3>& triangl
     if (gap.width > max_distance) return BoxTriangle::apart;
     if (gap.thin) return BoxTriangle::unknown;
     const double scale = local.scale();
-    widen_by_edges(local, max_distance, relative_tolerance * scale, gap);
+    widen_by_edges(local, max_distance, triangle_tolerance * scale, gap);
     if (gap.width > max_distance) return BoxTriangle::apart;
     DVec<3> on_box;
     if (gap.width > 0 || !ContactFeatures(local, gap, scale).find(on_box, result.corners)) return BoxTriangle::unknown;

@@ -23,6 +23,11 @@ inline bool is_plain_hull(const Convex<3>& convex) {
            !convex.facets->normals.empty() && has_similarity_placement(convex);
 }
 
+/// The tolerance of a proof, relative to the largest coordinate.
+inline constexpr double round3_tolerance = 1e-9;
+/// The direction of a smaller distance, relative to the largest coordinate, may be rounding.
+inline constexpr double min_round3_gap = 1e-6;
+
 /// Two points on two segments by their parameters from 0 to 1.
 struct SegmentParameters {
     double on_a, on_b;

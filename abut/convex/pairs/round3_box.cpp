@@ -7,9 +7,7 @@ namespace abut {
 namespace {
 
 /// A smaller distance, relative to the largest coordinate, may have a direction that is rounding.
-constexpr double near = 1e-7;
-/// The tolerance of a proof, relative to the largest coordinate.
-constexpr double relative_tolerance = 1e-9;
+constexpr double min_box_gap = 1e-7;
 
 inline DVec<3> seen_from(const Convex<3>& box, const Convex<3>& convex, std::uint32_t corner) {
     const DVec<3> local = box.place.transposed(core_corner(convex, corner) - box.place.offset);
@@ -116,7 +114,7 @@ SeparatingDirection separating_direction(const SeenSegment& s) {
         const double across = std::sqrt(square), height = middle[k] * s.along[j] - middle[j] * s.along[k];
         const double separation =
             (std::abs(height) - s.half[j] * std::abs(s.along[k]) - s.half[k] * std::abs(s.along[j])) / across;
-        if (!(separation > best.separation + relative_tolerance * s.scale)) continue;
+        if (!(separation > best.separation + round3_tolerance * s.scale)) continue;
         const double sign = height < 0 ? -1 / across : 1 / across;
         best = {separation, DVec<3>(0.0), i, false};
         best.out[j] = -s.along[k] * sign;
@@ -148,7 +146,7 @@ double parameter_beside(const SeenSegment& s, const SeparatingDirection& directi
 bool deep_in_box(const Convex<3>& box, const Convex<3>& segment, const SeenSegment& s, double gap,
                  SignedDistance<3>& result) {
     const SeparatingDirection direction = separating_direction(s);
-    if (direction.separation > 0 && gap - direction.separation > relative_tolerance * s.scale) return false;
+    if (direction.separation > 0 && gap - direction.separation > round3_tolerance * s.scale) return false;
     DVec<3> on_box = s.half;
     for (int i = 0; i < 3; ++i) on_box[i] = direction.out[i] < 0 ? -s.half[i] : s.half[i];
     const double part = direction.of_side ? parameter_below(s, direction) : parameter_beside(s, direction, on_box);
@@ -156,8 +154,7 @@ bool deep_in_box(const Convex<3>& box, const Convex<3>& segment, const SeenSegme
     for (int i = 0; i < 3; ++i)
         if (direction.of_side != (i == direction.axis)) on_box[i] = inside[i];
     // The depth at the points must equal the separation, one point right above the other.
-    if (largest(on_segment - on_box - direction.out * direction.separation) > relative_tolerance * s.scale)
-        return false;
+    if (largest(on_segment - on_box - direction.out * direction.separation) > round3_tolerance * s.scale) return false;
 
     set_result(box, segment, direction.separation, direction.out, on_box, result);
     std::uint32_t low = 0;
@@ -191,12 +188,12 @@ bool box_segment(const Convex<3>& box, const Convex<3>& segment, SignedDistance<
     const double part = nearest_part(s);
     const DVec<3> on_segment = s.at(part), on_box = within(s.half, on_segment), between = on_segment - on_box;
     const double gap = length(between);
-    if (!(gap > near * s.scale)) return deep_in_box(box, segment, s, gap, result);
+    if (!(gap > min_box_gap * s.scale)) return deep_in_box(box, segment, s, gap, result);
 
     const DVec<3> normal = between * (1 / gap);
     double beyond = std::min(dot(normal, s.from), dot(normal, s.to));
     for (int i = 0; i < 3; ++i) beyond -= std::abs(normal[i]) * s.half[i];
-    if (!(gap - beyond <= relative_tolerance * s.scale)) return false;
+    if (!(gap - beyond <= round3_tolerance * s.scale)) return false;
     set_result(box, segment, gap, normal, on_box, result);
     std::uint32_t fixed = 0, low = 0;
     for (int i = 0; i < 3; ++i) {

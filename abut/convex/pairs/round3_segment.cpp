@@ -4,10 +4,6 @@
 namespace abut {
 namespace {
 
-/// A smaller distance, relative to the largest coordinate, may have a direction that is rounding.
-constexpr double near = 1e-6;
-/// The tolerance of a proof, relative to the largest coordinate.
-constexpr double relative_tolerance = 1e-9;
 double part_of(double along, double whole) {
     return whole > 0 ? std::clamp(along / whole, 0.0, 1.0) : 0.0;
 }
@@ -24,7 +20,7 @@ Ends ends_at(double part) {
 DVec<3> across_both(const DVec<3>& u, const DVec<3>& v) {
     const DVec<3> across = cross(u, v);
     const double square = length_squared(across);
-    return square > near * length_squared(u) * length_squared(v) ? across / std::sqrt(square) : DVec<3>(0.0);
+    return square > min_round3_gap * length_squared(u) * length_squared(v) ? across / std::sqrt(square) : DVec<3>(0.0);
 }
 DVec<2> across_both(const DVec<2>&, const DVec<2>&) {
     return DVec<2>(0.0);
@@ -72,14 +68,14 @@ bool segment_point(const Convex<3>& segment, const Convex<3>& point, SignedDista
     DVec<3> on_segment = u * part, between = w - on_segment;
     double gap = length(between);
     const double scale = std::max(largest(u), largest(w));
-    if (!(gap > near * scale)) {
+    if (!(gap > min_round3_gap * scale)) {
         // Once more, relative to a nearer point.
         if (ends.first != ends.last) between -= u * (dot(between, u) / uu);
         gap = length(between);
         on_segment = w - between;
     }
     // For a point on the segment each direction orthogonal to it is a normal, and at an end the direction beyond it.
-    const bool outside = gap > relative_tolerance * scale;
+    const bool outside = gap > round3_tolerance * scale;
     result.normal = outside                   ? between * (1 / gap)
                     : ends.first != ends.last ? perpendicular(u)
                                               : normalized(part > 0 ? u : -u);
@@ -110,7 +106,7 @@ bool segment_segment(const Convex<D>& a, const Convex<D>& b, SignedDistance<D>& 
     const DVec<D> on_a = u * places.on_a, between = from + v * places.on_b - on_a;
     const double gap = length(between), scale = std::max({largest(u), largest(from), largest(to)});
     DVec<D> normal = between;
-    if (gap > near * scale) {
+    if (gap > min_round3_gap * scale) {
         normal = between * (1 / gap);
     } else {
         // The segments cross.
@@ -119,7 +115,7 @@ bool segment_segment(const Convex<D>& a, const Convex<D>& b, SignedDistance<D>& 
         if (dot(normal, between) < 0) normal = -normal;
     }
     const double proven = std::min(dot(normal, from), dot(normal, to)) - std::max(0.0, dot(normal, u));
-    if (!(gap - proven <= relative_tolerance * scale)) return false;
+    if (!(gap - proven <= round3_tolerance * scale)) return false;
 
     result.distance = gap - a.radius - b.radius;
     result.normal = normal;

@@ -5,10 +5,6 @@
 namespace abut {
 namespace {
 
-/// A smaller distance, relative to the largest coordinate, may have a direction that is rounding.
-constexpr double near = 1e-6;
-/// The tolerance of a proof, relative to the largest coordinate.
-constexpr double relative_tolerance = 1e-9;
 /// Slivers, whose edges enclose no sine above a thousandth, are left to the general algorithms.
 constexpr double min_sine_squared = 1e-6;
 
@@ -90,7 +86,7 @@ void set_result(const SeenTriangle& t, const Convex<3>& triangle, const Convex<3
 }
 
 /// A direction out of the triangle with the separation of triangle and segment along it.
-struct SeparatingDirection {
+struct TriangleDirection {
     double separation;
     DVec<3> out;
     std::uint32_t from = 0, to = 0;  ///< the edge of the triangle; equal: its face
@@ -98,10 +94,10 @@ struct SeparatingDirection {
 
 /// The direction of minimum depth among all face normals of the Minkowski difference: the triangle's normal, and the
 /// cross products of its edges with the segment.
-SeparatingDirection separating_direction(const SeenTriangle& t, const DVec<3>& p, const DVec<3>& q, double scale) {
+TriangleDirection separating_direction(const SeenTriangle& t, const DVec<3>& p, const DVec<3>& q, double scale) {
     const double one = 1 / std::sqrt(t.square), at_p = dot(t.area, p) * one, at_q = dot(t.area, q) * one;
     const double above = std::min(at_p, at_q), below = -std::max(at_p, at_q);
-    SeparatingDirection best{std::max(above, below), t.area * (above >= below ? one : -one)};
+    TriangleDirection best{std::max(above, below), t.area * (above >= below ? one : -one)};
     const DVec<3> along = q - p;
     for (std::uint32_t i = 0; i < 3; ++i) {
         const std::uint32_t j = (i + 1) % 3, k = (i + 2) % 3;
@@ -111,7 +107,7 @@ SeparatingDirection separating_direction(const SeenTriangle& t, const DVec<3>& p
         const double inwards = dot(across, t.corners[k] - t.corners[i]);
         const DVec<3> out = across * ((inwards > 0 ? -1 : 1) / std::sqrt(square));
         const double separation = std::min(dot(out, p), dot(out, q)) - t.support_along(out);
-        if (separation > best.separation + relative_tolerance * scale) best = {separation, out, i, j};
+        if (separation > best.separation + round3_tolerance * scale) best = {separation, out, i, j};
     }
     return best;
 }
@@ -119,8 +115,8 @@ SeparatingDirection separating_direction(const SeenTriangle& t, const DVec<3>& p
 /// The cores overlap or nearly touch, with a gap of `gap`.
 bool deep_in_triangle(const SeenTriangle& t, const Convex<3>& triangle, const Convex<3>& segment, const DVec<3>& p,
                       const DVec<3>& q, double scale, double gap, SignedDistance<3>& result) {
-    const SeparatingDirection direction = separating_direction(t, p, q, scale);
-    if (direction.separation > 0 && gap - direction.separation > relative_tolerance * scale) return false;
+    const TriangleDirection direction = separating_direction(t, p, q, scale);
+    if (direction.separation > 0 && gap - direction.separation > round3_tolerance * scale) return false;
     if (direction.from == direction.to) {
         const std::uint32_t end = dot(direction.out, q) < dot(direction.out, p) ? 1 : 0;
         const DVec<3>& deepest = end == 0 ? p : q;
@@ -135,7 +131,7 @@ bool deep_in_triangle(const SeenTriangle& t, const Convex<3>& triangle, const Co
     const SegmentParameters places = closest_parameters(edge, along, corner - p);
     const Place place = on_edge(t, direction.from, direction.to, places.on_a);
     if (largest(p + along * places.on_b - place.point - direction.out * direction.separation) >
-        relative_tolerance * scale)
+        round3_tolerance * scale)
         return false;
     name_corners(place, places.on_b >= 1 ? 1 : 0, places.on_b <= 0 ? 0 : 1, result.corners);
     set_result(t, triangle, segment, direction.separation, direction.out, place.point, result);
@@ -159,9 +155,9 @@ bool triangle_point(const Convex<3>& triangle, const Convex<3>& point, SignedDis
     }
     const DVec<3> between = seen - place.point;
     const double gap = length(between), scale = std::max({largest(t.corners[1]), largest(t.corners[2]), largest(seen)});
-    if (!(gap > near * scale)) return false;
+    if (!(gap > min_round3_gap * scale)) return false;
     const DVec<3> normal = between * (1 / gap);
-    if (!(dot(normal, place.point) >= t.support_along(normal) - relative_tolerance * scale)) return false;
+    if (!(dot(normal, place.point) >= t.support_along(normal) - round3_tolerance * scale)) return false;
     name_corners(place, 0, 0, result.corners);
     set_result(t, triangle, point, gap, normal, place.point, result);
     return true;
@@ -230,10 +226,10 @@ bool triangle_segment(const Convex<3>& triangle, const Convex<3>& segment, Signe
     const Place place = on_edge(t, nearest, (nearest + 1) % 3, best.on_a);
     const DVec<3> between = p + along * best.on_b - place.point;
     const double gap = length(between);
-    if (!(gap > near * scale)) return deep_in_triangle(t, triangle, segment, p, q, scale, gap, result);
+    if (!(gap > min_round3_gap * scale)) return deep_in_triangle(t, triangle, segment, p, q, scale, gap, result);
     const DVec<3> normal = between * (1 / gap);
     const double proven = std::min(dot(normal, p), dot(normal, q)) - t.support_along(normal);
-    if (!(gap - proven <= relative_tolerance * scale)) return false;
+    if (!(gap - proven <= round3_tolerance * scale)) return false;
     name_corners(place, best.on_b >= 1 ? 1 : 0, best.on_b <= 0 ? 0 : 1, result.corners);
     set_result(t, triangle, segment, gap, normal, place.point, result);
     return true;

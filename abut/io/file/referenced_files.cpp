@@ -1,5 +1,6 @@
 #include <abut/io/file/read_file.hpp>
 #include <abut/io/file/referenced_files.hpp>
+#include <abut/io/file/scanner.hpp>
 
 #include <algorithm>
 #include <system_error>
@@ -12,10 +13,6 @@ constexpr std::string_view outside_text = "lies outside of the file's folder";
 
 bool is_separator(char c) {
     return c == '/' || c == '\\';
-}
-
-bool is_letter(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
 // The scheme of a URI, without the colon. A single letter is a Windows drive and no scheme.

@@ -4,9 +4,18 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace abut {
+
+/// Whether the character is an ASCII letter.
+inline bool is_letter(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
+/// The text with its ASCII letters in lower case.
+std::string lower_case(std::string text);
 
 /// Reads numbers, flags and words from left to right and skips blanks and commas between them.
 class Scanner {

@@ -144,7 +144,7 @@ Result<std::span<const std::byte>> AccessorReader::buffer(std::uint32_t index) {
 Result<AccessorReader::Elements> AccessorReader::elements(std::uint32_t view_index, std::uint64_t offset,
                                                           std::uint64_t count, std::uint64_t size) {
     const BufferView& view = document_.views[view_index];
-    if (view.buffer == none)
+    if (view.buffer == no_index)
         return Problem{ProblemCode::bad_format, text("bufferViews", view_index) + ".buffer: an index was expected"};
     const Result<std::span<const std::byte>> bytes = buffer(view.buffer);
     if (!bytes) return bytes.problem();
@@ -180,7 +180,7 @@ Result<std::vector<Number>> AccessorReader::read(std::uint32_t index, std::uint3
     };
 
     std::vector<Number> result;
-    if (accessor.view == none) {
+    if (accessor.view == no_index) {
         if (accessor.count > max_elements_without_data)
             return problem(ProblemCode::too_large, std::to_string(accessor.count) + " elements without data");
         result.resize(accessor.count * components);
@@ -194,7 +194,7 @@ Result<std::vector<Number>> AccessorReader::read(std::uint32_t index, std::uint3
     if (accessor.sparse_count == 0) return result;
 
     const std::uint64_t index_size = size_of(accessor.sparse_indices_component);
-    if (index_size == 0 || accessor.sparse_indices_view == none || accessor.sparse_values_view == none)
+    if (index_size == 0 || accessor.sparse_indices_view == no_index || accessor.sparse_values_view == no_index)
         return problem(ProblemCode::bad_format, "sparse: indices or values are missing");
     const Result<Elements> index_data =
         elements(accessor.sparse_indices_view, accessor.sparse_indices_offset, accessor.sparse_count, index_size);

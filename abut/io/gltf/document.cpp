@@ -40,9 +40,9 @@ std::string name_in(const Json& object) {
 }
 
 // Reads the JSON in one pass. Only the first error is recorded; invalid values are replaced by defaults until the end.
-class Reader {
+class DocumentReader {
 public:
-    explicit Reader(const Json& root) : root_(root) {}
+    explicit DocumentReader(const Json& root) : root_(root) {}
 
     Result<Document> read(std::span<const std::byte> binary);
 
@@ -90,7 +90,7 @@ private:
 };
 
 template <class Visit>
-void Reader::each(const char* array, Visit visit) {
+void DocumentReader::each(const char* array, Visit visit) {
     const Json* found = member(root_, array);
     if (found == nullptr) return;
     if (!found->is_array()) return fail(ProblemCode::bad_format, std::string(array) + ": an array was expected");
@@ -102,7 +102,7 @@ void Reader::each(const char* array, Visit visit) {
 }
 
 template <class Visit>
-void Reader::each_member(const Json& object, const char* key, const Where& where, Visit visit) {
+void DocumentReader::each_member(const Json& object, const char* key, const Where& where, Visit visit) {
     const Json* found = member(object, key);
     if (found == nullptr) return;
     if (!found->is_array()) return fail(where, key, "an array was expected");
@@ -110,7 +110,7 @@ void Reader::each_member(const Json& object, const char* key, const Where& where
 }
 
 // Accepts 3.0 for 3: some exporters write integers as floats.
-std::optional<std::uint64_t> Reader::unsigned_integer(const Json& value) {
+std::optional<std::uint64_t> DocumentReader::unsigned_integer(const Json& value) {
     if (value.is_number_unsigned()) return value.get<std::uint64_t>();
     if (!value.is_number_float()) return std::nullopt;
     const double number = value.get<double>();
@@ -119,8 +119,8 @@ std::optional<std::uint64_t> Reader::unsigned_integer(const Json& value) {
     return static_cast<std::uint64_t>(number);
 }
 
-std::uint64_t Reader::unsigned_integer(const Json& object, const char* key, std::uint64_t default_value,
-                                       const Where& where) {
+std::uint64_t DocumentReader::unsigned_integer(const Json& object, const char* key, std::uint64_t default_value,
+                                               const Where& where) {
     const Json* value = member(object, key);
     if (value == nullptr) return default_value;
     const std::optional<std::uint64_t> number = unsigned_integer(*value);
@@ -128,13 +128,13 @@ std::uint64_t Reader::unsigned_integer(const Json& object, const char* key, std:
     return number.value_or(default_value);
 }
 
-std::uint32_t Reader::type_number(const Json& object, const char* key, std::uint32_t default_value,
-                                  const Where& where) {
+std::uint32_t DocumentReader::type_number(const Json& object, const char* key, std::uint32_t default_value,
+                                          const Where& where) {
     const std::uint64_t number = unsigned_integer(object, key, default_value, where);
-    return static_cast<std::uint32_t>(std::min<std::uint64_t>(number, none));
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>(number, no_index));
 }
 
-std::uint32_t Reader::index(const Json& value, std::size_t size, const Where& where, const char* key) {
+std::uint32_t DocumentReader::index(const Json& value, std::size_t size, const Where& where, const char* key) {
     const std::optional<std::uint64_t> number = unsigned_integer(value);
     if (!number) {
         fail(where, key, "a whole number was expected");
@@ -144,16 +144,16 @@ std::uint32_t Reader::index(const Json& value, std::size_t size, const Where& wh
     } else {
         return static_cast<std::uint32_t>(*number);
     }
-    return none;
+    return no_index;
 }
 
-std::uint32_t Reader::index(const Json& object, const char* key, const char* array, const Where& where) {
+std::uint32_t DocumentReader::index(const Json& object, const char* key, const char* array, const Where& where) {
     const Json* value = member(object, key);
-    return value == nullptr ? none : index(*value, count(array), where, key);
+    return value == nullptr ? no_index : index(*value, count(array), where, key);
 }
 
 template <int N>
-bool Reader::numbers(const Json& object, const char* key, double (&out)[N], const Where& where) {
+bool DocumentReader::numbers(const Json& object, const char* key, double (&out)[N], const Where& where) {
     const Json* value = member(object, key);
     if (value == nullptr) return false;
     if (!value->is_array() || value->size() != N) {
@@ -171,7 +171,7 @@ bool Reader::numbers(const Json& object, const char* key, double (&out)[N], cons
     return true;
 }
 
-void Reader::read_version() {
+void DocumentReader::read_version() {
     const Json* asset = member(root_, "asset");
     const Json* version = asset == nullptr ? nullptr : member(*asset, "version");
     const Json* nodes = member(root_, "nodes");
@@ -186,7 +186,7 @@ void Reader::read_version() {
     }
 }
 
-void Reader::read_buffers() {
+void DocumentReader::read_buffers() {
     each("buffers", [&](const Json& json, const Where& where) {
         Buffer buffer;
         buffer.length = unsigned_integer(json, "byteLength", 0, where);
@@ -208,7 +208,7 @@ void Reader::read_buffers() {
     });
 }
 
-void Reader::read_sparse(const Json& json, Accessor& accessor, const Where& where) {
+void DocumentReader::read_sparse(const Json& json, Accessor& accessor, const Where& where) {
     const Json* sparse = member(json, "sparse");
     if (sparse == nullptr) return;
     const Json* indices = member(*sparse, "indices");
@@ -222,7 +222,7 @@ void Reader::read_sparse(const Json& json, Accessor& accessor, const Where& wher
     accessor.sparse_values_offset = unsigned_integer(*values, "byteOffset", 0, where);
 }
 
-void Reader::read_accessors() {
+void DocumentReader::read_accessors() {
     static constexpr std::pair<std::string_view, std::uint32_t> types[] = {
         {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}};
     each("accessors", [&](const Json& json, const Where& where) {
@@ -242,7 +242,7 @@ void Reader::read_accessors() {
     });
 }
 
-void Reader::read_meshes() {
+void DocumentReader::read_meshes() {
     each("meshes", [&](const Json& json, const Where& where) {
         Mesh mesh;
         mesh.name = name_in(json);
@@ -263,12 +263,12 @@ void Reader::read_meshes() {
     });
 }
 
-void Reader::read_nodes() {
+void DocumentReader::read_nodes() {
     each("nodes", [&](const Json& json, const Where& where) {
         Node node;
         node.name = name_in(json);
         node.mesh = index(json, "mesh", "meshes", where);
-        node.skinned = index(json, "skin", "skins", where) != none;
+        node.skinned = index(json, "skin", "skins", where) != no_index;
         const Json* extensions = member(json, "extensions");
         node.instanced = extensions != nullptr && member(*extensions, "EXT_mesh_gpu_instancing") != nullptr;
         each_member(json, "children", where, [&](const Json& child) {
@@ -288,7 +288,7 @@ void Reader::read_nodes() {
 }
 
 // Version 1 refers to objects by name and not by index.
-void Reader::read_version_1_nodes() {
+void DocumentReader::read_version_1_nodes() {
     const Json* nodes = member(root_, "nodes");
     if (nodes == nullptr || !nodes->is_object()) return;
     std::map<std::string, std::uint32_t> numbers_of;
@@ -307,7 +307,7 @@ void Reader::read_version_1_nodes() {
     }
 }
 
-void Reader::read_animations() {
+void DocumentReader::read_animations() {
     each("animations", [&](const Json& json, const Where& where) {
         Animation animation;
         animation.name = name_in(json);
@@ -343,12 +343,12 @@ void Reader::read_animations() {
 }
 
 // Verifies that the nodes form a forest.
-void Reader::check_tree() {
+void DocumentReader::check_tree() {
     const std::vector<Node>& nodes = document_.nodes;
-    parents_.assign(nodes.size(), none);
+    parents_.assign(nodes.size(), no_index);
     for (std::uint32_t i = 0; i < nodes.size(); ++i)
         for (const std::uint32_t child : nodes[i].children) {
-            if (parents_[child] != none)
+            if (parents_[child] != no_index)
                 return fail(ProblemCode::bad_format, "node tree: " + name_of(document_, child) + " has two parents, " +
                                                          name_of(document_, parents_[child]) + " and " +
                                                          name_of(document_, i));
@@ -357,7 +357,7 @@ void Reader::check_tree() {
     // Every node has at max_exact one parent, so what can't be reached from a root goes round in a unvisited.
     std::vector<std::uint32_t> stack;
     for (std::uint32_t i = 0; i < nodes.size(); ++i)
-        if (parents_[i] == none) stack.push_back(i);
+        if (parents_[i] == no_index) stack.push_back(i);
     std::vector<bool> seen(nodes.size(), false);
     while (!stack.empty()) {
         const std::uint32_t node = stack.back();
@@ -373,11 +373,11 @@ void Reader::check_tree() {
 }
 
 // Collects the roots of the default scene. A node listed together with one of its ancestors is no root.
-void Reader::read_roots() {
+void DocumentReader::read_roots() {
     std::vector<bool> listed(document_.nodes.size(), false);
     const Json* scenes = member(root_, "scenes");
     if (scenes == nullptr || scenes->empty()) {
-        for (std::size_t i = 0; i < listed.size(); ++i) listed[i] = parents_[i] == none;
+        for (std::size_t i = 0; i < listed.size(); ++i) listed[i] = parents_[i] == no_index;
     } else {
         const Json* scene = member(root_, "scene");
         const std::size_t shown = scene == nullptr ? 0 : index(*scene, scenes->size(), {"scene", 0}, "scene");
@@ -386,19 +386,19 @@ void Reader::read_roots() {
             if (i++ != shown) return;
             each_member(json, "nodes", where, [&](const Json& node) {
                 const std::uint32_t root = index(node, listed.size(), where, "nodes");
-                if (root != none) listed[root] = true;
+                if (root != no_index) listed[root] = true;
             });
         });
     }
     for (std::uint32_t i = 0; i < listed.size(); ++i) {
         bool has_listed_ancestor = false;
-        for (std::uint32_t ancestor = parents_[i]; ancestor != none; ancestor = parents_[ancestor])
+        for (std::uint32_t ancestor = parents_[i]; ancestor != no_index; ancestor = parents_[ancestor])
             has_listed_ancestor = has_listed_ancestor || listed[ancestor];
         if (listed[i] && !has_listed_ancestor) document_.roots.push_back(i);
     }
 }
 
-Result<Document> Reader::read(std::span<const std::byte> binary) {
+Result<Document> DocumentReader::read(std::span<const std::byte> binary) {
     document_.binary = binary;
     read_version();
     if (document_.version == 1) {
@@ -445,7 +445,7 @@ Result<Document> parse(std::span<const std::byte> bytes, bool binary_container) 
     const Result<Json> json = parse_json(container.json);
     if (!json) return json.problem();
     if (!json->is_object()) return Problem{ProblemCode::bad_format, "JSON: an object was expected"};
-    return Reader(*json).read(container.binary);
+    return DocumentReader(*json).read(container.binary);
 }
 
 std::string name_of(const Document& document, std::uint32_t node) {

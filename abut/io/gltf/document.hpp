@@ -3,6 +3,7 @@
 // The JSON document of a glTF file as plain structs, reduced to what collision detection needs.
 // glTF 2.0 specification, https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html
 
+#include <abut/math/no_index.hpp>
 #include <abut/math/result.hpp>
 
 #include <cstddef>
@@ -19,22 +20,20 @@
 namespace abut::gltf {
 
 /// An absent index.
-inline constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-
 struct Buffer {
     std::string uri;  ///< empty: the binary chunk of a .glb
     std::uint64_t length = 0;
 };
 
 struct BufferView {
-    std::uint32_t buffer = none;
+    std::uint32_t buffer = no_index;
     std::uint64_t offset = 0;
     std::uint64_t length = 0;
     std::uint64_t stride = 0;  ///< 0: tightly packed
 };
 
 struct Accessor {
-    std::uint32_t view = none;
+    std::uint32_t view = no_index;
     std::uint64_t offset = 0;
     std::uint64_t count = 0;
     std::uint32_t component = 0;   ///< 5120..5126: the specification's component type
@@ -42,17 +41,17 @@ struct Accessor {
     bool normalized = false;
 
     std::uint64_t sparse_count = 0;
-    std::uint32_t sparse_indices_view = none;
+    std::uint32_t sparse_indices_view = no_index;
     std::uint64_t sparse_indices_offset = 0;
     std::uint32_t sparse_indices_component = 0;
-    std::uint32_t sparse_values_view = none;
+    std::uint32_t sparse_values_view = no_index;
     std::uint64_t sparse_values_offset = 0;
 };
 
 struct Primitive {
-    std::uint32_t positions = none;
-    std::uint32_t normals = none;
-    std::uint32_t indices = none;
+    std::uint32_t positions = no_index;
+    std::uint32_t normals = no_index;
+    std::uint32_t indices = no_index;
     std::uint32_t mode = 4;
     bool draco = false;  ///< compressed with KHR_draco_mesh_compression
 };
@@ -66,7 +65,7 @@ struct Mesh {
 struct Node {
     std::string name;
     std::vector<std::uint32_t> children;
-    std::uint32_t mesh = none;
+    std::uint32_t mesh = no_index;
     bool skinned = false;
     bool instanced = false;  ///< drawn several times by EXT_mesh_gpu_instancing
     bool has_matrix = false;
@@ -79,16 +78,16 @@ struct Node {
 enum class Target : std::uint8_t { translation, rotation, scale, weights };
 
 struct Channel {
-    std::uint32_t sampler = none;
-    std::uint32_t node = none;
+    std::uint32_t sampler = no_index;
+    std::uint32_t node = no_index;
     Target target = Target::translation;
 };
 
 enum class Curve : std::uint8_t { linear, step, cubic };
 
 struct Sampler {
-    std::uint32_t input = none;
-    std::uint32_t output = none;
+    std::uint32_t input = no_index;
+    std::uint32_t output = no_index;
     Curve curve = Curve::linear;
 };
 

@@ -37,13 +37,13 @@ std::vector<glm::uvec3> assemble(const std::vector<std::uint32_t>& indices, std:
     return triangles;
 }
 
-class Reader {
+class SceneReader {
 public:
-    Reader(const Document& document, const std::filesystem::path& folder, const ReadOptions& options)
+    SceneReader(const Document& document, const std::filesystem::path& folder, const ReadOptions& options)
         : document_(document),
           data_(document, ReferencedFiles(folder, options.allow_outside)),
           with_normals_(options.normals),
-          scene_node_(document.nodes.size(), none) {}
+          scene_node_(document.nodes.size(), no_index) {}
 
     Result<Scene> read();
 
@@ -70,12 +70,12 @@ private:
     std::map<std::uint32_t, std::vector<std::uint32_t>> geometries_of_mesh_;
 };
 
-std::string Reader::title(const Animation& animation) const {
+std::string SceneReader::title(const Animation& animation) const {
     const auto place = static_cast<std::size_t>(&animation - document_.animations.data());
     return animation.name.empty() ? "animation " + std::to_string(place) : "animation '" + animation.name + "'";
 }
 
-Result<std::vector<Vec3>> Reader::read_vectors(std::uint32_t accessor) {
+Result<std::vector<Vec3>> SceneReader::read_vectors(std::uint32_t accessor) {
     const Result<std::vector<double>> numbers = data_.numbers(accessor, 3);
     if (!numbers) return numbers.problem();
     std::vector<Vec3> result(numbers->size() / 3);
@@ -84,7 +84,7 @@ Result<std::vector<Vec3>> Reader::read_vectors(std::uint32_t accessor) {
     return result;
 }
 
-Result<Geometry> Reader::read_primitive(const Primitive& primitive, std::string name) {
+Result<Geometry> SceneReader::read_primitive(const Primitive& primitive, std::string name) {
     Geometry geometry{std::move(name), {}, {}};
     const auto problem = [&](const Problem& from) {
         return Problem{from.code, "mesh '" + geometry.name + "': " + from.message};
@@ -92,7 +92,7 @@ Result<Geometry> Reader::read_primitive(const Primitive& primitive, std::string 
     Result<std::vector<Vec3>> points = read_vectors(primitive.positions);
     if (!points) return problem(points.problem());
     geometry.points = *std::move(points);
-    if (with_normals_ && primitive.normals != none) {
+    if (with_normals_ && primitive.normals != no_index) {
         Result<std::vector<Vec3>> normals = read_vectors(primitive.normals);
         if (!normals) return problem(normals.problem());
         geometry.normals = *std::move(normals);
@@ -100,7 +100,7 @@ Result<Geometry> Reader::read_primitive(const Primitive& primitive, std::string 
 
     std::vector<std::uint32_t> indices(geometry.points.size());
     for (std::uint32_t i = 0; i < indices.size(); ++i) indices[i] = i;
-    if (primitive.indices != none) {
+    if (primitive.indices != no_index) {
         Result<std::vector<std::uint32_t>> from_file = data_.indices(primitive.indices);
         if (!from_file) return problem(from_file.problem());
         indices = *std::move(from_file);
@@ -110,7 +110,7 @@ Result<Geometry> Reader::read_primitive(const Primitive& primitive, std::string 
 }
 
 // Returns the geometries of a mesh, one per triangle primitive.
-Result<std::vector<std::uint32_t>> Reader::read_mesh(std::uint32_t index) {
+Result<std::vector<std::uint32_t>> SceneReader::read_mesh(std::uint32_t index) {
     const auto known = geometries_of_mesh_.find(index);
     if (known != geometries_of_mesh_.end()) return known->second;
     const Mesh& mesh = document_.meshes[index];
@@ -120,7 +120,7 @@ Result<std::vector<std::uint32_t>> Reader::read_mesh(std::uint32_t index) {
     std::vector<std::uint32_t> geometries;
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
         const Primitive& primitive = mesh.primitives[i];
-        if (primitive.positions == none) continue;
+        if (primitive.positions == no_index) continue;
         if (primitive.mode > triangle_fan)
             return Problem{ProblemCode::bad_format,
                            "mesh '" + name + "': unknown primitive mode " + std::to_string(primitive.mode)};
@@ -138,7 +138,7 @@ Result<std::vector<std::uint32_t>> Reader::read_mesh(std::uint32_t index) {
     return geometries;
 }
 
-std::optional<Problem> Reader::read_nodes() {
+std::optional<Problem> SceneReader::read_nodes() {
     struct StackEntry {
         std::uint32_t node;
         std::uint32_t parent;
@@ -157,7 +157,7 @@ std::optional<Problem> Reader::read_nodes() {
                                      : glm::scale(glm::translate(glm::dmat4(1.0), from.translation) *
                                                       glm::mat4_cast(glm::normalize(from.rotation)),
                                                   from.scale);
-        if (from.mesh != none) {
+        if (from.mesh != no_index) {
             Result<std::vector<std::uint32_t>> geometries = read_mesh(from.mesh);
             if (!geometries) return geometries.problem();
             node.geometries = *std::move(geometries);
@@ -188,9 +188,9 @@ std::vector<Value> values_of(const std::vector<double>& numbers) {
 }
 
 template <class Value, int N>
-Result<KeyTrack<Value>> Reader::read_track(const Sampler& sampler, const std::string& where) {
+Result<KeyTrack<Value>> SceneReader::read_track(const Sampler& sampler, const std::string& where) {
     const auto problem = [&](const Problem& from) { return Problem{from.code, where + ": " + from.message}; };
-    if (sampler.input == none || sampler.output == none)
+    if (sampler.input == no_index || sampler.output == no_index)
         return Problem{ProblemCode::bad_format, where + ": times or values are missing"};
     Result<std::vector<double>> times = data_.numbers(sampler.input, 1);
     if (!times) return problem(times.problem());
@@ -218,14 +218,15 @@ Result<KeyTrack<Value>> Reader::read_track(const Sampler& sampler, const std::st
     return track;
 }
 
-std::optional<Problem> Reader::read_animation(const Animation& from) {
+std::optional<Problem> SceneReader::read_animation(const Animation& from) {
     abut::Animation animation;
     animation.name = from.name;
     std::map<std::uint32_t, std::size_t> motion_of_node;
     for (const Channel& channel : from.channels) {
         if (channel.target == Target::weights)
             warn_once("morph targets are left out: such meshes are taken in their base shape");
-        if (channel.target == Target::weights || channel.node == none || scene_node_[channel.node] == none) continue;
+        if (channel.target == Target::weights || channel.node == no_index || scene_node_[channel.node] == no_index)
+            continue;
         const std::uint32_t node = scene_node_[channel.node];
         const auto [place, is_new] = motion_of_node.try_emplace(node, animation.motions.size());
         if (is_new) animation.motions.push_back({.node = node, .translation = {}, .rotation = {}, .scale = {}});
@@ -251,7 +252,7 @@ std::optional<Problem> Reader::read_animation(const Animation& from) {
     return std::nullopt;
 }
 
-Result<Scene> Reader::read() {
+Result<Scene> SceneReader::read() {
     for (const std::string& extension : document_.required_extensions) {
         if (extension.find("meshopt_compression") != std::string::npos)
             return Problem{ProblemCode::bad_format, "needs the extension " + extension + ", which can't be read"};
@@ -275,7 +276,7 @@ bool is_supported(const Document& document) {
 }
 
 Result<Scene> read_gltf(const Document& document, const std::filesystem::path& folder, const ReadOptions& options) {
-    return Reader(document, folder, options).read();
+    return SceneReader(document, folder, options).read();
 }
 
 }  // namespace abut::gltf

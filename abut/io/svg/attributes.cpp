@@ -5,16 +5,15 @@
 #include <abut/math/sin_cos.hpp>
 
 #include <array>
+#include <numbers>
 #include <span>
 #include <string>
 
 namespace abut::svg {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 double tangent(double degrees) {
-    const SinCos at = sin_cos(degrees * (pi / 180));
+    const SinCos at = sin_cos(degrees * (std::numbers::pi / 180));
     return at.sin / at.cos;
 }
 

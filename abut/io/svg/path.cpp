@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -15,7 +16,6 @@ namespace {
 
 using Point = DVec<2>;
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double default_tolerance = 1e-3;
 constexpr double max_segments = 4096;
 constexpr std::size_t max_points = std::size_t{1} << 22;
@@ -150,8 +150,8 @@ void PathFlattener::arc_to(Point radii, double degrees, bool large, bool sweep, 
     const Point from = chord - centre, until = -chord - centre;
     const double first = angle_of(from.x, from.y);
     double angle = angle_of(until.x, until.y) - first;
-    if (sweep && angle <= 0) angle += 2 * pi;
-    if (!sweep && angle >= 0) angle -= 2 * pi;
+    if (sweep && angle <= 0) angle += 2 * std::numbers::pi;
+    if (!sweep && angle >= 0) angle -= 2 * std::numbers::pi;
 
     const Point middle = 0.5 * (at_ + to);
     const double radius = std::max(radii.x, radii.y);

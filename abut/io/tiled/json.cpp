@@ -12,8 +12,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int max_property_depth = 16;
-
 const Json& member(const Json& object, const char* key) {
     static const Json nothing;
     if (!object.is_object()) return nothing;

@@ -89,5 +89,6 @@ inline constexpr std::uint32_t all_flips = flip_x | flip_y | flip_diagonal | hex
 inline constexpr std::uint64_t max_tiles = std::uint64_t{1} << 26;  ///< per map, over all layers
 inline constexpr std::size_t max_objects = std::size_t{1} << 20;
 inline constexpr int max_group_depth = 64;
+inline constexpr int max_property_depth = 16;
 
 }  // namespace abut::tiled

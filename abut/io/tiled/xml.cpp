@@ -12,8 +12,6 @@ namespace {
 using pugi::xml_node;
 using std::string_view_literals::operator""sv;
 
-constexpr int max_property_depth = 16;
-
 class XmlFields final : public Fields {
 public:
     XmlFields(const Xml& xml, const xml_node& node) : xml_(xml), node_(node) {}

@@ -1,5 +1,6 @@
 #include <abut/math/coincident.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/math/no_index.hpp>
 #include <abut/shape/weld.hpp>
 
 #include <algorithm>
@@ -13,8 +14,6 @@
 
 namespace abut {
 namespace {
-
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 /// A cell of a uniform hash grid, by its integer coordinates.
 using Cell = std::array<double, 3>;
@@ -37,21 +36,21 @@ public:
         : points_(points),
           distance_(distance),
           edge_(std::max(1.0001 * distance, min_edge)),
-          next_(points.size(), none) {}
+          next_(points.size(), no_index) {}
 
     /// The nearest point within the distance, the first of equals; `none` if there is none.
     std::uint32_t nearest(std::uint32_t point) const {
         const DVec<3> at(points_[point]);
         const Cell middle = cell_of(at);
-        std::uint32_t best = none;
+        std::uint32_t best = no_index;
         double best_distance = 0;
         for (int i = 0; i < 27; ++i) {
             const auto found =
                 first_.find({middle[0] + (i % 3 - 1), middle[1] + (i / 3 % 3 - 1), middle[2] + (i / 9 - 1)});
             if (found == first_.end()) continue;
-            for (std::uint32_t other = found->second; other != none; other = next_[other]) {
+            for (std::uint32_t other = found->second; other != no_index; other = next_[other]) {
                 const double gap = length(DVec<3>(points_[other]) - at);
-                if (gap > distance_ || (best != none && std::tie(best_distance, best) <= std::tie(gap, other)))
+                if (gap > distance_ || (best != no_index && std::tie(best_distance, best) <= std::tie(gap, other)))
                     continue;
                 best = other;
                 best_distance = gap;
@@ -91,7 +90,7 @@ std::vector<std::uint32_t> representatives(std::span<const Vec3> points, double 
             continue;
         }
         const std::uint32_t nearest = grid.nearest(i);
-        if (nearest == none)
+        if (nearest == no_index)
             grid.insert(i);
         else
             result[i] = nearest;
@@ -107,11 +106,11 @@ Welded weld(std::span<const Vec3> points, std::span<const glm::uvec3> triangles)
 
 Welded weld(std::span<const Vec3> points, std::span<const glm::uvec3> triangles, double distance) {
     const std::vector<std::uint32_t> representative = representatives(points, distance);
-    std::vector<std::uint32_t> number(points.size(), none);
+    std::vector<std::uint32_t> number(points.size(), no_index);
     Welded result;
     const auto use = [&](std::uint32_t corner) {
         const std::uint32_t point = representative[corner];
-        if (number[point] == none) {
+        if (number[point] == no_index) {
             number[point] = static_cast<std::uint32_t>(result.points.size());
             result.points.push_back(points[point] + Vec3(0.0f));
         }

@@ -5,6 +5,7 @@
 #include <abut/math/aabb.hpp>
 #include <abut/math/dvec.hpp>
 #include <abut/math/function_ref.hpp>
+#include <abut/math/no_index.hpp>
 #include <abut/shape/half_space.hpp>
 #include <abut/shape/solid_bsp/parts.hpp>
 
@@ -14,7 +15,6 @@
 
 namespace abut {
 
-inline constexpr std::uint32_t no_index = 0xffffffffu;
 inline constexpr std::uint32_t solid_leaf = 0xfffffffeu, open_leaf = 0xfffffffdu;
 inline constexpr std::size_t solid_depth = 256;
 

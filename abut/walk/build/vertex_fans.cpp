@@ -1,4 +1,5 @@
 #include <abut/math/dvec.hpp>
+#include <abut/math/no_index.hpp>
 #include <abut/math/union_find.hpp>
 #include <abut/walk/build/vertex_fans.hpp>
 
@@ -44,9 +45,8 @@ std::vector<std::uint32_t> non_manifold_vertices(std::span<const glm::uvec3> tri
 }
 
 WalkNormals fan_normals(std::span<const Vec3> points, std::span<const glm::uvec3> triangles, const WalkLinks& links) {
-    constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
     UnionFind groups = vertex_fans(triangles, links, false);
-    std::vector<std::uint32_t> number(3 * triangles.size(), none);
+    std::vector<std::uint32_t> number(3 * triangles.size(), no_index);
     std::vector<DVec<3>> sums;
     WalkNormals result;
     result.of.resize(triangles.size());
@@ -55,7 +55,7 @@ WalkNormals fan_normals(std::span<const Vec3> points, std::span<const glm::uvec3
                                    DVec<3>(points[triangles[t].z])};
         for (std::uint32_t k = 0; k < 3; ++k) {
             const std::size_t fan = groups.find(3 * t + k);
-            if (number[fan] == none) {
+            if (number[fan] == no_index) {
                 number[fan] = static_cast<std::uint32_t>(sums.size());
                 sums.push_back(DVec<3>(0.0));
             }

@@ -1,3 +1,4 @@
+#include <abut/math/no_index.hpp>
 #include <abut/walk/path/search.hpp>
 #include <abut/walk/path/string_pulling.hpp>
 
@@ -10,8 +11,6 @@
 
 namespace abut {
 namespace {
-
-constexpr std::uint32_t none = 0xffffffffu;
 
 /// A triangle that the search has reached, in one or two cache lines.
 struct alignas(128) Node {
@@ -50,7 +49,7 @@ private:
 /// The search state of a triangle.
 struct Visited {
     double estimate = std::numeric_limits<double>::infinity();  ///< of the total cost of a path through it
-    std::uint32_t node = none;
+    std::uint32_t node = no_index;
     bool closed = false;
 };
 
@@ -91,7 +90,7 @@ public:
             const std::uint32_t entry = first_[now_];
             node = entries_[entry].node;
             first_[now_] = entries_[entry].next;
-            if (first_[now_] == none) filled_[word] &= filled_[word] - 1;
+            if (first_[now_] == no_index) filled_[word] &= filled_[word] - 1;
             entries_[entry].next = free_;
             free_ = entry;
             return true;
@@ -104,12 +103,12 @@ private:
     struct Entry {
         double estimate = 0;
         std::uint32_t node = 0;
-        std::uint32_t next = none;
+        std::uint32_t next = no_index;
     };
 
     void insert(std::uint32_t bucket, const Entry& entry) {
         std::uint32_t index = free_;
-        if (index == none) {
+        if (index == no_index) {
             index = static_cast<std::uint32_t>(entries_.size());
             entries_.push_back(entry);
         } else {
@@ -124,24 +123,24 @@ private:
         per_step_ *= 0.5;
         now_ >>= 1;
         for (std::uint32_t i = 0; i < buckets; ++i) {
-            const std::uint32_t first = 2 * i < buckets ? first_[2 * i] : none;
-            const std::uint32_t second = 2 * i < buckets ? first_[2 * i + 1] : none;
-            first_[i] = first == none ? second : first;
-            if (first != none && second != none) {
+            const std::uint32_t first = 2 * i < buckets ? first_[2 * i] : no_index;
+            const std::uint32_t second = 2 * i < buckets ? first_[2 * i + 1] : no_index;
+            first_[i] = first == no_index ? second : first;
+            if (first != no_index && second != no_index) {
                 std::uint32_t last = first;
-                while (entries_[last].next != none) last = entries_[last].next;
+                while (entries_[last].next != no_index) last = entries_[last].next;
                 entries_[last].next = second;
             }
         }
         filled_.fill(0);
         for (std::uint32_t i = 0; i < buckets; ++i)
-            if (first_[i] != none) filled_[i >> 6] |= std::uint64_t{1} << (i & 63);
+            if (first_[i] != no_index) filled_[i >> 6] |= std::uint64_t{1} << (i & 63);
     }
 
     double min_, per_step_;
     std::vector<Entry> entries_;
-    std::uint32_t free_ = none, now_ = 0;
-    std::vector<std::uint32_t> first_ = std::vector<std::uint32_t>(buckets, none);
+    std::uint32_t free_ = no_index, now_ = 0;
+    std::vector<std::uint32_t> first_ = std::vector<std::uint32_t>(buckets, no_index);
     std::array<std::uint64_t, words> filled_{};
 };
 
@@ -191,7 +190,7 @@ private:
         Node& node = nodes_.add();
         node = Node{};
         node.triangle = from_.triangle;
-        node.parent = none;
+        node.parent = no_index;
         // The start is treated as if entered over its first side.
         node.right = WalkFrame(walk).corner(1);
         node.tip = WalkFrame(walk).corner(2);
@@ -261,7 +260,7 @@ private:
         }
         if (!(estimate < visited.estimate)) return;
         visited.estimate = estimate;
-        if (visited.node == none) {
+        if (visited.node == no_index) {
             visited.node = nodes_.count();
             nodes_.add();
         }
@@ -307,7 +306,7 @@ private:
 
     WalkStrip strip(std::uint32_t last) {
         WalkStrip result{from_, to_, {}, {}, {}};
-        for (std::uint32_t i = last; nodes_[i].parent != none; i = nodes_[i].parent)
+        for (std::uint32_t i = last; nodes_[i].parent != no_index; i = nodes_[i].parent)
             result.sides.push_back({nodes_[nodes_[i].parent].triangle, nodes_[i].left_by});
         std::reverse(result.sides.begin(), result.sides.end());
         return result;

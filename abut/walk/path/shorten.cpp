@@ -8,12 +8,12 @@
 namespace abut {
 namespace {
 
-constexpr int max_rounds = 1000;
+constexpr int max_shortening_rounds = 1000;
 constexpr int max_passes = 64;
 /// Maximum number of triangles of a part for which flips around all adjacent corners are tried.
 constexpr std::uint32_t max_triangles_tried = 64;
 /// Smaller relative gains don't count.
-constexpr double min_gain = 1e-9;
+constexpr double min_shortening = 1e-9;
 
 void add_sides(const WalkMeshData& data, std::vector<WalkSide>& sides, const std::vector<WalkSide>& more,
                std::size_t first, std::size_t last) {
@@ -59,7 +59,7 @@ private:
     /// Flips the path around corners as long as this shortens it, as many at once as possible.
     void flip_corners() {
         FlipScope max_scope = FlipScope::run, scope = max_scope;
-        for (int round = 0; rules_.uniform_cost && round < max_rounds; ++round) {
+        for (int round = 0; rules_.uniform_cost && round < max_shortening_rounds; ++round) {
             next_.strip = emptied();
             const bool any = flip_all(next_.strip.sides, scope);
             if (any) string_puller_.pull(next_);
@@ -149,7 +149,7 @@ private:
         add_sides(rules_.data, strip.sides, sides_around_);
         add_sides(rules_.data, strip.sides, path_.strip.sides, corner.last + 1, part.last);
         const WalkTautPath& found = scratch.run(std::move(strip));
-        if (!(found.cost < cost * (1 - min_gain))) return false;
+        if (!(found.cost < cost * (1 - min_shortening))) return false;
         add_sides(rules_.data, result, found.strip.before);
         add_sides(rules_.data, result, found.strip.sides);
         add_sides(rules_.data, result, found.strip.after);

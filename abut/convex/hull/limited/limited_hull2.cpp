@@ -18,8 +18,8 @@
 namespace abut {
 namespace {
 
-constexpr int max_margins = 14;
-constexpr double first_margin = 0x1p-40;
+constexpr int max_margins2 = 14;
+constexpr double first_margin2 = 0x1p-40;
 
 template <class Point>
 double area_of(std::span<const Point> loop) {
@@ -42,9 +42,10 @@ std::optional<Hull2> hull_around(std::span<const Vec2> corners, std::span<const 
     return result;
 }
 
-class Search {
+class LimitedHull2Search {
 public:
-    Search(std::span<const Vec2> points, std::size_t limit, const Affine<2>& shown, const StretchedFrame<2>& frame)
+    LimitedHull2Search(std::span<const Vec2> points, std::size_t limit, const Affine<2>& shown,
+                       const StretchedFrame<2>& frame)
         : points_(points), limit_(limit), frame_(frame) {
         for (const Vec2& point : points) inner_.push_back(frame.from_world(DVec<2>(point)));
         offer_rectangle(shown);
@@ -111,11 +112,11 @@ private:
 
     std::optional<Hull2> rounded(std::span<const DVec<2>> loop) const {
         double margin = 0;
-        for (int i = 0; i < max_margins; ++i) {
+        for (int i = 0; i < max_margins2; ++i) {
             const std::optional<std::vector<Vec2>> corners = rounded_corners(loop, margin);
             if (!corners) return std::nullopt;
             if (std::optional<Hull2> result = hull_around(*corners, points_)) return result;
-            margin = margin == 0 ? first_margin : 8 * margin;
+            margin = margin == 0 ? first_margin2 : 8 * margin;
         }
         return std::nullopt;
     }
@@ -142,7 +143,7 @@ private:
 std::optional<Hull2> outline_of(std::span<const Vec2> hull_points, std::size_t limit, const Affine<2>& seen) {
     const std::optional<StretchedFrame<2>> frame = stretched_frame(hull_points, hull_points);
     if (!frame) return std::nullopt;
-    return Search(hull_points, limit, seen, *frame).smallest_rounded();
+    return LimitedHull2Search(hull_points, limit, seen, *frame).smallest_rounded();
 }
 
 Result<Hull2> limited_hull(std::span<const Vec2> points, const HullOptions& options) {

@@ -28,13 +28,13 @@ namespace {
 /// The tolerance of the surface, for a body of about size 1. The planes move outwards to all points at the end.
 constexpr double coarse = 0x1p-17;
 constexpr std::size_t few_corners = 32, very_few_corners = 16, box_corners = 32, pool_corners = 64;
-constexpr int tightening_rounds = 8, max_margins = 14;
-constexpr double first_margin = 0x1p-24;
+constexpr int tightening_rounds = 8, max_margins3 = 14;
+constexpr double first_margin3 = 0x1p-24;
 
 /// Searches for the smallest of several surfaces around one body.
-class Search {
+class LimitedHull3Search {
 public:
-    Search(std::vector<Vec3> points, std::size_t limit, const StretchedFrame<3>& frame)
+    LimitedHull3Search(std::vector<Vec3> points, std::size_t limit, const StretchedFrame<3>& frame)
         : points_(std::move(points)), limit_(limit), frame_(frame) {
         for (const Vec3& point : points_) seen_.push_back(frame.from_world(DVec<3>(point)));
     }
@@ -190,11 +190,11 @@ private:
 
     std::optional<Hull3> rounded(const OuterHull& mesh) const {
         double margin = 0;
-        for (int i = 0; i < max_margins; ++i) {
+        for (int i = 0; i < max_margins3; ++i) {
             const std::optional<std::vector<Vec3>> corners = rounded_corners(mesh, margin);
             if (!corners) return std::nullopt;
             if (std::optional<Hull3> result = hull_in_frame(*corners, points_, frame_)) return result;
-            margin = margin == 0 ? first_margin : 4 * margin;
+            margin = margin == 0 ? first_margin3 : 4 * margin;
         }
         return std::nullopt;
     }
@@ -236,7 +236,7 @@ std::optional<Hull3> limited_solid(const Hull3& full, std::span<const Vec3> poin
     sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
     const std::optional<StretchedFrame<3>> frame = stretched_frame(full.points, sorted);
     if (!frame) return std::nullopt;
-    return Search(std::move(sorted), limit, *frame).run();
+    return LimitedHull3Search(std::move(sorted), limit, *frame).run();
 }
 
 /// Coplanar points as pairs of the next floats below and above: a body as thick as rounding.

@@ -1,5 +1,6 @@
 #include <abut/convex/hull/limited/linear_program.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/math/no_index.hpp>
 
 #include <array>
 #include <cstddef>
@@ -7,14 +8,13 @@
 namespace abut {
 namespace {
 
-constexpr std::uint32_t none = 0xffffffffu;
 constexpr double far_away = 1e4, below = 1e-11, min_pivot = 1e-9;
 constexpr int max_steps = 100;
 
 /// The vertex of three planes, with the cost as a sum of their normals.
 struct Corner {
     std::array<Plane<3>, 3> planes;
-    std::array<std::uint32_t, 3> number{none, none, none};
+    std::array<std::uint32_t, 3> number{no_index, no_index, no_index};
     std::array<double, 3> weight{};
 
     /// x with normal[0] x[0] + normal[1] x[1] + normal[2] x[2] == v.
@@ -43,7 +43,7 @@ std::optional<DVec<3>> lowest_above(std::span<const Plane<3>> planes, const DVec
     }
     for (int step = 0; step < max_steps; ++step) {
         const DVec<3> p = corner.point();
-        std::uint32_t entering = none;
+        std::uint32_t entering = no_index;
         double depth = below * size;
         for (std::uint32_t i = 0; i < planes.size(); ++i) {
             const double under = planes[i].offset - dot(planes[i].normal, p);
@@ -52,9 +52,9 @@ std::optional<DVec<3>> lowest_above(std::span<const Plane<3>> planes, const DVec
                 entering = i;
             }
         }
-        if (entering == none) {
+        if (entering == no_index) {
             for (const std::uint32_t number : corner.number)
-                if (number == none) return std::nullopt;
+                if (number == no_index) return std::nullopt;
             return p;
         }
         const std::array<double, 3> parts = corner.parts(planes[entering].normal);

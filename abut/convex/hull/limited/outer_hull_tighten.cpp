@@ -10,7 +10,7 @@ namespace abut {
 namespace {
 
 constexpr int max_moves = 4, max_halvings = 5;
-constexpr double min_gain = 1e-4;
+constexpr double min_tightening_gain = 1e-4;
 
 }  // namespace
 
@@ -127,7 +127,7 @@ void OuterHull::tighten(const VertexGraph& inside, int rounds) {
                 if (!add_triangles(point)) break;
             }
         }
-        if (!(gain > min_gain * size * size * size)) return;
+        if (!(gain > min_tightening_gain * size * size * size)) return;
     }
 }
 
