@@ -1,6 +1,6 @@
 #pragma once
 
-// Boxes as the broad phases keep them. For .cpp files.
+// Boxes in the form that the broad phases store. For .cpp files.
 
 #include <abut/math/aabb.hpp>
 #include <abut/math/assert.hpp>
@@ -9,7 +9,7 @@
 
 namespace abut {
 
-/// The box itself, or Aabb::empty() where it holds nothing or has a NaN.
+/// Returns the box itself, or Aabb::empty() if it is empty or has a NaN. A NaN trips ABUT_ASSERT.
 template <int D>
 Aabb<D> usable(const Aabb<D>& box) {
     bool result = true;
@@ -20,7 +20,7 @@ Aabb<D> usable(const Aabb<D>& box) {
     return result ? box : Aabb<D>::empty();
 }
 
-/// Of a box from `usable`.
+/// Requires a box from `usable`.
 template <int D>
 bool is_empty(const Aabb<D>& box) {
     return !(box.min[0] <= box.max[0]);

@@ -1,10 +1,10 @@
-#include <abut/broad_phase/box_hits.hpp>
 #include <abut/broad_phase/boxes.hpp>
 #include <abut/broad_phase/brute_force.hpp>
 #include <abut/broad_phase/concept.hpp>
-#include <abut/broad_phase/pair_buffer.hpp>
+#include <abut/broad_phase/detail/box_overlaps.hpp>
+#include <abut/broad_phase/detail/pair_buffer.hpp>
+#include <abut/broad_phase/detail/parallel.hpp>
 #include <abut/broad_phase/reach.hpp>
-#include <abut/broad_phase/tell_together.hpp>
 #include <abut/math/assert.hpp>
 
 #include <algorithm>
@@ -13,17 +13,18 @@
 namespace abut {
 namespace {
 
-/// False where the visitor has had enough.
-bool add_hits(std::span<const BoxHits> hits, PairBuffer& pairs) {
-    for (const BoxHits& hit : hits)
-        for (std::uint32_t bits = hit.bits; bits != 0; bits &= bits - 1)
-            if (!pairs.add(hit.box, hit.first + static_cast<std::uint32_t>(std::countr_zero(bits)))) return false;
+/// Returns false if the visitor stops the search.
+bool add_pairs(std::span<const BoxOverlaps> overlaps, PairBuffer& pairs) {
+    for (const BoxOverlaps& overlap : overlaps)
+        for (std::uint32_t bits = overlap.bits; bits != 0; bits &= bits - 1)
+            if (!pairs.add(overlap.box, overlap.first + static_cast<std::uint32_t>(std::countr_zero(bits))))
+                return false;
     return true;
 }
 
-/// Visits those of the boxes that overlap this one. Returns false where the visitor has had enough.
+/// Visits the boxes that overlap `box`. Returns false if the visitor stops the search.
 template <int D>
-bool visit_hits(const BoxRows<D>& boxes, std::size_t count, const Aabb<D>& box, ItemCall visit) {
+bool visit_overlaps(const BoxSoaView<D>& boxes, std::size_t count, const Aabb<D>& box, ItemCall visit) {
     for (std::size_t first = 0; first < count; first += 64) {
         std::uint64_t bits = overlap_bits(boxes, first, std::min<std::size_t>(count - first, 64), box);
         for (; bits != 0; bits &= bits - 1)
@@ -37,8 +38,8 @@ bool visit_hits(const BoxRows<D>& boxes, std::size_t count, const Aabb<D>& box, 
 
 template <int D>
 void BruteForce<D>::write(std::size_t index, const Aabb<D>& box) {
-    const Aabb<D> holds = usable(box);
-    boxes_.set(index, is_empty(holds) ? no_box<D>() : holds);
+    const Aabb<D> stored = usable(box);
+    boxes_.set(index, is_empty(stored) ? nan_box<D>() : stored);
 }
 
 template <int D>
@@ -59,7 +60,7 @@ template <int D>
 void BruteForce<D>::update(std::span<const Aabb<D>> boxes, Executor* executor) {
     ABUT_ASSERT(boxes.size() == size());
     if (boxes.size() != size()) return build(boxes, executor);
-    free_.keep_empty(boxes);
+    free_.remove_used(boxes);
     set_all(boxes);
 }
 
@@ -68,7 +69,7 @@ std::uint32_t BruteForce<D>::insert(const Aabb<D>& box) {
     const std::uint32_t index = free_.take(static_cast<std::uint32_t>(size_));
     if (index == size_) {
         ABUT_ASSERT(size_ + 1 < std::size_t{1} << 32);
-        if (size_ == boxes_.room()) boxes_.grow(2 * size_ + box_lanes, size_);
+        if (size_ == boxes_.capacity()) boxes_.grow(2 * size_ + box_lanes, size_);
         ++size_;
     }
     write(index, box);
@@ -79,7 +80,7 @@ template <int D>
 void BruteForce<D>::erase(std::uint32_t index) {
     ABUT_ASSERT(index < size());
     if (index >= size() || free_.contains(index)) return;
-    boxes_.set(index, no_box<D>());
+    boxes_.set(index, nan_box<D>());
     free_.add(index);
 }
 
@@ -93,7 +94,7 @@ bool BruteForce<D>::set(std::uint32_t index, const Aabb<D>& box) {
 template <int D>
 Aabb<D> BruteForce<D>::bounds() const {
     Aabb<D> result = Aabb<D>::empty();
-    const BoxRows<D> boxes = boxes_.rows();
+    const BoxSoaView<D> boxes = boxes_.view();
     for (std::size_t i = 0; i < size_; ++i)
         if (!is_empty(boxes[i])) result = merged(result, boxes[i]);
     return result;
@@ -101,40 +102,42 @@ Aabb<D> BruteForce<D>::bounds() const {
 
 template <int D>
 void BruteForce<D>::visit_pairs(PairsCall visit, Executor* executor) const {
-    const BoxRows<D> boxes = boxes_.rows();
-    const auto visit_from = [&](std::size_t first, std::size_t last, PairsCall told) {
-        PairBuffer pairs(told);
-        bool go_on = true;
-        const auto add = [&](std::span<const BoxHits> hits) { return go_on = go_on && add_hits(hits, pairs); };
-        each_hit(boxes, first, last, size_, add);
-        if (go_on) pairs.flush();
+    const BoxSoaView<D> boxes = boxes_.view();
+    const auto visit_from = [&](std::size_t first, std::size_t last, PairsCall report) {
+        PairBuffer pairs(report);
+        bool continues = true;
+        const auto add = [&](std::span<const BoxOverlaps> overlaps) {
+            return continues = continues && add_pairs(overlaps, pairs);
+        };
+        each_overlap(boxes, first, last, size_, add);
+        if (continues) pairs.flush();
     };
-    // Below this, starting a thread costs more than all there is to do.
-    constexpr std::size_t few = 512;
-    if (executor == nullptr || size_ < few) return visit_from(0, size_, visit);
-    // Box k meets those behind it: parts from both ends at once are of equal size.
+    // With fewer boxes, starting a thread costs more than the whole search.
+    constexpr std::size_t min_parallel_count = 512;
+    if (executor == nullptr || size_ < min_parallel_count) return visit_from(0, size_, visit);
+    // Box k is tested against the boxes after it. A task takes one range from each end, so that all tasks are equal.
     const std::size_t parts = std::min<std::size_t>(4 * std::size_t{executor->workers()}, size_ / 64),
                       halves = 2 * parts;
-    tell_together(*executor, static_cast<std::uint32_t>(parts), visit, [&](std::uint32_t part, PairsCall told) {
+    report_in_parallel(*executor, static_cast<std::uint32_t>(parts), visit, [&](std::uint32_t part, PairsCall report) {
         for (const std::size_t half : {std::size_t{part}, halves - 1 - part})
-            visit_from(size_ * half / halves, size_ * (half + 1) / halves, told);
+            visit_from(size_ * half / halves, size_ * (half + 1) / halves, report);
     });
 }
 
 template <int D>
 void BruteForce<D>::visit_pairs(const BruteForce& other, PairsCall visit) const {
-    const BoxRows<D> boxes = boxes_.rows(), others = other.boxes_.rows();
+    const BoxSoaView<D> boxes = boxes_.view(), others = other.boxes_.view();
     PairBuffer pairs(visit);
     for (std::uint32_t i = 0; i < size_; ++i) {
         const auto add = [&](std::uint32_t j) { return pairs.add(i, j); };
-        if (!visit_hits(others, other.size_, boxes[i], add)) return;
+        if (!visit_overlaps(others, other.size_, boxes[i], add)) return;
     }
     pairs.flush();
 }
 
 template <int D>
 void BruteForce<D>::visit_boxes(BoxCall<D> visit) const {
-    const BoxRows<D> boxes = boxes_.rows();
+    const BoxSoaView<D> boxes = boxes_.view();
     for (std::uint32_t i = 0; i < size_; ++i)
         if (!is_empty(boxes[i]) && !visit(i, boxes[i])) return;
 }
@@ -142,7 +145,7 @@ void BruteForce<D>::visit_boxes(BoxCall<D> visit) const {
 template <int D>
 void BruteForce<D>::visit_overlapping(const Aabb<D>& box, ItemCall visit) const {
     const Aabb<D> query = usable(box);
-    if (!is_empty(query)) visit_hits(boxes_.rows(), size_, query, visit);
+    if (!is_empty(query)) visit_overlaps(boxes_.view(), size_, query, visit);
 }
 
 template <int D>
@@ -163,8 +166,8 @@ void BruteForce<D>::visit_near(const Aabb<D>& box, float reach, ReachCall visit)
 template <int D>
 template <class Reach>
 void BruteForce<D>::visit_within(Reach reach, ReachCall visit) const {
-    const BoxRows<D> boxes = boxes_.rows();
-    for (std::uint32_t i = 0; i < size_ && !reach.over(); ++i) {
+    const BoxSoaView<D> boxes = boxes_.view();
+    for (std::uint32_t i = 0; i < size_ && !reach.is_exhausted(); ++i) {
         double measure = 0;
         if (!is_empty(boxes[i]) && reach.measure(boxes[i], measure)) reach.shrink(visit(i));
     }

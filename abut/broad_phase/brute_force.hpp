@@ -1,10 +1,11 @@
 #pragma once
 
-// Every box against every other: the oracle of the broad phases, and the best of them for a handful of boxes.
+// Brute force: tests every box against every other. It is the oracle of the broad phases, and the fastest for a handful
+// of boxes.
 
-#include <abut/broad_phase/box_table.hpp>
-#include <abut/broad_phase/face.hpp>
-#include <abut/broad_phase/free_items.hpp>
+#include <abut/broad_phase/detail/box_soa.hpp>
+#include <abut/broad_phase/detail/free_indices.hpp>
+#include <abut/broad_phase/detail/interface.hpp>
 #include <abut/math/aabb.hpp>
 #include <abut/math/executor.hpp>
 #include <abut/math/ray.hpp>
@@ -16,29 +17,29 @@
 
 namespace abut {
 
-/// A BroadPhase without a structure (concept.hpp tells what each function does). Visits in the order of the indices.
-/// Keeps a copy of the boxes, 16 of which are compared at a time: 24 bytes an item in 3D, 16 in 2D.
+/// A BroadPhase without a structure; concept.hpp documents its functions. It visits items in the order of their indices
+/// and tests 16 boxes at a time by SIMD. Memory: a copy of the boxes, 24 bytes an item in 3D, 16 in 2D.
 template <int D>
-class BruteForce : public BroadPhaseFace<BruteForce<D>, D> {
+class BruteForce : public BroadPhaseInterface<BruteForce<D>, D> {
 public:
     void build(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
     void update(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
 
-    /// A new item. Returns its index: the least of those that were erased, or else size(), which grows by one. The
-    /// indices of the others stay.
+    /// Adds an item and returns its index: the smallest erased index, or else size(), which grows by one. The indices
+    /// of the others stay.
     std::uint32_t insert(const Aabb<D>& box);
-    /// Makes an item empty; its index may be given to a new one. In the span of an update it has a box still, an empty
+    /// Makes an item empty; a new item may reuse its index. The span of an update still has a box for it, an empty
     /// one.
     void erase(std::uint32_t index);
-    /// Another box for an item that was not erased. Allocates nothing, and is always true.
+    /// Replaces the box of an item that is not erased. Allocates nothing. Always returns true.
     bool set(std::uint32_t index, const Aabb<D>& box);
 
     std::size_t size() const { return size_; }
-    /// Of all boxes together; Aabb::empty() where there is none.
+    /// The bounds of all boxes; Aabb::empty() if there are none.
     Aabb<D> bounds() const;
 
 private:
-    friend BroadPhaseFace<BruteForce<D>, D>;
+    friend BroadPhaseInterface<BruteForce<D>, D>;
     void visit_pairs(PairsCall visit, Executor* executor) const;
     void visit_pairs(const BruteForce& other, PairsCall visit) const;
     void visit_boxes(BoxCall<D> visit) const;
@@ -53,8 +54,8 @@ private:
     void visit_within(Reach reach, ReachCall visit) const;
 
     std::size_t size_ = 0;
-    BoxTable<D> boxes_;  // those that are empty are NaN
-    FreeItems free_;
+    BoxSoa<D> boxes_;  // an empty box is stored as NaNs
+    FreeIndices free_;
 };
 
 extern template class BruteForce<2>;

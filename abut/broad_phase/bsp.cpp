@@ -113,7 +113,7 @@ void Bsp<D>::visit_along(const Ray<D>& ray, ReachCall visit) const {
     };
     RayReach<D> reach(ray);
     double measure = 0;
-    if (reach.over() || is_empty(bounds_) || !reach.measure(bounds_, measure)) return;
+    if (reach.is_exhausted() || is_empty(bounds_) || !reach.measure(bounds_, measure)) return;
     const CellRay<D> way(ray);
     constexpr double doubt = CellRay<D>::doubt;
     std::array<Waiting, bsp_depth + 1> stack;
@@ -126,7 +126,7 @@ void Bsp<D>::visit_along(const Ray<D>& ray, ReachCall visit) const {
                 const BspItem<D>& item = tree_.items[tree_.words[w]];
                 if (!reach.measure(item.box, measure) || !way.tells(tree_, at, item.box, measure, from, to)) continue;
                 reach.shrink(visit(item.index));
-                if (reach.over()) return;
+                if (reach.is_exhausted()) return;
             }
             if (node.is_leaf()) break;
             const int axis = node.axis();
@@ -156,7 +156,7 @@ void Bsp<D>::visit_near(const Aabb<D>& box, float near, ReachCall visit) const {
     };
     BoxReach<D> reach(box, near);
     double measure = 0;
-    if (reach.over() || is_empty(bounds_) || !reach.measure(bounds_, measure)) return;
+    if (reach.is_exhausted() || is_empty(bounds_) || !reach.measure(bounds_, measure)) return;
     // The cell tells an item that has the point of it nearest to the lower corner of the box.
     const auto tells = [&](const Aabb<D>& cell, const Aabb<D>& item) {
         bool result = true;
@@ -177,7 +177,7 @@ void Bsp<D>::visit_near(const Aabb<D>& box, float near, ReachCall visit) const {
                 const BspItem<D>& item = tree_.items[tree_.words[w]];
                 if (!reach.measure(item.box, measure) || !tells(cell, item.box)) continue;
                 reach.shrink(visit(item.index));
-                if (reach.over()) return;
+                if (reach.is_exhausted()) return;
             }
             if (node.is_leaf()) break;
             // The nearer part is as near as the whole; so are both where the box is on both sides.

@@ -3,7 +3,7 @@
 // Planes that part space: the broad phase for what moves little or never.
 
 #include <abut/broad_phase/bsp_node.hpp>
-#include <abut/broad_phase/face.hpp>
+#include <abut/broad_phase/detail/interface.hpp>
 #include <abut/math/aabb.hpp>
 #include <abut/math/executor.hpp>
 #include <abut/math/ray.hpp>
@@ -30,7 +30,7 @@ namespace abut {
 /// Up to 2^29 items. Memory: at most 64 bytes an item in 3D (56 in 2D): 28 for its box and index, 16 for nodes, 16 for
 /// lists, of which about a third is spare room, and 4 for its place.
 template <int D>
-class Bsp : public BroadPhaseFace<Bsp<D>, D> {
+class Bsp : public BroadPhaseInterface<Bsp<D>, D> {
 public:
     void build(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
     void update(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
@@ -40,7 +40,7 @@ public:
     Aabb<D> bounds() const { return bounds_; }
 
 private:
-    friend BroadPhaseFace<Bsp<D>, D>;
+    friend BroadPhaseInterface<Bsp<D>, D>;
     void visit_pairs(PairsCall visit, Executor* executor) const;
     void visit_pairs(const Bsp& other, PairsCall visit) const;
     void visit_boxes(BoxCall<D> visit) const;

@@ -4,9 +4,9 @@
 
 #include <abut/broad_phase/boxes.hpp>
 #include <abut/broad_phase/bsp.hpp>
-#include <abut/broad_phase/pair_buffer.hpp>
+#include <abut/broad_phase/detail/pair_buffer.hpp>
+#include <abut/broad_phase/detail/parallel.hpp>
 #include <abut/broad_phase/sweep_pieces.hpp>
-#include <abut/broad_phase/tell_together.hpp>
 
 #include <algorithm>
 #include <array>
@@ -163,7 +163,7 @@ void Bsp<D>::visit_pairs(PairsCall visit, Executor* executor) const {
         return;
     }
     const Tasks<D> tasks(tree_, 16 * executor->workers(), bounds_.min);
-    tell_together(*executor, tasks.count(), visit, [&](std::uint32_t i, PairsCall told) {
+    report_in_parallel(*executor, tasks.count(), visit, [&](std::uint32_t i, PairsCall told) {
         PairBuffer pairs(told);
         const PairWalk<D> walk(tree_, pairs);
         const Task<D>& task = tasks[i];

@@ -1,6 +1,6 @@
 #pragma once
 
-// Which broad phase suits some boxes.
+// The choice of a broad phase for given boxes.
 
 #include <abut/math/aabb.hpp>
 
@@ -11,15 +11,16 @@ namespace abut {
 
 enum class BroadPhaseKind : std::uint8_t { brute_force, grid, layered_grid, sweep_and_prune, bvh, bsp };
 
-/// What is known of how boxes are used.
+/// How boxes were used of late.
 struct BroadPhaseHistory {
-    double moved = 1;  ///< the share of the boxes that change from one update to the next
-    /// Rays, and searches for what is near, from one update to the next, for each box; ten regions count as a ray.
-    double asked = 0;
+    double moved = 1;  ///< the share of the boxes that change between two updates
+    /// The number of raycasts and closest queries between two updates, per box. Ten overlap queries count as one ray.
+    double queries = 0;
 };
 
-/// The broad phase that soonest does what the history tells, by counts of a sample of the boxes and never by a clock:
-/// the same on every machine. Looks at 1024 boxes at most. docs/broad_phases.md has the numbers that it rests on.
+/// Chooses the broad phase that is estimated to be fastest for this history. The estimate comes from counts of a sample
+/// of at most 1024 boxes and never from a clock, so it is the same on every machine. docs/broad_phases.md has the
+/// measurements behind it.
 template <int D>
 BroadPhaseKind choose_broad_phase(std::span<const Aabb<D>> boxes, const BroadPhaseHistory& history = {});
 

@@ -1,6 +1,6 @@
 #include <abut/broad_phase/chosen_broad_phase.hpp>
 #include <abut/broad_phase/concept.hpp>
-#include <abut/broad_phase/pair_buffer.hpp>
+#include <abut/broad_phase/detail/pair_buffer.hpp>
 
 #include <array>
 #include <type_traits>
@@ -8,25 +8,26 @@
 namespace abut {
 namespace {
 
-/// What to ask a structure for what overlaps a box takes, as a multiple of what it takes a tree: docs/broad_phases.md
-/// has the row. In the order of BroadPhaseKind.
-constexpr std::array<double, 6> region_cost{1, 2, 11, 2, 1, 8};
+/// The time of an overlap query of each structure, as a multiple of that of a tree, in the order of BroadPhaseKind;
+/// docs/broad_phases.md has the row.
+constexpr std::array<double, 6> overlap_query_cost{1, 2, 11, 2, 1, 8};
 
-/// Whether the boxes of the first are to be asked for in the second, or the other way round: what takes less.
-bool first_asks(std::size_t count, BroadPhaseKind kind, std::size_t other_count, BroadPhaseKind other_kind) {
-    const auto cost = [](std::size_t questions, BroadPhaseKind asked) {
-        return static_cast<double>(questions) * region_cost[static_cast<std::size_t>(asked)];
+/// Whether it is faster to query the second structure with the boxes of the first than the reverse.
+bool first_queries_second(std::size_t count, BroadPhaseKind kind, std::size_t other_count, BroadPhaseKind other_kind) {
+    const auto cost = [](std::size_t queries, BroadPhaseKind queried) {
+        return static_cast<double>(queries) * overlap_query_cost[static_cast<std::size_t>(queried)];
     };
     return cost(count, other_kind) <= cost(other_count, kind);
 }
 
-/// Calls told(item of the asking, item of the asked) for what overlaps; false stops.
-template <class Asking, class Asked, class Told>
-void ask_for_each(const Asking& asking, const Asked& asked, Told told) {
-    asking.each_box([&](std::uint32_t i, const auto& box) {
-        bool go_on = true;
-        asked.each_overlapping(box, [&](std::uint32_t j) { return go_on = told(i, j); });
-        return go_on;
+/// Queries `queried` with each box of `source`. Calls report(i, j) if item i of `source` overlaps item j of `queried`;
+/// false stops.
+template <class Source, class Queried, class Report>
+void query_each_box(const Source& source, const Queried& queried, Report report) {
+    source.each_box([&](std::uint32_t i, const auto& box) {
+        bool continues = true;
+        queried.each_overlapping(box, [&](std::uint32_t j) { return continues = report(i, j); });
+        return continues;
     });
 }
 
@@ -57,30 +58,30 @@ void ChosenBroadPhase<D>::become(BroadPhaseKind kind) {
 }
 
 template <int D>
-BroadPhaseKind ChosenBroadPhase<D>::wanted(std::span<const Aabb<D>> boxes) const {
+BroadPhaseKind ChosenBroadPhase<D>::choose(std::span<const Aabb<D>> boxes) const {
     return always_ ? *always_ : choose_broad_phase<D>(boxes, history_);
 }
 
 template <int D>
 void ChosenBroadPhase<D>::build(std::span<const Aabb<D>> boxes, Executor* executor) {
-    const BroadPhaseKind kind_wanted = wanted(boxes);
-    if (kind_wanted != kind()) become(kind_wanted);
+    const BroadPhaseKind chosen = choose(boxes);
+    if (chosen != kind()) become(chosen);
     updates_ = 0;
-    asked_ = history_.asked;
+    chosen_queries_ = history_.queries;
     std::visit([&](auto& phase) { phase.build(boxes, executor); }, phase_);
 }
 
 template <int D>
 void ChosenBroadPhase<D>::update(std::span<const Aabb<D>> boxes, Executor* executor) {
-    constexpr std::uint32_t between = 64;
-    // A hundredth part of a question a box is next to none.
-    constexpr double unlike = 2, few = 0.01;
+    constexpr std::uint32_t updates_per_choice = 64;
+    // Rates far below 0.01 queries per box count as equal.
+    constexpr double max_ratio = 2, offset = 0.01;
     if (boxes.size() != size()) return build(boxes, executor);
-    const double now = history_.asked + few, then = asked_ + few;
-    const bool asked_otherwise = now > unlike * then || then > unlike * now;
-    if (++updates_ % between == 0 || asked_otherwise) {
-        asked_ = history_.asked;
-        if (wanted(boxes) != kind()) return build(boxes, executor);
+    const double now = history_.queries + offset, then = chosen_queries_ + offset;
+    const bool rate_changed = now > max_ratio * then || then > max_ratio * now;
+    if (++updates_ % updates_per_choice == 0 || rate_changed) {
+        chosen_queries_ = history_.queries;
+        if (choose(boxes) != kind()) return build(boxes, executor);
     }
     std::visit([&](auto& phase) { phase.update(boxes, executor); }, phase_);
 }
@@ -114,7 +115,7 @@ void ChosenBroadPhase<D>::refit(std::span<const Aabb<D>> boxes) {
 }
 
 template <int D>
-void ChosenBroadPhase<D>::tell(const BroadPhaseHistory& history) {
+void ChosenBroadPhase<D>::set_history(const BroadPhaseHistory& history) {
     history_ = history;
 }
 
@@ -135,20 +136,22 @@ void ChosenBroadPhase<D>::visit_pairs(PairsCall visit, Executor* executor) const
 
 template <int D>
 void ChosenBroadPhase<D>::visit_pairs(const ChosenBroadPhase& other, PairsCall visit) const {
-    const auto meet = [&]<class A, class B>(const A& ours, const B& theirs) {
+    const auto visit_between = [&]<class A, class B>(const A& own, const B& others) {
         if constexpr (std::is_same_v<A, B>) {
-            ours.each_overlapping_pair(theirs, visit);
+            own.each_overlapping_pair(others, visit);
         } else {
             PairBuffer pairs(visit);
-            bool go_on = true;
-            if (first_asks(size(), kind(), other.size(), other.kind()))
-                ask_for_each(ours, theirs, [&](std::uint32_t i, std::uint32_t j) { return go_on = pairs.add(i, j); });
+            bool continues = true;
+            if (first_queries_second(size(), kind(), other.size(), other.kind()))
+                query_each_box(own, others,
+                               [&](std::uint32_t i, std::uint32_t j) { return continues = pairs.add(i, j); });
             else
-                ask_for_each(theirs, ours, [&](std::uint32_t j, std::uint32_t i) { return go_on = pairs.add(i, j); });
-            if (go_on) pairs.flush();
+                query_each_box(others, own,
+                               [&](std::uint32_t j, std::uint32_t i) { return continues = pairs.add(i, j); });
+            if (continues) pairs.flush();
         }
     };
-    std::visit(meet, phase_, other.phase_);
+    std::visit(visit_between, phase_, other.phase_);
 }
 
 template <int D>

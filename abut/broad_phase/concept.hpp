@@ -1,6 +1,6 @@
 #pragma once
 
-// What every broad phase can do. They know boxes and indices, and differ in speed alone.
+// The interface of all broad phases. They know boxes and indices only, and differ in speed alone.
 
 #include <abut/broad_phase/visit.hpp>
 #include <abut/math/aabb.hpp>
@@ -17,33 +17,34 @@ namespace abut {
 
 /// A broad phase over n boxes, the items 0 .. n - 1 in the order of the span.
 ///
-/// - `build(boxes, executor = nullptr)`: from nothing. `update(boxes, executor = nullptr)`: the same count, some moved;
-///   allocates nothing once warm.
-/// - `each_pair(visit, executor = nullptr)`: every pair of overlapping boxes once, as `visit(i, j)` with i < j;
-/// exactly:
-///   touching counts. In the structure's own order, which depends on its history of boxes and on nothing else. With an
-///   executor the visitor is called on several threads at once, in no order, and where it has had enough, threads that
-///   are on their way may tell it of some more.
-/// - `sorted_pairs(out)`: replaces what is in `out` by the same pairs sorted by (i, j).
-/// - `each_overlapping(box, visit)`: every item whose box overlaps this one, exactly.
-/// - `each_overlapping_pair(other, visit)`: every `visit(i, j)` where item i of this overlaps item j of the other.
-/// - `raycast(ray, visit)`: the items whose box the ray touches, each once, roughly front to back; the reach is a
+/// - `build(boxes, executor = nullptr)` builds from nothing. `update(boxes, executor = nullptr)` takes the same number
+/// of
+///   boxes, some of them moved. It allocates nothing once warm.
+/// - `each_pair(visit, executor = nullptr)` calls `visit(i, j)` with i < j once for every pair of overlapping boxes. It
+///   is exact, and touching counts. The order is the structure's own and depends only on the history of its boxes. With
+///   an executor, several threads call the visitor at once, in no order. After the visitor returns false, threads that
+///   are still running may report further pairs.
+/// - `sorted_pairs(out)` replaces the contents of `out` by the same pairs sorted by (i, j).
+/// - `each_overlapping(box, visit)` visits every item whose box overlaps this box. It is exact.
+/// - `each_overlapping_pair(other, visit)` calls `visit(i, j)` if item i of this overlaps item j of the other.
+/// - `raycast(ray, visit)` visits the items whose boxes the ray touches, each once, roughly front to back. The reach is
+/// a
 ///   distance along the ray, at first its length.
-/// - `sweep(moving_box, visit)`: the same for a box on its way; the reach is in lengths of its direction.
-/// - `closest(point, visit, reach = infinity)`: the items whose box is no farther than the reach, each once, roughly
-///   nearest first, from a point or from a box. The visitor works out the distance to its own item and may return it as
-///   the new reach.
+/// - `sweep(moving_box, visit)` does so for a moving box. The reach is in lengths of its direction.
+/// - `closest(point, visit, reach = infinity)` visits the items whose boxes are within reach of a point or of a box,
+/// each
+///   once, roughly nearest first. The visitor computes the distance to its own item and may return it as the new reach.
 ///
-/// `raycast`, `sweep` and `closest` may visit an item that they miss by rounding (one part in a million of the reach),
-/// and never leave out one that they touch: equal distances all come, so that an answer need not depend on the order.
-/// What visitors may return is told at Visitor and ReachVisitor.
+/// `raycast`, `sweep` and `closest` may visit an item that is out of reach by rounding (one part in a million of the
+/// reach). They never omit an item that they touch. All items at equal distances are visited, so an answer need not
+/// depend on the order. Visitor and ReachVisitor document the values that visitors may return.
 ///
-/// A box may be without bound on any side. An empty box (min > max on some axis) is an item that is never visited. So
-/// is one with a NaN, which trips ABUT_ASSERT in debug builds. A query with a NaN visits nothing, nor does one from a
-/// point at infinity, or along a direction that isn't finite.
+/// A box may be unbounded on any side. An empty box (min > max on some axis) is an item that is never visited. An item
+/// with a NaN is never visited either, and trips ABUT_ASSERT in debug builds. A query visits nothing if it has a NaN,
+/// starts at a point at infinity, or has a direction that isn't finite.
 ///
-/// Queries are const, allocate nothing (but for what `out` needs to grow) and may run on many threads at once. With one
-/// thread or many, and whatever the vector unit, the pairs are the same.
+/// Queries are const, allocate nothing except to grow `out`, and may run on many threads at once. The pairs don't
+/// depend on the number of threads or on the SIMD target.
 template <class T, int D>
 concept BroadPhase = std::semiregular<T> &&
     requires(T& changing, const T& phase, std::span<const Aabb<D>> boxes, const Aabb<D>& box, const Ray<D>& ray,

@@ -1,10 +1,10 @@
 #pragma once
 
-// A uniform grid: the broad phase for boxes of like sizes that all move.
+// A uniform grid: the broad phase for boxes of similar sizes that all move.
 
-#include <abut/broad_phase/face.hpp>
-#include <abut/broad_phase/free_items.hpp>
-#include <abut/broad_phase/grid_store.hpp>
+#include <abut/broad_phase/detail/free_indices.hpp>
+#include <abut/broad_phase/detail/interface.hpp>
+#include <abut/broad_phase/grid/store.hpp>
 #include <abut/math/aabb.hpp>
 #include <abut/math/executor.hpp>
 #include <abut/math/ray.hpp>
@@ -16,55 +16,57 @@
 
 namespace abut {
 
-/// A BroadPhase: a uniform grid (concept.hpp tells what each function does).
+/// A BroadPhase; concept.hpp documents its functions.
 ///
-/// Each box is written into all cells that it touches, as two words that hold its place in the cell; in a cell, sixteen
-/// boxes are compared with one at a time, by two subtractions for all axes. The words decide nearly all pairs, floats
-/// the rest. A pair that has several cells in common is told in the first of them. `update` writes all cells anew:
-/// O(n), whether much moved or nothing.
+/// Every cell that a box touches stores a copy of it: two words that hold its quantised bounds in the cell. SIMD
+/// compares one copy with sixteen at a time, by two subtractions for all axes. The words decide nearly all pairs,
+/// floats the rest. A pair that shares several cells is reported in the first of them. `update` refills all cells, in
+/// O(n), however many boxes moved.
 ///
-/// The cells fill a block around most of the boxes; what lies outside belongs to the cells at its border. Boxes that
-/// would touch more than 32 cells (16 in 2D) are kept by themselves and compared with all others, so that a few giants
-/// do no harm; for many sizes take LayeredGrid. The edge of the cells is chosen from the data by counting: about thirty
-/// boxes a cell, and no less than three times their mean edge. docs/broad_phases.md has what other edges cost.
+/// The cells fill a region around most of the boxes; boxes outside belong to the cells at its border. Boxes that would
+/// touch more than 32 cells (16 in 2D) are stored separately and tested against all others, so that a few large boxes
+/// do no harm. Many sizes call for a LayeredGrid. The edge of the cells is chosen from counts of the data: about thirty
+/// boxes per cell, and at least three times the mean edge of the boxes. docs/broad_phases.md has the cost of other
+/// edges.
 ///
-/// Rays and searches for what is near go from cell to cell, the first ones first, and look at sixteen boxes at a time.
+/// Raycasts and closest queries visit the cells front to back, and test sixteen boxes at a time.
 ///
-/// With an executor `build` and `update` fill the cells on several threads; what lies in them is the same.
+/// With an executor `build` and `update` fill the cells on several threads; the contents of the cells are the same.
 ///
-/// Up to 2^27 items. Memory: at most 62 bytes an item in 3D (54 in 2D), and 50 KB; one byte an item more with an
-/// executor, and up to a quarter more once items were inserted, for those to come.
+/// Up to 2^27 items. Memory: at most 62 bytes an item in 3D (54 in 2D), and 50 KB. An executor adds one byte an item,
+/// and insertions add up to a quarter as spare capacity.
 template <int D>
-class Grid : public BroadPhaseFace<Grid<D>, D> {
+class Grid : public BroadPhaseInterface<Grid<D>, D> {
 public:
     Grid() = default;
-    /// With cells of this edge; larger ones where memory would not do.
-    explicit Grid(float cell_edge) : wanted_edge_(cell_edge) {}
+    /// Uses cells of this edge, or larger cells if these exceed the limit on memory.
+    explicit Grid(float cell_edge) : requested_edge_(cell_edge) {}
 
     void build(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
     void update(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
 
-    /// A new item. Returns its index: the least of those that were erased, or else size(), which grows by one. The
-    /// indices of the others stay. Cells are chosen anew whenever the boxes have come to cost half as much again: some
-    /// such call takes O(n), on average it is O(1).
+    /// Adds an item and returns its index: the smallest erased index, or else size(), which grows by one. The indices
+    /// of the others stay. If the estimated cost has grown by half, the cell size is chosen anew, in O(n); on average
+    /// an insertion takes O(1).
     std::uint32_t insert(const Aabb<D>& box);
-    /// Makes an item empty; its index may be given to a new one. In the span of an update it has a box still, an empty
+    /// Makes an item empty; a new item may reuse its index. The span of an update still has a box for it, an empty
     /// one.
     void erase(std::uint32_t index);
-    /// Another box for an item that was not erased. Allocates nothing. False where that takes more room than there is:
-    /// the item is not found then until the next update.
+    /// Replaces the box of an item that is not erased. Allocates nothing. Returns false if the capacity doesn't
+    /// suffice: no query finds the item then until the next update.
     bool set(std::uint32_t index, const Aabb<D>& box);
 
     std::size_t size() const { return boxes_.size(); }
-    /// Of all boxes together; Aabb::empty() where there is none.
+    /// The bounds of all boxes; Aabb::empty() if there are none.
     Aabb<D> bounds() const;
-    /// Of the cells, as it was given or chosen.
+    /// The edge of the cells, as requested or chosen.
     float cell_edge() const { return cells_.edge; }
-    /// About what finding the pairs costs, by what is compared and copied. To compare grids of the same boxes by.
+    /// The estimated cost of finding the pairs, from counts of comparisons and copies. It compares grids of the same
+    /// boxes.
     double pair_cost() const { return cost_.time(); }
 
 private:
-    friend BroadPhaseFace<Grid<D>, D>;
+    friend BroadPhaseInterface<Grid<D>, D>;
     bool visit_large(PairsCall visit) const;
     void visit_pairs(PairsCall visit, Executor* executor) const;
     void visit_pairs(const Grid& other, PairsCall visit) const;
@@ -76,32 +78,32 @@ private:
     template <class Reach>
     void visit_within(Reach reach, ReachCall visit) const;
 
-    /// What the pairs cost, by counting.
+    /// Counts of the work that the pairs take.
     struct Cost {
-        std::uint64_t tiles = 0;  ///< sixteen boxes against sixteen
-        std::uint64_t copies = 0;
-        std::uint64_t single = 0;  ///< large ones against all others
+        std::uint64_t tiles = 0;   ///< comparisons of sixteen boxes with sixteen
+        std::uint64_t copies = 0;  ///< of boxes in cells
+        std::uint64_t large = 0;   ///< comparisons of large boxes with all others
         double time() const;
     };
 
     void reserve(std::size_t count);
-    void plan(std::span<const Aabb<D>> boxes, Executor* executor);
+    void choose_cells_and_fill(std::span<const Aabb<D>> boxes, Executor* executor);
     void set_edge(float edge);
     void fill_cells(std::span<const Aabb<D>> boxes, Executor* executor);
-    bool put(std::uint32_t index);
-    void take_out(std::uint32_t index);
+    bool insert_into_cells(std::uint32_t index);
+    void remove_from_cells(std::uint32_t index);
     Cost cost(Executor* executor) const;
 
-    float wanted_edge_ = 0;
+    float requested_edge_ = 0;  ///< 0: chosen from the data
     GridCells<D> cells_;
-    Aabb<D> block_{};  ///< that the cells fill
+    Aabb<D> region_{};  ///< the box that the cells fill
     GridStore store_;
     std::vector<Aabb<D>> boxes_;
-    std::vector<std::uint32_t> large_;  ///< those that are in no cell
-    Cost planned_, cost_;               ///< when the cells were chosen, and now
-    std::size_t reserved_ = 0;          ///< there is room for so many boxes
-    FreeItems free_;
-    std::vector<std::uint8_t> marks_;  ///< for several threads that fill cells
+    std::vector<std::uint32_t> large_;  ///< the items that are in no cell
+    Cost chosen_cost_, cost_;           ///< when the cells were chosen, and now
+    std::size_t capacity_ = 0;          ///< the number of boxes that memory is reserved for
+    FreeIndices free_;
+    std::vector<std::uint8_t> marks_;  ///< of the items, for a fill on several threads
 };
 
 extern template class Grid<2>;

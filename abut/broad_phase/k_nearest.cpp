@@ -32,7 +32,7 @@ float NearestItems<D>::offer(std::uint32_t item, const Aabb<D>& box) {
         out_.push_back(offered);
     }
     std::push_heap(out_.begin(), out_.end());
-    // One float more, for all that rounds to the distance of the farthest.
+    // The next float includes all distances that round to that of the farthest item.
     return out_.size() < k_ ? infinity : std::nextafter(out_.front().distance, infinity);
 }
 

@@ -2,7 +2,7 @@
 
 // Grids over grids: the broad phase for boxes of all sizes, near together here and far apart there, that all move.
 
-#include <abut/broad_phase/face.hpp>
+#include <abut/broad_phase/detail/interface.hpp>
 #include <abut/broad_phase/layered_cells.hpp>
 #include <abut/broad_phase/layered_items.hpp>
 #include <abut/math/aabb.hpp>
@@ -33,7 +33,7 @@ namespace abut {
 /// for two more cells an item and half as many cells as items, 110 bytes an item in all; a world so strewn about that
 /// it needs more makes an update allocate once.
 template <int D>
-class LayeredGrid : public BroadPhaseFace<LayeredGrid<D>, D> {
+class LayeredGrid : public BroadPhaseInterface<LayeredGrid<D>, D> {
 public:
     void build(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
     void update(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
@@ -43,7 +43,7 @@ public:
     Aabb<D> bounds() const { return items_.bounds; }
 
 private:
-    friend BroadPhaseFace<LayeredGrid<D>, D>;
+    friend BroadPhaseInterface<LayeredGrid<D>, D>;
     void visit_pairs(PairsCall visit, Executor* executor) const;
     void visit_pairs(const LayeredGrid& other, PairsCall visit) const;
     void visit_boxes(BoxCall<D> visit) const;

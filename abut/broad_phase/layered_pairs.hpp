@@ -2,8 +2,8 @@
 
 // The pairs that meet in some cells of a LayeredGrid. For .cpp files.
 
+#include <abut/broad_phase/detail/pair_buffer.hpp>
 #include <abut/broad_phase/layered_items.hpp>
-#include <abut/broad_phase/pair_buffer.hpp>
 
 #include <cstdint>
 

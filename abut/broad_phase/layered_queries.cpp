@@ -2,10 +2,10 @@
 
 #include <abut/broad_phase/box_sides.hpp>
 #include <abut/broad_phase/boxes.hpp>
+#include <abut/broad_phase/detail/parallel.hpp>
 #include <abut/broad_phase/layered_grid.hpp>
 #include <abut/broad_phase/layered_pairs.hpp>
 #include <abut/broad_phase/reach.hpp>
-#include <abut/broad_phase/tell_together.hpp>
 
 #include <algorithm>
 #include <array>
@@ -58,7 +58,7 @@ public:
     NearestFirst(const LayeredItems<D>& items, const Reach& reach) : items_(items), reach_(reach) {}
 
     void run(ReachCall visit) {
-        if (reach_.over()) return;
+        if (reach_.is_exhausted()) return;
         for (const BoxRuns& tree : items_.runs) start(tree);
         while (descents_ > 0) {
             Descent* nearest = &descent_[0];
@@ -70,7 +70,7 @@ public:
                     open(*nearest, next);
                 else
                     reach_.shrink(visit(items_.index[nearest->tree->first[0] + next.node]));
-                if (reach_.over()) return;
+                if (reach_.is_exhausted()) return;
             }
             if (nearest->waiting == 0) end(*nearest);
         }
@@ -166,7 +166,7 @@ void LayeredGrid<D>::visit_pairs(PairsCall visit, Executor* executor) const {
     if (parts == 1)
         run(0, visit);
     else
-        tell_together(*executor, parts, visit, run);
+        report_in_parallel(*executor, parts, visit, run);
 }
 
 template <int D>

@@ -1,6 +1,7 @@
 #pragma once
 
-// How far a box is from a ray or from another box, with the reach of the search. For .cpp files: all in double.
+// The distance of a box from a ray or from another box, and the reach (maximum distance) of the search. For .cpp
+// files. All arithmetic is in double.
 
 #include <abut/broad_phase/boxes.hpp>
 #include <abut/math/aabb.hpp>
@@ -13,11 +14,11 @@
 
 namespace abut {
 
-/// Covers what a float loses when a distance, or the length of a unit direction, is rounded to it.
-inline constexpr double reach_slack = 1 + 1e-6;
+/// A factor that covers the rounding of a distance, or of the length of a unit direction, to float.
+inline constexpr double reach_tolerance = 1 + 1e-6;
 
-/// The part of a ray, or of the way of a moving box, that is still of interest. Its measure of a box is the distance
-/// along the way where it comes in.
+/// The part of a ray, or of the path of a moving box, that the search has yet to cover. The measure of a box is the
+/// distance along the path at which the ray enters it (slab test; Ericson, Real-Time Collision Detection, 5.3.3).
 template <int D>
 class RayReach {
 public:
@@ -29,18 +30,18 @@ public:
     }
 
     double reach() const { return reach_; }
-    bool over() const { return reach_ < 0; }
+    bool is_exhausted() const { return reach_ < 0; }
     bool within(double measure) const { return measure <= reach_; }
-    void shrink(float reach) { reach_ = std::min(reach_, static_cast<double>(reach) * reach_slack); }
-    double most() const { return reach_; }  ///< the largest measure within reach
+    void shrink(float reach) { reach_ = std::min(reach_, static_cast<double>(reach) * reach_tolerance); }
+    double max_measure() const { return reach_; }  ///< the largest measure within reach
 
-    /// The box it begins with, for a ray a point, and the way it goes.
+    /// The box at the start of the path, a point for a ray, and the direction of the path.
     const DVec<D>& low() const { return low_; }
     const DVec<D>& high() const { return high_; }
     const DVec<D>& direction() const { return direction_; }
     const DVec<D>& inverse() const { return inverse_; }
 
-    /// True where the ray touches the box, with its measure. Never true of an empty box.
+    /// Returns true and sets `enters` if the ray touches the box within reach. Returns false for an empty box.
     template <class Box>
     bool measure(const Box& box, double& enters) const {
         double from = 0, to = reach_;
@@ -55,46 +56,46 @@ public:
             to = std::min(to, direction_[i] > 0 ? at_max : at_min);
         }
         enters = from;
-        // Each bound carries three roundings, of 1e-16 each; signs are exact.
+        // Each bound carries three rounding errors of 1e-16 each; signs are exact.
         return from <= to * (1 + 1e-12);
     }
 
 private:
-    RayReach(const DVec<D>& low, const DVec<D>& high, const DVec<D>& direction, double length_of_way)
+    RayReach(const DVec<D>& low, const DVec<D>& high, const DVec<D>& direction, double length)
         : low_(low), high_(high), direction_(direction), inverse_(1.0 / direction_) {
-        // Of doubles that were floats once no square is infinite.
-        const bool usable_way =
-            std::isfinite(length_squared(low_) + length_squared(high_) + length_squared(direction_));
-        if (usable_way && length_of_way >= 0) reach_ = length_of_way * reach_slack;
+        // The doubles come from floats, so no square overflows.
+        const bool is_finite = std::isfinite(length_squared(low_) + length_squared(high_) + length_squared(direction_));
+        if (is_finite && length >= 0) reach_ = length * reach_tolerance;
     }
 
-    DVec<D> low_, high_, direction_, inverse_;  ///< the box it begins with, for a ray a point
+    DVec<D> low_, high_, direction_, inverse_;  ///< low and high: the box at the start of the path
     double reach_ = -1;
 };
 
-/// What is no farther than a reach from a box, or a point. Its measure of another box is the distance squared.
+/// The neighbourhood of a box or a point: all that is within reach of it. The measure of another box is the squared
+/// distance.
 template <int D>
 class BoxReach {
 public:
     BoxReach(const Aabb<D>& box, float reach) : box_(usable(box)) {
         constexpr float far = std::numeric_limits<float>::infinity();
-        bool somewhere = reach >= 0;
-        for (int i = 0; i < D; ++i) somewhere = somewhere && box_.min[i] < far && box_.max[i] > -far;
-        if (somewhere) reach_squared_ = squared(reach);
+        bool is_valid = reach >= 0;
+        for (int i = 0; i < D; ++i) is_valid = is_valid && box_.min[i] < far && box_.max[i] > -far;
+        if (is_valid) reach_squared_ = squared(reach);
     }
 
-    bool over() const { return reach_squared_ < 0; }
+    bool is_exhausted() const { return reach_squared_ < 0; }
     bool within(double measure) const { return measure <= reach_squared_; }
     void shrink(float reach) { reach_squared_ = std::min(reach_squared_, squared(reach)); }
-    double most() const { return reach_squared_; }  ///< the largest measure within reach
+    double max_measure() const { return reach_squared_; }  ///< the largest measure within reach
     const Aabb<D>& box() const { return box_; }
 
-    /// True where the box is within reach, with its measure. Perhaps true of an empty box.
+    /// Returns true and sets `result` if the box is within reach. An empty box may pass.
     template <class Box>
     bool measure(const Box& box, double& result) const {
         result = 0;
         for (int i = 0; i < D; ++i) {
-            // Compared before they are subtracted: both may be infinite.
+            // The comparison comes before the subtraction, for both may be infinite.
             double gap = 0;
             if (box.min[i] > box_.max[i])
                 gap = static_cast<double>(box.min[i]) - static_cast<double>(box_.max[i]);
@@ -107,8 +108,8 @@ public:
 
 private:
     static double squared(float reach) {
-        const double more = static_cast<double>(reach) * reach_slack;
-        return reach < 0 ? -1 : more * more;
+        const double limit = static_cast<double>(reach) * reach_tolerance;
+        return reach < 0 ? -1 : limit * limit;
     }
 
     Aabb<D> box_;

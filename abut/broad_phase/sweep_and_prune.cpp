@@ -1,6 +1,6 @@
 #include <abut/broad_phase/boxes.hpp>
 #include <abut/broad_phase/concept.hpp>
-#include <abut/broad_phase/radix_sort.hpp>
+#include <abut/broad_phase/detail/radix_sort.hpp>
 #include <abut/broad_phase/sweep_and_prune.hpp>
 #include <abut/math/assert.hpp>
 
@@ -195,7 +195,7 @@ void SweepAndPrune<D>::copy_boxes(std::span<const Aabb<D>> boxes) {
 template <int D>
 double SweepAndPrune<D>::cost() const {
     const std::size_t count = rows_.count(), step = std::max<std::size_t>(64, count / 512);
-    const BoxRows<D> boxes = rows_.boxes();
+    const BoxSoaView<D> boxes = rows_.boxes();
     std::size_t looks = 0, comparisons = 0;
     for (std::size_t i = step / 2; i < count; i += step, ++looks) {
         const std::size_t end = *std::lower_bound(columns_.begin(), columns_.end(), i);

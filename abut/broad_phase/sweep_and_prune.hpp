@@ -2,7 +2,7 @@
 
 // Boxes in the order of where they begin along an axis: the broad phase for pairs among many that all move.
 
-#include <abut/broad_phase/face.hpp>
+#include <abut/broad_phase/detail/interface.hpp>
 #include <abut/broad_phase/sweep_plan.hpp>
 #include <abut/broad_phase/sweep_rows.hpp>
 #include <abut/math/aabb.hpp>
@@ -29,7 +29,7 @@ namespace abut {
 ///
 /// Up to 2^30 items. Memory: at most 63 bytes an item in 3D (50 in 2D), and some hundred for each structure.
 template <int D>
-class SweepAndPrune : public BroadPhaseFace<SweepAndPrune<D>, D> {
+class SweepAndPrune : public BroadPhaseInterface<SweepAndPrune<D>, D> {
 public:
     void build(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
     void update(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
@@ -41,7 +41,7 @@ public:
     const SweepPlan<D>& plan() const { return plan_; }
 
 private:
-    friend BroadPhaseFace<SweepAndPrune<D>, D>;
+    friend BroadPhaseInterface<SweepAndPrune<D>, D>;
     struct Place {
         std::uint32_t key;  ///< the lower bound along the axis, as a whole number of the same order
         std::uint32_t item;

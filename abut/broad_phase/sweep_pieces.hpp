@@ -19,7 +19,7 @@ public:
     /// About as long as `edge`, or as the box where it is longer; so many at the most.
     WayPieces(const MovingBox<D>& moving, const Aabb<D>& bounds, double edge)
         : reach_(RayReach<D>::of_box(moving)), end_(reach_.reach()) {
-        if (reach_.over() || is_empty(bounds) || !reach_.measure(bounds, begin_)) return;
+        if (reach_.is_exhausted() || is_empty(bounds) || !reach_.measure(bounds, begin_)) return;
         double stride = edge, speed = 0;
         for (int i = 0; i < D; ++i) {
             const double inverse = reach_.inverse()[i];
@@ -44,9 +44,9 @@ public:
                             double enters = 0;
                             if (!reach_.measure(box, enters) || enters < from || enters >= until) return true;
                             reach_.shrink(visit(index));
-                            return !reach_.over();
+                            return !reach_.is_exhausted();
                         });
-            if (reach_.over()) return;
+            if (reach_.is_exhausted()) return;
         }
     }
 

@@ -1,10 +1,10 @@
 // What a SweepAndPrune is asked.
 
-#include <abut/broad_phase/box_hits.hpp>
 #include <abut/broad_phase/boxes.hpp>
-#include <abut/broad_phase/pair_buffer.hpp>
+#include <abut/broad_phase/detail/box_overlaps.hpp>
+#include <abut/broad_phase/detail/pair_buffer.hpp>
+#include <abut/broad_phase/detail/parallel.hpp>
 #include <abut/broad_phase/sweep_and_prune.hpp>
-#include <abut/broad_phase/tell_together.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -12,14 +12,14 @@
 namespace abut {
 namespace {
 
-/// Pairs on their way to the visitor, all those of one BoxHits at a time.
+/// Pairs on their way to the visitor, all those of one BoxOverlaps at a time.
 class Told {
 public:
     Told(const std::uint32_t* items, PairsCall visit) : items_(items), visit_(visit) {}
 
     /// A pair that is in two columns is told in the first: in any other, both have begun before it along some axis. It
     /// is written and forgotten. Returns false where the visitor has had enough.
-    bool add(const BoxHits& hit) {
+    bool add(const BoxOverlaps& hit) {
         const std::uint32_t item = items_[hit.box];
         for (std::uint32_t bits = hit.bits; bits != 0; bits &= bits - 1) {
             const std::uint32_t other = items_[hit.first + static_cast<std::uint32_t>(std::countr_zero(bits))];
@@ -50,12 +50,12 @@ void SweepAndPrune<D>::visit_pairs(PairsCall visit, Executor* executor) const {
     const auto visit_from = [&](std::size_t first, std::size_t last, PairsCall told) {
         Told pairs(rows_.items(), told);
         bool go_on = true;
-        const auto add = [&](std::span<const BoxHits> hits) {
-            for (const BoxHits& hit : hits)
+        const auto add = [&](std::span<const BoxOverlaps> hits) {
+            for (const BoxOverlaps& hit : hits)
                 if (!pairs.add(hit)) return go_on = false;
             return go_on;
         };
-        each_sorted_hit(rows_.boxes(), first, last, add);
+        each_sorted_overlap(rows_.boxes(), first, last, add);
         if (go_on) pairs.flush();
     };
     // Below this, starting a thread costs more than all there is to do.
@@ -63,7 +63,7 @@ void SweepAndPrune<D>::visit_pairs(PairsCall visit, Executor* executor) const {
     const std::size_t count = rows_.count();
     if (executor == nullptr || count < few) return visit_from(0, count, visit);
     const std::size_t parts = std::min<std::size_t>(4 * std::size_t{executor->workers()}, count / 256);
-    tell_together(*executor, static_cast<std::uint32_t>(parts), visit, [&](std::uint32_t part, PairsCall told) {
+    report_in_parallel(*executor, static_cast<std::uint32_t>(parts), visit, [&](std::uint32_t part, PairsCall told) {
         visit_from(count * part / parts, count * (part + 1) / parts, told);
     });
 }
@@ -81,7 +81,7 @@ void SweepAndPrune<D>::visit_pairs(const SweepAndPrune& other, PairsCall visit) 
 
 template <int D>
 void SweepAndPrune<D>::visit_boxes(BoxCall<D> visit) const {
-    const BoxRows<D> boxes = rows_.boxes();
+    const BoxSoaView<D> boxes = rows_.boxes();
     for (std::size_t i = 0; i < rows_.count(); ++i) {
         const std::uint32_t item = rows_.items()[i];
         if ((item & copy_bits) == 0 && !visit(item, turned_back<D>(boxes[i], plan_.axis))) return;

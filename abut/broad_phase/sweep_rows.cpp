@@ -1,5 +1,5 @@
-#include <abut/broad_phase/box_hits.hpp>
 #include <abut/broad_phase/boxes.hpp>
+#include <abut/broad_phase/detail/box_overlaps.hpp>
 #include <abut/broad_phase/sweep_rows.hpp>
 
 #include <algorithm>
@@ -17,9 +17,9 @@ constexpr std::size_t whole_blocks(std::size_t count) {
 /// Level 0 are the boxes, level k > 0 the blocks of 16 of level k - 1.
 template <int D>
 struct Levels {
-    BoxRows<D> boxes;
+    BoxSoaView<D> boxes;
     const std::uint32_t* items;
-    BoxRows<D> blocks;
+    BoxSoaView<D> blocks;
     const std::size_t* begins;
     std::size_t count;
 
@@ -63,7 +63,7 @@ void visit_within_in(const Levels<D>& levels, std::size_t level, std::size_t fir
         for (; place > 0 && found[place - 1].measure > measure; --place) found[place] = found[place - 1];
         found[place] = {measure, i};
     }
-    for (std::size_t k = 0; k < count && !reach.over() && reach.within(found[k].measure); ++k) {
+    for (std::size_t k = 0; k < count && !reach.is_exhausted() && reach.within(found[k].measure); ++k) {
         if (level == 0)
             reach.shrink(visit(levels.items[found[k].index]));
         else
@@ -93,14 +93,14 @@ void SweepRows<D>::make_blocks(std::size_t count) {
     if (count == 0) return;
     for (std::size_t i = count; i < whole_blocks(count) * fan; ++i) end_column(i);
     std::size_t blocks = whole_blocks(count);
-    common_boxes(boxes_.rows(), items_.data(), copy_bits, blocks, 0, blocks_);
+    block_bounds(boxes_.view(), items_.data(), copy_bits, blocks, 0, blocks_);
     for (;;) {
         const std::size_t begin = levels_[level_count_], whole = whole_blocks(blocks) * fan;
-        for (std::size_t i = blocks; i < whole; ++i) blocks_.set(begin + i, no_box<D>());
+        for (std::size_t i = blocks; i < whole; ++i) blocks_.set(begin + i, nan_box<D>());
         levels_[++level_count_] = begin + whole;
         if (blocks <= fan) return;
         blocks = whole / fan;
-        common_boxes(blocks_.rows(begin), items_.data(), 0, blocks, begin + whole, blocks_);
+        block_bounds(blocks_.view(begin), items_.data(), 0, blocks, begin + whole, blocks_);
     }
 }
 
@@ -108,7 +108,7 @@ template <int D>
 Aabb<D> SweepRows<D>::bounds() const {
     Aabb<D> result = Aabb<D>::empty();
     if (level_count_ == 0) return result;
-    const BoxRows<D> blocks = blocks_.rows();
+    const BoxSoaView<D> blocks = blocks_.view();
     for (std::size_t i = levels_[level_count_ - 1]; i < levels_[level_count_]; ++i)
         if (!is_empty(blocks[i])) result = merged(result, blocks[i]);
     return result;
@@ -117,21 +117,21 @@ Aabb<D> SweepRows<D>::bounds() const {
 template <int D>
 bool SweepRows<D>::visit_overlapping(const Aabb<D>& box, ItemCall visit) const {
     if (level_count_ == 0) return true;
-    const Levels<D> levels{boxes_.rows(), items_.data(), blocks_.rows(), levels_.data(), level_count_};
+    const Levels<D> levels{boxes_.view(), items_.data(), blocks_.view(), levels_.data(), level_count_};
     return visit_overlapping_in(levels, level_count_, 0, box, visit);
 }
 
 template <int D>
 void SweepRows<D>::visit_within(RayReach<D> reach, ReachCall visit) const {
-    if (level_count_ == 0 || reach.over()) return;
-    const Levels<D> levels{boxes_.rows(), items_.data(), blocks_.rows(), levels_.data(), level_count_};
+    if (level_count_ == 0 || reach.is_exhausted()) return;
+    const Levels<D> levels{boxes_.view(), items_.data(), blocks_.view(), levels_.data(), level_count_};
     visit_within_in(levels, level_count_, 0, reach, visit);
 }
 
 template <int D>
 void SweepRows<D>::visit_within(BoxReach<D> reach, ReachCall visit) const {
-    if (level_count_ == 0 || reach.over()) return;
-    const Levels<D> levels{boxes_.rows(), items_.data(), blocks_.rows(), levels_.data(), level_count_};
+    if (level_count_ == 0 || reach.is_exhausted()) return;
+    const Levels<D> levels{boxes_.view(), items_.data(), blocks_.view(), levels_.data(), level_count_};
     visit_within_in(levels, level_count_, 0, reach, visit);
 }
 

@@ -2,7 +2,7 @@
 
 // Boxes in the order of a sweep, and common boxes of neighbours for the queries. Not for users.
 
-#include <abut/broad_phase/box_table.hpp>
+#include <abut/broad_phase/detail/box_soa.hpp>
 #include <abut/broad_phase/reach.hpp>
 #include <abut/broad_phase/visit.hpp>
 #include <abut/math/aabb.hpp>
@@ -28,13 +28,13 @@ public:
     void set_box(std::size_t i, const Aabb<D>& box) { boxes_.set(i, box); }
     void end_column(std::size_t i) {
         set_item(i, ~0u);
-        set_box(i, no_box<D>());
+        set_box(i, nan_box<D>());
     }
     /// When the first `count` are set.
     void make_blocks(std::size_t count);
 
     std::size_t count() const { return count_; }
-    BoxRows<D> boxes() const { return boxes_.rows(); }
+    BoxSoaView<D> boxes() const { return boxes_.view(); }
     const std::uint32_t* items() const { return items_.data(); }
     Aabb<D> bounds() const;
 
@@ -46,9 +46,9 @@ public:
 
 private:
     std::size_t count_ = 0;
-    BoxTable<D> boxes_;
+    BoxSoa<D> boxes_;
     std::vector<std::uint32_t> items_;
-    BoxTable<D> blocks_;                   // level by level
+    BoxSoa<D> blocks_;                     // level by level
     std::array<std::size_t, 9> levels_{};  // where each begins, and where the last ends: it has 16 blocks, or fewer
     std::size_t level_count_ = 0;
 };

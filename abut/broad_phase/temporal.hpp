@@ -59,7 +59,7 @@ public:
     /// Every pair of boxes that overlapped at the last update, once, with i < j; see BroadPhase.
     template <Visitor<std::uint32_t, std::uint32_t> F>
     void each_pair(F&& visit, Executor* executor = nullptr) const {
-        core_.visit_pairs(each_pair_to(visit), executor);
+        core_.visit_pairs(batch_visitor(visit), executor);
     }
     void sorted_pairs(std::vector<ItemPair>& out) const {
         out.clear();

@@ -1,5 +1,5 @@
 #include <abut/broad_phase/boxes.hpp>
-#include <abut/broad_phase/tell_together.hpp>
+#include <abut/broad_phase/detail/parallel.hpp>
 #include <abut/broad_phase/temporal_core.hpp>
 #include <abut/broad_phase/temporal_reach-inl.h>
 #include <abut/math/assert.hpp>
@@ -219,7 +219,7 @@ void TemporalCore<D>::visit_pairs(PairsCall visit, Executor* executor) const {
         tell(0, blocks, visit);
         return;
     }
-    tell_together(*executor, static_cast<std::uint32_t>(parts), visit, [&](std::uint32_t part, PairsCall told) {
+    report_in_parallel(*executor, static_cast<std::uint32_t>(parts), visit, [&](std::uint32_t part, PairsCall told) {
         tell(blocks * part / parts, blocks * (part + 1) / parts, told);
     });
 }

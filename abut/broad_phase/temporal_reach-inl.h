@@ -6,7 +6,7 @@
 //   |x' - x| <= v t (1 + leeway) + 2^-22 min(|x|, |x'|)
 // The arithmetic is in float: what it loses is a tenth of the leeway, and less than twice the rounding.
 
-#include <abut/broad_phase/four_floats-inl.h>
+#include <abut/broad_phase/detail/float4-inl.h>
 #include <abut/math/aabb.hpp>
 
 #include <algorithm>
@@ -24,30 +24,30 @@ template <int D>
 struct BoxLanes {
     static constexpr std::uint32_t axes = (1u << D) - 1;  ///< the bits of their lanes
 
-    four::Floats min, max;
+    float4::Floats min, max;
 
     explicit BoxLanes(const Aabb<D>& box) {
         // One float of the other corner comes with each, in 2D two.
         static_assert(sizeof(box) == 2 * D * sizeof(float));
         const float* floats = &box.min[0];
-        min = four::loaded(floats);
+        min = float4::load(floats);
         if constexpr (D == 2)
-            max = four::from_third(min);
+            max = float4::from_third(min);
         else
-            max = four::from_second(four::loaded(floats + 2));
+            max = float4::from_second(float4::load(floats + 2));
     }
 };
 
 /// Whether a box may have come from another by moving each face by at most `way`. A face at infinity stays there.
 template <int D>
 bool within_way(const BoxLanes<D>& before, const BoxLanes<D>& after, float way) {
-    using four::magnitude;
-    const four::Floats limit = four::all(way * (1 + leeway));
+    using float4::magnitude;
+    const float4::Floats limit = float4::broadcast(way * (1 + leeway));
     // Between two faces at infinity there is no number, which is not greater than any.
-    const auto strays = [&](four::Floats from, four::Floats to) {
-        return magnitude(to - from) > limit + rounding * four::less(magnitude(from), magnitude(to));
+    const auto strays = [&](float4::Floats from, float4::Floats to) {
+        return magnitude(to - from) > limit + rounding * float4::min(magnitude(from), magnitude(to));
     };
-    return (four::bits(strays(before.min, after.min) | strays(before.max, after.max)) & before.axes) == 0;
+    return (float4::bits(strays(before.min, after.min) | strays(before.max, after.max)) & before.axes) == 0;
 }
 
 /// Whether two boxes touch, and a way that their faces must go together, at the least, before that changes.
@@ -61,21 +61,22 @@ struct Reach {
 /// touching where a box is empty or has a NaN.
 template <int D>
 Reach reach_of(const BoxLanes<D>& a, const BoxLanes<D>& b) {
-    using four::magnitude;
+    using float4::magnitude;
     constexpr std::uint32_t axes = BoxLanes<D>::axes;
     constexpr float endless = std::numeric_limits<float>::infinity();
-    if ((four::bits((a.min <= a.max) & (b.min <= b.max)) & axes) != axes) return {};
+    if ((float4::bits((a.min <= a.max) & (b.min <= b.max)) & axes) != axes) return {};
 
-    const four::Floats gap = a.min - b.max, other_gap = b.min - a.max;
-    const bool touching = (four::bits((gap > 0.0f) | (other_gap > 0.0f)) & axes) == 0;
+    const float4::Floats gap = a.min - b.max, other_gap = b.min - a.max;
+    const bool touching = (float4::bits((gap > 0.0f) | (other_gap > 0.0f)) & axes) == 0;
     // Each gap somewhat nearer to where it changes; the widest is the last to close, and the first to open. Between
     // faces at infinity there is no number, and nothing ever changes: the first of `greater` is left out then.
     const float nearer = touching ? 2 * rounding : -2 * rounding;
-    four::Floats widest = four::greater(gap + nearer * (magnitude(a.min) + magnitude(b.max)), four::all(-endless));
-    widest = four::greater(other_gap + nearer * (magnitude(b.min) + magnitude(a.max)), widest);
+    float4::Floats widest =
+        float4::max(gap + nearer * (magnitude(a.min) + magnitude(b.max)), float4::broadcast(-endless));
+    widest = float4::max(other_gap + nearer * (magnitude(b.min) + magnitude(a.max)), widest);
     widest[3] = -endless;
     if constexpr (D == 2) widest[2] = -endless;
-    const float way = four::greatest(widest);
+    const float way = float4::max_lane(widest);
     return {touching, std::max(touching ? -way : way, 0.0f) * (1 - 4 * leeway)};
 }
 

@@ -1,4 +1,4 @@
-#include <abut/broad_phase/four_floats-inl.h>
+#include <abut/broad_phase/detail/float4-inl.h>
 #include <abut/broad_phase/timed_pairs.hpp>
 
 #include <algorithm>
@@ -8,9 +8,9 @@ namespace abut {
 namespace {
 
 float earliest_in(const float* due) {
-    four::Floats least = four::loaded(due);
-    for (std::size_t i = 4; i < TimedPairs::block; i += 4) least = four::less(four::loaded(due + i), least);
-    return four::least(least);
+    float4::Floats least = float4::load(due);
+    for (std::size_t i = 4; i < TimedPairs::block; i += 4) least = float4::min(float4::load(due + i), least);
+    return float4::min_lane(least);
 }
 
 }  // namespace
@@ -36,13 +36,13 @@ void TimedPairs::add(ItemPair pair, Look look) {
 }
 
 std::size_t TimedPairs::collect_due(float now, std::size_t& next_block, std::uint32_t* out) const {
-    const four::Floats limit = four::all(now);
+    const float4::Floats limit = float4::broadcast(now);
     std::size_t count = 0, k = next_block;
     for (; k < next_.size() && count + block <= at_once; ++k) {
         if (next_[k] > now) continue;
         std::uint64_t due = 0;
         for (std::size_t i = 0; i < block; i += 4)
-            due |= std::uint64_t{four::bits(four::loaded(due_.data() + k * block + i) <= limit)} << i;
+            due |= std::uint64_t{float4::bits(float4::load(due_.data() + k * block + i) <= limit)} << i;
         for (; due != 0; due &= due - 1)
             out[count++] = static_cast<std::uint32_t>(k * block + static_cast<std::size_t>(std::countr_zero(due)));
     }

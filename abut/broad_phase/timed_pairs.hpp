@@ -2,7 +2,7 @@
 
 // Pairs, each with the moment at which it is to be looked at again. For .cpp files.
 
-#include <abut/broad_phase/pair_buffer.hpp>
+#include <abut/broad_phase/detail/pair_buffer.hpp>
 #include <abut/broad_phase/visit.hpp>
 
 #include <algorithm>

@@ -1,18 +1,18 @@
 #include <abut/convex/gjk/gjk.hpp>
 #include <abut/query/certify.hpp>
-#include <abut/query/function_there.hpp>
-#include <abut/query/part_pairs.hpp>
+#include <abut/query/detail/part_pairs.hpp>
+#include <abut/query/detail/sdf/placed_function.hpp>
 
 namespace abut {
 namespace {
 
-/// Calls visit(part) for a shape itself, or for the part of a composite one that has the number.
+/// Calls visit(part) for a shape itself, or for the part of a composite shape with this number.
 template <int D, class Visit>
 void with_part(const View<D>& shape, std::uint32_t number, Visit&& visit) {
     if (const auto* convex = std::get_if<Convex<D>>(&shape))
         visit(*convex);
-    else if (const auto* solid = std::get_if<HalfSpaceView<D>>(&shape))
-        visit(*solid);
+    else if (const auto* half_space = std::get_if<HalfSpaceView<D>>(&shape))
+        visit(*half_space);
     else if (const auto* function = std::get_if<DistanceFunction<D>>(&shape))
         visit(*function);
     else
@@ -44,8 +44,8 @@ double outside(const HalfSpaceView<D>& part, const DVec<D>& point) {
     return std::max(0.0, dot(part.normal, point) - part.offset);
 }
 
-/// A point of both, where they overlap: the cores' nearest points are weighted sums of corners, and what the cores lack
-/// the balls around them reach.
+/// A point of both overlapping shapes. The nearest points of the cores are weighted sums of corners; the radii bridge
+/// the gap between the cores.
 template <int D>
 DVec<D> common_point(const Convex<D>& a, const Convex<D>& b) {
     const CoreDifference<D> difference(a, b);
@@ -65,13 +65,13 @@ DVec<D> common_point(const HalfSpaceView<D>& a, const Convex<D>& b) {
     return common_point(b, a);
 }
 
-/// The largest coordinate seen from `origin`.
+/// The largest coordinate relative to `origin`.
 template <int D>
 double reach(const Convex<D>& part, const DVec<D>& origin) {
-    double most = 0;
+    double farthest = 0;
     for (int i = 0; i < D; ++i)
-        for (const double sign : {1.0, -1.0}) most = std::max(most, extent(part, axis<D>(i, sign), origin));
-    return most;
+        for (const double sign : {1.0, -1.0}) farthest = std::max(farthest, extent(part, axis<D>(i, sign), origin));
+    return farthest;
 }
 
 double unit_in_the_last_place(double x) {
@@ -80,21 +80,21 @@ double unit_in_the_last_place(double x) {
 }
 
 template <int D>
-double margin_of(const Convex<D>& a, const Convex<D>& b) {
+double tolerance_of(const Convex<D>& a, const Convex<D>& b) {
     const DVec<D> origin = reference_point(a);
     return 1e-5 * std::min(size(a), size(b)) +
            16 * unit_in_the_last_place(std::max(reach(a, origin), reach(b, origin)));
 }
 template <int D>
-double margin_of(const Convex<D>& a, const HalfSpaceView<D>& b) {
+double tolerance_of(const Convex<D>& a, const HalfSpaceView<D>& b) {
     const double beyond = std::abs(extent(a, -b.normal, DVec<D>(0.0)) + b.offset);
     return 1e-5 * size(a) + 16 * unit_in_the_last_place(std::max(2 * size(a), beyond));
 }
 template <int D>
-double margin_of(const HalfSpaceView<D>& a, const Convex<D>& b) {
-    return margin_of(b, a);
+double tolerance_of(const HalfSpaceView<D>& a, const Convex<D>& b) {
+    return tolerance_of(b, a);
 }
-/// How far rounding the coordinates of a point to floats moves it at most.
+/// The most by which rounding the coordinates to floats moves a point.
 template <int D>
 double rounding_of(const Vec<D>& point) {
     double result = 0;
@@ -108,7 +108,7 @@ Certificate<D> certificate(const A& a, const B& b, const Closest<D>& answer) {
     const double distance = static_cast<double>(answer.distance);
 
     Certificate<D> result;
-    result.margin = margin_of(a, b);
+    result.margin = tolerance_of(a, b);
     const double past_a = extent(a, normal, on_a), past_b = extent(b, -normal, on_a);
     result.plane = std::abs(-past_b - past_a - distance);
     result.off_a = std::max(std::abs(past_a), outside(a, on_a));
@@ -125,16 +125,16 @@ Certificate<D> certificate(const A& a, const B& b, const Closest<D>& answer) {
     return result;
 }
 
-// Of a distance function the answer names a place and what the function is there; that there is none where it is less
-// is searched for once more.
+// For a distance function the answer names a place and the value of the function there. A second search checks that the
+// value is nowhere lower.
 
-/// How far a place, which is where a set is deepest, is outside of the set; a place of a function's shape, of that.
+/// How far the deepest point of a set is outside of the set, or a point is outside of a function's shape.
 template <int D>
 double outside(const DistanceFunction<D>& part, const DVec<D>& point) {
-    return std::max(0.0, FunctionThere<D>(part).at(point));
+    return std::max(0.0, PlacedFunction<D>(part).at(point));
 }
 
-/// What the answer's distance is by the place that it names, and how far that place is from where it must be.
+/// The distance measured at the place that the answer names, and how far that place is from where it must be.
 template <int D>
 struct Measured {
     double distance, off;
@@ -146,16 +146,16 @@ Measured<D> measured(const Convex<D>& a, const DistanceFunction<D>& b, const DVe
     Convex<D> core = a;
     core.radius = 0;
     const DVec<D> deepest = on_a - normal * a.radius;
-    const FunctionThere<D> function(b);
-    const double there = function.at(deepest);
-    // Down from there, as far as the radius goes.
+    const PlacedFunction<D> function(b);
+    const double value = function.at(deepest);
+    // Follow the gradient down, as far as the radius reaches.
     DVec<D> common = deepest;
-    double rest = there;
+    double rest = value;
     for (int i = 0; i < 8 && rest > 0; ++i) {
         common -= function.normal(common, function.step(common, 1e-2 * rest)) * rest;
         rest = function.at(common);
     }
-    return {there - a.radius, outside(core, deepest), common};
+    return {value - a.radius, outside(core, deepest), common};
 }
 template <int D>
 Measured<D> measured(const DistanceFunction<D>& a, const HalfSpaceView<D>& b, const DVec<D>& on_a, const DVec<D>&,
@@ -166,7 +166,7 @@ template <int D>
 Measured<D> measured(const DistanceFunction<D>& a, const DistanceFunction<D>& b, const DVec<D>& on_a,
                      const DVec<D>& normal, double distance) {
     const DVec<D> middle = on_a + normal * (0.5 * distance);
-    return {2 * std::max(FunctionThere<D>(a).at(middle), FunctionThere<D>(b).at(middle)), 0, middle};
+    return {2 * std::max(PlacedFunction<D>(a).at(middle), PlacedFunction<D>(b).at(middle)), 0, middle};
 }
 template <class A, class B, int D>
 Measured<D> measured(const A& a, const B& b, const DVec<D>& on_a, const DVec<D>& normal, double distance) {
@@ -178,16 +178,16 @@ requires FunctionPair<A, B> Certificate<D> certificate(const A& a, const B& b, c
     const DVec<D> on_a(answer.on_a), on_b(answer.on_b), normal = normalized(DVec<D>(answer.normal));
     const double distance = static_cast<double>(answer.distance);
     Certificate<D> result;
-    result.margin = function_doubt(a, b);
+    result.margin = function_search_tolerance(a, b);
     if (!std::isfinite(distance)) return result;
-    const Measured<D> told = measured(a, b, on_a, normal, distance);
+    const Measured<D> found = measured(a, b, on_a, normal, distance);
     const double none = -std::numeric_limits<double>::infinity();
-    const double least = function_distance(a, b, {none, distance - result.margin}).distance;
-    result.plane = std::max(std::abs(told.distance - distance), distance - std::min(least, distance));
-    (is_function<A> ? result.off_b : result.off_a) = told.off;
+    const double minimum = function_distance(a, b, {none, distance - result.margin}).distance;
+    result.plane = std::max(std::abs(found.distance - distance), distance - std::min(minimum, distance));
+    (is_function<A> ? result.off_b : result.off_a) = found.off;
     result.across = length(on_b - on_a - normal * distance);
     if (distance <= 0) {
-        result.common = to_float(told.common);
+        result.common = to_float(found.common);
         const DVec<D> common(result.common);
         result.off_common = std::max(outside(a, common), outside(b, common));
     }
@@ -204,9 +204,9 @@ Certificate<D> certify(const View<D>& a, const View<D>& b, const Closest<D>& ans
     Certificate<D> result;
     with_part(a, answer.feature_a.part, [&](const auto& part_a) {
         with_part(b, answer.feature_b.part, [&](const auto& part_b) {
-            constexpr bool solids = std::is_same_v<decltype(part_a), const HalfSpaceView<D>&> &&
-                                    std::is_same_v<decltype(part_b), const HalfSpaceView<D>&>;
-            if constexpr (!solids) result = certificate<D>(part_a, part_b, answer);
+            constexpr bool both_half_spaces = std::is_same_v<decltype(part_a), const HalfSpaceView<D>&> &&
+                                              std::is_same_v<decltype(part_b), const HalfSpaceView<D>&>;
+            if constexpr (!both_half_spaces) result = certificate<D>(part_a, part_b, answer);
         });
     });
     return result;

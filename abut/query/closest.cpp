@@ -1,8 +1,8 @@
+#include <abut/convex/gjk/gjk.hpp>
 #include <abut/query/closest.hpp>
-#include <abut/query/direct.hpp>
-#include <abut/query/part_pairs.hpp>
-#include <abut/query/vicinity.hpp>
-#include <abut/query/write_answer.hpp>
+#include <abut/query/detail/closed_form/closed_form.hpp>
+#include <abut/query/detail/part_pairs.hpp>
+#include <abut/query/detail/write_answer.hpp>
 
 #include <optional>
 #include <utility>
@@ -10,14 +10,14 @@
 namespace abut {
 namespace {
 
-/// Calls visit(part, index) for a convex shape, half-space or distance function itself, and for the parts of a
-/// composite one that are within reach of `other`, as long as visit() returns it.
+/// Calls visit(part, index) for a convex shape, half-space or distance function itself, or for the parts of a composite
+/// shape within reach of `other`; visit returns the new reach.
 template <int D, class Other, class Visit>
 void each_part_within_reach(const View<D>& shape, const Other& other, Visit&& visit) {
     if (const auto* convex = std::get_if<Convex<D>>(&shape))
         visit(*convex, 0u);
-    else if (const auto* solid = std::get_if<HalfSpaceView<D>>(&shape))
-        visit(*solid, 0u);
+    else if (const auto* half_space = std::get_if<HalfSpaceView<D>>(&shape))
+        visit(*half_space, 0u);
     else if (const auto* function = std::get_if<DistanceFunction<D>>(&shape))
         visit(*function, 0u);
     else
@@ -25,7 +25,51 @@ void each_part_within_reach(const View<D>& shape, const Other& other, Visit&& vi
                           [&](const Convex<D>& part, std::uint32_t index) -> float { return visit(part, index); });
 }
 
-/// The least distance over all pairs of parts.
+/// A cheap test that rejects parts too far from a shape, to which it refers.
+template <int D>
+class PartCuller {
+public:
+    explicit PartCuller(const Convex<D>& shape) : shape_(shape) {
+        for (int i = 0; i < D; ++i)
+            center_[i] = 0.5 * (core_support(shape, axis<D>(i, 1)).position[i] +
+                                core_support(shape, axis<D>(i, -1)).position[i]);
+    }
+
+    /// Whether the part is certainly farther than `distance`. A part of up to three points is tested along the
+    /// direction from the shape's centre to its closest point; any other part takes a GJK that stops early.
+    bool is_beyond(const Convex<D>& part, double distance) const {
+        const double sufficient = distance + part.radius + shape_.radius;
+        if (part.core != Core::points || part.count > 3 || part.inner_radius > 0)
+            return gjk(CoreDifference<D>(shape_, part), sufficient).lower_bound > sufficient;
+        Affine<D> local_place = part.place;
+        local_place.offset -= center_;
+        std::array<DVec<D>, 3> corners;
+        Simplex<D> simplex;
+        for (; simplex.count < part.count; ++simplex.count) {
+            const DVec<D> corner = local_place.point(DVec<D>(part.vertices()[simplex.count]));
+            corners[simplex.count] = corner;
+            simplex.points[simplex.count] = {corner, corner, DVec<D>(0.0), 0, 0};
+        }
+        const DVec<D> nearest = reduce_to_closest(simplex);
+        const double gap = length(nearest);
+        if (!(gap > sufficient)) return false;
+        const DVec<D> direction = nearest / gap;
+        double from = std::numeric_limits<double>::infinity(), scale = 0;
+        for (std::size_t i = 0; i < part.count; ++i) {
+            from = std::min(from, dot(direction, corners[i]));
+            scale = std::max(scale, largest(corners[i]));
+        }
+        if (!(from > sufficient)) return false;
+        const double to = dot(direction, core_support(shape_, direction).position - center_);
+        return from - to > sufficient + 1e-12 * scale + 1e-15 * largest(center_);
+    }
+
+private:
+    const Convex<D>& shape_;
+    DVec<D> center_{0.0};
+};
+
+/// The minimum distance over all pairs of parts.
 template <int D>
 class Nearest {
 public:
@@ -33,72 +77,72 @@ public:
 
     void search(const View<D>& a, const View<D>& b) {
         if (const auto* convex = std::get_if<Convex<D>>(&b))
-            look_around<false>(a, *convex, 0);
-        else if (const auto* solid = std::get_if<HalfSpaceView<D>>(&b))
-            look_around<false>(a, *solid, 0);
+            search_around<false>(a, *convex, 0);
+        else if (const auto* half_space = std::get_if<HalfSpaceView<D>>(&b))
+            search_around<false>(a, *half_space, 0);
         else if (const auto* function = std::get_if<DistanceFunction<D>>(&b))
-            look_around<false>(a, *function, 0);
+            search_around<false>(a, *function, 0);
         else
             each_part_within_reach(a, b, [&](const auto& part, std::uint32_t index) {
-                look_around<true>(b, part, index);
+                search_around<true>(b, part, index);
                 return reach();
             });
     }
 
     Closest<D> found() const {
         Closest<D> result = found_;
-        if (any_) write(least_, result);
+        if (any_) write(nearest_, result);
         return result;
     }
 
 private:
-    /// What is farther off can't be nearer. Of what overlaps all must be looked at.
+    /// Farther parts can't be nearer. All overlapping parts must be tested, as the deepest may come last.
     float reach() const {
-        return any_ ? static_cast<float>(std::max(least_.distance, 0.0)) : std::numeric_limits<float>::infinity();
+        return any_ ? static_cast<float>(std::max(nearest_.distance, 0.0)) : std::numeric_limits<float>::infinity();
     }
 
-    /// At all parts of a shape near a part of the other one, which is of A or of B.
+    /// Tests all parts of a shape near one part of the other shape, which is A or B.
     template <bool of_a, class Part>
-    void look_around(const View<D>& shape, const Part& part, std::uint32_t index) {
+    void search_around(const View<D>& shape, const Part& part, std::uint32_t index) {
         [[maybe_unused]] constexpr bool two_half_spaces_pair = false;
         constexpr bool is_convex = std::is_same_v<Part, Convex<D>>;
-        std::optional<Vicinity<D>> vicinity;
+        std::optional<PartCuller<D>> culler;
         if constexpr (is_convex)
-            if (std::holds_alternative<Composite<D>>(shape)) vicinity.emplace(part);
+            if (std::holds_alternative<Composite<D>>(shape)) culler.emplace(part);
         each_part_within_reach(shape, part, [&]<class Other>(const Other& other, std::uint32_t other_index) {
             if constexpr (is_convex && std::is_same_v<Other, Convex<D>>)
-                if (any_ && vicinity && least_.distance > 0 && vicinity->is_beyond(other, least_.distance))
+                if (any_ && culler && nearest_.distance > 0 && culler->is_beyond(other, nearest_.distance))
                     return reach();
             if constexpr (std::is_same_v<Part, HalfSpaceView<D>> && std::is_same_v<Part, Other>)
                 ABUT_ASSERT(two_half_spaces_pair);
             else if constexpr (of_a)
-                look_at(part, index, other, other_index);
+                test_pair(part, index, other, other_index);
             else
-                look_at(other, other_index, part, index);
+                test_pair(other, other_index, part, index);
             return reach();
         });
     }
 
     template <class PartA, class PartB>
-    void look_at(const PartA& part_a, std::uint32_t index_a, const PartB& part_b, std::uint32_t index_b) {
+    void test_pair(const PartA& part_a, std::uint32_t index_a, const PartB& part_b, std::uint32_t index_b) {
         const SignedDistance<D> distance = part_distance(part_a, part_b, options_);
-        // A function without bounds, or of no place, is nowhere near.
+        // The distance to a function that is empty or without bounds is infinite.
         if (!(distance.distance < std::numeric_limits<double>::infinity())) return;
-        // The lowest of several as near, so that it isn't up to the order of the visits.
-        if (any_ && !(distance.distance < least_.distance) &&
-            !(distance.distance == least_.distance &&
+        // Among equally near pairs the lowest wins, whatever the order of the visits.
+        if (any_ && !(distance.distance < nearest_.distance) &&
+            !(distance.distance == nearest_.distance &&
               std::pair(index_a, index_b) < std::pair(found_.feature_a.part, found_.feature_b.part)))
             return;
         any_ = true;
-        least_ = distance;
-        // Now, while the parts are there: a composite shape may make them up as it goes.
+        nearest_ = distance;
+        // Written during the visit: a composite shape may create its parts as it goes.
         name_features(part_a, part_b, distance, index_a, index_b, found_);
     }
 
     SearchOptions<D> options_;
     bool any_ = false;
-    SignedDistance<D> least_{};
-    Closest<D> found_;  ///< its features
+    SignedDistance<D> nearest_{};
+    Closest<D> found_;  ///< only its features are used
 };
 
 template <int D>
@@ -111,7 +155,7 @@ void answer(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& optio
     name_features(a, b, distance, 0, 0, result);
 }
 
-/// Kept out of what is hot, where it would take up room.
+/// Out of line, to keep the fast path small.
 template <int D>
 [[gnu::noinline]] void by_views(const ShapeRef<D>& a, const ShapeRef<D>& b, const QueryOptions<D>& options,
                                 Closest<D>& result) {
@@ -130,7 +174,7 @@ Closest<D> closest(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>
 template <int D>
 Closest<D> closest(const ShapeRef<D>& a, const ShapeRef<D>& b, const QueryOptions<D>& options) {
     Closest<D> result;
-    if (options.trace != nullptr || !direct_closest(a, b, options.cache, result)) by_views(a, b, options, result);
+    if (options.trace != nullptr || !closed_form_closest(a, b, options.cache, result)) by_views(a, b, options, result);
     return result;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// How far apart are two shapes, or how deep in one another, and where?
+// The signed distance of two shapes, with the closest points.
 
 #include <abut/query/feature.hpp>
 #include <abut/query/options.hpp>
@@ -11,13 +11,13 @@
 
 namespace abut {
 
-/// All fields are always valid, also where the shapes touch, coincide or are nested.
+/// All fields are always valid, also for shapes that touch, coincide or are nested.
 template <int D>
 struct Closest {
-    /// The gap; or minus the least translation that parts them; 0 where they touch. For composite shapes the least over
-    /// all pairs of parts; infinite where one has no parts.
+    /// The gap, or minus the least translation that separates them; 0 if they touch. For composite shapes it is the
+    /// minimum over all pairs of parts, and infinite if one has no parts.
     float distance = std::numeric_limits<float>::infinity();
-    Vec<D> normal = first_axis();  ///< of length 1, from A to B: moving B by -distance * normal makes them touch
+    Vec<D> normal = first_axis();  ///< unit vector from A to B: moving B by -distance * normal makes them touch
     Vec<D> on_a{};                 ///< on the surface of A; on_b == on_a + distance * normal
     Vec<D> on_b{};                 ///< on the surface of B
     Feature feature_a{};
@@ -40,9 +40,9 @@ Closest<D> closest(const ShapeRef<D>& a, const ShapeRef<D>& b, const QueryOption
 template <>
 Closest<2> closest(const ShapeRef<2>& a, const ShapeRef<2>& b, const QueryOptions<2>& options);
 
-/// The signed distance of two shapes with the points and direction it is measured at.
-/// Right to within 1e-5 x the size of the smaller; the depth of cylinders, cones and shapes known by a support function
-/// is that of a move which truly parts them, at most 1e-3 x size above the least.
+/// The signed distance of two shapes, with the closest points and the direction between them. The error is at most 1e-5
+/// x the size of the smaller shape. The depth of cylinders, cones and shapes known by a support function is a valid
+/// separating move, at most 1e-3 x size above the least.
 template <class A, class B>
 requires Pair<A, B> Closest<dimension<A>> closest(const A& a, const B& b,
                                                   const QueryOptions<dimension<A>>& options = {}) {
@@ -52,7 +52,8 @@ template <class A, class B, class Why = detail::WhyNoPair<A, B>>
 requires(!(Shape<A> && detail::PointIn<B, detail::dimension_or_3<A>>)) auto closest(
     const A& a, const B& b, const QueryOptions<detail::dimension_or_3<A>>& options = {});
 
-/// The place on a shape closest to a point: `on_a`. Inside, the distance is below zero and `on_a` the nearest way out.
+/// The point on a shape closest to a point: `on_a`. Inside, the distance is negative and `on_a` is the nearest point of
+/// the surface.
 template <Shape A>
 Closest<dimension<A>> closest(const A& a, const Vec<dimension<A>>& point,
                               const QueryOptions<dimension<A>>& options = {}) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Where do two shapes touch, and how must they move to come apart?
+// The contact of two shapes: where they touch, and the least move that separates them.
 
 #include <abut/query/feature.hpp>
 #include <abut/query/options.hpp>
@@ -13,19 +13,18 @@ namespace abut {
 
 template <int D>
 struct ContactPoint {
-    Vec<D> position{};          ///< midway between the two surfaces along the normal; may lie outside of a deep pair
-    float depth = 0;            ///< of the surfaces in one another, here, along the normal; below zero for a near miss
-    std::uint32_t feature = 0;  ///< the same from frame to frame while the same corners and edges meet
+    Vec<D> position{};          ///< midway between the two surfaces along the normal; of a deep pair it may lie outside
+    float depth = 0;            ///< penetration at this point along the normal; negative for a near miss
+    std::uint32_t feature = 0;  ///< constant from frame to frame while the same corners and edges touch
 };
 
-/// Up to 2 points in 2D, 4 in 3D: the corners of the area in which the shapes meet.
+/// The contact manifold, up to 2 points in 2D and 4 in 3D: the corners of the contact area.
 template <int D>
 class ContactPoints {
 public:
     static constexpr std::size_t capacity = D == 2 ? 2 : 4;
 
-    /// Written out, so that compilers fill it member by member: to clear all of it first, as they do otherwise, is
-    /// slow.
+    /// Empty, so that compilers fill the members one by one: clearing them all first is slow.
     ContactPoints() {}
 
     const ContactPoint<D>* begin() const { return points_.data(); }
@@ -35,7 +34,7 @@ public:
     const ContactPoint<D>& operator[](std::size_t i) const { return points_[i]; }
     void clear() { count_ = 0; }
     void push_back(const ContactPoint<D>& point) {
-        // Number by number: what was just written in parts can't be read as a whole at once.
+        // Member by member: values just written one by one can't be loaded as a whole without a stall.
         ContactPoint<D>& added = points_[count_++];
         for (int i = 0; i < D; ++i) added.position[i] = point.position[i];
         added.depth = point.depth;
@@ -49,9 +48,9 @@ private:
 
 template <int D>
 struct Contact {
-    Vec<D> normal{};          ///< of length 1, from A to B: moving B by depth * normal parts them
+    Vec<D> normal{};          ///< unit vector from A to B: moving B by depth * normal separates them
     float depth = 0;          ///< of the deepest point
-    ContactPoints<D> points;  ///< none: the shapes don't touch
+    ContactPoints<D> points;  ///< empty if the shapes don't touch
     Feature feature_a{};
     Feature feature_b{};
 
@@ -67,8 +66,9 @@ Contact<D> contact(const ShapeRef<D>& a, const ShapeRef<D>& b, const QueryOption
 template <>
 Contact<2> contact(const ShapeRef<2>& a, const ShapeRef<2>& b, const QueryOptions<2>& options);
 
-/// The contact of two touching or overlapping shapes; of composite ones, of their deepest pair of parts, or, where that
-/// isn't felt, the deepest that each_contact tells. With a margin, of shapes up to so far apart as well.
+/// The contact of two touching or overlapping shapes. Composite shapes return the contact of their deepest pair of
+/// parts, or, if that lies on an internal edge, the deepest contact of each_contact. With a margin, shapes up to that
+/// far apart count as well.
 template <class A, class B>
 requires Pair<A, B> Contact<dimension<A>> contact(const A& a, const B& b,
                                                   const QueryOptions<dimension<A>>& options = {}) {

@@ -1,39 +1,39 @@
-#include <abut/query/contact_among.hpp>
+#include <abut/query/detail/one_sided.hpp>
+#include <abut/query/detail/surface/contact_with_neighbours.hpp>
+#include <abut/query/detail/surface/reported_contacts.hpp>
+#include <abut/query/detail/write_answer.hpp>
 #include <abut/query/each_contact.hpp>
-#include <abut/query/one_sided.hpp>
-#include <abut/query/told_contacts.hpp>
-#include <abut/query/write_answer.hpp>
 
 namespace abut {
 namespace {
 
-/// So often the parts are looked at again for the ghosts that come next in their order; what is left then is told in
+/// The limit on further passes over the parts for the next ghosts in their order. The remaining ghosts are reported in
 /// the order of the parts.
-constexpr int most_looks = 16;
+constexpr int max_passes = 16;
 
-/// The pairs of parts of a composite shape and a convex one, found once however often they are looked at.
+/// The pairs of parts of a composite shape and a convex one, found once for several passes.
 template <int D>
-class KeptPairs {
+class PartPairCache {
 public:
-    /// False where they can't be kept. `sight`: so far from where the two touch the parts are wanted too.
-    bool keep(const View<D>& a, const View<D>& b, double margin, double sight) {
+    /// Returns false if they can't be cached. Parts within `reach` of the contact are cached too.
+    bool fill(const View<D>& a, const View<D>& b, double margin, double reach) {
         const auto *of_a = std::get_if<Composite<D>>(&a), *of_b = std::get_if<Composite<D>>(&b);
         a_is_composite_ = of_a != nullptr;
         convex_ = std::get_if<Convex<D>>(a_is_composite_ ? &b : &a);
         const Composite<D>* const composite = a_is_composite_ ? of_a : of_b;
         if (composite == nullptr || convex_ == nullptr) return false;
         const Aabb<D> box = bounds(*convex_);
-        near_ = grown(box, static_cast<float>(margin));
-        return parts_.keep(*composite, grown(box, static_cast<float>(margin + sight)));
+        box_ = grown(box, static_cast<float>(margin));
+        return parts_.fill(*composite, grown(box, static_cast<float>(margin + reach)));
     }
 
-    const KeptParts<D>& parts() const { return parts_; }
+    const PartCache<D>& parts() const { return parts_; }
 
     /// visit(part_a, index_a, part_b, index_b); false stops.
     template <class Visit>
     void each(const Visit& visit) const {
         for (std::uint32_t i = 0; i < parts_.size(); ++i) {
-            if (!overlaps(parts_.box(i), near_)) continue;
+            if (!overlaps(parts_.box(i), box_)) continue;
             const bool go_on = a_is_composite_ ? visit(parts_.part(i), parts_.index(i), *convex_, 0u)
                                                : visit(*convex_, 0u, parts_.part(i), parts_.index(i));
             if (!go_on) return;
@@ -41,63 +41,65 @@ public:
     }
 
 private:
-    KeptParts<D> parts_;
+    PartCache<D> parts_;
     const Convex<D>* convex_ = nullptr;
-    Aabb<D> near_;
+    Aabb<D> box_;
     bool a_is_composite_ = false;
 };
 
-/// What is felt as it is, in the order of the parts; then what stands in for the rest and isn't told by that, in an
-/// order of its own, so that it doesn't matter how the parts are numbered.
+/// Reports first the contacts with surface normals, in the order of the parts. Then it reports the ghosts that no
+/// reported contact covers, in an order of their own, so that the numbering of the parts has no influence.
 template <int D>
-class Telling {
+class ContactReporter {
 public:
-    Telling(const View<D>& a, const View<D>& b, const QueryOptions<D>& options, const Others<D>& others,
-            FunctionRef<bool(const Contact<D>&, const FeltBy&)> visit)
-        : a_(a), b_(b), options_(options), pair_(a, b, others), visit_(visit) {
-        is_kept_ = kept_.keep(a, b, static_cast<double>(options.margin), pair_.sight());
-        if (is_kept_) pair_.look_among(kept_.parts());
+    ContactReporter(const View<D>& a, const View<D>& b, const QueryOptions<D>& options,
+                    const NeighbourSurfaces<D>& neighbours,
+                    FunctionRef<bool(const Contact<D>&, const SurfaceNormalFlags&)> visit)
+        : a_(a), b_(b), options_(options), filter_(a, b, neighbours), visit_(visit) {
+        is_cached_ = cache_.fill(a, b, static_cast<double>(options.margin), filter_.reach());
+        if (is_cached_) filter_.use_cache(cache_.parts());
     }
 
-    void tell() {
-        look(
+    void report() {
+        visit_pairs(
             [&](const PartContact<D>& found, const Contact<D>& contact) {
-                felt_.add(found.distance.normal, -found.distance.distance);
-                return go_on_ = visit_(contact, FeltBy{});
+                surface_contacts_.add(found.distance.normal, -found.distance.distance);
+                return go_on_ = visit_(contact, SurfaceNormalFlags{});
             },
             [&](const Ghost<D>& ghost) {
-                if (!is_told(ghost)) first_.add(ghost);
+                if (!is_reported(ghost)) ghosts_.add(ghost);
                 return true;
             });
-        for (int looks = 0; go_on_ && !first_.all().empty(); ++looks) {
-            if (felt_.is_full()) mark_told();
-            tell_first();
-            if (!go_on_ || !first_.has_left_out()) return;
-            if (looks == most_looks) return tell_all_after(first_.all().back());
-            find_next(Ghost<D>(first_.all().back()));
+        for (int pass = 0; go_on_ && !ghosts_.all().empty(); ++pass) {
+            if (surface_contacts_.is_full()) mark_reported();
+            report_ghosts();
+            if (!go_on_ || !ghosts_.is_truncated()) return;
+            if (pass == max_passes) return report_all_after(ghosts_.all().back());
+            find_next(Ghost<D>(ghosts_.all().back()));
         }
     }
 
 private:
-    /// at_felt(found, contact) or at_ghost(ghost) for each pair of parts; they return false to stop.
-    template <class AtFelt, class AtGhost>
-    void look(const AtFelt& at_felt, const AtGhost& at_ghost) {
+    /// Calls at_surface_contact(found, contact) or at_ghost(ghost) for each pair of parts; they return false to stop.
+    template <class AtSurfaceContact, class AtGhost>
+    void visit_pairs(const AtSurfaceContact& at_surface_contact, const AtGhost& at_ghost) {
         const SearchOptions<D> search = search_options(a_, b_, options_);
-        const auto look_at = [&](const auto& part_a, std::uint32_t index_a, const auto& part_b, std::uint32_t index_b) {
-            return look(part_a, index_a, part_b, index_b, search, at_felt, at_ghost);
+        const auto visit = [&](const auto& part_a, std::uint32_t index_a, const auto& part_b, std::uint32_t index_b) {
+            return visit_pair(part_a, index_a, part_b, index_b, search, at_surface_contact, at_ghost);
         };
-        if (is_kept_)
-            kept_.each(look_at);
+        if (is_cached_)
+            cache_.each(visit);
         else
-            each_part_pair(a_, b_, options_.margin, look_at);
+            each_part_pair(a_, b_, options_.margin, visit);
     }
-    template <class PartA, class PartB, class AtFelt, class AtGhost>
-    bool look(const PartA& part_a, std::uint32_t index_a, const PartB& part_b, std::uint32_t index_b,
-              const SearchOptions<D>& search, const AtFelt& at_felt, const AtGhost& at_ghost) {
+    template <class PartA, class PartB, class AtSurfaceContact, class AtGhost>
+    bool visit_pair(const PartA& part_a, std::uint32_t index_a, const PartB& part_b, std::uint32_t index_b,
+                    const SearchOptions<D>& search, const AtSurfaceContact& at_surface_contact,
+                    const AtGhost& at_ghost) {
         const double margin = static_cast<double>(options_.margin);
         PartContact<D> found;
-        if (!part_touch(part_a, part_b, margin, margin, search, found)) return true;
-        if (!meet_at_fronts(part_a, part_b, found.distance.normal)) return true;
+        if (!part_distance_within(part_a, part_b, margin, margin, search, found)) return true;
+        if (!touch_at_fronts(part_a, part_b, found.distance.normal)) return true;
         const auto manifold = [&]() -> const Manifold<D>& {
             add_points(part_a, part_b, margin, search, found);
             return found.manifold;
@@ -106,90 +108,93 @@ private:
             write(found.distance, found.manifold, contact);
             name_features(part_a, part_b, found.distance, index_a, index_b, contact);
         };
-        const FeltBy by = pair_.felt_by(part_a, part_b, found.distance, manifold);
-        if (by) {
+        const SurfaceNormalFlags flags = filter_.surface_normal_flags(part_a, part_b, found.distance, manifold);
+        if (flags) {
             manifold();
             Contact<D> contact;
             write_to(contact);
-            return at_felt(found, contact);
+            return at_surface_contact(found, contact);
         }
-        if (!pair_.replace(part_a, part_b, by, found)) manifold();
+        if (!filter_.replace(part_a, part_b, flags, found)) manifold();
         if (found.distance.distance > margin) return true;
-        Ghost<D> ghost{{}, by, found.distance.normal, -found.distance.distance, false};
+        Ghost<D> ghost{{}, flags, found.distance.normal, -found.distance.distance, false};
         write_to(ghost.contact);
         return at_ghost(ghost);
     }
 
-    bool is_told(const Ghost<D>& ghost) const {
-        return felt_.has(ghost.normal, ghost.depth, pair_.size()) ||
-               instead_.has(ghost.normal, ghost.depth, pair_.size());
+    bool is_reported(const Ghost<D>& ghost) const {
+        return surface_contacts_.has(ghost.normal, ghost.depth, filter_.size()) ||
+               replacements_.has(ghost.normal, ghost.depth, filter_.size());
     }
-    bool tell(const Ghost<D>& ghost) {
-        if (ghost.told || is_told(ghost)) return true;
-        instead_.add(ghost.normal, ghost.depth);
-        return go_on_ = visit_(ghost.contact, ghost.felt);
+    bool report(const Ghost<D>& ghost) {
+        if (ghost.reported || is_reported(ghost)) return true;
+        replacements_.add(ghost.normal, ghost.depth);
+        return go_on_ = visit_(ghost.contact, ghost.surface_normals);
     }
-    void tell_first() {
-        for (const Ghost<D>& ghost : first_.all())
-            if (!tell(ghost)) return;
+    void report_ghosts() {
+        for (const Ghost<D>& ghost : ghosts_.all())
+            if (!report(ghost)) return;
     }
 
-    /// By what is felt and was not kept.
-    void mark_told() {
-        look(
+    /// Marks the ghosts that are covered by surface contacts beyond the capacity.
+    void mark_reported() {
+        visit_pairs(
             [&](const PartContact<D>& found, const Contact<D>&) {
                 const SignedDistance<D>& distance = found.distance;
-                for (Ghost<D>& ghost : first_.all())
-                    ghost.told = ghost.told ||
-                                 tells_of(distance.normal, -distance.distance, ghost.normal, ghost.depth, pair_.size());
+                for (Ghost<D>& ghost : ghosts_.all())
+                    ghost.reported = ghost.reported || covers_contact(distance.normal, -distance.distance, ghost.normal,
+                                                                      ghost.depth, filter_.size());
                 return true;
             },
             [](const Ghost<D>&) { return true; });
     }
     void find_next(const Ghost<D>& last) {
-        first_.clear();
-        look([](const PartContact<D>&, const Contact<D>&) { return true; },
-             [&](const Ghost<D>& ghost) {
-                 if (comes_before(last, ghost) && !is_told(ghost)) first_.add(ghost);
-                 return true;
-             });
+        ghosts_.clear();
+        visit_pairs([](const PartContact<D>&, const Contact<D>&) { return true; },
+                    [&](const Ghost<D>& ghost) {
+                        if (comes_before(last, ghost) && !is_reported(ghost)) ghosts_.add(ghost);
+                        return true;
+                    });
     }
-    void tell_all_after(const Ghost<D>& last) {
-        look([](const PartContact<D>&, const Contact<D>&) { return true; },
-             [&](const Ghost<D>& ghost) { return !comes_before(last, ghost) || tell(ghost); });
+    void report_all_after(const Ghost<D>& last) {
+        visit_pairs([](const PartContact<D>&, const Contact<D>&) { return true; },
+                    [&](const Ghost<D>& ghost) { return !comes_before(last, ghost) || report(ghost); });
     }
 
     const View<D>&a_, &b_;
     const QueryOptions<D>& options_;
-    FeltPair<D> pair_;
-    KeptPairs<D> kept_;
-    FunctionRef<bool(const Contact<D>&, const FeltBy&)> visit_;
-    ToldNormals<D> felt_, instead_;
-    FirstGhosts<D> first_;
+    EdgeFilter<D> filter_;
+    PartPairCache<D> cache_;
+    FunctionRef<bool(const Contact<D>&, const SurfaceNormalFlags&)> visit_;
+    ReportedNormals<D> surface_contacts_, replacements_;
+    DeepestGhosts<D> ghosts_;
     bool go_on_ = true;
-    bool is_kept_ = false;
+    bool is_cached_ = false;
 };
 
 }  // namespace
 
 template <int D>
-void each_contact_among(const View<D>& a, const View<D>& b, const QueryOptions<D>& options, const Others<D>& others,
-                        FunctionRef<bool(const Contact<D>&, const FeltBy&)> visit) {
+void each_contact_with_neighbours(const View<D>& a, const View<D>& b, const QueryOptions<D>& options,
+                                  const NeighbourSurfaces<D>& neighbours,
+                                  FunctionRef<bool(const Contact<D>&, const SurfaceNormalFlags&)> visit) {
     const bool finite = is_finite(a) && is_finite(b);
     ABUT_ASSERT(finite);
-    if (finite) Telling<D>(a, b, options, others, visit).tell();
+    if (finite) ContactReporter<D>(a, b, options, neighbours, visit).report();
 }
 
 template <int D>
 void each_contact_of(const View<D>& a, const View<D>& b, const QueryOptions<D>& options,
                      FunctionRef<bool(const Contact<D>&)> visit) {
-    each_contact_among<D>(a, b, options, {}, [&](const Contact<D>& contact, const FeltBy&) { return visit(contact); });
+    each_contact_with_neighbours<D>(
+        a, b, options, {}, [&](const Contact<D>& contact, const SurfaceNormalFlags&) { return visit(contact); });
 }
 
-#define ABUT_INSTANTIATE(D)                                                                                    \
-    template void each_contact_among(const View<D>&, const View<D>&, const QueryOptions<D>&, const Others<D>&, \
-                                     FunctionRef<bool(const Contact<D>&, const FeltBy&)>);                     \
-    template void each_contact_of(const View<D>&, const View<D>&, const QueryOptions<D>&,                      \
+#define ABUT_INSTANTIATE(D)                                                                                      \
+    template void each_contact_with_neighbours(const View<D>&, const View<D>&, const QueryOptions<D>&,           \
+                                               const NeighbourSurfaces<D>&,                                      \
+                                               FunctionRef<bool(const Contact<D>&, const SurfaceNormalFlags&)>); \
+    template void each_contact_of(const View<D>&, const View<D>&, const QueryOptions<D>&,                        \
                                   FunctionRef<bool(const Contact<D>&)>);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

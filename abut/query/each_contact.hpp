@@ -1,31 +1,31 @@
 #pragma once
 
-// Where do all parts of two shapes touch?
+// All contacts between the parts of two shapes.
 
 #include <abut/broad_phase/visit.hpp>
 #include <abut/query/contact.hpp>
 
 namespace abut {
 
-/// The same of views; the visitor returns false to stop.
+/// The query for views; the visitor returns false to stop.
 template <int D>
 void each_contact_of(const View<D>& a, const View<D>& b, const QueryOptions<D>& options,
                      FunctionRef<bool(const Contact<D>&)> visit);
 
-/// visit(contact) for each pair of parts that touch, in no order that is promised; it returns nothing, or false to
-/// stop. The set of contacts is the same however the parts are numbered. With a margin, for parts up to so far apart as
-/// well. The features tell which parts.
+/// Calls visit(contact) for each pair of touching parts, in no promised order; visit returns nothing, or false to stop.
+/// The set of contacts doesn't depend on the numbering of the parts. With a margin, parts up to that far apart count as
+/// well. The features name the parts.
 ///
-/// Normals are those of the surfaces as they are felt from outside, not those of edges where part meets part: what lies
-/// on a floor of tiles is pushed up alone. Where a pair's own normal is such an edge's, the pair is left out if another
-/// tells the truth there, or else told with the normal and depth of the surface, and one point. Edges lower than about
-/// a thousandth of the smaller one's size aren't felt.
+/// Normals are those of the whole surfaces and not those of internal edges: a box on a floor of tiles is pushed up
+/// only, and there are no ghost collisions. A contact on an internal edge is left out if another contact covers it, or
+/// else reported with the normal and depth of the surface and one point. Edges lower than about a thousandth of the
+/// smaller shape's size don't count.
 template <class A, class B, Visitor<Contact<dimension<A>>> F>
 requires Pair<A, B>
 void each_contact(const A& a, const B& b, F&& visit, const QueryOptions<dimension<A>>& options = {}) {
     constexpr int D = dimension<A>;
     detail::with_view(a, [&](const View<D>& x) {
-        detail::with_view(b, [&](const View<D>& y) { each_contact_of<D>(x, y, options, go_on_after(visit)); });
+        detail::with_view(b, [&](const View<D>& y) { each_contact_of<D>(x, y, options, bool_visitor(visit)); });
     });
 }
 template <class A, class B, class F, class Why = detail::WhyNoPair<A, B>>

@@ -6,7 +6,7 @@
 namespace abut {
 namespace {
 
-/// t / (1 - p), infinite for what never refuses.
+/// t / (1 - p); infinite for a test that never refuses.
 double rank(const TestCost& test) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const double result = test.time / (1 - test.pass);
@@ -17,18 +17,18 @@ double rank(const TestCost& test) {
     return test.time >= 0 && test.pass >= 0 && test.pass <= 1;
 }
 
-/// A run that has got so far on average.
+/// The expected cost of a run so far.
 struct Run {
     double cost = 0, reached = 1;
 
-    void ask(const TestCost& test) {
+    void add(const TestCost& test) {
         ABUT_ASSERT(is_cost(test));
         if (reached > 0) cost += reached * test.time;
         reached *= test.pass;
     }
 };
 
-/// How many samples passed all the tests of `mask`.
+/// The number of samples that passed all the tests of `mask`.
 double passed_all(std::span<const double> outcomes, std::size_t mask) {
     double result = 0;
     for (std::size_t m = 0; m < outcomes.size(); ++m) result += (m & mask) == mask ? outcomes[m] : 0;
@@ -55,13 +55,13 @@ std::vector<std::size_t> best_order(std::span<const TestCost> tests) {
 
 double expected_cost(std::span<const TestCost> tests) {
     Run run;
-    for (const TestCost& test : tests) run.ask(test);
+    for (const TestCost& test : tests) run.add(test);
     return run.cost;
 }
 
 double expected_cost(std::span<const TestCost> tests, std::span<const std::size_t> order) {
     Run run;
-    for (const std::size_t i : order) run.ask(tests[i]);
+    for (const std::size_t i : order) run.add(tests[i]);
     return run.cost;
 }
 
@@ -75,19 +75,19 @@ namespace detail {
 void best_order(std::span<const double> times, std::span<const double> outcomes, std::span<std::size_t> order) {
     std::size_t before = 0;
     for (std::size_t place = 0; place < times.size(); ++place) {
-        // What no sample has got to is judged by itself.
+        // A test that no sample has reached is judged by itself.
         const std::size_t given = passed_all(outcomes, before) > 0 ? before : 0;
         const double reached = passed_all(outcomes, given);
         std::size_t best = times.size();
-        double least = 0;
+        double lowest = 0;
         for (std::size_t i = 0; i < times.size(); ++i) {
             const std::size_t bit = std::size_t{1} << i;
             if ((before & bit) != 0) continue;
             const double pass = reached > 0 ? passed_all(outcomes, given | bit) / reached : 1;
             const double ranked = rank({times[i], pass});
-            if (best == times.size() || ranked < least) {
+            if (best == times.size() || ranked < lowest) {
                 best = i;
-                least = ranked;
+                lowest = ranked;
             }
         }
         order[place] = best;

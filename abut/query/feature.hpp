@@ -1,6 +1,6 @@
 #pragma once
 
-// Where on a shape an answer lies.
+// The feature of a shape that an answer lies on.
 
 #include <abut/convex/feature.hpp>
 
@@ -8,7 +8,7 @@ namespace abut {
 
 struct Feature {
     std::uint32_t part = 0;   ///< of a composite shape: its triangle, tile or child
-    std::uint32_t index = 0;  ///< on that part, as the kind says
+    std::uint32_t index = 0;  ///< on that part; its meaning depends on `kind`
     FeatureKind kind = FeatureKind::none;
 
     friend bool operator==(const Feature&, const Feature&) = default;

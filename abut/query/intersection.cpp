@@ -23,7 +23,7 @@ bool convex_intersection(const Convex<D>& a, const Convex<D>& b, PolytopeOf<D>& 
 
     std::vector<DVec<D>> points = clip(a, b, options.trace);
     if (points.empty()) {
-        // They touch for one and miss by a rounding for the other.
+        // They touch for one algorithm and miss by a rounding for the other.
         const SignedDistance<D> touch = signed_distance(a, b);
         points.push_back(0.5 * (touch.on_a + touch.on_b()));
     }
@@ -33,21 +33,21 @@ bool convex_intersection(const Convex<D>& a, const Convex<D>& b, PolytopeOf<D>& 
     return true;
 }
 
-/// Rounded to floats, from the lexicographically least corner on; 0 has no sign.
+/// Rounds to floats, starting at the lexicographically least corner; -0 becomes 0.
 void round_loop(const ClippedLoop& loop, std::array<Vec2, 2 * max_soa_edges>& rounded) {
     const auto less = [](const Vec2& a, const Vec2& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); };
-    std::size_t least = 0;
+    std::size_t first = 0;
     std::array<Vec2, 2 * max_soa_edges> corners;
     for (std::size_t i = 0; i < loop.count; ++i) {
         corners[i] = to_float(loop.points[i]) + Vec2(0);
-        if (less(corners[i], corners[least])) least = i;
+        if (less(corners[i], corners[first])) first = i;
     }
     for (std::size_t i = 0; i < loop.count; ++i)
-        rounded[i] = corners[least + i < loop.count ? least + i : least + i - loop.count];
+        rounded[i] = corners[first + i < loop.count ? first + i : first + i - loop.count];
 }
 
-/// Polygons of few sides that overlap by more than rounding. False: nothing is known.
-bool quick_intersection(const Convex<2>& a, const Convex<2>& b, Polygon& out) {
+/// The fast path for polygons of few edges that overlap by more than rounding. False means unknown.
+bool fast_intersection(const Convex<2>& a, const Convex<2>& b, Polygon& out) {
     if (a.radius > 0 || b.radius > 0 || !is_finite(a) || !is_finite(b)) return false;
     PlacedPolygon outline_a, outline_b;
     if (!set_placed_polygon(a, outline_a) || !set_placed_polygon(b, outline_b)) return false;
@@ -61,7 +61,7 @@ bool quick_intersection(const Convex<2>& a, const Convex<2>& b, Polygon& out) {
     if (!(scale < 1e37) || !clip_polygons(pair, loop)) return false;
     std::array<Vec2, 2 * max_soa_edges> rounded;
     round_loop(loop, rounded);
-    // What rounding to floats alone may have opened isn't told from touching here.
+    // An overlap this thin could be a gap before rounding to floats; the robust path decides.
     return out.set_outline(std::span(rounded.data(), loop.count), 1e-6 * scale);
 }
 
@@ -69,11 +69,11 @@ bool quick_intersection(const Convex<2>& a, const Convex<2>& b, Polygon& out) {
 
 bool intersection(const Convex<2>& a, const Convex<2>& b, Polygon& out, const QueryOptions<2>& options) {
     if (options.trace != nullptr) {
-        // The quick way has no steps to tell of, and a trace changes no answer.
-        Polygon told;
-        convex_intersection(a, b, told, options);
+        // The fast path has no steps to record, and a trace changes no answer.
+        Polygon traced;
+        convex_intersection(a, b, traced, options);
     }
-    if (quick_intersection(a, b, out)) return true;
+    if (fast_intersection(a, b, out)) return true;
     return convex_intersection(a, b, out, {.cache = options.cache});
 }
 

@@ -12,26 +12,27 @@ namespace abut {
 bool intersection(const Convex<2>& a, const Convex<2>& b, Polygon& out, const QueryOptions<2>& options = {});
 bool intersection(const Convex<3>& a, const Convex<3>& b, Polyhedron& out, const QueryOptions<3>& options = {});
 
-/// All points that are in both, as a Polygon or Polyhedron with its area or volume, centroid and normal; false, and
-/// `out` as it was, where there are none: it is true where `overlaps` is. What touches has in common a face, an edge or
-/// a point, and `out` is then that, of less rank. One shape inside of the other comes back as it is.
+/// Writes all points that are in both to `out`, a Polygon or Polyhedron with area or volume, centroid and normal.
+/// Returns whether there are any, exactly as `overlaps`; if not, `out` stays as it was. Touching shapes share a face,
+/// an edge or a point, and `out` is then of that lower rank. If one shape contains the other, the result is the inner
+/// one.
 ///
-/// A and B are polytopes; of others, `polytope(shape, tolerance)` makes one. The result is right to within the margin
-/// of doubt, and then rounded to floats, which far from the origin may move its corners, and lift them out of a plane,
-/// by as much as floats are apart there. What reaches beyond all floats, isn't finite, or is a view of a shape that is
-/// no polytope, trips ABUT_ASSERT; in release the answer is then false. `options.trace` is told each cut.
+/// A and B are polytopes; for other shapes, `polytope(shape, tolerance)` makes one. The result is right to within the
+/// tolerance, and then rounded to floats: far from the origin that may move its corners, and lift them out of a plane,
+/// by the spacing of floats there. Shapes beyond the range of floats, not finite, or views of shapes that are no
+/// polytopes trip ABUT_ASSERT; in release the answer is then false. `options.trace` records each cut.
 template <PolytopeShape A, PolytopeShape B>
 requires(dimension<A> == dimension<B>) bool intersection(const A& a, const B& b, PolytopeOf<dimension<A>>& out,
                                                          const QueryOptions<dimension<A>>& options = {}) {
     const auto& corners_a = detail::by_corners(a);
     const auto& corners_b = detail::by_corners(b);
-    const Convex<dimension<A>>& seen_a = view(corners_a);
-    const Convex<dimension<A>>& seen_b = view(corners_b);
+    const Convex<dimension<A>>& view_a = view(corners_a);
+    const Convex<dimension<A>>& view_b = view(corners_b);
     detail::clear_upper_halves();
-    return intersection(seen_a, seen_b, out, options);
+    return intersection(view_a, view_b, out, options);
 }
 
-/// The same; nothing where no point is in both.
+/// The intersection as a value; std::nullopt if no point is in both.
 template <PolytopeShape A, PolytopeShape B>
 requires(dimension<A> == dimension<B>) std::optional<PolytopeOf<dimension<A>>> intersection(
     const A& a, const B& b, const QueryOptions<dimension<A>>& options = {}) {

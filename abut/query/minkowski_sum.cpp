@@ -12,7 +12,7 @@
 namespace abut {
 namespace {
 
-/// Corners as floats, seen from somewhere.
+/// Corners as floats, relative to an origin.
 template <int D>
 struct PlacedPoints {
     std::vector<Vec<D>> points;
@@ -30,8 +30,8 @@ DVec<D> middle(std::span<const DVec<D>> points) {
     return 0.5 * (low + high);
 }
 
-/// The corners of a convex set where it is placed: as they are if that keeps them floats; else rounded, as seen from
-/// their middle, where floats are finest.
+/// The placed corners of a convex set: exact if they are floats after rotation and scale, else rounded relative to
+/// their centre, where floats are finest.
 template <int D>
 PlacedPoints<D> placed_points(const Convex<D>& convex) {
     std::vector<DVec<D>> exact;
@@ -70,7 +70,7 @@ class PlacedSurface {
 public:
     explicit PlacedSurface(const Convex<3>& convex) {
         if (convex.facets != nullptr && convex.similar && convex.scale > 0)
-            keep(convex);
+            use_facets(convex);
         else
             build(placed_points(convex));
     }
@@ -82,7 +82,7 @@ public:
     const DVec<3>& origin() const { return origin_; }
 
 private:
-    void keep(const Convex<3>& convex) {
+    void use_facets(const Convex<3>& convex) {
         for (std::uint32_t i = 0; i < convex.count; ++i)
             corners_.push_back(convex.place.vector(DVec<3>(convex.vertices()[i])));
         origin_ = convex.place.offset;
@@ -91,7 +91,7 @@ private:
         mirrored_ = dot(axes[0], cross(axes[1], axes[2])) < 0;
     }
 
-    /// Where there were no faces yet, or where the placement may have bent them or flattened what was solid.
+    /// Builds the faces, for a set that has none, or whose placement may have bent or flattened them.
     void build(const PlacedPoints<3>& placed) {
         Result<Hull3> built = hull(placed.points);
         ABUT_ASSERT(static_cast<bool>(built));

@@ -1,16 +1,17 @@
 #pragma once
 
-// All sums and all differences of the points of two polytopes, as polytopes.
+// The Minkowski sum and Minkowski difference of two polytopes, as polytopes.
 
 #include <abut/query/polytope.hpp>
 
 namespace abut {
 
-/// All points p + q, p in A and q in B: A with B slid along its outside. Convex, and each of its corners is a corner of
-/// A plus one of B, rounded to floats. A and B are polytopes; of others, `polytope(shape, tolerance)` makes one. In
-/// space, corners that are within 1e-6 of the extent of A + B of the others may be left out. Takes n + m steps in the
-/// plane and n m in space for n and m corners, besides building the result. A number that isn't finite, a sum beyond
-/// the floats, or a view of what is no polytope trips ABUT_ASSERT; in release the result is then some polytope.
+/// All points p + q, p in A and q in B: A swept over B. The result is convex, and each of its corners is a corner of A
+/// plus one of B, rounded to floats. A and B are polytopes; for other shapes, `polytope(shape, tolerance)` makes one.
+/// In space, corners within 1e-6 of the extent of A + B of other corners may be left out. Cost for n and m corners,
+/// besides building the result: n + m steps in the plane, n m in space. A number that isn't finite, a sum beyond the
+/// range of floats, or a view of a shape that is no polytope trips ABUT_ASSERT; in release the result is then some
+/// polytope.
 Polygon minkowski_sum(const Convex<2>& a, const Convex<2>& b);
 Polyhedron minkowski_sum(const Convex<3>& a, const Convex<3>& b);
 
@@ -18,14 +19,14 @@ template <PolytopeShape A, PolytopeShape B>
 requires(dimension<A> == dimension<B>) PolytopeOf<dimension<A>> minkowski_sum(const A& a, const B& b) {
     const auto& corners_a = detail::by_corners(a);
     const auto& corners_b = detail::by_corners(b);
-    const Convex<dimension<A>>& seen_a = view(corners_a);
-    const Convex<dimension<A>>& seen_b = view(corners_b);
+    const Convex<dimension<A>>& view_a = view(corners_a);
+    const Convex<dimension<A>>& view_b = view(corners_b);
     detail::clear_upper_halves();
-    return minkowski_sum(seen_a, seen_b);
+    return minkowski_sum(view_a, view_b);
 }
 
-/// All points p - q, p in A and q in B: the ways to move B so that q comes to lie on p. A and B overlap exactly if 0 is
-/// in it, and they are as far apart, or as deep in one another, as it is from its outside. Otherwise like the sum.
+/// All points p - q, p in A and q in B: the translations of B that move q to p. A and B overlap exactly if it contains
+/// 0, and their gap or depth is the distance of 0 from its surface. Otherwise like the sum.
 Polygon minkowski_difference(const Convex<2>& a, const Convex<2>& b);
 Polyhedron minkowski_difference(const Convex<3>& a, const Convex<3>& b);
 
@@ -33,10 +34,10 @@ template <PolytopeShape A, PolytopeShape B>
 requires(dimension<A> == dimension<B>) PolytopeOf<dimension<A>> minkowski_difference(const A& a, const B& b) {
     const auto& corners_a = detail::by_corners(a);
     const auto& corners_b = detail::by_corners(b);
-    const Convex<dimension<A>>& seen_a = view(corners_a);
-    const Convex<dimension<A>>& seen_b = view(corners_b);
+    const Convex<dimension<A>>& view_a = view(corners_a);
+    const Convex<dimension<A>>& view_b = view(corners_b);
     detail::clear_upper_halves();
-    return minkowski_difference(seen_a, seen_b);
+    return minkowski_difference(view_a, view_b);
 }
 
 }  // namespace abut

@@ -1,6 +1,6 @@
-#include <abut/query/direct.hpp>
+#include <abut/query/detail/closed_form/closed_form.hpp>
+#include <abut/query/detail/part_pairs.hpp>
 #include <abut/query/overlaps.hpp>
-#include <abut/query/part_pairs.hpp>
 
 namespace abut {
 namespace {
@@ -26,8 +26,8 @@ bool overlaps(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& opt
 template <int D>
 bool overlaps(const ShapeRef<D>& a, const ShapeRef<D>& b, const QueryOptions<D>& options) {
     if (options.trace == nullptr) {
-        const DirectAnswer answer = direct_overlap(a, b, options.cache);
-        if (answer != DirectAnswer::unknown) return answer == DirectAnswer::yes;
+        const ClosedFormAnswer answer = closed_form_overlap(a, b, options.cache);
+        if (answer != ClosedFormAnswer::unknown) return answer == ClosedFormAnswer::yes;
     }
     return overlaps(convex_of(a), convex_of(b), options);
 }

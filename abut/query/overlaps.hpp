@@ -1,6 +1,6 @@
 #pragma once
 
-// Do two shapes have a point in common?
+// Whether two shapes share a point.
 
 #include <abut/query/options.hpp>
 #include <abut/shape/view/constraints.hpp>
@@ -14,7 +14,7 @@ bool overlaps(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& opt
 template <int D>
 bool overlaps(const ShapeRef<D>& a, const ShapeRef<D>& b, const QueryOptions<D>& options = {});
 
-/// True where they overlap or touch. Cheaper than `closest`: stops at the first axis that parts them.
+/// True if the shapes overlap or touch. This is cheaper than `closest`: it stops at the first separating axis.
 template <class A, class B>
 requires Pair<A, B>
 bool overlaps(const A& a, const B& b, const QueryOptions<dimension<A>>& options = {}) {

@@ -1,10 +1,11 @@
-// Polytopes in convex sets. Both ways ask the support function for the point that stands out the most beyond what there
-// is, along its own normals, until none does by more than the tolerance: the sandwich algorithm in the plane (Rote:
-// "The convergence rate of the sandwich algorithm for approximating convex functions", 1992), its like in space.
+// Inscribed polytopes of convex sets. Both algorithms query the support function along the polytope's own normals, and
+// add the point that stands out most, until none stands out by more than the tolerance: the sandwich algorithm in the
+// plane (Rote: "The convergence rate of the sandwich algorithm for approximating convex functions", 1992), its
+// counterpart in space.
 //
-// How far the set stands out is its support function less that of the polytope. That is a sublinear function on the
-// cone of directions of each corner, so it is at most the sum of what it is at directions around, times the weights
-// that combine these: 1 / cos(half the angle) between two of them.
+// The set stands out by its support function less that of the polytope. That difference is a sublinear function on the
+// cone of directions of each corner. So it is at most the weighted sum of its values at directions around, with the
+// weights that combine these: 1 / cos(half the angle) between two of them.
 
 #include <abut/convex/hull/hull.hpp>
 #include <abut/math/assert.hpp>
@@ -36,7 +37,7 @@ std::vector<Vec<D>> corners(const Aabb<D>& box) {
     return result;
 }
 
-/// The set as it is seen from the middle of its bounding box, where floats are finest.
+/// The set relative to the centre of its bounding box, where floats are finest.
 template <int D>
 struct Centered {
     explicit Centered(const Convex<D>& shape) : convex(shape) {
@@ -55,13 +56,13 @@ struct Centered {
     double extent;
 };
 
-/// A corner of the growing polygon.
+/// A corner of the expanding polygon.
 struct Corner {
     DVec<2> position;
     bool settled = false;  ///< nothing stands out beyond the edge to the next
 };
 
-std::vector<DVec<2>> grow(const Convex<2>& convex, double tolerance) {
+std::vector<DVec<2>> inscribed_corners(const Convex<2>& convex, double tolerance) {
     std::vector<Corner> loop;
     for (const DVec<2>& direction : {DVec<2>(1, 0), DVec<2>(0, 1), DVec<2>(-1, 0), DVec<2>(0, -1)})
         loop.push_back({support(convex, direction)});
@@ -86,16 +87,16 @@ std::vector<DVec<2>> grow(const Convex<2>& convex, double tolerance) {
     return result;
 }
 
-/// The directions in which a polyhedron is held against the set: across its faces, and across edges where faces turn by
-/// more than a right angle, which those of a flat polygon always do.
-class Growing {
+/// An expanding polyhedron inside the set. Support queries go along the normals of its faces, and across edges where
+/// the faces differ by more than a right angle, as those of a flat polygon always do.
+class InscribedPolyhedron {
 public:
-    Growing(const Convex<3>& convex, double tolerance) : convex_(convex), tolerance_(tolerance) {
+    InscribedPolyhedron(const Convex<3>& convex, double tolerance) : convex_(convex), tolerance_(tolerance) {
         for (int i = 0; i < 3; ++i)
             for (const double sign : {1.0, -1.0}) points_.push_back(to_float(support(convex, axis<3>(i, sign))));
     }
 
-    std::vector<Vec3> grow();
+    std::vector<Vec3> inscribed_corners();
 
 private:
     struct Outside {
@@ -103,8 +104,8 @@ private:
         double height;
     };
 
-    void look(const DVec<3>& direction, double reached, double allowed);
-    void look_around(const Hull3& hull);
+    void probe(const DVec<3>& direction, double reached, double allowed);
+    void probe_directions(const Hull3& hull);
 
     const Convex<3>& convex_;
     double tolerance_;
@@ -115,45 +116,44 @@ private:
 /// The cosine of half a right angle.
 constexpr double half_right_angle = 0.7071067811865475;
 
-void Growing::look(const DVec<3>& direction, double reached, double allowed) {
+void InscribedPolyhedron::probe(const DVec<3>& direction, double reached, double allowed) {
     const DVec<3> beyond = support(convex_, direction);
     const double height = dot(direction, beyond) - reached;
     if (height > allowed) outside_.push_back({to_float(beyond), height});
 }
 
-void Growing::look_around(const Hull3& hull) {
+void InscribedPolyhedron::probe_directions(const Hull3& hull) {
     outside_.clear();
     const auto point = [&](std::size_t i) { return DVec<3>(hull.points[i]); };
     if (hull.rank == 1) {
         const DVec<3> u = perpendicular(point(1) - point(0)), v = normalized(cross(point(1) - point(0), u));
         for (const DVec<3>& n : {u, -u, v, -v})
-            look(n, std::max(dot(n, point(0)), dot(n, point(1))), half_right_angle * tolerance_);
+            probe(n, std::max(dot(n, point(0)), dot(n, point(1))), half_right_angle * tolerance_);
         return;
     }
-    std::vector<double> least_cosine(hull.normals.size(), 1.0);  // of the angles that a face makes with its neighbours
+    std::vector<double> min_cosine(hull.normals.size(), 1.0);  // of the angles that a face makes with its neighbours
     for (const FacetEdge& edge : hull.edges) {
         const DVec<3> left(hull.normals[edge.left]), right(hull.normals[edge.right]);
         const double cosine = dot(left, right);
-        for (const std::uint32_t face : {edge.left, edge.right})
-            least_cosine[face] = std::min(least_cosine[face], cosine);
+        for (const std::uint32_t face : {edge.left, edge.right}) min_cosine[face] = std::min(min_cosine[face], cosine);
         if (cosine >= 0) continue;
         const DVec<3> along = normalized(point(edge.to) - point(edge.from));
         const DVec<3> n = normalized(left + right + cross(along, left) + cross(right, along));
-        look(n, dot(n, point(edge.from)), half_right_angle * tolerance_);
+        probe(n, dot(n, point(edge.from)), half_right_angle * tolerance_);
     }
     for (std::size_t face = 0; face < hull.normals.size(); ++face) {
-        const double half_angle = std::sqrt(std::max(0.5 * (1 + least_cosine[face]), 0.5));
-        look(DVec<3>(hull.normals[face]), hull.offsets[face], half_angle * tolerance_);
+        const double half_angle = std::sqrt(std::max(0.5 * (1 + min_cosine[face]), 0.5));
+        probe(DVec<3>(hull.normals[face]), hull.offsets[face], half_angle * tolerance_);
     }
 }
 
-/// The farthest first: what is far less so may no longer be once they are in.
-std::vector<Vec3> Growing::grow() {
+/// Adds the farthest points first: points far less out may be inside once those are added.
+std::vector<Vec3> InscribedPolyhedron::inscribed_corners() {
     for (std::size_t found = points_.size();; found += outside_.size()) {
         const Result<Hull3> built = hull(points_);
         if (!built) return points_;
         points_ = built->points;
-        look_around(*built);
+        probe_directions(*built);
         std::stable_sort(outside_.begin(), outside_.end(),
                          [](const Outside& a, const Outside& b) { return a.height > b.height; });
         const auto far_less = [&](const Outside& outside) { return outside.height < 0.25 * outside_.front().height; };
@@ -164,9 +164,9 @@ std::vector<Vec3> Growing::grow() {
     }
 }
 
-std::vector<DVec<3>> grow(const Convex<3>& convex, double tolerance) {
+std::vector<DVec<3>> inscribed_corners(const Convex<3>& convex, double tolerance) {
     std::vector<DVec<3>> result;
-    for (const Vec3& point : Growing(convex, tolerance).grow()) result.emplace_back(point);
+    for (const Vec3& point : InscribedPolyhedron(convex, tolerance).inscribed_corners()) result.emplace_back(point);
     return result;
 }
 
@@ -206,7 +206,8 @@ PolytopeOf<D> inscribed_polytope(const Convex<D>& shape, float tolerance) {
     const Centered<D> centered(shape);
     const double reached = std::max(least_polytope_tolerance * centered.extent, static_cast<double>(tolerance));
     std::vector<Vec<D>> points;
-    for (const DVec<D>& point : grow(centered.convex, reached)) points.push_back(to_float(centered.origin + point));
+    for (const DVec<D>& point : inscribed_corners(centered.convex, reached))
+        points.push_back(to_float(centered.origin + point));
     return finished(PolytopeOf<D>::build(points));
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// A shape by its corners: exactly where it has some, else to within a tolerance. For what is asked of polytopes alone.
+// A shape as a polytope: exactly if it has corners, else to within a tolerance, for queries of polytopes only.
 
 #include <abut/shape/box.hpp>
 #include <abut/shape/placed.hpp>
@@ -21,11 +21,12 @@ namespace abut {
 template <int D>
 using PolytopeOf = std::conditional_t<D == 2, Polygon, Polyhedron>;
 
-/// What `polytope(shape, tolerance)` makes has no more corners than this.
+/// The limits on the corners of `polytope(shape, tolerance)`.
 inline constexpr std::size_t most_polygon_corners = 4096;
 inline constexpr std::size_t most_polyhedron_corners = 16384;
 
-/// A tolerance below this times the extent (the longest side of the bounding box) counts as this: floats know no finer.
+/// A tolerance below this fraction of the extent (the longest side of the bounding box) counts as this fraction: floats
+/// are no finer.
 inline constexpr double least_polytope_tolerance = 0x1p-18;
 
 namespace detail {
@@ -51,11 +52,11 @@ inline constexpr bool has_corners<At<S>> = has_corners<std::remove_cvref_t<S>>;
 template <class S>
 inline constexpr bool has_corners<Stretched<S>> = has_corners<std::remove_cvref_t<S>>;
 
-/// Whether a set is the hull of corners: points or a box, without any ball around it.
+/// Whether a set is the hull of corners: points or a box, without a radius.
 template <int D>
 bool has_corners_only(const Convex<D>& convex);
 
-/// The corners of such a set before it is placed; perhaps some points that are none, or the same one twice.
+/// The corners of such a set before its placement; some may be no corners, or appear twice.
 template <int D>
 std::vector<Vec<D>> core_corners(const Convex<D>& convex);
 
@@ -66,15 +67,15 @@ PolytopeOf<D> inscribed_polytope(const Convex<D>& shape, float tolerance);
 
 }  // namespace detail
 
-/// A shape whose type says that it is a polytope: Polygon, Polyhedron, Box, Aabb, Segment, Triangle, and those placed
-/// or stretched. A view counts as one, and must be of one. Round shapes and shapes known by a support function are
-/// none: `polytope(shape, tolerance)` makes one of them.
+/// A shape that is a polytope by its type: Polygon, Polyhedron, Box, Aabb, Segment, Triangle, and those placed or
+/// stretched. A view satisfies it too, and must be a view of one. Round shapes and shapes known by a support function
+/// are none: `polytope(shape, tolerance)` makes one of them.
 template <class S>
 concept PolytopeShape = Shape<S> && detail::has_corners<S>;
 
-/// The same shape by its corners, each rounded to floats where it is placed or a turned box. In space they are those of
-/// `Polyhedron::build`. What isn't finite, or a view of a shape that is no polytope, trips ABUT_ASSERT; in release the
-/// result is then the point 0.
+/// The polytope of a shape's corners, each rounded to floats if the shape is placed or a rotated box. In space they are
+/// those of `Polyhedron::build`. A shape that isn't finite, or a view of a shape that is no polytope, trips
+/// ABUT_ASSERT; in release the result is then the point 0.
 template <PolytopeShape S>
 PolytopeOf<dimension<S>> polytope(const S& shape) {
     return detail::polytope_of_corners(view(shape));
@@ -90,14 +91,15 @@ inline Polyhedron polytope(const Polyhedron& polyhedron) {
     return polyhedron;
 }
 
-/// A polytope inside of any convex shape that no point of the shape is farther from than `tolerance`, a length above
-/// zero. Its corners are points of the surface, rounded to floats. What has corners only comes back as
-/// `polytope(shape)`; corners of other shapes are found where they stand out by more than the tolerance.
+/// A polytope inside any convex shape; no point of the shape is farther from it than `tolerance`, a length above zero.
+/// Its corners are points of the surface, rounded to floats. A shape that has corners only gives `polytope(shape)`;
+/// other shapes get corners where they stand out by more than the tolerance.
 ///
-/// The error falls with the square of the number of corners in the plane, with their number in space: a ball takes 2.2
-/// to 4.4 / sqrt(e) corners and some 6 / e, for a tolerance of e times its radius. Where more than
-/// `most_polygon_corners` or `most_polyhedron_corners` would be needed, the result is about as near as that many allow;
-/// of a ball in space, within 1e-3 of its radius. A tolerance not above zero trips ABUT_ASSERT and counts as the least.
+/// The error falls with the square of the number of corners in the plane, and with their number in space: a ball takes
+/// 2.2 to 4.4 / sqrt(e) corners in the plane and about 6 / e in space, for a tolerance of e times its radius. If more
+/// than `most_polygon_corners` or `most_polyhedron_corners` would be needed, the result is about as close as that many
+/// allow; for a ball in space, within 1e-3 of its radius. A tolerance not above zero trips ABUT_ASSERT and counts as
+/// the least.
 template <Shape S>
 requires std::same_as<detail::ViewOf<S>, Convex<dimension<S>>> PolytopeOf<dimension<S>> polytope(const S& shape,
                                                                                                  float tolerance) {
@@ -106,7 +108,7 @@ requires std::same_as<detail::ViewOf<S>, Convex<dimension<S>>> PolytopeOf<dimens
 
 namespace detail {
 
-/// The shape itself, but for a box whose view would round its corners.
+/// The shape itself, or a polytope of a box whose view would round its corners.
 template <class S>
 const S& by_corners(const S& shape) {
     return shape;

@@ -1,9 +1,9 @@
 #include <abut/math/assert.hpp>
-#include <abut/query/function_motion.hpp>
+#include <abut/query/detail/raycast/part_hit.hpp>
+#include <abut/query/detail/raycast/triangles.hpp>
+#include <abut/query/detail/raycast/write_hit.hpp>
+#include <abut/query/detail/sdf/function_motion.hpp>
 #include <abut/query/raycast.hpp>
-#include <abut/query/raycast_part.hpp>
-#include <abut/query/raycast_tell.hpp>
-#include <abut/query/raycast_triangles.hpp>
 
 #include <algorithm>
 
@@ -19,7 +19,7 @@ bool first_hit(const DRay<D>& beam, const Composite<D>& composite, const QueryOp
     each_part_along<D>(composite, beam.origin, beam.direction, beam.length,
                        [&](const Convex<D>& part, std::uint32_t index) -> float {
                            PartHit<D> hit;
-                           // The lowest of several at one place, so that it isn't up to the order of the visits.
+                           // Among hits at one distance the lowest part wins, whatever the order of the visits.
                            if (part_hit(rest, part, index, options.trace, hit) &&
                                (!any || hit.along < first.along || index < first.feature.part)) {
                                any = true;
@@ -31,15 +31,15 @@ bool first_hit(const DRay<D>& beam, const Composite<D>& composite, const QueryOp
     return any;
 }
 
-/// `find` is asked for the first hit of a beam.
-template <int D, class Asked, class Find>
-void find_first_hit(const Ray<D>& ray, const Asked& shape, const Find& find, std::optional<Hit<D>>& result) {
-    const bool finite = is_finite(shape) && can_be_asked(ray);
+/// Calls find(beam, first) for the first hit.
+template <int D, class Shape, class Find>
+void find_first_hit(const Ray<D>& ray, const Shape& shape, const Find& find, std::optional<Hit<D>>& result) {
+    const bool finite = is_finite(shape) && is_valid_ray(ray);
     ABUT_ASSERT(finite);
     if (!finite) return;
-    const DRay<D> beam = beam_of(ray);
+    const DRay<D> beam = to_dray(ray);
     PartHit<D> first;
-    if (find(beam, first)) tell(beam, first, result.emplace());
+    if (find(beam, first)) write_hit(beam, first, result.emplace());
 }
 
 template <int D>
@@ -50,7 +50,7 @@ void answer(const Ray<D>& ray, const Convex<D>& shape, const QueryOptions<D>& op
     find_first_hit(ray, shape, find, result);
 }
 
-/// Calls visit(hit) for each part that the beam meets; it returns the new reach.
+/// Calls visit(hit) for each part that the ray hits; visit returns the new reach.
 template <int D, class Visit>
 void visit_hits(const DRay<D>& beam, const View<D>& shape, const QueryOptions<D>& options, Visit visit) {
     PartHit<D> hit;
@@ -58,8 +58,8 @@ void visit_hits(const DRay<D>& beam, const View<D>& shape, const QueryOptions<D>
         if (part_hit(beam, *convex, 0, options.trace, hit)) visit(hit);
         return;
     }
-    if (const auto* solid = std::get_if<HalfSpaceView<D>>(&shape)) {
-        if (part_hit(beam, *solid, hit)) visit(hit);
+    if (const auto* half_space = std::get_if<HalfSpaceView<D>>(&shape)) {
+        if (part_hit(beam, *half_space, hit)) visit(hit);
         return;
     }
     if (const auto* function = std::get_if<DistanceFunction<D>>(&shape)) {
@@ -82,14 +82,14 @@ void visit_hits(const DRay<D>& beam, const View<D>& shape, const QueryOptions<D>
 template <int D>
 void each_hit(const Ray<D>& ray, const View<D>& shape, FunctionRef<float(const Hit<D>&)> visit,
               const QueryOptions<D>& options) {
-    const bool finite = is_finite(shape) && can_be_asked(ray);
+    const bool finite = is_finite(shape) && is_valid_ray(ray);
     ABUT_ASSERT(finite);
     if (!finite) return;
-    const DRay<D> beam = beam_of(ray);
+    const DRay<D> beam = to_dray(ray);
     double reach = beam.length;
     visit_hits(beam, shape, options, [&](const PartHit<D>& found) {
         Hit<D> hit;
-        tell(beam, found, hit);
+        write_hit(beam, found, hit);
         reach = std::min(reach, static_cast<double>(visit(hit)));
         return reach;
     });
@@ -98,11 +98,11 @@ void each_hit(const Ray<D>& ray, const View<D>& shape, FunctionRef<float(const H
 template <int D>
 void raycast_all(const Ray<D>& ray, const View<D>& shape, std::vector<Hit<D>>& out, const QueryOptions<D>& options) {
     out.clear();
-    const auto keep = [&out](const Hit<D>& hit) -> float {
+    const auto collect = [&out](const Hit<D>& hit) -> float {
         out.push_back(hit);
         return std::numeric_limits<float>::infinity();
     };
-    each_hit<D>(ray, shape, keep, options);
+    each_hit<D>(ray, shape, collect, options);
     std::sort(out.begin(), out.end(), [](const Hit<D>& a, const Hit<D>& b) {
         return a.distance != b.distance ? a.distance < b.distance : a.feature.part < b.feature.part;
     });

@@ -1,6 +1,6 @@
 #pragma once
 
-// Where does a ray meet a shape?
+// The first hit of a ray with a shape, or all its hits.
 
 #include <abut/math/function_ref.hpp>
 #include <abut/math/ray.hpp>
@@ -29,29 +29,29 @@ std::optional<Hit<D>> raycast(const Ray<D>& ray, const Composite<D>& shape, cons
 template <int D>
 std::optional<Hit<D>> raycast(const Ray<D>& ray, const ShapeRef<D>& shape, const QueryOptions<D>& options = {});
 
-/// A mesh where it was made, without a view of it.
+/// A mesh without a pose, without a view of it.
 std::optional<Hit<3>> raycast(const Ray<3>& ray, const Mesh& mesh, const QueryOptions<3>& options = {});
 
-/// A solid level where it was made, by its tree: query/raycast_solid_bsp.hpp tells what the answer means.
+/// A solid level without a pose, by its tree. query/raycast_solid_bsp.hpp defines the answer.
 template <int D>
 std::optional<Hit<D>> raycast(const Ray<D>& ray, const SolidBsp<D>& level, const QueryOptions<D>& options = {});
 
 /// The first hit. A ray that starts inside or on the surface hits at 0 only if it goes further in; along the surface or
-/// outwards is no hit, and the search goes on behind it. What has no inside, a segment of the plane or a triangle, is
-/// left by a ray that starts on it, whichever way it goes: within 16 units in the last place of the largest coordinate
-/// seen from there, a millionth of it.
+/// outwards it doesn't hit, and the search goes on behind it. A shape without an interior (a segment in the plane, a
+/// triangle) is never hit by a ray that starts on it. "On" means within 16 ulp of the largest coordinate seen from the
+/// start, about a millionth of it.
 template <Shape S>
 std::optional<Hit<dimension<S>>> raycast(const Ray<dimension<S>>& ray, const S& shape,
                                          const QueryOptions<dimension<S>>& options = {}) {
     detail::clear_upper_halves();
     if constexpr (detail::is_composite_view<detail::ViewOf<S>>) {
-        const auto& seen = view(shape);
+        const auto& shape_view = view(shape);
         detail::clear_upper_halves();
-        return raycast(ray, seen, options);
+        return raycast(ray, shape_view, options);
     } else {
-        const auto& seen = detail::view_for_pair<S, S>(shape);
+        const auto& shape_view = detail::view_for_pair<S, S>(shape);
         detail::clear_upper_halves();
-        return raycast(ray, seen, options);
+        return raycast(ray, shape_view, options);
     }
 }
 template <int D, class S, class Why = detail::WhyNotIn<D, S>>
@@ -64,38 +64,38 @@ template <int D>
 void raycast_all(const Ray<D>& ray, const View<D>& shape, std::vector<Hit<D>>& out,
                  const QueryOptions<D>& options = {});
 
-/// Each part of the shape that the ray hits, as `raycast` tells it of that part alone, in no order: a convex shape is
-/// one part, so that it is told where the ray comes in and not where it leaves; through an edge that two triangles of a
-/// mesh share both are told. `visit(hit)` returns nothing (go on), bool (false stops) or float: how far along the ray
-/// hits are still wanted. Never allocates.
+/// Visits each part of the shape that the ray hits, in no order, with the hit that `raycast` returns for that part
+/// alone. A convex shape is one part, so the ray's exit is no hit. A ray through an edge that two triangles of a mesh
+/// share hits both. `visit(hit)` returns nothing (go on), bool (false stops) or float: the distance along the ray up to
+/// which further hits count. Never allocates.
 template <Shape S, class Visit>
 requires std::invocable < Visit&, const Hit<dimension<S>>
 & > void each_hit(const Ray<dimension<S>>& ray, const S& shape, Visit&& visit,
                   const QueryOptions<dimension<S>>& options = {}) {
     constexpr int D = dimension<S>;
-    using Told = std::invoke_result_t<Visit&, const Hit<D>&>;
-    const auto reach_after = [&visit](const Hit<D>& hit) -> float {
-        constexpr float any = std::numeric_limits<float>::infinity();
-        if constexpr (std::is_void_v<Told>) {
+    using VisitResult = std::invoke_result_t<Visit&, const Hit<D>&>;
+    const auto reach_visitor = [&visit](const Hit<D>& hit) -> float {
+        constexpr float unlimited = std::numeric_limits<float>::infinity();
+        if constexpr (std::is_void_v<VisitResult>) {
             visit(hit);
-            return any;
-        } else if constexpr (std::is_same_v<Told, bool>) {
-            return visit(hit) ? any : -1.0f;
+            return unlimited;
+        } else if constexpr (std::is_same_v<VisitResult, bool>) {
+            return visit(hit) ? unlimited : -1.0f;
         } else {
             return visit(hit);
         }
     };
-    detail::with_view(shape, [&](const View<D>& seen) {
-        each_hit<D>(ray, seen, FunctionRef<float(const Hit<D>&)>(reach_after), options);
+    detail::with_view(shape, [&](const View<D>& shape_view) {
+        each_hit<D>(ray, shape_view, FunctionRef<float(const Hit<D>&)>(reach_visitor), options);
     });
 }
 
-/// The same hits in place of what was in `out`, the nearest first; of those at one distance, the lowest part.
+/// Replaces `out` by these hits, nearest first; of hits at one distance the lowest part comes first.
 template <Shape S>
 void raycast_all(const Ray<dimension<S>>& ray, const S& shape, std::vector<Hit<dimension<S>>>& out,
                  const QueryOptions<dimension<S>>& options = {}) {
-    detail::with_view(shape,
-                      [&](const View<dimension<S>>& seen) { raycast_all<dimension<S>>(ray, seen, out, options); });
+    detail::with_view(
+        shape, [&](const View<dimension<S>>& shape_view) { raycast_all<dimension<S>>(ray, shape_view, out, options); });
 }
 
 }  // namespace abut

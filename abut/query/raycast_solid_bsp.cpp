@@ -12,7 +12,7 @@ std::optional<Hit<D>> raycast(const Ray<D>& ray, const SolidBsp<D>& level, const
     const bool finite = is_finite(ray.origin) && is_finite(ray.direction) && !std::isnan(ray.length);
     ABUT_ASSERT(finite);
     if (!finite) return std::nullopt;
-    // A ray that ends on a face hits it, though its length is rounded.
+    // A ray that ends on a face hits it although its length is rounded.
     constexpr double more = 1 + 1e-7;
     const bool rests = ray.direction == Vec<D>(0.0f);
     const double length = rests ? 0 : static_cast<double>(ray.length);

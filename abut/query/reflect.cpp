@@ -4,11 +4,12 @@
 
 namespace abut {
 
-/// With d the direction, n the normal and s = -dot(d, n) how steeply the ray comes in, it leaves along d + 2 s n.
+/// With d the direction, n the normal and s = -dot(d, n) the sine of the angle of incidence, the ray leaves along d + 2
+/// s n.
 ///
 /// The hit's point is rounded to floats, so it may lie behind the mirror. A step back along the ray by lift / s lies
-/// `lift` above the mirror, and in free space even in a corner, where a step along the normal could go through another
-/// mirror. The step shifts the way that follows by no more than twice the lift, as sin(2 a) / sin(a) <= 2.
+/// `lift` above the mirror. It lies in free space even in a corner, where a step along the normal could go through
+/// another mirror. The step displaces the reflected ray by at most twice the lift, as sin(2 a) / sin(a) <= 2.
 template <int D>
 Ray<D> reflect(const Ray<D>& ray, const Hit<D>& hit) {
     const bool finite = is_finite(ray.origin) && is_finite(ray.direction) && !std::isnan(ray.length) &&
@@ -16,17 +17,17 @@ Ray<D> reflect(const Ray<D>& ray, const Hit<D>& hit) {
     ABUT_ASSERT(finite);
     if (!finite) return {ray.origin, to_float(axis<D>(0)), 0};
 
-    // More than the rounding of a direction and a normal together; and of two points.
-    constexpr double least_rise = 4e-7, rounding = 4e-7;
+    // More than the rounding of a direction and a normal together, and of two points.
+    constexpr double min_rise = 4e-7, rounding = 4e-7;
     const DVec<D> direction = unit(DVec<D>(ray.direction)), normal = unit(DVec<D>(hit.normal)), point(hit.point);
     const double sinks = std::max(-dot(direction, normal), 0.0);
     const double lift = rounding * std::max(largest(point), largest(DVec<D>(ray.origin)));
-    const double come = static_cast<double>(hit.distance);
-    const double back = lift < sinks * come ? lift / sinks : come;
+    const double travelled = static_cast<double>(hit.distance);
+    const double back = lift < sinks * travelled ? lift / sinks : travelled;
 
     DVec<D> away = direction + normal * (2 * sinks);
-    away += normal * std::max(least_rise - dot(away, normal), 0.0);
-    const double left = std::max(static_cast<double>(ray.length) - (come - back), 0.0);
+    away += normal * std::max(min_rise - dot(away, normal), 0.0);
+    const double left = std::max(static_cast<double>(ray.length) - (travelled - back), 0.0);
     return {to_float(point - direction * back), to_float(normalized(away)), static_cast<float>(left)};
 }
 

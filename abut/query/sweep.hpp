@@ -1,6 +1,6 @@
 #pragma once
 
-// When do two shapes that move straight first touch?
+// The first hit of two shapes that move straight, without rotation (convex cast).
 
 #include <abut/math/ray.hpp>
 #include <abut/query/hit.hpp>
@@ -22,15 +22,16 @@ template <int D>
 std::optional<Hit<D>> sweep(const ShapeRef<D>& a, const Vec<D>& motion_a, const ShapeRef<D>& b, const Vec<D>& motion_b,
                             const QueryOptions<D>& options = {});
 
-/// The first touch of two shapes that both move straight, without turning, in the same time.
+/// The first hit of two shapes that both move straight, without rotation, in the same time.
 ///
-/// A is the mover: `normal` faces it, `feature` is of B, and `distance` is how far A has come by then as B sees it:
-/// fraction * |motion_a - motion_b|. `point` is where they touch in the world at that moment, on both.
+/// A is the mover: `normal` faces it, `feature` is of B, and `distance` is how far A has moved relative to B by then:
+/// fraction * |motion_a - motion_b|. `point` is the point of contact in the world at that moment, on both shapes.
 ///
-/// What touches or overlaps at the start is hit at 0 only if A goes further in; along or apart is no hit, and of a
-/// composite shape the other parts still can be hit. What comes to slide on a surface without going deeper in than
-/// the margin of doubt is not hit by it: a crate slides over the seams of its floor. However thin the shapes and
-/// however long the motion, none is passed through. Motions that are not finite trip ABUT_ASSERT and hit nothing.
+/// Shapes that touch or overlap at the start are hit at 0 only if A goes further in; moving along or apart is no hit,
+/// and the other parts of a composite shape can still be hit. A shape that slides on a surface without going deeper
+/// than the tolerance doesn't hit it: a crate slides over the seams of its floor. No shape is passed through, however
+/// thin the shapes and however long the motion (no tunnelling). Motions that aren't finite trip ABUT_ASSERT and hit
+/// nothing.
 template <class A, class B>
 requires Pair<A, B> std::optional<Hit<dimension<A>>> sweep(const A& a, const Vec<dimension<A>>& motion_a, const B& b,
                                                            const Vec<dimension<A>>& motion_b,
@@ -39,7 +40,7 @@ requires Pair<A, B> std::optional<Hit<dimension<A>>> sweep(const A& a, const Vec
                               [&](const auto& x, const auto& y) { return sweep(x, motion_a, y, motion_b, options); });
 }
 
-/// The same where B rests.
+/// The sweep against a shape B at rest.
 template <class A, class B>
 requires Pair<A, B> std::optional<Hit<dimension<A>>> sweep(const A& a, const Vec<dimension<A>>& motion, const B& b,
                                                            const QueryOptions<dimension<A>>& options = {}) {
@@ -66,7 +67,7 @@ struct PosesOfSweep {
     void operator()(const Pose<D>&, const Pose<D>&, const Pose<D>&, const Pose<D>&, const QueryOptions<D>& = {}) const;
 };
 
-/// Void for the arguments of a sweep.
+/// Void if the arguments are those of a sweep; else a type whose name says what is wrong.
 template <class A, class M, class B, class... More>
 struct WhyOrVoid : decltype(why_no_pair<A, B>()) {};
 template <class A, class M, class B, class... More>

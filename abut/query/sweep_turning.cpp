@@ -1,8 +1,8 @@
 #include <abut/math/assert.hpp>
-#include <abut/query/felt_hit.hpp>
-#include <abut/query/part_pairs.hpp>
+#include <abut/query/detail/part_pairs.hpp>
+#include <abut/query/detail/surface/hit_normal.hpp>
+#include <abut/query/detail/sweep/rotating.hpp>
 #include <abut/query/sweep_turning.hpp>
-#include <abut/query/turning_parts.hpp>
 
 namespace abut {
 namespace {
@@ -22,28 +22,29 @@ float rounded_down(double time) {
     return static_cast<double>(nearest) > time ? std::nextafter(nearest, 0.0f) : nearest;
 }
 
-/// The normal of a meeting with a shape of many parts, as it is felt.
+/// Filters the normal of a hit on an internal edge of a composite shape.
 template <int D>
-void feel(const View<D>& a, const RigidPath<D>& path_a, const View<D>& b, const RigidPath<D>& path_b,
-          const Meeting<D>& meeting, Hit<D>& hit) {
+void filter_normal(const View<D>& a, const RigidPath<D>& path_a, const View<D>& b, const RigidPath<D>& path_b,
+                   const RotatingImpact<D>& impact, Hit<D>& hit) {
     if (!std::holds_alternative<Composite<D>>(b)) return;
-    const View<D> there = moved(b, place_at(path_b, meeting.time));
-    const auto feet = [&](const DVec<D>& from, double within, ClosestPointVisitor<D> visit) {
-        each_foot_on(there, from, within, visit);
+    const View<D> moved_b = moved(b, place_at(path_b, impact.time));
+    const auto closest_points = [&](const DVec<D>& from, double within, ClosestPointVisitor<D> visit) {
+        each_closest_point_on(moved_b, from, within, visit);
     };
-    Arrival<D> mover = turning_arrival(a, path_a, meeting.time, meeting.point);
-    mover.way -= path_b.velocity(meeting.time, meeting.point);
-    Hit<D> felt = hit;
-    felt.point = to_float(meeting.point);
-    feel_hit<D>(mover, there, feet, felt);
-    hit.normal = felt.normal;
+    MoverAtHit<D> mover = rotating_mover_at_hit(a, path_a, impact.time, impact.point);
+    mover.direction -= path_b.velocity(impact.time, impact.point);
+    Hit<D> filtered = hit;
+    filtered.point = to_float(impact.point);
+    filter_hit_normal<D>(mover, moved_b, closest_points, filtered);
+    hit.normal = filtered.normal;
 }
-/// There are no seams in one part.
+/// A single part has no internal edges.
 template <int D>
-void feel(const Convex<D>&, const RigidPath<D>&, const Convex<D>&, const RigidPath<D>&, const Meeting<D>&, Hit<D>&) {}
+void filter_normal(const Convex<D>&, const RigidPath<D>&, const Convex<D>&, const RigidPath<D>&,
+                   const RotatingImpact<D>&, Hit<D>&) {}
 
-/// `find` is asked for the first meeting, in a frame in which A's pivot stays at the origin: what is far from the
-/// world's keeps its digits.
+/// Calls find(path_a, path_b, impact) in a frame in which A's pivot stays at the origin, so that precision doesn't
+/// depend on the distance from the world's origin.
 template <int D, class Shape, class Find>
 void find_hit(const Shape& a, RigidPath<D>& path_a, const Shape& b, RigidPath<D>& path_b, const Find& find,
               std::optional<Hit<D>>& result) {
@@ -54,23 +55,23 @@ void find_hit(const Shape& a, RigidPath<D>& path_a, const Shape& b, RigidPath<D>
     path_b.start.offset -= start;
     path_b.move -= move;
     path_a.start.offset = path_a.move = DVec<D>(0.0);
-    Meeting<D> meeting;
-    if (!find(path_a, path_b, meeting)) return;
+    RotatingImpact<D> impact;
+    if (!find(path_a, path_b, impact)) return;
     Hit<D>& hit = result.emplace();
-    hit.fraction = rounded_down(meeting.time);
+    hit.fraction = rounded_down(impact.time);
     hit.distance = hit.fraction * static_cast<float>(length(path_b.move));
-    hit.point = to_float(meeting.point + start + move * meeting.time);
-    hit.normal = to_float(-meeting.normal);
-    hit.started_inside = meeting.started_inside;
-    hit.feature = meeting.feature;
-    feel(a, path_a, b, path_b, meeting, hit);
+    hit.point = to_float(impact.point + start + move * impact.time);
+    hit.normal = to_float(-impact.normal);
+    hit.started_inside = impact.started_inside;
+    hit.feature = impact.feature;
+    filter_normal(a, path_a, b, path_b, impact, hit);
 }
 
 template <int D>
-std::optional<Hit<D>> between(const Convex<D>& a, RigidPath<D> path_a, const Convex<D>& b, RigidPath<D> path_b,
-                              const QueryOptions<D>& options) {
-    const auto find = [&](const auto& way_a, const auto& way_b, Meeting<D>& meeting) {
-        return first_meeting<D>(a, way_a, b, way_b, TurningLimits{}, {options.cache, options.trace}, meeting);
+std::optional<Hit<D>> sweep_paths(const Convex<D>& a, RigidPath<D> path_a, const Convex<D>& b, RigidPath<D> path_b,
+                                  const QueryOptions<D>& options) {
+    const auto find = [&](const auto& local_a, const auto& local_b, RotatingImpact<D>& impact) {
+        return time_of_impact<D>(a, local_a, b, local_b, RotatingSweepLimits{}, {options.cache, options.trace}, impact);
     };
     std::optional<Hit<D>> result;
     find_hit(a, path_a, b, path_b, find, result);
@@ -78,10 +79,10 @@ std::optional<Hit<D>> between(const Convex<D>& a, RigidPath<D> path_a, const Con
 }
 
 template <int D>
-std::optional<Hit<D>> between(const View<D>& a, RigidPath<D> path_a, const View<D>& b, RigidPath<D> path_b,
-                              const QueryOptions<D>& options) {
-    const auto find = [&](const auto& way_a, const auto& way_b, Meeting<D>& meeting) {
-        return first_meeting<D>(a, way_a, b, way_b, search_options(a, b, options), meeting);
+std::optional<Hit<D>> sweep_paths(const View<D>& a, RigidPath<D> path_a, const View<D>& b, RigidPath<D> path_b,
+                                  const QueryOptions<D>& options) {
+    const auto find = [&](const auto& local_a, const auto& local_b, RotatingImpact<D>& impact) {
+        return time_of_impact<D>(a, local_a, b, local_b, search_options(a, b, options), impact);
     };
     std::optional<Hit<D>> result;
     find_hit(a, path_a, b, path_b, find, result);
@@ -93,7 +94,7 @@ std::optional<Hit<D>> between(const View<D>& a, RigidPath<D> path_a, const View<
 template <int D>
 std::optional<Hit<D>> sweep(const Convex<D>& a, const Motion<D>& motion_a, const Convex<D>& b,
                             const Motion<D>& motion_b, const QueryOptions<D>& options) {
-    return between(a, rigid_path(motion_a), b, rigid_path(motion_b), options);
+    return sweep_paths(a, rigid_path(motion_a), b, rigid_path(motion_b), options);
 }
 template <int D>
 std::optional<Hit<D>> sweep(const ShapeRef<D>& a, const Motion<D>& motion_a, const ShapeRef<D>& b,
@@ -103,13 +104,13 @@ std::optional<Hit<D>> sweep(const ShapeRef<D>& a, const Motion<D>& motion_a, con
 template <int D>
 std::optional<Hit<D>> sweep(const View<D>& a, const Motion<D>& motion_a, const View<D>& b, const Motion<D>& motion_b,
                             const QueryOptions<D>& options) {
-    return between(a, rigid_path(motion_a), b, rigid_path(motion_b), options);
+    return sweep_paths(a, rigid_path(motion_a), b, rigid_path(motion_b), options);
 }
 
 template <int D>
 std::optional<Hit<D>> sweep(const Convex<D>& a, const Pose<D>& from_a, const Pose<D>& to_a, const Convex<D>& b,
                             const Pose<D>& from_b, const Pose<D>& to_b, const QueryOptions<D>& options) {
-    return between(a, rigid_path(from_a, to_a), b, rigid_path(from_b, to_b), options);
+    return sweep_paths(a, rigid_path(from_a, to_a), b, rigid_path(from_b, to_b), options);
 }
 template <int D>
 std::optional<Hit<D>> sweep(const ShapeRef<D>& a, const Pose<D>& from_a, const Pose<D>& to_a, const ShapeRef<D>& b,
@@ -119,7 +120,7 @@ std::optional<Hit<D>> sweep(const ShapeRef<D>& a, const Pose<D>& from_a, const P
 template <int D>
 std::optional<Hit<D>> sweep(const View<D>& a, const Pose<D>& from_a, const Pose<D>& to_a, const View<D>& b,
                             const Pose<D>& from_b, const Pose<D>& to_b, const QueryOptions<D>& options) {
-    return between(a, rigid_path(from_a, to_a), b, rigid_path(from_b, to_b), options);
+    return sweep_paths(a, rigid_path(from_a, to_a), b, rigid_path(from_b, to_b), options);
 }
 
 #define ABUT_INSTANTIATE_FOR(D, S)                                                                           \

@@ -1,0 +1,24 @@
+#pragma once
+
+// The items of a tree that a box overlaps, that a ray touches, or that are near a box. For .cpp files.
+
+#include <abut/broad_phase/bvh/tree.hpp>
+#include <abut/broad_phase/reach.hpp>
+#include <abut/broad_phase/visit.hpp>
+
+namespace abut {
+
+/// Requires a box from `usable`.
+void find_overlapping(const BvhTree<2>& tree, const Aabb<2>& box, ItemCall visit);
+void find_overlapping(const BvhTree<3>& tree, const Aabb<3>& box, ItemCall visit);
+
+/// Visits the items roughly nearest first: at each node the nearest child first, the others in the order of their
+/// lanes.
+void find_within(const BvhTree<2>& tree, const Ray<2>& ray, ReachCall visit);
+void find_within(const BvhTree<3>& tree, const Ray<3>& ray, ReachCall visit);
+void find_within(const BvhTree<2>& tree, const RayReach<2>& reach, ReachCall visit);
+void find_within(const BvhTree<3>& tree, const RayReach<3>& reach, ReachCall visit);
+void find_within(const BvhTree<2>& tree, const BoxReach<2>& reach, ReachCall visit);
+void find_within(const BvhTree<3>& tree, const BoxReach<3>& reach, ReachCall visit);
+
+}  // namespace abut

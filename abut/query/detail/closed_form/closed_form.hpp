@@ -1,0 +1,36 @@
+#pragma once
+
+// Closed forms of queries of two plain shapes, without views of them: circles, capsules, segments, triangles, boxes and
+// polygons of few edges in the plane; spheres, capsules and boxes in space. Up to rounding the answers are those of
+// pair_dispatch.hpp. For .cpp files.
+
+#include <abut/query/closest.hpp>
+#include <abut/query/contact.hpp>
+#include <abut/query/hit.hpp>
+#include <abut/shape/box.hpp>
+
+#include <optional>
+
+namespace abut {
+
+enum class ClosedFormAnswer : std::uint8_t { no, yes, unknown };
+
+ClosedFormAnswer closed_form_overlap(const ShapeRef<2>& a, const ShapeRef<2>& b, Cache* cache);
+ClosedFormAnswer closed_form_overlap(const ShapeRef<3>& a, const ShapeRef<3>& b, Cache* cache);
+
+// These return false, and leave `result` unchanged, if they have no answer.
+
+bool closed_form_closest(const ShapeRef<3>& a, const ShapeRef<3>& b, Cache* cache, Closest<3>& result);
+
+bool closed_form_contact(const ShapeRef<3>& a, const ShapeRef<3>& b, double margin, Cache* cache, Contact<3>& result);
+
+/// Two boxes in space without poses on top.
+ClosedFormAnswer closed_form_overlap(const Box3& a, const Box3& b);
+bool closed_form_contact(const Box3& a, const Box3& b, double margin, Cache* cache, Contact<3>& result);
+
+/// A sweep of two plain shapes in the plane. The answer is `unknown` for shapes that touch at the start, slide or
+/// graze. `result` is written only if the answer is `yes`.
+ClosedFormAnswer closed_form_sweep(const ShapeRef<2>& a, const Vec2& motion_a, const ShapeRef<2>& b,
+                                   const Vec2& motion_b, std::optional<Hit<2>>& result);
+
+}  // namespace abut

@@ -1,0 +1,163 @@
+#include <abut/convex/manifold/round_manifold.hpp>
+#include <abut/convex/pairs/box3.hpp>
+#include <abut/convex/pairs/box_triangle.hpp>
+#include <abut/convex/pairs/pair2.hpp>
+#include <abut/query/detail/closed_form/convex_distance.hpp>
+#include <abut/query/detail/pair_dispatch.hpp>
+
+namespace abut {
+namespace {
+
+// Paths for any dimension.
+
+template <int D>
+bool any_overlap(const Convex<D>& a, const Convex<D>& b, const SearchOptions<D>& options) {
+    SignedDistance<D> form;
+    if (closed_form_distance(a, b, form)) return form.distance <= 0;
+    return convex_overlap(a, b, options);
+}
+
+template <int D>
+void any_distance(const Convex<D>& a, const Convex<D>& b, const SearchOptions<D>& options, SignedDistance<D>& result) {
+    if (!closed_form_distance(a, b, result)) result = signed_distance(a, b, options);
+}
+
+template <int D>
+bool any_distance_within(const Convex<D>& a, const Convex<D>& b, double reach, const SearchOptions<D>& options,
+                         PartContact<D>& contact) {
+    any_distance(a, b, options, contact.distance);
+    contact.manifold.count = 0;
+    return contact.distance.distance <= reach;
+}
+
+}  // namespace
+
+// A box and a triangle, in either order. With a trace, GJK runs, so that its steps can be shown.
+
+namespace {
+
+BoxTriangle triangle_overlap(const Convex<3>& a, const Convex<3>& b, const SearchOptions<3>& options) {
+    if (options.trace != nullptr) return BoxTriangle::unknown;
+    if (are_box_and_triangle(a, b)) return box_triangle_overlap(a, b);
+    return are_box_and_triangle(b, a) ? box_triangle_overlap(b, a) : BoxTriangle::unknown;
+}
+
+BoxTriangle triangle_distance(const Convex<3>& a, const Convex<3>& b, double reach, const SearchOptions<3>& options,
+                              SignedDistance<3>& result) {
+    if (options.trace != nullptr) return BoxTriangle::unknown;
+    if (are_box_and_triangle(a, b)) return box_triangle_distance(a, b, reach, result);
+    if (!are_box_and_triangle(b, a)) return BoxTriangle::unknown;
+    const BoxTriangle answer = box_triangle_distance(b, a, reach, result);
+    if (answer == BoxTriangle::overlapping) swap_roles(result);
+    return answer;
+}
+
+}  // namespace
+
+// Fast paths of the plane have no steps to record. A trace receives the steps of GJK and EPA, and changes no answer.
+
+namespace {
+
+/// Both shapes as polygons, for the fast paths.
+struct PlacedPolygons {
+    PlacedPolygon a, b;
+    bool known;
+
+    PlacedPolygons(const Convex<2>& first, const Convex<2>& second)
+        : known(set_placed_polygon(first, a) && set_placed_polygon(second, b)) {}
+};
+
+}  // namespace
+
+template <>
+bool part_overlaps(const Convex<2>& a, const Convex<2>& b, const SearchOptions<2>& options) {
+    const PlacedPolygons polygons(a, b);
+    const PairAnswer2 answer =
+        polygons.known ? pair2_within(polygons.a, polygons.b, 0, options.cache) : PairAnswer2::unknown;
+    if (answer == PairAnswer2::unknown) return any_overlap(a, b, options);
+    if (options.trace != nullptr) any_overlap<2>(a, b, {nullptr, options.trace});
+    return answer == PairAnswer2::within;
+}
+template <>
+bool part_overlaps(const Convex<3>& a, const Convex<3>& b, const SearchOptions<3>& options) {
+    if (are_plain_boxes(a, b)) return boxes_overlap(a, b, options);
+    const BoxTriangle answer = triangle_overlap(a, b, options);
+    return answer == BoxTriangle::unknown ? any_overlap(a, b, options) : answer == BoxTriangle::overlapping;
+}
+
+template <>
+SignedDistance<2> part_distance(const Convex<2>& a, const Convex<2>& b, const SearchOptions<2>& options) {
+    SignedDistance<2> result;
+    const PlacedPolygons polygons(a, b);
+    if (!polygons.known || pair2_distance(polygons.a, polygons.b, options.cache, result) == PairAnswer2::unknown) {
+        any_distance(a, b, options, result);
+    } else if (options.trace != nullptr) {
+        SignedDistance<2> searched;
+        any_distance<2>(a, b, {nullptr, options.trace}, searched);
+    }
+    return result;
+}
+template <>
+SignedDistance<3> part_distance(const Convex<3>& a, const Convex<3>& b, const SearchOptions<3>& options) {
+    if (are_plain_boxes(a, b)) return distance_of_boxes(a, b, options);
+    SignedDistance<3> result;
+    constexpr double unlimited = std::numeric_limits<double>::infinity();
+    if (triangle_distance(a, b, unlimited, options, result) == BoxTriangle::unknown)
+        any_distance(a, b, options, result);
+    return result;
+}
+
+template <>
+bool part_distance_within(const Convex<2>& a, const Convex<2>& b, double reach, double margin,
+                          const SearchOptions<2>& options, PartContact<2>& contact) {
+    const PlacedPolygons polygons(a, b);
+    const PairAnswer2 answer = polygons.known ? pair2_contact(polygons.a, polygons.b, reach, margin, options.cache,
+                                                              contact.distance, contact.manifold)
+                                              : PairAnswer2::unknown;
+    if (answer == PairAnswer2::unknown) return any_distance_within(a, b, reach, options, contact);
+    if (options.trace != nullptr) {
+        PartContact<2> searched;
+        if (any_distance_within<2>(a, b, reach, {nullptr, options.trace}, searched))
+            add_points<2>(a, b, margin, {nullptr, options.trace}, searched);
+    }
+    return answer == PairAnswer2::within;
+}
+template <>
+bool part_distance_within(const Convex<3>& a, const Convex<3>& b, double reach, double margin,
+                          const SearchOptions<3>& options, PartContact<3>& contact) {
+    if (are_plain_boxes(a, b))
+        return contact_of_boxes(a, b, reach, margin, options, contact.distance, contact.manifold);
+    const BoxTriangle answer = triangle_distance(a, b, reach, options, contact.distance);
+    if (answer == BoxTriangle::unknown) return any_distance_within(a, b, reach, options, contact);
+    contact.manifold.count = 0;
+    return answer == BoxTriangle::overlapping && contact.distance.distance <= reach;
+}
+
+template <int D>
+void add_points(const Convex<D>& a, const Convex<D>& b, double margin, const SearchOptions<D>& options,
+                PartContact<D>& contact) {
+    if (contact.manifold.count > 0) return;
+    if constexpr (D == 3) {
+        // A trace receives the clipping steps, which the closed form saves.
+        if (options.trace != nullptr) manifold(a, b, contact.distance, margin, options.trace);
+        if (round_manifold(a, b, contact.distance, margin, contact.manifold)) return;
+    }
+    contact.manifold = manifold(a, b, contact.distance, margin, D == 3 ? nullptr : options.trace);
+}
+
+template <int D>
+bool part_contact(const Convex<D>& a, const Convex<D>& b, double reach, double margin, const SearchOptions<D>& options,
+                  PartContact<D>& contact) {
+    if (!part_distance_within(a, b, reach, margin, options, contact)) return false;
+    add_points(a, b, margin, options, contact);
+    return true;
+}
+
+template void add_points(const Convex<2>&, const Convex<2>&, double, const SearchOptions<2>&, PartContact<2>&);
+template void add_points(const Convex<3>&, const Convex<3>&, double, const SearchOptions<3>&, PartContact<3>&);
+template bool part_contact(const Convex<2>&, const Convex<2>&, double, double, const SearchOptions<2>&,
+                           PartContact<2>&);
+template bool part_contact(const Convex<3>&, const Convex<3>&, double, double, const SearchOptions<3>&,
+                           PartContact<3>&);
+
+}  // namespace abut

@@ -1,0 +1,41 @@
+#pragma once
+
+// The dispatch of pairs of convex parts. It alone chooses the path for a pair: a closed form, the separating axis test
+// (SAT) of boxes and polygons, or GJK and EPA, which take any pair. All paths give the same answers. For .cpp files.
+
+#include <abut/convex/gjk/signed_distance.hpp>
+#include <abut/convex/manifold/manifold.hpp>
+
+namespace abut {
+
+/// Whether the parts share a point.
+template <int D>
+bool part_overlaps(const Convex<D>& a, const Convex<D>& b, const SearchOptions<D>& options);
+
+template <int D>
+SignedDistance<D> part_distance(const Convex<D>& a, const Convex<D>& b, const SearchOptions<D>& options);
+
+/// The contact of two parts.
+template <int D>
+struct PartContact {
+    SignedDistance<D> distance;
+    Manifold<D> manifold;
+};
+
+/// Whether the parts are at most `reach` apart, and then their distance. add_points() adds the manifold, unless it is
+/// found at once. Otherwise `contact` is unspecified.
+template <int D>
+bool part_distance_within(const Convex<D>& a, const Convex<D>& b, double reach, double margin,
+                          const SearchOptions<D>& options, PartContact<D>& contact);
+
+/// Adds the contact points of two touching parts that are at most `margin` apart.
+template <int D>
+void add_points(const Convex<D>& a, const Convex<D>& b, double margin, const SearchOptions<D>& options,
+                PartContact<D>& contact);
+
+/// part_distance_within() and add_points() in one.
+template <int D>
+bool part_contact(const Convex<D>& a, const Convex<D>& b, double reach, double margin, const SearchOptions<D>& options,
+                  PartContact<D>& contact);
+
+}  // namespace abut

@@ -1,0 +1,129 @@
+#include <abut/convex/farthest_point.hpp>
+#include <abut/convex/features.hpp>
+#include <abut/query/detail/part_pairs.hpp>
+
+namespace abut {
+
+template <int D>
+SignedDistance<D> part_distance(const Convex<D>& a, const HalfSpaceView<D>& b, const SearchOptions<D>&) {
+    const CorePoint<D> lowest = core_support(a, -b.normal);
+    SignedDistance<D> result;
+    result.normal = -b.normal;
+    result.on_a = lowest.position + result.normal * a.radius;
+    result.distance = dot(b.normal, result.on_a) - b.offset;
+    result.corners.a[0] = lowest.index;
+    return result;
+}
+
+template <int D>
+SignedDistance<D> part_distance(const HalfSpaceView<D>& a, const Convex<D>& b, const SearchOptions<D>&) {
+    SignedDistance<D> result = part_distance(b, a);
+    swap_roles(result);
+    return result;
+}
+
+template <int D>
+bool part_contact(const Convex<D>& a, const HalfSpaceView<D>& b, double reach, double margin, const SearchOptions<D>&,
+                  PartContact<D>& contact) {
+    contact.distance = part_distance(a, b);
+    if (contact.distance.distance > reach) return false;
+    contact.manifold = manifold_with_plane(a, b.normal, b.offset, margin);
+    return true;
+}
+
+template <int D>
+bool part_contact(const HalfSpaceView<D>& a, const Convex<D>& b, double reach, double margin,
+                  const SearchOptions<D>& options, PartContact<D>& contact) {
+    if (!part_contact(b, a, reach, margin, options, contact)) return false;
+    swap_roles(contact.distance);
+    return true;
+}
+
+namespace {
+
+/// The bits of a box's corners tell which feature they span. The code has no branches: the feature changes from call to
+/// call, so a branch would be mispredicted.
+void name_box_feature(const CornerIndices<3>& corners, std::size_t count, Feature& feature) {
+    const std::uint32_t first = corners[0];
+    std::uint32_t free = 0, used = 0;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const std::uint32_t corner = i < count ? corners[i] : first;
+        free |= corner ^ first;
+        used |= 1u << (corner & 7u);
+    }
+    const std::uint32_t all_but_two = (used & (used - 1)) & ((used & (used - 1)) - 1);
+    // All corners of a face agree on the bit of its axis.
+    const std::uint32_t axis = (free & 1u) == 0 ? 0 : (free & 2u) == 0 ? 1 : (free & 4u) == 0 ? 2 : 3;
+    const bool is_corner = free == 0, is_edge = all_but_two == 0;
+    feature.kind = is_corner ? FeatureKind::vertex : is_edge ? FeatureKind::edge : FeatureKind::face;
+    feature.index = is_corner   ? first
+                    : is_edge   ? edge_index(first, first ^ free)
+                    : axis == 3 ? 0
+                                : 2 * axis + (first >> axis & 1u);
+}
+
+std::uint32_t face_number(const Convex<3>& part, const DVec<3>& out) {
+    if (part.facets == nullptr) {
+        const auto corner = [&](std::uint32_t i) { return part.place.point(DVec<3>(part.vertices()[i])); };
+        const DVec<3> normal = cross(corner(1) - corner(0), corner(2) - corner(0));
+        return dot(normal, out) < 0 ? 1 : 0;
+    }
+    const DVec<3> local = part.place.transposed(out);
+    return farthest_point(part.facets->normals, local);
+}
+
+}  // namespace
+
+template <int D>
+void name_feature(const Convex<D>& part, const CornerIndices<D>& corners, std::size_t count,
+                  [[maybe_unused]] const DVec<D>& out, std::uint32_t number, Feature& feature) {
+    feature.part = number;
+    feature.index = 0;
+    feature.kind = FeatureKind::none;
+    if (!has_features(part)) return;
+    if (count == 2) return name_end_or_edge<D>(corners, number, feature);
+    if constexpr (D == 3)
+        if (part.core == Core::box) return name_box_feature(corners, count, feature);
+    // A corner may appear twice.
+    std::size_t i = 1;
+    while (i < count && corners[i] == corners[0]) ++i;
+    if (i >= count) {
+        feature.index = corners[0];
+        feature.kind = FeatureKind::vertex;
+        return;
+    }
+    const std::uint32_t other = corners[i];
+    if constexpr (D == 3) {
+        while (i < count && (corners[i] == corners[0] || corners[i] == other)) ++i;
+        if (i < count) {
+            feature.index = face_number(part, out);
+            feature.kind = FeatureKind::face;
+            return;
+        }
+    }
+    feature.index = edge_index(corners[0], other);
+    feature.kind = FeatureKind::edge;
+}
+
+template <int D>
+void name_feature(const HalfSpaceView<D>&, const CornerIndices<D>&, std::size_t, const DVec<D>&, std::uint32_t number,
+                  Feature& feature) {
+    feature = {number, 0, FeatureKind::none};
+}
+
+#define ABUT_INSTANTIATE(D)                                                                                           \
+    template SignedDistance<D> part_distance(const Convex<D>&, const HalfSpaceView<D>&, const SearchOptions<D>&);     \
+    template SignedDistance<D> part_distance(const HalfSpaceView<D>&, const Convex<D>&, const SearchOptions<D>&);     \
+    template bool part_contact(const Convex<D>&, const HalfSpaceView<D>&, double, double, const SearchOptions<D>&,    \
+                               PartContact<D>&);                                                                      \
+    template bool part_contact(const HalfSpaceView<D>&, const Convex<D>&, double, double, const SearchOptions<D>&,    \
+                               PartContact<D>&);                                                                      \
+    template void name_feature(const Convex<D>&, const CornerIndices<D>&, std::size_t, const DVec<D>&, std::uint32_t, \
+                               Feature&);                                                                             \
+    template void name_feature(const HalfSpaceView<D>&, const CornerIndices<D>&, std::size_t, const DVec<D>&,         \
+                               std::uint32_t, Feature&);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
+
+}  // namespace abut

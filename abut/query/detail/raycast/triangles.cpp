@@ -1,0 +1,137 @@
+#include <abut/convex/ray/triangle.hpp>
+#include <abut/math/assert.hpp>
+#include <abut/query/detail/raycast/triangles.hpp>
+#include <abut/query/detail/raycast/write_hit.hpp>
+#include <abut/query/raycast.hpp>
+#include <abut/shape/mesh.hpp>
+#include <abut/shape/mesh/rays.hpp>
+
+namespace abut {
+namespace {
+
+/// Whether the composite has no pose: its local frame is the world's.
+bool is_unplaced(const Composite<3>& composite) {
+    return composite.place.column == Affine<3>::identity() && composite.place.offset == DVec<3>(0.0);
+}
+
+/// A composite in the frame of its triangles, for one ray.
+struct Target {
+    const DRay<3>& beam;
+    DRay<3> own{};
+    Affine<3> placement{};
+    bool placed = false;
+    double unit = 1, placement_error = 0, wanted_side = 0;
+
+    MeshRay mesh_beam() const {
+        return {beam, placed ? own : beam, unit, placement_error, placed ? &placement : nullptr, wanted_side};
+    }
+};
+
+/// A bound on the error from transforming a ray to the local frame of a shape and its corners back: a few roundings of
+/// all numbers involved.
+double placement_error_of(const Composite<3>& composite, const Affine<3>& back, const DVec<3>& origin) {
+    const DVec<3> extent = DVec<3>(composite.bounds.max) - DVec<3>(composite.bounds.min);
+    double result = 1e-13 * (largest(origin) + largest(extent));
+    if (composite.similar) return result;
+    // The search accepts a hit slightly beside a triangle, relative to its size in the world. A stretched triangle may
+    // be large along another axis than the one of that error.
+    double squares = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        squares += length_squared(back.column[i]) * length_squared(composite.place.column[i]);
+    return result + 2e-7 * std::sqrt(squares) * largest(extent);
+}
+
+/// Returns false if the shape isn't known by its triangles, or its numbers exceed the range of floats.
+bool set_target(const Composite<3>& composite, const QueryOptions<3>& options, Target& target) {
+    const bool thin = composite.radius == 0 && composite.inner_radius == 0;
+    if (composite.triangles == nullptr || !thin) return false;
+    target.wanted_side = options.back_faces ? 0 : 1;
+    if (is_unplaced(composite)) return true;
+    const double volume = determinant(composite.place);
+    if (volume == 0) return false;
+    if (volume < 0) target.wanted_side = -target.wanted_side;
+    target.placed = true;
+    target.placement = composite.place;
+    target.placement.offset -= target.beam.origin;
+    const Affine<3> back = inverse(composite.place, volume);
+    if (target.beam.rests()) return true;
+    const DVec<3> along = back.vector(target.beam.direction);
+    target.unit = length(along);
+    if (!(target.unit > 1e-30 && target.unit < 1e30)) return false;
+    target.own = {back.point(target.beam.origin), along / target.unit, target.beam.length * target.unit};
+    target.placement_error = placement_error_of(composite, back, target.own.origin);
+    return true;
+}
+
+/// Decides the cases that the closed form leaves open; `part_of` places a triangle in the world.
+template <class PartOf>
+auto by_advance(const DRay<3>& beam, const PartOf& part_of, Trace<3>* trace) {
+    return [&beam, part_of, trace](const Triangle3& triangle, double max_length, RayEntry<3>& entry) {
+        PartHit<3> hit;
+        if (!part_hit_by_advance({beam.origin, beam.direction, max_length}, part_of(triangle), 0, trace, hit))
+            return false;
+        entry = {RayAnswer::enters, hit.along, hit.normal, hit.feature.kind, hit.feature.index};
+        return true;
+    };
+}
+
+/// The triangles of a composite.
+auto parts_of(const Composite<3>& composite) {
+    return [&composite](const Triangle3& triangle) { return placed(convex(triangle), composite); };
+}
+
+PartHit<3> part_hit(const RayEntry<3>& entry, std::uint32_t triangle) {
+    return {entry.along, entry.normal, false, {triangle, entry.index, entry.kind}};
+}
+
+}  // namespace
+
+// A ray without direction hits no triangle: it leaves the one that it starts on.
+
+bool first_triangle_hit(const DRay<3>& beam, const Composite<3>& composite, const QueryOptions<3>& options,
+                        PartHit<3>& first, bool& found) {
+    Target target{beam};
+    if (!set_target(composite, options, target)) return false;
+    if (beam.rests()) return true;
+    const auto undecided = by_advance(beam, parts_of(composite), options.trace);
+    MeshHit hit;
+    if (!find_first_hit(*composite.triangles, target.mesh_beam(), RobustTriangleTest(undecided), hit)) return false;
+    found = hit.triangle != nullptr;
+    if (found) first = part_hit(hit.entry, *hit.triangle);
+    return true;
+}
+
+bool each_triangle_hit(const DRay<3>& beam, const Composite<3>& composite, const QueryOptions<3>& options,
+                       HitVisitor visit) {
+    Target target{beam};
+    if (!set_target(composite, options, target)) return false;
+    if (beam.rests()) return true;
+    const auto undecided = by_advance(beam, parts_of(composite), options.trace);
+    const auto report = [&](const RayEntry<3>& entry, std::uint32_t triangle) {
+        return visit(part_hit(entry, triangle));
+    };
+    return find_each_hit(*composite.triangles, target.mesh_beam(), RobustTriangleTest(undecided), MeshHitCall(report));
+}
+
+std::optional<Hit<3>> raycast(const Ray<3>& ray, const Mesh& mesh, const QueryOptions<3>& options) {
+    std::optional<Hit<3>> result;
+    const bool finite = is_valid_ray(ray);
+    ABUT_ASSERT(finite);
+    if (!finite) return result;
+    const DRay<3> beam = to_dray(ray);
+    if (beam.rests()) return result;
+    const auto undecided = by_advance(
+        beam, [](const Triangle3& triangle) { return convex(triangle); }, options.trace);
+    const MeshRay mesh_ray{beam, beam, 1, 0, nullptr, options.back_faces ? 0.0 : 1.0};
+    MeshHit first;
+    if (!find_first_hit(triangle_tree(mesh), mesh_ray, RobustTriangleTest(undecided), first)) {
+        result = raycast(ray, view(mesh), options);
+    } else if (first.triangle != nullptr) {
+        Hit<3>& hit = result.emplace();
+        write_hit(beam, first.entry.along, first.entry.normal, hit);
+        hit.feature = {*first.triangle, first.entry.index, first.entry.kind};
+    }
+    return result;
+}
+
+}  // namespace abut

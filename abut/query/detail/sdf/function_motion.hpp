@@ -1,0 +1,34 @@
+#pragma once
+
+// Raycasts and sweeps against shapes known by a distance function. For .cpp files.
+//
+// A ray advances by the distance (sphere tracing; Hart, "Sphere tracing: a geometric method for the antialiased ray
+// tracing of implicit surfaces", 1996), or from cell to cell if the function has cells. A moving shape advances by its
+// distance over the maximum speed of its points (conservative advancement; Mirtich, "Impulse-based dynamic simulation",
+// 1996). Steps are limited: once half of them are used up, each covers at least its share of the remaining length, so
+// thinner features may be missed. Rays never miss the walls of a field.
+
+#include <abut/query/detail/raycast/part_hit.hpp>
+#include <abut/query/detail/sdf/function_pairs.hpp>
+#include <abut/query/detail/sweep/linear.hpp>
+#include <abut/query/detail/sweep/rotating.hpp>
+
+namespace abut {
+
+/// The limits on steps of a ray and of a sweep; each step evaluates a distance.
+inline constexpr int function_ray_max_iterations = 1024, function_sweep_max_iterations = 256;
+
+template <int D>
+bool part_hit(const DRay<D>& beam, const DistanceFunction<D>& part, PartHit<D>& hit);
+
+template <int D, class A, class B>
+requires FunctionPair<A, B>
+bool time_of_impact(const A& a, const Path<D>& path, const B& b, std::uint32_t index, const SweepOptions<D>& options,
+                    LinearImpact<D>& impact);
+
+template <int D, class A, class B>
+requires FunctionPair<A, B>
+bool time_of_impact(const A& a, const RigidPath<D>& path_a, const B& b, const RigidPath<D>& path_b,
+                    const RotatingSweepLimits& limits, const SearchOptions<D>& options, RotatingImpact<D>& impact);
+
+}  // namespace abut

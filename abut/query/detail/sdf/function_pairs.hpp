@@ -1,0 +1,103 @@
+#pragma once
+
+// Queries of pairs of parts of which one or both are known by a distance function (SDF). docs/decisions/0012 defines
+// the answers. For .cpp files.
+//
+// Beside a convex set, in either order, the distance is the minimum of the function over the core, less the radius: the
+// gap, or minus the depth of its deepest point. Beside a half-space it is the height of the shape's lowest point above
+// the border. For two functions it is twice the minimum of the larger of both: where they overlap, minus the diameter
+// of the largest ball in both.
+
+#include <abut/query/detail/pair_dispatch.hpp>
+#include <abut/shape/half_space.hpp>
+#include <abut/shape/view/distance_function.hpp>
+
+#include <type_traits>
+
+namespace abut {
+
+template <class Part>
+struct PartDimension;
+template <int D>
+struct PartDimension<Convex<D>> : std::integral_constant<int, D> {};
+template <int D>
+struct PartDimension<HalfSpaceView<D>> : std::integral_constant<int, D> {};
+template <int D>
+struct PartDimension<DistanceFunction<D>> : std::integral_constant<int, D> {};
+
+template <class Part>
+inline constexpr bool is_function = false;
+template <int D>
+inline constexpr bool is_function<DistanceFunction<D>> = true;
+
+/// Two parts, one or both of which are distance functions.
+template <class A, class B>
+concept FunctionPair = PartDimension<A>::value == PartDimension<B>::value && (is_function<A> || is_function<B>);
+
+/// The tolerance of an answer about the pair, including the rounding of the coordinates at which the function is
+/// evaluated.
+template <class A, class B>
+requires FunctionPair<A, B>
+double function_tolerance(const A& a, const B& b);
+
+/// The tolerance of a distance found by a search; larger if a function gives no bounds.
+template <class A, class B>
+requires FunctionPair<A, B>
+double function_search_tolerance(const A& a, const B& b);
+
+/// The precision that a caller needs. A distance of at most `sufficient` may be inexact, and one of more than `reach`
+/// is reported as infinite. The distance is also infinite if a function has no bounds, and the other part is a
+/// half-space or has no bounds either.
+struct DistanceRequest {
+    double sufficient = -std::numeric_limits<double>::infinity();
+    double reach = std::numeric_limits<double>::infinity();
+    double tolerance = 0;  ///< the distance may exceed the minimum by this
+    int max_boxes = 0;     ///< of a search over a function that bounds itself; 0: the search's own limit
+};
+
+template <class A, class B>
+requires FunctionPair<A, B> SignedDistance<PartDimension<A>::value> function_distance(const A& a, const B& b,
+                                                                                      const DistanceRequest& request);
+
+template <class A, class B>
+requires FunctionPair<A, B> SignedDistance<PartDimension<A>::value> part_distance(
+    const A& a, const B& b, const SearchOptions<PartDimension<A>::value>& = {}) {
+    return function_distance(a, b, {});
+}
+
+/// Whether a convex set on its path is nowhere deeper in a function that bounds itself than the tolerance. The path
+/// lies in the hull of the set's start and end, grown by `expansion`; all in one frame. If not, `place` may touch.
+template <int D>
+bool path_stays_apart(const Convex<D>& first, const Convex<D>& last, double expansion,
+                      const DistanceFunction<D>& function, DVec<D>& place);
+
+/// Stops at the first common point.
+template <class A, class B>
+requires FunctionPair<A, B>
+bool function_overlap(const A& a, const B& b);
+
+template <class A, class B>
+requires FunctionPair<A, B>
+bool part_overlaps(const A& a, const B& b, const SearchOptions<PartDimension<A>::value>&) {
+    return function_overlap(a, b);
+}
+
+/// The contact points on a convex set are those of its face towards the function's shape.
+template <class A, class B>
+requires FunctionPair<A, B>
+bool part_contact(const A& a, const B& b, double reach, double margin,
+                  const SearchOptions<PartDimension<A>::value>& options, PartContact<PartDimension<A>::value>& contact);
+
+template <class A, class B>
+requires FunctionPair<A, B>
+bool part_distance_within(const A& a, const B& b, double reach, double margin,
+                          const SearchOptions<PartDimension<A>::value>& options,
+                          PartContact<PartDimension<A>::value>& contact) {
+    return part_contact(a, b, reach, margin, options, contact);
+}
+template <class A, class B>
+requires FunctionPair<A, B>
+void add_points(const A&, const B&, double, const SearchOptions<PartDimension<A>::value>&,
+                PartContact<PartDimension<A>::value>&) {}
+
+}  // namespace abut

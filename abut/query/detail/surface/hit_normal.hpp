@@ -1,0 +1,33 @@
+#pragma once
+
+// Filters internal edges out of the normals of hits. For .cpp files.
+
+#include <abut/math/rigid_path.hpp>
+#include <abut/query/detail/surface/surface_normal.hpp>
+#include <abut/query/hit.hpp>
+
+namespace abut {
+
+/// A moving shape at the moment of its hit.
+template <int D>
+struct MoverAtHit {
+    DVec<D> center;     ///< of its bounding box
+    double size = 0;    ///< bounding radius
+    DVec<D> direction;  ///< of its motion there, of any length
+};
+
+/// A shape that has moved by `travelled`, without rotation.
+template <int D>
+MoverAtHit<D> linear_mover_at_hit(const View<D>& mover, const DVec<D>& travelled);
+/// A shape that follows a path, at a time and a point of contact. The shape is in the frame that the path moves.
+template <int D>
+MoverAtHit<D> rotating_mover_at_hit(const View<D>& mover, const RigidPath<D>& path, double time, const DVec<D>& point);
+
+/// Replaces the normal of a hit on an internal edge by the normal of the surface, if that faces the mover. The hit is
+/// on a part of `shape`. `each_closest_point` visits all parts of the surface, including those of `shape`, placed so
+/// that `hit.point` lies on the surface.
+template <int D>
+void filter_hit_normal(const MoverAtHit<D>& mover, const View<D>& shape, EachClosestPoint<D> each_closest_point,
+                       Hit<D>& hit);
+
+}  // namespace abut

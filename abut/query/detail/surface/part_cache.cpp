@@ -1,0 +1,61 @@
+#include <abut/query/detail/surface/part_cache.hpp>
+
+namespace abut {
+namespace {
+
+/// Whether the part refers to no memory of its shape, so that a copy may outlive the visit.
+template <int D>
+bool is_self_contained(const Convex<D>& part) {
+    switch (part.core) {
+        case Core::points:
+            return part.points == nullptr;
+        case Core::box:
+        case Core::discs:
+            return true;
+        case Core::function:
+            break;
+    }
+    return false;
+}
+
+}  // namespace
+
+template <int D>
+bool PartCache<D>::fill(const Composite<D>& shape, const Aabb<D>& box) {
+    box_ = box;
+    count_ = 0;
+    bool all = true;
+    each_part<D>(shape, box, [&](const Convex<D>& part, std::uint32_t index) -> bool {
+        all = count_ < capacity && is_self_contained(part);
+        if (!all) return false;
+        const Aabb<D> bounds_of_part = bounds(part);
+        if (!overlaps(bounds_of_part, box)) return true;
+        boxes_[count_] = bounds_of_part;
+        ::new (static_cast<void*>(storage_ + count_ * sizeof(Entry))) Entry{part, index};
+        ++count_;
+        return true;
+    });
+    if (!all) {
+        box_ = Aabb<D>::empty();
+        count_ = 0;
+    }
+    return all;
+}
+
+template <int D>
+bool PartCache<D>::each_closest_point(const DVec<D>& point, double within, ClosestPointVisitor<D> visit) const {
+    const Aabb<D> around = box_around(point, within);
+    if (!contains(box_, around)) return false;
+    for (std::uint32_t i = 0; i < count_; ++i) {
+        if (!overlaps_branchless(boxes_[i], around)) continue;
+        ClosestPoint<D> closest;
+        if (find_closest_point(part(i), point, within, closest)) within = visit(closest);
+        if (within == stop_visiting) break;
+    }
+    return true;
+}
+
+template class PartCache<2>;
+template class PartCache<3>;
+
+}  // namespace abut

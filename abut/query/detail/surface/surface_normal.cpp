@@ -1,0 +1,285 @@
+#include <abut/convex/pairs/round3.hpp>
+#include <abut/query/detail/sdf/placed_function.hpp>
+#include <abut/query/detail/surface/surface_normal.hpp>
+
+namespace abut {
+namespace {
+
+/// A part counts as nearer only by more than this fraction of s.
+constexpr double nearer_margin = 1e-8;
+
+/// A point nearer to the surface than this fraction of s gives no reliable normal.
+constexpr double min_clearance = 0.1;
+
+template <int D>
+Convex<D> point_part(const DVec<D>& point) {
+    Convex<D> result = round_points<D>({Vec<D>(0.0f)}, 0);
+    result.place.offset = point;
+    return result;
+}
+
+/// Float coordinates that should be equal differ by up to this fraction of s, which rotates a normal by up to this
+/// angle.
+constexpr double rounding = 1e-2, rounding_angle = 1e-3;
+
+/// The rotation of a face that a point just beside the face may show.
+constexpr double face_angle = 1e-5;
+
+/// If other parts cover the normal, it is tested farther along the part: first at this multiple of s, then at this
+/// factor more each time, up to the centre of the other shape.
+constexpr double first_reach = 3, reach_growth = 8;
+
+/// The limit on these tests. It reaches far beyond the centre of any object for which the shape is a level.
+constexpr int max_reaches = 12;
+
+/// A point inside the part and off all its edges, if the part has an interior.
+template <int D>
+DVec<D> inner_point(const Convex<D>& part, const DVec<D>& probe) {
+    if (part.core != Core::points) return middle_of(part, probe);
+    DVec<D> sum(0.0);
+    for (std::uint32_t i = 0; i < part.count; ++i) sum += DVec<D>(part.vertices()[i]);
+    return part.place.point(sum / static_cast<double>(part.count));
+}
+template <int D>
+DVec<D> inner_point(const HalfSpaceView<D>&, const DVec<D>& probe) {
+    return probe;
+}
+template <int D>
+DVec<D> inner_point(const DistanceFunction<D>&, const DVec<D>& probe) {
+    return probe;
+}
+
+/// Whether the part is solid with flat faces, which may be narrow.
+template <int D>
+bool has_flat_sides(const Convex<D>& part) {
+    if (part.radius > 0 || part.inner_radius > 0) return false;
+    return part.core == Core::box || (part.core == Core::points && part.count > static_cast<std::uint32_t>(D));
+}
+template <int D>
+bool has_flat_sides(const HalfSpaceView<D>&) {
+    return false;
+}
+template <int D>
+bool has_flat_sides(const DistanceFunction<D>&) {
+    return false;
+}
+
+/// Whether the part has a face here and not an edge: a step along the part doesn't change the distance. On a solid part
+/// a step sideways, to one side or the other, must not change it either. So the point lies on no edge, and on no face
+/// as narrow as the gap between two pieces that should touch.
+template <int D, class Part>
+bool is_face(const Part& part, const SurfacePlace<D>& place, const DVec<D>& probe, double own) {
+    const auto is_as_far = [&](const DVec<D>& point) {
+        return std::abs(closest_point_on(part, point).distance - own) <= 3 * face_angle * place.scale;
+    };
+    const auto has_width = [&](const DVec<D>& point, const DVec<D>& direction) {
+        const DVec<D> step = normalized(direction) * (0.3 * place.scale);
+        return is_as_far(point + step) || is_as_far(point - step);
+    };
+    const DVec<D> to_center = inner_point(part, probe) - probe;
+    DVec<D> along = to_center - place.normal * dot(to_center, place.normal);
+    DVec<D> farther = probe;
+    const double distance = length(along);
+    if (distance > nearer_margin * place.scale) {
+        farther += along * (std::min(first_reach * place.scale, distance) / distance);
+        if (!is_as_far(farther)) return false;
+    } else {
+        along = perpendicular(place.normal);
+    }
+    if (!has_flat_sides(part)) return true;
+    if constexpr (D == 3)
+        if (!has_width(farther, cross(place.normal, along))) return false;
+    return has_width(farther, along);
+}
+
+/// Whether the point is behind a one-sided part. A point within rounding of the part counts as in front.
+template <int D>
+bool is_behind(const ClosestPoint<D>& closest, double scale) {
+    return closest.behind > rounding * scale;
+}
+
+/// Whether the part, at distance `own` from p + s n, is the nearest one. Where rounding leaves that open, a face is and
+/// an edge is not.
+template <int D, class Part>
+bool is_nearest_part(const Part& part, const SurfacePlace<D>& place, const DVec<D>& probe, double own,
+                     EachClosestPoint<D> each_closest_point) {
+    const double nearer = own - nearer_margin * place.scale - 1e-14 * largest(probe);
+    const double certainly_nearer = own - rounding * place.scale;
+    bool covered = false, is_uncertain = false;
+    each_closest_point(probe, own + rounding * place.scale, [&](const ClosestPoint<D>& closest) {
+        const double still_relevant = own + rounding * place.scale;
+        if (is_behind(closest, place.scale)) return still_relevant;
+        covered = covered || closest.distance < certainly_nearer;
+        if (covered) return stop_visiting;
+        // This part has another normal and is about as near.
+        const DVec<D> offset = probe - closest.point;
+        const DVec<D> aside = offset - place.normal * dot(offset, place.normal);
+        is_uncertain = is_uncertain || closest.distance < nearer || length(aside) > rounding_angle * place.scale;
+        return still_relevant;
+    });
+    return !covered && (!is_uncertain || is_face(part, place, probe, own));
+}
+
+/// Orders equally near points, so that the order of the visits has no influence.
+template <int D>
+bool is_before(const DVec<D>& a, const DVec<D>& b) {
+    for (int i = 0; i < D; ++i)
+        if (a[i] != b[i]) return a[i] < b[i];
+    return false;
+}
+
+}  // namespace
+
+template <int D>
+bool find_closest_point(const Convex<D>& part, const DVec<D>& point, double within, ClosestPoint<D>& closest) {
+    if constexpr (D == 3) {
+        if (is_round_points(part, 3)) {
+            const TriangleClosest answer =
+                closest_point_on_triangle(part, point, within, closest.distance, closest.point);
+            if (answer == TriangleClosest::beyond) return false;
+            if (answer == TriangleClosest::found) {
+                closest.behind = part.one_sided ? dot(normalized(front(part)), closest.point - point) : 0;
+                return closest.distance <= within;
+            }
+        }
+    }
+    const SignedDistance<D> distance = part_distance<D>(point_part(point), part, {});
+    closest = {distance.distance, distance.on_b()};
+    if (part.one_sided) closest.behind = dot(normalized(front(part)), closest.point - point);
+    return closest.distance <= within;
+}
+
+template <int D>
+ClosestPoint<D> closest_point_on(const Convex<D>& part, const DVec<D>& point) {
+    ClosestPoint<D> result;
+    find_closest_point(part, point, std::numeric_limits<double>::infinity(), result);
+    return result;
+}
+template <int D>
+ClosestPoint<D> closest_point_on(const HalfSpaceView<D>& part, const DVec<D>& point) {
+    const double distance = dot(part.normal, point) - part.offset;
+    return {distance, point - part.normal * distance};
+}
+
+template <int D>
+ClosestPoint<D> closest_point_on(const DistanceFunction<D>& part, const DVec<D>& point) {
+    const PlacedFunction<D> nearest(part);
+    const double distance = nearest.at(point);
+    if (!std::isfinite(distance)) return {};
+    return {distance, point - nearest.normal(point, nearest.step(point, 1e-2 * std::abs(distance))) * distance};
+}
+
+template <int D>
+ClosestPoint<D> nearest_surface_point(EachClosestPoint<D> each_closest_point, const DVec<D>& point, double within,
+                                      double scale, double sufficient) {
+    ClosestPoint<D> result;
+    each_closest_point(point, within, [&](const ClosestPoint<D>& closest) {
+        const bool is_farther = is_behind(closest, scale) || closest.distance > result.distance;
+        if (!is_farther && (closest.distance < result.distance || is_before(closest.point, result.point)))
+            result = closest;
+        return result.distance <= sufficient ? stop_visiting : std::min(within, result.distance);
+    });
+    return result;
+}
+
+template <int D>
+void each_closest_point_on(const View<D>& shape, const DVec<D>& point, double within, ClosestPointVisitor<D> visit) {
+    if (const auto* convex = std::get_if<Convex<D>>(&shape)) {
+        const ClosestPoint<D> closest = closest_point_on(*convex, point);
+        if (closest.distance <= within) visit(closest);
+        return;
+    }
+    const Convex<D> as_part = point_part(point);
+    each_part_near(shape, as_part, static_cast<float>(within), [&](const auto& part, std::uint32_t) {
+        ClosestPoint<D> closest;
+        if (find_closest_point(part, point, within, closest)) within = visit(closest);
+        return within > stop_visiting;
+    });
+}
+
+template <int D, class Part>
+bool is_surface_normal(const Part& part, const SurfacePlace<D>& place, EachClosestPoint<D> each_closest_point) {
+    const DVec<D> probe = place.point + place.normal * place.scale;
+    const double own = closest_point_on(part, probe).distance;
+    if (is_nearest_part(part, place, probe, own, each_closest_point)) return true;
+    const DVec<D> to_center = place.center - place.point;
+    const DVec<D> along = to_center - place.normal * dot(to_center, place.normal);
+    const double distance = length(along);
+    if (!(distance > place.scale)) return false;
+    double reach = first_reach * place.scale;
+    for (int i = 0; i < max_reaches; ++i, reach *= reach_growth) {
+        const DVec<D> farther = probe + along * (std::min(reach, distance) / distance);
+        const double own_farther = closest_point_on(part, farther).distance;
+        // The surface bends: the normal changes here.
+        if (!(std::abs(own_farther - own) <= nearer_margin * place.scale)) return false;
+        if (is_nearest_part(part, place, farther, own_farther, each_closest_point)) return true;
+        if (!(reach < distance)) return false;
+    }
+    return false;
+}
+
+template <int D, class Part>
+bool has_normal(const Part& part, const SurfacePlace<D>& place) {
+    return closest_point_on(part, place.point + place.normal * place.scale).distance > (1 - rounding) * place.scale;
+}
+
+template <int D, class Part>
+bool is_surface_normal_at(const Part& part, const SurfacePlace<D>& place, EachClosestPoint<D> each_closest_point) {
+    const DVec<D> probe = place.point + place.normal * place.scale;
+    const double own = closest_point_on(part, probe).distance;
+    return own > (1 - rounding) * place.scale && is_nearest_part(part, place, probe, own, each_closest_point);
+}
+
+template <int D, class Part>
+std::optional<SurfacePlane<D>> surface_plane(const Part& part, const SurfacePlace<D>& place,
+                                             EachClosestPoint<D> each_closest_point, NearestToCenter<D>& nearest) {
+    const double clear = min_clearance * place.scale;
+    const auto plane_at = [&](const DVec<D>& point, ClosestPoint<D> closest) -> std::optional<SurfacePlane<D>> {
+        if (!(closest.distance > clear) || !std::isfinite(closest.distance)) return std::nullopt;
+        const ClosestPoint<D> own = closest_point_on(part, point);
+        const bool is_nearest = own.distance <= closest.distance + nearer_margin * place.scale;
+        if (is_nearest && !is_behind(own, place.scale)) closest = own;
+        return SurfacePlane<D>{normalized(point - closest.point), closest.point};
+    };
+    const DVec<D> to_center = place.center - place.point;
+    const double distance = length(to_center);
+    if (!(distance > place.scale)) return std::nullopt;
+    const DVec<D> probe = place.point + to_center * (place.scale / distance);
+    if (const auto plane =
+            plane_at(probe, nearest_surface_point(each_closest_point, probe, 2 * place.scale, place.scale, clear)))
+        return plane;
+    const double within = 1.001 * distance;
+    if (!std::isfinite(nearest.closest.distance) && within > nearest.within) {
+        nearest.closest = nearest_surface_point(each_closest_point, place.center, within, place.scale, clear);
+        nearest.within = within;
+    }
+    return plane_at(place.center, nearest.closest.distance <= within ? nearest.closest : ClosestPoint<D>());
+}
+
+#define ABUT_INSTANTIATE(D)                                                                                      \
+    template bool find_closest_point(const Convex<D>&, const DVec<D>&, double, ClosestPoint<D>&);                \
+    template ClosestPoint<D> closest_point_on(const Convex<D>&, const DVec<D>&);                                 \
+    template ClosestPoint<D> closest_point_on(const HalfSpaceView<D>&, const DVec<D>&);                          \
+    template ClosestPoint<D> closest_point_on(const DistanceFunction<D>&, const DVec<D>&);                       \
+    template bool has_normal(const DistanceFunction<D>&, const SurfacePlace<D>&);                                \
+    template bool is_surface_normal_at(const DistanceFunction<D>&, const SurfacePlace<D>&, EachClosestPoint<D>); \
+    template bool is_surface_normal(const DistanceFunction<D>&, const SurfacePlace<D>&, EachClosestPoint<D>);    \
+    template std::optional<SurfacePlane<D>> surface_plane(const DistanceFunction<D>&, const SurfacePlace<D>&,    \
+                                                          EachClosestPoint<D>, NearestToCenter<D>&);             \
+    template ClosestPoint<D> nearest_surface_point(EachClosestPoint<D>, const DVec<D>&, double, double, double); \
+    template void each_closest_point_on(const View<D>&, const DVec<D>&, double, ClosestPointVisitor<D>);         \
+    template bool has_normal(const Convex<D>&, const SurfacePlace<D>&);                                          \
+    template bool has_normal(const HalfSpaceView<D>&, const SurfacePlace<D>&);                                   \
+    template bool is_surface_normal_at(const Convex<D>&, const SurfacePlace<D>&, EachClosestPoint<D>);           \
+    template bool is_surface_normal_at(const HalfSpaceView<D>&, const SurfacePlace<D>&, EachClosestPoint<D>);    \
+    template bool is_surface_normal(const Convex<D>&, const SurfacePlace<D>&, EachClosestPoint<D>);              \
+    template bool is_surface_normal(const HalfSpaceView<D>&, const SurfacePlace<D>&, EachClosestPoint<D>);       \
+    template std::optional<SurfacePlane<D>> surface_plane(const Convex<D>&, const SurfacePlace<D>&,              \
+                                                          EachClosestPoint<D>, NearestToCenter<D>&);             \
+    template std::optional<SurfacePlane<D>> surface_plane(const HalfSpaceView<D>&, const SurfacePlace<D>&,       \
+                                                          EachClosestPoint<D>, NearestToCenter<D>&);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
+
+}  // namespace abut

@@ -1,0 +1,52 @@
+#pragma once
+
+// The time of impact of two convex parts, the first moving straight. For .cpp files.
+
+#include <abut/query/detail/part_pairs.hpp>
+#include <abut/query/hit.hpp>
+
+namespace abut {
+
+/// The motion of A relative to B.
+template <int D>
+struct Path {
+    DVec<D> direction{0.0};  ///< unit vector
+    double length = 0;
+};
+
+template <int D>
+struct LinearImpact {
+    double along = 0;     ///< how far A has moved
+    DVec<D> normal{0.0};  ///< unit vector from A to B
+    DVec<D> point{0.0};   ///< the point of contact, with A there and B at its start
+    bool started_inside = false;
+    Feature feature;  ///< of B
+};
+
+/// The limit on iterations. Each covers all of the known gap, so a few suffice mostly.
+inline constexpr int linear_sweep_max_iterations = 64;
+
+/// Options beside the two parts.
+template <int D>
+struct SweepOptions {
+    Cache* cache = nullptr;                            ///< warm start; null: none
+    Trace<D>* trace = nullptr;                         ///< records every step
+    int max_iterations = linear_sweep_max_iterations;  ///< beyond this limit the parts count as touching where they
+                                                       ///< are, which is early and never late
+};
+
+/// The first impact of A, moving along the path, and B; `index` is the number of B's part. Returns false, and leaves
+/// `impact` unspecified, if there is none.
+///
+/// The signed distance of convex sets is a convex function of the length of a straight motion. So the plane that
+/// separates the parts now still separates them until the motion has crossed the gap before it. Advancing by that
+/// length is a step of Newton's method on a convex function: it never goes too far, and converges quadratically
+/// (conservative advancement; Mirtich, "Impulse-based dynamic simulation", 1996; as a ray into the Minkowski
+/// difference: van den Bergen, "Ray casting against general convex objects with application to continuous collision
+/// detection", 2004). The result has both proofs: a point that both parts nearly share, and separating planes crossed
+/// no earlier.
+template <int D, class A, class B>
+bool time_of_impact(const A& a, const Path<D>& path, const B& b, std::uint32_t index, const SweepOptions<D>& options,
+                    LinearImpact<D>& impact);
+
+}  // namespace abut

@@ -1,0 +1,359 @@
+#include <abut/convex/manifold/manifold.hpp>
+#include <abut/convex/toi/separation_function.hpp>
+#include <abut/convex/tolerance.hpp>
+#include <abut/query/detail/one_sided.hpp>
+#include <abut/query/detail/part_pairs.hpp>
+#include <abut/query/detail/sweep/contact_interval.hpp>
+#include <abut/query/detail/sweep/rotating.hpp>
+
+namespace abut {
+namespace {
+
+/// From this iteration on, each one tries all axes.
+constexpr int fast_iterations = 4;
+
+/// The bounding radius, directly from the core if possible, without its extents.
+template <int D>
+double radius_of(const Convex<D>& set) {
+    if (is_plain_box(set)) return length(DVec<D>(set.own[0])) * set.scale + set.radius;
+    return size(set);
+}
+
+/// With the smallest ulp possible: coordinates as large as the larger part.
+double tolerance_of(double size_a, double size_b) {
+    return tolerance_for(std::min(size_a, size_b), std::max(size_a, size_b));
+}
+
+/// By how much a computed depth may exceed the least depth.
+template <int D>
+double depth_error_of(const Convex<D>& set) {
+    const bool exact = set.inner_radius == 0 && (set.core == Core::points || set.core == Core::box);
+    return exact ? 0 : 1e-3 * radius_of(set);
+}
+
+template <int D>
+class ConvexPair {
+public:
+    ConvexPair(const Convex<D>& set_a, const RigidPath<D>& path_a, const Convex<D>& set_b, const RigidPath<D>& path_b,
+               const SearchOptions<D>& options)
+        : tolerance(tolerance_of(radius_of(set_a), radius_of(set_b))),
+          a(set_a, path_a, 0.02 * tolerance),
+          b(set_b, path_b, 0.02 * tolerance),
+          depth_error(depth_error_of(set_a) + depth_error_of(set_b)),
+          options_(options) {
+        if (options_.cache == nullptr) options_.cache = &cache_;
+    }
+
+    SignedDistance<D> distance(double time) {
+        go_to(time);
+        return part_distance(a.here(), b.here(), options_);
+    }
+    Manifold<D> contact_points(const SignedDistance<D>& distance) const {
+        return manifold(a.here(), b.here(), distance, tolerance);
+    }
+
+    /// The time until which the gap is certainly open, along the axis across the closest features. Parts that touch,
+    /// and searches that don't progress, also try axes that stand still or rotate with one of the parts.
+    double separated_to(double from, double until, double level, double step_tolerance, const SignedDistance<D>& now,
+                        bool try_all_axes) {
+        const AngularVelocity<D> still{};
+        const AngularVelocity<D> across = axis_angular_velocity(a, b, now.normal, now.corners);
+        double time = follow(across, from, until, level, step_tolerance, now);
+        if (time >= until || !try_all_axes) return time;
+        for (const AngularVelocity<D>& angular_velocity : {still, a.path().angular_velocity, b.path().angular_velocity})
+            if (angular_velocity != across)
+                time = std::max(time, follow(angular_velocity, from, until, level, step_tolerance, now));
+        return time;
+    }
+
+    void go_to(double time) {
+        a.go_to(time);
+        b.go_to(time);
+    }
+    const Convex<D>& here_a() const { return a.here(); }
+    const Convex<D>& here_b() const { return b.here(); }
+    double reach_a() const { return a.reach(); }
+    double reach_b() const { return b.reach(); }
+
+    /// Whether the separating direction is certainly unique: for round parts, and in the plane if the contact is inside
+    /// an edge.
+    bool has_unique_normal(const SignedDistance<D>& now) const {
+        if (a.here().radius + b.here().radius > far_from_end * tolerance) return true;
+        return D == 2 && (is_inside_edge(a.here(), now.corners, now.corners.a, now.on_a) ||
+                          is_inside_edge(b.here(), now.corners, now.corners.b, now.on_b()));
+    }
+
+    Feature feature_on_b(const SignedDistance<D>& distance) const {
+        Feature result;
+        name_feature(b.here(), distance.corners.b, distance.corners.count, -distance.normal, 0, result);
+        return result;
+    }
+
+    double tolerance;
+    RotatingSet<D> a, b;
+    double depth_error;  ///< by how much a depth may exceed the least depth
+
+private:
+    static constexpr double far_from_end = 10;  ///< from an end, in tolerances
+
+    /// For a core with corners: whether the point is far from each of the corners that it lies between.
+    bool is_inside_edge(const Convex<D>& set, const ClosestCorners<D>& closest, const CornerIndices<D>& corners,
+                        const DVec<D>& place) const {
+        if (corners[0] == corners[1] || closest.count < 2) return false;
+        bool result = true;
+        for (std::size_t i = 0; i < closest.count; ++i)
+            result = result && has_corner(set, corners[i]) &&
+                     length_squared(set.place.point(local_corner(set, corners[i])) - place) >
+                         far_from_end * far_from_end * tolerance * tolerance;
+        return result;
+    }
+
+    double follow(const AngularVelocity<D>& angular_velocity, double from, double until, double level,
+                  double step_tolerance, const SignedDistance<D>& now) {
+        SeparationFunction<D> gap(a, b, now.normal, angular_velocity, from);
+        return separated_until(gap, from, until, gap.at_first(now.normal, now.distance, now.on_a, now.on_b()), level,
+                               step_tolerance)
+            .time;
+    }
+
+    SearchOptions<D> options_;
+    Cache cache_;
+};
+
+/// A set and a half-space. The normal of the border is the only separating axis and gives the distance in closed form.
+/// A point of the border stands for the half-space.
+template <int D, bool first_is_half_space>
+class HalfSpacePair {
+public:
+    HalfSpacePair(const HalfSpaceView<D>& half_space, const RigidPath<D>& path_of_half_space, const Convex<D>& convex,
+                  const RigidPath<D>& path_of_set)
+        : tolerance(tolerance_of(radius_of(convex), radius_of(convex))),
+          a(first_is_half_space ? border_point_of(half_space) : convex,
+            first_is_half_space ? path_of_half_space : path_of_set, first_is_half_space ? never : 0.02 * tolerance),
+          b(first_is_half_space ? convex : border_point_of(half_space),
+            first_is_half_space ? path_of_set : path_of_half_space, first_is_half_space ? 0.02 * tolerance : never),
+          depth_error(depth_error_of(convex)),
+          rotation_(path_of_half_space.angular_velocity),
+          normal_(rotation_.of(path_of_half_space.start.vector(half_space.normal))) {}
+
+    SignedDistance<D> distance(double time) {
+        go_to(time);
+        SignedDistance<D> result = part_distance(set(), half_space_);
+        if (first_is_half_space) swap_roles(result);
+        return result;
+    }
+    bool has_unique_normal(const SignedDistance<D>&) const { return true; }
+    Manifold<D> contact_points(const SignedDistance<D>&) const {
+        return manifold_with_plane(set(), half_space_.normal, half_space_.offset, tolerance);
+    }
+    double separated_to(double from, double until, double level, double step_tolerance, const SignedDistance<D>& now,
+                        bool) {
+        SeparationFunction<D> gap(a, b, now.normal,
+                                  first_is_half_space ? a.path().angular_velocity : b.path().angular_velocity, from);
+        return separated_until(gap, from, until, gap.at_first(now.normal, now.distance, now.on_a, now.on_b()), level,
+                               step_tolerance)
+            .time;
+    }
+    void go_to(double time) {
+        a.go_to(time);
+        b.go_to(time);
+        half_space_.normal = normal_.at(sin_cos(rotation_.rate * time));
+        half_space_.offset = dot(half_space_.normal, border_point().place.offset);
+    }
+    const auto& here_a() const {
+        if constexpr (first_is_half_space)
+            return half_space_;
+        else
+            return a.here();
+    }
+    const auto& here_b() const {
+        if constexpr (first_is_half_space)
+            return b.here();
+        else
+            return half_space_;
+    }
+    double reach_a() const { return first_is_half_space ? std::numeric_limits<double>::infinity() : a.reach(); }
+    double reach_b() const { return first_is_half_space ? b.reach() : std::numeric_limits<double>::infinity(); }
+    Feature feature_on_b(const SignedDistance<D>& distance) const {
+        Feature result;
+        if (first_is_half_space)
+            name_feature(set(), distance.corners.b, distance.corners.count, -distance.normal, 0, result);
+        return result;
+    }
+
+    double tolerance;
+    RotatingSet<D> a, b;
+    double depth_error;  ///< by how much a depth may exceed the least depth
+
+private:
+    static constexpr double never = -1;
+
+    static Convex<D> border_point_of(const HalfSpaceView<D>& half_space) {
+        Convex<D> result;
+        result.place.offset = half_space.normal * half_space.offset;
+        return result;
+    }
+    const Convex<D>& border_point() const { return first_is_half_space ? a.here() : b.here(); }
+    const Convex<D>& set() const { return first_is_half_space ? b.here() : a.here(); }
+
+    RotationAxis<D> rotation_;
+    RotatingVector<D> normal_;
+    HalfSpaceView<D> half_space_;
+};
+
+/// Whether two parts that touch, or are about to, go further in at once.
+template <int D, class Pair>
+class DeepeningTest {
+public:
+    DeepeningTest(Pair& pair, double time, const SignedDistance<D>& now) : pair_(pair), time_(time), now_(now) {}
+
+    /// Tests the closest points first, then all points of the contact manifold: where a face tilts, another point goes
+    /// in.
+    bool deepens() const {
+        if (deepens_at(speed_at(now_.on_a))) return true;
+        const Manifold<D> contacts = pair_.contact_points(now_);
+        double max_speed = 0;
+        for (std::size_t i = 0; i < contacts.count; ++i)
+            if (contacts.points[i].depth >= -now_.distance - pair_.tolerance)
+                max_speed = std::max(max_speed, speed_at(contacts.points[i].position));
+        return deepens_at(max_speed);
+    }
+
+private:
+    /// The speed of approach along the normal at a point.
+    double speed_at(const DVec<D>& place) const {
+        return dot(now_.normal, pair_.a.path().velocity(time_, place) - pair_.b.path().velocity(time_, place));
+    }
+
+    /// A motion that would move less than rounding over the whole interval doesn't count. A corner against a corner has
+    /// many normals, and motion against one of them proves nothing; neither does the edge of a crate that slides to the
+    /// next board of its floor. So it tests whether they are deeper one tolerance later.
+    bool deepens_at(double speed) const {
+        if (!(speed > std::max(0.5 * pair_.tolerance, 1e-6 * (pair_.a.travel() + pair_.b.travel())))) return false;
+        if (pair_.has_unique_normal(now_)) return true;
+        if (pair_.distance(time_ + pair_.tolerance / speed).distance < now_.distance - 0.5 * pair_.tolerance)
+            return true;
+        pair_.go_to(time_);
+        return false;
+    }
+
+    Pair& pair_;
+    double time_;
+    const SignedDistance<D>& now_;
+};
+
+/// Advances from one proven time to the next until the impact. The levels leave a margin to the next one for rounding,
+/// in tolerances. Apart, the gap is followed down to 0.2 to 0.4, and they touch at 0.5. Touching parts that don't go
+/// further in may sink by at most 0.5, and have gone in at 0.3 below touching or their start. Axes that prove that deep
+/// parts sink no deeper don't show when these come apart. So they are followed from both sides: certainly not apart by
+/// 1, and apart at 0.5.
+template <int D, class Pair>
+class RotatingSweep {
+public:
+    RotatingSweep(Pair& pair, const RotatingSweepLimits& limits)
+        : pair_(pair), limits_(limits), tolerance_(pair.tolerance) {}
+
+    bool run(RotatingImpact<D>& impact) {
+        time_ = limits_.from;
+        now_ = pair_.distance(time_);
+        // Parts that have been sliding are followed from the start.
+        if (time_ > 0 && now_.distance <= tolerance_) now_ = pair_.distance(time_ = 0);
+        const double from = time_;
+        bool started_inside = now_.distance < -tolerance_;
+        for (int step = 0;; ++step) {
+            if (has_impact() || step >= limits_.max_iterations) break;
+            time_ = free_until(step >= fast_iterations);
+            if (time_ >= limits_.until || time_ > limits_.reach) return false;
+            now_ = pair_.distance(time_);
+        }
+        const Feature feature = pair_.feature_on_b(now_);
+        if (from > 0) started_inside = pair_.distance(0).distance < -tolerance_;
+        impact = {time_, now_.on_b(), now_.normal, started_inside, feature};
+        return true;
+    }
+
+private:
+    /// Whether the state at the current time is an impact.
+    bool has_impact() {
+        bool deepens = false;
+        if (is_apart_ && now_.distance <= 0.5 * tolerance_) {
+            deepens = DeepeningTest<D, Pair>(pair_, time_, now_).deepens();
+            is_apart_ = false;
+            depth_limit_ = std::min(now_.distance, 0.0);
+            if (is_overlapping()) depth_limit_ -= pair_.depth_error;
+        } else if (!is_apart_) {
+            deepens = now_.distance <= depth_limit_ - 0.3 * tolerance_;
+        }
+        if (deepens) {
+            pair_.go_to(time_);
+            if (touch_at_fronts(pair_.here_a(), pair_.here_b(), now_.normal)) return true;
+            // A part may enter by a back face freely, and is hit after it has come out.
+            depth_limit_ = -std::numeric_limits<double>::infinity();
+            no_deeper_until_ = limits_.until;
+        }
+        is_apart_ = is_apart_ || now_.distance > (is_overlapping() ? 0.5 : 1) * tolerance_;
+        return false;
+    }
+
+    double free_until(bool try_all_axes) {
+        if (is_apart_) {
+            no_deeper_until_ = 0;
+            return pair_.separated_to(time_, limits_.until, 0.2 * tolerance_, 0.2 * tolerance_, now_, try_all_axes);
+        }
+        if (time_ >= no_deeper_until_)
+            no_deeper_until_ = pair_.separated_to(time_, limits_.until, depth_limit_ - 0.5 * tolerance_,
+                                                  0.15 * tolerance_, now_, true);
+        if (!is_overlapping()) return no_deeper_until_;
+        return ContactInterval<D, Pair>(pair_).until({time_, no_deeper_until_}, now_.distance);
+    }
+
+    /// Whether they may overlap by more than the tolerance.
+    bool is_overlapping() const { return depth_limit_ < -tolerance_; }
+
+    Pair& pair_;
+    const RotatingSweepLimits& limits_;
+    const double tolerance_;
+    double time_ = 0;
+    SignedDistance<D> now_;
+    bool is_apart_ = true;
+    double depth_limit_ = 0;      ///< while they aren't apart: deeper than this is an impact
+    double no_deeper_until_ = 0;  ///< while they aren't apart
+};
+
+}  // namespace
+
+template <int D>
+bool time_of_impact(const Convex<D>& a, const RigidPath<D>& path_a, const Convex<D>& b, const RigidPath<D>& path_b,
+                    const RotatingSweepLimits& limits, const SearchOptions<D>& options, RotatingImpact<D>& impact) {
+    ConvexPair<D> pair(a, path_a, b, path_b, options);
+    return RotatingSweep<D, decltype(pair)>(pair, limits).run(impact);
+}
+
+template <int D>
+bool time_of_impact(const Convex<D>& a, const RigidPath<D>& path_a, const HalfSpaceView<D>& b,
+                    const RigidPath<D>& path_b, const RotatingSweepLimits& limits, const SearchOptions<D>&,
+                    RotatingImpact<D>& impact) {
+    HalfSpacePair<D, false> pair(b, path_b, a, path_a);
+    return RotatingSweep<D, decltype(pair)>(pair, limits).run(impact);
+}
+
+template <int D>
+bool time_of_impact(const HalfSpaceView<D>& a, const RigidPath<D>& path_a, const Convex<D>& b,
+                    const RigidPath<D>& path_b, const RotatingSweepLimits& limits, const SearchOptions<D>&,
+                    RotatingImpact<D>& impact) {
+    HalfSpacePair<D, true> pair(a, path_a, b, path_b);
+    return RotatingSweep<D, decltype(pair)>(pair, limits).run(impact);
+}
+
+#define ABUT_INSTANTIATE(D)                                                                                           \
+    template bool time_of_impact(const Convex<D>&, const RigidPath<D>&, const Convex<D>&, const RigidPath<D>&,        \
+                                 const RotatingSweepLimits&, const SearchOptions<D>&, RotatingImpact<D>&);            \
+    template bool time_of_impact(const Convex<D>&, const RigidPath<D>&, const HalfSpaceView<D>&, const RigidPath<D>&, \
+                                 const RotatingSweepLimits&, const SearchOptions<D>&, RotatingImpact<D>&);            \
+    template bool time_of_impact(const HalfSpaceView<D>&, const RigidPath<D>&, const Convex<D>&, const RigidPath<D>&, \
+                                 const RotatingSweepLimits&, const SearchOptions<D>&, RotatingImpact<D>&);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
+
+}  // namespace abut

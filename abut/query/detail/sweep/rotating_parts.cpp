@@ -1,0 +1,200 @@
+#include <abut/math/assert.hpp>
+#include <abut/query/detail/sdf/function_motion.hpp>
+#include <abut/query/detail/sweep/rotating.hpp>
+
+#include <optional>
+#include <tuple>
+
+namespace abut {
+namespace {
+
+/// The motion is split into this many spans. One after the other, all parts near during a span are searched; the
+/// earliest impact of the first span that has any is the earliest of all. Each part is searched by itself, so that the
+/// order of the parts has no influence.
+constexpr int time_spans = 16;
+
+/// A span of the motion's time.
+struct TimeSpan {
+    double from = 0, to = 1;
+};
+
+/// A ball around a shape, in the frame that the shape's path moves.
+template <int D>
+struct LocalBall {
+    DVec<D> center{0.0};
+    double radius = 0;
+};
+template <int D>
+LocalBall<D> local_ball(const Aabb<D>& box) {
+    const DVec<D> low(box.min), high(box.max);
+    return {(low + high) * 0.5, 0.5 * length(high - low)};
+}
+
+/// A moving ball in the frame of another path. Between two times h apart its centre x is within |x''| h^2 / 8 of the
+/// chord.
+template <int D>
+class MovingBall {
+public:
+    MovingBall(const LocalBall<D>& ball, const RigidPath<D>& path, const RigidPath<D>& frame)
+        : ball_(ball),
+          path_(path),
+          frame_(frame),
+          acceleration_(relative_motion_bounds(path, frame, length(ball.center)).acceleration) {}
+
+    /// The swept AABB of the ball and a margin, rounded outwards.
+    Aabb<D> box(const TimeSpan& span, double margin) const {
+        const DVec<D> first = center(span.from), last = center(span.to);
+        const double time = span.to - span.from, radius = ball_.radius + margin + acceleration_ * time * time / 8;
+        const double rounding = 1e-6 * (radius + std::max(largest(first), largest(last)));
+        Aabb<D> result;
+        for (int i = 0; i < D; ++i) {
+            result.min[i] = static_cast<float>(std::min(first[i], last[i]) - radius - rounding);
+            result.max[i] = static_cast<float>(std::max(first[i], last[i]) + radius + rounding);
+        }
+        return result;
+    }
+
+private:
+    DVec<D> center(double time) const {
+        const Affine<D> frame = place_at(frame_, time);
+        return frame.transposed(place_at(path_, time).point(ball_.center) - frame.offset);
+    }
+
+    LocalBall<D> ball_;
+    RigidPath<D> path_, frame_;
+    double acceleration_;
+};
+
+template <int D>
+Aabb<D> everywhere() {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    return {Vec<D>(-infinity), Vec<D>(infinity)};
+}
+
+/// The parts of a composite shape near another moving shape.
+template <int D, class Other>
+class PartsNear {
+public:
+    PartsNear(const Composite<D>& composite, const RigidPath<D>& path, const Other& other,
+              const RigidPath<D>& path_of_other)
+        : composite_(composite) {
+        if constexpr (!is_half_space) {
+            const Aabb<D> box = bounds(other);
+            is_empty_ = !(box.min[0] <= box.max[0]);
+            if (is_empty_ || !(is_finite(box.min) && is_finite(box.max))) return;
+            const LocalBall<D> ball = local_ball(box);
+            moving_.emplace(ball, path_of_other, path);
+            // At least the largest gap at an impact: half of the tolerance.
+            margin_ = 1e-5 * ball.radius + 1e-6 * local_ball(bounds(composite)).radius;
+        }
+    }
+
+    /// Calls visit(part, index) for at least all parts that may be hit in this span.
+    template <class Visit>
+    void each(const TimeSpan& span, Visit&& visit) const {
+        if (is_empty_) return;
+        each_part<D>(composite_, moving_ ? moving_->box(span, margin_) : everywhere<D>(),
+                     [&](const Convex<D>& part, std::uint32_t index) -> bool {
+                         visit(part, index);
+                         return true;
+                     });
+    }
+
+private:
+    static constexpr bool is_half_space = std::is_same_v<Other, HalfSpaceView<D>>;
+
+    const Composite<D>& composite_;
+    bool is_empty_ = false;
+    std::optional<MovingBall<D>> moving_;
+    double margin_ = 0;
+};
+
+template <int D>
+class EarliestImpact {
+public:
+    EarliestImpact(const RigidPath<D>& path_a, const RigidPath<D>& path_b, const SearchOptions<D>& options)
+        : path_a_(path_a), path_b_(path_b), options_(options) {}
+
+    template <class PartA, class PartB>
+    void search(const PartA& a, const PartB& b) {
+        [[maybe_unused]] constexpr bool two_half_spaces_pair = false;
+        if constexpr (std::is_same_v<PartA, HalfSpaceView<D>> && std::is_same_v<PartB, HalfSpaceView<D>>) {
+            ABUT_ASSERT(two_half_spaces_pair);
+        } else if constexpr (std::is_same_v<PartB, Composite<D>>) {
+            const PartsNear<D, PartA> near(b, path_b_, a, path_a_);
+            each_span<PartA>([&](const TimeSpan& span) {
+                near.each(span, [&](const Convex<D>& part, std::uint32_t index) { search_part(a, part, index, span); });
+            });
+        } else if constexpr (std::is_same_v<PartA, Composite<D>>) {
+            const PartsNear<D, PartB> near(a, path_a_, b, path_b_);
+            each_span<PartB>([&](const TimeSpan& span) {
+                near.each(span,
+                          [&](const Convex<D>& part, std::uint32_t index) { test_pair(part, index, b, 0, span); });
+            });
+        } else {
+            test_pair(a, 0, b, 0, {});
+        }
+    }
+
+    bool any = false;
+    RotatingImpact<D> first;
+
+private:
+    /// An infinite shape is near all parts all the time, and a distance function is searched over the whole motion at
+    /// once.
+    template <class Other, class Visit>
+    void each_span(Visit&& visit) {
+        constexpr int count = std::is_same_v<Other, Convex<D>> || std::is_same_v<Other, Composite<D>> ? time_spans : 1;
+        for (int i = 0; i < count && !any; ++i)
+            visit(TimeSpan{static_cast<double>(i) / count, static_cast<double>(i + 1) / count});
+    }
+
+    /// Searches a whole shape A against one part of B.
+    template <class PartA>
+    void search_part(const PartA& a, const Convex<D>& b, std::uint32_t index, const TimeSpan& span) {
+        if constexpr (std::is_same_v<PartA, Composite<D>>)
+            PartsNear<D, Convex<D>>(a, path_a_, b, path_b_)
+                .each(span,
+                      [&](const Convex<D>& part, std::uint32_t index_a) { test_pair(part, index_a, b, index, span); });
+        else
+            test_pair(a, 0, b, index, span);
+    }
+
+    template <class PartA, class PartB>
+    void test_pair(const PartA& a, std::uint32_t index_a, const PartB& b, std::uint32_t index_b, const TimeSpan& span) {
+        RotatingImpact<D> found;
+        const RotatingSweepLimits limits{.from = span.from, .until = span.to, .reach = any ? first.time : span.to};
+        if (!time_of_impact(a, path_a_, b, path_b_, limits, options_, found)) return;
+        // Of several parts hit at one time the lowest wins, whatever the order of the visits.
+        if (any && std::tuple(found.time, index_b, index_a) >= std::tuple(first.time, first.feature.part, index_a_))
+            return;
+        any = true;
+        first = found;
+        first.feature.part = index_b;
+        index_a_ = index_a;
+    }
+
+    const RigidPath<D>&path_a_, &path_b_;
+    SearchOptions<D> options_;
+    std::uint32_t index_a_ = 0;  ///< of the part of A that hits first
+};
+
+}  // namespace
+
+template <int D>
+bool time_of_impact(const View<D>& a, const RigidPath<D>& path_a, const View<D>& b, const RigidPath<D>& path_b,
+                    const SearchOptions<D>& options, RotatingImpact<D>& impact) {
+    EarliestImpact<D> earliest(path_a, path_b, options);
+    std::visit([&](const auto& part_a, const auto& part_b) { earliest.search(part_a, part_b); }, a, b);
+    if (earliest.any) impact = earliest.first;
+    return earliest.any;
+}
+
+#define ABUT_INSTANTIATE(D)                                                                                \
+    template bool time_of_impact(const View<D>&, const RigidPath<D>&, const View<D>&, const RigidPath<D>&, \
+                                 const SearchOptions<D>&, RotatingImpact<D>&);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
+
+}  // namespace abut
