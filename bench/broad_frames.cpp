@@ -17,7 +17,7 @@ namespace {
 template <class Phase, int D>
 struct PhasePairs {
     PhasePairs(std::span<const Aabb<D>> boxes, Upkeep how, double moved) : upkeep(how) {
-        tell(phase, {.moved = moved, .asked = 0});
+        set_history(phase, {.moved = moved, .queries = 0});
         phase.build(boxes);
     }
 

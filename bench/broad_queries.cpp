@@ -93,7 +93,7 @@ Job query_all(const Boxes& scene, std::span<const Query> queries, double toleran
     each_side<3, ForQueries<3>>([&]<class Phase>(const Structure<Phase>& structure, std::string who) {
         if (boxes->size() > structure.limits.queries) return;
         const auto phase = std::make_shared<Phase>();
-        tell(*phase, {.moved = 0, .asked = 1});
+        set_history(*phase, {.moved = 0, .queries = 1});
         phase->build(*boxes);
         job.sides.push_back(each_query(std::move(who), queries, [phase, boxes, answer](const Query& query) {
             return answer(std::as_const(*phase), std::span<const Aabb3>(*boxes), query);

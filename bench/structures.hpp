@@ -52,8 +52,8 @@ void each_structure(Visit visit) {
 
 /// Informs the adaptive structure how its boxes are used; others ignore it.
 template <class Phase>
-void tell(Phase& phase, const BroadPhaseHistory& history) {
-    if constexpr (requires { phase.tell(history); }) phase.tell(history);
+void set_history(Phase& phase, const BroadPhaseHistory& history) {
+    if constexpr (requires { phase.set_history(history); }) phase.set_history(history);
 }
 
 /// Calls visit(structure, who) for the one that is "abut", and then for the others.

@@ -1,6 +1,6 @@
 #include <abut/draw/convex.hpp>
 #include <abut/draw/distance_function.hpp>
-#include <abut/query/function_there.hpp>
+#include <abut/query/detail/sdf/placed_function.hpp>
 #include <abut/shape/view/view.hpp>
 
 #include <array>
@@ -103,7 +103,7 @@ void draw_function(Canvas<D>& canvas, const DistanceFunction<D>& function, const
         cells[i] = static_cast<int>(side[i] / cell) + 2;
         low[i] -= 0.5 * (cells[i] * cell - side[i]);
     }
-    const FunctionThere<D> function_view(function);
+    const PlacedFunction<D> function_view(function);
     const double reach = function_view.slope() * std::sqrt(static_cast<double>(D)) * cell;
     glm::vec<D, int> at(0);
     for (;;) {

@@ -67,7 +67,7 @@ public:
             stack[place] = {measure, level, x, y};
         };
         push(static_cast<std::uint32_t>(levels_.size()), 0, 0, 0);
-        while (stack_size > 0 && !reach.over()) {
+        while (stack_size > 0 && !reach.is_exhausted()) {
             const StackEntry next = stack[--stack_size];
             if (!reach.within(next.measure)) continue;
             if (next.level == 0) {

@@ -64,7 +64,7 @@ struct HeightField::Data {
     template <class Reach, class Visit>
     void each_within(Reach reach, Visit&& visit) const {
         const auto visit_cell = [&](std::uint32_t x, std::uint32_t y) {
-            for (std::uint32_t which = 0; which < 2 && !reach.over(); ++which) {
+            for (std::uint32_t which = 0; which < 2 && !reach.is_exhausted(); ++which) {
                 const Triangle3 t = triangle(x, y, which);
                 double measure;
                 if (reach.measure(box_of(t), measure)) reach.shrink(visit(t, 2 * cell_at(x, y) + which));

@@ -105,7 +105,7 @@ public:
     }
 
     static float limit(double square) {
-        return square < 1e37 ? not_less(square) : std::numeric_limits<float>::infinity();
+        return square < 1e37 ? rounded_up(square) : std::numeric_limits<float>::infinity();
     }
     HWY_INLINE std::uint32_t operator()(const MeshNode& node, float limit, float (&squares)[mesh_lanes]) const {
         std::uint32_t result = 0;
@@ -197,7 +197,7 @@ public:
 
     /// Starts at the root; `tested` is a leaf that was tested before.
     void traverse(std::uint32_t tested) {
-        StackEntry stack[most_waiting];
+        StackEntry stack[max_stack_size];
         std::size_t stack_size = 0;
         stack[stack_size++] = {0, tree_.root(0).ref};
         while (stack_size > 0) {

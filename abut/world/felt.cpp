@@ -2,7 +2,7 @@
 // felt as those inside one.
 
 #include <abut/broad_phase/boxes.hpp>
-#include <abut/query/contact_among.hpp>
+#include <abut/query/detail/surface/contact_with_neighbours.hpp>
 #include <abut/world/world.hpp>
 
 #include <algorithm>
@@ -63,7 +63,7 @@ void World<D>::each_foot_beside(std::uint32_t slot, std::uint32_t other, const D
                                 ClosestPointVisitor<D> visit) {
     const Vec<D> middle = to_float(point);
     Aabb<D> near = grown(Aabb<D>{middle, middle}, static_cast<float>(within));
-    const auto narrow = [&](const Foot<D>& foot) {
+    const auto narrow = [&](const ClosestPoint<D>& foot) {
         const double wanted = visit(foot);
         if (wanted < within) {
             const Aabb<D> around = box_around(point, std::max(wanted, 0.0));
@@ -72,19 +72,19 @@ void World<D>::each_foot_beside(std::uint32_t slot, std::uint32_t other, const D
         return within = wanted;
     };
     const auto visit_item = [&](std::uint32_t item) {
-        each_foot_on<D>(views_.of(item, [&] { return placed(items_[item]); }), point, within, narrow);
-        return within > no_others;
+        each_closest_point_on<D>(views_.of(item, [&] { return placed(items_[item]); }), point, within, narrow);
+        return within > stop_visiting;
     };
     const std::span<const Partner> partners = partners_.of(slot);
     if (partners.size() <= few) {
         for (const auto& partner : partners)
-            if (meet(partner.box, near) && partner.slot != other && !visit_item(partner.slot)) return;
+            if (overlaps_branchless(partner.box, near) && partner.slot != other && !visit_item(partner.slot)) return;
         return;
     }
     const Item& item = items_[slot];
     const Filter filter{.layers = item.layers, .mask = item.mask};
     for (const ItemBoxes<D>* items : {&moving_, &fixed_}) {
-        if (within == no_others) return;
+        if (within == stop_visiting) return;
         items->phase().each_overlapping(near, [&](std::uint32_t place) {
             const std::uint32_t found = items->slot(place);
             const Item& beside = items_[found];
@@ -114,10 +114,11 @@ bool World<D>::find_contact(const IdPair& pair) {
         };
     };
     const auto beside_b = beside(a, b), beside_a = beside(b, a);
-    const EachFoot<D> of_a(beside_b), of_b(beside_a);
-    const ContactAmong<D> among =
-        contact_among<D>(placed_a, placed_b, {others_of_a ? &of_a : nullptr, others_of_b ? &of_b : nullptr});
-    if (among.touch) found_.push_back({{pair.a, pair.b, among.contact}, among.felt, static_cast<bool>(among.contact)});
+    const EachClosestPoint<D> of_a(beside_b), of_b(beside_a);
+    const ContactWithNeighbours<D> among =
+        contact_with_neighbours<D>(placed_a, placed_b, {others_of_a ? &of_a : nullptr, others_of_b ? &of_b : nullptr});
+    if (among.touch)
+        found_.push_back({{pair.a, pair.b, among.contact}, among.surface_normals, static_cast<bool>(among.contact)});
     return among.touch;
 }
 
@@ -143,8 +144,8 @@ bool World<D>::is_told(const Found& ghost, const Id& feeler) const {
     return std::any_of(others.begin(), others.end(), [&](std::uint32_t place) {
         const Found& other = found_[place];
         return other.kept && &other != &ghost &&
-               tells_of<D>(seen_by(other.told), static_cast<double>(other.told.contact.depth), seen_by(told),
-                           static_cast<double>(told.contact.depth), size);
+               covers_contact<D>(seen_by(other.told), static_cast<double>(other.told.contact.depth), seen_by(told),
+                                 static_cast<double>(told.contact.depth), size);
     });
 }
 

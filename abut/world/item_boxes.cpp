@@ -1,6 +1,6 @@
 #include <abut/broad_phase/boxes.hpp>
+#include <abut/broad_phase/detail/reserve_one_more.hpp>
 #include <abut/broad_phase/reach.hpp>
-#include <abut/broad_phase/room_for_one.hpp>
 #include <abut/world/item_boxes.hpp>
 
 #include <algorithm>
@@ -22,9 +22,9 @@ ItemBoxes<D>::ItemBoxes(std::optional<BroadPhaseKind> always)
 template <int D>
 std::uint32_t ItemBoxes<D>::add(std::uint32_t slot) {
     if (free_.empty()) {
-        make_room_for_one(boxes_);
-        make_room_for_one(slots_);
-        make_room_for_one(is_stale_);
+        reserve_one_more(boxes_);
+        reserve_one_more(slots_);
+        reserve_one_more(is_stale_);
         boxes_.push_back(Aabb<D>::empty());
         slots_.push_back(slot);
         is_stale_.push_back(false);
@@ -56,7 +56,7 @@ template <int D>
 void ItemBoxes<D>::mark(std::uint32_t place) {
     if (is_stale_[place] != 0) return;
     is_stale_[place] = true;
-    make_room_for_one(stale_);
+    reserve_one_more(stale_);
     stale_.push_back(place);
     if (stale_.size() > few) work_.put_off();
 }
@@ -84,7 +84,7 @@ void ItemBoxes<D>::remove(std::uint32_t place) {
 template <int D>
 void ItemBoxes<D>::refresh(double asked) {
     const double moved = static_cast<double>(changed_) / static_cast<double>(std::max<std::size_t>(size(), 1));
-    phase_.tell({.moved = std::min(moved, 1.0), .asked = asked});
+    phase_.set_history({.moved = std::min(moved, 1.0), .queries = asked});
     is_wide_ = !wide_.empty();
     const std::span<const Aabb<D>> boxes = is_wide_ ? wide_ : boxes_;
     if (refreshed_ == boxes.size())
@@ -126,12 +126,12 @@ void ItemBoxes<D>::each_within(Reach reach, ReachCall visit, const Search& searc
     prepare();
     float rest = std::numeric_limits<float>::infinity();
     const auto look_at = [&](std::uint32_t place) -> float { return rest = std::min(rest, visit(slots_[place])); };
-    for (std::size_t i = 0; i < stale_.size() && !reach.over(); ++i) {
+    for (std::size_t i = 0; i < stale_.size() && !reach.is_exhausted(); ++i) {
         double measure = 0;
         const Aabb<D>& box = boxes_[stale_[i]];
         if (!is_empty(box) && reach.measure(box, measure)) reach.shrink(look_at(stale_[i]));
     }
-    if (reach.over()) return;
+    if (reach.is_exhausted()) return;
     search([&](std::uint32_t place) -> float { return is_stale_[place] != 0 ? rest : look_at(place); }, rest);
 }
 

@@ -3,7 +3,7 @@
 #include <abut/broad_phase/boxes.hpp>
 #include <abut/broad_phase/reach.hpp>
 #include <abut/math/assert.hpp>
-#include <abut/query/felt_hit.hpp>
+#include <abut/query/detail/surface/hit_normal.hpp>
 #include <abut/query/sweep.hpp>
 #include <abut/query/sweep_turning.hpp>
 #include <abut/world/world.hpp>
@@ -36,8 +36,8 @@ Way<D> way_of_shape(const View<D>& shape, const Motion<D>& motion) {
 }
 
 template <int D>
-Arrival<D> arrival_of(const View<D>& shape, const RigidPath<D>& path, const Hit<D>& hit) {
-    return turning_arrival(shape, path, static_cast<double>(hit.fraction), DVec<D>(hit.point));
+MoverAtHit<D> arrival_of(const View<D>& shape, const RigidPath<D>& path, const Hit<D>& hit) {
+    return rotating_mover_at_hit(shape, path, static_cast<double>(hit.fraction), DVec<D>(hit.point));
 }
 
 }  // namespace
@@ -57,7 +57,7 @@ std::optional<WorldHit<D>> World<D>::first_on_way(const View<D>& shape, const Wa
     const auto any = [&](std::uint32_t slot) -> float {
         const Item& item = items_[slot];
         double enters = 0;
-        if (!asked(slot, filter) || (!whole.over() && !whole.measure(box(slot), enters))) return reach;
+        if (!asked(slot, filter) || (!whole.is_exhausted() && !whole.measure(box(slot), enters))) return reach;
         if (std::holds_alternative<HalfSpaceView<D>>(shape) && item.type == ShapeType::half_space) return reach;
         const std::optional<Hit<D>> hit = sweep_at(item);
         if (!hit || hit->fraction > reach) return reach;
@@ -66,7 +66,7 @@ std::optional<WorldHit<D>> World<D>::first_on_way(const View<D>& shape, const Wa
         return reach = first->hit.fraction;
     };
     for (const ItemBoxes<D>* items : {&moving_, &fixed_}) {
-        if (whole.over()) {
+        if (whole.is_exhausted()) {
             // It has no bounds, such as a half-space.
             constexpr float far = std::numeric_limits<float>::infinity();
             items->each_overlapping(Aabb<D>{Vec<D>(-far), Vec<D>(far)}, [&](std::uint32_t slot) {
@@ -82,15 +82,16 @@ std::optional<WorldHit<D>> World<D>::first_on_way(const View<D>& shape, const Wa
 
 /// Of all that is there, seams between items are as little felt as those inside one.
 template <int D>
-void World<D>::feel(const Arrival<D>& mover, const Filter& filter, WorldHit<D>& hit) const {
+void World<D>::feel(const MoverAtHit<D>& mover, const Filter& filter, WorldHit<D>& hit) const {
     const auto feet = [&](const DVec<D>& from, double within, ClosestPointVisitor<D> visit) {
         const Vec<D> point = to_float(from);
         visit_in_box(grown(Aabb<D>{point, point}, static_cast<float>(within)), filter, [&](Id, const View<D>& item) {
-            each_foot_on<D>(item, from, within, [&](const Foot<D>& foot) { return within = visit(foot); });
-            return within > no_others;
+            each_closest_point_on<D>(item, from, within,
+                                     [&](const ClosestPoint<D>& foot) { return within = visit(foot); });
+            return within > stop_visiting;
         });
     };
-    feel_hit<D>(mover, shape(hit.id), feet, hit.hit);
+    filter_hit_normal<D>(mover, shape(hit.id), feet, hit.hit);
 }
 
 template <int D>
@@ -101,7 +102,7 @@ std::optional<WorldHit<D>> World<D>::sweep_straight(const View<D>& shape, const 
         first_on_way(shape, straight_way(bounds(shape), motion), filter,
                      [&](const Item& item) { return abut::sweep(shape, motion, placed(item), Vec<D>(0.0f)); });
     if (first)
-        feel(straight_arrival<D>(shape, DVec<D>(motion) * static_cast<double>(first->hit.fraction)), filter, *first);
+        feel(linear_mover_at_hit<D>(shape, DVec<D>(motion) * static_cast<double>(first->hit.fraction)), filter, *first);
     return first;
 }
 

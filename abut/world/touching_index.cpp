@@ -1,4 +1,4 @@
-#include <abut/broad_phase/radix_sort.hpp>
+#include <abut/broad_phase/detail/radix_sort.hpp>
 #include <abut/world/touching_index.hpp>
 
 #include <algorithm>

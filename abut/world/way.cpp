@@ -100,7 +100,7 @@ bool may_meet(const Way<D>& a, const Way<D>& b) {
     if (!has_bounds(a.box)) return has_bounds(b.box) ? may_meet(b, a) : true;
     double enters = 0;
     const RayReach<D> reach = RayReach<D>::of_box(moving_box(a, b.move));
-    return reach.over() || reach.measure(b.box, enters);
+    return reach.is_exhausted() || reach.measure(b.box, enters);
 }
 
 #define ABUT_INSTANTIATE(D)                                                                \

@@ -1,5 +1,5 @@
 #include <abut/broad_phase/boxes.hpp>
-#include <abut/broad_phase/room_for_one.hpp>
+#include <abut/broad_phase/detail/reserve_one_more.hpp>
 #include <abut/math/assert.hpp>
 #include <abut/world/world.hpp>
 
@@ -35,7 +35,7 @@ template <int D>
 Id World<D>::add_shape(const AnyShape<D>& shape, const ItemOptions<D>& options) {
     std::uint32_t slot = static_cast<std::uint32_t>(items_.size());
     if (free_.empty()) {
-        make_room_for_one(items_);
+        reserve_one_more(items_);
         items_.push_back(Item{.stored = shape});
     } else {
         slot = free_.back();
@@ -87,7 +87,7 @@ void World<D>::move_to(Id id, const Pose<D>& pose) {
     if (item == nullptr || item->pose == pose) return;
     if (item->settled && item->course == no_way) {
         item->course = static_cast<std::uint32_t>(courses_.size());
-        make_room_for_one(courses_);
+        reserve_one_more(courses_);
         courses_.push_back(item->pose);
     }
     item->pose = pose;
@@ -142,7 +142,7 @@ template <int D>
 void World<D>::mark_pending(std::uint32_t slot) {
     if (items_[slot].pending) return;
     items_[slot].pending = true;
-    make_room_for_one(pending_);
+    reserve_one_more(pending_);
     pending_.push_back(slot);
 }
 

@@ -7,7 +7,7 @@
 #include <abut/math/motion.hpp>
 #include <abut/query/closest.hpp>
 #include <abut/query/contact.hpp>
-#include <abut/query/felt_by.hpp>
+#include <abut/query/detail/surface/surface_normal_flags.hpp>
 #include <abut/query/raycast.hpp>
 #include <abut/shape/any_shape.hpp>
 #include <abut/world/bounding_ball.hpp>
@@ -27,9 +27,9 @@
 namespace abut {
 
 template <int D>
-struct Arrival;
+struct MoverAtHit;
 template <int D>
-struct Foot;
+struct ClosestPoint;
 
 /// How a shape takes part in a world.
 template <int D>
@@ -202,7 +202,7 @@ public:
     /// it adds may be visited or not.
     template <Visitor<Id> F>
     void each_item(F&& visit) const {
-        visit_items(go_on_after(visit));
+        visit_items(bool_visitor(visit));
     }
 
     /// Finds who touches whom. Allocates nothing once it has seen a scene of this size. A pair of which neither moved
@@ -240,7 +240,7 @@ public:
     /// visit(other) in the same order, without allocating; returns nothing, or false to stop.
     template <Visitor<Id> F>
     void each_touching(Id id, F&& visit) const {
-        visit_touching(id, go_on_after(visit));
+        visit_touching(id, bool_visitor(visit));
     }
     /// The contact of a pair as of the last update, from the lower id to the higher; false where it has none: it
     /// doesn't touch, one of the two is a sensor, it only met on its way, or other contacts tell of the same surface
@@ -322,7 +322,7 @@ public:
     /// visit(id), in no order that is promised; returns nothing, or false to stop.
     template <detail::ShapeIn<D> S, Visitor<Id> F>
     void each_overlapping(const S& shape, F&& visit, const Filter& filter = {}) const {
-        detail::with_view(shape, [&](const View<D>& seen) { visit_overlapping(seen, filter, go_on_after(visit)); });
+        detail::with_view(shape, [&](const View<D>& seen) { visit_overlapping(seen, filter, bool_visitor(visit)); });
     }
     template <class S, class F, class Why = detail::WhyNotIn<D, S>>
     auto each_overlapping(const S& shape, F&& visit, const Filter& filter = {}) const;
@@ -336,7 +336,7 @@ public:
     template <Visitor<Id, const View<D>&> F>
     void each_in_box(const Aabb<D>& box, F&& visit, const Filter& filter = {}) const {
         detail::clear_upper_halves();
-        visit_in_box(box, filter, go_on_after(visit));
+        visit_in_box(box, filter, bool_visitor(visit));
     }
 
 private:
@@ -361,8 +361,8 @@ private:
     /// The contact of a pair that touches.
     struct Found {
         WorldContact<D> told;
-        FeltBy felt;        // not, where the contact stands in for a normal that isn't felt
-        bool kept = false;  // it is among those that are told
+        SurfaceNormalFlags felt;  // not, where the contact stands in for a normal that isn't felt
+        bool kept = false;        // it is among those that are told
     };
 
     static View<D> point_view(const Vec<D>& point) {
@@ -420,7 +420,7 @@ private:
     void find_partners();
     bool is_disturbed(const IdPair& pair) const;
     void each_foot_beside(std::uint32_t slot, std::uint32_t other, const DVec<D>& point, double within,
-                          FunctionRef<double(const Foot<D>&)> visit);
+                          FunctionRef<double(const ClosestPoint<D>&)> visit);
     bool find_contact(const IdPair& pair);
     static Found* find_found(std::vector<Found>& list, const IdPair& pair);
     bool is_told(const Found& ghost, const Id& feeler) const;
@@ -435,7 +435,7 @@ private:
     template <class F>
     std::optional<WorldHit<D>> first_on_way(const View<D>& shape, const Way<D>& way, const Filter& filter,
                                             F&& sweep_at) const;
-    void feel(const Arrival<D>& mover, const Filter& filter, WorldHit<D>& hit) const;
+    void feel(const MoverAtHit<D>& mover, const Filter& filter, WorldHit<D>& hit) const;
     std::optional<WorldHit<D>> sweep_straight(const View<D>& shape, const Vec<D>& motion, const Filter& filter) const;
     std::optional<WorldHit<D>> sweep_turning(const View<D>& shape, const Motion<D>& motion, const Filter& filter) const;
     std::optional<WorldHit<D>> sweep_between(const View<D>& shape, const Pose<D>& from, const Pose<D>& to,

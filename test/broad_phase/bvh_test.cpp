@@ -2,7 +2,7 @@
 
 #include "scenes.hpp"
 #include <abut/broad_phase/bvh.hpp>
-#include <abut/broad_phase/bvh_part.hpp>
+#include <abut/broad_phase/bvh/subtree.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -25,7 +25,7 @@ class Nodes {
 public:
     Nodes(const std::vector<Aabb<D>>& boxes, bool bounded) {
         for (std::uint32_t i = 0; i < boxes.size(); ++i) part_.items.push_back(item_of(boxes[i], i));
-        grow(part_, bounded, 0);
+        build_subtree(part_, bounded, 0);
         walk(part_.root, 0);
     }
     int depth() const { return depth_; }
@@ -35,12 +35,12 @@ private:
     void walk(std::uint32_t ref, int depth) {
         depth_ = std::max(depth_, depth);
         if (is_leaf(ref)) return;
-        area_ += area_of(part_.nodes[ref]);
+        area_ += children_area(part_.nodes[ref]);
         for (const std::uint32_t child : part_.nodes[ref].child)
             if (child != bvh_none) walk(child, depth + 1);
     }
 
-    BvhPart<D> part_;
+    BvhSubtree<D> part_;
     int depth_ = 0;
     double area_ = 0;
 };

@@ -43,9 +43,9 @@ TYPED_TEST(Choices, FollowTheScene) {
     EXPECT_EQ(choice<D>(few.boxes()), BroadPhaseKind::brute_force);
     EXPECT_EQ(choice<D>(many.boxes()), BroadPhaseKind::grid);
     EXPECT_EQ(choice<D>(skewed.boxes()), BroadPhaseKind::grid);
-    EXPECT_EQ(choice<D>(many.boxes(), {.asked = 0.1}), BroadPhaseKind::bvh);
-    EXPECT_EQ(choice<D>(few.boxes(), {.asked = 0.1}), BroadPhaseKind::brute_force);
-    EXPECT_EQ(choice<D>(few.boxes(), {.asked = 1}), BroadPhaseKind::bvh);
+    EXPECT_EQ(choice<D>(many.boxes(), {.queries = 0.1}), BroadPhaseKind::bvh);
+    EXPECT_EQ(choice<D>(few.boxes(), {.queries = 0.1}), BroadPhaseKind::brute_force);
+    EXPECT_EQ(choice<D>(few.boxes(), {.queries = 1}), BroadPhaseKind::bvh);
     EXPECT_EQ(choice<D>(heaps<D>(20000)), BroadPhaseKind::bvh);
     const std::vector<Aabb<D>> empty(500, Aabb<D>::empty());
     EXPECT_EQ(choice<D>(empty), BroadPhaseKind::grid);
@@ -65,7 +65,7 @@ TYPED_TEST(Choices, SuitTheScenesOfTheBench) {
         EXPECT_EQ(choice<D>(moving(count, 10).boxes(), {.moved = 0.1}), BroadPhaseKind::grid) << count;
     EXPECT_EQ(choice<D>(scenes::SkewedBoxes<D>(100'000, 1).boxes()), BroadPhaseKind::grid);
     for (const std::size_t count : {100u, 100'000u})
-        EXPECT_EQ(choice<D>(moving(count).boxes(), {.moved = 0, .asked = 1}), BroadPhaseKind::bvh) << count;
+        EXPECT_EQ(choice<D>(moving(count).boxes(), {.moved = 0, .queries = 1}), BroadPhaseKind::bvh) << count;
 }
 
 /// A scene that changes its nature, the right pairs all the time.
@@ -79,7 +79,7 @@ TYPED_TEST(Choices, ChangeWithTheScene) {
     std::vector<ItemPair> expected, found;
     for (int frame = 1; frame <= 200; ++frame) {
         scene.step();
-        if (frame == 80) phase.tell({.asked = 1});
+        if (frame == 80) phase.set_history({.queries = 1});
         phase.update(scene.boxes());
         EXPECT_EQ(phase.kind(), frame < 80 ? BroadPhaseKind::grid : BroadPhaseKind::bvh) << frame;
         if (frame % 32 != 0) continue;
@@ -102,7 +102,7 @@ TYPED_TEST(Choices, FollowTheQuestionsAtOnceAndDoNotWaver) {
     constexpr int D = dimension_of<TypeParam>;
     const scenes::MovingBoxes<D> scene(500, 3);
     const auto update = [&](TypeParam& phase, double asked) {
-        phase.tell({.asked = asked});
+        phase.set_history({.queries = asked});
         phase.update(scene.boxes());
         return phase.kind();
     };
@@ -114,9 +114,9 @@ TYPED_TEST(Choices, FollowTheQuestionsAtOnceAndDoNotWaver) {
     EXPECT_EQ(update(phase, 0), BroadPhaseKind::grid);
     // Around the number at which both are as good.
     double often = 1;
-    while (choice<D>(scene.boxes(), {.asked = often}) == BroadPhaseKind::bvh) often *= 0.99;
+    while (choice<D>(scene.boxes(), {.queries = often}) == BroadPhaseKind::bvh) often *= 0.99;
     TypeParam wavering;
-    wavering.tell({.asked = often});
+    wavering.set_history({.queries = often});
     wavering.build(scene.boxes());
     int changes = 0;
     for (int frame = 1; frame < 64; ++frame) {
@@ -169,7 +169,7 @@ TYPED_TEST(Choices, StayWhereTheyAreForced) {
     for (const BroadPhaseKind kind : all_kinds) {
         TypeParam phase(kind);
         phase.build(scene.boxes());
-        phase.tell({.asked = 1});
+        phase.set_history({.queries = 1});
         for (int frame = 0; frame < 70; ++frame) {
             scene.step();
             phase.update(scene.boxes());

@@ -64,9 +64,9 @@ TYPED_TEST(Reach, OfARayByHand) {
     EXPECT_TRUE(reaches<D>({at(0, 1.5f), x}, {Vec<D>(1), Vec<D>(far)}));
     EXPECT_FALSE(reaches<D>({at(0, 1.5f), x}, {Vec<D>(-far), Vec<D>(-1)}));
     for (const float bad : {far, -far, std::numeric_limits<float>::quiet_NaN()}) {
-        EXPECT_TRUE(RayReach<D>({at(bad, 1.5f), x}).over());
-        EXPECT_TRUE(RayReach<D>({at(0, 1.5f), x * bad}).over());
-        EXPECT_EQ(RayReach<D>({at(0, 1.5f), x, bad}).over(), bad != far);
+        EXPECT_TRUE(RayReach<D>({at(bad, 1.5f), x}).is_exhausted());
+        EXPECT_TRUE(RayReach<D>({at(0, 1.5f), x * bad}).is_exhausted());
+        EXPECT_EQ(RayReach<D>({at(0, 1.5f), x, bad}).is_exhausted(), bad != far);
     }
 }
 
@@ -140,9 +140,9 @@ TYPED_TEST(Reach, OfAPointByHand) {
     EXPECT_EQ(measure, 0);
     EXPECT_TRUE(BoxReach<D>(box, 1).measure(Aabb<D>{Vec<D>(2), Vec<D>(3)}, measure));
     EXPECT_FALSE(BoxReach<D>(box, 1).measure(Aabb<D>{Vec<D>(3.01f), Vec<D>(4)}, measure));
-    EXPECT_TRUE(BoxReach<D>(box, -1).over());
-    EXPECT_TRUE(BoxReach<D>(box, std::numeric_limits<float>::quiet_NaN()).over());
-    EXPECT_TRUE(BoxReach<D>(Aabb<D>::empty(), 1).over());
+    EXPECT_TRUE(BoxReach<D>(box, -1).is_exhausted());
+    EXPECT_TRUE(BoxReach<D>(box, std::numeric_limits<float>::quiet_NaN()).is_exhausted());
+    EXPECT_TRUE(BoxReach<D>(Aabb<D>::empty(), 1).is_exhausted());
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include "../oracle/random.hpp"
 #include "allocations.hpp"
-#include <abut/broad_phase/sort_pairs.hpp>
+#include <abut/broad_phase/detail/sort_pairs.hpp>
 
 #include <algorithm>
 

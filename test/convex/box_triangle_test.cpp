@@ -3,7 +3,7 @@
 
 #include "../oracle/random.hpp"
 #include <abut/convex/pairs/box_triangle.hpp>
-#include <abut/query/felt_normal.hpp>
+#include <abut/query/detail/surface/surface_normal.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/placed.hpp>
 #include <abut/shape/triangle.hpp>
@@ -106,7 +106,7 @@ TEST_P(BoxTriangleFamily, AnswersAsTheSearches) {
         // The places are those of both that meet first when they come together along the normal.
         EXPECT_NEAR(dot(found.normal, support(box, found.normal) - found.on_a), 0, margin);
         EXPECT_LE(signed_distance(box, round_points<3>({to_float(found.on_a)}, 0)).distance, 1e-5 * pair.size + margin);
-        EXPECT_LE(foot_on(triangle, found.on_b()).distance, 1e-5 * pair.size + margin);
+        EXPECT_LE(closest_point_on(triangle, found.on_b()).distance, 1e-5 * pair.size + margin);
         for (std::size_t i = 0; i < found.corners.count; ++i) {
             EXPECT_LT(found.corners.a[i], 8u);
             EXPECT_LT(found.corners.b[i], 3u);

@@ -3,8 +3,8 @@
 #include "../oracle/pair.hpp"
 #include <abut/convex/manifold/round_manifold.hpp>
 #include <abut/query/certify.hpp>
-#include <abut/query/closed_form.hpp>
 #include <abut/query/contact.hpp>
+#include <abut/query/detail/closed_form/convex_distance.hpp>
 
 #include <memory>
 #include <optional>
@@ -17,7 +17,7 @@ namespace {
 template <int D>
 std::optional<SignedDistance<D>> form_of(const Convex<D>& a, const Convex<D>& b) {
     SignedDistance<D> result;
-    return closed_form(a, b, result) ? std::optional(result) : std::nullopt;
+    return closed_form_distance(a, b, result) ? std::optional(result) : std::nullopt;
 }
 
 template <int D>

@@ -6,7 +6,7 @@
 #include "../oracle/random.hpp"
 #include "drawn_shapes.hpp"
 #include <abut/query/closest.hpp>
-#include <abut/query/direct_sweep.hpp>
+#include <abut/query/detail/closed_form/closed_form.hpp>
 #include <abut/query/sweep.hpp>
 
 #include <glm/geometric.hpp>
@@ -35,7 +35,8 @@ void compare(const A& a, const Vec2& motion_a, const B& b, const Vec2& motion_b,
     const auto direct = sweep(a, motion_a, b, motion_b), of_views = sweep(view_a, motion_a, view_b, motion_b);
     ++told.pairs;
     std::optional<Hit<2>> ignored;
-    if (direct_sweep(shape_ref(a), motion_a, shape_ref(b), motion_b, ignored) != DirectAnswer::unknown) ++told.direct;
+    if (closed_form_sweep(shape_ref(a), motion_a, shape_ref(b), motion_b, ignored) != ClosedFormAnswer::unknown)
+        ++told.direct;
     const double length = static_cast<double>(glm::length(motion_a - motion_b));
     if (direct.has_value() != of_views.has_value()) {
         // One of them says that what touches by no more than doubt is a hit.
@@ -107,7 +108,7 @@ TEST(DirectSweep, AnswersAreThoseOfTheViews) {
 template <class A, class B>
 std::optional<Hit<2>> direct_hit(const A& a, const Vec2& motion, const B& b) {
     std::optional<Hit<2>> result;
-    EXPECT_EQ(direct_sweep(shape_ref(a), motion, shape_ref(b), Vec2(0), result), DirectAnswer::yes);
+    EXPECT_EQ(closed_form_sweep(shape_ref(a), motion, shape_ref(b), Vec2(0), result), ClosedFormAnswer::yes);
     return result;
 }
 

@@ -6,7 +6,7 @@
 #include <abut/query/certify.hpp>
 #include <abut/query/contact.hpp>
 #include <abut/query/contains.hpp>
-#include <abut/query/least_distance.hpp>
+#include <abut/query/detail/sdf/minimum.hpp>
 #include <abut/query/overlaps.hpp>
 #include <abut/query/raycast.hpp>
 #include <abut/query/sweep.hpp>
@@ -61,23 +61,23 @@ namespace {
 TEST(FunctionLimits, BoundOnBoxesReached) {
     const users::Brick<3> brick;
     const DistanceFunction<3> function = view(brick);
-    const FunctionThere<3> seen(function);
+    const PlacedFunction<3> seen(function);
     Pose3 pose{{1.6f, 1.7f, 1.8f}, {0.8f, 0.4f, 0.4f, 0.2f}};
     const auto box = at(Box3{Vec3(0.0f), Vec3(0.5f)}, pose);
-    LeastOptions<3> options;
+    MinimumOptions<3> options;
     options.tolerance = 1e-6;
-    options.most_boxes = 4000;
-    const Least<3> whole = least_in(seen, view(box), options);
+    options.max_boxes = 4000;
+    const Minimum<3> whole = minimum_in_convex(seen, view(box), options);
     EXPECT_LT(whole.boxes, 4000);
-    options.most_boxes = 4;
-    const Least<3> cut = least_in(seen, view(box), options);
+    options.max_boxes = 4;
+    const Minimum<3> cut = minimum_in_convex(seen, view(box), options);
     EXPECT_LE(cut.boxes, 4);
-    EXPECT_GT(cut.doubt, 0);
+    EXPECT_GT(cut.uncertainty, 0);
     EXPECT_GE(cut.distance, whole.distance - 1e-3);
     EXPECT_LT(cut.distance, whole.distance + 0.5);
-    options.most_boxes = 6;
-    options.off = 1e-6;
-    const Least<3> low = lowest_inside(seen, bounds(brick), normalized(DVec<3>(1, 2, 3)), options);
+    options.max_boxes = 6;
+    options.surface_tolerance = 1e-6;
+    const Minimum<3> low = lowest_inside(seen, bounds(brick), normalized(DVec<3>(1, 2, 3)), options);
     EXPECT_LE(low.distance, 0);
 }
 

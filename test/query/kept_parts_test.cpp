@@ -1,8 +1,8 @@
 // Parts that were kept, and those that have to be asked for each time, give the same contacts.
 
 #include "../oracle/random.hpp"
+#include <abut/query/detail/surface/part_cache.hpp>
 #include <abut/query/each_contact.hpp>
-#include <abut/query/kept_parts.hpp>
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/capsule.hpp>
@@ -85,7 +85,7 @@ std::vector<Contact<3>> contacts(const Shape& shape, const Ground& ground, float
     return result;
 }
 
-TEST(KeptParts, GiveTheContactsOfPartsAskedForAgain) {
+TEST(PartCache, GiveTheContactsOfPartsAskedForAgain) {
     int kept = 0, too_many = 0, told = 0;
     for (std::uint64_t seed = 0; seed < 300; ++seed) {
         SCOPED_TRACE(testing::Message() << "seed " << seed);
@@ -103,8 +103,8 @@ TEST(KeptParts, GiveTheContactsOfPartsAskedForAgain) {
             expect_same(by_kept, contacts(shape, ground, margin, turned_round));
             told += static_cast<int>(by_kept.size());
             ground.refers = false;
-            KeptParts<3> parts;
-            (parts.keep(view(ground), bounds(convex(shape))) ? kept : too_many) += 1;
+            PartCache<3> parts;
+            (parts.fill(view(ground), bounds(convex(shape))) ? kept : too_many) += 1;
         };
         switch (random.below(3)) {
             case 0:
@@ -122,18 +122,18 @@ TEST(KeptParts, GiveTheContactsOfPartsAskedForAgain) {
     EXPECT_GT(told, 600);
 }
 
-TEST(KeptParts, TellTheFeetWithinTheirBoxAlone) {
+TEST(PartCache, TellTheFeetWithinTheirBoxAlone) {
     Random random(1);
     const Ground ground = random_ground(random);
     const Composite<3> shape = view(ground);
-    KeptParts<3> parts;
-    ASSERT_TRUE(parts.keep(shape, {Vec3(-1.2f), Vec3(1.2f)}));
+    PartCache<3> parts;
+    ASSERT_TRUE(parts.fill(shape, {Vec3(-1.2f), Vec3(1.2f)}));
     int told = 0, beyond = 0;
     for (int i = 0; i < 2000; ++i) {
         const DVec<3> point = random.in_cube<3>() * 1.5;
         const double within = random.uniform(0, 1);
         std::vector<double> by_kept, by_shape;
-        if (!parts.each_foot(point, within, [&](const Foot<3>& foot) {
+        if (!parts.each_closest_point(point, within, [&](const ClosestPoint<3>& foot) {
                 by_kept.push_back(foot.distance);
                 return within;
             })) {
@@ -141,7 +141,7 @@ TEST(KeptParts, TellTheFeetWithinTheirBoxAlone) {
             EXPECT_TRUE(by_kept.empty());
             continue;
         }
-        each_foot_on<3>(View<3>(shape), point, within, [&](const Foot<3>& foot) {
+        each_closest_point_on<3>(View<3>(shape), point, within, [&](const ClosestPoint<3>& foot) {
             by_shape.push_back(foot.distance);
             return within;
         });

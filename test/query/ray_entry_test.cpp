@@ -8,8 +8,8 @@
 #include "../oracle/pair.hpp"
 #include <abut/convex/gjk/signed_distance.hpp>
 #include <abut/query/closest.hpp>
+#include <abut/query/detail/raycast/part_hit.hpp>
 #include <abut/query/raycast.hpp>
-#include <abut/query/raycast_part.hpp>
 #include <abut/shape/cylinder.hpp>
 
 #include <iostream>

@@ -2,8 +2,8 @@
 // on the way there, and don't on the way back.
 
 #include "../oracle/random.hpp"
+#include <abut/query/detail/raycast/part_hit.hpp>
 #include <abut/query/raycast.hpp>
-#include <abut/query/raycast_part.hpp>
 #include <abut/shape/mesh.hpp>
 #include <abut/shape/placed.hpp>
 #include <abut/shape/segment.hpp>

@@ -2,8 +2,8 @@
 
 #include "../oracle/expect.hpp"
 #include <abut/query/closest.hpp>
+#include <abut/query/detail/sweep/linear.hpp>
 #include <abut/query/sweep.hpp>
-#include <abut/query/sweep_part.hpp>
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/capsule.hpp>
@@ -210,11 +210,11 @@ TEST(Sweep, OfRoundAndOfUsersShapes) {
 TEST(Sweep, IsEarlyAndNotMissedWhereTheSearchGivesUp) {
     const Capsule3 a{{-9, 0, 0}, {-8, 0.3f, 0.2f}, 0.5f}, b{{0, -2, 0}, {0, 2, 0.7f}, 0.5f};
     const Path<3> path{normalized(DVec<3>(1, 0.01, 0.02)), 20};
-    PartTouch<3> whole, early;
-    ASSERT_TRUE(part_touch(view(a), path, view(b), 0, {}, whole));
+    LinearImpact<3> whole, early;
+    ASSERT_TRUE(time_of_impact(view(a), path, view(b), 0, {}, whole));
     double last = -1;
     for (const int steps : {1, 2, 3}) {
-        ASSERT_TRUE(part_touch(view(a), path, view(b), 0, {.most_steps = steps}, early)) << steps;
+        ASSERT_TRUE(time_of_impact(view(a), path, view(b), 0, {.max_iterations = steps}, early)) << steps;
         EXPECT_GT(early.along, last);
         EXPECT_LE(early.along, whole.along);
         last = early.along;

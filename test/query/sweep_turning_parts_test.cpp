@@ -2,8 +2,8 @@
 
 #include "../oracle/random.hpp"
 #include "../shape/meshes.hpp"
+#include <abut/query/detail/sweep/rotating.hpp>
 #include <abut/query/sweep_turning.hpp>
-#include <abut/query/turning_search.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/capsule.hpp>
 #include <abut/shape/half_space.hpp>
@@ -91,17 +91,17 @@ TEST(SweepTurningParts, AreSearchedAlikeWithAnyReach) {
         SCOPED_TRACE(testing::Message() << "seed " << seed);
         oracle::Random random(seed);
         const RigidPath<3> a = rigid_path(some_motion(random, 1)), b = rigid_path(some_motion(random, 1));
-        Meeting<3> whole, cut;
-        if (!first_meeting<3>(convex(box), a, convex(box), b, {}, {}, whole)) continue;
+        RotatingImpact<3> whole, cut;
+        if (!time_of_impact<3>(convex(box), a, convex(box), b, {}, {}, whole)) continue;
         ++hits;
         const double later = whole.time + (1 - whole.time) * random.unit();
         for (const double reach : {whole.time, later}) {
-            ASSERT_TRUE(first_meeting<3>(convex(box), a, convex(box), b, {.reach = reach}, {}, cut));
+            ASSERT_TRUE(time_of_impact<3>(convex(box), a, convex(box), b, {.reach = reach}, {}, cut));
             EXPECT_EQ(cut.time, whole.time);
             EXPECT_EQ(cut.point, whole.point);
         }
         if (whole.time > 0) {
-            EXPECT_FALSE(first_meeting<3>(convex(box), a, convex(box), b, {.reach = 0.999 * whole.time}, {}, cut));
+            EXPECT_FALSE(time_of_impact<3>(convex(box), a, convex(box), b, {.reach = 0.999 * whole.time}, {}, cut));
         }
     }
     EXPECT_GT(hits, 100);

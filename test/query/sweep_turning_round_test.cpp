@@ -4,8 +4,8 @@
 #include "../oracle/expect.hpp"
 #include "../oracle/random.hpp"
 #include <abut/query/closest.hpp>
+#include <abut/query/detail/sweep/rotating.hpp>
 #include <abut/query/sweep_turning.hpp>
-#include <abut/query/turning_search.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/cylinder.hpp>
 #include <abut/shape/placed.hpp>
@@ -56,8 +56,9 @@ void check(const A& a, const B& b, std::uint64_t seed, Tally& tally) {
     const auto hit = sweep(a, of_a, b, of_b);
     const double end = hit ? static_cast<double>(hit->fraction) : 1;
     for (int i = 0; i < 300; ++i) ASSERT_GE(distance(end * i / 300), -2e-5) << (hit ? "late" : "missed");
-    Meeting<3> meeting;
-    EXPECT_EQ(first_meeting<3>(view(a), path_a, view(b), path_b, {.most_steps = 100}, {}, meeting), hit.has_value());
+    RotatingImpact<3> meeting;
+    EXPECT_EQ(time_of_impact<3>(view(a), path_a, view(b), path_b, {.max_iterations = 100}, {}, meeting),
+              hit.has_value());
     if (!hit) return;
     ++tally.hits;
     EXPECT_NEAR(distance(end), 0, 2e-5);

@@ -6,8 +6,8 @@
 #include "../shape/meshes.hpp"
 #include "hash.hpp"
 #include <abut/query/closest.hpp>
+#include <abut/query/detail/sweep/rotating.hpp>
 #include <abut/query/sweep_turning.hpp>
-#include <abut/query/turning_search.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/capsule.hpp>
 #include <abut/shape/cylinder.hpp>
@@ -391,10 +391,10 @@ TEST(SweepTurning, TellsWhereItGaveUpAsAHitThatIsEarly) {
                                       to_float(random.direction<3>() * 4.0)});
         };
         const RigidPath<3> a = path(0), b = path(1.2);
-        Meeting<3> whole, cut;
-        const bool meets = first_meeting<3>(convex(rod), a, convex(rod), b, {}, {}, whole);
+        RotatingImpact<3> whole, cut;
+        const bool meets = time_of_impact<3>(convex(rod), a, convex(rod), b, {}, {}, whole);
         for (const int steps : {1, 2, 3}) {
-            const bool told = first_meeting<3>(convex(rod), a, convex(rod), b, {.most_steps = steps}, {}, cut);
+            const bool told = time_of_impact<3>(convex(rod), a, convex(rod), b, {.max_iterations = steps}, {}, cut);
             // Never "no hit" where there is one, and never later.
             ASSERT_TRUE(told || !meets);
             if (meets) {
@@ -420,12 +420,12 @@ TEST(SweepTurning, NeedsFewSteps) {
         };
         const Motion3 motion_a = motion(0), motion_b = motion(1.2);
         const RigidPath<3> a = rigid_path(motion_a), b = rigid_path(motion_b);
-        Meeting<3> whole, cut;
-        const bool meets = first_meeting<3>(convex(rod), a, convex(rod), b, {}, {}, whole);
+        RotatingImpact<3> whole, cut;
+        const bool meets = time_of_impact<3>(convex(rod), a, convex(rod), b, {}, {}, whole);
         // What leaves something it was inside of takes more.
         const bool apart = closest(at(rod, motion_a.from), at(rod, motion_b.from)).distance > 0;
         const int steps = apart ? 40 : 200;
-        ASSERT_EQ(first_meeting<3>(convex(rod), a, convex(rod), b, {.most_steps = steps}, {}, cut), meets);
+        ASSERT_EQ(time_of_impact<3>(convex(rod), a, convex(rod), b, {.max_iterations = steps}, {}, cut), meets);
         if (meets) {
             EXPECT_EQ(cut.time, whole.time);
         }

@@ -3,8 +3,8 @@
 // What a World must answer, in the plainest way: every item against every other, nothing kept from frame to frame but
 // who touched.
 
-#include <abut/query/contact_among.hpp>
 #include <abut/query/contains.hpp>
+#include <abut/query/detail/surface/contact_with_neighbours.hpp>
 #include <abut/query/overlaps.hpp>
 #include <abut/query/sweep.hpp>
 #include <abut/query/sweep_turning.hpp>
@@ -206,11 +206,11 @@ private:
             touch = overlaps(view_a, view_b);
         } else {
             const auto others_of_a = others(a, b), others_of_b = others(b, a);
-            const EachFoot<D> of_a(others_of_a), of_b(others_of_b);
-            const ContactAmong<D> among =
-                contact_among<D>(view_a, view_b, {p.fixed ? nullptr : &of_a, q.fixed ? nullptr : &of_b});
+            const EachClosestPoint<D> of_a(others_of_a), of_b(others_of_b);
+            const ContactWithNeighbours<D> among =
+                contact_with_neighbours<D>(view_a, view_b, {p.fixed ? nullptr : &of_a, q.fixed ? nullptr : &of_b});
             touch = among.touch;
-            if (among.contact) found_.push_back({{a.first, b.first, among.contact}, among.felt});
+            if (among.contact) found_.push_back({{a.first, b.first, among.contact}, among.surface_normals});
         }
         if (touch) touching_.push_back(pair);
         if ((!p.continuous && !q.continuous) || (!a.second.before && !b.second.before)) return;
@@ -234,7 +234,7 @@ private:
                 const View<D> view = other.second.view();
                 if (other.first == feeler.first || other.first == but.first || q.sensor) continue;
                 if ((p.layers & q.mask) == 0 || (q.layers & p.mask) == 0 || both_half_spaces(own, view)) continue;
-                if (overlaps(abut::bounds(own), abut::bounds(view))) each_foot_on(view, point, within, visit);
+                if (overlaps(abut::bounds(own), abut::bounds(view))) each_closest_point_on(view, point, within, visit);
             }
         };
     }
@@ -260,8 +260,8 @@ private:
                     const WorldContact<D>& other = found_[k].told;
                     const bool shares = k != i && (other.a == feeler || other.b == feeler);
                     if (shares && told[k] &&
-                        tells_of<D>(normal(other), static_cast<double>(other.contact.depth), normal(ghost.told),
-                                    static_cast<double>(ghost.told.contact.depth), size))
+                        covers_contact<D>(normal(other), static_cast<double>(other.contact.depth), normal(ghost.told),
+                                          static_cast<double>(ghost.told.contact.depth), size))
                         told[i] = false;
                 }
             }
@@ -287,7 +287,7 @@ private:
     std::map<IdPair, Hit<D>> met_;
     struct Found {
         WorldContact<D> told;
-        FeltBy felt;
+        SurfaceNormalFlags felt;
     };
     std::vector<Found> found_;
 };

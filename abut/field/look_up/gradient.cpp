@@ -95,8 +95,8 @@ FieldSample<D> sample_reference(const FieldData<D>& data, const Vec<D>& point) {
 // The same operations for 3D in SIMD, in the same order.
 
 using field_lanes::Ends;
-using four::Floats;
-using four::Mask;
+using float4::Floats;
+using float4::Mask;
 
 Floats root(Floats v) {
 #ifdef __SSE2__
@@ -118,13 +118,13 @@ struct Gradients {
 
     /// Unpacks the lower 16 bits of each lane.
     explicit Gradients(Mask bits) {
-        x = __builtin_convertvector(bits << 24 >> 24, Floats) * four::all(1.0f / 127);
-        y = __builtin_convertvector(bits << 16 >> 24, Floats) * four::all(1.0f / 127);
-        z = four::all(1) - four::magnitude(x) - four::magnitude(y);
-        const Floats fold = four::greater(-z, four::all(0));
+        x = __builtin_convertvector(bits << 24 >> 24, Floats) * float4::broadcast(1.0f / 127);
+        y = __builtin_convertvector(bits << 16 >> 24, Floats) * float4::broadcast(1.0f / 127);
+        z = float4::broadcast(1) - float4::magnitude(x) - float4::magnitude(y);
+        const Floats fold = float4::max(-z, float4::broadcast(0));
         x = x - signed_like(fold, x);
         y = y - signed_like(fold, y);
-        const Floats inverse = four::all(1) / root(x * x + y * y + z * z);
+        const Floats inverse = float4::broadcast(1) / root(x * x + y * y + z * z);
         x = x * inverse;
         y = y * inverse;
         z = z * inverse;
@@ -139,7 +139,7 @@ FieldSample<3> sample_simd(const FieldData<3>& data, const Vec3& point) {
     // Lanes of `low` are the corners 0, 2, 4 and 6, those of `high` 1, 3, 5 and 7.
     const bool steps = data.step != 0;
     const float unit = steps ? data.step : 1.0f;
-    const Floats scale = four::all(unit * data.frame.inverse);
+    const Floats scale = float4::broadcast(unit * data.frame.inverse);
     Ends distance = steps ? field_lanes::ends(data.steps.data() + at.first, at.row, at.slice)
                           : field_lanes::ends(data.distance.data() + at.first, at.row, at.slice);
     distance = {distance.low * scale, distance.high * scale};
@@ -152,10 +152,10 @@ FieldSample<3> sample_simd(const FieldData<3>& data, const Vec3& point) {
     }
     const Gradients low(even), high(odd);
 
-    const Floats x = four::all(at.fraction[0]), y = four::all(at.fraction[1]) - Floats{0, 1, 0, 1},
-                 z = four::all(at.fraction[2]) - Floats{0, 0, 1, 1};
+    const Floats x = float4::broadcast(at.fraction[0]), y = float4::broadcast(at.fraction[1]) - Floats{0, 1, 0, 1},
+                 z = float4::broadcast(at.fraction[2]) - Floats{0, 0, 1, 1};
     const Ends plane{distance.low + (low.x * x + low.y * y + low.z * z),
-                     distance.high + (high.x * (x - four::all(1)) + high.y * y + high.z * z)};
+                     distance.high + (high.x * (x - float4::broadcast(1)) + high.y * y + high.z * z)};
     constexpr auto top = static_cast<std::int32_t>(0x80000000);
     const auto with_signs = [](Floats v, Mask signs) { return std::bit_cast<Floats>(std::bit_cast<Mask>(v) ^ signs); };
     const Mask lower_y{top, 0, top, 0}, lower_z{top, top, 0, 0};
@@ -166,15 +166,15 @@ FieldSample<3> sample_simd(const FieldData<3>& data, const Vec3& point) {
     const Floats interpolated = field_lanes::distance_and_slope(distance, at.fraction),
                  extrapolated = field_lanes::distance_and_slope(plane, at.fraction);
     const float smooth = 0.5f * (interpolated[0] + extrapolated[0]);
-    const float sharp = is_convex ? four::greatest(four::greater(plane.low, plane.high))
-                                  : four::least(four::less(plane.low, plane.high));
+    const float sharp = is_convex ? float4::max_lane(float4::max(plane.low, plane.high))
+                                  : float4::min_lane(float4::min(plane.low, plane.high));
     const float difference = is_convex ? interpolated[0] - sharp : sharp - interpolated[0];
     const float weight = std::clamp(16 * difference, 0.0f, 1.0f);
     FieldSample<3> result{lerp(smooth, sharp, weight) * data.cell, {1, 0, 0}};
     if constexpr (!with_normal) return result;
 
-    const std::uint32_t is_low = four::bits(plane.low == four::all(sharp));
-    const std::uint32_t is_high = four::bits(plane.high == four::all(sharp));
+    const std::uint32_t is_low = float4::bits(plane.low == float4::broadcast(sharp));
+    const std::uint32_t is_high = float4::bits(plane.high == float4::broadcast(sharp));
     const int lane = std::countr_zero(is_low | is_high | 8u);
     const Gradients& of = (is_low >> lane & 1) != 0 ? low : high;
     const Vec3 edge_gradient(of.x[lane], of.y[lane], of.z[lane]);

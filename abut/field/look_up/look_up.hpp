@@ -3,7 +3,7 @@
 // A single look-up in SIMD vectors of four. It performs the same operations in the same order as the reference
 // implementation `linear_sample`. For .cpp files.
 
-#include <abut/broad_phase/four_floats-inl.h>
+#include <abut/broad_phase/detail/float4-inl.h>
 #include <abut/field/look_up/stencil.hpp>
 
 #include <bit>
@@ -21,8 +21,8 @@ FieldSample<3> gradient_sample_reference(const FieldData<3>& data, const Vec3& p
 
 namespace field_lanes {
 
-using four::Floats;
-using Ints = four::Mask;
+using float4::Floats;
+using Ints = float4::Mask;
 
 inline Floats truncated(Floats v) {
     return __builtin_convertvector(__builtin_convertvector(v, Ints), Floats);
@@ -97,9 +97,9 @@ struct Stencil {
 
 [[gnu::always_inline]] inline Stencil stencil(const FieldData<3>& data, Floats point) {
     const FieldFrame<3>& frame = data.frame;
-    const Floats place =
-        four::less((point - four::loaded(frame.low.data())) * four::all(frame.inverse), four::loaded(frame.end.data()));
-    const Floats cell = four::less(truncated(place), four::loaded(frame.last.data()));
+    const Floats place = float4::min((point - float4::load(frame.low.data())) * float4::broadcast(frame.inverse),
+                                     float4::load(frame.end.data()));
+    const Floats cell = float4::min(truncated(place), float4::load(frame.last.data()));
     const Ints low = __builtin_convertvector(cell, Ints);
     Stencil result{place - cell, 0, 0, 0, false};
     const auto x = static_cast<std::uint32_t>(low[0]), y = static_cast<std::uint32_t>(low[1]),
@@ -119,7 +119,7 @@ struct Stencil {
         return result;
     }
     const Ints inside = low & Ints{side - 1, side - 1, side - 1, side - 1};
-    result.fraction = (result.fraction + __builtin_convertvector(inside, Floats)) * four::all(1.0f / side);
+    result.fraction = (result.fraction + __builtin_convertvector(inside, Floats)) * float4::broadcast(1.0f / side);
     result.row = frame.corners.y;
     result.slice = frame.corners.z;
     result.first = x / side + y / side * result.row + z / side * result.slice;
@@ -129,7 +129,7 @@ struct Stencil {
 
 /// False also for NaN.
 [[gnu::always_inline]] inline bool within(const FieldFrame<3>& frame, Floats point) {
-    return four::bits((point >= four::loaded(frame.low.data())) & (point <= four::loaded(frame.high.data()))) == 15;
+    return float4::bits((point >= float4::load(frame.low.data())) & (point <= float4::load(frame.high.data()))) == 15;
 }
 
 [[gnu::always_inline]] inline float distance(const FieldData<3>& data, Floats point) {
@@ -159,7 +159,7 @@ struct Stencil {
 }  // namespace field_lanes
 
 inline float look_up_distance(const FieldData<3>& data, const Vec3& point) {
-    const four::Floats p{point.x, point.y, point.z, 0};
+    const float4::Floats p{point.x, point.y, point.z, 0};
     if (!field_lanes::within(data.frame, p)) [[unlikely]]
         return outer_sample(data, point).distance;
     if (data.lookup == FieldLookup::gradient) [[unlikely]]
@@ -167,7 +167,7 @@ inline float look_up_distance(const FieldData<3>& data, const Vec3& point) {
     return field_lanes::distance(data, p);
 }
 inline FieldSample<3> look_up_sample(const FieldData<3>& data, const Vec3& point) {
-    const four::Floats p{point.x, point.y, point.z, 0};
+    const float4::Floats p{point.x, point.y, point.z, 0};
     if (!field_lanes::within(data.frame, p)) [[unlikely]]
         return outer_sample(data, point);
     if (data.lookup == FieldLookup::gradient) [[unlikely]]

@@ -1,5 +1,5 @@
 #include <abut/motion/mover/nearby_surface.hpp>
-#include <abut/query/front_touch.hpp>
+#include <abut/query/detail/sweep/front_time_of_impact.hpp>
 
 #include <algorithm>
 #include <array>
@@ -34,7 +34,7 @@ void NearbySurface<D>::begin(const World<D>& world, const Filter& filter, const 
     start_ = start;
     passes_ = passes;
     size_ = abut::size(shape);
-    scale_ = felt_scale * size_;
+    scale_ = surface_probe_scale * size_;
     parts_.clear();
     passed_.clear();
     passed_fronts_.clear();
@@ -82,8 +82,9 @@ void NearbySurface<D>::each_closest_point_of_others(const PartName& but, const D
                     if (name == but) return;
                     if (!passed_.empty() && is_passed(name)) return;
                     if (!passed_fronts_.empty() && is_passed_front(name)) return;
-                    Foot<D> foot;
-                    if (within > no_others && find_foot(part, point, within, foot)) within = visit(foot);
+                    ClosestPoint<D> closest;
+                    if (within > stop_visiting && find_closest_point(part, point, within, closest))
+                        within = visit(closest);
                 });
 }
 
@@ -116,7 +117,7 @@ bool NearbySurface<D>::is_on_passed_front(const DVec<D>& point) const {
     const Vec<D> middle = to_float(point);
     parts_.each(grown(Aabb<D>{middle, middle}, static_cast<float>(scale_)),
                 [&](const PartName& name, const auto& part) {
-                    result = result || (is_passed_front(name) && foot_on(part, point).distance <= scale_);
+                    result = result || (is_passed_front(name) && closest_point_on(part, point).distance <= scale_);
                 });
     return result;
 }
@@ -147,7 +148,7 @@ std::span<const NearContact<D>> NearbySurface<D>::contacts(const DVec<D>& at, do
     find_passed_fronts(shape, box);
     const auto contact_with = [&](const PartName& name, const auto& part) -> std::optional<NearContact<D>> {
         const SignedDistance<D> distance = part_distance(shape, part, {});
-        if (!(distance.distance <= reach) || !meet_at_fronts(shape, part, distance.normal)) return std::nullopt;
+        if (!(distance.distance <= reach) || !touch_at_fronts(shape, part, distance.normal)) return std::nullopt;
         if (is_one_sided(shape, part) && is_on_passed_front(distance.on_b())) return std::nullopt;
         NearContact<D> contact{name, -distance.normal, distance.on_b(), distance.distance, {}, false};
         contact.is_sdf = is_function<std::remove_cvref_t<decltype(part)>>;
@@ -159,7 +160,7 @@ std::span<const NearContact<D>> NearbySurface<D>::contacts(const DVec<D>& at, do
             if (std::optional<NearContact<D>> contact = contact_with(name, part)) passes(part, *contact);
         });
     const DVec<D> middle = middle_of(shape, at);
-    SeenFromMiddle<D> seen;
+    NearestToCenter<D> seen;
     const auto closest_points = [this](const DVec<D>& point, double within, ClosestPointVisitor<D> visit) {
         each_closest_point(point, within, visit);
     };
@@ -167,11 +168,11 @@ std::span<const NearContact<D>> NearbySurface<D>::contacts(const DVec<D>& at, do
         if (!passed_.empty() && is_passed(name)) return;
         const std::optional<NearContact<D>> contact = contact_with(name, part);
         if (!contact) return;
-        const FeltPlace<D> place{contact->point, contact->normal, middle, scale_};
-        if (is_felt<D>(part, place, closest_points))
+        const SurfacePlace<D> place{contact->point, contact->normal, middle, scale_};
+        if (is_surface_normal<D>(part, place, closest_points))
             contacts_.push_back(*contact);
         else if (contact->gap < scale_)
-            ghosts_.push_back({*contact, felt_plane<D>(part, place, closest_points, seen)});
+            ghosts_.push_back({*contact, surface_plane<D>(part, place, closest_points, seen)});
         if constexpr (is_function<std::remove_cvref_t<decltype(part)>>) add_sides(*contact, shape, part, reach);
     });
     resolve_ghosts(shape, reach);
@@ -213,9 +214,9 @@ template <int D>
 bool NearbySurface<D>::is_covered(const PartName& name, const SdfPlane<D>& side) const {
     const DVec<D> beside = side.point + side.normal * scale_;
     bool result = false;
-    each_closest_point_of_others(name, beside, scale_, [&](const Foot<D>& foot) {
-        result = result || foot.distance < 0.9 * scale_;
-        return result ? no_others : scale_;
+    each_closest_point_of_others(name, beside, scale_, [&](const ClosestPoint<D>& closest) {
+        result = result || closest.distance < 0.9 * scale_;
+        return result ? stop_visiting : scale_;
     });
     return result;
 }
@@ -231,7 +232,7 @@ void NearbySurface<D>::resolve_ghosts(const Convex<D>& shape, double reach) {
             contact.gap = dot(contact.normal, support(shape, -contact.normal) - contact.point);
         }
         const bool reported = std::any_of(contacts_.begin(), contacts_.end(), [&](const NearContact<D>& other) {
-            return tells_of<D>(other.normal, -other.gap, contact.normal, -contact.gap, size_);
+            return covers_contact<D>(other.normal, -other.gap, contact.normal, -contact.gap, size_);
         });
         if (contact.gap <= reach && !reported) contacts_.push_back(contact);
     }
@@ -255,8 +256,8 @@ std::optional<FirstTouch<D>> NearbySurface<D>::first_touch(const DVec<D>& at, co
         contacts_valid_ = false;
     }
     parts_.each(box, [&](const PartName& name, const auto& part) {
-        PartTouch<D> touch;
-        if (!front_touch(shape, path, part, name.part, SweepOptions<D>{}, touch)) return;
+        LinearImpact<D> touch;
+        if (!front_time_of_impact(shape, path, part, name.part, SweepOptions<D>{}, touch)) return;
         if (result && touch.along >= path.length) return;
         if (is_one_sided(shape, part) && (is_passed_front(name) || is_on_passed_front(touch.point))) return;
         NearContact<D> contact{name, -touch.normal, touch.point, 0, touch.feature, false};
@@ -275,9 +276,9 @@ std::optional<DVec<D>> NearbySurface<D>::normal_above(const DVec<D>& point, cons
     const auto closest_points = [this](const DVec<D>& from, double within, ClosestPointVisitor<D> visit) {
         each_closest_point(from, within, visit);
     };
-    const Foot<D> foot = nearest_foot<D>(closest_points, above, 2 * scale_, scale_, clear * scale_);
-    if (!(foot.distance > clear * scale_) || !std::isfinite(foot.distance)) return std::nullopt;
-    return normalized(above - foot.point);
+    const ClosestPoint<D> closest = nearest_surface_point<D>(closest_points, above, 2 * scale_, scale_, clear * scale_);
+    if (!(closest.distance > clear * scale_) || !std::isfinite(closest.distance)) return std::nullopt;
+    return normalized(above - closest.point);
 }
 
 template class NearbySurface<2>;

@@ -73,7 +73,7 @@ private:
 
     struct Ghost {
         NearContact<D> contact;
-        std::optional<FeltPlane<D>> plane;
+        std::optional<SurfacePlane<D>> plane;
     };
 
     const World<D>* world_ = nullptr;

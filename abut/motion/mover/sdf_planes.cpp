@@ -1,6 +1,6 @@
 #include <abut/motion/mover/sdf_planes.hpp>
-#include <abut/query/function_motion.hpp>
-#include <abut/query/function_there.hpp>
+#include <abut/query/detail/sdf/function_motion.hpp>
+#include <abut/query/detail/sdf/placed_function.hpp>
 
 #include <algorithm>
 #include <optional>
@@ -52,7 +52,7 @@ public:
 private:
     const Convex<D>& shape_;
     const DistanceFunction<D>& function_;
-    FunctionThere<D> sdf_;
+    PlacedFunction<D> sdf_;
     double max_distance_;
 };
 

@@ -1,6 +1,6 @@
 #include <abut/motion/push/plane_solver.hpp>
 #include <abut/motion/push/shortest_push.hpp>
-#include <abut/query/front_touch.hpp>
+#include <abut/query/detail/sweep/front_time_of_impact.hpp>
 
 #include <algorithm>
 
@@ -148,7 +148,7 @@ private:
         const Convex<D> there = at(shape_, push);
         each_part_in(grown(bounds(there), static_cast<float>(reach)), [&](const PartName& name, const auto& part) {
             const SignedDistance<D> distance = part_distance(there, part, {});
-            if (distance.distance < reach && meet_at_fronts(there, part, distance.normal))
+            if (distance.distance < reach && touch_at_fronts(there, part, distance.normal))
                 result.add({name, -distance.normal, distance.distance});
         });
         return result;
@@ -159,8 +159,8 @@ private:
         // Beyond the part's end the shape is swept back until it touches.
         const double beyond = dot(direction, support(part, direction)) - dot(direction, support(grown_, -direction));
         const double from = beyond + gap_;
-        PartTouch<D> touch;
-        if (!part_touch(at(grown_, direction * from), Path<D>{-direction, from}, part, 0, SweepOptions<D>{}, touch))
+        LinearImpact<D> touch;
+        if (!time_of_impact(at(grown_, direction * from), Path<D>{-direction, from}, part, 0, SweepOptions<D>{}, touch))
             return std::nullopt;
         return from - touch.along;
     }
@@ -187,7 +187,7 @@ private:
             bool in_something = false, leaves_all = true;
             each_part_in(bounds(here), [&](const PartName&, const auto& part) {
                 const SignedDistance<D> distance = part_distance(here, part, {});
-                if (!(distance.distance < -0.3 * gap_) || !meet_at_fronts(here, part, distance.normal)) return;
+                if (!(distance.distance < -0.3 * gap_) || !touch_at_fronts(here, part, distance.normal)) return;
                 in_something = true;
                 const std::optional<double> end = exit_distance(part, direction, along);
                 leaves_all = leaves_all && end;
@@ -232,8 +232,9 @@ private:
         const Aabb<D> first = bounds(here), last = bounds(at(here, direction * max_length));
         double result = max_length;
         each_part_in(merged(first, last), [&](const PartName& name, const auto& part) {
-            PartTouch<D> touch;
-            if (!front_touch(here, Path<D>{direction, max_length}, part, name.part, SweepOptions<D>{}, touch)) return;
+            LinearImpact<D> touch;
+            if (!front_time_of_impact(here, Path<D>{direction, max_length}, part, name.part, SweepOptions<D>{}, touch))
+                return;
             result = std::min(result, touch.along);
         });
         return result;

@@ -43,13 +43,13 @@ struct LeafBoxes {
 };
 
 void overlapping_boxes(const MeshTree& tree, const Aabb3& box, ItemCall visit) {
-    overlapping<3>(tree, LeafBoxes{tree}, box, visit);
+    visit_overlapping<3>(tree, LeafBoxes{tree}, box, visit);
 }
 void along_boxes(const MeshTree& tree, const RayReach<3>& reach, ReachCall visit) {
-    along<3>(tree, LeafBoxes{tree}, reach, visit);
+    visit_along<3>(tree, LeafBoxes{tree}, reach, visit);
 }
 void near_boxes(const MeshTree& tree, const BoxReach<3>& reach, ReachCall visit) {
-    near<3>(tree, LeafBoxes{tree}, reach, visit);
+    visit_near<3>(tree, LeafBoxes{tree}, reach, visit);
 }
 
 }  // namespace abut::HWY_NAMESPACE

@@ -1,9 +1,8 @@
 // Builds the tree of a mesh by the surface area heuristic: binned splits as in a Bvh for many triangles, exhaustive
 // splits for few, and then an optimal collapse of the binary tree to eight children.
 
-#include <abut/broad_phase/bvh_jobs.hpp>
-#include <abut/broad_phase/bvh_size.hpp>
-#include <abut/broad_phase/bvh_split.hpp>
+#include <abut/broad_phase/bvh/split.hpp>
+#include <abut/broad_phase/bvh/surface_area.hpp>
 #include <abut/shape/mesh/build.hpp>
 #include <abut/shape/mesh/leaf_split.hpp>
 

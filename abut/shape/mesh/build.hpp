@@ -2,8 +2,8 @@
 
 // Building blocks of a mesh's tree. For .cpp files.
 
-#include <abut/broad_phase/bvh_node.hpp>
-#include <abut/broad_phase/bvh_split.hpp>
+#include <abut/broad_phase/bvh/node.hpp>
+#include <abut/broad_phase/bvh/split.hpp>
 #include <abut/shape/mesh/tree.hpp>
 
 #include <cstdint>

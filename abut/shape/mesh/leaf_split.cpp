@@ -1,4 +1,4 @@
-#include <abut/broad_phase/four_floats-inl.h>
+#include <abut/broad_phase/detail/float4-inl.h>
 #include <abut/shape/mesh/build.hpp>
 #include <abut/shape/mesh/leaf_split.hpp>
 
@@ -13,19 +13,19 @@ namespace {
 class GrowingBox {
 public:
     void add(const BvhItem& item) {
-        low_ = four::less(low_, four::loaded(item.min));
-        high_ = four::greater(high_, four::loaded(item.max));
+        low_ = float4::min(low_, float4::load(item.min));
+        high_ = float4::max(high_, float4::load(item.max));
     }
     float area() const {
-        const four::Floats extent = high_ - low_;
-        const four::Floats sides = extent * __builtin_shufflevector(extent, extent, 1, 2, 0, 3);
+        const float4::Floats extent = high_ - low_;
+        const float4::Floats sides = extent * __builtin_shufflevector(extent, extent, 1, 2, 0, 3);
         return sides[0] + sides[1] + sides[2];
     }
     Aabb3 box() const { return {{low_[0], low_[1], low_[2]}, {high_[0], high_[1], high_[2]}}; }
 
 private:
-    four::Floats low_ = four::all(std::numeric_limits<float>::infinity());
-    four::Floats high_ = four::all(-std::numeric_limits<float>::infinity());
+    float4::Floats low_ = float4::broadcast(std::numeric_limits<float>::infinity());
+    float4::Floats high_ = float4::broadcast(-std::numeric_limits<float>::infinity());
 };
 
 /// The number of set bits, by arithmetic. std::popcount is a function call on targets without the instruction.
@@ -75,8 +75,8 @@ void sort(const std::array<std::uint64_t, max_small_set>& keys, std::uint32_t co
 float extent_of(const MeshLeaf& leaf) {
     float result = 0;
     for (const auto& row : leaf.corner) {
-        const four::Floats a = four::loaded(row), b = four::loaded(row + 4);
-        result += (four::greatest(four::greater(a, b)) - four::least(four::less(a, b))) * (1 + 1e-6f);
+        const float4::Floats a = float4::load(row), b = float4::load(row + 4);
+        result += (float4::max_lane(float4::max(a, b)) - float4::min_lane(float4::min(a, b))) * (1 + 1e-6f);
     }
     // Products that underflow aren't bounded by their factors.
     return result > 1e-9f && result < 1e12f ? result : std::numeric_limits<float>::infinity();

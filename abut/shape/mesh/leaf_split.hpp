@@ -2,7 +2,7 @@
 
 // Exhaustive surface area splits of small triangle sets into leaves of a mesh's tree. For .cpp files.
 
-#include <abut/broad_phase/bvh_node.hpp>
+#include <abut/broad_phase/bvh/node.hpp>
 #include <abut/shape/mesh/tree.hpp>
 
 #include <array>

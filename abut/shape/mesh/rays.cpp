@@ -196,12 +196,12 @@ bool traverse(const MeshTree& tree, const MeshRay& ray, OnCandidate on_candidate
     if (!(beyond < max_mesh_extent)) return false;
     const double reach = std::min(ray.local.length, 2 * beyond);
     if (!(reach >= 0)) return true;
-    const double unit = ray.unit * reach_slack;
+    const double unit = ray.unit * reach_tolerance;
     const RayBoxTest hits_boxes(ray.local, ray.origin_error);
     const RayTriangleTest hits_triangles(ray.local, beyond, ray.origin_error + 0x1p-24 * (beyond + tree.off_center));
-    StackEntry entries[most_waiting];
+    StackEntry entries[max_stack_size];
     StackEntry* stack = entries;
-    float max_time = not_less(reach * reach_slack), times[mesh_lanes];
+    float max_time = rounded_up(reach * reach_tolerance), times[mesh_lanes];
     std::uint32_t ref = tree.root(0).ref;
     for (;;) {
         if (is_leaf(ref)) {
@@ -213,7 +213,7 @@ bool traverse(const MeshTree& tree, const MeshRay& ray, OnCandidate on_candidate
                 const std::uint32_t lane = next_lane(bits);
                 const double new_reach = on_candidate(leaf, lane, tree.order[leaf.first + lane]);
                 if (new_reach < 0) return true;
-                max_time = std::min(max_time, not_less(new_reach * unit));
+                max_time = std::min(max_time, rounded_up(new_reach * unit));
             }
         } else {
             const MeshNode& node = tree.node(ref);

@@ -3,7 +3,7 @@
 // The bounding volume hierarchy (BVH) of a Mesh: nodes of eight children over leaves that hold the corners of up to
 // eight triangles. Not for users.
 
-#include <abut/broad_phase/bvh_node.hpp>
+#include <abut/broad_phase/bvh/node.hpp>
 #include <abut/broad_phase/reach.hpp>
 #include <abut/broad_phase/visit.hpp>
 #include <abut/math/aabb.hpp>

@@ -7,7 +7,7 @@
 #define ABUT_MESH_LANES
 #endif
 
-#include <abut/broad_phase/bvh_down-inl.h>
+#include <abut/broad_phase/bvh/traversal-inl.h>
 #include <abut/shape/mesh/tree.hpp>
 
 HWY_BEFORE_NAMESPACE();
