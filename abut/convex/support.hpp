@@ -99,6 +99,11 @@ template <int D>
 bool has_similarity_placement(const Convex<D>& convex) {
     return convex.inner_radius == 0 && convex.similar && convex.scale > 0;
 }
+/// Whether the set is a point with a radius, in any placement.
+template <int D>
+bool is_ball(const Convex<D>& convex) {
+    return convex.core == Core::points && convex.count == 1 && convex.inner_radius == 0;
+}
 template <int D>
 bool is_plain_box(const Convex<D>& convex) {
     return convex.core == Core::box && has_similarity_placement(convex);

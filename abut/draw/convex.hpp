@@ -10,12 +10,6 @@ namespace abut {
 void draw_convex(Canvas<2>& canvas, const Convex<2>& convex, const Style& style);
 void draw_convex(Canvas<3>& canvas, const Convex<3>& convex, const Style& style);
 
-/// True for a point with a radius.
-template <int D>
-bool is_ball(const Convex<D>& convex) {
-    return convex.core == Core::points && convex.count == 1 && convex.inner_radius == 0;
-}
-
 /// Draws a set for which `is_ball` is true.
 template <int D>
 void draw_ball(Canvas<D>& canvas, const Convex<D>& convex, const Style& style) {

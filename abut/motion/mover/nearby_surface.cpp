@@ -12,7 +12,7 @@ namespace {
 constexpr double pass_through_depth = 0.05;
 
 /// Planes whose normals are closer than this cosine count once.
-constexpr double same_side = 0.99;
+constexpr double min_equal_cosine = 0.99;
 
 /// A plane supports the shape if its normal has at least this component in the contact normal.
 constexpr double min_normal_share = 0.05;
@@ -200,7 +200,7 @@ void NearbySurface<D>::add_sides(const NearContact<D>& nearest, const Convex<D>&
     for (const SdfPlane<D>& side : std::span(sides).first(count))
         if (is_in_normal(side)) min_share = std::min(min_share, share(side));
     for (const SdfPlane<D>& side : std::span(sides).first(count)) {
-        if (dot(side.normal, nearest.normal) >= same_side) continue;
+        if (dot(side.normal, nearest.normal) >= min_equal_cosine) continue;
         const bool holds_off = is_held_off && is_in_normal(side) && share(side) <= 2 * min_share;
         if ((side.gap > reach && !holds_off) || is_covered(nearest.name, side)) continue;
         NearContact<D> contact{nearest.name, side.normal, side.point, side.gap, nearest.feature, false};

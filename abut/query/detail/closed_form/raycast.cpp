@@ -14,7 +14,7 @@ namespace {
 using lanes::Double2;
 
 /// A ray starts outside of a ball beyond the radius times this, which allows for rounding.
-constexpr double outside = 1 + 4 * ray_tolerance;
+constexpr double outside_factor = 1 + 4 * ray_tolerance;
 
 // These return false, and leave `result` unchanged, in hard cases. Comparisons are written so that NaN and infinity are
 // hard cases. Distances over infinite lengths are 0.
@@ -24,7 +24,7 @@ bool hit_sphere(const Ray3& ray, const ShapeRef<3>& given, std::optional<Hit<3>>
     const DVec<3> from(ray.origin), direction(ray.direction), unit_direction = unit(direction), middle(sphere.center);
     const DVec<3> center = (given.pose != nullptr ? placed<3>(middle, *given.pose) : middle) - from;
     const double radius = static_cast<double>(sphere.radius), length = static_cast<double>(ray.length);
-    const double nearest = dot(center, unit_direction), square = length_squared(center), reach = radius * outside;
+    const double nearest = dot(center, unit_direction), square = length_squared(center), reach = radius * outside_factor;
     if (!(radius > 0 && square > reach * reach && std::isfinite(square + nearest) && length >= 0)) return false;
     if (direction == DVec<3>(0.0)) return true;
     // The square of the distance at which the ray passes the centre, which stays precise for a distant sphere.
@@ -114,7 +114,7 @@ bool hit_circle(const Ray<2>& ray, const ShapeRef<2>& given, std::optional<Hit<2
     const Double2 parts =
         (lanes::first(direction) * center * Double2{1, -1} + lanes::second(direction) * lanes::swapped(center)) * scale;
     const double radius = static_cast<double>(circle.radius), length = static_cast<double>(ray.length);
-    const double square = lanes::dot(parts, parts)[0], reach = radius * outside;
+    const double square = lanes::dot(parts, parts)[0], reach = radius * outside_factor;
     if (!(lanes::is_near_one(squares[0]) && radius > 0 && square > reach * reach &&
           square < std::numeric_limits<double>::max() && length >= 0))
         return false;

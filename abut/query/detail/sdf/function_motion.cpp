@@ -287,10 +287,6 @@ bool is_free_between(const Convex<D>& first, const Convex<D>& last, double expan
     return false;
 }
 
-template <int D>
-bool is_ball(const Convex<D>& part) {
-    return part.core == Core::points && part.count == 1 && part.inner_radius == 0;
-}
 template <class Part>
 bool is_ball(const Part&) {
     return false;

@@ -79,11 +79,6 @@ SignedDistance<D> no_distance() {
     return result;
 }
 
-template <int D>
-bool is_ball(const Convex<D>& part) {
-    return part.core == Core::points && part.count == 1 && part.inner_radius == 0;
-}
-
 /// The corners of a convex set that are as deep as its deepest point, if it has few corners.
 template <int D>
 ClosestCorners<D> corners_at(const Convex<D>& set, const DVec<D>& place, const DVec<D>& out, double rounding) {
