@@ -50,8 +50,8 @@ struct Bench {
 
 std::vector<Bench> narrow_benches();
 std::vector<Bench> broad_benches();
-std::vector<Bench> motion_straight_benches();
-std::vector<Bench> motion_turning_benches();
+std::vector<Bench> motion_linear_benches();
+std::vector<Bench> motion_rotation_benches();
 /// Ray casts against meshes, and building their trees.
 std::vector<Bench> ray_benches();
 /// Disassembly order.

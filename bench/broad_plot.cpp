@@ -34,7 +34,7 @@ Plot by_size() {
 Plot by_density() {
     Plot result{"broad_phase_density.svg",
                 {.title = "All pairs of 10,000 moving boxes in 3D",
-                 .x_name = "how many others a box overlaps",
+                 .x_name = "overlaps per box",
                  .y_name = y_name,
                  .lines = {}},
                 {}};

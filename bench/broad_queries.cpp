@@ -69,9 +69,9 @@ double count_along(const Phase& phase, const Ray3& ray) {
 
 template <class Phase>
 double first_hit(const Phase& phase, std::span<const Aabb3> boxes, const Ray3& ray) {
-    const RayToBox asked(ray);
+    const RayToBox ray_to_box(ray);
     float reach = ray.length;
-    phase.raycast(ray, [&](std::uint32_t item) { return reach = std::min(reach, entry(asked, boxes[item])); });
+    phase.raycast(ray, [&](std::uint32_t item) { return reach = std::min(reach, entry(ray_to_box, boxes[item])); });
     return static_cast<double>(reach);
 }
 
@@ -106,44 +106,44 @@ constexpr double exact = 0, to_rounding = 1e-3;
 
 Job regions(std::size_t count) {
     const Boxes scene(count, broad_seed);
-    const std::vector<Aabb3> asked = random_regions(scene);
-    Job job = query_all<Aabb3>(scene, asked, exact, [](const auto& phase, auto, const Aabb3& region) {
+    const std::vector<Aabb3> queries = random_regions(scene);
+    Job job = query_all<Aabb3>(scene, queries, exact, [](const auto& phase, auto, const Aabb3& region) {
         return count_in_region(phase, region);
     });
-    job.sides.push_back(bullet_regions(scene.boxes(), asked));
-    job.sides.push_back(fcl_regions(scene.boxes(), asked));
+    job.sides.push_back(bullet_regions(scene.boxes(), queries));
+    job.sides.push_back(fcl_regions(scene.boxes(), queries));
     return job;
 }
 
 /// Visits all boxes that each ray hits.
 Job rays(std::size_t count) {
     const Boxes scene(count, broad_seed);
-    const std::vector<Ray3> asked = random_rays(scene);
-    Job job = query_all<Ray3>(scene, asked, exact,
+    const std::vector<Ray3> queries = random_rays(scene);
+    Job job = query_all<Ray3>(scene, queries, exact,
                               [](const auto& phase, auto, const Ray3& ray) { return count_along(phase, ray); });
-    job.sides.push_back(bullet_rays(scene.boxes(), asked));
+    job.sides.push_back(bullet_rays(scene.boxes(), queries));
     return job;
 }
 
 Job first_hits(std::size_t count) {
     const Boxes scene(count, broad_seed);
-    const std::vector<Ray3> asked = random_rays(scene);
-    Job job = query_all<Ray3>(scene, asked, to_rounding, [](const auto& phase, auto boxes, const Ray3& ray) {
+    const std::vector<Ray3> queries = random_rays(scene);
+    Job job = query_all<Ray3>(scene, queries, to_rounding, [](const auto& phase, auto boxes, const Ray3& ray) {
         return first_hit(phase, boxes, ray);
     });
-    job.sides.push_back(bullet_first_hits(scene.boxes(), asked));
-    job.sides.push_back(embree_first_hits(scene.boxes(), asked));
+    job.sides.push_back(bullet_first_hits(scene.boxes(), queries));
+    job.sides.push_back(embree_first_hits(scene.boxes(), queries));
     return job;
 }
 
 Job nearest(std::size_t count, std::size_t wanted) {
     const Boxes scene(count, broad_seed);
-    const std::vector<Vec3> asked = random_points(scene);
-    Job job = query_all<Vec3>(scene, asked, to_rounding, [wanted](const auto& phase, auto boxes, const Vec3& point) {
+    const std::vector<Vec3> queries = random_points(scene);
+    Job job = query_all<Vec3>(scene, queries, to_rounding, [wanted](const auto& phase, auto boxes, const Vec3& point) {
         return distance_to_nearest(phase, boxes, point, wanted);
     });
-    job.sides.push_back(fcl_nearest(scene.boxes(), asked, wanted));
-    job.sides.push_back(embree_nearest(scene.boxes(), asked, wanted));
+    job.sides.push_back(fcl_nearest(scene.boxes(), queries, wanted));
+    job.sides.push_back(embree_nearest(scene.boxes(), queries, wanted));
     return job;
 }
 

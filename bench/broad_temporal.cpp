@@ -17,8 +17,8 @@ namespace abut::bench {
 namespace {
 
 template <class Inner>
-struct PlainPairs {
-    explicit PlainPairs(std::span<const Aabb3> boxes) { phase.build(boxes); }
+struct PairsAlone {
+    explicit PairsAlone(std::span<const Aabb3> boxes) { phase.build(boxes); }
 
     std::size_t count(std::span<const Aabb3> boxes) {
         phase.update(boxes);
@@ -50,8 +50,8 @@ struct TemporalPairs {
 Job slow_boxes(std::size_t count, double step) {
     scenes::MovingBoxesOptions options;
     const double spacing = 2.5 / std::cbrt(options.overlaps);
-    constexpr double mean_way = 0.96;  // mean length of a uniform step in a cube, in half edges
-    options.speed = step * spacing / mean_way;
+    constexpr double mean_step_length = 0.96;  // mean length of a uniform step in a cube, in half edges
+    options.speed = step * spacing / mean_step_length;
     options.fineness = 1 << 17;  // makes all sums exact in the world of 10,000
     std::vector<float> top_speeds;
     const scenes::MovingBoxes<3> first(count, broad_seed, options);
@@ -65,8 +65,8 @@ Job slow_boxes(std::size_t count, double step) {
             .tolerance = 0,
             .sides = {count_pairs<TemporalPairs<Grid<3>>>("abut", scene, top_speeds),
                       count_pairs<TemporalPairs<Bvh<3>>>("abut, over Bvh", scene, top_speeds),
-                      count_pairs<PlainPairs<Grid<3>>>("abut plain Grid", scene),
-                      count_pairs<PlainPairs<Bvh<3>>>("abut plain Bvh", scene)}};
+                      count_pairs<PairsAlone<Grid<3>>>("abut Grid alone", scene),
+                      count_pairs<PairsAlone<Bvh<3>>>("abut Bvh alone", scene)}};
 }
 
 }  // namespace

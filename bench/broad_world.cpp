@@ -86,7 +86,7 @@ Side world_update(std::string who, const WorldFrames& frames, std::optional<Broa
 }
 
 /// Counts them without a World: a broad phase, and an overlap test per pair.
-Side overlaps_by_hand(std::size_t count) {
+Side overlaps_without_world(std::size_t count) {
     struct State {
         explicit State(std::size_t n) : scene(n), views(n), boxes(n) {
             place();
@@ -114,7 +114,7 @@ Side overlaps_by_hand(std::size_t count) {
         });
         values[0] = static_cast<double>(touching);
     };
-    return {"abut by hand", run, [state] { state->scene.boxes.step(); }};
+    return {"abut without World", run, [state] { state->scene.boxes.step(); }};
 }
 
 Job world(std::size_t count) {
@@ -123,7 +123,7 @@ Job world(std::size_t count) {
             .rounds = 8,
             .frames = 10,
             .tolerance = 1,  // touching is decided to within the tolerance
-            .sides = {world_update("abut", {.count = count}), overlaps_by_hand(count)}};
+            .sides = {world_update("abut", {.count = count}), overlaps_without_world(count)}};
 }
 
 /// With the broad phase that the World chooses, and with each alternative.
@@ -143,7 +143,7 @@ std::vector<Bench> world_benches() {
     return {
         {"broad/world/3d/2000", [] { return world(2000); }},
         {"broad/world/balls/3d/10000", [] { return world_that_chooses({.count = 10'000, .shapes = Shapes::balls}); }},
-        {"broad/world/asked/3d/10000",
+        {"broad/world/rays/3d/10000",
          [] { return world_that_chooses({.count = 10'000, .shapes = Shapes::balls, .rays = 2000}); }},
     };
 }

@@ -19,7 +19,7 @@ Side side(const char* who, const SharedPoints2& points, Hull hull) {
     return {who, [own, hull](std::span<double> values) {
                 std::vector<Point> loop;
                 hull(*own, loop);
-                tell_loop(
+                write_loop(
                     loop.size(), [&](std::size_t i) { return DVec<2>(loop[i].x(), loop[i].y()); }, values);
             }};
 }

@@ -97,15 +97,15 @@ void draw_grid(SvgCanvas& canvas, const Chart& chart, const Axis& x, const Axis&
 }  // namespace
 
 std::string svg(const Chart& chart) {
-    double x_least = std::numeric_limits<double>::infinity(), x_most = 0, y_least = x_least, y_most = 0;
+    double x_min = std::numeric_limits<double>::infinity(), x_max = 0, y_min = x_min, y_max = 0;
     for (const ChartLine& line : chart.lines)
         for (const auto& [x, y] : line.points) {
-            x_least = std::min(x_least, x);
-            x_most = std::max(x_most, x);
-            y_least = std::min(y_least, y);
-            y_most = std::max(y_most, y);
+            x_min = std::min(x_min, x);
+            x_max = std::max(x_max, x);
+            y_min = std::min(y_min, y);
+            y_max = std::max(y_max, y);
         }
-    const Axis x(x_least, x_most, left, right), y(0.8 * y_least, 1.25 * y_most, bottom, top);
+    const Axis x(x_min, x_max, left, right), y(0.8 * y_min, 1.25 * y_max, bottom, top);
 
     SvgCanvas canvas({{0, 0}, {width, height}}, 1, white);
     canvas.set_text_height(text_height);

@@ -51,7 +51,7 @@ Job plane_job(const SharedPoints2& points, bool has_area) {
     const auto run = [points](std::span<double> values) {
         const Polygon hull = *Polygon::build(*points);
         const std::span<const Vec2> corners = hull.points();
-        tell_loop(
+        write_loop(
             corners.size(), [&](std::size_t i) { return DVec<2>(corners[i]); }, values);
     };
     Job job{.items = points->size(), .values = 2, .tolerance = 1e-5, .sides = {{"abut", run}}};

@@ -14,7 +14,7 @@ using SharedPoints2 = std::shared_ptr<const std::vector<Vec2>>;
 
 /// Writes the values of a closed polygon of consistent orientation.
 template <class At>
-void tell_loop(std::size_t count, At at, std::span<double> values) {
+void write_loop(std::size_t count, At at, std::span<double> values) {
     values[0] = values[1] = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const DVec<2> a = at(i) - at(0), b = at(i + 1 == count ? 0 : i + 1) - at(0);

@@ -20,7 +20,7 @@ constexpr std::uint32_t corners = 64, samples = 20'000;
 
 /// Decomposes in each call; the quality of the parts is measured once, as it is deterministic.
 template <class Decompose>
-Side side(const char* who, const std::shared_ptr<const Welded>& mesh, std::optional<std::uint32_t> most_parts,
+Side side(const char* who, const std::shared_ptr<const Welded>& mesh, std::optional<std::uint32_t> max_parts,
           Decompose decompose) {
     const auto extra = std::make_shared<std::optional<double>>();
     return {who, [=](std::span<double> values) {
@@ -28,7 +28,7 @@ Side side(const char* who, const std::shared_ptr<const Welded>& mesh, std::optio
                 if (!*extra) {
                     const oracle::PartQuality quality =
                         oracle::quality_of(mesh->points, mesh->triangles, found, samples, 1);
-                    const bool right = !most_parts || (found.size() <= *most_parts && quality.uncovered == 0);
+                    const bool right = !max_parts || (found.size() <= *max_parts && quality.uncovered == 0);
                     *extra = right ? 100 * quality.extra : std::numeric_limits<double>::quiet_NaN();
                 }
                 values[0] = **extra;

@@ -11,7 +11,7 @@ namespace abut::bench {
 namespace {
 
 constexpr std::uint32_t max_columns = 120;  // per tile: 28,800 triangles
-constexpr int most_polygons = 1 << 15, most_nodes = 65535;
+constexpr int max_polygons = 1 << 15, max_nodes = 65535;
 constexpr float height_unit = 1.0f / 256, climb = 0.25f;
 constexpr unsigned short border = 0xffff;
 
@@ -99,7 +99,7 @@ DetourMesh::DetourMesh(const WalkScene& scene)
     dtNavMeshParams params{};
     params.tileWidth = params.tileHeight = static_cast<float>(width);
     params.maxTiles = static_cast<int>(tiles * tiles);
-    params.maxPolys = most_polygons;
+    params.maxPolys = max_polygons;
     must(dtStatusSucceed(mesh_->init(&params)));
     for (std::uint32_t z = 0; z < tiles; ++z)
         for (std::uint32_t x = 0; x < tiles; ++x) {
@@ -123,7 +123,7 @@ DetourMesh::DetourMesh(const WalkScene& scene)
                     for (const std::uint32_t which : {0u, 1u})
                         polygons_[tile.triangle(i, k, which)] = first | tile.polygon(i, k, which);
         }
-    must(dtStatusSucceed(query_->init(mesh_.get(), most_nodes)));
+    must(dtStatusSucceed(query_->init(mesh_.get(), max_nodes)));
 }
 
 }  // namespace abut::bench

@@ -39,7 +39,7 @@ public:
             if (with_heights_) mesh_->query().getPolyHeight(polygons_[i], &end.x, &places_[i].y);
             const bool is_lost = std::abs(end.x - wanted.x) + std::abs(end.z - wanted.z) > 1e-3f * steps_->length;
             lost_ += is_lost;
-            if (is_lost || (frame_ + i) % frames_a_way == 0) headings_[i] = next_heading(*steps_, headings_[i]);
+            if (is_lost || (frame_ + i) % frames_per_heading == 0) headings_[i] = next_heading(*steps_, headings_[i]);
         }
         ++frame_;
     }

@@ -63,8 +63,8 @@ struct Places {
             if (std::abs(exact_samples[i]) > 0.1 * static_cast<double>(cell) &&
                 (found[i] < 0) != (exact_samples[i] < 0))
                 ++wrong;
-        result.push_back({"off by", std::sqrt(squares / static_cast<double>(at.size()))});
-        result.push_back({"at most", max_error});
+        result.push_back({"rms error", std::sqrt(squares / static_cast<double>(at.size()))});
+        result.push_back({"max error", max_error});
         result.push_back({"wrong signs", wrong});
         return result;
     }

@@ -60,7 +60,7 @@ std::vector<Box3> resting_boxes(const Level& level) {
     return result;
 }
 
-/// Calls ask(shape, field or mesh), one value each.
+/// Calls run(shape, field or mesh), one value each.
 template <class Shape, class Run>
 Job beside_both(const std::shared_ptr<const Level>& level, const std::vector<Shape>& shapes, Run run) {
     // The two differ: a mesh is a surface, and a field is solid and smooths details finer than its cells.
@@ -148,7 +148,7 @@ double min_sampled(const Shape& shape, const Pose3& pose, const Field3& field) {
     return min_distance;
 }
 
-/// Compares ask(shape, ways, i) with sampled(shape, ways, i), and measures the slowest call.
+/// Compares run(shape, motions, i) with sampled(shape, motions, i), and measures the slowest call.
 template <class Shape, class Run, class Sampled>
 std::function<Job()> of_poses(const Shape& shape, double tolerance, Run run, Sampled sampled) {
     return [=] {

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t query_count = 8192;
 constexpr std::uint32_t columns = 224;
-constexpr std::size_t lump_count = 3000;
+constexpr std::size_t brush_count = 3000;
 constexpr std::uint64_t seed = 1;
 
 /// The peers use tolerances, Bullet floats: for barely touching shapes some answers differ.
@@ -64,7 +64,7 @@ Job overlaps_in_solid(const std::variant<Box3, Capsule3>& shape) {
     constexpr double half = 30;
     std::vector<HalfSpace3> sides;
     std::vector<std::uint32_t> ends;
-    for (std::size_t i = 0; i < lump_count; ++i) {
+    for (std::size_t i = 0; i < brush_count; ++i) {
         const Vec3 center(random.in_cube<3>() * half);
         const auto add = [&](const DVec<3>& out, double height) {
             const Vec3 normal = to_float(out);

@@ -35,8 +35,8 @@ constexpr const char* usage =
 std::vector<Bench> all_benches() {
     std::vector<Bench> result = narrow_benches();
     std::ranges::move(broad_benches(), std::back_inserter(result));
-    std::ranges::move(motion_straight_benches(), std::back_inserter(result));
-    std::ranges::move(motion_turning_benches(), std::back_inserter(result));
+    std::ranges::move(motion_linear_benches(), std::back_inserter(result));
+    std::ranges::move(motion_rotation_benches(), std::back_inserter(result));
     std::ranges::move(ray_benches(), std::back_inserter(result));
     std::ranges::move(removal_benches(), std::back_inserter(result));
     std::ranges::move(level_benches(), std::back_inserter(result));

@@ -19,7 +19,7 @@ constexpr std::uint64_t seed = 1;
 constexpr double tolerance = 1e-3, few = 1e-3;
 
 /// Embree reads sixteen bytes of each point, including the last.
-void make_room_to_read(RayMesh& mesh) {
+void reserve_for_embree(RayMesh& mesh) {
     mesh.points.reserve(mesh.points.size() + 2);
 }
 
@@ -28,7 +28,7 @@ SharedRayMesh scan() {
     oracle::Random random(seed);
     scenes::BumpyBall ball = scenes::bumpy_ball(147, 0.2, 0.001, random);
     auto result = std::make_shared<RayMesh>(RayMesh{std::move(ball.points), std::move(ball.triangles), {}});
-    make_room_to_read(*result);
+    reserve_for_embree(*result);
     for (std::size_t i = 0; i < ray_count; ++i) {
         Ray3 ray = Ray3::between(to_float(random.direction<3>() * 2.0), to_float(random.in_cube<3>() * 0.9));
         ray.length = 10;
@@ -42,7 +42,7 @@ SharedRayMesh terrain(std::uint32_t columns) {
     oracle::Random random(seed);
     scenes::Terrain ground = scenes::random_terrain(columns, random);
     auto result = std::make_shared<RayMesh>(RayMesh{std::move(ground.points), std::move(ground.triangles), {}});
-    make_room_to_read(*result);
+    reserve_for_embree(*result);
     const double half = 0.5 * columns;
     const auto place = [&](double low, double high) {
         const float x = random.uniform_float(-half, half), y = random.uniform_float(low, high);

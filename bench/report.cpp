@@ -28,7 +28,7 @@ constexpr const char* compiler =
 
 void print_machine(std::ostream& out) {
     out << processor() << ", " << compiler
-        << ". ns: processor time an item, median or, where told, mean. ratio: abut's ns / this one's\n";
+        << ". ns: processor time an item, median or, where noted, mean. ratio: abut's ns / this one's\n";
 }
 
 void print_table_head(std::ostream& out) {

@@ -43,7 +43,7 @@ template <int D, class Visit>
 void each_structure(Visit visit) {
     visit(Structure<BruteForce<D>>{"BruteForce", {.moving = 1000}});
     visit(Structure<Grid<D>>{"Grid"});
-    visit(Structure<LayeredGrid<D>>{"LayeredGrid"});
+    visit(Structure<LayeredGrid<D>>{"LayeredGrid", {.moving = 100'000, .queries = 100'000}});
     visit(Structure<SweepAndPrune<D>>{"SweepAndPrune"});
     visit(Structure<Bvh<D>>{"Bvh"});
     visit(Structure<Bsp<D>>{"Bsp", {.moving = 10'000, .queries = 100'000}});

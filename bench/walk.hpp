@@ -35,22 +35,22 @@ struct WalkSteps {
 };
 using SharedWalkSteps = std::shared_ptr<const WalkSteps>;
 
-inline constexpr std::uint32_t frames_a_way = 64;
+inline constexpr std::uint32_t frames_per_heading = 64;
 /// Consecutive frames per side, so that each side runs with warm caches. Positions are compared after the first.
-inline constexpr std::uint32_t frames_a_turn = 8;
+inline constexpr std::uint32_t frames_per_call = 8;
 /// The next heading of a walker.
 inline std::uint32_t next_heading(const WalkSteps& steps, std::uint32_t heading) {
     return (heading + 389) % static_cast<std::uint32_t>(steps.headings.size());
 }
 
-/// A side with walkers: advance() moves them by a frame, tell(values) writes their positions, and lost_share() is the
+/// A side with walkers: advance() moves them by a frame, write(values) writes their positions, and lost_share() is the
 /// fraction of lost steps, named `lost`.
 template <class Walkers>
 Side walking_side(const char* who, const char* lost, std::shared_ptr<Walkers> walkers, std::size_t values_count) {
     return {.who = who,
             .run =
                 [walkers, later = std::vector<double>(values_count)](std::span<double> values) mutable {
-                    for (std::uint32_t frame = 0; frame < frames_a_turn; ++frame) {
+                    for (std::uint32_t frame = 0; frame < frames_per_call; ++frame) {
                         walkers->advance();
                         walkers->write(frame == 0 ? values : later);
                     }
@@ -58,7 +58,7 @@ Side walking_side(const char* who, const char* lost, std::shared_ptr<Walkers> wa
             .figures =
                 [walkers, lost] {
                     Walkers others = *walkers;
-                    for (std::uint32_t frame = 0; frame < frames_a_way; ++frame) others.advance();
+                    for (std::uint32_t frame = 0; frame < frames_per_heading; ++frame) others.advance();
                     return std::vector<Figure>{{lost, others.lost_share()}};
                 }};
 }

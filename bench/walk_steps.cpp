@@ -42,7 +42,7 @@ public:
             places_[i] = walked.place;
             const bool is_lost = walked.met != WalkMet::nothing;
             lost_ += is_lost;
-            if (is_lost || (frame_ + i) % frames_a_way == 0) headings_[i] = next_heading(*steps_, headings_[i]);
+            if (is_lost || (frame_ + i) % frames_per_heading == 0) headings_[i] = next_heading(*steps_, headings_[i]);
         }
         ++frame_;
     }
@@ -76,7 +76,7 @@ public:
             steps_on_[i] = walked.turn * steps_on_[i];
             const bool is_lost = walked.met != WalkMet::nothing;
             lost_ += is_lost;
-            if (is_lost || (frame_ + i) % frames_a_way == 0) {
+            if (is_lost || (frame_ + i) % frames_per_heading == 0) {
                 headings_[i] = next_heading(*steps_, headings_[i]);
                 steps_on_[i] = anew(i);
             }
@@ -102,7 +102,7 @@ Side by_abut(const char* who, const SharedWalkSteps& steps) {
 Job walk(std::uint32_t columns, float length) {
     const SharedWalkSteps steps = make_steps(columns, length);
     Job job;
-    job.items = walker_count * frames_a_turn;
+    job.items = walker_count * frames_per_call;
     job.values = 2 * walker_count;
     job.tolerance = 0.35 * static_cast<double>(length);
     job.sides.push_back(by_abut<LevelWalkers>("abut", steps));

@@ -28,7 +28,7 @@ struct WadMap {
 
 namespace detail {
 
-struct WadLump {
+struct WadChunk {
     std::size_t at = 0, size = 0;
 };
 
@@ -39,18 +39,18 @@ inline bool names_a_map(const std::string& name) {
            (name.size() == 5 && name.substr(0, 3) == "MAP" && digit(3) && digit(4));
 }
 
-/// The data lumps (the file format's term) of one map.
-struct WadMapLumps {
+/// The data chunks of one map, which the file format calls lumps.
+struct WadMapChunks {
     enum Kind { things, lines, sides, points, sectors, nodes, kinds };
     static constexpr std::array<const char*, kinds> names{"THINGS",   "LINEDEFS", "SIDEDEFS",
                                                           "VERTEXES", "SECTORS",  "NODES"};
     static constexpr std::array<std::size_t, kinds> sizes{10, 14, 30, 4, 26, 28};  // bytes per record
 
     std::string name;
-    std::array<std::optional<WadLump>, kinds> lumps;
+    std::array<std::optional<WadChunk>, kinds> chunks;
 
-    std::size_t count(Kind kind) const { return lumps[kind] ? lumps[kind]->size / sizes[kind] : 0; }
-    std::size_t place(Kind kind, std::size_t i) const { return lumps[kind]->at + i * sizes[kind]; }
+    std::size_t count(Kind kind) const { return chunks[kind] ? chunks[kind]->size / sizes[kind] : 0; }
+    std::size_t place(Kind kind, std::size_t i) const { return chunks[kind]->at + i * sizes[kind]; }
 };
 
 /// Size of the game's player: the highest step up, and the lowest opening.
@@ -61,19 +61,19 @@ struct WadFloor {
 };
 
 /// The floor of the sector on a side of a line; none if an index is invalid.
-inline std::optional<WadFloor> floor_beside(const LittleEndian& bytes, const WadMapLumps& map, std::uint32_t side) {
-    if (side >= map.count(WadMapLumps::sides)) return std::nullopt;
-    const std::uint32_t sector = bytes.u16(map.place(WadMapLumps::sides, side) + 28);
-    if (sector >= map.count(WadMapLumps::sectors)) return std::nullopt;
-    const std::size_t at = map.place(WadMapLumps::sectors, sector);
+inline std::optional<WadFloor> floor_beside(const LittleEndian& bytes, const WadMapChunks& map, std::uint32_t side) {
+    if (side >= map.count(WadMapChunks::sides)) return std::nullopt;
+    const std::uint32_t sector = bytes.u16(map.place(WadMapChunks::sides, side) + 28);
+    if (sector >= map.count(WadMapChunks::sectors)) return std::nullopt;
+    const std::size_t at = map.place(WadMapChunks::sectors, sector);
     return WadFloor{bytes.i16(at), bytes.i16(at + 2)};
 }
 
 /// Returns false if a line has an invalid index.
-inline bool read_lines(const LittleEndian& bytes, const WadMapLumps& lumps, WadMap& map) {
+inline bool read_lines(const LittleEndian& bytes, const WadMapChunks& chunks, WadMap& map) {
     constexpr std::uint32_t none = 0xffff, blocks = 1;
-    for (std::size_t i = 0; i < lumps.count(WadMapLumps::lines); ++i) {
-        const std::size_t at = lumps.place(WadMapLumps::lines, i);
+    for (std::size_t i = 0; i < chunks.count(WadMapChunks::lines); ++i) {
+        const std::size_t at = chunks.place(WadMapChunks::lines, i);
         const glm::uvec2 line(bytes.u16(at), bytes.u16(at + 2));
         if (line.x >= map.points.size() || line.y >= map.points.size()) return false;
         map.lines.push_back(line);
@@ -82,8 +82,8 @@ inline bool read_lines(const LittleEndian& bytes, const WadMapLumps& lumps, WadM
             map.one_sided.push_back(line);
             continue;
         }
-        const auto on_right = floor_beside(bytes, lumps, bytes.u16(at + 10)),
-                   on_left = floor_beside(bytes, lumps, left);
+        const auto on_right = floor_beside(bytes, chunks, bytes.u16(at + 10)),
+                   on_left = floor_beside(bytes, chunks, left);
         if (!on_right || !on_left) return false;
         if (flags & blocks) map.barriers.push_back(line);
         // Doors and lifts are such lines: they count as open.
@@ -98,21 +98,21 @@ inline bool read_lines(const LittleEndian& bytes, const WadMapLumps& lumps, WadM
     return true;
 }
 
-inline std::optional<WadMap> read_map(const LittleEndian& bytes, const WadMapLumps& lumps) {
+inline std::optional<WadMap> read_map(const LittleEndian& bytes, const WadMapChunks& chunks) {
     WadMap map;
-    map.name = lumps.name;
-    map.nodes = lumps.count(WadMapLumps::nodes);
+    map.name = chunks.name;
+    map.nodes = chunks.count(WadMapChunks::nodes);
     const auto point = [&](std::size_t at) {
         return Vec2(static_cast<float>(bytes.i16(at)), static_cast<float>(bytes.i16(at + 2)));
     };
-    for (std::size_t i = 0; i < lumps.count(WadMapLumps::points); ++i)
-        map.points.push_back(point(lumps.place(WadMapLumps::points, i)));
+    for (std::size_t i = 0; i < chunks.count(WadMapChunks::points); ++i)
+        map.points.push_back(point(chunks.place(WadMapChunks::points, i)));
     constexpr std::uint32_t first_player = 1;
-    for (std::size_t i = 0; i < lumps.count(WadMapLumps::things); ++i) {
-        const std::size_t at = lumps.place(WadMapLumps::things, i);
+    for (std::size_t i = 0; i < chunks.count(WadMapChunks::things); ++i) {
+        const std::size_t at = chunks.place(WadMapChunks::things, i);
         if (bytes.u16(at + 6) == first_player) map.start = point(at);
     }
-    if (!read_lines(bytes, lumps, map)) return std::nullopt;
+    if (!read_lines(bytes, chunks, map)) return std::nullopt;
     return map;
 }
 
@@ -130,23 +130,23 @@ inline Result<std::vector<WadMap>> wad_maps(const std::string& name, std::vector
     const std::size_t count = bytes.u32(4), directory = bytes.u32(8);
     if (!bytes.holds(directory, count * entry_size)) return bad;
 
-    std::vector<detail::WadMapLumps> found;
+    std::vector<detail::WadMapChunks> found;
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t entry = directory + i * entry_size;
-        const detail::WadLump lump{bytes.u32(entry), bytes.u32(entry + 4)};
-        const std::string lump_name = bytes.text(entry + 8, 8);
-        if (!bytes.holds(lump.at, lump.size))
-            return Problem{ProblemCode::bad_format, name + ": " + lump_name + " is beyond its end", entry};
-        if (detail::names_a_map(lump_name)) found.push_back({lump_name, {}});
-        for (std::size_t k = 0; k < detail::WadMapLumps::kinds; ++k)
-            if (!found.empty() && lump_name == detail::WadMapLumps::names[k] && !found.back().lumps[k])
-                found.back().lumps[k] = lump;
+        const detail::WadChunk chunk{bytes.u32(entry), bytes.u32(entry + 4)};
+        const std::string chunk_name = bytes.text(entry + 8, 8);
+        if (!bytes.holds(chunk.at, chunk.size))
+            return Problem{ProblemCode::bad_format, name + ": " + chunk_name + " is beyond its end", entry};
+        if (detail::names_a_map(chunk_name)) found.push_back({chunk_name, {}});
+        for (std::size_t k = 0; k < detail::WadMapChunks::kinds; ++k)
+            if (!found.empty() && chunk_name == detail::WadMapChunks::names[k] && !found.back().chunks[k])
+                found.back().chunks[k] = chunk;
     }
     std::vector<WadMap> maps;
-    for (const detail::WadMapLumps& lumps : found) {
-        std::optional<WadMap> map = detail::read_map(bytes, lumps);
+    for (const detail::WadMapChunks& chunks : found) {
+        std::optional<WadMap> map = detail::read_map(bytes, chunks);
         if (!map)
-            return Problem{ProblemCode::index_out_of_range, name + ": a line of " + lumps.name + " names nothing"};
+            return Problem{ProblemCode::index_out_of_range, name + ": a line of " + chunks.name + " names nothing"};
         maps.push_back(*std::move(map));
     }
     return maps;

@@ -1,8 +1,7 @@
 #pragma once
 
-// Planes that part space: the broad phase for what moves little or never.
+// A tree of splitting planes: the textbook structure for rays and regions among boxes that never move.
 
-#include <abut/broad_phase/bsp_node.hpp>
 #include <abut/broad_phase/detail/interface.hpp>
 #include <abut/math/aabb.hpp>
 #include <abut/math/executor.hpp>
@@ -15,32 +14,60 @@
 
 namespace abut {
 
-/// A BroadPhase: a tree of planes across the axes, a k-d tree (concept.hpp tells what each function does). Rays and
-/// regions find their way by one comparison a level, and stop at the first cell that holds what they look for.
+class PairBuffer;
+
+/// A BroadPhase: a binary space partitioning tree whose planes are axis-aligned, a k-d tree (concept.hpp documents each
+/// function).
 ///
-/// `build` cuts where it costs least (surface area heuristic, counted in bins, of few items at every face): O(n log n).
-/// A box that meets a plane is told to both sides of it where it is narrow against the cell, and is kept at the plane
-/// where it is not, or where there are as many copies as items. No answer tells it twice: each has one point of the
-/// box, such as the corner of an overlap, and the cell with that point tells it.
+/// Each inner node splits its boxes by a plane into three subtrees: those below the plane, those above it, and those
+/// that straddle it, which are then split along the other axes. Each box is therefore stored once, in one leaf. Boxes
+/// below and above a plane never overlap, so a query descends only into the sides that it reaches.
 ///
-/// `update` costs a look at each box where nothing has moved. Up to an eighth of the items that have moved are taken
-/// out and put in anew, each at the cost of a query; where there are more, where the room for lists is used up, or
-/// where as many have been put in anew as there are items, the tree is built anew (counts alone decide, never a clock).
+/// `build` puts the plane through the median of the centers, on the axis where the fewest boxes straddle it:
+/// O(n log n). `update` compares the boxes with those stored, and rebuilds if one has moved.
 ///
-/// Up to 2^29 items. Memory: at most 64 bytes an item in 3D (56 in 2D): 28 for its box and index, 16 for nodes, 16 for
-/// lists, of which about a third is spare room, and 4 for its place.
+/// Christer Ericson, "Real-Time Collision Detection", 2005, sections 7.3 and 8.
+///
+/// Up to 2^31 items. Memory: at most 132 bytes an item in 3D, 116 in 2D.
 template <int D>
 class Bsp : public BroadPhaseInterface<Bsp<D>, D> {
 public:
     void build(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
     void update(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
 
-    std::size_t size() const { return tree_.items.size(); }
-    /// Of all boxes together; Aabb::empty() where there is none.
+    std::size_t size() const { return size_; }
+    /// The common box of all items; Aabb::empty() without any.
     Aabb<D> bounds() const { return bounds_; }
 
 private:
     friend BroadPhaseInterface<Bsp<D>, D>;
+    struct Entry {
+        Aabb<D> box;
+        std::uint32_t item;
+    };
+    /// A child is an index of a node; 0 stands for none.
+    struct Node {
+        std::uint32_t begin, end;     ///< of the boxes in the subtree
+        std::uint32_t below = 0;      ///< the boxes that end before the plane; 0 in a leaf
+        std::uint32_t above = 0;      ///< the boxes that begin at the plane or behind it
+        std::uint32_t straddles = 0;  ///< the others
+        std::int32_t axis = 0;
+        float plane = 0;
+        float low = 0, high = 0;  ///< the bounds of the straddling boxes on the axis
+    };
+    struct Split {
+        std::int32_t axis = -1;
+        float plane = 0;
+    };
+
+    std::uint32_t build_node(std::uint32_t begin, std::uint32_t end, int depth);
+    Split choose_split(std::uint32_t begin, std::uint32_t end);
+    template <class Visit>
+    bool visit_region(std::uint32_t node, const Aabb<D>& box, const Visit& visit) const;
+    bool visit_pairs_of(std::uint32_t node, PairBuffer& pairs) const;
+    template <class Reach>
+    void visit_within(std::uint32_t node, const Aabb<D>& cell, Reach& reach, ReachCall visit) const;
+
     void visit_pairs(PairsCall visit, Executor* executor) const;
     void visit_pairs(const Bsp& other, PairsCall visit) const;
     void visit_boxes(BoxCall<D> visit) const;
@@ -49,9 +76,11 @@ private:
     void visit_along(const MovingBox<D>& box, ReachCall visit) const;
     void visit_near(const Aabb<D>& box, float reach, ReachCall visit) const;
 
-    BspTree<D> tree_;
+    std::size_t size_ = 0;
+    std::vector<Entry> entries_, scratch_;  ///< the boxes that are not empty, leaf by leaf
+    std::vector<Node> nodes_;
+    std::vector<float> centers_;
     Aabb<D> bounds_ = Aabb<D>::empty();
-    std::size_t replaced_ = 0;  ///< how many have been put in anew since the last build
 };
 
 extern template class Bsp<2>;

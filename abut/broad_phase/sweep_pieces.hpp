@@ -1,7 +1,6 @@
 #pragma once
 
-// What a moving box touches, found by boxes around pieces of its way: for structures that find regions only. For .cpp
-// files.
+// Sweeps a box through a structure that has region queries only, by boxes around pieces of the path. For .cpp files.
 
 #include <abut/broad_phase/reach.hpp>
 #include <abut/broad_phase/visit.hpp>
@@ -11,12 +10,12 @@
 
 namespace abut {
 
-/// The way of a moving box through `bounds`, in pieces of equal length. A long way across is one giant box; in pieces
-/// it is a row of small ones.
+/// The path of a moving box through `bounds`, in pieces of equal length. The box around a long diagonal path is huge;
+/// the boxes around its pieces are small.
 template <int D>
 class WayPieces {
 public:
-    /// About as long as `edge`, or as the box where it is longer; so many at the most.
+    /// A piece is about as long as `edge`, or as the moving box if that is longer. There are at most 64 pieces.
     WayPieces(const MovingBox<D>& moving, const Aabb<D>& bounds, double edge)
         : reach_(RayReach<D>::of_box(moving)), end_(reach_.reach()) {
         if (reach_.is_exhausted() || is_empty(bounds) || !reach_.measure(bounds, begin_)) return;
@@ -32,8 +31,8 @@ public:
         count_ = strides > 1 && std::isfinite(end_) ? static_cast<int>(std::min(strides, most - 1.0)) + 1 : 1;
     }
 
-    /// Calls overlapping(box, told) for each piece, which calls told(index, its box) for all that overlaps, or until
-    /// that returns false. `visit` hears of each item once, in the piece in which the moving box comes to it.
+    /// Calls overlapping(box, report) for each piece, which calls report(item, its box) for all items that overlap the
+    /// box, or until that returns false. Visits each item once, in the piece in which the moving box enters it.
     template <class Overlapping>
     void each(ReachCall visit, const Overlapping& overlapping) {
         for (int piece = 0; piece < count_ && reach_.within(time(piece)); ++piece) {
@@ -56,10 +55,10 @@ private:
     static double at_min(const Aabb<D>& box, int axis) { return static_cast<double>(box.min[axis]); }
     static double at_max(const Aabb<D>& box, int axis) { return static_cast<double>(box.max[axis]); }
 
-    /// The first begins where all does, though the way have no end.
+    /// The first piece begins with the path, even if that is endless.
     double time(int piece) const { return piece == 0 ? begin_ : begin_ + (end_ - begin_) * piece / count_; }
 
-    /// A box around it from one time to another, rounded outwards.
+    /// A box around the moving box from one time to another, rounded outwards.
     Aabb<D> around(double from, double to) const {
         constexpr float infinity = std::numeric_limits<float>::infinity();
         Aabb<D> result;
@@ -67,10 +66,10 @@ private:
             const double speed = reach_.direction()[i];
             const double first = speed == 0 ? 0 : speed * from, last = speed == 0 ? 0 : speed * to;
             const double low = reach_.low()[i] + std::min(first, last), high = reach_.high()[i] + std::max(first, last);
-            // What is added up loses some of the last digits of the largest.
-            const double doubt = 1e-14 * (std::abs(reach_.low()[i]) + std::abs(reach_.high()[i]) + std::abs(first));
-            result.min[i] = std::nextafter(rounded(low - doubt), -infinity);
-            result.max[i] = std::nextafter(rounded(high + doubt), infinity);
+            // The sum has a rounding error in the last digits of the largest term.
+            const double tolerance = 1e-14 * (std::abs(reach_.low()[i]) + std::abs(reach_.high()[i]) + std::abs(first));
+            result.min[i] = std::nextafter(rounded(low - tolerance), -infinity);
+            result.max[i] = std::nextafter(rounded(high + tolerance), infinity);
         }
         return result;
     }

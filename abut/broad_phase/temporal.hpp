@@ -1,10 +1,10 @@
 #pragma once
 
-// A broad phase that doesn't look before anything can have happened: for what is slow against its spacing.
+// A broad phase that tests a pair only once anything can have changed: for items that are slow against their spacing.
 
 #include <abut/broad_phase/bvh.hpp>
 #include <abut/broad_phase/concept.hpp>
-#include <abut/broad_phase/temporal_core.hpp>
+#include <abut/broad_phase/temporal/core.hpp>
 #include <abut/broad_phase/visit.hpp>
 #include <abut/math/aabb.hpp>
 #include <abut/math/executor.hpp>
@@ -20,18 +20,17 @@ namespace abut {
 
 /// The pairs of a scene over time, over any other broad phase. Each item has a top speed: no face of its box moves
 /// farther in a unit of time, turning and growing included. Two boxes a gap g apart cannot touch before g / (v + w),
-/// nor part before that when they overlap by a depth g: until then the pair isn't looked at. Which pairs there are to
-/// look at is searched for by the inner structure, in boxes grown by how far each may go until the next search. Items
-/// of like speed are searched for together, and how often is found by counting.
+/// nor separate before that when they overlap by a depth g: until then the pair is not tested. The inner structure
+/// searches for the pairs, in boxes grown by how far each may move until the next search. Items of like speed are
+/// searched for together, and counts decide how often.
 ///
-/// Exact for as long as the boxes keep to their speeds as they are given to `update`, give or take two ulp of the
-/// coordinate. (A box that is moved by adding up floats rounds in each update: at 1000 from the origin by 3e-5.) One
-/// that doesn't is found when it is next looked at: that trips ABUT_ASSERT in debug builds, and the pairs of the item
-/// are searched for anew.
+/// Exact as long as the boxes given to `update` stay within their speeds, up to two ulp of the coordinate. (A box that
+/// is moved by adding floats rounds in each update: at 1000 from the origin by 3e-5.) A box that is faster is detected
+/// when one of its pairs is next tested: that trips ABUT_ASSERT in debug builds, and its pairs are searched for anew.
 ///
 /// Boxes may be empty or without bound as in any BroadPhase. But an item that comes or goes, loses or gets its bounds,
-/// or is put elsewhere has no speed: `jumped` tells of it. Region, ray and nearest queries are not here: they need all
-/// boxes as they are now, and a Temporal doesn't read those.
+/// or is put elsewhere has no speed: call `jumped` for it. There are no region, ray and nearest queries: they need all
+/// boxes as they are now, and a Temporal does not read those.
 ///
 /// Memory: the inner structures, 36 bytes an item in 3D (28 in 2D), as many as a box for a search, and 12.2 a pair that
 /// is held: 2 to 8 an item, where each overlaps two others. `update` allocates only where more pairs are held than ever

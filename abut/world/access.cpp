@@ -1,4 +1,4 @@
-// What an item was added with: read, and changed afterwards.
+// The options of an item: reading and changing them.
 
 #include <abut/math/assert.hpp>
 #include <abut/world/world.hpp>

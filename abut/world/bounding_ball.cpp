@@ -6,15 +6,15 @@
 namespace abut {
 namespace {
 
-/// Many times more than answers in double are wrong by.
-constexpr double of_size = 1e-4, of_position = 1e-12;
-/// 16 ulp of float: what a user's bounds, supports and parts may disagree by.
-constexpr double of_floats = 2e-6;
+/// Relative margins of the radius and of the position, many times the rounding errors in double.
+constexpr double radius_margin = 1e-4, position_margin = 1e-12;
+/// 16 ulp of float: the allowed disagreement between a user's bounds, supports and parts.
+constexpr double user_margin = 2e-6;
 
 template <int D>
 BoundingBall<D> around(const Aabb<D>& box) {
     const DVec<D> low(box.min), high(box.max);
-    return {(low + high) * 0.5, 0.5 * length(high - low) + of_floats * std::max(largest(low), largest(high))};
+    return {(low + high) * 0.5, 0.5 * length(high - low) + user_margin * std::max(largest(low), largest(high))};
 }
 
 template <int D>
@@ -24,7 +24,7 @@ BoundingBall<D> around_discs(const Convex<D>& convex) {
     return {(a + b) * 0.5, std::sqrt(0.25 * length_squared(b - a) + widest * widest)};
 }
 
-/// Of the core, in its own frame.
+/// The ball of a convex core, in its own frame.
 template <int D>
 BoundingBall<D> core_ball(const Convex<D>& convex) {
     switch (convex.core) {
@@ -50,27 +50,27 @@ BoundingBall<D> core_ball(const DistanceFunction<D>& function) {
     return around(function.bounds);
 }
 
-/// No vector gets longer by more than this: |M v|^2 = v . M^T M v, and no eigenvalue of M^T M is above its largest sum
-/// of a row's absolute values.
+/// An upper bound of |M v| / |v|: |M v|^2 = v . M^T M v, and no eigenvalue of M^T M exceeds its largest row sum of
+/// absolute values.
 template <int D>
-double most_stretch(const Affine<D>& map) {
-    double most = 0;
+double max_stretch(const Affine<D>& map) {
+    double max_sum = 0;
     for (const DVec<D>& row : map.column) {
         double sum = 0;
         for (const DVec<D>& column : map.column) sum += std::abs(dot(row, column));
-        most = std::max(most, sum);
+        max_sum = std::max(max_sum, sum);
     }
-    return std::sqrt(most);
+    return std::sqrt(max_sum);
 }
 
 template <int D, class Shape>
 BoundingBall<D> placed_ball(const Shape& shape) {
     const Placement<D>& placement = shape;
     const BoundingBall<D> core = core_ball(shape);
-    const double stretch = most_stretch(placement.place);
+    const double stretch = max_stretch(placement.place);
     const double radius = (core.radius + placement.inner_radius) * stretch + placement.radius;
     const double reach = largest(core.center) * stretch + largest(placement.place.offset);
-    return {placement.place.point(core.center), radius * (1 + of_size) + reach * of_position};
+    return {placement.place.point(core.center), radius * (1 + radius_margin) + reach * position_margin};
 }
 
 }  // namespace
@@ -86,7 +86,7 @@ BoundingBall<D> bounding_ball(const View<D>& view) {
     return {DVec<D>(0.0), std::numeric_limits<double>::infinity()};
 }
 
-/// Farther by what the center is rounded, and rounded up.
+/// The radius grows by the rounding error of the centre, and is rounded up.
 template <int D>
 SmallBall<D> SmallBall<D>::around(const BoundingBall<D>& ball) {
     SmallBall<D> result{to_float(ball.center), 0};
@@ -101,7 +101,7 @@ SmallBall<D> SmallBall<D>::around(const BoundingBall<D>& ball) {
 template <int D>
 BoundingBall<D> moved(const BoundingBall<D>& ball, const Affine<D>& pose) {
     const double reach = largest(ball.center) + largest(pose.offset);
-    return {pose.point(ball.center), ball.radius + 2 * reach * of_position};
+    return {pose.point(ball.center), ball.radius + 2 * reach * position_margin};
 }
 
 template <int D>

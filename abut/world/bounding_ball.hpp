@@ -1,18 +1,18 @@
 #pragma once
 
-// Balls around shapes: where two balls are apart, so are the shapes in them.
+// Bounding balls of shapes: shapes are apart if their balls are.
 
 #include <abut/convex/bounding_ball.hpp>
 #include <abut/shape/view/view.hpp>
 
 namespace abut {
 
-/// Holds a shape, with room for rounding; the radius is infinite or NaN where there is no such ball. About the middle
-/// of a convex core's box; of a composite shape or a user's own, the one around its box.
+/// A ball that contains a shape, with a margin for rounding. The radius is infinite or NaN if no such ball exists. The
+/// ball of a composite shape, or of one with a user's support function, contains its AABB.
 template <int D>
 BoundingBall<D> bounding_ball(const View<D>& view);
 
-/// A ball in floats that holds another one; infinite where that is.
+/// A ball in floats that contains a ball in doubles; infinite if that is.
 template <int D>
 struct SmallBall {
     Vec<D> center{};
@@ -22,11 +22,11 @@ struct SmallBall {
     BoundingBall<D> ball() const { return {DVec<D>(center), static_cast<double>(radius)}; }
 };
 
-/// The same ball for the shape moved and turned by `pose`.
+/// The ball of a shape that `pose` translates and rotates, from the ball of the shape in its own frame.
 template <int D>
 BoundingBall<D> moved(const BoundingBall<D>& ball, const Affine<D>& pose);
 
-/// True only where the shapes in the balls are apart, by more than an answer about them can be wrong by.
+/// Whether the balls are apart. The shapes in them are then apart by more than the error of any query.
 template <int D>
 bool apart(const BoundingBall<D>& a, const BoundingBall<D>& b);
 

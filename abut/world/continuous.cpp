@@ -1,5 +1,5 @@
-// What continuous items meet between two updates: the broad phases get boxes around the ways of all that have moved,
-// and the pairs that come near are swept.
+// Continuous collision detection between two updates: the broad phases get the swept AABBs of all moved items, and the
+// near pairs are swept.
 
 #include <abut/broad_phase/boxes.hpp>
 #include <abut/query/sweep.hpp>
@@ -10,62 +10,62 @@
 
 namespace abut {
 
-/// Has a box, then as now.
+/// Whether the item moved and has a box at both ends of its motion.
 template <int D>
-bool World<D>::has_way(std::uint32_t slot) const {
-    const std::uint32_t course = items_[slot].course;
-    return course != no_way && !ways_.empty() && !is_empty(ways_[course].box);
+bool World<D>::has_swept_box(std::uint32_t slot) const {
+    const std::uint32_t previous = items_[slot].previous;
+    return previous != none && !swept_boxes_.empty() && !is_empty(swept_boxes_[previous].box);
 }
 
 template <int D>
 void World<D>::widen_boxes() {
     widened_ = false;
     if (continuous_ == 0) return;
-    ways_.assign(courses_.size(), Way<D>());
+    swept_boxes_.assign(previous_poses_.size(), SweptBox<D>());
     for (const std::uint32_t slot : pending_) {
         const Item& item = items_[slot];
-        if (item.course == no_way || is_empty(box(slot))) continue;
-        const Pose<D>& from = courses_[item.course];
+        if (item.previous == none || is_empty(box(slot))) continue;
+        const Pose<D>& from = previous_poses_[item.previous];
         const Aabb<D> first = box_at(item, from);
         if (is_empty(first)) continue;
-        Way<D>& way = ways_[item.course];
-        way = turning_way(item.own_ball.ball(), first, Motion<D>::between(from, item.pose));
-        boxes_of(item).widen(item.place, merged(bounds(way), box(slot)));
+        SweptBox<D>& path = swept_boxes_[item.previous];
+        path = swept_box(item.local_ball.ball(), first, Motion<D>::between(from, item.pose));
+        boxes_of(item).widen(item.place, merged(bounds(path), box(slot)));
         widened_ = true;
     }
 }
 
 template <int D>
-Way<D> World<D>::way_of(std::uint32_t slot) const {
-    return has_way(slot) ? ways_[items_[slot].course] : straight_way(box(slot), Vec<D>(0.0f));
+SweptBox<D> World<D>::swept_box_of(std::uint32_t slot) const {
+    return has_swept_box(slot) ? swept_boxes_[items_[slot].previous] : swept_box(box(slot), Vec<D>(0.0f));
 }
 
-/// Of two items whose boxes in the broad phases overlap: whether those do that they have now, or, of a continuous one,
-/// had on the way.
+/// Whether the present AABBs of two items overlap, or their swept boxes if one is continuous. Their boxes in the broad
+/// phases overlap.
 template <int D>
-bool World<D>::come_near(std::uint32_t slot, std::uint32_t other) const {
+bool World<D>::may_touch(std::uint32_t slot, std::uint32_t other) const {
     const Item &a = items_[slot], &b = items_[other];
     if (overlaps(box(slot), box(other))) return true;
     if (!a.continuous && !b.continuous) return false;
-    return (has_way(slot) || has_way(other)) && may_meet(way_of(slot), way_of(other));
+    return (has_swept_box(slot) || has_swept_box(other)) && may_overlap(swept_box_of(slot), swept_box_of(other));
 }
 
-/// Keeps the pair if it has met since the last update, at which it didn't touch.
+/// Adds the impact of a pair since the last update, unless the pair touched at that update.
 template <int D>
-void World<D>::look_between(const IdPair& pair, bool touch) {
+void World<D>::test_motion(const IdPair& pair, bool touch) {
     const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
-    if (!has_way(a) && !has_way(b)) return;
-    if (std::binary_search(touched_.begin(), touched_.end(), pair)) return;
+    if (!has_swept_box(a) && !has_swept_box(b)) return;
+    if (std::binary_search(last_touching_.begin(), last_touching_.end(), pair)) return;
     const std::optional<Hit<D>> hit = sweep_pair(a, b);
     if (!hit) return;
-    met_.push_back({pair.a, pair.b, *hit});
+    impacts_.push_back({pair.a, pair.b, *hit});
     if (!touch) passed_.push_back(pair);
 }
 
 template <int D>
 std::optional<Hit<D>> World<D>::sweep_pair(std::uint32_t slot, std::uint32_t other) const {
-    const auto from = [this](std::uint32_t each) -> const Pose<D>& {
-        return has_way(each) ? courses_[items_[each].course] : items_[each].pose;
+    const auto from = [this](std::uint32_t item) -> const Pose<D>& {
+        return has_swept_box(item) ? previous_poses_[items_[item].previous] : items_[item].pose;
     };
     const Item &a = items_[slot], &b = items_[other];
     const Pose<D>&from_a = from(slot), &from_b = from(other), &to_a = a.pose, &to_b = b.pose;
@@ -76,14 +76,14 @@ std::optional<Hit<D>> World<D>::sweep_pair(std::uint32_t slot, std::uint32_t oth
     return abut::sweep(own_a, from_a, to_a, own_b, from_b, to_b);
 }
 
-/// Both lists are sorted.
+/// Writes the fractions of began_. began_ and impacts_ are both sorted.
 template <int D>
-void World<D>::tell_fractions() {
+void World<D>::set_fractions() {
     fractions_.assign(began_.size(), 1.0f);
-    auto met = met_.begin();
-    for (std::size_t i = 0; i < began_.size() && met != met_.end(); ++i) {
-        while (met != met_.end() && IdPair{met->a, met->b} < began_[i]) ++met;
-        if (met != met_.end() && IdPair{met->a, met->b} == began_[i]) fractions_[i] = met->hit.fraction;
+    auto impact = impacts_.begin();
+    for (std::size_t i = 0; i < began_.size() && impact != impacts_.end(); ++i) {
+        while (impact != impacts_.end() && IdPair{impact->a, impact->b} < began_[i]) ++impact;
+        if (impact != impacts_.end() && IdPair{impact->a, impact->b} == began_[i]) fractions_[i] = impact->hit.fraction;
     }
 }
 

@@ -1,21 +1,22 @@
 #pragma once
 
-// The name of an item in a world, and of a pair of them.
+// The identifiers of a world's items, and of pairs of items.
 
 #include <compare>
 #include <cstdint>
 
 namespace abut {
 
-/// A value; the default one names nothing. The name of a removed item is never given to another.
+/// Identifies an item. The default value is null. No other item gets the id of a removed one.
 struct Id {
-    std::uint32_t index = 0;       ///< from 1; small numbers, for arrays of the user's
-    std::uint32_t generation = 0;  ///< tells the items apart that had this index one after the other
+    std::uint32_t index = 0;       ///< starts at 1 and stays small, so that users can index arrays with it
+    std::uint32_t generation = 0;  ///< distinguishes the items that use this index one after another
 
     explicit operator bool() const { return index != 0; }
     friend auto operator<=>(const Id&, const Id&) = default;
 };
 
+/// Identifies a pair of items.
 struct IdPair {
     Id a, b;  ///< a < b
 

@@ -8,16 +8,16 @@
 namespace abut {
 namespace {
 
-/// So many boxes are tested one by one.
-constexpr std::size_t few = 16;
-/// Where one in so many has changed, to refit all takes no longer than to set these.
-constexpr std::size_t one_in = 8;
+/// The number of stale boxes up to which queries test them one by one.
+constexpr std::size_t max_stale = 16;
+/// If more than this fraction of the boxes is stale (1 / 8), a refit costs no more than setting them one by one.
+constexpr std::size_t refit_divisor = 8;
 
 }  // namespace
 
 template <int D>
-ItemBoxes<D>::ItemBoxes(std::optional<BroadPhaseKind> always)
-    : phase_(always ? ChosenBroadPhase<D>(*always) : ChosenBroadPhase<D>()) {}
+ItemBoxes<D>::ItemBoxes(std::optional<BroadPhaseKind> kind)
+    : phase_(kind ? ChosenBroadPhase<D>(*kind) : ChosenBroadPhase<D>()) {}
 
 template <int D>
 std::uint32_t ItemBoxes<D>::add(std::uint32_t slot) {
@@ -28,11 +28,11 @@ std::uint32_t ItemBoxes<D>::add(std::uint32_t slot) {
         boxes_.push_back(Aabb<D>::empty());
         slots_.push_back(slot);
         is_stale_.push_back(false);
-        // Twice as many may want another kind.
+        // Another kind of broad phase may suit twice as many boxes.
         if (boxes_.size() > 2 * planned_) {
             planned_ = boxes_.size();
             phase_.build(boxes_);
-            settle();
+            mark_current();
         } else if (phase_.size() + 1 == boxes_.size()) {
             phase_.grow();
         }
@@ -49,24 +49,24 @@ void ItemBoxes<D>::set(std::uint32_t place, const Aabb<D>& box) {
     if (box == boxes_[place]) return;
     boxes_[place] = box;
     ++changed_;
-    mark(place);
+    mark_stale(place);
 }
 
 template <int D>
-void ItemBoxes<D>::mark(std::uint32_t place) {
+void ItemBoxes<D>::mark_stale(std::uint32_t place) {
     if (is_stale_[place] != 0) return;
     is_stale_[place] = true;
     reserve_one_more(stale_);
     stale_.push_back(place);
-    if (stale_.size() > few) work_.put_off();
+    if (stale_.size() > max_stale) pending_work_.defer();
 }
 
-/// The broad phase has all boxes as they are.
+/// Records that the broad phase holds the present boxes.
 template <int D>
-void ItemBoxes<D>::settle() {
+void ItemBoxes<D>::mark_current() {
     for (const std::uint32_t place : stale_) is_stale_[place] = false;
     stale_.clear();
-    work_.cancel();
+    pending_work_.cancel();
 }
 
 template <int D>
@@ -82,9 +82,9 @@ void ItemBoxes<D>::remove(std::uint32_t place) {
 }
 
 template <int D>
-void ItemBoxes<D>::refresh(double asked) {
+void ItemBoxes<D>::refresh(double queries) {
     const double moved = static_cast<double>(changed_) / static_cast<double>(std::max<std::size_t>(size(), 1));
-    phase_.set_history({.moved = std::min(moved, 1.0), .queries = asked});
+    phase_.set_history({.moved = std::min(moved, 1.0), .queries = queries});
     is_wide_ = !wide_.empty();
     const std::span<const Aabb<D>> boxes = is_wide_ ? wide_ : boxes_;
     if (refreshed_ == boxes.size())
@@ -94,18 +94,17 @@ void ItemBoxes<D>::refresh(double asked) {
     wide_.clear();
     changed_ = 0;
     refreshed_ = planned_ = boxes_.size();
-    settle();
+    mark_current();
 }
 
 template <int D>
 void ItemBoxes<D>::prepare() const {
-    work_.run([this] {
-        // A structure that cannot grow, which no world chooses by itself.
+    pending_work_.run([this] {
+        // Only a structure that cannot grow has fewer boxes; a world never chooses one by itself.
         if (phase_.size() != boxes_.size()) phase_.build(boxes_);
-        bool found_room = stale_.size() * one_in <= boxes_.size() + few * one_in;
-        for (std::size_t i = 0; i < stale_.size() && found_room; ++i)
-            found_room = phase_.set(stale_[i], boxes_[stale_[i]]);
-        if (!found_room) phase_.refit(boxes_);
+        bool is_set = stale_.size() * refit_divisor <= boxes_.size() + max_stale * refit_divisor;
+        for (std::size_t i = 0; i < stale_.size() && is_set; ++i) is_set = phase_.set(stale_[i], boxes_[stale_[i]]);
+        if (!is_set) phase_.refit(boxes_);
         for (const std::uint32_t place : stale_) is_stale_[place] = false;
         stale_.clear();
     });
@@ -119,25 +118,25 @@ void ItemBoxes<D>::each_overlapping(const Aabb<D>& box, ItemCall visit) const {
     phase_.each_overlapping(box, [&](std::uint32_t place) { return is_stale_[place] != 0 || visit(slots_[place]); });
 }
 
-/// `search(visit, reach)` is that of the broad phase.
+/// Visits the stale places within reach, and then the others by the broad phase's `search(visit, reach)`.
 template <int D>
 template <class Reach, class Search>
-void ItemBoxes<D>::each_within(Reach reach, ReachCall visit, const Search& search) const {
+void ItemBoxes<D>::each_within_reach(Reach reach, ReachCall visit, const Search& search) const {
     prepare();
     float rest = std::numeric_limits<float>::infinity();
-    const auto look_at = [&](std::uint32_t place) -> float { return rest = std::min(rest, visit(slots_[place])); };
+    const auto visit_slot = [&](std::uint32_t place) -> float { return rest = std::min(rest, visit(slots_[place])); };
     for (std::size_t i = 0; i < stale_.size() && !reach.is_exhausted(); ++i) {
         double measure = 0;
         const Aabb<D>& box = boxes_[stale_[i]];
-        if (!is_empty(box) && reach.measure(box, measure)) reach.shrink(look_at(stale_[i]));
+        if (!is_empty(box) && reach.measure(box, measure)) reach.shrink(visit_slot(stale_[i]));
     }
     if (reach.is_exhausted()) return;
-    search([&](std::uint32_t place) -> float { return is_stale_[place] != 0 ? rest : look_at(place); }, rest);
+    search([&](std::uint32_t place) -> float { return is_stale_[place] != 0 ? rest : visit_slot(place); }, rest);
 }
 
 template <int D>
 void ItemBoxes<D>::raycast(const Ray<D>& ray, ReachCall visit) const {
-    each_within(RayReach<D>(ray), visit, [&](auto visit_place, float reach) {
+    each_within_reach(RayReach<D>(ray), visit, [&](auto visit_place, float reach) {
         Ray<D> rest = ray;
         rest.length = std::min(rest.length, reach);
         phase_.raycast(rest, visit_place);
@@ -146,7 +145,7 @@ void ItemBoxes<D>::raycast(const Ray<D>& ray, ReachCall visit) const {
 
 template <int D>
 void ItemBoxes<D>::sweep(const MovingBox<D>& box, ReachCall visit) const {
-    each_within(RayReach<D>::of_box(box), visit, [&](auto visit_place, float reach) {
+    each_within_reach(RayReach<D>::of_box(box), visit, [&](auto visit_place, float reach) {
         MovingBox<D> rest = box;
         rest.length = std::min(rest.length, static_cast<double>(reach));
         phase_.sweep(rest, visit_place);
@@ -154,9 +153,10 @@ void ItemBoxes<D>::sweep(const MovingBox<D>& box, ReachCall visit) const {
 }
 
 template <int D>
-void ItemBoxes<D>::closest(const Aabb<D>& box, ReachCall visit, float most) const {
-    each_within(BoxReach<D>(box, most), visit,
-                [&](auto visit_place, float reach) { phase_.closest(box, visit_place, std::min(most, reach)); });
+void ItemBoxes<D>::closest(const Aabb<D>& box, ReachCall visit, float max_distance) const {
+    each_within_reach(BoxReach<D>(box, max_distance), visit, [&](auto visit_place, float reach) {
+        phase_.closest(box, visit_place, std::min(max_distance, reach));
+    });
 }
 
 template class ItemBoxes<2>;

@@ -1,4 +1,4 @@
-// The nearest items of a world, found nearest first by the broad phases.
+// Queries for the nearest items of a world. The broad phases visit the items front to back.
 
 #include <abut/broad_phase/boxes.hpp>
 #include <abut/math/assert.hpp>
@@ -9,7 +9,7 @@
 namespace abut {
 namespace {
 
-/// No two items are equally near.
+/// A strict total order: by distance, then by id.
 template <int D>
 bool is_nearer(const WorldClosest<D>& a, const WorldClosest<D>& b) {
     return a.closest.distance != b.closest.distance ? a.closest.distance < b.closest.distance : a.id < b.id;
@@ -22,14 +22,14 @@ std::size_t World<D>::nearest_to(const View<D>& shape, std::span<WorldClosest<D>
     const bool finite = is_finite(shape);
     ABUT_ASSERT(finite);
     if (!finite || out.empty()) return 0;
-    asked_.add(ray_weight);
-    // A heap: the farthest comes first.
+    query_count_.add(ray_weight);
+    // `out` is a heap with the farthest item at its front.
     std::size_t count = 0;
     const auto heap = [&] { return out.first(count); };
     float reach = std::numeric_limits<float>::infinity();
-    const auto any = [&](std::uint32_t slot) -> float {
+    const auto visit = [&](std::uint32_t slot) -> float {
         const Item& item = items_[slot];
-        if (!asked(slot, filter) ||
+        if (!passes(slot, filter) ||
             (std::holds_alternative<HalfSpaceView<D>>(shape) && item.type == ShapeType::half_space))
             return reach;
         const WorldClosest<D> found{id_of(slot), abut::closest(shape, placed(item))};
@@ -45,8 +45,8 @@ std::size_t World<D>::nearest_to(const View<D>& shape, std::span<WorldClosest<D>
         return reach;
     };
     const Aabb<D> box = bounds(shape);
-    moving_.closest(box, any, reach);
-    fixed_.closest(box, any, reach);
+    moving_.closest(box, visit, reach);
+    fixed_.closest(box, visit, reach);
     std::sort_heap(heap().begin(), heap().end(), is_nearer<D>);
     return count;
 }

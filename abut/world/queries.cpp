@@ -1,4 +1,4 @@
-// Questions to a world.
+// Ray, overlap and region queries of a world.
 
 #include <abut/broad_phase/boxes.hpp>
 #include <abut/math/assert.hpp>
@@ -11,15 +11,15 @@
 namespace abut {
 namespace {
 
-/// Told once here, and not by every item that is looked at.
+/// Checks the query's input once, before the items are visited.
 template <int D>
-bool can_be_asked(const View<D>& shape) {
+bool is_valid_query(const View<D>& shape) {
     const bool finite = is_finite(shape);
     ABUT_ASSERT(finite);
     return finite;
 }
 template <int D>
-bool can_be_asked(const Ray<D>& ray) {
+bool is_valid_query(const Ray<D>& ray) {
     const bool finite = is_finite(ray.origin) && is_finite(ray.direction) && !std::isnan(ray.length);
     ABUT_ASSERT(finite);
     return finite;
@@ -28,7 +28,7 @@ bool can_be_asked(const Ray<D>& ray) {
 }  // namespace
 
 template <int D>
-bool World<D>::asked(std::uint32_t slot, const Filter& filter) const {
+bool World<D>::passes(std::uint32_t slot, const Filter& filter) const {
     const Item& item = items_[slot];
     if (is_empty(box(slot)) || (item.sensor && !filter.sensors)) return false;
     if ((filter.layers & item.mask) == 0 || (item.layers & filter.mask) == 0) return false;
@@ -37,33 +37,33 @@ bool World<D>::asked(std::uint32_t slot, const Filter& filter) const {
     return id != filter.ignore && std::find(ignored.begin(), ignored.end(), id) == ignored.end();
 }
 
-/// visit(slot) for the items whose boxes overlap; it returns false to stop.
+/// Calls visit(slot) for the items whose AABBs overlap a box; it returns false to stop.
 template <int D>
 template <class F>
 void World<D>::each_near(const Aabb<D>& box, const Filter& filter, F&& visit) const {
-    asked_.add(region_weight);
+    query_count_.add(region_weight);
     bool go_on = true;
-    const auto any = [&](std::uint32_t slot) -> bool {
-        if (asked(slot, filter)) go_on = visit(slot);
+    const auto visit_passing = [&](std::uint32_t slot) -> bool {
+        if (passes(slot, filter)) go_on = visit(slot);
         return go_on;
     };
-    moving_.each_overlapping(box, any);
-    if (go_on) fixed_.each_overlapping(box, any);
+    moving_.each_overlapping(box, visit_passing);
+    if (go_on) fixed_.each_overlapping(box, visit_passing);
 }
 
-/// visit(slot) for the items whose boxes the ray touches; it returns the new reach.
+/// Calls visit(slot) for the items whose AABBs the ray hits; it returns the new reach.
 template <int D>
 template <class F>
 void World<D>::each_near_ray(const Ray<D>& ray, const Filter& filter, F&& visit) const {
-    if (!can_be_asked(ray)) return;
-    asked_.add(ray_weight);
+    if (!is_valid_query(ray)) return;
+    query_count_.add(ray_weight);
     Ray<D> rest = ray;
-    const auto any = [&](std::uint32_t slot) -> float {
-        if (asked(slot, filter)) rest.length = std::min(rest.length, static_cast<float>(visit(slot)));
+    const auto visit_passing = [&](std::uint32_t slot) -> float {
+        if (passes(slot, filter)) rest.length = std::min(rest.length, static_cast<float>(visit(slot)));
         return rest.length;
     };
-    moving_.raycast(rest, any);
-    fixed_.raycast(rest, any);
+    moving_.raycast(rest, visit_passing);
+    fixed_.raycast(rest, visit_passing);
 }
 
 template <int D>
@@ -106,7 +106,7 @@ std::vector<WorldHit<D>> World<D>::all_hits(const Ray<D>& ray, const Filter& fil
 
 template <int D>
 void World<D>::visit_overlapping(const View<D>& shape, const Filter& filter, FunctionRef<bool(Id)> visit) const {
-    if (!can_be_asked(shape)) return;
+    if (!is_valid_query(shape)) return;
     each_near(bounds(shape), filter, [&](std::uint32_t slot) {
         const Item& item = items_[slot];
         if (std::holds_alternative<HalfSpaceView<D>>(shape) && item.type == ShapeType::half_space) return true;
@@ -134,7 +134,7 @@ std::vector<Id> World<D>::all_overlapping(const View<D>& shape, const Filter& fi
 template <int D>
 std::vector<Id> World<D>::all_containing(const Vec<D>& point, const Filter& filter) const {
     std::vector<Id> result;
-    if (!can_be_asked(point_view(point))) return result;
+    if (!is_valid_query(point_view(point))) return result;
     each_near(Aabb<D>{point, point}, filter, [&](std::uint32_t slot) {
         if (abut::contains(placed(items_[slot]), point)) result.push_back(id_of(slot));
         return true;

@@ -1,4 +1,4 @@
-// Sweeps through a world: what the box around the mover comes to, in the order in which it does.
+// Sweeps through a world: the broad phases visit the items in the order in which the mover's box reaches them.
 
 #include <abut/broad_phase/boxes.hpp>
 #include <abut/broad_phase/reach.hpp>
@@ -25,39 +25,39 @@ bool is_finite(float number) {
     return std::isfinite(number);
 }
 
-bool can_be_asked(bool finite) {
+bool is_valid_query(bool finite) {
     ABUT_ASSERT(finite);
     return finite;
 }
 
 template <int D>
-Way<D> way_of_shape(const View<D>& shape, const Motion<D>& motion) {
-    return turning_way(bounding_ball(shape), bounds(moved(shape, affine(motion.from))), motion);
+SweptBox<D> swept_box_of_shape(const View<D>& shape, const Motion<D>& motion) {
+    return swept_box(bounding_ball(shape), bounds(moved(shape, affine(motion.from))), motion);
 }
 
 template <int D>
-MoverAtHit<D> arrival_of(const View<D>& shape, const RigidPath<D>& path, const Hit<D>& hit) {
+MoverAtHit<D> mover_of(const View<D>& shape, const RigidPath<D>& path, const Hit<D>& hit) {
     return rotating_mover_at_hit(shape, path, static_cast<double>(hit.fraction), DVec<D>(hit.point));
 }
 
 }  // namespace
 
-/// The first hit on the way, of which `sweep_at(item)` tells the one on an item.
+/// The first hit on a path; `sweep_at(item)` returns the hit on one item.
 template <int D>
 template <class F>
-std::optional<WorldHit<D>> World<D>::first_on_way(const View<D>& shape, const Way<D>& way, const Filter& filter,
-                                                  F&& sweep_at) const {
+std::optional<WorldHit<D>> World<D>::first_on_path(const View<D>& shape, const SweptBox<D>& path, const Filter& filter,
+                                                   F&& sweep_at) const {
     std::optional<WorldHit<D>> first;
-    if (is_empty(way.box)) return first;
-    asked_.add(ray_weight);
-    const MovingBox<D> moving = moving_box(way);
-    // Whatever a broad phase lets in by rounding is refused here: what is asked doesn't depend on which it is.
+    if (is_empty(path.box)) return first;
+    query_count_.add(ray_weight);
+    const MovingBox<D> moving = moving_box(path);
+    // This test rejects the items that a broad phase visits by rounding, so that no kind of broad phase tests more.
     const RayReach<D> whole = RayReach<D>::of_box(moving);
     float reach = 1;
-    const auto any = [&](std::uint32_t slot) -> float {
+    const auto visit = [&](std::uint32_t slot) -> float {
         const Item& item = items_[slot];
         double enters = 0;
-        if (!asked(slot, filter) || (!whole.is_exhausted() && !whole.measure(box(slot), enters))) return reach;
+        if (!passes(slot, filter) || (!whole.is_exhausted() && !whole.measure(box(slot), enters))) return reach;
         if (std::holds_alternative<HalfSpaceView<D>>(shape) && item.type == ShapeType::half_space) return reach;
         const std::optional<Hit<D>> hit = sweep_at(item);
         if (!hit || hit->fraction > reach) return reach;
@@ -67,67 +67,68 @@ std::optional<WorldHit<D>> World<D>::first_on_way(const View<D>& shape, const Wa
     };
     for (const ItemBoxes<D>* items : {&moving_, &fixed_}) {
         if (whole.is_exhausted()) {
-            // It has no bounds, such as a half-space.
+            // The path is unbounded, such as that of a half-space.
             constexpr float far = std::numeric_limits<float>::infinity();
             items->each_overlapping(Aabb<D>{Vec<D>(-far), Vec<D>(far)}, [&](std::uint32_t slot) {
-                any(slot);
+                visit(slot);
                 return true;
             });
         } else {
-            items->sweep(moving, any);
+            items->sweep(moving, visit);
         }
     }
     return first;
 }
 
-/// Of all that is there, seams between items are as little felt as those inside one.
+/// Replaces the hit's normal by a surface normal of the union of all items, without internal edges (docs/ghosts.md).
 template <int D>
-void World<D>::feel(const MoverAtHit<D>& mover, const Filter& filter, WorldHit<D>& hit) const {
-    const auto feet = [&](const DVec<D>& from, double within, ClosestPointVisitor<D> visit) {
+void World<D>::filter_normal(const MoverAtHit<D>& mover, const Filter& filter, WorldHit<D>& hit) const {
+    const auto closest_points = [&](const DVec<D>& from, double within, ClosestPointVisitor<D> visit) {
         const Vec<D> point = to_float(from);
         visit_in_box(grown(Aabb<D>{point, point}, static_cast<float>(within)), filter, [&](Id, const View<D>& item) {
             each_closest_point_on<D>(item, from, within,
-                                     [&](const ClosestPoint<D>& foot) { return within = visit(foot); });
+                                     [&](const ClosestPoint<D>& closest) { return within = visit(closest); });
             return within > stop_visiting;
         });
     };
-    filter_hit_normal<D>(mover, shape(hit.id), feet, hit.hit);
+    filter_hit_normal<D>(mover, shape(hit.id), closest_points, hit.hit);
 }
 
 template <int D>
-std::optional<WorldHit<D>> World<D>::sweep_straight(const View<D>& shape, const Vec<D>& motion,
-                                                    const Filter& filter) const {
-    if (!can_be_asked(is_finite(shape) && is_finite(motion))) return std::nullopt;
+std::optional<WorldHit<D>> World<D>::sweep_linear(const View<D>& shape, const Vec<D>& motion,
+                                                  const Filter& filter) const {
+    if (!is_valid_query(is_finite(shape) && is_finite(motion))) return std::nullopt;
     std::optional<WorldHit<D>> first =
-        first_on_way(shape, straight_way(bounds(shape), motion), filter,
-                     [&](const Item& item) { return abut::sweep(shape, motion, placed(item), Vec<D>(0.0f)); });
+        first_on_path(shape, swept_box(bounds(shape), motion), filter,
+                      [&](const Item& item) { return abut::sweep(shape, motion, placed(item), Vec<D>(0.0f)); });
     if (first)
-        feel(linear_mover_at_hit<D>(shape, DVec<D>(motion) * static_cast<double>(first->hit.fraction)), filter, *first);
+        filter_normal(linear_mover_at_hit<D>(shape, DVec<D>(motion) * static_cast<double>(first->hit.fraction)), filter,
+                      *first);
     return first;
 }
 
 template <int D>
-std::optional<WorldHit<D>> World<D>::sweep_turning(const View<D>& shape, const Motion<D>& motion,
-                                                   const Filter& filter) const {
+std::optional<WorldHit<D>> World<D>::sweep_rotating(const View<D>& shape, const Motion<D>& motion,
+                                                    const Filter& filter) const {
     const bool finite = is_finite(motion.from) && is_finite(motion.move) && is_finite(motion.turn);
-    if (!can_be_asked(is_finite(shape) && finite)) return std::nullopt;
-    std::optional<WorldHit<D>> first = first_on_way(shape, way_of_shape(shape, motion), filter, [&](const Item& item) {
-        return abut::sweep(shape, motion, item.stored.view(), Motion<D>{.from = item.pose});
-    });
-    if (first) feel(arrival_of(shape, rigid_path(motion), first->hit), filter, *first);
+    if (!is_valid_query(is_finite(shape) && finite)) return std::nullopt;
+    std::optional<WorldHit<D>> first = first_on_path(
+        shape, swept_box_of_shape(shape, motion), filter,
+        [&](const Item& item) { return abut::sweep(shape, motion, item.stored.view(), Motion<D>{.from = item.pose}); });
+    if (first) filter_normal(mover_of(shape, rigid_path(motion), first->hit), filter, *first);
     return first;
 }
 
 template <int D>
 std::optional<WorldHit<D>> World<D>::sweep_between(const View<D>& shape, const Pose<D>& from, const Pose<D>& to,
                                                    const Filter& filter) const {
-    if (!can_be_asked(is_finite(shape) && is_finite(from) && is_finite(to))) return std::nullopt;
+    if (!is_valid_query(is_finite(shape) && is_finite(from) && is_finite(to))) return std::nullopt;
     std::optional<WorldHit<D>> first =
-        first_on_way(shape, way_of_shape(shape, Motion<D>::between(from, to)), filter, [&](const Item& item) {
+        first_on_path(shape, swept_box_of_shape(shape, Motion<D>::between(from, to)), filter, [&](const Item& item) {
             const Pose<D>& there = item.pose;
             return abut::sweep(shape, from, to, item.stored.view(), there, there);
         });
-    if (first) feel(arrival_of(shape, rigid_path(from, to), first->hit), filter, *first);
+    if (first) filter_normal(mover_of(shape, rigid_path(from, to), first->hit), filter, *first);
     return first;
 }
 

@@ -1,4 +1,4 @@
-// Pairs as the last update found them: who touches an item, with what contact, and how two met.
+// Pairs of the last update: the items that touch an item, and the contact and impact of a pair.
 
 #include <abut/math/assert.hpp>
 #include <abut/world/world.hpp>
@@ -8,7 +8,7 @@
 namespace abut {
 namespace {
 
-/// Of a list sorted by pairs, the entry of one pair; or null.
+/// The entry of a pair in a list sorted by pairs; null if there is none.
 template <class Entry>
 const Entry* entry_of(const std::vector<Entry>& list, const IdPair& pair) {
     const IdPair wanted{std::min(pair.a, pair.b), std::max(pair.a, pair.b)};
@@ -22,9 +22,9 @@ const Entry* entry_of(const std::vector<Entry>& list, const IdPair& pair) {
 
 template <int D>
 void World<D>::visit_touching(Id id, FunctionRef<bool(Id)> visit) const {
-    const bool named = contains(id);
-    ABUT_ASSERT(named);
-    if (named) touching_index_.visit(touching_, id, [&](Id other) { return !contains(other) || visit(other); });
+    const bool is_valid = contains(id);
+    ABUT_ASSERT(is_valid);
+    if (is_valid) pair_index_.visit(touching_, id, [&](Id other) { return !contains(other) || visit(other); });
 }
 
 template <int D>
@@ -45,7 +45,7 @@ Contact<D> World<D>::contact(const IdPair& pair) const {
 
 template <int D>
 std::optional<Hit<D>> World<D>::impact(const IdPair& pair) const {
-    const WorldImpact<D>* found = entry_of(met_, pair);
+    const WorldImpact<D>* found = entry_of(impacts_, pair);
     return found != nullptr ? std::optional(found->hit) : std::nullopt;
 }
 

@@ -1,4 +1,4 @@
-// From moved items to events: boxes, near pairs, contacts, and what is new about them.
+// The update: boxes, near pairs, contacts and events.
 
 #include <abut/query/overlaps.hpp>
 #include <abut/world/world.hpp>
@@ -9,63 +9,64 @@ namespace abut {
 
 template <int D>
 void World<D>::refresh_boxes() {
-    // A game that asks in every other update, or in every tenth, asks about as often all the time: the mean of many. So
-    // many questions are counted that it may ask all of a few updates' in one.
-    constexpr double remembered = 16;
-    const auto counted = static_cast<std::uint32_t>(ray_weight * (moving_.size() + 64));
-    const double asked = static_cast<double>(asked_.take(counted)) / ray_weight;
-    often_asked_ += (asked / static_cast<double>(std::max<std::size_t>(moving_.size(), 1)) - often_asked_) / remembered;
-    moving_.refresh(often_asked_);
-    // What is fixed changes seldom, and each item that moves asks it once an update.
+    // The running mean over 16 updates serves a game that sends its queries in every second or every tenth update. The
+    // limit is high enough to count the queries of several updates in one.
+    constexpr double averaged_updates = 16;
+    const auto limit = static_cast<std::uint32_t>(ray_weight * (moving_.size() + 64));
+    const double queries = static_cast<double>(query_count_.take(limit)) / ray_weight;
+    queries_per_item_ += (queries / static_cast<double>(std::max<std::size_t>(moving_.size(), 1)) - queries_per_item_) /
+                         averaged_updates;
+    moving_.refresh(queries_per_item_);
+    // Fixed items change seldom, and each moving item queries them once in an update.
     if (fixed_.changed()) fixed_.refresh(1);
 }
 
 template <int D>
 void World<D>::refresh_now() {
-    if (moving_.changed()) moving_.refresh(often_asked_);
+    if (moving_.changed()) moving_.refresh(queries_per_item_);
     if (fixed_.changed()) fixed_.refresh(1);
 }
 
-/// Keeps a pair whose boxes overlap, if the layers agree.
+/// Adds a pair whose boxes in the broad phases overlap to near_, if its boxes are near and its layers agree.
 template <int D>
-void World<D>::consider(std::uint32_t slot, std::uint32_t other) {
-    if (widened_ && !come_near(slot, other)) return;
+void World<D>::add_if_near(std::uint32_t slot, std::uint32_t other) {
+    if (widened_ && !may_touch(slot, other)) return;
     const Item &a = items_[slot], &b = items_[other];
     if ((a.layers & b.mask) == 0 || (b.layers & a.mask) == 0) return;
     if (a.type == ShapeType::half_space && b.type == ShapeType::half_space) return;
     near_.push_back({id_of(std::min(slot, other)), id_of(std::max(slot, other))});
 }
 
-/// Finds out whether a near pair touches; where neither has moved, it does if it did.
+/// Tests a near pair. If neither item changed, the last result is repeated.
 template <int D>
-void World<D>::look_at(const IdPair& pair) {
+void World<D>::test_pair(const IdPair& pair) {
     const Item &a = items_[pair.a.index - 1], &b = items_[pair.b.index - 1];
     if (!a.pending && !b.pending) return repeat_last(pair);
     ++counts_.tested;
-    // By its way alone a pair may be near; whether it touches doesn't depend on that.
-    const bool touch = (!widened_ || overlaps(box(pair.a.index - 1), box(pair.b.index - 1))) && touch_now(pair);
-    if (a.continuous || b.continuous) look_between(pair, touch);
+    // A pair may be near by its swept boxes alone; it touches only if the present boxes overlap.
+    const bool touch = (!widened_ || overlaps(box(pair.a.index - 1), box(pair.b.index - 1))) && test_touch(pair);
+    if (a.continuous || b.continuous) test_motion(pair, touch);
 }
 
-/// Keeps the pair if it does.
+/// Tests whether a pair touches now, with the early out by bounding balls, and adds it to touching_ if so.
 template <int D>
-bool World<D>::touch_now(const IdPair& pair) {
+bool World<D>::test_touch(const IdPair& pair) {
     const Item &a = items_[pair.a.index - 1], &b = items_[pair.b.index - 1];
-    Pretests::Entry& entry = pretests_.of(a.type, b.type, a.sensor || b.sensor);
-    if (pretests_.due(entry)) return measure(pair, entry);
-    if (!pretests_.asked(entry) || !balls_apart(pair)) return shapes_touch(pair);
+    BallEarlyOuts::Entry& entry = ball_early_outs_.entry(a.type, b.type, a.sensor || b.sensor);
+    if (ball_early_outs_.due(entry)) return measure(pair, entry);
+    if (!ball_early_outs_.is_used(entry) || !balls_apart(pair)) return test_shapes(pair);
     ++counts_.balls;
     return false;
 }
 
-/// Of a pair of which neither has moved; its contact may depend on others beside them.
+/// Repeats the last result of a pair of which neither item changed. Its contact is found anew if a neighbour changed.
 template <int D>
 void World<D>::repeat_last(const IdPair& pair) {
-    if (!std::binary_search(touched_.begin(), touched_.end(), pair)) return;
+    if (!std::binary_search(last_touching_.begin(), last_touching_.end(), pair)) return;
     touching_.push_back(pair);
-    const Found* last = find_found(last_found_, pair);
+    const FoundContact* last = found_contact(last_found_, pair);
     if (last == nullptr) return;
-    if (is_disturbed(pair))
+    if (neighbours_changed(pair))
         find_contact(pair);
     else
         found_.push_back(*last);
@@ -85,9 +86,9 @@ const View<D>& World<D>::first_placed(std::uint32_t slot) {
     return first_.view;
 }
 
-/// Keeps the pair if they do.
+/// Tests the shapes of a pair, and adds it to touching_ if they touch.
 template <int D>
-bool World<D>::shapes_touch(const IdPair& pair) {
+bool World<D>::test_shapes(const IdPair& pair) {
     const Item &a = items_[pair.a.index - 1], &b = items_[pair.b.index - 1];
     if (a.sensor || b.sensor) {
         if (!overlaps(first_placed(pair.a.index - 1), placed(b))) return false;
@@ -98,24 +99,23 @@ bool World<D>::shapes_touch(const IdPair& pair) {
     return true;
 }
 
-/// Asks the balls and, whatever they say, the shapes, and learns what that costs. The balls many times, as it takes
-/// less than looking at a clock, and once before: where they aren't in use, that time goes into fetching them from
-/// memory.
+/// Measures the tests of the balls and of the shapes. The test of the balls runs 16 times, because it takes less time
+/// than reading the clock, and once before: if the early out isn't in use, the balls must be fetched from memory first.
 template <int D>
-bool World<D>::measure(const IdPair& pair, Pretests::Entry& entry) {
-    constexpr int times = 16;
-    bool meet = !balls_apart(pair);
+bool World<D>::measure(const IdPair& pair, BallEarlyOuts::Entry& entry) {
+    constexpr int repetitions = 16;
+    bool overlap = !balls_apart(pair);
     std::array<std::uint64_t, 4> clock{};
     clock[0] = steady_nanoseconds();
     clock[1] = steady_nanoseconds();
-    for (int i = 0; i < times; ++i) meet = !balls_apart(pair);
+    for (int i = 0; i < repetitions; ++i) overlap = !balls_apart(pair);
     clock[2] = steady_nanoseconds();
-    const bool touch = shapes_touch(pair);
+    const bool touch = test_shapes(pair);
     clock[3] = steady_nanoseconds();
-    std::array<double, 3> laps{};
-    for (std::size_t i = 0; i < 3; ++i) laps[i] = static_cast<double>(clock[i + 1] - clock[i]);
-    laps[1] = laps[0] + (laps[1] - laps[0]) / times;
-    pretests_.add(entry, laps, meet, touch);
+    std::array<double, 3> nanoseconds{};
+    for (std::size_t i = 0; i < 3; ++i) nanoseconds[i] = static_cast<double>(clock[i + 1] - clock[i]);
+    nanoseconds[1] = nanoseconds[0] + (nanoseconds[1] - nanoseconds[0]) / repetitions;
+    ball_early_outs_.add_sample(entry, nanoseconds, overlap, touch);
     return touch;
 }
 
@@ -125,9 +125,9 @@ void World<D>::compare_with_last() {
     stayed_.clear();
     ended_.clear();
     auto now = touching_.begin();
-    auto then = touched_.begin();
-    while (now != touching_.end() || then != touched_.end()) {
-        if (then == touched_.end() || (now != touching_.end() && *now < *then)) {
+    auto then = last_touching_.begin();
+    while (now != touching_.end() || then != last_touching_.end()) {
+        if (then == last_touching_.end() || (now != touching_.end() && *now < *then)) {
             began_.push_back(*now++);
         } else if (now == touching_.end() || *then < *now) {
             ended_.push_back(*then++);
@@ -136,7 +136,7 @@ void World<D>::compare_with_last() {
             ++then;
         }
     }
-    // None of them is there already: what passes another touches it neither now nor at the last update.
+    // The lists share no pair: a pair in passed_ touches neither now nor at the last update.
     const auto add = [](const std::vector<IdPair>& passed, std::vector<IdPair>& list) {
         if (passed.empty()) return;
         list.insert(list.end(), passed.begin(), passed.end());
@@ -144,7 +144,7 @@ void World<D>::compare_with_last() {
     };
     add(passed_, began_);
     add(last_passed_, ended_);
-    tell_fractions();
+    set_fractions();
 }
 
 template <int D>
@@ -154,46 +154,47 @@ Events World<D>::find_events() {
 
     std::swap(near_, last_near_);
     near_.clear();
-    moving_.phase().each_pair([this](std::uint32_t i, std::uint32_t j) { consider(moving_.slot(i), moving_.slot(j)); });
+    moving_.phase().each_pair(
+        [this](std::uint32_t i, std::uint32_t j) { add_if_near(moving_.slot(i), moving_.slot(j)); });
     moving_.phase().each_overlapping_pair(
-        fixed_.phase(), [this](std::uint32_t i, std::uint32_t j) { consider(moving_.slot(i), fixed_.slot(j)); });
+        fixed_.phase(), [this](std::uint32_t i, std::uint32_t j) { add_if_near(moving_.slot(i), fixed_.slot(j)); });
     std::sort(near_.begin(), near_.end());
-    find_partners();
+    find_neighbours();
 
-    std::swap(touching_, touched_);
+    std::swap(touching_, last_touching_);
     std::swap(found_, last_found_);
     std::swap(passed_, last_passed_);
     touching_.clear();
     found_.clear();
     contacts_.clear();
     passed_.clear();
-    met_.clear();
-    first_.slot = no_way;
+    impacts_.clear();
+    first_.slot = none;
     views_.clear();
     counts_ = {near_.size(), 0, 0};
-    for (const IdPair& pair : near_) look_at(pair);
-    tell_contacts();
-    pretests_.decide();
-    // Room at once for whatever such a scene may bring: the lists change places, and all pairs may begin, stay or end.
-    const std::size_t most = std::max(touching_.capacity(), touched_.capacity());
-    for (std::vector<IdPair>* list : {&touched_, &touching_, &stayed_}) list->reserve(most);
-    for (std::vector<IdPair>* list : {&passed_, &last_passed_}) list->reserve(met_.capacity());
-    for (std::vector<IdPair>* list : {&began_, &ended_}) list->reserve(most + met_.capacity());
+    for (const IdPair& pair : near_) test_pair(pair);
+    report_contacts();
+    ball_early_outs_.decide();
+    // Reserve for the worst case of a scene of this size: the lists are swapped, and all pairs may begin, stay or end.
+    const std::size_t capacity = std::max(touching_.capacity(), last_touching_.capacity());
+    for (std::vector<IdPair>* list : {&last_touching_, &touching_, &stayed_}) list->reserve(capacity);
+    for (std::vector<IdPair>* list : {&passed_, &last_passed_}) list->reserve(impacts_.capacity());
+    for (std::vector<IdPair>* list : {&began_, &ended_}) list->reserve(capacity + impacts_.capacity());
     fractions_.reserve(began_.capacity());
     last_found_.reserve(found_.capacity());
     contacts_.reserve(found_.capacity());
     last_near_.reserve(near_.capacity());
     compare_with_last();
-    touching_index_.build(touching_, most);
+    pair_index_.build(touching_, capacity);
 
     for (const std::uint32_t slot : pending_) {
         items_[slot].pending = false;
         items_[slot].settled = true;
-        items_[slot].course = no_way;
+        items_[slot].previous = none;
     }
     pending_.clear();
-    courses_.clear();
-    ways_.clear();
+    previous_poses_.clear();
+    swept_boxes_.clear();
     return {began_, stayed_, ended_, fractions_};
 }
 

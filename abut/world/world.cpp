@@ -8,10 +8,11 @@
 namespace abut {
 namespace {
 
-/// A ray meets what it passes by no more than rounding (1e-7 of its size), and a sweep by no more than the margin of
-/// doubt, of which this is the part that grows with the larger of two shapes; the box must not refuse it.
+/// Grows a box so that it rejects no hit within the tolerance: a ray may hit a shape that it misses by rounding (1e-7
+/// of the shape's size), and a sweep one that it misses by the tolerance. This margin covers the part of the tolerance
+/// that grows with the larger of two shapes.
 template <int D>
-Aabb<D> box_for_questions(const Aabb<D>& box) {
+Aabb<D> box_for_queries(const Aabb<D>& box) {
     float widest = 0;
     for (int i = 0; i < D; ++i) widest = std::max(widest, box.max[i] - box.min[i]);
     return widest > 0 && std::isfinite(widest) ? grown(box, 1e-6f * widest) : box;
@@ -55,20 +56,20 @@ Id World<D>::add_shape(const AnyShape<D>& shape, const ItemOptions<D>& options) 
     ++count_;
     continuous_ += options.continuous ? 1 : 0;
     item.place = boxes_of(item).add(slot);
-    take(slot);
+    reset_item(slot);
     return id_of(slot);
 }
 
-/// The shape that the item has got.
+/// Sets an item's data that depend on its shape.
 template <int D>
-void World<D>::take(std::uint32_t slot) {
+void World<D>::reset_item(std::uint32_t slot) {
     Item& item = items_[slot];
     const View<D> own = item.stored.view();
     item.type = shape_type(own);
-    item.own_ball = SmallBall<D>::around(bounding_ball(own));
+    item.local_ball = SmallBall<D>::around(bounding_ball(own));
     item.settled = false;
-    item.course = no_way;
-    place(slot);
+    item.previous = none;
+    update_box(slot);
 }
 
 template <int D>
@@ -77,7 +78,7 @@ void World<D>::set_any_shape(Id id, const AnyShape<D>& shape) {
     ABUT_ASSERT(item != nullptr);
     if (item == nullptr) return;
     item->stored = shape;
-    take(id.index - 1);
+    reset_item(id.index - 1);
 }
 
 template <int D>
@@ -85,13 +86,13 @@ void World<D>::move_to(Id id, const Pose<D>& pose) {
     Item* item = find(id);
     ABUT_ASSERT(item != nullptr);
     if (item == nullptr || item->pose == pose) return;
-    if (item->settled && item->course == no_way) {
-        item->course = static_cast<std::uint32_t>(courses_.size());
-        reserve_one_more(courses_);
-        courses_.push_back(item->pose);
+    if (item->settled && item->previous == none) {
+        item->previous = static_cast<std::uint32_t>(previous_poses_.size());
+        reserve_one_more(previous_poses_);
+        previous_poses_.push_back(item->pose);
     }
     item->pose = pose;
-    place(id.index - 1);
+    update_box(id.index - 1);
 }
 
 template <int D>
@@ -109,18 +110,18 @@ void World<D>::remove(Id id) {
     Item* item = find(id);
     ABUT_ASSERT(item != nullptr);
     if (item == nullptr) return;
-    const AnyShape<D> gone = std::move(item->stored);
+    const AnyShape<D> released = std::move(item->stored);
     item->in_use = false;
     boxes_of(*item).remove(item->place);
     continuous_ -= item->continuous ? 1 : 0;
-    item->course = no_way;
+    item->previous = none;
     mark_pending(id.index - 1);
     free_.push_back(id.index - 1);
     --count_;
 }
 
 template <int D>
-void World<D>::place(std::uint32_t slot) {
+void World<D>::update_box(std::uint32_t slot) {
     Item& item = items_[slot];
     const Aabb<D> box = box_at(item, item.pose);
     ABUT_ASSERT(!is_empty(box) || is_finite(placed(item)));
@@ -130,12 +131,12 @@ void World<D>::place(std::uint32_t slot) {
 
 template <int D>
 Aabb<D> World<D>::box_at(const Item& item, const Pose<D>& pose) const {
-    return box_for_questions(item.stored.bounds(pose));
+    return box_for_queries(item.stored.bounds(pose));
 }
 
 template <int D>
 BoundingBall<D> World<D>::ball(const Item& item) const {
-    return moved(item.own_ball.ball(), affine(item.pose));
+    return moved(item.local_ball.ball(), affine(item.pose));
 }
 
 template <int D>

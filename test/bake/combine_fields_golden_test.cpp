@@ -1,4 +1,4 @@
-// What is made of fields has the same bits with every compiler, at every -O and on every vector unit.
+// Combined fields have equal bits with every compiler, every -O and every SIMD target.
 
 #include "../field/analytic.hpp"
 #include <abut/bake/combine_fields.hpp>

@@ -47,12 +47,12 @@ Result<Field<D>> combined(What what, const Field<D>& a, const Field<D>& b, const
     return what == What::common ? field_intersection(a, b, options) : field_difference(a, b, options);
 }
 
-/// Points on the outlines of the disc and the square, those of them that bound what is made of both.
+/// Points on the outlines of the disc and the square that bound the combination.
 std::vector<DVec<2>> outline(What what) {
     constexpr int count = 8000;
     std::vector<DVec<2>> result;
     const auto offer = [&](const DVec<2>& p) {
-        // On the outline: a little to one side is in, a little to the other out.
+        // On the combination's outline: a little to one side is inside, a little to the other outside.
         bool in = false, out = false;
         for (const DVec<2>& by :
              {DVec<2>(1e-6, 3e-7), DVec<2>(-1e-6, -3e-7), DVec<2>(-3e-7, 1e-6), DVec<2>(3e-7, -1e-6)}) {
@@ -105,17 +105,17 @@ TEST(CombineFields, SignsAreRightAndDistancesAreBounds) {
             int inside = 0, places = 0;
             each_place(*field, 0.071, [&](const DVec<2>& p) {
                 const double sign = sides(what, disc().distance(p), square().distance(p)), truth = nearest(border, p);
-                const double told = static_cast<double>(field->distance(Vec2(p)));
+                const double found = static_cast<double>(field->distance(Vec2(p)));
                 ++places;
                 inside += sign < 0;
                 if (std::abs(sign) > cell) {
-                    EXPECT_EQ(told < 0, sign < 0) << p.x << " " << p.y;
+                    EXPECT_EQ(found < 0, sign < 0) << p.x << " " << p.y;
                 }
-                // A bound, but for what lies between samples: with bricks far off one cell in eight is known.
-                const double doubt = store == FieldStore::dense || truth < 3 * cell ? cell : 4 * cell;
-                EXPECT_LE(std::abs(told), truth + doubt) << p.x << " " << p.y;
-                const double error = std::abs(std::abs(told) - truth);
-                // Outside of the union it is a distance, where both fields have samples; deep in the others it is one.
+                // A lower bound, up to the error between samples: far from bricks one cell in eight is known.
+                const double bound = store == FieldStore::dense || truth < 3 * cell ? cell : 4 * cell;
+                EXPECT_LE(std::abs(found), truth + bound) << p.x << " " << p.y;
+                const double error = std::abs(std::abs(found) - truth);
+                // Outside of the union it is a distance where both fields have samples; deep in the intersection too.
                 if (what == What::together ? sign > 0 : sign < 0) {
                     if (contains(Aabb2{{0.2f - 0.7f, -0.15f - 0.2f}, {1, 0.8f}}, Vec2(p)) && truth < 3 * cell)
                         off = std::max(off, error);
@@ -141,14 +141,14 @@ TEST(CombineFields, RedistancedIsTheDistance) {
             double most = 0, before = 0, near = 0;
             each_place(*field, cell, [&](const DVec<2>& p) {
                 const double truth = nearest(border, p);
-                const double told = static_cast<double>(field->distance(Vec2(p)));
+                const double found = static_cast<double>(field->distance(Vec2(p)));
                 const double was = static_cast<double>(bound->distance(Vec2(p)));
                 if (std::abs(was) > 0.1 * cell) {
-                    EXPECT_EQ(told < 0, was < 0);
+                    EXPECT_EQ(found < 0, was < 0);
                 }
                 before = std::max(before, std::abs(std::abs(was) - truth));
-                if (store == FieldStore::dense) most = std::max(most, std::abs(std::abs(told) - truth));
-                if (truth < 3 * cell) near = std::max(near, std::abs(std::abs(told) - truth));
+                if (store == FieldStore::dense) most = std::max(most, std::abs(std::abs(found) - truth));
+                if (truth < 3 * cell) near = std::max(near, std::abs(std::abs(found) - truth));
             });
             std::cout << "off by " << before / cell << " cells before, by " << most / cell
                       << " after, within three cells " << near / cell << "\n";
@@ -161,7 +161,7 @@ TEST(CombineFields, RedistancedIsTheDistance) {
 }
 
 TEST(CombineFields, RedistancedByTheNearestOfAllPieces) {
-    // Sides that lie on samples make pieces without an area, and slivers.
+    // Edges through samples make pieces without area, and slivers.
     const Field3 a = field_of(oracle::ball<3>({0, 0, 0}, 1), FieldStore::dense, 0.1);
     const Field3 b = field_of(oracle::box<3>({0.8, 0.3, 0.1}, {0.6, 0.4, 0.5}), FieldStore::dense, 0.1);
     for (const What what : all_of_them) {
@@ -237,14 +237,14 @@ TEST(CombineFields, SamplesThatOneFieldDecidesStayAsTheyAre) {
 }
 
 TEST(CombineFields, ThePiecesAreTheSurface) {
-    // All of it, and nothing twice: as long, and as large.
+    // All of it without duplicates: equal length or area.
     for (const FieldStore store : {FieldStore::dense, FieldStore::sparse}) {
         double around = 0, area = 0;
         for (const auto& [a, b] : isosurface<2>(field_of(oracle::ball<2>({0.01, 0.02}, 1), store).data()))
             around += length(DVec<2>(b) - DVec<2>(a));
         for (const auto& [a, b, c] : isosurface<3>(field_of(oracle::ball<3>({0.01, 0.02, 0}, 1), store).data()))
             area += 0.5 * length(cross(DVec<3>(b) - DVec<3>(a), DVec<3>(c) - DVec<3>(a)));
-        // Every edge belongs to two.
+        // Every edge has two triangles.
         std::map<std::array<float, 6>, int> edges;
         for (const auto& piece : isosurface<3>(field_of(oracle::ball<3>({0.01, 0.02, 0}, 1), store).data()))
             for (std::size_t i = 0; i < 3; ++i) {
@@ -317,7 +317,7 @@ TEST(CombineFields, Offset) {
                 const DVec<3> p = random.direction<3>() * (1 + static_cast<double>(by));
                 most = std::max(most, static_cast<double>(std::abs(field->distance(Vec3(p)))));
             }
-            // Where there are samples about as exact as they are; beyond the volume and the bricks there are bounds.
+            // Near samples it is about as exact as they are; beyond the volume and the bricks there are bounds.
             const bool beyond = by > 0.35f || (store == FieldStore::sparse && by < -0.3f);
             EXPECT_LT(most, beyond ? 0.35 : 0.03) << by;
             EXPECT_TRUE(contains(grown(field->volume(), 1e-4f), Aabb3{Vec3(-1 - by), Vec3(1 + by)}));

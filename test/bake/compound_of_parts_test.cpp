@@ -1,4 +1,4 @@
-// Convex parts as the level they stand for: nothing is felt at the faces where they meet.
+// The convex parts of a level: no contact has an internal-edge normal at the faces between them.
 
 #include "../../scenes/solid_meshes.hpp"
 #include "../oracle/random.hpp"
@@ -35,13 +35,13 @@ Outline behind(const Outline& outline, const DVec<2>& normal, double offset) {
     return result;
 }
 
-/// A floor of 10 by 10 around the origin, its top at y = 0, in convex parts that random upright planes cut it into.
+/// A floor of 10 by 10 around the origin, its top at y = 0, cut into convex parts by random vertical planes.
 std::vector<Polyhedron> cut_floor(int cuts, Random& random) {
     std::vector<Outline> outlines{{{-5, -5}, {5, -5}, {5, 5}, {-5, 5}}};
     for (int i = 0; i < cuts; ++i) {
         const DVec<2> normal = random.direction<2>();
         const double offset = random.uniform(-3, 3);
-        // Every other plane cuts but one part, so that corners of some lie on edges of others.
+        // Every other plane cuts only one part, so that corners of some lie on edges of others (T-junctions).
         const std::size_t first = i % 2 == 0 ? 0 : random.below(static_cast<std::uint32_t>(outlines.size()));
         const std::size_t last = i % 2 == 0 ? outlines.size() : first + 1;
         for (std::size_t part = first; part < last; ++part) {
@@ -67,7 +67,7 @@ Compound3 compound_of(const std::vector<Polyhedron>& parts) {
     return *Compound3::build(children);
 }
 
-/// The most that a normal towards the floor leans.
+/// The largest tilt of a normal towards the floor.
 double lean(const Vec3& normal) {
     const DVec<3> n(normal);
     return n.y < 0 ? std::sqrt(n.x * n.x + n.z * n.z) : 2;
@@ -109,7 +109,7 @@ TEST(CompoundOfParts, PushesWhatLiesOnItUpAlone) {
 }
 
 TEST(CompoundOfParts, OfADecomposedMeshPushUpAlone) {
-    // A flat top in the shape of a U, 1 thick, its top turned to y = 0.
+    // A flat top in the shape of a U, 1 thick, its top rotated to y = 0.
     scenes::SolidMesh mesh = scenes::of_cubes({{"######", "######", "##  ##", "##  ##"}});
     for (Vec3& p : mesh.points) p = {p.x, p.z - 1, -p.y};
     const auto parts = decompose(mesh.points, mesh.triangles);
@@ -154,7 +154,7 @@ TEST(CompoundOfParts, HardlyEverStopsWhatSlidesOnIt) {
             landed += hit->normal.y > 0.999999f;
         }
     }
-    // What touches is within the margin of doubt, where an answer may go either way: a few in a thousand do.
+    // A touching shape is within the tolerance, where an answer may go either way: a few in a thousand do.
     EXPECT_LE(stopped, 40u);
     EXPECT_EQ(landed, 2000u);
 }

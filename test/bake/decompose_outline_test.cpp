@@ -13,8 +13,8 @@
 namespace abut {
 namespace {
 
+using oracle::BigInteger;
 using oracle::OutlineParts;
-using oracle::Whole;
 using scenes::Outline;
 
 using Ring = std::vector<Vec2>;
@@ -31,9 +31,9 @@ Ring reversed(Ring ring) {
     return ring;
 }
 
-/// The parts, after they have been looked at.
-std::vector<Polygon> checked(const Ring& ring, const Rings& holes, const Whole& twice_area, OutlineOptions options = {},
-                             OutlineReport* told = nullptr) {
+/// The checked parts of an outline.
+std::vector<Polygon> checked(const Ring& ring, const Rings& holes, const BigInteger& twice_area,
+                             OutlineOptions options = {}, OutlineReport* report_out = nullptr) {
     OutlineReport report;
     options.report = &report;
     const Result<std::vector<Polygon>> parts = decompose(ring, holes, options);
@@ -48,7 +48,7 @@ std::vector<Polygon> checked(const Ring& ring, const Rings& holes, const Whole& 
     }
     EXPECT_EQ(report.pieces, parts->size());
     EXPECT_LE(report.min_pieces, parts->size());
-    if (told != nullptr) *told = report;
+    if (report_out != nullptr) *report_out = report;
     return *parts;
 }
 
@@ -57,8 +57,8 @@ std::vector<Polygon> checked(const Ring& ring, const Rings& holes = {}, const Ou
 }
 
 /// In units of the rings' own coordinates.
-Whole twice_of(int area) {
-    return oracle::whole(1) * oracle::whole(1) * 2 * area;
+BigInteger twice_of(int area) {
+    return oracle::to_integer(1) * oracle::to_integer(1) * 2 * area;
 }
 
 TEST(DecomposeOutline, LeavesAConvexRingAsItIs) {
@@ -88,7 +88,7 @@ TEST(DecomposeOutline, TellsWhatItDid) {
     EXPECT_EQ(report.area_added, 0);
 }
 
-// ---- what is wrong with the input
+// ---- problems of the input
 
 TEST(DecomposeOutline, LeavesOutRepeatedPointsAndSpikes) {
     OutlineReport report;
@@ -103,11 +103,11 @@ TEST(DecomposeOutline, LeavesOutRepeatedPointsAndSpikes) {
 }
 
 TEST(DecomposeOutline, LeavesOutWhatIsGoneAlongAndBackInPart) {
-    // Too far along the floor, and back; the same upwards, where the way back is in two steps.
+    // Too far along the floor, and back; and upwards, where the path back has two steps.
     EXPECT_EQ(checked({{0, 0}, {6, 0}, {3, 0}, {3, 4}, {0, 4}}, {}, twice_of(12)).size(), 1u);
     EXPECT_EQ(checked({{0, 0}, {3, 0}, {3, 9}, {3, 7}, {3, 4}, {0, 4}}, {}, twice_of(12)).size(), 1u);
     EXPECT_EQ(checked({{0, 0}, {9, 0}, {7, 0}, {9, 0}, {3, 0}, {3, 4}, {0, 4}, {0, 5}}, {}, twice_of(12)).size(), 1u);
-    // The same into the inside, where nothing is left of it.
+    // A spike to the inside, of which nothing remains.
     const std::vector<Polygon> clean = checked({{0, 0}, {3, 0}, {3, -1}, {9, -1}, {9, 4}, {0, 4}});
     const auto parts = decompose(Ring{{0, 0}, {6, 0}, {3, 0}, {3, -1}, {9, -1}, {9, 4}, {0, 4}});
     ASSERT_TRUE(parts);
@@ -135,13 +135,13 @@ TEST(DecomposeOutline, TakesHolesThatTouchEachOther) {
 }
 
 TEST(DecomposeOutline, TakesOutlinesThatTouchThemselves) {
-    // Two squares that have a corner in common, in one go, both ways around.
+    // Two squares that share a corner, as one ring, with either winding.
     EXPECT_EQ(checked({{0, 0}, {1, 0}, {1, 1}, {2, 1}, {2, 2}, {1, 2}, {1, 1}, {0, 1}}, {}, twice_of(2)).size(), 2u);
     EXPECT_EQ(checked({{0, 0}, {1, 0}, {1, 1}, {1, 2}, {2, 2}, {2, 1}, {1, 1}, {0, 1}}, {}, twice_of(2)).size(), 2u);
     // A ring around a square hole, with a slit.
     const Ring slit{{0, 0}, {3, 0}, {3, 3}, {2, 2}, {2, 1}, {1, 1}, {1, 2}, {2, 2}, {3, 3}, {0, 3}};
     EXPECT_EQ(checked(slit, {}, twice_of(8)).size(), 4u);
-    // The same square twice around is nothing; three times is once.
+    // The square twice around is empty by the even-odd rule; three times is once.
     const Ring once = square(0, 0, 1);
     Ring rounds = once;
     rounds.insert(rounds.end(), once.begin(), once.end());
@@ -184,7 +184,7 @@ TEST(DecomposeOutline, NamesWhatIsWrong) {
               ProblemCode::bad_argument);
 }
 
-// ---- laws
+// ---- invariants
 
 TEST(DecomposeOutline, TakesScenesApart) {
     for (const bool conforming : {false, true}) {
@@ -224,8 +224,7 @@ TEST(DecomposeOutline, TakesRandomRingsApart) {
     EXPECT_GT(rings, 40u);
 }
 
-/// Unit cells as holes, in any number beside each other: they touch in corners and along edges, each other and the
-/// outline.
+/// Unit cells as holes, in any number: they share corners and edges with each other and the outline.
 TEST(DecomposeOutline, TakesCellsOutOfASquare) {
     for (std::uint64_t seed = 0; seed < 200; ++seed) {
         SCOPED_TRACE(seed);
@@ -246,7 +245,7 @@ TEST(DecomposeOutline, TakesCellsOutOfASquare) {
     }
 }
 
-/// Random rings on a small grid, which touch themselves and each other in every way where they don't cross.
+/// Random rings on a small grid, which touch themselves and each other without crossing.
 TEST(DecomposeOutline, TakesRingsThatTouchAnyhow) {
     std::size_t taken = 0, touching = 0, refused = 0;
     const std::uint64_t samples = std::getenv("ABUT_LONG") != nullptr ? 200'000 : 5000;
@@ -315,9 +314,9 @@ TEST(DecomposeOutline, LeavesJunctionsOnlyWhereAllowed) {
     EXPECT_GT(checked(comb, {}, {.conforming = true}).size(), parts.size());
 }
 
-// ---- the fewest parts
+// ---- the minimum number of parts
 
-/// By trying every cut, and all pieces again: exact, and hopeless for more than about ten corners.
+/// Brute force over every cut, recursively: exact, and too slow above about ten corners.
 class EveryCut {
 public:
     EveryCut(const Ring& ring, bool conforming) : ring_(ring), conforming_(conforming) {
@@ -331,7 +330,7 @@ private:
     int turn(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
         return orientation(ring_[a], ring_[b], ring_[c]);
     }
-    /// Straight on only along edges of the ring, where no other piece can have a corner, if they have to be conforming.
+    /// Extends only along edges of the ring, where no other piece can have a corner, if the parts must be conforming.
     bool may_turn(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
         const auto count = static_cast<std::uint32_t>(ring_.size());
         const int side = turn(a, b, c);
@@ -402,7 +401,7 @@ TEST(DecomposeOutline, MakesAsFewPartsAsEveryCut) {
         OutlineReport report;
         std::size_t fewest[2];
         for (const bool conforming : {false, true}) {
-            const Whole area = oracle::twice_area(ring);
+            const BigInteger area = oracle::twice_area(ring);
             const std::size_t parts = checked(ring, {}, area, {.conforming = conforming}, &report).size();
             fewest[conforming ? 1 : 0] = EveryCut(ring, conforming).fewest();
             EXPECT_EQ(parts, fewest[conforming ? 1 : 0]);
@@ -415,7 +414,7 @@ TEST(DecomposeOutline, MakesAsFewPartsAsEveryCut) {
     EXPECT_GT(conforming_has_more, samples / 100);
 }
 
-/// What optimal_convex_partition_2 of CGAL 5.5 finds.
+/// The result of optimal_convex_partition_2 of CGAL 5.5.
 TEST(DecomposeOutline, MakesAsFewPartsAsOthersFindAtLeast) {
     const std::pair<double, std::size_t> known[] = {{0.001, 37}, {0.02, 38}, {0.1, 43},
                                                     {0.3, 45},   {0.5, 41},  {0.8, 35}};
@@ -424,7 +423,7 @@ TEST(DecomposeOutline, MakesAsFewPartsAsOthersFindAtLeast) {
     EXPECT_EQ(checked(scenes::comb(25)).size(), 26u);
 }
 
-// ---- parts that may add
+// ---- parts that may add area
 
 bool covered(std::span<const Polygon> parts, const Vec2& point) {
     return std::ranges::any_of(parts, [&](const Polygon& part) {
@@ -459,7 +458,7 @@ TEST(DecomposeOutline, CoversAllWithFewerPartsThatAdd) {
     }
 }
 
-TEST(DecomposeOutline, LeavesNotchesDeeperThanAsked) {
+TEST(DecomposeOutline, LeavesNotchesDeeperThanTheLimit) {
     // Two notches, 1 and 2 deep, from above.
     const Ring ring{{0, 0}, {6, 0}, {9, 0}, {9, 4}, {7, 4}, {6, 2}, {5, 4}, {4, 4}, {3, 3}, {2, 4}, {0, 4}};
     const auto count = [&](double concavity) { return decompose(ring, {}, {.concavity = concavity})->size(); };
@@ -470,7 +469,7 @@ TEST(DecomposeOutline, LeavesNotchesDeeperThanAsked) {
     EXPECT_EQ(count(2), 1u);
 }
 
-TEST(DecomposeOutline, FillsHolesNoWiderThanAsked) {
+TEST(DecomposeOutline, FillsHolesUpToTheLimit) {
     OutlineReport report;
     const Rings holes{square(1, 1, 1), square(4, 4, 3)};
     const auto parts = decompose(square(0, 0, 20), holes, {.concavity = 2, .report = &report});

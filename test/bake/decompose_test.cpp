@@ -1,4 +1,4 @@
-// Meshes to convex parts: bodies made of convex ones come back as these, others are covered and within the limits.
+// Meshes to convex parts: unions of convex bodies give these bodies, others are covered within the limits.
 
 #include "../../scenes/solid_meshes.hpp"
 #include "../oracle/part_quality.hpp"
@@ -70,17 +70,17 @@ double volume_of(const std::vector<Polyhedron>& parts) {
 
 /// The corners of the triangles and points within them.
 void expect_covered(const SolidMesh& mesh, const std::vector<Polyhedron>& parts, double farthest) {
-    const oracle::PartsOf all(parts);
+    const oracle::ConvexParts all(parts);
     double size = 0;
     for (const Vec3& p : mesh.points) size = std::max(size, largest(DVec<3>(p)));
-    const double allowed = farthest + 4e-7 * size;  // what is asked here is answered in floats
+    const double allowed = farthest + 4e-7 * size;  // the queries here are in floats
     oracle::Random random(7);
     const oracle::SurfacePoints surface(mesh.points, mesh.triangles);
     for (int i = 0; i < 2000; ++i) EXPECT_LE(all.distance(surface.next(random)), allowed);
     for (const Vec3& p : mesh.points) EXPECT_LE(all.distance(p), allowed);
 }
 
-/// The parts fill the mesh and no more.
+/// Expects the parts to fill the mesh exactly.
 void expect_exact(const SolidMesh& mesh, std::size_t parts) {
     DecomposeReport report;
     const std::vector<Polyhedron> found = parts_of(mesh, {.report = &report});
@@ -111,7 +111,7 @@ TEST(DecomposeMesh, AnLIsTwoBoxes) {
     expect_exact(scenes::of_cubes({{"####", "#", "#"}}), 2);
 }
 
-// No face of it lies across an axis: only the planes of the faces at its reflex edge part it exactly.
+// No face of it is perpendicular to an axis: only the planes of the faces at its reflex edge separate it exactly.
 TEST(DecomposeMesh, ALeaningLIsTwoPartsToo) {
     SolidMesh mesh = scenes::of_cubes({{"####", "#", "#"}});
     for (Vec3& p : mesh.points) p = Vec3(1, 0.3f, 0.2f) * p.x + Vec3(0.7f, 1, -0.4f) * p.y + Vec3(-0.3f, 0.5f, 1) * p.z;
@@ -126,7 +126,7 @@ TEST(DecomposeMesh, AHouseKeepsItsDoorAndWindows) {
     const SolidMesh house = scenes::house();
     expect_exact(house, 14);
     const std::vector<Polyhedron> found = parts_of(house, {});
-    const oracle::PartsOf parts(found);
+    const oracle::ConvexParts parts(found);
     EXPECT_FALSE(parts.contain({5, 0.5f, 2}));
     EXPECT_FALSE(parts.contain({0.5f, 4, 3}));
     EXPECT_FALSE(parts.contain({5, 4, 3}));
@@ -140,7 +140,7 @@ TEST(DecomposeMesh, AHollowStaysHollow) {
     SolidMesh mesh = box({0, 0, 0}, {3, 3, 3});
     add(mesh, inside_out(box({1, 1, 1}, {2, 2, 2})));
     expect_exact(mesh, 6);
-    EXPECT_FALSE(oracle::PartsOf(parts_of(mesh, {})).contain({1.5f, 1.5f, 1.5f}));
+    EXPECT_FALSE(oracle::ConvexParts(parts_of(mesh, {})).contain({1.5f, 1.5f, 1.5f}));
 }
 
 TEST(DecomposeMesh, SizeAndPlaceChangeNothing) {
@@ -220,8 +220,8 @@ TEST(DecomposeMesh, PartsOfThinDishesStayByTheirMesh) {
     }
 }
 
-// The middle of a pit's mouth is 0.083 of half the block's length from its sides. Samples of the hull missed it: in 28
-// of 40 blocks with up to four pits a part closed one, with parts to spare.
+// The middle of a pit's opening is 0.083 of half the block's length from its sides. Samples of the hull missed it: in
+// 28 of 40 blocks with up to four pits a part closed one, with parts to spare.
 TEST(DecomposeMesh, NoPartClosesAPitThatIsWiderThanConcavityAllows) {
     for (std::uint64_t seed = 0; seed < 6; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
@@ -238,7 +238,7 @@ TEST(DecomposeMesh, NoPartClosesAPitThatIsWiderThanConcavityAllows) {
         const SolidMesh block = scenes::of_cubes({floor, floor, {top.begin(), top.end()}});
         const std::vector<Polyhedron> parts = parts_of(block, {.max_parts = 64, .concavity = 0.05});
         EXPECT_LT(parts.size(), 64u);
-        for (const Vec3& mouth : mouths) EXPECT_FALSE(oracle::PartsOf(parts).contain(mouth));
+        for (const Vec3& mouth : mouths) EXPECT_FALSE(oracle::ConvexParts(parts).contain(mouth));
     }
 }
 
@@ -255,16 +255,16 @@ TEST(DecomposeMesh, LessConcavityTakesMoreParts) {
 }
 
 TEST(DecomposeMesh, WhatIsOpenIsAShell) {
-    SolidMesh room = box({0, 0, 0}, {4, 4, 4});
-    room.triangles.resize(10);
+    SolidMesh hollow = box({0, 0, 0}, {4, 4, 4});
+    hollow.triangles.resize(10);
     DecomposeReport report;
-    const std::vector<Polyhedron> walls = parts_of(room, {.report = &report});
+    const std::vector<Polyhedron> walls = parts_of(hollow, {.report = &report});
     EXPECT_FALSE(report.closed);
     EXPECT_EQ(report.mesh_volume, 0);
     EXPECT_EQ(walls.size(), 5u);
     EXPECT_LT(volume_of(walls), 1e-3);
-    expect_covered(room, walls, report.farthest);
-    EXPECT_FALSE(oracle::PartsOf(walls).contain({2, 2, 2}));
+    expect_covered(hollow, walls, report.farthest);
+    EXPECT_FALSE(oracle::ConvexParts(walls).contain({2, 2, 2}));
 }
 
 TEST(DecomposeMesh, AFlatOutlineIsCutToo) {
@@ -336,7 +336,7 @@ TEST(DecomposeMesh, ProgressGrowsAndCanCancel) {
     }
 }
 
-TEST(DecomposeMesh, WhatIsWrongIsTold) {
+TEST(DecomposeMesh, ProblemsAreReported) {
     const SolidMesh good = box({0, 0, 0}, {1, 1, 1});
     const auto code = [](const SolidMesh& mesh, const DecomposeOptions& options = {}) {
         const Result<std::vector<Polyhedron>> result = decompose(mesh.points, mesh.triangles, options);

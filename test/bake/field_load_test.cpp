@@ -1,4 +1,4 @@
-// Everything that is baked is saved and loaded again, bit by bit, however wild its signs are.
+// Every baked field loads again after saving, bit by bit, however inconsistent its signs are.
 
 #include "../../scenes/bumpy_ball.hpp"
 #include "../../scenes/solid_meshes.hpp"
@@ -20,7 +20,7 @@ namespace {
 
 using scenes::SolidMesh;
 
-/// How much the distance changes at most from a sample to the next along an axis, in cells; of a dense field.
+/// The largest change of the distance between neighbouring samples, in cells; for a dense field.
 template <int D>
 double steepest(const Field<D>& field) {
     const FieldData<D>& data = field.data();
@@ -45,7 +45,7 @@ void expect_loads(const Result<Field<D>>& field) {
     EXPECT_EQ(save(*again), bytes);
 }
 
-/// Bakes it in each form that there is; returns the dense field of distances alone.
+/// Bakes it with each combination of options; returns the dense field of distances alone.
 template <int D, class Bake>
 Field<D> baked(Bake bake) {
     FieldOptions<D> options;
@@ -68,7 +68,7 @@ SolidMesh without_some(const SolidMesh& mesh, double share, oracle::Random& rand
     return result;
 }
 
-/// Where the sign is a guess it may turn far from the surface.
+/// A guessed sign may change far from the surface.
 TEST(LoadBaked, OpenMeshes) {
     oracle::Random random(11);
     const scenes::BumpyBall ball = scenes::bumpy_ball(10, 0.2, 0.02, random);
@@ -92,7 +92,7 @@ TEST(LoadBaked, Outlines) {
     baked<2>([&](const FieldOptions<2>& options) { return bake_field(star, holes, options); });
 }
 
-/// A solid that the volume cuts ends with it: from within to the sample beside it the distance falls to 0.
+/// A solid that the volume cuts ends there: towards the sample beside it the distance falls to 0.
 template <int D>
 void expect_combined() {
     FieldOptions<D> cut;
@@ -120,7 +120,7 @@ TEST(LoadBaked, CombinedFields) {
     expect_combined<3>();
 }
 
-/// Far too small, too large or too far for a field to be loaded again, and baked all the same.
+/// Too small, too large or too far for a field to load again, and still baked.
 TEST(LoadBaked, BeyondItsLimitsIsRefused) {
     const auto code_of = [](float size, const FieldOptions<2>& options) {
         const Result<Field2> field = bake_field(Ball<2>{Vec2(0.0f), size}, options);

@@ -1,5 +1,5 @@
-// Every sample that is kept against all triangles, one by one in long double: how far, and on which side. 1,000 samples
-// of a mesh, 40,000 where the environment sets ABUT_LONG; half of them of a sparse field, half of a dense one.
+// Every stored sample against all triangles, by brute force in long double: distance and sign. 1,000 samples of a mesh,
+// 40,000 if the environment sets ABUT_LONG; half of them of a sparse field, half of a dense one.
 
 #include "../../scenes/bumpy_ball.hpp"
 #include "../../scenes/solid_meshes.hpp"
@@ -18,8 +18,8 @@ namespace abut {
 namespace {
 
 using oracle::FieldTruth;
-using oracle::KeptSample;
 using oracle::Random;
+using oracle::StoredSample;
 using scenes::SolidMesh;
 
 constexpr std::uint64_t seed = 20240607;
@@ -53,7 +53,7 @@ SolidMesh together(SolidMesh a, const SolidMesh& b) {
     return a;
 }
 
-/// Without so many triangles, none of which share a corner.
+/// The mesh without so many triangles, no two of which share a corner.
 SolidMesh with_holes(SolidMesh mesh, std::size_t count, Random& random) {
     std::vector<bool> used(mesh.points.size());
     while (count > 0) {
@@ -67,14 +67,14 @@ SolidMesh with_holes(SolidMesh mesh, std::size_t count, Random& random) {
     return mesh;
 }
 
-/// Each triangle turned round with a probability: no surface that agrees with itself any more.
+/// Reverses each triangle with a probability, so that the winding is inconsistent.
 SolidMesh with_flips(SolidMesh mesh, double share, Random& random) {
     for (glm::uvec3& triangle : mesh.triangles)
         if (random.chance(share)) std::swap(triangle.y, triangle.z);
     return mesh;
 }
 
-/// Each triangle with corners of its own, as files often have them.
+/// Each triangle with separate corners, as files often have them.
 SolidMesh unwelded(const SolidMesh& mesh) {
     SolidMesh result;
     for (const glm::uvec3& triangle : mesh.triangles) {
@@ -86,25 +86,25 @@ SolidMesh unwelded(const SolidMesh& mesh) {
 }
 
 struct Compared {
-    std::size_t inside = 0, wrong = 0, doubtful = 0;
-    double farthest = 0;  ///< of the distances from the truth
+    std::size_t inside = 0, wrong = 0, undecided = 0;
+    double farthest = 0;  ///< the largest error of a distance
 };
 
-/// Some samples, drawn without regard to where they lie. A sign counts as wrong where the winding number isn't within
-/// `doubt` of one half, and the sample not within rounding of the surface.
+/// Checks random samples. A sign is wrong only if the winding number differs from one half by more than
+/// `half_tolerance`, and the sample isn't within rounding of the surface.
 template <int D, class Truth>
 Compared compare(const Field<D>& field, const Truth& truth, double rounding, Random& random) {
-    constexpr double doubt = 1e-6;
-    const std::vector<KeptSample<D>> samples = oracle::kept_samples(field);
+    constexpr double half_tolerance = 1e-6;
+    const std::vector<StoredSample<D>> samples = oracle::stored_samples(field);
     Compared result;
     for (std::size_t i = 0; i < sample_count(); ++i) {
-        const KeptSample<D>& sample = samples[random.below(static_cast<std::uint32_t>(samples.size()))];
+        const StoredSample<D>& sample = samples[random.below(static_cast<std::uint32_t>(samples.size()))];
         const FieldTruth found = truth(sample.position);
         result.inside += sample.distance < 0;
         result.farthest = std::max(result.farthest, std::abs(std::abs(sample.distance) - found.distance));
         if (found.distance <= rounding) continue;
-        if (std::abs(std::abs(found.winding) - 0.5) < doubt)
-            ++result.doubtful;
+        if (std::abs(std::abs(found.winding) - 0.5) < half_tolerance)
+            ++result.undecided;
         else if ((sample.distance < 0) != found.inside())
             ++result.wrong;
     }
@@ -114,7 +114,7 @@ Compared compare(const Field<D>& field, const Truth& truth, double rounding, Ran
 struct Case {
     std::string name;
     SolidMesh baked;
-    SolidMesh surface;  ///< what the baker is to take it for
+    SolidMesh surface;  ///< the mesh that the baker must bake equally
     bool closed = true;
 };
 
@@ -194,12 +194,12 @@ TEST(FieldOracle, SamplesAreExact) {
             ASSERT_TRUE(field) << field.problem().message;
             EXPECT_EQ(report.closed, one.closed);
             EXPECT_EQ(report.gaps == 0, one.closed);
-            // Distances are rounded to floats; so are the corners, but those are the truth's too.
+            // Distances are rounded to floats. So are the corners, but the reference has the rounded ones too.
             const double rounding = 1e-6 * static_cast<double>(longest_side(one.baked));
             const Compared found = compare<3>(*field, truth, rounding, random);
             EXPECT_EQ(found.wrong, 0u);
             EXPECT_LE(found.farthest, rounding);
-            EXPECT_LT(found.doubtful, sample_count() / 100);
+            EXPECT_LT(found.undecided, sample_count() / 100);
             if (store == FieldStore::dense) {
                 EXPECT_GT(found.inside, sample_count() / 100) << "no sample of an inside proves nothing";
                 EXPECT_LT(found.inside, sample_count() * 9 / 10);
@@ -239,7 +239,7 @@ TEST(FieldOracle, OutlinesAreExact) {
     }
 }
 
-/// What is told between the samples, at points no farther than a cell from the surface: in cells.
+/// The errors between the samples, at points no farther than a cell from the surface, in cells.
 struct NearError {
     double root_mean_square = 0, largest = 0, wrong_side = 0;
 };
@@ -257,10 +257,10 @@ NearError near_error(const Field3& field, const SolidMesh& mesh, Random& random)
         const double away = random.uniform(-cell, cell);
         const Vec3 point = to_float(a + (b - a) * u + (c - a) * v + normalized(cross(b - a, c - a)) * away);
         const double exact = truth(DVec<3>(point)).signed_distance();
-        const double told = static_cast<double>(field.distance(point)), error = std::abs(told - exact) / cell;
+        const double found = static_cast<double>(field.distance(point)), error = std::abs(found - exact) / cell;
         result.root_mean_square += error * error;
         result.largest = std::max(result.largest, error);
-        result.wrong_side += (told < 0) != (exact < 0);
+        result.wrong_side += (found < 0) != (exact < 0);
     }
     result.root_mean_square = std::sqrt(result.root_mean_square / static_cast<double>(count));
     result.wrong_side /= static_cast<double>(count);

@@ -1,12 +1,12 @@
-// What becomes of a bake: problems, progress, threads, samples in special places, and a mesh that changes.
-// That samples are right is for field_oracle_test.cpp.
+// Baking: problems, progress, threads, samples at special places, and a mesh that changes. field_oracle_test.cpp checks
+// the samples.
 
 #include "../oracle/field.hpp"
 
 #include "../../scenes/bumpy_ball.hpp"
 #include "../../scenes/solid_meshes.hpp"
 #include "../broad_phase/executors.hpp"
-#include "../oracle/vector_units.hpp"
+#include "../oracle/simd_targets.hpp"
 #include <abut/bake/field.hpp>
 #include <abut/field/packed_direction.hpp>
 #include <abut/shape/ball.hpp>
@@ -107,7 +107,7 @@ TEST(BakeField, NamesWhatIsWrong) {
 
 TEST(BakeField, EveryCallOfProgressCanCancel) {
     const SolidMesh mesh = stone(9);
-    int calls = 0, least_calls = 0;
+    int calls = 0, fine_calls = 0;
     double before = 0;
     FieldOptions<3> options;
     const auto all = [&](double done) {
@@ -127,9 +127,9 @@ TEST(BakeField, EveryCallOfProgressCanCancel) {
         options.progress = FunctionRef<bool(double)>(some);
         EXPECT_EQ(code_of(bake_field(mesh.points, mesh.triangles, options)), ProblemCode::cancelled) << stop;
         EXPECT_EQ(called, stop);
-        ++least_calls;
+        ++fine_calls;
     }
-    EXPECT_GT(least_calls, 10);
+    EXPECT_GT(fine_calls, 10);
 }
 
 TEST(BakeField, ThreadsChangeNoBit) {
@@ -149,8 +149,8 @@ TEST(BakeField, ThreadsChangeNoBit) {
     }
 }
 
-class FieldByVectorUnit : public oracle::ByVectorUnit {};
-INSTANTIATE_TEST_SUITE_P(All, FieldByVectorUnit, oracle::vector_units(), oracle::name_of_unit);
+class FieldByVectorUnit : public oracle::BySimdTarget {};
+INSTANTIATE_TEST_SUITE_P(All, FieldByVectorUnit, oracle::simd_targets(), oracle::simd_target_name);
 
 TEST_P(FieldByVectorUnit, ChangesNoBit) {
     const SolidMesh mesh = stone(15);
@@ -159,7 +159,7 @@ TEST_P(FieldByVectorUnit, ChangesNoBit) {
     const auto bake_flat = [&] { return bake_field(outline); };
     const Result<Field3> here = bake();
     const Result<Field2> flat_here = bake_flat();
-    const oracle::OnlyVectorUnit plain(hwy::SupportedAndGeneratedTargets().back());
+    const oracle::ForcedSimdTarget scalar(hwy::SupportedAndGeneratedTargets().back());
     const Result<Field3> there = bake();
     const Result<Field2> flat_there = bake_flat();
     ASSERT_TRUE(here && there && flat_here && flat_there);
@@ -187,7 +187,7 @@ TEST(BakeField, SamplesOnTheSurfaceHaveNormals) {
             EXPECT_NEAR(data.distance[i], dot(DVec<3>(p - data.closest[i]), DVec<3>(normal)), 1e-3);
             if (data.distance[i] != 0) continue;
             ++on_it;
-            // Out of the cube, at its edges and corners by one of the faces there.
+            // Out of the cube; at its edges and corners by one of the faces there.
             const Vec3 out = p + 0.1f * normal;
             EXPECT_FALSE(contains(Aabb3{Vec3(0), Vec3(1)}, out)) << p.x << ' ' << p.y << ' ' << p.z;
         }
@@ -196,8 +196,8 @@ TEST(BakeField, SamplesOnTheSurfaceHaveNormals) {
 }
 
 TEST(BakeField, ASheetEnclosesNextToNothing) {
-    // A Moebius strip: it has no side that could be out. Where it is bent, the winding number of what is close to it is
-    // a little more than 0.5 on one side: 3 % of the samples.
+    // A Moebius strip has no outside. Where it is bent, the winding number close to it is a little more than 0.5 on one
+    // side: 3 % of the samples.
     std::vector<Vec3> points;
     std::vector<glm::uvec3> triangles;
     constexpr std::uint32_t steps = 48;
@@ -219,18 +219,18 @@ TEST(BakeField, ASheetEnclosesNextToNothing) {
     const Result<Field3> field = bake_field(points, triangles, options);
     ASSERT_TRUE(field);
     EXPECT_FALSE(report.closed);
-    EXPECT_EQ(report.gaps, 2 * steps + 1);  // its border, and where it is sewn together the wrong way
-    const std::vector<oracle::KeptSample<3>> samples = oracle::kept_samples(*field);
+    EXPECT_EQ(report.gaps, 2 * steps + 1);  // its border, and where it is sewn with inconsistent winding
+    const std::vector<oracle::StoredSample<3>> samples = oracle::stored_samples(*field);
     std::size_t inside = 0;
-    for (const oracle::KeptSample<3>& sample : samples) {
+    for (const oracle::StoredSample<3>& sample : samples) {
         inside += sample.distance < 0;
         EXPECT_GT(sample.distance, -1.5 * static_cast<double>(field->cell()));
     }
     EXPECT_LT(inside, samples.size() / 25);
 }
 
-/// Groups of triangles that hang together nowhere are told by their sums: 2,000 of a ball, a third of it taken away.
-TEST(BakeField, SoupsAreToldExactly) {
+/// Triangles without shared edges have signs by their winding numbers: 2,000 of a ball, a third of it removed.
+TEST(BakeField, SoupsAreReportedExactly) {
     SolidMesh mesh = stone(27);
     Random random(seed);
     SolidMesh soup;
@@ -251,7 +251,7 @@ TEST(BakeField, SoupsAreToldExactly) {
     ASSERT_TRUE(field);
     EXPECT_EQ(report.gaps, 3 * soup.triangles.size());
     const oracle::TriangleTruth truth(soup.points, soup.triangles);
-    const std::vector<oracle::KeptSample<3>> samples = oracle::kept_samples(*field);
+    const std::vector<oracle::StoredSample<3>> samples = oracle::stored_samples(*field);
     int inside = 0, wrong = 0;
     for (int i = 0; i < 1000; ++i) {
         const auto& sample = samples[random.below(static_cast<std::uint32_t>(samples.size()))];
@@ -264,8 +264,8 @@ TEST(BakeField, SoupsAreToldExactly) {
     EXPECT_EQ(wrong, 0);
 }
 
-/// Flat holes along planes of samples: up to 8 of 2,900 samples in such a plane had the other sign, as the line that
-/// was counted saw what closes the hole from one side and the solid angle from the other.
+/// Flat holes along planes of samples: up to 8 of 2,900 samples in such a plane once had the other sign. The counted
+/// line was on one side of the hole, the solid angle on the other.
 TEST(BakeField, SamplesInWhatClosesHolesHaveTheirSign) {
     Random random(seed);
     const SolidMesh house = scenes::house();
@@ -280,7 +280,7 @@ TEST(BakeField, SamplesInWhatClosesHolesHaveTheirSign) {
     ASSERT_TRUE(field);
     const oracle::TriangleTruth truth(open.points, open.triangles);
     int compared = 0, inside = 0;
-    for (const oracle::KeptSample<3>& sample : oracle::kept_samples(*field)) {
+    for (const oracle::StoredSample<3>& sample : oracle::stored_samples(*field)) {
         if (std::abs(sample.distance) < 1e-3 || random.chance(is_long() ? 0 : 0.8)) continue;
         const double winding = std::abs(truth.winding(sample.position));
         if (std::abs(winding - 0.5) < 1e-9) continue;
@@ -293,7 +293,7 @@ TEST(BakeField, SamplesInWhatClosesHolesHaveTheirSign) {
     EXPECT_GT(inside, 30);
 }
 
-/// A bump on the ball: the same samples, and most of them not told anew.
+/// A bump on the ball: equal samples, most of them not computed again.
 TEST(RebakeField, IsTheSameAsBakingAllOfIt) {
     const SolidMesh before = stone(21);
     SolidMesh after = before;
@@ -334,10 +334,10 @@ TEST(RebakeField, OtherOptionsAreRefused) {
               ProblemCode::bad_argument);
 }
 
-TEST(BakeField, ShapesAreToldByTheQuestions) {
+TEST(BakeField, ShapesAreSampledByQueries) {
     const Result<Field3> ball = bake_field(Sphere{{1, 2, 3}, 2}, FieldOptions<3>{.cell = 0.25f});
     ASSERT_TRUE(ball);
-    for (const oracle::KeptSample<3>& sample : oracle::kept_samples(*ball))
+    for (const oracle::StoredSample<3>& sample : oracle::stored_samples(*ball))
         EXPECT_NEAR(sample.distance, length(sample.position - DVec<3>(1, 2, 3)) - 2, 1e-5);
 }
 

@@ -1,4 +1,4 @@
-// Shapes made into corners, and found again.
+// Corners of shapes, and the shapes fitted to them.
 
 #include "../../scenes/bumpy_ball.hpp"
 #include "../oracle/random.hpp"
@@ -17,12 +17,12 @@ namespace {
 
 using oracle::Random;
 
-/// Turned, put somewhere, and each corner shaken by at most `noise`.
-Polyhedron placed(const std::vector<DVec<3>>& points, double noise, Random& random) {
+/// A rotated and moved polyhedron, each corner perturbed by at most `perturbation`.
+Polyhedron placed(const std::vector<DVec<3>>& points, double perturbation, Random& random) {
     const Pose<3> pose{to_float(random.in_cube<3>() * 10.0), random.rotation<3>()};
     std::vector<Vec3> result;
     for (const DVec<3>& p : points)
-        result.push_back(pose * to_float(p + random.direction<3>() * (noise * random.unit())));
+        result.push_back(pose * to_float(p + random.direction<3>() * (perturbation * random.unit())));
     return *Polyhedron::build(result);
 }
 
@@ -34,21 +34,21 @@ std::vector<DVec<3>> box_corners(const DVec<3>& half) {
     return result;
 }
 
-/// Of `2 rows` corners a ring; half a ball at each end of a segment along z.
+/// A ring has `2 rows` corners; half a ball at each end of a segment along z.
 std::vector<DVec<3>> capsule_corners(double half_length, double radius, std::uint32_t rows) {
     std::vector<DVec<3>> result;
-    for (const double way : {-1.0, 1.0})
+    for (const double sign : {-1.0, 1.0})
         for (std::uint32_t row = 0; row <= rows; ++row) {
             const DVec<2> up = scenes::on_circle(1.0 * row / rows);
             for (std::uint32_t i = 0; i < 4 * rows; ++i) {
                 const DVec<2> around = scenes::on_circle(1.0 * i / rows) * (up.x * radius);
-                result.emplace_back(around.x, around.y, way * (half_length + up.y * radius));
+                result.emplace_back(around.x, around.y, sign * (half_length + up.y * radius));
             }
         }
     return result;
 }
 
-/// The error as it is defined, by asking both how far they reach in many directions: never more than the true one.
+/// The error by its definition, from the supports of both in many directions: never more than the true one.
 double error_by_supports(const Polyhedron& part, const Fit& found, Random& random) {
     const auto widest = [&](const auto& shape) {
         const Convex<3> a = convex(part), b = convex(shape);
@@ -73,25 +73,25 @@ TEST(Fit, FindsBoxes) {
         SCOPED_TRACE(seed);
         Random random(seed);
         const DVec<3> half(random.uniform(0.1, 2), random.uniform(0.1, 2), random.uniform(0.1, 2));
-        const double noise = seed % 2 == 0 ? 0 : 0.005 * length(half);
-        const Polyhedron part = placed(box_corners(half), noise, random);
+        const double perturbation = seed % 2 == 0 ? 0 : 0.005 * length(half);
+        const Polyhedron part = placed(box_corners(half), perturbation, random);
         const std::optional<Fit> found = fit(part);
         ASSERT_TRUE(found);
         ASSERT_TRUE(std::holds_alternative<Box<3>>(found->shape)) << found->shape.index();
         EXPECT_TRUE(found->contains);
-        EXPECT_LE(found->error, 3 * noise + 1e-4 * length(half));
+        EXPECT_LE(found->error, 3 * perturbation + 1e-4 * length(half));
         std::vector<float> expected{static_cast<float>(half.x), static_cast<float>(half.y), static_cast<float>(half.z)};
         const Vec3 got = std::get<Box<3>>(found->shape).half;
         std::vector<float> sides{got.x, got.y, got.z};
         std::sort(expected.begin(), expected.end());
         std::sort(sides.begin(), sides.end());
-        for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(sides[i], expected[i], 2 * noise + 1e-4 * length(half));
+        for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(sides[i], expected[i], 2 * perturbation + 1e-4 * length(half));
         expect_right(part, *found, random);
     }
 }
 
 TEST(Fit, FindsBoxesThatAreSquare) {
-    // Whose inertia tells no axes.
+    // A shape whose inertia has no distinct axes.
     for (std::uint64_t seed = 0; seed < 30; ++seed) {
         SCOPED_TRACE(seed);
         Random random(seed);
@@ -108,7 +108,7 @@ TEST(Fit, NoBallNearbyIsBetter) {
     for (std::uint64_t seed = 0; seed < 30; ++seed) {
         SCOPED_TRACE(seed);
         Random random(seed);
-        // Far from evenly spread, so that the middle is none of the ball's.
+        // Corners so unevenly spread that their mean isn't the ball's centre.
         std::vector<DVec<3>> points{axis<3>(0, -1)};
         while (points.size() < 60) {
             const DVec<3> direction = random.direction<3>();
@@ -135,15 +135,15 @@ TEST(Fit, FindsCapsules) {
         SCOPED_TRACE(seed);
         Random random(seed);
         const double half = random.uniform(0.5, 3), radius = random.uniform(0.2, 1);
-        const double noise = seed % 2 == 0 ? 0 : 0.01 * radius;
-        const Polyhedron part = placed(capsule_corners(half, radius, 4), noise, random);
+        const double perturbation = seed % 2 == 0 ? 0 : 0.01 * radius;
+        const Polyhedron part = placed(capsule_corners(half, radius, 4), perturbation, random);
         const std::optional<Fit> found = fit(part);
         ASSERT_TRUE(found);
         ASSERT_TRUE(std::holds_alternative<Capsule<3>>(found->shape)) << found->shape.index();
         const auto& capsule = std::get<Capsule<3>>(found->shape);
         EXPECT_NEAR(static_cast<double>(capsule.radius), radius, 0.05 * radius);
         EXPECT_NEAR(length(DVec<3>(capsule.b) - DVec<3>(capsule.a)), 2 * half, 0.15 * radius);
-        EXPECT_LE(found->error, 0.03 * radius + 2 * noise);
+        EXPECT_LE(found->error, 0.03 * radius + 2 * perturbation);
         expect_right(part, *found, random);
 
         const std::optional<Fit> holding = fit(part, {.tolerance = 0.1, .hold = true});
@@ -157,8 +157,8 @@ TEST(Fit, FindsBalls) {
     for (std::uint64_t seed = 0; seed < 30; ++seed) {
         SCOPED_TRACE(seed);
         Random random(seed);
-        const double radius = random.uniform(0.01, 5), noise = seed % 2 == 0 ? 0 : 0.004 * radius;
-        const Polyhedron part = placed(capsule_corners(0, radius, 6), noise, random);
+        const double radius = random.uniform(0.01, 5), perturbation = seed % 2 == 0 ? 0 : 0.004 * radius;
+        const Polyhedron part = placed(capsule_corners(0, radius, 6), perturbation, random);
         const std::optional<Fit> found = fit(part);
         ASSERT_TRUE(found);
         ASSERT_TRUE(std::holds_alternative<Ball<3>>(found->shape)) << found->shape.index();
@@ -183,7 +183,7 @@ TEST(Fit, RefusesWhatIsNoneOfThem) {
                 cylinder.emplace_back(at.x, at.y, z);
             }
         for (int i = 0; i < 3; ++i)
-            for (const double way : {-1.0, 1.0}) octahedron.push_back(axis<3>(i, way));
+            for (const double sign : {-1.0, 1.0}) octahedron.push_back(axis<3>(i, sign));
         EXPECT_FALSE(fit(placed(cylinder, 0, random)));
         EXPECT_FALSE(fit(placed(octahedron, 0, random)));
         EXPECT_TRUE(fit(placed(octahedron, 0, random), {.tolerance = 0.4}));

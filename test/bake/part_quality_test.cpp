@@ -1,4 +1,4 @@
-// The oracle of convex parts itself, where the answers are known.
+// The oracle of convex parts itself, with known answers.
 
 #include "../oracle/part_quality.hpp"
 
@@ -47,9 +47,9 @@ TEST(PartQuality, WhatIsThereAndNoMoreIsFoundExact) {
     EXPECT_GT(found.samples_inside, 0.9 * samples);
 }
 
-TEST(PartQuality, WhatIsMissingAndWhatIsTooMuchAreTold) {
+TEST(PartQuality, MissingAndExtraVolumesAreReported) {
     const Soup soup = box(Vec3(0), Vec3(2, 1, 1));
-    // A quarter is bare, and half as much again as all stands out to the left.
+    // A quarter is uncovered, and half of the volume sticks out to the left.
     const std::vector<Polyhedron> parts = {solid_box(Vec3(-1, 0, 0), Vec3(1.5f, 1, 1))};
     const oracle::PartQuality found = oracle::quality_of(soup.points, soup.triangles, parts, samples, 2);
     EXPECT_NEAR(found.extra, 0.5, by_chance);

@@ -1,4 +1,4 @@
-// Meshes broken on purpose, and what comes back.
+// Meshes with deliberate faults, and their repairs.
 
 #include "../../scenes/solid_meshes.hpp"
 #include "../oracle/random.hpp"
@@ -41,7 +41,7 @@ SolidMesh inside_out(SolidMesh mesh) {
     return mesh;
 }
 
-/// Each triangle with corners of its own, in any order.
+/// Each triangle with separate corners, in any order.
 SolidMesh soup(const SolidMesh& mesh, Random& random) {
     std::vector<std::uint32_t> order(mesh.triangles.size());
     for (std::uint32_t i = 0; i < order.size(); ++i) {
@@ -145,7 +145,7 @@ TEST(Repair, FacesOutwards) {
     const SolidMesh house = scenes::house();
     EXPECT_EQ(volume(repaired(inside_out(house))), volume(house));
     EXPECT_EQ(volume(repaired(inside_out(house), {.face_outwards = false})), -volume(house)) << "a room";
-    // Boxes that share an edge, four triangles at it, one of the two inside out.
+    // Boxes that share an edge with four triangles, one of the two inside out.
     SolidMesh two = box({0, 0, 0}, {1, 1, 1});
     add(two, inside_out(box({1, 1, 0}, {2, 2, 1})));
     const Repaired result = repaired(two);
@@ -240,7 +240,7 @@ TEST(Repair, LeavesMouthsAndSheetsOpen) {
 }
 
 TEST(Repair, FillsAFlatHoleWithoutFolds) {
-    // A plate with a hole in the shape of a star, in its middle: what is added covers the star and nothing else.
+    // A plate with a star-shaped hole in its middle: the new triangles cover exactly the star.
     SolidMesh plate;
     constexpr std::uint32_t count = 16;
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -302,15 +302,15 @@ TEST(Repair, WallsBetweenBoxesGo) {
     add(two, box({1, 0, 0}, {2, 1, 1}));
     std::swap(two.triangles[10], two.triangles[22]);
     const Repaired result = repaired(two);
-    // The wall's diagonals differ between the two, so it is there as four triangles that nothing makes doubles of.
+    // The wall's diagonals differ between the two, so that it consists of four triangles without duplicates.
     EXPECT_DOUBLE_EQ(volume(result), 2);
-    SolidMesh alike = box({0, 0, 0}, {1, 1, 1});
+    SolidMesh consistent = box({0, 0, 0}, {1, 1, 1});
     SolidMesh right = box({1, 0, 0}, {2, 1, 1});
     right.triangles.erase(right.triangles.begin() + 8, right.triangles.begin() + 10);
-    add(alike, right);
-    const auto wall = alike.triangles;
-    alike.triangles.insert(alike.triangles.end(), {{1, 7, 3}, {1, 5, 7}});
-    const Repaired merged = repaired(alike);
+    add(consistent, right);
+    const auto wall = consistent.triangles;
+    consistent.triangles.insert(consistent.triangles.end(), {{1, 7, 3}, {1, 5, 7}});
+    const Repaired merged = repaired(consistent);
     EXPECT_EQ(merged.repairs.triangles_double, 4u);
     EXPECT_TRUE(merged.closed);
     EXPECT_EQ(merged.repairs.non_manifold_edges, 0u);

@@ -107,7 +107,7 @@ TEST(Solid, FlatThingsAreNot) {
     const Welded sheet{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}, {0, 2, 1}, {0, 3, 2}}};
     EXPECT_FALSE(solid(sheet));
     EXPECT_FALSE(solid(Welded{}));
-    // A lens thinner than the margin: only the volume tells which side is in.
+    // A lens thinner than the tolerance: only the volume decides which side is inside.
     const Welded lens{{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1e-6f}, {0, 0, -1e-6f}},
                       {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {1, 0, 5}, {2, 1, 5}, {3, 2, 5}, {0, 3, 5}}};
     EXPECT_TRUE(solid(lens));

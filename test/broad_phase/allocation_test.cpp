@@ -1,4 +1,4 @@
-// Counts what is allocated: nothing in queries, nothing in updates once warm.
+// Counts allocations: none in queries, none in updates once warm.
 
 #include "allocations.hpp"
 #include "scenes.hpp"

@@ -1,4 +1,4 @@
-// A counting operator new, alone in its file: where the compiler sees into it, it warns of the malloc.
+// A counting operator new, in a file of its own: inlined, the malloc in it causes a compiler warning.
 #include "allocations.hpp"
 
 #include <atomic>

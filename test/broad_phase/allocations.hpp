@@ -4,9 +4,9 @@
 
 namespace abut::test {
 
-/// How often this program has allocated so far.
+/// The number of allocations of this program so far.
 std::size_t allocations();
-/// Held now by operator new, as the C library counts them; without what is aligned beyond the usual.
+/// The bytes allocated by operator new at present, as the C library counts them, without over-aligned blocks.
 std::size_t allocated_bytes();
 
 }  // namespace abut::test

@@ -19,7 +19,7 @@ namespace {
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 using Items = std::vector<std::uint32_t>;
 
-/// What a broad phase says, against what every pair of its boxes says.
+/// Compares a broad phase with a test of every pair of its boxes.
 template <class T, int D>
 struct Checks {
     static_assert(BroadPhase<T, D>);
@@ -30,7 +30,7 @@ struct Checks {
         return result;
     }
 
-    /// Fails where the structure and every pair of the boxes disagree. Returns how many pairs there are.
+    /// Compares all answers with those of testing every pair; returns the number of pairs.
     static std::size_t check(const T& phase, const std::vector<Aabb<D>>& boxes, oracle::Random& random) {
         BruteForce<D> oracle;
         oracle.build(boxes);
@@ -125,7 +125,7 @@ struct Checks {
         EXPECT_EQ(first(phase), first(oracle));
     }
 
-    /// Not before the ray comes into the box of the item.
+    /// The reach is not below the ray's entry into the item's box.
     static float made_up_distance(const Aabb<D>& box, const Ray<D>& ray, std::uint32_t item) {
         double enters = 0;
         EXPECT_TRUE(RayReach<D>(ray).measure(box, enters));
@@ -233,7 +233,7 @@ TYPED_TEST(BroadPhases, HaveTheSameOrderEveryTime) {
 
 TYPED_TEST(BroadPhases, PairsOfFourBoxes) {
     constexpr int D = dimension_of<TypeParam>;
-    // 0 touches 1 at a face and 2 lies in 1; 3 is a hair away from 1.
+    // 0 touches 1 at a face and 2 lies in 1; 3 is an ulp away from 1.
     std::vector<Aabb<D>> boxes{
         {Vec<D>(0), Vec<D>(1)}, {Vec<D>(0), Vec<D>(2)}, {Vec<D>(1.25f), Vec<D>(1.5f)}, {Vec<D>(0), Vec<D>(1)}};
     boxes[1].min[0] = 1;
@@ -267,9 +267,9 @@ TYPED_TEST(BroadPhases, HaveTheSamePairsWithSeveralThreads) {
                 phase.each_pair(keep, &executor);
                 std::sort(found.begin(), found.end());
                 EXPECT_EQ(found, expected);
-                std::atomic<int> told = 0;
-                phase.each_pair([&](std::uint32_t, std::uint32_t) { return ++told, false; }, &executor);
-                EXPECT_EQ(told > 0, !expected.empty());
+                std::atomic<int> visited_count = 0;
+                phase.each_pair([&](std::uint32_t, std::uint32_t) { return ++visited_count, false; }, &executor);
+                EXPECT_EQ(visited_count > 0, !expected.empty());
                 move_some(boxes, random);
                 phase.update(boxes, &executor);
                 alone.update(boxes);
@@ -277,29 +277,29 @@ TYPED_TEST(BroadPhases, HaveTheSamePairsWithSeveralThreads) {
         }
 }
 
-/// One part of the work that has had enough is enough for all: no thread begins another, and those that are on their
-/// way end with what they are about to tell.
+/// A visitor that stops one part of the work stops all: no thread begins another part, and running parts end with their
+/// current batch.
 TYPED_TEST(BroadPhases, OtherThreadsStopSoonAfterOneHasEnough) {
     constexpr int D = dimension_of<TypeParam>;
     oracle::Random random(41);
     const auto boxes = make_scene<D>(Scene::uniform, 20000, random);
     const auto phase = TestFixture::built(boxes);
     ThreadExecutor executor(3);
-    std::atomic<std::size_t> all = 0, told = 0;
+    std::atomic<std::size_t> all = 0, visited_count = 0;
     phase.each_pair([&](std::uint32_t, std::uint32_t) { ++all; }, &executor);
     EXPECT_GT(all, 10000u);
-    // Who is told something after he has said so keeps still: it is not his answer that ends what the others do.
-    phase.each_pair([&](std::uint32_t, std::uint32_t) { return ++told != 100; }, &executor);
-    EXPECT_GE(told, 100u);
-    EXPECT_LT(told, all / 2);
+    // A later call returns true again, so that only the first false stops the other threads.
+    phase.each_pair([&](std::uint32_t, std::uint32_t) { return ++visited_count != 100; }, &executor);
+    EXPECT_GE(visited_count, 100u);
+    EXPECT_LT(visited_count, all / 2);
 }
 
 TYPED_TEST(BroadPhases, EndlessBoxesPairWithAllTheyTouch) {
     constexpr int D = dimension_of<TypeParam>;
     constexpr float far = std::numeric_limits<float>::infinity();
     std::vector<Aabb<D>> boxes{{Vec<D>(0), Vec<D>(1)},
-                               {Vec<D>(-far), Vec<D>(far)},  // everything
-                               {Vec<D>(-far), Vec<D>(far)},  // what lies below 0 on the last axis
+                               {Vec<D>(-far), Vec<D>(far)},  // the whole space
+                               {Vec<D>(-far), Vec<D>(far)},  // the half-space below 0 on the last axis
                                Aabb<D>::empty(),
                                {Vec<D>(5), Vec<D>(6)}};
     boxes[2].max[D - 1] = 0;
@@ -316,7 +316,7 @@ TYPED_TEST(BroadPhases, EndlessBoxesPairWithAllTheyTouch) {
 TYPED_TEST(BroadPhases, StopWhenTheVisitorHasEnough) {
     constexpr int D = dimension_of<TypeParam>;
     const auto phase = TestFixture::built(std::vector<Aabb<D>>(20, {Vec<D>(0), Vec<D>(1)}));
-    const Ray<D> ray{Vec<D>(0.5f), Vec<D>(axis<D>(0))};  // starts in all of them: a reach of 0 wouldn't stop it
+    const Ray<D> ray{Vec<D>(0.5f), Vec<D>(axis<D>(0))};  // starts in all boxes, so a reach of 0 would not stop it
     for (int enough = 1; enough < 15; ++enough) {
         int pairs = 0, others = 0, boxes = 0, hits = 0, near = 0, pulled_in = 0, all = 0;
         phase.each_pair([&](std::uint32_t, std::uint32_t) { return ++pairs < enough; });
@@ -345,7 +345,7 @@ TYPED_TEST(BroadPhases, TheReachOnlyShrinks) {
         EXPECT_EQ(near, 3);
         EXPECT_EQ(hits, 3);
     }
-    // At reach 0 what touches the point still comes.
+    // At reach 0, boxes that touch the point are still visited.
     std::vector<Aabb<D>> touching(7, {Vec<D>(0), Vec<D>(1)});
     const auto corner = TestFixture::built(touching);
     int near = 0, hits = 0;
@@ -357,7 +357,7 @@ TYPED_TEST(BroadPhases, TheReachOnlyShrinks) {
 
 TYPED_TEST(BroadPhases, EqualDistancesAllCome) {
     constexpr int D = dimension_of<TypeParam>;
-    // Rounded to float, half of all distances are below what they are; the next item must come all the same.
+    // Half of all distances are rounded down to float; the next item must still be visited.
     for (int step = 1; step < 50; ++step) {
         const Vec<D> corner(0.37f * static_cast<float>(step));
         const auto phase = TestFixture::built(std::vector<Aabb<D>>(9, {corner, corner + Vec<D>(1)}));
@@ -383,7 +383,7 @@ TYPED_TEST(BroadPhases, ClosestToABox) {
         phase.closest(
             box, [&](std::uint32_t i) { near.push_back(i); }, 2.0f);
         phase.each_overlapping(grown(box, 2.00001f), [&](std::uint32_t i) {
-            // Beside a corner, a box grown by 2 reaches farther than 2.
+            // The corner of a box grown by 2 is farther than 2 from the box.
             DVec<D> gap;
             for (int a = 0; a < D; ++a)
                 gap[a] = std::max({0.0f, boxes[i].min[a] - box.max[a], box.min[a] - boxes[i].max[a]});

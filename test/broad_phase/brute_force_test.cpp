@@ -1,4 +1,4 @@
-// The oracle of the others, against the plainest loops there are.
+// The reference of the other broad phases, against simple loops.
 
 #include "scenes.hpp"
 #include <abut/broad_phase/brute_force.hpp>
@@ -17,7 +17,7 @@ struct Dimension {
 using Both = testing::Types<Dimension<2>, Dimension<3>>;
 TYPED_TEST_SUITE(BruteForceIn, Both);
 
-TYPED_TEST(BruteForceIn, TellsWhatPlainLoopsTellAndInTheirOrder) {
+TYPED_TEST(BruteForceIn, ReportsWhatPlainLoopsReportInTheirOrder) {
     constexpr int D = TypeParam::value;
     using Items = std::vector<std::uint32_t>;
     for (const Scene scene : all_scenes)
@@ -26,7 +26,7 @@ TYPED_TEST(BruteForceIn, TellsWhatPlainLoopsTellAndInTheirOrder) {
             oracle::Random random(16);
             const auto boxes = make_scene<D>(scene, count, random);
             BruteForce<D> phase;
-            // Larger before: what is left behind the boxes must not be seen.
+            // The array was larger before; its remains behind the boxes must not be read.
             phase.build(std::vector<Aabb<D>>(230, {Vec<D>(-100), Vec<D>(100)}));
             phase.build(boxes);
             std::vector<ItemPair> expected, pairs, other_expected, other_pairs;

@@ -1,4 +1,4 @@
-// What is the planes' own: items on both sides of one, what a tree may use up, and what is put in anew.
+// Cases that only splitting planes have: boxes that end at a plane, deep trees, and updates in which few boxes move.
 
 #include "executors.hpp"
 #include "scenes.hpp"
@@ -54,50 +54,8 @@ Items near(const T& phase, const Aabb<D>& box, float reach) {
     return result;
 }
 
-/// The tree of some boxes, as the broad phase makes it.
-template <int D>
-BspTree<D> tree_of(const std::vector<Aabb<D>>& boxes) {
-    BspTree<D> tree;
-    for (std::uint32_t i = 0; i < boxes.size(); ++i) tree.items.push_back({boxes[i], i});
-    build_tree(tree);
-    return tree;
-}
-
-template <int D>
-std::size_t mentions(const BspTree<D>& tree) {
-    std::size_t result = 0;
-    for (const BspNode& node : tree.nodes) result += node.count;
-    return result;
-}
-
-template <int D>
-int depth_of(const BspTree<D>& tree, std::uint32_t index = 0) {
-    const BspNode& node = tree.nodes[index];
-    return node.is_leaf() ? 0 : 1 + std::max(depth_of(tree, index + 1), depth_of(tree, node.above()));
-}
-
-TEST(Bsp, TheFloatBeforeIsTheNextLower) {
-    constexpr float most = std::numeric_limits<float>::max(), least = std::numeric_limits<float>::denorm_min();
-    for (const float x : {0.0f, -0.0f, 1.0f, -1.0f, least, -least, most, 1e-30f, -3.5f})
-        EXPECT_EQ(float_before(x), std::nextafter(x, -std::numeric_limits<float>::infinity())) << x;
-}
-
-TEST(Bsp, UsesNoMoreThanIsStated) {
-    oracle::Random random(41);
-    for (const Scene scene : all_scenes)
-        for (const std::uint32_t count : {1u, 10u, 1000u, 5000u}) {
-            const auto boxes = make_scene<3>(scene, count, random);
-            const BspTree<3> tree = tree_of(boxes);
-            EXPECT_LE(tree.nodes.size(), count + 1u);
-            EXPECT_LE(mentions(tree), 2u * count);
-            EXPECT_LE(tree.used, tree.words.size());
-            EXPECT_LE(tree.words.size(), 4u * count + 8);
-            EXPECT_LE(depth_of(tree), bsp_depth);
-        }
-}
-
-TEST(Bsp, IsNeverDeeperThanItsStacks) {
-    // Ever nearer to 0 along each axis in turn, each step half of the last.
+TEST(Bsp, BuildsADeepTree) {
+    // The points approach 0 along each axis, each at half the distance of the one before.
     std::vector<Aabb3> boxes;
     for (int exponent = -148; exponent < 120; ++exponent)
         for (int axis = 0; axis < 3; ++axis)
@@ -106,30 +64,9 @@ TEST(Bsp, IsNeverDeeperThanItsStacks) {
                 point[axis] = std::ldexp(1.0f, exponent);
                 boxes.push_back({point, point});
             }
-    const int depth = depth_of(tree_of(boxes));
-    EXPECT_GT(depth, 32) << "too easy to prove anything";
-    EXPECT_LE(depth, bsp_depth);
     Bsp<3> tree;
     tree.build(boxes);
     EXPECT_EQ(pairs_of(tree).size(), boxes.size() * 5 / 2);
-}
-
-TEST(Bsp, PartsWhatCanBeParted) {
-    oracle::Random random(42);
-    const BspTree<3> tree = tree_of(make_scene<3>(Scene::uniform, 5000, random));
-    std::uint32_t largest = 0;
-    for (const BspNode& node : tree.nodes) largest = std::max(largest, node.count);
-    EXPECT_LT(largest, 40u);
-    // Of what the whole scene is full of, the planes keep most: it isn't told to every leaf.
-    auto boxes = make_scene<3>(Scene::uniform, 5000, random);
-    for (std::size_t i = 0; i < 500; ++i) boxes[10 * i] = box_at<3>(random.in_cube<3>() * 4.0, DVec<3>(12.0));
-    const BspTree<3> mixed = tree_of(boxes);
-    std::size_t looks = 0;
-    for (const BspNode& node : mixed.nodes) looks += node.is_leaf() ? node.count : 0;
-    EXPECT_LT(looks, 2u * boxes.size());
-    std::uint32_t fullest_leaf = 0;
-    for (const BspNode& node : mixed.nodes) fullest_leaf = std::max(fullest_leaf, node.is_leaf() ? node.count : 0);
-    EXPECT_LT(fullest_leaf, 100u);
 }
 
 // On whole numbers planes, faces, corners and rays meet exactly.
@@ -175,34 +112,10 @@ void expect_the_same_on_a_lattice(std::uint64_t seed) {
     EXPECT_GT(found, 1000u);
 }
 
-TEST(Bsp, TellsEachOnceOnALattice) {
+TEST(Bsp, ReportsEachOnceOnALattice) {
     for (std::uint64_t seed = 0; seed < 4; ++seed) {
         expect_the_same_on_a_lattice<2>(seed);
         expect_the_same_on_a_lattice<3>(seed);
-    }
-}
-
-/// Every item is where a tree puts it: on both sides of the planes that it meets, until one keeps it.
-template <int D>
-void expect_in_its_cells(const BspTree<D>& tree, std::uint32_t item, std::uint32_t index) {
-    const BspNode& node = tree.nodes[index];
-    const auto begin = tree.words.begin() + node.first, end = begin + node.count;
-    const auto times = std::count(begin, end, item);
-    EXPECT_LE(times, 1);
-    if (times == 1) return;
-    ASSERT_FALSE(node.is_leaf());
-    if (tree.items[item].box.min[node.axis()] < node.plane) expect_in_its_cells(tree, item, index + 1);
-    if (tree.items[item].box.max[node.axis()] >= node.plane) expect_in_its_cells(tree, item, node.above());
-}
-
-TEST(Bsp, EveryItemIsInItsCells) {
-    oracle::Random random(43);
-    for (const Scene scene : all_scenes) {
-        const BspTree<3> tree = tree_of(make_scene<3>(scene, 400, random));
-        for (std::uint32_t item = 0; item < tree.items.size(); ++item) {
-            const Aabb3& box = tree.items[item].box;
-            if (overlaps(box, box)) expect_in_its_cells(tree, item, 0);
-        }
     }
 }
 
@@ -246,7 +159,7 @@ TEST(Bsp, IsRightWhileFewMove) {
     }
 }
 
-TEST(Bsp, StandsStillWhereNothingMoves) {
+TEST(Bsp, KeepsItsOrderWhileNothingMoves) {
     oracle::Random random(44);
     auto boxes = make_scene<3>(Scene::holes_and_endless, 500, random);
     Bsp<3> tree;
@@ -255,11 +168,25 @@ TEST(Bsp, StandsStillWhereNothingMoves) {
     tree.update(boxes);
     const auto order = pairs_of(tree);
     tree.update(boxes);
-    EXPECT_EQ(pairs_of(tree), order) << "one put in anew is not where a build would have it";
+    EXPECT_EQ(pairs_of(tree), order);
+    EXPECT_GT(order.size(), 100u);
 }
 
-TEST(Bsp, ManyThatMoveLittleAreFewByFew) {
-    // More are put in anew, all together, than there is room for.
+TEST(Bsp, FindsBoxesThatCameAndWent) {
+    std::vector<Aabb2> boxes(20, {Vec2(0), Vec2(1)});
+    boxes[4] = Aabb2::empty();
+    Bsp<2> tree;
+    tree.build(boxes);
+    EXPECT_EQ(pairs_of(tree).size(), 19u * 18 / 2);
+    std::swap(boxes[4], boxes[5]);
+    tree.update(boxes);
+    EXPECT_EQ(pairs_of(tree).size(), 19u * 18 / 2);
+    boxes[5] = boxes[4];
+    tree.update(boxes);
+    EXPECT_EQ(pairs_of(tree).size(), 20u * 19 / 2);
+}
+
+TEST(Bsp, IsRightAfterManySmallMoves) {
     oracle::Random random(45);
     auto boxes = make_scene<2>(Scene::uniform, 2000, random);
     Bsp<2> tree;
@@ -297,7 +224,7 @@ TEST(Bsp, TakesTheLargestNumbersAndPlacesAtInfinity) {
     for (const Aabb3& box : boxes) EXPECT_EQ(near(tree, box, 1), near(oracle, box, 1));
 }
 
-TEST(Bsp, AsksTheNearFirst) {
+TEST(Bsp, VisitsTheNearFirst) {
     std::vector<Aabb2> boxes;
     for (int i = 0; i < 1000; ++i) boxes.push_back(box_at<2>({2.0 * i, 0.0}, {0.5, 0.5}));
     Bsp<2> tree;

@@ -33,7 +33,7 @@ TYPED_TEST(BvhChanges, AddingOneByOneMakesNoBadTree) {
         EXPECT_LT(tree.cost(), (sorted ? 2 : 1.6) * fresh.cost());
         tree.update(boxes);
         EXPECT_LT(tree.cost(), 1.1 * fresh.cost()) << "repaired";
-        // And a few at a time, with updates between them.
+        // A few items are added at a time, with updates between them.
         TypeParam grown;
         for (std::size_t i = 0; i < 20000; ++i) {
             grown.insert(boxes[i]);
@@ -56,7 +56,7 @@ TYPED_TEST(BvhChanges, NeverDecays) {
         for (int frame = 1; frame <= 10000; ++frame) {
             scene.step();
             std::copy(scene.boxes().begin(), scene.boxes().end(), boxes.begin());
-            // Some cross the whole world in a hundred frames, each along its own axis, and begin anew.
+            // Some items cross the whole world in a hundred frames, each along its own axis, and then start again.
             for (std::size_t i = 0; crossing && i < boxes.size(); i += 10) {
                 const float way = scene.side() * 0.01f * static_cast<float>((frame + static_cast<int>(i)) % 100);
                 const auto axis = static_cast<glm::length_t>(i / 10 % D);

@@ -1,4 +1,4 @@
-// What is the tree's own: the shapes it must cope with, and how few it asks.
+// The BVH: degenerate trees, and the number of visited items.
 
 #include "scenes.hpp"
 #include <abut/broad_phase/bvh.hpp>
@@ -19,7 +19,7 @@ std::size_t count_pairs(const Bvh<D>& tree) {
     return result;
 }
 
-/// The nodes of boxes with bounds, or of the same boxes taken for boundless.
+/// The nodes of bounded boxes, or of the same boxes treated as unbounded.
 template <int D>
 class Nodes {
 public:
@@ -49,7 +49,7 @@ TEST(Bvh, SplitsBetterThanInHalves) {
     oracle::Random random(12);
     for (const Scene scene : {Scene::uniform, Scene::clustered, Scene::mixed_sizes}) {
         const auto boxes = make_scene<3>(scene, 3000, random);
-        // Halves fill their leaves, of which there are the fewest then.
+        // Splits in halves fill the leaves, which gives the minimal number of leaves.
         const double part = scene == Scene::clustered ? 0.95 : 1.03;
         EXPECT_LT(Nodes<3>(boxes, true).area(), part * Nodes<3>(boxes, false).area()) << static_cast<int>(scene);
     }
@@ -57,7 +57,7 @@ TEST(Bvh, SplitsBetterThanInHalves) {
 
 TEST(Bvh, SweepsABoxThroughAllThatItTouches) {
     oracle::Random random(13);
-    int met = 0, visited = 0;
+    int touched = 0, visited = 0;
     for (int i = 0; i < 200; ++i) {
         const auto boxes = make_scene<3>(Scene::mixed_sizes, 300, random);
         Bvh<3> tree;
@@ -74,7 +74,7 @@ TEST(Bvh, SweepsABoxThroughAllThatItTouches) {
             seen[item] = true;
             ++visited;
         });
-        // Where it is at some moments.
+        // Samples of the moving box.
         for (int step = 0; step <= 50; ++step) {
             const DVec<3> now = moving.center + moving.direction * (moving.length * step / 50);
             for (std::size_t k = 0; k < boxes.size(); ++k) {
@@ -85,21 +85,22 @@ TEST(Bvh, SweepsABoxThroughAllThatItTouches) {
                 EXPECT_TRUE(!touches || seen[k]) << i << " " << step;
             }
         }
-        // A visitor that shortens the reach to nothing is asked no more of what lies ahead.
+        // After a visitor shortens the reach to 0, no item ahead is visited.
         std::size_t few = 0;
         tree.sweep(moving, [&](std::uint32_t) -> float {
             ++few;
             return -1;
         });
         EXPECT_LE(few, 1u);
-        met += static_cast<int>(std::count(seen.begin(), seen.end(), true));
+        touched += static_cast<int>(std::count(seen.begin(), seen.end(), true));
     }
-    EXPECT_GT(met, 200);
-    EXPECT_EQ(visited, met) << "each once";
+    EXPECT_GT(touched, 200);
+    EXPECT_EQ(visited, touched) << "each once";
 }
 
 TEST(Bvh, IsNeverDeeperThanItsStacks) {
-    // Ever nearer to 0 along each axis in turn, each step half of the last: every split parts off a few.
+    // The boxes approach 0 along each axis in turn, each step half of the last, so that every split separates only a
+    // few.
     std::vector<Aabb3> boxes;
     for (int exponent = -148; exponent < 120; ++exponent)
         for (int axis = 0; axis < 3; ++axis)
@@ -134,7 +135,7 @@ TEST(Bvh, TakesManyBoxesInOnePlace) {
 }
 
 TEST(Bvh, TakesPointsThatHalveTheirWay) {
-    // Each split by cost parts off a few: a tree that doesn't change its way at some depth would be a list.
+    // Each split by cost separates only a few: without a limit of depth, the tree would be a list.
     std::vector<Aabb2> boxes;
     for (int exponent = -148; exponent < 127; ++exponent)
         for (int copy = 0; copy < 20; ++copy) {
@@ -181,14 +182,14 @@ TEST(Bvh, NewcomersAndHolesInAnUpdate) {
     for (std::size_t i = 0; i < 5; ++i) boxes[3 * i] = Aabb2::empty();
     tree.update(boxes);
     EXPECT_EQ(count_pairs(tree), 4u);
-    boxes[0] = {Vec2(5), Vec2(6)};    // one that was here before
-    boxes[1] = {Vec2(20), Vec2(21)};  // and one that wasn't
+    boxes[0] = {Vec2(5), Vec2(6)};    // a place that was used before
+    boxes[1] = {Vec2(20), Vec2(21)};  // and one that was not
     tree.update(boxes);
     EXPECT_EQ(count_pairs(tree), 6u);
     EXPECT_EQ(tree.bounds().max, Vec2(21));
 }
 
-/// How many visits the nearest of many needs.
+/// The number of visits to find the nearest of many items.
 int visits_to_nearest(const Bvh<2>& tree, const std::vector<Aabb2>& boxes, const Vec2& point) {
     int visits = 0;
     tree.closest(point, [&](std::uint32_t i) {
@@ -199,7 +200,7 @@ int visits_to_nearest(const Bvh<2>& tree, const std::vector<Aabb2>& boxes, const
     return visits;
 }
 
-TEST(Bvh, AsksTheNearFirst) {
+TEST(Bvh, VisitsTheNearestFirst) {
     std::vector<Aabb2> boxes;
     for (int i = 0; i < 1000; ++i) boxes.push_back(box_at<2>({2.0 * i, 0.0}, {0.5, 0.5}));
     Bvh<2> tree;
@@ -221,24 +222,24 @@ TEST(Bvh, AsksTheNearFirst) {
 TEST(Bvh, StaysGoodWhileEverythingMixes) {
     oracle::Random random(9);
     auto boxes = make_scene<2>(Scene::uniform, 2000, random);
-    Bvh<2> kept;
-    kept.build(boxes);
+    Bvh<2> updated;
+    updated.build(boxes);
     for (int frame = 0; frame < 60; ++frame) {
         for (Aabb2& box : boxes) {
             const Vec2 step(random.in_cube<2>() * 4.0);
             box = {box.min + step, box.max + step};
         }
-        kept.update(boxes);
+        updated.update(boxes);
     }
     Bvh<2> fresh;
     fresh.build(boxes);
-    int kept_visits = 0, fresh_visits = 0;
+    int updated_visits = 0, fresh_visits = 0;
     for (int repeat = 0; repeat < 200; ++repeat) {
         const Vec2 point(random.in_cube<2>() * 40.0);
-        kept_visits += visits_to_nearest(kept, boxes, point);
+        updated_visits += visits_to_nearest(updated, boxes, point);
         fresh_visits += visits_to_nearest(fresh, boxes, point);
     }
-    EXPECT_LT(kept_visits, 1.5 * fresh_visits);
+    EXPECT_LT(updated_visits, 1.5 * fresh_visits);
 }
 
 TEST(Bvh, IsAValue) {

@@ -1,4 +1,4 @@
-// Which broad phase is chosen for whom. That the choice is a quick one, the bench tells.
+// The choice of a broad phase. The benchmarks measure its speed.
 
 #include "../../scenes/moving_boxes.hpp"
 #include "../../scenes/skewed_boxes.hpp"
@@ -13,7 +13,7 @@
 namespace abut::test {
 namespace {
 
-/// Ten heaps of small boxes, so far apart that the cells of one grid either hold a whole heap or are too many.
+/// Ten clusters of small boxes, so far apart that a grid has too many cells or a whole cluster in one cell.
 template <int D>
 std::vector<Aabb<D>> heaps(std::uint32_t count) {
     oracle::Random random(51);
@@ -51,7 +51,7 @@ TYPED_TEST(Choices, FollowTheScene) {
     EXPECT_EQ(choice<D>(empty), BroadPhaseKind::grid);
 }
 
-/// What suits the scenes of the bench, by its table.
+/// The fastest kinds for the scenes of the benchmark, by its table.
 TYPED_TEST(Choices, SuitTheScenesOfTheBench) {
     constexpr int D = dimension_of<TypeParam>;
     const auto moving = [](std::size_t count, std::size_t one_in_moves = 1) {
@@ -68,7 +68,7 @@ TYPED_TEST(Choices, SuitTheScenesOfTheBench) {
         EXPECT_EQ(choice<D>(moving(count).boxes(), {.moved = 0, .queries = 1}), BroadPhaseKind::bvh) << count;
 }
 
-/// A scene that changes its nature, the right pairs all the time.
+/// A scene that changes its character, with correct pairs at all times.
 TYPED_TEST(Choices, ChangeWithTheScene) {
     constexpr int D = dimension_of<TypeParam>;
     scenes::MovingBoxes<D> scene(2000, 3);
@@ -97,8 +97,9 @@ TYPED_TEST(Choices, ChangeWithTheScene) {
     EXPECT_TRUE(phase.empty());
 }
 
-/// Told of rays, it looks at the next update, not when the next look is due; told of about as many as before, it waits.
-TYPED_TEST(Choices, FollowTheQuestionsAtOnceAndDoNotWaver) {
+/// With more rays, the choice is reviewed at the next update, not at the next regular review. With about as many rays
+/// as before, it waits.
+TYPED_TEST(Choices, FollowTheQueriesAtOnceAndAreStable) {
     constexpr int D = dimension_of<TypeParam>;
     const scenes::MovingBoxes<D> scene(500, 3);
     const auto update = [&](TypeParam& phase, double asked) {
@@ -112,7 +113,7 @@ TYPED_TEST(Choices, FollowTheQuestionsAtOnceAndDoNotWaver) {
     EXPECT_EQ(update(phase, 0.5), BroadPhaseKind::bvh);
     EXPECT_EQ(update(phase, 0.4), BroadPhaseKind::bvh);
     EXPECT_EQ(update(phase, 0), BroadPhaseKind::grid);
-    // Around the number at which both are as good.
+    // The number of queries is around the break-even point.
     double often = 1;
     while (choice<D>(scene.boxes(), {.queries = often}) == BroadPhaseKind::bvh) often *= 0.99;
     TypeParam wavering;
@@ -129,7 +130,7 @@ TYPED_TEST(Choices, FollowTheQuestionsAtOnceAndDoNotWaver) {
 constexpr std::array all_kinds{BroadPhaseKind::brute_force,     BroadPhaseKind::grid, BroadPhaseKind::layered_grid,
                                BroadPhaseKind::sweep_and_prune, BroadPhaseKind::bvh,  BroadPhaseKind::bsp};
 
-/// Any two kinds together, whichever is the larger, with empty boxes and endless ones.
+/// Pairs between two structures of any kinds and sizes, with empty boxes and unbounded ones.
 TYPED_TEST(Choices, AnyTwoKindsFindTheirPairs) {
     constexpr int D = dimension_of<TypeParam>;
     oracle::Random random(7);
@@ -156,13 +157,13 @@ TYPED_TEST(Choices, AnyTwoKindsFindTheirPairs) {
             few_phase.each_overlapping_pair(phase, [&](std::uint32_t j, std::uint32_t i) { found.emplace_back(i, j); });
             std::sort(found.begin(), found.end());
             EXPECT_EQ(found, expected);
-            int told = 0;
-            phase.each_overlapping_pair(few_phase, [&](std::uint32_t, std::uint32_t) { return ++told < 5; });
-            EXPECT_EQ(told, 5);
+            int visited_count = 0;
+            phase.each_overlapping_pair(few_phase, [&](std::uint32_t, std::uint32_t) { return ++visited_count < 5; });
+            EXPECT_EQ(visited_count, 5);
         }
 }
 
-/// A kind that was asked for stays, whatever the boxes are and however often they are asked for.
+/// A kind that the user fixed stays, with any boxes and any number of queries.
 TYPED_TEST(Choices, StayWhereTheyAreForced) {
     constexpr int D = dimension_of<TypeParam>;
     scenes::MovingBoxes<D> scene(300, 3);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Several threads for those calls that take an executor.
+// Executors with several threads.
 
 #include <abut/math/executor.hpp>
 
@@ -10,7 +10,7 @@
 
 namespace abut::test {
 
-/// Starts its threads anew for each job, and hands the parts out in a race.
+/// Starts new threads for each job; the threads compete for its parts.
 class ThreadExecutor : public Executor {
 public:
     explicit ThreadExecutor(std::uint32_t workers) : workers_(workers) {}

@@ -1,7 +1,7 @@
-// What is special in the uniform grid: cells and their borders, steps that tell or don't, boxes of many cells.
+// The uniform grid: cells and their borders, quantised steps that decide or don't, boxes of many cells.
 
 #include "../oracle/random.hpp"
-#include "../oracle/vector_units.hpp"
+#include "../oracle/simd_targets.hpp"
 #include "executors.hpp"
 #include "scenes.hpp"
 #include <abut/broad_phase/brute_force.hpp>
@@ -53,7 +53,7 @@ TYPED_TEST(Grids, BoxesThatEndWhereCellsEnd) {
         const auto place = [&](float most) {
             return lattice * static_cast<float>(random.below(static_cast<std::uint32_t>(most / lattice) + 1));
         };
-        // The first two boxes are points, so that the cells begin at 0 and there are four of them along each axis.
+        // The first two boxes are points, so that the cells begin at 0, with four along each axis.
         std::vector<Aabb<D>> boxes{{Vec<D>(0), Vec<D>(0)}, {Vec<D>(4), Vec<D>(4)}};
         while (boxes.size() < 120) {
             Aabb<D> box;
@@ -71,8 +71,8 @@ TYPED_TEST(Grids, BoxesThatEndWhereCellsEnd) {
     EXPECT_GT(found, 5000u);
 }
 
-/// Boxes are a few times smaller than a step, or than the last digit of what is far from the origin.
-TYPED_TEST(Grids, WhatStepsCantTellIsLeftToFloats) {
+/// The boxes are a few times smaller than a step, or than an ulp far from the origin.
+TYPED_TEST(Grids, UndecidedStepsAreLeftToFloats) {
     constexpr int D = dimension_of<TypeParam>;
     for (const float far : {0.0f, 1e4f, 1e6f, -3e7f}) {
         for (const double size : {1e-3, 1e-1, 10.0}) {
@@ -100,7 +100,7 @@ TYPED_TEST(Grids, ManyMovingBoxesOnEveryVectorUnit) {
         EXPECT_GT(expected.size(), 2000u);
         Pairs first_order;
         for (std::size_t unit = 0; unit < units.size(); ++unit) {
-            const oracle::OnlyVectorUnit only(units[unit]);
+            const oracle::ForcedSimdTarget only(units[unit]);
             Grid<D>& grid = grids[unit];
             if (frame == 0)
                 grid.build(boxes);
@@ -116,7 +116,7 @@ TYPED_TEST(Grids, ManyMovingBoxesOnEveryVectorUnit) {
     }
 }
 
-/// All boxes run together into a corner, then apart to ten times the space: cells are chosen anew.
+/// All boxes move together into a corner, then apart to ten times the extent: cells are chosen anew.
 TYPED_TEST(Grids, CellsFollowTheBoxes) {
     constexpr int D = dimension_of<TypeParam>;
     oracle::Random random(23);
@@ -143,7 +143,7 @@ TYPED_TEST(Grids, CellsFollowTheBoxes) {
     EXPECT_GT(fresh.cell_edge(), 2 * edge_at_first);
 }
 
-/// Whatever edge is asked for, memory holds it.
+/// Memory suffices for any requested cell size.
 TYPED_TEST(Grids, AnyEdgeOfCells) {
     constexpr int D = dimension_of<TypeParam>;
     oracle::Random random(29);
@@ -185,7 +185,7 @@ TYPED_TEST(Grids, AreTheSameWithSeveralThreads) {
     }
 }
 
-/// Rays and points from where cells don't reach, along the borders of cells, and through corners of boxes.
+/// Rays and points from outside the cells, along borders of cells, and through corners of boxes.
 TYPED_TEST(Grids, RaysAlongBordersAndFromFarAway) {
     constexpr int D = dimension_of<TypeParam>;
     std::size_t found = 0;
@@ -203,8 +203,8 @@ TYPED_TEST(Grids, RaysAlongBordersAndFromFarAway) {
             if (random.chance(0.01)) box.max[0] = std::numeric_limits<float>::infinity();
             boxes.push_back(box);
         }
-        // So large that there is memory for them. All borders lie on the lattice; those of the second can't be
-        // told exactly by steps of a float's scale.
+        // The cells are so large that memory suffices. All borders lie on the lattice; those of the second grid are not
+        // exact in steps of a float's scale.
         const float edge = static_cast<float>(D - 1) * (seed % 2 == 0 ? 2.0f : 1.75f);
         TypeParam grid(edge);
         BruteForce<D> oracle;
@@ -217,7 +217,7 @@ TYPED_TEST(Grids, RaysAlongBordersAndFromFarAway) {
                 origin[i] = place(8);
                 target[i] = random.chance(0.3) ? origin[i] : place(8);
             }
-            // From one corner of a cell diagonally through others.
+            // The ray goes from a corner of a cell diagonally through others.
             if (random.chance(0.3))
                 for (int i = 0; i < D; ++i) {
                     origin[i] = edge * static_cast<float>(random.below(5));
@@ -225,9 +225,9 @@ TYPED_TEST(Grids, RaysAlongBordersAndFromFarAway) {
                 }
             if (random.chance(0.2)) origin[random.below(D)] = random.chance(0.5) ? -1e4f : 3e6f;
             const auto ray = Ray<D>::between(origin, target);
-            const auto ordered = [](auto ask) {
+            const auto ordered = [](auto run) {
                 std::vector<std::uint32_t> result;
-                ask([&](std::uint32_t i) { result.push_back(i); });
+                run([&](std::uint32_t i) { result.push_back(i); });
                 std::sort(result.begin(), result.end());
                 return result;
             };

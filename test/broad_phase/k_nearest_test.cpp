@@ -48,7 +48,7 @@ TYPED_TEST(KNearest, LikeSortingAll) {
             for (const std::size_t k : {0u, 1u, 2u, 7u, 100u, 1000u})
                 for (int repeat = 0; repeat < 4; ++repeat) {
                     Vec<D> point(random.in_cube<D>() * 15.0);
-                    if (repeat == 0) point = Vec<D>(glm::vec<D, int>(point));  // as far from many
+                    if (repeat == 0) point = Vec<D>(glm::vec<D, int>(point));  // equally far from many
                     k_nearest(phase, boxes, point, k, found);
                     EXPECT_EQ(found, by_sorting<D>(boxes, point, k))
                         << "scene " << static_cast<int>(scene) << " of " << count << ", k " << k << ", seed 14";
@@ -68,8 +68,8 @@ TYPED_TEST(KNearest, OfEquallyFarTheLowerIndices) {
     ASSERT_EQ(found.size(), 5u);
     EXPECT_EQ(found[0], (NearItem{0, 17}));
     for (std::uint32_t k = 1; k < 5; ++k) EXPECT_EQ(found[k].item, k - 1);
-    // Distances so small that there are hardly any floats between them.
-    // Those of lower index are on the side where a sweep comes later.
+    // The distances are so small that hardly any float lies between them.
+    // The items of lower index are on the side that a sweep reaches later.
     boxes.assign(30, {Vec<D>(1e-45f), Vec<D>(1)});
     for (std::size_t i = 15; i < 30; ++i) boxes[i] = {Vec<D>(-1), Vec<D>(-1e-45f)};
     phase.build(boxes);

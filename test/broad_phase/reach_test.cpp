@@ -32,7 +32,7 @@ struct Dimension {
 using Both = testing::Types<Dimension<2>, Dimension<3>>;
 TYPED_TEST_SUITE(Reach, Both);
 
-TYPED_TEST(Reach, OfARayByHand) {
+TYPED_TEST(Reach, OfARayInClosedForm) {
     constexpr int D = TypeParam::value;
     const Aabb<D> box{Vec<D>(1), Vec<D>(2)};
     const Vec<D> x(axis<D>(0)), y(axis<D>(1));
@@ -78,7 +78,7 @@ TYPED_TEST(Reach, OfARayToEveryPointOnIt) {
         const double size = random.power_of_two(-10, 14);
         const Vec<D> a(random.in_cube<D>() * size), b(random.in_cube<D>() * size);
         const Ray<D> ray = Ray<D>::between(a, b);
-        // A box that has a point of the ray, rounded to floats away from it, for a corner.
+        // A corner of the box is a point of the ray, rounded outward to floats.
         const double t = random.chance(0.2) ? 1 : random.unit();
         const DVec<D> point = DVec<D>(ray.origin) + DVec<D>(ray.direction) * (t * static_cast<double>(ray.length));
         Aabb<D> box;
@@ -103,7 +103,7 @@ TYPED_TEST(Reach, OfARayThatGrazesACorner) {
     constexpr int D = TypeParam::value;
     oracle::Random random(19);
     for (int repeat = 0; repeat < 20000; ++repeat) {
-        // Whole numbers, so that the point is exactly on the ray; in the box it is the only one.
+        // With integers, the point is exactly on the ray, and the only one in the box.
         Vec<D> origin(0), direction(0);
         for (int i = 0; i < D; ++i) {
             origin[i] = static_cast<float>(random.below(1000));
@@ -123,7 +123,7 @@ TYPED_TEST(Reach, OfARayThatGrazesACorner) {
     }
 }
 
-TYPED_TEST(Reach, OfAPointByHand) {
+TYPED_TEST(Reach, OfAPointInClosedForm) {
     constexpr int D = TypeParam::value;
     const Aabb<D> box{Vec<D>(1), Vec<D>(2)};
     EXPECT_EQ(distance_squared(Vec<D>(1.5f), box), 0);

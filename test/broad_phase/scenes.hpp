@@ -1,6 +1,6 @@
 #pragma once
 
-// Boxes to try broad phases on, and the ways they move.
+// Scenes of boxes for broad phases, and their motions.
 
 #include "../oracle/random.hpp"
 #include <abut/math/aabb.hpp>
@@ -13,7 +13,7 @@
 
 namespace abut::test {
 
-/// 2 or 3, of a broad phase.
+/// The dimension of a broad phase.
 template <class T>
 inline constexpr int dimension_of = decltype(T().bounds().min)::length();
 
@@ -28,15 +28,15 @@ Aabb<D> box_at(const DVec<D>& center, const DVec<D>& half) {
     return {Vec<D>(center - half), Vec<D>(center + half)};
 }
 
-/// Within reach of the origin, and no larger on any side than twice `half`.
+/// A random box within reach of the origin, with sides of at most twice `half`.
 template <int D>
 Aabb<D> some_box(oracle::Random& random, double reach, double half) {
-    // One after the other: the order in which arguments are worked out is the compiler's.
+    // The numbers are drawn in statements of their own, because compilers evaluate arguments in any order.
     const DVec<D> center = random.in_cube<D>() * reach;
     return box_at<D>(center, DVec<D>(random.uniform(0, half)));
 }
 
-/// Without bound on some sides, perhaps on all.
+/// A box that is unbounded on some or all sides.
 template <int D>
 Aabb<D> endless_box(oracle::Random& random) {
     Aabb<D> result = some_box<D>(random, 10, 2);

@@ -91,7 +91,7 @@ TEST(Set, AnswersAsBuilt) {
     expect_as_built<Bvh<3>, 3>(6);
 }
 
-/// All go somewhere else one by one, several times: there is always a place for them.
+/// All boxes move one by one, several times: the capacity always suffices.
 template <class Phase, int D>
 void expect_room_for_all(std::uint64_t seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));

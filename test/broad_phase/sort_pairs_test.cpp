@@ -1,4 +1,4 @@
-// Against std::sort, for few and many pairs, of small and of the largest numbers.
+// sort_pairs against std::sort, for few and many pairs, of small and of the largest numbers.
 
 #include "../oracle/random.hpp"
 #include "allocations.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-// All broad phases, for what is tested of each of them.
+// The list of all broad phases, for typed tests.
 
 #include <abut/broad_phase/brute_force.hpp>
 #include <abut/broad_phase/bsp.hpp>

@@ -1,4 +1,4 @@
-// What is special in sweep and prune: many columns, new plans, orders that are kept and orders that are not.
+// Sweep and prune: many columns, new plans, and sorted orders that remain or are sorted anew.
 
 #include "../../scenes/moving_boxes.hpp"
 #include "scenes.hpp"
@@ -32,7 +32,7 @@ Pairs every_pair(std::span<const Aabb<D>> boxes) {
     return result;
 }
 
-/// Told twice, or not at all: where a pair or an item is not told once.
+/// The pairs or items that are reported twice, or not at all.
 template <int D>
 void expect_right(const SweepAndPrune<D>& phase, std::span<const Aabb<D>> boxes, oracle::Random& random) {
     const Pairs expected = every_pair(boxes);
@@ -115,7 +115,7 @@ TYPED_TEST(SweepAndPruneIn, SortsAlongTheAxisThatPartsTheBoxes) {
         SweepAndPrune<D> phase;
         phase.build(boxes);
         EXPECT_EQ(phase.plan().axis, longest);
-        // Turned round on the way, it would have to compare everything with everything.
+        // A reversal of the order would compare every item with every other.
         for (Aabb<D>& box : boxes) box = turned<D>(box, 1);
         phase.update(boxes);
         EXPECT_EQ(phase.plan().axis, (longest + D - 1) % D);
@@ -126,15 +126,16 @@ TYPED_TEST(SweepAndPruneIn, SortsAlongTheAxisThatPartsTheBoxes) {
 TYPED_TEST(SweepAndPruneIn, HasOneOrderWhereverItComesFrom) {
     constexpr int D = TypeParam::value;
     oracle::Random random(6);
-    // On whole numbers, so that some begin at the same place; far apart on axis 0, for columns have their own order.
+    // With integer coordinates, some boxes begin at the same place. They are far apart on axis 0, because columns have
+    // their own order.
     std::vector<Aabb<D>> boxes;
     for (int i = 0; i < 300; ++i) {
         Vec<D> corner(glm::vec<D, int>(random.in_cube<D>() * 3.0));
         corner[0] = static_cast<float>(random.below(200));
         boxes.push_back({corner, corner + Vec<D>(1)});
     }
-    SweepAndPrune<D> kept;
-    kept.build(boxes);
+    SweepAndPrune<D> updated;
+    updated.build(boxes);
     for (const int moved : {1, 20, 100, 300}) {
         for (int i = 0; i < moved; ++i) {
             Aabb<D>& box = boxes[random.below(300)];
@@ -142,14 +143,14 @@ TYPED_TEST(SweepAndPruneIn, HasOneOrderWhereverItComesFrom) {
             box.min[0] += step;
             box.max[0] += step;
         }
-        kept.update(boxes);
+        updated.update(boxes);
         SweepAndPrune<D> fresh;
         fresh.build(boxes);
         Pairs order, fresh_order;
-        kept.each_pair([&](std::uint32_t i, std::uint32_t j) { order.emplace_back(i, j); });
+        updated.each_pair([&](std::uint32_t i, std::uint32_t j) { order.emplace_back(i, j); });
         fresh.each_pair([&](std::uint32_t i, std::uint32_t j) { fresh_order.emplace_back(i, j); });
-        ASSERT_EQ(kept.plan().axis, 0);
-        ASSERT_EQ(kept.plan().columns(), 1u);
+        ASSERT_EQ(updated.plan().axis, 0);
+        ASSERT_EQ(updated.plan().columns(), 1u);
         EXPECT_EQ(order, fresh_order) << moved;
         EXPECT_GT(order.size(), 100u);
     }
@@ -166,7 +167,7 @@ TEST(SweepAndPrune, ZeroesOfEitherSignAreOnePlace) {
     EXPECT_EQ(pairs_of(phase).size(), 40u * 39 / 2);
 }
 
-TEST(SweepAndPrune, AsksTheNearFirst) {
+TEST(SweepAndPrune, VisitsTheNearestFirst) {
     scenes::MovingBoxes<3> scene(20000, 5);
     SweepAndPrune<3> phase;
     phase.build(scene.boxes());
@@ -191,7 +192,7 @@ TEST(SweepAndPrune, AsksTheNearFirst) {
 }
 
 TEST(SweepAndPrune, KeepsToItsMemory) {
-    // What its comment promises: copies and columns are bounded, whatever the boxes.
+    // The documented bounds of copies and columns hold for all boxes.
     for (const double edge : {0.01, 1.0, 30.0}) {
         oracle::Random random(2);
         std::vector<Aabb3> boxes;

@@ -1,4 +1,4 @@
-// A box on its way, through every broad phase: all that it touches, each once, and nothing behind the reach.
+// Sweeps of a box through every broad phase visit each box that it touches once, and none beyond the reach.
 
 #include "scenes.hpp"
 #include "structures.hpp"
@@ -13,8 +13,8 @@ template <class T>
 class Sweep : public testing::Test {};
 TYPED_TEST_SUITE(Sweep, AllBroadPhases);
 
-/// Through the middle of the boxes, at rest, along an axis or across; now and then as large as nothing, or longer than
-/// all there is.
+/// A random moving box through the boxes: at rest, along an axis or diagonal; sometimes of size 0, or with a motion
+/// longer than the scene.
 template <int D>
 MovingBox<D> some_way(oracle::Random& random, const DVec<D>& low, const DVec<D>& extent) {
     MovingBox<D> result;
@@ -28,7 +28,7 @@ MovingBox<D> some_way(oracle::Random& random, const DVec<D>& low, const DVec<D>&
     return result;
 }
 
-/// Most boxes of a scene, without those that have no bounds.
+/// The bounded boxes of a scene.
 template <int D>
 Aabb<D> finite_bounds(const std::vector<Aabb<D>>& boxes) {
     Aabb<D> result = Aabb<D>::empty();
@@ -43,7 +43,7 @@ Aabb<D> finite_bounds(const std::vector<Aabb<D>>& boxes) {
 TYPED_TEST(Sweep, ComesToAllThatItTouches) {
     constexpr int D = dimension_of<TypeParam>;
     oracle::Random random(21);
-    int met = 0, missed = 0;
+    int touching = 0, missed = 0;
     for (int round = 0; round < 64; ++round) {
         SCOPED_TRACE("round " + std::to_string(round));
         const Scene scene = all_scenes[static_cast<std::size_t>(round) % all_scenes.size()];
@@ -55,17 +55,17 @@ TYPED_TEST(Sweep, ComesToAllThatItTouches) {
         for (int i = 0; i < 20; ++i) {
             const MovingBox<D> moving = some_way<D>(random, low, extent);
             const RayReach<D> reach = RayReach<D>::of_box(moving);
-            std::vector<int> told(boxes.size());
-            phase.sweep(moving, [&](std::uint32_t item) { ++told[item]; });
+            std::vector<int> visited_count(boxes.size());
+            phase.sweep(moving, [&](std::uint32_t item) { ++visited_count[item]; });
             for (std::size_t k = 0; k < boxes.size(); ++k) {
                 double enters = 0;
                 const bool touched = boxes[k].min[0] <= boxes[k].max[0] && reach.measure(boxes[k], enters);
-                ASSERT_EQ(told[k], touched ? 1 : 0) << k;
-                ++(touched ? met : missed);
+                ASSERT_EQ(visited_count[k], touched ? 1 : 0) << k;
+                ++(touched ? touching : missed);
             }
         }
     }
-    EXPECT_GT(met, 1000);
+    EXPECT_GT(touching, 1000);
     EXPECT_GT(missed, 1000);
 }
 
@@ -90,7 +90,7 @@ TYPED_TEST(Sweep, StopsWhereTheReachEnds) {
         }
         std::sort(entries.begin(), entries.end());
         touched += entries.size();
-        // The first that it comes to, by a visitor that returns where it comes to each.
+        // A visitor that returns each entry finds the first item.
         float first = std::numeric_limits<float>::infinity();
         phase.sweep(moving, [&](std::uint32_t item) -> float {
             double enters = 0;
@@ -99,14 +99,14 @@ TYPED_TEST(Sweep, StopsWhereTheReachEnds) {
             return first = std::min(first, static_cast<float>(enters));
         });
         ASSERT_EQ(first, entries.empty() ? std::numeric_limits<float>::infinity() : entries.front());
-        int told = 0;
-        phase.sweep(moving, [&](std::uint32_t) { return ++told < 1; });
-        ASSERT_EQ(told, entries.empty() ? 0 : 1);
+        int visited_count = 0;
+        phase.sweep(moving, [&](std::uint32_t) { return ++visited_count < 1; });
+        ASSERT_EQ(visited_count, entries.empty() ? 0 : 1);
     }
     EXPECT_GT(touched, 200u);
     const bool in_order = !std::is_same_v<TypeParam, BruteForce<D>> && !std::is_same_v<TypeParam, ChosenBroadPhase<D>>;
     if (in_order) {
-        EXPECT_LT(visited, touched) << "none looks behind what it has found";
+        EXPECT_LT(visited, touched) << "a search beyond the first item found";
     }
 }
 
@@ -116,9 +116,9 @@ TYPED_TEST(Sweep, OfNothingFindsNothing) {
     const MovingBox<D> along{DVec<D>(0.0), DVec<D>(1.0), DVec<D>(1.0), 10};
     phase.sweep(along, [](std::uint32_t) { FAIL(); });
     phase.build(std::vector<Aabb<D>>{{Vec<D>(-1), Vec<D>(1)}, Aabb<D>::empty()});
-    int told = 0;
-    phase.sweep(along, [&](std::uint32_t item) { told += item == 0 ? 1 : 100; });
-    EXPECT_EQ(told, 1);
+    int visited_count = 0;
+    phase.sweep(along, [&](std::uint32_t item) { visited_count += item == 0 ? 1 : 100; });
+    EXPECT_EQ(visited_count, 1);
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     for (MovingBox<D> bad : {MovingBox<D>{DVec<D>(nan), DVec<D>(1.0), DVec<D>(1.0), 1},
                              MovingBox<D>{DVec<D>(0.0), DVec<D>(1.0), DVec<D>(nan), 1},

@@ -1,4 +1,5 @@
-// Against checking everything in each frame, with items that do the worst their top speeds allow.
+// The temporal broad phase against a test of all pairs in each frame, with the worst motions that the speed limits
+// allow.
 
 #include "allocations.hpp"
 #include "executors.hpp"
@@ -53,9 +54,9 @@ std::vector<ItemPair> in_order(const T& phase) {
     return result;
 }
 
-enum class Way { wait, dash, hunt, flee, grow, shrink, turn };
+enum class Behaviour { wait, dash, hunt, flee, grow, shrink, turn };
 
-/// Items whose faces move at their top speed, or not at all, as will hurt most.
+/// Items whose faces move at their maximum speed, or not at all, in the worst direction.
 template <int D>
 class Rascals {
 public:
@@ -88,7 +89,7 @@ public:
         for (std::uint32_t i = 0; i < items_.size(); ++i) {
             Item& item = items_[i];
             if (random_.chance(0.02)) {
-                item.way = static_cast<Way>(random_.below(7));
+                item.behaviour = static_cast<Behaviour>(random_.below(7));
                 item.other = random_.below(static_cast<std::uint32_t>(items_.size()));
                 for (int k = 0; k < D; ++k) item.sign[k] = random_.chance(0.5) ? 1 : -1;
             }
@@ -98,31 +99,31 @@ public:
                 const double to_other = (other.min[k] + other.max[k] - item.min[k] - item.max[k]) / 2;
                 const double there = std::clamp(to_other, -step, step);
                 double low = 0, high = 0;
-                switch (item.way) {
-                    case Way::wait:
+                switch (item.behaviour) {
+                    case Behaviour::wait:
                         break;
-                    case Way::dash:
+                    case Behaviour::dash:
                         if (std::abs(item.min[k] + item.sign[k] * step) > side_) item.sign[k] = -item.sign[k];
                         low = high = item.sign[k] * step;
                         break;
-                    case Way::hunt:
+                    case Behaviour::hunt:
                         low = high = there;
                         break;
-                    case Way::flee:
+                    case Behaviour::flee:
                         low = high = to_other > 0 ? -step : step;
                         break;
-                    case Way::grow:
+                    case Behaviour::grow:
                         low = -step, high = step;
                         break;
-                    case Way::shrink:
+                    case Behaviour::shrink:
                         low = step, high = -step;
                         break;
-                    case Way::turn:
-                        // One axis grows while the next one shrinks.
+                    case Behaviour::turn:
+                        // One side grows while the next one shrinks.
                         low = (k + static_cast<int>(turn_)) % 2 == 0 ? step : -step, high = -low;
                         break;
                 }
-                // Neither away from the world, nor inside out, nor larger than some.
+                // The box stays in the world, valid, and below a limit of size.
                 const double room = item.max[k] - item.min[k];
                 if (high - low < -room) low = room / 2, high = -low;
                 if (high > low && room + high - low > 4 * scale_) low = high = 0;
@@ -135,7 +136,7 @@ public:
         turn_ = random_.chance(0.05) ? !turn_ : turn_;
     }
 
-    /// Anywhere, as no speed allows.
+    /// Teleports the item, beyond any speed.
     void throw_about(std::uint32_t i) {
         const double what = random_.unit();
         Item& item = items_[i];
@@ -150,7 +151,7 @@ public:
 private:
     struct Item {
         DVec<D> min, max, sign{1.0};
-        Way way = Way::wait;
+        Behaviour behaviour = Behaviour::wait;
         std::uint32_t other = 0;
         bool gone = false, endless = false;
     };
@@ -176,7 +177,7 @@ double some_time(oracle::Random& random) {
 
 TYPED_TEST(TemporalTest, NeverMissesAPair) {
     constexpr int D = TypeParam::D;
-    // The last so far from the origin that floats there are as coarse as the slowest steps.
+    // The last scene is so far from the origin that an ulp equals the slowest steps.
     for (const auto& [scale, far] : {std::pair{1e-3, 0.0}, {1.0, 0.0}, {1e4, 0.0}, {1.0, 2000.0}}) {
         for (const double speed : {1e-4, 3e-3, 0.1}) {
             constexpr std::uint64_t seed = 17;
@@ -230,25 +231,25 @@ TYPED_TEST(TemporalTest, FindsWhatJumped) {
     EXPECT_LT(phase.counts().searches, phase.counts().plain_searches / 2);
 }
 
-TYPED_TEST(TemporalTest, AHeadOnMeetingIsSeenInItsFrame) {
+TYPED_TEST(TemporalTest, AHeadOnContactIsFoundInItsFrame) {
     constexpr int D = TypeParam::D;
     for (const double wait : {0.0, 1.0, 50.0, 777.0}) {
-        // They wait, and then go towards one another as fast as they may.
+        // The items rest, and then approach each other at maximum speed.
         std::vector<Aabb<D>> boxes{box_at<D>(DVec<D>(-5.0), DVec<D>(1.0)), box_at<D>(DVec<D>(5.0), DVec<D>(1.0))};
         const std::vector<float> speeds{0.25f, 0.125f};
         typename TypeParam::Type phase;
         phase.build(boxes, speeds);
-        int met = -1;
-        for (int frame = 1; frame < 1000 && met < 0; ++frame) {
+        int touch_frame = -1;
+        for (int frame = 1; frame < 1000 && touch_frame < 0; ++frame) {
             if (frame > wait) {
                 boxes[0].min += 0.25f, boxes[0].max += 0.25f;
                 boxes[1].min -= 0.125f, boxes[1].max -= 0.125f;
             }
             phase.update(boxes, 1);
-            if (!sorted(phase).empty()) met = frame;
+            if (!sorted(phase).empty()) touch_frame = frame;
         }
         // A gap of 8 closes by 0.375 a frame.
-        EXPECT_EQ(met, static_cast<int>(wait) + 22);
+        EXPECT_EQ(touch_frame, static_cast<int>(wait) + 22);
     }
 }
 
@@ -277,7 +278,7 @@ TYPED_TEST(TemporalTest, SameHistorySameOrder) {
     EXPECT_EQ(a.counts().looks, b.counts().looks);
 }
 
-TYPED_TEST(TemporalTest, SeveralThreadsTellTheSamePairs) {
+TYPED_TEST(TemporalTest, SeveralThreadsReportTheSamePairs) {
     constexpr int D = TypeParam::D;
     Rascals<D> rascals(1500, 0.5, 0.01, 9);
     typename TypeParam::Type phase;
@@ -295,15 +296,15 @@ TYPED_TEST(TemporalTest, SeveralThreadsTellTheSamePairs) {
     EXPECT_GT(pairs.size(), 200u);
     EXPECT_EQ(pairs, all_pairs(rascals.boxes()));
 
-    std::atomic<int> told = 0;
-    phase.each_pair([&](std::uint32_t, std::uint32_t) { return ++told < 3; }, &threads);
-    EXPECT_LT(told, 100);
-    told = 0;
-    phase.each_pair([&](std::uint32_t, std::uint32_t) { return ++told < 3; });
-    EXPECT_EQ(told, 3);
+    std::atomic<int> visited_count = 0;
+    phase.each_pair([&](std::uint32_t, std::uint32_t) { return ++visited_count < 3; }, &threads);
+    EXPECT_LT(visited_count, 100);
+    visited_count = 0;
+    phase.each_pair([&](std::uint32_t, std::uint32_t) { return ++visited_count < 3; });
+    EXPECT_EQ(visited_count, 3);
 }
 
-TYPED_TEST(TemporalTest, WhatCannotMoveIsNotLookedAt) {
+TYPED_TEST(TemporalTest, ItemsWithoutSpeedAreNotTested) {
     constexpr int D = TypeParam::D;
     oracle::Random random(4);
     const auto boxes = make_scene<D>(Scene::holes_and_endless, 300, random);
@@ -320,7 +321,7 @@ TYPED_TEST(TemporalTest, WhatCannotMoveIsNotLookedAt) {
 TYPED_TEST(TemporalTest, SpeedsAndTimesAtTheEnds) {
     constexpr int D = TypeParam::D;
     constexpr std::uint64_t seed = 11;
-    // Nobody has a top speed, or one as high as may be; time stands still, or runs away.
+    // Some speeds are unbounded, very large or tiny; some time steps are 0, 1e300 or unbounded.
     Rascals<D> rascals(40, 1, 0.02, seed);
     for (const float speed : {unbounded, 1e38f, 1e-38f}) {
         std::vector<float> speeds = rascals.speeds();
@@ -344,7 +345,7 @@ TYPED_TEST(TemporalTest, SpeedsAndTimesAtTheEnds) {
 
 TYPED_TEST(TemporalTest, AllWakeUp) {
     constexpr int D = TypeParam::D;
-    // Built at rest; then everyone gets a speed, and later all fall asleep again.
+    // The items are built at rest, get a speed, and rest again later.
     Rascals<D> rascals(200, 1, 0.005, 21);
     const std::vector<float> still(rascals.boxes().size(), 0);
     typename TypeParam::Type phase;
@@ -370,7 +371,7 @@ TYPED_TEST(TemporalTest, AViolatorIsFoundAndFollowed) {
     GTEST_SKIP() << "it trips an assertion";
 #endif
     constexpr int D = TypeParam::D;
-    // A slow one beside a slow one, so that they are looked at now and then, and far from a third.
+    // Two slow items are near each other, so that they are tested sometimes, and far from a third.
     std::vector<Aabb<D>> boxes{box_at<D>(DVec<D>(0.0), DVec<D>(1.0)), box_at<D>(DVec<D>(2.5), DVec<D>(1.0)),
                                box_at<D>(DVec<D>(90.0), DVec<D>(1.0))};
     const std::vector<float> speeds(3, 0.01f);

@@ -1,5 +1,5 @@
-// A box at a triangle by their axes against the searches that take any pair, and a triangle's foot against its
-// distance.
+// A box against a triangle: the separating axis test against the general GJK and EPA; and the closest point on a
+// triangle against its distance.
 
 #include "../oracle/random.hpp"
 #include <abut/convex/pairs/box_triangle.hpp>
@@ -15,7 +15,7 @@ namespace {
 
 using oracle::Random;
 
-/// How the two lie.
+/// The position of the triangle relative to the box.
 enum class Family { any, flush, corners_on_a_grid, sliver, large_triangle };
 constexpr int family_count = 5;
 
@@ -39,13 +39,13 @@ Pair random_pair(Random& random, Family family) {
     const Vec3 aside = to_float(random.in_cube<3>() * (0.7 * size));
     for (Vec3* point : {&pair.triangle.a, &pair.triangle.b, &pair.triangle.c}) *point += aside;
     if (family == Family::large_triangle) {
-        // Through the box, or all but.
+        // Through the box, or nearly.
         const Vec3 middle = (pair.triangle.a + pair.triangle.b + pair.triangle.c) / 3.0f;
         for (Vec3* point : {&pair.triangle.a, &pair.triangle.b, &pair.triangle.c}) *point += aside - middle;
     }
     if (family == Family::flush || family == Family::corners_on_a_grid) pair.box.rotation = no_rotation<3>;
     if (family == Family::flush) {
-        // A floor with sides along those of the box.
+        // A floor with edges parallel to those of the box.
         const float height = random.chance(0.5) ? -pair.box.half.y : random.uniform_float(-0.5, 0.2) * pair.box.half.y;
         pair.triangle.b = {pair.triangle.a.x, height, pair.triangle.b.z};
         pair.triangle.c = {pair.triangle.c.x, height, pair.triangle.a.z};
@@ -65,7 +65,7 @@ Pair random_pair(Random& random, Family family) {
     return pair;
 }
 
-/// How far apart they are along a direction out of A: below zero, how far B must go.
+/// The gap along a direction out of A; below zero, the depth.
 double gap_along(const Convex<3>& a, const Convex<3>& b, const DVec<3>& out) {
     return dot(out, support(b, -out) - support(a, out));
 }
@@ -75,7 +75,7 @@ class BoxTriangleFamily : public testing::TestWithParam<int> {};
 TEST_P(BoxTriangleFamily, AnswersAsTheSearches) {
     const auto family = static_cast<Family>(GetParam());
     constexpr int count = 3000;
-    int meeting = 0, apart = 0, unknown = 0;
+    int overlapping = 0, apart = 0, unknown = 0;
     for (std::uint64_t seed = 0; seed < count; ++seed) {
         SCOPED_TRACE(testing::Message() << "family " << GetParam() << " seed " << seed);
         Random random(seed);
@@ -85,28 +85,29 @@ TEST_P(BoxTriangleFamily, AnswersAsTheSearches) {
         if (random.chance(0.2))
             box = moved(box, affine(Pose3{to_float(random.in_cube<3>() * 0.01), random.rotation<3>()}));
         if (random.chance(0.2)) box.radius = 0.1 * pair.size;
-        const double margin = 1e-9 * (size(box) + size(triangle) + largest(triangle.place.offset));
+        const double tolerance = 1e-9 * (size(box) + size(triangle) + largest(triangle.place.offset));
         const SignedDistance<3> truth = signed_distance(box, triangle);
         SignedDistance<3> found;
         const BoxTriangle answer = box_triangle_distance(box, triangle, 0, found);
         const BoxTriangle overlap = box_triangle_overlap(box, triangle);
-        if (overlap != BoxTriangle::unknown && std::abs(truth.distance) > margin) {
+        if (overlap != BoxTriangle::unknown && std::abs(truth.distance) > tolerance) {
             EXPECT_EQ(overlap, truth.distance < 0 ? BoxTriangle::overlapping : BoxTriangle::apart);
         }
         if (answer == BoxTriangle::apart) {
-            EXPECT_GT(truth.distance, -margin);
+            EXPECT_GT(truth.distance, -tolerance);
         }
         apart += answer == BoxTriangle::apart ? 1 : 0;
         unknown += answer == BoxTriangle::unknown ? 1 : 0;
         if (answer != BoxTriangle::overlapping) continue;
-        ++meeting;
-        EXPECT_NEAR(found.distance, truth.distance, margin + 1e-7 * pair.size);
+        ++overlapping;
+        EXPECT_NEAR(found.distance, truth.distance, tolerance + 1e-7 * pair.size);
         EXPECT_NEAR(length(found.normal), 1, 1e-12);
-        EXPECT_NEAR(gap_along(box, triangle, found.normal), found.distance, margin);
-        // The places are those of both that meet first when they come together along the normal.
-        EXPECT_NEAR(dot(found.normal, support(box, found.normal) - found.on_a), 0, margin);
-        EXPECT_LE(signed_distance(box, round_points<3>({to_float(found.on_a)}, 0)).distance, 1e-5 * pair.size + margin);
-        EXPECT_LE(closest_point_on(triangle, found.on_b()).distance, 1e-5 * pair.size + margin);
+        EXPECT_NEAR(gap_along(box, triangle, found.normal), found.distance, tolerance);
+        // The closest points are those that touch first when the shapes approach along the normal.
+        EXPECT_NEAR(dot(found.normal, support(box, found.normal) - found.on_a), 0, tolerance);
+        EXPECT_LE(signed_distance(box, round_points<3>({to_float(found.on_a)}, 0)).distance,
+                  1e-5 * pair.size + tolerance);
+        EXPECT_LE(closest_point_on(triangle, found.on_b()).distance, 1e-5 * pair.size + tolerance);
         for (std::size_t i = 0; i < found.corners.count; ++i) {
             EXPECT_LT(found.corners.a[i], 8u);
             EXPECT_LT(found.corners.b[i], 3u);
@@ -116,14 +117,14 @@ TEST_P(BoxTriangleFamily, AnswersAsTheSearches) {
         EXPECT_GT(unknown, count / 4);
         return;
     }
-    EXPECT_GT(meeting, count / 5);
+    EXPECT_GT(overlapping, count / 5);
     EXPECT_GT(apart, count / 20);
     EXPECT_LT(unknown, count / 10);
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, BoxTriangleFamily, testing::Range(0, family_count));
 
-// Worked out by hand: a cube of edge 2 stands 0.25 deep in a floor, of which the triangle is one half of a tile.
+// Known answer: a cube of edge 2 is 0.25 deep in a floor, of which the triangle is one half of a tile.
 TEST(BoxTriangle, OfABoxOnAFloor) {
     const Box3 box{{0, 0.75f, 0}, {1, 1, 1}};
     const Triangle3 floor{{-4, 0, -4}, {-4, 0, 8}, {8, 0, -4}};
@@ -147,18 +148,18 @@ TEST(TriangleClosest, IsThatOfTheDistance) {
         if (random.chance(0.3)) triangle.radius = 0.1 * size;
         const Vec3 point = corner();
         const SignedDistance<3> truth = signed_distance(round_points<3>({point}, 0), triangle);
-        const double margin = 1e-9 * size, within = size * random.uniform(0, 1);
+        const double tolerance = 1e-9 * size, within = size * random.uniform(0, 1);
         double distance = 0;
-        DVec<3> foot;
-        const TriangleClosest answer = closest_point_on_triangle(triangle, DVec<3>(point), within, distance, foot);
+        DVec<3> nearest;
+        const TriangleClosest answer = closest_point_on_triangle(triangle, DVec<3>(point), within, distance, nearest);
         if (answer == TriangleClosest::beyond) {
             ++beyond;
-            EXPECT_GT(truth.distance, within - margin);
+            EXPECT_GT(truth.distance, within - tolerance);
         }
         if (answer != TriangleClosest::found) continue;
         ++found_some;
-        EXPECT_NEAR(distance, truth.distance, margin);
-        EXPECT_LE(length(foot - truth.on_b()), 1e-6 * size);
+        EXPECT_NEAR(distance, truth.distance, tolerance);
+        EXPECT_LE(length(nearest - truth.on_b()), 1e-6 * size);
     }
     EXPECT_GT(beyond, 1000);
     EXPECT_GT(found_some, 10000);

@@ -1,7 +1,7 @@
-// Boxes by their axes against the searches that take any pair.
+// Box against box: the separating axis test against the general GJK and EPA.
 
 #include "../oracle/pair.hpp"
-#include "../oracle/vector_units.hpp"
+#include "../oracle/simd_targets.hpp"
 #include <abut/convex/pairs/box3.hpp>
 #include <abut/query/certify.hpp>
 #include <abut/query/contact.hpp>
@@ -14,7 +14,7 @@ namespace {
 
 using oracle::Random;
 
-/// How two boxes lie.
+/// The relative position of two boxes.
 enum class Family { any, aligned, flush, turned_about_a_normal, edge_on_edge, nested, stretched_out };
 constexpr int family_count = 7;
 
@@ -40,7 +40,7 @@ double size_of(const Box3& box) {
     return length(DVec<3>(box.half));
 }
 
-/// B moved along the way out of A, to a gap of its own choice; about half of all overlap.
+/// B moved along the separating direction to a chosen gap; about half of all pairs overlap.
 void put_apart(Boxes& boxes, Random& random) {
     const SignedDistance<3> now = signed_distance<3>(view(boxes.a), view(boxes.b));
     const double scale = random.chance(0.5) ? 1 : random.power_of_two(-20, -2);
@@ -71,7 +71,7 @@ Boxes random_boxes(Random& random, Family family) {
             put_apart(boxes, random);
             break;
         case Family::flush: {
-            // Sides in one plane, faces that touch exactly.
+            // Coplanar faces that touch exactly.
             boxes.a.rotation = boxes.b.rotation = no_rotation<3>;
             boxes.a.center = Vec3(0);
             for (int i = 0; i < 3; ++i) {
@@ -113,7 +113,7 @@ Boxes random_boxes(Random& random, Family family) {
 template <class Visit>
 void each_pair(Visit&& visit) {
     int pairs = 0, overlapping = 0;
-    for (int i = 0; i < oracle::amount(3000); ++i)
+    for (int i = 0; i < oracle::case_count(3000); ++i)
         for (int family = 0; family < family_count; ++family) {
             const auto seed = static_cast<std::uint64_t>(pairs++);
             SCOPED_TRACE(testing::Message() << "seed " << seed << ", family " << family);
@@ -127,29 +127,29 @@ void each_pair(Visit&& visit) {
     EXPECT_LT(overlapping, pairs * 7 / 10);
 }
 
-/// Of what the searches may be off.
-double doubt(const Boxes& boxes) {
+/// The error of GJK and EPA.
+double search_tolerance(const Boxes& boxes) {
     return 1e-9 * (size_of(boxes.a) + size_of(boxes.b));
 }
 
 TEST(Boxes, AreAsFarApartAsTheSearchesSay) {
-    int plain = 0;
+    int axis_pairs = 0;
     each_pair([&](const Boxes& boxes, Random&) {
         const Convex<3> a = view(boxes.a), b = view(boxes.b);
         if (!are_plain_boxes(a, b)) return;
-        ++plain;
+        ++axis_pairs;
         const SignedDistance<3> found = distance_of_boxes(a, b, {}), searched = signed_distance(a, b);
-        EXPECT_NEAR(found.distance, searched.distance, doubt(boxes) + 1e-9 * std::abs(searched.distance));
+        EXPECT_NEAR(found.distance, searched.distance, search_tolerance(boxes) + 1e-9 * std::abs(searched.distance));
         EXPECT_NEAR(length(found.normal), 1, 1e-14);
         EXPECT_EQ(boxes_overlap(a, b, {}), found.distance <= 0);
         const auto answer = closest(boxes.a, boxes.b);
         EXPECT_EQ(answer.distance, static_cast<float>(found.distance));
         EXPECT_TRUE(certify(boxes.a, boxes.b, answer));
     });
-    EXPECT_GT(plain, 10000);
+    EXPECT_GT(axis_pairs, 10000);
 }
 
-/// How far the points of one contact are from some point of the other at most.
+/// The largest distance of the points of one contact from the nearest point of the other.
 double farthest_from(const Manifold<3>& points, const Manifold<3>& others) {
     double farthest = 0;
     for (std::size_t i = 0; i < points.count; ++i) {
@@ -178,7 +178,7 @@ double area_of(const Manifold<3>& points, const DVec<3>& normal) {
 }
 
 TEST(Boxes, TouchWhereTheSearchesSay) {
-    int touching = 0, several = 0, alike = 0;
+    int touching = 0, several = 0, similar = 0;
     each_pair([&](const Boxes& boxes, Random& random) {
         const Convex<3> a = view(boxes.a), b = view(boxes.b);
         if (!are_plain_boxes(a, b)) return;
@@ -186,36 +186,36 @@ TEST(Boxes, TouchWhereTheSearchesSay) {
         SignedDistance<3> distance;
         Manifold<3> points;
         const bool found = contact_of_boxes(a, b, margin, margin, {}, distance, points);
-        const SignedDistance<3> plain = distance_of_boxes(a, b, {});
-        EXPECT_EQ(found, plain.distance <= margin);
+        const SignedDistance<3> reference = distance_of_boxes(a, b, {});
+        EXPECT_EQ(found, reference.distance <= margin);
         if (!found) return;
         ++touching;
         several += points.count > 1 ? 1 : 0;
-        EXPECT_EQ(distance.distance, plain.distance);
-        EXPECT_EQ(distance.normal, plain.normal);
-        const double slack = 2e-6 * boxes.size;
+        EXPECT_EQ(distance.distance, reference.distance);
+        EXPECT_EQ(distance.normal, reference.normal);
+        const double allowed = 2e-6 * boxes.size;
         double deepest = -std::numeric_limits<double>::infinity();
         ASSERT_GE(points.count, 1u);
         for (std::size_t i = 0; i < points.count; ++i) {
             const ManifoldPoint<3>& point = points.points[i];
             deepest = std::max(deepest, point.depth);
-            EXPECT_GE(point.depth, margin > 0 ? -margin - slack : 0);
+            EXPECT_GE(point.depth, margin > 0 ? -margin - allowed : 0);
             for (const double side : {0.5, -0.5}) {
                 const DVec<3> surface = point.position + distance.normal * (side * point.depth);
                 EXPECT_LE(closest(side > 0 ? boxes.a : boxes.b, to_float(surface)).distance,
-                          5 * slack + 4e-7 * largest(surface));
+                          5 * allowed + 4e-7 * largest(surface));
             }
             for (std::size_t j = 0; j < i; ++j) EXPECT_NE(point.feature, points.points[j].feature);
         }
-        EXPECT_NEAR(deepest, -distance.distance, slack);
-        // Of points that are as deep another may be kept, and with it others.
+        EXPECT_NEAR(deepest, -distance.distance, allowed);
+        // Among points of equal depth, the reduction may choose another one, and then other neighbours.
         const Manifold<3> clipped = manifold(a, b, distance, margin);
-        EXPECT_GE(area_of(points, distance.normal), 0.5 * area_of(clipped, distance.normal) - slack * boxes.size);
-        alike += farthest_from(points, clipped) <= slack && farthest_from(clipped, points) <= slack ? 1 : 0;
+        EXPECT_GE(area_of(points, distance.normal), 0.5 * area_of(clipped, distance.normal) - allowed * boxes.size);
+        similar += farthest_from(points, clipped) <= allowed && farthest_from(clipped, points) <= allowed ? 1 : 0;
     });
     EXPECT_GT(touching, 5000);
     EXPECT_GT(several, touching / 3);
-    EXPECT_GT(alike, touching * 9 / 10);
+    EXPECT_GT(similar, touching * 9 / 10);
 }
 
 TEST(Boxes, NeedNoCacheAndMindNone) {
@@ -225,10 +225,10 @@ TEST(Boxes, NeedNoCacheAndMindNone) {
         Box3 b = boxes.b;
         Cache cache = random.chance(0.5) ? Cache{} : strange;
         for (int i = 0; i < 3; ++i) {
-            const auto fresh = closest(a, b), kept = closest(a, b, {.cache = &cache});
-            EXPECT_NEAR(kept.distance, fresh.distance,
+            const auto fresh = closest(a, b), cached = closest(a, b, {.cache = &cache});
+            EXPECT_NEAR(cached.distance, fresh.distance,
                         1e-6 * size_of(a) + 1e-6 * std::abs(fresh.distance) + 1e-9 * size_of(b));
-            EXPECT_TRUE(certify(a, b, kept));
+            EXPECT_TRUE(certify(a, b, cached));
             if (std::abs(static_cast<double>(fresh.distance)) > 1e-6 * (size_of(a) + size_of(b))) {
                 EXPECT_EQ(overlaps(a, b, {.cache = &cache}), fresh.distance <= 0);
                 EXPECT_EQ(!!contact(a, b, {.cache = &cache}), fresh.distance <= 0);
@@ -239,7 +239,7 @@ TEST(Boxes, NeedNoCacheAndMindNone) {
     });
 }
 
-/// The numbers of all contacts of some pairs.
+/// The numbers of all contacts of some pairs, for a comparison of bits.
 std::vector<double> numbers_of_contacts() {
     std::vector<double> numbers;
     for (std::uint64_t seed = 0; seed < 700; ++seed) {
@@ -258,15 +258,15 @@ std::vector<double> numbers_of_contacts() {
     return numbers;
 }
 
-using BoxesByVectorUnit = oracle::ByVectorUnit;
+using BoxesByTarget = oracle::BySimdTarget;
 
-TEST_P(BoxesByVectorUnit, TouchAtTheSamePoints) {
+TEST_P(BoxesByTarget, TouchAtTheSamePoints) {
     const std::vector<double> here = numbers_of_contacts();
     TearDown();
     EXPECT_EQ(here, numbers_of_contacts());
     EXPECT_GT(here.size(), 5000u);
 }
-INSTANTIATE_TEST_SUITE_P(Units, BoxesByVectorUnit, oracle::vector_units(), oracle::name_of_unit);
+INSTANTIATE_TEST_SUITE_P(Units, BoxesByTarget, oracle::simd_targets(), oracle::simd_target_name);
 
 }  // namespace
 }  // namespace abut

@@ -1,4 +1,4 @@
-// Cuts of single bodies, the half-spaces of bodies, and the clipping of one by another.
+// Cuts of single bodies by planes, the half-spaces of bodies, and the clipping of one body by another.
 
 #include "../oracle/random.hpp"
 #include <abut/convex/manifold/clip.hpp>
@@ -29,7 +29,7 @@ ClipBody<3> cube() {
     return body_of(Aabb3{Vec3(0), Vec3(2)});
 }
 
-/// Every edge must be run along as often one way as the other.
+/// Every edge must be used as often in one direction as in the other.
 testing::AssertionResult closed(const ClipBody<3>& body) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> balance;
     for (const Loop& loop : body.loops)
@@ -113,7 +113,7 @@ TEST(Cut, OfFlatBodies) {
     EXPECT_EQ(square.points.size(), 2u);
 }
 
-// Planes with small whole numbers, through corners and along edges and faces again and again.
+// Planes with small integer coefficients, which often contain corners, edges and faces.
 TEST(Cut, StaysClosedThroughManyCuts) {
     int cuts = 0;
     for (std::uint64_t seed = 0; seed < 300; ++seed) {
@@ -125,9 +125,9 @@ TEST(Cut, StaysClosedThroughManyCuts) {
             const DVec<3> normal(whole(), whole(), whole());
             if (normal == DVec<3>(0.0)) continue;
             const double before = volume(body);
-            // Without any doubt some corners count as cut that lie on the plane but for rounding.
-            const double doubt = seed % 2 == 0 ? 0 : 1e-14;
-            cut(body, {normalized(normal), static_cast<double>(random.below(3)) / length(normal)}, doubt);
+            // Without a tolerance, some corners that lie on the plane up to rounding count as cut.
+            const double tolerance = seed % 2 == 0 ? 0 : 1e-14;
+            cut(body, {normalized(normal), static_cast<double>(random.below(3)) / length(normal)}, tolerance);
             EXPECT_TRUE(closed(body));
             EXPECT_LE(volume(body), before + 1e-12);
             EXPECT_GE(volume(body), -1e-12);
@@ -185,7 +185,7 @@ TEST(Clip, OfWhatIsApartIsEmpty) {
     EXPECT_TRUE(clip(convex(Segment<2>{{0, 0}, {1, 0}}), convex(Segment<2>{{2, 0}, {3, 1}})).empty());
 }
 
-TEST(Clip, TellsEachCut) {
+TEST(Clip, ReportsEachCut) {
     Trace<2> trace;
     clip(convex(Aabb2{Vec2(0), Vec2(2)}), convex(Aabb2{Vec2(1), Vec2(4)}), &trace);
     ASSERT_EQ(trace.steps.size(), 4u);
@@ -206,10 +206,10 @@ TEST(Clip, TellsEachCut) {
     EXPECT_EQ(in_space.steps.size(), 6u);
 }
 
-// Faces of a flake are merged where they are bent by up to 1e-6 of its extent, and their planes then meet a good part
-// of the flake outside of its rim: what was cut with them stuck out by up to 70,000 margins of doubt.
+// Faces of a flake are merged if their angle is up to 1e-6 of its extent. Their planes then intersect far outside of
+// the flake: a result once stuck out by up to 70,000 tolerances.
 TEST(Clip, StaysWithinTheRimOfAFlake) {
-    std::size_t most_cuts = 0;
+    std::size_t max_cuts = 0;
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
         SCOPED_TRACE(seed);
         oracle::Random random(seed);
@@ -223,10 +223,10 @@ TEST(Clip, StaysWithinTheRimOfAFlake) {
         const Polyhedron flake = *Polyhedron::build(rim);
         Trace<3> trace;
         const auto found = clip(convex(flake), convex(Aabb3{Vec3(-0.5f), Vec3(3)}), &trace);
-        most_cuts = std::max(most_cuts, trace.steps.size());
+        max_cuts = std::max(max_cuts, trace.steps.size());
         trace.clear();
         const auto again = clip(convex(Aabb3{Vec3(-0.5f), Vec3(0.9f)}), convex(flake), &trace);
-        most_cuts = std::max(most_cuts, trace.steps.size());
+        max_cuts = std::max(max_cuts, trace.steps.size());
         ASSERT_FALSE(found.empty());
         ASSERT_FALSE(again.empty());
         for (const DVec<3>& point : found) EXPECT_LE(point.x, reach + 1e-6);
@@ -235,7 +235,7 @@ TEST(Clip, StaysWithinTheRimOfAFlake) {
             EXPECT_LE(std::abs(point.z), 4e-6);
         }
     }
-    EXPECT_LT(most_cuts, 200u);
+    EXPECT_LT(max_cuts, 200u);
 }
 
 }  // namespace

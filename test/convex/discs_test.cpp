@@ -1,4 +1,5 @@
-// Supports of cylinders and cones along and near their axis, where the direction across it is nothing but rounding.
+// Supports of cylinders and cones along and near their axis, where the perpendicular part of the direction is only
+// rounding.
 
 #include <abut/convex/support.hpp>
 #include <abut/query/closest.hpp>
@@ -24,7 +25,7 @@ TEST(Discs, SupportsAlongTheAxisLieOnTheDisc) {
         }
 }
 
-// Measured: a point on the rim was 0.0494 apart, because a support along the axis left the disc.
+// Measured: a point on the rim was reported 0.0494 away, because a support point along the axis left the disc.
 TEST(Discs, APointOnTheRimTouches) {
     EXPECT_NEAR(closest(cylinder, Vec3{0.382655263f, 1.91996861f, 3.32012558f}).distance, 0, 1e-6);
 }

@@ -1,4 +1,4 @@
-// The walks of GJK and of the penetration search: how they end, and that what they return proves itself.
+// GJK and EPA: their exit codes, and that each result proves itself.
 
 #include "../oracle/distance.hpp"
 #include "../oracle/pair.hpp"
@@ -41,7 +41,7 @@ TEST(Gjk, StopsAsSoonAsYesOrNoIsKnown) {
 }
 
 TEST(Gjk, SaysWhereItStopsAtTheLastDigit) {
-    // Here the square of the distance is at its last digit, and the plane is not.
+    // The squared distance is at its last digit here, and the plane isn't.
     const Triangle<3> needle{{-0.00684267143f, 0, -64}, {0.00684267143f, 0, -128}, {-0.00342133571f, 128, -128}};
     const auto stuck =
         gjk(difference<3>(needle, Segment<3>{{-0.00684267143f, -64, -128}, {0.00342133571f, -64, -128}}));
@@ -49,7 +49,7 @@ TEST(Gjk, SaysWhereItStopsAtTheLastDigit) {
     EXPECT_TRUE(stuck.converged());
 }
 
-/// A support function that never says the same twice: no walk can end well on it.
+/// A support function whose answers contradict each other: no search can converge on it.
 struct Restless {
     mutable oracle::Random random{1};
     double far;
@@ -102,7 +102,7 @@ TEST(Penetration, WithoutThicknessIsFlat) {
 }
 
 TEST(Penetration, AtItsBoundIsStillAValidMove) {
-    // A coin and a needle through its middle: out by half the needle's length, in nearly any direction.
+    // A coin and a needle through its middle: the depth is half the needle's length, in nearly any direction.
     const Cylinder coin{{0, 0, 0}, {0, 0.001f, 0}, 1};
     const auto needle = stretched(Sphere{{0, 0, 0}, 1}, Vec3(0.001f, 1, 0.001f));
     const auto deep = epa(difference<3>(coin, needle));
@@ -117,17 +117,17 @@ class SignedDistanceOracle : public testing::Test {};
 using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(SignedDistanceOracle, Dimensions);
 
-// In double the engines are far better than the margin of doubt, which is for floats.
+// In double, the searches are far more accurate than the tolerance, which is for floats.
 TYPED_TEST(SignedDistanceOracle, IsRightToAMillionth) {
     constexpr int D = TypeParam::value;
     double worst = 0;
     int pairs = 0;
-    for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(oracle::amount(10000)); ++seed) {
+    for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(oracle::case_count(10000)); ++seed) {
         SCOPED_TRACE(seed);
         oracle::Random random(seed);
         const auto kind = [&] { return static_cast<oracle::Kind>(random.below(oracle::kind_count)); };
         const oracle::Kind kind_a = kind(), kind_b = kind();
-        // These are rounded on their way: a user's support function works in float, a built hull may leave points out.
+        // These are rounded: a user's support function is in float, and a built hull may omit points.
         const auto rounds = [](oracle::Kind k) {
             return k == oracle::Kind::cloud || k == oracle::Kind::polytope || k == oracle::Kind::aabb;
         };

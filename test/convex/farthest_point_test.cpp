@@ -1,7 +1,7 @@
-// The same index from every kind of vector unit that this machine has.
+// The farthest point has one index with every SIMD target.
 
 #include "../oracle/random.hpp"
-#include "../oracle/vector_units.hpp"
+#include "../oracle/simd_targets.hpp"
 #include <abut/convex/farthest_point.hpp>
 #include <abut/convex/point_soa.hpp>
 
@@ -19,7 +19,7 @@ std::uint32_t one_by_one(const std::vector<Vec<D>>& points, const DVec<D>& direc
     return best;
 }
 
-class FarthestPoint : public oracle::ByVectorUnit {
+class FarthestPoint : public oracle::BySimdTarget {
 protected:
     template <int D>
     static void expect_the_first_of_the_farthest() {
@@ -28,7 +28,7 @@ protected:
             oracle::Random random(seed);
             const std::uint32_t count = 1 + random.below(random.chance(0.1) ? 1500 : 70);
             std::vector<Vec<D>> points;
-            // Half of them on a small lattice, where many are equally far.
+            // Half of them are on a small lattice, where many are equally far.
             const bool lattice = random.chance(0.5);
             for (std::uint32_t i = 0; i < count; ++i) {
                 DVec<D> point = random.in_cube<D>() * (lattice ? 2.0 : 1e4);
@@ -46,7 +46,7 @@ protected:
                 std::vector<float> memory(3 * padded_count(points.size()));
                 const PointSoa lanes = make_soa(points, memory.data());
                 EXPECT_EQ(farthest_point(lanes, direction), expected);
-                // Where floats would run over, or under.
+                // Magnitudes at which floats overflow or underflow.
                 const double scale = random.power_of_two(-300, 300);
                 EXPECT_EQ(farthest_point(lanes, direction * scale), one_by_one<D>(points, direction * scale));
             }
@@ -54,7 +54,8 @@ protected:
     }
 };
 
-// Floats can't tell these points apart, and doubles can: a filter in float that trusts itself too far takes another.
+// Floats don't distinguish these points, doubles do: a float filter with too small an error bound returns another
+// point.
 TEST_P(FarthestPoint, IsFoundAmongThoseThatFloatsTakeForAsFar) {
     int hidden = 0;
     for (std::uint64_t seed = 0; seed < 2000; ++seed) {
@@ -83,7 +84,7 @@ TEST_P(FarthestPoint, IsTheFirstOfThem) {
     expect_the_first_of_the_farthest<3>();
 }
 
-INSTANTIATE_TEST_SUITE_P(Targets, FarthestPoint, oracle::vector_units(), oracle::name_of_unit);
+INSTANTIATE_TEST_SUITE_P(Targets, FarthestPoint, oracle::simd_targets(), oracle::simd_target_name);
 
 }  // namespace
 }  // namespace abut

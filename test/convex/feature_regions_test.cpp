@@ -1,4 +1,5 @@
-// Closest features: what lies straight out of a corner, an edge or a face, along its own normals, is closest to it.
+// Closest features by Voronoi regions: a point out from a vertex, an edge or a face, along its normals, is closest to
+// it.
 
 #include "../oracle/random.hpp"
 #include <abut/convex/features.hpp>
@@ -64,7 +65,7 @@ TEST(FeatureRegions, OfPolygons) {
     }
 }
 
-/// A hull of a few points, placed, with what surrounds each of its features.
+/// A placed hull of a few points, with the neighbours of each of its features.
 class RandomHull {
 public:
     explicit RandomHull(Random& random) {
@@ -139,14 +140,14 @@ TEST(FeatureRegions, InsideOfPolyhedraToo) {
         const RandomHull hull(random);
         for (std::uint32_t i = 0; i < hull.face_count(); ++i) {
             const DVec<3> on = hull.within_face(i, random), normal = hull.normal(i);
-            double room = 1;  // so deep that another face is as near
+            double max_depth = 1;  // the depth at which another face is as near
             for (std::uint32_t j = 0; j < hull.face_count(); ++j) {
                 if (i == j) continue;
                 const DVec<3> other = hull.normal(j);
                 const double behind = dot(other, hull.corner(hull.facets().loop(j)[0]) - on);
-                room = std::min(room, behind / (1 - dot(other, normal)));
+                max_depth = std::min(max_depth, behind / (1 - dot(other, normal)));
             }
-            const double depth = room * random.uniform(0.01, 0.9);
+            const double depth = max_depth * random.uniform(0.01, 0.9);
             const auto found = closest_feature(hull.core(), on - normal * depth);
             EXPECT_EQ(found.kind, FeatureKind::face);
             EXPECT_EQ(found.index, i) << depth;

@@ -1,4 +1,4 @@
-// Closest features: worked out by hand for each region, and against the oracle.
+// Closest features: known answers for each Voronoi region, and against the oracle.
 
 #include "../oracle/degenerate.hpp"
 #include "../oracle/pair.hpp"
@@ -24,7 +24,7 @@ void expect_feature(const ClosestFeature<D>& found, FeatureKind kind, std::uint3
 
 constexpr FeatureKind on_vertex = FeatureKind::vertex, on_edge = FeatureKind::edge, on_face = FeatureKind::face;
 
-// --- by hand ---
+// --- known answers ---
 
 TEST(Features, EdgesAreNamedByBothPoints) {
     EXPECT_EQ(edge_index(3, 7), 3u | 7u << 16);
@@ -61,32 +61,32 @@ TEST(Features, OfATriangleInThePlane) {
         const DVec<2> a(0, 0), x(4, 0), y(0, 4);
         const DVec<2>&b = mirrored ? y : x, &c = mirrored ? x : y;
         const std::uint32_t at_x = mirrored ? 2 : 1, at_y = mirrored ? 1 : 2;
-        const auto ask = [&](double px, double py) { return closest_on_triangle(a, b, c, DVec<2>(px, py)); };
-        expect_feature<2>(ask(-3, -4), on_vertex, 0, a, 5, {-0.6, -0.8});
-        expect_feature<2>(ask(7, 0), on_vertex, at_x, x, 3, {1, 0});
-        expect_feature<2>(ask(-1, 4), on_vertex, at_y, y, 1, {-1, 0});
-        expect_feature<2>(ask(1, -2), on_edge, edge_index(0, at_x), {1, 0}, 2, {0, -1});
-        expect_feature<2>(ask(-2, 3), on_edge, edge_index(0, at_y), {0, 3}, 2, {-1, 0});
-        expect_feature<2>(ask(4, 4), on_edge, edge_index(1, 2), {2, 2}, std::sqrt(8), {r, r});
-        expect_feature<2>(ask(1, 0.5), on_edge, edge_index(0, at_x), {1, 0}, -0.5, {0, -1});
-        expect_feature<2>(ask(2, 0), on_edge, edge_index(0, at_x), {2, 0}, 0, {0, -1});
-        expect_feature<2>(ask(1.75, 1.75), on_edge, edge_index(1, 2), {2, 2}, -0.25 / r, {r, r});
+        const auto query = [&](double px, double py) { return closest_on_triangle(a, b, c, DVec<2>(px, py)); };
+        expect_feature<2>(query(-3, -4), on_vertex, 0, a, 5, {-0.6, -0.8});
+        expect_feature<2>(query(7, 0), on_vertex, at_x, x, 3, {1, 0});
+        expect_feature<2>(query(-1, 4), on_vertex, at_y, y, 1, {-1, 0});
+        expect_feature<2>(query(1, -2), on_edge, edge_index(0, at_x), {1, 0}, 2, {0, -1});
+        expect_feature<2>(query(-2, 3), on_edge, edge_index(0, at_y), {0, 3}, 2, {-1, 0});
+        expect_feature<2>(query(4, 4), on_edge, edge_index(1, 2), {2, 2}, std::sqrt(8), {r, r});
+        expect_feature<2>(query(1, 0.5), on_edge, edge_index(0, at_x), {1, 0}, -0.5, {0, -1});
+        expect_feature<2>(query(2, 0), on_edge, edge_index(0, at_x), {2, 0}, 0, {0, -1});
+        expect_feature<2>(query(1.75, 1.75), on_edge, edge_index(1, 2), {2, 2}, -0.25 / r, {r, r});
     }
 }
 
 TEST(Features, OfATriangleInSpace) {
     const DVec<3> a(0, 0, 1), b(4, 0, 1), c(0, 4, 1);
     const double r = std::sqrt(0.5);
-    const auto ask = [&](const DVec<3>& p) { return closest_on_triangle(a, b, c, p); };
-    expect_feature<3>(ask({1, 1, 3}), on_face, 0, {1, 1, 1}, 2, {0, 0, 1});
-    expect_feature<3>(ask({1, 1, -2}), on_face, 1, {1, 1, 1}, 3, {0, 0, -1});
-    expect_feature<3>(ask({1, 1, 1}), on_face, 0, {1, 1, 1}, 0, {0, 0, 1});
-    expect_feature<3>(ask({-3, -4, 1}), on_vertex, 0, a, 5, {-0.6, -0.8, 0});
-    expect_feature<3>(ask({7, 0, 5}), on_vertex, 1, b, 5, {0.6, 0, 0.8});
-    expect_feature<3>(ask({-1, 5, 1}), on_vertex, 2, c, 1 / r, {-r, r, 0});
-    expect_feature<3>(ask({1, -3, 5}), on_edge, edge_index(0, 1), {1, 0, 1}, 5, {0, -0.6, 0.8});
-    expect_feature<3>(ask({-3, 1, -3}), on_edge, edge_index(0, 2), {0, 1, 1}, 5, {-0.6, 0, -0.8});
-    expect_feature<3>(ask({4, 4, 1}), on_edge, edge_index(1, 2), {2, 2, 1}, 2 / r, {r, r, 0});
+    const auto query = [&](const DVec<3>& p) { return closest_on_triangle(a, b, c, p); };
+    expect_feature<3>(query({1, 1, 3}), on_face, 0, {1, 1, 1}, 2, {0, 0, 1});
+    expect_feature<3>(query({1, 1, -2}), on_face, 1, {1, 1, 1}, 3, {0, 0, -1});
+    expect_feature<3>(query({1, 1, 1}), on_face, 0, {1, 1, 1}, 0, {0, 0, 1});
+    expect_feature<3>(query({-3, -4, 1}), on_vertex, 0, a, 5, {-0.6, -0.8, 0});
+    expect_feature<3>(query({7, 0, 5}), on_vertex, 1, b, 5, {0.6, 0, 0.8});
+    expect_feature<3>(query({-1, 5, 1}), on_vertex, 2, c, 1 / r, {-r, r, 0});
+    expect_feature<3>(query({1, -3, 5}), on_edge, edge_index(0, 1), {1, 0, 1}, 5, {0, -0.6, 0.8});
+    expect_feature<3>(query({-3, 1, -3}), on_edge, edge_index(0, 2), {0, 1, 1}, 5, {-0.6, 0, -0.8});
+    expect_feature<3>(query({4, 4, 1}), on_edge, edge_index(1, 2), {2, 2, 1}, 2 / r, {r, r, 0});
 }
 
 TEST(Features, OfATriangleThatIsALineOrAPoint) {
@@ -185,8 +185,8 @@ TEST(Features, OfAPolyhedronAsOfABox) {
     EXPECT_GT(inside, 50);
 }
 
-/// A flat polygon not quite in a plane. Its shortest edge stands upright on it, so the outer side of that edge is
-/// anywhere: this point in the middle came out as 54.7 away, at the edge's end.
+/// A flat polygon that isn't quite planar. Its shortest edge is perpendicular to it, so that the outer side of the edge
+/// is undefined: this point in the middle was reported 54.7 away, at the edge's end.
 TEST(Features, OfAPolygonWithAnUprightEdge) {
     const Polyhedron hull = *Polyhedron::build({{-32.0000038f, -63.9999962f, -32},
                                                 {-31.9999981f, -64, -31.9999981f},
@@ -197,9 +197,9 @@ TEST(Features, OfAPolygonWithAnUprightEdge) {
     EXPECT_NEAR(closest_feature(convex(hull), point).distance, 0, 1e-5);
 }
 
-/// A flake whose large face is not quite in a plane either. Just below the edge to its neighbour, the way out was taken
-/// to lead along the flake, through it.
-TEST(Features, BelowAnEdgeOfAFlakeTheWayOutIsOut) {
+/// A flake whose large face isn't quite planar either. Just below the edge to its neighbour, the normal pointed along
+/// the flake, through it.
+TEST(Features, BelowAnEdgeOfAFlakeTheNormalPointsOut) {
     const Polyhedron hull = *Polyhedron::build({{-64, 0.000192507548f, -32},
                                                 {0, -0.000192507548f, 32},
                                                 {32, -0.000192507548f, -64},
@@ -221,7 +221,7 @@ TEST(Features, OfWhatIsRoundNone) {
 
 // --- against the oracle ---
 
-/// The named corners of the placed core: one, two, or the loop of a face.
+/// The vertices of the reported feature of the placed core: one, two, or the loop of a face.
 template <int D>
 std::vector<DVec<D>> corners_of(const Convex<D>& core, FeatureKind kind, std::uint32_t index) {
     std::vector<std::uint32_t> numbers;
@@ -258,7 +258,7 @@ std::vector<DVec<D>> corners_of(const Convex<D>& core, FeatureKind kind, std::ui
     return result;
 }
 
-/// How far a point is from a corner, an edge or the outline and area of a face.
+/// The distance of a point from a vertex, an edge, or a face.
 template <int D>
 double distance_to(const std::vector<DVec<D>>& corners, const DVec<D>& point) {
     double least = std::numeric_limits<double>::infinity();
@@ -266,9 +266,9 @@ double distance_to(const std::vector<DVec<D>>& corners, const DVec<D>& point) {
         const DVec<D> on = oracle::nearest_on_segment(point, corners[i], corners[(i + 1) % corners.size()]);
         least = std::min(least, length(point - on));
         if constexpr (D == 3) {
-            DVec<3> foot;
-            if (i > 1 && oracle::project(point, corners[0], corners[i - 1], corners[i], foot))
-                least = std::min(least, length(point - foot));
+            DVec<3> nearest;
+            if (i > 1 && oracle::project_onto_triangle(point, corners[0], corners[i - 1], corners[i], nearest))
+                least = std::min(least, length(point - nearest));
         }
     }
     return least;
@@ -282,7 +282,7 @@ oracle::Polytope<D> as_polytope(const DVec<D>& point) {
     return result;
 }
 
-/// Near or far, or on a corner, an edge or somewhere in the shape, to the rounding of a float.
+/// A point near or far, or on a vertex, an edge or inside of the shape, to the rounding of a float.
 template <int D>
 DVec<D> point_near(const oracle::Polytope<D>& solid, Random& random) {
     const double size = oracle::size(solid);
@@ -302,10 +302,10 @@ DVec<D> point_near(const oracle::Polytope<D>& solid, Random& random) {
 }
 
 struct Tally {
-    int inside = 0, asked = 0;
+    int inside = 0, queries = 0;
 };
 
-/// Asks one shape about some points.
+/// Queries one shape with some points.
 template <int D>
 void check(const oracle::Sample<D>& sample, Random& random, Tally& tally) {
     const auto* convex = std::get_if<Convex<D>>(&sample.view);
@@ -318,18 +318,18 @@ void check(const oracle::Sample<D>& sample, Random& random, Tally& tally) {
         const DVec<D> point = point_near(solid, random);
         const auto found = closest_feature(core, point);
         const double truth = oracle::truth(solid, as_polytope(point)).distance;
-        const double margin = oracle::tolerance_for(solid, as_polytope(point)) + 1e-14 * largest(point);
+        const double tolerance = oracle::tolerance_for(solid, as_polytope(point)) + 1e-14 * largest(point);
         const auto expect_within = [&](double error, const char* what) {
-            EXPECT_LE(error, margin) << what << ", truly " << truth << " away";
+            EXPECT_LE(error, tolerance) << what << ", truly " << truth << " away";
         };
         expect_within(std::abs(found.distance - truth), "distance");
         expect_within(length(point - found.point - found.normal * found.distance), "surface");
-        // Of faces that were merged, corners stand out.
+        // Corners stick out of merged faces.
         const double standing_out = D == 3 && core.facets != nullptr ? 2 * hull_flatness * oracle::size(solid) : 0;
         expect_within(dot(found.normal, support(core, found.normal) - found.point) - standing_out, "support");
         expect_within(distance_to(corners_of(core, found.kind, found.index), found.point), "named");
         EXPECT_NEAR(length(found.normal), 1, 1e-12);
-        ++tally.asked;
+        ++tally.queries;
         tally.inside += found.distance < 0 ? 1 : 0;
     }
 }
@@ -344,38 +344,38 @@ TYPED_TEST_SUITE(FeaturesOracle, Dimensions);
 TYPED_TEST(FeaturesOracle, AgreesOnRandomShapes) {
     constexpr int D = TypeParam::value;
     Tally tally;
-    for (int i = 0; i < oracle::amount(1200) && !this->HasFailure(); ++i) {
+    for (int i = 0; i < oracle::case_count(1200) && !this->HasFailure(); ++i) {
         const std::uint64_t seed = 4711 + static_cast<std::uint64_t>(i);
         SCOPED_TRACE(testing::Message() << "seed " << seed);
         Random random(seed);
         const double size = random.power_of_two(-10, 13);
         const double away = random.chance(0.5) ? 0 : size * random.power_of_two(0, 14);
-        oracle::Maker<D> maker(Random(seed + 1), random.direction<D>() * away, size);
+        oracle::SampleGenerator<D> maker(Random(seed + 1), random.direction<D>() * away, size);
         check(maker.make(static_cast<oracle::Kind>(i % oracle::kind_count)), random, tally);
     }
-    EXPECT_GT(tally.asked, 2000);
-    EXPECT_GT(tally.inside, tally.asked / 10);
+    EXPECT_GT(tally.queries, 2000);
+    EXPECT_GT(tally.inside, tally.queries / 10);
 }
 
 TYPED_TEST(FeaturesOracle, AgreesOnDegenerateShapes) {
     constexpr int D = TypeParam::value;
     Tally tally;
-    for (int disturbance = 0; disturbance < oracle::disturbance_count; ++disturbance)
-        for (int i = 0; i < oracle::amount(200) && !this->HasFailure(); ++i) {
+    for (int disturbance = 0; disturbance < oracle::perturbation_count; ++disturbance)
+        for (int i = 0; i < oracle::case_count(200) && !this->HasFailure(); ++i) {
             const std::uint64_t seed = 99 + static_cast<std::uint64_t>(i);
             SCOPED_TRACE(testing::Message() << "seed " << seed << ", disturbance " << disturbance);
             Random random(seed);
-            oracle::LatticeMaker<D> maker(random, static_cast<oracle::Disturbance>(disturbance));
+            oracle::LatticeGenerator<D> maker(random, static_cast<oracle::Perturbation>(disturbance));
             check(maker.make(), random, tally);
         }
-    EXPECT_GT(tally.asked, 2000);
-    EXPECT_GT(tally.inside, tally.asked / 30);
+    EXPECT_GT(tally.queries, 2000);
+    EXPECT_GT(tally.inside, tally.queries / 30);
 }
 
 TYPED_TEST(FeaturesOracle, AgreesOnWhatIsStretchedFlat) {
     constexpr int D = TypeParam::value;
     Tally tally;
-    for (int i = 0; i < oracle::amount(150) && !this->HasFailure(); ++i) {
+    for (int i = 0; i < oracle::case_count(150) && !this->HasFailure(); ++i) {
         const std::uint64_t seed = 31 + static_cast<std::uint64_t>(i);
         SCOPED_TRACE(testing::Message() << "seed " << seed);
         Random random(seed);
@@ -397,7 +397,7 @@ TYPED_TEST(FeaturesOracle, AgreesOnWhatIsStretchedFlat) {
                                 oracle::box_of<D>(place * affine(Pose<D>{box.center, box.rotation}), half)),
               random, tally);
     }
-    EXPECT_GT(tally.asked, 1000);
+    EXPECT_GT(tally.queries, 1000);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
-// The same heights and planes, to the last bit, from every kind of vector unit that this machine has.
+// Heights and planes are equal to the last bit with every SIMD target.
 
 #include "../oracle/random.hpp"
-#include "../oracle/vector_units.hpp"
+#include "../oracle/simd_targets.hpp"
 #include <abut/convex/hull/highest_plane.hpp>
 #include <abut/math/dvec.hpp>
 
@@ -13,14 +13,14 @@
 namespace abut {
 namespace {
 
-class HighestPlane : public oracle::ByVectorUnit {};
+class HighestPlane : public oracle::BySimdTarget {};
 
 TEST_P(HighestPlane, IsTheFirstOfThem) {
     int ties = 0;
     for (std::uint64_t seed = 0; seed < 500; ++seed) {
         SCOPED_TRACE(seed);
         oracle::Random random(seed);
-        // Half of them on a small lattice, where many planes are equally far below a point.
+        // Half of them are on a small lattice, where many planes are equally far below a point.
         const bool lattice = random.chance(0.5);
         const auto place = [&] {
             DVec<3> result = random.in_cube<3>() * (lattice ? 2.0 : 1e8);
@@ -59,7 +59,7 @@ TEST_P(HighestPlane, IsTheFirstOfThem) {
     EXPECT_GT(ties, 1000);
 }
 
-INSTANTIATE_TEST_SUITE_P(Targets, HighestPlane, oracle::vector_units(), oracle::name_of_unit);
+INSTANTIATE_TEST_SUITE_P(Targets, HighestPlane, oracle::simd_targets(), oracle::simd_target_name);
 
 }  // namespace
 }  // namespace abut

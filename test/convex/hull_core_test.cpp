@@ -1,4 +1,4 @@
-// Dropping what is deep inside changes no hull: nothing that is dropped matters, and much is.
+// Dropping points deep inside changes no hull: no dropped point matters, and many are dropped.
 #include "point_sets.hpp"
 #include <abut/convex/hull/hull.hpp>
 #include <abut/convex/hull/hull_grid.hpp>
@@ -22,7 +22,7 @@ std::vector<Vec3> in_a_ball(Random& random, int count) {
     return result;
 }
 
-/// Few are far out: what a map of directions finds hardest.
+/// Few points are far out, the worst case of a map of directions.
 std::vector<Vec3> in_a_star(Random& random, int count) {
     std::vector<Vec3> result = in_a_ball(random, count);
     for (Vec3& point : result)
@@ -60,7 +60,7 @@ const std::vector<Kind> clouds{
          const float xy = thin(random);
          return turned(stretched(points, {xy, xy, 1}), random);
      }},
-    // Of many corners in few cells of the map only one each is its farthest.
+    // If many corners are in few cells of the map, only the farthest of each cell stays.
     {"flint",
      [](Random& random) {
          std::vector<Vec3> points = on_a_sphere(random, 2500);
@@ -80,7 +80,7 @@ const std::vector<Kind> clouds{
      }},
 };
 
-/// Where each cloud is, and how large.
+/// Offsets and sizes of the clouds.
 std::vector<Vec3> placed(std::vector<Vec3> points, Random& random) {
     const DVec<3> offset = random.direction<3>() * (random.chance(0.5) ? 0 : random.power_of_two(0, 12));
     const double scale = random.power_of_two(-20, 20);
@@ -94,8 +94,8 @@ std::vector<Vec3> sorted(std::vector<Vec3> points) {
     return points;
 }
 
-// The surface of those that stay, in whole numbers of the grid of all: what was dropped is below every triangle of it,
-// exactly, where nothing is left out.
+// The surface of the remaining points, in integers on the grid of all points: every dropped point is exactly below all
+// its triangles.
 TEST(HullCore, IsInsideOfTheRestExactly) {
     std::size_t dropped = 0, all = 0;
     for (std::size_t kind = 0; kind < clouds.size(); ++kind)

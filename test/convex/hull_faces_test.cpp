@@ -1,4 +1,4 @@
-// Neighbouring faces are joined until none are left that could be.
+// Neighbouring faces are merged until no two can be.
 #include "point_sets.hpp"
 #include <abut/convex/hull/hull.hpp>
 #include <abut/convex/hull/hull_input.hpp>
@@ -30,8 +30,8 @@ std::vector<Face> faces_of(const Hull3& hull) {
     return result;
 }
 
-/// The corners of two faces as one loop, from their common edge on: those of `left`, which has it from `from` to `to`,
-/// then those of `right`.
+/// The corners of two faces as one loop, from their common edge on: those of `left`, which has the edge from `from` to
+/// `to`, then those of `right`.
 std::vector<DVec<3>> joined(const Face& left, const Face& right, const DVec<3>& from, const DVec<3>& to) {
     std::vector<DVec<3>> result;
     const auto add = [&](const Face& face, const DVec<3>& first, const DVec<3>& last) {
@@ -46,7 +46,7 @@ std::vector<DVec<3>> joined(const Face& left, const Face& right, const DVec<3>& 
     return result;
 }
 
-/// Whether they could be one face beyond the doubt that the rounding to the grid leaves.
+/// Whether two faces are coplanar to within the rounding to the grid.
 bool clearly_joinable(const Face& left, const Face& right, const DVec<3>& from, const DVec<3>& to, double extent) {
     if (dot(left.area, right.area) < 0.72 * length(left.area) * length(right.area)) return false;
     const DVec<3> normal = normalized(left.area + right.area);

@@ -1,4 +1,4 @@
-// The planes of a hull's faces: no input point is outside of them, and they are pushed out no farther than that needs.
+// The planes of a hull's faces: no input point is outside of them, and they are moved out only as far as needed.
 #include "point_sets.hpp"
 #include <abut/convex/hull/hull.hpp>
 #include <abut/convex/hull/hull_grid.hpp>
@@ -57,7 +57,7 @@ TEST(HullPlanes, HoldEveryPointAndNoMoreThanTheyMust) {
     EXPECT_GT(pushed_for_those_left_out, 100);
 }
 
-// On whole numbers nothing is rounded, and nothing left out: the planes are as near as double can tell.
+// With integers nothing is rounded or omitted: the planes are as near as doubles allow.
 TEST(HullPlanes, TouchPointsOfAGridToTheLastBits) {
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
@@ -75,7 +75,7 @@ TEST(HullPlanes, TouchPointsOfAGridToTheLastBits) {
     }
 }
 
-// Far from the origin, where the sums of a dot product are rounded by more than all else.
+// Far from the origin, where the rounding of dot products dominates.
 TEST(HullPlanes, HoldPointsOfAGridFarAway) {
     for (std::uint64_t seed = 0; seed < 200; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
@@ -92,7 +92,7 @@ TEST(HullPlanes, HoldPointsOfAGridFarAway) {
     }
 }
 
-// Whatever the normals are and wherever the search begins, the planes hold all and touch the hull.
+// For any normals and any start of the search, the planes contain all points and touch the hull.
 TEST(HullPlanes, AreFoundFromAnyCorner) {
     for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
         SCOPED_TRACE(kinds[kind].name + ", seed " + std::to_string(kind));
@@ -130,7 +130,7 @@ TEST(HullPlanes, AreFoundFromAnyCorner) {
     }
 }
 
-// A cube keeps its coordinates as offsets, whatever else is in it or in its faces.
+// A cube has its coordinates as offsets, whatever else is in it or on its faces.
 TEST(HullPlanes, OfACubeAreItsCoordinates) {
     Random random(91);
     std::vector<Vec3> points = box_surface(1);
@@ -152,7 +152,7 @@ TEST(HullPlanes, OfACubeAreItsCoordinates) {
     }
 }
 
-TEST(HullGrid, TellsHowFarItMovedThePoints) {
+TEST(HullGrid, ReturnsHowFarItMovedThePoints) {
     for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
         SCOPED_TRACE(kinds[kind].name + ", seed " + std::to_string(kind));
         Random random(kind);

@@ -1,4 +1,4 @@
-// The hull engines: exact arithmetic, hulls found by trying every plane, and the laws that every hull keeps.
+// The hull engines: exact arithmetic, hulls by brute force over all planes, and the invariants of every hull.
 #include "point_sets.hpp"
 #include <abut/convex/hull/hull.hpp>
 #include <abut/convex/hull/hull_input.hpp>
@@ -47,7 +47,7 @@ void expect_one_closed_surface(const Hull3& hull) {
         for (std::size_t i = 0; i < loop.size(); ++i) {
             ASSERT_LT(loop[i], hull.points.size());
             used.insert(loop[i]);
-            EXPECT_TRUE(edges.emplace(loop[i], loop[(i + 1) % loop.size()]).second) << "an edge twice the same way";
+            EXPECT_TRUE(edges.emplace(loop[i], loop[(i + 1) % loop.size()]).second) << "an edge twice in one direction";
         }
     }
     for (const auto& [from, to] : edges) EXPECT_TRUE(edges.contains({to, from})) << "an edge of one face alone";
@@ -73,7 +73,7 @@ void expect_faces_hold_all(const Hull3& hull, const std::vector<Vec3>& points, d
             EXPECT_GE(dot(cross(b - a, c - b), normal), -0.2 * tolerance * length(c - a)) << "not convex";
             area += cross(a - origin, b - origin);
         }
-        // Not of slivers that are as narrow as the rounding of the floats.
+        // Slivers as narrow as the rounding of floats are exempt.
         if (length(area) > 1e-4 * extent * extent) {
             EXPECT_GT(dot(area, normal), 0.999 * length(area)) << "clockwise";
         }
@@ -99,7 +99,7 @@ void expect_laws(const Hull3& hull, const std::vector<Vec3>& points, Random& ran
     EXPECT_TRUE(std::is_sorted(hull.points.begin(), hull.points.end(),
                                [](const Vec3& a, const Vec3& b) { return key(a) < key(b); }));
 
-    // The hull reaches as far as the points do, in every direction.
+    // The support of the hull equals that of the points, in every direction.
     for (int i = 0; i < 50; ++i) {
         const DVec<3> direction = random.direction<3>();
         const auto reach = [&](const std::vector<Vec3>& set) {
@@ -132,7 +132,7 @@ TEST(GridDot, IsExactWhereDoubleIsNot) {
     for (int i = 0; i < 20000; ++i) {
         const GridPoint a = point(), b = point(), c = point();
         const GridPoint normal = grid_normal(a, b, c);
-        // Next to the plane: the corner of a parallelogram, one step aside.
+        // Next to the plane: the corner of a parallelogram, moved by one ulp.
         const GridPoint step(static_cast<std::int64_t>(random.below(3)) - 1, 0, 0);
         const GridPoint in_plane = (b - a) - (c - a);
         EXPECT_EQ(grid_dot(normal, in_plane), 0);
@@ -166,7 +166,7 @@ TEST(HullLoop, KeepsAllThatIsExtremeAndNoMore) {
         std::set<std::pair<float, float>> found;
         for (const std::uint32_t i : hull_loop(points)) EXPECT_TRUE(found.emplace(points[i].x, points[i].y).second);
 
-        // A point is no corner if it lies between two others or in the triangle of three others.
+        // A point is no vertex if it lies between two others or in a triangle of three others.
         const auto turn = [](const Vec2& a, const Vec2& b, const Vec2& c) {
             return cross(DVec<2>(b) - DVec<2>(a), DVec<2>(c) - DVec<2>(a));
         };
@@ -189,7 +189,7 @@ TEST(HullLoop, KeepsAllThatIsExtremeAndNoMore) {
     EXPECT_GT(left_out, 500);
 }
 
-// Points next to a line, of exponents so far apart that doubles don't know the turn.
+// Nearly collinear points with exponents so far apart that doubles don't decide the orientation.
 TEST(HullLoop, IsConvexExactlyWhateverTheExponents) {
     int corners = 0, wrong_in_double = 0;
     for (std::uint64_t seed = 0; seed < 2000; ++seed) {
@@ -223,7 +223,7 @@ TEST(HullLoop, IsConvexExactlyWhateverTheExponents) {
     EXPECT_GT(wrong_in_double, 50);
 }
 
-// On a lattice every plane through three points is exact in double, so that the faces can be found by trying them all.
+// On a lattice every plane through three points is exact in double, so that brute force finds the faces.
 TEST(Hull, HasTheFacesFoundByTryingEveryPlane) {
     Random random(73);
     int solid = 0, faces_of_many_corners = 0;
@@ -265,7 +265,7 @@ TEST(Hull, HasTheFacesFoundByTryingEveryPlane) {
                 EXPECT_LE(orientation(hull.points[loops[i][0]], hull.points[loops[i][1]], hull.points[loops[i][2]], p),
                           0);
             for (const std::uint32_t point : loops[i]) EXPECT_TRUE(found->points.contains(key(hull.points[point])));
-            // Strictly convex, and with nothing of the plane outside of it: these are its corners.
+            // Strictly convex, and no point of the plane is outside of it: these are the face's corners.
             for (std::size_t j = 0; j < loops[i].size(); ++j) {
                 const DVec<3> a(hull.points[loops[i][j]]), b(hull.points[loops[i][(j + 1) % loops[i].size()]]);
                 const DVec<3> next(hull.points[loops[i][(j + 2) % loops[i].size()]]), normal(hull.normals[i]);
@@ -336,7 +336,7 @@ TEST(Hull, OfAHullIsTheSame) {
     }
 }
 
-// Rounding moves the points of a turned box or cylinder off its faces by about 1e-7 of its size.
+// Rounding moves the points of a rotated box or cylinder off its faces by about 1e-7 of its size.
 TEST(Hull, HasTheFacesThatWereMeantWhereRoundingBentThem) {
     Random random(74);
     int grids_of_six_faces = 0;
@@ -349,7 +349,7 @@ TEST(Hull, HasTheFacesThatWereMeantWhereRoundingBentThem) {
         const Hull3 cylinder = *abut::hull(turned(rings(sides), random));
         EXPECT_EQ(cylinder.loop_ends.size(), static_cast<std::size_t>(sides + 2));
         EXPECT_EQ(cylinder.points.size(), static_cast<std::size_t>(2 * sides));
-        // Points within a face may stick out by more than is left out, and then it is sometimes two.
+        // Points within a face may stick out by more than the tolerance; then it sometimes becomes two faces.
         grids_of_six_faces += abut::hull(turned(box_surface(5), random))->loop_ends.size() == 6 ? 1 : 0;
     }
     EXPECT_GE(grids_of_six_faces, 46);
@@ -365,8 +365,8 @@ TEST(Hull, HasNoNegativeZeros) {
         for (int i = 0; i < 2; ++i) EXPECT_FALSE(std::signbit(point[i]));
 }
 
-// All corners lie in a slab as thin as joined faces may be, and still there are an upper and a lower side and four
-// between them.
+// All corners lie in a slab as thin as merged faces may be; still there are an upper and a lower side and four between
+// them.
 TEST(Hull, OfAThinPlateKeepsItsRim) {
     std::vector<Vec3> points = stretched(box_surface(1), {1, 1, 4e-7f});
     const Hull3 hull = *abut::hull(points);

@@ -1,6 +1,6 @@
-// Hulls of few corners in space: they hold everything, and add little.
+// Hulls with a vertex limit in 3D: they contain all points, and add little volume.
 
-#include "held.hpp"
+#include "exact_containment.hpp"
 #include "point_sets.hpp"
 #include <abut/convex/hull/hull_input.hpp>
 #include <abut/convex/hull/limited/inner_hull.hpp>
@@ -42,7 +42,7 @@ void expect_same(const Hull3& a, const Hull3& b) {
     EXPECT_EQ(a.area, b.area);
 }
 
-/// Seen along the axis nearest to the normal of what is flat.
+/// The projection of a flat set along the axis nearest to its normal.
 std::vector<Vec2> shadow(const std::vector<Vec3>& points, const Vec3& normal) {
     const DVec<3> n(normal), steep{std::abs(n.x), std::abs(n.y), std::abs(n.z)};
     const int up = steep.x >= steep.y && steep.x >= steep.z ? 0 : (steep.y >= steep.z ? 1 : 2);
@@ -91,7 +91,7 @@ TEST(LimitedHull, OfFewerCornersIsTheHullBitByBit) {
     }
 }
 
-TEST(LimitedHull, TellsWhatIsWrong) {
+TEST(LimitedHull, ReportsProblems) {
     const std::vector<Vec3> points = box_surface(1);
     for (const std::uint32_t limit : {1u, 2u, 3u}) {
         const auto built = limited_hull(points, {limit});
@@ -104,7 +104,7 @@ TEST(LimitedHull, TellsWhatIsWrong) {
     EXPECT_EQ(limited_hull(broken, {8}).problem().code, ProblemCode::not_finite);
     EXPECT_EQ(limited_hull(broken, {8}).problem().index, 1u);
 
-    // What holds a box as large as floats go has eight corners.
+    // The hull of a box at the limits of float has eight corners.
     std::vector<Vec3> largest = points;
     for (Vec3& point : largest) point *= std::numeric_limits<float>::max();
     EXPECT_TRUE(limited_hull(largest, {8}));
@@ -157,7 +157,7 @@ TEST(LimitedHull, DoesNotDependOnTheOrderOfThePoints) {
     }
 }
 
-// What the hull of inner corners would add that is scaled up until it holds all: simple, and valid as well.
+// The volume added by a simple alternative: the hull of inner corners, scaled up until it contains all points.
 double share_of_scaled(const Limited& limited, std::size_t limit) {
     const Hull3 inner = inner_hull(limited.full.points, limit, limited.full.points[0]);
     const DVec<3> middle(inner.centroid);
@@ -178,7 +178,7 @@ TEST(LimitedHull, AddsLittle) {
         std::uint32_t limit;
         double most;
     };
-    // At best: 0.65 of 6 corners, 0.21 of 12, a bit above 0.06 of 32.
+    // Optimal: 0.65 for 6 corners, 0.21 for 12, a bit above 0.06 for 32.
     for (const auto& [limit, most] : {Case{6, 0.75}, Case{12, 0.35}, Case{32, 0.115}, Case{64, 0.06}}) {
         SCOPED_TRACE("limit " + std::to_string(limit));
         const Limited round = limited(ball, limit), flat = limited(flattened, limit);
@@ -187,13 +187,13 @@ TEST(LimitedHull, AddsLittle) {
         EXPECT_GT(round.share(), 0);
         EXPECT_LT(round.share(), 0.9 * share_of_scaled(round, limit));
     }
-    // A prism around a cylinder of many sides is the best of its kind: n tan(pi / n) / pi - 1 more.
+    // The optimum around a cylinder of many sides is a prism: n tan(pi / n) / pi - 1 more.
     const std::vector<Vec3> cylinder = turned(rings(256), random);
     for (const auto& [limit, most] : {Case{8, 0.275}, Case{12, 0.108}, Case{16, 0.065}}) {
         SCOPED_TRACE("cylinder, limit " + std::to_string(limit));
         EXPECT_LT(limited(cylinder, limit).share(), most + 0.02);
     }
-    // A box whose corners were cut off is a box again, however it is turned.
+    // A box with its corners cut off becomes a box again, in any orientation.
     const Limited box = limited(turned(bevelled_box(), random), 8);
     EXPECT_EQ(box.full.points.size(), 24u);
     EXPECT_EQ(box.hull.points.size(), 8u);
@@ -221,7 +221,7 @@ TEST(LimitedHull, OfWhatIsFlatIsFlat) {
     EXPECT_EQ(result.hull.rank, 2);
     EXPECT_EQ(result.hull.points.size(), 5u);
     expect_holds(result.hull, tilted);
-    // Nothing of the plane is limited that has no plane.
+    // A set without a plane has no limited hull in the plane.
     EXPECT_EQ(limited({Vec3(0.0f), Vec3(1.0f), Vec3(2.0f)}, 4).hull.rank, 1);
     EXPECT_EQ(limited({Vec3(2.0f)}, 4).hull.rank, 0);
 }

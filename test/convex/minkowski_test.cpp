@@ -21,7 +21,7 @@ TEST(SumOfLoops, OfTwoSquaresMakesParallelEdgesOne) {
 }
 
 TEST(SumOfLoops, OfATriangleAndASquareHasTheEdgesOfBoth) {
-    // From the triangle's least corner, the last given: along the square's bottom, down the slope, and so on.
+    // From the triangle's least corner, given last: along the square's bottom, down the slope, and so on.
     const Loop triangle{{5, 4}, {3, 7}, {0, 5}};
     EXPECT_EQ(sum_corners(triangle, square), (Pairs{{2, 0}, {0, 0}, {0, 1}, {0, 2}, {1, 2}, {1, 3}, {2, 3}}));
 }
@@ -37,7 +37,7 @@ TEST(SumOfLoops, OfPointsAndSegments) {
 }
 
 TEST(SumOfLoops, ComparesDirectionsExactly) {
-    // cross((s + 1, s), (s, s - 1)) is -1, which the rounded products of s = 2^27 can't tell from 0.
+    // cross((s + 1, s), (s, s - 1)) is -1, but the rounded products of s = 2^27 give 0.
     const double s = 0x1p27;
     const Loop steeper{{0, 0}, {s + 1, s}, {0, s}}, flatter{{0, 0}, {s, s - 1}, {0, s - 1}};
     EXPECT_EQ(sum_corners(steeper, flatter), (Pairs{{0, 0}, {0, 1}, {1, 1}, {2, 2}}));
@@ -45,15 +45,15 @@ TEST(SumOfLoops, ComparesDirectionsExactly) {
 }
 
 TEST(SumOfLoops, OfEdgesThatRoundToParallelOnes) {
-    // Convex, but the first two edges differ by less than a double tells. The third then seemed to be parallel to the
-    // way there of the segment, and the sum lost its far end.
+    // Convex, but the first two edges differ by less than a double resolves. The third then seemed parallel to the
+    // segment, and the sum lost its far end.
     const Loop sliver{{-1, -8}, {1e-20, 0}, {1, 8}}, segment{{-2, -16}, {2, 16}};
     const Pairs pairs = sum_corners(sliver, segment);
     EXPECT_NE(std::find(pairs.begin(), pairs.end(), CornerPair{2, 1}), pairs.end());
     EXPECT_EQ(pairs.front(), (CornerPair{0, 0}));
 }
 
-/// A polytope in space with what a surface refers to.
+/// A polyhedron with the arrays that a surface refers to.
 struct Body {
     explicit Body(std::vector<Vec3> points) : hull(*abut::hull(points)) {
         facets = {hull.normals, hull.loops, hull.loop_ends, hull.edges};
@@ -87,7 +87,7 @@ const Body mirrored_tetrahedron({{-1, -1, -1}, {-1, 1, 1}, {1, -1, 1}, {1, 1, -1
 
 TEST(SumOfSurfaces, OfTwoBoxesIsABox) {
     const Body a(box_corners({1, 2, 3})), b(box_corners({0.5f, 0.25f, 4}));
-    // All normals coincide and all arcs lie on one another: a corner goes with the one in the same corner.
+    // All normals coincide and all arcs of the Gauss map overlap: each corner is added to the equal corner.
     Pairs expected;
     for (std::uint32_t i = 0; i < 8; ++i) expected.push_back({i, i});
     EXPECT_EQ(sum_corners(a.surface(), b.surface()), expected);
@@ -100,7 +100,7 @@ TEST(SumOfSurfaces, OfATetrahedronAndItselfIsTwiceThat) {
 }
 
 TEST(SumOfSurfaces, OfATetrahedronAndItsMirrorImageIsACuboctahedron) {
-    // Four faces of each, and six squares where an edge of the one crosses an edge of the other.
+    // Four faces of each, and six squares where an edge of one crosses an edge of the other.
     const Hull3 cuboctahedron = sum(tetrahedron, mirrored_tetrahedron);
     EXPECT_EQ(cuboctahedron.points.size(), 12u);
     EXPECT_EQ(cuboctahedron.normals.size(), 14u);

@@ -1,4 +1,4 @@
-// Where the penetration search begins is nothing to its answer, and something to its cost.
+// The start of EPA has no influence on its answer, but on its cost.
 
 #include "../oracle/random.hpp"
 #include <abut/convex/gjk/epa.hpp>
@@ -17,7 +17,7 @@ Polyhedron round_hull(oracle::Random& random) {
     return *Polyhedron::build(points);
 }
 
-/// Both have radius 1; their middles are so far apart.
+/// Both have radius 1; this is the distance of their centers.
 Pose3 near_pose(oracle::Random& random, double from, double to) {
     return {to_float<3>(random.direction<3>() * random.uniform(from, to)), random.rotation<3>()};
 }
@@ -44,9 +44,9 @@ TEST(Penetration, IsTheSameFromAnyStart) {
     EXPECT_GT(started, 400);
 }
 
-TEST(Penetration, TellsTheCacheWhatHoldsFaceAndOrigin) {
+TEST(Penetration, CachesTheTetrahedronOfFaceAndOrigin) {
     oracle::Random random(2);
-    std::size_t cold = 0, warm = 0, told = 0;
+    std::size_t cold = 0, warm = 0, cached = 0;
     for (int i = 0; i < 500; ++i) {
         SCOPED_TRACE(i);
         const Polyhedron a = round_hull(random), b = round_hull(random);
@@ -55,7 +55,7 @@ TEST(Penetration, TellsTheCacheWhatHoldsFaceAndOrigin) {
         Trace<3> first;
         const EpaResult<3> found = epa(difference, {&cache, &first});
         if (found.depth < 0 || cache.count != 4) continue;
-        ++told;
+        ++cached;
         const GjkResult<3> walk = gjk(difference, std::numeric_limits<double>::infinity(), {.cache = &cache});
         EXPECT_EQ(walk.exit, GjkExit::overlapping);
         Trace<3> again;
@@ -63,7 +63,7 @@ TEST(Penetration, TellsTheCacheWhatHoldsFaceAndOrigin) {
         cold += steps_of(first);
         warm += steps_of(again);
     }
-    EXPECT_GT(told, 300u);
+    EXPECT_GT(cached, 300u);
     EXPECT_LT(2 * warm, cold);
 }
 

@@ -1,7 +1,7 @@
-// Hulls in the plane: the fast way has the same corners as a plain chain over all points, and hulls of few corners hold
-// everything.
+// Hulls in 2D: the filtered hull has the corners of a monotone chain over all points, and hulls with a vertex limit
+// contain all points.
 
-#include "held.hpp"
+#include "exact_containment.hpp"
 #include "point_sets.hpp"
 #include <abut/convex/hull/hull_input.hpp>
 #include <abut/convex/hull/limited/limited_hull.hpp>
@@ -19,8 +19,8 @@
 namespace abut::test {
 namespace {
 
-/// The monotone chain of Andrew (1979), with nothing left out before.
-std::vector<std::uint32_t> plain_loop(const std::vector<Vec2>& points) {
+/// The monotone chain of Andrew (1979), without a filter.
+std::vector<std::uint32_t> monotone_chain(const std::vector<Vec2>& points) {
     std::vector<std::uint32_t> order(points.size());
     std::iota(order.begin(), order.end(), 0u);
     std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
@@ -30,7 +30,7 @@ std::vector<std::uint32_t> plain_loop(const std::vector<Vec2>& points) {
     order.erase(std::unique(order.begin(), order.end(), same), order.end());
     if (order.size() == 1) return order;
     std::vector<std::uint32_t> loop;
-    for (int way = 0; way < 2; ++way) {
+    for (int chain = 0; chain < 2; ++chain) {
         const std::size_t first = loop.size();
         for (const std::uint32_t i : order) {
             while (loop.size() >= first + 2 &&
@@ -75,8 +75,8 @@ const std::vector<PlaneKind> plane_kinds{
      }},
     {"all exponents",
      [](Random& random) {
-         const DVec<2> way = random.direction<2>();
-         return to_float(way * random.power_of_two(-148, 127));
+         const DVec<2> direction = random.direction<2>();
+         return to_float(direction * random.power_of_two(-148, 127));
      }},
     {"one place", [](Random&) { return Vec2(3, -4); }},
 };
@@ -87,7 +87,7 @@ std::vector<Vec2> plane_points(const PlaneKind& kind, Random& random, int count)
     return result;
 }
 
-TEST(HullLoop, IsThatOfAPlainChainIndexByIndex) {
+TEST(HullLoop, EqualsTheMonotoneChainIndexByIndex) {
     std::size_t corners = 0;
     for (const PlaneKind& kind : plane_kinds)
         for (const int count : {1, 2, 3, 10, 63, 64, 65, 500, 2000, 2100, 20000})
@@ -96,7 +96,7 @@ TEST(HullLoop, IsThatOfAPlainChainIndexByIndex) {
                 Random random(seed);
                 const std::vector<Vec2> points = plane_points(kind, random, count);
                 const std::vector<std::uint32_t> loop = hull_loop(points);
-                ASSERT_EQ(loop, plain_loop(points));
+                ASSERT_EQ(loop, monotone_chain(points));
                 corners += loop.size();
             }
     EXPECT_GT(corners, 20000u);
@@ -145,7 +145,7 @@ TEST(LimitedHullOfThePlane, HoldsEveryPointExactly) {
     EXPECT_GT(limited, 90);
 }
 
-TEST(LimitedHullOfThePlane, TellsWhatIsWrong) {
+TEST(LimitedHullOfThePlane, ReportsProblems) {
     std::vector<Vec2> square{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
     EXPECT_EQ(limited_hull(square, {2}).problem().code, ProblemCode::bad_argument);
     EXPECT_EQ(limited_hull(square, {1}).problem().code, ProblemCode::bad_argument);
@@ -157,7 +157,7 @@ TEST(LimitedHullOfThePlane, TellsWhatIsWrong) {
     EXPECT_EQ(limited_hull(square, {3}).problem().code, ProblemCode::too_large);
 }
 
-// Around a circle the best polygon is regular: n tan(pi / n) / pi times its area.
+// The best polygon around a circle is regular: n tan(pi / n) / pi times its area.
 TEST(LimitedHullOfThePlane, IsNearlyTheBestAroundACircle) {
     constexpr double pi = 3.14159265358979323846;
     std::vector<Vec2> circle;
@@ -176,7 +176,7 @@ TEST(LimitedHullOfThePlane, IsNearlyTheBestAroundACircle) {
     EXPECT_NEAR(Polygon::build(circle, {.max_vertices = 4})->area(), 4, 0.001);
 }
 
-/// The least area of a polygon around a loop whose lines all go along edges of it, by trying every choice of them.
+/// The least area of a polygon around a loop whose lines all contain edges of it, by brute force.
 double best_along_edges(const std::vector<Vec2>& loop, std::uint32_t limit) {
     const std::size_t count = loop.size();
     double least = std::numeric_limits<double>::max();

@@ -1,4 +1,4 @@
-// The quick ways of the plane against the searches that they save.
+// The direct methods for pairs in 2D against the general GJK and EPA.
 
 #include "../oracle/pair.hpp"
 #include <abut/convex/manifold/clip.hpp>
@@ -16,9 +16,9 @@ namespace {
 using oracle::Kind;
 using oracle::Random;
 
-/// What was asked and told, so that no sample is vacuous.
-struct Told {
-    int pairs = 0, told = 0, overlapping = 0;
+/// Counts, so that no sample is vacuous.
+struct Tally {
+    int pairs = 0, answered = 0, overlapping = 0;
 };
 
 Closest<2> as_closest(const SignedDistance<2>& distance) {
@@ -30,22 +30,22 @@ Closest<2> as_closest(const SignedDistance<2>& distance) {
     return result;
 }
 
-/// The same answers as those of the searches; certified; and the same again from a cache.
-void expect_agreement(const Convex<2>& a, const Convex<2>& b, double margin, Told& told) {
-    ++told.pairs;
+/// Expects the answers of the general searches, certified, and again with a cache.
+void expect_agreement(const Convex<2>& a, const Convex<2>& b, double tolerance, Tally& tally) {
+    ++tally.pairs;
     PlacedPolygon outline_a, outline_b;
     if (!set_placed_polygon(a, outline_a) || !set_placed_polygon(b, outline_b)) return;
-    SignedDistance<2> quick;
-    if (pair2_distance(outline_a, outline_b, nullptr, quick) == PairAnswer2::unknown) return;
-    ++told.told;
+    SignedDistance<2> direct;
+    if (pair2_distance(outline_a, outline_b, nullptr, direct) == PairAnswer2::unknown) return;
+    ++tally.answered;
     const SignedDistance<2> searched = signed_distance(a, b);
-    told.overlapping += searched.distance <= 0 ? 1 : 0;
-    EXPECT_NEAR(quick.distance, searched.distance, 0.1 * margin);
-    EXPECT_NEAR(length(quick.normal), 1, 1e-12);
-    EXPECT_TRUE(certify(View<2>(a), View<2>(b), as_closest(quick)));
+    tally.overlapping += searched.distance <= 0 ? 1 : 0;
+    EXPECT_NEAR(direct.distance, searched.distance, 0.1 * tolerance);
+    EXPECT_NEAR(length(direct.normal), 1, 1e-12);
+    EXPECT_TRUE(certify(View<2>(a), View<2>(b), as_closest(direct)));
 
     const PairAnswer2 near = pair2_within(outline_a, outline_b, 0, nullptr);
-    const bool certain = std::abs(searched.distance) > margin;
+    const bool certain = std::abs(searched.distance) > tolerance;
     if (certain) {
         EXPECT_EQ(near, searched.distance <= 0 ? PairAnswer2::within : PairAnswer2::beyond);
     }
@@ -53,35 +53,35 @@ void expect_agreement(const Convex<2>& a, const Convex<2>& b, double margin, Tol
     for (int time = 0; time < 3; ++time) {
         SignedDistance<2> again;
         ASSERT_NE(pair2_distance(outline_a, outline_b, &cache, again), PairAnswer2::unknown);
-        EXPECT_NEAR(again.distance, quick.distance, 1e-3 * margin);
+        EXPECT_NEAR(again.distance, direct.distance, 1e-3 * tolerance);
         if (certain) {
             EXPECT_EQ(pair2_within(outline_a, outline_b, 0, &cache), near);
         }
     }
 }
 
-/// The deepest point is as deep, and each lies midway between surfaces that are as deep there as it says.
-void expect_same_contact(const Convex<2>& a, const Convex<2>& b, double margin) {
+/// Expects equal depths, and each point midway between surfaces that are as deep as it reports.
+void expect_same_contact(const Convex<2>& a, const Convex<2>& b, double tolerance) {
     PlacedPolygon outline_a, outline_b;
     if (!set_placed_polygon(a, outline_a) || !set_placed_polygon(b, outline_b)) return;
     SignedDistance<2> distance;
-    Manifold<2> quick;
-    const PairAnswer2 answer = pair2_contact(outline_a, outline_b, 0, 0, nullptr, distance, quick);
+    Manifold<2> direct;
+    const PairAnswer2 answer = pair2_contact(outline_a, outline_b, 0, 0, nullptr, distance, direct);
     if (answer != PairAnswer2::within) return;
-    const Manifold<2> plain = manifold(a, b, distance, 0);
+    const Manifold<2> expected = manifold(a, b, distance, 0);
     double deepest = 0;
-    for (std::size_t i = 0; i < quick.count; ++i) deepest = std::max(deepest, quick.points[i].depth);
-    EXPECT_NEAR(deepest, -distance.distance, 0.1 * margin);
-    // An end of a side that just touches the other's is one point or two in one place.
+    for (std::size_t i = 0; i < direct.count; ++i) deepest = std::max(deepest, direct.points[i].depth);
+    EXPECT_NEAR(deepest, -distance.distance, 0.1 * tolerance);
+    // An edge whose end just touches the other shape has one point, or two at one place.
     const auto has = [&](const Manifold<2>& all, const ManifoldPoint<2>& point) {
         for (std::size_t i = 0; i < all.count; ++i)
-            if (length(all.points[i].position - point.position) <= margin &&
-                std::abs(all.points[i].depth - point.depth) <= margin)
+            if (length(all.points[i].position - point.position) <= tolerance &&
+                std::abs(all.points[i].depth - point.depth) <= tolerance)
                 return true;
         return false;
     };
-    for (std::size_t i = 0; i < quick.count; ++i) EXPECT_TRUE(has(plain, quick.points[i]));
-    for (std::size_t i = 0; i < plain.count; ++i) EXPECT_TRUE(has(quick, plain.points[i]));
+    for (std::size_t i = 0; i < direct.count; ++i) EXPECT_TRUE(has(expected, direct.points[i]));
+    for (std::size_t i = 0; i < expected.count; ++i) EXPECT_TRUE(has(direct, expected.points[i]));
 }
 
 const Convex<2>& convex_of(const oracle::Sample<2>& sample) {
@@ -91,25 +91,25 @@ const Convex<2>& convex_of(const oracle::Sample<2>& sample) {
 TEST(PlanePairs, AgreeWithTheSearches) {
     constexpr Kind kinds[] = {Kind::ball, Kind::capsule, Kind::segment, Kind::triangle,
                               Kind::box,  Kind::aabb,    Kind::polytope};
-    Told told;
-    for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(oracle::amount(10000)); ++seed) {
+    Tally tally;
+    for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(oracle::case_count(10000)); ++seed) {
         SCOPED_TRACE(seed);
         Random random(seed);
         const Kind kind_a = kinds[random.below(7)], kind_b = kinds[random.below(7)];
         const auto pair = oracle::random_pair<2>(random, kind_a, kind_b);
-        const double margin = oracle::tolerance_for(pair.a.solid, pair.b.solid);
-        expect_agreement(convex_of(pair.a), convex_of(pair.b), margin, told);
-        expect_same_contact(convex_of(pair.a), convex_of(pair.b), margin);
+        const double tolerance = oracle::tolerance_for(pair.a.solid, pair.b.solid);
+        expect_agreement(convex_of(pair.a), convex_of(pair.b), tolerance, tally);
+        expect_same_contact(convex_of(pair.a), convex_of(pair.b), tolerance);
     }
-    EXPECT_GT(told.told, told.pairs * 8 / 10);
-    EXPECT_GT(told.overlapping, told.told * 3 / 10);
-    EXPECT_LT(told.overlapping, told.told * 7 / 10);
+    EXPECT_GT(tally.answered, tally.pairs * 8 / 10);
+    EXPECT_GT(tally.overlapping, tally.answered * 3 / 10);
+    EXPECT_LT(tally.overlapping, tally.answered * 7 / 10);
 }
 
-/// Corners on a coarse grid: sides on one line, corners that touch, shapes in one another, boxes of no width.
+/// Corners on a coarse grid: collinear edges, touching corners, nested shapes, boxes without width.
 TEST(PlanePairs, AgreeOnAGrid) {
-    Told told;
-    for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(oracle::amount(10000)); ++seed) {
+    Tally tally;
+    for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(oracle::case_count(10000)); ++seed) {
         SCOPED_TRACE(seed);
         Random random(seed);
         const float unit = static_cast<float>(random.power_of_two(-10, 13));
@@ -140,16 +140,16 @@ TEST(PlanePairs, AgreeOnAGrid) {
         };
         Polygon polygon_a, polygon_b;
         const Convex<2> a = shape(polygon_a), b = shape(polygon_b);
-        const double margin = 1e-5 * std::min(size(a), size(b)) + 1e-5 * static_cast<double>(unit);
-        expect_agreement(a, b, margin, told);
+        const double tolerance = 1e-5 * std::min(size(a), size(b)) + 1e-5 * static_cast<double>(unit);
+        expect_agreement(a, b, tolerance, tally);
     }
-    EXPECT_GT(told.told, told.pairs * 6 / 10);
-    EXPECT_GT(told.overlapping, told.told * 3 / 10);
-    EXPECT_LT(told.overlapping, told.told * 7 / 10);
+    EXPECT_GT(tally.answered, tally.pairs * 6 / 10);
+    EXPECT_GT(tally.overlapping, tally.answered * 3 / 10);
+    EXPECT_LT(tally.overlapping, tally.answered * 7 / 10);
 }
 
 TEST(PlanePairs, OfAPointBesideSidesOnOneLine) {
-    // The second and third corner are on the line of their neighbours but for the smallest of floats.
+    // The second and third corner are collinear with their neighbours, up to the smallest float.
     const Polygon polygon = *Polygon::build({{-64, -64}, {-32, -64}, {2.80259693e-45f, -32}, {64, 32}, {0, 64}});
     EXPECT_NEAR(closest(polygon, Vec2(40, -8)).distance, std::sqrt(128.0f), 1e-5f);
     EXPECT_NEAR(closest(polygon, Vec2(-8, -56)).distance, std::sqrt(128.0f), 1e-5f);
@@ -158,16 +158,16 @@ TEST(PlanePairs, OfAPointBesideSidesOnOneLine) {
 TEST(PlanePairs, NameTheSameCornersAsTheSearches) {
     const Box2 box{{0, 0}, {1, 1}};
     const Box2 other{{0.25f, 1.75f}, {1, 1}};
-    const Contact<2> quick = contact(box, other);
-    const Manifold<2> plain = manifold(view(box), view(other), signed_distance<2>(view(box), view(other)), 0);
-    ASSERT_EQ(quick.points.size(), 2u);
-    ASSERT_EQ(plain.count, 2u);
-    for (const ContactPoint<2>& point : quick.points) {
-        const bool first = length(DVec<2>(point.position) - plain.points[0].position) < 1e-6;
-        EXPECT_EQ(point.feature, plain.points[first ? 0 : 1].feature);
+    const Contact<2> direct = contact(box, other);
+    const Manifold<2> expected = manifold(view(box), view(other), signed_distance<2>(view(box), view(other)), 0);
+    ASSERT_EQ(direct.points.size(), 2u);
+    ASSERT_EQ(expected.count, 2u);
+    for (const ContactPoint<2>& point : direct.points) {
+        const bool first = length(DVec<2>(point.position) - expected.points[0].position) < 1e-6;
+        EXPECT_EQ(point.feature, expected.points[first ? 0 : 1].feature);
     }
-    EXPECT_EQ(quick.depth, 0.25f);
-    EXPECT_EQ(quick.normal, Vec2(0, 1));
+    EXPECT_EQ(direct.depth, 0.25f);
+    EXPECT_EQ(direct.normal, Vec2(0, 1));
 }
 
 TEST(PlanePairs, MoveWithTheirCacheFromOverlappingToApart) {
@@ -185,8 +185,8 @@ TEST(PlanePairs, MoveWithTheirCacheFromOverlappingToApart) {
 
 TEST(PlaneIntersection, IsThatOfTheGeneralCut) {
     int overlapping = 0, pairs = 0;
-    Polygon quick;
-    for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(oracle::amount(5000)); ++seed) {
+    Polygon direct;
+    for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(oracle::case_count(5000)); ++seed) {
         SCOPED_TRACE(seed);
         Random random(seed);
         const Kind kinds[] = {Kind::box, Kind::polytope, Kind::triangle};
@@ -196,19 +196,19 @@ TEST(PlaneIntersection, IsThatOfTheGeneralCut) {
         ++pairs;
         std::vector<Vec2> corners;
         for (const DVec<2>& corner : clip(a, b)) corners.push_back(to_float(corner));
-        const bool meet = intersection(a, b, quick);
-        const double margin = oracle::tolerance_for(pair.a.solid, pair.b.solid);
-        if (meet == corners.empty()) {
-            EXPECT_LE(std::abs(signed_distance(a, b).distance), margin);
+        const bool overlap = intersection(a, b, direct);
+        const double tolerance = oracle::tolerance_for(pair.a.solid, pair.b.solid);
+        if (overlap == corners.empty()) {
+            EXPECT_LE(std::abs(signed_distance(a, b).distance), tolerance);
             continue;
         }
-        overlapping += meet ? 1 : 0;
-        if (!meet) continue;
-        const Polygon plain = *Polygon::build(corners);
+        overlapping += overlap ? 1 : 0;
+        if (!overlap) continue;
+        const Polygon expected = *Polygon::build(corners);
         const double extent = 2 * std::min(size(a), size(b));
-        EXPECT_NEAR(quick.area(), plain.area(), 4 * margin * extent);
-        for (const Vec2& corner : quick.points()) EXPECT_LE(closest(plain, corner).distance, margin);
-        for (const Vec2& corner : plain.points()) EXPECT_LE(closest(quick, corner).distance, margin);
+        EXPECT_NEAR(direct.area(), expected.area(), 4 * tolerance * extent);
+        for (const Vec2& corner : direct.points()) EXPECT_LE(closest(expected, corner).distance, tolerance);
+        for (const Vec2& corner : expected.points()) EXPECT_LE(closest(direct, corner).distance, tolerance);
     }
     EXPECT_GT(overlapping, pairs * 3 / 10);
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-// Sets of points that hulls find hard, each in another way.
+// Point sets that are difficult for hulls, each for another reason.
 
 #include "../oracle/random.hpp"
 #include <abut/math/affine.hpp>
@@ -67,7 +67,7 @@ inline std::vector<Vec3> with_near_copies(std::vector<Vec3> points, Random& rand
     return points;
 }
 
-/// One statement a random thing: the order in which arguments are evaluated is the compiler's to choose.
+/// One statement for each random number: the compiler chooses the order in which arguments are evaluated.
 struct Kind {
     std::string name;
     std::function<std::vector<Vec3>(Random&)> make;

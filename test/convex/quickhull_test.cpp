@@ -1,5 +1,5 @@
-// The quickhull's surface is closed and convex, decided in whole numbers alone, and holds every point: exactly where
-// nothing may be left out.
+// The surface of quickhull is closed and convex, decided in integers, and contains every point: exactly, if the
+// tolerance is zero.
 #include "point_sets.hpp"
 #include <abut/convex/hull/hull.hpp>
 #include <abut/convex/hull/hull_grid.hpp>
@@ -33,8 +33,7 @@ void expect_closed_and_convex(const Grid& grid, const TriangleSurface& surface) 
                               grid.points[surface.origin[3 * t + 2]]));
 }
 
-// The triangles come in the order of their corners, each from its lowest: no other order would be the same for the same
-// surface.
+// The triangles come sorted, each from its lowest corner, so that equal surfaces compare equal.
 void expect_in_order(const TriangleSurface& surface) {
     std::vector<std::array<std::uint32_t, 3>> triangles;
     for (std::size_t h = 0; h < surface.origin.size(); h += 3)
@@ -70,7 +69,7 @@ TEST(Quickhull, HoldsEveryPointExactlyWhereNothingMayBeLeftOut) {
     EXPECT_GT(coplanar, 3 * triangles + 500) << "three are corners of its own";
 }
 
-TEST(Quickhull, TellsHowFarOutAreThoseItLeftOut) {
+TEST(Quickhull, BoundsTheDistanceOfOmittedPoints) {
     std::size_t outside = 0;
     for (std::size_t kind = 0; kind < kinds.size(); ++kind)
         for (std::uint64_t round = 0; round < 10; ++round) {
@@ -95,7 +94,7 @@ TEST(Quickhull, TellsHowFarOutAreThoseItLeftOut) {
     EXPECT_GT(outside, 1000u);
 }
 
-// A cone over a ring has one corner in as many triangles as the ring has; its tip is found early or late.
+// The tip of a cone over a ring is a corner of as many triangles as the ring has; it is found early or late.
 TEST(Quickhull, OfACone) {
     for (const float tip : {0.01f, 1.0f, 100.0f}) {
         std::vector<Vec3> points = rings(500);

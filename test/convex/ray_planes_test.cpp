@@ -1,7 +1,7 @@
-// The same cut from every kind of vector unit that this machine has, and from looking at the planes one by one.
+// The clipped ray is equal with every SIMD target, and with a reference plane by plane.
 
 #include "../oracle/random.hpp"
-#include "../oracle/vector_units.hpp"
+#include "../oracle/simd_targets.hpp"
 #include <abut/convex/ray/planes.hpp>
 
 #include <vector>
@@ -11,13 +11,13 @@
 namespace abut {
 namespace {
 
-class RayPlanes : public oracle::ByVectorUnit {};
+class RayPlanes : public oracle::BySimdTarget {};
 
 TEST_P(RayPlanes, AreCutOneByOne) {
     for (std::uint64_t seed = 0; seed < 3000; ++seed) {
         SCOPED_TRACE(seed);
         oracle::Random random(seed);
-        // Half of them on a small lattice, where many planes are cut in one place or run along the beam.
+        // Half of them are on a small lattice, where many planes cut the ray at one point or are parallel to it.
         const bool lattice = random.chance(0.5);
         const auto some = [&] {
             DVec<3> result = random.in_cube<3>() * 2.0;
@@ -62,7 +62,7 @@ TEST_P(RayPlanes, AreCutOneByOne) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Targets, RayPlanes, oracle::vector_units(), oracle::name_of_unit);
+INSTANTIATE_TEST_SUITE_P(Targets, RayPlanes, oracle::simd_targets(), oracle::simd_target_name);
 
 }  // namespace
 }  // namespace abut

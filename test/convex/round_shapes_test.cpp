@@ -1,4 +1,4 @@
-// Cylinders, cones and ellipsoids against the best of many directions, each given by a formula of its extent.
+// Cylinders, cones and ellipsoids against the best of many directions, with closed forms of their support functions.
 
 #include "../oracle/expect.hpp"
 #include "../oracle/pair.hpp"
@@ -22,8 +22,8 @@ using Extent = std::function<double(const DVec<3>&)>;
 struct Round {
     std::shared_ptr<const void> keeper;
     View<3> view;
-    Extent extent;               ///< the most of dot(n, p) over the shape, for n of length 1
-    std::vector<DVec<3>> kinks;  ///< directions of flat ends and faces, where the extent has a sharp least value
+    Extent extent;               ///< the maximum of dot(n, p) over the shape, for n of length 1
+    std::vector<DVec<3>> kinks;  ///< directions of flat ends and faces, where the extent has a sharp minimum
 };
 
 template <class S>
@@ -41,7 +41,7 @@ Extent discs(const Vec3& a, const Vec3& b, float radius_a, float radius_b) {
     };
 }
 
-/// 0 to 4 are round with rims or stretched; 5 and 6 have closed forms, as partners.
+/// 0 to 4 are round with rims or stretched; 5 and 6 have closed forms.
 Round make(int kind, oracle::Random& random, const DVec<3>& center, double size) {
     const auto spot = [&](double spread) { return to_float(center + random.in_cube<3>() * (spread * size)); };
     const Vec3 a = spot(0.8), b = spot(0.8);
@@ -88,8 +88,8 @@ Round make(int kind, oracle::Random& random, const DVec<3>& center, double size)
     }
 }
 
-/// The least of f over unit vectors: the best of some thousand, then smaller and smaller steps from the best few.
-double least_over_directions(const Extent& f, const std::vector<DVec<3>>& kinks) {
+/// The minimum of f over unit vectors: the best of some thousand, then ever smaller steps from the best few.
+double min_over_directions(const Extent& f, const std::vector<DVec<3>>& kinks) {
     struct Start {
         double value;
         DVec<3> n;
@@ -122,10 +122,10 @@ double least_over_directions(const Extent& f, const std::vector<DVec<3>>& kinks)
     return least;
 }
 
-/// What one pair has shown.
+/// The largest errors of one pair.
 struct Seen {
     bool overlapping = false;
-    double above_least = 0;  ///< of a depth, as a part of the smaller size
+    double above_least = 0;  ///< of a depth, as a share of the smaller size
 };
 
 Seen check_round_pair(std::uint64_t seed, int kind_a, int kind_b) {
@@ -139,7 +139,7 @@ Seen check_round_pair(std::uint64_t seed, int kind_a, int kind_b) {
     const Extent reach = [&](const DVec<3>& n) { return a.extent(n) + b.extent(-n); };
     std::vector<DVec<3>> kinks = a.kinks;
     kinks.insert(kinks.end(), b.kinks.begin(), b.kinks.end());
-    const double least = least_over_directions(reach, kinks);
+    const double least = min_over_directions(reach, kinks);
     const double smaller = std::min(size(a.view), size(b.view));
     const double rounding = oracle::ulp(102 * size_a), margin = 1e-5 * smaller + 2 * rounding;
 
@@ -170,7 +170,7 @@ TEST(RoundShapes, AreAsFarOrDeepAsTheBestOfManyDirections) {
     double worst = 0;
     for (int kind_a = 0; kind_a < 5; ++kind_a)
         for (int kind_b = 0; kind_b < 7; ++kind_b)
-            for (int i = 0; i < oracle::amount(12); ++i) {
+            for (int i = 0; i < oracle::case_count(12); ++i) {
                 const Seen seen = check_round_pair(static_cast<std::uint64_t>(pairs++), kind_a, kind_b);
                 overlapping += seen.overlapping ? 1 : 0;
                 worst = std::max(worst, seen.above_least);
@@ -181,7 +181,7 @@ TEST(RoundShapes, AreAsFarOrDeepAsTheBestOfManyDirections) {
 }
 
 TEST(RoundShapes, StayApartWhenTheSimplexShrinksToRounding) {
-    // The walk was within 1e-15 of the end, then held a tetrahedron without thickness for an overlap 2000 deep.
+    // GJK was within 1e-15 of the end, then took a tetrahedron without thickness for an overlap 2000 deep.
     check_round_pair(1008, 0, 0);
     check_round_pair(4634, 0, 3);
     check_round_pair(4657, 0, 3);

@@ -1,4 +1,4 @@
-// Separating axes against the oracle, which tries all pairs of edges without looking at arcs.
+// The separating axis test against the oracle, which tries all pairs of edges without the Gauss map.
 
 #include "../oracle/distance.hpp"
 #include "../oracle/pair.hpp"
@@ -28,7 +28,7 @@ TEST(Sat, FindsTheLeastOfFaceNormals) {
 }
 
 TEST(Sat, TriesEdgesAgainstEdges) {
-    // Two bars across one another, each stood on an edge: only the axis between the edges parts them.
+    // Two crossed bars, each standing on an edge: only the cross product of edges separates them.
     const Box3 a{{0, 0, 0}, {5, 1, 1}, glm::quat(std::cos(0.3926991f), std::sin(0.3926991f), 0, 0)};
     const Box3 b{{0, 0, 2 * 1.4142135f + 0.1f}, {1, 5, 1}, glm::quat(std::cos(0.3926991f), 0, std::sin(0.3926991f), 0)};
     const SeparatingAxis<3> axis = separating_axis(difference<3>(a, b));
@@ -67,7 +67,7 @@ TYPED_TEST(SatOracle, AgreesOnThePairsThatOverlap) {
     constexpr int D = TypeParam::value;
     using oracle::Kind;
     int pairs = 0, overlapping = 0;
-    for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(oracle::amount(3000)); ++seed) {
+    for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(oracle::case_count(3000)); ++seed) {
         SCOPED_TRACE(seed);
         oracle::Random random(seed);
         constexpr Kind kinds[] = {Kind::box, Kind::polytope, Kind::triangle, Kind::stretched_box};
@@ -76,17 +76,17 @@ TYPED_TEST(SatOracle, AgreesOnThePairsThatOverlap) {
         const CoreDifference<D> cores(std::get<Convex<D>>(pair.a.view), std::get<Convex<D>>(pair.b.view));
         const SeparatingAxis<D> found = separating_axis(cores);
         const oracle::Truth<D> truth = oracle::truth(pair.a.solid, pair.b.solid);
-        const double margin = oracle::tolerance_for(pair.a.solid, pair.b.solid);
+        const double tolerance = oracle::tolerance_for(pair.a.solid, pair.b.solid);
         ++pairs;
         EXPECT_NEAR(length(found.normal), 1, 1e-12);
         if (truth.overlap) {
             ++overlapping;
-            EXPECT_NEAR(found.extent, -truth.distance, margin);
+            EXPECT_NEAR(found.extent, -truth.distance, tolerance);
         } else {
-            EXPECT_LE(-found.extent, truth.distance + margin);
-            EXPECT_LE(found.extent, margin);
+            EXPECT_LE(-found.extent, truth.distance + tolerance);
+            EXPECT_LE(found.extent, tolerance);
         }
-        EXPECT_NEAR(oracle::gap_along(pair.a.solid, pair.b.solid, found.normal), -found.extent, margin);
+        EXPECT_NEAR(oracle::gap_along(pair.a.solid, pair.b.solid, found.normal), -found.extent, tolerance);
     }
     EXPECT_GT(overlapping, pairs * 3 / 10);
     EXPECT_LT(overlapping, pairs * 7 / 10);

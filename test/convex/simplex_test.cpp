@@ -1,4 +1,4 @@
-// The closest point of a simplex, worked out by hand and against trying many weights.
+// The closest point of a simplex: known answers, and brute force over many weights.
 
 #include "../oracle/random.hpp"
 #include <abut/convex/gjk/simplex.hpp>
@@ -51,7 +51,7 @@ TEST(Simplex, StaysWholeAroundTheOrigin) {
 }
 
 TEST(Simplex, OfFlatPiecesIsStillAnswered) {
-    // Four points of a plane, three of a line, all the same.
+    // Four coplanar points, three collinear ones, all equal.
     auto flat = simplex_of<3>({{1, 0, 1}, {-1, 1, 1}, {-1, -1, 1}, {-2, 0, 1}});
     EXPECT_LT(length(reduce_to_closest(flat) - DVec<3>(0, 0, 1)), 1e-15);
     EXPECT_LE(flat.count, 3u);
@@ -61,8 +61,8 @@ TEST(Simplex, OfFlatPiecesIsStillAnswered) {
     EXPECT_EQ(reduce_to_closest(same), DVec<3>(1, 2, 2));
 }
 
-/// The least length over many ways to weight the corners.
-double least_of_many_weights(const Simplex<3>& simplex) {
+/// The least length over many combinations of weights.
+double min_over_weights(const Simplex<3>& simplex) {
     double least = std::numeric_limits<double>::infinity();
     constexpr int steps = 40;
     for (int i = 0; i <= steps; ++i)
@@ -85,7 +85,7 @@ TEST(Simplex, OfRandomTetrahedraIsNoFartherThanAnyCombination) {
         const DVec<3> shift = random.in_cube<3>() * 0.3;
         auto simplex = simplex_of<3>({random.in_cube<3>() + shift, random.in_cube<3>() + shift,
                                       random.in_cube<3>() + shift, random.in_cube<3>() + shift});
-        const double least = least_of_many_weights(simplex);
+        const double least = min_over_weights(simplex);
         const DVec<3> closest = reduce_to_closest(simplex);
         EXPECT_LE(length(closest), least + 1e-12);
         EXPECT_GE(length(closest), least - 0.1);
@@ -110,8 +110,8 @@ TEST(Simplex, NearAFaceFindsTheClosestPoint) {
 }
 
 TEST(Simplex, OfANeedleKnowsItsWeights) {
-    // 36 long and 3e-4 wide: from volumes alone the weights led to a place 1e-5 beside the origin, and it was left for
-    // outside. The weights are those of rational numbers.
+    // 36 long and 3e-4 wide: weights from volumes alone led to a point 1e-5 beside the origin, which was taken for
+    // outside. The expected weights are from rational numbers.
     Simplex<3> simplex;
     for (const DVec<3>& p : {DVec<3>(1.8535382801015869, 17.776018479940966, -3.6774544660502864),
                              DVec<3>(-1.8064386701057733, -17.325371928003758, 3.5840265421671118),

@@ -1,6 +1,6 @@
 #pragma once
 
-// The pairs of the corpus, judged by all threads of the machine.
+// Judges the pairs of the corpus on all threads of the machine.
 
 #include <algorithm>
 #include <atomic>
@@ -11,8 +11,8 @@
 
 namespace abut::corpus {
 
-/// What `judge(number, summary)` adds to a summary, for the numbers first to last - 1. What each thread adds up doesn't
-/// depend on the others; only which stories are told does.
+/// The sum of `judge(number, summary)` over the numbers first to last - 1. The counts don't depend on the number of
+/// threads; only the choice of reported failures does.
 template <class Sum, class Judge>
 Sum by_all_threads(std::uint64_t first, std::uint64_t last, const Judge& judge) {
     constexpr std::uint64_t piece = 500;

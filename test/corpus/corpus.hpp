@@ -1,24 +1,24 @@
 #pragma once
 
-// One pair of the corpus, made and judged.
+// Makes and judges one pair of the corpus.
 
 #include "judge.hpp"
 
 namespace abut::corpus {
 
-/// A wrong depth of a user's own shape, or of a round one, is one more than this part of the size above the least.
+/// The relative tolerance of depths of user-defined and curved shapes, above the minimum.
 inline constexpr double depth_slack = 1e-3;
 
 template <int D>
 Known known_of(const SamplePair<D>& pair) {
-    const Truth<D> truth = oracle::truth(pair.a.solid, pair.b.solid, Arithmetic::rough);
+    const Truth<D> truth = oracle::truth(pair.a.solid, pair.b.solid, Arithmetic::floating_point);
     const double size_a = oracle::size(pair.a.solid), size_b = oracle::size(pair.b.solid);
     const bool by_support = pair.a.kind == Kind::cloud || pair.b.kind == Kind::cloud;
     return {truth.distance, oracle::tolerance_for(pair.a.solid, pair.b.solid),
-            by_support ? depth_slack * std::min(size_a, size_b) : 0, truth.unproved, size_a + size_b};
+            by_support ? depth_slack * std::min(size_a, size_b) : 0, truth.duality_gap, size_a + size_b};
 }
 
-/// A point near the surface, and a ray at the middle from outside.
+/// A point near the surface, and a ray to the center from outside.
 template <int D>
 void judge_point_and_ray(const PolytopeSide<D>& side, Random random, Verdict& verdict) {
     const Polytope<D>& solid = side.sample.solid;
@@ -28,7 +28,7 @@ void judge_point_and_ray(const PolytopeSide<D>& side, Random random, Verdict& ve
     const double reach = random.uniform(0, 2);
     const Vec<D> point =
         to_float(middle + direction * ((side.extent(direction) - dot(direction, middle - side.origin)) * reach));
-    const double rounding = 16 * oracle::ulp(2 * size) + oracle::placing_error(solid);
+    const double rounding = 16 * oracle::ulp(2 * size) + oracle::transform_error(solid);
     const double margin = 1e-5 * size + rounding;
     const double there = side.signed_distance(DVec<D>(point));
     if (std::abs(there) > margin)
@@ -94,7 +94,7 @@ void judge_half_space(const HalfSpacePair<D>& pair, Verdict& verdict) {
     Known known;
     known.distance = -shape.extent(-n) - (ground.offset - dot(n, origin));
     known.margin =
-        1e-5 * size + 16 * oracle::ulp(size + std::abs(known.distance)) + oracle::placing_error(pair.sample.solid);
+        1e-5 * size + 16 * oracle::ulp(size + std::abs(known.distance)) + oracle::transform_error(pair.sample.solid);
     known.sizes = size;
     const View<D> view_of_ground = view(pair.half_space);
     if (pair.sample_first)
@@ -123,7 +123,7 @@ void judge_round(Random random, Verdict& verdict) {
     Judge<D, RoundSide<D>, RoundSide<D>>(pair.a.view, pair.b.view, a, b, known, verdict).judge({});
 }
 
-/// The pair of a family and seed; three pairs, of the coherent one.
+/// Judges the pair of a family and seed; the coherent family has three pairs.
 template <int D>
 Verdict judged_pair(Family family, std::uint64_t seed) {
     Verdict verdict;
@@ -141,7 +141,7 @@ Verdict judged_pair(Family family, std::uint64_t seed) {
     return verdict;
 }
 
-/// Makes one pair and asks the library everything about it: for looking at a failure again.
+/// Makes one pair and runs all queries on it, to debug a failure.
 inline Verdict check_corpus_pair(int dimension, Family family, std::uint64_t seed) {
     return dimension == 2 ? judged_pair<2>(family, seed) : judged_pair<3>(family, seed);
 }

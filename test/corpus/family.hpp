@@ -1,6 +1,6 @@
 #pragma once
 
-// The families of pairs of the corpus, and how often each comes.
+// The families of pairs of the corpus, and their frequencies.
 
 #include <array>
 #include <cstdint>
@@ -9,20 +9,20 @@
 namespace abut::corpus {
 
 enum class Family {
-    random,            ///< every kind against every kind, near one another
-    coherent,          ///< small steps into and out of touching, with what the step before left in the cache
-    face_face,         ///< two faces (2D: edges) with a piece in common, exactly
-    edge_edge,         ///< two edges that cross (2D: two corners in one place), exactly
-    vertex_face,       ///< a corner on a face (2D: on an edge), exactly
-    edge_or_vertex,    ///< an edge on a face, a corner on an edge or on a corner, exactly
+    random,            ///< every kind against every kind, close together
+    coherent,          ///< small steps into and out of contact, with the cache of the last step
+    face_face,         ///< two faces (2D: edges) that touch exactly
+    edge_edge,         ///< two edges that cross exactly (2D: two coinciding vertices)
+    vertex_face,       ///< a vertex exactly on a face (2D: on an edge)
+    edge_or_vertex,    ///< an edge on a face, a vertex on an edge or on a vertex, exactly
     lattice,           ///< a few points of a small lattice: touching in any way, crossing, flat, concentric
-    parallel_faces,    ///< boxes and prisms face to face, near or in one another
+    parallel_faces,    ///< boxes and prisms face to face, apart or overlapping
     needle,            ///< 1e3 to 1e6 times as long as wide
     flake,             ///< 1e3 to 1e6 times as wide as thick
     concentric,        ///< symmetric shapes about one center
-    identical,         ///< a shape and itself, or next to itself
+    identical,         ///< a shape and itself, or a shifted copy
     zero_size,         ///< boxes without thickness, capsules without length, balls without radius
-    duplicate_points,  ///< hulls of points that are twice there, on a line, on circles
+    duplicate_points,  ///< hulls of duplicate, collinear or cocircular points
     small_gap,         ///< gaps and depths of 1e-7 to 1e-3 of the size
     mixed_sizes,       ///< 1e-3 beside 1e4
     far,               ///< up to 1e6 from the origin
@@ -40,7 +40,7 @@ inline std::string_view name_of(Family family) {
     return family_names[static_cast<std::size_t>(family)];
 }
 
-/// The pairs of the corpus in order: which family and dimension the pair of a number is of. One in fifty is round.
+/// The family and dimension of the pair with a number. One in fifty is round.
 struct Place {
     int dimension;
     Family family;

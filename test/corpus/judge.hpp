@@ -1,6 +1,6 @@
 #pragma once
 
-// Asks the library everything about a pair and holds the answers against the oracle's.
+// Runs all queries on a pair and compares the answers with the oracle's.
 
 #include "pairs.hpp"
 #include "round_pairs.hpp"
@@ -20,32 +20,32 @@ namespace abut::corpus {
 enum class Fault {
     oracle,          ///< the oracle can't prove its own answer
     not_finite,      ///< a number that is NaN or infinite
-    overlaps,        ///< yes for no or no for yes
-    distance,        ///< of `closest`
-    normal,          ///< not of length 1, or it doesn't part them by the distance
-    points,          ///< on_a or on_b is not where that shape reaches farthest along the normal, or not across
-    contact_exists,  ///< a contact of what is apart, none of what overlaps, none within the margin asked for
-    contact_depth,   ///< not minus the distance, not the deepest point's
-    contact_normal,  ///< doesn't part them
-    contact_points,  ///< a point that isn't midway between the surfaces
-    certify,         ///< doesn't hold of a right answer, or does of a wrong one
-    contains,        ///< a point
-    raycast,         ///< misses what it is aimed at, or hits it elsewhere than on its surface
+    overlaps,        ///< a wrong overlap test
+    distance,        ///< a wrong distance of `closest`
+    normal,          ///< a normal not of length 1, or without a gap of the distance along it
+    points,          ///< on_a or on_b is no support point along the normal, or not opposite
+    contact_exists,  ///< a contact of separated shapes; none of overlapping ones, or within the margin
+    contact_depth,   ///< a depth other than minus the distance, or than the deepest point's
+    contact_normal,  ///< a normal that does not separate the shapes
+    contact_points,  ///< a point not midway between the surfaces
+    certify,         ///< a right answer without a certificate, or a wrong one with it
+    contains,        ///< a wrong containment test
+    raycast,         ///< a missed target, or a hit off the surface
 };
 inline constexpr int fault_count = 13;
 inline constexpr std::array<std::string_view, fault_count> fault_names{
     "oracle",        "not_finite",     "overlaps",       "distance", "normal",   "points", "contact_exists",
     "contact_depth", "contact_normal", "contact_points", "certify",  "contains", "raycast"};
 
-/// What was found out about one pair.
+/// The verdict on one pair.
 struct Verdict {
     bool overlap = false;
     double distance = 0, margin = 0;
-    double worst_distance = 0;  ///< error of the distance, as a part of the margin
+    double worst_distance = 0;  ///< error of the distance, relative to the tolerance
     std::uint32_t faults = 0;   ///< bits, by Fault
-    std::string story;          ///< what was wrong, and by how much
+    std::string story;          ///< a description of the errors
 
-    /// Notes a fault where `value` is above `limit`, or is NaN.
+    /// Records a fault if `value` exceeds `limit` or is NaN.
     void expect(Fault fault, double value, double limit, const char* what) {
         if (value <= limit) return;
         faults |= 1u << static_cast<int>(fault);
@@ -58,30 +58,30 @@ struct Verdict {
     void expect(Fault fault, bool right, const char* what) { expect(fault, right ? 0 : 1, 0.5, what); }
 };
 
-/// What is known of a pair.
+/// The known facts about a pair.
 struct Known {
     double distance = 0;
     double margin = 0;
-    double too_deep = 0;  ///< by how much more than the least a depth may be
-    double unproved = 0;
-    double sizes = 0;  ///< of both together
+    double too_deep = 0;  ///< the allowed excess of a depth over the minimum
+    double duality_gap = 0;
+    double sizes = 0;  ///< the sum of both sizes
 };
 
-/// One shape of a pair, as the oracle sees it: extent(n) along a unit vector from `origin`; beyond(point), how far
-/// outside of the shape a point is.
+/// One shape of a pair for the oracle: extent(n) is the support value along a unit vector from `origin`, and
+/// beyond(point) the distance of a point outside.
 template <int D>
 struct PolytopeSide {
     const Sample<D>& sample;
     DVec<D> origin;
-    oracle::Located<D> at;
+    oracle::LocalPolytope<D> at;
 
     PolytopeSide(const Sample<D>& of, const DVec<D>& from) : sample(of), origin(from), at(of.solid, from) {}
-    double extent(const DVec<D>& n) const { return at.most(n) + sample.solid.radius; }
+    double extent(const DVec<D>& n) const { return at.max_along(n) + sample.solid.radius; }
     double signed_distance(const DVec<D>& point) const {
         Polytope<D> spot;
         spot.points.push_back(Vec<D>(0.0f));
         spot.place.offset = point;
-        return oracle::truth(sample.solid, spot, Arithmetic::rough).distance;
+        return oracle::truth(sample.solid, spot, Arithmetic::floating_point).distance;
     }
     double beyond(const DVec<D>& point) const { return std::max(signed_distance(point), 0.0); }
 };
@@ -100,7 +100,7 @@ struct HalfSpaceSide {
     DVec<D> origin;
 
     double extent(const DVec<D>& n) const {
-        // Along all but its own normal it has no end; so near to it, that is rounding.
+        // A half-space is unbounded except along its normal; directions within rounding of it count as the normal.
         return dot(n, normal) > 1 - 1e-12 ? offset - dot(normal, origin) : std::numeric_limits<double>::infinity();
     }
     double beyond(const DVec<D>& point) const { return std::max(dot(normal, point) - offset, 0.0); }
@@ -124,7 +124,7 @@ public:
     }
 
     void judge(const QueryOptions<D>& options) {
-        verdict_.expect(Fault::oracle, known_.unproved, 0.1 * known_.margin, "the oracle can't prove its distance");
+        verdict_.expect(Fault::oracle, known_.duality_gap, 0.1 * known_.margin, "the oracle can't prove its distance");
         if (std::abs(known_.distance) > known_.margin)
             verdict_.expect(Fault::overlaps, overlaps(view_a_, view_b_, options) == (known_.distance < 0),
                             known_.distance < 0 ? "no for yes" : "yes for no");
@@ -134,17 +134,17 @@ public:
     }
 
 private:
-    /// A wrong depth may only be too large, and by so much.
+    /// A depth may be too large by a bound, and not too small.
     void judge_distance(Fault fault, double distance, const char* what) {
         verdict_.expect(fault, distance - known_.distance, known_.margin, what);
         verdict_.expect(fault, known_.distance - distance,
                         known_.margin + (known_.distance < known_.margin ? known_.too_deep : 0), what);
     }
-    /// The gap along it, or the least move along it that parts them, is theirs but for the margin.
+    /// The gap, or the minimal separating translation, along the normal is the distance within the tolerance.
     void judge_normal(Fault fault, const DVec<D>& normal) {
         verdict_.expect(fault, std::abs(length(normal) - 1), 1e-6, "of some other length than 1");
         const DVec<D> n = normalized(normal);
-        // In float it is turned by some 1e-7.
+        // Rounding to float rotates the normal by about 1e-7.
         verdict_.expect(fault, known_.distance + a_.extent(n) + b_.extent(-n),
                         known_.margin + 1e-7 * known_.sizes + (known_.distance < known_.margin ? known_.too_deep : 0),
                         "parts them by less");
@@ -185,12 +185,12 @@ private:
             verdict_.expect(Fault::contact_exists, !!found, "no contact of what overlaps");
         if (found) judge_points(found, 0);
     }
-    /// Of what is apart, with a margin that just reaches.
+    /// Contacts of separated shapes, with a margin that just covers the gap.
     void judge_near_miss() {
         if (known_.distance < 2 * known_.margin) return;
         const float margin = static_cast<float>(1.01 * (known_.distance + known_.margin));
         const Contact<D> found = contact(view_a_, view_b_, QueryOptions<D>{.margin = margin});
-        verdict_.expect(Fault::contact_exists, !!found, "no contact within the margin asked for");
+        verdict_.expect(Fault::contact_exists, !!found, "no contact within the requested margin");
         if (found) judge_points(found, static_cast<double>(margin));
     }
     void judge_points(const Contact<D>& found, double margin) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// The pairs of the corpus. A family and a seed make the same pair everywhere.
+// The pairs of the corpus. A family and a seed determine a pair on every machine.
 
 #include "../oracle/degenerate.hpp"
 #include "family.hpp"
@@ -11,7 +11,7 @@ namespace abut::corpus {
 using oracle::Arithmetic;
 using oracle::Truth;
 
-/// B of the size, style and kind that its numbers give, about some center.
+/// Makes B with the size, style and kind of its numbers, around some center.
 template <int D>
 struct Movable {
     Random random;
@@ -26,17 +26,17 @@ double smaller_size(const Sample<D>& a, const Sample<D>& b) {
     return std::min(oracle::size(a.solid), oracle::size(b.solid));
 }
 
-/// Moves the center of B until they are nearly `wanted` apart (below zero: deep). Turned back by rounding alone.
+/// Moves the center of B until the signed distance is nearly `wanted`, limited only by rounding.
 template <int D>
 Sample<D> brought(const Sample<D>& a, const Movable<D>& b, DVec<D>& center, double wanted) {
     for (int i = 0; i < 2; ++i) {
-        const Truth<D> now = oracle::truth(a.solid, b.at(center).solid, Arithmetic::rough);
+        const Truth<D> now = oracle::truth(a.solid, b.at(center).solid, Arithmetic::floating_point);
         center += now.normal * (wanted - now.distance);
     }
     return b.at(center);
 }
 
-/// Along some direction, so near that about half of the pairs overlap.
+/// Moves B along a random direction, so close that about half of the pairs overlap.
 template <int D>
 Sample<D> near_by(Random& random, const Sample<D>& a, const Movable<D>& b, DVec<D>& center) {
     const Sample<D> there = b.at(center);
@@ -46,7 +46,7 @@ Sample<D> near_by(Random& random, const Sample<D>& a, const Movable<D>& b, DVec<
     return b.at(center);
 }
 
-/// A part of the smaller size, from 2^low to 2^high, a little more often below zero.
+/// A signed fraction of the smaller size, from 2^low to 2^high, slightly more often negative.
 template <int D>
 double some_gap(Random& random, const Sample<D>& a, const Sample<D>& b, int low, int high) {
     const double part = random.power_of_two(low, high);
@@ -56,20 +56,20 @@ double some_gap(Random& random, const Sample<D>& a, const Sample<D>& b, int low,
 struct Sizes {
     double a, b;
 };
-/// Mostly alike.
+/// Two sizes, mostly similar.
 inline Sizes some_sizes(Random& random) {
     const double a = random.power_of_two(-10, 13);
     return {a, random.chance(0.9) ? a * random.power_of_two(-2, 2) : random.power_of_two(-10, 13)};
 }
 
-/// Some thousand sizes from the origin at most.
+/// A center at most about a thousand sizes from the origin.
 template <int D>
 DVec<D> some_center(Random& random, const Sizes& sizes) {
     const double away = random.chance(0.5) ? 0 : random.power_of_two(0, 12);
     return random.direction<D>() * std::min(away * std::max(sizes.a, sizes.b), 1e6);
 }
 
-/// Two of the given styles: near one another, as deep as a small step, or about one center.
+/// Two shapes of the given styles: close together, with a small depth, or concentric.
 template <int D>
 SamplePair<D> styled_pair(Random& random, Style style_a, Style style_b) {
     const Sizes sizes = some_sizes(random);
@@ -91,7 +91,7 @@ SamplePair<D> random_pair(Random& random) {
     return {a, near_by(random, a, Movable<D>{Random(random.bits()), sizes.b}, center)};
 }
 
-/// The step of a sequence, from 0 on: each a thousandth of a size or much less from touching.
+/// A step of a coherent sequence, from 0 on; each is at most 1e-3 of a size from touching.
 template <int D>
 SamplePair<D> coherent_pair(Random random, int step) {
     const Sizes sizes = some_sizes(random);
@@ -129,7 +129,7 @@ SamplePair<D> parallel_faces(Random& random) {
     return {a, box_shape<D>(random, offset, half_b, other_radius, pose)};
 }
 
-/// Symmetric about the origin of its pose.
+/// A shape that is symmetric about the origin of its pose.
 template <int D>
 Sample<D> symmetric(Random& random, double size, const Pose<D>& pose) {
     const float radius = random.chance(0.5) ? random.uniform_float(0, size) : 0;
@@ -197,7 +197,7 @@ SamplePair<D> mixed_or_far(Random& random, bool far) {
     return random.chance(0.5) ? SamplePair<D>{a, b} : SamplePair<D>{b, a};
 }
 
-/// Of the families of polytopes with balls around them; of the coherent one, its first step.
+/// Makes a pair of the families of polytopes with radii; of the coherent family, the first step.
 template <int D>
 SamplePair<D> sample_pair(Family family, std::uint64_t seed) {
     Random random(seed);
@@ -217,9 +217,8 @@ SamplePair<D> sample_pair(Family family, std::uint64_t seed) {
             return TouchingMaker<D>(random).make(touch, static_cast<Touch>(random.below(3)));
         }
         case Family::lattice: {
-            oracle::LatticeMaker<D> maker(
-                random,
-                static_cast<oracle::Disturbance>(random.below(static_cast<std::uint32_t>(oracle::disturbance_count))));
+            oracle::LatticeGenerator<D> maker(random, static_cast<oracle::Perturbation>(random.below(
+                                                          static_cast<std::uint32_t>(oracle::perturbation_count))));
             const Sample<D> a = maker.make();
             return {a, maker.make()};
         }

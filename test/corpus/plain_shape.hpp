@@ -1,7 +1,7 @@
 #pragma once
 
-// The shapes of the corpus in the plane once more, as plain ones where they are: what is asked without a view is judged
-// by them.
+// The 2D shapes of the corpus as plain shapes without a pose. They serve to judge queries with closed forms, which use
+// no views.
 
 #include "../oracle/sample.hpp"
 
@@ -11,7 +11,7 @@ using oracle::Kind;
 using oracle::Random;
 using oracle::Sample;
 
-/// Refers to what the sample keeps.
+/// Refers to data of the sample.
 struct PlainSample {
     Sample<2> sample;
     ShapeRef<2> given;
@@ -23,7 +23,7 @@ PlainSample plain_sample(Kind kind, S shape, oracle::Polytope<2> solid) {
     return {{kind, keeper, View<2>(view(*keeper)), std::move(solid)}, shape_ref(*keeper)};
 }
 
-/// A box through three corners of one, in their order.
+/// The box with three given corners, in order.
 inline PlainSample plain_box(const DVec<2>& a, const DVec<2>& b, const DVec<2>& c) {
     const DVec<2> along = normalized(b - a);
     const Box2 box{to_float((a + c) * 0.5),
@@ -32,12 +32,11 @@ inline PlainSample plain_box(const DVec<2>& a, const DVec<2>& b, const DVec<2>& 
     return plain_sample(Kind::box, box, oracle::box_of<2>(affine(Pose2{box.center, box.rotation}), box.half));
 }
 
-/// About the same shape, with the corners rounded to floats; what is neither a ball nor a capsule loses the ball
-/// around.
+/// The shape with its vertices rounded to floats; shapes other than balls and capsules lose their radius.
 inline PlainSample plain(const Sample<2>& sample, Random& random) {
-    const auto corners = oracle::corners_seen_from(sample.solid, DVec<2>(0.0));
+    const auto corners = oracle::corners_relative_to(sample.solid, DVec<2>(0.0));
     if ((sample.kind == Kind::box || sample.kind == Kind::aabb) && corners.size() == 4) {
-        // Corners are listed by the ends of the axes, or round and round.
+        // The order of the corners is by axes, or around the polygon.
         const bool round = dot(corners[1] - corners[0], corners[2] - corners[1]) <
                            0.5 * length(corners[1] - corners[0]) * length(corners[2] - corners[1]);
         return plain_box(corners[0], corners[1], round ? corners[2] : corners[3]);

@@ -1,7 +1,7 @@
 #pragma once
 
-// Pairs with a shape among them that is no polytope with a ball around it, and their signed distance by searching for
-// the best direction.
+// Pairs with at least one shape that is no polytope with a radius, and their signed distance by a search over
+// directions.
 
 #include "pairs.hpp"
 #include "round_shape.hpp"
@@ -12,7 +12,7 @@ template <int D>
 struct RoundPair {
     RoundShape<D> a, b;
 
-    /// How far they overlap along n, seen from A; below zero, their gap.
+    /// The overlap along n, from A; a gap is negative.
     double overlap_along(const DVec<D>& n) const {
         const DVec<D>& origin = a.place.offset;
         return a.extent(n, origin) + b.extent(-n, origin);
@@ -28,7 +28,7 @@ RoundPair<D> round_pair(Random& random) {
     const Random for_a(random.bits()), for_b(random.bits());
     RoundPair<D> pair{round_shape<D>(for_a, kind_a, center, sizes.a, thinnest),
                       round_shape<D>(for_b, kind_b, center, sizes.b, 1)};
-    if (random.chance(0.1)) return pair;  // about one center
+    if (random.chance(0.1)) return pair;  // concentric
     const DVec<D> n = random.direction<D>();
     const double smaller = std::min(pair.a.size(), pair.b.size()), away = random.uniform(-1.5, 0.05);
     const double part = random.power_of_two(-20, -7);
@@ -37,8 +37,8 @@ RoundPair<D> round_pair(Random& random) {
     return random.chance(0.5) ? pair : RoundPair<D>{pair.b, pair.a};
 }
 
-/// The least overlap over unit vectors: the best of many, then smaller and smaller steps from the best few. `hint` is
-/// one of them; where it parts the shapes, no other can lie in another valley.
+/// The minimal overlap over unit vectors: the best of many, refined by decreasing steps from the best few. `hint` is
+/// one of them. If it separates the shapes, the minimum is unique.
 template <int D>
 double least_overlap(const RoundPair<D>& pair, const DVec<D>& hint) {
     struct Start {

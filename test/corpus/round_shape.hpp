@@ -1,7 +1,7 @@
 #pragma once
 
-// Shapes that no polytope with a ball around it equals, as the oracle sees them: by the formula of their extent, and by
-// a bound on how far outside of them a point is.
+// Shapes that are no polytopes with a radius, for the oracle: by the formula of their support value, and by the
+// distance of a point outside.
 
 #include "../oracle/random.hpp"
 #include <abut/shape/ball.hpp>
@@ -17,8 +17,8 @@ namespace abut::corpus {
 
 using oracle::Random;
 
-/// place(core) with a ball of `radius` around it. The core is a capsule (a ball where a == b) that `place` stretches,
-/// a box about the origin, or a cylinder or cone.
+/// The core mapped by `place`, with a radius. The core is a capsule (a ball if a == b) that `place` stretches, a box
+/// around the origin, or a cylinder or cone.
 template <int D>
 struct RoundShape {
     enum class Core { capsule, box, discs };
@@ -31,7 +31,7 @@ struct RoundShape {
     double radius_a = 0, radius_b = 0;  ///< of the ends
     double radius = 0;
 
-    /// The most of dot(n, p - origin) over the shape, for n of length 1.
+    /// The maximum of dot(n, p - origin) over the shape, for n of length 1.
     double extent(const DVec<D>& n, const DVec<D>& origin) const {
         const DVec<D> local = place.transposed(n);
         double along = dot(place.offset - origin, n) + radius;
@@ -43,9 +43,9 @@ struct RoundShape {
         return along + std::max(dot(a, local) + radius_a * round, dot(b, local) + radius_b * round);
     }
 
-    /// How far the point is outside of the shape; zero inside.
+    /// The distance of a point outside; zero inside.
     double beyond(const DVec<D>& point) const {
-        // In the frame of the core: place is a turn after a stretch along the axes of the core, or a move alone.
+        // In the frame of the core, `place` is a stretch along the core's axes and a rotation, or a translation.
         const DVec<D> scale = stretch();
         const DVec<D> local = unturned(point - place.offset, scale);
         if (core == Core::capsule) return std::max(beyond_capsule(local, scale) - radius, 0.0);
@@ -77,14 +77,14 @@ private:
         for (int i = 0; i < D; ++i) result[i] = length(place.column[static_cast<std::size_t>(i)]);
         return result;
     }
-    /// The stretch stays.
+    /// Moves the shape without a change of its stretch.
     DVec<D> unturned(const DVec<D>& v, const DVec<D>& scale) const {
         DVec<D> result;
         for (int i = 0; i < D; ++i) result[i] = dot(place.column[static_cast<std::size_t>(i)], v) / scale[i];
         return result;
     }
-    /// From the point to a ball about the origin stretched by `half`: the root of a falling function (Eberly, "Distance
-    /// from a point to an ellipse, an ellipsoid, or a hyperellipsoid", 2011).
+    /// The distance from a point to the ellipsoid with half-axes `half`: the root of a decreasing function (Eberly,
+    /// "Distance from a point to an ellipse, an ellipsoid, or a hyperellipsoid", 2011).
     static double beyond_ellipsoid(const DVec<D>& point, const DVec<D>& half) {
         const auto nearest = [&](double t) {
             DVec<D> q;
@@ -101,7 +101,7 @@ private:
         }
         return length(point - nearest(high));
     }
-    /// The least over the balls about the points from a to b, which falls and then rises.
+    /// The minimum over the balls from a to b; the distance is unimodal along the segment.
     double beyond_capsule(const DVec<D>& local, const DVec<D>& scale) const {
         const DVec<D> half = scale * radius_a, from = a * scale, along = (b - a) * scale;
         const auto beyond = [&](double t) { return beyond_ellipsoid(local - from - along * t, half); };
@@ -114,7 +114,7 @@ private:
         }
         return beyond(0.5 * (low + high));
     }
-    /// In the half-plane through the axis: the nearest point of the trapezoid between the two discs.
+    /// The closest point of the trapezoid between the two discs, in the half-plane through the axis.
     DVec<D> nearest_on_discs(const DVec<D>& local) const {
         const DVec<D> u = axis_of_discs();
         const double height = length(b - a), along = dot(local - a, u);
@@ -146,13 +146,13 @@ RoundShape<D> with_view(RoundShape<D> round, S shape) {
     return round;
 }
 
-/// A turn after a stretch along the axes.
+/// A stretch along the axes, then a rotation.
 template <int D>
 Affine<D> turned_stretch(const Pose<D>& pose, const Vec<D>& scale) {
     return affine(pose) * scaling(scale);
 }
 
-/// About `center`. Kinds: 0 and 1 are stretched, 2 to 4 have rims (only in space), 5 and 6 are their partners.
+/// A shape around `center`. Kinds 0 and 1 are stretched, 2 to 4 have rims (only in 3D), 5 and 6 are their partners.
 inline constexpr int round_kind_count = 7;
 template <int D>
 RoundShape<D> round_shape(Random random, int kind, const DVec<D>& center, double size, double thinnest) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Shapes of the corpus: from given points, and in styles that make trouble.
+// Shapes of the corpus: from given points, and in difficult styles.
 
 #include "../oracle/sample.hpp"
 
@@ -11,8 +11,8 @@ using oracle::Polytope;
 using oracle::Random;
 using oracle::Sample;
 
-/// Some shape whose core is the hull of the points: what has their number of points, a hull, or a user's own shape.
-/// Placed by `pose`; or, where `baked`, made of the points that the pose gives, rounded to floats.
+/// A random kind of shape whose core is the hull of the points: one with this number of points, a hull, or a
+/// user-defined shape. It has a pose, or, if `baked`, points transformed by the pose and rounded to floats.
 template <int D>
 Sample<D> shape_of(Random& random, std::vector<Vec<D>> points, float radius, Pose<D> pose, bool baked) {
     if (baked) {
@@ -38,7 +38,7 @@ Sample<D> shape_of(Random& random, std::vector<Vec<D>> points, float radius, Pos
     return radius == 0 ? done(Kind::polytope, hull) : done(Kind::polytope, rounded(std::move(hull), radius));
 }
 
-/// Some box: turned in its own frame or by the pose, along the axes, or rounded.
+/// A random box: rotated by itself or by the pose, axis-aligned, or rounded.
 template <int D>
 Sample<D> box_shape(Random& random, const Vec<D>& center, const Vec<D>& half, float radius, const Pose<D>& pose) {
     const Affine<D> place = affine(pose);
@@ -59,7 +59,7 @@ Sample<D> box_shape(Random& random, const Vec<D>& center, const Vec<D>& half, fl
 
 enum class Style { plain, needle, flake, zero_size, duplicate_points };
 
-/// Makes shapes of a style about a center. The same numbers make the same shape at another center.
+/// Makes shapes of a style around a center. Equal numbers give equal shapes at another center.
 template <int D>
 class StyledMaker {
 public:
@@ -67,7 +67,8 @@ public:
 
     Sample<D> make(const DVec<D>& center) {
         if (style_ == Style::plain)
-            return oracle::Maker<D>(random_, center, size_).make(static_cast<Kind>(random_.below(oracle::kind_count)));
+            return oracle::SampleGenerator<D>(random_, center, size_)
+                .make(static_cast<Kind>(random_.below(oracle::kind_count)));
         const Pose<D> pose{to_float(center), random_.chance(0.2) ? no_rotation<D> : random_.template rotation<D>()};
         const DVec<D> spread = scale() * size_;
         const bool baked = random_.chance(0.3);
@@ -86,7 +87,7 @@ public:
     }
 
 private:
-    /// Along each axis, as a part of the size.
+    /// The extents along the axes, relative to the size.
     DVec<D> scale() {
         DVec<D> result(1.0);
         const double thin = random_.power_of_two(-20, -10);
@@ -99,13 +100,13 @@ private:
         }
         return result;
     }
-    /// Often none; else as thin as the shape, or thicker.
+    /// The radius: often 0, else as thin as the shape, or thicker.
     float radius(double chance) {
         if (!random_.chance(chance)) return 0;
         const double part = random_.uniform(0.05, 0.5);
         return static_cast<float>(size_ * (random_.chance(0.5) ? part : thin_));
     }
-    /// Points of a lattice or of circles, with copies and with points between others.
+    /// Points of a lattice or of circles, with duplicates and with points between others.
     std::vector<Vec<D>> crowded() {
         const float unit = static_cast<float>(std::ldexp(1.0, std::ilogb(size_) - 2));
         const bool circles = random_.chance(0.3);
@@ -126,7 +127,7 @@ private:
         for (int i = 0; i < D; ++i) result[i] = static_cast<float>(random_.below(9)) - 4;
         return result;
     }
-    /// On a circle of radius 5, in whole numbers; in space on one of two rings.
+    /// Integer points on a circle of radius 5; in 3D on one of two rings.
     Vec<D> on_circle() {
         constexpr std::array<std::array<float, 2>, 3> first{{{5, 0}, {4, 3}, {3, 4}}};
         const auto& [x, y] = first[random_.below(3)];

@@ -1,18 +1,17 @@
 #pragma once
 
-// Half-spaces, and shapes that no polytope is, set in motion, and what `sweep` says of them held against planes and
-// points.
+// Judges sweeps of half-spaces and of curved shapes by planes and points.
 //
-// What a convex shape sweeps over is convex. So two miss one another just where one plane parts all that A sweeps over
-// from B, however thin they are: it is looked for, and then measured by the formulas of their extents. That a hit is
-// there is proven by a point on both, and that it isn't late by a plane between them, to which A comes.
+// The set that a convex shape sweeps over in a linear motion is convex. So the shapes miss each other iff a plane
+// separates the swept set of A from B: a search finds it, and the formulas of the support values verify it. A hit is
+// proven by a point on both shapes. A separating plane up to the time of impact proves that it isn't late.
 
 #include "corpus.hpp"
 #include "sweep_judge.hpp"
 
 namespace abut::corpus {
 
-/// What makes trouble: along the plane between them, at it, along an axis, or any.
+/// Difficult directions: along the separating plane, towards it, along an axis, or random.
 template <int D>
 DVec<D> some_way(Random& random, const DVec<D>& normal) {
     const double dice = random.unit();
@@ -25,7 +24,7 @@ DVec<D> some_way(Random& random, const DVec<D>& normal) {
     return normalized(along + normal * tilt);
 }
 
-/// How far A comes to where the pair has it, and how far it goes from there.
+/// The lengths of A's motion before and after the pair's position.
 struct WayLengths {
     double before, after;
 };
@@ -38,15 +37,15 @@ inline WayLengths some_lengths(Random& random, double smaller, double larger) {
     return {before, random.chance(0.1) ? 0 : length()};
 }
 
-/// What is known of a pair that is to move.
+/// The known facts about a moving pair.
 struct MovingKnown {
-    double margin = 0;   ///< of doubt, where they meet
+    double margin = 0;   ///< the tolerance at the hit
     double smaller = 0;  ///< size
-    double sizes = 0;    ///< of both together, of what has one
+    double sizes = 0;    ///< the sum of the bounded sizes
 };
 
-/// A and B are seen as in judge.hpp, where the motion begins. `axis_of(view_a)` is along what parts A, in that place,
-/// from B the best, or about so: it only has to suggest planes.
+/// A and B are the oracle's shapes of judge.hpp at the start of the motion. `axis_of(view_a)` is nearly the best
+/// separating axis for that position of A; it only suggests planes.
 template <int D, class A, class B, class AxisOf>
 class PlaneJudge {
 public:
@@ -80,7 +79,7 @@ private:
         shift.offset = motion_ * fraction;
         return axis_of_(moved(view_a_, shift));
     }
-    /// Along n, from A to B, at a fraction of the motion.
+    /// The gap along n, from A to B, at a fraction of the motion.
     double gap(const DVec<D>& n, double fraction) const {
         return -(a_.extent(n) + b_.extent(-n)) - fraction * dot(n, motion_);
     }
@@ -104,7 +103,7 @@ private:
         verdict_.worst = std::max(off_a, off_b) / limit;
         verdict_.fail(verdict_.false_hit, off_a > limit, "the point is not on A", off_a / limit);
         verdict_.fail(verdict_.false_hit, off_b > limit, "the point is not on B", off_b / limit);
-        // A normal is turned by some 1e-7.
+        // Rounding rotates a normal by about 1e-7.
         const double deep = -gap(n, fraction) - margin - 1e-7 * known_.sizes;
         verdict_.fail(verdict_.late, deep > 0, "the normal is not of a plane between them", deep / known_.margin);
         const bool leaves = fraction == 0 && dot(first_axis_, motion_) < -1e-3 * way;
@@ -113,24 +112,26 @@ private:
 
     void judge_miss(double start) {
         if (start < -known_.margin) {
-            // Of what is round there may be other ways out.
+            // A curved shape may have other directions out.
             const bool one_way_out = std::is_same_v<A, HalfSpaceSide<D>> || std::is_same_v<B, HalfSpaceSide<D>>;
             const double deeper = dot(first_axis_, motion_);
             verdict_.fail(verdict_.missed, one_way_out && deeper > known_.margin && !slides(), "goes deeper", deeper);
             return;
         }
         const double parted = most_parted(), deep = -known_.margin - parted;
-        // What touches at the start, and is thin, may leave by either side.
-        const bool in_doubt = start <= known_.margin && (slides() || gap(nearest_axis_, nearest_) >= -known_.margin);
-        verdict_.fail(verdict_.missed, deep > 0 && !in_doubt, "goes in or through", deep / known_.margin);
+        // A thin shape that touches at the start may separate on either side.
+        const bool is_undecided =
+            start <= known_.margin && (slides() || gap(nearest_axis_, nearest_) >= -known_.margin);
+        verdict_.fail(verdict_.missed, deep > 0 && !is_undecided, "goes in or through", deep / known_.margin);
     }
 
-    /// What sinks in so slowly from the start is taken to slide: it gets no deeper by more, as a distance is convex.
+    /// Whether the shape slides: an approach so slow at the start stays below the tolerance, because distance is
+    /// convex.
     bool slides() const { return dot(first_axis_, motion_) <= 1e-6 * length(motion_); }
 
     double parted_along(const DVec<D>& n) const { return std::min(gap(n, 0), gap(n, 1)); }
 
-    /// The gap that one plane leaves all the way: the best that is found, or one that is wide enough.
+    /// The gap of one plane over the whole motion: the best found, or one that is wide enough.
     double most_parted() {
         const double way = length(motion_);
         DVec<D> best = first_axis_, last = axis_at(1);
@@ -138,7 +139,7 @@ private:
             if (parted_along(n) > parted_along(best)) best = n;
         };
         offer(last);
-        // Where they are nearest, on the way there A comes nearer and then no more.
+        // The distance decreases until the nearest fraction and increases after it.
         double low = 0, high = 1;
         DVec<D> before = first_axis_, after = last;
         while (dot(before, motion_) > 0 && dot(after, motion_) < 0 && (high - low) * way > 1e-3 * known_.margin) {
@@ -171,7 +172,7 @@ private:
     SweepVerdict verdict_;
 };
 
-/// The shape goes, or the half-space does.
+/// Either the shape moves, or the half-space.
 template <int D>
 SweepVerdict judged_sweep_at_half_space(Random random) {
     HalfSpacePair<D> pair = half_space_pair<D>(Random(random.bits()));
@@ -186,7 +187,8 @@ SweepVerdict judged_sweep_at_half_space(Random random) {
     const DVec<D> origin = oracle::middle(pair.sample.solid);
     const PolytopeSide<D> shape(sample, origin);
     const HalfSpaceSide<D> ground{up, static_cast<double>(pair.half_space.offset) / length(given), origin};
-    const MovingKnown known{1e-5 * size + 16 * oracle::ulp(2 * size) + oracle::placing_error(sample.solid), size, size};
+    const MovingKnown known{1e-5 * size + 16 * oracle::ulp(2 * size) + oracle::transform_error(sample.solid), size,
+                            size};
     const View<D> view_of_ground = view(pair.half_space);
     if (pair.sample_first)
         return PlaneJudge(sample.view, motion, view_of_ground, shape, ground, known,

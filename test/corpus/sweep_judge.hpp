@@ -1,10 +1,10 @@
 #pragma once
 
-// The pairs of the corpus set in motion, and what `sweep` says of them held against the oracle's distances.
+// Judges sweeps of the corpus's pairs by the oracle's distances.
 //
-// The signed distance of convex shapes is a convex function along a straight motion. So where it is least is found by
-// tangents, each from an exact distance and its normal; and whether the motion goes through the other shape, however
-// thin, is told by the distance of the shadows that both cast along the motion.
+// The signed distance of convex shapes is a convex function along a linear motion. So tangents, each from an exact
+// distance and its normal, find its minimum. The distance of the two projections along the motion decides whether the
+// motion passes through the other shape, however thin.
 
 #include "pairs.hpp"
 #include <abut/query/sweep.hpp>
@@ -14,7 +14,7 @@
 
 namespace abut::corpus {
 
-/// A pair and how its first shape moves.
+/// A pair and the motion of its first shape.
 template <int D>
 struct MovingPair {
     Sample<D> a, b;
@@ -28,7 +28,7 @@ Sample<D> shifted(const Sample<D>& sample, const DVec<D>& by) {
     return {sample.kind, sample.keeper, moved(sample.view, shift), oracle::mapped(sample.solid, shift)};
 }
 
-/// A direction that makes trouble: along the surface, at it, along an axis, along an edge of either.
+/// A difficult direction: along the surface, towards it, along an axis, or along an edge of either shape.
 template <int D>
 DVec<D> some_way(Random& random, const SamplePair<D>& pair, const DVec<D>& normal) {
     const double dice = random.unit();
@@ -43,14 +43,14 @@ DVec<D> some_way(Random& random, const SamplePair<D>& pair, const DVec<D>& norma
     const Polytope<D>& solid = random.chance(0.5) ? pair.a.solid : pair.b.solid;
     if (solid.edges.empty()) return any;
     const auto& [i, j] = solid.edges[random.below(static_cast<std::uint32_t>(solid.edges.size()))];
-    const auto corners = oracle::corners_seen_from(solid, oracle::middle(solid));
+    const auto corners = oracle::corners_relative_to(solid, oracle::middle(solid));
     return normalized(corners[j] - corners[i], any);
 }
 
-/// A comes by way of where the pair has it: from there, from nearby, or from as much as some ten thousand sizes away.
+/// The motion of A passes the pair's position: it starts there, nearby, or up to about ten thousand sizes away.
 template <int D>
 MovingPair<D> set_in_motion(const SamplePair<D>& pair, Random random) {
-    const Truth<D> there = oracle::truth(pair.a.solid, pair.b.solid, Arithmetic::rough);
+    const Truth<D> there = oracle::truth(pair.a.solid, pair.b.solid, Arithmetic::floating_point);
     const DVec<D> way = some_way(random, pair, there.normal);
     const double larger = std::max(oracle::size(pair.a.solid), oracle::size(pair.b.solid));
     // A point has no size.
@@ -65,27 +65,27 @@ MovingPair<D> set_in_motion(const SamplePair<D>& pair, Random random) {
     return {shifted(pair.a, way * -before), pair.b, to_float(way * (before + after))};
 }
 
-/// A shape's shadow along a direction, in a frame of the plane across it.
+/// The projection of a shape along a direction, in a frame of the perpendicular plane.
 inline Polytope<2> shadow(const Polytope<3>& solid, const DVec<3>& origin, const DVec<3>& u, const DVec<3>& v) {
     std::vector<Vec2> points;
-    for (const DVec<3>& p : oracle::corners_seen_from(solid, origin))
+    for (const DVec<3>& p : oracle::corners_relative_to(solid, origin))
         points.push_back(to_float(DVec<2>(dot(u, p), dot(v, p))));
     return oracle::hull_of<2>(std::move(points), solid.radius);
 }
 inline double shadow_distance(const Polytope<3>& a, const Polytope<3>& b, const DVec<3>& way) {
     const DVec<3> u = perpendicular(way), v = cross(way, u), origin = oracle::middle(b);
-    return oracle::truth(shadow(a, origin, u, v), shadow(b, origin, u, v), Arithmetic::rough).distance;
+    return oracle::truth(shadow(a, origin, u, v), shadow(b, origin, u, v), Arithmetic::floating_point).distance;
 }
 inline double shadow_distance(const Polytope<2>& a, const Polytope<2>& b, const DVec<2>& way) {
     const DVec<2> across = perpendicular(way);
     return std::max(oracle::gap_along(a, b, across), oracle::gap_along(a, b, -across)) - a.radius - b.radius;
 }
 
-/// What is known and was said of one pair.
+/// The verdict on one pair.
 struct SweepVerdict {
     bool hit = false, touches_at_start = false, missed = false, late = false, false_hit = false;
-    double worst = 0;   ///< distance at the fraction, as a part of the margin
-    std::string story;  ///< what was wrong; empty: nothing
+    double worst = 0;   ///< distance at the fraction, relative to the tolerance
+    std::string story;  ///< a description of the error; empty if there is none
 
     void expect(bool right, const char* what, double value) {
         if (right) return;
@@ -108,7 +108,7 @@ public:
           size_(smaller_size(pair.a, pair.b)),
           margin_(oracle::tolerance_for(pair.a.solid, pair.b.solid)) {}
 
-    /// Of what `sweep` says of the pair.
+    /// Judges the answer of `sweep`.
     SweepVerdict judge(const std::optional<Hit<D>>& hit) {
         verdict_.hit = hit.has_value();
         const Moment start = at(0);
@@ -123,13 +123,13 @@ public:
 private:
     struct Moment {
         double fraction, distance;
-        double slope;  ///< of the distance over the fraction
+        double slope;  ///< the derivative of the distance by the fraction
     };
 
     Moment at(double fraction) const {
         const Truth<D> now = truth_at(fraction);
         Moment result{fraction, now.distance, -dot(motion_, now.normal)};
-        // Where they just touch, the direction between two points is rounding.
+        // At contact, the direction between the closest points is dominated by rounding.
         const double step = (1e-5 * size_ + 1e-2 * margin_) / length(motion_);
         if (std::abs(now.distance) < 0.01 * margin_ && step > 0) {
             const double secant = (truth_at(fraction + step).distance - now.distance) / step;
@@ -137,15 +137,17 @@ private:
         }
         return result;
     }
-    Truth<D> truth_at(double fraction) const { return oracle::truth(a_at(fraction), pair_.b.solid, Arithmetic::rough); }
+    Truth<D> truth_at(double fraction) const {
+        return oracle::truth(a_at(fraction), pair_.b.solid, Arithmetic::floating_point);
+    }
     Polytope<D> a_at(double fraction) const {
         Affine<D> shift;
         shift.offset = motion_ * fraction;
         return oracle::mapped(pair_.a.solid, shift);
     }
 
-    /// The moment at which they are nearest or deepest between two, as far as a hundredth of the margin, or as `enough`
-    /// asks to know.
+    /// The fraction between two others at which the distance is minimal, to a hundredth of the tolerance, or until
+    /// `enough` holds.
     Moment least(Moment left, Moment right, double enough) const {
         for (int step = 0; step < 60; ++step) {
             const Moment& lower = left.distance < right.distance ? left : right;
@@ -193,10 +195,11 @@ private:
             const double farther = std::max(1.0, (0.2 * size_ + 50 * margin_) / length(motion_));
             const double deepest = least(start, at(farther), start.distance - margin_).distance;
             const double shallow = std::min(start.distance, 0.0) - 0.01 * margin_;
-            // What is deeper in may go either way out, or slowly farther in; so may what is hardly larger than doubt.
-            const bool in_doubt = size_ < 200 * margin_ ||
-                                  (start.distance < -0.01 * margin_ && dot(normal, motion_) < -1e-9 * length(motion_));
-            if (deepest >= shallow && !in_doubt) fail(verdict_.false_hit, "doesn't go in", deepest / margin_);
+            // A deep overlap may separate in several directions, or grow slowly; so may one of a shape near the
+            // tolerance.
+            const bool is_undecided = size_ < 200 * margin_ || (start.distance < -0.01 * margin_ &&
+                                                                dot(normal, motion_) < -1e-9 * length(motion_));
+            if (deepest >= shallow && !is_undecided) fail(verdict_.false_hit, "doesn't go in", deepest / margin_);
         }
         const double gap =
             oracle::gap_along(a_at(fraction), pair_.b.solid, -normal) - pair_.a.solid.radius - pair_.b.solid.radius;
@@ -218,26 +221,26 @@ private:
         const bool apart = start.distance > margin_;
         const Moment deepest = least(start, at(1), -margin_);
         if (deepest.distance < -margin_) fail(verdict_.missed, "goes in", deepest.distance / margin_);
-        // However thin what it goes through is.
+        // The motion passes through the other shape, however thin it is.
         if (apart && deepest.distance <= 1e-3 * margin_ && at(1).distance > margin_) {
             const double deep = shadow_distance(pair_.a.solid, pair_.b.solid, normalized(motion_));
             if (deep < -2 * margin_) fail(verdict_.missed, "goes through", deep / margin_);
         }
     }
 
-    /// Whether the distance clearly falls right from the start: then it does so along each of several ways out.
+    /// Whether the distance clearly decreases from the start, along each direction out.
     bool falls(const Moment& start) const {
         const double step = 1e-3 * size_;
         return start.distance - at(step / length(motion_)).distance > 1e-3 * step + 0.05 * margin_;
     }
-    /// Whether it has clearly been rising up to the start.
+    /// Whether the distance clearly increases before the start.
     bool was_rising(const Moment& start) const {
         const double step = 1e-3 * size_;
         return start.distance - at(-step / length(motion_)).distance > 1e-3 * step + 0.05 * margin_;
     }
 
     static double off(const Polytope<D>& solid, const Vec<D>& point) {
-        return std::abs(oracle::truth(solid, oracle::hull_of<D>({point}), Arithmetic::rough).distance);
+        return std::abs(oracle::truth(solid, oracle::hull_of<D>({point}), Arithmetic::floating_point).distance);
     }
 
     void fail(bool& kind, const char* what, double value) { verdict_.fail(kind, true, what, value); }

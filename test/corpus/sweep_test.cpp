@@ -1,5 +1,5 @@
-// Twenty thousand pairs set in motion, a million where the environment sets ABUT_LONG: none late, none missed, none hit
-// that isn't, outside the margin of doubt. Besides, eight thousand at half-spaces and of round shapes, or 400,000.
+// Sweeps of twenty thousand pairs, or a million with ABUT_LONG in the environment: outside the tolerance, no hit is
+// late, missed or false. Eight thousand more (or 400,000) have half-spaces and curved shapes.
 
 #include "by_all_threads.hpp"
 #include "plain_shape.hpp"
@@ -60,7 +60,7 @@ SweepVerdict judged_sweep(const Place& where) {
     return where.dimension == 2 ? judged_sweep<2>(where.family, where.seed) : judged_sweep<3>(where.family, where.seed);
 }
 
-/// In the plane, of plain shapes without their views.
+/// 2D sweeps of plain shapes by closed forms.
 SweepVerdict judged_plain_sweep(Family family, std::uint64_t seed) {
     const MovingPair<2> moving = set_in_motion<2>(sample_pair<2>(family, seed), Random(~seed));
     Random random(seed);
@@ -69,7 +69,7 @@ SweepVerdict judged_plain_sweep(Family family, std::uint64_t seed) {
     return SweepJudge<2>(pair).judge(sweep(a.given, pair.motion, b.given, Vec2(0)));
 }
 
-/// Of the pairs of the corpus that are polytopes with balls around them.
+/// Sweeps of the corpus's polytopes with radii.
 template <class Judge>
 SweepSummary judged_sweeps(std::uint64_t pairs, const Judge& judge) {
     return by_all_threads<SweepSummary>(0, pairs, [&](std::uint64_t number, SweepSummary& sum) {
@@ -78,7 +78,7 @@ SweepSummary judged_sweeps(std::uint64_t pairs, const Judge& judge) {
     });
 }
 
-/// One half at half-spaces, one half of round shapes; a half of each in the plane.
+/// Half of the sweeps have half-spaces, half curved shapes; half of each are in 2D.
 SweepVerdict judged_sweep_by_planes(std::uint64_t number) {
     const Random random(number);
     switch (number % 4) {
@@ -103,7 +103,7 @@ void expect_right(const SweepSummary& all) {
     testing::Test::RecordProperty("pairs", std::to_string(all.pairs));
     testing::Test::RecordProperty("hits", std::to_string(all.hits));
     testing::Test::RecordProperty("touching_at_start", std::to_string(all.touching));
-    testing::Test::RecordProperty("worst_of_margin", std::to_string(all.worst));
+    testing::Test::RecordProperty("max_error_ratio", std::to_string(all.worst));
     EXPECT_EQ(all.wrong, 0u) << all.text();
     const double hits = static_cast<double>(all.hits) / static_cast<double>(all.pairs);
     EXPECT_GT(hits, 0.3);
@@ -112,12 +112,12 @@ void expect_right(const SweepSummary& all) {
 }
 
 TEST(SweepCorpus, IsNeverLateNorMissedNorFalse) {
-    const auto pairs = static_cast<std::uint64_t>(std::min(oracle::amount(usual_sweeps), 1'100'000));
+    const auto pairs = static_cast<std::uint64_t>(std::min(oracle::case_count(usual_sweeps), 1'100'000));
     expect_right(judged_sweeps(pairs, [](const Place& where) { return judged_sweep(where); }));
 }
 
 TEST(SweepCorpus, OfPlainShapesIsNeverLateNorMissedNorFalse) {
-    const auto pairs = static_cast<std::uint64_t>(std::min(oracle::amount(usual_sweeps), 1'100'000));
+    const auto pairs = static_cast<std::uint64_t>(std::min(oracle::case_count(usual_sweeps), 1'100'000));
     expect_right(judged_sweeps(pairs, [](const Place& where) { return judged_plain_sweep(where.family, where.seed); }));
 }
 
@@ -128,7 +128,7 @@ constexpr int usual_sweeps_by_planes = 1'000;
 #endif
 
 TEST(SweepCorpus, OfHalfSpacesAndRoundShapesIsNeverLateNorMissedNorFalse) {
-    const auto pairs = static_cast<std::uint64_t>(std::min(oracle::amount(usual_sweeps_by_planes), 400'000));
+    const auto pairs = static_cast<std::uint64_t>(std::min(oracle::case_count(usual_sweeps_by_planes), 400'000));
     SweepSummary all;
     for (std::uint64_t kind = 0; kind < 4; ++kind) {
         const SweepSummary one =
@@ -146,7 +146,7 @@ TEST(SweepCorpus, OfHalfSpacesAndRoundShapesIsNeverLateNorMissedNorFalse) {
     RecordProperty("pairs", std::to_string(all.pairs));
     RecordProperty("hits", std::to_string(all.hits));
     RecordProperty("touching_at_start", std::to_string(all.touching));
-    RecordProperty("worst_of_margin", std::to_string(all.worst));
+    RecordProperty("max_error_ratio", std::to_string(all.worst));
     EXPECT_EQ(all.wrong, 0u) << all.text();
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Pairs that touch exactly: whole numbers times a power of two on either side of a plane through the origin.
+// Pairs that touch exactly: multiples of a power of two on either side of a plane through the origin.
 
 #include "../oracle/pair.hpp"
 #include "shapes.hpp"
@@ -9,7 +9,7 @@ namespace abut::corpus {
 
 using oracle::SamplePair;
 
-/// What of a shape lies in the plane.
+/// The feature of a shape that lies in the plane.
 enum class Touch { vertex, edge, face };
 
 template <int D>
@@ -27,7 +27,7 @@ public:
         } while (length_squared(normal_) == 0);
         unit_ = std::ldexp(1.0, static_cast<int>(random.below(22)) - 11);
         if (random.chance(0.3)) pose_.rotation = random.rotation<D>();
-        // A multiple of the unit, so that nothing is rounded where nothing is turned.
+        // Multiples of the unit are not rounded without a rotation.
         if (random.chance(0.5)) pose_.position = to_float(whole(100000) * unit_);
     }
 
@@ -53,10 +53,10 @@ private:
     }
     double times() { return 1 + static_cast<double>(random_.below(3)); }
 
-    /// Only across an axis, where a shape can be moved back by it exactly.
+    /// An offset along an axis, which is subtracted exactly.
     double radius() { return axes_ && random_.chance(0.3) ? times() : 0; }
 
-    /// Around the origin, so that what lies in the plane on one side has a point in common with the other.
+    /// Around the origin, so that the features of both sides share a point.
     std::vector<DVec<D>> in_plane(Touch touch) {
         if (touch == Touch::vertex) return {DVec<D>(0.0)};
         if constexpr (D == 3) {

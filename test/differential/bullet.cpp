@@ -1,4 +1,4 @@
-// Bullet's GJK with its expanding polytope search, in float as Debian builds it.
+// Bullet's GJK and EPA, in float as Debian builds it.
 
 #include "peers.hpp"
 
@@ -23,7 +23,7 @@ struct Placed {
     btTransform transform;
 };
 
-/// Balls and boxes as such where their own center is one of floats; else, like all others, points with a margin.
+/// Balls and boxes with a float center are Bullet's own shapes; all others are points with a margin.
 Placed placed(const PeerShape& shape) {
     Placed result;
     result.transform.setIdentity();
@@ -63,7 +63,7 @@ struct Point : btStorageResult {
 
 }  // namespace
 
-PeerAnswer ask_bullet(const PeerShape& a, const PeerShape& b, double) {
+PeerAnswer query_bullet(const PeerShape& a, const PeerShape& b, double) {
     const Placed in_a = placed(a), in_b = placed(b);
     btDiscreteCollisionDetectorInterface::ClosestPointInput input;
     input.m_transformA = in_a.transform;

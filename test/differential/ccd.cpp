@@ -1,4 +1,4 @@
-// libccd in double: GJK with an expanding polytope, and Minkowski portal refinement. It tells no gaps.
+// libccd in double: GJK with EPA, and Minkowski portal refinement (MPR). It returns no gaps.
 
 #include "peers.hpp"
 
@@ -7,7 +7,7 @@
 namespace abut::differential {
 namespace {
 
-/// Both about the center of A, so that no digit is lost to how far they are from the origin.
+/// Both shapes are relative to the center of A, which avoids cancellation far from the origin.
 struct Body {
     const PeerShape& shape;
     DVec<3> offset;
@@ -30,7 +30,7 @@ void center(const void* object, ccd_vec3_t* result) {
     ccdVec3Set(result, there.x, there.y, there.z);
 }
 
-/// Its tolerances are lengths; in its own default they are 1e-4 whatever the size.
+/// The tolerances of libccd are lengths; its default is 1e-4 for all sizes.
 ccd_t settings(double smaller) {
     ccd_t result;
     CCD_INIT(&result);
@@ -44,7 +44,7 @@ ccd_t settings(double smaller) {
 using Intersect = int (*)(const void*, const void*, const ccd_t*);
 using Penetrate = int (*)(const void*, const void*, const ccd_t*, ccd_real_t*, ccd_vec3_t*, ccd_vec3_t*);
 
-PeerAnswer ask(const PeerShape& a, const PeerShape& b, double smaller, Intersect intersect, Penetrate penetrate) {
+PeerAnswer query(const PeerShape& a, const PeerShape& b, double smaller, Intersect intersect, Penetrate penetrate) {
     const Body in_a{a, DVec<3>(0.0)}, in_b{b, b.center - a.center};
     const ccd_t ccd = settings(smaller);
     PeerAnswer answer{PeerAnswer::State::answered, intersect(&in_a, &in_b, &ccd) != 0, false, 0};
@@ -59,11 +59,11 @@ PeerAnswer ask(const PeerShape& a, const PeerShape& b, double smaller, Intersect
 
 }  // namespace
 
-PeerAnswer ask_ccd_epa(const PeerShape& a, const PeerShape& b, double smaller) {
-    return ask(a, b, smaller, ccdGJKIntersect, ccdGJKPenetration);
+PeerAnswer query_ccd_epa(const PeerShape& a, const PeerShape& b, double smaller) {
+    return query(a, b, smaller, ccdGJKIntersect, ccdGJKPenetration);
 }
-PeerAnswer ask_ccd_mpr(const PeerShape& a, const PeerShape& b, double smaller) {
-    return ask(a, b, smaller, ccdMPRIntersect, ccdMPRPenetration);
+PeerAnswer query_ccd_mpr(const PeerShape& a, const PeerShape& b, double smaller) {
+    return query(a, b, smaller, ccdMPRIntersect, ccdMPRPenetration);
 }
 
 }  // namespace abut::differential

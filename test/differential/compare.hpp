@@ -1,7 +1,7 @@
 #pragma once
 
-// Random pairs of well-conditioned shapes, and abut's answers about them held against those of another library. Where
-// the two differ the oracle decides: abut must be right, and what the peer got wrong is counted.
+// Compares abut's answers about random pairs of well-conditioned shapes with those of another library. If they differ,
+// the oracle decides: abut must be right, and the peer's errors are counted.
 
 #include "../../scenes/convex_pairs.hpp"
 #include "../oracle/check.hpp"
@@ -19,7 +19,7 @@ namespace abut::differential {
 
 using oracle::Random;
 
-/// About the origin of its own frame, a capsule along its y axis.
+/// The shape around the origin of its own frame; a capsule lies along the y axis.
 using AnyShape = std::variant<Box3, Sphere, Capsule3, Polyhedron>;
 inline constexpr std::size_t kind_count = std::variant_size_v<AnyShape>;
 
@@ -54,7 +54,7 @@ inline double radius_of(const auto& shape) {
     return 0;
 }
 
-/// As the oracle sees it, without its edges and faces, which take time and tell nothing of its size.
+/// The oracle's shape, without its edges and faces, which are not needed for its size.
 inline oracle::Polytope<3> corners_and_radius(const Body& body) {
     oracle::Polytope<3> result;
     result.place = affine(body.pose);
@@ -63,7 +63,7 @@ inline oracle::Polytope<3> corners_and_radius(const Body& body) {
     return result;
 }
 
-/// As the oracle needs it to decide.
+/// The oracle's shape, with edges and faces.
 inline oracle::Sample<3> sample_of(const Body& body) {
     const oracle::Polytope<3> bare = corners_and_radius(body);
     const auto solid = oracle::mapped(oracle::hull_of<3>(bare.points, bare.radius), bare.place);
@@ -74,7 +74,7 @@ inline oracle::Sample<3> sample_of(const Body& body) {
         body.shape);
 }
 
-/// The hull of 16 to 32 points on an ellipsoid: each is a corner.
+/// The hull of 16 to 32 points on an ellipsoid; every point is a vertex.
 inline Polyhedron random_hull(Random& random) {
     const DVec<3> half{random.uniform(0.3, 1), random.uniform(0.3, 1), random.uniform(0.3, 1)};
     std::vector<Vec3> points;
@@ -96,7 +96,7 @@ inline AnyShape random_shape(Random& random, std::size_t kind) {
     }
 }
 
-/// Turned at random and near enough to one another that about half of the pairs overlap.
+/// A random pair so close that about half of the pairs overlap.
 inline BodyPair random_pair(Random& random, std::size_t kind_a, std::size_t kind_b) {
     const Vec3 position = to_float<3>(random.in_cube<3>() * 10.0);
     const Body a{random_shape(random, kind_a), {position, random.rotation<3>()}};
@@ -104,20 +104,20 @@ inline BodyPair random_pair(Random& random, std::size_t kind_a, std::size_t kind
     const oracle::Polytope<3> solid_a = corners_and_radius(a), solid_b = corners_and_radius(b);
     const DVec<3> n = random.direction<3>();
     const double wanted = std::min(size(solid_a), size(solid_b)) * random.uniform(-0.8, 0.4);
-    b.pose.position += to_float<3>(n * (wanted - oracle::rounded_gap_along(solid_a, solid_b, n)));
+    b.pose.position += to_float<3>(n * (wanted - oracle::gap_along_with_radii(solid_a, solid_b, n)));
     return {a, b};
 }
 
-/// What was seen of a peer over many pairs.
+/// The counts of a peer's answers over many pairs.
 struct Tally {
     int pairs = 0;
     int overlapping = 0;
-    int silent = 0;        ///< no answer
-    int decisions = 0;     ///< wrong about whether they overlap
-    int gaps = 0;          ///< wrong by more than a thousandth
-    int normals = 0;       ///< wrong by more than 2.6 degrees
-    int too_small = 0;     ///< a depth that doesn't part them
-    int too_large = 0;     ///< a depth more than 5 % above the least
+    int silent = 0;        ///< pairs without an answer
+    int decisions = 0;     ///< wrong overlap tests
+    int gaps = 0;          ///< gaps with an error above 1e-3
+    int normals = 0;       ///< normals with an error above 2.6 degrees
+    int too_small = 0;     ///< depths that don't separate the shapes
+    int too_large = 0;     ///< depths more than 5 % above the minimum
     oracle::Tally judged;  ///< the pairs that the oracle decided
 
     int wrong_but_for_depths() const { return silent + decisions + gaps + normals; }
@@ -130,7 +130,7 @@ struct Tally {
     }
 };
 
-/// Whether the peer's answer bears abut's out.
+/// Whether the peer's answer agrees with abut's.
 inline bool agrees(const PeerAnswer& theirs, const Closest<3>& ours, bool overlap, double size, Tally& tally) {
     if (theirs.state != PeerAnswer::State::answered) {
         ++tally.silent;
@@ -155,7 +155,7 @@ inline bool agrees(const PeerAnswer& theirs, const Closest<3>& ours, bool overla
     return gap_agrees && normal_agrees;
 }
 
-/// For the peers.
+/// Converts a shape for the peers.
 inline PeerShape peer_shape_of(const Body& body) {
     const bool box = std::holds_alternative<Box3>(body.shape);
     const oracle::Kind kind = box ? oracle::Kind::box : oracle::Kind::polytope;
@@ -180,14 +180,14 @@ inline void check_pair(const Body& a, const Body& b, Peer peer, Tally& tally) {
         oracle::check_pair(sample_of(a), sample_of(b), tally.judged);
 }
 
-/// Every kind against every kind, `few` of each; stops where abut is wrong.
+/// Tests every kind against every kind, `few` pairs each; stops if abut is wrong.
 inline Tally compare(const std::string& name, Peer peer, int few) {
     constexpr std::uint64_t first_seed = 90210;
     Tally tally;
     for (std::size_t kind_a = 0; kind_a < kind_count; ++kind_a)
         for (std::size_t kind_b = 0; kind_b < kind_count; ++kind_b) {
             const Tally before = tally;
-            while (tally.pairs < before.pairs + oracle::amount(few)) {
+            while (tally.pairs < before.pairs + oracle::case_count(few)) {
                 const std::uint64_t seed = first_seed + static_cast<std::uint64_t>(tally.pairs);
                 SCOPED_TRACE(testing::Message() << "seed " << seed << ", kinds " << kind_a << " and " << kind_b);
                 Random random(seed);
@@ -195,7 +195,7 @@ inline Tally compare(const std::string& name, Peer peer, int few) {
                 check_pair(pair.a, pair.b, peer, tally);
                 if (testing::Test::HasFailure()) return tally;
             }
-            const double share = static_cast<double>(tally.overlapping - before.overlapping) / oracle::amount(few);
+            const double share = static_cast<double>(tally.overlapping - before.overlapping) / oracle::case_count(few);
             EXPECT_GT(share, 0.3) << "kinds " << kind_a << " and " << kind_b;
             EXPECT_LT(share, 0.7) << "kinds " << kind_a << " and " << kind_b;
         }

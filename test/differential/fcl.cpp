@@ -42,7 +42,7 @@ Placed placed(const PeerShape& shape) {
     if (shape.form == Form::ball) {
         result.geometry = std::make_unique<fcl::Sphered>(shape.radius);
     } else if (shape.form == Form::capsule) {
-        // Along z.
+        // FCL's capsules lie along z.
         const DVec<3> along = shape.points[1] - shape.points[0], z = normalized(along), x = perpendicular(z);
         result.geometry = std::make_unique<fcl::Capsuled>(shape.radius, length(along));
         result.pose.linear() << vector(x), vector(cross(z, x)), vector(z);
@@ -53,7 +53,7 @@ Placed placed(const PeerShape& shape) {
     return result;
 }
 
-PeerAnswer ask(const PeerShape& a, const PeerShape& b, fcl::GJKSolverType solver) {
+PeerAnswer query(const PeerShape& a, const PeerShape& b, fcl::GJKSolverType solver) {
     try {
         const Placed in_a = placed(a), in_b = placed(b);
         fcl::CollisionRequestd wanted(4, true);
@@ -67,7 +67,7 @@ PeerAnswer ask(const PeerShape& a, const PeerShape& b, fcl::GJKSolverType solver
         fcl::distance(in_a.geometry.get(), in_a.pose, in_b.geometry.get(), in_b.pose, request, gap);
         double distance = gap.min_distance;
         if (solver == fcl::GST_INDEP && overlap && !(distance > 0)) {
-            // Its own solver tells the depth only as that of contacts, of either sign.
+            // FCL's own solver returns the depth only with contacts, with either sign.
             double depth = 0;
             for (std::size_t i = 0; i < contacts.numContacts(); ++i)
                 depth = std::max(depth, std::abs(contacts.getContact(i).penetration_depth));
@@ -82,11 +82,11 @@ PeerAnswer ask(const PeerShape& a, const PeerShape& b, fcl::GJKSolverType solver
 
 }  // namespace
 
-PeerAnswer ask_fcl_libccd(const PeerShape& a, const PeerShape& b, double) {
-    return ask(a, b, fcl::GST_LIBCCD);
+PeerAnswer query_fcl_libccd(const PeerShape& a, const PeerShape& b, double) {
+    return query(a, b, fcl::GST_LIBCCD);
 }
-PeerAnswer ask_fcl_indep(const PeerShape& a, const PeerShape& b, double) {
-    return ask(a, b, fcl::GST_INDEP);
+PeerAnswer query_fcl_indep(const PeerShape& a, const PeerShape& b, double) {
+    return query(a, b, fcl::GST_INDEP);
 }
 
 }  // namespace abut::differential

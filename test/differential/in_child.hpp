@@ -1,6 +1,6 @@
 #pragma once
 
-// Work that may crash or never end, done in a child process.
+// Runs work that may crash or never end in child processes.
 
 #include <csignal>
 #include <cstddef>
@@ -19,9 +19,8 @@ struct Losses {
     std::size_t hangs = 0;
 };
 
-/// Calls work(i) for 0 to count - 1 in child processes. One that dies, or that uses more than `milliseconds` (below
-/// 1000) of the processor for one item, is replaced, and its item left behind. What the work writes to memory is lost
-/// unless that is shared.
+/// Calls work(i) for 0 to count - 1 in child processes. A child that crashes, or uses more than `milliseconds` (below
+/// 1000) of processor time for an item, is replaced, and its item is skipped. Only writes to shared memory remain.
 inline Losses in_children(std::size_t count, int milliseconds, const std::function<void(std::size_t)>& work) {
     Losses losses;
     void* memory = mmap(nullptr, sizeof(std::size_t), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);

@@ -9,7 +9,7 @@ bool is_box(oracle::Kind kind) {
     return kind == oracle::Kind::box || kind == oracle::Kind::aabb || kind == oracle::Kind::stretched_box;
 }
 
-/// The faces are ours: peers want a hull that is there already. Its points are the sample's, placed as they are.
+/// The peers need the faces of a hull, which abut provides. The points are the sample's, at their pose.
 bool make_hull(const oracle::Polytope<3>& solid, PeerShape& shape) {
     const Polyhedron hull = *Polyhedron::build(solid.points);
     if (hull.rank() < 2) return false;
@@ -34,13 +34,13 @@ std::optional<PeerShape> peer_shape(const oracle::Sample<3>& sample) {
     shape.radius = solid.radius;
     if (solid.points.size() <= 2) {
         shape.form = solid.points.size() == 1 ? Form::ball : Form::capsule;
-        shape.points = oracle::corners_seen_from(solid, shape.center);
+        shape.points = oracle::corners_relative_to(solid, shape.center);
         return shape;
     }
     if (solid.radius > 0) return std::nullopt;
     if (is_box(sample.kind) && sample.kind != oracle::Kind::stretched_box) {
         shape.form = Form::box;
-        shape.points = oracle::corners_seen_from(solid, shape.center);
+        shape.points = oracle::corners_relative_to(solid, shape.center);
         shape.axes = solid.place.column;
         shape.half = (DVec<3>(solid.points.back()) - DVec<3>(solid.points.front())) * 0.5;
         return shape;

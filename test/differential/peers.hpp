@@ -1,6 +1,6 @@
 #pragma once
 
-// Other libraries, and the shapes that all of them have: balls, capsules, boxes and hulls, in space.
+// Other libraries, and the 3D shapes that all of them have: balls, capsules, boxes and hulls.
 
 #include "../oracle/sample.hpp"
 
@@ -23,7 +23,7 @@ struct PeerShape {
     std::vector<std::vector<int>> faces;  ///< of a hull: loops of points, counter-clockwise from outside
     double size = 0;
 
-    /// Of a ball or box: by how much its own center is off `center`.
+    /// The offset of a ball's or box's exact center from `center`.
     DVec<3> middle() const { return (points.front() + points.back()) * 0.5; }
 };
 
@@ -31,21 +31,21 @@ struct PeerAnswer {
     enum class State : int { none, answered, refused };
     State state = State::none;
     bool overlap = false;
-    bool knows_distance = true;  ///< some tell only how deep, or only yes or no
+    bool knows_distance = true;  ///< some peers return only the depth, or only overlap
     double distance = 0;         ///< the gap, or minus the depth
-    DVec<3> normal{0.0};         ///< from A to B, of length 1; where they tell it of a gap
+    DVec<3> normal{0.0};         ///< from A to B, of length 1; zero if the peer returns none for a gap
 };
 
-/// None where the shape is of no kind that all peers have.
+/// The shape for the peers; none if some peer doesn't have its kind.
 std::optional<PeerShape> peer_shape(const oracle::Sample<3>& sample);
 
-/// Asks a peer about two shapes; `smaller` is the size of the smaller one, for those that want a tolerance.
+/// Queries a peer about two shapes; `smaller` is the size of the smaller one, for peers with a tolerance.
 using Peer = PeerAnswer (*)(const PeerShape& a, const PeerShape& b, double smaller);
 
-PeerAnswer ask_bullet(const PeerShape& a, const PeerShape& b, double smaller);
-PeerAnswer ask_fcl_libccd(const PeerShape& a, const PeerShape& b, double smaller);
-PeerAnswer ask_fcl_indep(const PeerShape& a, const PeerShape& b, double smaller);
-PeerAnswer ask_ccd_epa(const PeerShape& a, const PeerShape& b, double smaller);
-PeerAnswer ask_ccd_mpr(const PeerShape& a, const PeerShape& b, double smaller);
+PeerAnswer query_bullet(const PeerShape& a, const PeerShape& b, double smaller);
+PeerAnswer query_fcl_libccd(const PeerShape& a, const PeerShape& b, double smaller);
+PeerAnswer query_fcl_indep(const PeerShape& a, const PeerShape& b, double smaller);
+PeerAnswer query_ccd_epa(const PeerShape& a, const PeerShape& b, double smaller);
+PeerAnswer query_ccd_mpr(const PeerShape& a, const PeerShape& b, double smaller);
 
 }  // namespace abut::differential

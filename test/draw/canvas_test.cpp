@@ -10,7 +10,7 @@
 namespace abut {
 namespace {
 
-/// As little as a user has to fill.
+/// The smallest canvas that a user can write.
 template <int D>
 class Lines final : public Canvas<D> {
 public:
@@ -25,7 +25,7 @@ public:
     int points = 0;
 };
 
-TEST(Canvas, DrawsAPolygonByItsLinesUnlessToldOtherwise) {
+TEST(Canvas, DrawsAPolygonByItsLinesByDefault) {
     Lines<2> canvas;
     const Vec2 corners[] = {{0, 0}, {1, 0}, {0, 1}};
     canvas.polygon(corners, {});

@@ -25,7 +25,7 @@ using test::Recorder;
 constexpr float infinity = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
 const Style filled{{1, 2, 3}, 1, {4, 5, 6}};
 
-// --- shapes of the plane ---
+// --- 2D shapes ---
 
 TEST(Draw, EveryShapeOfThePlaneIsOneCall) {
     Recorder<2> canvas;
@@ -79,7 +79,7 @@ TEST(Draw, AHalfPlaneEndsWhereTheCanvasDoes) {
     EXPECT_EQ(inside.polygons[0].points.size(), 4u);
 }
 
-// --- shapes of space ---
+// --- 3D shapes ---
 
 /// All lines and areas of a shape lie on it.
 template <class S>
@@ -163,7 +163,7 @@ TEST(Draw, PolytopesHaveEachEdgeOnce) {
     EXPECT_EQ(thin.calls(), 3u);
 }
 
-/// The volume within the areas; above zero where they are counter-clockwise seen from outside.
+/// The volume within the areas; above zero if they are counter-clockwise seen from outside.
 double volume_within(const Recorder<3>& canvas) {
     double six_times = 0;
     for (const auto& area : canvas.polygons)
@@ -270,7 +270,7 @@ TEST(Draw, BoxesOfABroadPhase) {
     EXPECT_EQ(canvas.polygons.size(), 4u);
 }
 
-/// The tip of the only arrow that was drawn.
+/// The tip of the only drawn arrow.
 template <int D>
 Vec<D> tip(const Recorder<D>& canvas) {
     return canvas.polygons.at(0).points.at(0);

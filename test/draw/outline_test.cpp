@@ -27,7 +27,7 @@ double signed_area(const std::vector<Vec2>& loop) {
     return twice / 2;
 }
 
-/// The outline's points lie on the shape, it goes round counter-clockwise, and nothing of the shape lies beyond it.
+/// The outline's points lie on the shape, it is counter-clockwise, and no part of the shape is outside of it.
 template <class S>
 void expect_outline(const S& shape, const char* name) {
     SCOPED_TRACE(name);
@@ -106,7 +106,7 @@ TEST(Outline, OfACylinderAcrossItsAxisKeepsToTheEndItIsTiltedTo) {
     }
 }
 
-/// Larger each time it is asked.
+/// A support function whose answers grow with each call.
 struct Growing {
     mutable float radius = 1;
 };

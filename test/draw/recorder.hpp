@@ -1,6 +1,6 @@
 #pragma once
 
-// A canvas that keeps what was drawn on it, for tests.
+// A canvas that records the drawing, for tests.
 
 #include "../oracle/random.hpp"
 #include <abut/draw/canvas.hpp>
@@ -45,7 +45,7 @@ public:
     void text(const Vec<D>&, std::string_view text, const Style&) override { texts.emplace_back(text); }
 
     std::size_t calls() const { return lines.size() + points.size() + polygons.size() + balls.size() + texts.size(); }
-    /// Everything that lines and polygons go through.
+    /// All points of the lines and polygons.
     std::vector<Vec<D>> places() const {
         std::vector<Vec<D>> result;
         for (const Line& line : lines) result.insert(result.end(), {line.a, line.b});
@@ -63,17 +63,17 @@ private:
     Aabb<D> shown_;
 };
 
-/// The signed distance of a point to a convex set, found by trying directions d: the most of
+/// The signed distance of a point to a convex set by brute force over directions d: the maximum of
 ///     dot(point, d) - dot(support(d), d)
-/// over all of length 1. Slow, and knows nothing of the library but the support function.
+/// over all d of length 1. It uses only the support function of the library.
 template <int D>
 double tried_distance(const Convex<D>& set, const Vec<D>& point, oracle::Random& random) {
     const auto beyond = [&](const DVec<D>& d) { return dot(d, DVec<D>(point) - support(set, d)); };
     DVec<D> best = random.direction<D>();
     double most = beyond(best), step = 4;
     for (int i = 0; i < 600; ++i) {
-        const bool looking_around = i < 100;
-        if (!looking_around) step *= 0.96;
+        const bool explores = i < 100;
+        if (!explores) step *= 0.96;
         const DVec<D> direction = normalized(best + random.direction<D>() * step);
         const double value = beyond(direction);
         if (value <= most) continue;
@@ -83,7 +83,7 @@ double tried_distance(const Convex<D>& set, const Vec<D>& point, oracle::Random&
     return most;
 }
 
-/// How far the worst of the places is from the surface of a convex shape; of many places, some.
+/// The largest distance of the points from the surface of a convex shape; a sample of many points.
 template <class S, class Places>
 double farthest_from_surface(const S& shape, const Places& places) {
     const auto& set = view(shape);

@@ -15,7 +15,8 @@
 namespace abut {
 namespace {
 
-/// Reads what an SVG of ours may hold: tags with quoted attributes, texts without raw < > &, all closed in order.
+/// Reads the subset of SVG that the library writes: tags with quoted attributes, texts without raw < > &, all closed in
+/// order.
 class Reader {
 public:
     explicit Reader(const std::string& document) : rest_(document) {}
@@ -81,7 +82,7 @@ private:
     std::vector<std::string> open_;
 };
 
-/// What was drawn, without the frame of the document.
+/// The drawing without the frame of the document.
 std::string body(const SvgCanvas& canvas) {
     const std::string document = canvas.document();
     const std::size_t begin = document.find('\n', document.find("<g")) + 1;

@@ -51,7 +51,8 @@ bool holds(const std::vector<Vec2>& points, const Vec2& point) {
     return true;
 }
 
-/// Each place is in one area, and all places of one area are closest to one feature, which its color tells the kind of.
+/// Checks that each point is in one area, and that all points of an area are closest to one feature of the kind that
+/// its colour shows.
 template <class S>
 void expect_regions(const S& shape) {
     Recorder<2> canvas;

@@ -13,9 +13,9 @@ namespace {
 
 using test::Recorder;
 
-const Style plain{{30, 60, 90, 255}, 2, {4, 5, 6, 70}};
+const Style filled{{30, 60, 90, 255}, 2, {4, 5, 6, 70}};
 
-/// Three unit squares in a row along x, and one by itself 10 farther on; a triangle that is there twice.
+/// Three unit squares in a row along x, a separate one 10 farther on, and a repeated triangle.
 WalkMesh squares() {
     std::vector<Vec3> points;
     std::vector<glm::uvec3> triangles;
@@ -31,14 +31,14 @@ WalkMesh squares() {
 
 TEST(DrawWalkMesh, FillsTrianglesAndDrawsEachEdgeOnce) {
     Recorder<3> canvas({{-20, -20, -20}, {20, 20, 20}});
-    draw(canvas, squares(), plain);
+    draw(canvas, squares(), filled);
     ASSERT_EQ(canvas.polygons.size(), 8u) << "not the one that is left out";
-    EXPECT_EQ(canvas.polygons[0].style.fill, plain.fill);
+    EXPECT_EQ(canvas.polygons[0].style.fill, filled.fill);
     EXPECT_EQ(canvas.polygons[0].style.stroke, transparent);
     std::size_t borders = 0, edges = 0;
     bool borders_last = true;
     for (const auto& line : canvas.lines) {
-        const bool is_border = line.style.stroke == plain.stroke;
+        const bool is_border = line.style.stroke == filled.stroke;
         (is_border ? borders : edges) += 1;
         borders_last = borders_last && (is_border || borders == 0);
         EXPECT_EQ(line.style.width, is_border ? 2 : 1);
@@ -51,7 +51,7 @@ TEST(DrawWalkMesh, FillsTrianglesAndDrawsEachEdgeOnce) {
 TEST(DrawWalkMesh, LeavesOutWhatIsNotShown) {
     Recorder<3> canvas({{1.5f, 0, -1}, {5, 1, 1}});
     draw(canvas, squares());
-    EXPECT_EQ(canvas.polygons.size(), 0u) << "the plain style fills nothing";
+    EXPECT_EQ(canvas.polygons.size(), 0u) << "this style fills nothing";
     for (const Vec3& place : canvas.places()) {
         EXPECT_GE(place.x, 1);
         EXPECT_LE(place.x, 3);
@@ -63,7 +63,7 @@ TEST(DrawWalkMesh, HasAStyleForEachTriangle) {
     Recorder<3> canvas({{-20, -20, -20}, {20, 20, 20}});
     const WalkMesh mesh = squares();
     draw(canvas, mesh, [&](std::uint32_t triangle) {
-        Style style = plain;
+        Style style = filled;
         style.fill.red = static_cast<std::uint8_t>(mesh.component(triangle));
         if (mesh.component(triangle) == 1) style.stroke = transparent;
         return style;
@@ -79,12 +79,12 @@ TEST(DrawWalkMesh, DrawsPaths) {
     EXPECT_EQ(canvas.calls(), 0u);
     WalkPath path;
     path.points = {{0, 0, 0}};
-    draw(canvas, path, plain);
+    draw(canvas, path, filled);
     EXPECT_EQ(canvas.points, path.points);
     EXPECT_EQ(canvas.calls(), 1u);
     Recorder<3> all;
     path.points = {{0, 0, 0}, {1, 0, 0}, {1, 2, 0}, {3, 2, 1}};
-    draw(all, path, plain);
+    draw(all, path, filled);
     EXPECT_EQ(all.points, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 2, 0}}));
     ASSERT_EQ(all.lines.size(), 3u);
     EXPECT_EQ(all.lines[1].b, Vec3(1, 2, 0));
@@ -97,9 +97,9 @@ TEST(DrawWalkMesh, DrawsWalks) {
     Recorder<3> canvas;
     const WalkMesh mesh = squares();
     const WalkPoint from{1, {0.25f, 0.25f, 0.5f}};
-    // It comes to the far side, and slides along it.
+    // The step reaches the far side, and slides along it.
     const Vec3 step(2, 1, 0);
-    draw_walk(canvas, mesh, from, step, plain);
+    draw_walk(canvas, mesh, from, step, filled);
     EXPECT_EQ(canvas.points, (std::vector<Vec3>{mesh.to_world(from)}));
     ASSERT_EQ(canvas.lines.size(), 64u + 1) << "its parts are too short for an arrow's head: one is drawn over them";
     for (std::size_t i = 0; i + 1 < 64; ++i) EXPECT_EQ(canvas.lines[i].b, canvas.lines[i + 1].a);
@@ -114,7 +114,7 @@ TEST(DrawWalkMesh, DrawsWalks) {
         }
     }
     Recorder<3> still;
-    draw_walk(still, mesh, from, Vec3(0), plain);
+    draw_walk(still, mesh, from, Vec3(0), filled);
     EXPECT_EQ(still.calls(), 1u);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Fields whose right answers are known: filled sample by sample from distances that have a formula.
+// Fields with known answers: filled sample by sample from closed-form distances.
 
 #include "../oracle/random.hpp"
 #include <abut/field/field.hpp>
@@ -19,7 +19,7 @@ struct Analytic {
     std::function<double(const DVec<D>&)> distance;
     Aabb<D> surface;
 
-    /// By differences so short that they are as good as exact away from edges.
+    /// The gradient by short differences, accurate away from edges.
     DVec<D> gradient(const DVec<D>& p) const {
         constexpr double step = 1e-6;
         DVec<D> result;
@@ -66,7 +66,7 @@ inline Analytic<3> torus(const DVec<3>& center, double large, double small) {
             {to_float<3>(center - half), to_float<3>(center + half)}};
 }
 
-/// The same solid turned about the origin: edges that don't lie along the axes.
+/// The solid rotated about the origin, so that its edges aren't parallel to the axes.
 inline Analytic<3> turned(const Analytic<3>& solid, const DVec<3>& x, const DVec<3>& towards_y) {
     const DVec<3> u = normalized(x), w = normalized(cross(u, towards_y)), v = cross(w, u);
     const auto inverse = [=](const DVec<3>& p) { return DVec<3>(dot(u, p), dot(v, p), dot(w, p)); };
@@ -105,7 +105,7 @@ std::size_t product(const glm::vec<D, std::uint32_t>& counts) {
     return result;
 }
 
-/// What a baker makes of a solid.
+/// The field that a baker makes of a solid.
 template <int D>
 FieldData<D> filled(const Analytic<D>& solid, const Vec<D>& origin, float cell, glm::vec<D, std::uint32_t> cells,
                     const FillOptions& options = {}) {
@@ -150,7 +150,7 @@ FieldData<D> filled(const Analytic<D>& solid, const Vec<D>& origin, float cell, 
     return data;
 }
 
-/// The lower corner of a volume and its cells, so many along each axis, `padding` of them around a box.
+/// The lower corner and the cells of a volume around a box, with `padding` cells around it.
 template <int D>
 FieldData<D> filled_around(const Analytic<D>& solid, float cell, float padding, const FillOptions& options = {}) {
     glm::vec<D, std::uint32_t> cells;

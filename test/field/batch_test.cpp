@@ -1,7 +1,6 @@
-// Many look-ups at once give bit by bit what one by one gives, by each kind of vector unit; and one by one what is told
-// plainly.
+// A batch of look-ups gives the bits of single ones, with each SIMD target; and single ones equal a reference.
 
-#include "../oracle/vector_units.hpp"
+#include "../oracle/simd_targets.hpp"
 #include "analytic.hpp"
 #include <abut/field/look_up/look_up.hpp>
 #include <abut/field/look_up/stencil.hpp>
@@ -19,9 +18,9 @@ namespace {
 
 using namespace oracle;
 
-class FieldBatch : public ByVectorUnit {};
+class FieldBatch : public BySimdTarget {};
 
-/// Inside and outside, on borders of cells and bricks, and what is no point.
+/// Points inside and outside, on borders of cells and bricks, and invalid ones.
 template <int D>
 std::vector<Vec<D>> points_of(const Field<D>& field, std::size_t count, bool with_odd) {
     const Aabb<D> volume = field.volume();
@@ -72,14 +71,14 @@ void expect_same(const Field<D>& field) {
                 ASSERT_TRUE(same_bits(samples[i].normal, one.normal)) << i;
                 if constexpr (D == 3)
                     if (field.data().lookup == FieldLookup::gradient && contains(field.volume(), points[i])) {
-                        const FieldSample<3> plain = gradient_sample_reference(field.data(), points[i]);
-                        ASSERT_EQ(plain.distance, one.distance) << i;
-                        ASSERT_EQ(plain.normal, one.normal) << i;
+                        const FieldSample<3> reference = gradient_sample_reference(field.data(), points[i]);
+                        ASSERT_EQ(reference.distance, one.distance) << i;
+                        ASSERT_EQ(reference.normal, one.normal) << i;
                     }
                 if (field.data().lookup == FieldLookup::linear && contains(field.volume(), points[i])) {
-                    const FieldSample<D> plain = linear_sample(field.data(), points[i]);
-                    ASSERT_TRUE(same_bits(plain.distance, one.distance)) << i;
-                    ASSERT_TRUE(same_bits(plain.normal, one.normal)) << i;
+                    const FieldSample<D> reference = linear_sample(field.data(), points[i]);
+                    ASSERT_TRUE(same_bits(reference.distance, one.distance)) << i;
+                    ASSERT_TRUE(same_bits(reference.normal, one.normal)) << i;
                 }
             }
         }
@@ -107,7 +106,7 @@ TEST_P(FieldBatch, IsBitByBitTheSame) {
     expect_same_of<3>(turned(box<3>({1, 0, 0}, {2, 1, 0.5}), {1, 2, 3}, {0, 1, 0}), 0.2f);
 }
 
-/// By every compiler at every level: pinned.
+/// A golden value for every compiler at every optimisation level.
 TEST(FieldBits, AreTheSameEverywhere) {
     std::uint64_t hash = 0xcbf29ce484222325u;
     const auto add = [&](float number) { hash = (hash ^ std::bit_cast<std::uint32_t>(number)) * 0x100000001b3u; };
@@ -136,7 +135,7 @@ TEST(FieldBits, AreTheSameEverywhere) {
     EXPECT_EQ(hash, 14807128934385571994u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, FieldBatch, vector_units(), name_of_unit);
+INSTANTIATE_TEST_SUITE_P(Each, FieldBatch, simd_targets(), simd_target_name);
 
 }  // namespace
 }  // namespace abut

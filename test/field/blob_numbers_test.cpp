@@ -1,4 +1,4 @@
-// Fields as bytes whose numbers are no distances: they are refused, or every answer about them is finite.
+// Loaded bytes whose numbers are no distances: the load refuses them, or every answer of the field is finite.
 
 #include "../oracle/seal.hpp"
 #include "analytic.hpp"
@@ -20,7 +20,7 @@ using namespace oracle;
 
 using Bytes = std::vector<std::byte>;
 
-/// Where the numbers lie in the bytes of a field.
+/// The offsets of the numbers in the bytes of a field.
 template <int D>
 struct Places {
     static constexpr std::size_t origin = 18, surface = origin + 8, cell = origin + 16 * D, step = cell + 4;
@@ -69,7 +69,7 @@ void expect_refused(const Bytes& bytes, ProblemCode code, std::size_t index) {
     EXPECT_EQ(result.problem().message.find('\n'), std::string::npos);
 }
 
-/// A sample of 1e38 was loaded, and `closest` walked down from it to NaN.
+/// A sample of 1e38 once loaded, and `closest` descended from it to NaN.
 template <int D>
 void expect_named() {
     each_kind<D>([](const Field<D>& field) {
@@ -144,8 +144,8 @@ bool answers_are_finite(const Field<D>& field, Random& random) {
     return result;
 }
 
-/// Some of the numbers become others, of a few magnitudes or of all. One in eleven of the fields that were loaded had
-/// answers that are NaN, or normals without length.
+/// Replaces some of the numbers by others, of a few magnitudes or of all. One in eleven of the loaded fields once had
+/// answers with NaN or normals of length 0.
 template <int D>
 void expect_refused_or_finite(std::uint64_t seed) {
     Random random(seed);

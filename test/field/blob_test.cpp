@@ -1,4 +1,4 @@
-// Fields as bytes, and back.
+// Saving and loading of fields.
 
 #include "../oracle/seal.hpp"
 #include "analytic.hpp"
@@ -85,7 +85,7 @@ TEST(FieldBlob, IsTheSameFieldAgain) {
 }
 
 TEST(FieldBlob, HasTheSameBytesOnEveryMachine) {
-    // Few numbers that are exact, so that it is the layout alone that is pinned.
+    // A few exact numbers, so that the test pins only the layout.
     FieldData<2> data;
     data.origin = {-1, 2};
     data.cell = 0.5f;
@@ -120,7 +120,7 @@ TEST(FieldBlob, TellsItsDimension) {
     Bytes bytes = save(Field2(small_disc()));
     EXPECT_EQ(field_dimension(bytes), 2);
     EXPECT_EQ(field_dimension(save(Field3(small_torus(FieldStore::sparse)))), 3);
-    EXPECT_EQ(field_dimension(std::span(bytes).first(16)), 2) << "the rest isn't looked at";
+    EXPECT_EQ(field_dimension(std::span(bytes).first(16)), 2) << "the rest isn't read";
     for (std::size_t size = 0; size < 16; ++size) EXPECT_EQ(field_dimension(std::span(bytes).first(size)), 0) << size;
     for (std::size_t i = 0; i < 16; ++i) {
         Bytes other = bytes;

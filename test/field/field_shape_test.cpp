@@ -1,4 +1,4 @@
-// A field as a shape: against its own look-ups, one by one.
+// A field as a shape, against its own look-ups.
 
 #include "../../scenes/bumpy_ball.hpp"
 #include "../oracle/random.hpp"
@@ -24,14 +24,14 @@
 namespace abut {
 namespace {
 
-/// What the questions take for the distance: as the look-ups do within the volume, and continued outside.
+/// The distance that queries use: the look-up within the volume, and its continuation outside.
 template <int D>
 double shape_distance(const Field<D>& field, const Vec<D>& point) {
     const DistanceFunction<D> seen = view(field);
     return static_cast<double>(seen.distance(seen.object, point));
 }
 
-/// Stones of each kind of store.
+/// Solids with each kind of store.
 std::vector<Field3> stones() {
     std::vector<Field3> result;
     oracle::Random random(3);
@@ -66,7 +66,7 @@ TEST(FieldShape, BoundsAreBelowAndNear) {
     oracle::Random random(21);
     for (const Field3& stone : stones()) {
         const DistanceFunction<3> seen = view(stone);
-        int told = 0, far_off = 0;
+        int bounded = 0, far_off = 0;
         for (int i = 0; i < 3000; ++i) {
             SCOPED_TRACE(testing::Message() << "seed 21, box " << i);
             const DVec<3> center = random.in_cube<3>() * 1.3;
@@ -75,8 +75,8 @@ TEST(FieldShape, BoundsAreBelowAndNear) {
             for (int a = 0; a < 3; ++a) half[a] = random.uniform(0, size);
             DistanceBound<3> bound;
             if (seen.bound(seen.object, center - half, center + half, bound) != DistanceBoundStatus::valid) continue;
-            ++told;
-            double least = 1e9, least_above = 1e9;
+            ++bounded;
+            double least = 1e9, min_above = 1e9;
             for (int k = 0; k < 64; ++k) {
                 DVec<3> place = center;
                 for (int a = 0; a < 3; ++a)
@@ -86,15 +86,15 @@ TEST(FieldShape, BoundsAreBelowAndNear) {
                 EXPECT_GE(here, bound.lower_bound - 2e-6);
                 EXPECT_GE(here, plane - 2e-6);
                 least = std::min(least, here);
-                least_above = std::min(least_above, here - plane);
+                min_above = std::min(min_above, here - plane);
             }
-            // A box in one cell tells its least exactly, and one of many no worse than a cell does.
-            const double slack = size < 0.002 ? 0.05 * size + 2e-6 : 0.1;
-            EXPECT_LE(least - bound.lower_bound, slack + 1.8 * size);
-            far_off += least_above > slack ? 1 : 0;
+            // The lower bound of a box in one cell is exact; over many cells it is no worse than a cell.
+            const double allowed = size < 0.002 ? 0.05 * size + 2e-6 : 0.1;
+            EXPECT_LE(least - bound.lower_bound, allowed + 1.8 * size);
+            far_off += min_above > allowed ? 1 : 0;
         }
-        EXPECT_GT(told, 500);
-        EXPECT_LT(far_off, told / 20);
+        EXPECT_GT(bounded, 500);
+        EXPECT_LT(far_off, bounded / 20);
     }
 }
 
@@ -109,8 +109,8 @@ double between_corners(const std::array<double, 8>& corners, const DVec<3>& shar
     return result;
 }
 
-/// The corner values of a box without a kink bound the distance from below, exactly within a cell, and outside of the
-/// volume at the anchor. A box with a kink is cut where the kink divides it.
+/// The corner values of a box without a kink bound the distance from below: exactly within a cell, and at the anchor
+/// outside of the volume. A box with a kink is split there.
 TEST(FieldShape, CornersAreBelowAndTightAtTheAnchor) {
     oracle::Random random(31);
     for (const Field3& stone : stones()) {
@@ -157,7 +157,7 @@ TEST(FieldShape, CornersAreBelowAndTightAtTheAnchor) {
     }
 }
 
-/// Beyond the volume the distance goes on without a step, and is no more than the true one by what a cell rounds off.
+/// Outside of the volume the distance is continuous, and exceeds the true one by at most the error of a cell.
 TEST(FieldShape, ContinuedOutside) {
     oracle::Random random(28);
     const Box3 crate{Vec3(0.0f), Vec3(1.5f, 0.5f, 1.0f)};
@@ -181,30 +181,30 @@ TEST(FieldShape, ContinuedOutside) {
     }
 }
 
-long looks = 0;
+long evaluations = 0;
 
-/// How many looks at its samples a question takes at most, a bound of a box counted as eight. Boxes were cut in two
-/// until a Lipschitz bound settled them: up to 59,000 looks for a box beside such a field.
+/// The number of evaluations of a query; a bound of a box counts as eight. Boxes were once bisected until a Lipschitz
+/// bound settled them: up to 59,000 evaluations for a box beside such a field.
 template <int D, class Shape>
-void count_looks(const Field<D>& field, const Shape& shape, std::uint64_t seed) {
+void count_evaluations(const Field<D>& field, const Shape& shape, std::uint64_t seed) {
     static DistanceFunction<D> seen;
     seen = view(field);
     DistanceFunction<D> counted = seen;
     counted.distance = [](const void* object, const Vec<D>& point) {
-        ++looks;
+        ++evaluations;
         return seen.distance(object, point);
     };
     counted.sample = [](const void* object, const Vec<D>& point) {
-        ++looks;
+        ++evaluations;
         return seen.sample(object, point);
     };
     if (seen.gradient != nullptr)
         counted.gradient = [](const void* object, const DVec<D>& point, DVec<D>& gradient) {
-            ++looks;
+            ++evaluations;
             return seen.gradient(object, point, gradient);
         };
     counted.bound = [](const void* object, const DVec<D>& low, const DVec<D>& high, DistanceBound<D>& bound) {
-        looks += 8;
+        evaluations += 8;
         return seen.bound(object, low, high, bound);
     };
     oracle::Random random(seed);
@@ -215,9 +215,9 @@ void count_looks(const Field<D>& field, const Shape& shape, std::uint64_t seed) 
         pose.rotation = random.rotation<D>();
         pose.position = to_float(random.in_cube<D>() * 3.0);
         const auto there = at(shape, pose);
-        looks = 0;
+        evaluations = 0;
         const Closest<D> found = closest(there, counted);
-        EXPECT_LE(looks, 8000);
+        EXPECT_LE(evaluations, 8000);
         EXPECT_EQ(found.distance, closest(there, field).distance);
         apart += found.distance > 0 ? 1 : 0;
     }
@@ -227,13 +227,13 @@ void count_looks(const Field<D>& field, const Shape& shape, std::uint64_t seed) 
 
 TEST(FieldShape, LooksAreFew) {
     const Field3 crate = *bake_field(Box3{Vec3(0.0f), Vec3(1.5f, 0.5f, 1.0f)}, FieldOptions<3>{.cell = 0.5f});
-    count_looks(crate, Box3{Vec3(0.0f), Vec3(0.5f, 0.3f, 0.4f)}, 31);
-    count_looks(crate, Cylinder{{-0.4f, 0, 0}, {0.4f, 0, 0}, 0.4f}, 32);
-    count_looks(crate, Capsule3{{-0.4f, 0, 0}, {0.4f, 0, 0}, 0.25f}, 33);
-    count_looks(crate, stretched(Sphere{Vec3(0.0f), 0.5f}, Vec3(1, 0.5f, 0.7f)), 34);
+    count_evaluations(crate, Box3{Vec3(0.0f), Vec3(0.5f, 0.3f, 0.4f)}, 31);
+    count_evaluations(crate, Cylinder{{-0.4f, 0, 0}, {0.4f, 0, 0}, 0.4f}, 32);
+    count_evaluations(crate, Capsule3{{-0.4f, 0, 0}, {0.4f, 0, 0}, 0.25f}, 33);
+    count_evaluations(crate, stretched(Sphere{Vec3(0.0f), 0.5f}, Vec3(1, 0.5f, 0.7f)), 34);
     const Field2 tile = *bake_field(Box2{Vec2(0.0f), Vec2(1.5f, 0.5f)}, FieldOptions<2>{.cell = 0.1f});
-    count_looks(tile, Box2{Vec2(0.0f), Vec2(0.5f, 0.3f)}, 35);
-    count_looks(tile, stretched(Circle{Vec2(0.0f), 0.5f}, Vec2(1, 0.5f)), 36);
+    count_evaluations(tile, Box2{Vec2(0.0f), Vec2(0.5f, 0.3f)}, 35);
+    count_evaluations(tile, stretched(Circle{Vec2(0.0f), 0.5f}, Vec2(1, 0.5f)), 36);
 }
 
 TEST(FieldShape, LeastOverConvexSets) {
@@ -249,7 +249,7 @@ TEST(FieldShape, LeastOverConvexSets) {
             pose.position = to_float(random.direction<3>() * random.uniform(0.5, 1.6));
             const auto box = at(Box3{Vec3(0.0f), half}, pose);
             const auto found = closest(box, stone);
-            // On a grid of places in the box nothing is less.
+            // No point of a grid in the box is lower.
             double least = 1e9;
             constexpr int steps = 12;
             for (int k = 0; k < steps * steps * steps; ++k) {
@@ -279,7 +279,7 @@ Field3 crate() {
 }
 
 TEST(FieldShape, LeastOnTheSideOfCells) {
-    // The descent stopped where two cells meet, and 512 boxes on the answer was 0.827131.
+    // The descent stopped at the border of two cells, and 512 boxes later the answer was 0.827131.
     Pose3 pose;
     pose.position = {2.25369596f, -0.890709519f, 1.8479532f};
     pose.rotation = Rotation<3>(0.882785201f, -0.166978911f, -0.209037349f, 0.386149794f);
@@ -294,13 +294,13 @@ TEST(FieldShape, SweepsPassNothing) {
     oracle::Random random(23);
     int hits = 0, misses = 0;
     for (int i = 0; i < 60; ++i) {
-        SCOPED_TRACE(testing::Message() << "seed 23, way " << i);
+        SCOPED_TRACE(testing::Message() << "seed 23, direction " << i);
         Pose3 from;
         from.rotation = random.rotation<3>();
         from.position = to_float(random.direction<3>() * random.uniform(2.4, 3.5));
         const Vec3 goal = to_float(random.in_cube<3>() * 1.5);
         Pose3 to{(from.position + (goal - from.position) * 2.0f), random.rotation<3>()};
-        const auto look = [&](const auto& shape, bool turns) {
+        const auto check = [&](const auto& shape, bool turns) {
             if (!turns) to.rotation = from.rotation;
             const auto hit = turns ? sweep(shape, from, to, field, Pose3(), Pose3())
                                    : sweep(at(shape, from), to.position - from.position, field);
@@ -309,11 +309,11 @@ TEST(FieldShape, SweepsPassNothing) {
             const auto distance_at = [&](double time) {
                 const Affine<3> place = place_at(path, time);
                 double least = 1e9;
-                // By places of the box around the shape alone, as it is asked of any.
+                // The reference uses only points of the shape's bounding box, and its support function.
                 const auto there = moved(view(shape), place);
                 for (int k = 0; k < 1000; ++k) {
-                    const DVec<3> way{k % 10 - 4.5, k / 10 % 10 - 4.5, k / 100 - 4.5};
-                    least = std::min(least, shape_distance(field, to_float(support(there, way))));
+                    const DVec<3> direction{k % 10 - 4.5, k / 10 % 10 - 4.5, k / 100 - 4.5};
+                    least = std::min(least, shape_distance(field, to_float(support(there, direction))));
                 }
                 return least;
             };
@@ -323,10 +323,10 @@ TEST(FieldShape, SweepsPassNothing) {
             }
             (hit ? hits : misses) += 1;
         };
-        look(box, false);
-        look(box, true);
-        look(cylinder, false);
-        look(cylinder, true);
+        check(box, false);
+        check(box, true);
+        check(cylinder, false);
+        check(cylinder, true);
     }
     EXPECT_GT(hits, 60);
     EXPECT_GT(misses, 5);
@@ -349,7 +349,7 @@ void compare_rays(const Field3& stone, std::uint64_t seed, int count) {
             EXPECT_NEAR(there, 0, 3e-6);
             EXPECT_LE(dot(DVec<3>(hit->normal), DVec<3>(ray.direction)), 0);
         }
-        // Nothing is in the way.
+        // The path is free.
         const int steps = 60;
         for (int k = 0; k < steps; ++k) {
             const double along = reach * (k + 0.5) / steps;
@@ -361,7 +361,7 @@ void compare_rays(const Field3& stone, std::uint64_t seed, int count) {
     EXPECT_LT(hits, count);
 }
 
-TEST(FieldShape, RaysMeetWhatIsThere) {
+TEST(FieldShape, RaysHitTheSurface) {
     const bool is_long = std::getenv("ABUT_LONG") != nullptr;
     std::uint64_t seed = 23;
     for (const Field3& stone : stones()) compare_rays(stone, seed++, is_long ? 250000 : 2500);
@@ -426,13 +426,13 @@ TYPED_TEST(ThinWall, StartsOnItInItAndAlongIt) {
     EXPECT_FALSE(raycast(ray(-side, -ahead), wall));
     EXPECT_FALSE(raycast(ray(-side, along), wall));
     EXPECT_FALSE(raycast(ray(-side - 0.001f, along), wall));
-    // What is rounded is met where that begins.
+    // A rounded field is hit where the rounding begins.
     const auto wide = raycast(ray(-3, ahead), rounded(wall, 0.5f));
     ASSERT_TRUE(wide);
     EXPECT_NEAR(wide->point[0], -side - 0.5f / 0.9f, 1e-4f);
 }
 
-/// Sweeps of what is thinner than a cell.
+/// Sweeps of shapes thinner than a cell.
 TYPED_TEST(ThinWall, NoBallGoesThrough) {
     constexpr int D = TypeParam::value;
     const Field<D> wall = thin_wall<D>();
@@ -449,7 +449,7 @@ TYPED_TEST(ThinWall, NoBallGoesThrough) {
     EXPECT_NEAR(box->distance, 3 - 1.0f / 9 - 0.05f, 1e-3f);
 }
 
-/// A box on a floor of cells, however it is turned: all corners of its lower side touch.
+/// A box on a floor of cells, in any orientation: all corners of its lower side touch.
 TEST(FieldShape, RestsOnAllCorners) {
     const Field3 floor = *bake_field(Box3{{0, -1, 0}, {4, 1, 4}}, FieldOptions<3>{.cell = 0.25f});
     oracle::Random random(24);
@@ -464,7 +464,7 @@ TEST(FieldShape, RestsOnAllCorners) {
         ASSERT_EQ(found.points.size(), 4u) << "seed 24, box " << i;
         EXPECT_NEAR(found.depth, 0.001f, 1e-5f);
         EXPECT_LT(found.normal.y, -0.9999f);
-        // It slides along, and comes to no end.
+        // It slides along without a hit.
         EXPECT_FALSE(sweep(box, Vec3(0.5f, 0, 0.25f), floor));
         const auto down = sweep(box, Vec3(0, -1, 0), floor);
         ASSERT_TRUE(down);

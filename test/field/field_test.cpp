@@ -1,4 +1,4 @@
-// Looking up distances: against the same told plainly in long doubles, and against the solids themselves.
+// Look-ups of distances: against a reference in long double, and against the solids themselves.
 
 #include "analytic.hpp"
 #include <abut/field/field.hpp>
@@ -14,9 +14,9 @@ namespace {
 
 using namespace oracle;
 
-/// Linear along each axis, from a dense field's samples, as a textbook has it.
+/// A reference: multilinear interpolation of a dense field's samples.
 template <int D>
-long double plainly(const FieldData<D>& data, const Vec<D>& point) {
+long double reference_distance(const FieldData<D>& data, const Vec<D>& point) {
     long double result = 0;
     glm::vec<D, std::uint32_t> cell;
     long double share[D];
@@ -51,7 +51,7 @@ Vec<D> anywhere(Random& random, const Aabb<D>& box) {
 }
 
 template <int D>
-void expect_plain(const Analytic<D>& solid, float cell) {
+void expect_reference(const Analytic<D>& solid, float cell) {
     const Field<D> field(filled_around<D>(solid, cell, 3));
     const Aabb<D> volume = field.volume();
     float size = cell;
@@ -60,7 +60,7 @@ void expect_plain(const Analytic<D>& solid, float cell) {
     Random random(71);
     for (int i = 0; i < 20000; ++i) {
         const Vec<D> point = anywhere<D>(random, volume);
-        const long double right = plainly(field.data(), point);
+        const long double right = reference_distance(field.data(), point);
         ASSERT_NEAR(static_cast<double>(field.distance(point)), static_cast<double>(right),
                     static_cast<double>(size) * 4e-7);
         const FieldSample<D> sample = field.sample(point);
@@ -70,22 +70,22 @@ void expect_plain(const Analytic<D>& solid, float cell) {
 }
 
 TEST(Field, IsLinearBetweenSamples) {
-    expect_plain<2>(ball<2>({1, 2}, 3), 0.25f);
-    expect_plain<2>(box<2>({-1, 0.5}, {2, 1}), 0.1f);
-    expect_plain<3>(ball<3>({1, 2, -3}, 3), 0.25f);
-    expect_plain<3>(box<3>({100, 0.5, 7}, {2, 1, 3}), 0.1f);
-    expect_plain<3>(torus({0, 0, 0}, 2e-3, 1e-3), 2e-4f);
-    expect_plain<3>(torus({0, 0, 0}, 2e4, 1e4), 2e3f);
+    expect_reference<2>(ball<2>({1, 2}, 3), 0.25f);
+    expect_reference<2>(box<2>({-1, 0.5}, {2, 1}), 0.1f);
+    expect_reference<3>(ball<3>({1, 2, -3}, 3), 0.25f);
+    expect_reference<3>(box<3>({100, 0.5, 7}, {2, 1, 3}), 0.1f);
+    expect_reference<3>(torus({0, 0, 0}, 2e-3, 1e-3), 2e-4f);
+    expect_reference<3>(torus({0, 0, 0}, 2e4, 1e4), 2e3f);
 }
 
-/// What a sparse field keeps is what the dense one has, near the surface; elsewhere it is linear over blocks.
+/// A sparse field stores the samples of the dense one near the surface; elsewhere it is linear over blocks.
 template <int D>
 void expect_sparse_like_dense(const Analytic<D>& solid, float cell) {
     FillOptions options;
     options.store = FieldStore::sparse;
     const FieldData<D> sparse = filled_around<D>(solid, cell, 9, options);
-    const Field<D> kept(sparse), all(filled<D>(solid, sparse.origin, cell, sparse.cells));
-    ASSERT_LT(kept.bytes(), all.bytes());
+    const Field<D> stored(sparse), all(filled<D>(solid, sparse.origin, cell, sparse.cells));
+    ASSERT_LT(stored.bytes(), all.bytes());
     const auto step = static_cast<double>(cell);
     Random random(23);
     int near = 0, far = 0;
@@ -93,22 +93,22 @@ void expect_sparse_like_dense(const Analytic<D>& solid, float cell) {
         const Vec<D> point = anywhere<D>(random, all.volume());
         const double right = solid.distance(DVec<D>(point));
         if (std::abs(right) < 3 * step) {
-            ASSERT_EQ(kept.distance(point), all.distance(point));
-            ASSERT_EQ(kept.sample(point).normal, all.sample(point).normal);
+            ASSERT_EQ(stored.distance(point), all.distance(point));
+            ASSERT_EQ(stored.sample(point).normal, all.sample(point).normal);
             ++near;
         } else {
-            ASSERT_NEAR(static_cast<double>(kept.distance(point)), right, 2 * step * brick_cells<D>);
-            ASSERT_EQ(kept.distance(point) > 0, right > 0);
+            ASSERT_NEAR(static_cast<double>(stored.distance(point)), right, 2 * step * brick_cells<D>);
+            ASSERT_EQ(stored.distance(point) > 0, right > 0);
             ++far;
         }
     }
     EXPECT_GT(near, 3000);
     EXPECT_GT(far, 3000);
-    // At the samples themselves, where cells and bricks meet too.
+    // At the samples themselves, also at borders of cells and bricks.
     for (std::size_t i = 0; i < all.data().distance.size(); ++i) {
         const DVec<D> place = DVec<D>(sparse.origin) + DVec<D>(counted<D>(i, sparse.cells + 1u)) * step;
         if (std::abs(solid.distance(place)) > 3 * step) continue;
-        ASSERT_NEAR(kept.distance(to_float<D>(place)), all.data().distance[i], 1e-4 * step);
+        ASSERT_NEAR(stored.distance(to_float<D>(place)), all.data().distance[i], 1e-4 * step);
     }
 }
 
@@ -119,7 +119,7 @@ TEST(Field, SparseIsAsGoodNearTheSurface) {
     expect_sparse_like_dense<3>(torus({0, 0, 0}, 2, 1), 0.15f);
 }
 
-/// Of a distance whose every difference is at most as large as the way, each coordinate's slope is at most 1.
+/// If no difference of a distance exceeds the step's length, each partial derivative is at most 1.
 template <int D>
 void expect_lipschitz(const Field<D>& field, std::uint64_t seed) {
     const Aabb<D> volume = field.volume();
@@ -130,10 +130,10 @@ void expect_lipschitz(const Field<D>& field, std::uint64_t seed) {
         Vec<D> b;
         for (int k = 0; k < D; ++k)
             b[k] = std::clamp(a[k] + random.uniform_float(-1, 1) * field.cell(), volume.min[k], volume.max[k]);
-        const double way = length(DVec<D>(b) - DVec<D>(a));
+        const double step_length = length(DVec<D>(b) - DVec<D>(a));
         const double change = static_cast<double>(field.distance(b)) - static_cast<double>(field.distance(a));
-        ASSERT_LE(std::abs(change), way * std::sqrt(static_cast<double>(D)) + 1e-5);
-        most = std::max(most, std::abs(change) - way);
+        ASSERT_LE(std::abs(change), step_length * std::sqrt(static_cast<double>(D)) + 1e-5);
+        most = std::max(most, std::abs(change) - step_length);
     }
 }
 
@@ -172,7 +172,7 @@ TEST(Field, SixteenBitsAreRightToHalfAStep) {
     EXPECT_EQ(Field2(nothing).sample({1, 1.5f}).normal, Vec2(1, 0));
 }
 
-/// Inside it is interpolated, never less than along the planes of a convex solid: no box of a solid is left.
+/// Inside, the interpolated distance is never below that to the planes of a convex solid.
 TEST(Field, NothingSolidIsOutsideOfItsBounds) {
     for (const bool quantised : {false, true}) {
         FieldData<3> data = filled_around<3>(turned(box<3>({1, 0, 0}, {2, 1, 0.2}), {1, 2, 3}, {0, 1, 0}), 0.25f, 3);
@@ -190,7 +190,7 @@ TEST(Field, NothingSolidIsOutsideOfItsBounds) {
     }
 }
 
-/// By walking down, from inside and outside; and by the corners' closest points.
+/// By descent, from inside and outside; and by the closest points of the corners.
 TEST(Field, ClosestIsOnTheSurface) {
     const Analytic<3> solid = torus({0, 0, 0}, 2, 1);
     for (const bool stored : {false, true})
@@ -205,15 +205,15 @@ TEST(Field, ClosestIsOnTheSurface) {
                 const Vec3 point = anywhere<3>(random, field.volume());
                 const Vec3 found = field.closest(point);
                 ASSERT_LT(std::abs(solid.distance(DVec<3>(found))), 0.01);
-                // No farther than the closest point by more than what the interpolation leaves, but at the torus' axis
-                // and ring, where there are many.
+                // Within the error of the interpolation of the closest point, except at the torus' axis and ring, where
+                // there are many.
                 const double distance = std::abs(solid.distance(DVec<3>(point)));
                 ASSERT_LT(length(DVec<3>(found) - DVec<3>(point)), distance + (store == FieldStore::dense ? 0.1 : 0.3));
             }
         }
 }
 
-/// Where there are closest points, edges and corners are found that the interpolated distance rounds off.
+/// With stored closest points, the search finds edges and corners that the interpolation rounds off.
 TEST(Field, ClosestFindsEdgesByTheCornersOfCells) {
     const Analytic<3> solid = turned(box<3>({0, 0, 0}, {2, 1, 0.5}), {1, 2, 3}, {0, 1, 0});
     FillOptions options;

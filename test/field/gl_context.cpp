@@ -34,7 +34,7 @@ struct GlContext::Parts {
             egl<decltype(&eglDestroyContext)>("eglDestroyContext")(display, context);
         }
         if (display != EGL_NO_DISPLAY) egl<decltype(&eglTerminate)>("eglTerminate")(display);
-        // The library stays loaded: Mesa's threads and its handlers at exit don't like to lose it.
+        // The library stays loaded, because Mesa's threads and exit handlers need it.
     }
 };
 
@@ -143,8 +143,8 @@ std::vector<glm::vec4> GlContext::run(std::string_view source, const GlTexture& 
                                 "void main() { gl_Position = vec4(vec2(gl_VertexID & 1, gl_VertexID >> 1) * 4.0 - 1.0, "
                                 "0.0, 1.0); }\n";
     const std::string pixels = version + std::string(source) +
-                               "\nuniform highp sampler2D questions;\nout highp vec4 told;\n"
-                               "void main() { told = answer(texelFetch(questions, ivec2(gl_FragCoord.xy), 0)); }\n";
+                               "\nuniform highp sampler2D questions;\nout highp vec4 result;\n"
+                               "void main() { result = answer(texelFetch(questions, ivec2(gl_FragCoord.xy), 0)); }\n";
     const GLuint program = glCreateProgram();
     for (const auto& [kind, text] :
          {std::pair{GLenum(GL_VERTEX_SHADER), &corners}, {GLenum(GL_FRAGMENT_SHADER), &pixels}}) {

@@ -1,7 +1,7 @@
 #pragma once
 
-// A graphics context without a screen, to run shaders in tests: EGL on Mesa's software renderer or whatever else there
-// is. Loaded while the program runs: nothing has to be linked.
+// A graphics context without a screen, to run shaders in tests: EGL on Mesa's software renderer or another driver. It
+// is loaded at run time, so nothing has to be linked.
 
 #include <cstdint>
 #include <memory>
@@ -20,7 +20,7 @@ enum class GlKind : std::uint8_t {
     core_3_3,  ///< OpenGL 3.3 core: #version 330 core
 };
 
-/// What `GL_TEXTURE_2D` or `GL_TEXTURE_3D` of one channel is filled with.
+/// The data of a `GL_TEXTURE_2D` or `GL_TEXTURE_3D` of one channel.
 struct GlTexture {
     std::uint32_t internal_format = 0, type = 0;
     glm::uvec3 size{1};
@@ -29,7 +29,7 @@ struct GlTexture {
     const void* bytes = nullptr;
 };
 
-/// A uniform of so many floats as it has values.
+/// A uniform of as many floats as it has values.
 struct GlUniform {
     const char* name = "";
     std::vector<float> value;
@@ -37,18 +37,18 @@ struct GlUniform {
 
 class GlContext {
 public:
-    /// Null where there is none, and `why` says so.
+    /// Null if there is none; then `why` is set.
     static std::unique_ptr<GlContext> open(GlKind kind, std::string& why);
     ~GlContext();
     GlContext(const GlContext&) = delete;
     GlContext& operator=(const GlContext&) = delete;
 
     /// Runs `vec4 answer(vec4 question)` of the source, which has neither #version nor main, for each question. The
-    /// texture is `abut_texture`. Nothing comes back where the shader doesn't compile, and `log` says why.
+    /// texture is `abut_texture`. The result is empty if the shader doesn't compile; then `log` has the message.
     std::vector<glm::vec4> run(std::string_view source, const GlTexture& texture, std::span<const GlUniform> uniforms,
                                std::span<const glm::vec4> questions, std::string& log);
 
-    /// Of the renderer.
+    /// The name of the renderer.
     const std::string& name() const;
 
 private:

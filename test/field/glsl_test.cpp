@@ -1,4 +1,4 @@
-// The shader beside the library: the same questions on a graphics card, or on the processor that plays one.
+// The shader against the library: equal queries on a graphics card, or on a software renderer.
 
 #include "../oracle/random.hpp"
 #include "analytic.hpp"
@@ -36,10 +36,10 @@ std::vector<float> numbers(const Vec<D>& v) {
     return {&v[0], &v[0] + D};
 }
 
-/// What `answer` says of each question.
+/// The results of `answer` for each query.
 template <int D>
-std::vector<glm::vec4> asked(GlContext& context, const FieldTexture<D>& texture, bool filter, const std::string& answer,
-                             const std::vector<glm::vec4>& questions) {
+std::vector<glm::vec4> evaluated(GlContext& context, const FieldTexture<D>& texture, bool filter,
+                                 const std::string& answer, const std::vector<glm::vec4>& questions) {
     std::string source = D == 2 ? "#define ABUT_2D\n" : "";
     if (filter) source += "#define ABUT_FIELD_FILTER\n";
     source += shader_file() +
@@ -79,7 +79,7 @@ protected:
     }
 
     template <int D>
-    void compare(const Field<D>& field, double slack = 1) {
+    void compare(const Field<D>& field, double factor = 1) {
         const auto texture = to_texture(field, GetParam().format);
         ASSERT_TRUE(texture);
         const bool filter = GetParam().filter;
@@ -90,24 +90,24 @@ protected:
         const Aabb<D> volume = field.volume();
         for (int i = 0; i < 5000; ++i) {
             Vec<D> p;
-            // Every fourth a little outside.
+            // Every fourth is a little outside.
             const float margin = i % 4 == 0 ? 1.0f : 0.0f;
             for (int a = 0; a < D; ++a) p[a] = random.uniform_float(volume.min[a] - margin, volume.max[a] + margin);
             points.push_back(p);
             questions.emplace_back(p[0], p[1], D == 3 ? p[D - 1] : 0.0f, 0.0f);
         }
-        const auto told =
-            asked(*context, *texture, filter, "vec4(W(abut_normal(V(q))), abut_distance(V(q)))", questions);
-        const auto shadows = asked(*context, *texture, filter,
-                                   "vec4(abut_shadow(V(q), V(light), 0.0), abut_shadow(V(q), V(light), 0.05), "
-                                   "abut_shadow(V(q), V(light), 0.3), 1.0)",
-                                   questions);
-        ASSERT_EQ(told.size(), points.size());
+        const auto answers =
+            evaluated(*context, *texture, filter, "vec4(W(abut_normal(V(q))), abut_distance(V(q)))", questions);
+        const auto shadows = evaluated(*context, *texture, filter,
+                                       "vec4(abut_shadow(V(q), V(light), 0.0), abut_shadow(V(q), V(light), 0.05), "
+                                       "abut_shadow(V(q), V(light), 0.3), 1.0)",
+                                       questions);
+        ASSERT_EQ(answers.size(), points.size());
         ASSERT_EQ(shadows.size(), points.size());
 
         Vec<D> light;
         for (int a = 0; a < D; ++a) light[a] = std::array{2.9f, 2.1f, 3.3f}[static_cast<std::size_t>(a)];
-        // Texels, and the place within the cell: cards tell that to 1/256, this one may be better.
+        // Texels, and the position within the cell: cards resolve it to 1/256, this one may be better.
         const float bound = texture->error + (filter ? field.cell() / 256 * D : 0) + 2e-5f;
         std::size_t within = 0, dark = 0, soft = 0, strays = 0;
         double angles = 0, shadow_error = 0;
@@ -115,19 +115,19 @@ protected:
             const FieldSample<D> right = field.sample(points[i]);
             if (contains(volume, points[i])) {
                 ++within;
-                ASSERT_NEAR(told[i].w, right.distance, bound) << "seed " << seed << " point " << i;
+                ASSERT_NEAR(answers[i].w, right.distance, bound) << "seed " << seed << " point " << i;
                 Vec<D> normal;
-                for (int a = 0; a < D; ++a) normal[a] = told[i][a];
+                for (int a = 0; a < D; ++a) normal[a] = answers[i][a];
                 double cosine = dot(DVec<D>(normal), DVec<D>(right.normal));
                 ASSERT_NEAR(dot(DVec<D>(normal), DVec<D>(normal)), 1, 1e-5);
                 cosine = std::min(cosine, 1.0);
                 angles += std::sqrt(2 - 2 * cosine);
-                // Where the slopes of the corners cancel there is no direction to compare.
+                // Where the slopes of the corners cancel, the normal is undefined.
                 strays += std::sqrt(2 - 2 * cosine) > 4 * texture->error / field.cell() + 1e-3;
             } else {
-                // As the library: never more than the true distance; as good as it but for a cell.
-                ASSERT_LE(told[i].w, right.distance + 1.5f * field.cell() + bound);
-                ASSERT_GE(told[i].w, right.distance - 1.5f * field.cell() - bound);
+                // As in the library: never more than the true distance, and at most a cell less.
+                ASSERT_LE(answers[i].w, right.distance + 1.5f * field.cell() + bound);
+                ASSERT_GE(answers[i].w, right.distance - 1.5f * field.cell() - bound);
             }
             for (int s = 0; s < 3; ++s) {
                 const float softness = std::array{0.0f, 0.05f, 0.3f}[static_cast<std::size_t>(s)];
@@ -148,8 +148,8 @@ protected:
         EXPECT_GT(soft, points.size() / 50);
         const bool fine = GetParam().format != TextureFormat::r8_snorm;
         EXPECT_LT(angles / static_cast<double>(within), fine ? 2e-3 : 0.1);
-        EXPECT_LT(shadow_error / (3 * n), slack * (fine ? 3e-4 : 3e-3));
-        EXPECT_LT(static_cast<double>(strays), slack * (fine ? 0.005 : 0.05) * n);
+        EXPECT_LT(shadow_error / (3 * n), factor * (fine ? 3e-4 : 3e-3));
+        EXPECT_LT(static_cast<double>(strays), factor * (fine ? 0.005 : 0.05) * n);
     }
 
     std::unique_ptr<GlContext> context;
@@ -164,7 +164,7 @@ TEST_P(Glsl, SaysInThePlaneWhatTheLibrarySays) {
 }
 
 TEST_P(Glsl, ASolidThatTheVolumeCutsEndsWithIt) {
-    // Rays go along where the bounds outside differ.
+    // Rays are parallel to planes at which the bounds outside differ.
     compare(Field2(oracle::filled<2>(oracle::box<2>({0, 0}, {2, 0.4}), {-1, -1}, 0.05f, {40, 40})), 4);
 }
 

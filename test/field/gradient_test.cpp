@@ -1,4 +1,4 @@
-// Look-ups by gradients: sharper than linear ones near edges, at no more memory.
+// Look-ups with gradients: more accurate than linear ones near edges, with equal memory.
 
 #include "analytic.hpp"
 #include <abut/field/field.hpp>
@@ -17,7 +17,7 @@ using namespace oracle;
 struct Error {
     double rms = 0;          ///< of the distance, in cells
     double wrong_signs = 0;  ///< the share of them
-    double normal = 0;       ///< 1 less the cosine, on average
+    double normal = 0;       ///< 1 minus the cosine, on average
 };
 
 /// Within a cell of the surface.
@@ -48,11 +48,11 @@ Error error_of(const Field3& field, const Analytic<3>& solid, double cell) {
     return result;
 }
 
-/// The parts that a box leaves of a larger one: edges that go in as well as out.
+/// The difference of two boxes: it has convex and reflex edges.
 Analytic<3> corner_piece() {
     const Analytic<3> whole = box<3>({0, 0, 0}, {1, 1, 1});
-    // Of what is outside of both the nearest point is that of the nearest of three boxes; inside, distances are told by
-    // the planes and the edges of the notch.
+    // Outside, the nearest point is that of the nearest of three boxes; inside, distances are to the planes and the
+    // edges of the notch.
     const Analytic<3> notch = box<3>({2, 2, 2}, {2, 2, 2});
     const std::vector<Analytic<3>> parts{box<3>({-0.5, 0, 0}, {0.5, 1, 1}), box<3>({0, -0.5, 0}, {1, 0.5, 1}),
                                          box<3>({0, 0, -0.5}, {1, 1, 0.5})};
@@ -106,7 +106,7 @@ TEST(FieldGradient, IsRightToTheSecondOrderWhereItIsSmooth) {
     }
 }
 
-/// The direction that is told is that in which the distance grows, as differences have it.
+/// The reported normal is the direction in which the distance grows, by differences.
 TEST(FieldGradient, ItsDirectionIsThatOfTheDistance) {
     const Analytic<3> solid = turned(box<3>({0, 0, 0}, {0.6, 0.5, 0.4}), {1, 2, 3}, {0, 1, 0});
     FillOptions options;

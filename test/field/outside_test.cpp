@@ -1,4 +1,4 @@
-// Points outside of the volume, and what is no point.
+// Points outside of the volume, and invalid points.
 
 #include "analytic.hpp"
 #include <abut/field/field.hpp>
@@ -40,7 +40,8 @@ void expect_bound(const Analytic<D>& solid, float cell, FieldStore store, bool q
         ASSERT_GT(found.distance, 0);
         ASSERT_NEAR(length(DVec<D>(found.normal)), 1, 1e-6);
         worst = std::max(worst, right - static_cast<double>(found.distance));
-        // Far away it is as good as the solid's box, and the direction as the solid's own to a few cells.
+        // Far away the distance is as good as that to the solid's box, and the normal is the solid's own to a few
+        // cells.
         if (right > 40 * static_cast<double>(cell)) {
             ASSERT_GT(dot(DVec<D>(found.normal), solid.gradient(DVec<D>(point))), 0.95);
         }
@@ -49,7 +50,7 @@ void expect_bound(const Analytic<D>& solid, float cell, FieldStore store, bool q
     EXPECT_GT(worst, 0);
 }
 
-TEST(FieldOutside, NothingIsNearerThanTold) {
+TEST(FieldOutside, NothingIsNearerThanReported) {
     for (const FieldStore store : {FieldStore::dense, FieldStore::sparse})
         for (const bool quantised : {false, true}) {
             expect_bound<2>(ball<2>({1, 2}, 3), 0.25f, store, quantised);
@@ -61,7 +62,7 @@ TEST(FieldOutside, NothingIsNearerThanTold) {
         }
 }
 
-/// As a ray goes towards the solid, step by step as far as nothing is: it arrives, and through nothing.
+/// Sphere tracing towards the solid, by steps of the distance: it arrives, and passes through nothing.
 TEST(FieldOutside, StepsByTheDistanceArrive) {
     const Analytic<3> solid = turned(box<3>({1, 0, 0}, {2, 1, 0.5}), {1, 2, 3}, {0, 1, 0});
     const Field3 field(filled_around<3>(solid, 0.125f, 2));
@@ -83,7 +84,7 @@ TEST(FieldOutside, StepsByTheDistanceArrive) {
     }
 }
 
-/// The solid that the volume cuts ends with the volume.
+/// A solid that the volume cuts ends at the volume.
 TEST(FieldOutside, CutByTheVolume) {
     const Analytic<3> ground = box<3>({0, -10, 0}, {100, 10, 100});
     const Field3 field(filled<3>(ground, {-4, -4, -4}, 0.5f, glm::uvec3(16)));
@@ -96,7 +97,7 @@ TEST(FieldOutside, CutByTheVolume) {
     EXPECT_NEAR(bounds(field).max.y, 0, 1e-4);
 }
 
-/// All is solid but a bubble: outside of the volume too.
+/// Everything but a bubble is solid: outside of the volume too.
 TEST(FieldOutside, SolidAllAround) {
     const Analytic<3> bubble = ball<3>({0, 0, 0}, 1);
     const Analytic<3> around{[=](const DVec<3>& p) { return -bubble.distance(p); }, bubble.surface};
@@ -121,7 +122,7 @@ TEST(FieldOutside, WhatIsNoPointIsInfinitelyFar) {
             EXPECT_NEAR(length(DVec<3>(field.sample(point).normal)), 1, 1e-6);
             EXPECT_TRUE(is_finite<3>(field.closest(point)));
         }
-    // As far as floats go.
+    // Up to the limits of floats.
     for (const float far : {1e10f, 1e20f, 3e38f, -3e38f}) {
         const FieldSample<3> sample = field.sample({far, far, far});
         EXPECT_GT(sample.distance, 1e10f);

@@ -34,17 +34,17 @@ const Field3& scene_field() {
     return field;
 }
 
-/// The least of clearance / way, by small steps; 0 where something is met.
+/// The minimum of clearance / distance along the ray, by small steps; 0 if the ray hits.
 template <int D>
-double least_slope(const oracle::Analytic<D>& solid, const DVec<D>& from, const DVec<D>& to, double start) {
-    const double way = length(to - from);
+double min_slope(const oracle::Analytic<D>& solid, const DVec<D>& from, const DVec<D>& to, double start) {
+    const double distance_to_light = length(to - from);
     double result = 1e300;
-    for (double t = std::min(start, way); t < way; t += 0.002) {
-        const double clear = solid.distance(from + (to - from) * (t / way));
+    for (double t = std::min(start, distance_to_light); t < distance_to_light; t += 0.002) {
+        const double clear = solid.distance(from + (to - from) * (t / distance_to_light));
         if (clear <= 0) return 0;
         result = std::min(result, clear / t);
     }
-    return std::min(result, solid.distance(to) / way);
+    return std::min(result, solid.distance(to) / distance_to_light);
 }
 double smooth(double share) {
     const double s = std::clamp(share, 0.0, 1.0);
@@ -54,7 +54,7 @@ double smooth(double share) {
 struct Question {
     Vec3 point, light;
 };
-/// Points above the floor and lights in the air, none within something.
+/// Points above the floor and lights in the air, none within a solid.
 std::vector<Question> questions(std::uint64_t seed, int count) {
     oracle::Random random(seed);
     const auto solid = scene();
@@ -75,23 +75,23 @@ std::vector<Question> questions(std::uint64_t seed, int count) {
 TEST(FieldShadow, HardOnesAreWhatARaySays) {
     int lit = 0, dark = 0;
     for (const Question& q : questions(3, 2000)) {
-        const double least = least_slope(scene(), DVec<3>(q.point), DVec<3>(q.light), static_cast<double>(cell));
-        const float told = scene_field().shadow(q.point, q.light, 0);
-        ASSERT_TRUE(told == 0 || told == 1);
-        // What passes closer by than a cell may be met or missed.
-        const double way = length(DVec<3>(q.light) - DVec<3>(q.point));
+        const double least = min_slope(scene(), DVec<3>(q.point), DVec<3>(q.light), static_cast<double>(cell));
+        const float shadow_value = scene_field().shadow(q.point, q.light, 0);
+        ASSERT_TRUE(shadow_value == 0 || shadow_value == 1);
+        // A ray that passes closer than a cell may hit or miss.
+        const double distance_to_light = length(DVec<3>(q.light) - DVec<3>(q.point));
         if (least == 0) {
             double depth = 0;
-            for (double t = static_cast<double>(cell); t < way; t += 0.002)
-                depth = std::min(
-                    depth, scene().distance(DVec<3>(q.point) + (DVec<3>(q.light) - DVec<3>(q.point)) * (t / way)));
+            for (double t = static_cast<double>(cell); t < distance_to_light; t += 0.002)
+                depth = std::min(depth, scene().distance(DVec<3>(q.point) + (DVec<3>(q.light) - DVec<3>(q.point)) *
+                                                                                (t / distance_to_light)));
             if (depth < -0.5 * static_cast<double>(cell)) {
                 ++dark;
-                EXPECT_EQ(told, 0);
+                EXPECT_EQ(shadow_value, 0);
             }
-        } else if (least * way > static_cast<double>(cell)) {
+        } else if (least * distance_to_light > static_cast<double>(cell)) {
             ++lit;
-            EXPECT_EQ(told, 1);
+            EXPECT_EQ(shadow_value, 1);
         }
     }
     EXPECT_GT(lit, 400);
@@ -103,7 +103,7 @@ TEST(FieldShadow, StepsFindTheLeastSlope) {
     int between = 0;
     std::vector<double> errors;
     for (const Question& q : questions(5, std::getenv("ABUT_LONG") != nullptr ? 20000 : 2000)) {
-        const double least = least_slope(scene(), DVec<3>(q.point), DVec<3>(q.light), static_cast<double>(cell));
+        const double least = min_slope(scene(), DVec<3>(q.point), DVec<3>(q.light), static_cast<double>(cell));
         const double right = smooth(least / 0.2);
         const double off = std::abs(static_cast<double>(scene_field().shadow(q.point, q.light, 0.2f)) - right);
         if (right == 0 || right == 1) {
@@ -123,9 +123,9 @@ TEST(FieldShadow, StepsFindTheLeastSlope) {
     EXPECT_LT(errors[errors.size() * 95 / 100], 0.05);
 }
 
-/// Which share of a disc is seen: around the light, across the way.
+/// The visible share of a disc around the light, perpendicular to the ray.
 double seen_of_disc(const oracle::Analytic<3>& solid, const DVec<3>& from, const DVec<3>& light, double radius) {
-    const DVec<3> way = light - from, side = perpendicular(way), up = cross(normalized(way), side);
+    const DVec<3> to_light = light - from, side = perpendicular(to_light), up = cross(normalized(to_light), side);
     constexpr int rings = 12;
     int seen = 0, all = 0;
     for (int i = -rings; i <= rings; ++i)
@@ -146,8 +146,8 @@ double seen_of_disc(const oracle::Analytic<3>& solid, const DVec<3>& from, const
 }
 
 TEST(FieldShadow, BesideADiscOfLight) {
-    // The half of the penumbra in the light is told from 0 on: darker than the true one, by a half at its edge, and
-    // never lighter but for the steps and what several things cover together.
+    // The shadow uses the lit half of the penumbra only: it is darker than the true one, by a half at its edge. It is
+    // lighter only by the error of the steps and where several solids cover the light together.
     double sum = 0, lighter = 0, darker = 0;
     int between = 0, far_off = 0;
     const std::vector<Question> all = questions(7, 700);
@@ -156,12 +156,12 @@ TEST(FieldShadow, BesideADiscOfLight) {
         const DVec<3> from(q.point), light(q.light);
         const double true_share =
             seen_of_disc(scene(), from, light, static_cast<double>(softness) * length(light - from));
-        const double told = static_cast<double>(scene_field().shadow(q.point, q.light, softness));
+        const double shadow_value = static_cast<double>(scene_field().shadow(q.point, q.light, softness));
         between += true_share > 0 && true_share < 1;
-        sum += std::abs(told - true_share);
-        lighter = std::max(lighter, told - true_share);
-        darker = std::max(darker, true_share - told);
-        far_off += told > true_share + 0.1;
+        sum += std::abs(shadow_value - true_share);
+        lighter = std::max(lighter, shadow_value - true_share);
+        darker = std::max(darker, true_share - shadow_value);
+        far_off += shadow_value > true_share + 0.1;
     }
     std::cout << "in the true penumbra: " << between << ", off by " << sum / static_cast<double>(all.size())
               << " on average, lighter by up to " << lighter << ", darker by up to " << darker << "\n";
@@ -175,10 +175,10 @@ TEST(FieldShadow, SofterIsNeverLighter) {
     for (const Question& q : questions(9, 500)) {
         float before = 1;
         for (const float softness : {0.0f, 0.001f, 0.01f, 0.03f, 0.1f, 0.4f, 2.0f, 100.0f}) {
-            const float told = scene_field().shadow(q.point, q.light, softness);
-            ASSERT_LE(told, before);
-            ASSERT_GE(told, 0);
-            before = told;
+            const float shadow_value = scene_field().shadow(q.point, q.light, softness);
+            ASSERT_LE(shadow_value, before);
+            ASSERT_GE(shadow_value, 0);
+            before = shadow_value;
         }
     }
 }
@@ -202,7 +202,7 @@ TEST(FieldShadow, WhereTheLightOrThePointIsWithin) {
     EXPECT_EQ(field.shadow({3, 0, 0}, {1e30f, 0, 0}), 1);
     // A penumbra that lies outside of the volume.
     const float beside = field.shadow({-3, 1.3f, 0}, {3, 1.3f, 0}, 0.2f);
-    EXPECT_NEAR(beside, smooth(0.3 / 3 / 0.2), 0.15);  // told by a lower bound: darker
+    EXPECT_NEAR(beside, smooth(0.3 / 3 / 0.2), 0.15);  // from a lower bound: darker
 }
 
 TEST(FieldShadow, WhatIsACellAwayCasts) {
@@ -213,7 +213,7 @@ TEST(FieldShadow, WhatIsACellAwayCasts) {
 }
 
 TEST(FieldShadow, StepsHaveABound) {
-    // A hair above the surface everywhere: the shortest steps there are.
+    // Slightly above the surface everywhere: the shortest steps possible.
     FieldData<2> data;
     data.cells = {40, 40};
     data.cell = 0.1f;
@@ -258,12 +258,12 @@ TEST(FieldShadow, Openness) {
     EXPECT_NEAR(field.ambient_occlusion({-1.5f, -0.4f, 1.5f}, up, 0.3f), 1, 1e-3);  // a floor alone
     EXPECT_EQ(field.ambient_occlusion({-1.5f, -0.6f, 1.5f}, {1, 0, 0}, 0.3f), 0);   // within it
     EXPECT_EQ(field.ambient_occlusion({-1.5f, -0.4f, 1.5f}, -up, 0.3f), 0);         // and into it
-    // Under the ball, the less the farther it is looked; less near than far from it.
+    // Under the ball: less with a longer reach, and less near the ball than far from it.
     const Vec3 under(-0.8f, -0.4f, 0.2f), beside(-0.4f, -0.4f, 0.6f);
     EXPECT_LT(field.ambient_occlusion(under, up, 0.15f), field.ambient_occlusion(under, up, 0.05f));
     EXPECT_LT(field.ambient_occlusion(under, up, 0.3f), field.ambient_occlusion(beside, up, 0.3f));
     EXPECT_LT(field.ambient_occlusion(beside, up, 0.5f), 0.999f);
-    // In the corner of floor and wall: of a height of h, min(h, x) is free at x from the wall.
+    // In the corner of floor and wall: of a height h, min(h, x) is free at distance x from the wall.
     const Field2 corner(oracle::filled_around(
         oracle::Analytic<2>{[](const DVec<2>& p) { return std::min(p.x, p.y); }, {{-1, -1}, {4, 4}}}, 0.1f, 1));
     for (const float x : {0.2f, 0.5f, 1.0f, 2.0f}) {

@@ -57,7 +57,7 @@ TEST(FieldTexture, HalvesAreTheNearest) {
         const float value = float_of(static_cast<std::uint16_t>(half));
         ASSERT_EQ(half_of(value), half);
         ASSERT_EQ(half_of(-value), half | 0x8000u);
-        // What lies between two goes to the nearer, and to the even one from the middle.
+        // A value between two steps goes to the nearer one, and from the middle to the even one.
         const float next = half + 1 < 0x7c00u ? float_of(static_cast<std::uint16_t>(half + 1)) : 65536.0f;
         const float middle = 0.5f * (value + next);
         ASSERT_EQ(half_of(middle), half % 2 == 0 ? half : half + 1);
@@ -83,7 +83,7 @@ TEST(FieldTexture, TexelsAreOffByLessThanTheBound) {
 }
 
 TEST(FieldTexture, NothingThatIsInsideGetsOut) {
-    // A texel tells the wrong side only where the distance is as good as 0.
+    // A texel has the wrong sign only where the distance is about 0.
     const Field3 field = ball_field();
     for (const TextureFormat format : {TextureFormat::r8_snorm, TextureFormat::r16f}) {
         const auto texture = to_texture(field, format);

@@ -1,4 +1,4 @@
-// Any rings: parts that are those of the outline by an exact oracle, or a Problem with a message.
+// Decomposes any rings: an exact oracle confirms the parts, or the result is a Problem with a message.
 
 #include "../oracle/outline_parts.hpp"
 #include <abut/bake/decompose_outline.hpp>
@@ -18,7 +18,7 @@ void require(bool condition) {
     if (!condition) std::abort();
 }
 
-/// Bytes as numbers: cells of a small grid, where much lies on one line, or any floats at all.
+/// Bytes as numbers: cells of a small grid, where many points are collinear, or any floats.
 class Numbers {
 public:
     explicit Numbers(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}

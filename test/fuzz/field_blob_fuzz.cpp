@@ -1,5 +1,5 @@
-// Bytes as fields: whatever they are, they are refused or make a field that can be saved again, and that has a finite
-// answer to every question about finite points and shapes, near and far.
+// Loads any bytes as a field: the load refuses them, or the field can be saved again and has a finite answer to every
+// query with finite points and shapes, near and far.
 
 #include "../oracle/finite_answers.hpp"
 #include "../oracle/random.hpp"
@@ -27,7 +27,7 @@ void require(bool condition) {
     if (!condition) std::abort();
 }
 
-/// A place in and around a box, now and then anywhere that floats reach.
+/// A point in and around a box, sometimes anywhere in the range of floats.
 template <int D>
 Vec<D> place_near(const Aabb<D>& box, oracle::Random& random) {
     const double beyond = random.chance(0.5)   ? 0
@@ -41,7 +41,7 @@ Vec<D> place_near(const Aabb<D>& box, oracle::Random& random) {
     return result;
 }
 
-/// Balls, boxes and rods of about the size of a cell, of the volume, or of any.
+/// Balls, boxes and rods of about the size of a cell, of the volume, or of any size.
 template <int D>
 void question(const Field<D>& field, std::uint64_t seed) {
     oracle::Random random(seed);
@@ -55,7 +55,7 @@ void question(const Field<D>& field, std::uint64_t seed) {
         require(light >= 0 && light <= 1);
         const float open = field.ambient_occlusion(from, here.normal, field.cell() * random.uniform_float(0, 9));
         require(open >= 0 && open <= 1);
-        require(oracle::not_finite_of_one(field, from, to) == nullptr);
+        require(oracle::non_finite_shape_query(field, from, to) == nullptr);
 
         const double unit = random.chance(0.5)   ? static_cast<double>(field.cell())
                             : random.chance(0.7) ? static_cast<double>(volume.max[0] - volume.min[0])
@@ -65,12 +65,13 @@ void question(const Field<D>& field, std::uint64_t seed) {
         if (!is_finite<D>(motion)) continue;
         Vec<D> half;
         for (int a = 0; a < D; ++a) half[a] = length();
-        // A shape now and then: to search a field takes a thousand times as long as to look up a distance.
+        // Only some with a shape: a search of a field takes a thousand times as long as a look-up.
         const std::uint32_t kind = random.below(16);
-        if (kind == 0) require(oracle::not_finite_of_two(Ball<D>{place, length()}, field, motion) == nullptr);
+        if (kind == 0) require(oracle::non_finite_pair_query(Ball<D>{place, length()}, field, motion) == nullptr);
         if (kind == 1)
-            require(oracle::not_finite_of_two(field, Box<D>{place, half, random.rotation<D>()}, motion) == nullptr);
-        if (kind == 2) require(oracle::not_finite_of_two(Capsule<D>{place, from, length()}, field, motion) == nullptr);
+            require(oracle::non_finite_pair_query(field, Box<D>{place, half, random.rotation<D>()}, motion) == nullptr);
+        if (kind == 2)
+            require(oracle::non_finite_pair_query(Capsule<D>{place, from, length()}, field, motion) == nullptr);
     }
 }
 
@@ -109,7 +110,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     check<2>(bytes);
     check<3>(bytes);
     if (size < 8) return 0;
-    // With the checksum set right, so that what comes behind it is reached.
+    // With a correct checksum, so that the code behind its check is reached.
     std::vector<std::byte> whole(bytes.begin(), bytes.end());
     oracle::seal(whole);
     check<2>(whole);

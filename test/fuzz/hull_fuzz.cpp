@@ -1,5 +1,5 @@
-// Hulls of any points, in the plane and in space, with any limit: nothing is left out, nothing sticks out that isn't
-// asked for, and what comes out are numbers.
+// Hulls of any points, in 2D and 3D, with any limit: they contain all points to within the tolerance, and all numbers
+// are finite.
 
 #include <abut/convex/hull/hull.hpp>
 #include <abut/convex/hull/hull_input.hpp>
@@ -21,19 +21,19 @@ namespace {
 
 using namespace abut;
 
-constexpr std::size_t most_points = 200;
+constexpr std::size_t max_points = 200;
 
 void require(bool condition) {
     if (!condition) std::abort();
 }
 
-/// The first byte says what the points are, the second one the limit; the others are coordinates: floats as they stand,
-/// or steps of a coarse lattice, on which much is coplanar.
+/// The first byte selects the kind of points, the second the limit; the others are coordinates: raw floats, or steps of
+/// a coarse lattice, where many points are coplanar.
 template <int D>
 std::vector<Vec<D>> points_of(std::span<const std::uint8_t> bytes, bool lattice) {
     const std::size_t width = lattice ? 1 : sizeof(float), size = width * static_cast<std::size_t>(D);
     std::vector<Vec<D>> result;
-    for (; bytes.size() >= size && result.size() < most_points; bytes = bytes.subspan(size)) {
+    for (; bytes.size() >= size && result.size() < max_points; bytes = bytes.subspan(size)) {
         Vec<D> point;
         for (int i = 0; i < D; ++i) {
             const std::uint8_t* at = bytes.data() + width * static_cast<std::size_t>(i);
@@ -69,7 +69,7 @@ void check_plane(const std::vector<Vec2>& points, std::uint32_t limit) {
             require(orientation(built->points[i], built->points[(i + 1) % built->points.size()], point) >= 0);
 }
 
-/// All points below all planes, up to the rounding of double.
+/// All points are below all planes, up to the rounding of doubles.
 void check_faces(const Hull3& hull, const std::vector<Vec3>& points) {
     double largest_coordinate = 0;
     for (const Vec3& point : hull.points) largest_coordinate = std::max(largest_coordinate, largest(DVec<3>(point)));

@@ -1,5 +1,5 @@
-// Hulls with a vertex limit of any points, in the plane and in space, stretched, flat, far away: every point is held
-// exactly, no limit is exceeded, and nothing is larger than the bounding box.
+// Hulls with a vertex limit of any points, in 2D and 3D, stretched, flat, far away: they contain every point exactly,
+// respect the limit, and are no larger than the bounding box.
 
 #include <abut/convex/hull/hull.hpp>
 #include <abut/convex/hull/hull_input.hpp>
@@ -28,8 +28,8 @@ void require(bool condition) {
     if (!condition) std::abort();
 }
 
-/// The first bytes say how points are made: the limit, whether coordinates are floats as they stand, small whole
-/// numbers or steps of floats around a place, and by which powers of two each axis is stretched.
+/// The first bytes select the generator: the limit; coordinates as raw floats, small integers or ulp steps around a
+/// point; and the power of two that scales each axis.
 struct Recipe {
     std::uint32_t limit;
     int kind;
@@ -61,7 +61,7 @@ std::vector<Vec<D>> points_of(std::span<const std::uint8_t> bytes, const Recipe&
     return result;
 }
 
-/// Whether a limit may be refused: what goes around such points may leave the range of floats.
+/// Whether a Problem is allowed: a hull around such points may exceed the range of floats.
 template <int D>
 bool is_huge(const std::vector<Vec<D>>& points) {
     for (const Vec<D>& point : points)
@@ -92,7 +92,7 @@ void check_plane(const std::vector<Vec2>& points, std::uint32_t limit) {
     if (limit >= 4) require(area <= side.x * side.y * (1 + 1e-9));
 }
 
-/// No plane through three corners that has all of them on one side has a point on the other. All exactly.
+/// Checks exactly that every supporting plane through three corners has all points on its inner side.
 void check_held(const std::vector<Vec3>& corners, const std::vector<Vec3>& points) {
     for (std::size_t i = 0; i < corners.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)

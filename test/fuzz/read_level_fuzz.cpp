@@ -1,5 +1,5 @@
-// The readers of levels on any bytes: a Level that is safe to ask or a Problem with a message, and nothing else. Files
-// that a map refers to are the map itself, so that what reads tilesets and templates is reached too.
+// The readers of levels on any bytes: a Level that is safe to query, or a Problem with a message. Files that a map
+// refers to are the map itself, so that the readers of tilesets and templates run too.
 
 #include <abut/io/read_level.hpp>
 #include <abut/query/closest.hpp>
@@ -21,7 +21,7 @@ void require(bool condition) {
     if (!condition) std::abort();
 }
 
-// By what the text holds, as the corpus has it.
+// The format is chosen by the text, as in the corpus.
 std::string_view extension_of(std::string_view text) {
     if (text.starts_with("{")) return ".tmj";
     if (text.starts_with("\x1f\x8b")) return ".svgz";

@@ -1,7 +1,6 @@
-// The scene reader on any bytes: a Scene that is safe to walk or a Problem with a message, and nothing else.
-// What goes through Assimp is read when the corpus is replayed, and left alone when libFuzzer looks for new inputs:
-// Assimp isn't ours, leaks and crashes on some bytes (the tool gives it a process of its own), and would be all that is
-// found.
+// The scene reader on any bytes: a Scene that is safe to traverse, or a Problem with a message.
+// Formats read by Assimp run only when the corpus is replayed, not when libFuzzer searches for new inputs: Assimp isn't
+// ours, and its leaks and crashes (the tool runs it in a separate process) would be the only findings.
 
 #include <abut/io/gltf/container.hpp>
 #include <abut/io/gltf/document.hpp>
@@ -17,7 +16,7 @@
 #include <string_view>
 #include <vector>
 
-/// Of libFuzzer; null in a program without it.
+/// Defined by libFuzzer; null in a program without it.
 extern "C" __attribute__((weak)) int LLVMFuzzerRunDriver(int*, char***, int (*)(const std::uint8_t*, std::size_t));
 
 namespace {
@@ -29,7 +28,7 @@ void require(bool condition) {
 }
 
 void check(const Result<Scene>& scene) {
-    // What is sent comes through.
+    // Sent bytes arrive unchanged.
     const std::vector<std::byte> bytes = to_bytes(scene);
     const Result<Scene> received = scene_from_bytes(bytes);
     require(static_cast<bool>(received) == static_cast<bool>(scene));
@@ -38,7 +37,7 @@ void check(const Result<Scene>& scene) {
         require(!scene.problem().message.empty());
         return;
     }
-    // Every index names something, every number is one, and each node has its path.
+    // Every index is in range, every number is finite, and each node has its path.
     for (const Geometry& geometry : scene->geometries) {
         for (const Vec3& point : geometry.points) require(is_finite(point));
         for (const glm::uvec3& t : geometry.triangles)
@@ -51,7 +50,7 @@ void check(const Result<Scene>& scene) {
         require(scene->nodes[i].geometries.empty() || !path(*scene, i).empty());
 }
 
-// By the first bytes, as the corpus has them.
+// The format is chosen by the first bytes, as in the corpus.
 std::string_view extension_of(std::string_view text) {
     if (text.starts_with("glTF")) return ".glb";
     if (text.starts_with("{")) return ".gltf";
@@ -75,8 +74,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (sent) require(to_bytes(sent) == std::vector<std::byte>(bytes.begin(), bytes.end()));
 
     const std::string_view extension = extension_of({reinterpret_cast<const char*>(data), size});
-    const bool looks_for_new = LLVMFuzzerRunDriver != nullptr;
-    if (extension.empty() || (looks_for_new && is_for_assimp(bytes, extension))) return 0;
+    const bool is_fuzzing = LLVMFuzzerRunDriver != nullptr;
+    if (extension.empty() || (is_fuzzing && is_for_assimp(bytes, extension))) return 0;
     check(read_scene(bytes, extension));
     return 0;
 }

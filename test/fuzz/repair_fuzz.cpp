@@ -1,4 +1,4 @@
-// Mesh repair on any triangles: a surface whose numbers are right, or a Problem with a message.
+// Mesh repair on any triangles: a surface with a correct report, or a Problem with a message.
 
 #include <abut/bake/repair.hpp>
 #include <abut/shape/mesh/half_edges.hpp>
@@ -28,7 +28,7 @@ public:
         --left_;
         return *data_++;
     }
-    /// Mostly small whole ones, so that points coincide and lie on lines; behind 0xff any bits at all.
+    /// Mostly small integers, so that points coincide and are collinear; after 0xff any bits.
     float coordinate() {
         const std::uint8_t first = byte();
         if (first != 0xff) return static_cast<float>(first % 8);

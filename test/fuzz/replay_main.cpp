@@ -1,5 +1,5 @@
-// Runs a fuzz target over each file of a corpus folder, in the order of their names: what libFuzzer does with a folder
-// and -runs=0, for compilers without it.
+// Runs a fuzz target over each file of a corpus folder, sorted by name. It replaces libFuzzer with -runs=0 for
+// compilers without it.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -29,7 +29,7 @@ int main(int argc, char** argv) {
     for (const auto& input : inputs) {
         std::ifstream file(input, std::ios::binary);
         const std::vector<char> bytes{std::istreambuf_iterator<char>(file), {}};
-        // Named before it runs: the last name printed is the one that crashed.
+        // Printed before it runs: the last name is the one that crashed.
         std::printf("%s: %zu bytes\n", input.filename().c_str(), bytes.size());
         std::fflush(stdout);
         LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());

@@ -1,4 +1,4 @@
-// Bytes as walk meshes: whatever they are, they are refused or make a mesh that can be walked on and saved again.
+// Loads any bytes as a walk mesh: the load refuses them, or the mesh can be walked on and saved again.
 
 #include "../oracle/seal.hpp"
 #include <abut/walk/file.hpp>
@@ -25,8 +25,8 @@ void require_place(const WalkMesh& mesh, const WalkPoint& place) {
     require(is_finite(mesh.to_world(place)) && is_finite(mesh.smooth_normal(place)));
 }
 
-/// From the middle of each triangle of the first few, along the axes, as far as the mesh is large; and what is asked
-/// besides.
+/// Walks from the middle of each of the first triangles, along the axes, as far as the mesh is large; and calls the
+/// other queries.
 void walk_about(const WalkMesh& mesh) {
     const Aabb3 box = bounds(mesh);
     const float far = std::max({box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z});
@@ -44,8 +44,8 @@ void walk_about(const WalkMesh& mesh) {
             require_place(mesh, mesh.walk(walked.place, -(walked.turn * step), options).place);
             require_place(mesh, mesh.nearest(mesh.to_world(walked.place) + step));
             if (mesh.nearest_along(box.min, step)) require_place(mesh, *mesh.nearest_along(box.min, step));
-            const auto way = mesh.path({triangle, {1, 0, 0}}, walked.place);
-            require(!way || is_finite(way->back()));
+            const auto path = mesh.path({triangle, {1, 0, 0}}, walked.place);
+            require(!path || is_finite(path->back()));
         }
     }
 }
@@ -68,7 +68,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::span<const std::byte> bytes = std::as_bytes(std::span(data, size));
     check(bytes);
     if (size < 8) return 0;
-    // With the checksum set right, so that what comes behind it is reached.
+    // With a correct checksum, so that the code behind its check is reached.
     std::vector<std::byte> whole(bytes.begin(), bytes.end());
     oracle::seal(whole);
     check(whole);

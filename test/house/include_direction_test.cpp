@@ -1,7 +1,6 @@
-// Includes run one way: math <- {broad_phase, convex} <- shape <- query <- {motion, field, walk, world} <- bake <-
-// {draw, io, recast}. Folders in one pair of braces don't include one another, but motion may use world. Nothing of the
-// library includes tests, tools or scenes, and what a user has to compile includes only the standard library, glm and
-// abut.
+// Includes have one direction: math <- {broad_phase, convex} <- shape <- query <- {motion, field, walk, world} <- bake
+// <- {draw, io, recast}. Folders in one pair of braces don't include one another, but motion may use world. The library
+// includes no tests, tools or scenes. Public headers include only the standard library, glm and abut.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -17,8 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// How far out a folder lies, and the doors <abut/abut.hpp>, ... that hold whole folders. Each may include itself and
-// what lies further in.
+// The layer of each folder, and of the headers <abut/abut.hpp>, ... that include whole folders. Each may include its
+// own folder and lower layers.
 const std::map<std::string, int> kRank{
     {"math", 0},  {"broad_phase", 1}, {"convex", 1},   {"shape", 2},    {"query", 3},  {"motion", 4},
     {"field", 4}, {"walk", 4},        {"world", 4},    {"abut.hpp", 5}, {"bake", 6},   {"bake.hpp", 7},
@@ -30,11 +29,11 @@ std::vector<std::string> split(const fs::path& path) {
     return parts;
 }
 
-// What is wrong with a header of abut's that a file of abut's includes, if anything. Both are paths in the repository.
+// The fault of a file of abut's that includes a header of abut's, if any. Both are paths in the repository.
 std::optional<std::string> wrong_own(const fs::path& file, const fs::path& header) {
     const std::string from = split(file)[1];
     const std::string to = split(header)[1];
-    if (!kRank.contains(from) || !kRank.contains(to)) return "the house has no such room";
+    if (!kRank.contains(from) || !kRank.contains(to)) return "the repository has no such folder";
     if (from == to || (from == "motion" && to == "world")) return std::nullopt;
     return kRank.at(to) < kRank.at(from) ? std::nullopt : std::optional{"against the direction"};
 }
@@ -63,7 +62,7 @@ std::optional<Include> read_include(std::string_view line) {
     return Include{quoted, std::string{line.substr(0, end)}};
 }
 
-// What is wrong with a line of a file under abut/, if anything.
+// The fault of a line of a file under abut/, if any.
 std::optional<std::string> wrong(const fs::path& file, std::string_view line) {
     const auto include = read_include(line);
     if (!include) return std::nullopt;
@@ -103,10 +102,10 @@ TEST(IncludeDirection, HoldsInTheWholeLibrary) {
             EXPECT_FALSE(problem) << file.string() << ':' << number << ": " << line << "\n    " << *problem;
         }
     }
-    EXPECT_GT(includes, 100) << "it looked in the wrong place";
+    EXPECT_GT(includes, 100) << "it searched the wrong folder";
 }
 
-TEST(IncludeDirection, FindsWhatRunsTheOtherWay) {
+TEST(IncludeDirection, FindsReversedIncludes) {
     const struct {
         const char* file;
         const char* line;
@@ -148,7 +147,7 @@ TEST(IncludeDirection, FindsWhatRunsTheOtherWay) {
     for (const auto& [file, line] : bad) EXPECT_TRUE(wrong(file, line)) << file << ": " << line;
 }
 
-TEST(IncludeDirection, LetsThroughWhatRunsTheRightWay) {
+TEST(IncludeDirection, AcceptsAllowedIncludes) {
     const struct {
         const char* file;
         const char* line;

@@ -1,5 +1,5 @@
-// Words that the field has a term for, and that were retired for it, don't come back (docs/glossary.md has the terms).
-// abut/broad_phase, abut/query, abut/world and abut/motion still hold some of them.
+// Retired words, which the terms of docs/glossary.md replaced, don't come back. abut/broad_phase, abut/query,
+// abut/world, abut/motion and their tests still hold some of them.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -21,10 +21,16 @@ constexpr std::array kRetired{"felt",        "feels",       "told",       "telli
                               "lump",        "wind_alike",  "quick_walk", "careful_walk", "growing_polytope",
                               "turning_set", "told_normals"};
 
-constexpr std::array kFolders{"abut/bake",   "abut/convex", "abut/draw", "abut/field", "abut/io", "abut/math",
-                              "abut/recast", "abut/shape",  "abut/walk", "docs",       "tool"};
+constexpr std::array kFolders{"abut/bake",   "abut/convex", "abut/draw",   "abut/field",  "abut/io",     "abut/math",
+                              "abut/recast", "abut/shape",  "abut/walk",   "bench",       "docs",        "examples",
+                              "scenes",      "test/bake",   "test/convex", "test/draw",   "test/field",  "test/fuzz",
+                              "test/house",  "test/io",     "test/math",   "test/oracle", "test/recast", "test/shape",
+                              "test/tool",   "test/walk",   "tool"};
 
-// The words of a text: a name is read as its words are written, GrowingPolytope as growing_polytope.
+// This file lists the words.
+constexpr std::string_view kExempt = "words_test.cpp";
+
+// The words of a text in lower case with underscores: GrowingPolytope becomes growing_polytope.
 std::vector<std::string> words_of(std::string_view text) {
     std::vector<std::string> result;
     std::string word;
@@ -44,7 +50,7 @@ std::vector<std::string> words_of(std::string_view text) {
     return result;
 }
 
-// Whether a retired word stands in a name, whole or between underscores.
+// Whether a name contains a retired word, whole or between underscores.
 bool holds(const std::string& name, std::string_view retired) {
     for (std::size_t at = name.find(retired); at != std::string::npos; at = name.find(retired, at + 1)) {
         const std::size_t end = at + retired.size();
@@ -74,6 +80,7 @@ TEST(House, RetiredWordsStayAway) {
             const fs::path& path = entry.path();
             const std::string suffix = path.extension().string();
             if (suffix != ".hpp" && suffix != ".cpp" && suffix != ".md") continue;
+            if (path.filename() == kExempt) continue;
             ++files;
             std::ifstream file(path);
             std::string line;
@@ -81,7 +88,7 @@ TEST(House, RetiredWordsStayAway) {
                 for (const std::string& word : retired_in(line))
                     ADD_FAILURE() << fs::relative(path, root).string() << ':' << number << ": " << word;
         }
-    EXPECT_GT(files, 400u);
+    EXPECT_GT(files, 700u);
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ TEST(Glob, QuestionMarksStandForOneCharacter) {
     EXPECT_FALSE(glob_matches("a?b", "ab"));
 }
 
-TEST(Glob, EarlierStarsGiveWay) {
+TEST(Glob, EarlierStarsBacktrack) {
     EXPECT_TRUE(glob_matches("*ab*ab", "abab"));
     EXPECT_TRUE(glob_matches("*aab", "aaab"));
     EXPECT_FALSE(glob_matches("*aab", "aaba"));

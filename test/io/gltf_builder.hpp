@@ -1,6 +1,6 @@
 #pragma once
 
-// Small scene files, made where a test needs them.
+// Small scene files, made in tests.
 
 #include <abut/math/vec.hpp>
 
@@ -46,7 +46,7 @@ inline std::string base64(const std::vector<std::byte>& bytes) {
     return text;
 }
 
-/// Puts together a glTF 2.0 file. Everything is written as it is given, so that it can be given wrong.
+/// Builds a glTF 2.0 file. Everything is written as given, so that tests can give invalid data.
 class GltfBuilder {
 public:
     int add_bytes(const void* from, std::size_t size) {

@@ -47,7 +47,7 @@ struct ShapeText {
     std::string operator()(const RoundedBox& box) const {
         return (*this)(box.shape) + " rounded " + text_of(static_cast<double>(box.radius));
     }
-    /// A letter for each tile, as it looks where y points down: t is the half at the top. Rows from low y on.
+    /// One letter per tile, drawn with y pointing down: t is the half at the top. Rows go from low y on.
     std::string operator()(const TileMap& map) const {
         std::string text;
         for (std::uint32_t i = 0; i < map.size(); ++i)
@@ -104,10 +104,10 @@ inline std::span<const std::byte> bytes_of_text(std::string_view text) {
     return {reinterpret_cast<const std::byte*>(text.data()), text.size()};
 }
 
-/// Files by their names, as if they lay beside the level.
+/// Files by name, as if beside the level.
 using Beside = std::map<std::string, std::string>;
 
-/// The level as text, or what is wrong with the file.
+/// The level as text, or the problem of the file.
 inline std::string read_as_text(std::string_view extension, std::string_view content, const Beside& beside = {},
                                 const LevelOptions& options = {}) {
     const auto open = [&](const std::string& name) -> Result<std::vector<std::byte>> {

@@ -1,4 +1,4 @@
-// The glTF reader against Assimp's, on a file that both read right, and where Assimp doesn't.
+// The glTF reader against Assimp's, on a file that both read correctly, and on data that Assimp reads wrongly.
 
 #include "gltf_builder.hpp"
 #include <abut/io/mesh/read_assimp.hpp>
@@ -30,7 +30,7 @@ protected:
     }
 };
 
-/// All corners of all triangles of each object, in the world at a moment.
+/// All corners of all triangles of each object, in world space at a time.
 std::map<std::string, std::vector<glm::dvec3>> corners(const Scene& scene, double time) {
     std::vector<glm::dmat4> matrices;
     world_matrices(scene, time, matrices);
@@ -60,7 +60,7 @@ TEST_F(ReadGltf, AgreesWithAssimp) {
         const auto b = corners(*theirs, time);
         ASSERT_EQ(a.size(), b.size());
         for (const auto& [name, points] : a) {
-            // Stepped and cubic keys, which Assimp 5.2 takes for straight lines.
+            // Stepped and cubic keys, which Assimp 5.2 interpolates linearly.
             if (name.ends_with("/Lift_Signal") || name.ends_with("/Balloon")) continue;
             const auto twin = b.find(name);
             ASSERT_NE(twin, b.end()) << name;
@@ -106,7 +106,7 @@ TEST_F(ReadGltf, QuantizedPositions) {
 }
 
 TEST_F(ReadGltf, StridesAndOffsets) {
-    // Positions between other things: 4 bytes before each, 8 behind it.
+    // Interleaved positions: 4 bytes before each, 8 after it.
     std::vector<float> floats;
     for (const Vec3& p : {Vec3(1, 2, 3), Vec3(4, 5, 6), Vec3(7, 8, 0)})
         for (const float number : {-1.0f, p.x, p.y, p.z, -2.0f, -3.0f}) floats.push_back(number);

@@ -1,4 +1,4 @@
-// Whole files in, scenes or problems out.
+// Reads whole files: scenes or problems.
 
 #include "gltf_builder.hpp"
 #include <abut/io/read_scene.hpp>
@@ -18,12 +18,12 @@ using test::GltfBuilder;
 
 class ReadScene : public test::SceneFiles {
 protected:
-    /// What is wrong with the file of this content; empty if nothing is.
+    /// The problem of a file with this content; empty if there is none.
     std::string complaint(const std::string& name, std::string_view content, const ReadOptions& options = {}) {
         const Result<Scene> scene = read_scene(write(name, content), options);
         return scene ? std::string() : scene.problem().message;
     }
-    /// The same in memory; what doesn't depend on how it was read must not differ.
+    /// The problem of these bytes in memory. It must equal that of a file unless it depends on the source.
     static std::string complaint_in_memory(std::string_view extension, std::string_view content) {
         const Result<Scene> scene = read_scene(test::bytes_of(content), extension);
         return scene ? std::string() : scene.problem().message;
@@ -144,7 +144,7 @@ TEST_F(ReadScene, StrictNamesTheTriangleOfZeroArea) {
               "mesh 'A', polygon 0: zero area");
 }
 
-// One such triangle refused a whole file: 98 of 1,134 real ones.
+// One such triangle once made the whole file a problem: 98 of 1,134 real ones.
 TEST_F(ReadScene, LeavesTrianglesOfZeroAreaOutAndCountsThem) {
     GltfBuilder builder;
     test::Triangles box = box_triangles({1, 1, 1});
@@ -177,7 +177,7 @@ TEST_F(ReadScene, LeavesTrianglesOfZeroAreaOutAndCountsThem) {
               "all triangles in it have zero area: 0 objects");
 }
 
-// Assimp reaches for files in the process's own folder if it is given bytes.
+// Assimp opens files in the process's own folder if it reads bytes.
 TEST_F(ReadScene, FromMemoryNoFileIsRead) {
     const std::string file = write("a.mtl", "newmtl red\nKd 1 0 0\n").string();
     EXPECT_EQ(complaint_in_memory(".obj", "mtllib " + file + "\no A\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n"),
@@ -198,7 +198,7 @@ TEST(ZeroArea, IsJudgedBesideTheLongestEdge) {
 }
 
 TEST_F(ReadScene, PolygonsWithCornersInARowAreFine) {
-    // Assimp cuts these so that one of the pieces has no area.
+    // Assimp triangulates these such that one of the pieces has no area.
     const std::pair<const char*, float> polygons[] = {
         {"o A\nv 0 0 0\nv 1 0 0\nv 2 0 0\nv 1 1 0\nf 1 2 3 4\n", 1.0f},
         {"o A\nv 1 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 0 0 0\nf 1 2 3 4 5\n", 4.0f}};

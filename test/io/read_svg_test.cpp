@@ -1,4 +1,4 @@
-// SVG drawings in, levels or problems out.
+// Reads SVG drawings: levels or problems.
 
 #include "level_text.hpp"
 #include <abut/query/contains.hpp>
@@ -64,7 +64,7 @@ TEST(ReadSvg, TransformsNest) {
               "r: polygon 5,6 7,6 9,8 7,8\n");
     EXPECT_EQ(read("<circle id='c' r='2' transform='scale(3 1)'/>"), "c: ellipse radii 6,2\n");
     EXPECT_EQ(read("<circle id='c' r='2' transform='scale(-3)'/>"), "c: circle 0,0 radius 6\n");
-    // A circle under a shear by 1: its half axes are the singular values of (1 1, 0 1).
+    // A circle sheared by 1: its semi-axes are the singular values of (1 1, 0 1).
     EXPECT_EQ(read("<circle id='c' r='1' transform='matrix(1 0 1 1 0 0)'/>"),
               "c: ellipse radii 1.618,0.61803 at 0,0 turned 0.85065,0.52573\n");
 }
@@ -79,14 +79,14 @@ TEST(ReadSvg, PathsBecomeWhatTheyEnclose) {
 }
 
 TEST(ReadSvg, HolesAreHolesByEitherRule) {
-    const char* const hole_the_other_way = "M0 0h9v9h-9z m2 2v4h4v-4z";
-    const char* const hole_the_same_way = "M0 0h9v9h-9z m2 2h4v4h-4z";
+    const char* const reversed_hole = "M0 0h9v9h-9z m2 2v4h4v-4z";
+    const char* const equal_hole = "M0 0h9v9h-9z m2 2h4v4h-4z";
     struct Case {
         const char *path, *rule;
         bool hole;
     };
-    for (const Case& one : {Case{hole_the_other_way, "nonzero", true}, Case{hole_the_same_way, "nonzero", false},
-                            Case{hole_the_other_way, "evenodd", true}, Case{hole_the_same_way, "evenodd", true}}) {
+    for (const Case& one : {Case{reversed_hole, "nonzero", true}, Case{equal_hole, "nonzero", false},
+                            Case{reversed_hole, "evenodd", true}, Case{equal_hole, "evenodd", true}}) {
         const Level level = level_of("<path fill-rule='" + std::string(one.rule) + "' d='" + one.path + "'/>");
         ASSERT_EQ(level.objects.size(), 1u);
         EXPECT_TRUE(contains(level.objects[0], Vec2(1, 5))) << one.path << one.rule;

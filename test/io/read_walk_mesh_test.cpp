@@ -1,4 +1,4 @@
-// Walk meshes made by hand, by name, from files.
+// Walk meshes from files: made in the test, and selected by name.
 
 #include "gltf_builder.hpp"
 #include <abut/io/read_scene.hpp>
@@ -34,7 +34,7 @@ protected:
         const Result<WalkMesh> mesh = read_walk_mesh(folder() / file, name);
         return mesh ? std::string() : mesh.problem().message;
     }
-    /// A mesh of points and normals, the numbers of their accessors given.
+    /// A mesh of points and normals, with the given indices of their accessors.
     static int add_with_normals(GltfBuilder& builder, const std::string& name, int points, int normals, int indices) {
         return builder.add_mesh(name, "{\"attributes\":{\"POSITION\":" + std::to_string(points) + ",\"NORMAL\":" +
                                           std::to_string(normals) + "},\"indices\":" + std::to_string(indices) + "}");
@@ -93,9 +93,9 @@ TEST_F(ReadWalkMesh, TellsTheNamesThatThereAre) {
     for (int i = 0; i < 20; ++i)
         many += "o part" + std::to_string(10 + i) + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf -1 -2 -3\n";
     write("many.obj", many);
-    const std::string told = complaint("many.obj", "x");
-    EXPECT_NE(told.find("'part10', 'part11'"), std::string::npos) << told;
-    EXPECT_TRUE(told.ends_with("'part21' and 8 more")) << told;
+    const std::string message = complaint("many.obj", "x");
+    EXPECT_NE(message.find("'part10', 'part11'"), std::string::npos) << message;
+    EXPECT_TRUE(message.ends_with("'part21' and 8 more")) << message;
 }
 
 TEST_F(ReadWalkMesh, KeepsNormalsAndTakesThemAlong) {
@@ -123,7 +123,7 @@ TEST_F(ReadWalkMesh, KeepsNormalsAndTakesThemAlong) {
 
     const Result<Scene> scene = read_scene(folder() / "tile.gltf");
     ASSERT_TRUE(scene);
-    EXPECT_TRUE(scene->geometries[0].normals.empty()) << "nobody asked for them";
+    EXPECT_TRUE(scene->geometries[0].normals.empty()) << "no option requested them";
 }
 
 TEST_F(ReadWalkMesh, HasNormalsOfItsOwnWhereSomeAreMissing) {
@@ -162,7 +162,7 @@ TEST_F(ReadWalkMesh, ReadsWhatAssimpReads) {
 }
 
 TEST_F(ReadWalkMesh, MendsTrianglesWithoutArea) {
-    // Three corners in a row, where two squares meet one.
+    // Three collinear corners, where two squares share an edge with one.
     const std::string points = "v 0 0 0\nv 2 0 0\nv 2 0 1\nv 1 0 1\nv 0 0 1\nv 2 0 2\nv 1 0 2\nv 0 0 2\n";
     write("flat.obj", "o floor\n" + points + "f 1 5 3\nf 1 3 2\nf 3 5 4\nf 4 5 8\nf 4 8 7\nf 3 4 7\nf 3 7 6\n");
     const WalkMesh flat = read("flat.obj");

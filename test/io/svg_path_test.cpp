@@ -1,4 +1,4 @@
-// Path data against what it stands for: by hand, and curves against their own formulas.
+// Path data with known answers, and curves against their formulas.
 
 #include "../oracle/random.hpp"
 #include <abut/io/svg/path.hpp>
@@ -93,7 +93,7 @@ std::string written(const Point& p) {
     return text.data();
 }
 
-TEST(SvgPath, CurvesAreNoFartherOffThanAsked) {
+TEST(SvgPath, CurvesAreWithinTheTolerance) {
     oracle::Random random(20260917);
     double worst = 0, of_all = 0;
     constexpr int rounds = 300;
@@ -122,10 +122,10 @@ TEST(SvgPath, CurvesAreNoFartherOffThanAsked) {
 }
 
 TEST(SvgPath, ArcsLieOnTheirEllipses) {
-    // A quarter of a circle, in all four ways from (1, 0) to (0, 1).
+    // A quarter of a circle, with all four flags from (1, 0) to (0, 1).
     struct Case {
         const char* flags;
-        Point center, on_the_way;
+        Point center, on_arc;
     };
     const double r = std::sqrt(0.5);
     for (const Case& one : {Case{"0 1", {0, 0}, {r, r}}, Case{"0 0", {1, 1}, {1 - r, 1 - r}},
@@ -134,7 +134,7 @@ TEST(SvgPath, ArcsLieOnTheirEllipses) {
         ASSERT_TRUE(paths);
         const std::vector<Point>& points = paths->front().points;
         for (const Point& p : points) EXPECT_NEAR(length(p - one.center), 1, 1e-12) << one.flags;
-        EXPECT_LE(distance_to(points, one.on_the_way), 1e-3) << one.flags;
+        EXPECT_LE(distance_to(points, one.on_arc), 1e-3) << one.flags;
         EXPECT_EQ(points.back(), Point(0, 1));
     }
     // Radii that are too small grow until they fit: a half circle about the middle.
@@ -145,7 +145,7 @@ TEST(SvgPath, ArcsLieOnTheirEllipses) {
     EXPECT_EQ(flat("M1 1A5 5 0 0 0 1 1"), "1,1 1,1 ; ");
 }
 
-TEST(SvgPath, RandomArcsAreNoFartherOffThanAsked) {
+TEST(SvgPath, RandomArcsAreWithinTheTolerance) {
     oracle::Random random(20260918);
     constexpr double pi = 3.14159265358979323846;
     for (int round = 0; round < 300; ++round) {

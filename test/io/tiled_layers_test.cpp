@@ -1,4 +1,4 @@
-// Tile layers: however they are written they are the same, and tiles are what their tilesets make of them.
+// Tile layers: every encoding gives one level, and tiles are as their tilesets define them.
 
 #include "tiled_maps.hpp"
 
@@ -19,7 +19,7 @@ using test::tmx;
 
 // Row by row: full full nothing slope-mirrored | slope nothing nothing slope | half half-upside-down ledge
 // half-transposed.
-const char* const plain = "AQAAAAEAAAAAAAAAAgAAgAIAAAAAAAAAAAAAAAIAAAADAAAAAwAAQAQAAAADAAAg";
+const char* const uncompressed = "AQAAAAEAAAAAAAAAAgAAgAIAAAAAAAAAAAAAAAIAAAADAAAAAwAAQAQAAAADAAAg";
 const char* const zlib = "eNpjZGBgYGSAACYGhgYmBgQAsZkh2IEFQisAABScAPY=";
 const char* const gzip = "H4sIAAAAAAACA2NkYGBgZIAAJgaGBiYGBACxmSHYgQVCKwAA1VUyszAAAAA=";
 const char* const zstd = "KLUv/QRYJQEA0AEAAAABAAIAAIACAAIAAAADQAQAAAADAAAgAwC7ocEuAygCxwX1ZQ==";
@@ -39,7 +39,7 @@ TEST(TiledLayers, AreTheSameInEveryEncoding) {
         return read_as_text(".tmx", tmx(tiles_tsx + layer_xml(data, attributes)));
     };
     EXPECT_EQ(xml(numbers, "encoding='csv'"), expected);
-    EXPECT_EQ(xml(std::string("\n  ") + plain + "\n ", "encoding='base64'"), expected);
+    EXPECT_EQ(xml(std::string("\n  ") + uncompressed + "\n ", "encoding='base64'"), expected);
     EXPECT_EQ(xml(zlib, "encoding='base64' compression='zlib'"), expected);
     EXPECT_EQ(xml(gzip, "encoding='base64' compression='gzip'"), expected);
     EXPECT_EQ(xml(zstd, "encoding='base64' compression='zstd'"), expected);
@@ -53,7 +53,7 @@ TEST(TiledLayers, AreTheSameInEveryEncoding) {
     };
     EXPECT_EQ(json("[" + std::string(numbers) + "]", ""), expected);
     const auto quoted = [](const char* text) { return "\"" + std::string(text) + "\""; };
-    EXPECT_EQ(json(quoted(plain), R"("encoding":"base64",)"), expected);
+    EXPECT_EQ(json(quoted(uncompressed), R"("encoding":"base64",)"), expected);
     EXPECT_EQ(json(quoted(zlib), R"("encoding":"base64","compression":"zlib",)"), expected);
     EXPECT_EQ(json(quoted(gzip), R"("encoding":"base64","compression":"gzip",)"), expected);
     EXPECT_EQ(json(quoted(zstd), R"("encoding":"base64","compression":"zstd",)"), expected);
@@ -78,7 +78,7 @@ TEST(TiledLayers, TilesetsMayBeBesideTheMapInEitherFormat) {
             << elsewhere;
 }
 
-// Each of the eight ways in which a tile lies, of a slope that is solid in its corner of high x and high y.
+// Each of the eight orientations of a tile, a slope that is solid in its corner of high x and high y.
 TEST(TiledLayers, FlipsAndTurns) {
     const std::string set = R"(<tileset firstgid="1" name="t" tilewidth="10" tileheight="10"><tile id="0"><objectgroup>
         <object id="1" x="0" y="10"><polygon points="0,0 10,-10 10,0"/></object></objectgroup></tile></tileset>)";
@@ -93,7 +93,8 @@ TEST(TiledLayers, FlipsAndTurns) {
 }
 
 TEST(TiledLayers, AFlippedTileIsTurnedAsTiledTurnsIt) {
-    // A box in the corner of low x and high y: turned a quarter clockwise (flips x and diagonal) it is at low x, low y.
+    // A box in the corner of low x and high y: rotated a quarter clockwise (flips x and diagonal) it is at low x, low
+    // y.
     const std::string set = R"(<tileset firstgid="1" name="t" tilewidth="10" tileheight="10"><tile id="0"><objectgroup>
         <object id="1" x="0" y="7" width="2" height="3"/></objectgroup></tile></tileset>)";
     const auto one = [&](std::uint32_t flips) {
@@ -245,7 +246,7 @@ TEST(TiledLayers, SaysWhatIsWrongAndWhere) {
     EXPECT_EQ(read_as_text(".tmx", tmx(deep)), "PROBLEM: line 3: groups are nested more than 64 deep\n");
 }
 
-// The same level with JSON and with XML tilesets, its tiles as an array and compressed.
+// One level with JSON and with XML tilesets, its tiles as an array and compressed.
 TEST(TiledLayers, TheBundledLevelIsTheSameInBothFormats) {
     const std::string folder = ABUT_SOURCE_FOLDER "/scenes/";
     const Result<Level> json = read_level(folder + "plateau.tmj"), xml = read_level(folder + "plateau.tmx");

@@ -1,6 +1,6 @@
 #pragma once
 
-// Tiled maps as text, made where a test needs them. Tiles are 10 x 10, and so are cells.
+// Tiled maps as text, made in tests. Tiles are 10 x 10, and so are cells.
 
 #include "level_text.hpp"
 

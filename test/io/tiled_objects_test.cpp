@@ -1,4 +1,4 @@
-// Objects of Tiled maps: shapes in their places, tiles, templates, points.
+// Objects of Tiled maps: placed shapes, tiles, templates, points.
 
 #include "tiled_maps.hpp"
 
@@ -116,7 +116,7 @@ TEST(TiledObjects, TemplatesAreTheirBegin) {
         crate);
     EXPECT_EQ(in_xml("things/crate.tx", " name='Box' height='2'/>"),
               "L/Box (crate): box 12,21 half 2,1 {mass: int 5} {wood: string oak}\n");
-    // The tile's number is the template's own, and its tileset may be in the map by another number, or not at all.
+    // The tile's id is that of the template, whose tileset may have another first id in the map, or not be in it.
     const std::string slope = "L/Slope (slope): polygon 10,20 20,10 20,20 {grip: float 0.5}\n";
     EXPECT_EQ(
         in_xml("things/slope.tx", "/>",
@@ -151,7 +151,7 @@ TEST(TiledObjects, HaveNamesClassesAndProperties) {
         "L/a: point 1,2 {b: bool false} {c.d: int 1} {f: float 2.5} {i: int 3} {s: string x}\n");
 }
 
-TEST(TiledObjects, WhatIsLeftOutIsTold) {
+TEST(TiledObjects, OmissionsAreReported) {
     EXPECT_EQ(
         read_as_text(".tmx",
                      tmx("<imagelayer name='Sky'/><objectgroup name='L' parallaxx='0.5' visible='0'>"

@@ -1,4 +1,4 @@
-// Meshes written, and read again: by this library and by Assimp.
+// Writes meshes, and reads them again with this library and with Assimp.
 
 #include "../oracle/random.hpp"
 #include "gltf_builder.hpp"
@@ -28,7 +28,7 @@ namespace {
 
 using Corners = std::array<std::array<float, 3>, 3>;
 
-/// What a mesh is, however its points are numbered: its triangles, each from its least corner on.
+/// A canonical form that doesn't depend on the order of points: triangles, each from its least corner on.
 std::vector<Corners> triangles_of(const Geometry& mesh) {
     std::vector<Corners> result;
     for (const glm::uvec3& t : mesh.triangles) {
@@ -59,7 +59,7 @@ std::vector<Geometry> some_parts(std::uint64_t seed) {
 
 class WriteMesh : public test::SceneFiles {
 protected:
-    /// To within `ulps` of the largest coordinate: Assimp reads decimal numbers to about one.
+    /// Compares to within `ulps` of the largest coordinate: Assimp reads decimal numbers to about one.
     static void expect_same(const Result<Scene>& scene, const std::vector<Geometry>& parts, float ulps) {
         ASSERT_TRUE(scene) << scene.problem().message;
         EXPECT_TRUE(scene->warnings.empty());
@@ -109,7 +109,7 @@ TEST_F(WriteMesh, ComesBackAsItWas) {
     }
 }
 
-TEST_F(WriteMesh, WritesGltfAsTheSpecificationAsks) {
+TEST_F(WriteMesh, WritesGltfAsSpecified) {
     const std::vector<Geometry> parts = some_parts(7);
     const nlohmann::json json = nlohmann::json::parse(*write_gltf(parts));
     EXPECT_EQ(json["asset"]["version"], "2.0");

@@ -1,5 +1,5 @@
-// Nothing falls through: a ball dropped on each triangle, edge and corner of a mesh comes to lie on it and stays above,
-// also where the mesh is torn by gaps much smaller than the ball, has slivers, doubled faces or T-junctions.
+// No tunnelling: a ball dropped on each triangle, edge and vertex of a mesh comes to rest on it and stays above. This
+// holds for meshes with gaps much smaller than the ball, slivers, doubled faces and T-junctions as well.
 
 #include "../oracle/pair.hpp"
 #include "levels.hpp"
@@ -11,31 +11,31 @@
 namespace abut::test {
 namespace {
 
-/// What a float of that size may be wrong by, in what a position is calculated from.
+/// The rounding error of a float of this size, with that of the computation of a position.
 constexpr double rounding = 1e-5;
 
-/// Let fall from above a place, and again from where it lies; tells how often it fell.
+/// Drops a ball from above a position, and again from its rest; returns the number of drops.
 template <class S>
 int drop(const View<3>& level, const Vec3& place, const S& shape) {
-    Vec3 from = place + Vec3(0, 0, 3), way(0, 0, -12);
+    Vec3 from = place + Vec3(0, 0, 3), motion(0, 0, -12);
     int falls = 0;
     for (int i = 0; i < 3; ++i) {
-        const auto hit = sweep(at(shape, Pose3{from}), way, level);
+        const auto hit = sweep(at(shape, Pose3{from}), motion, level);
         EXPECT_TRUE(hit) << "fell through";
         if (!hit) return falls;
         ++falls;
-        from += way * hit->fraction;
+        from += motion * hit->fraction;
         const Closest<3> found = closest(level, at(shape, Pose3{from}));
         EXPECT_NEAR(found.distance, 0, rounding);
-        // The ground is below.
+        // The ground must be below.
         EXPECT_GT(hit->normal.z, 0);
         EXPECT_GE(from.z, place.z - rounding);
-        way = Vec3(0, 0, -0.1f);
+        motion = Vec3(0, 0, -0.1f);
     }
     return falls;
 }
 
-/// On each triangle, edge and corner; every one has a number to tell it by.
+/// Drops a ball on each triangle, edge and vertex, which are numbered for error messages.
 template <class S>
 void drop_everywhere(const Surface& surface, const S& shape, int& falls) {
     const Mesh mesh = surface.mesh();
@@ -55,7 +55,7 @@ Surface ground(oracle::Random& random, int cells) {
     return random_terrain(random, cells, 1).surface();
 }
 
-/// Each triangle by itself, drawn in a little from its neighbours.
+/// Triangles without shared vertices, each slightly shrunk.
 Surface torn(const Surface& surface, float gap) {
     Surface result;
     for (const glm::uvec3& t : surface.triangles) {
@@ -68,8 +68,8 @@ Surface torn(const Surface& surface, float gap) {
     return result;
 }
 
-/// With an edge of each triangle cut by a point that its neighbour doesn't know, faces doubled both ways round, and
-/// triangles of no area along edges.
+/// A mesh with a T-junction on an edge of each triangle, doubled faces of both windings, and triangles of area 0 along
+/// edges.
 Surface spoiled(const Surface& surface) {
     Surface result;
     result.points = surface.points;
@@ -87,7 +87,7 @@ Surface spoiled(const Surface& surface) {
     return result;
 }
 
-/// Drawn out along x until its triangles are a thousand times as long as wide.
+/// A mesh stretched along x until its triangles are a thousand times as long as wide.
 Surface slivers(oracle::Random& random, int cells) {
     Surface result = random_terrain(random, cells, 0.001).surface();
     for (Vec3& point : result.points) point.y *= 0.001f;
@@ -98,8 +98,8 @@ const Sphere ball{{0, 0, 0}, 0.25f}, small_ball{{0, 0, 0}, 0.01f};
 
 TEST(Drop, OnATerrain) {
     oracle::Random random(1);
-    // A hundred thousand triangles where the environment sets ABUT_LONG.
-    const Surface surface = ground(random, oracle::amount(1) > 1 ? 224 : 8);
+    // With ABUT_LONG in the environment, the mesh has a hundred thousand triangles.
+    const Surface surface = ground(random, oracle::case_count(1) > 1 ? 224 : 8);
     int falls = 0;
     drop_everywhere(surface, ball, falls);
     EXPECT_GT(falls, 2000);
@@ -138,13 +138,13 @@ TEST(Drop, OnSlivers) {
     EXPECT_EQ(falls, 2 * 3 * 7 * 50);
 }
 
-/// While they turn as well: to where they lie, not through.
+/// Rotating shapes come to rest as well, and don't fall through.
 TEST(Drop, Turning) {
     oracle::Random random(6);
     const Mesh mesh = spoiled(ground(random, 4)).mesh();
     const Box3 box{{0, 0, 0}, {0.2f, 0.3f, 0.1f}};
     int rounds = 0;
-    for (int seed = 0; seed < oracle::amount(60); ++seed) {
+    for (int seed = 0; seed < oracle::case_count(60); ++seed) {
         SCOPED_TRACE(seed);
         const Vec3 place(random.uniform_float(0.5, 3.5), random.uniform_float(0.5, 3.5), 0);
         const Pose3 from{place + Vec3(0, 0, 3), random.rotation<3>()}, to{place + Vec3(0, 0, -3), random.rotation<3>()};
@@ -155,11 +155,11 @@ TEST(Drop, Turning) {
         EXPECT_GT(then.position.z, 0);
         ++rounds;
     }
-    EXPECT_EQ(rounds, oracle::amount(60));
+    EXPECT_EQ(rounds, oracle::case_count(60));
 }
 
-/// Ground with an underside, as a solid level: of its faces, whose cells meet at T-junctions of their own, and of
-/// columns with a slope on top.
+/// Ground with an underside as a SolidBsp: made of its faces, whose cells have T-junctions, or of columns with a slope
+/// on top.
 TEST(Drop, OnSolids) {
     oracle::Random random(8);
     int falls = 0;
@@ -193,7 +193,7 @@ TEST(Drop, OnSolids) {
     EXPECT_EQ(falls, 3 * 2 * 72 * 7 * 2 * 3);
 }
 
-/// The same with the other grounds.
+/// Drops on height fields and chains.
 TEST(Drop, OnAHeightFieldAndAChain) {
     oracle::Random random(7);
     const Level<3> field = random_height_field(random);

@@ -1,4 +1,4 @@
-// Contacts of all parts with levels of every kind, against their parts one by one.
+// Contacts of levels of every kind, against their parts one by one.
 
 #include "../oracle/pair.hpp"
 #include "levels.hpp"
@@ -9,8 +9,8 @@
 
 namespace abut::test {
 
-/// The parts of a level without any order, each of them looked at. Its box is the level's own, by whose size and middle
-/// it goes what two level shapes feel.
+/// A reference composite that visits all parts of a level. Its box is the level's, because the size and center of the
+/// box affect the surface normals of two level shapes.
 template <int D>
 struct OneByOne {
     std::vector<LevelPart<D>> parts;
@@ -43,23 +43,22 @@ template <int D>
 bool has_same_parts(const Contact<D>& one, const Contact<D>& other) {
     return one.feature_a.part == other.feature_a.part && one.feature_b.part == other.feature_b.part;
 }
-/// The same contact, but for a few roundings.
+/// Whether two contacts are equal except for rounding.
 template <int D>
 bool is_same(const Contact<D>& one, const Contact<D>& other) {
     return std::abs(one.depth - other.depth) < rounding && length(DVec<D>(one.normal) - DVec<D>(other.normal)) < 1e-3;
 }
 
 struct Counts {
-    int asked = 0, touching = 0, told = 0, alone = 0, own = 0, missed = 0, felt = 0, covered = 0,
-        told_though_covered = 0;
+    int samples = 0, touching = 0, reported = 0, alone = 0, own = 0, missed = 0, surface_normals = 0, covered = 0,
+        reported_though_covered = 0;
 };
 
-/// Each contact of either list is in the other, of the same parts if it is one that the parts have by themselves. What
-/// is told in place of others may be told by another of them.
+/// Counts the contacts of one list that are missing in the other. A substitute contact may come from another part.
 template <int D>
 void expect_same(const std::vector<Contact<D>>& found, const std::vector<Contact<D>>& others, Counts& counts) {
     for (const Contact<D>& contact : found) {
-        ++counts.told;
+        ++counts.reported;
         const bool has_it =
             std::any_of(others.begin(), others.end(), [&](const Contact<D>& other) { return is_same(contact, other); });
         counts.missed += has_it ? 0 : 1;
@@ -73,7 +72,8 @@ void check_lists(const View<D>& level, const View<D>& one_by_one, const std::vec
     const std::vector<Contact<D>> expected = contacts_of(one_by_one, other, margin);
     expect_same(found, expected, counts);
     expect_same(expected, found, counts);
-    // What is told is of parts that touch; where they aren't deep in many others, most with their own normal and depth.
+    // The reported contacts are of touching parts. Unless they are deep in many others, most have their own normal and
+    // depth.
     const bool is_convex = !std::holds_alternative<Composite<D>>(other);
     for (const Contact<D>& contact : found) {
         bool touches = false, own = false;
@@ -87,16 +87,16 @@ void check_lists(const View<D>& level, const View<D>& one_by_one, const std::vec
         counts.alone += is_convex ? 1 : 0;
         counts.own += is_convex && own ? 1 : 0;
     }
-    // Turned round there are as many.
+    // The swapped pair has as many contacts.
     if (is_convex) {
         EXPECT_EQ(contacts_of(other, level, margin).size(), found.size());
     }
-    ++counts.asked;
+    ++counts.samples;
     counts.touching += found.empty() ? 0 : 1;
 }
 
-/// Of a ball that has its center outside of all parts: by the words of the promise. A part's own normal is felt iff no
-/// other part is nearer to a point a thousandth of the size beside the surface.
+/// Tests the definition for a ball with its center outside of all parts: a part's own normal is a surface normal iff no
+/// other part is nearer to a point 1e-3 of the size above the surface.
 template <int D>
 void check_ball(const View<D>& level, const std::vector<LevelPart<D>>& parts, const Ball<D>& ball, Counts& counts) {
     const auto distance_to = [&](const LevelPart<D>& part, const Vec<D>& point) {
@@ -111,7 +111,7 @@ void check_ball(const View<D>& level, const std::vector<LevelPart<D>>& parts, co
         if (!alone) continue;
         const Vec<D> beside = closest(part.view, ball.center).on_a + alone.normal * s;
         const float own = distance_to(part, beside);
-        // What is one-sided covers nothing behind it.
+        // A one-sided part covers nothing behind it.
         float others = std::numeric_limits<float>::infinity(), two_sided = others;
         for (const LevelPart<D>& beyond : parts) {
             if (&beyond == &part) continue;
@@ -119,16 +119,16 @@ void check_ball(const View<D>& level, const std::vector<LevelPart<D>>& parts, co
             others = std::min(others, distance);
             if (!std::get<Convex<D>>(beyond.view).one_sided) two_sided = std::min(two_sided, distance);
         }
-        const bool is_told = std::any_of(found.begin(), found.end(), [&](const Contact<D>& one) {
+        const bool is_reported = std::any_of(found.begin(), found.end(), [&](const Contact<D>& one) {
             return one.feature_a.part == part.index && is_same(one, alone);
         });
         if (others > own + 0.1f * s) {
-            EXPECT_TRUE(is_told);
-            ++counts.felt;
+            EXPECT_TRUE(is_reported);
+            ++counts.surface_normals;
         } else if (two_sided < own - 0.1f * s) {
             ++counts.covered;
-            // By chance, what is told in place of it may be the same.
-            counts.told_though_covered += is_told ? 1 : 0;
+            // A substitute contact may be equal by chance.
+            counts.reported_though_covered += is_reported ? 1 : 0;
         }
     }
 }
@@ -152,39 +152,39 @@ void check_levels(std::uint32_t kind, int rounds) {
         }
         if (testing::Test::HasFatalFailure() || testing::Test::HasNonfatalFailure()) return;
     }
-    // The level and its parts are placed by other roundings, which decide what is just about felt.
-    EXPECT_LE(counts.missed, 1e-3 * counts.told) << counts.told;
-    EXPECT_LE(counts.told_though_covered, 0.05 * counts.covered) << counts.covered;
-    // Not vacuous.
-    EXPECT_GT(counts.touching, 0.5 * counts.asked) << counts.asked;
+    // The level and its parts are rounded differently, which decides cases at the threshold.
+    EXPECT_LE(counts.missed, 1e-3 * counts.reported) << counts.reported;
+    EXPECT_LE(counts.reported_though_covered, 0.05 * counts.covered) << counts.covered;
+    // The sample is not vacuous.
+    EXPECT_GT(counts.touching, 0.5 * counts.samples) << counts.samples;
     EXPECT_GT(counts.own, 0.5 * counts.alone) << counts.alone;
-    EXPECT_GT(counts.felt, counts.asked);
-    EXPECT_GT(counts.covered, 0.3 * counts.asked) << counts.asked;
+    EXPECT_GT(counts.surface_normals, counts.samples);
+    EXPECT_GT(counts.covered, 0.3 * counts.samples) << counts.samples;
 }
 
 TEST(LevelContacts, OfChainsAgreeWithTryingAllSegments) {
-    check_levels<2>(0, oracle::amount(150));
+    check_levels<2>(0, oracle::case_count(150));
 }
 TEST(LevelContacts, OfTileMapsAgreeWithTryingAllTiles) {
-    check_levels<2>(1, oracle::amount(100));
+    check_levels<2>(1, oracle::case_count(100));
 }
 TEST(LevelContacts, OfCompoundsOfThePlaneAgreeWithTryingAllParts) {
-    check_levels<2>(2, oracle::amount(100));
+    check_levels<2>(2, oracle::case_count(100));
 }
 TEST(LevelContacts, OfSolidsOfThePlaneAgreeWithTryingAllParts) {
-    check_levels<2>(3, oracle::amount(100));
+    check_levels<2>(3, oracle::case_count(100));
 }
 TEST(LevelContacts, OfHeightFieldsAgreeWithTryingAllTriangles) {
-    check_levels<3>(0, oracle::amount(60));
+    check_levels<3>(0, oracle::case_count(60));
 }
 TEST(LevelContacts, OfMeshesAgreeWithTryingAllTriangles) {
-    check_levels<3>(1, oracle::amount(60));
+    check_levels<3>(1, oracle::case_count(60));
 }
 TEST(LevelContacts, OfCompoundsInSpaceAgreeWithTryingAllParts) {
-    check_levels<3>(2, oracle::amount(60));
+    check_levels<3>(2, oracle::case_count(60));
 }
 TEST(LevelContacts, OfSolidsInSpaceAgreeWithTryingAllParts) {
-    check_levels<3>(3, oracle::amount(60));
+    check_levels<3>(3, oracle::case_count(60));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// A Mover on a level of each shape there is, made up here, looked at frame by frame and part by part without the
-// library.
+// A Mover on generated levels of every kind of shape, checked frame by frame against each part by the oracle, without
+// the library.
 
 #include "../oracle/random.hpp"
 #include "levels.hpp"
@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint64_t seed = 20260927;
 
-/// All parts of the level, which have corners: as the oracle takes them.
+/// All parts of the level as polytopes for the oracle.
 template <int D>
 Pieces<D> pieces_of(const Level<D>& level) {
     Pieces<D> result;
@@ -38,7 +38,7 @@ Vec<D> unit_of(int axis) {
     return result;
 }
 
-/// To and fro over the level, jumping now and then. Begins above it, and again where it has fallen off.
+/// Walks to and fro over the level with occasional jumps. The walk starts above the level, and again after a fall.
 template <int D>
 void walk_over(const char* name, const Level<D>& level, int up, int frames) {
     World<D> world;
@@ -57,27 +57,27 @@ void walk_over(const char* name, const Level<D>& level, int up, int frames) {
         return result;
     };
     Walker<D> walker(world, pieces, hero, options, above(), walked);
-    DVec<D> way(0.0);
+    DVec<D> velocity(0.0);
     float fall = 0;
     for (int frame = 0; frame < frames; ++frame) {
         if (frame % 40 == 0) {
-            way = random.direction<D>() * random.uniform(0.01, random.chance(0.1) ? 1 : 0.12);
-            way[up] = 0;
+            velocity = random.direction<D>() * random.uniform(0.01, random.chance(0.1) ? 1 : 0.12);
+            velocity[up] = 0;
         }
         if (walker.position()[up] < all.min[up] - 2) walker.put(above());
         if (walker.moved().grounded) fall = random.chance(0.02) ? -0.15f : 0.01f;
         fall = std::min(fall + 0.008f, 0.4f);
-        Vec<D> motion = to_float(way);
+        Vec<D> motion = to_float(velocity);
         motion[up] = -fall;
         walker.go(motion);
         if (frame % 150 == 149) walker.rest(unit_of<D>(up) * -0.01f);
         ASSERT_EQ(walked.faults, 0) << name << " frame " << frame << ": " << walked.first_fault;
     }
     std::cout << name << ": " << walked.frames << " frames, " << walked.grounded << " on ground, " << walked.rests
-              << " rests, way of " << walked.way << " sizes\n";
+              << " rests, a path of " << walked.path_length << " sizes\n";
     EXPECT_GT(walked.grounded, frames / 3) << name;
     EXPECT_GT(walked.rests, 0) << name;
-    EXPECT_GT(walked.way, frames / 20) << name;
+    EXPECT_GT(walked.path_length, frames / 20) << name;
     EXPECT_EQ(walked.crushed, 0) << name;
 }
 

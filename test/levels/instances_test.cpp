@@ -1,4 +1,4 @@
-// One mesh at many poses and scales: one tree, no copies, and each answers for itself.
+// One mesh at many poses and scales: one tree, no copies, and separate answers.
 
 #include "levels.hpp"
 #include <abut/query/closest.hpp>
@@ -13,9 +13,9 @@ namespace {
 
 TEST(Instances, ShareTheirMesh) {
     const Mesh mesh = box_surface({-1, -1, -1}, {1, 1, 1}).mesh();
-    const auto kept = owned(at(stretched(mesh, Vec3(1, 2, 3)), Pose3{{5, 0, 0}}));
-    EXPECT_EQ(kept.shape.shape.points().data(), mesh.points().data());
-    EXPECT_EQ(kept.shape.shape.triangles().data(), mesh.triangles().data());
+    const auto stored = owned(at(stretched(mesh, Vec3(1, 2, 3)), Pose3{{5, 0, 0}}));
+    EXPECT_EQ(stored.shape.shape.points().data(), mesh.points().data());
+    EXPECT_EQ(stored.shape.shape.triangles().data(), mesh.triangles().data());
 }
 
 TEST(Instances, OfOneMeshStandWhereTheyWerePut) {
@@ -23,7 +23,7 @@ TEST(Instances, OfOneMeshStandWhereTheyWerePut) {
     World3 world;
     std::vector<Id> ids;
     for (int i = 0; i < 100; ++i) {
-        // Each wider than the last, mirrored, and a little higher.
+        // Each instance is wider than the last, mirrored, and a little higher.
         const auto at_x = static_cast<float>(10 * i);
         const Vec3 scale(1 + 0.01f * static_cast<float>(i), -1, 2);
         ids.push_back(world.add(stretched(mesh, scale), {.pose = {{at_x, 0, static_cast<float>(i)}}, .fixed = true}));
@@ -39,7 +39,7 @@ TEST(Instances, OfOneMeshStandWhereTheyWerePut) {
         ASSERT_TRUE(beside);
         EXPECT_EQ(beside->id, ids[i]);
         EXPECT_NEAR(beside->closest.distance, 2 - 0.01 * static_cast<double>(i), 1e-4);
-        // Solid, and mirrored still closed.
+        // A mirrored solid mesh is still closed.
         EXPECT_EQ(world.containing({x, 0, z + 1.9f}).size(), 1u);
     }
 }

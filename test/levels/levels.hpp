@@ -1,6 +1,6 @@
 #pragma once
 
-// Level shapes of every kind with their parts one by one, so that all can be tried.
+// Level shapes of every kind, with their parts for tests one by one.
 
 #include "../oracle/random.hpp"
 #include "../shape/meshes.hpp"
@@ -24,7 +24,7 @@
 
 namespace abut::test {
 
-/// How a level stands in the world.
+/// The placement of a level in the world.
 template <int D>
 struct Placing {
     Vec<D> scale{1.0f};
@@ -49,7 +49,7 @@ struct Level {
     std::vector<LevelPart<D>> parts;  ///< in the shape's own frame, to which they may refer
 };
 
-/// Where a level and its parts are after they have been placed.
+/// A placed level with its placed parts.
 template <int D>
 struct PlacedLevel {
     PlacedLevel(Level<D> of, const Placing<D>& placing) : level(std::move(of)), view(placing(level.shape.view())) {
@@ -73,7 +73,7 @@ Pose<D> random_pose(oracle::Random& random, double extent) {
     return {random_point<D>(random, extent), random.rotation<D>()};
 }
 
-/// As it is, or turned, stretched (mirrored at times) and rounded.
+/// A random placement: none, or a rotation, a stretch (sometimes mirrored) and a radius.
 template <int D>
 Placing<D> random_placing(oracle::Random& random) {
     Placing<D> result;
@@ -159,23 +159,24 @@ inline Level<3> level_of(const Mesh& mesh) {
 template <int D>
 Level<D> level_of(const SolidBsp<D>& solid) {
     Level<D> result{solid, {}};
-    constexpr float most = std::numeric_limits<float>::max();
-    each_part(solid, Aabb<D>{Vec<D>(-most), Vec<D>(most)}, [&](const Convex<D>& part, std::uint32_t index) -> bool {
-        result.parts.push_back({part, index});
-        return true;
-    });
+    constexpr float max_float = std::numeric_limits<float>::max();
+    each_part(solid, Aabb<D>{Vec<D>(-max_float), Vec<D>(max_float)},
+              [&](const Convex<D>& part, std::uint32_t index) -> bool {
+                  result.parts.push_back({part, index});
+                  return true;
+              });
     return result;
 }
 
-/// A walk in steps of random length and direction, or around, or over ground from left to right.
+/// A random polyline: steps of random length and direction, a closed loop, or ground from left to right.
 inline Level<2> random_chain(oracle::Random& random) {
     const bool closed = random.chance(0.5);
     const std::uint32_t count = 3 + random.below(40);
     std::vector<Vec2> points;
     for (std::uint32_t i = 0; i < count; ++i) {
         if (closed) {
-            const DVec<2> way = random.direction<2>();
-            points.push_back(to_float(way * random.uniform(0.5, 3)));
+            const DVec<2> direction = random.direction<2>();
+            points.push_back(to_float(direction * random.uniform(0.5, 3)));
         } else {
             points.emplace_back(-3 + 6 * static_cast<float>(i) / static_cast<float>(count),
                                 random.uniform_float(-1, 1));
@@ -205,7 +206,7 @@ inline Level<3> random_height_field(oracle::Random& random) {
     return level_of(*HeightField::build(heights, columns, cell, {.holes = holes}));
 }
 
-/// Slivers, triangles of no area, doubled faces, corners on others' edges, and gaps of 1e-6.
+/// A mesh with slivers, triangles of area 0, doubled faces, T-junctions, and gaps of 1e-6.
 inline Surface degenerate_surface(oracle::Random& random) {
     Surface result = random_soup(random, 12, 2, 1);
     const Surface plain = result;
@@ -245,7 +246,7 @@ inline Level<3> random_mesh(oracle::Random& random) {
     return level_of(random_terrain(random, 5, 1.5).surface().mesh());
 }
 
-/// Boxes with corners cut off, here and there over one another, and some of no volume.
+/// Boxes with cut corners, some of them overlapping, and some of volume 0.
 template <int D>
 Level<D> random_brushes(oracle::Random& random) {
     std::vector<HalfSpace<D>> sides;
@@ -266,7 +267,7 @@ Level<D> random_brushes(oracle::Random& random) {
     return level_of(*SolidBsp<D>::from_brushes(sides, ends));
 }
 
-/// Outlines over one another, at times turned round: then the solid is outside, without end.
+/// Overlapping outlines, sometimes reversed: the solid is then the unbounded outside.
 inline Level<2> random_solid(oracle::Random& random, std::integral_constant<int, 2>) {
     std::vector<Vec2> points;
     std::vector<glm::uvec2> faces;
@@ -286,7 +287,7 @@ inline Level<2> random_solid(oracle::Random& random, std::integral_constant<int,
     return level_of(*SolidBsp2::build(points, faces));
 }
 
-/// Cells of a grid, boxes over one another, or ground with an underside; at times with a room around it all.
+/// Cells of a grid, overlapping boxes, or ground with an underside; sometimes with a room around them.
 inline Level<3> random_solid(oracle::Random& random, std::integral_constant<int, 3>) {
     const std::uint32_t what = random.below(3);
     Surface surface = random_terrain(random, 4, 1).solid(-1);
@@ -306,7 +307,7 @@ inline Level<3> random_solid(oracle::Random& random, std::integral_constant<int,
 template <int D>
 Level<D> random_level(oracle::Random& random, std::uint32_t kind);
 
-/// Convex children, and one that is a level itself.
+/// A compound of convex children and a level.
 template <int D>
 Level<D> random_compound(oracle::Random& random) {
     std::vector<AnyShape<D>> children;
@@ -327,7 +328,7 @@ Level<D> random_compound(oracle::Random& random) {
     return {*Compound<D>::build(children), parts};
 }
 
-/// Of all kinds of the dimension: 0 and 1 are plain, 2 is a compound, 3 is solid.
+/// A level of the dimension: kinds 0 and 1 are surfaces, 2 is a compound, 3 is a SolidBsp.
 template <int D>
 Level<D> random_level(oracle::Random& random, std::uint32_t kind) {
     if (kind == 2) return random_compound<D>(random);
@@ -341,7 +342,7 @@ Level<D> random_level(oracle::Random& random, std::uint32_t kind) {
         return kind == 0 ? random_height_field(random) : random_mesh(random);
 }
 
-/// What is asked about beside a level, with its parts.
+/// The second shape of a query, with its parts.
 template <int D>
 struct Other {
     AnyShape<D> keeper;
@@ -349,8 +350,7 @@ struct Other {
     std::vector<LevelPart<D>> parts;
 };
 
-/// A place that a question may be about: in the middle of a part, or at a corner of its box, which of a solid one is
-/// where its surface is.
+/// A random position for a query: the center of a part, or a corner of its box, where the surface of a solid level is.
 template <int D>
 Vec<D> near_some_part(oracle::Random& random, const PlacedLevel<D>& level) {
     if (level.parts.empty()) return Vec<D>(0.0f);

@@ -1,4 +1,4 @@
-// A character on levels: their seams aren't felt, slopes are walked, platforms are passed from below and stood on.
+// A mover on levels: no ghost collisions at internal edges, walking on slopes, and passing platforms from below.
 
 #include "levels.hpp"
 #include <abut/motion/mover.hpp>
@@ -10,7 +10,7 @@ namespace {
 
 constexpr float gravity = 0.02f;
 
-/// 2 high, about the middle.
+/// A capsule of height 2 around its center.
 template <int D>
 Capsule<D> hero(int up) {
     Vec<D> a(0.0f), b(0.0f);
@@ -22,7 +22,7 @@ Box2 crate() {
     return {{0, 0}, {0.4f, 1}};
 }
 
-/// Somebody who walks, jumps and falls.
+/// A mover that walks, jumps and falls.
 template <int D>
 struct Walker {
     explicit Walker(const World<D>& in, int axis) : world(in), up(axis), mover({.up = unit_of(axis)}) {}
@@ -49,17 +49,17 @@ struct Walker {
     Moved<D> moved{};
 };
 
-/// Walks one way over what is level, and looks that nothing catches. Stands on it in the beginning.
+/// Walks in one direction over level ground and checks that nothing stops the mover, which starts grounded.
 template <int D, class S>
-void expect_no_catch(Walker<D>& walker, const S& shape, const Vec<D>& way, int frames, double off) {
+void expect_no_catch(Walker<D>& walker, const S& shape, const Vec<D>& velocity, int frames, double off) {
     const Vec<D> from = walker.position;
     for (int i = 0; i < frames; ++i) {
-        walker.go(shape, way - Walker<D>::unit_of(walker.up) * gravity);
+        walker.go(shape, velocity - Walker<D>::unit_of(walker.up) * gravity);
         ASSERT_TRUE(walker.moved.grounded) << i;
         for (const MoverTouch<D>& touch : walker.moved.touches) ASSERT_NEAR(touch.normal[walker.up], 1, off) << i;
     }
-    const DVec<D> error = DVec<D>(walker.position - from) - DVec<D>(way) * static_cast<double>(frames);
-    EXPECT_LT(length(error), 1e-3 + off * length(DVec<D>(way)) * frames);
+    const DVec<D> error = DVec<D>(walker.position - from) - DVec<D>(velocity) * static_cast<double>(frames);
+    EXPECT_LT(length(error), 1e-3 + off * length(DVec<D>(velocity)) * frames);
 }
 
 /// Ground of 20 x 2 tiles with its surface at height 1, a slope at 8 from there to height 2, down again at 14; and a
@@ -78,7 +78,7 @@ TileMap tiles() {
     return *TileMap::build(result, columns, 1.0f);
 }
 
-/// Over the tiles from left to right and back.
+/// Walks over the tiles from left to right and back.
 template <class S>
 void walk_over_tiles(const S& shape, float speed) {
     World2 world;
@@ -89,17 +89,17 @@ void walk_over_tiles(const S& shape, float speed) {
     const float low = walker.position.y;
     EXPECT_NEAR(low, 2, 0.03);
     const int frames = static_cast<int>(10 / speed);
-    for (const float way : {speed, -speed}) {
+    for (const float velocity : {speed, -speed}) {
         float highest = 0, farthest = 0;
         for (int i = 0; i < frames; ++i) {
-            walker.go(shape, {way, -gravity});
+            walker.go(shape, {velocity, -gravity});
             ASSERT_TRUE(walker.moved.grounded) << speed << ' ' << i << ' ' << walker.position.x;
             ASSERT_EQ(walker.moved.pushed, Vec2(0)) << speed << ' ' << i << ' ' << walker.position.x;
             highest = std::max(highest, walker.position.y);
             farthest = std::max(farthest, std::abs(walker.position.x - 7));
         }
         EXPECT_NEAR(highest, low + 1, 0.03) << speed;
-        // It goes over both slopes, which take a little longer.
+        // The path goes over both slopes, which take a little longer.
         EXPECT_GT(farthest, 8.5) << speed;
     }
     EXPECT_NEAR(walker.position.y, low, 0.03) << speed;
@@ -112,7 +112,7 @@ TEST(MoverOnLevels, WalksOverTilesAndTheirSlopes) {
     }
 }
 
-TEST(MoverOnLevels, FeelsNoSeamsOfTiles) {
+TEST(MoverOnLevels, HasNoGhostsAtEdgesOfTiles) {
     World2 world;
     world.add(tiles(), {.fixed = true});
     for (const float speed : {0.013f, 0.1f, 0.31f}) {
@@ -128,7 +128,7 @@ TEST(MoverOnLevels, FeelsNoSeamsOfTiles) {
     }
 }
 
-/// Jumps below the platform at a speed, with nothing told about it; where it is when it has come to stand.
+/// Jumps below the platform at a speed, without a filter; returns the position at rest.
 template <class S>
 float height_after_jump(const World2& world, const S& shape, float from, float speed) {
     Walker<2> walker(world, 1);
@@ -138,7 +138,7 @@ float height_after_jump(const World2& world, const S& shape, float from, float s
     for (int i = 0; i < 200; ++i) {
         const float before = walker.position.y;
         walker.go(shape, {0, speed});
-        // It is carried by nothing, and held by nothing on its way up.
+        // The mover is not grounded and not stopped on its way up.
         EXPECT_LT(walker.position.y - before, std::max(speed, 0.0f) + 0.06f) << i;
         if (speed > 0) {
             EXPECT_GT(walker.position.y - before, speed - 1e-4f) << i;
@@ -150,7 +150,7 @@ float height_after_jump(const World2& world, const S& shape, float from, float s
     return walker.position.y;
 }
 
-/// `standing` is where the shape has its middle when it stands at height 0.
+/// `standing` is the height of the shape's center above the ground.
 template <class S>
 void expect_one_way(const World2& world, const S& shape) {
     int on_top = 0, below = 0;
@@ -158,7 +158,7 @@ void expect_one_way(const World2& world, const S& shape) {
         const float speed = 0.1f + 0.003f * static_cast<float>(i);
         for (const float from : {3.0f, 3.37f, 2.1f}) {
             const float height = height_after_jump(world, shape, from, speed);
-            // Half v^2 / a, in steps.
+            // The height is v^2 / (2 a), in discrete steps.
             const float rise = 0.5f * speed * speed / 0.008f + 0.5f * speed;
             if (rise > 3.01f) {
                 EXPECT_NEAR(height, 5, 0.03) << speed << ' ' << from;
@@ -184,14 +184,14 @@ TEST(MoverOnLevels, PassesOneWayTilesFromBelowAndStandsOnThem) {
 TEST(MoverOnLevels, PassesAOneSidedChainFromBelowAndStandsOnIt) {
     World2 world;
     world.add(tiles(), {.fixed = true});
-    // Its front is up, where the tiles have their own platform.
+    // Its front faces up, as that of the tiles' platform does.
     world.add(*Chain::build({{6, 4}, {4.5f, 4}, {3.37f, 4}, {3, 4}, {1.5f, 4}}, false, {.one_sided = true}),
               {.fixed = true});
     expect_one_way(world, hero<2>(1));
     expect_one_way(world, crate());
 }
 
-TEST(MoverOnLevels, RidesAPlatformThatIsMetFromAboveAlone) {
+TEST(MoverOnLevels, RidesAOneSidedPlatform) {
     World2 world;
     const Id lift = world.add(*Chain::build({{2, 0}, {0, 0}, {-2, 0}}, false, {.one_sided = true}));
     Walker<2> walker(world, 1);
@@ -206,7 +206,7 @@ TEST(MoverOnLevels, RidesAPlatformThatIsMetFromAboveAlone) {
     }
 }
 
-TEST(MoverOnLevels, FeelsNoCornersOfAChainThatIsStraight) {
+TEST(MoverOnLevels, HasNoGhostsAtCornersOfAStraightChain) {
     oracle::Random random(7);
     for (const bool one_sided : {false, true}) {
         std::vector<Vec2> points;
@@ -245,7 +245,7 @@ TEST(MoverOnLevels, WalksOverHillsOfAChain) {
     }
 }
 
-TEST(MoverOnLevels, FeelsNoSeamsOfAHeightField) {
+TEST(MoverOnLevels, HasNoGhostsAtEdgesOfAHeightField) {
     const std::vector<float> heights(33 * 33, 0.25f);
     World3 world;
     world.add(at(*HeightField::build(heights, 33, 0.5f), Pose3{{-8, -8, 0}}), {.fixed = true});
@@ -256,22 +256,22 @@ TEST(MoverOnLevels, FeelsNoSeamsOfAHeightField) {
             Walker<3> walker(world, 2);
             walker.position = {0, 0, 1.3f};
             walker.fall(hero<3>(2), 20);
-            const Vec3 way{static_cast<float>(along.x) * speed, static_cast<float>(along.y) * speed, 0};
-            expect_no_catch<3>(walker, hero<3>(2), way, std::min(60, static_cast<int>(6 / speed)), 1e-5);
+            const Vec3 velocity{static_cast<float>(along.x) * speed, static_cast<float>(along.y) * speed, 0};
+            expect_no_catch<3>(walker, hero<3>(2), velocity, std::min(60, static_cast<int>(6 / speed)), 1e-5);
         }
 }
 
-/// From above the middle of the world, in directions of all kinds: on the ground, onwards and never in it.
+/// Starts above the center of the world and walks in random directions: the mover stays on the ground and never in it.
 void expect_walks_over_hills(const World3& world, oracle::Random& random, float height, int frames_to_fall) {
     for (int run = 0; run < 6; ++run) {
         Walker<3> walker(world, 2);
         walker.position = {0, 0, height};
         walker.fall(hero<3>(2), frames_to_fall);
         const DVec<2> along = random.direction<2>() * 0.1;
-        const Vec3 way{static_cast<float>(along.x), static_cast<float>(along.y), -gravity};
+        const Vec3 velocity{static_cast<float>(along.x), static_cast<float>(along.y), -gravity};
         for (int i = 0; i < 100; ++i) {
             const Vec3 before = walker.position;
-            walker.go(hero<3>(2), way);
+            walker.go(hero<3>(2), velocity);
             ASSERT_TRUE(walker.moved.grounded) << run << ' ' << i;
             ASSERT_GT(dot(DVec<3>(walker.position - before), DVec<3>(along.x, along.y, 0)), 0.005) << run << ' ' << i;
             ASSERT_TRUE(world.overlapping(at(hero<3>(2), Pose3{walker.position})).empty()) << run << ' ' << i;
@@ -288,7 +288,7 @@ TEST(MoverOnLevels, WalksOverHillsOfAHeightField) {
     expect_walks_over_hills(world, random, 1.4f, 40);
 }
 
-/// Of the faces of hills with an underside, whose cells meet in T-junctions of their own.
+/// A SolidBsp of the faces of hills with an underside, whose cells have T-junctions.
 TEST(MoverOnLevels, WalksOverHillsOfASolid) {
     oracle::Random random(11);
     const Surface ground = random_terrain(random, 24, 0.3).solid(-2);
@@ -299,8 +299,8 @@ TEST(MoverOnLevels, WalksOverHillsOfASolid) {
     expect_walks_over_hills(world, random, 2, 80);
 }
 
-/// Of boxes side by side, every other row of them shifted: corners meet sides.
-TEST(MoverOnLevels, FeelsNoSeamsOfASolid) {
+/// A SolidBsp of boxes side by side, with every second row shifted: corners touch sides.
+TEST(MoverOnLevels, HasNoGhostsAtEdgesOfASolid) {
     oracle::Random random(12);
     Surface tiles;
     for (int y = -8; y < 8; ++y)
@@ -316,8 +316,8 @@ TEST(MoverOnLevels, FeelsNoSeamsOfASolid) {
             Walker<3> walker(world, 2);
             walker.position = {0, 0, 1.05f};
             walker.fall(hero<3>(2), 20);
-            const Vec3 way{static_cast<float>(along.x) * speed, static_cast<float>(along.y) * speed, 0};
-            expect_no_catch<3>(walker, hero<3>(2), way, std::min(60, static_cast<int>(6 / speed)), 1e-5);
+            const Vec3 velocity{static_cast<float>(along.x) * speed, static_cast<float>(along.y) * speed, 0};
+            expect_no_catch<3>(walker, hero<3>(2), velocity, std::min(60, static_cast<int>(6 / speed)), 1e-5);
         }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// A map of freedoom seen from above: its walls, where somebody can get in it, and ways through it.
+// A map of Freedoom from above: its walls, the reachable squares, and paths through it.
 
 #include "real_levels.hpp"
 #include "walks.hpp"
@@ -13,7 +13,7 @@
 
 namespace abut::test {
 
-/// As wide as a player of the game.
+/// The radius of a player of the game.
 inline constexpr float player_radius = 16;
 
 /// Walls and barriers, each an item, or one compound of all; ledges are chains with one side.
@@ -48,7 +48,7 @@ public:
     const World2& world() const { return world_; }
     const Pieces<2>& pieces() const { return pieces_; }
 
-    /// Whether the straight way from a to b crosses a wall, or a ledge upwards.
+    /// Whether the segment from a to b crosses a wall, or a ledge upwards.
     bool blocked(const Vec2& a, const Vec2& b) const { return crosses_wall(a, b) || climbs(a, b); }
     bool crosses_wall(const Vec2& a, const Vec2& b) const {
         bool result = false;
@@ -93,17 +93,17 @@ private:
     Bvh<2> ledge_tree_;
 };
 
-/// Squares over a level, and from which of them one gets to which without crossing a wall.
+/// A grid of squares over a level, with a breadth-first search that crosses no wall.
 class PlaneGrid {
 public:
-    /// `reach`: only squares whose middles have that much room are entered.
+    /// The search enters only squares whose centers have a clearance of `reach`.
     PlaneGrid(const PlaneLevel& level, float cell, float room, const Vec2& start) : level_(level), cell_(cell) {
         const Aabb2 all = level.pieces().bounds();
         low_ = all.min;
         columns_ = static_cast<int>((all.max.x - all.min.x) / cell) + 2;
         rows_ = static_cast<int>((all.max.y - all.min.y) / cell) + 2;
         from_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), none);
-        // From the square around the start that is in its sight.
+        // The search starts at a square near the start and visible from it.
         std::queue<int> open;
         for (const int begin : around(start))
             if (open.empty() && enters(begin, room) && !level.blocked(start, middle(begin))) {
@@ -129,8 +129,8 @@ public:
     }
 
     int reached() const { return reached_; }
-    /// The middles of squares on the way to the one that is farthest off, in steps.
-    std::vector<Vec2> way_to_the_end() const {
+    /// The centers of the squares on the path to the farthest one, by steps.
+    std::vector<Vec2> path_to_the_end() const {
         std::vector<Vec2> result;
         if (reached_ == 0) return result;
         for (int at = last_;; at = from_[static_cast<std::size_t>(at)]) {
@@ -140,7 +140,7 @@ public:
         std::reverse(result.begin(), result.end());
         return result;
     }
-    /// Whether a square beside the place, in its sight, was reached.
+    /// Whether the search reached a square near the position and visible from it.
     bool holds(const Vec2& place) const {
         for (const int square : around(place))
             if (from_[static_cast<std::size_t>(square)] != none && !level_.crosses_wall(place, middle(square)))
@@ -176,7 +176,7 @@ private:
     float cell_;
     Vec2 low_{};
     int columns_ = 0, rows_ = 0, last_ = 0, reached_ = 0;
-    std::vector<int> from_;  // which square each was entered from; itself: the first
+    std::vector<int> from_;  // the predecessor of each square; the start is its own
 };
 
 }  // namespace abut::test

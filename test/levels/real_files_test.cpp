@@ -1,5 +1,5 @@
-// The readers of real levels: small files made up here, cut off at every byte and spoiled; and all levels of the
-// packages, where they are installed.
+// The readers of real levels: small generated files, truncated at every byte and corrupted; and all levels of the
+// packages, if they are installed.
 
 #include "../oracle/random.hpp"
 #include "real_levels.hpp"
@@ -36,7 +36,7 @@ private:
     std::vector<char> bytes_;
 };
 
-/// A cube of edge 2 that stands still, the same as a detail and as a lift, with one of all that is passed over.
+/// A static cube of edge 2, one as a detail and one as a lift, with one record of each skipped kind.
 std::vector<char> small_level() {
     Bytes out;
     out.i32(0x4c4f53af);
@@ -100,7 +100,7 @@ TEST(NeverballFile, IsRead) {
     EXPECT_EQ(level->goals[0].position, Vec3(1, 2, 3));
     EXPECT_EQ(level->balls[0].radius, 0.25f);
 
-    // The cube, and the one that begins 3 higher; the detail isn't touched.
+    // The ray hits the static cube and the lift 3 higher; the detail is not solid.
     const auto solid = scenes::compound(*level);
     ASSERT_TRUE(solid);
     EXPECT_EQ(solid->size(), 2u);
@@ -121,7 +121,7 @@ TEST(NeverballFile, CutOffAnywhereIsNamed) {
     }
 }
 
-/// Each four bytes in turn are a number that is too large, below zero, or none.
+/// Replaces four bytes at every offset by numbers that are too large, negative, infinite or NaN.
 TEST(NeverballFile, SpoiledIsNamedOrRead) {
     const std::vector<char> whole = small_level();
     int named = 0, tried = 0;
@@ -152,7 +152,7 @@ TEST(NeverballFile, SaysWhatItIsnt) {
     EXPECT_EQ(scenes::read_neverball("/nowhere/x.sol").problem().code, ProblemCode::not_found);
 }
 
-/// How far the points of a brush stand out of its sides, at most.
+/// The maximal distance of a brush's points outside of its sides.
 double off_sides(const scenes::NeverballLevel& level, const scenes::NeverballBrush& brush) {
     double result = 0;
     for (const std::uint32_t i : brush.points)
@@ -195,12 +195,12 @@ TEST(NeverballFile, AllLevelsOfThePackage) {
     std::cout << files.size() << " levels: " << brushes << " brushes, " << details << " of them details, " << paths
               << " bodies on paths; of " << rough << " brushes points stand out by more than 3e-4, at most by " << worst
               << '\n';
-    // The files are rounded: corners of planes that are nearly parallel.
+    // The files are rounded, which affects the corners of nearly parallel planes.
     EXPECT_LT(worst, 4e-3);
     EXPECT_LT(rough * 300, brushes);
 }
 
-/// Two rooms beside one another and a step between them.
+/// Two adjacent rooms with a step between them.
 std::vector<char> small_wad() {
     Bytes things, lines, sides, points, sectors;
     for (const int kind : {3004, 1})
@@ -212,10 +212,10 @@ std::vector<char> small_wad() {
     };
     for (int i = 0; i < 6; ++i) line(i, (i + 1) % 6, 1, 0, i == 2 || i == 3 || i == 4 ? 1 : 0, 0xffff);
     line(2, 5, 4, 0, 0, 1);      // a step up to the left, from the first room to the second
-    line(5, 2, 4, 0, 1, 0);      // the same the other way round
-    line(2, 5, 4 + 1, 0, 0, 1);  // that can't be passed at all
-    line(2, 5, 4, 1, 0, 1);      // that is a door
-    line(2, 5, 4, 0, 0, 2);      // into something low
+    line(5, 2, 4, 0, 1, 0);      // a step in the opposite direction
+    line(2, 5, 4 + 1, 0, 0, 1);  // an impassable step
+    line(2, 5, 4, 1, 0, 1);      // a door
+    line(2, 5, 4, 0, 0, 2);      // a passage of low height
     for (const int sector : {0, 1, 2}) {
         sides.zeros(28);
         sides.u16(sector);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Levels of real games, where a Debian package has put them; none is part of this repository.
+// Levels of real games from Debian packages; none is part of this repository.
 
 #include "../../scenes/neverball.hpp"
 #include "../../scenes/wad.hpp"
@@ -12,14 +12,14 @@
 
 namespace abut::test {
 
-/// In an order that is the same on every machine; none where the package neverball-data isn't installed.
+/// The level files, in a deterministic order; none if the package neverball-data isn't installed.
 inline std::vector<std::string> neverball_files() {
     std::vector<std::string> result;
     const std::filesystem::path folder("/usr/share/games/neverball");
     std::error_code none;
     for (const auto& maps : std::filesystem::directory_iterator(folder, none)) {
         const std::string name = maps.path().filename().string();
-        // What is seen behind the levels is no level.
+        // Background scenery is no level.
         if (!name.starts_with("map-") || name == "map-back") continue;
         for (const auto& file : std::filesystem::directory_iterator(maps.path()))
             if (file.path().extension() == ".sol") result.push_back(file.path().string());
@@ -28,7 +28,7 @@ inline std::vector<std::string> neverball_files() {
     return result;
 }
 
-/// Both files of the package freedoom, or none.
+/// Both files of the package freedoom, or none if it isn't installed.
 inline std::vector<std::string> freedoom_files() {
     std::vector<std::string> result;
     for (const char* name : {"freedoom1.wad", "freedoom2.wad"}) {

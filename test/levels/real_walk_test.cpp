@@ -1,5 +1,5 @@
-// A Mover on levels of real games: along ways that a search over squares has found, and at random on all of them. Every
-// frame is looked at piece by piece, without the library.
+// A Mover on levels of real games: along paths of a search over squares, and at random on all levels. The oracle checks
+// every frame against every piece.
 
 #include "../oracle/random.hpp"
 #include "plane_walk.hpp"
@@ -20,14 +20,14 @@ bool is_long() {
 }
 constexpr const char* only_long = "only where ABUT_LONG is set";
 
-void tell(const std::string& name, const Walked& walked) {
+void print_counts(const std::string& name, const Walked& walked) {
     std::cout << name << ": " << walked.frames << " frames, " << walked.touching << " of them touching, "
               << walked.grounded << " on ground, " << walked.crushed << " crushed, " << walked.rests
-              << " rests; way of " << walked.way << " sizes, deepest " << walked.deepest
+              << " rests; a path of " << walked.path_length << " sizes, deepest " << walked.deepest
               << " of the margin, restless by " << walked.restless << " of the size\n";
 }
 
-/// There is no ground, seen from above.
+/// A mover in a view from above, without gravity.
 MoverOptions<2> from_above() {
     return {.up = {0, 0}, .step_height = 0, .stick = 0};
 }
@@ -45,7 +45,7 @@ std::vector<scenes::WadMap> freedoom_maps() {
     return result;
 }
 
-/// Heads for the next place until it is nearer than so much; false where it doesn't get there.
+/// Moves towards the next position until it is within a distance; false if it doesn't arrive.
 bool go_to(Walker<2>& walker, const Vec2& place, float speed, double near) {
     for (int i = 0; i < 100; ++i) {
         const DVec<2> left = DVec<2>(place) - DVec<2>(walker.position());
@@ -67,19 +67,19 @@ TEST(RealWalk, ThroughMapsOfFreedoom) {
         ASSERT_TRUE(map.start) << map.name;
         const PlaneLevel level(map, map.name == "E1M1");
         const PlaneGrid grid(level, 16, player_radius + 1, *map.start);
-        const std::vector<Vec2> way = grid.way_to_the_end();
-        // Some begin in a place that is left by a lift.
-        crossed += way.size() >= 10 ? 1 : 0;
+        const std::vector<Vec2> path = grid.path_to_the_end();
+        // The only exit of some starts is a lift.
+        crossed += path.size() >= 10 ? 1 : 0;
         Walker<2> walker(level.world(), level.pieces(), player(), from_above(), *map.start, walked);
-        for (const Vec2& place : way) {
+        for (const Vec2& place : path) {
             ASSERT_TRUE(go_to(walker, place, 10, 1)) << map.name << ' ' << text_of<2>(place);
             ++places;
         }
         ASSERT_EQ(walked.faults, 0) << map.name << ": " << walked.first_fault;
         if (map.name == "E1M1")
-            std::cout << "E1M1: " << way.size() << " places, " << grid.reached() << " squares in reach\n";
+            std::cout << "E1M1: " << path.size() << " places, " << grid.reached() << " squares in reach\n";
     }
-    tell("along " + std::to_string(places) + " places", walked);
+    print_counts("along " + std::to_string(places) + " places", walked);
     EXPECT_EQ(maps.size(), 68u);
     EXPECT_GT(crossed, 60);
 }
@@ -93,21 +93,22 @@ TEST(RealWalk, AtRandomOverAllMapsOfFreedoom) {
     for (std::size_t number = 0; number < maps.size(); ++number) {
         const scenes::WadMap& map = maps[number];
         const PlaneLevel level(map, number % 2 == 1);
-        // Where the middle of somebody may be at all, however thin he is.
+        // The region for a mover of radius 0, which contains the region of every larger one.
         const PlaneGrid grid(level, 16, 0, *map.start);
         Walker<2> walker(level.world(), level.pieces(), player(), from_above(), *map.start, walked);
-        DVec<2> way(0.0);
+        DVec<2> velocity(0.0);
         for (int frame = 0; frame < 5000; ++frame) {
             if (frame % 25 == 0)
-                way = random.direction<2>() * (random.chance(0.1) ? random.uniform(0, 200) : random.uniform(0, 14));
-            walker.go(to_float(way));
+                velocity =
+                    random.direction<2>() * (random.chance(0.1) ? random.uniform(0, 200) : random.uniform(0, 14));
+            walker.go(to_float(velocity));
             if (!grid.holds(walker.position()))
                 walked.fault("is beyond a wall at " + text_of<2>(walker.position()) + " going " +
-                             text_of<2>(to_float(way)));
+                             text_of<2>(to_float(velocity)));
             ASSERT_EQ(walked.faults, 0) << map.name << " frame " << frame << ": " << walked.first_fault;
         }
     }
-    tell("at random", walked);
+    print_counts("at random", walked);
     EXPECT_GT(walked.touching, walked.frames / 4);
 }
 
@@ -115,7 +116,7 @@ MoverOptions<3> over_ground(const scenes::NeverballBall& ball) {
     return {.step_height = 0.5f * ball.radius, .stick = 0.5f * ball.radius};
 }
 
-/// Rolls on under gravity to above a place.
+/// Moves under gravity until above a position.
 bool roll_to(Walker<3>& walker, const Vec3& place, float speed, double near, float& fall) {
     for (int i = 0; i < 100; ++i) {
         DVec<3> left = DVec<3>(place) - DVec<3>(walker.position());
@@ -130,7 +131,7 @@ bool roll_to(Walker<3>& walker, const Vec3& place, float speed, double near, flo
     return false;
 }
 
-/// A ball, and a capsule whose lowest point is where the ball's is.
+/// Tests a ball, and a capsule with the same lowest point.
 std::vector<Walking<3>> rolling(float radius) {
     return {{{{0, 0, 0}, {0, 0, 0}, radius}}, {{{0, 0, 0}, {0, radius, 0}, radius}}};
 }
@@ -140,25 +141,25 @@ TEST(RealWalk, FromTheBallToTheGoalInNeverball) {
     const std::vector<std::string> files = neverball_files();
     if (files.empty()) GTEST_SKIP() << no_neverball;
     Walked walked;
-    int ways = 0, arrived = 0;
+    int levels_walked = 0, arrived = 0;
     std::size_t places = 0;
     for (const std::string& file : files) {
         const auto read = scenes::read_neverball(file);
         ASSERT_TRUE(read) << read.problem().message;
-        const SpaceLevel level(*read, ways % 2 == 1);
+        const SpaceLevel level(*read, levels_walked % 2 == 1);
         const scenes::NeverballBall ball = read->balls[0];
         if (read->goals.empty() || ball.radius <= 0) continue;
         const SpaceGrid grid(level, ball, read->goals[0]);
-        if (grid.way().empty()) continue;
-        ++ways;
+        if (grid.path().empty()) continue;
+        ++levels_walked;
         bool all = true;
         for (const Walking<3>& shape : rolling(ball.radius)) {
             Walker<3> walker(level.world(), level.pieces(), shape, over_ground(ball), ball.position, walked);
             float fall = 0;
             std::size_t number = 0;
-            for (const Vec3& place : grid.way()) {
+            for (const Vec3& place : grid.path()) {
                 if (!roll_to(walker, place, 0.25f * ball.radius, 0.05 * static_cast<double>(ball.radius), fall)) {
-                    std::cout << file << ": stuck at " << number << " of " << grid.way().size() << ", "
+                    std::cout << file << ": stuck at " << number << " of " << grid.path().size() << ", "
                               << text_of<3>(walker.position()) << " before " << text_of<3>(place) << '\n';
                     all = false;
                     break;
@@ -170,10 +171,10 @@ TEST(RealWalk, FromTheBallToTheGoalInNeverball) {
         }
         arrived += all ? 1 : 0;
     }
-    tell(
-        std::to_string(arrived) + " of " + std::to_string(ways) + " levels along " + std::to_string(places) + " places",
-        walked);
-    EXPECT_GT(ways, 20);
+    print_counts(std::to_string(arrived) + " of " + std::to_string(levels_walked) + " levels along " +
+                     std::to_string(places) + " places",
+                 walked);
+    EXPECT_GT(levels_walked, 20);
 }
 
 TEST(RealWalk, AtRandomOverAllLevelsOfNeverball) {
@@ -191,19 +192,20 @@ TEST(RealWalk, AtRandomOverAllLevelsOfNeverball) {
         const Aabb3 all = level.pieces().bounds();
         for (const Walking<3>& shape : rolling(radius)) {
             Walker<3> walker(level.world(), level.pieces(), shape, over_ground({{}, radius}), ball.position, walked);
-            DVec<3> way(0.0);
+            DVec<3> velocity(0.0);
             double fall = 0;
             for (int frame = 0; frame < 800; ++frame) {
                 if (frame % 25 == 0) {
-                    way = random.direction<3>() * (random.chance(0.1) ? random.uniform(0, 1) : random.uniform(0, 0.1));
-                    way[1] = random.chance(0.2) ? std::abs(way[1]) : 0;
+                    velocity =
+                        random.direction<3>() * (random.chance(0.1) ? random.uniform(0, 1) : random.uniform(0, 0.1));
+                    velocity[1] = random.chance(0.2) ? std::abs(velocity[1]) : 0;
                 }
-                // Whoever falls off begins anew, somewhere above.
+                // A mover that falls off starts again above the level.
                 if (walker.position().y < all.min.y - 2)
                     walker.put(all.min + (all.max - all.min) *
                                              Vec3(random.uniform_float(0, 1), 1.1f, random.uniform_float(0, 1)));
                 fall = walker.moved().grounded ? 0.01 : std::min(fall + 0.01, 1.0);
-                DVec<3> motion = way;
+                DVec<3> motion = velocity;
                 if (!(motion[1] > 0)) motion[1] = -fall;
                 walker.go(to_float(motion));
                 if (frame % 200 == 199) walker.rest({0, -0.01f, 0});
@@ -211,7 +213,7 @@ TEST(RealWalk, AtRandomOverAllLevelsOfNeverball) {
             }
         }
     }
-    tell("at random", walked);
+    print_counts("at random", walked);
     EXPECT_GT(walked.touching, walked.frames / 4);
 }
 

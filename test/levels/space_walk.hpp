@@ -1,6 +1,6 @@
 #pragma once
 
-// A level of Neverball in which lifts move, and ways over its ground.
+// A level of Neverball with moving lifts, and paths over its ground.
 
 #include "real_levels.hpp"
 #include "walks.hpp"
@@ -29,7 +29,8 @@ inline oracle::Polytope<3> polytope_of(const Polyhedron& shape, const Vec3& offs
     return result;
 }
 
-/// Each brush an item, or all that stand still one compound. Bodies on paths stand where they begin, and are items.
+/// A world in which each brush is an item, or all static brushes are one compound. Bodies on paths are items at their
+/// start.
 class SpaceLevel {
 public:
     SpaceLevel(const scenes::NeverballLevel& level, bool as_compound) {
@@ -55,8 +56,8 @@ private:
     Pieces<3> pieces_;
 };
 
-/// Ways of a ball over ground that is looked for from above, square by square: no steeper than it can walk, down by no
-/// more than a little, and with room.
+/// Paths of a ball over the ground, by a search over squares from above: within the walkable slope and the allowed
+/// drop, and with clearance.
 class SpaceGrid {
 public:
     SpaceGrid(const SpaceLevel& level, const scenes::NeverballBall& ball, const scenes::NeverballBall& goal)
@@ -76,10 +77,10 @@ public:
                 DVec<2>(static_cast<double>(at.x - goal.position.x), static_cast<double>(at.z - goal.position.z)));
             if (off < static_cast<double>(std::max(goal.radius, cell_)) && std::abs(at.y - goal.position.y) < 1) {
                 for (Place place = here;; place = from_.at(place).from) {
-                    way_.push_back(from_.at(place).position);
+                    path_.push_back(from_.at(place).position);
                     if (from_.at(place).from == place) break;
                 }
-                std::reverse(way_.begin(), way_.end());
+                std::reverse(path_.begin(), path_.end());
                 return;
             }
             for (const auto& [dx, dz] : {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
@@ -97,8 +98,8 @@ public:
         }
     }
 
-    /// Places on the ground from the ball to the goal; none where there is no such way.
-    const std::vector<Vec3>& way() const { return way_; }
+    /// Positions on the ground from the ball to the goal; none if there is no such path.
+    const std::vector<Vec3>& path() const { return path_; }
 
 private:
     using Place = std::tuple<int, int, int>;
@@ -108,13 +109,14 @@ private:
     };
 
     int height_key(float height) const { return static_cast<int>(height / cell_ + 1000.5f); }
-    /// From such a height down by so much.
+    /// The ground below a height, within a distance.
     std::optional<float> ground_at(float x, float z, float from, float drop) const {
         const auto hit = world_.raycast(Ray3{{x, from, z}, {0, -1, 0}, drop});
         if (!hit || hit->hit.started_inside || hit->hit.normal.y < 0.75f) return std::nullopt;
         return hit->hit.point.y;
     }
-    /// Over what is low, and then down: there is room for a ball, and for another one above it, with a little to spare.
+    /// Whether a motion is free: sideways at the greater height for two balls, one above the other, and then down for
+    /// one.
     bool free_between(const Vec3& a, const Vec3& b) const {
         const float height = std::max(a.y, b.y) + 1.5f * radius_, wide = 1.04f * radius_;
         const Capsule3 tall{{a.x, height, a.z}, {a.x, height + radius_, a.z}, wide};
@@ -128,7 +130,7 @@ private:
     float radius_, cell_;
     Vec3 origin_{};
     std::map<Place, Entry> from_;
-    std::vector<Vec3> way_;
+    std::vector<Vec3> path_;
 };
 
 }  // namespace abut::test

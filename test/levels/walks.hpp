@@ -1,7 +1,6 @@
 #pragma once
 
-// Walks of a Mover that are looked at frame by frame, against the pieces of the level one by one and without the
-// library.
+// Walks of a Mover, with each frame checked by the oracle against all pieces of the level.
 
 #include "../oracle/distance.hpp"
 #include <abut/broad_phase/bvh.hpp>
@@ -26,11 +25,11 @@ public:
         tree_.build(boxes_);
     }
 
-    /// The least signed distance to any piece, by the oracle; 1 where nothing is near.
+    /// The minimal signed distance to any piece, by the oracle; 1 if nothing is near.
     double distance(const oracle::Polytope<D>& shape) const {
         double result = 1;
         tree_.each_overlapping(box_of(shape), [&](std::uint32_t i) {
-            result = std::min(result, oracle::truth(shape, pieces_[i], oracle::Arithmetic::rough).distance);
+            result = std::min(result, oracle::truth(shape, pieces_[i], oracle::Arithmetic::floating_point).distance);
         });
         return result;
     }
@@ -46,7 +45,7 @@ public:
 private:
     static Aabb<D> box_of(const oracle::Polytope<D>& piece) {
         Aabb<D> result = Aabb<D>::empty();
-        for (const DVec<D>& corner : oracle::corners_seen_from(piece, DVec<D>(0.0))) {
+        for (const DVec<D>& corner : oracle::corners_relative_to(piece, DVec<D>(0.0))) {
             const Vec<D> point = to_float(corner);
             result = merged(result, Aabb<D>{point, point});
         }
@@ -58,7 +57,7 @@ private:
     Bvh<D> tree_;
 };
 
-/// A ball or capsule about its position, as the oracle takes it and as the library does.
+/// A ball or capsule around its position, for the oracle and for the library.
 template <int D>
 struct Walking {
     Capsule<D> shape;
@@ -73,12 +72,12 @@ struct Walking {
     double size() const { return 0.5 * length(DVec<D>(shape.b - shape.a)) + static_cast<double>(shape.radius); }
 };
 
-/// What was seen on walks.
+/// The measurements of walks.
 struct Walked {
     long frames = 0, grounded = 0, touching = 0, crushed = 0, rests = 0;
-    double deepest = 0;   ///< as a part of the margin
-    double restless = 0;  ///< the farthest that anybody moved who stood, as a part of the size
-    double way = 0;       ///< in sizes
+    double deepest = 0;      ///< relative to the tolerance
+    double restless = 0;     ///< the largest move of a resting mover, relative to the size
+    double path_length = 0;  ///< the length of the path, in sizes
     std::string first_fault;
     long faults = 0;
 
@@ -94,7 +93,7 @@ std::string text_of(const Vec<D>& v) {
     return '(' + result + ')';
 }
 
-/// Somebody on his way through a level. Every frame is looked at.
+/// A mover on a walk through a level, with a check of every frame.
 template <int D>
 class Walker {
 public:
@@ -113,12 +112,12 @@ public:
         const Vec<D> before = position_;
         moved_ = mover_.move(world_, shape_.shape, position_, motion);
         position_ = moved_.position;
-        look(before, motion);
+        check_frame(before, motion);
     }
 
-    /// What stands still stays, to 1e-4 of its size.
+    /// A resting mover stays in place, to 1e-4 of its size.
     void rest(const Vec<D>& motion) {
-        // Who has just come down settles.
+        // A mover that has just landed may settle.
         int stands = 0;
         for (int i = 0; i < 100 && stands < 20; ++i) {
             go(motion);
@@ -126,18 +125,18 @@ public:
         }
         if (stands < 20) return;
         const Vec<D> from = position_;
-        double most = 0;
+        double max_move = 0;
         for (int i = 0; i < 20; ++i) {
             go(motion);
-            most = std::max(most, length(DVec<D>(position_ - from)) / shape_.size());
+            max_move = std::max(max_move, length(DVec<D>(position_ - from)) / shape_.size());
         }
         ++walked_.rests;
-        walked_.restless = std::max(walked_.restless, most);
-        if (most > 1e-4) walked_.fault("doesn't rest at " + text_of<D>(from) + ", by " + std::to_string(most));
+        walked_.restless = std::max(walked_.restless, max_move);
+        if (max_move > 1e-4) walked_.fault("doesn't rest at " + text_of<D>(from) + ", by " + std::to_string(max_move));
     }
 
 private:
-    void look(const Vec<D>& before, const Vec<D>& motion) {
+    void check_frame(const Vec<D>& before, const Vec<D>& motion) {
         ++walked_.frames;
         walked_.grounded += moved_.grounded ? 1 : 0;
         walked_.touching += moved_.touches.empty() ? 0 : 1;
@@ -149,14 +148,14 @@ private:
         const double size = shape_.size(), rounding = 16 * 6e-8 * largest(DVec<D>(position_)) + 1e-5 * size;
         const DVec<D> gone = DVec<D>(position_) - DVec<D>(before) - DVec<D>(moved_.carried) - DVec<D>(moved_.pushed);
         const DVec<D> up = normalized(DVec<D>(mover_.options().up), DVec<D>(0.0));
-        const double rise = dot(gone, up), asked = length(DVec<D>(motion));
+        const double rise = dot(gone, up), requested = length(DVec<D>(motion));
         const double steps = static_cast<double>(std::max(mover_.options().step_height, mover_.options().stick));
-        if (length(gone - up * rise) > asked + rounding)
+        if (length(gone - up * rise) > requested + rounding)
             walked_.fault("goes too far, from " + text_of<D>(before) + " by " + text_of<D>(motion));
-        if (std::abs(rise) > asked + (up == DVec<D>(0.0) ? 0 : steps) + rounding)
+        if (std::abs(rise) > requested + (up == DVec<D>(0.0) ? 0 : steps) + rounding)
             walked_.fault("climbs or falls too far, from " + text_of<D>(before) + " by " + text_of<D>(motion));
-        walked_.way += length(gone) / size;
-        // Nothing moves here: only what began in something can be.
+        walked_.path_length += length(gone) / size;
+        // The level is static: only a mover that started inside can be crushed.
         if (moved_.crushed && was_free_) walked_.fault("is crushed, from " + text_of<D>(before));
         was_free_ = !moved_.crushed;
         if (moved_.crushed) return;
@@ -165,13 +164,13 @@ private:
         if (depth > rounding)
             walked_.fault("is in something by " + std::to_string(depth) + ", from " + text_of<D>(before) + " by " +
                           text_of<D>(motion));
-        // What came to where it was asked to went straight.
-        if (asked > size && length(gone - DVec<D>(motion)) < rounding &&
+        // A mover that reached its target moved straight.
+        if (requested > size && length(gone - DVec<D>(motion)) < rounding &&
             length(DVec<D>(moved_.carried + moved_.pushed)) == 0) {
-            Walking<D> way = shape_;
-            if (way.shape.a == way.shape.b) {
-                way.shape.a += before - position_;
-                if (-pieces_.distance(way.at(position_)) > rounding)
+            Walking<D> start_to_end = shape_;
+            if (start_to_end.shape.a == start_to_end.shape.b) {
+                start_to_end.shape.a += before - position_;
+                if (-pieces_.distance(start_to_end.at(position_)) > rounding)
                     walked_.fault("went through something, from " + text_of<D>(before) + " by " + text_of<D>(motion));
             }
         }

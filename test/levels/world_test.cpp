@@ -1,5 +1,5 @@
-// Level shapes in a World: each question answers as the same question to the items one by one, and events and contacts
-// are those of the pairs that touch.
+// Level shapes in a World: each query has the answer of the query on single items, and events and contacts are those of
+// the touching pairs.
 
 #include "../oracle/pair.hpp"
 #include "levels.hpp"
@@ -24,11 +24,11 @@ struct Scene {
     View<D> shape(Id id) const { return world.shape(id); }
 };
 
-/// Near enough to one another that about half of the questions find something.
+/// Shapes so close together that about half of the queries find something.
 template <int D>
 constexpr double extent = D == 2 ? 4 : 1.5;
 
-/// Levels that rest and levels that move, convex shapes that move; half of them moved once more since the update.
+/// Fixed and moving levels, and moving convex shapes; half of them moved again after the update.
 template <int D>
 Scene<D> random_scene(oracle::Random& random) {
     Scene<D> scene;
@@ -45,28 +45,28 @@ Scene<D> random_scene(oracle::Random& random) {
     return scene;
 }
 
-/// The answers of the items one by one, the least first.
-template <int D, class Ask>
-std::optional<std::pair<float, Id>> least(const Scene<D>& scene, Ask&& ask) {
+/// The minimal answer over the single items, and its id.
+template <int D, class Query>
+std::optional<std::pair<float, Id>> first_answer(const Scene<D>& scene, Query&& query) {
     std::optional<std::pair<float, Id>> result;
     for (const Id id : scene.ids)
-        if (const std::optional<float> answer = ask(scene.shape(id)); answer && (!result || *answer < result->first))
+        if (const std::optional<float> answer = query(scene.shape(id)); answer && (!result || *answer < result->first))
             result = std::pair(*answer, id);
     return result;
 }
 
 template <int D>
 void check_world(int rounds) {
-    int hits = 0, swept = 0, inside = 0, touching = 0, asked = 0;
+    int hits = 0, swept = 0, inside = 0, touching = 0, queries = 0;
     for (int seed = 0; seed < rounds; ++seed) {
         SCOPED_TRACE(seed);
         oracle::Random random(static_cast<std::uint64_t>(seed));
         Scene<D> scene = random_scene<D>(random);
-        for (int i = 0; i < 8; ++i, ++asked) {
+        for (int i = 0; i < 8; ++i, ++queries) {
             const Vec<D> from = random_point<D>(random, 1.5 * extent<D>),
-                         way = random_point<D>(random, extent<D>) - from * random.uniform_float(0, 1.5);
-            const Ray<D> ray = Ray<D>::between(from, from + way);
-            const auto first = least(scene, [&](const View<D>& item) -> std::optional<float> {
+                         motion = random_point<D>(random, extent<D>) - from * random.uniform_float(0, 1.5);
+            const Ray<D> ray = Ray<D>::between(from, from + motion);
+            const auto first = first_answer(scene, [&](const View<D>& item) -> std::optional<float> {
                 const auto hit = raycast(ray, item);
                 return hit ? std::optional(hit->distance) : std::nullopt;
             });
@@ -79,18 +79,18 @@ void check_world(int rounds) {
                 ++hits;
             }
             const AnyShape<D> shape = random_convex(random, std::integral_constant<int, D>(), extent<D>, 0.7);
-            const auto first_swept = least(scene, [&](const View<D>& item) -> std::optional<float> {
-                const auto touch = sweep(shape, way, item);
+            const auto first_swept = first_answer(scene, [&](const View<D>& item) -> std::optional<float> {
+                const auto touch = sweep(shape, motion, item);
                 return touch ? std::optional(touch->fraction) : std::nullopt;
             });
-            const auto touch = scene.world.sweep(shape, way);
+            const auto touch = scene.world.sweep(shape, motion);
             ASSERT_EQ(touch.has_value(), first_swept.has_value());
             if (touch) {
                 EXPECT_NEAR(touch->hit.fraction, first_swept->first, 1e-5);
                 ++swept;
             }
             const auto nearest =
-                least(scene, [&](const View<D>& item) { return std::optional(closest(item, from).distance); });
+                first_answer(scene, [&](const View<D>& item) { return std::optional(closest(item, from).distance); });
             const auto closest_item = scene.world.closest(from);
             ASSERT_TRUE(closest_item);
             EXPECT_NEAR(closest_item->closest.distance, nearest->first, 1e-5);
@@ -111,30 +111,30 @@ void check_world(int rounds) {
             for (std::size_t j = std::max<std::size_t>(i + 1, 3); j < scene.ids.size(); ++j)
                 if (overlaps(scene.shape(scene.ids[i]), scene.shape(scene.ids[j])))
                     pairs.push_back({scene.ids[i], scene.ids[j]});
-        std::vector<IdPair> told;
-        for (const WorldContact<D>& contact : scene.world.contacts()) told.push_back({contact.a, contact.b});
+        std::vector<IdPair> reported;
+        for (const WorldContact<D>& contact : scene.world.contacts()) reported.push_back({contact.a, contact.b});
         std::sort(pairs.begin(), pairs.end());
         touching += static_cast<int>(pairs.size());
-        // A pair may overlap and have no contact: at the back of what is one-sided, and where another tells of it.
-        EXPECT_TRUE(std::includes(pairs.begin(), pairs.end(), told.begin(), told.end()));
-        EXPECT_GE(3 * told.size() + 6, 2 * pairs.size());
+        // An overlapping pair may have no contact: at the back of a one-sided shape, or if another contact covers it.
+        EXPECT_TRUE(std::includes(pairs.begin(), pairs.end(), reported.begin(), reported.end()));
+        EXPECT_GE(3 * reported.size() + 6, 2 * pairs.size());
         if (testing::Test::HasFailure()) return;
     }
-    EXPECT_TRUE(hits > 0.2 * asked && hits < 0.95 * asked) << hits << " of " << asked;
-    EXPECT_TRUE(swept > 0.2 * asked && swept < 0.95 * asked) << swept << " of " << asked;
-    EXPECT_TRUE(inside > 0.2 * asked && inside < 0.95 * asked) << inside << " of " << asked;
+    EXPECT_TRUE(hits > 0.2 * queries && hits < 0.95 * queries) << hits << " of " << queries;
+    EXPECT_TRUE(swept > 0.2 * queries && swept < 0.95 * queries) << swept << " of " << queries;
+    EXPECT_TRUE(inside > 0.2 * queries && inside < 0.95 * queries) << inside << " of " << queries;
     EXPECT_GT(touching, rounds);
 }
 
 TEST(LevelsInAWorld, OfThePlaneAnswerAsOneByOne) {
-    check_world<2>(oracle::amount(30));
+    check_world<2>(oracle::case_count(30));
 }
 TEST(LevelsInAWorld, InSpaceAnswerAsOneByOne) {
-    check_world<3>(oracle::amount(20));
+    check_world<3>(oracle::case_count(20));
 }
 
-/// What a bullet meets between two updates, of ground that it is through by then.
-TEST(LevelsInAWorld, AreMetByWhatIsContinuous) {
+/// Tests the impacts of a bullet that passes through the ground between two updates.
+TEST(LevelsInAWorld, AreHitByContinuousItems) {
     World3 world;
     const HeightField field = *HeightField::build(std::vector<float>(36, 0.0f), 6, 1.0f);
     const Id ground = world.add(field, {.fixed = true});

@@ -1,4 +1,4 @@
-// A program's own assert_failed takes the place of the library's. This file alone asserts in release builds too.
+// A program's own assert_failed replaces the library's. Only this file asserts in release builds too.
 #ifndef ABUT_ENABLE_ASSERTS
 #define ABUT_ENABLE_ASSERTS
 #endif

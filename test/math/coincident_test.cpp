@@ -1,4 +1,4 @@
-// Points at the same position, against looking at all before.
+// Points at equal positions, against a reference over all earlier points.
 
 #include "../oracle/random.hpp"
 #include <abut/math/coincident.hpp>

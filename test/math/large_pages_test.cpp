@@ -1,4 +1,4 @@
-// Arrays of all sizes, at the places that they ask for.
+// Arrays of all sizes, at the alignments that they request.
 
 #include <abut/math/large_pages.hpp>
 

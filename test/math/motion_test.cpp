@@ -1,4 +1,4 @@
-// Motions, and the sines that turn them.
+// Motions, and the sines of their rotations.
 
 #include "../oracle/expect.hpp"
 #include "../oracle/random.hpp"
@@ -18,9 +18,9 @@ TEST(SinCos, AreThoseOfTheCLibraryButForTheLastDigits) {
     for (int i = 0; i < 10000; ++i) {
         const double angle = random.uniform(-1, 1) * random.power_of_two(-20, 10);
         const SinCos s = sin_cos(angle);
-        const double doubt = 4e-16 * (1 + std::abs(angle));
-        EXPECT_NEAR(s.sin, std::sin(angle), doubt) << angle;
-        EXPECT_NEAR(s.cos, std::cos(angle), doubt) << angle;
+        const double tolerance = 4e-16 * (1 + std::abs(angle));
+        EXPECT_NEAR(s.sin, std::sin(angle), tolerance) << angle;
+        EXPECT_NEAR(s.cos, std::cos(angle), tolerance) << angle;
     }
 }
 
@@ -37,7 +37,7 @@ TEST(AngleOf, IsTheAngleOfTheVector) {
     EXPECT_NEAR(angle_of(-1, -0.0), pi, 1e-15);
 }
 
-TEST(Motion, BetweenTwoPosesTurnsTheShortWay) {
+TEST(Motion, BetweenTwoPosesRotatesTheShortArc) {
     const Motion2 back = Motion2::between({{1, 2}, Turn::by(3)}, {{4, 6}, Turn::by(-3)});
     EXPECT_EQ(back.move, Vec2(3, 4));
     EXPECT_NEAR(back.turn, 2 * pi - 6, 1e-6);
@@ -45,14 +45,14 @@ TEST(Motion, BetweenTwoPosesTurnsTheShortWay) {
     const Vec3 axis(0.6f, 0, 0.8f);
     const Motion3 motion = Motion3::between({{0, 0, 0}, turn_about(axis, 1)}, {{1, 0, 0}, turn_about(axis, 3)});
     EXPECT_TRUE(near(motion.turn, 2.0f * axis));
-    // The same rotation, told by the quaternion of the other sign.
+    // An equal rotation, by the quaternion of opposite sign.
     const Motion3 same = Motion3::between({{0, 0, 0}, turn_about(axis, 1)}, {{1, 0, 0}, -turn_about(axis, 3)});
     EXPECT_TRUE(near(same.turn, 2.0f * axis));
     EXPECT_EQ(Motion3::between({}, {}).turn, Vec3(0));
 }
 
 template <int D>
-void expect_ends_where_told(std::uint64_t seed) {
+void expect_exact_ends(std::uint64_t seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     oracle::Random random(seed);
     const Pose<D> from{to_float(random.in_cube<D>()), random.rotation<D>()};
@@ -65,12 +65,12 @@ void expect_ends_where_told(std::uint64_t seed) {
     EXPECT_LE(angular_speed(path.angular_velocity), pi * (1 + 1e-15));
     const Affine<D> last = affine(to);
     EXPECT_LE(length(place_at(path, 1).point(DVec<D>(point)) - last.point(DVec<D>(point))), 1e-14);
-    // Evenly: a third of the way and another third is two thirds.
+    // The rotation is uniform: a third and another third make two thirds.
     const Pose<D> third = pose_at(motion, 1.0f / 3);
     Motion<D> rest = motion;
     rest.from = third;
     EXPECT_TRUE(near(pose_at(rest, 1.0f / 3) * point, pose_at(motion, 2.0f / 3) * point, 2e-6));
-    // As fast as it moves.
+    // The derivative equals the velocity.
     const double time = random.unit(), small = 1e-6;
     const auto place = [&](double t) { return place_at(path, t).point(DVec<D>(point)); };
     const DVec<D> speed = (place(time + small) - place(time - small)) / (2 * small);
@@ -79,8 +79,8 @@ void expect_ends_where_told(std::uint64_t seed) {
 
 TEST(Motion, EndsWhereItShould) {
     for (std::uint64_t seed = 1; seed <= 1000; ++seed) {
-        expect_ends_where_told<2>(seed);
-        expect_ends_where_told<3>(seed);
+        expect_exact_ends<2>(seed);
+        expect_exact_ends<3>(seed);
     }
 }
 

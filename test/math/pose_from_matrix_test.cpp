@@ -1,4 +1,4 @@
-// Poses from matrices: there and back over random poses, what rounding may do to them, and what is refused.
+// Poses from matrices: round trips of random poses, rounding, and refused matrices.
 
 #include "../oracle/random.hpp"
 #include <abut/math/dvec.hpp>
@@ -34,7 +34,7 @@ double norm(const glm::quat& q) {
 double apart(const Turn& a, const Turn& b) {
     return std::hypot(static_cast<double>(a.cos - b.cos), static_cast<double>(a.sin - b.sin));
 }
-/// q and -q turn alike.
+/// q and -q are equal rotations.
 double apart(const glm::quat& a, const glm::quat& b) {
     return std::min(norm(glm::quat(a.w - b.w, a.x - b.x, a.y - b.y, a.z - b.z)),
                     norm(glm::quat(a.w + b.w, a.x + b.x, a.y + b.y, a.z + b.z)));
@@ -62,7 +62,8 @@ TYPED_TEST(PoseFrom, MatrixOfAPoseIsThePose) {
         }
 }
 
-/// Products of many rotations drift, as a scene's nodes do; matrices that are off by up to 5e-5 are near some rotation.
+/// Products of many rotations drift, as a scene's nodes do: matrices with errors of up to 5e-5 are still near a
+/// rotation.
 TYPED_TEST(PoseFrom, RoundingIsAcceptedAndNormalised) {
     constexpr int D = TypeParam::value;
     oracle::Random random(2);
@@ -90,7 +91,7 @@ TYPED_TEST(PoseFrom, RoundingIsAcceptedAndNormalised) {
     }
 }
 
-/// Half turns about axes of all kinds, of which w is about 0.
+/// Half turns about many axes, where w is about 0.
 TEST(PoseFromMatrix, HalfTurns) {
     oracle::Random random(3);
     for (int i = 0; i < 1000; ++i) {

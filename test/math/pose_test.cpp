@@ -34,7 +34,7 @@ double gap(const Vec<D>& a, const Vec<D>& b) {
 double gap(const Turn& a, const Turn& b) {
     return gap<2>({a.cos, a.sin}, {b.cos, b.sin});
 }
-/// A quaternion and its negative turn alike.
+/// A quaternion and its negative are equal rotations.
 double gap(const glm::quat& a, const glm::quat& b) {
     const auto squared = [&](double sign) {
         double sum = 0;
@@ -52,7 +52,7 @@ glm::quat scaled(const glm::quat& q, float factor) {
 }
 
 void expect_turn(const Turn& turn, double cos, double sin, float radians) {
-    // An ulp of the result itself, near zero too.
+    // An ulp of the result, near zero too.
     EXPECT_NEAR(turn.cos, cos, std::abs(cos) * ulp) << radians;
     EXPECT_NEAR(turn.sin, sin, std::abs(sin) * ulp) << radians;
 }
@@ -91,10 +91,10 @@ TEST(Turn, ByHand) {
     EXPECT_LE(gap(rotate(turn_about({1, 0, 0}, quarter), Vec3(0, 1, 0)), Vec3(0, 0, 1)), ulp);
     EXPECT_LE(gap(rotate(turn_about({0, 1, 0}, quarter), Vec3(0, 0, 1)), Vec3(1, 0, 0)), ulp);
     EXPECT_LE(gap(Pose3{{1, 2, 3}, turn_about({0, 0, 1}, quarter)} * Vec3(1, 0, 5), Vec3(1, 3, 8)), 8 * ulp);
-    // First the inner one turns, then the outer one moves.
-    const Pose2 turning{{0, 0}, Turn::by(quarter)}, moving{{5, 0}, {}};
-    EXPECT_LE(gap(moving * turning * Vec2(1, 0), Vec2(5, 1)), 8 * ulp);
-    EXPECT_LE(gap(turning * moving * Vec2(1, 0), Vec2(0, 6)), 8 * ulp);
+    // The inner pose rotates first, then the outer one moves.
+    const Pose2 rotating{{0, 0}, Turn::by(quarter)}, moving{{5, 0}, {}};
+    EXPECT_LE(gap(moving * rotating * Vec2(1, 0), Vec2(5, 1)), 8 * ulp);
+    EXPECT_LE(gap(rotating * moving * Vec2(1, 0), Vec2(0, 6)), 8 * ulp);
 }
 
 TYPED_TEST(Poses, ObeyTheLawsOfMaps) {

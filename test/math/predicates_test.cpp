@@ -1,4 +1,4 @@
-// The predicates against rational numbers, on points of every kind: random, next to a line or plane, exactly on it, and
+// The predicates against rational numbers, on all kinds of points: random, nearly degenerate, exactly degenerate, and
 // of any exponents.
 #include "../oracle/random.hpp"
 #include <abut/math/dvec.hpp>
@@ -60,10 +60,10 @@ int in_double(const Points<3>& points) {
     return volume > 0 ? 1 : volume < 0 ? -1 : 0;
 }
 
-int asked(const Points<2>& p) {
+int orientation_of(const Points<2>& p) {
     return orientation(p[0], p[1], p[2]);
 }
-int asked(const Points<3>& p) {
+int orientation_of(const Points<3>& p) {
     return orientation(p[0], p[1], p[2], p[3]);
 }
 
@@ -80,7 +80,7 @@ float any_finite_float(Random& random) {
     }
 }
 
-// One of the extremes, a sum of which may need every bit between 2^-149 and 2^128.
+// An extreme float; a sum of these may need every bit between 2^-149 and 2^128.
 float extreme_float(Random& random) {
     constexpr float most = std::numeric_limits<float>::max(), least = std::numeric_limits<float>::denorm_min();
     constexpr std::array<float, 8> values{0, least, 3 * least, 1e-38f, 1, 1 + 0x1p-23f, 3e38f, most};
@@ -96,7 +96,7 @@ Points<D> points_of(Coordinate coordinate) {
     return result;
 }
 
-/// The last point is made of the others, and so lies on their line or in their plane before it is rounded.
+/// The last point is an affine combination of the others, and so degenerate before it is rounded.
 template <int D>
 Points<D> coherent(Random& random, double away, int ulps) {
     const DVec<D> offset = random.direction<D>() * away;
@@ -111,8 +111,8 @@ Points<D> coherent(Random& random, double away, int ulps) {
     return result;
 }
 
-/// Next to a line or plane through the origin, and much closer to the origin than all others: their differences take
-/// more bits than a double has.
+/// Near a line or plane through the origin, and much closer to the origin than all others: the differences need more
+/// bits than a double has.
 template <int D>
 Points<D> close_to_the_origin(Random& random) {
     Points<D> result;
@@ -124,7 +124,7 @@ Points<D> close_to_the_origin(Random& random) {
     return result;
 }
 
-/// All on one line or in one plane, exactly, at a scale of any power of two.
+/// Exactly collinear or coplanar points, scaled by any power of two.
 template <int D>
 Points<D> flat(Random& random) {
     const auto small = [&] { return static_cast<float>(random.below(2001)) - 1000; };
@@ -175,16 +175,16 @@ void expect_exact() {
             Random random(seed);
             const Points<D> points = of_kind<D>(kind, random);
             const int expected = exact(points);
-            ASSERT_EQ(asked(points), expected) << "kind " << kind << ", seed " << seed;
+            ASSERT_EQ(orientation_of(points), expected) << "kind " << kind << ", seed " << seed;
             ++signs[expected];
             wrong_in_double += in_double(points) != expected ? 1 : 0;
 
-            // Swapping two of the points turns the sign round.
+            // Swapping two of the points changes the sign.
             for (std::size_t i = 0; i < points.size(); ++i)
                 for (std::size_t j = 0; j < i; ++j) {
                     Points<D> swapped = points;
                     std::swap(swapped[i], swapped[j]);
-                    ASSERT_EQ(asked(swapped), -expected) << "kind " << kind << ", seed " << seed;
+                    ASSERT_EQ(orientation_of(swapped), -expected) << "kind " << kind << ", seed " << seed;
                 }
             if (kind == 8) {
                 ASSERT_EQ(expected, 0) << "meant to be flat";
@@ -211,7 +211,7 @@ TEST(Predicates, TurnCounterClockwiseIsPositive) {
     EXPECT_EQ(orientation(Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(5, -7, 0)), 0);
 }
 
-// The least that floats can be beside a line or plane as long as floats can be.
+// The smallest offset from the largest line or plane in floats.
 TEST(Predicates, SeeADenormalFromTheGreatestDistance) {
     constexpr float most = std::numeric_limits<float>::max(), least = std::numeric_limits<float>::denorm_min();
     EXPECT_EQ(orientation(Vec2(-most, -most), Vec2(most, most), Vec2(0, least)), 1);

@@ -16,7 +16,7 @@ TEST(Ray, BetweenByHand) {
     EXPECT_EQ(up.length, 8);
 }
 
-TEST(Ray, ReachesForeverUnlessTold) {
+TEST(Ray, IsInfiniteByDefault) {
     EXPECT_EQ((Ray2{{0, 0}, {1, 0}}.length), std::numeric_limits<float>::infinity());
     const Ray ray{Vec3(0), Vec3(1, 0, 0), 2.0f};
     EXPECT_EQ(ray.length, 2);

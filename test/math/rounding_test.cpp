@@ -1,5 +1,5 @@
-// A double that becomes a float is rounded, whatever the optimiser thinks of it. GCC 12 at -O2 takes the way of two
-// neighbours to float and back for no way at all, unless it is told -fno-tree-slp-vectorize.
+// A conversion of a double to float rounds under any optimisation. GCC 12 at -O2 drops the conversion of two neighbours
+// to float and back, unless it has the option -fno-tree-slp-vectorize.
 #include "../oracle/random.hpp"
 #include <abut/math/dvec.hpp>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Many convex things that don't overlap: how they lie in heaps, stores and puzzles.
+// Arrangements of many convex shapes that don't overlap: heaps, shelves and puzzles.
 
 #include "../oracle/random.hpp"
 #include <abut/shape/ball.hpp>
@@ -16,24 +16,24 @@
 
 namespace abut::test {
 
-/// Shapes of any kind, kept alive, with views of them.
+/// Owned shapes of any kind, with views of them.
 template <int D>
 class Things {
 public:
     template <class S>
     void add(const S& shape) {
-        kept_.push_back(std::make_shared<S>(shape));
-        views_.push_back(view(*std::static_pointer_cast<S>(kept_.back())));
+        shapes_.push_back(std::make_shared<S>(shape));
+        views_.push_back(view(*std::static_pointer_cast<S>(shapes_.back())));
     }
     std::size_t size() const { return views_.size(); }
     std::span<const Convex<D>> views() const { return views_; }
 
 private:
-    std::vector<std::shared_ptr<void>> kept_;
+    std::vector<std::shared_ptr<void>> shapes_;
     std::vector<Convex<D>> views_;
 };
 
-/// A convex polygon cut by random lines, again and again: the pieces touch all along their sides.
+/// A convex polygon cut by random lines: the pieces touch along their sides.
 inline void cut_up(Things<2>& things, oracle::Random& random, std::vector<DVec<2>> loop, int cuts, const Pose2& pose) {
     if (cuts == 0) {
         std::vector<Vec2> points;
@@ -43,7 +43,7 @@ inline void cut_up(Things<2>& things, oracle::Random& random, std::vector<DVec<2
     }
     DVec<2> middle(0.0);
     for (const DVec<2>& p : loop) middle += p / static_cast<double>(loop.size());
-    // Often upright or level, as most things in stores are.
+    // The cuts are often vertical or horizontal.
     const DVec<2> normal = random.chance(0.6) ? axis<2>(static_cast<int>(random.below(2))) : random.direction<2>();
     std::vector<DVec<2>> part[2];
     for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -75,16 +75,16 @@ inline void on_a_grid(Things<2>& things, oracle::Random& random, int columns, co
         }
 }
 
-/// Thrown in where there is room.
+/// Random shapes at free places.
 template <int D>
 void throw_in(Things<D>& things, oracle::Random& random, std::size_t count, double size) {
     std::vector<std::pair<DVec<D>, double>> balls;
     for (int attempt = 0; attempt < 100000 && things.size() < count; ++attempt) {
         const DVec<D> center = random.in_cube<D>() * size;
         const double radius = size * random.power_of_two(-7, -2);
-        bool room = true;
-        for (const auto& [other, reach] : balls) room = room && length(center - other) > radius + reach;
-        if (!room) continue;
+        bool is_free = true;
+        for (const auto& [other, reach] : balls) is_free = is_free && length(center - other) > radius + reach;
+        if (!is_free) continue;
         balls.emplace_back(center, radius);
         const Vec<D> at_place = to_float(center), end = to_float(random.direction<D>() * (0.9 * radius));
         switch (random.below(4)) {

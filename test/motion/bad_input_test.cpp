@@ -1,4 +1,4 @@
-// NaN, infinity and lists that don't fit: an assertion where there are any, and harmless answers.
+// NaN, infinity and lists of the wrong size: an assertion if they are enabled, and neutral answers.
 
 #include <abut/motion/depenetrate.hpp>
 #include <abut/motion/mover.hpp>
@@ -11,12 +11,12 @@
 #include <gtest/gtest.h>
 
 namespace {
-int assertions = 0;  // how many there were is up to the build
+int assertions = 0;  // the number depends on the build
 }
 
 namespace abut {
 
-// This program's own, which goes on.
+// The assertion handler of this program, which returns.
 void assert_failed(const char*, const char*, int) {
     ++assertions;
 }
@@ -52,7 +52,7 @@ TEST(BadInput, IsThrownBackNowhere) {
     EXPECT_EQ(reflect(Ray2{{nan, 0}, {1, 0}}, hit).length, 0);
 }
 
-/// What isn't finite stays where it is, stands on nothing, and is forgotten: the next move is as ever.
+/// A non-finite motion moves nothing, gives no ground, and leaves no state for the next move.
 template <int D>
 void expect_unmoved() {
     World<D> world;
@@ -84,7 +84,7 @@ void expect_unmoved() {
 #endif
         EXPECT_TRUE(mover.move(world, ball, place, down).grounded);
     }
-    // An up that isn't finite is the usual one.
+    // A non-finite `up` is replaced by the default.
     mover.set_options({.up = Vec<D>(nan)});
     EXPECT_TRUE(mover.move(world, ball, place, down).grounded);
 }

@@ -1,4 +1,4 @@
-// How near to the shortest the way out is, beside all ways there are; and that it takes no memory.
+// The length of depenetration relative to the shortest possible one; and that it does not allocate.
 
 #include "../broad_phase/allocations.hpp"
 #include "../oracle/distance.hpp"
@@ -29,7 +29,7 @@ Polygon random_polygon(Random& random, const DVec<2>& center, double size) {
     return *Polygon::build(points);
 }
 
-/// The places of a shape in which it overlaps some piece: convex outlines, whose union is known exactly.
+/// The positions at which a shape overlaps some piece: the exact union of convex outlines (Minkowski differences).
 class Forbidden {
 public:
     void add(const Polygon& piece, const Polygon& shape) {
@@ -48,7 +48,7 @@ public:
             return height < -1e-6;
         });
     }
-    /// The border nearest to 0 is at a corner, at the foot on an edge, or where two edges cross.
+    /// The point of the boundary nearest to 0 is a corner, the closest point of an edge, or a crossing of two edges.
     double shortest() const {
         double best = std::numeric_limits<double>::infinity();
         const auto offer = [&](const DVec<2>& place) {
@@ -79,7 +79,7 @@ private:
     std::vector<std::vector<DVec<2>>> outlines_;
 };
 
-/// How much longer than the shortest the pushes are.
+/// The ratios of the pushes' lengths to the shortest.
 struct Lengths {
     std::vector<double> ratios;
     int inside = 0, given_up = 0;
@@ -88,7 +88,7 @@ struct Lengths {
         const auto count = std::count_if(ratios.begin(), ratios.end(), [&](double each) { return each < ratio; });
         return static_cast<double>(count) / static_cast<double>(ratios.size());
     }
-    void tell(const char* what) const {
+    void print_ratios(const char* what) const {
         double sum = 0, worst = 0;
         for (const double ratio : ratios) {
             sum += ratio;
@@ -117,7 +117,7 @@ Lengths in_the_plane(int pieces, double spread) {
         const auto found = depenetrate(shape, world);
         result.given_up += found ? 0 : 1;
         if (!found) continue;
-        // It ends 1e-4 of its size from what it was in, and what is touched in a corner farther.
+        // The shape ends 1e-4 of its size from the obstacle, or farther in a corner.
         EXPECT_TRUE(forbidden.allows(DVec<2>(found.push))) << run;
         result.ratios.push_back(std::max(length(DVec<2>(found.push)) - 2e-4, 0.0) /
                                 std::max(forbidden.shortest(), 1e-3));
@@ -125,14 +125,14 @@ Lengths in_the_plane(int pieces, double spread) {
     return result;
 }
 
-/// Pushed by planes alone, one after the other, 18 % of these with four pieces weren't freed, and 35 % of the others
-/// went farther than they had to, 11 times as far in the mean.
-TEST(DepenetrateShortest, IsShortBesideAllWaysOfThePlane) {
+/// A push by single planes, one after another, failed for 18 % of these with four pieces. 35 % of the others moved
+/// farther than needed, 11 times as far on average.
+TEST(DepenetrateShortest, IsShortComparedWithAllWaysOutIn2D) {
     const std::array<std::pair<int, double>, 4> kinds{{{1, 0.5}, {2, 0.8}, {4, 1.2}, {8, 2}}};
     const std::array<double, 4> shortest{0.995, 0.985, 0.97, 0.95};
     for (std::size_t i = 0; i < kinds.size(); ++i) {
         const Lengths lengths = in_the_plane(kinds[i].first, kinds[i].second);
-        lengths.tell((std::to_string(kinds[i].first) + " pieces").c_str());
+        lengths.print_ratios((std::to_string(kinds[i].first) + " pieces").c_str());
         EXPECT_GT(lengths.inside, 300);
         EXPECT_EQ(lengths.given_up, 0);
         EXPECT_GT(lengths.part_below(1.02), shortest[i]);
@@ -140,7 +140,7 @@ TEST(DepenetrateShortest, IsShortBesideAllWaysOfThePlane) {
     }
 }
 
-/// In space no place nearer than the one found is free, of many tried at random.
+/// In 3D, no random nearer position is free.
 TEST(DepenetrateShortest, NoneIsFoundNearerInSpace) {
     Random random(seed);
     int inside = 0, freed = 0, nearer = 0, tried = 0;

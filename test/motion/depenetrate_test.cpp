@@ -1,4 +1,4 @@
-// The way out of what a shape is in.
+// Moving a shape out of obstacles.
 
 #include "../oracle/expect.hpp"
 #include "../oracle/random.hpp"
@@ -39,13 +39,13 @@ TEST(Depenetrate, LeavesAWallAndTheFloorAtOnce) {
 TEST(Depenetrate, LeavesAFloorOfTilesUpwards) {
     World2 world;
     for (int x = -4; x < 4; ++x) world.add(Box2{{static_cast<float>(x) + 0.5f, -0.5f}, {0.5f, 0.5f}}, {.fixed = true});
-    // Of each tile alone the least way out is sideways.
+    // For each single tile, the shortest way out is sideways.
     const auto result = depenetrate(Box2{{0, 0.2f}, {0.1f, 0.4f}}, world);
     EXPECT_TRUE(result);
     EXPECT_TRUE(near(result.push, Vec2(0, 0.2f), 1e-3));
 }
 
-TEST(Depenetrate, SaysWhenThereIsNoWay) {
+TEST(Depenetrate, ReportsThatThereIsNoWayOut) {
     World2 world;
     world.add(HalfSpace2{{1, 0}, 0}, {.fixed = true});
     world.add(HalfSpace2{{-1, 0}, -1}, {.fixed = true});
@@ -54,7 +54,7 @@ TEST(Depenetrate, SaysWhenThereIsNoWay) {
     EXPECT_GT(result.depth, 0.15f);
 }
 
-TEST(Depenetrate, AsksOnlyAboutWhatTheFilterLetsThrough) {
+TEST(Depenetrate, UsesItemsThatPassTheFilterAlone) {
     World2 world;
     world.add(HalfSpace2{{0, 1}, 0}, {.layers = 2, .fixed = true});
     EXPECT_EQ(depenetrate(Circle{{0, 0}, 1}, world, {.mask = 1}).push, Vec2(0));
@@ -78,7 +78,7 @@ void at_random() {
         const bool starts_inside = !world.overlapping(shape).empty();
         const auto result = depenetrate(shape, world);
         const auto nearest = world.closest(at(shape, Pose<D>{result.push}));
-        // Inside by more than the margin of doubt.
+        // The shape is inside by more than the tolerance.
         const bool ends_inside = nearest && nearest->closest.distance < -2e-5f;
         EXPECT_TRUE(starts_inside || result.push == Vec<D>(0.0f)) << i;
         EXPECT_EQ(static_cast<bool>(result), !ends_inside) << i << ' ' << result.depth;

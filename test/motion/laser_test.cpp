@@ -1,4 +1,4 @@
-// Lasers between mirrors: they stay in the room, for a million bounces.
+// Lasers between mirrors stay in the room for a million bounces.
 
 #include "../broad_phase/allocations.hpp"
 #include "../oracle/random.hpp"
@@ -14,7 +14,7 @@
 namespace abut {
 namespace {
 
-/// How the walls of a room are made.
+/// The shapes of the walls of a room.
 enum class Walls { half_spaces, boxes, thin };
 
 /// A convex room: the points whose height above each wall is not below zero.
@@ -29,15 +29,16 @@ struct Room {
         for (const auto& [normal, offset] : walls) sum += normal * (0.5 * offset);
         return to_float(sum);
     }
-    /// The least height above a wall.
+    /// The minimal height above a wall.
     double inside(const Vec<D>& point) const {
-        double least = std::numeric_limits<double>::infinity();
-        for (const auto& [normal, offset] : walls) least = std::min(least, dot(normal, DVec<D>(point)) - offset);
-        return least;
+        double min_height = std::numeric_limits<double>::infinity();
+        for (const auto& [normal, offset] : walls)
+            min_height = std::min(min_height, dot(normal, DVec<D>(point)) - offset);
+        return min_height;
     }
 };
 
-/// A box of a room, anywhere and turned.
+/// A box-shaped room at a random position and rotation.
 template <int D>
 Room<D> make_room(oracle::Random& random, Walls kind, double size, double far) {
     Room<D> room;
@@ -78,7 +79,7 @@ Room<D> make_room(oracle::Random& random, Walls kind, double size, double far) {
     return room;
 }
 
-/// From the middle, often straight into a corner or along a wall.
+/// A ray from the center, often straight into a corner or along a wall.
 template <int D>
 Ray<D> first_ray(oracle::Random& random, const Room<D>& room, const Vec<D>& middle) {
     DVec<D> direction = random.direction<D>();
@@ -171,7 +172,7 @@ TEST(Laser, StopsWhereTheVisitorSaysAndWhereNothingIs) {
     const Ray2 last = follow_laser(world, start, [](const Ray2&, const WorldHit<2>&) { return true; });
     EXPECT_EQ(last.direction, Vec2(-1, 0));
     EXPECT_EQ(last.length, std::numeric_limits<float>::infinity());
-    // The length of the ray is that of all pieces together.
+    // The length of the ray is the total of all pieces.
     const Ray2 rest = follow_laser(world, {{0, 0}, {1, 0}, 10}, [](const Ray2&, const WorldHit<2>&) { return true; });
     EXPECT_NEAR(rest.length, 6, 1e-4);
     EXPECT_FALSE(Laser<2>(world, {{0, 0}, {0, 1}}).hit());

@@ -1,4 +1,4 @@
-// Over floors made of pieces nothing catches: the way is as long and as straight as was asked.
+// A mover over floors made of pieces has no ghost collisions: its path is as long and straight as requested.
 
 #include "../broad_phase/allocations.hpp"
 #include "../oracle/random.hpp"
@@ -61,7 +61,7 @@ void add_segments(World2& world, Random* random) {
     for (std::size_t x = 0; x < tiles; ++x) world.add(Segment2{points[x], points[x + 1]}, {.fixed = true});
 }
 
-/// The boxes as one solid level of lumps.
+/// The boxes as one SolidBsp of brushes.
 template <int D>
 void add_solid(World<D>& world, Random* random) {
     std::vector<HalfSpace<D>> sides;
@@ -100,30 +100,30 @@ Vec<D> level_direction(Random& random) {
     if constexpr (D == 2) {
         result[0] = random.chance(0.5) ? 1.0f : -1.0f;
     } else {
-        // Along the seams every third time.
-        const DVec<2> way =
+        // Every third direction is along the internal edges.
+        const DVec<2> direction =
             random.chance(0.3) ? (random.chance(0.5) ? DVec<2>{1, 0} : DVec<2>{0, -1}) : random.direction<2>();
-        result = {static_cast<float>(way.x), 0, static_cast<float>(way.y)};
+        result = {static_cast<float>(direction.x), 0, static_cast<float>(direction.y)};
     }
     return result;
 }
 
 /// Slides the shape, whose lowest point is `reach` below it, from the middle in many directions at several speeds.
-/// `off`: how far normals may be off.
+/// `off` is the tolerance of normals.
 template <int D, class S>
 void expect_no_catch(const char* name, const World<D>& world, const S& shape, float reach, double off) {
     Random random(seed);
     for (const float speed : {0.003f, 0.05f, 0.4f, 2.7f}) {
         for (int run = 0; run < 12; ++run) {
             Mover<D> mover;
-            const Vec<D> way = level_direction<D>(random);
+            const Vec<D> direction = level_direction<D>(random);
             Vec<D> position(0.0f);
             position[1] = reach + 0.005f;
             if (random.chance(0.5)) position[0] = random.uniform_float(-0.5, 0.5);
             const Vec<D> from = position;
             const int frames = std::min(60, static_cast<int>(5.5f / speed));
             for (int i = 0; i < frames; ++i) {
-                Vec<D> motion = way * speed;
+                Vec<D> motion = direction * speed;
                 motion[1] = -0.01f;
                 const Moved<D> moved = mover.move(world, shape, position, motion);
                 position = moved.position;
@@ -131,7 +131,7 @@ void expect_no_catch(const char* name, const World<D>& world, const S& shape, fl
                 for (const MoverTouch<D>& touch : moved.touches)
                     ASSERT_NEAR(touch.normal[1], 1, off) << name << ' ' << speed << ' ' << run << ' ' << i;
             }
-            const DVec<D> wanted = DVec<D>(from) + DVec<D>(way * speed) * static_cast<double>(frames);
+            const DVec<D> wanted = DVec<D>(from) + DVec<D>(direction * speed) * static_cast<double>(frames);
             DVec<D> error = DVec<D>(position) - wanted;
             EXPECT_LT(std::abs(error[1]), 0.01) << name << ' ' << speed << ' ' << run;
             error[1] = 0;
@@ -141,8 +141,8 @@ void expect_no_catch(const char* name, const World<D>& world, const S& shape, fl
 }
 
 TEST(MoverFloors, NothingCatchesInSpace) {
-    Random noise(seed);
-    for (Random* random : {static_cast<Random*>(nullptr), &noise}) {
+    Random perturbation(seed);
+    for (Random* random : {static_cast<Random*>(nullptr), &perturbation}) {
         for (const auto& add : {static_cast<void (*)(World3&, Random*)>(add_boxes), add_mesh, add_solid<3>}) {
             World3 world;
             add(world, random);
@@ -156,8 +156,8 @@ TEST(MoverFloors, NothingCatchesInSpace) {
 }
 
 TEST(MoverFloors, NothingCatchesInThePlane) {
-    Random noise(seed);
-    for (Random* random : {static_cast<Random*>(nullptr), &noise}) {
+    Random perturbation(seed);
+    for (Random* random : {static_cast<Random*>(nullptr), &perturbation}) {
         for (const auto& add :
              {static_cast<void (*)(World2&, Random*)>(add_boxes), add_segments, add_solid<2>, add_solid_of_faces}) {
             World2 world;
@@ -187,8 +187,8 @@ TEST(MoverFloors, AllocatesNothingOnceWarm) {
     EXPECT_EQ(allocated, 0u);
 }
 
-/// A world of random walls, steps and slopes, walked through at random: never in anything, never farther than asked,
-/// and the same again.
+/// Random walks through a world of random walls, steps and slopes: the mover is never inside an item, never moves
+/// farther than requested, and is deterministic.
 template <int D>
 void walk_at_random(std::uint64_t number) {
     Random random(number);
@@ -212,27 +212,28 @@ void walk_at_random(std::uint64_t number) {
     Mover<D> mover(options);
     Vec<D> position(0.0f);
     position[1] = 8;
-    Vec<D> way(0.0f);
+    Vec<D> direction(0.0f);
     float fall = 0;
     int crushed = 0, grounded = 0;
     for (int i = 0; i < 400; ++i) {
-        if (i % 20 == 0) way = level_direction<D>(random) * random.uniform_float(0, random.chance(0.1) ? 1.5 : 0.15);
-        Vec<D> motion = way;
+        if (i % 20 == 0)
+            direction = level_direction<D>(random) * random.uniform_float(0, random.chance(0.1) ? 1.5 : 0.15);
+        Vec<D> motion = direction;
         fall = std::min(fall + 0.01f, 0.5f);
         motion[1] = random.chance(0.03) ? 0.3f : -fall;
         const Moved<D> moved = mover.move(world, shape, position, motion);
         const DVec<D> gone = DVec<D>(moved.position - position - moved.pushed - moved.carried);
-        const double most = length(DVec<D>(motion)), height = gone[1];
+        const double max_length = length(DVec<D>(motion)), height = gone[1];
         DVec<D> level = gone;
         level[1] = 0;
-        ASSERT_LT(length(level), most + 1e-5) << number << ' ' << i;
-        ASSERT_LT(std::abs(height), most + 0.31) << number << ' ' << i;
+        ASSERT_LT(length(level), max_length + 1e-5) << number << ' ' << i;
+        ASSERT_LT(std::abs(height), max_length + 0.31) << number << ' ' << i;
         position = moved.position;
         crushed += moved.crushed ? 1 : 0;
         grounded += moved.grounded ? 1 : 0;
         if (moved.grounded) fall = 0;
         ASSERT_TRUE(moved.crushed || world.overlapping(at(shape, Pose<D>{position})).empty()) << number << ' ' << i;
-        // A move of another one, from the same place, that remembers nothing.
+        // A move of a new mover from the same position has no state.
         Mover<D> other(options);
         ASSERT_EQ(other.move(world, shape, position, motion).position,
                   Mover<D>(options).move(world, shape, position, motion).position);

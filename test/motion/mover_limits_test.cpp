@@ -1,5 +1,5 @@
-// A Mover at its limits: corners of all angles in space, motions of nothing and of ten thousand sizes, all scales, far
-// from the origin, and between things that close.
+// A Mover at its limits: corners of all angles in 3D, motions of length 0 and of ten thousand sizes, all scales, far
+// from the origin, and between closing walls.
 
 #include "../oracle/random.hpp"
 #include <abut/motion/mover.hpp>
@@ -17,23 +17,23 @@ namespace {
 
 constexpr double pi = 3.14159265358979;
 
-/// How far it moves after a while, of so many frames of the same motion.
+/// The largest deviation from rest after the first frames of a constant motion.
 template <class S>
 float unrest(const World3& world, const S& shape, const Vec3& start, const Vec3& motion, int frames, Vec3& place) {
     Mover3 mover;
     place = start;
     Vec3 rest{};
-    float most = 0;
+    float max_move = 0;
     const int settled = 170 + frames / 10;
     for (int i = 0; i < frames; ++i) {
         place = mover.move(world, shape, place, motion).position;
         if (i == settled) rest = place;
-        if (i > settled) most = std::max(most, static_cast<float>(length(DVec<3>(place - rest))));
+        if (i > settled) max_move = std::max(max_move, static_cast<float>(length(DVec<3>(place - rest))));
     }
-    return most;
+    return max_move;
 }
 
-/// Two upright walls on a floor, or a gutter of two slopes, that make such an angle; walked and fallen into.
+/// Two vertical walls on a floor, or a gutter of two slopes, at an angle; the mover walks or falls into them.
 TEST(MoverLimits, ComesToRestInCornersOfAnyAngleInSpace) {
     const Sphere ball{{0, 0, 0}, 0.5f};
     const Capsule3 capsule{{0, -0.5f, 0}, {0, 0.5f, 0}, 0.4f};
@@ -45,14 +45,14 @@ TEST(MoverLimits, ComesToRestInCornersOfAnyAngleInSpace) {
         room.add(HalfSpace3{{0, 1, 0}, 0}, {.fixed = true});
         room.add(HalfSpace3{{half.sin, 0, -half.cos}, 0}, {.fixed = true});
         room.add(HalfSpace3{{half.sin, 0, half.cos}, 0}, {.fixed = true});
-        // Along walls that are nearly one it takes long to come to the corner.
+        // Along walls that are nearly parallel, the mover takes long to reach the corner.
         const int frames = degrees % 60 == 1 ? 10000 : degrees > 170 ? 3000 : 300;
         const float far = 1.5f / half.sin;
         const auto expect_rest = [&](const auto& shape, float height, const char* name) {
             Vec3 place;
-            const float most = unrest(room, shape, {far, height, 0.01f}, {-0.02f / half.sin, -0.02f, 0.003f * half.cos},
-                                      frames, place);
-            EXPECT_LT(most, 0.5e-4f) << name << ' ' << degrees;
+            const float max_move = unrest(room, shape, {far, height, 0.01f},
+                                          {-0.02f / half.sin, -0.02f, 0.003f * half.cos}, frames, place);
+            EXPECT_LT(max_move, 0.5e-4f) << name << ' ' << degrees;
             EXPECT_TRUE(room.overlapping(at(shape, Pose3{place})).empty()) << name << ' ' << degrees;
             EXPECT_LT(place.x, far) << name << ' ' << degrees;
         };
@@ -75,9 +75,9 @@ TEST(MoverLimits, ComesToRestInGuttersOfAnyAngle) {
         Vec3 place;
         for (const bool is_box : {false, true}) {
             const Vec3 start(0.001f, 1.0f / half.sin, 0), motion(0, -0.02f / half.sin, 0);
-            const float most = is_box ? unrest(gutter, box, start, motion, frames, place)
-                                      : unrest(gutter, ball, start, motion, frames, place);
-            EXPECT_LT(most, 0.5e-4f) << degrees << ' ' << is_box;
+            const float max_move = is_box ? unrest(gutter, box, start, motion, frames, place)
+                                          : unrest(gutter, ball, start, motion, frames, place);
+            EXPECT_LT(max_move, 0.5e-4f) << degrees << ' ' << is_box;
             EXPECT_TRUE(
                 (is_box ? gutter.overlapping(at(box, Pose3{place})) : gutter.overlapping(at(ball, Pose3{place})))
                     .empty())
@@ -149,7 +149,7 @@ TEST(MoverLimits, MotionsOfNothingAndOfAlmostNothing) {
         ASSERT_EQ(moved.position, rest) << i;
         ASSERT_EQ(moved.motion, Vec3(0)) << i;
     }
-    // Less than what is no way at all adds up to nothing, or to what was asked; never to more.
+    // Motions below the minimal length add up to nothing, or to the requested motion, never to more.
     for (const float speed : {1e-6f, 1e-5f, 1e-4f}) {
         place = rest;
         for (int i = 0; i < 1000; ++i) {
@@ -171,9 +171,9 @@ TEST(MoverLimits, HugeMotionsStopAtTheFirstWall) {
     for (int i = 0; i < 300; ++i) {
         Mover3 mover(room.options());
         const Vec3 from(1 + random.uniform_float(0, 1.5), 0.95f, random.uniform_float(0.5, 7.5));
-        const DVec<2> way = random.direction<2>() * 1e4;
-        const Moved<3> moved =
-            mover.move(room.world, room.hero(), from, {static_cast<float>(way.x), -100, static_cast<float>(way.y)});
+        const DVec<2> direction = random.direction<2>() * 1e4;
+        const Moved<3> moved = mover.move(room.world, room.hero(), from,
+                                          {static_cast<float>(direction.x), -100, static_cast<float>(direction.y)});
         ASSERT_TRUE(is_finite(moved.position)) << i;
         ASSERT_TRUE(room.is_free(moved.position)) << i;
         ASSERT_LT(length(DVec<3>(moved.position - from)), 1.0002e4 + 100) << i;
@@ -185,7 +185,7 @@ TEST(MoverLimits, HugeMotionsStopAtTheFirstWall) {
     }
 }
 
-/// Who ran against a low edge at 20 a frame was thrown up by 9, along the plane of the edge.
+/// Regression: a mover that ran against a low edge at 20 per frame was lifted by 9, along the plane of the edge.
 TEST(MoverLimits, LowEdgesThrowNobodyUp) {
     const Room room(1, {0, 0, 0});
     int over = 0;
@@ -215,7 +215,7 @@ Box<D> slab(float low, float high) {
     return result;
 }
 
-/// A lift rises under a ceiling, with somebody 2 high on it.
+/// A lift rises under a ceiling with a mover of height 2 on it.
 template <int D>
 void ride_into_the_ceiling() {
     World<D> world;
@@ -246,7 +246,7 @@ void ride_into_the_ceiling() {
         }
     }
     EXPECT_NEAR(crushed_from, 2, 0.04);
-    // The lift goes down again, and it is free and stands.
+    // The lift goes down again, and the mover is free and grounded.
     world.move(lift, {});
     for (int i = 0; i < 300; ++i) place = mover.move(world, hero, place, down).position;
     const Moved<D> moved = mover.move(world, hero, place, down);
@@ -259,7 +259,7 @@ TEST(MoverLimits, IsCrushedByALiftUnderACeilingWhereThereIsNoRoomLeft) {
     ride_into_the_ceiling<3>();
 }
 
-/// Between two platforms that close from both sides, above a floor: it jumps out of nothing, and goes nowhere.
+/// A mover between two closing platforms above a floor neither jumps nor moves away.
 TEST(MoverLimits, IsCrushedBetweenWhatCloses) {
     World3 world;
     world.add(HalfSpace3{{0, 1, 0}, 0}, {.fixed = true});

@@ -1,5 +1,5 @@
-// A character in levels that are known by their distance alone, baked or a user's own: it stands on the floor while it
-// is pressed against a wall.
+// A mover in levels that are distance functions, baked or user-defined: it stands on the floor while it is pressed
+// against a wall.
 
 #include <abut/bake/field.hpp>
 #include <abut/math/dvec.hpp>
@@ -47,7 +47,7 @@ std::vector<Box<D>> room() {
     return result;
 }
 
-/// The same, known by its distance alone: the least of the boxes', which inside of several is a bound.
+/// The room as a distance function: the minimum over the boxes, which is a bound inside several.
 template <int D>
 struct OwnRoom {
     std::vector<Box<D>> boxes = room<D>();
@@ -92,10 +92,11 @@ struct Walk {
     float height = 0, gap = 0;  ///< at the end: above the floor, and from the wall
 };
 
-/// Into the wall for 600 frames, in the level as `pose` puts it; the shape's lowest point is `below` its position, and
-/// it is `ahead` wide.
+/// Moves the shape into the wall for 600 frames, with the level at `pose`. The shape's lowest point is `below` its
+/// position, and its front is `ahead` of it.
 template <int D, class S>
-Walk walk(const AnyShape<D>& level, const Pose<D>& pose, const S& shape, float below, float ahead, const Vec<D>& way) {
+Walk walk(const AnyShape<D>& level, const Pose<D>& pose, const S& shape, float below, float ahead,
+          const Vec<D>& motion_of_level) {
     World<D> world;
     const Id id = world.add(level, {.pose = pose, .fixed = true});
     MoverOptions<D> options;
@@ -108,7 +109,7 @@ Walk walk(const AnyShape<D>& level, const Pose<D>& pose, const S& shape, float b
         position = moved.position;
     }
     Walk result;
-    const Vec<D> motion = rotate(pose.rotation, way);
+    const Vec<D> motion = rotate(pose.rotation, motion_of_level);
     for (int i = 0; i < 600; ++i) {
         const Vec<D> before = position;
         moved = mover.move(world, shape, position, motion);
@@ -145,8 +146,8 @@ protected:
 using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(MoverOnFields, Dimensions);
 
-// It was not grounded in up to 583 of the 600 frames, as a field has one part and only the nearest place of a part
-// counted.
+// Regression: a mover wasn't grounded in up to 583 of the 600 frames, because a field has one part, and only the
+// closest point of a part was used.
 TYPED_TEST(MoverOnFields, PressedToAWallItIsGrounded) {
     static constexpr int N = TestFixture::D;
     const std::array<std::pair<const char*, AnyShape<N>>, 3> levels{
@@ -154,20 +155,21 @@ TYPED_TEST(MoverOnFields, PressedToAWallItIsGrounded) {
     for (const auto& [name, level] : levels)
         for (const auto& [speed, fall] : {std::pair(0.02f, 0.0f), std::pair(0.1f, 0.02f)}) {
             SCOPED_TRACE(name + std::string(", speed ") + std::to_string(speed) + ", fall " + std::to_string(fall));
-            const Vec<N> way = this->ahead(speed, fall);
+            const Vec<N> motion_of_level = this->ahead(speed, fall);
             for (const bool is_ball : {false, true}) {
                 if (!is_ball && name == std::string("own function")) continue;
-                const Walk round = is_ball ? walk<N>(level, {}, Ball<N>{Vec<N>(0.0f), 0.5f}, 0.5f, 0.5f, way)
-                                           : walk<N>(level, {}, this->hero(), 1, 0.5f, way);
+                const Walk round = is_ball
+                                       ? walk<N>(level, {}, Ball<N>{Vec<N>(0.0f), 0.5f}, 0.5f, 0.5f, motion_of_level)
+                                       : walk<N>(level, {}, this->hero(), 1, 0.5f, motion_of_level);
                 EXPECT_EQ(round.not_grounded, 0) << is_ball;
                 EXPECT_EQ(round.not_at_rest, 0) << is_ball;
                 EXPECT_EQ(round.overlapping, 0) << is_ball;
-                // In the corner the field's own distance is rounded off, by less than a quarter of a cell.
+                // In the corner, the field's distance is rounded by less than a quarter of a cell.
                 EXPECT_NEAR(round.height, 0.03, 0.03) << is_ball;
                 EXPECT_NEAR(round.gap, 0.03, 0.03) << is_ball;
             }
             if (name == std::string("own function")) continue;  // a search for each step: slow
-            const Walk box = walk<N>(level, {}, this->crate(), 1, 0.4f, way);
+            const Walk box = walk<N>(level, {}, this->crate(), 1, 0.4f, motion_of_level);
             EXPECT_EQ(box.not_grounded, 0);
             EXPECT_EQ(box.not_at_rest, 0);
             EXPECT_EQ(box.overlapping, 0);
@@ -189,7 +191,7 @@ TYPED_TEST(MoverOnFields, ATurnedLevelIsNoOther) {
     }
 }
 
-/// Along the wall it slides on, and into the corner of two walls it comes to rest on the floor.
+/// A mover that slides along a wall into the corner of two walls comes to rest on the floor.
 TEST(MoverOnFields3, InACornerOfTwoWallsItIsGrounded) {
     const Capsule3 hero{{0, -0.5f, 0}, {0, 0.5f, 0}, 0.5f};
     const Box3 crate{{0, 0, 0}, {0.4f, 1, 0.4f}};
@@ -204,7 +206,7 @@ TEST(MoverOnFields3, InACornerOfTwoWallsItIsGrounded) {
     }
 }
 
-/// Floor and wall of one field are touches of their own.
+/// Floor and wall of one field are separate touches.
 TYPED_TEST(MoverOnFields, TouchesFloorAndWall) {
     static constexpr int N = TestFixture::D;
     World<N> world;
@@ -235,7 +237,7 @@ TYPED_TEST(MoverOnFields, TouchesFloorAndWall) {
     EXPECT_NEAR(moved.motion[1], 0, 1e-5);
 }
 
-/// It leaves the corner as it came: nothing of it is left behind.
+/// A mover leaves the corner freely, without state from it.
 TYPED_TEST(MoverOnFields, WalksAwayFromTheWall) {
     static constexpr int N = TestFixture::D;
     World<N> world;

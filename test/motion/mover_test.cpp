@@ -1,4 +1,4 @@
-// A character that walks: what it does on floors, walls, slopes, steps and platforms worked out by hand.
+// A mover on floors, walls, slopes, steps and platforms, with known answers.
 
 #include "../oracle/expect.hpp"
 #include "../oracle/random.hpp"
@@ -19,7 +19,7 @@
 namespace abut {
 namespace {
 
-constexpr float gravity = 0.02f;  // how far it falls in a frame, on and on
+constexpr float gravity = 0.02f;  // the fall in each frame
 
 template <int D>
 Vec<D> down() {
@@ -34,7 +34,7 @@ Vec<D> ahead(float speed) {
     return result;
 }
 
-/// About the middle, 2 high.
+/// A shape around its center, 2 high.
 template <int D>
 Capsule<D> hero() {
     Vec<D> a(0.0f), b(0.0f);
@@ -62,7 +62,7 @@ HalfSpace<D> level_ground() {
     return {at_height<D>(1), 0};
 }
 
-/// A box of the world, by its sides.
+/// A box given by its sides.
 template <int D>
 Box<D> block(float from_x, float to_x, float from_y, float to_y) {
     Box<D> result;
@@ -85,7 +85,7 @@ protected:
     Vec<D> position = at_height<D>(1.05f);
     Moved<D> moved;
 
-    /// So many frames of the same motion.
+    /// Runs a number of frames with a constant motion.
     template <class S>
     void go(const S& shape, const Vec<D>& motion, int frames) {
         for (int i = 0; i < frames; ++i) {
@@ -102,7 +102,7 @@ protected:
 using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(MoverIn, Dimensions);
 
-TYPED_TEST(MoverIn, LandsAndTellsWhatItStandsOn) {
+TYPED_TEST(MoverIn, LandsAndReportsItsGround) {
     static constexpr int N = TestFixture::D;
     const Id floor = this->world.add(level_ground<N>(), {.fixed = true});
     this->position = at_height<N>(3);
@@ -139,14 +139,14 @@ TYPED_TEST(MoverIn, StopsAtAWallAndSlidesAlongIt) {
         if (N == 3) {
             EXPECT_NEAR(this->position[N - 1], 60 * 0.05, 1e-3);
         }
-        bool told = false;
+        bool is_reported = false;
         for (const MoverTouch<N>& touch : this->moved.touches)
             if (touch.id == wall) {
-                told = true;
+                is_reported = true;
                 EXPECT_NEAR(touch.normal[0], -1, 1e-5);
                 EXPECT_FALSE(touch.is_ground);
             }
-        EXPECT_TRUE(told);
+        EXPECT_TRUE(is_reported);
     }
 }
 
@@ -165,7 +165,7 @@ TYPED_TEST(MoverIn, ClimbsStepsUpToItsHeightAndNoHigher) {
         EXPECT_NEAR(this->position[1], 1.5, 0.03) << box;
         EXPECT_NEAR(this->position[0], box ? 5.6 : 5.5, 0.025) << box;
         EXPECT_TRUE(this->moved.grounded);
-        // And down again, all the way on the ground.
+        // The mover goes down again, and stays on the ground.
         for (int i = 0; i < 200; ++i) {
             box ? this->go(crate<N>(), ahead<N>(-0.05f), 1) : this->go(hero<N>(), ahead<N>(-0.05f), 1);
             ASSERT_TRUE(this->moved.grounded) << box << ' ' << i << ' ' << this->position[0];
@@ -174,7 +174,7 @@ TYPED_TEST(MoverIn, ClimbsStepsUpToItsHeightAndNoHigher) {
     }
 }
 
-/// A plane that rises along the first axis by so many degrees, through the origin.
+/// A plane through the origin that rises along the first axis by an angle in degrees.
 template <int D>
 HalfSpace<D> slope(double degrees) {
     const Turn turn = Turn::by(static_cast<float>(degrees * 3.14159265358979 / 180));
@@ -206,7 +206,7 @@ TYPED_TEST(MoverIn, StandsStillOnSlopesThatAreGroundAndSlidesDownOthers) {
     }
 }
 
-TYPED_TEST(MoverIn, WalksUpAndDownSlopesAtTheSpeedAsked) {
+TYPED_TEST(MoverIn, WalksUpAndDownSlopesAtTheRequestedSpeed) {
     static constexpr int N = TestFixture::D;
     this->world.add(slope<N>(30), {.fixed = true});
     this->position = at_height<N>(1.4f);
@@ -217,9 +217,9 @@ TYPED_TEST(MoverIn, WalksUpAndDownSlopesAtTheSpeedAsked) {
             this->go(hero<N>(), ahead<N>(speed), 1);
             ASSERT_TRUE(this->moved.grounded) << speed << ' ' << i;
         }
-        const DVec<N> way = DVec<N>(this->position - before);
-        EXPECT_NEAR(length(way), std::abs(50 * speed), 0.02) << speed;
-        EXPECT_NEAR(way[1] / way[0], 0.57735, 0.02) << speed;
+        const DVec<N> path = DVec<N>(this->position - before);
+        EXPECT_NEAR(length(path), std::abs(50 * speed), 0.02) << speed;
+        EXPECT_NEAR(path[1] / path[0], 0.57735, 0.02) << speed;
     }
 }
 
@@ -258,11 +258,11 @@ TYPED_TEST(MoverIn, IsPushedByWhatMovesAndKnowsWhenItIsCrushed) {
         else
             ASSERT_TRUE(this->is_free(hero<N>())) << i;
     }
-    // Its face comes from -2 to where 1 is left before the wall at 3.
+    // The pusher's face moves from -2 until the gap to the wall at 3 is 1.
     EXPECT_NEAR(-2 + 0.06 * crushed_from, 2, 0.07);
 }
 
-TYPED_TEST(MoverIn, PassesPlatformsFromBelowIfItIsTold) {
+TYPED_TEST(MoverIn, PassesPlatformsFromBelowWithAFilter) {
     static constexpr int N = TestFixture::D;
     this->world.add(level_ground<N>(), {.fixed = true});
     const Id platform = this->world.add(block<N>(-3, 3, 2.9f, 3), {.fixed = true});
@@ -282,7 +282,7 @@ TYPED_TEST(MoverIn, PassesPlatformsFromBelowIfItIsTold) {
     EXPECT_TRUE(this->moved.grounded);
     EXPECT_EQ(this->moved.ground.id, platform);
     EXPECT_NEAR(this->position[1], 4, 0.03);
-    // Untold, it bumps into it.
+    // Without the filter, the mover bumps into it.
     this->position = at_height<N>(1.05f);
     this->go(hero<N>(), at_height<N>(0.3f), 20);
     EXPECT_NEAR(this->position[1], 1.9, 0.03);
@@ -313,7 +313,7 @@ TYPED_TEST(MoverIn, JumpsFromTheGroundAndSticksToNone) {
     EXPECT_NEAR(this->position[1] - before, 0.08, 1e-5);
 }
 
-TEST(Mover, TakesAnyWayUp) {
+TEST(Mover, TakesAnyUpDirection) {
     World3 world;
     world.add(HalfSpace3{{0, 0, 1}, 0}, {.fixed = true});
     Mover3 mover({.up = {0, 0, 2}});
@@ -324,13 +324,13 @@ TEST(Mover, TakesAnyWayUp) {
     EXPECT_NEAR(position.x, 10, 0.02);
 }
 
-/// With an up, a wall that faces it a little is too steep to climb, and seen from above that held whoever went along
-/// it.
+/// Regression: in a view from above, a wall that faces `up` slightly counts as too steep a slope, and stopped a mover
+/// along it.
 TYPED_TEST(MoverIn, SlidesAlongEveryWallAlikeWhereThereIsNoUp) {
     static constexpr int N = TestFixture::D;
     oracle::Random random(20260924);
     this->mover.set_options({.up = Vec<N>(0.0f)});
-    int met = 0;
+    int wall_hits = 0;
     for (int i = 0; i < 200; ++i) {
         World<N> room;
         const DVec<N> normal = random.template direction<N>();
@@ -345,12 +345,12 @@ TYPED_TEST(MoverIn, SlidesAlongEveryWallAlikeWhereThereIsNoUp) {
         }
         const double into = std::min(dot(motion, normal), 0.0);
         wanted += (motion - normal * into) * 10.0;
-        met += into < 0 ? 1 : 0;
-        // It begins 0.01 from the wall, and comes to half of the skin before it.
+        wall_hits += into < 0 ? 1 : 0;
+        // The mover begins 0.01 from the wall, and stops at half of the skin from it.
         EXPECT_LT(length(DVec<N>(place) - wanted), 0.008) << i;
     }
-    EXPECT_GT(met, 60);
-    // Free on all sides, and in a corner that leaves no way, there is nothing to stand on either.
+    EXPECT_GT(wall_hits, 60);
+    // Without obstacles, or in a corner without a free direction, there is no ground.
     World<N> none;
     EXPECT_FALSE(this->mover.move(none, Ball<N>{Vec<N>(0.0f), 0.5f}, Vec<N>(0.0f), Vec<N>(0.0f)).grounded);
 }
@@ -361,7 +361,7 @@ TEST(Mover, ComesToRestInCornersOfAnyAngle) {
         const double half = 0.5 * degrees * 3.14159265358979 / 180;
         const double sine = static_cast<double>(Turn::by(static_cast<float>(half)).sin);
         const double cosine = static_cast<double>(Turn::by(static_cast<float>(half)).cos);
-        // Free where the first axis is between the two: solid beyond each.
+        // The space between the two planes is free.
         world.add(HalfSpace2{{static_cast<float>(sine), static_cast<float>(-cosine)}, 0}, {.fixed = true});
         world.add(HalfSpace2{{static_cast<float>(sine), static_cast<float>(cosine)}, 0}, {.fixed = true});
         Mover2 mover({.up = {0, 1}, .step_height = 0, .stick = 0});
@@ -370,13 +370,13 @@ TEST(Mover, ComesToRestInCornersOfAnyAngle) {
         const Vec2 motion{-0.3f, 0.001f};
         const int frames = degrees % 30 == 1 ? 10000 : 300;
         Vec2 rest{};
-        float most = 0;
+        float max_move = 0;
         for (int i = 0; i < frames; ++i) {
             position = mover.move(world, ball, position, motion).position;
             if (i == 100) rest = position;
-            if (i > 100) most = std::max(most, static_cast<float>(length(DVec<2>(position - rest))));
+            if (i > 100) max_move = std::max(max_move, static_cast<float>(length(DVec<2>(position - rest))));
         }
-        EXPECT_LT(most, 0.5f * 1e-4f) << degrees;
+        EXPECT_LT(max_move, 0.5f * 1e-4f) << degrees;
         EXPECT_TRUE(world.overlapping(at(ball, Pose2{position})).empty()) << degrees;
         EXPECT_LT(std::abs(position.x - 0.5 / sine), 0.05 / sine) << degrees;
     }

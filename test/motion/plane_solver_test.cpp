@@ -1,4 +1,4 @@
-// The nearest move that planes allow: against trying all sets of planes, and in corners as narrow as they come.
+// The nearest move that planes allow, against a test of all subsets of planes, and in very narrow corners.
 
 #include "../oracle/random.hpp"
 #include <abut/motion/push/plane_solver.hpp>
@@ -22,11 +22,11 @@ bool is_allowed(const std::vector<MovePlane<D>>& planes, const DVec<D>& move, do
     return true;
 }
 
-/// Of all moves that lie in up to D of the planes and are as near as that allows, the nearest one that is allowed.
+/// The reference: the nearest allowed move among the projections onto all subsets of up to D planes.
 template <int D>
 DVec<D> nearest_by_trying(const std::vector<MovePlane<D>>& planes, const DVec<D>& wanted) {
     DVec<D> best(0.0);
-    double least = std::numeric_limits<double>::infinity();
+    double min_distance = std::numeric_limits<double>::infinity();
     for (std::uint32_t chosen = 0; chosen < 1u << planes.size(); ++chosen) {
         std::vector<MovePlane<D>> in;
         for (std::size_t i = 0; i < planes.size(); ++i)
@@ -52,8 +52,8 @@ DVec<D> nearest_by_trying(const std::vector<MovePlane<D>>& planes, const DVec<D>
         if (!regular) continue;
         DVec<D> move = wanted;
         for (std::size_t i = 0; i < rows.size(); ++i) move += in[i].normal * (rows[i].back() / rows[i][i]);
-        if (!is_allowed<D>(planes, move, 1e-7) || length(move - wanted) >= least) continue;
-        least = length(move - wanted);
+        if (!is_allowed<D>(planes, move, 1e-7) || length(move - wanted) >= min_distance) continue;
+        min_distance = length(move - wanted);
         best = move;
     }
     return best;
@@ -93,7 +93,7 @@ TEST(PlaneSolver, PushesOutOfAll) {
     EXPECT_DOUBLE_EQ(move.y, 0.4);
 }
 
-TEST(PlaneSolver, SaysWhereThereIsNoWay) {
+TEST(PlaneSolver, ReportsThatThereIsNoSolution) {
     DVec<2> move(0.0);
     const std::vector<MovePlane<2>> opposite{{{1, 0}, -0.3}, {{-1, 0}, -0.3}};
     EXPECT_FALSE(nearest_move<2>(opposite, {0, 0}, 1e-12, move));

@@ -1,4 +1,4 @@
-// From one arrangement to another: every plan is carried out step by step, with all distances looked at on the way.
+// Plans from one arrangement to another: every plan is executed step by step, with a check of all distances.
 
 #include "arrangements.hpp"
 #include <abut/motion/order/pair_tolerance.hpp>
@@ -12,7 +12,7 @@
 namespace abut {
 namespace {
 
-/// Plays the moves, and looks at some moments of each how far the mover is from all others.
+/// Executes the moves, and checks at samples of each move the distance of the moved shape to all others.
 template <int D>
 void expect_carried_out(std::span<const Convex<D>> shapes, std::vector<Pose<D>> poses, const std::vector<Pose<D>>& to,
                         const Rearrangement<D>& plan, const std::string& where, int moments = 9) {
@@ -69,7 +69,7 @@ TEST(Rearrange, WhatStandsRightStays) {
 }
 
 TEST(Rearrange, WhatCanGoStraightDoes) {
-    // In a row; each goes one place on, the last one first.
+    // In a row, each shape moves one place on, starting with the last.
     const std::vector<Box2> boxes(3, unit_box);
     const auto from = places({{0, 0}, {1, 0}, {2, 0}}), to = places({{1, 0}, {2, 0}, {3, 0}});
     const auto plan = rearrange(boxes, from, to);
@@ -96,7 +96,7 @@ TEST(Rearrange, WhatLiesOnTopIsLiftedAndPutBack) {
     EXPECT_TRUE(std::any_of(plan.moves.begin(), plan.moves.end(), [](const Move<2>& move) { return move.shape == 2; }));
 }
 
-/// Pieces that fill a square, each about its own middle; and where they belong.
+/// The pieces of a square, each around its own center, with their poses in the square.
 struct Puzzle {
     std::vector<Polygon> pieces;
     std::vector<Pose2> solved;
@@ -115,7 +115,7 @@ Puzzle make_puzzle(oracle::Random& random, int cuts, double size) {
     }
     return puzzle;
 }
-/// Each in a cell of its own, turned or not, in any order.
+/// Each piece in a cell of its own, rotated or not, in random order.
 std::vector<Pose2> spread_out(oracle::Random& random, std::size_t count, double size, bool turned) {
     std::vector<std::size_t> cells(count);
     std::iota(cells.begin(), cells.end(), 0u);
@@ -216,7 +216,7 @@ std::vector<Aabb3> three_sticks() {
     return {{{-5, -1, 0}, {5, 0, 1}}, {{0, -5, -1}, {1, 5, 0}}, {{-1, 0, -5}, {0, 1, 5}}};
 }
 
-TEST(Rearrange, GoesAlongAnAxisWhatIsBlockedAlongAnotherWay) {
+TEST(Rearrange, GoesAlongAnAxisIfBlockedInOtherDirections) {
     const std::vector<Aabb3> sticks = three_sticks();
     const std::vector<Pose3> from(3), to{{Vec3(20, 0, 0)}, {Vec3(-20, 0, 0)}, {Vec3(0, 20, 20)}};
     EXPECT_FALSE(removal_order(sticks, {1, 1, 1}));
@@ -224,22 +224,22 @@ TEST(Rearrange, GoesAlongAnAxisWhatIsBlockedAlongAnotherWay) {
     expect_carried_out<3>(views_of<3>(sticks), from, to, plan, "along an axis");
 }
 
-/// The sticks turned by a rotation that makes each axis a diagonal of theirs would have to be blocked along all of the
-/// axes at once; three groups, each turned so that one axis is blocked by it, are.
+/// One group of sticks, rotated so that an axis is its diagonal, blocks one axis. Three groups of different rotations
+/// block all axes.
 TEST(Rearrange, NamesWhatIsStuckInSpace) {
     std::vector<Convex<3>> shapes;
     std::vector<Pose3> from, to;
     const std::vector<Aabb3> sticks = three_sticks();
-    // The turn that takes (1, 1, 1) to an axis: about their cross product, by the angle between them.
+    // The rotation that takes (1, 1, 1) to an axis: about their cross product, by the angle between them.
     const float angle = 0.95531662f;
     const Vec3 axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     for (int group = 0; group < 3; ++group) {
         const DVec<3> about = normalized(cross(DVec<3>(1.0), DVec<3>(axes[group])));
-        const glm::quat turn = turn_about(to_float(about), angle);
-        EXPECT_NEAR(length(DVec<3>(rotate(turn, Vec3(1))) - DVec<3>(axes[group]) * std::sqrt(3.0)), 0, 1e-6);
+        const glm::quat rotation = turn_about(to_float(about), angle);
+        EXPECT_NEAR(length(DVec<3>(rotate(rotation, Vec3(1))) - DVec<3>(axes[group]) * std::sqrt(3.0)), 0, 1e-6);
         for (const Aabb3& stick : sticks) {
             shapes.push_back(view(stick));
-            from.push_back({axes[group] * 30.0f, turn});
+            from.push_back({axes[group] * 30.0f, rotation});
             to.push_back({axes[group] * -30.0f, glm::quat(1, 0, 0, 0)});
         }
     }

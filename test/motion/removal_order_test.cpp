@@ -1,4 +1,4 @@
-// Taking things away one at a time: by hand, thousands of random arrangements, and what can't be taken apart.
+// Disassembly orders: known answers, thousands of random arrangements, and cycles without an order.
 
 #include "arrangements.hpp"
 #include <abut/motion/order/pair_tolerance.hpp>
@@ -37,7 +37,7 @@ TEST(RemovalOrder, TheUpperOneFirst) {
 }
 
 TEST(RemovalOrder, WhatIsBelowByAChainAlone) {
-    // A long plank under a ball, on a post that stands beside the ball's shadow.
+    // A long plank under a ball lies on a post beside the ball's projection.
     const std::vector<Capsule2> things{{{5, 0}, {5, 1}, 0.1f}, {{0, 2}, {5, 2}, 0.1f}, {{0, 4}, {0, 4}, 0.5f}};
     EXPECT_EQ(removal_order(things, {0, 1}).order, (std::vector<std::uint32_t>{2, 1, 0}));
 }
@@ -53,7 +53,7 @@ TEST(RemovalOrder, UprightRodsAndPoints) {
     EXPECT_EQ(removal_order(things.views(), {0, -1}).order, (std::vector<std::uint32_t>{0, 1, 2, 3}));
 }
 
-/// Whether an order takes all away without one running into another that is there: judged by `sweep`.
+/// Checks by `sweep` that each shape of an order leaves without hitting a remaining one.
 void expect_takes_apart(std::span<const Convex<2>> shapes, const Vec2& direction,
                         const std::vector<std::uint32_t>& order, std::uint64_t seed) {
     ASSERT_EQ(order.size(), shapes.size());
@@ -73,7 +73,7 @@ void expect_takes_apart(std::span<const Convex<2>> shapes, const Vec2& direction
     }
 }
 
-/// The plain way, O(n^2): each pair by a plane that parts the two. Pairs within the margin to the side are left open.
+/// The reference, O(n^2): tests each pair by a separating plane. Pairs within the tolerance sideways stay undecided.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> all_waits(std::span<const Convex<2>> shapes, const DVec<2>& up) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> result;
     for (std::uint32_t i = 0; i < shapes.size(); ++i)
@@ -84,7 +84,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> all_waits(std::span<const C
     return result;
 }
 
-/// The lowest that nothing is above, again and again.
+/// Repeatedly removes the lowest index that no remaining shape is above.
 std::vector<std::uint32_t> plain_order(std::size_t count, std::vector<std::pair<std::uint32_t, std::uint32_t>> waits) {
     std::vector<std::uint32_t> order, left = counted(count);
     while (!left.empty()) {
@@ -115,7 +115,7 @@ TEST(RemovalOrder, OfPackedPiecesInThePlane) {
         Things<2> things;
         cut_up(things, random, {{-size, -size}, {size, -size}, {size, size}, {-size, size}},
                2 + static_cast<int>(random.below(4)), pose);
-        // Along the sides of the pieces as often as not.
+        // Half of the directions are along the sides of the pieces.
         const Vec2 direction =
             turned && random.chance(0.5) ? rotate(pose.rotation, Vec2(0, 1)) : some_direction(random);
         const RemovalOrder order = removal_order(things.views(), direction);
@@ -146,7 +146,7 @@ TEST(RemovalOrder, OfAGridOfEqualThings) {
     }
 }
 
-TEST(RemovalOrder, IsThatOfThePlainWay) {
+TEST(RemovalOrder, IsThatOfTheReference) {
     constexpr std::uint64_t seed = 63;
     oracle::Random random(seed);
     std::size_t moved = 0, all = 0;
@@ -188,7 +188,7 @@ void expect_above_first(const std::vector<std::uint32_t>& order, std::size_t cou
             ASSERT_FALSE(is_above(order[j], order[i])) << order[i] << " left from under " << order[j];
 }
 
-/// As tight as can be: touching layers, each in the hollows of the one below.
+/// A densest packing: touching layers, each in the hollows of the one below.
 std::vector<Sphere> packed_balls(float radius) {
     std::vector<Sphere> balls;
     const float x = 2 * radius, y = x * 0.8660254f, z = x * 0.8164966f;
@@ -235,7 +235,7 @@ TEST(RemovalOrder, OfBallsInAnyDirection) {
     EXPECT_EQ(above, 0);
 }
 
-/// A box cut by planes across the axes, again and again.
+/// A box cut repeatedly by planes perpendicular to the axes.
 void cut_up(std::vector<Aabb3>& pieces, oracle::Random& random, const Aabb3& box, int cuts) {
     if (cuts == 0) return pieces.push_back(box);
     const int axis = static_cast<int>(random.below(3));
@@ -271,7 +271,7 @@ TEST(RemovalOrder, OfPackedBoxesAlongAnAxis) {
 }
 
 TEST(RemovalOrder, OfPackedBoxesThatAreTurnedTogether) {
-    // They slide along one another but for rounding, which is not to make them wait for one another in a ring.
+    // The boxes slide along each other; rounding must not make a cycle of precedences.
     constexpr std::uint64_t seed = 68;
     oracle::Random random(seed);
     for (int repeat = 0; repeat < 100; ++repeat) {
@@ -279,7 +279,7 @@ TEST(RemovalOrder, OfPackedBoxesThatAreTurnedTogether) {
         const Pose3 pose{Vec3(random.in_cube<3>()) * (30 * size), random.rotation<3>()};
         std::vector<Box3> boxes;
         for (int i = 0; i < 64; ++i) {
-            // Like bricks: every other layer is moved by half a box.
+            // As with bricks, every second layer is shifted by half a box.
             const float shift = i / 16 % 2 == 0 ? 0 : 0.5f;
             const Vec3 place(static_cast<float>(i % 4) + shift, static_cast<float>(i / 4 % 4) + shift,
                              static_cast<float>(i / 16));
@@ -292,15 +292,15 @@ TEST(RemovalOrder, OfPackedBoxesThatAreTurnedTogether) {
 }
 
 TEST(RemovalOrder, OfCansOnAShelf) {
-    // Known by their support functions as they are seen from above or aside; they touch on all sides.
+    // The cans are support functions, in directions from above or aside; they touch on all sides.
     constexpr std::uint64_t seed = 69;
     oracle::Random random(seed);
     for (int repeat = 0; repeat < 20; ++repeat) {
         const Pose3 pose{Vec3(random.in_cube<3>() * 5.0), repeat == 0 ? no_rotation<3> : random.rotation<3>()};
         std::vector<Cylinder> cans;
         for (int i = 0; i < 27; ++i) {
-            const Vec3 foot(static_cast<float>(i % 3), static_cast<float>(i / 3 % 3), static_cast<float>(i / 9) * 2);
-            cans.push_back({pose * foot, pose * (foot + Vec3(0, 0, 2)), 0.5f});
+            const Vec3 base(static_cast<float>(i % 3), static_cast<float>(i / 3 % 3), static_cast<float>(i / 9) * 2);
+            cans.push_back({pose * base, pose * (base + Vec3(0, 0, 2)), 0.5f});
         }
         const RemovalOrder up = removal_order(cans, rotate(pose.rotation, Vec3(0, 0, 1)));
         ASSERT_TRUE(up) << "seed " << seed << ", repeat " << repeat;
@@ -339,7 +339,7 @@ TEST(RemovalOrder, OfThingsOfAllKindsInSpaceIsJudgedBySweeps) {
     EXPECT_GT(waits, 400);
 }
 
-/// Three long sticks along the axes, each over one other as seen along (1, 1, 1).
+/// Three long sticks along the axes, each over another one in the direction (1, 1, 1).
 std::vector<Aabb3> three_sticks() {
     return {{{-5, -1, 0}, {5, 0, 1}}, {{0, -5, -1}, {1, 5, 0}}, {{-1, 0, -5}, {0, 1, 5}}};
 }
@@ -356,7 +356,7 @@ TEST(RemovalOrder, ThreeSticksBlockOneAnother) {
     EXPECT_TRUE(order.order.empty());
     ASSERT_EQ(order.cycle.size(), 3u);
     EXPECT_EQ(order.cycle.front(), 0u);
-    // Each runs into the next.
+    // Each stick hits the next.
     for (std::size_t i = 0; i < 3; ++i)
         EXPECT_TRUE(sweep(sticks[order.cycle[i]], Vec3(20), sticks[order.cycle[(i + 1) % 3]]));
     for (const Vec3 axis : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, -1)}) EXPECT_TRUE(removal_order(sticks, axis));

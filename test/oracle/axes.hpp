@@ -1,9 +1,10 @@
 #pragma once
 
-// The axes that can part two polytopes, in doubles and in rational numbers.
+// The candidates for a separating axis of two polytopes, in doubles and in rational numbers.
 //
-// The difference A - B is a polytope whose edges have the directions of the edges of A and B. The origin is outside of
-// it only if a face of it, spanned by two such directions, says so; where it is flat, its plane or one of its edges.
+// The Minkowski difference A - B is a polytope whose edges have the directions of the edges of A and B. If the origin
+// is outside of it, the normal of one of its faces is a separating axis. Two such directions span each face. If the
+// difference is flat, the axis may also lie in its plane.
 
 #include "polytope.hpp"
 
@@ -35,28 +36,28 @@ std::array<T, D> minus(const std::array<T, D>& a, const std::array<T, D>& b) {
     for (std::size_t i = 0; i < D; ++i) result[i] = a[i] - b[i];
     return result;
 }
-/// The part of v at right angles to e, times e squared.
+/// The component of v perpendicular to e, times dot(e, e).
 template <class T, std::size_t D>
-std::array<T, D> across(const std::array<T, D>& e, const std::array<T, D>& v) {
-    const T whole = dot(e, e), along = dot(e, v);
+std::array<T, D> perpendicular_part(const std::array<T, D>& e, const std::array<T, D>& v) {
+    const T length_squared = dot(e, e), along = dot(e, v);
     std::array<T, D> result;
-    for (std::size_t i = 0; i < D; ++i) result[i] = whole * v[i] - along * e[i];
+    for (std::size_t i = 0; i < D; ++i) result[i] = length_squared * v[i] - along * e[i];
     return result;
 }
 
-/// Two polytopes seen from one place, in numbers of the type T.
+/// The corners of two polytopes relative to one origin, in numbers of the type T.
 template <class T, int D>
-struct Setting {
+struct LocalPair {
     using Vector = std::array<T, static_cast<std::size_t>(D)>;
     std::vector<Vector> a, b, directions;
 
-    Setting(const Polytope<D>& polytope_a, const Polytope<D>& polytope_b, const DVec<D>& origin)
+    LocalPair(const Polytope<D>& polytope_a, const Polytope<D>& polytope_b, const DVec<D>& origin)
         : a(corners<T>(polytope_a, origin)), b(corners<T>(polytope_b, origin)) {
         for (const auto& [i, j] : polytope_a.edge_directions) directions.push_back(minus(a[j], a[i]));
         for (const auto& [i, j] : polytope_b.edge_directions) directions.push_back(minus(b[j], b[i]));
     }
 
-    Vector between() const { return minus(b[0], a[0]); }
+    Vector offset() const { return minus(b[0], a[0]); }
 };
 
 template <class T, std::size_t D>
@@ -66,16 +67,16 @@ std::array<T, D> coordinate_axis(std::size_t i) {
     return result;
 }
 
-/// Visits all candidates, in the same order for every T; the last ones matter where the difference is flat or a point.
+/// Visits all candidates, in one order for every T. The last ones matter only if the difference is flat or a point.
 template <class T, class Visit>
-void each_axis(const Setting<T, 2>& s, bool, Visit&& visit) {
+void each_candidate_axis(const LocalPair<T, 2>& s, bool, Visit&& visit) {
     for (const auto& e : s.directions) visit(std::array<T, 2>{T(-e[1]), e[0]});
     for (const auto& e : s.directions) visit(e);
-    visit(s.between());
+    visit(s.offset());
     for (std::size_t i = 0; i < 2; ++i) visit(coordinate_axis<T, 2>(i));
 }
 template <class T, class Visit>
-void each_axis(const Setting<T, 3>& s, bool flat, Visit&& visit) {
+void each_candidate_axis(const LocalPair<T, 3>& s, bool flat, Visit&& visit) {
     for (std::size_t i = 0; i < s.directions.size(); ++i)
         for (std::size_t j = 0; j < i; ++j) visit(cross(s.directions[i], s.directions[j]));
     if (!flat) return;
@@ -83,17 +84,17 @@ void each_axis(const Setting<T, 3>& s, bool flat, Visit&& visit) {
         for (std::size_t j = 0; j < i; ++j)
             for (const auto& e : s.directions) visit(cross(cross(s.directions[i], s.directions[j]), e));
     for (const auto& e : s.directions) visit(e);
-    visit(s.between());
-    for (const auto& e : s.directions) visit(across(e, s.between()));
+    visit(s.offset());
+    for (const auto& e : s.directions) visit(perpendicular_part(e, s.offset()));
     for (std::size_t i = 0; i < 3; ++i) {
         visit(coordinate_axis<T, 3>(i));
-        for (const auto& e : s.directions) visit(across(e, coordinate_axis<T, 3>(i)));
+        for (const auto& e : s.directions) visit(perpendicular_part(e, coordinate_axis<T, 3>(i)));
     }
 }
 
-/// How far A reaches past where B begins along n, and the same along -n.
+/// The overlap of the projections of A and B: that of A's end with B's beginning, along n and along -n.
 template <class T, int D>
-std::array<T, 2> extents(const Setting<T, D>& s, const typename Setting<T, D>::Vector& n) {
+std::array<T, 2> extents(const LocalPair<T, D>& s, const typename LocalPair<T, D>::Vector& n) {
     T low_a = dot(n, s.a[0]), high_a = low_a, low_b = dot(n, s.b[0]), high_b = low_b;
     for (const auto& p : s.a) {
         const T along = dot(n, p);
@@ -108,10 +109,10 @@ std::array<T, 2> extents(const Setting<T, D>& s, const typename Setting<T, D>::V
     return {T(high_a - low_b), T(high_b - low_a)};
 }
 
-inline bool nearly_flat(const Setting<double, 2>&) {
+inline bool is_nearly_flat(const LocalPair<double, 2>&) {
     return false;
 }
-inline bool nearly_flat(const Setting<double, 3>& s) {
+inline bool is_nearly_flat(const LocalPair<double, 3>& s) {
     const auto unit = [](const std::array<double, 3>& v) {
         return normalized(DVec<3>(v[0], v[1], v[2]), DVec<3>(0.0));
     };

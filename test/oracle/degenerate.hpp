@@ -1,30 +1,30 @@
 #pragma once
 
-// Pairs on a small lattice, where nothing is in general position: shared faces, edges and corners, identical and
-// concentric shapes, shapes of zero thickness, points in a row.
+// Degenerate pairs: shapes with corners on a small lattice. They share faces, edges and corners, coincide, are
+// concentric, have zero thickness or collinear points.
 
 #include "distance.hpp"
 #include "sample.hpp"
 
 namespace abut::oracle {
 
-/// What happens to a lattice pair before it is asked about.
-enum class Disturbance {
+/// The change of a lattice pair's coordinates before the test.
+enum class Perturbation {
     none,       ///< coordinates are small whole numbers times a power of two: touching is exact
-    turned,     ///< both by the same pose, which rounds
-    nudged,     ///< each coordinate by a few units in the last place
+    rotated,    ///< both shapes by one pose, which rounds
+    nudged,     ///< each coordinate by a few ulp
     flattened,  ///< one axis a thousand to a million times smaller than the others
 };
-inline constexpr int disturbance_count = 4;
+inline constexpr int perturbation_count = 4;
 
 template <int D>
-class LatticeMaker {
+class LatticeGenerator {
 public:
-    LatticeMaker(Random& random, Disturbance disturbance) : random_(random), disturbance_(disturbance) {
+    LatticeGenerator(Random& random, Perturbation perturbation) : random_(random), perturbation_(perturbation) {
         unit_ = Vec<D>(std::ldexp(1.0f, static_cast<int>(random.below(21)) - 10));
-        if (disturbance == Disturbance::flattened)
+        if (perturbation == Perturbation::flattened)
             unit_[static_cast<int>(random.below(D))] *= static_cast<float>(random.power_of_two(-20, -10));
-        if (disturbance == Disturbance::turned) {
+        if (perturbation == Perturbation::rotated) {
             pose_.rotation = random.rotation<D>();
             pose_.position = point();
         }
@@ -45,11 +45,11 @@ public:
             case 4:
                 return placed(Kind::rounded_triangle, rounded(Triangle<D>{a, b, c}, radius), {a, b, c}, radius);
             case 5: {
-                const std::vector<Vec<D>> points = several();
+                const std::vector<Vec<D>> points = point_set();
                 return placed(Kind::cloud, PointCloud<D>{points}, points);
             }
             case 6: {
-                const std::vector<Vec<D>> points = several();
+                const std::vector<Vec<D>> points = point_set();
                 return placed(Kind::polytope, *BuiltHull<D>::build(points), points);
             }
             default:
@@ -62,13 +62,13 @@ private:
         Vec<D> result;
         for (int i = 0; i < D; ++i) {
             result[i] = static_cast<float>(static_cast<int>(random_.below(5)) - 2) * unit_[i];
-            if (disturbance_ == Disturbance::nudged)
+            if (perturbation_ == Perturbation::nudged)
                 for (std::uint32_t step = random_.below(3); step > 0; --step)
                     result[i] = std::nextafter(result[i], random_.chance(0.5) ? 1e9f : -1e9f);
         }
         return result;
     }
-    std::vector<Vec<D>> several() {
+    std::vector<Vec<D>> point_set() {
         std::vector<Vec<D>> points;
         for (std::uint32_t i = 1 + random_.below(8); i > 0; --i) points.push_back(point());
         return points;
@@ -90,7 +90,7 @@ private:
     }
 
     Random& random_;
-    Disturbance disturbance_;
+    Perturbation perturbation_;
     Vec<D> unit_;
     Pose<D> pose_;
 };

@@ -21,7 +21,7 @@ testing::AssertionResult near(const glm::vec<D, float>& a, const glm::vec<D, flo
     return testing::AssertionFailure() << text(a) << " is not " << text(b);
 }
 
-/// Of length 1, and so not NaN.
+/// Whether a vector has length 1, and so no NaN.
 template <int D>
 testing::AssertionResult is_unit(const glm::vec<D, float>& normal) {
     if (std::abs(length(DVec<D>(normal)) - 1) <= 1e-6) return testing::AssertionSuccess();

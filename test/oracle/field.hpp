@@ -1,6 +1,6 @@
 #pragma once
 
-// The true signed distance to a surface by looking at all of it, in long double, and what a field's samples say.
+// The true signed distance to a surface by brute force, in long double; and the samples that a field stores.
 //
 // Closest points by the regions of Ericson, "Real-Time Collision Detection" (2005), 5.1.5; solid angles by van Oosterom
 // and Strackee, "The solid angle of a plane triangle" (1983).
@@ -41,31 +41,32 @@ inline LongVec<3> long_cross(const LongVec<3>& a, const LongVec<3>& b) {
 template <int D>
 long double squared_to_segment(const LongVec<D>& p, const LongVec<D>& a, const LongVec<D>& b) {
     const LongVec<D> along = b - a;
-    const long double whole = long_dot<D>(along, along);
-    const long double share = whole > 0 ? std::clamp(long_dot<D>(p - a, along) / whole, 0.0L, 1.0L) : 0.0L;
-    const LongVec<D> way = p - (a + along * share);
-    return long_dot<D>(way, way);
+    const long double length_squared = long_dot<D>(along, along);
+    const long double share =
+        length_squared > 0 ? std::clamp(long_dot<D>(p - a, along) / length_squared, 0.0L, 1.0L) : 0.0L;
+    const LongVec<D> offset = p - (a + along * share);
+    return long_dot<D>(offset, offset);
 }
 
-/// The square of the distance to a triangle with or without area: to its face where the point projects into it, else to
-/// its sides.
+/// The squared distance to a triangle, with or without area: to its face if the point projects into it, else to the
+/// nearest edge.
 inline long double squared_to_triangle(const LongVec<3>& p, const LongVec<3>& a, const LongVec<3>& b,
                                        const LongVec<3>& c) {
     const LongVec<3> normal = long_cross(b - a, c - a);
     const long double area_squared = long_dot<3>(normal, normal);
-    const auto before = [&](const LongVec<3>& from, const LongVec<3>& to) {
+    const auto is_inside_edge = [&](const LongVec<3>& from, const LongVec<3>& to) {
         return long_dot<3>(long_cross(to - from, p - from), normal) >= 0;
     };
-    if (area_squared > 0 && before(a, b) && before(b, c) && before(c, a)) {
+    if (area_squared > 0 && is_inside_edge(a, b) && is_inside_edge(b, c) && is_inside_edge(c, a)) {
         const long double height = long_dot<3>(p - a, normal);
         return height * height / area_squared;
     }
     return std::min({squared_to_segment<3>(p, a, b), squared_to_segment<3>(p, b, c), squared_to_segment<3>(p, c, a)});
 }
 
-/// As a share of the whole sphere: how much of what is seen from p the triangle covers, above zero from behind it.
-inline long double covered_share(const LongVec<3>& p, const LongVec<3>& first, const LongVec<3>& second,
-                                 const LongVec<3>& third) {
+/// The solid angle of a triangle seen from p, as a share of the sphere; above zero from behind the triangle.
+inline long double solid_angle_share(const LongVec<3>& p, const LongVec<3>& first, const LongVec<3>& second,
+                                     const LongVec<3>& third) {
     const LongVec<3> a = first - p, b = second - p, c = third - p;
     const long double la = long_length<3>(a), lb = long_length<3>(b), lc = long_length<3>(c);
     const long double volume = long_dot<3>(a, long_cross(b, c));
@@ -73,34 +74,34 @@ inline long double covered_share(const LongVec<3>& p, const LongVec<3>& first, c
     return std::atan2(volume, rest) / (2 * std::numbers::pi_v<long double>);
 }
 
-/// The same of a segment and the circle, above zero where it goes round p from the first axis to the second.
-inline long double covered_share(const LongVec<2>& p, const LongVec<2>& first, const LongVec<2>& second) {
+/// The angle of a segment seen from p, as a share of the circle; above zero if the segment goes counter-clockwise.
+inline long double solid_angle_share(const LongVec<2>& p, const LongVec<2>& first, const LongVec<2>& second) {
     const LongVec<2> a = first - p, b = second - p;
     return std::atan2(a.x * b.y - a.y * b.x, long_dot<2>(a, b)) / (2 * std::numbers::pi_v<long double>);
 }
 
-/// How far from a surface a point is, and how often the surface goes round it.
+/// The distance of a point from a surface, and the winding number of the surface around it.
 struct FieldTruth {
-    double distance = 0;  ///< without a sign
+    double distance = 0;  ///< unsigned
     double winding = 0;
 
     bool inside() const { return std::abs(winding) >= 0.5; }
     double signed_distance() const { return inside() ? -distance : distance; }
 };
 
-/// Triangles as they are: none is turned round, no hole is closed.
+/// Measures triangles as they are: none is reoriented, no hole is closed.
 class TriangleTruth {
 public:
     TriangleTruth(std::span<const Vec3> points, std::span<const glm::uvec3> triangles) {
         for (const glm::uvec3& triangle : triangles) {
             const LongVec<3> a(points[triangle.x]), b(points[triangle.y]), c(points[triangle.z]);
             corners_.insert(corners_.end(), {a, b, c});
-            // With more than all roundings.
+            // The factor is above all roundings.
             reaches_.push_back(1.000001L * std::max(long_length<3>(b - a), long_length<3>(c - a)));
         }
     }
 
-    /// All triangles are looked at; those whose first corner is too far away for the rest to be nearest only so far.
+    /// Tests all triangles. A triangle whose first corner is too far away for any of it to be nearest is skipped.
     double distance(const DVec<3>& point) const {
         const LongVec<3> p(point);
         long double least = std::numeric_limits<long double>::infinity(), nearest = least;
@@ -119,17 +120,17 @@ public:
         long double sum = 0;
         const LongVec<3> p(point);
         for (std::size_t i = 0; i < corners_.size(); i += 3)
-            sum += covered_share(p, corners_[i], corners_[i + 1], corners_[i + 2]);
+            sum += solid_angle_share(p, corners_[i], corners_[i + 1], corners_[i + 2]);
         return static_cast<double>(sum);
     }
     FieldTruth operator()(const DVec<3>& point) const { return {distance(point), winding(point)}; }
 
 private:
     std::vector<LongVec<3>> corners_;   // three a triangle
-    std::vector<long double> reaches_;  // from the first corner of each
+    std::vector<long double> reaches_;  // the bounding radius of each about its first corner
 };
 
-/// An outline and its holes: inside of the outline, and of none of them.
+/// An outline with holes. A point is inside if it is inside of the outline and of no hole.
 class OutlineTruth {
 public:
     explicit OutlineTruth(std::span<const Vec2> outline, std::span<const std::vector<Vec2>> holes = {}) {
@@ -146,7 +147,7 @@ public:
             for (std::size_t i = 0; i < ring.size(); ++i) {
                 const LongVec<2>&a = ring[i], &b = ring[(i + 1) % ring.size()];
                 least = std::min(least, squared_to_segment<2>(p, a, b));
-                around += covered_share(p, a, b);
+                around += solid_angle_share(p, a, b);
             }
             const bool in_ring = std::abs(around) >= 0.5L;
             inside = &ring == rings_.data() ? in_ring : inside && !in_ring;
@@ -158,20 +159,20 @@ private:
     std::vector<std::vector<LongVec<2>>> rings_;
 };
 
-/// A sample as it is kept: where it lies, and its distance.
+/// A sample that a field stores: its position and distance.
 template <int D>
-struct KeptSample {
+struct StoredSample {
     DVec<D> position{};
     double distance = 0;
 };
 
-/// All that a field keeps: the samples of a dense one; of a sparse one those of its bricks, and those of the corners of
-/// its blocks. Those on the sides of bricks come once a brick.
+/// All samples that a field stores. A sparse field has those of its bricks and of the corners of its blocks. A sample
+/// on the side of several bricks is returned once for each.
 template <int D>
-std::vector<KeptSample<D>> kept_samples(const Field<D>& field) {
+std::vector<StoredSample<D>> stored_samples(const Field<D>& field) {
     using Index = glm::vec<D, std::uint32_t>;
     const FieldData<D>& data = field.data();
-    std::vector<KeptSample<D>> result;
+    std::vector<StoredSample<D>> result;
     const auto position = [&](const Index& at) {
         DVec<D> place;
         for (int i = 0; i < D; ++i)
@@ -182,7 +183,7 @@ std::vector<KeptSample<D>> kept_samples(const Field<D>& field) {
         return data.steps.empty() ? static_cast<double>(data.distance[i])
                                   : static_cast<double>(data.steps[i]) * static_cast<double>(data.step);
     };
-    // Visits counts.x * counts.y ... places, the first axis the fastest.
+    // Visits counts.x * counts.y ... indices; the first axis is the fastest.
     const auto each = [](const Index& counts, auto visit) {
         Index at(0u);
         for (std::size_t number = 0;; ++number) {

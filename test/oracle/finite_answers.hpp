@@ -1,7 +1,6 @@
 #pragma once
 
-// Every question about two shapes, and whether its answer is made of numbers: no NaN, nothing infinite, normals of
-// length 1.
+// Checks that every query of two shapes returns finite numbers: no NaN, no infinity, normals of length 1.
 
 #include <abut/math/ray.hpp>
 #include <abut/query/closest.hpp>
@@ -24,7 +23,7 @@ bool is_unit(const Vec<D>& v) {
     return std::abs(squared - 1) < 1e-4;
 }
 
-/// Infinitely far is what has nothing to be near to: a composite shape without parts, a field without a surface.
+/// The distance may be infinite: a composite shape without parts, or a field without a surface, has no closest point.
 template <int D>
 bool is_finite_answer(const Closest<D>& found) {
     return found.distance > -std::numeric_limits<float>::infinity() && is_unit<D>(found.normal) &&
@@ -44,9 +43,9 @@ bool is_finite_answer(const std::optional<Hit<D>>& hit) {
                     is_finite<D>(hit->point) && is_unit<D>(hit->normal));
 }
 
-/// The name of the first question whose answer isn't finite; null: all are.
+/// The name of the first query whose answer isn't finite; null if all are.
 template <class A, class B, int D>
-const char* not_finite_of_two(const A& a, const B& b, const glm::vec<D, float>& motion) {
+const char* non_finite_pair_query(const A& a, const B& b, const glm::vec<D, float>& motion) {
     static_cast<void>(overlaps(a, b));
     if (!is_finite_answer<D>(closest(a, b))) return "closest";
     if (!is_finite_answer<D>(contact(a, b))) return "contact";
@@ -55,7 +54,7 @@ const char* not_finite_of_two(const A& a, const B& b, const glm::vec<D, float>& 
 }
 
 template <class S, int D>
-const char* not_finite_of_one(const S& shape, const glm::vec<D, float>& from, const glm::vec<D, float>& to) {
+const char* non_finite_shape_query(const S& shape, const glm::vec<D, float>& from, const glm::vec<D, float>& to) {
     if (!is_finite_answer<D>(closest(shape, from))) return "closest to a point";
     if (!is_finite_answer<D>(raycast(Ray<D>::between(from, to), shape))) return "raycast";
     static_cast<void>(contains(shape, from));

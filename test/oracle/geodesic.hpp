@@ -1,9 +1,9 @@
 #pragma once
 
-// Walks on triangles as the doors of abut/walk/walk_mesh.hpp describe them, plainly and in as many digits as wanted: in
-// space, edge by edge, each direction turned about the edge by vectors.
+// A reference implementation of the walks of abut/walk/walk_mesh.hpp, for any number type. It traces a geodesic in
+// space from edge to edge, and rotates the direction about each edge by vectors.
 
-#include "joined_triangles.hpp"
+#include "triangle_adjacency.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,37 +13,38 @@
 
 namespace abut::oracle {
 
-/// Where a walk ends, and what it carries.
+/// The end of a walk, with the transported vectors.
 template <class Real>
 struct GeodesicEnd {
     std::uint32_t triangle = 0;
-    Space<Real> point;
-    Space<Real> first_way, way;  ///< the step's direction of length 1, and what it has become
-    Space<Real> first_up, up;    ///< the same of the triangle's normal
-    Real asked = 0;              ///< the length of the step along the surface
+    RealVec3<Real> point;
+    RealVec3<Real> first_direction, direction;  ///< of length 1: of the step, and at the end
+    RealVec3<Real> first_normal, normal;        ///< of the first triangle, and transported to the end
+    Real requested = 0;                         ///< the length of the step along the surface
     Real length = 0, lost = 0;
     WalkMet met = WalkMet::nothing;
-    WalkSide side;                ///< the first border that was met
-    std::uint32_t crossings = 0;  ///< not exact where it went round a corner
-    bool passed_corner = false;   ///< it came within the margin of a corner
-    bool near_corner = false;     ///< of one where its sides differ
-    bool near_head_on = false;    ///< it met a border so squarely that it is open whether it slid
+    WalkSide side;                ///< the first border on the walk
+    std::uint32_t crossings = 0;  ///< approximate if the walk went around a corner
+    bool passed_corner = false;   ///< it came within the tolerance of a corner
+    bool near_corner = false;     ///< of a corner whose two sides lead to different ends
+    bool near_head_on = false;    ///< so perpendicular to a border that sliding and stopping are both right
 };
 
-/// Straight on over triangles. A way that comes within `margin` of a corner where its two sides differ is followed past
-/// both; where there are many such, `is_complete` tells whether all were.
+/// Traces geodesics over triangles. A path within `tolerance` of a corner whose two sides lead to different
+/// ends is followed past both. The number of such branches is limited; `is_complete` returns whether all were followed.
 template <class Real>
 class Geodesic {
 public:
-    using Point = Space<Real>;
+    using Point = RealVec3<Real>;
     using End = GeodesicEnd<Real>;
 
-    Geodesic(const JoinedTriangles& triangles, const Real& margin) : triangles_(triangles), margin_(margin) {}
+    Geodesic(const TriangleAdjacency& adjacency, const Real& tolerance)
+        : adjacency_(adjacency), tolerance_(tolerance) {}
 
-    /// All ends that are right.
+    /// All ends that are correct.
     std::vector<End> walk(const WalkPoint& place, const Vec3& step) {
-        // Twice: where the normal is most of the step, the first time leaves a rounding error of it. What that may all
-        // be is nothing.
+        // The projection is done twice: if the step is nearly normal to the surface, the first leaves a rounding error
+        // of the normal part. A remainder that may be all rounding counts as zero.
         const Point normal = normal_of(place.triangle), s(step), once = s - normal * dot(s, normal);
         const Point along_surface = once - normal * dot(once, normal);
         return walk_along(place, length(along_surface) > Real(1e-17) * length(s) ? along_surface : Point());
@@ -71,55 +72,57 @@ public:
 
 private:
     enum class At { inside, side, corner };
-    /// A walk under way: inside of its triangle, on a side of it and inwards, or at a corner of it and inwards.
-    struct Way {
+    /// A walk in progress, at a point inside of its triangle, on a side or at a corner, with the direction inwards.
+    struct Path {
         End end;
         At at = At::inside;
-        std::uint32_t number = 0;             ///< of the side or corner
-        Real left = 0;                        ///< of the step
+        std::uint32_t number = 0;             ///< the index of the side or corner
+        Real remaining = 0;                   ///< of the step
         Real done = 0;                        ///< of the step
-        std::uint32_t passed = no_walk_side;  ///< the corner that was last passed closely
+        std::uint32_t passed = no_walk_side;  ///< the corner that the path last came close to
         Real passed_at = 0;
     };
+    /// The continuation of a path at a corner.
     enum class Leads { in, along, nowhere };
 
-    static constexpr std::size_t most_ways = 16;
-    static constexpr double square = 1e-7;  // the cosine of what is square to a border, but for so much
-    static constexpr int most_events = 100'000, most_fan = 100'000;
+    static constexpr std::size_t max_paths = 16;
+    static constexpr double perpendicular_cosine = 1e-7;  // below it, a direction counts as perpendicular to a border
+    static constexpr int max_events = 100'000, max_fan = 100'000;
 
-    Point corner(std::uint32_t t, std::uint32_t k) const { return Point(triangles_.corner(t, k)); }
-    /// From corner k to the next, of length 1.
+    Point corner(std::uint32_t t, std::uint32_t k) const { return Point(adjacency_.corner(t, k)); }
+    /// The unit vector from corner k to the next.
     Point along(std::uint32_t t, std::uint32_t k) const { return unit(corner(t, k + 1) - corner(t, k)); }
-    /// From side k into the triangle, of length 1.
+    /// The unit normal of side k in the triangle's plane, inwards.
     Point inwards(std::uint32_t t, std::uint32_t k) const {
         const Point e = along(t, k), other = corner(t, k + 2) - corner(t, k);
         return unit(other - e * dot(e, other));
     }
 
     std::vector<End> walk_along(const WalkPoint& place, const Point& step) {
-        Way way;
-        End& end = way.end;
+        Path path;
+        End& end = path.end;
         end.triangle = place.triangle;
         end.point = point_of(place);
-        end.first_up = end.up = normal_of(place.triangle);
-        end.asked = length(step);
+        end.first_normal = end.normal = normal_of(place.triangle);
+        end.requested = length(step);
         ends_.clear();
-        ways_.clear();
+        paths_.clear();
         complete_ = true;
-        if (!(end.asked > 0)) return {end};
-        end.first_way = end.way = step * (1 / end.asked);
-        way.left = end.asked;
-        begin(way, place);
-        for (std::size_t i = 0; i < ways_.size(); ++i) run(ways_[i]);
+        if (!(end.requested > 0)) return {end};
+        end.first_direction = end.direction = step * (1 / end.requested);
+        path.remaining = end.requested;
+        begin(path, place);
+        for (std::size_t i = 0; i < paths_.size(); ++i) run(paths_[i]);
         return ends_;
     }
 
-    void begin(Way& way, const WalkPoint& place) {
-        // Weights too small to tell from 0 in the sums that follow are 0.
-        const double least = 1e-25 * static_cast<double>(std::max({place.weights.x, place.weights.y, place.weights.z}));
+    void begin(Path& path, const WalkPoint& place) {
+        // Weights that are negligible in the sums that follow count as 0.
+        const double negligible =
+            1e-25 * static_cast<double>(std::max({place.weights.x, place.weights.y, place.weights.z}));
         std::uint32_t zeros = 0, zero = 0, other = 0;
         for (std::uint32_t k = 0; k < 3; ++k) {
-            if (static_cast<double>(place.weights[static_cast<glm::length_t>(k)]) <= least) {
+            if (static_cast<double>(place.weights[static_cast<glm::length_t>(k)]) <= negligible) {
                 ++zeros;
                 zero = k;
             } else {
@@ -127,121 +130,123 @@ private:
             }
         }
         if (zeros == 2) {
-            leave_corner(way, other);
+            leave_corner(path, other);
         } else if (zeros == 1) {
             const std::uint32_t side = (zero + 1) % 3;
-            way.at = At::side;
-            way.number = side;
-            if (dot(way.end.way, inwards(place.triangle, side)) >= 0)
-                push(way);
+            path.at = At::side;
+            path.number = side;
+            if (dot(path.end.direction, inwards(place.triangle, side)) >= 0)
+                push(path);
             else
-                over(way, side);
+                cross_or_slide(path, side);
         } else {
-            push(way);
+            push(path);
         }
     }
 
-    /// From a corner in a direction that may lie outside of the triangle: as from places within it that are ever nearer
-    /// to the corner. Where these pass it on both sides, both are right, but for a side that leads nowhere.
-    void leave_corner(const Way& way, std::uint32_t k) {
-        const End& end = way.end;
-        Way nearer = way, farther = way;
+    /// Starts at a corner in a direction that may lead out of the triangle. The answer is the limit of starts inside
+    /// the triangle that approach the corner. If these pass it on both sides, both are right unless one leads nowhere.
+    void leave_corner(const Path& path, std::uint32_t k) {
+        const End& end = path.end;
+        Path nearer = path, farther = path;
         nearer.at = farther.at = At::corner;
         nearer.number = farther.number = k;
-        if (is_between(end.triangle, k, end.way)) {
+        if (is_between(end.triangle, k, end.direction)) {
             push(nearer);
             return;
         }
-        // In between the two it may be either, by rounding.
-        const bool may_pass_both = is_between(end.triangle, k, end.way * Real(-1), -1e-9);
-        const bool passes_both = is_between(end.triangle, k, end.way * Real(-1), 1e-9);
+        // Between the two limits, rounding decides.
+        const bool may_pass_either = is_between(end.triangle, k, end.direction * Real(-1), -1e-9);
+        const bool passes_both = is_between(end.triangle, k, end.direction * Real(-1), 1e-9);
         const Point middle = along(end.triangle, k) - along(end.triangle, (k + 2) % 3);
-        const bool is_left = dot(cross(middle, end.way), normal_of(end.triangle)) > 0;
+        const bool is_left = dot(cross(middle, end.direction), normal_of(end.triangle)) > 0;
         const std::uint32_t right_side = k, left_side = (k + 2) % 3;
-        const Leads near_leads = turn_round(nearer, is_left ? left_side : right_side);
-        const Leads far_leads = turn_round(farther, is_left ? right_side : left_side);
+        const Leads near_leads = rotate_about_corner(nearer, is_left ? left_side : right_side);
+        const Leads far_leads = rotate_about_corner(farther, is_left ? right_side : left_side);
         const bool far_leads_on = far_leads != Leads::nowhere;
-        if (near_leads != Leads::nowhere || !far_leads_on || !passes_both) go_on(nearer, near_leads);
-        if (far_leads_on && (may_pass_both || near_leads != Leads::in)) go_on(farther, far_leads);
+        if (near_leads != Leads::nowhere || !far_leads_on || !passes_both) continue_with(nearer, near_leads);
+        if (far_leads_on && (may_pass_either || near_leads != Leads::in)) continue_with(farther, far_leads);
     }
 
-    void go_on(Way& way, Leads leads) {
-        if (leads == Leads::in) push(way);
-        if (leads == Leads::along) slide(way, way.number);
+    void continue_with(Path& path, Leads leads) {
+        if (leads == Leads::in) push(path);
+        if (leads == Leads::along) slide(path, path.number);
         if (leads == Leads::nowhere) {
-            meet(way, way.number);
-            stop(way);
+            reach_border(path, path.number);
+            stop(path);
         }
     }
 
-    void push(const Way& way) {
-        if (ways_.size() < most_ways)
-            ways_.push_back(way);
+    void push(const Path& path) {
+        if (paths_.size() < max_paths)
+            paths_.push_back(path);
         else
             complete_ = false;
     }
 
     static Real abs(const Real& x) { return x < 0 ? Real(-x) : x; }
 
-    /// Whether a direction leads from corner k into its triangle, or along one of its sides; less `inside` of them.
-    bool is_between(std::uint32_t t, std::uint32_t k, const Point& direction, const Real& inside = -1e-15) const {
+    /// Whether a direction leads from corner k into its triangle or along one of its sides, with the sine of the angle
+    /// to both at least `min_sine`.
+    bool is_between(std::uint32_t t, std::uint32_t k, const Point& direction, const Real& min_sine = -1e-15) const {
         const Point normal = normal_of(t), right = along(t, k), left = along(t, (k + 2) % 3) * Real(-1);
-        return dot(cross(right, direction), normal) >= inside && dot(cross(direction, left), normal) >= inside;
+        return dot(cross(right, direction), normal) >= min_sine && dot(cross(direction, left), normal) >= min_sine;
     }
 
-    /// Into the triangle beyond a side, the point as it is.
-    void cross_side(Way& way, std::uint32_t side, const WalkSide& to) const {
-        End& end = way.end;
+    /// Moves the path into the triangle across a side; the point stays.
+    void cross_side(Path& path, std::uint32_t side, const WalkSide& to) const {
+        End& end = path.end;
         const Point e = along(end.triangle, side), in = inwards(end.triangle, side);
         const Point on = inwards(to.triangle, to.side);
-        // What leads out leads on; what is up stays on the same side of the two.
-        const Real way_out = -dot(end.way, in), way_along = dot(end.way, e);
-        const Real hand = dot(cross(e, in), end.up);
-        end.way = e * way_along + on * way_out;
-        end.up = cross(on, e) * hand;
+        // The outward component continues in the next triangle; the normal stays on its side of the two triangles.
+        const Real outward = -dot(end.direction, in), along_edge = dot(end.direction, e);
+        const Real orientation = dot(cross(e, in), end.normal);
+        end.direction = e * along_edge + on * outward;
+        end.normal = cross(on, e) * orientation;
         end.triangle = to.triangle;
         ++end.crossings;
-        way.at = At::side;
-        way.number = to.side;
+        path.at = At::side;
+        path.number = to.side;
     }
 
-    /// Round the corner at which the way stands, over that side of it first, until the direction leads in or a border
-    /// ends it; then `number` is the border's side. With `came_from` it tells whether what the way came from was seen.
-    Leads turn_round(Way& way, std::uint32_t side, bool* came_from = nullptr) const {
-        End& end = way.end;
-        const std::uint32_t vertex = triangles_.vertex(end.triangle, way.number);
-        for (int i = 0; i < most_fan; ++i) {
-            const WalkSide to = triangles_.beyond(end.triangle, side);
+    /// Moves around the corner of the path, across `side` first, until the direction leads in or a border ends the fan
+    /// of triangles; then `number` is the border's side. `came_from` is set if the fan holds the direction back.
+    Leads rotate_about_corner(Path& path, std::uint32_t side, bool* came_from = nullptr) const {
+        End& end = path.end;
+        const std::uint32_t vertex = adjacency_.vertex(end.triangle, path.number);
+        for (int i = 0; i < max_fan; ++i) {
+            const WalkSide to = adjacency_.across(end.triangle, side);
             if (to.triangle == no_walk_side) {
-                const bool starts_here = triangles_.vertex(end.triangle, side) == vertex;
-                const Real cosine = dot(end.way, along(end.triangle, side)) * Real(starts_here ? 1 : -1);
-                way.number = side;
+                const bool starts_here = adjacency_.vertex(end.triangle, side) == vertex;
+                const Real cosine = dot(end.direction, along(end.triangle, side)) * Real(starts_here ? 1 : -1);
+                path.number = side;
                 return cosine > 0 ? Leads::along : Leads::nowhere;
             }
-            cross_side(way, side, to);
-            const bool starts_here = triangles_.vertex(to.triangle, to.side) == vertex;
-            way.at = At::corner;
-            way.number = starts_here ? to.side : (to.side + 1) % 3;
-            if (came_from != nullptr && is_between(to.triangle, way.number, end.way * Real(-1))) *came_from = true;
-            if (is_between(to.triangle, way.number, end.way)) return Leads::in;
+            cross_side(path, side, to);
+            const bool starts_here = adjacency_.vertex(to.triangle, to.side) == vertex;
+            path.at = At::corner;
+            path.number = starts_here ? to.side : (to.side + 1) % 3;
+            if (came_from != nullptr && is_between(to.triangle, path.number, end.direction * Real(-1)))
+                *came_from = true;
+            if (is_between(to.triangle, path.number, end.direction)) return Leads::in;
             side = starts_here ? (to.side + 2) % 3 : (to.side + 1) % 3;
         }
         return Leads::nowhere;
     }
 
-    /// Whether the triangles round a corner could lie in a plane.
+    /// Whether the angles around a corner sum to 2 pi: then both sides of the corner have one continuation.
     bool is_flat(std::uint32_t t, std::uint32_t k) const {
         double angle = 0;
         const std::uint32_t first = t;
-        for (int i = 0; i < most_fan; ++i) {
+        for (int i = 0; i < max_fan; ++i) {
             const Real cosine = -dot(along(t, k), along(t, (k + 2) % 3));
             angle += std::acos(std::clamp(static_cast<double>(cosine), -1.0, 1.0));
-            const std::uint32_t vertex = triangles_.vertex(t, k), side = (k + 2) % 3;
-            const WalkSide to = triangles_.beyond(t, side);
-            if (to.triangle == no_walk_side || triangles_.beyond(to.triangle, to.side).triangle == no_walk_side)
+            const std::uint32_t vertex = adjacency_.vertex(t, k), side = (k + 2) % 3;
+            const WalkSide to = adjacency_.across(t, side);
+            if (to.triangle == no_walk_side || adjacency_.across(to.triangle, to.side).triangle == no_walk_side)
                 return false;
-            const bool starts_here = triangles_.vertex(to.triangle, to.side) == vertex;
-            if (!starts_here) return false;  // turned over: taken for bent
+            const bool starts_here = adjacency_.vertex(to.triangle, to.side) == vertex;
+            if (!starts_here) return false;  // reversed winding counts as not flat
             t = to.triangle;
             k = to.side;
             if (t == first) return std::abs(angle - 2 * 3.14159265358979323846) < 1e-9;
@@ -249,146 +254,150 @@ private:
         return false;
     }
 
-    /// Follows the way past the other side of a corner that it comes close to.
-    void pass_other_side(const Way& way, std::uint32_t k, std::uint32_t exit, const Real& ahead) {
-        Way other = way;
+    /// Follows the path past the other side of a corner that it comes close to.
+    void pass_other_side(const Path& path, std::uint32_t k, std::uint32_t exit, const Real& ahead) {
+        Path other = path;
         End& end = other.end;
         const std::uint32_t side = exit == k ? (k + 2) % 3 : k;
         end.point = corner(end.triangle, k);
         end.length += ahead;
         other.done += ahead;
-        other.left -= ahead;
+        other.remaining -= ahead;
         other.at = At::corner;
         other.number = k;
-        bool came_from = is_between(end.triangle, k, end.way * Real(-1));
-        const Leads leads = turn_round(other, side, &came_from);
+        bool came_from = is_between(end.triangle, k, end.direction * Real(-1));
+        const Leads leads = rotate_about_corner(other, side, &came_from);
         if (leads == Leads::in) {
             push(other);
         } else if (came_from) {
-            const bool is_square = abs(dot(end.way, along(end.triangle, other.number))) < square;
-            if (leads == Leads::along || is_square) go_on(other, leads);
+            const bool is_perpendicular =
+                abs(dot(end.direction, along(end.triangle, other.number))) < perpendicular_cosine;
+            if (leads == Leads::along || is_perpendicular) continue_with(other, leads);
         }
     }
 
-    void run(Way way) {
-        for (int event = 0; event < most_events; ++event) {
-            End& end = way.end;
+    void run(Path path) {
+        for (int event = 0; event < max_events; ++event) {
+            End& end = path.end;
             const std::uint32_t t = end.triangle;
             const Point normal = normal_of(t);
-            std::array<Real, 3> left_by;  // how far each corner is to the left of the way
-            for (std::uint32_t k = 0; k < 3; ++k) left_by[k] = dot(cross(end.way, corner(t, k) - end.point), normal);
-            const std::uint32_t exit = exit_side(way, left_by), next = (exit + 1) % 3;
-            for (const std::uint32_t k : {exit, next}) look_at_corner(way, k, exit, left_by[k]);
-            const Real width = left_by[next] - left_by[exit];
-            const Real share = width > 0 ? std::clamp<Real>(-left_by[exit] / width, 0, 1) : Real(0.5);
+            std::array<Real, 3> left_distance;  // the distance of each corner to the left of the path
+            for (std::uint32_t k = 0; k < 3; ++k)
+                left_distance[k] = dot(cross(end.direction, corner(t, k) - end.point), normal);
+            const std::uint32_t exit = exit_side(path, left_distance), next = (exit + 1) % 3;
+            for (const std::uint32_t k : {exit, next}) check_corner(path, k, exit, left_distance[k]);
+            const Real width = left_distance[next] - left_distance[exit];
+            const Real share = width > 0 ? std::clamp<Real>(-left_distance[exit] / width, 0, 1) : Real(0.5);
             const Point out = corner(t, exit) + (corner(t, next) - corner(t, exit)) * share;
-            const Real distance = std::max<Real>(0, dot(out - end.point, end.way));
-            if (distance >= way.left) {
-                end.point = end.point + end.way * way.left;
-                end.length += way.left;
+            const Real distance = std::max<Real>(0, dot(out - end.point, end.direction));
+            if (distance >= path.remaining) {
+                end.point = end.point + end.direction * path.remaining;
+                end.length += path.remaining;
                 ends_.push_back(end);
                 return;
             }
             end.point = out;
             end.length += distance;
-            way.done += distance;
-            way.left -= distance;
-            const WalkSide to = triangles_.beyond(t, exit);
+            path.done += distance;
+            path.remaining -= distance;
+            const WalkSide to = adjacency_.across(t, exit);
             if (to.triangle == no_walk_side) {
-                slide(way, exit);
+                slide(path, exit);
                 return;
             }
-            cross_side(way, exit, to);
+            cross_side(path, exit, to);
         }
         complete_ = false;
     }
 
-    static std::uint32_t exit_side(const Way& way, const std::array<Real, 3>& left_by) {
-        if (way.at == At::corner) return (way.number + 1) % 3;
-        if (way.at == At::side) return left_by[(way.number + 2) % 3] > 0 ? (way.number + 1) % 3 : (way.number + 2) % 3;
+    static std::uint32_t exit_side(const Path& path, const std::array<Real, 3>& left_distance) {
+        if (path.at == At::corner) return (path.number + 1) % 3;
+        if (path.at == At::side)
+            return left_distance[(path.number + 2) % 3] > 0 ? (path.number + 1) % 3 : (path.number + 2) % 3;
         for (std::uint32_t k = 0; k < 3; ++k)
-            if (left_by[k] <= 0 && left_by[(k + 1) % 3] > 0) return k;
+            if (left_distance[k] <= 0 && left_distance[(k + 1) % 3] > 0) return k;
         return 0;
     }
 
-    void look_at_corner(Way& way, std::uint32_t k, std::uint32_t exit, const Real& left_by) {
-        if (abs(left_by) >= margin_) return;
-        End& end = way.end;
-        const std::uint32_t vertex = triangles_.vertex(end.triangle, k);
-        const Real ahead = dot(corner(end.triangle, k) - end.point, end.way);
-        if (ahead < -margin_ || ahead > way.left + margin_) return;
-        const Real at = way.done + ahead;
-        if (vertex == way.passed && abs(at - way.passed_at) < 4 * margin_) return;
-        way.passed = vertex;
-        way.passed_at = at;
+    void check_corner(Path& path, std::uint32_t k, std::uint32_t exit, const Real& left_distance) {
+        if (abs(left_distance) >= tolerance_) return;
+        End& end = path.end;
+        const std::uint32_t vertex = adjacency_.vertex(end.triangle, k);
+        const Real ahead = dot(corner(end.triangle, k) - end.point, end.direction);
+        if (ahead < -tolerance_ || ahead > path.remaining + tolerance_) return;
+        const Real at = path.done + ahead;
+        if (vertex == path.passed && abs(at - path.passed_at) < 4 * tolerance_) return;
+        path.passed = vertex;
+        path.passed_at = at;
         end.passed_corner = true;
         if (is_flat(end.triangle, k)) return;
         end.near_corner = true;
-        pass_other_side(way, k, exit, ahead);
+        pass_other_side(path, k, exit, ahead);
     }
 
-    /// From a place on a border, the way leading out over it or along it.
-    void slide(Way& way, std::uint32_t side) {
-        for (int event = 0; event < most_events; ++event) {
-            End& end = way.end;
-            meet(way, side);
+    /// Slides from a point on a border, with the direction out across it or along it.
+    void slide(Path& path, std::uint32_t side) {
+        for (int event = 0; event < max_events; ++event) {
+            End& end = path.end;
+            reach_border(path, side);
             const std::uint32_t t = end.triangle;
             const Point e = along(t, side);
-            const Real cosine = dot(end.way, e), share = abs(cosine);
-            if (share < square) {
-                Way stays = way;
-                stop(stays);
+            const Real cosine = dot(end.direction, e), share = abs(cosine);
+            if (share < perpendicular_cosine) {
+                Path stopped = path;
+                stop(stopped);
             }
             if (share == 0) return;
             const std::uint32_t to = cosine > 0 ? (side + 1) % 3 : side;
             const Real distance = length(corner(t, to) - end.point);
-            if (distance >= way.left * share) {
-                end.point = end.point + e * (cosine * way.left);
-                end.length += way.left * share;
-                end.lost += way.left * (1 - share);
+            if (distance >= path.remaining * share) {
+                end.point = end.point + e * (cosine * path.remaining);
+                end.length += path.remaining * share;
+                end.lost += path.remaining * (1 - share);
                 ends_.push_back(end);
                 return;
             }
             end.point = corner(t, to);
             end.length += distance;
             end.lost += distance / share - distance;
-            way.done += distance / share;
-            way.left -= distance / share;
-            way.at = At::corner;
-            way.number = to;
-            const Leads leads = turn_round(way, to == side ? (to + 2) % 3 : to);
-            if (leads == Leads::in) return push(way);
-            side = way.number;
-            look_whether_square(way, side);
-            if (leads == Leads::nowhere) return stop(way);
+            path.done += distance / share;
+            path.remaining -= distance / share;
+            path.at = At::corner;
+            path.number = to;
+            const Leads leads = rotate_about_corner(path, to == side ? (to + 2) % 3 : to);
+            if (leads == Leads::in) return push(path);
+            side = path.number;
+            check_head_on(path, side);
+            if (leads == Leads::nowhere) return stop(path);
         }
         complete_ = false;
     }
 
-    void meet(Way& way, std::uint32_t side) const {
-        way.end.met = WalkMet::border;
-        look_whether_square(way, side);
-        if (way.end.side.triangle == no_walk_side) way.end.side = {way.end.triangle, side};
+    void reach_border(Path& path, std::uint32_t side) const {
+        path.end.met = WalkMet::border;
+        check_head_on(path, side);
+        if (path.end.side.triangle == no_walk_side) path.end.side = {path.end.triangle, side};
     }
-    void look_whether_square(Way& way, std::uint32_t side) const {
-        if (abs(dot(way.end.way, along(way.end.triangle, side))) < square) way.end.near_head_on = true;
+    void check_head_on(Path& path, std::uint32_t side) const {
+        if (abs(dot(path.end.direction, along(path.end.triangle, side))) < perpendicular_cosine)
+            path.end.near_head_on = true;
     }
-    void stop(Way& way) {
-        way.end.met = WalkMet::corner;
-        way.end.lost += way.left;
-        ends_.push_back(way.end);
+    void stop(Path& path) {
+        path.end.met = WalkMet::corner;
+        path.end.lost += path.remaining;
+        ends_.push_back(path.end);
     }
-    void over(Way& way, std::uint32_t side) {
-        const WalkSide to = triangles_.beyond(way.end.triangle, side);
-        if (to.triangle == no_walk_side) return slide(way, side);
-        cross_side(way, side, to);
-        push(way);
+    void cross_or_slide(Path& path, std::uint32_t side) {
+        const WalkSide to = adjacency_.across(path.end.triangle, side);
+        if (to.triangle == no_walk_side) return slide(path, side);
+        cross_side(path, side, to);
+        push(path);
     }
 
-    const JoinedTriangles& triangles_;
-    Real margin_;
+    const TriangleAdjacency& adjacency_;
+    Real tolerance_;
     bool complete_ = true;
-    std::vector<Way> ways_;
+    std::vector<Path> paths_;
     std::vector<End> ends_;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Whether convex parts are exactly what an outline has inside, in whole numbers of any size.
+// Whether convex parts cover exactly the inside of an outline, in integers of any size.
 
 #include <abut/math/aabb.hpp>
 #include <abut/math/predicates.hpp>
@@ -20,34 +20,34 @@
 
 namespace abut::oracle {
 
-using Whole = boost::multiprecision::cpp_int;
+using BigInteger = boost::multiprecision::cpp_int;
 
-/// A float as a whole number of 2^-149.
-inline Whole whole(float value) {
+/// A float as an integer multiple of 2^-149.
+inline BigInteger to_integer(float value) {
     int exponent = 0;
     const auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(static_cast<double>(value), &exponent), 24));
     const int shift = exponent - 24 + 149;
-    return shift >= 0 ? Whole(mantissa) << shift : Whole(mantissa >> -shift);
+    return shift >= 0 ? BigInteger(mantissa) << shift : BigInteger(mantissa >> -shift);
 }
 
-/// Twice the area a ring goes around, in units of 2^-298: above zero where it is counter-clockwise.
-inline Whole twice_area(std::span<const Vec2> ring) {
-    Whole sum = 0;
+/// Twice the signed area of a ring, in units of 2^-298; above zero if the ring is counter-clockwise.
+inline BigInteger twice_area(std::span<const Vec2> ring) {
+    BigInteger sum = 0;
     for (std::size_t i = 0; i < ring.size(); ++i) {
         const Vec2 &a = ring[i], &b = ring[i + 1 == ring.size() ? 0 : i + 1];
-        sum += whole(a.x) * whole(b.y) - whole(a.y) * whole(b.x);
+        sum += to_integer(a.x) * to_integer(b.y) - to_integer(a.y) * to_integer(b.x);
     }
     return sum;
 }
 
-/// Of a simple outline with holes that lie apart in it.
-inline Whole twice_area(std::span<const Vec2> outline, std::span<const std::vector<Vec2>> holes) {
-    Whole result = abs(twice_area(outline));
+/// Twice the area of a simple outline with disjoint holes inside it.
+inline BigInteger twice_area(std::span<const Vec2> outline, std::span<const std::vector<Vec2>> holes) {
+    BigInteger result = abs(twice_area(outline));
     for (const std::vector<Vec2>& hole : holes) result -= abs(twice_area(hole));
     return result;
 }
 
-/// The parts of an outline with holes, looked at one by one. Each check returns what is wrong, or nothing.
+/// Checks the convex parts of an outline with holes. Each check returns a description of the fault, or an empty string.
 class OutlineParts {
 public:
     OutlineParts(std::span<const Vec2> outline, std::span<const std::vector<Vec2>> holes,
@@ -55,20 +55,20 @@ public:
         rings_.emplace_back(outline.begin(), outline.end());
         rings_.insert(rings_.end(), holes.begin(), holes.end());
         for (const std::vector<Vec2>& ring : rings_)
-            for (WholeRing& whole_ring = whole_rings_.emplace_back(); const Vec2& point : ring)
-                whole_ring.emplace_back(3 * whole(point.x), 3 * whole(point.y));
+            for (IntegerRing& integer_ring = integer_rings_.emplace_back(); const Vec2& point : ring)
+                integer_ring.emplace_back(3 * to_integer(point.x), 3 * to_integer(point.y));
         for (const Polygon& part : parts)
             if (part.rank() == 2) parts_.push_back({part.points(), box_of(part.points())});
         std::ranges::sort(parts_, {}, [](const Part& part) { return part.box.min.x; });
     }
 
-    Whole twice_area() const {
-        Whole sum = 0;
+    BigInteger twice_area() const {
+        BigInteger sum = 0;
         for (const Part& part : parts_) sum += oracle::twice_area(part.loop);
         return sum;
     }
 
-    /// Corners of the input, each a turn to the left.
+    /// All corners are points of the input, and convex.
     std::string fault_of_corners() const {
         std::set<std::pair<float, float>> given;
         for (const std::vector<Vec2>& ring : rings_)
@@ -90,7 +90,7 @@ public:
         return {};
     }
 
-    /// No ring runs through a part, and all parts are inside by the number of edges below a point of theirs.
+    /// No ring crosses a part, and by the even-odd rule all parts are inside.
     std::string fault_of_inside() const {
         for (const std::vector<Vec2>& ring : rings_)
             for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -104,14 +104,14 @@ public:
         return fault_of_middles();
     }
 
-    /// Also of rings with spikes, and that lie in one another.
+    /// A point of each part is inside by the even-odd rule. Also for rings with spikes, and nested rings.
     std::string fault_of_middles() const {
         for (const Part& part : parts_)
             if (!inside(part.loop)) return "a part that isn't inside";
         return {};
     }
 
-    /// A place is covered if it is inside; on a ring it may be either.
+    /// A place is covered by a part iff it is inside. On a ring either is right.
     std::string fault_at(const Vec2& place) const {
         for (const std::vector<Vec2>& ring : rings_)
             for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -128,7 +128,7 @@ public:
         return covered ? "a place outside is covered" : "a place inside isn't covered";
     }
 
-    /// Corners within an edge of another part.
+    /// No corner of a part lies within an edge of another (a T-junction).
     std::string fault_of_junctions() const {
         for (const Part& part : parts_)
             for (std::size_t i = 0; i < part.loop.size(); ++i) {
@@ -144,15 +144,15 @@ public:
         return {};
     }
 
-    /// All of these but the last; `expected` is twice the area.
-    std::string fault(const Whole& expected) const {
+    /// All checks but those of single places and T-junctions; `expected` is twice the area.
+    std::string fault(const BigInteger& expected) const {
         for (const std::string& found : {fault_of_corners(), fault_of_overlaps(), fault_of_inside()})
             if (!found.empty()) return found;
-        return twice_area() == expected ? "" : "the area is another one";
+        return twice_area() == expected ? "" : "the area is wrong";
     }
 
 private:
-    using WholeRing = std::vector<std::pair<Whole, Whole>>;
+    using IntegerRing = std::vector<std::pair<BigInteger, BigInteger>>;
     struct Part {
         std::span<const Vec2> loop;
         Aabb2 box;
@@ -164,10 +164,10 @@ private:
         return result;
     }
 
-    /// Whether the insides of two convex loops have nothing in common: then the line of an edge is between them. A
-    /// segment is a loop of two.
+    /// Whether the interiors of two convex loops are disjoint: then an edge of one lies on a separating line. A segment
+    /// is a loop of two points.
     static bool apart(std::span<const Vec2> a, std::span<const Vec2> b) {
-        const auto divides = [](std::span<const Vec2> loop, std::span<const Vec2> other) {
+        const auto has_separating_edge = [](std::span<const Vec2> loop, std::span<const Vec2> other) {
             for (std::size_t i = 0; i < loop.size(); ++i) {
                 const Vec2 &from = loop[i], &to = loop[i + 1 == loop.size() ? 0 : i + 1];
                 if (std::ranges::all_of(other, [&](const Vec2& p) { return orientation(from, to, p) <= 0; }))
@@ -175,16 +175,17 @@ private:
             }
             return false;
         };
-        return divides(a, b) || divides(b, a);
+        return has_separating_edge(a, b) || has_separating_edge(b, a);
     }
 
-    /// Whether the ring goes an odd number of times around the middle of the first triangle of a loop: all times 3.
-    static bool around(const WholeRing& ring, std::span<const Vec2> loop) {
-        const Whole x = whole(loop[0].x) + whole(loop[1].x) + whole(loop[2].x);
-        const Whole y = whole(loop[0].y) + whole(loop[1].y) + whole(loop[2].y);
+    /// Whether, by the even-odd rule, the ring contains the centroid of the first triangle of a loop. Coordinates are
+    /// multiplied by 3.
+    static bool contains_centroid(const IntegerRing& ring, std::span<const Vec2> loop) {
+        const BigInteger x = to_integer(loop[0].x) + to_integer(loop[1].x) + to_integer(loop[2].x);
+        const BigInteger y = to_integer(loop[0].y) + to_integer(loop[1].y) + to_integer(loop[2].y);
         bool result = false;
         for (std::size_t i = 0; i < ring.size(); ++i) {
-            // From left to right, so that a line there and back counts alike also where the place is on it.
+            // Edges go from left to right, so that an edge and its reverse cancel even if the point is on them.
             const auto [a, b] = std::minmax(ring[i], ring[i + 1 == ring.size() ? 0 : i + 1]);
             if ((a.first <= x) == (b.first <= x)) continue;
             if ((b.first - a.first) * (y - a.second) > (b.second - a.second) * (x - a.first)) result = !result;
@@ -193,13 +194,13 @@ private:
     }
 
     bool inside(std::span<const Vec2> loop) const {
-        for (std::size_t ring = 1; ring < whole_rings_.size(); ++ring)
-            if (around(whole_rings_[ring], loop)) return false;
-        return around(whole_rings_[0], loop);
+        for (std::size_t ring = 1; ring < integer_rings_.size(); ++ring)
+            if (contains_centroid(integer_rings_[ring], loop)) return false;
+        return contains_centroid(integer_rings_[0], loop);
     }
 
     std::vector<std::vector<Vec2>> rings_;
-    std::vector<WholeRing> whole_rings_;
+    std::vector<IntegerRing> integer_rings_;
     std::vector<Part> parts_;
 };
 

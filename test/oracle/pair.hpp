@@ -1,6 +1,6 @@
 #pragma once
 
-// Random pairs, near one another often enough that about half of them overlap.
+// Random pairs of shapes, so near to each other that about half of them overlap.
 
 #include "distance.hpp"
 #include "sample.hpp"
@@ -9,8 +9,8 @@
 
 namespace abut::oracle {
 
-/// How many random cases a test runs: `few` of them, a hundred times as many where the environment sets ABUT_LONG.
-inline int amount(int few) {
+/// The number of random cases of a test: `few`, or a hundred times as many if the environment sets ABUT_LONG.
+inline int case_count(int few) {
     return std::getenv("ABUT_LONG") != nullptr ? 100 * few : few;
 }
 
@@ -19,8 +19,8 @@ struct SamplePair {
     Sample<D> a, b;
 };
 
-/// Sizes from 1e-3 to 1e4, mostly alike; centers up to some ten thousand sizes from the origin. Half of the pairs are
-/// coherent: a small step, a thousandth of a size or much less, into or out of touching.
+/// Sizes are from 1e-3 to 1e4 and mostly similar; centers are up to some ten thousand sizes from the origin. Half of
+/// the pairs nearly touch: their distance or depth is at most a thousandth of a size.
 template <int D>
 SamplePair<D> random_pair(Random& random, Kind kind_a, Kind kind_b);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// How well convex parts stand for a mesh, found by asking at random points.
+// The errors of convex parts as an approximation of a mesh, measured at random points.
 
 #include "random.hpp"
 #include <abut/bake/solid.hpp>
@@ -20,19 +20,19 @@
 namespace abut::oracle {
 
 struct PartQuality {
-    double extra = 0;      ///< solid that the parts add, as a share of the mesh's volume; 0 where the mesh isn't closed
-    double missing = 0;    ///< solid that no part has, as a share of the mesh's volume; the same
+    double extra = 0;      ///< volume of the parts outside of the mesh, as a share of the mesh's; 0 if the mesh is open
+    double missing = 0;    ///< volume of the mesh in no part, as a share of the mesh's; 0 if the mesh is open
     double uncovered = 0;  ///< the share of the surface that is more than 0.1 % of the diagonal outside of all parts
-    double farthest = 0;  ///< the most that a point of the surface was outside of all parts, as a share of the diagonal
-    double samples_inside = 0;  ///< how many of the points of space were inside of the mesh
-    std::size_t corners = 0;    ///< of the part that has most
+    double farthest = 0;   ///< the largest distance of a surface point outside of all parts, as a share of the diagonal
+    double samples_inside = 0;  ///< the number of sampled points inside of the mesh
+    std::size_t corners = 0;    ///< the largest number of corners of a part
     std::size_t all_corners = 0;
 };
 
-/// Convex parts, quickly asked about.
-class PartsOf {
+/// Convex parts with their bounding boxes.
+class ConvexParts {
 public:
-    explicit PartsOf(std::span<const Polyhedron> parts) : parts_(parts) {
+    explicit ConvexParts(std::span<const Polyhedron> parts) : parts_(parts) {
         for (const Polyhedron& part : parts) boxes_.push_back(bounds(View<3>(view(part))));
     }
 
@@ -44,11 +44,11 @@ public:
 
     bool contain(const Vec3& point) const {
         for (std::size_t i = 0; i < parts_.size(); ++i)
-            if (overlaps(boxes_[i], Aabb3{point, point}) && has(parts_[i], point)) return true;
+            if (overlaps(boxes_[i], Aabb3{point, point}) && contains_point(parts_[i], point)) return true;
         return false;
     }
 
-    /// How far the point is from the nearest part; 0 inside of one.
+    /// The distance to the nearest part; 0 inside of one.
     double distance(const Vec3& point) const {
         if (contain(point)) return 0;
         double result = std::numeric_limits<double>::infinity();
@@ -58,7 +58,7 @@ public:
     }
 
 private:
-    static bool has(const Polyhedron& part, const Vec3& point) {
+    static bool contains_point(const Polyhedron& part, const Vec3& point) {
         const Facets& facets = part.facets();
         if (facets.normals.empty()) return false;
         for (std::size_t i = 0; i < facets.normals.size(); ++i)
@@ -70,7 +70,7 @@ private:
     std::vector<Aabb3> boxes_;
 };
 
-/// Evenly over the surface.
+/// Random points, uniform over the surface.
 class SurfacePoints {
 public:
     SurfacePoints(std::span<const Vec3> points, std::span<const glm::uvec3> triangles)
@@ -78,13 +78,14 @@ public:
         double sum = 0;
         for (const glm::uvec3& t : triangles) {
             const DVec<3> a(points[t.x]), b(points[t.y]), c(points[t.z]);
-            up_to_.push_back(sum += length(cross(b - a, c - a)));
+            cumulative_area_.push_back(sum += length(cross(b - a, c - a)));
         }
     }
 
     Vec3 next(Random& random) const {
-        const double at = random.uniform(0, up_to_.back());
-        const auto found = std::upper_bound(up_to_.begin(), up_to_.end() - 1, at) - up_to_.begin();
+        const double at = random.uniform(0, cumulative_area_.back());
+        const auto found =
+            std::upper_bound(cumulative_area_.begin(), cumulative_area_.end() - 1, at) - cumulative_area_.begin();
         const glm::uvec3& t = triangles_[static_cast<std::size_t>(found)];
         const DVec<3> a(points_[t.x]), b(points_[t.y]), c(points_[t.z]);
         const double root = std::sqrt(random.unit()), along = random.unit();
@@ -95,11 +96,11 @@ public:
 private:
     std::span<const Vec3> points_;
     std::span<const glm::uvec3> triangles_;
-    std::vector<double> up_to_;
+    std::vector<double> cumulative_area_;
 };
 
-/// By `samples` points in the box around the mesh and all parts, and as many of the surface. What is off by chance is
-/// about 1 / sqrt(samples in the mesh), for `extra` times sqrt(extra).
+/// Samples `samples` points in the box around the mesh and all parts, and as many on the surface. The standard error is
+/// about 1 / sqrt(samples in the mesh); that of `extra` is sqrt(extra) times this.
 inline PartQuality quality_of(std::span<const Vec3> points, std::span<const glm::uvec3> triangles,
                               std::span<const Polyhedron> polyhedra, std::uint32_t samples, std::uint64_t seed) {
     PartQuality result;
@@ -108,7 +109,7 @@ inline PartQuality quality_of(std::span<const Vec3> points, std::span<const glm:
         result.all_corners += part.points().size();
     }
     Random random(seed);
-    const PartsOf parts(polyhedra);
+    const ConvexParts parts(polyhedra);
     const Mesh mesh = *Mesh::build(points, triangles);
     const Aabb3 box = merged(bounds(mesh), parts.box());
     const DVec<3> low(box.min), size = DVec<3>(box.max) - low;

@@ -6,44 +6,44 @@
 namespace abut::oracle {
 namespace {
 
-/// Whether points lie on either side of a line, beyond any rounding of the doubles that say so.
-bool parts_points(const std::vector<Vec<2>>& points, std::uint32_t i, std::uint32_t j) {
+/// Whether the line through points i and j has points on both sides, beyond the rounding of doubles.
+bool separates_points(const std::vector<Vec<2>>& points, std::uint32_t i, std::uint32_t j) {
     const DVec<2> from(points[i]), along = DVec<2>(points[j]) - from;
     bool left = false, right = false;
     for (const Vec<2>& point : points) {
         const DVec<2> to = DVec<2>(point) - from;
         const double one = along.x * to.y, other = along.y * to.x;
-        const double doubt = 4e-16 * (std::abs(one) + std::abs(other));
-        left = left || one - other > doubt;
-        right = right || one - other < -doubt;
+        const double error_bound = 4e-16 * (std::abs(one) + std::abs(other));
+        left = left || one - other > error_bound;
+        right = right || one - other < -error_bound;
         if (left && right) return true;
     }
     return false;
 }
 
-/// Where a plane runs.
+/// The position of a plane relative to the hull.
 enum class Plane {
-    along,    ///< along a face, or so near that rounding can't tell
-    through,  ///< through the hull
-    unknown,  ///< nowhere: its three points lie on a line
+    along,    ///< a supporting plane, to within rounding
+    through,  ///< cuts the hull
+    unknown,  ///< undefined: its three points are collinear
 };
 
-/// The plane of three of the points. The bounds are those of Shewchuk's "Adaptive precision floating-point arithmetic"
-/// (1997).
+/// Classifies the plane of three of the points. The error bounds are those of Shewchuk's "Adaptive precision
+/// floating-point arithmetic" (1997).
 Plane plane_of(const std::vector<Vec<3>>& points, std::uint32_t i, std::uint32_t j, std::uint32_t k) {
     const auto absolute = [](const DVec<3>& v) { return DVec<3>(std::abs(v.x), std::abs(v.y), std::abs(v.z)); };
     const DVec<3> from(points[i]), u = DVec<3>(points[j]) - from, v = DVec<3>(points[k]) - from;
     const DVec<3> normal = cross(u, v), s = absolute(u), t = absolute(v);
     const DVec<3> terms(s.y * t.z + s.z * t.y, s.z * t.x + s.x * t.z, s.x * t.y + s.y * t.x);
-    bool sure = false;
-    for (int axis = 0; axis < 3; ++axis) sure = sure || std::abs(normal[axis]) > 4e-16 * terms[axis];
-    if (!sure) return Plane::unknown;
+    bool is_defined = false;
+    for (int axis = 0; axis < 3; ++axis) is_defined = is_defined || std::abs(normal[axis]) > 4e-16 * terms[axis];
+    if (!is_defined) return Plane::unknown;
     bool above = false, below = false;
     for (const Vec<3>& point : points) {
         const DVec<3> to = DVec<3>(point) - from;
-        const double height = dot(normal, to), doubt = 8e-16 * dot(terms, absolute(to));
-        above = above || height > doubt;
-        below = below || height < -doubt;
+        const double height = dot(normal, to), error_bound = 8e-16 * dot(terms, absolute(to));
+        above = above || height > error_bound;
+        below = below || height < -error_bound;
         if (above && below) return Plane::through;
     }
     return Plane::along;
@@ -65,7 +65,7 @@ Polytope<D> hull_of(std::vector<Vec<D>> points, double radius) {
     if constexpr (D == 2) {
         for (std::size_t i = 0; i < count; ++i)
             for (std::size_t j = 0; j < i; ++j)
-                if (!parts_points(result.points, different[i], different[j]))
+                if (!separates_points(result.points, different[i], different[j]))
                     add_edge(result, different[i], different[j]);
     } else {
         if (count == 2) add_edge(result, different[1], different[0]);

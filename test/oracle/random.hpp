@@ -1,6 +1,6 @@
 #pragma once
 
-// Random numbers that are the same on every machine: no distribution of the standard library, no C mathematics.
+// Random numbers with identical values on every machine. They use no distribution of the standard library and no libm.
 
 #include <abut/math/dvec.hpp>
 #include <abut/math/pose.hpp>
@@ -10,7 +10,7 @@
 
 namespace abut::oracle {
 
-/// splitmix64 (Steele, Lea, Flood 2014). A copy gives the same numbers again.
+/// splitmix64 (Steele, Lea, Flood 2014). A copy repeats the numbers.
 class Random {
 public:
     explicit Random(std::uint64_t seed) : state_(seed) {}
@@ -22,13 +22,13 @@ public:
         z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
         return z ^ (z >> 31);
     }
-    /// Evenly in [0, 1).
+    /// Uniform in [0, 1).
     double unit() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
     double uniform(double low, double high) { return low + (high - low) * unit(); }
     float uniform_float(double low, double high) { return static_cast<float>(uniform(low, high)); }
     std::uint32_t below(std::uint32_t count) { return static_cast<std::uint32_t>(unit() * static_cast<double>(count)); }
     bool chance(double probability) { return unit() < probability; }
-    /// From 2^low to 2^high, about evenly in the exponent.
+    /// From 2^low to 2^high, about uniform in the exponent.
     double power_of_two(int low, int high) {
         const int whole = low + static_cast<int>(below(static_cast<std::uint32_t>(high - low)));
         return std::ldexp(uniform(1, 2), whole);
@@ -40,7 +40,7 @@ public:
         for (int i = 0; i < D; ++i) result[i] = uniform(-1, 1);
         return result;
     }
-    /// Evenly over all directions.
+    /// Uniform over all directions.
     template <int D>
     DVec<D> direction() {
         for (;;) {

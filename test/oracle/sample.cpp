@@ -3,7 +3,7 @@
 namespace abut::oracle {
 
 template <int D>
-Sample<D> Maker<D>::make(Kind kind) {
+Sample<D> SampleGenerator<D>::make(Kind kind) {
     const float radius = random_.uniform_float(0.05 * size_, 0.7 * size_);
     switch (kind) {
         case Kind::ball: {
@@ -48,7 +48,7 @@ Sample<D> Maker<D>::make(Kind kind) {
             for (std::uint32_t i = D + 1 + random_.below(7); i > 0; --i) points.push_back(point(1));
             return sample<D>(kind, *BuiltHull<D>::build(points), hull_of<D>(points));
         }
-        case Kind::turned_capsule: {
+        case Kind::posed_capsule: {
             const Pose<D> pose{point(0), random_.rotation<D>()};
             const Vec<D> a = local(0.7), b = local(0.7);
             return sample<D>(kind, at(Capsule<D>{a, b, radius}, pose),
@@ -70,7 +70,7 @@ Sample<D> Maker<D>::make(Kind kind) {
     return {};
 }
 
-template class Maker<2>;
-template class Maker<3>;
+template class SampleGenerator<2>;
+template class SampleGenerator<3>;
 
 }  // namespace abut::oracle

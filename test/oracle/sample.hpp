@@ -1,7 +1,6 @@
 #pragma once
 
-// Random shapes of every kind that is a polytope with a ball around it, as the library sees them and as the oracle
-// does.
+// Random shapes of every kind that is a polytope with a radius, as the library's view and as the oracle's polytope.
 
 #include "polytope.hpp"
 #include "random.hpp"
@@ -28,23 +27,23 @@ enum class Kind {
     aabb,
     rounded_box,
     cloud,
-    turned_capsule,
+    posed_capsule,
     stretched_box,
     rounded_triangle,
     polytope,
 };
 inline constexpr int kind_count = 12;
 
-/// A shape, kept alive, in both forms.
+/// A shape in both forms, with its owner.
 template <int D>
 struct Sample {
     Kind kind;
-    std::shared_ptr<const void> keeper;
+    std::shared_ptr<const void> owner;
     View<D> view;
     Polytope<D> solid;
 };
 
-/// A set of points as a user's own shape, known by its support function.
+/// A user-defined shape: the hull of points, given by its support function.
 template <int D>
 struct PointCloud {
     std::vector<Vec<D>> points;
@@ -66,15 +65,16 @@ using BuiltHull = std::conditional_t<D == 2, Polygon, Polyhedron>;
 
 template <int D, class S>
 Sample<D> sample(Kind kind, S shape, Polytope<D> solid) {
-    auto keeper = std::make_shared<const S>(std::move(shape));
-    return {kind, keeper, abut::view(*keeper), std::move(solid)};
+    auto owner = std::make_shared<const S>(std::move(shape));
+    return {kind, owner, abut::view(*owner), std::move(solid)};
 }
 
-/// Makes the shapes of a kind. The same numbers make the same shape at another center.
+/// Makes random shapes. Equal random numbers make equal shapes, at any center.
 template <int D>
-class Maker {
+class SampleGenerator {
 public:
-    Maker(Random random, const DVec<D>& center, double size) : random_(random), center_(center), size_(size) {}
+    SampleGenerator(Random random, const DVec<D>& center, double size)
+        : random_(random), center_(center), size_(size) {}
 
     Sample<D> make(Kind kind);
 

@@ -1,7 +1,6 @@
 #pragma once
 
-// The checksum of what is saved, made right again after a change: what a forger would do. Written apart from the
-// library's own, byte by byte.
+// Recomputes the checksum of saved bytes after a test has changed them. An implementation of its own, byte by byte.
 
 #include <algorithm>
 #include <cstddef>
@@ -10,7 +9,7 @@
 
 namespace abut::oracle {
 
-/// The last eight bytes, of eight or more, become the checksum of those before.
+/// Replaces the last eight bytes by the checksum of all before them. There must be at least eight.
 inline void seal(std::vector<std::byte>& bytes) {
     const std::size_t size = bytes.size() - 8;
     std::uint64_t sum = size;

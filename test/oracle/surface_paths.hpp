@@ -1,7 +1,7 @@
 #pragma once
 
-// Ways over triangles in space, from above: along straight lines between points that are set on their edges. And
-// whether a way can be made shorter where it turns at a corner, by angles.
+// Upper bounds of shortest paths over triangles in space: paths along segments between points on the edges. And the
+// angles beside a path at a corner, which decide whether it can be shortened there.
 
 #include <abut/math/dvec.hpp>
 
@@ -20,11 +20,11 @@
 
 namespace abut::oracle {
 
-/// Points on the edges of triangles, and straight lines between those of one triangle. The shortest way along them is
-/// no shorter than the shortest way over the surface.
+/// A graph of points on the edges of triangles, with a segment between any two of one triangle. Its shortest path is no
+/// shorter than the geodesic.
 class EdgePointGraph {
 public:
-    /// `between`: points on each edge, beside its ends. Triangles share points by index.
+    /// `between` points are added within each edge. Triangles share points by index.
     EdgePointGraph(std::span<const Vec3> points, std::span<const glm::uvec3> triangles, int between)
         : triangles_(triangles.begin(), triangles.end()), of_triangle_(triangles.size()) {
         for (const Vec3& point : points) nodes_.emplace_back(point);
@@ -47,9 +47,9 @@ public:
             for (const std::uint32_t node : of_triangle_[t]) at_node_[node].push_back(t);
     }
 
-    /// From a point of a triangle to one of another.
-    /// What a unit of length costs is told by triangle; on an edge it is the lesser of two.
-    double cheapest(std::uint32_t from_triangle, const DVec<3>& from, std::uint32_t to_triangle, const DVec<3>& to,
+    /// The least cost from a point of a triangle to one of another, by Dijkstra 1959. `costs` holds the cost per length
+    /// of each triangle; along an edge it is the lesser of two.
+    double min_cost(std::uint32_t from_triangle, const DVec<3>& from, std::uint32_t to_triangle, const DVec<3>& to,
                     std::span<const float> costs = {}) const {
         const auto cost = [&](std::uint32_t triangle) {
             return costs.empty() ? 1.0 : static_cast<double>(costs[triangle]);
@@ -88,8 +88,8 @@ private:
     std::vector<std::vector<std::uint32_t>> of_triangle_, at_node_;
 };
 
-/// The angles of the surface at a corner to the two sides of a way through it; infinite where there is a border within.
-/// The directions lead from the corner along the surface; nothing may be pinched there.
+/// The angles of the surface at a corner on the two sides of a path through it; infinite on a side with a border. The
+/// directions lead from the corner along the surface. The corner must not be a non-manifold vertex.
 inline std::pair<double, double> angles_beside(std::span<const Vec3> points, std::span<const glm::uvec3> triangles,
                                                std::uint32_t corner, const DVec<3>& before, const DVec<3>& after) {
     struct Wedge {
@@ -106,7 +106,7 @@ inline std::pair<double, double> angles_beside(std::span<const Vec3> points, std
                 fan.push_back({next, last, angle(DVec<3>(points[next]) - at, DVec<3>(points[last]) - at)});
             }
     const DVec<3> at(points[corner]);
-    // In which wedge a direction is, and how far from its first side.
+    // The wedge that contains a direction, and the angle from its first side.
     const auto find = [&](const DVec<3>& direction) {
         std::size_t best = 0;
         double least = std::numeric_limits<double>::infinity(), from_first = 0;
@@ -123,7 +123,7 @@ inline std::pair<double, double> angles_beside(std::span<const Vec3> points, std
     };
     const auto [first, first_angle] = find(before);
     const auto [second, second_angle] = find(after);
-    // Counter-clockwise from one to the other.
+    // The angle from one to the other, counter-clockwise.
     const auto sweep = [&](std::size_t from, double from_angle, std::size_t to, double to_angle) {
         if (from == to && to_angle >= from_angle) return to_angle - from_angle;
         double sum = fan[from].angle - from_angle;

@@ -15,13 +15,13 @@ namespace abut::oracle {
 
 using Rational = boost::multiprecision::cpp_rational;
 
-/// Half-spaces a . x <= b of rational numbers, by the volume of their intersection (Lasserre, "An analytical expression
-/// and an algorithm for the volume of a convex polyhedron in R^n", 1983): no corner is ever looked for.
+/// Half-spaces a . x <= b in rational numbers. The volume of their intersection needs none of its corners (Lasserre,
+/// "An analytical expression and an algorithm for the volume of a convex polyhedron in R^n", 1983).
 struct HalfSpaces {
     std::vector<std::vector<Rational>> a;
     std::vector<Rational> b;
 
-    /// Of several that are the same, one. False where one holds nothing.
+    /// Adds a half-space; of parallel ones only the tightest is stored. False if the half-space is empty.
     bool add(std::vector<Rational> row, Rational right) {
         const auto lead = std::find_if(row.begin(), row.end(), [](const Rational& x) { return x != 0; });
         if (lead == row.end()) return right >= 0;
@@ -56,7 +56,7 @@ inline Rational volume(const HalfSpaces& spaces, std::size_t dimensions) {
         std::size_t j = 0;
         while (spaces.a[i][j] == 0) ++j;
         const Rational pivot = spaces.a[i][j];
-        HalfSpaces face;  // with x_j put in from row i
+        HalfSpaces face;  // row i solved for x_j and substituted
         bool empty = false;
         for (std::size_t k = 0; k < spaces.a.size() && !empty; ++k) {
             if (k == i) continue;
@@ -71,7 +71,7 @@ inline Rational volume(const HalfSpaces& spaces, std::size_t dimensions) {
     return sum / static_cast<int>(dimensions);
 }
 
-/// The planes through D corners that have all others on one side; of what is flat no more than two.
+/// The supporting planes through D corners. A flat shape has no more than two.
 template <int D>
 HalfSpaces half_spaces(const Polytope<D>& shape, const DVec<D>& origin) {
     HalfSpaces spaces;
@@ -100,15 +100,15 @@ HalfSpaces half_spaces(const Polytope<D>& shape, const DVec<D>& origin) {
     return spaces;
 }
 
-/// The area or volume that two polytopes have in common, without their radii; 0 where one is flat.
+/// The area or volume of the intersection of two polytopes, without their radii; 0 if one is flat.
 template <int D>
 double volume_of_overlap(const Polytope<D>& a, const Polytope<D>& b) {
     const DVec<D> origin = middle(a);
-    HalfSpaces both = half_spaces(a, origin);
+    HalfSpaces intersection = half_spaces(a, origin);
     const HalfSpaces others = half_spaces(b, origin);
-    if (both.a.size() <= 2 || others.a.size() <= 2) return 0;
-    for (std::size_t i = 0; i < others.a.size(); ++i) both.add(others.a[i], others.b[i]);
-    return static_cast<double>(volume(both, D));
+    if (intersection.a.size() <= 2 || others.a.size() <= 2) return 0;
+    for (std::size_t i = 0; i < others.a.size(); ++i) intersection.add(others.a[i], others.b[i]);
+    return static_cast<double>(volume(intersection, D));
 }
 
 }  // namespace abut::oracle

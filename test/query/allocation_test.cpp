@@ -1,4 +1,4 @@
-// No question allocates memory.
+// No query allocates memory.
 
 #include "../oracle/check.hpp"
 #include "../oracle/pair.hpp"
@@ -64,7 +64,7 @@ namespace abut {
 namespace {
 
 template <int D>
-long allocations_of_all_questions(const View<D>& a, const View<D>& b, const Ray<D>& ray) {
+long allocations_of_all_queries(const View<D>& a, const View<D>& b, const Ray<D>& ray) {
     const long before = allocations;
     Cache cache;
     overlaps(a, b);
@@ -78,10 +78,10 @@ long allocations_of_all_questions(const View<D>& a, const View<D>& b, const Ray<
     raycast(ray, a);
     sweep(a, ray.direction, b);
     sweep(b, ray.direction * ray.length, a, ray.direction);
-    Motion<D> turning{{ray.origin, no_rotation<D>}, -ray.origin};
-    turning.turn = Angle<D>(3);
-    sweep(a, turning, b, Motion<D>{}, {.cache = &cache});
-    sweep(b, Pose<D>{}, pose_at(turning, 1), a, Pose<D>{}, turning.from);
+    Motion<D> rotating{{ray.origin, no_rotation<D>}, -ray.origin};
+    rotating.turn = Angle<D>(3);
+    sweep(a, rotating, b, Motion<D>{}, {.cache = &cache});
+    sweep(b, Pose<D>{}, pose_at(rotating, 1), a, Pose<D>{}, rotating.from);
     each_hit(ray, a, [](const Hit<D>&) {});
     if (const auto* convex = std::get_if<Convex<D>>(&a); convex != nullptr && has_features(*convex))
         closest_feature(*convex, DVec<D>(ray.origin));
@@ -102,19 +102,19 @@ void expect_none() {
         const auto pair = oracle::random_pair<D>(random, static_cast<oracle::Kind>(random.below(oracle::kind_count)),
                                                  static_cast<oracle::Kind>(random.below(oracle::kind_count)));
         const auto ray = Ray<D>::between(to_float(random.direction<D>()), to_float(oracle::middle(pair.a.solid)));
-        EXPECT_EQ(allocations_of_all_questions<D>(pair.a.view, pair.b.view, ray), 0);
-        EXPECT_EQ(allocations_of_all_questions<D>(pair.a.view, view(HalfSpace<D>{ray.direction, ray.length}), ray), 0);
+        EXPECT_EQ(allocations_of_all_queries<D>(pair.a.view, pair.b.view, ray), 0);
+        EXPECT_EQ(allocations_of_all_queries<D>(pair.a.view, view(HalfSpace<D>{ray.direction, ray.length}), ray), 0);
     }
 }
 
-TEST(Allocation, OfQuestionsInThePlaneIsNone) {
+TEST(Allocation, OfQueriesIn2DIsNone) {
     expect_none<2>();
 }
-TEST(Allocation, OfQuestionsInSpaceIsNone) {
+TEST(Allocation, OfQueriesIn3DIsNone) {
     expect_none<3>();
 }
 
-TEST(Allocation, OfQuestionsAboutMeshesAndRoundShapesIsNone) {
+TEST(Allocation, OfMeshAndRoundShapeQueriesIsNone) {
     oracle::Random random(5);
     std::vector<Vec3> points;
     std::vector<glm::uvec3> triangles;
@@ -126,12 +126,12 @@ TEST(Allocation, OfQuestionsAboutMeshesAndRoundShapesIsNone) {
     const Ray3 ray = Ray3::between({-3, -2, -1}, {2, 2, 2});
     const Cylinder cylinder{{0, 0, 0}, {1, 1, 0}, 0.5f};
     const Cone cone{{0.5f, 0, 0}, {1, 1, 1}, 0.5f};
-    EXPECT_EQ(allocations_of_all_questions<3>(view(mesh), view(cylinder), ray), 0);
-    EXPECT_EQ(allocations_of_all_questions<3>(view(cone), view(cylinder), ray), 0);
-    EXPECT_EQ(allocations_of_all_questions<3>(view(mesh), view(at(mesh, Pose3{{0.5f, 0, 0}})), ray), 0);
+    EXPECT_EQ(allocations_of_all_queries<3>(view(mesh), view(cylinder), ray), 0);
+    EXPECT_EQ(allocations_of_all_queries<3>(view(cone), view(cylinder), ray), 0);
+    EXPECT_EQ(allocations_of_all_queries<3>(view(mesh), view(at(mesh, Pose3{{0.5f, 0, 0}})), ray), 0);
 }
 
-TEST(Allocation, OfQuestionsAboutLevelsIsNone) {
+TEST(Allocation, OfLevelQueriesIsNone) {
     oracle::Random random(6);
     std::vector<Vec2> corners;
     std::vector<Tile> tiles;
@@ -149,14 +149,14 @@ TEST(Allocation, OfQuestionsAboutLevelsIsNone) {
     const Ray2 ray = Ray2::between({-3, -2}, {4, 3});
     for (const View<2>& level : {View<2>(view(chain)), View<2>(view(map)), View<2>(view(both))})
         for (const View<2>& other : {View<2>(view(Box2{{2, 2}, {1, 1}})), View<2>(view(HalfSpace2{{0, 1}, 0.5f}))})
-            EXPECT_EQ(allocations_of_all_questions<2>(level, other, ray), 0);
-    EXPECT_EQ(allocations_of_all_questions<2>(view(chain), view(map), ray), 0);
+            EXPECT_EQ(allocations_of_all_queries<2>(level, other, ray), 0);
+    EXPECT_EQ(allocations_of_all_queries<2>(view(chain), view(map), ray), 0);
     const Ray3 in_space = Ray3::between({-3, -2, -1}, {5, 5, 1});
     for (const View<3>& level : {View<3>(view(field)), View<3>(view(ground))})
-        EXPECT_EQ(allocations_of_all_questions<3>(level, view(Box3{{2, 2, 0}, {1, 1, 1}}), in_space), 0);
+        EXPECT_EQ(allocations_of_all_queries<3>(level, view(Box3{{2, 2, 0}, {1, 1, 1}}), in_space), 0);
 }
 
-TEST(Allocation, OfQuestionsAboutDistancesIsNone) {
+TEST(Allocation, OfDistanceFunctionQueriesIsNone) {
     const users::Brick<3> brick;
     const Field<3> field = *bake_field(Box3{{0.5f, 0, 0}, {1, 0.5f, 0.75f}}, FieldOptions<3>{.cell = 0.25f});
     const std::vector<Vec3> corners{{-1, 0, -1}, {1, 0, -1}, {0, 0, 1}};
@@ -168,12 +168,12 @@ TEST(Allocation, OfQuestionsAboutDistancesIsNone) {
         for (const View<3>& other :
              {View<3>(view(cylinder)), View<3>(view(hull)), View<3>(view(mesh)), View<3>(view(brick)),
               View<3>(view(Box3{{2, 2, 0}, {1, 1, 1}})), View<3>(view(HalfSpace3{{0, 1, 0}, 0.5f}))})
-            EXPECT_EQ(allocations_of_all_questions<3>(function, other, ray), 0);
+            EXPECT_EQ(allocations_of_all_queries<3>(function, other, ray), 0);
     }
 }
 
 template <class A, class B>
-long allocations_of_plain_questions(const A& a, const B& b) {
+long allocations_of_basic_queries(const A& a, const B& b) {
     constexpr int D = dimension<A>;
     const Ray<D> ray = Ray<D>::between(Vec<D>(-5), Vec<D>(5));
     const long before = allocations;
@@ -190,19 +190,19 @@ long allocations_of_plain_questions(const A& a, const B& b) {
     return allocations - before;
 }
 
-TEST(Allocation, OfQuestionsAboutPlainShapesIsNone) {
+TEST(Allocation, OfPlainShapeQueriesIsNone) {
     const Polygon polygon = *Polygon::build({{-1, -1}, {1, -1}, {1.5f, 0.5f}, {0, 1}});
     const Polyhedron hull = *Polyhedron::build({{-1, -1, -1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}});
     for (const float along : {0.0f, 1.2f, 4.0f}) {
         const auto placed = at(polygon, Pose2{{along, 0.1f}, Turn::by(along)});
-        EXPECT_EQ(allocations_of_plain_questions(placed, polygon), 0);
-        EXPECT_EQ(allocations_of_plain_questions(placed, Circle{{0, 0}, 1}), 0);
-        EXPECT_EQ(allocations_of_plain_questions(placed, Box2{{0, 0}, {1, 2}}), 0);
+        EXPECT_EQ(allocations_of_basic_queries(placed, polygon), 0);
+        EXPECT_EQ(allocations_of_basic_queries(placed, Circle{{0, 0}, 1}), 0);
+        EXPECT_EQ(allocations_of_basic_queries(placed, Box2{{0, 0}, {1, 2}}), 0);
         const Box3 box{{along, 0.1f, 0.2f}, {1, 2, 1}, turn_about({0, 0, 1}, along)};
-        EXPECT_EQ(allocations_of_plain_questions(box, Box3{{0, 0, 0}, {1, 1, 1}}), 0);
-        EXPECT_EQ(allocations_of_plain_questions(box, Sphere{{0, 0, 0}, 1}), 0);
-        EXPECT_EQ(allocations_of_plain_questions(Capsule3{{along, 0, 0}, {2, 1, 1}, 0.5f}, box), 0);
-        EXPECT_EQ(allocations_of_plain_questions(at(hull, Pose3{{along, 0, 0}}), box), 0);
+        EXPECT_EQ(allocations_of_basic_queries(box, Box3{{0, 0, 0}, {1, 1, 1}}), 0);
+        EXPECT_EQ(allocations_of_basic_queries(box, Sphere{{0, 0, 0}, 1}), 0);
+        EXPECT_EQ(allocations_of_basic_queries(Capsule3{{along, 0, 0}, {2, 1, 1}, 0.5f}, box), 0);
+        EXPECT_EQ(allocations_of_basic_queries(at(hull, Pose3{{along, 0, 0}}), box), 0);
     }
 }
 
@@ -214,13 +214,13 @@ TEST(Allocation, OfOverlapsOfPolygonsIsNoneWhereThereIsRoom) {
     for (int i = 0; i < 200; ++i) {
         const auto turned = at(b, Pose2{{0.2f, 0.01f * static_cast<float>(i)}, Turn::by(0.1f * static_cast<float>(i))});
         if (i < 100) {
-            intersection(a, turned, out);  // makes room
+            intersection(a, turned, out);  // allocates the capacity
             continue;
         }
         const long before = allocations;
-        const bool met = intersection(a, turned, out);
-        overlapping += met && out.area() > 0.01 ? 1 : 0;
-        if (met && out.area() > 0.01) {
+        const bool intersects = intersection(a, turned, out);
+        overlapping += intersects && out.area() > 0.01 ? 1 : 0;
+        if (intersects && out.area() > 0.01) {
             EXPECT_EQ(allocations - before, 0) << i;
         }
     }

@@ -1,4 +1,4 @@
-// Coordinates of all magnitudes, next to one another: every answer is made of numbers.
+// Coordinates of all magnitudes together: every answer is finite.
 
 #include "../oracle/finite_answers.hpp"
 #include "../oracle/random.hpp"
@@ -29,7 +29,7 @@ namespace {
 
 using oracle::Random;
 
-/// Lengths from 1e-30 to 1e30: most of a shape's are of one size, some of any.
+/// Lengths from 1e-30 to 1e30. Most lengths of a shape are of one magnitude, some of any other.
 class Lengths {
 public:
     explicit Lengths(Random& random) : random_(random) {
@@ -130,8 +130,9 @@ std::optional<AnyShape<D>> any_shape(Random& random, std::uint32_t& kind) {
     }
 }
 
-/// A polygon and a segment without length, 1e16 times the polygon's size away: all edges of the polygon were lost, no
-/// separating axis was tried, and the distance was minus infinity with a normal of zeros. 45 of 97,000 random pairs.
+/// Regression: for a polygon and a segment without length, 1e16 times the polygon's size away, all edges of the polygon
+/// were lost. No separating axis was tried, the distance was minus infinity, and the normal was zero. This happened in
+/// 45 of 97,000 random pairs.
 template <int D>
 void expect_finite(std::uint64_t first_seed, int rounds) {
     int pairs = 0, hits = 0;
@@ -143,8 +144,8 @@ void expect_finite(std::uint64_t first_seed, int rounds) {
         ++pairs;
         Lengths lengths(random);
         const Vec<D> from = lengths.place<D>(), to = lengths.place<D>();
-        const char* of_two = oracle::not_finite_of_two(*a, *b, to);
-        const char* of_one = oracle::not_finite_of_one(*a, from, to);
+        const char* of_two = oracle::non_finite_pair_query(*a, *b, to);
+        const char* of_one = oracle::non_finite_shape_query(*a, from, to);
         ASSERT_EQ(of_two, nullptr) << of_two << ", seed " << seed << ": shapes " << kind_a << " and " << kind_b;
         ASSERT_EQ(of_one, nullptr) << of_one << ", seed " << seed << ": shape " << kind_a;
         hits += overlaps(*a, *b);

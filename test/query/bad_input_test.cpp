@@ -1,4 +1,4 @@
-// NaN and infinity in questions: an assertion where there are any, and harmless answers.
+// NaN and infinity in queries: an assertion if they are enabled, and neutral answers.
 
 #include "../oracle/expect.hpp"
 #include <abut/query/closest.hpp>
@@ -29,7 +29,7 @@ int assertions_expected = 0;
 
 namespace abut {
 
-// This program's own: one that no test waits for is a failure.
+// The assertion handler of this program: an unexpected assertion is a failure.
 void assert_failed(const char* expression, const char* file, int line) {
     if (assertions_expected == 0) ADD_FAILURE_AT(file, line) << "assertion failed: " << expression;
 }
@@ -117,7 +117,7 @@ TEST(BadInput, InShapesOfSpaceIsHarmless) {
     }
 }
 
-/// What is asked of a level.
+/// Runs all queries on a level.
 template <class S>
 void expect_harmless_to(const char* name, const S& level) {
     constexpr int D = dimension<S>;
@@ -144,7 +144,7 @@ TEST(BadInput, ToLevelsIsHarmless) {
     expect_harmless_to("height field", field);
     expect_harmless_to("compound", *Compound2::build({chain, map, Circle{{0, 0}, 1}}));
     expect_harmless_to("compound in space", *Compound3::build({field, Sphere{{0, 0, 0}, 1}}));
-    // Without bounds, they are harmless and no mistake.
+    // An unbounded box is a valid query.
     int seen = 0;
     const Aabb3 everywhere{Vec3(-infinity), Vec3(infinity)};
     const auto count = [&seen](const Triangle3&, std::uint32_t) { return ++seen > 0; };

@@ -1,4 +1,4 @@
-// Answers that are right are certified; answers made wrong on purpose are not.
+// Right answers have a certificate; deliberately wrong answers do not.
 
 #include "../oracle/degenerate.hpp"
 #include "../oracle/pair.hpp"
@@ -20,7 +20,7 @@ protected:
     /// Calls visit(a, b, random) for random and for degenerate pairs.
     template <class Visit>
     static void each_pair(Visit&& visit) {
-        for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(oracle::amount(4000)); ++seed) {
+        for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(oracle::case_count(4000)); ++seed) {
             SCOPED_TRACE(seed);
             oracle::Random random(seed);
             if (seed % 2 == 0) {
@@ -29,8 +29,8 @@ protected:
                 const auto pair = oracle::random_pair<dimensions>(random, kind_a, kind_b);
                 visit(pair.a.view, pair.b.view, random);
             } else {
-                const auto disturbance = static_cast<oracle::Disturbance>(random.below(oracle::disturbance_count));
-                oracle::LatticeMaker<dimensions> maker(random, disturbance);
+                const auto disturbance = static_cast<oracle::Perturbation>(random.below(oracle::perturbation_count));
+                oracle::LatticeGenerator<dimensions> maker(random, disturbance);
                 const auto a = maker.make(), b = maker.make();
                 visit(a.view, b.view, random);
             }
@@ -84,7 +84,7 @@ TYPED_TEST(Certify, RefusesTheOtherWayOut) {
 
 TYPED_TEST(Certify, GivesACommonPoint) {
     constexpr int D = TypeParam::value;
-    // The midpoint of on_a and on_b is in neither here: a long bar across another.
+    // The midpoint of on_a and on_b is in neither of two crossing bars.
     Vec<D> along(1.0f), across(1.0f);
     along[0] = 10;
     across[1] = 10;

@@ -1,4 +1,4 @@
-// Closed forms against the searches that they save, and by hand.
+// Closed forms against the iterative searches that they replace, and known answers.
 
 #include "../oracle/pair.hpp"
 #include <abut/convex/manifold/round_manifold.hpp>
@@ -44,10 +44,10 @@ TEST(ClosedForm, OfCapsulesIsThatOfTheirSegments) {
     EXPECT_EQ(found->on_b(), DVec<3>(1, 2, 0));
 }
 
-TEST(ClosedForm, IsNotToldOfSegmentsThatCrossOrHardlyMiss) {
+TEST(ClosedForm, LeavesNearlyCrossingSegmentsToTheSearch) {
     const Segment<2> a{{-1, 0}, {1, 0}};
     EXPECT_FALSE(form_of<2>(view(a), view(Segment<2>{{0, -1}, {0, 1}})));
-    // So nearly parallel that the places where they are nearest are rounding: here they cross.
+    // The segments are so nearly parallel that rounding decides where they cross.
     EXPECT_FALSE(form_of<2>(view(Segment<2>{{0.00603110623f, 1024}, {-0.00603110623f, -1024}}),
                             view(Capsule2{{0, -2048}, {0, 1024}, 0.00603111f})));
     EXPECT_FALSE(form_of<2>(view(Box2{{0, 0}, {1, 1}}), view(Box2{{5, 0}, {1, 1}})));
@@ -63,8 +63,8 @@ TYPED_TEST(ClosedFormOracle, AgreesWithTheSearches) {
     using oracle::Kind;
     constexpr Kind round[] = {Kind::ball, Kind::capsule, Kind::segment};
     constexpr Kind any[] = {Kind::ball, Kind::capsule, Kind::segment, Kind::triangle, Kind::box, Kind::polytope};
-    int pairs = 0, told = 0, overlapping = 0;
-    for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(oracle::amount(10000)); ++seed) {
+    int pairs = 0, answered = 0, overlapping = 0;
+    for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(oracle::case_count(10000)); ++seed) {
         SCOPED_TRACE(seed);
         oracle::Random random(seed);
         Kind kind_a = round[random.below(3)], kind_b = any[random.below(6)];
@@ -74,7 +74,7 @@ TYPED_TEST(ClosedFormOracle, AgreesWithTheSearches) {
         ++pairs;
         const auto form = form_of(a, b);
         if (!form) continue;
-        ++told;
+        ++answered;
         const SignedDistance<D> searched = signed_distance(a, b);
         overlapping += searched.distance <= 0 ? 1 : 0;
         const double margin = oracle::tolerance_for(pair.a.solid, pair.b.solid);
@@ -83,9 +83,9 @@ TYPED_TEST(ClosedFormOracle, AgreesWithTheSearches) {
         EXPECT_NEAR(oracle::gap_along(pair.a.solid, pair.b.solid, form->normal) - a.radius - b.radius, form->distance,
                     0.1 * margin);
     }
-    EXPECT_GT(told, pairs / 3);
-    EXPECT_GT(overlapping, told * 3 / 10);
-    EXPECT_LT(overlapping, told * 7 / 10);
+    EXPECT_GT(answered, pairs / 3);
+    EXPECT_GT(overlapping, answered * 3 / 10);
+    EXPECT_LT(overlapping, answered * 7 / 10);
 }
 
 TEST(ClosedForm, OfCapsulesThatCrossIsTheSumOfTheirRadii) {
@@ -99,14 +99,14 @@ TEST(ClosedForm, OfCapsulesThatCrossIsTheSumOfTheirRadii) {
 
 TEST(ClosedForm, OfACapsuleInABoxIsTheNearestWayOut) {
     const Box3 box{{0, 0, 0}, {2, 1, 3}};
-    // Up, with both ends in the box, the upper one the less deep.
+    // Both ends are in the box; the way out is up.
     const auto side = form_of<3>(view(box), view(Capsule3{{-1, 0.5f, 0}, {1, 0.75f, 0}, 0.25f}));
     ASSERT_TRUE(side);
     EXPECT_EQ(side->distance, -0.75);
     EXPECT_EQ(side->normal, DVec<3>(0, 1, 0));
     EXPECT_EQ(side->on_a, DVec<3>(-1, 1, 0));
     EXPECT_EQ(side->on_b(), DVec<3>(-1, 0.25, 0));
-    // Through the edge at x = 2, y = 1, with both ends outside.
+    // The segment cuts the edge at x = 2, y = 1; both ends are outside.
     const auto edge = form_of<3>(view(box), view(Capsule3{{1.5f, 1.25f, 0.5f}, {2.25f, 0.5f, 0.5f}, 0}));
     ASSERT_TRUE(edge);
     EXPECT_NEAR(edge->distance, -0.25 * std::sqrt(0.5), 1e-12);
@@ -127,8 +127,8 @@ TEST(ClosedForm, OfACapsuleThroughATriangleIsTheNearestWayOut) {
     EXPECT_EQ(edge->on_a, DVec<3>(0, 0, 1));
 }
 
-/// Whether each point of one is near one of the other, and as deep; but for those that are there or not by the least
-/// slack.
+/// Whether each point of one contact is near an equally deep point of the other. Points at the limit of the clipping
+/// tolerance are ignored.
 bool are_among(const Manifold<3>& some, const Manifold<3>& others, double reach, double near) {
     const auto is_there = [&](const ManifoldPoint<3>& point) {
         return std::any_of(others.points.begin(), others.points.begin() + others.count, [&](const auto& other) {
@@ -139,14 +139,14 @@ bool are_among(const Manifold<3>& some, const Manifold<3>& others, double reach,
                        [&](const auto& point) { return point.depth <= near - reach || is_there(point); });
 }
 
-/// A point or a segment, and anything.
+/// Pairs of a point or segment with any shape.
 struct RoundPair {
     Convex<3> a, b;
     std::shared_ptr<const Polyhedron> keeper;
 };
 
-/// Of all scales, turned at random, near the origin or far from it. B is put down where it meets A at a depth that is
-/// drawn; half of the pairs are made special: parallel, crossing, flat or without length.
+/// Tests pairs of all scales, at random rotations, near the origin and far from it. B overlaps A by a random depth.
+/// Half of the pairs are degenerate: parallel, crossing, flat or without length.
 RoundPair round_pair(oracle::Random& random) {
     const double scale = random.power_of_two(-10, 13);
     const Vec3 center = to_float<3>(random.in_cube<3>() * (random.chance(0.5) ? scale : 1000 * scale));
@@ -194,7 +194,7 @@ RoundPair round_pair(oracle::Random& random) {
 
 TEST(RoundPairs, AreAsTheSearchesSay) {
     int pairs = 0, left_to_searches = 0, overlapping = 0, several = 0, differing = 0;
-    for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(oracle::amount(40000)); ++seed) {
+    for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(oracle::case_count(40000)); ++seed) {
         SCOPED_TRACE(seed);
         oracle::Random random(seed);
         const auto [a, b, keeper] = round_pair(random);
@@ -227,7 +227,7 @@ TEST(RoundPairs, AreAsTheSearchesSay) {
     EXPECT_GT(overlapping, pairs * 3 / 10);
     EXPECT_LT(overlapping, pairs * 7 / 10);
     EXPECT_GT(several, pairs / 50);
-    // Of two faces that look along the normal alike either may be taken.
+    // If two faces have the same angle to the normal, either is a valid reference face.
     EXPECT_LE(differing, pairs / 100000);
 }
 

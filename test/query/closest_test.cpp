@@ -1,4 +1,4 @@
-// Distances worked out by hand.
+// Distances with known answers.
 
 #include "../oracle/expect.hpp"
 #include <abut/query/closest.hpp>
@@ -55,7 +55,8 @@ TEST(Closest, OfSkewSegmentsIsAlongTheirCommonPerpendicular) {
 }
 
 TEST(Closest, OfTwoCubesEdgeToEdge) {
-    // Both turned by 45 degrees, about different axes: their edges cross at right angles, sqrt(2) from each center.
+    // Both boxes are rotated by 45 degrees, about different axes. Their edges cross at right angles, sqrt(2) from each
+    // center.
     const Box3 a{{0, 0, 0}, {1, 1, 1}, turn_about({0, 0, 1}, 0.785398163f)};
     const Box3 b{{4, 0, 0}, {1, 1, 1}, turn_about({0, 1, 0}, 0.785398163f)};
     const Closest<3> found = closest(a, b);
@@ -101,7 +102,7 @@ TEST(Closest, OfThinShapesThatCrossIsZero) {
 }
 
 TEST(Closest, OfATriangleThroughABoxIsTheWayOutOfTheBox) {
-    // The triangle stands upright in the plane x = 0.75 and is larger than the box: out by a quarter to the right.
+    // The triangle lies in the plane x = 0.75 and is larger than the box: the depth is a quarter, to the right.
     const Triangle<3> triangle{{0.75f, -9, -9}, {0.75f, 9, -9}, {0.75f, 0, 9}};
     const Closest<3> found = closest(Box3{{0, 0, 0}, {1, 1, 1}}, triangle);
     EXPECT_FLOAT_EQ(found.distance, -0.25f);
@@ -109,7 +110,7 @@ TEST(Closest, OfATriangleThroughABoxIsTheWayOutOfTheBox) {
 }
 
 TEST(Closest, OfATurnedBoxAndAHalfSpace) {
-    // On its corner, which is sqrt(3) below the center.
+    // The box stands on its corner, which is sqrt(3) below the center.
     const glm::quat on_corner = turn_about(Vec3(0.70710678f, 0, -0.70710678f), 0.95531662f);
     const Closest<3> found = closest(Box3{{0, 2, 0}, {1, 1, 1}, on_corner}, HalfSpace3{{0, 1, 0}, 0});
     EXPECT_NEAR(found.distance, 2 - std::sqrt(3.0), 1e-5);
@@ -141,7 +142,7 @@ TEST(Closest, OfAPoint) {
 }
 
 TEST(Closest, FarFromTheOriginIsAsGood) {
-    // A sixteenth apart, a million away, where floats are a sixteenth apart.
+    // The gap is 1/16, and the spacing of floats at a million is 1/16 as well.
     const Vec3 far(1e6f, -1e6f, 5e5f);
     const Closest<3> found = closest(Box3{far, {1, 1, 1}}, Sphere{far + Vec3(2.0625f, 0, 0), 1});
     EXPECT_EQ(found.distance, 0.0625f);
@@ -160,7 +161,7 @@ TEST(Overlaps, CountsTouching) {
     EXPECT_TRUE(overlaps(Triangle<2>{{0, 0}, {1, 0}, {0, 1}}, Triangle<2>{{1, 0}, {2, 0}, {2, 2}}));
 }
 
-TEST(Overlaps, TellsNearMisses) {
+TEST(Overlaps, ReportsNearMisses) {
     const Box3 box{{0, 0, 0}, {1, 1, 1}};
     EXPECT_FALSE(overlaps(box, Box3{{2.0001f, 0, 0}, {1, 1, 1}}));
     EXPECT_FALSE(overlaps(box, Box3{{2.0001f, 2, 2}, {1, 1, 1}}));

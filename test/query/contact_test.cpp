@@ -1,4 +1,4 @@
-// Contacts: examples by hand, and what holds for every contact.
+// Contacts: examples with known answers, and invariants of every contact.
 
 #include "../oracle/check.hpp"
 #include "../oracle/expect.hpp"
@@ -13,7 +13,7 @@ namespace {
 
 using oracle::near;
 
-/// The positions of all points, sorted; to be compared with what was worked out by hand.
+/// The positions of all points, sorted.
 template <int D>
 std::set<std::array<float, static_cast<std::size_t>(D)>> positions(const Contact<D>& contact) {
     std::set<std::array<float, static_cast<std::size_t>(D)>> result;
@@ -44,7 +44,7 @@ TEST(Contact, OfTwoCirclesIsMidway) {
 }
 
 TEST(Contact, OfABoxOnABoxIsTheSharedSquare) {
-    // The upper box is smaller, stands half a unit off the middle, and is sunk in by 0.125.
+    // The upper box is smaller, 0.5 off the center, and overlaps by 0.125.
     const Box3 lower{{0, 0, 0}, {2, 1, 2}}, upper{{0.5f, 1.875f, 0}, {1, 1, 1}};
     const Contact<3> touch = contact(lower, upper);
     ASSERT_TRUE(touch);
@@ -111,7 +111,7 @@ TEST(Contact, KeepsTheNamesOfItsPointsWhileTheSameCornersMeet) {
     EXPECT_EQ(names, later_names);
 }
 
-TEST(Contact, WithAMarginTellsNearMisses) {
+TEST(Contact, WithAMarginReportsNearMisses) {
     const Box3 lower{{0, 0, 0}, {1, 1, 1}}, upper{{0, 2.125f, 0}, {1, 1, 1}};
     EXPECT_FALSE(contact(lower, upper));
     EXPECT_FALSE(contact(lower, upper, {.margin = 0.0625f}));
@@ -131,7 +131,7 @@ TYPED_TEST(ContactLaws, HoldForEveryKindOfPair) {
     int pairs = 0, touching = 0, with_several = 0;
     for (int kind_a = 0; kind_a < oracle::kind_count; ++kind_a)
         for (int kind_b = 0; kind_b < oracle::kind_count; ++kind_b)
-            for (int i = 0; i < oracle::amount(20); ++i) {
+            for (int i = 0; i < oracle::case_count(20); ++i) {
                 SCOPED_TRACE(testing::Message() << "seed " << pairs << ", kinds " << kind_a << " and " << kind_b);
                 oracle::Random random(static_cast<std::uint64_t>(pairs++));
                 const auto pair = oracle::random_pair<D>(random, static_cast<oracle::Kind>(kind_a),
@@ -155,13 +155,13 @@ TYPED_TEST(ContactLaws, HoldForEveryKindOfPair) {
                     deepest = std::max(deepest, depth);
                     EXPECT_GE(depth, 0);
                     EXPECT_LE(depth, static_cast<double>(touch.depth) + margin);
-                    // Half the depth either way is a point of A and a point of B.
-                    // Faces are clipped with some slack, which at a sharp corner is a multiple of itself.
-                    const double doubt = 4 * margin + 2 * oracle::rounding_of(point.position);
+                    // A point of A and a point of B lie half the depth from it, along the normal and against it.
+                    // Clipping has a tolerance, which grows at a sharp corner.
+                    const double allowed = 4 * margin + 2 * oracle::rounding_of(point.position);
                     for (const auto& [solid, side] : {std::pair{&a.solid, 0.5}, std::pair{&b.solid, -0.5}}) {
                         auto surface = oracle::hull_of<D>({Vec<D>(0)});
                         surface.place.offset = DVec<D>(point.position) + normal * (side * depth);
-                        EXPECT_LE(truth(*solid, surface, oracle::Arithmetic::rough).distance, doubt);
+                        EXPECT_LE(truth(*solid, surface, oracle::Arithmetic::floating_point).distance, allowed);
                     }
                 }
                 EXPECT_NEAR(deepest, static_cast<double>(touch.depth), margin);
@@ -171,18 +171,18 @@ TYPED_TEST(ContactLaws, HoldForEveryKindOfPair) {
     EXPECT_GT(with_several, pairs / 50);
 }
 
-/// Twice the area of a quadrilateral or less, whatever order its corners come in.
+/// Twice the area of the hull of up to four points in any order.
 double twice_area(const std::vector<DVec<2>>& corners) {
-    double most = 0;
+    double max_area = 0;
     std::vector<std::size_t> order{0, 1, 2, 3};
     order.resize(corners.size());
     do {
         double sum = 0;
         for (std::size_t i = 0; i < order.size(); ++i)
             sum += cross(corners[order[i]], corners[order[(i + 1) % order.size()]]);
-        most = std::max(most, std::abs(sum));
+        max_area = std::max(max_area, std::abs(sum));
     } while (std::next_permutation(order.begin(), order.end()));
-    return most;
+    return max_area;
 }
 
 TEST(Contact, KeepsTheFourPointsOfTheLargestArea) {
@@ -203,9 +203,10 @@ TEST(Contact, KeepsTheFourPointsOfTheLargestArea) {
         const Contact<3> found = contact(ground, at(prism, pose), {.margin = 0.1f});
         ASSERT_EQ(found.points.size(), 4u);
 
-        std::vector<DVec<2>> kept, corners;
+        std::vector<DVec<2>> found_corners, corners;
         std::vector<double> heights;
-        for (const ContactPoint<3>& point : found.points) kept.emplace_back(point.position.x, point.position.z);
+        for (const ContactPoint<3>& point : found.points)
+            found_corners.emplace_back(point.position.x, point.position.z);
         for (const Vec3& point : prism.points()) {
             if (point.y > 0.5f) continue;
             const DVec<3> placed(pose * point);
@@ -213,16 +214,17 @@ TEST(Contact, KeepsTheFourPointsOfTheLargestArea) {
             corners.emplace_back(placed.x, placed.z);
         }
         const double lowest = *std::min_element(heights.begin(), heights.end());
-        // Of corners that are as low to within rounding any may be the deepest.
+        // If several corners are equally low within rounding, any of them may be the deepest.
         double off = std::numeric_limits<double>::infinity();
         for (std::size_t deepest = 0; deepest < corners.size(); ++deepest) {
             if (heights[deepest] > lowest + 1e-5) continue;
-            double most = 0;
+            double max_area = 0;
             for (std::size_t i = 0; i < corners.size(); ++i)
                 for (std::size_t j = 0; j < i; ++j)
                     for (std::size_t k = 0; k < j; ++k)
-                        most = std::max(most, twice_area({corners[deepest], corners[i], corners[j], corners[k]}));
-            off = std::min(off, std::abs(twice_area(kept) - most));
+                        max_area =
+                            std::max(max_area, twice_area({corners[deepest], corners[i], corners[j], corners[k]}));
+            off = std::min(off, std::abs(twice_area(found_corners) - max_area));
         }
         EXPECT_LE(off, 1e-3);
         EXPECT_NEAR(found.depth, -lowest, 1e-5);

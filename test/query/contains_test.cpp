@@ -1,4 +1,4 @@
-// Points in shapes, worked out by hand.
+// Points in shapes, with known answers.
 
 #include <abut/query/contains.hpp>
 #include <abut/shape/ball.hpp>
@@ -28,7 +28,7 @@ TEST(Contains, CountsTheSurface) {
 }
 
 TEST(Contains, KnowsTurnedBoxes) {
-    // On its corner: (0, 1.4) is in, (1, 1) is not.
+    // The square stands on its corner: it contains (0, 1.4) and not (1, 1).
     const Box2 box{{0, 0}, {1, 1}, Turn::by(0.785398163f)};
     EXPECT_TRUE(contains(box, Vec2(0, 1.4f)));
     EXPECT_FALSE(contains(box, Vec2(1, 1)));

@@ -1,5 +1,5 @@
-// Sweeps of plain shapes of the plane are answered without views: as the views answer, but for rounding and for what
-// may go either way.
+// The closed-form sweeps of plain shapes in 2D agree with the sweeps of their views, except for rounding and answers
+// within the tolerance.
 
 #include "../oracle/expect.hpp"
 #include "../oracle/pair.hpp"
@@ -18,93 +18,93 @@ namespace {
 using oracle::near;
 using oracle::Random;
 
-/// How many were answered how.
-struct Told {
-    int pairs = 0, hits = 0, direct = 0, elsewhere = 0, alike = 0;
+/// The numbers of answers of each kind.
+struct Counts {
+    int pairs = 0, hits = 0, direct = 0, grazing = 0, alike = 0;
 };
 
-/// What the views answer of the shapes as they are a moment later.
+/// The distance of the shapes after their motions.
 template <class A, class B>
 float distance_at(const A& a, const Vec2& moved_a, const B& b, const Vec2& moved_b) {
     return closest(at(a, Pose2{moved_a}), at(b, Pose2{moved_b})).distance;
 }
 
 template <class A, class B>
-void compare(const A& a, const Vec2& motion_a, const B& b, const Vec2& motion_b, double doubt, Told& told) {
+void compare(const A& a, const Vec2& motion_a, const B& b, const Vec2& motion_b, double tolerance, Counts& counts) {
     const View<2> view_a(view(a)), view_b(view(b));
     const auto direct = sweep(a, motion_a, b, motion_b), of_views = sweep(view_a, motion_a, view_b, motion_b);
-    ++told.pairs;
+    ++counts.pairs;
     std::optional<Hit<2>> ignored;
     if (closed_form_sweep(shape_ref(a), motion_a, shape_ref(b), motion_b, ignored) != ClosedFormAnswer::unknown)
-        ++told.direct;
+        ++counts.direct;
     const double length = static_cast<double>(glm::length(motion_a - motion_b));
     if (direct.has_value() != of_views.has_value()) {
-        // One of them says that what touches by no more than doubt is a hit.
-        ++told.elsewhere;
+        // Only one of them reports a touch within the tolerance as a hit.
+        ++counts.grazing;
         const float fraction = (direct ? direct : of_views)->fraction;
-        EXPECT_NEAR(distance_at(a, motion_a * fraction, b, motion_b * fraction), 0, doubt);
+        EXPECT_NEAR(distance_at(a, motion_a * fraction, b, motion_b * fraction), 0, tolerance);
         return;
     }
     if (!direct) return;
-    ++told.hits;
+    ++counts.hits;
     const double closing = -static_cast<double>(glm::dot(of_views->normal, motion_a - motion_b)) / length;
-    EXPECT_NEAR(direct->distance, of_views->distance, doubt / std::max(closing, 0.01));
+    EXPECT_NEAR(direct->distance, of_views->distance, tolerance / std::max(closing, 0.01));
     EXPECT_NEAR(direct->fraction, direct->distance / length, 1e-6);
     EXPECT_EQ(direct->started_inside, of_views->started_inside);
-    // Where a corner meets a corner there are several normals, and features.
-    if (direct->feature == of_views->feature && near(direct->normal, of_views->normal, 1e-3)) ++told.alike;
+    // A corner against a corner has several valid normals and features.
+    if (direct->feature == of_views->feature && near(direct->normal, of_views->normal, 1e-3)) ++counts.alike;
     EXPECT_NEAR(glm::length(direct->normal), 1, 1e-6);
-    // Where they meet face to face, all that is on both will do; what is deep in has no such place.
+    // Face to face, every point on both shapes is valid. Deep overlaps have no such point.
     if (direct->started_inside) return;
     const Vec2 now_a = motion_a * direct->fraction, now_b = motion_b * direct->fraction;
-    EXPECT_NEAR(closest(at(a, Pose2{now_a}), direct->point).distance, 0, doubt);
-    EXPECT_NEAR(closest(at(b, Pose2{now_b}), direct->point).distance, 0, doubt);
+    EXPECT_NEAR(closest(at(a, Pose2{now_a}), direct->point).distance, 0, tolerance);
+    EXPECT_NEAR(closest(at(b, Pose2{now_b}), direct->point).distance, 0, tolerance);
 }
 
-/// Motions by which about half of the pairs meet, some of them along an axis, and some none at all.
+/// Motions by which about half of the pairs touch, some along an axis and some of length 0.
 struct DrawnMotion {
     Vec2 from, motion_a, motion_b;
 
     DrawnMotion(Random& random, DrawnShapes<2>& shapes) {
         from = shapes.point(random.chance(0.1) ? 2 : 6);
-        Vec2 way = shapes.point(2) - from;
-        if (shapes.on_grid() && random.chance(0.5)) way[static_cast<int>(random.below(2))] = 0;
+        Vec2 displacement = shapes.point(2) - from;
+        if (shapes.on_grid() && random.chance(0.5)) displacement[static_cast<int>(random.below(2))] = 0;
         const float stretch =
             shapes.on_grid() ? 0.5f * static_cast<float>(random.below(5)) : random.uniform_float(0, 2);
         motion_b = random.chance(0.5) ? Vec2(0) : shapes.point(3);
-        motion_a = way * stretch + motion_b;
+        motion_a = displacement * stretch + motion_b;
     }
 };
 
-/// Of pairs of size 1 or so, 8 or less from the origin: the margin of doubt, and a float's rounding.
-constexpr double doubt = 5e-5;
+/// The tolerance, with rounding to floats, of pairs of size 1 at most 8 from the origin.
+constexpr double tolerance = 5e-5;
 
 TEST(DirectSweep, AnswersAreThoseOfTheViews) {
-    Told told;
-    for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(oracle::amount(20000)); ++seed) {
+    Counts counts;
+    for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(oracle::case_count(20000)); ++seed) {
         SCOPED_TRACE(seed);
         Random random(seed);
         DrawnShapes<2> shapes(random);
         const DrawnMotion motion(random, shapes);
         shapes.draw(
             [&](const auto& a) {
-                shapes.draw([&](const auto& b) { compare(a, motion.motion_a, b, motion.motion_b, doubt, told); });
+                shapes.draw([&](const auto& b) { compare(a, motion.motion_a, b, motion.motion_b, tolerance, counts); });
             },
             motion.from);
         if (HasFailure()) return;
     }
-    RecordProperty("direct", told.direct);
-    RecordProperty("elsewhere", told.elsewhere);
-    RecordProperty("alike", told.alike);
-    RecordProperty("hits", told.hits);
-    EXPECT_GT(told.hits, told.pairs * 3 / 10);
-    EXPECT_LT(told.hits, told.pairs * 7 / 10);
-    EXPECT_GT(told.direct, told.pairs * 3 / 4);
-    EXPECT_LT(told.elsewhere, told.pairs / 100);
-    EXPECT_GT(told.alike, told.hits * 9 / 10);
+    RecordProperty("direct", counts.direct);
+    RecordProperty("grazing", counts.grazing);
+    RecordProperty("alike", counts.alike);
+    RecordProperty("hits", counts.hits);
+    EXPECT_GT(counts.hits, counts.pairs * 3 / 10);
+    EXPECT_LT(counts.hits, counts.pairs * 7 / 10);
+    EXPECT_GT(counts.direct, counts.pairs * 3 / 4);
+    EXPECT_LT(counts.grazing, counts.pairs / 100);
+    EXPECT_GT(counts.alike, counts.hits * 9 / 10);
 }
 
-/// That it is told, and told without views.
+/// Expects a hit with a closed form.
 template <class A, class B>
 std::optional<Hit<2>> direct_hit(const A& a, const Vec2& motion, const B& b) {
     std::optional<Hit<2>> result;
@@ -112,8 +112,8 @@ std::optional<Hit<2>> direct_hit(const A& a, const Vec2& motion, const B& b) {
     return result;
 }
 
-TEST(DirectSweep, FaceToFaceIsToldWithoutViews) {
-    // The corners that are found lie beyond the other's sides.
+TEST(DirectSweep, FaceToFaceHasAClosedForm) {
+    // The nearest corners lie beyond the other shape's sides.
     const Box2 wide{{0, 5}, {3, 1}}, narrow{{0, 0}, {1, 1}}, beside{{2, 0}, {1.5f, 1}};
     for (const auto& [a, b] : {std::pair(wide, narrow), std::pair(wide, beside)}) {
         const auto down = direct_hit(a, Vec2(0, -6), b), up = direct_hit(b, Vec2(0, 6), a);
@@ -139,7 +139,7 @@ TEST(DirectSweep, FaceToFaceIsToldWithoutViews) {
     EXPECT_FLOAT_EQ(stick->point.y, 1);
 }
 
-TEST(DirectSweep, RoundAboutACornerIsToldWithoutViews) {
+TEST(DirectSweep, RoundAboutACornerHasAClosedForm) {
     // 3, 4, 5: the circle's center stops over the corner (1, 1) at (1 + 3, 1 + 4).
     const Circle circle{{4, 15}, 5};
     const Box2 box{{0, 0}, {1, 1}};
@@ -185,7 +185,7 @@ TEST(DirectSweep, SlidesOverTheSeamsOfAFloor) {
             EXPECT_FALSE(sweep(Circle{middle, 0.5f}, Vec2(20, 0), tile)) << lift;
         }
     }
-    // A step is none.
+    // A motion of length 0 has no hit.
     EXPECT_TRUE(sweep(Box2{{0, 0.49f}, {0.5f, 0.5f}}, Vec2(20, 0), Box2{{2, -1}, {1, 1}}));
     EXPECT_TRUE(sweep(Circle{{0, 0.49f}, 0.5f}, Vec2(20, 0), Box2{{2, -1}, {1, 1}}));
 }

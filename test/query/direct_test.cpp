@@ -1,4 +1,4 @@
-// Plain shapes are asked as they were given, without views: the answers must be those of their views, but for rounding.
+// The closed forms of plain shapes agree with the queries on their views, except for rounding.
 
 #include "../oracle/pair.hpp"
 #include "../oracle/random.hpp"
@@ -25,7 +25,7 @@ namespace {
 
 using oracle::Random;
 
-struct Told {
+struct Counts {
     int pairs = 0, overlapping = 0, rays = 0, hits = 0, at_corners = 0;
 };
 
@@ -60,9 +60,9 @@ void expect_near(const Contact<D>& direct, const Contact<D>& of_views) {
     }
 }
 
-/// At a corner a ray meets two sides at once, and either may be told; one that ends at the surface may miss.
+/// A ray that hits a corner may report either side; one that ends at the surface may miss.
 template <int D>
-void expect_near(const std::optional<Hit<D>>& direct, const std::optional<Hit<D>>& of_views, Told& told) {
+void expect_near(const std::optional<Hit<D>>& direct, const std::optional<Hit<D>>& of_views, Counts& counts) {
     if (direct.has_value() != of_views.has_value()) {
         EXPECT_NEAR((direct ? direct : of_views)->fraction, 1, rounding);
         return;
@@ -72,19 +72,19 @@ void expect_near(const std::optional<Hit<D>>& direct, const std::optional<Hit<D>
     EXPECT_NEAR(direct->distance, of_views->distance, rounding);
     expect_near<D>(direct->point, of_views->point);
     EXPECT_EQ(direct->started_inside, of_views->started_inside);
-    ++told.hits;
+    ++counts.hits;
     if (direct->feature != of_views->feature)
-        ++told.at_corners;
+        ++counts.at_corners;
     else
         expect_near<D>(direct->normal, of_views->normal);
 }
 
 template <class A, class B>
-void compare(const A& a, const B& b, float margin, Told& told) {
+void compare(const A& a, const B& b, float margin, Counts& counts) {
     constexpr int D = dimension<A>;
     const View<D> view_a(view(a)), view_b(view(b));
-    ++told.pairs;
-    told.overlapping += overlaps(view_a, view_b) ? 1 : 0;
+    ++counts.pairs;
+    counts.overlapping += overlaps(view_a, view_b) ? 1 : 0;
     EXPECT_EQ(overlaps(a, b), overlaps(view_a, view_b));
     expect_near(closest(a, b), closest(view_a, view_b));
     expect_near(contact(a, b), contact(view_a, view_b));
@@ -95,14 +95,14 @@ void compare(const A& a, const B& b, float margin, Told& told) {
 template <class D>
 class Direct : public testing::Test {
 protected:
-    /// ask(random, shapes), of many seeds.
-    template <class Ask>
-    void for_each_seed(const Ask& ask) {
-        for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(oracle::amount(8000)); ++seed) {
+    /// Calls check(random, shapes) for many seeds.
+    template <class Check>
+    void for_each_seed(const Check& check) {
+        for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(oracle::case_count(8000)); ++seed) {
             SCOPED_TRACE(seed);
             Random random(seed);
             DrawnShapes<D::value> shapes(random);
-            ask(random, shapes);
+            check(random, shapes);
             if (HasFatalFailure()) return;
         }
     }
@@ -112,43 +112,43 @@ TYPED_TEST_SUITE(Direct, Dimensions);
 
 TYPED_TEST(Direct, AnswersOfPairsAreThoseOfTheirViews) {
     constexpr int D = TypeParam::value;
-    Told told;
+    Counts counts;
     this->for_each_seed([&](Random& random, DrawnShapes<D>& shapes) {
         const float margin = random.uniform_float(0, 0.5);
-        shapes.draw([&](const auto& a) { shapes.draw([&](const auto& b) { compare(a, b, margin, told); }); });
+        shapes.draw([&](const auto& a) { shapes.draw([&](const auto& b) { compare(a, b, margin, counts); }); });
     });
-    EXPECT_GT(told.overlapping, told.pairs * 3 / 10);
-    EXPECT_LT(told.overlapping, told.pairs * 7 / 10);
+    EXPECT_GT(counts.overlapping, counts.pairs * 3 / 10);
+    EXPECT_LT(counts.overlapping, counts.pairs * 7 / 10);
 }
 
 TYPED_TEST(Direct, RaysAndPointsTooAreThoseOfTheViews) {
     constexpr int D = TypeParam::value;
-    Told told;
+    Counts counts;
     this->for_each_seed([&](Random&, DrawnShapes<D>& shapes) {
         shapes.draw([&](const auto& shape) {
             const View<D> as_view(view(shape));
             const Vec<D> from = shapes.point(4), to = shapes.point(0.5);
             if (from != to) {
                 const Ray<D> ray = Ray<D>::between(from, to);
-                expect_near<D>(raycast(ray, shape), raycast(ray, as_view), told);
-                ++told.rays;
+                expect_near<D>(raycast(ray, shape), raycast(ray, as_view), counts);
+                ++counts.rays;
             }
             expect_near(closest(shape, from), closest(as_view, View<D>(round_points<D>({from}, 0))));
         });
     });
-    EXPECT_GT(told.hits, told.rays * 15 / 100);
-    EXPECT_LT(told.hits, told.rays * 8 / 10);
-    EXPECT_LT(told.at_corners, told.hits / 50);
+    EXPECT_GT(counts.hits, counts.rays * 15 / 100);
+    EXPECT_LT(counts.hits, counts.rays * 8 / 10);
+    EXPECT_LT(counts.at_corners, counts.hits / 50);
 }
 
-// What a cache remembers is tried first, whatever it is: of the pair a moment ago, or of another one altogether.
+// A cache must not change answers, whether it holds the last state of the pair or that of another pair.
 
 template <int D>
-void expect_same_from(Cache& cache, const auto& a, const auto& b, Told& told) {
+void expect_same_from(Cache& cache, const auto& a, const auto& b, Counts& counts) {
     const View<D> view_a(view(a)), view_b(view(b));
     const Closest<D> anew = closest(view_a, view_b);
-    ++told.pairs;
-    told.overlapping += anew.distance < 0 ? 1 : 0;
+    ++counts.pairs;
+    counts.overlapping += anew.distance < 0 ? 1 : 0;
     const Closest<D> found = closest(a, b, {.cache = &cache});
     EXPECT_NEAR(found.distance, anew.distance, rounding);
     EXPECT_NEAR(glm::dot(found.on_b - found.on_a, found.normal), anew.distance, 4 * rounding);
@@ -166,7 +166,7 @@ void expect_same_from(Cache& cache, const auto& a, const auto& b, Told& told) {
 
 TYPED_TEST(Direct, AnswersFromACacheAreThoseAnew) {
     constexpr int D = TypeParam::value;
-    Told told;
+    Counts counts;
     this->for_each_seed([&](Random& random, DrawnShapes<D>& shapes) {
         Cache cache;
         if (random.chance(0.2)) {
@@ -183,7 +183,7 @@ TYPED_TEST(Direct, AnswersFromACacheAreThoseAnew) {
             Box<D> b{shapes.point(1.5), shapes.half(), shapes.rotation()};
             for (int i = 0; i < 8; ++i, b.center += step) {
                 if (i == 4) b.rotation = turned;
-                expect_same_from<D>(cache, a, b, told);
+                expect_same_from<D>(cache, a, b, counts);
             }
         } else {
             std::vector<Vec<D>> of_a(4 + random.below(6)), of_b(4 + random.below(6));
@@ -193,15 +193,15 @@ TYPED_TEST(Direct, AnswersFromACacheAreThoseAnew) {
             Pose<D> pose{shapes.point(1.5), shapes.rotation()};
             for (int i = 0; i < 8; ++i, pose.position += step) {
                 if (i == 4) pose.rotation = turned;
-                expect_same_from<D>(cache, a, at(b, pose), told);
+                expect_same_from<D>(cache, a, at(b, pose), counts);
             }
         }
     });
-    EXPECT_GT(told.overlapping, told.pairs / 5);
-    EXPECT_LT(told.overlapping, told.pairs * 4 / 5);
+    EXPECT_GT(counts.overlapping, counts.pairs / 5);
+    EXPECT_LT(counts.overlapping, counts.pairs * 4 / 5);
 }
 
-// Corner against corner, the balls around two boxes hardly reach farther than the boxes.
+// Corner against corner, the bounding balls of two boxes are hardly larger than the boxes.
 TEST(DirectBoxes, ThatMeetWithTheirCornersAreNotRefusedByTheirBalls) {
     for (const float half : {1.0f, 0.7f, 1.5f}) {
         const Box3 a{{0, 0, 0}, {1, 1, 1}};

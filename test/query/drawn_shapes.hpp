@@ -1,6 +1,6 @@
 #pragma once
 
-// Plain shapes at random, of every kind, about as large as one another and about the origin.
+// Random plain shapes of every kind, of similar sizes, near the origin.
 
 #include "../oracle/random.hpp"
 #include <abut/shape/ball.hpp>
@@ -20,7 +20,7 @@ namespace abut {
 template <int D>
 using BuiltHull = std::conditional_t<D == 2, Polygon, Polyhedron>;
 
-/// Some in places that numbers hold exactly, so that much is aligned, parallel or equally far.
+/// Some coordinates are exact, so that many shapes are aligned, parallel or equally far apart.
 template <int D>
 class DrawnShapes {
 public:
@@ -47,14 +47,14 @@ public:
 
     bool on_grid() const { return on_grid_; }
 
-    /// visit(shape), the shape as it is or placed by a pose, about some place.
+    /// Calls visit(shape) with a shape, or with a shape at a pose.
     template <class Visit>
     void draw(const Visit& visit, const Vec<D>& about = Vec<D>(0.0f)) {
         const std::uint32_t kind = random_.below(6);
         const bool placed = random_.chance(0.5);
         const Pose<D> pose{about + point(0.5), rotation()};
         const Vec<D> shift = placed ? Vec<D>(0.0f) : about;
-        const auto tell = [&](const auto& shape) {
+        const auto visit_placed = [&](const auto& shape) {
             if (placed)
                 visit(at(shape, pose));
             else
@@ -65,21 +65,21 @@ public:
         const float radius = random_.chance(0.1) ? 0 : 0.5f * size();
         switch (kind) {
             case 0:
-                return tell(Ball<D>{a, radius});
+                return visit_placed(Ball<D>{a, radius});
             case 1:
-                return tell(Capsule<D>{a, b, radius});
+                return visit_placed(Capsule<D>{a, b, radius});
             case 2:
-                return tell(Segment<D>{a, b});
+                return visit_placed(Segment<D>{a, b});
             case 3:
-                return tell(Triangle<D>{a, b, c});
+                return visit_placed(Triangle<D>{a, b, c});
             case 4: {
                 const Vec<D> half_extents = half();
-                return tell(Box<D>{a, half_extents, rotation()});
+                return visit_placed(Box<D>{a, half_extents, rotation()});
             }
             default: {
                 std::vector<Vec<D>> points(D == 2 && random_.chance(0.1) ? 60 : 2 + random_.below(9));
                 for (Vec<D>& p : points) p = shift + point(spread);
-                return tell(*BuiltHull<D>::build(points));
+                return visit_placed(*BuiltHull<D>::build(points));
             }
         }
     }

@@ -1,4 +1,4 @@
-// What each_contact tells doesn't depend on how the parts are numbered, nor on which of the two shapes comes first.
+// The contacts of each_contact don't depend on the numbering of the parts or on the order of the two shapes.
 
 #include "../oracle/random.hpp"
 #include <abut/query/each_contact.hpp>
@@ -21,7 +21,7 @@ namespace {
 
 using oracle::Random;
 
-/// Normal, depth, and the points with their depths; `turn` -1 turns it round.
+/// Normal, depth, and the points with their depths; `turn` = -1 reverses the normal.
 template <int D>
 std::vector<float> numbers_of(const Contact<D>& contact, float turn) {
     std::vector<float> result;
@@ -55,9 +55,9 @@ void shuffle(Parts& parts, Random& random) {
         std::swap(parts[i - 1], parts[random.below(static_cast<std::uint32_t>(i))]);
 }
 
-constexpr int side = 12;  // of a ground of squares, each 1 wide
+constexpr int side = 12;  // squares along each side of the ground, each 1 wide
 
-/// Flat in places, rough in others, with more than one may be in at once; some triangles are there twice.
+/// A ground that is flat in places and rough in others; some triangles are doubled.
 struct Ground {
     std::vector<Vec3> points;
     std::vector<glm::uvec3> triangles;
@@ -122,7 +122,7 @@ TEST(EachContactOrder, OfBoxesDoesNotMatter) {
     EXPECT_GT(several, 100);
 }
 
-/// A floor of boxes from 0 on, `count` of them.
+/// A floor of `count` boxes, from 0 on.
 Compound2 row_of_boxes(int count, float width) {
     std::vector<AnyShape<2>> boxes;
     for (int i = 0; i < count; ++i)
@@ -130,17 +130,17 @@ Compound2 row_of_boxes(int count, float width) {
     return *Compound2::build(boxes);
 }
 
-/// Two rows, one on the other: what isn't felt of one, or of the other, or of both, is replaced by what is level.
+/// Two rows of boxes, one on the other: normals of internal edges of either row are replaced by level ones.
 TEST(EachContactOrder, OfTheTwoShapesDoesNotMatter) {
     const Compound2 floor = row_of_boxes(8, 1), moving = row_of_boxes(3, 0.7f);
-    int told = 0;
+    int contacts_compared = 0;
     for (int i = 0; i < 300; ++i) {
         const float x = 1 + 0.0137f * static_cast<float>(i), depth = 0.0007f * static_cast<float>(i % 90);
         const auto placed = at(moving, Pose2{{x, 1 - depth}});
         const View<2> a = view(placed), b = view(floor);
         const auto one = contacts_of<2>(a, b), other = contacts_of<2>(b, a, -1);
         ASSERT_EQ(one.size(), other.size()) << i;
-        for (std::size_t k = 0; k < one.size(); ++k, ++told) {
+        for (std::size_t k = 0; k < one.size(); ++k, ++contacts_compared) {
             EXPECT_NEAR(one[k][0], 0, 1e-6) << i;
             EXPECT_NEAR(one[k][1], -1, 1e-6) << i;
             EXPECT_NEAR(one[k][2], depth, 1e-6) << i;
@@ -148,12 +148,12 @@ TEST(EachContactOrder, OfTheTwoShapesDoesNotMatter) {
             EXPECT_NEAR(other[k][2], depth, 1e-6) << i;
         }
     }
-    EXPECT_GT(told, 600);
+    EXPECT_GT(contacts_compared, 600);
 }
 
-/// A block under a seam of the row that lies on it: the one who doesn't feel the seam is the block, and it is the row's
-/// plane that is told, whichever of the two comes first.
-TEST(EachContactOrder, OfTwoCompositesTheSurfaceOfTheRightOneIsTold) {
+/// A row of boxes lies on a block with an internal edge above it. The contact has the plane of the row, in either order
+/// of the two shapes.
+TEST(EachContactOrder, OfTwoCompositesTheRightSurfaceIsReported) {
     const Compound2 row = row_of_boxes(3, 1), block = row_of_boxes(1, 1);
     const auto placed = at(row, Pose2{{4, 0.95f}});
     const auto under = at(block, Pose2{{4.97f, 0}});
@@ -166,10 +166,10 @@ TEST(EachContactOrder, OfTwoCompositesTheSurfaceOfTheRightOneIsTold) {
     }
 }
 
-/// The shape that is one part lies between two of the other's: what is replaced is the same from either side.
+/// A shape of one part lies between two parts of the other: the substitute normal is the same in either order.
 TEST(EachContactOrder, OfAGhostIsTheSameFromEitherSide) {
     const Compound2 floor = row_of_boxes(8, 1);
-    // Deeper than either of the two boxes under it is wide beneath it.
+    // The overlap is deeper than the width of either box below the shape.
     const Box2 box{{4, 0.55f}, {0.04f, 0.1f}};
     const auto one = contacts_of<2>(view(box), view(floor)), other = contacts_of<2>(view(floor), view(box), -1);
     ASSERT_EQ(one.size(), 1u);

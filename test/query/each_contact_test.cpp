@@ -1,4 +1,4 @@
-// Contacts of all parts, and that the edges inside a floor aren't felt while real ones are.
+// Contacts of all parts: internal edges of a floor give no ghost collisions, and real edges give contacts.
 
 #include "../oracle/expect.hpp"
 #include "../shape/meshes.hpp"
@@ -24,7 +24,7 @@ using namespace test;
 
 constexpr std::uint64_t seed = 20260722;
 
-/// The same tiles as one solid level: each a lump, or by the faces of them all.
+/// The tiles as one SolidBsp: each tile a brush, or the faces of all tiles.
 template <int D>
 SolidBsp<D> solid_of_lumps(const Pieces<Box<D>>& boxes) {
     std::vector<HalfSpace<D>> sides;
@@ -66,8 +66,8 @@ Pose<D> turned_about_up(double radians, const Vec<D>& position) {
         return {position, turn_about({0, 1, 0}, static_cast<float>(radians))};
 }
 
-/// How far normals and depths may be off: on a floor whose coordinates are off by 1e-6 there are real edges, and a
-/// normal that is put in place of another is only as right as they are.
+/// The tolerance of normals and depths. A floor with coordinates perturbed by 1e-6 has real edges, and a substitute
+/// normal has their error.
 struct Tolerance {
     double aside = 1e-6, depth = 1e-5;
 };
@@ -75,8 +75,8 @@ Tolerance tolerance(const Random* random) {
     return random != nullptr ? Tolerance{1e-3, 1e-5} : Tolerance{};
 }
 
-/// Puts the shape, which has its lowest point at height -`reach`, down on the floor here and there, and looks at what
-/// pushes it sideways.
+/// Puts the shape, with its lowest point at height -`reach`, on the floor at random positions, and counts the contacts
+/// with a sideways normal.
 template <int D, class S, class Floor>
 void expect_only_up(const char* name, const S& shape, float reach, const Floor& floor, const Tolerance& tolerance) {
     Random random(seed);
@@ -86,7 +86,7 @@ void expect_only_up(const char* name, const S& shape, float reach, const Floor& 
         const double depth = random.uniform(-0.01, 0.05);
         Vec<D> position(0.0f);
         for (int axis = 0; axis < D; ++axis) position[axis] = random.uniform_float(1.5, tiles - 1.5);
-        // On a seam every other time.
+        // Every second position is on an internal edge.
         if (random.chance(0.5)) position[0] = std::round(position[0]);
         if (D == 3 && random.chance(0.3)) position[2 % D] = std::round(position[2 % D]);
         position[1] = reach - static_cast<float>(depth);
@@ -129,8 +129,8 @@ void expect_level_in_space(const char* name, const Floor& floor, const Tolerance
 }
 
 TEST(EachContact, OfALevelFloorIsUpAlone) {
-    Random noise(seed);
-    for (Random* random : {static_cast<Random*>(nullptr), &noise}) {
+    Random perturbation(seed);
+    for (Random* random : {static_cast<Random*>(nullptr), &perturbation}) {
         expect_level_in_space("mesh", level_mesh(random), tolerance(random));
         expect_level_in_space("broken mesh", broken_mesh(random), tolerance(random));
         expect_level_in_space("boxes", boxes_in_space(random), tolerance(random));
@@ -160,8 +160,8 @@ std::vector<Contact<D>> contacts_of(const A& a, const B& b, float margin = 0) {
     return result;
 }
 
-TEST(EachContact, FeelsWallsAndTheFloorBeforeThem) {
-    // A floor of boxes at height 0, and on it a wall of boxes from 4 on.
+TEST(EachContact, ReportsWallsAndTheFloorBeforeThem) {
+    // A floor of boxes at height 0 carries a wall of boxes from 4 on.
     Pieces<Box2> level = boxes_of_the_plane(nullptr);
     for (int y = 0; y < 4; ++y) level.pieces.push_back({{4.5f, static_cast<float>(y) + 0.5f}, {0.5f, 0.5f}});
     const auto contacts = contacts_of<2>(Box2{{3.51f, 0.99f}, {0.5f, 1.0f}}, level);
@@ -176,9 +176,9 @@ TEST(EachContact, FeelsWallsAndTheFloorBeforeThem) {
     EXPECT_EQ(static_cast<std::size_t>(up + aside), contacts.size());
 }
 
-TEST(EachContact, FeelsACornerThatPointsIntoACorner) {
+TEST(EachContact, ReportsACornerThatPointsIntoACorner) {
     const Pieces<Segment2> corner{{{{-3, 0}, {0, 0}}, {{0, 0}, {0, 3}}}};
-    // Its tip touches both.
+    // The tip touches both.
     const Polygon wedge = *Polygon::build(std::vector<Vec2>{{0, 0}, {-0.6f, 0.2f}, {-0.2f, 0.6f}});
     const auto contacts = contacts_of<2>(wedge, corner, 1e-3f);
     ASSERT_EQ(contacts.size(), 2u);
@@ -186,8 +186,8 @@ TEST(EachContact, FeelsACornerThatPointsIntoACorner) {
         EXPECT_TRUE(contact.normal.y < -0.999f || contact.normal.x > 0.999f) << contact.normal.x;
 }
 
-/// Its tip is in both by far more than what isn't felt.
-TEST(EachContact, FeelsACornerThatIsDeepInACorner) {
+/// The tip is in both, far deeper than the threshold of the internal-edge filter.
+TEST(EachContact, ReportsACornerThatIsDeepInACorner) {
     const Pieces<Box2> level{{{{4, -0.5f}, {4, 0.5f}}, {{4.5f, 2}, {0.5f, 2}}}};
     for (const float depth : {0.005f, 0.02f, 0.05f}) {
         const Vec2 tip(4 + depth, -depth);
@@ -205,8 +205,8 @@ TEST(EachContact, FeelsACornerThatIsDeepInACorner) {
     }
 }
 
-/// Planks side by side on a floor: the area in which they meet has all its corners in floor and ceiling.
-TEST(EachContact, FeelsAWallBetweenFloorAndCeiling) {
+/// Planks side by side on a floor: all corners of their contact area lie in floor or ceiling.
+TEST(EachContact, ReportsAWallBetweenFloorAndCeiling) {
     const Pieces<Box3> level{
         {{{0, -1, 0}, {20, 1, 20}}, {{0, 1.2f, 0}, {20, 1, 20}}, {{0.5f, 0.1f, 0}, {0.5f, 0.1f, 9}}}};
     const Box3 plank{{-0.49f, 0.1f, 0.3f}, {0.5f, 0.102f, 9}};
@@ -215,13 +215,13 @@ TEST(EachContact, FeelsAWallBetweenFloorAndCeiling) {
     EXPECT_EQ(aside, 1);
 }
 
-TEST(EachContact, FeelsRealEdges) {
-    // The end of the floor, and a ball that hangs over it.
+TEST(EachContact, ReportsRealEdges) {
+    // A ball hangs over the end of the floor.
     const auto over_end = contacts_of<2>(Circle{{-0.3f, 0.38f}, 0.5f}, segments(nullptr));
     ASSERT_EQ(over_end.size(), 1u);
     EXPECT_NEAR(over_end[0].normal.x, 0.6199, 1e-3);
 
-    // A ridge of two slopes, and a ball on top, and on one side.
+    // A ball lies on top of a ridge of two slopes, or on one side.
     const Pieces<Segment2> ridge{{{{-2, -2}, {0, 0}}, {{0, 0}, {2, -2}}}};
     const auto on_top = contacts_of<2>(Circle{{0.05f, 0.49f}, 0.5f}, ridge);
     for (const Contact<2>& contact : on_top) EXPECT_NEAR(contact.normal.x, -0.1015, 1e-3);
@@ -230,7 +230,7 @@ TEST(EachContact, FeelsRealEdges) {
     ASSERT_EQ(on_side.size(), 1u);
     EXPECT_NEAR(on_side[0].normal.x, -0.70710678, 1e-4);
 
-    // A step twenty times as high as what isn't felt.
+    // The step is twenty times as high as the threshold of the internal-edge filter.
     Pieces<Box2> step = boxes_of_the_plane(nullptr);
     step.pieces.push_back({{4.5f, -0.49f}, {0.5f, 0.5f}});
     bool aside = false;
@@ -263,9 +263,9 @@ TEST(EachContact, FromTheOtherSideIsTheSameTurnedRound) {
     for (const Contact<3>& contact : other) EXPECT_NEAR(contact.normal.y, 1, 1e-5);
 }
 
-/// A wall of triangles with a corner, which stands on a floor of triangles that share none of its own. Of the triangles
-/// in its sole some meet the floor's in a corner alone, with normals along the floor: the plane that was put in place
-/// of those was the wall's own side, and made the floor 0.3 deep in it.
+/// Regression: a wall of triangles with a corner stands on a floor of triangles that share no vertices with it. Some
+/// triangles of its sole touch the floor's in a vertex alone, with normals along the floor. Their substitute plane was
+/// the wall's own side, and the floor was reported 0.3 deep.
 TEST(EachContact, AWallStandsOnItsFloorWhicheverIsFirst) {
     const std::vector<Vec2> outline{{6, 2}, {3, 2}, {3, 2.3f}, {5.7f, 2.3f}, {5.7f, 5}, {6, 5}};
     const std::vector<glm::uvec3> sole{{2, 3, 0}, {2, 0, 1}, {3, 4, 5}, {3, 5, 0}};
@@ -296,8 +296,8 @@ TEST(EachContact, AWallStandsOnItsFloorWhicheverIsFirst) {
     }
 }
 
-/// What has no size looks no farther however often it looks: a point that isn't quite where its box has its middle went
-/// on for ever.
+/// Regression: the search around a shape of size 0 never grew. It was endless for a point that wasn't exactly in the
+/// center of its box.
 TEST(EachContact, OfWhatHasNoSizeComesToAnEnd) {
     Random random(seed);
     const Pieces<Box3> boxes = boxes_in_space(&random);

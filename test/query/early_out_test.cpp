@@ -1,4 +1,4 @@
-// Orders against all permutations, and a measuring conjunction against a clock that is only a number.
+// Orders against all permutations, and measured conjunctions against a simulated clock.
 
 #include "../oracle/random.hpp"
 #include <abut/query/early_out.hpp>
@@ -24,7 +24,7 @@ Order identity(std::size_t count) {
     return result;
 }
 
-/// The least value of cost(order) over all orders.
+/// The minimum of cost(order) over all orders.
 template <class Cost>
 double least_over_permutations(std::size_t count, Cost&& cost) {
     Order order = identity(count);
@@ -37,7 +37,7 @@ double least_over_permutations(std::size_t count, Cost&& cost) {
 // --- the arithmetic
 // ------------------------------------------------------------------------------------------------------
 
-TEST(EarlyOut, OrderAndCostByHand) {
+TEST(EarlyOut, OrderAndCostInClosedForm) {
     // t / (1 - p) = 4, 2, 5.
     const std::array<TestCost, 3> tests{{{3, 0.25}, {1, 0.5}, {1, 0.8}}};
     EXPECT_EQ(best_order(tests), (std::array<std::size_t, 3>{1, 0, 2}));
@@ -52,7 +52,7 @@ TEST(EarlyOut, WhatNeverRefusesIsLastAndTiesStayInPlace) {
               (Order{1, 4, 5, 0, 2, 3}) /* 5 + 0: nothing gets past the first */);
     EXPECT_EQ(best_order(Costs(5, {3, 0.5})), identity(5));
     EXPECT_EQ(best_order(Costs(5, {3, 1})), identity(5));
-    EXPECT_EQ(best_order(Costs{{1, 0.5}, {0, 0.9}}), (Order{1, 0})) << "what costs nothing is asked first";
+    EXPECT_EQ(best_order(Costs{{1, 0.5}, {0, 0.9}}), (Order{1, 0})) << "a test without cost is first";
 }
 
 TEST(EarlyOut, WhatIsNeverReachedCostsNothing) {
@@ -79,7 +79,7 @@ TEST(EarlyOut, BestOrderCostsTheLeastOfAllPermutations) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         oracle::Random random(seed);
         const std::size_t count = seed < 60 ? 7 : 1 + seed % 6;
-        const int kind = static_cast<int>(seed / 7 % 3);  // any numbers, few numbers and so ties, extremes
+        const int kind = static_cast<int>(seed / 7 % 3);  // random numbers, few distinct numbers (ties), extremes
         Costs tests;
         for (std::size_t i = 0; i < count; ++i) tests.push_back({any_time(random, kind), any_pass(random, kind)});
         const Order order = best_order(tests);
@@ -119,7 +119,7 @@ TEST(EarlyOut, PretestPaysWhereItsCostIsLess) {
 // --- what is measured
 // ----------------------------------------------------------------------------------------------------
 
-/// What a run costs on average, where outcomes[m] is how often exactly the tests of m pass.
+/// The mean cost of a run, if exactly the tests of m pass outcomes[m] times.
 double joint_cost(const Order& order, const std::vector<double>& times, const std::vector<double>& outcomes) {
     double cost = 0, all = 0;
     for (std::size_t m = 0; m < outcomes.size(); ++m) {
@@ -136,7 +136,7 @@ template <std::size_t N>
 SampledTests<N> sampled(const std::vector<double>& times, const std::vector<double>& outcomes) {
     SampledTests<N> result;
     std::array<double, N + 1> laps{};
-    laps[0] = 20;  // what the clock takes by itself
+    laps[0] = 20;  // the clock's own time
     for (std::size_t i = 0; i < N; ++i) laps[i + 1] = 20 + times[i];
     for (std::size_t m = 0; m < outcomes.size(); ++m)
         for (int k = 0; k < static_cast<int>(outcomes[m]); ++k)
@@ -168,7 +168,8 @@ TEST(SampledTests, OrderOfTestsThatDependOnOneAnother) {
     }
 }
 
-// Far things are small: by themselves both refuse much, the second nothing of what the first has let pass.
+// Dependent tests: far things are small. Each test alone rejects much; the second rejects nothing that passed the
+// first.
 TEST(SampledTests, RepeatedTestComesLast) {
     // 0 and 1 pass the same half; 2 passes three quarters of either half.
     std::vector<double> outcomes(8, 0);
@@ -207,7 +208,7 @@ TEST(SampledTests, IndependentTestsComeInBestOrder) {
 std::uint64_t now = 0;
 std::uint64_t clock_reads = 0;
 
-/// Takes a while to read, as clocks do.
+/// A simulated clock; reading it takes time.
 std::uint64_t counting_clock() {
     ++clock_reads;
     now += 12;
@@ -216,7 +217,7 @@ std::uint64_t counting_clock() {
     return result;
 }
 
-/// Passes a fraction of all numbers, and takes its time.
+/// A test that passes a fraction of all numbers and takes a simulated time.
 struct Slow {
     std::uint64_t time = 1;
     double pass = 1;
@@ -232,7 +233,7 @@ bool passes(const Slow& test, std::uint64_t number) {
     return oracle::Random(number + test.key).unit() < test.pass;
 }
 
-/// The time of so many measured calls, the clock's with it.
+/// The time of `count` measured calls, including the clock's.
 template <class All>
 double time_of(All& all, std::uint64_t calls) {
     const std::uint64_t before = now;
@@ -261,19 +262,19 @@ TEST(EarlyOut, IsTheConjunctionInAnyOrder) {
 }
 
 TEST(EarlyOut, StopsAtTheFirstRefusal) {
-    std::string asked;
-    const auto test = [&asked](char name, bool answer) {
-        return [&asked, name, answer](int) {
-            asked += name;
+    std::string calls_made;
+    const auto test = [&calls_made](char name, bool answer) {
+        return [&calls_made, name, answer](int) {
+            calls_made += name;
             return answer;
         };
     };
     const EarlyOut all{test('a', true), test('b', false), test('c', true)};
     EXPECT_FALSE(all(1));
-    EXPECT_EQ(asked, "ab");
+    EXPECT_EQ(calls_made, "ab");
     const EarlyOut one{test('z', true)};
     EXPECT_TRUE(one(1));
-    EXPECT_EQ(asked, "abz");
+    EXPECT_EQ(calls_made, "abz");
 }
 
 TEST(EarlyOut, TakesAnyArgumentsWithoutCopies) {
@@ -295,7 +296,7 @@ TEST(EarlyOut, ComesToTheBestOrderAndKeepsItWithinAFrame) {
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         oracle::Random random(seed);
-        // Ranks a factor of 2 apart: what is measured of so many samples is not exact.
+        // The ranks differ by a factor of 2, because the measurements are not exact.
         std::array<Slow, 4> tests;
         std::array<TestCost, 4> costs;
         const std::size_t first = random.below(4);
@@ -310,7 +311,7 @@ TEST(EarlyOut, ComesToTheBestOrderAndKeepsItWithinAFrame) {
         all.reorder();
         EXPECT_EQ(all.order(), (std::array<std::size_t, 4>{0, 1, 2, 3})) << "nothing is known yet";
         time_of(all, 200000);
-        EXPECT_EQ(all.order(), (std::array<std::size_t, 4>{0, 1, 2, 3})) << "only when told";
+        EXPECT_EQ(all.order(), (std::array<std::size_t, 4>{0, 1, 2, 3})) << "only after reorder()";
         all.reorder();
         EXPECT_EQ(all.order(), best_order(costs));
         for (std::size_t i = 0; i < 4; ++i) {
@@ -350,17 +351,17 @@ TEST(EarlyOut, MeasuringIsCheap) {
         SCOPED_TRACE("usual cost " + std::to_string(usual));
         all.set_clock(counting_clock);
         clock_reads = 0;
-        time_of(all, 100000);  // finds out how often it can afford to measure
+        time_of(all, 100000);  // adapts the sampling rate
         EXPECT_GT(clock_reads, 0u);
         EXPECT_LT(clock_reads, 100000u / 32);
         EXPECT_LT(time_of(all, 1000000), 1.02 * usual);
     };
-    // All pass, so that it is known what a call without a sample takes.
+    // All tests pass, which gives the time of a call without a sample.
     expect_cheap(EarlyOut{Slow{1}}, 1);
     expect_cheap(EarlyOut{Slow{1}, Slow{2}}, 3);
     expect_cheap(EarlyOut{Slow{2}, Slow{200}, Slow{3}}, 205);
     expect_cheap(EarlyOut{Slow{1000}, Slow{1000}, Slow{1000}, Slow{1000}}, 4000);
-    // The first refuses all, and a sample runs what else would never have run.
+    // The first test rejects all, and a sample runs the others as well.
     expect_cheap(EarlyOut{Slow{10, 0}, Slow{400}, Slow{50}}, 10);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Level floors made of pieces of every kind, whose seams nothing should feel.
+// Level floors made of pieces of every kind, whose internal edges should give no ghost collisions.
 
 #include "../oracle/random.hpp"
 #include <abut/shape/box.hpp>
@@ -14,7 +14,7 @@ namespace abut::test {
 
 using oracle::Random;
 
-/// Several shapes as one.
+/// A composite of several shapes.
 template <class S>
 struct Pieces {
     std::vector<S> pieces;
@@ -32,10 +32,10 @@ void each_part(const Pieces<S>& shape, const Box& box, Visit&& visit) {
         if (overlaps(bounds(convex(shape.pieces[i])), box) && !visit(shape.pieces[i], i)) return;
 }
 
-/// A floor has so many along each axis, each 1 wide, from 0 on; its surface is at height 0.
+/// The number of pieces along each axis, each 1 wide, from 0 on; the surface is at height 0.
 inline constexpr int tiles = 8;
 
-/// What float arithmetic makes of heights and seams.
+/// A perturbation like the rounding of heights and seams in float.
 inline float about(float number, Random* random) {
     return random != nullptr ? number + random->uniform_float(-1e-6, 1e-6) : number;
 }
@@ -54,7 +54,7 @@ inline Mesh level_mesh(Random* random) {
     return *Mesh::build(points, triangles);
 }
 
-/// Triangles with nothing in common: T-junctions, gaps, and each one twice.
+/// Triangles without shared vertices: T-junctions, gaps and doubled triangles.
 inline Mesh broken_mesh(Random* random) {
     std::vector<Vec3> points;
     std::vector<glm::uvec3> triangles;

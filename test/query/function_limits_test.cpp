@@ -1,5 +1,5 @@
-// Distance functions at the limits: searches that reach their bounds, functions that break their promise, shapes
-// without bounds. Everything ends, and says something valid.
+// Distance functions at the limits: searches that reach their iteration limit, functions that violate their contract,
+// unbounded shapes. Every query ends with a valid answer.
 
 #include "../oracle/random.hpp"
 #include "user_functions.hpp"
@@ -18,7 +18,7 @@
 namespace abut {
 namespace users {
 
-/// Tells anything.
+/// A function that violates the contract of a distance function.
 struct Liar {
     int kind = 0;
 };
@@ -44,7 +44,7 @@ float signed_distance(const Liar& liar, const Vec3& point) {
     }
 }
 
-/// Nowhere solid.
+/// A function that is positive everywhere.
 struct Nothing {};
 Aabb3 bounds(const Nothing&) {
     return Aabb3::empty();
@@ -57,7 +57,7 @@ float signed_distance(const Nothing&, const Vec3&) {
 
 namespace {
 
-/// What is cut off tells no less than what is true, and by how much it may be off.
+/// A search that stops at its limit returns a valid bound, with its uncertainty.
 TEST(FunctionLimits, BoundOnBoxesReached) {
     const users::Brick<3> brick;
     const DistanceFunction<3> function = view(brick);
@@ -95,11 +95,12 @@ TEST(FunctionLimits, BrokenPromisesEnd) {
         overlaps(liar, box);
         contains(liar, Vec3(0.0f));
         certify(box, liar, closest(box, liar));
-        for (const Vec3& way : {Vec3(-3, 0, 0), Vec3(-3, 1, 2)}) {
-            if (const auto hit = raycast(Ray3::between(Vec3(2, 0.1f, 0.1f), Vec3(2, 0.1f, 0.1f) + way), liar))
+        for (const Vec3& displacement : {Vec3(-3, 0, 0), Vec3(-3, 1, 2)}) {
+            if (const auto hit = raycast(Ray3::between(Vec3(2, 0.1f, 0.1f), Vec3(2, 0.1f, 0.1f) + displacement), liar))
                 check(hit->normal);
-            if (const auto hit = sweep(Box3{{3, 0, 0}, Vec3(0.5f)}, way, liar)) check(hit->normal);
-            if (const auto hit = sweep(box, Pose3{{3, 0, 0}}, Pose3{way, {0.8f, 0.6f, 0, 0}}, liar, Pose3{}, Pose3{}))
+            if (const auto hit = sweep(Box3{{3, 0, 0}, Vec3(0.5f)}, displacement, liar)) check(hit->normal);
+            if (const auto hit =
+                    sweep(box, Pose3{{3, 0, 0}}, Pose3{displacement, {0.8f, 0.6f, 0, 0}}, liar, Pose3{}, Pose3{}))
                 check(hit->normal);
         }
     }
@@ -118,7 +119,7 @@ TEST(FunctionLimits, NothingIsNowhere) {
     EXPECT_FALSE(sweep(box, Vec3(5, 0, 0), nothing));
 }
 
-/// Along the ground for a million of its hills.
+/// A ray along the ground over a million hills.
 TEST(FunctionLimits, LongWays) {
     const users::Hills<3> hills{0.2f};
     const Ray3 level{{0, 0.45f, 0}, {1, 0, 0}, 1e6f};
@@ -130,13 +131,13 @@ TEST(FunctionLimits, LongWays) {
     const auto falls = sweep(Box3{{0, 1000, 0}, Vec3(0.5f)}, Vec3(0, -2000, 0), hills);
     ASSERT_TRUE(falls);
     EXPECT_NEAR(falls->distance, 999.4f, 0.2f);
-    // An endless ray.
+    // The ray has infinite length.
     const auto down = raycast(Ray3{{0, 3, 0}, {0, -1, 0}}, hills);
     ASSERT_TRUE(down);
     EXPECT_NEAR(down->distance, 3, 1e-4f);
 }
 
-/// Two functions change places: the same distance, the other way.
+/// Swapping two functions gives the same distance and the opposite normal.
 TEST(FunctionLimits, TwoFunctionsChangePlaces) {
     oracle::Random random(41);
     int apart = 0;

@@ -1,5 +1,5 @@
-// Distance functions of a user's own, against the library's shapes of the same form: every question, every kind of
-// shape beside them, any scale, far from the origin.
+// User-defined distance functions against the library's shapes of the same form, their twins: every query, every kind
+// of other shape, any scale, far from the origin.
 
 #include "../oracle/random.hpp"
 #include "user_functions.hpp"
@@ -22,7 +22,7 @@
 namespace abut {
 namespace {
 
-/// A function and its twin, placed alike.
+/// A function and its twin at the same pose.
 template <int D>
 struct Twins {
     AnyShape<D> function, twin;
@@ -34,7 +34,7 @@ public:
     Drawn(std::uint64_t seed, double scale, double far) : random_(seed), scale_(scale), far_(far) {}
 
     oracle::Random& random() { return random_; }
-    /// Placed within `reach` of the middle, in scales.
+    /// A random pose within `reach`, in units of the scale, of the center.
     Pose<D> pose(double reach) {
         Pose<D> result;
         result.rotation = random_.rotation<D>();
@@ -112,7 +112,7 @@ private:
     double scale_, far_;
 };
 
-/// Which a function's answers are right to, where the bound on work is reached.
+/// The tolerance of a function's answers if a search reaches its iteration limit.
 template <int D>
 double tolerance_of(const AnyShape<D>& a, const AnyShape<D>& b, double scale, double far) {
     return 1e-3 * std::min(size(a.view()), size(b.view())) + 1e-6 * far * scale;
@@ -138,40 +138,40 @@ TYPED_TEST(FunctionTwins, DistancesAndContacts) {
             SCOPED_TRACE(testing::Message() << "seed 11, scale " << scale << ", far " << far << ", pair " << i);
             const auto [function, twin] = drawn.twins(1.5);
             const AnyShape<D> other = drawn.other(1.5);
-            const double doubt = tolerance_of(twin, other, scale, far);
+            const double allowed = tolerance_of(twin, other, scale, far);
             const Closest<D> found = closest(function, other), expected = closest(twin, other);
             const auto distance = static_cast<double>(found.distance), truth = static_cast<double>(expected.distance);
             if (truth > 0) {
-                EXPECT_NEAR(distance, truth, doubt);
+                EXPECT_NEAR(distance, truth, allowed);
                 ++apart;
             } else {
-                // No deeper than the least move that parts them.
-                EXPECT_LE(distance, doubt);
-                EXPECT_GE(distance, truth - doubt);
+                // The depth is not larger than the minimal separating translation.
+                EXPECT_LE(distance, allowed);
+                EXPECT_GE(distance, truth - allowed);
                 ++overlapping;
             }
             EXPECT_NEAR(length(DVec<D>(found.normal)), 1, 1e-5);
             const DVec<D> across = DVec<D>(found.on_b) - DVec<D>(found.on_a) - DVec<D>(found.normal) * distance;
-            EXPECT_LE(length(across), doubt);
+            EXPECT_LE(length(across), allowed);
             EXPECT_TRUE(certify(function, other, found));
             const Closest<D> turned = closest(other, function);
-            EXPECT_NEAR(static_cast<double>(turned.distance), distance, doubt);
-            if (std::abs(distance) > doubt) {
+            EXPECT_NEAR(static_cast<double>(turned.distance), distance, allowed);
+            if (std::abs(distance) > allowed) {
                 EXPECT_EQ(overlaps(function, other), distance <= 0);
             }
             const Contact<D> contact = abut::contact(function, other);
-            if (std::abs(distance) > doubt) {
+            if (std::abs(distance) > allowed) {
                 EXPECT_EQ(static_cast<bool>(contact), distance <= 0);
             }
             if (contact) {
-                EXPECT_NEAR(static_cast<double>(contact.depth), -distance, doubt);
+                EXPECT_NEAR(static_cast<double>(contact.depth), -distance, allowed);
                 double deepest = -1;
                 for (const ContactPoint<D>& point : contact.points)
                     deepest = std::max(deepest, static_cast<double>(point.depth));
-                EXPECT_NEAR(deepest, static_cast<double>(contact.depth), doubt);
-                int told = 0;
-                each_contact(function, other, [&](const Contact<D>&) { ++told; });
-                EXPECT_EQ(told, 1);
+                EXPECT_NEAR(deepest, static_cast<double>(contact.depth), allowed);
+                int contacts = 0;
+                each_contact(function, other, [&](const Contact<D>&) { ++contacts; });
+                EXPECT_EQ(contacts, 1);
             }
         }
         EXPECT_GT(overlapping, count / 5);
@@ -188,17 +188,17 @@ TYPED_TEST(FunctionTwins, PointsAndRays) {
         for (int i = 0; i < count; ++i) {
             SCOPED_TRACE(testing::Message() << "seed 12, scale " << scale << ", far " << far << ", ray " << i);
             const auto [function, twin] = drawn.twins(0.5);
-            const double doubt = 2e-5 * scale + 1e-6 * far * scale;
+            const double allowed = 2e-5 * scale + 1e-6 * far * scale;
             const Vec<D> from = drawn.pose(3).position, to = drawn.pose(1.5).position;
             const auto depth = static_cast<double>(closest(twin, from).distance);
-            if (std::abs(depth) > doubt) {
+            if (std::abs(depth) > allowed) {
                 EXPECT_EQ(contains(function, from), depth < 0);
             }
             inside += depth < 0 ? 1 : 0;
-            if (std::abs(depth) <= doubt) continue;
+            if (std::abs(depth) <= allowed) continue;
             const Ray<D> ray = Ray<D>::between(from, to);
             const std::optional<Hit<D>> hit = raycast(ray, function), expected = raycast(ray, twin);
-            // A start inside is told apart by where the way out is, which twins needn't agree about.
+            // Twins may differ in a start inside, which depends on the direction out.
             if (depth < 0) {
                 if (hit) {
                     EXPECT_TRUE(hit->fraction == 0 && hit->started_inside);
@@ -207,7 +207,7 @@ TYPED_TEST(FunctionTwins, PointsAndRays) {
             }
             hits += expected ? 1 : 0;
             if (hit.has_value() != expected.has_value()) {
-                // Only where it grazes, or ends on the surface.
+                // The answers differ only if the ray grazes, or ends on, the surface.
                 const Hit<D>& one = hit ? *hit : *expected;
                 const double slant = std::abs(dot(DVec<D>(one.normal), DVec<D>(ray.direction)));
                 EXPECT_TRUE(slant < 0.03 || one.fraction > 0.999f) << slant << " " << one.fraction;
@@ -216,7 +216,7 @@ TYPED_TEST(FunctionTwins, PointsAndRays) {
             if (!hit) continue;
             const double slant = std::abs(dot(DVec<D>(expected->normal), DVec<D>(ray.direction)));
             const double along = static_cast<double>(hit->distance) - static_cast<double>(expected->distance);
-            EXPECT_LE(std::abs(along) * slant, doubt);
+            EXPECT_LE(std::abs(along) * slant, allowed);
             EXPECT_LE(dot(DVec<D>(hit->normal), DVec<D>(ray.direction)), 0);
             EXPECT_FALSE(hit->started_inside);
         }
@@ -237,47 +237,47 @@ TYPED_TEST(FunctionTwins, Sweeps) {
             const AnyShape<D>&function = both.function, &twin = both.twin;
             const AnyShape<D> other = drawn.other(4);
             if (closest(twin, other).distance <= 0) continue;
-            const double doubt = 2 * tolerance_of(twin, other, scale, far);
-            // To somewhere near it, and a little farther.
-            const DVec<D> way = DVec<D>(drawn.pose(1).position) - DVec<D>(center(bounds(other)));
-            const Vec<D> motion = to_float(is_finite(to_float(way)) && size(other.view()) < 1e5 * scale
-                                               ? way * 1.25
+            const double allowed = 2 * tolerance_of(twin, other, scale, far);
+            // The motion goes to a point near the other shape, and a little farther.
+            const DVec<D> displacement = DVec<D>(drawn.pose(1).position) - DVec<D>(center(bounds(other)));
+            const Vec<D> motion = to_float(is_finite(to_float(displacement)) && size(other.view()) < 1e5 * scale
+                                               ? displacement * 1.25
                                                : drawn.random().template direction<D>() * (4 * scale));
             const std::optional<Hit<D>> expected = sweep(other, motion, twin), hit = sweep(other, motion, function);
             (expected ? hits : misses) += 1;
-            // How far apart they are where the one or the other says that they touch.
+            // The distance at a fraction, such as the reported one.
             const auto apart = [&](float fraction) {
                 Pose<D> moved;
                 moved.position = motion * fraction;
                 return static_cast<double>(closest(at(other, moved), twin).distance);
             };
             if (hit) {
-                EXPECT_NEAR(apart(hit->fraction), 0, doubt);
+                EXPECT_NEAR(apart(hit->fraction), 0, allowed);
                 EXPECT_LE(dot(DVec<D>(hit->normal), DVec<D>(motion)), 1e-3 * scale);
                 if (expected) {
                     EXPECT_LE(hit->fraction, 1.0f);
                 }
             } else if (expected) {
-                // It only just touches.
-                EXPECT_GT(apart(1), -doubt);
-                for (int k = 0; k <= 32; ++k) EXPECT_GT(apart(static_cast<float>(k) / 32), -doubt);
+                // The motion only grazes.
+                EXPECT_GT(apart(1), -allowed);
+                for (int k = 0; k <= 32; ++k) EXPECT_GT(apart(static_cast<float>(k) / 32), -allowed);
             }
             if (hit && expected) {
-                for (int k = 0; k < 16; ++k) EXPECT_GE(apart(hit->fraction * static_cast<float>(k) / 16), -doubt);
+                for (int k = 0; k < 16; ++k) EXPECT_GE(apart(hit->fraction * static_cast<float>(k) / 16), -allowed);
             }
-            // The same, seen by the function as the mover.
+            // Now the function is the mover.
             const std::optional<Hit<D>> turned = sweep(function, -motion, other);
             if (hit && turned) {
-                EXPECT_NEAR(apart(turned->fraction), 0, doubt);
+                EXPECT_NEAR(apart(turned->fraction), 0, allowed);
             }
-            // Turning.
+            // The motion has a rotation.
             const Pose<D> from, to = drawn.pose(2);
             Pose<D> near = to;
             near.position -= to_float(DVec<D>(far * scale));
-            const std::optional<Hit<D>> turning = sweep(other, from, near, function, Pose<D>{}, Pose<D>{}),
+            const std::optional<Hit<D>> rotating = sweep(other, from, near, function, Pose<D>{}, Pose<D>{}),
                                         truth = sweep(other, from, near, twin, Pose<D>{}, Pose<D>{});
-            if (turning && truth) {
-                EXPECT_NEAR(static_cast<double>(turning->fraction), static_cast<double>(truth->fraction), 0.02);
+            if (rotating && truth) {
+                EXPECT_NEAR(static_cast<double>(rotating->fraction), static_cast<double>(truth->fraction), 0.02);
             }
         }
         EXPECT_GT(hits, count / 10);
@@ -285,7 +285,7 @@ TYPED_TEST(FunctionTwins, Sweeps) {
     }
 }
 
-/// All are placed by similar maps, and rounded: the same as the twin's.
+/// Under similarity transforms and rounding, the function agrees with its twin.
 TYPED_TEST(FunctionTwins, ScaledAndRounded) {
     constexpr int D = TypeParam::value;
     oracle::Random random(14);
@@ -308,7 +308,7 @@ TYPED_TEST(FunctionTwins, ScaledAndRounded) {
     }
 }
 
-/// Stretched unevenly it is the same set, at a lower bound of its distance.
+/// A non-uniformly stretched function has the twin's zero set, and a lower bound of its distance.
 TYPED_TEST(FunctionTwins, StretchedIsALowerBound) {
     constexpr int D = TypeParam::value;
     oracle::Random random(15);

@@ -1,8 +1,8 @@
-// As the other golden test, of plain shapes that are asked as they were given: their numbers, too, are whole, but for
-// rotations, which are whole numbers over their length.
+// The golden hash of the closed forms of plain shapes. Their coordinates are integers, as in golden_test.cpp; rotations
+// are normalized integer vectors.
 
 #include "../oracle/random.hpp"
-#include "../oracle/vector_units.hpp"
+#include "../oracle/simd_targets.hpp"
 #include "hash.hpp"
 #include <abut/query/overlaps.hpp>
 #include <abut/query/sweep.hpp>
@@ -23,7 +23,7 @@
 namespace abut {
 namespace {
 
-/// No two numbers are drawn in one call: which of its arguments comes first is up to the compiler.
+/// Each random number is drawn in a statement of its own, because compilers evaluate arguments in any order.
 template <int D>
 class PlainShapes {
 public:
@@ -56,14 +56,14 @@ public:
         }
     }
 
-    /// visit(shape), the shape as it is or placed by a pose, about some place.
+    /// Calls visit(shape) with a shape, or with a shape at a pose.
     template <class Visit>
     void draw(const Visit& visit, const Vec<D>& about = Vec<D>(0.0f)) {
         const std::uint32_t kind = random_.below(6);
         const bool placed = random_.below(2) == 0;
         const Vec<D> position = about + point(128), shift = placed ? Vec<D>(0.0f) : about;
         const Pose<D> pose{position, rotation()};
-        const auto tell = [&](const auto& shape) {
+        const auto visit_placed = [&](const auto& shape) {
             if (placed)
                 visit(at(shape, pose));
             else
@@ -73,22 +73,22 @@ public:
         const float radius = size();
         switch (kind) {
             case 0:
-                return tell(Ball<D>{a, radius});
+                return visit_placed(Ball<D>{a, radius});
             case 1:
-                return tell(Capsule<D>{a, b, radius});
+                return visit_placed(Capsule<D>{a, b, radius});
             case 2:
-                return tell(Segment<D>{a, b});
+                return visit_placed(Segment<D>{a, b});
             case 3:
-                return tell(Triangle<D>{a, b, c});
+                return visit_placed(Triangle<D>{a, b, c});
             case 4: {
                 Vec<D> half;
                 for (int i = 0; i < D; ++i) half[i] = size();
-                return tell(Box<D>{a, half, rotation()});
+                return visit_placed(Box<D>{a, half, rotation()});
             }
             default: {
                 std::vector<Vec<D>> points(4 + random_.below(9));
                 for (Vec<D>& p : points) p = shift + point(128);
-                return tell(*Polytope::build(points));
+                return visit_placed(*Polytope::build(points));
             }
         }
     }
@@ -122,23 +122,23 @@ std::uint64_t hash_of_answers() {
     return hash.value();
 }
 
-/// Of pairs in the plane that come from some sizes away, from both sides.
+/// Sweeps of 2D pairs that start a few sizes apart, on both sides.
 std::uint64_t hash_of_sweeps() {
     Hash hash;
     for (std::uint64_t seed = 0; seed < 100000; ++seed) {
         PlainShapes<2> shapes(seed);
         const Vec2 from = shapes.point(512), to = shapes.point(128), motion_b = shapes.point(128);
         const Vec2 motion_a = to - from + motion_b;
-        const auto ask = [&](const auto& a, const auto& b) {
+        const auto put_answers = [&](const auto& a, const auto& b) {
             add_hit(hash, sweep(a, motion_a, b, motion_b));
             add_hit(hash, sweep(b, motion_b, a, motion_a));
         };
-        shapes.draw([&](const auto& a) { shapes.draw([&](const auto& b) { ask(a, b); }); }, from);
+        shapes.draw([&](const auto& a) { shapes.draw([&](const auto& b) { put_answers(a, b); }); }, from);
     }
     return hash.value();
 }
 
-class GoldenDirect : public oracle::ByVectorUnit {};
+class GoldenDirect : public oracle::BySimdTarget {};
 
 TEST_P(GoldenDirect, AnswersInThePlaneHaveTheSameBitsEverywhere) {
     EXPECT_EQ(hash_of_answers<2>(), 12870591022412243438u);
@@ -150,7 +150,7 @@ TEST_P(GoldenDirect, SweepsInThePlaneHaveTheSameBitsEverywhere) {
     EXPECT_EQ(hash_of_sweeps(), 11923179436133139510u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Targets, GoldenDirect, oracle::vector_units(), oracle::name_of_unit);
+INSTANTIATE_TEST_SUITE_P(Targets, GoldenDirect, oracle::simd_targets(), oracle::simd_target_name);
 
 }  // namespace
 }  // namespace abut

@@ -1,5 +1,5 @@
-// As the other golden tests, of distance functions of a user's own, whose arithmetic is in double and has no more than
-// a square root.
+// The golden hash of queries on user-defined distance functions, whose arithmetic is in double with no function but the
+// square root.
 
 #include "../oracle/random.hpp"
 #include "hash.hpp"
@@ -16,7 +16,7 @@
 namespace abut {
 namespace {
 
-/// No two numbers are drawn in one call: which of its arguments comes first is up to the compiler.
+/// Each random number is drawn in a statement of its own, because compilers evaluate arguments in any order.
 template <int D>
 class WholeNumbers {
 public:

@@ -1,12 +1,12 @@
-// The same bits everywhere: a hash over the bits of a million answers to every question, compared with a constant, by
-// each vector unit that this machine has.
+// Determinism: a hash over the bits of a million answers of every query equals a constant, with each SIMD target of
+// this machine.
 //
-// The shapes are made of whole numbers, so no arithmetic of this file is in the answers. Where a change of the library
-// is meant to change answers, the constant is renewed from the failing test's output, after the same output was seen
-// from gcc and clang, -O0 and -O3 -march=native.
+// The shapes have integer coordinates, so this file's arithmetic does not affect the answers. After a change that is
+// meant to change answers, the constant is renewed from the failing test's output. First, gcc and clang with -O0 and
+// -O3 -march=native must agree on it.
 
 #include "../oracle/random.hpp"
-#include "../oracle/vector_units.hpp"
+#include "../oracle/simd_targets.hpp"
 #include "hash.hpp"
 #include <abut/query/certify.hpp>
 #include <abut/query/contains.hpp>
@@ -32,8 +32,8 @@
 namespace abut {
 namespace {
 
-/// Random shapes of whole numbers, 8 units across and near the origin. No two numbers are drawn in one call: which of
-/// its arguments comes first is up to the compiler.
+/// Random shapes with integer coordinates, 8 units in extent and near the origin. Each random number is drawn in a
+/// statement of its own, because compilers evaluate arguments in any order.
 template <int D>
 class WholeNumbers {
 public:
@@ -118,16 +118,16 @@ public:
 private:
     template <class S>
     View<D> keep(S shape) {
-        auto kept = std::make_shared<const S>(std::move(shape));
-        keepers_.push_back(kept);
-        return view(*kept);
+        auto stored = std::make_shared<const S>(std::move(shape));
+        stored_.push_back(stored);
+        return view(*stored);
     }
 
     oracle::Random random_;
-    std::vector<std::shared_ptr<const void>> keepers_;
+    std::vector<std::shared_ptr<const void>> stored_;
 };
 
-/// The questions that cost little.
+/// The cheap queries.
 template <int D>
 void add_answers(Hash& hash, WholeNumbers<D>& make, const View<D>& a, const View<D>& b, Cache& cache) {
     hash.add(std::uint64_t{overlaps(a, b)});
@@ -143,7 +143,7 @@ void add_answers(Hash& hash, WholeNumbers<D>& make, const View<D>& a, const View
     add_hit(hash, raycast(Ray<D>::between(from, make.point()), a));
 }
 
-/// The questions whose answers are polytopes.
+/// The queries that return polytopes.
 template <int D>
 void add_polytopes(Hash& hash, WholeNumbers<D>& make) {
     const auto add = [&](const PolytopeOf<D>& polytope) {
@@ -175,7 +175,7 @@ std::uint64_t hash_of_answers() {
     return hash.value();
 }
 
-class Golden : public oracle::ByVectorUnit {};
+class Golden : public oracle::BySimdTarget {};
 
 TEST_P(Golden, AnswersInThePlaneHaveTheSameBitsEverywhere) {
     EXPECT_EQ(hash_of_answers<2>(), 11443325238551615448u);
@@ -184,7 +184,7 @@ TEST_P(Golden, AnswersInSpaceHaveTheSameBitsEverywhere) {
     EXPECT_EQ(hash_of_answers<3>(), 7457590302922063209u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Targets, Golden, oracle::vector_units(), oracle::name_of_unit);
+INSTANTIATE_TEST_SUITE_P(Targets, Golden, oracle::simd_targets(), oracle::simd_target_name);
 
 }  // namespace
 }  // namespace abut

@@ -1,4 +1,4 @@
-// The overlap of two polytopes: examples by hand, areas and volumes in rational numbers, and what holds for every pair.
+// The intersection of two polytopes: examples with known answers, exact areas and volumes, and invariants of all pairs.
 
 #include "../oracle/check.hpp"
 #include "../oracle/degenerate.hpp"
@@ -61,14 +61,14 @@ TEST(Intersection, OfTwoCubesAndOfACubeWithATetrahedron) {
     EXPECT_EQ(cubes.centroid(), Vec3(0.75f, 0.5f, 0.5f));
     EXPECT_EQ(std::abs(cubes.normal().x), 1);
 
-    // The tetrahedron sticks out of the cube with three corners of volume 1/6, each a third as large as itself.
+    // Three corners of the tetrahedron, of volume 1/6 each, are outside the cube.
     const Polyhedron tetrahedron = *Polyhedron::build({{0, 0, 0}, {3, 0, 0}, {0, 3, 0}, {0, 0, 3}});
     const Polyhedron found = overlap(Aabb3{Vec3(0), Vec3(2)}, tetrahedron);
     EXPECT_EQ(found.points().size(), 10u);
     EXPECT_DOUBLE_EQ(found.volume(), 4);
     const float along = static_cast<float>((4.5 * 0.75 - (2.25 + 0.25 + 0.25) / 6) / 4);
     EXPECT_TRUE(near(found.centroid(), Vec3(along)));
-    // The cube [0, 1] fits, its far corner in the slanted face.
+    // The cube [0, 1] fits inside, with its far corner on the slanted face.
     EXPECT_DOUBLE_EQ(overlap(Aabb3{Vec3(0), Vec3(1)}, tetrahedron).volume(), 1);
 }
 
@@ -124,13 +124,13 @@ TEST(Intersection, OfCrossedNeedlesAndOfAFlakeWithANeedle) {
     EXPECT_NEAR(diamond.area() / (4e-12 / 0.8), 1, 1e-5);
     const Polyhedron piece = overlap(Box3{Vec3(0), Vec3(1, 1, thin)}, Box3{Vec3(0), Vec3(thin, thin, 1)});
     EXPECT_NEAR(piece.volume() / 8e-18, 1, 1e-5);
-    // A million from the origin, where floats are 1/16 apart.
+    // At a million from the origin, the spacing of floats is 1/16.
     const Vec3 away(1e6f, -1e6f, 1e6f);
     EXPECT_EQ(overlap(Box3{away, Vec3(8)}, Box3{away + 8.0f, Vec3(1, 8, 8)}).volume(), 64);
     EXPECT_EQ(overlap(Box3{away, Vec3(1e4f, 1e-2f, 1e-2f)}, Box3{away, Vec3(1e-2f, 1e4f, 1e-2f)}).rank(), 0);
 }
 
-// Two needles of thickness 3e-6 that cross 1.2e-7 deep: clipping, which knows their faces to 1e-6, finds nothing.
+// Two needles of thickness 3e-6 cross 1.2e-7 deep: clipping, with a tolerance of 1e-6, finds nothing.
 TEST(Intersection, OfWhatTouchesByARoundingIsAPoint) {
     const Polyhedron a = *Polyhedron::build({{-0.154512942f, 0.687873065f, 0.0514348149f},
                                              {0.0159486663f, -0.0709984526f, -0.00530935219f},
@@ -167,7 +167,7 @@ TEST(Intersection, OfViews) {
     EXPECT_EQ(shadow.rank(), 2);
     EXPECT_NEAR(shadow.area(), 2, 1e-6);
     EXPECT_NEAR(overlap(stretched(wedge, Vec3(-1, 1, 1)), Aabb3{Vec3(-1), Vec3(1)}).volume(), 1, 1e-6);
-    // The same as what is cut with, mirrored.
+    // The intersection is the mirror image of the cutting shape.
     EXPECT_NEAR(overlap(stretched(wedge, Vec3(-4, 4, 4)), Aabb3{Vec3(-1), Vec3(1)}).volume(), 1, 1e-6);
     EXPECT_EQ(overlap(stretched(box, Vec2(-9, 9)), Aabb2{Vec2(-1), Vec2(3)}).area(), 4);
     EXPECT_NEAR(overlap(at(wedge, {Vec3(5)}), Aabb3{Vec3(5), Vec3(6)}).volume(), 1, 1e-6);
@@ -180,11 +180,11 @@ TEST(Intersection, LeavesTheResultAloneWhereThereIsNone) {
     EXPECT_FALSE(intersection(Box2{{0, 0}, {1, 1}}, Box2{{9, 0}, {1, 1}}, out));
     EXPECT_EQ(corners(out), std::vector<Vec2>{Vec2(1, 2)});
     Polygon both = *Polygon::build({{0, 0}, {2, 0}, {0, 2}});
-    EXPECT_TRUE(intersection(both, Box2{{0, 0}, {1, 1}}, both));  // the result in place of the question
+    EXPECT_TRUE(intersection(both, Box2{{0, 0}, {1, 1}}, both));  // the output may be an input
     EXPECT_EQ(both.area(), 1);
 }
 
-TEST(Intersection, TellsItsTrace) {
+TEST(Intersection, WritesItsTrace) {
     Trace<2> trace;
     EXPECT_TRUE(intersection(Box2{{0, 0}, {1, 1}}, Box2{{1, 0}, {1, 1}}, {.trace = &trace}));
     ASSERT_EQ(trace.steps.size(), 4u);
@@ -207,9 +207,9 @@ const Convex<D>& convex_of(const oracle::Sample<D>& sample) {
     return std::get<Convex<D>>(sample.view);
 }
 
-/// How far the overlap's surface may be off, rounding to floats in the world included.
+/// The tolerance of the intersection's surface, including rounding to floats.
 template <int D>
-double doubt_of(const oracle::Sample<D>& a, const oracle::Sample<D>& b, const PolytopeOf<D>& found) {
+double allowed_error(const oracle::Sample<D>& a, const oracle::Sample<D>& b, const PolytopeOf<D>& found) {
     double rounding = 0;
     for (const Vec<D>& point : found.points()) rounding = std::max(rounding, oracle::rounding_of(point));
     return oracle::tolerance_for(a.solid, b.solid) + 2 * rounding;
@@ -222,7 +222,7 @@ TYPED_TEST_SUITE(IntersectionOracle, Dimensions);
 
 TYPED_TEST(IntersectionOracle, HasTheVolumeThatRationalNumbersSay) {
     constexpr int D = TypeParam::value;
-    const int pairs = oracle::amount(D == 2 ? 300 : 60);
+    const int pairs = oracle::case_count(D == 2 ? 300 : 60);
     int overlapping = 0;
     for (int i = 0; i < pairs; ++i) {
         const std::uint64_t seed = 31000 + static_cast<std::uint64_t>(i);
@@ -238,7 +238,7 @@ TYPED_TEST(IntersectionOracle, HasTheVolumeThatRationalNumbersSay) {
         const std::vector<Vec<D>> points_a = points(0), points_b = points(static_cast<int>(random.below(30)));
         const auto found = intersection(*PolytopeOf<D>::build(points_a), *PolytopeOf<D>::build(points_b));
         const double expected = oracle::volume_of_overlap(oracle::hull_of<D>(points_a), oracle::hull_of<D>(points_b));
-        // Corners are rounded to floats below 64, and so move by no more than 2^-19.
+        // The rounding of vertices below 64 to floats moves them by at most 2^-19.
         const double surface = 2 * D * std::pow(33.0, D - 1);
         EXPECT_NEAR(found ? measure(*found) : 0, expected, surface * 0x1p-18);
         overlapping += found ? 1 : 0;
@@ -248,9 +248,8 @@ TYPED_TEST(IntersectionOracle, HasTheVolumeThatRationalNumbersSay) {
     EXPECT_LT(overlapping, pairs * 7 / 10);
 }
 
-/// What holds for every overlap. Where shapes are no deeper in one another than
-/// the margin of doubt, a touch along all of an edge and a touch in its end are the same to within the margin, and only
-/// exact coordinates tell them apart.
+/// Checks the invariants of an intersection. If the depth is within the tolerance, contact along an edge and contact at
+/// its end differ by less than the tolerance; only exact coordinates distinguish them.
 template <int D>
 void check_overlap(const oracle::Sample<D>& a, const oracle::Sample<D>& b, oracle::Random& random, bool exact,
                    int& overlapping) {
@@ -264,24 +263,24 @@ void check_overlap(const oracle::Sample<D>& a, const oracle::Sample<D>& b, oracl
     }
     if (!yes) return;
     ++overlapping;
-    const double doubt = doubt_of(a, b, found);
+    const double allowed = allowed_error(a, b, found);
     const auto off = [&](const oracle::Polytope<D>& shape, const Vec<D>& point) {
-        return oracle::truth(shape, oracle::hull_of<D>({point}), oracle::Arithmetic::rough).distance;
+        return oracle::truth(shape, oracle::hull_of<D>({point}), oracle::Arithmetic::floating_point).distance;
     };
 
-    // All of it lies in both, and its middle in itself.
+    // The intersection lies in both shapes, and contains its centroid.
     for (const Vec<D>& point : found.points()) {
-        EXPECT_LE(off(a.solid, point), doubt);
-        EXPECT_LE(off(b.solid, point), doubt);
+        EXPECT_LE(off(a.solid, point), allowed);
+        EXPECT_LE(off(b.solid, point), allowed);
     }
     const auto solid = oracle::hull_of<D>({found.points().begin(), found.points().end()});
-    EXPECT_LE(off(solid, found.centroid()), doubt);
+    EXPECT_LE(off(solid, found.centroid()), allowed);
     EXPECT_TRUE(oracle::is_unit(found.normal()));
 
-    // Whatever is in both lies in it.
+    // Every point of both shapes lies in the intersection.
     const bool clear = exact || truth.distance < -oracle::tolerance_for(a.solid, b.solid);
     for (int i = 0; clear && i < 8; ++i) {
-        const auto corners_a = oracle::corners_seen_from(a.solid, DVec<D>(0.0));
+        const auto corners_a = oracle::corners_relative_to(a.solid, DVec<D>(0.0));
         DVec<D> sum(0.0);
         double weights = 0;
         for (const DVec<D>& corner : corners_a) {
@@ -292,14 +291,14 @@ void check_overlap(const oracle::Sample<D>& a, const oracle::Sample<D>& b, oracl
         const Vec<D> point = to_float(
             i < static_cast<int>(corners_a.size()) && i > 3 ? corners_a[static_cast<std::size_t>(i)] : sum / weights);
         if (off(a.solid, point) > 0 || off(b.solid, point) > 0) continue;
-        EXPECT_LE(off(solid, point), doubt + oracle::rounding_of(point));
+        EXPECT_LE(off(solid, point), allowed + oracle::rounding_of(point));
     }
 
-    // No larger than either, and the same whichever comes first.
+    // It is not larger than either shape, and does not depend on their order.
     const double surface = 2 * D * std::pow(2 * std::min(oracle::size(a.solid), oracle::size(b.solid)), D - 1);
-    for (const auto* one : {&a, &b}) EXPECT_LE(measure(found), measure(polytope(convex_of(*one))) + surface * doubt);
+    for (const auto* one : {&a, &b}) EXPECT_LE(measure(found), measure(polytope(convex_of(*one))) + surface * allowed);
     if (intersection(convex_of(b), convex_of(a), swapped)) {
-        EXPECT_NEAR(measure(swapped), measure(found), surface * doubt);
+        EXPECT_NEAR(measure(swapped), measure(found), surface * allowed);
     }
 }
 
@@ -312,7 +311,7 @@ TYPED_TEST(IntersectionLaws, HoldForEveryKindOfPair) {
     int pairs = 0, overlapping = 0;
     for (const oracle::Kind kind_a : polytopes)
         for (const oracle::Kind kind_b : polytopes)
-            for (int i = 0; i < oracle::amount(30); ++i) {
+            for (int i = 0; i < oracle::case_count(30); ++i) {
                 const std::uint64_t seed = 52000 + static_cast<std::uint64_t>(pairs++);
                 SCOPED_TRACE(seed);
                 oracle::Random random(seed);
@@ -326,12 +325,12 @@ TYPED_TEST(IntersectionLaws, HoldForEveryKindOfPair) {
 TYPED_TEST(IntersectionLaws, HoldForDegeneratePairs) {
     constexpr int D = TypeParam::value;
     int pairs = 0, overlapping = 0, flat = 0;
-    for (int disturbance = 0; disturbance < oracle::disturbance_count; ++disturbance)
-        for (int i = 0; i < oracle::amount(800); ++i) {
+    for (int disturbance = 0; disturbance < oracle::perturbation_count; ++disturbance)
+        for (int i = 0; i < oracle::case_count(800); ++i) {
             const std::uint64_t seed = 93000 + static_cast<std::uint64_t>(disturbance * 800 + i);
             SCOPED_TRACE(testing::Message() << "seed " << seed << ", disturbance " << disturbance);
             oracle::Random random(seed);
-            oracle::LatticeMaker<D> maker(random, static_cast<oracle::Disturbance>(disturbance));
+            oracle::LatticeGenerator<D> maker(random, static_cast<oracle::Perturbation>(disturbance));
             const oracle::Sample<D> a = maker.make(), b = maker.make();
             if (!detail::has_corners_only(convex_of(a)) || !detail::has_corners_only(convex_of(b))) continue;
             ++pairs;
@@ -346,7 +345,7 @@ TYPED_TEST(IntersectionLaws, HoldForDegeneratePairs) {
 
 TYPED_TEST(IntersectionLaws, MovingBothMovesIt) {
     constexpr int D = TypeParam::value;
-    const int pairs = oracle::amount(200);
+    const int pairs = oracle::case_count(200);
     int overlapping = 0;
     for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(pairs); ++seed) {
         SCOPED_TRACE(seed);
@@ -358,9 +357,9 @@ TYPED_TEST(IntersectionLaws, MovingBothMovesIt) {
         ASSERT_TRUE(intersection(convex_of(a), convex_of(b), found));
         const Pose<D> pose{to_float(random.direction<D>() * oracle::size(a.solid)), random.rotation<D>()};
         ASSERT_TRUE(intersection(at(convex_of(a), pose), at(convex_of(b), pose), moved));
-        const double doubt = doubt_of(a, b, found) + doubt_of(a, b, moved);
+        const double allowed = allowed_error(a, b, found) + allowed_error(a, b, moved);
         const double surface = 2 * D * std::pow(2 * std::min(oracle::size(a.solid), oracle::size(b.solid)), D - 1);
-        EXPECT_NEAR(measure(moved), measure(found), surface * doubt);
+        EXPECT_NEAR(measure(moved), measure(found), surface * allowed);
     }
     EXPECT_GT(overlapping, pairs * 3 / 10);
     EXPECT_LT(overlapping, pairs * 7 / 10);

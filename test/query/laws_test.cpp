@@ -1,4 +1,4 @@
-// What holds for every pair, whatever the answer is.
+// Invariants of the answers for every pair.
 
 #include "../oracle/check.hpp"
 #include "../oracle/expect.hpp"
@@ -19,7 +19,7 @@ protected:
         const oracle::Sample<dimensions>& b;
         Closest<dimensions> answer;
         double margin;
-        double rounding;  ///< of coordinates in the world
+        double rounding;  ///< the rounding of coordinates in the world
         oracle::Random& random;
     };
 
@@ -30,7 +30,7 @@ protected:
         int pairs = 0, overlapping = 0;
         for (int kind_a = 0; kind_a < oracle::kind_count; ++kind_a)
             for (int kind_b = 0; kind_b < oracle::kind_count; ++kind_b)
-                for (int i = 0; i < oracle::amount(10); ++i) {
+                for (int i = 0; i < oracle::case_count(10); ++i) {
                     const std::uint64_t seed = first_seed + static_cast<std::uint64_t>(pairs++);
                     SCOPED_TRACE(testing::Message() << "seed " << seed << ", kinds " << kind_a << " and " << kind_b);
                     oracle::Random random(seed);
@@ -104,13 +104,14 @@ TYPED_TEST(Laws, OverlapIsADistanceNotAboveZero) {
 
 TYPED_TEST(Laws, MovingBByTheAnswerMakesThemTouch) {
     this->each_case(6000, [this](const auto& c) {
-        const auto way = DVec<TypeParam::value>(c.answer.normal) * -static_cast<double>(c.answer.distance);
-        const auto touching = closest(c.a.view, at(c.b.view, this->moved_by(way)));
-        // The normal is rounded to a float, which turns the way by that much.
-        EXPECT_NEAR(touching.distance, 0, 2 * c.margin + 2e-7 * length(way) + c.rounding);
+        const auto displacement = DVec<TypeParam::value>(c.answer.normal) * -static_cast<double>(c.answer.distance);
+        const auto touching = closest(c.a.view, at(c.b.view, this->moved_by(displacement)));
+        // The normal is rounded to floats, which rotates the separating direction by as much.
+        EXPECT_NEAR(touching.distance, 0, 2 * c.margin + 2e-7 * length(displacement) + c.rounding);
         if (c.answer.distance < 0) {
-            const auto apart = closest(c.a.view, at(c.b.view, this->moved_by(way * 1.01)));
-            EXPECT_GE(apart.distance, 0.009 * length(way) - 2 * c.margin - 2e-7 * length(way) - c.rounding);
+            const auto apart = closest(c.a.view, at(c.b.view, this->moved_by(displacement * 1.01)));
+            EXPECT_GE(apart.distance,
+                      0.009 * length(displacement) - 2 * c.margin - 2e-7 * length(displacement) - c.rounding);
         }
     });
 }
@@ -137,7 +138,7 @@ TYPED_TEST(Laws, ContainingAPointIsADistanceNotAboveZero) {
     EXPECT_LT(inside, points * 7 / 10);
 }
 
-TYPED_TEST(Laws, TheSameQuestionHasTheSameAnswer) {
+TYPED_TEST(Laws, TheSameQueryHasTheSameAnswer) {
     this->each_case(8000, [](const auto& c) {
         const auto again = closest(c.a.view, c.b.view);
         EXPECT_EQ(again.distance, c.answer.distance);

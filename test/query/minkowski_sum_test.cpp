@@ -56,7 +56,7 @@ TEST(MinkowskiDifference, OfATriangleAndItselfIsAHexagonAroundZero) {
 }
 
 TEST(MinkowskiDifference, OfDistantShapesKeepsTheirDigits) {
-    // A turned box of half a unit, a million from the origin: its corners as floats would be off by 0.03.
+    // A rotated box of half a unit, a million from the origin: its corners as floats would have an error of 0.03.
     const Box2 box{{1e6f, 1e6f}, {0.5f, 0.5f}, {0.6f, 0.8f}};
     const Polygon around_zero = minkowski_difference(box, box);
     EXPECT_NEAR(around_zero.area(), 4, 1e-6);
@@ -66,7 +66,7 @@ TEST(MinkowskiDifference, OfDistantShapesKeepsTheirDigits) {
 }
 
 TEST(MinkowskiSum, OfTurnedShapesKeepsTheirDigits) {
-    // The triangle is in its place only after the pose; in its own frame it is far away.
+    // The triangle is near the other shape only after the pose; in its own frame it is far away.
     const Triangle2 far{{1e6f, 1e6f}, {1e6f + 1, 1e6f}, {1e6f, 1e6f + 1}};
     const auto turned = at(far, Pose2{{0, 0}, {0.6f, 0.8f}});
     EXPECT_NEAR(minkowski_difference(turned, turned).area(), 3, 1e-6);
@@ -90,7 +90,7 @@ TEST(MinkowskiSum, TakesPolytopesAlone) {
     EXPECT_NEAR(minkowski_sum(near_circle, Aabb2{{-1, -1}, {1, 1}}).area(), 4 + 8 + 3.1416, 0.1);
 }
 
-/// Of those with corners only.
+/// The kinds of shapes that are polytopes.
 oracle::Kind random_kind(Random& random) {
     constexpr oracle::Kind kinds[] = {oracle::Kind::segment, oracle::Kind::triangle, oracle::Kind::box,
                                       oracle::Kind::aabb,    oracle::Kind::polytope, oracle::Kind::stretched_box};
@@ -101,11 +101,11 @@ template <int D>
 oracle::Sample<D> random_polytope(Random& random) {
     const Random own(random.bits());
     const double size = random.power_of_two(-3, 3);
-    return oracle::Maker<D>(own, DVec<D>(0.0), size).make(random_kind(random));
+    return oracle::SampleGenerator<D>(own, DVec<D>(0.0), size).make(random_kind(random));
 }
 
 template <int D>
-oracle::Sample<D> lattice_polytope(oracle::LatticeMaker<D>& maker) {
+oracle::Sample<D> lattice_polytope(oracle::LatticeGenerator<D>& maker) {
     for (;;) {
         oracle::Sample<D> sample = maker.make();
         if (detail::has_corners_only(std::get<Convex<D>>(sample.view))) return sample;
@@ -117,7 +117,7 @@ const Convex<D>& convex_of(const oracle::Sample<D>& sample) {
     return std::get<Convex<D>>(sample.view);
 }
 
-/// All sums of a corner of the one and a corner of the other.
+/// All sums of a corner of A and a corner of B.
 template <int D>
 std::vector<Vec<D>> all_sums(const Convex<D>& a, const Convex<D>& b) {
     std::vector<Vec<D>> result;
@@ -127,7 +127,7 @@ std::vector<Vec<D>> all_sums(const Convex<D>& a, const Convex<D>& b) {
     return result;
 }
 
-/// How far a sum is off along a direction, for the sum of the supports is the support of the sum.
+/// The error of a sum along a direction: the support of the sum is the sum of the supports.
 template <int D>
 double error_along(const DVec<D>& n, const Convex<D>& a, const Convex<D>& b, const PolytopeOf<D>& sum) {
     return std::abs(dot(n, support(a, n)) + dot(n, support(b, n)) - dot(n, support(convex(sum), n)));
@@ -135,18 +135,18 @@ double error_along(const DVec<D>& n, const Convex<D>& a, const Convex<D>& b, con
 
 template <int D>
 void expect_sum(const Convex<D>& a, const Convex<D>& b, const PolytopeOf<D>& sum, Random random) {
-    const double doubt =
+    const double allowed =
         1e-6 * (size(a) + size(b)) + 2 * oracle::ulp(largest(DVec<D>(bounds(a).max)) + largest(DVec<D>(bounds(b).max)));
-    for (int i = 0; i < 50; ++i) EXPECT_LE(error_along(random.direction<D>(), a, b, sum), doubt);
-    // The faces of the sum of all corners are where a part of it would be missing.
+    for (int i = 0; i < 50; ++i) EXPECT_LE(error_along(random.direction<D>(), a, b, sum), allowed);
+    // The face normals of the hull of all corner sums are the directions in which a missing part shows.
     if constexpr (D == 3) {
         const Polyhedron all = *Polyhedron::build(all_sums(a, b));
-        for (const Vec3& n : all.facets().normals) EXPECT_LE(error_along(normalized(DVec<3>(n)), a, b, sum), doubt);
+        for (const Vec3& n : all.facets().normals) EXPECT_LE(error_along(normalized(DVec<3>(n)), a, b, sum), allowed);
     } else {
         const Polygon all = *Polygon::build(all_sums(a, b));
         for (std::size_t i = 0; i < all.points().size(); ++i) {
             const DVec<2> edge = DVec<2>(all.points()[(i + 1) % all.points().size()]) - DVec<2>(all.points()[i]);
-            EXPECT_LE(error_along(normalized(DVec<2>(edge.y, -edge.x)), a, b, sum), doubt);
+            EXPECT_LE(error_along(normalized(DVec<2>(edge.y, -edge.x)), a, b, sum), allowed);
         }
     }
 }
@@ -154,10 +154,10 @@ void expect_sum(const Convex<D>& a, const Convex<D>& b, const PolytopeOf<D>& sum
 template <int D>
 void expect_sums_as_large_as_their_parts(std::uint64_t seed) {
     Random random(seed);
-    for (int i = 0; i < oracle::amount(300); ++i) {
+    for (int i = 0; i < oracle::case_count(300); ++i) {
         SCOPED_TRACE(i);
-        const auto disturbance = static_cast<oracle::Disturbance>(random.below(oracle::disturbance_count));
-        oracle::LatticeMaker<D> maker(random, disturbance);
+        const auto disturbance = static_cast<oracle::Perturbation>(random.below(oracle::perturbation_count));
+        oracle::LatticeGenerator<D> maker(random, disturbance);
         const bool lattice = random.chance(0.5);
         const auto make = [&] { return lattice ? lattice_polytope(maker) : random_polytope<D>(random); };
         const oracle::Sample<D> a = make(), b = make();
@@ -170,13 +170,13 @@ TEST(MinkowskiSum, IsAsLargeAsItsParts) {
     expect_sums_as_large_as_their_parts<3>(2);
 }
 
-/// Where a lattice makes every number exact, faces, edges and corners coincide, and nothing may be off at all.
+/// On a lattice, coordinates are exact and faces, edges and corners coincide; the answers must be exact.
 template <int D>
 void expect_exactly_the_hull_of_all_sums(std::uint64_t seed) {
     Random random(seed);
-    for (int i = 0; i < oracle::amount(500); ++i) {
+    for (int i = 0; i < oracle::case_count(500); ++i) {
         SCOPED_TRACE(i);
-        oracle::LatticeMaker<D> maker(random, oracle::Disturbance::none);
+        oracle::LatticeGenerator<D> maker(random, oracle::Perturbation::none);
         const oracle::Sample<D> a = lattice_polytope(maker), b = lattice_polytope(maker);
         const PolytopeOf<D> sum = minkowski_sum(convex_of(a), convex_of(b));
         EXPECT_EQ(corners<D>(sum), corners<D>(*PolytopeOf<D>::build(all_sums(convex_of(a), convex_of(b)))));
@@ -206,7 +206,7 @@ bool in_order(const Vec<D>& a, const Vec<D>& b) {
 template <int D>
 void expect_sums_of_corners(std::uint64_t seed) {
     Random random(seed);
-    for (int i = 0; i < oracle::amount(100); ++i) {
+    for (int i = 0; i < oracle::case_count(100); ++i) {
         SCOPED_TRACE(i);
         const PolytopeOf<D> a = random_hull<D>(random), b = random_hull<D>(random);
         std::vector<Vec<D>> sums = all_sums<D>(convex(a), convex(b));
@@ -215,7 +215,7 @@ void expect_sums_of_corners(std::uint64_t seed) {
         for (const Vec<D>& corner : sum.points())
             EXPECT_TRUE(std::binary_search(sums.begin(), sums.end(), corner, in_order<D>));
 
-        // All of it: mirrored, as b is in the difference, and turned, which keeps its faces.
+        // All corners take part: b is mirrored, as in the difference, and rotated, which keeps its faces.
         expect_sum<D>(convex(a), convex(b), sum, random);
         const Convex<D> negative = mapped(convex(b), scaling(Vec<D>(-1)));
         expect_sum<D>(convex(a), negative, minkowski_difference(a, b), random);
@@ -226,8 +226,9 @@ void expect_sums_of_corners(std::uint64_t seed) {
         const PolytopeOf<D> point = *PolytopeOf<D>::build({Vec<D>(0)});
         EXPECT_EQ(corners<D>(minkowski_sum(a, point)), corners<D>(a));
         EXPECT_EQ(corners<D>(minkowski_difference(a, point)), corners<D>(a));
-        const Vec<D> way = to_float(random.in_cube<D>() * 3.0);
-        const auto moved = at(a, Pose<D>{way, no_rotation<D>}), moved_sum = at(sum, Pose<D>{way, no_rotation<D>});
+        const Vec<D> displacement = to_float(random.in_cube<D>() * 3.0);
+        const auto moved = at(a, Pose<D>{displacement, no_rotation<D>}),
+                   moved_sum = at(sum, Pose<D>{displacement, no_rotation<D>});
         const PolytopeOf<D> sum_of_moved = minkowski_sum(moved, b);
         for (int k = 0; k < 20; ++k) {
             const DVec<D> n = random.direction<D>();
@@ -242,9 +243,9 @@ TEST(MinkowskiSum, IsMadeOfSumsOfCornersCommutesAndMovesAlong) {
 }
 
 TEST(MinkowskiSum, OfStretchedPolyhedraLooksAtTheirFacesAgain) {
-    // Stretching bends faces that were flat but for rounding, and makes flat what was solid; faces across become lines.
+    // Stretching bends faces that were planar within rounding, flattens solids, and turns faces into lines.
     Random random(10);
-    for (int i = 0; i < oracle::amount(200); ++i) {
+    for (int i = 0; i < oracle::case_count(200); ++i) {
         SCOPED_TRACE(i);
         std::vector<Vec3> points;
         for (std::uint32_t k = 4 + random.below(12); k > 0; --k)
@@ -260,9 +261,9 @@ TEST(MinkowskiSum, OfStretchedPolyhedraLooksAtTheirFacesAgain) {
 }
 
 TEST(MinkowskiSum, OfNearlyParallelPolygons) {
-    // The normal of the one is so near to that of the other that their arcs end in one another's ends.
+    // The normals are so close that their arcs on the Gauss map end at each other's ends.
     Random random(11);
-    for (int i = 0; i < oracle::amount(300); ++i) {
+    for (int i = 0; i < oracle::case_count(300); ++i) {
         SCOPED_TRACE(i);
         std::vector<Vec3> points;
         const Affine<3> turn = affine(Pose3{Vec3(0), random.rotation<3>()});
@@ -290,7 +291,7 @@ void expect_difference_knows(const oracle::Sample<D>& a, const oracle::Sample<D>
     const Closest<D> from_zero = closest(difference, Vec<D>(0)), between = closest(a.view, b.view);
     ++seen.pairs;
     seen.overlapping += truth.overlap ? 1 : 0;
-    // One margin for building the difference, which rounds, and one for the question.
+    // One tolerance is for the rounding of the difference, one for the query.
     EXPECT_NEAR(static_cast<double>(from_zero.distance), truth.distance, 2 * margin);
     EXPECT_NEAR(from_zero.distance, between.distance, 2 * margin);
     if (std::abs(truth.distance) <= margin) return;
@@ -302,7 +303,7 @@ template <int D>
 void expect_differences_know(std::uint64_t seed) {
     Random random(seed);
     Seen seen;
-    for (int i = 0; i < oracle::amount(300); ++i) {
+    for (int i = 0; i < oracle::case_count(300); ++i) {
         SCOPED_TRACE(i);
         const oracle::Kind kind_a = random_kind(random), kind_b = random_kind(random);
         const oracle::SamplePair<D> pair = oracle::random_pair<D>(random, kind_a, kind_b);
@@ -310,10 +311,10 @@ void expect_differences_know(std::uint64_t seed) {
     }
     EXPECT_GT(seen.overlapping, 0.3 * seen.pairs);
     EXPECT_LT(seen.overlapping, 0.7 * seen.pairs);
-    for (int i = 0; i < oracle::amount(300); ++i) {
+    for (int i = 0; i < oracle::case_count(300); ++i) {
         SCOPED_TRACE(i);
-        const auto disturbance = static_cast<oracle::Disturbance>(random.below(oracle::disturbance_count));
-        oracle::LatticeMaker<D> maker(random, disturbance);
+        const auto disturbance = static_cast<oracle::Perturbation>(random.below(oracle::perturbation_count));
+        oracle::LatticeGenerator<D> maker(random, disturbance);
         const oracle::Sample<D> a = lattice_polytope(maker), b = lattice_polytope(maker);
         expect_difference_knows(a, b, seen);
     }

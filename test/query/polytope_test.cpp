@@ -45,31 +45,32 @@ TEST(Polytope, WithoutToleranceIsForTypesThatAreOne) {
     static_assert(!PolytopeShape<oracle::PointCloud<3>> && !PolytopeShape<HalfSpace<3>>);
 }
 
-/// How far a shape reaches beyond a polytope along many directions: the least and the most.
+/// The minimal and maximal excess of a shape's support over a polytope's, over many directions.
 template <int D>
 std::array<double, 2> gaps(const Convex<D>& shape, const PolytopeOf<D>& polytope, Random random) {
     std::array<double, 2> result{0, 0};
-    const auto look = [&](const DVec<D>& n) {
+    const auto test_direction = [&](const DVec<D>& n) {
         const double gap = dot(n, support(shape, n)) - dot(n, support(convex(polytope), n));
         result = {std::min(result[0], gap), std::max(result[1], gap)};
     };
     for (int i = 0; i < D; ++i)
-        for (const double sign : {1.0, -1.0}) look(axis<D>(i, sign));
-    for (int i = 0; i < 300; ++i) look(random.direction<D>());
+        for (const double sign : {1.0, -1.0}) test_direction(axis<D>(i, sign));
+    for (int i = 0; i < 300; ++i) test_direction(random.direction<D>());
     if constexpr (D == 3) {
         const auto normal = [&](std::uint32_t face) { return DVec<3>(polytope.facets().normals[face]); };
-        for (std::uint32_t face = 0; face < polytope.facets().normals.size(); face += 7) look(normalized(normal(face)));
+        for (std::uint32_t face = 0; face < polytope.facets().normals.size(); face += 7)
+            test_direction(normalized(normal(face)));
         for (std::size_t i = 0; i < polytope.facets().edges.size(); i += 7) {
             const FacetEdge& edge = polytope.facets().edges[i];
-            look(normalized(normal(edge.left) + normal(edge.right)));
+            test_direction(normalized(normal(edge.left) + normal(edge.right)));
         }
     }
     return result;
 }
 
-/// Rounding: of corners where they are, and within the hull's tolerance of the extent.
+/// The rounding of the corners, and the hull's tolerance relative to the extent.
 template <int D>
-double doubt(const Convex<D>& shape) {
+double rounding_of_hull(const Convex<D>& shape) {
     const Aabb<D> box = bounds(shape);
     return 1e-6 * size(shape) + 1e-7 * std::max(largest(DVec<D>(box.min)), largest(DVec<D>(box.max)));
 }
@@ -77,9 +78,9 @@ double doubt(const Convex<D>& shape) {
 template <int D>
 void expect_within(const Convex<D>& shape, double part_of_size) {
     const auto tolerance = static_cast<float>(part_of_size * size(shape));
-    const auto [least, most] = gaps<D>(shape, polytope(shape, tolerance), Random(1));
-    EXPECT_GE(least, -doubt(shape));
-    EXPECT_LE(most, static_cast<double>(tolerance) + doubt(shape));
+    const auto [min_reach, max_reach] = gaps<D>(shape, polytope(shape, tolerance), Random(1));
+    EXPECT_GE(min_reach, -rounding_of_hull(shape));
+    EXPECT_LE(max_reach, static_cast<double>(tolerance) + rounding_of_hull(shape));
 }
 
 template <int D>
@@ -152,12 +153,12 @@ TEST(Polytope, OfAUsersShapeHasItsCorners) {
 }
 
 TEST(Polytope, LooksAcrossWhatSeemsToBeASegment) {
-    // Along all axes the farthest are the two ends of a diagonal.
+    // The extreme points along all axes are the two ends of a diagonal.
     const oracle::PointCloud<3> bulging{{{-1, -1, -1}, {1, 1, 1}, {0.9f, -0.9f, 0}, {0.4f, 0.4f, -0.9f}}};
     EXPECT_EQ(polytope(bulging, 1e-3f).points().size(), 4u);
 }
 
-TEST(Polytope, TakesAsManyCornersAsTheToleranceAsksFor) {
+TEST(Polytope, HasAsManyCornersAsTheToleranceNeeds) {
     EXPECT_EQ(polytope(Circle{{0, 0}, 0}, 1).points().size(), 1u);
     EXPECT_EQ(polytope(Circle{{0, 0}, 1}, 10).points().size(), 4u);
     const std::size_t of_circle = polytope(Circle{{0, 0}, 1}, 1e-4f).points().size();
@@ -177,7 +178,7 @@ TEST(Polytope, StopsAtItsMostCorners) {
     EXPECT_LT(gaps<3>(sphere, near, Random(1))[1], 1e-3);
 }
 
-/// A set whose support function contradicts itself: there is always something farther out.
+/// A set with an inconsistent support function: each support point is farther out than the last.
 struct Endless {
     mutable std::uint64_t calls = 0;
     [[maybe_unused]] friend Aabb2 bounds(const Endless&) { return {{-1, -1}, {1, 1}}; }
@@ -191,7 +192,7 @@ TEST(Polytope, StopsWhereASupportFunctionContradictsItself) {
 }
 
 #ifdef NDEBUG
-// Where assertions are on, these trip them.
+// These calls trip assertions if they are enabled.
 TEST(Polytope, OfBadInputIsHarmless) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     EXPECT_EQ(corners<2>(polytope(Circle{{nan, 0}, 1}, 0.1f)), std::vector<Vec2>{Vec2(0)});

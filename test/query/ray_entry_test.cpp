@@ -1,6 +1,6 @@
-// The closed forms of rays against what is known without them: how deep the ray's segment goes into the shape, that a
-// place of entry is on the surface and its normal a way out, and where the search comes to. Over shapes of every kind
-// and the degenerate ones, and rays that are aimed at corners, run along edges and faces, or start on the surface.
+// The closed forms of raycasts against independent facts: the depth of the ray's segment in the shape, that the point
+// of entry is on the surface and its normal separates, and the result of the iterative raycast. The shapes are of every
+// kind, also degenerate; the rays are aimed at corners, run along edges and faces, or start on the surface.
 
 #include "../corpus/shapes.hpp"
 #include "../oracle/check.hpp"
@@ -17,7 +17,7 @@
 namespace abut {
 namespace {
 
-/// How often a closed form said what.
+/// The numbers of answers of each kind.
 struct Said {
     int undecided = 0, hits = 0, misses = 0;
 };
@@ -39,7 +39,7 @@ void check(const Convex<D>& shape, const Ray<D>& ray, Said& said) {
     const DRay<D> beam = beam_of(ray);
     const RayEntry<D> entry = ray_entry(shape, beam);
     const double margin = 1e-5 * size(shape) + 16 * oracle::ulp(largest(beam.origin)) + 1e-9 * beam.length;
-    // A ray that comes from where nothing is to be told enters where it goes deeper than the margin.
+    // A ray from outside that goes deeper than the tolerance must enter.
     const double start = distance_from(shape, beam.origin);
     const double deepest =
         static_cast<double>(closest(shape, convex(Segment<D>{ray.origin, to_float(beam.at(beam.length))})).distance);
@@ -55,7 +55,7 @@ void check(const Convex<D>& shape, const Ray<D>& ray, Said& said) {
             EXPECT_GE(deepest, -margin) << "passed through";
         }
         if (found) {
-            // What the search takes for hit is grazed at most; or touched at the start, within its own doubt.
+            // A hit of the iterative raycast alone is a grazing one, or touches at the start within its tolerance.
             EXPECT_TRUE(deepest >= -margin || searched.along <= margin) << deepest << " " << searched.along;
         }
         return;
@@ -69,7 +69,7 @@ void check(const Convex<D>& shape, const Ray<D>& ray, Said& said) {
     for (const double part : {0.3, 0.9}) EXPECT_GE(distance_from(shape, beam.at(entry.along * part)), -margin);
     const DVec<D> normal = normalized(entry.normal);
     EXPECT_LT(dot(normal, beam.direction), 0);
-    EXPECT_LE(dot(normal, support(shape, normal) - beam.at(entry.along)), margin) << "the normal is no way out";
+    EXPECT_LE(dot(normal, support(shape, normal) - beam.at(entry.along)), margin) << "the normal does not separate";
     if (found) {
         EXPECT_NEAR(dot(normal, beam.direction) * (searched.along - entry.along), 0, 4 * margin);
     } else {
@@ -77,7 +77,8 @@ void check(const Convex<D>& shape, const Ray<D>& ray, Said& said) {
     }
 }
 
-/// From outside or nearly so, at a corner or past it, along an axis or a side, or starting on the surface.
+/// A ray that starts outside or nearly so, is aimed at or past a corner, along an axis or a side, or starts on the
+/// surface.
 template <int D>
 Ray<D> some_ray(oracle::Random& random, const Convex<D>& shape) {
     const double whole = size(shape) > 0 ? size(shape) : 1;
@@ -108,7 +109,7 @@ TYPED_TEST(RayEntryOf, ShapesOfEveryStyle) {
     std::array<int, oracle::kind_count> decided{};
     for (int style = 0; style < 5; ++style) {
         Said said;
-        for (int i = 0; i < oracle::amount(1500); ++i) {
+        for (int i = 0; i < oracle::case_count(1500); ++i) {
             SCOPED_TRACE(testing::Message() << "style " << style << ", seed " << i);
             oracle::Random random(static_cast<std::uint64_t>(1000 * style + i));
             const double size = random.power_of_two(-8, 10);
@@ -139,11 +140,11 @@ TYPED_TEST(RayEntryOf, ShapesOfEveryStyle) {
 TYPED_TEST(RayEntryOf, ShapesOnALattice) {
     constexpr int D = TypeParam::value;
     Said said;
-    for (int i = 0; i < oracle::amount(4000); ++i) {
+    for (int i = 0; i < oracle::case_count(4000); ++i) {
         SCOPED_TRACE(i);
         oracle::Random random(static_cast<std::uint64_t>(i));
-        oracle::LatticeMaker<D> maker(random,
-                                      static_cast<oracle::Disturbance>(random.below(oracle::disturbance_count)));
+        oracle::LatticeGenerator<D> maker(random,
+                                          static_cast<oracle::Perturbation>(random.below(oracle::perturbation_count)));
         const auto sample = maker.make();
         if (sample.kind == oracle::Kind::cloud) continue;
         const auto& shape = std::get<Convex<D>>(sample.view);
@@ -155,7 +156,7 @@ TYPED_TEST(RayEntryOf, ShapesOnALattice) {
 
 TEST(RayEntry, OfStretchedHullsCylindersAndCones) {
     Said said;
-    for (int i = 0; i < oracle::amount(3000); ++i) {
+    for (int i = 0; i < oracle::case_count(3000); ++i) {
         SCOPED_TRACE(i);
         oracle::Random random(static_cast<std::uint64_t>(i));
         const auto ray_at = [&](const auto& shape) {

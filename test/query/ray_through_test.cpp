@@ -1,4 +1,4 @@
-// The ray through a point of the screen passes through what is seen there.
+// The ray through a point of the screen passes through the world points drawn there.
 
 #include "../oracle/expect.hpp"
 #include "../oracle/random.hpp"
@@ -17,24 +17,24 @@ namespace {
 using oracle::near;
 
 TEST(RayThrough, ByHand) {
-    // Looks along -z from z = 10, and sees from -1 to 1 at a distance of 1.
+    // The camera at z = 10 faces -z; its view extends from -1 to 1 at a distance of 1.
     const glm::mat4 view = glm::lookAt(Vec3(0, 0, 10), Vec3(0), Vec3(0, 1, 0));
     const glm::mat4 projection = glm::frustumRH_NO(-1.0f, 1.0f, -1.0f, 1.0f, 1.0f, 100.0f);
     const Ray3 middle = ray_through({400, 300}, Vec2(800, 600), projection * view);
     EXPECT_TRUE(near(middle.origin, Vec3(0, 0, 9), 1e-5));
     EXPECT_TRUE(near(middle.direction, Vec3(0, 0, -1)));
     EXPECT_NEAR(middle.length, 99, 1e-2);
-    // The upper left corner of the window is the upper left of what is seen.
+    // The upper left corner of the window is the upper left of the view.
     const Ray3 corner = ray_through({0, 0}, Vec2(800, 600), projection * view);
     EXPECT_TRUE(near(corner.origin, Vec3(-1, 1, 9), 1e-5));
     EXPECT_TRUE(near(corner.direction, Vec3(-0.57735027f, 0.57735027f, -0.57735027f)));
-    // A picture in a part of the window.
+    // The viewport is a part of the window.
     const Ray3 part = ray_through({500, 350}, Aabb2{{400, 300}, {600, 400}}, projection * view);
     EXPECT_TRUE(near(part.direction, middle.direction));
     EXPECT_TRUE(near(part.origin, middle.origin, 1e-5));
 }
 
-/// One way to look at the world, with the clip space that its matrix is made for.
+/// A camera matrix, with its convention of clip space.
 struct Camera {
     glm::mat4 projection;
     ClipSpace clip;
@@ -42,7 +42,7 @@ struct Camera {
     bool left_handed = false;
 };
 
-/// z and w swapped so that depth runs from 1 to 0, and no far plane.
+/// A reversed depth range from 1 to 0, without a far plane.
 glm::mat4 reversed_without_end(float slope, float aspect, float from) {
     glm::mat4 m(0);
     m[0][0] = slope / aspect;
@@ -67,7 +67,7 @@ std::array<Camera, 8> cameras(float slope, float aspect, float from, float to, f
              {glm::orthoRH_ZO(-size, size, -size, size, to, from), clip_reversed, true}}};
 }
 
-/// Where on the screen a point of the world is seen, and at which depth; in double, as it should be.
+/// Projects a world point to the screen, with its depth, in double.
 struct Seen {
     Vec2 mouse;
     double depth, w;
@@ -86,7 +86,7 @@ std::optional<Seen> seen(const glm::mat4& m, const ClipSpace& clip, const Aabb2&
 TEST(RayThrough, PassesThroughWhatIsSeenThere) {
     constexpr std::uint64_t seed = 51;
     oracle::Random random(seed);
-    std::array<int, 8> looked{};
+    std::array<int, 8> tested{};
     for (int repeat = 0; repeat < 20000; ++repeat) {
         const double size = random.power_of_two(-8, 12);
         const Vec3 eye(random.in_cube<3>() * (10 * size)), aim(random.in_cube<3>() * size);
@@ -101,21 +101,21 @@ TEST(RayThrough, PassesThroughWhatIsSeenThere) {
             const glm::mat4 matrix = all[i].projection * (all[i].left_handed ? left_handed_view : view);
             const auto at = seen(matrix, all[i].clip, viewport, point);
             if (!at) continue;
-            ++looked[i];
+            ++tested[i];
             const Ray3 ray = ray_through(at->mouse, viewport, matrix, all[i].clip);
-            const DVec<3> way = DVec<3>(point) - DVec<3>(ray.origin);
-            const double along = dot(way, DVec<3>(ray.direction));
-            // The matrix is of floats, and so is the place of the mouse.
+            const DVec<3> displacement = DVec<3>(point) - DVec<3>(ray.origin);
+            const double along = dot(displacement, DVec<3>(ray.direction));
+            // The matrix and the position of the mouse are in float.
             const double error = 3e-5 * size;
             ASSERT_NEAR(length(DVec<3>(ray.direction)), 1, 2e-7);
-            ASSERT_LE(length(way - DVec<3>(ray.direction) * along), error)
+            ASSERT_LE(length(displacement - DVec<3>(ray.direction) * along), error)
                 << "camera " << i << ", seed " << seed << ", repeat " << repeat;
             ASSERT_GE(along, -error);
             ASSERT_EQ(std::isfinite(ray.length), all[i].has_end) << "camera " << i << ", repeat " << repeat;
             ASSERT_LE(along, static_cast<double>(ray.length) * 1.01 + error);
         }
     }
-    for (const int count : looked) EXPECT_GT(count, 3000);
+    for (const int count : tested) EXPECT_GT(count, 3000);
 }
 
 TEST(RayThrough, OfAMirroredMatrixIsTheSame) {

@@ -1,4 +1,4 @@
-// Rays without a direction. They once went along +x, without end: a sphere three ahead of the origin was hit at 2.
+// Rays without a direction. Regression: they were infinite rays along +x, which hit a sphere of center 3 at 2.
 
 #include "../oracle/random.hpp"
 #include "drawn_shapes.hpp"
@@ -35,7 +35,7 @@ void expect_hit_at_origin(const std::optional<Hit<D>>& hit, const Vec<D>& origin
     EXPECT_NEAR(length(DVec<D>(hit->normal)), 1, 1e-6);
 }
 
-/// Which of these has a place `inside`, and lies in +x of `origin`.
+/// Shapes that contain `inside`, and lie in +x of `origin`.
 template <int D, class S>
 void expect_only_from_inside(const S& shape, const Vec<D>& inside, const Vec<D>& outside, const char* name) {
     SCOPED_TRACE(name);
@@ -121,7 +121,7 @@ TEST(RaycastAtRest, LeavesWhatHasNoInside) {
     }
 }
 
-/// A ray between a place and itself has a length of 0 and some direction: it never hits what doesn't contain the place.
+/// A ray from a point to itself has length 0: it hits no shape that does not contain the point.
 TEST(RaycastAtRest, BetweenAPlaceAndItselfNothingElseIsHit) {
     oracle::Random random(1);
     int hits = 0;

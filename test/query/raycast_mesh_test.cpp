@@ -1,9 +1,9 @@
-// Rays at meshes against all their triangles, decided exactly; and whatever is closed lets no ray slip through: at
-// edges, at corners, at slivers, where faces are doubled, on every kind of vector unit.
+// Raycasts at meshes against an exact test of all triangles. Closed meshes are watertight for rays: at edges, vertices,
+// slivers and doubled faces, with every SIMD target.
 
 #include "../../scenes/bumpy_ball.hpp"
 #include "../oracle/random.hpp"
-#include "../oracle/vector_units.hpp"
+#include "../oracle/simd_targets.hpp"
 #include "../shape/meshes.hpp"
 #include <abut/query/raycast.hpp>
 #include <abut/shape/ball.hpp>
@@ -22,7 +22,7 @@
 namespace abut::test {
 namespace {
 
-// Sums of doubles with the digits that are lost: twice as many as a double has (Dekker, Knuth).
+// Double-double arithmetic (Dekker, Knuth).
 struct Long {
     double high = 0, low = 0;
 };
@@ -74,9 +74,9 @@ double length(const LongVec& a) {
     return std::sqrt(value(dot(a, a)));
 }
 
-/// What a line does with a triangle, by numbers that are right to thirty digits.
+/// A line and a triangle, in numbers with thirty correct digits.
 struct LineAndTriangle {
-    double inside = -1;  ///< how far from the nearest edge's plane, in sizes of the triangle; below zero outside
+    double inside = -1;  ///< distance to the nearest edge's plane, in sizes of the triangle; negative outside
     double along = 0;    ///< in lengths of the direction
     double slope = 0;    ///< sine of the angle between the two
 };
@@ -92,7 +92,7 @@ LineAndTriangle exactly(const Ray3& ray, const Triangle3& t) {
     const double whole = value(dot(normal, direction)), sign = whole < 0 ? -1 : 1;
     result.slope = std::abs(whole) / (area * of_direction);
     if (whole == 0) return result;
-    // The volumes of direction and edge; their sum is the whole.
+    // The barycentric coordinates are volumes of direction and edge; their sum is the whole volume.
     const double at_a = sign * value(dot(direction, cross(b, c))), at_b = sign * value(dot(direction, cross(c, a))),
                  at_c = sign * value(dot(direction, cross(a, b)));
     result.inside = std::min({at_a, at_b, at_c}) / (size * size * of_direction);
@@ -101,39 +101,39 @@ LineAndTriangle exactly(const Ray3& ray, const Triangle3& t) {
 }
 
 struct Counts {
-    int rays = 0, hits = 0, doubtful = 0;
+    int rays = 0, hits = 0, undecided = 0;
 };
 
-/// The first hit over all triangles; nothing is said where a triangle within reach is in doubt.
+/// The first hit over all triangles; skipped if the test of a triangle within reach is undecided.
 void check_ray(const Mesh& mesh, const Ray3& ray, const QueryOptions<3>& options, Counts& counts) {
-    constexpr double doubt = 1e-9;
-    double least = std::numeric_limits<double>::infinity();
+    constexpr double tolerance = 1e-9;
+    double min_distance = std::numeric_limits<double>::infinity();
     std::uint32_t first = 0;
-    bool doubtful = false;
+    bool undecided = false;
     for (std::uint32_t i = 0; i < mesh.triangles().size(); ++i) {
         const Triangle3 t = mesh.triangle(i);
         const LineAndTriangle exact = exactly(ray, t);
         if (!options.back_faces &&
             value(dot(cross(difference(t.b, t.a), difference(t.c, t.a)), difference(ray.direction, Vec3(0)))) >= 0)
             continue;
-        if (exact.inside < -doubt) continue;
-        if (exact.inside < doubt || exact.slope < 1e-5 || std::abs(exact.along) < 1e-4) doubtful = true;
+        if (exact.inside < -tolerance) continue;
+        if (exact.inside < tolerance || exact.slope < 1e-5 || std::abs(exact.along) < 1e-4) undecided = true;
         if (exact.along <= 0 || exact.along > static_cast<double>(ray.length)) continue;
-        if (exact.along < least) {
-            least = exact.along;
+        if (exact.along < min_distance) {
+            min_distance = exact.along;
             first = i;
         }
     }
     ++counts.rays;
-    counts.doubtful += doubtful ? 1 : 0;
-    if (doubtful) return;
+    counts.undecided += undecided ? 1 : 0;
+    if (undecided) return;
     const auto hit = raycast(ray, mesh, options);
-    const bool expected = least < std::numeric_limits<double>::infinity();
-    ASSERT_EQ(hit.has_value(), expected) << first << " at " << least;
+    const bool expected = min_distance < std::numeric_limits<double>::infinity();
+    ASSERT_EQ(hit.has_value(), expected) << first << " at " << min_distance;
     if (!hit) return;
     ++counts.hits;
-    EXPECT_EQ(hit->feature.part, first) << "at " << least << ", told " << hit->distance;
-    EXPECT_NEAR(static_cast<double>(hit->distance), least, 1e-6 * (1 + least));
+    EXPECT_EQ(hit->feature.part, first) << "at " << min_distance << ", hit " << hit->distance;
+    EXPECT_NEAR(static_cast<double>(hit->distance), min_distance, 1e-6 * (1 + min_distance));
     EXPECT_LT(dot(hit->normal, ray.direction), 0);
     EXPECT_EQ(hit->feature.kind, FeatureKind::face);
 }
@@ -143,7 +143,7 @@ Surface bumpy_ball(oracle::Random& random, std::uint32_t rows, double roughness)
     return {ball.points, ball.triangles};
 }
 
-/// Each triangle cut in three at a point close to one of its edges, or on it as nearly as floats can be.
+/// Splits each triangle in three at a point close to one of its edges, or on it within rounding.
 Surface with_slivers(oracle::Random& random, const Surface& from) {
     Surface result{from.points, {}};
     for (const glm::uvec3& t : from.triangles) {
@@ -167,7 +167,7 @@ Surface doubled(const Surface& from) {
     return result;
 }
 
-class RaycastMesh : public oracle::ByVectorUnit {};
+class RaycastMesh : public oracle::BySimdTarget {};
 
 TEST_P(RaycastMesh, AgreesWithAllTrianglesDecidedExactly) {
     oracle::Random random(11);
@@ -191,11 +191,11 @@ TEST_P(RaycastMesh, AgreesWithAllTrianglesDecidedExactly) {
         }
     }
     EXPECT_GT(counts.hits, counts.rays / 4);
-    EXPECT_GT(counts.rays - counts.hits - counts.doubtful, counts.rays / 8);
-    EXPECT_LT(counts.doubtful, counts.rays / 10);
+    EXPECT_GT(counts.rays - counts.hits - counts.undecided, counts.rays / 8);
+    EXPECT_LT(counts.undecided, counts.rays / 10);
 }
 
-/// Rays from the middle, and from far outside through the middle, aimed at corners, at points of edges and anywhere.
+/// Rays from the center, and from far outside through the center, aimed at vertices, edges and random points.
 void expect_no_gap(oracle::Random& random, const Surface& surface, const Vec3& middle, float far) {
     const Mesh mesh = surface.mesh();
     for (int i = 0; i < 1500; ++i) {
@@ -206,7 +206,7 @@ void expect_no_gap(oracle::Random& random, const Surface& surface, const Vec3& m
         if (i % 10 == 0) aim = middle + to_float(random.direction<3>() * 8.0);
         const Ray3 out{middle, to_float(unit(DVec<3>(aim) - DVec<3>(middle)))};
         ASSERT_TRUE(raycast(out, mesh)) << "from inside, " << i;
-        // To a corner or an edge first, and then on through the middle.
+        // The ray goes to a vertex or an edge first, and then on through the center.
         const Vec3 from = to_float(DVec<3>(middle) + (DVec<3>(aim) - DVec<3>(middle)) * static_cast<double>(far));
         const auto in = raycast(Ray3::between(from, middle), mesh);
         ASSERT_TRUE(in) << "from outside, " << i;
@@ -223,14 +223,14 @@ TEST_P(RaycastMesh, ThatIsClosedLetsNothingThrough) {
         expect_no_gap(random, slivers, {0, 0, 0}, 3);
         expect_no_gap(random, doubled(slivers), {0.1f, 0.2f, -0.1f}, 1000);
     }
-    // The planes of its faces go through many rays.
+    // Many rays lie in the planes of its faces.
     const Surface cells = cell_surface(4, [](int x, int y, int z) { return x + y + z < 6; });
     expect_no_gap(random, cells, {1, 1, 1}, 3);
     expect_no_gap(random, cells, {1.5f, 1, 1}, 7);
     expect_no_gap(random, box_surface({-1, -1, -1}, {1, 1, 1}), {0, 0, 0}, 2);
 }
 
-TEST_P(RaycastMesh, HasTheSameBitsOnEveryUnitAndTellsTheLowestOfDoubledFaces) {
+TEST_P(RaycastMesh, HasTheSameBitsOnEveryUnitAndReportsTheLowestOfDoubledFaces) {
     oracle::Random random(13);
     const Surface surface = bumpy_ball(random, 10, 0.2);
     const auto count = static_cast<std::uint32_t>(surface.triangles.size());
@@ -238,7 +238,7 @@ TEST_P(RaycastMesh, HasTheSameBitsOnEveryUnitAndTellsTheLowestOfDoubledFaces) {
     std::uint64_t hash = 14695981039346656037u;
     const auto add = [&](float number) { hash = (hash ^ std::bit_cast<std::uint32_t>(number)) * 1099511628211u; };
     for (int i = 0; i < 2000; ++i) {
-        // One after the other: which of two arguments is drawn first is up to the compiler.
+        // The numbers are drawn in statements of their own, because compilers evaluate arguments in any order.
         const Vec3 to = to_float(random.in_cube<3>());
         const Ray3 ray = Ray3::between(to_float(random.in_cube<3>() * 2.0), to);
         const auto hit = raycast(ray, once), of_two = raycast(ray, twice);
@@ -254,9 +254,9 @@ TEST_P(RaycastMesh, HasTheSameBitsOnEveryUnitAndTellsTheLowestOfDoubledFaces) {
     EXPECT_EQ(hash, 2036981826751323530u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Targets, RaycastMesh, oracle::vector_units(), oracle::name_of_unit);
+INSTANTIATE_TEST_SUITE_P(Targets, RaycastMesh, oracle::simd_targets(), oracle::simd_target_name);
 
-TEST(RaycastMeshByHand, CountsBackFacesAsAsked) {
+TEST(RaycastMeshByHand, CountsBackFacesOnRequest) {
     const Mesh cube = box_surface({0, 0, 0}, {1, 1, 1}).mesh();
     const Ray3 through{{-1, 0.25f, 0.5f}, {1, 0, 0}, 10}, inside{{0.5f, 0.25f, 0.5f}, {1, 0, 0}, 10};
     EXPECT_EQ(raycast(through, cube)->distance, 1);
@@ -264,13 +264,13 @@ TEST(RaycastMeshByHand, CountsBackFacesAsAsked) {
     EXPECT_EQ(raycast(inside, cube)->distance, 0.5f);
     EXPECT_EQ(raycast(inside, cube)->feature.index, 1u);
     EXPECT_FALSE(raycast(inside, cube, {.back_faces = false}));
-    // A mirror turns the corners round, not the mesh inside out.
+    // A reflection reverses the winding, but does not turn the mesh inside out.
     const auto mirrored = stretched(cube, {-1, 1, 1});
     EXPECT_EQ(raycast({{-2, 0.25f, 0.5f}, {1, 0, 0}, 10}, mirrored, {.back_faces = false})->distance, 1);
     EXPECT_FALSE(raycast({{-0.5f, 0.25f, 0.5f}, {1, 0, 0}, 10}, mirrored, {.back_faces = false}));
 }
 
-TEST(RaycastMeshByHand, TellsAllHitsInOrder) {
+TEST(RaycastMeshByHand, ReportsAllHitsInOrder) {
     const Mesh cube = box_surface({0, 0, 0}, {1, 1, 1}).mesh();
     std::vector<Hit<3>> hits;
     raycast_all({{-1, 0.25f, 0.5f}, {1, 0, 0}, 10}, cube, hits);
@@ -282,12 +282,12 @@ TEST(RaycastMeshByHand, TellsAllHitsInOrder) {
     raycast_all({{-1, 0.25f, 0.5f}, {1, 0, 0}, 10}, cube, hits, {.back_faces = false});
     EXPECT_EQ(hits.size(), 1u);
     raycast_all({{-1, 0.5f, 0.5f}, {1, 0, 0}, 1.5f}, cube, hits);
-    ASSERT_EQ(hits.size(), 2u) << "both triangles of the edge that it meets";
+    ASSERT_EQ(hits.size(), 2u) << "both triangles of the edge that it hits";
     EXPECT_EQ(hits[0].distance, hits[1].distance);
     EXPECT_LT(hits[0].feature.part, hits[1].feature.part);
     raycast_all({{-1, 3, 0}, {1, 0, 0}, 10}, cube, hits);
     EXPECT_TRUE(hits.empty());
-    // A convex shape is one part, a half-space too.
+    // A convex shape or a half-space is one part.
     raycast_all({{-3, 0, 0}, {1, 0, 0}, 10}, Sphere{{0, 0, 0}, 1}, hits);
     ASSERT_EQ(hits.size(), 1u);
     EXPECT_EQ(hits[0].distance, 2);
@@ -300,7 +300,7 @@ TEST(RaycastMeshByHand, TellsAllHitsInOrder) {
     EXPECT_EQ(flat[0].distance, 2);
 }
 
-TEST(RaycastMeshByHand, TellsEachHitUntilItIsEnough) {
+TEST(RaycastMeshByHand, ReportsEachHitUntilItIsStopped) {
     oracle::Random random(14);
     const Mesh mesh = random_soup(random, 400, 1, 1).mesh();
     int stopped = 0;
@@ -314,8 +314,8 @@ TEST(RaycastMeshByHand, TellsEachHitUntilItIsEnough) {
             const auto hit = raycast(ray, mesh.triangle(t));
             if (!hit) continue;
             ++alone;
-            const auto same =
-                std::find_if(hits.begin(), hits.end(), [t](const Hit<3>& told) { return told.feature.part == t; });
+            const auto same = std::find_if(hits.begin(), hits.end(),
+                                           [t](const Hit<3>& candidate) { return candidate.feature.part == t; });
             ASSERT_NE(same, hits.end()) << t;
             EXPECT_EQ(same->distance, hit->distance);
         }
@@ -353,7 +353,7 @@ TEST(RaycastMeshByHand, LeavesTheSurfaceThatItStartsOn) {
     EXPECT_FALSE(raycast({{0.5f, 0.25f, 0.5f}, {0, 0, 1}, 0.4999f}, cube));
 }
 
-// Where floats can't hold the products of three coordinates.
+// Coordinates whose triple products overflow or underflow in float.
 TEST(RaycastMeshByHand, TakesSizesThatFloatsCannotMultiply) {
     for (const float size : {1e-30f, 1e-13f, 1e13f, 1e30f}) {
         const Mesh cube = box_surface(Vec3(0), Vec3(size)).mesh();

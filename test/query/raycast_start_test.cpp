@@ -1,5 +1,5 @@
-// Rays that start next to what has no inside: farther off than 16 units in the last place of what they see, they hit it
-// on the way there, and don't on the way back.
+// Rays that start next to shapes without interior. If the start is farther than 16 ulp of the coordinates, a ray
+// towards the shape hits it, and a ray away from it does not.
 
 #include "../oracle/random.hpp"
 #include <abut/query/detail/raycast/part_hit.hpp>
@@ -27,9 +27,9 @@ DVec<3> normal_of(const Corners<3>& c) {
     return normalized(cross(DVec<3>(c[1]) - DVec<3>(c[0]), DVec<3>(c[2]) - DVec<3>(c[0])));
 }
 
-/// Is told of rays next to a part: where they start, by how much they come down per length, and the height.
-template <int D, class Ask>
-void each_start(std::uint64_t seed, Ask&& ask) {
+/// Passes rays next to a part to `check`: the ray, its descent for each length, and its height.
+template <int D, class Check>
+void each_start(std::uint64_t seed, Check&& check) {
     int close = 0;
     for (std::uint64_t i = 0; i < 3000; ++i) {
         SCOPED_TRACE(testing::Message() << "seed " << seed + i);
@@ -40,7 +40,7 @@ void each_start(std::uint64_t seed, Ask&& ask) {
         const DVec<D> up = normal_of(corners) * (random.chance(0.5) ? 1.0 : -1.0);
         DVec<D> middle(0.0);
         for (const Vec<D>& corner : corners) middle += DVec<D>(corner) * (1.0 / D);
-        // Blunt enough for the ray to come down in it.
+        // The corner is wide enough for the ray to end in it.
         double widest = 0, narrowest = std::numeric_limits<double>::infinity();
         for (const Vec<D>& corner : corners) {
             widest = std::max(widest, length(DVec<D>(corner) - middle));
@@ -54,10 +54,10 @@ void each_start(std::uint64_t seed, Ask&& ask) {
         const double sinks = -dot(up, normalized(DVec<D>(direction)));
         double seen = 0;
         for (const Vec<D>& corner : corners) seen = std::max(seen, largest(DVec<D>(corner) - DVec<D>(origin)));
-        // The largest unit there is of numbers of that size.
+        // The largest ulp of numbers of that size.
         if (!(height > 16 * 0x1p-23 * seen)) continue;
         close += height < 1e-5 * widest ? 1 : 0;
-        ask(corners, Ray<D>{origin, direction}, height / sinks, up);
+        check(corners, Ray<D>{origin, direction}, height / sinks, up);
     }
     EXPECT_GT(close, 100);
 }
@@ -81,7 +81,7 @@ TEST(RaycastStart, AboveASegment) {
 TEST(RaycastStart, AboveATriangle) {
     each_start<3>(10'000, [](const Corners<3>& c, const Ray3& ray, double along, const DVec<3>& up) {
         hits_it_from(Triangle3{c[0], c[1], c[2]}, ray, along, up);
-        // And by the search alone, which is asked where the ray runs in at a sharp corner.
+        // The iterative raycast, which is used at sharp corners, must agree.
         const DRay<3> beam{DVec<3>(ray.origin), normalized(DVec<3>(ray.direction)), 1e9};
         PartHit<3> hit;
         const Triangle3 triangle{c[0], c[1], c[2]};

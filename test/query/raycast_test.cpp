@@ -1,5 +1,5 @@
-// Rays: examples by hand, and every kind of shape against the oracle. Along a ray the signed distance of a convex shape
-// is a convex function, so its least value tells for sure whether the ray meets the shape.
+// Raycasts: examples with known answers, and every kind of shape against the oracle. Along a ray, the signed distance
+// of a convex shape is a convex function, so its minimum decides whether the ray hits the shape.
 
 #include "../oracle/check.hpp"
 #include "../oracle/expect.hpp"
@@ -23,7 +23,7 @@ TEST(Raycast, HitsASphereInFront) {
 }
 
 TEST(Raycast, HitsAnObliqueFaceOfATurnedBox) {
-    // Half a turn of a quarter: the box stands on a corner, its corner at x = -sqrt(2), its faces at 45 degrees.
+    // The box is rotated by 45 degrees: a corner is at x = -sqrt(2).
     const Box2 box{{0, 0}, {1, 1}, Turn::by(0.785398163f)};
     const auto hit = raycast(Ray2{{-5, 0.5f}, {1, 0}, 10}, box);
     ASSERT_TRUE(hit);
@@ -71,7 +71,7 @@ TEST(Raycast, LeavesItsMirror) {
     ASSERT_TRUE(in);
     EXPECT_EQ(in->fraction, 0);
     EXPECT_FALSE(in->started_inside);
-    // From a triangle, of zero thickness, every way leads out.
+    // Every direction leads out of a triangle, which has zero thickness.
     const Triangle<3> triangle{{0, -1, -1}, {0, 1, -1}, {0, 0, 2}};
     EXPECT_FALSE(raycast(Ray3{{0, 0, 0}, {1, 0, 0}, 10}, triangle));
     EXPECT_FALSE(raycast(Ray3{{0, 0, 0}, {-1, 0, 0}, 10}, triangle));
@@ -100,7 +100,7 @@ TEST(Raycast, HitsTheRimOfACylinderAndTheSideOfACone) {
     ASSERT_TRUE(rim);
     EXPECT_NEAR(rim->distance, 3, 1e-5);
     EXPECT_TRUE(near(rim->normal, Vec3(-1, 0, 0), 1e-3));
-    // At half its height a cone is half as wide.
+    // At half its height, a cone has half its radius.
     const auto side = raycast(Ray3{{-5, 0.5f, 0}, {1, 0, 0}, 10}, Cone{{0, 0, 0}, {0, 1, 0}, 2});
     ASSERT_TRUE(side);
     EXPECT_NEAR(side->distance, 4, 1e-5);
@@ -112,7 +112,7 @@ class RaycastOracle : public testing::Test {};
 using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(RaycastOracle, Dimensions);
 
-/// A convex function's least value between 0 and 1.
+/// The minimum of a convex function between 0 and 1.
 template <class F>
 double least_between_0_and_1(F&& f) {
     double low = 0, high = 1;
@@ -130,15 +130,15 @@ TYPED_TEST(RaycastOracle, AgreesOnEveryKindOfShape) {
     constexpr int D = TypeParam::value;
     int rays = 0, hits = 0;
     for (int kind = 0; kind < oracle::kind_count; ++kind)
-        for (int i = 0; i < oracle::amount(150); ++i) {
+        for (int i = 0; i < oracle::case_count(150); ++i) {
             SCOPED_TRACE(testing::Message() << "kind " << kind << ", seed " << i);
             oracle::Random random(static_cast<std::uint64_t>(i));
             const double size = random.power_of_two(-10, 13);
             const DVec<D> center = random.direction<D>() * (size * random.power_of_two(-4, 10));
-            const auto a = oracle::Maker<D>(random, center, size).make(static_cast<oracle::Kind>(kind));
-            // From around it to past its middle, or a corner of it, nearly.
+            const auto a = oracle::SampleGenerator<D>(random, center, size).make(static_cast<oracle::Kind>(kind));
+            // The ray starts around the shape and passes near its center, or near a corner.
             const DVec<D> from = center + random.direction<D>() * (size * random.uniform(0, 6));
-            const auto corners = oracle::corners_seen_from(a.solid, DVec<D>(0.0));
+            const auto corners = oracle::corners_relative_to(a.solid, DVec<D>(0.0));
             const DVec<D> corner = corners[random.below(static_cast<std::uint32_t>(corners.size()))];
             const DVec<D> aim = corner + (oracle::middle(a.solid) - corner) * random.uniform(-1.5, 0.9) +
                                 random.direction<D>() * a.solid.radius * random.uniform(0, 1.6);
@@ -151,7 +151,7 @@ TYPED_TEST(RaycastOracle, AgreesOnEveryKindOfShape) {
             const auto distance_at = [&](double fraction) {
                 auto point = oracle::hull_of<D>({Vec<D>(0)});
                 point.place.offset = at(fraction);
-                return truth(a.solid, point, oracle::Arithmetic::rough).distance;
+                return truth(a.solid, point, oracle::Arithmetic::floating_point).distance;
             };
             const double margin = tolerance_for(a.solid, oracle::hull_of<D>({ray.origin})) +
                                   oracle::ulp(largest(from)) * 4 + 1e-5 * oracle::size(a.solid);

@@ -1,4 +1,4 @@
-// Rays thrown back: by hand, and a million times between mirrors.
+// Reflected rays: known answers, and a million reflections between mirrors.
 
 #include "../oracle/expect.hpp"
 #include "../oracle/random.hpp"
@@ -48,7 +48,7 @@ TEST(Reflect, AtTheStartTurnsRound) {
     EXPECT_EQ(back.direction, Vec2(0, 1));
 }
 
-/// However steep, far from the origin and large the shape: the mirror that was left is not hit again.
+/// A reflected ray does not hit the mirror it left, at any angle, position and size of the shape.
 template <int D>
 void leaves_its_mirror(std::uint64_t seed) {
     oracle::Random random(seed);
@@ -61,8 +61,7 @@ void leaves_its_mirror(std::uint64_t seed) {
         const Box<D> box{to_float(center), half, random.rotation<D>()};
         const Ball<D> ball{to_float(center), static_cast<float>(size)};
         const bool round = random.chance(0.5), grazes = random.chance(0.5);
-        // Towards a point of the surface or beside it; or so that it meets a face, or a ball, at an angle of all but
-        // nothing.
+        // The ray goes to a point of the surface or beside it, or hits a face or ball at a very small angle.
         DVec<D> target = DVec<D>(box.center) + random.direction<D>() * (size * random.uniform(0.9, 1.0));
         DVec<D> start = DVec<D>(box.center) + random.direction<D>() * (size * random.uniform(2, 20));
         if (grazes) {

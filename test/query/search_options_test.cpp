@@ -1,4 +1,4 @@
-// What a cache saves and what it never changes; what a trace tells.
+// Caches save iterations and change no answer; traces record the steps of a search.
 
 #include "../oracle/check.hpp"
 #include "../oracle/pair.hpp"
@@ -45,10 +45,10 @@ TYPED_TEST(SearchOptionsTest, ACacheSavesSteps) {
         position[1] = -1 + 0.01f * static_cast<float>(i);
         const auto moved = at(b, Pose<D>{position});
         Trace<D> with, without;
-        const auto kept = closest(a, moved, {.cache = &cache, .trace = &with});
+        const auto cached = closest(a, moved, {.cache = &cache, .trace = &with});
         const auto fresh = closest(a, moved, {.trace = &without});
-        EXPECT_NEAR(kept.distance, fresh.distance, 1e-6);
-        EXPECT_TRUE(certify(a, moved, kept));
+        EXPECT_NEAR(cached.distance, fresh.distance, 1e-6);
+        EXPECT_TRUE(certify(a, moved, cached));
         warm += steps_of_gjk(with);
         cold += steps_of_gjk(without);
     }
@@ -59,7 +59,7 @@ TYPED_TEST(SearchOptionsTest, ACacheSavesSteps) {
 TYPED_TEST(SearchOptionsTest, ACacheOfAnotherPairDoesNoHarm) {
     constexpr int D = TypeParam::value;
     Cache cache;
-    for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(oracle::amount(4000)); ++seed) {
+    for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(oracle::case_count(4000)); ++seed) {
         SCOPED_TRACE(seed);
         oracle::Random random(seed);
         const auto kind = [&] { return static_cast<oracle::Kind>(random.below(oracle::kind_count)); };
@@ -72,10 +72,10 @@ TYPED_TEST(SearchOptionsTest, ACacheOfAnotherPairDoesNoHarm) {
             for (float& x : cache.axis) x = random.uniform_float(-1, 1);
             cache.count = random.below(8);
         }
-        const auto kept = closest(pair.a.view, pair.b.view, {.cache = &cache});
+        const auto cached = closest(pair.a.view, pair.b.view, {.cache = &cache});
         const double truth = oracle::truth(pair.a.solid, pair.b.solid).distance;
-        EXPECT_NEAR(kept.distance, truth, margin);
-        EXPECT_TRUE(certify(pair.a.view, pair.b.view, kept));
+        EXPECT_NEAR(cached.distance, truth, margin);
+        EXPECT_TRUE(certify(pair.a.view, pair.b.view, cached));
         if (std::abs(truth) > margin) {
             EXPECT_EQ(overlaps(pair.a.view, pair.b.view, {.cache = &cache}), truth <= 0);
         }
@@ -100,7 +100,7 @@ TYPED_TEST(SearchOptionsTest, ATraceChangesNothing) {
     }
 }
 
-TEST(Trace, TellsEachKindOfStep) {
+TEST(Trace, TraceHasEachKindOfStep) {
     const auto tilted = at(Box3{{0, 0, 0}, {1, 1, 1}}, Pose3{{0.5f, 0.25f, 1.75f}, glm::quat(0.9f, 0.1f, 0.2f, 0.3f)});
     const Box3 box{{0, 0, 0}, {2, 2, 1}};
     Trace<3> trace;

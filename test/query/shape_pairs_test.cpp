@@ -1,5 +1,5 @@
-// Every kind of shape against every other, in two places where the answer is plain: each shape ends at x = 1, where it
-// is flat or round about the x axis.
+// Every kind of shape against every other, at two poses with known answers: each shape ends at x = 1, where it is flat,
+// or round about the x axis.
 
 #include "../oracle/expect.hpp"
 #include <abut/query/closest.hpp>
@@ -89,7 +89,7 @@ Zoo<3> zoo(std::integral_constant<int, 3>) {
     return zoo;
 }
 
-/// Turned round, so that what was at x = 1 is at `border` and looks the other way.
+/// The pose that rotates the shape by 180 degrees, so that its end at x = 1 is at `border` and faces -x.
 Pose2 facing(std::integral_constant<int, 2>, float border) {
     return {{border + 1, 0}, Turn{-1, 0}};
 }
@@ -97,7 +97,7 @@ Pose3 facing(std::integral_constant<int, 3>, float border) {
     return {{border + 1, 0, 0}, glm::quat(0, 0, 0, 1)};
 }
 
-/// Depths of round shapes are right to a thousandth of their size; those here are at most 3 across.
+/// Depths of round shapes are right to 1e-3 of their size, which is at most 3 here.
 constexpr double tolerance = 2e-3;
 
 template <class T>
@@ -133,7 +133,7 @@ TYPED_TEST(ShapePairs, AreOneApart) {
         EXPECT_TRUE(near(found.normal, this->along_x(1), 1e-3));
         EXPECT_NEAR(found.on_a.x, 1, 1e-6);
         EXPECT_NEAR(found.on_b.x, 2, 1e-6);
-        // With a margin of contact the near miss is one, a negative depth deep.
+        // With a contact margin, a near miss is a contact of negative depth.
         const Contact<D> miss = contact(a.view, b, {.margin = 1.5f});
         ASSERT_TRUE(miss);
         EXPECT_NEAR(miss.depth, -1, 1e-6);
@@ -146,11 +146,11 @@ TYPED_TEST(ShapePairs, AreAQuarterDeep) {
     this->each_pair(0.75f, [&](const auto& entry_a, const Entry<D>& entry_b, const auto& b) {
         const View<D>& a = entry_a.view;
         const Closest<D> found = closest(a, b);
-        if (entry_a.thin && entry_b.thin) {  // in one line or plane, or a point past a point
+        if (entry_a.thin && entry_b.thin) {  // both lie in one line or plane, or are points
             EXPECT_GE(found.distance, 0);
             return;
         }
-        // Into a wedge or a tip of a flat shape the way out is sideways; the blunt ones are left by the way they came.
+        // Wedges and tips of flat shapes separate sideways; blunt shapes separate along x.
         EXPECT_TRUE(overlaps(a, b));
         EXPECT_LT(found.distance, 0);
         EXPECT_GE(found.distance, -0.25 - tolerance);
@@ -177,7 +177,7 @@ TYPED_TEST(ShapePairs, AreHitByARayAtTheirBorder) {
         EXPECT_NEAR(hit->distance, 4, 1e-5);
         EXPECT_NEAR(hit->fraction, 0.5, 1e-6);
         EXPECT_TRUE(near(hit->point, this->along_x(1), 1e-5));
-        // On the tip of the triangle, any direction between those of its two sides is right.
+        // At the tip of the triangle, every direction between the normals of its sides is valid.
         EXPECT_TRUE(near(hit->normal, this->along_x(1), entry.name == "pointed Triangle" ? 0.5 : 1e-3));
         EXPECT_FALSE(hit->started_inside);
         EXPECT_FALSE(raycast(Ray<D>::between(this->along_x(5), this->along_x(1.001f)), entry.view));

@@ -1,4 +1,4 @@
-// Straight sweeps with answers worked out by hand.
+// Linear sweeps with known answers.
 
 #include "../oracle/expect.hpp"
 #include <abut/query/closest.hpp>
@@ -23,7 +23,7 @@ namespace {
 
 using oracle::near;
 
-/// A level floor of squares of two triangles, each 1 wide, at height 0.
+/// A level floor at height 0 of squares, each 1 wide and made of two triangles.
 Mesh floor_of_squares(int count) {
     std::vector<Vec3> points;
     std::vector<glm::uvec3> triangles;
@@ -48,7 +48,7 @@ TEST(Sweep, OfTwoBallsEndsWhereTheyTouch) {
     EXPECT_FALSE(hit->started_inside);
 }
 
-TEST(Sweep, TellsThePointInTheWorldWhenBothMove) {
+TEST(Sweep, ReportsThePointInTheWorldWhenBothMove) {
     const auto hit = sweep(Sphere{{0, 0, 0}, 1}, Vec3(10, 4, 0), Sphere{{12, 0, 0}, 1}, Vec3(-10, 4, 0));
     ASSERT_TRUE(hit);
     EXPECT_FLOAT_EQ(hit->fraction, 0.5f);
@@ -56,21 +56,21 @@ TEST(Sweep, TellsThePointInTheWorldWhenBothMove) {
     EXPECT_TRUE(near(hit->point, Vec3(6, 2, 0)));
 }
 
-// `{}` could be a motion of B too, or options: no options, and B rests.
+// `{}` could be a motion of B or options; it means options, and B rests.
 TEST(Sweep, TakesEmptyBracesForOptions) {
     const Sphere a{{0, 0, 0}, 1}, b{{7, 0, 0}, 1};
-    const Vec3 way(10, 0, 0);
-    EXPECT_EQ(sweep(a, way, b, {})->fraction, 0.5f);
+    const Vec3 displacement(10, 0, 0);
+    EXPECT_EQ(sweep(a, displacement, b, {})->fraction, 0.5f);
     EXPECT_EQ(sweep(a, {10, 0, 0}, b, {})->fraction, 0.5f);
-    EXPECT_EQ(sweep(View<3>(view(a)), way, View<3>(view(b)), {})->fraction, 0.5f);
-    EXPECT_EQ(sweep(a, way, b, {}, {})->fraction, 0.5f);
-    EXPECT_EQ(sweep(a, way, b, {-10, 0, 0})->fraction, 0.25f) << "a motion in braces stays one";
+    EXPECT_EQ(sweep(View<3>(view(a)), displacement, View<3>(view(b)), {})->fraction, 0.5f);
+    EXPECT_EQ(sweep(a, displacement, b, {}, {})->fraction, 0.5f);
+    EXPECT_EQ(sweep(a, displacement, b, {-10, 0, 0})->fraction, 0.25f) << "a motion in braces stays one";
     Cache cache;
-    EXPECT_EQ(sweep(a, way, b, {.cache = &cache})->fraction, 0.5f) << "and options with something in them";
+    EXPECT_EQ(sweep(a, displacement, b, {.cache = &cache})->fraction, 0.5f) << "and options with something in them";
     EXPECT_EQ(sweep(Circle{{0, 0}, 1}, Vec2(10, 0), Circle{{7, 0}, 1}, {})->fraction, 0.5f);
-    const Motion3 turning{{}, way, {0, 1, 0}};
-    EXPECT_NEAR(sweep(a, turning, b, {})->fraction, 0.5f, 1e-5f);
-    EXPECT_NEAR(sweep(a, turning, b, {{}, {-10, 0, 0}})->fraction, 0.25f, 1e-5f);
+    const Motion3 rotating{{}, displacement, {0, 1, 0}};
+    EXPECT_NEAR(sweep(a, rotating, b, {})->fraction, 0.5f, 1e-5f);
+    EXPECT_NEAR(sweep(a, rotating, b, {{}, {-10, 0, 0}})->fraction, 0.25f, 1e-5f);
 }
 
 TEST(Sweep, OfABoxUpToItsEndIsAHit) {
@@ -139,7 +139,7 @@ TEST(Sweep, SlidesOverTheSeamsOfAMesh) {
 }
 
 TEST(Sweep, SlidesOverAPartThatItLeavesBehind) {
-    // Comes to it, along it and off it, all on one level.
+    // The mover approaches it, slides along it and leaves it, all on one level.
     const Triangle3 tile{{3, 0, -4}, {3, 0, 4}, {4, 0, -4}};
     for (const float lift : {0.0f, 1e-6f, -1e-6f})
         EXPECT_FALSE(sweep(Box3{{2, 0.5f + lift, 0.3f}, {0.5f, 0.5f, 0.5f}}, Vec3(14, 0, 0), tile)) << lift;
@@ -153,7 +153,7 @@ TEST(Sweep, GoesThroughWhatIsThinAtTheLeastSlope) {
 }
 
 TEST(Sweep, GoesOnBehindThePartsThatItLeaves) {
-    // On the floor of a room of two walls: the floor is left alone, and the wall beyond is hit.
+    // The mover slides on a floor between two walls: it hits the wall and not the floor.
     const std::vector<Vec3> points{{-10, 0, -10}, {-10, 0, 10}, {10, 0, -10}, {10, 0, 10},
                                    {5, -1, -10},  {5, -1, 10},  {5, 9, 0}};
     const Mesh room = *Mesh::build(points, std::vector<glm::uvec3>{{0, 1, 2}, {2, 1, 3}, {4, 5, 6}});
@@ -179,7 +179,7 @@ TEST(Sweep, OfAMeshAtAShapeIsThatOfTheShapeAtTheMesh) {
 }
 
 TEST(Sweep, OfABulletDoesntTunnel) {
-    // 1e4 times its size a step, at a wall 1e-3 thick.
+    // Each step is 1e4 times the mover's size; the wall is 1e-3 thick.
     const Sphere bullet{{-3000, 0.2f, 0.1f}, 0.5f};
     const Box3 wall{{1.25f, 0, 0}, {5e-4f, 4, 4}};
     const auto hit = sweep(bullet, Vec3(5000, 0, 0), wall);
@@ -221,17 +221,17 @@ TEST(Sweep, IsEarlyAndNotMissedWhereTheSearchGivesUp) {
     }
 }
 
-TEST(Sweep, TellsATraceWhatItFindsWithoutOne) {
+TEST(Sweep, HasTheSameHitWithATrace) {
     const Box2 mover{{-3, 1}, {0.7f, 0.5f}, Turn::by(0.35f)};
     const Triangle2 wall{{1, -1}, {3, 0}, {1, 1}};
     Trace<2> trace;
-    const auto told = sweep(mover, Vec2(6, -1), wall, {.trace = &trace}), quick = sweep(mover, Vec2(6, -1), wall);
-    ASSERT_TRUE(told && quick);
-    EXPECT_NEAR(told->fraction, quick->fraction, 1e-6);
-    EXPECT_TRUE(near(told->normal, quick->normal, 1e-5));
+    const auto traced = sweep(mover, Vec2(6, -1), wall, {.trace = &trace}), untraced = sweep(mover, Vec2(6, -1), wall);
+    ASSERT_TRUE(traced && untraced);
+    EXPECT_NEAR(traced->fraction, untraced->fraction, 1e-6);
+    EXPECT_TRUE(near(traced->normal, untraced->normal, 1e-5));
     ASSERT_GE(trace.steps.size(), 2u);
     const auto& last = std::get<SweepStep<2>>(trace.steps.back());
-    EXPECT_TRUE(near(last.position, Vec2(-6, 1) * told->fraction, 1e-5));
+    EXPECT_TRUE(near(last.position, Vec2(-6, 1) * traced->fraction, 1e-5));
     EXPECT_NEAR(last.distance, 0, 1e-5);
 }
 

@@ -1,6 +1,6 @@
-// Which part of a composite shape is told where several are as near or as deep: the lowest, in whatever order the shape
-// shows them. Measured before it was so: of 180,000 distances to meshes 3680 told another part after the tree of a mesh
-// had got other nodes.
+// Ties between parts of a composite shape that are equally near or deep: the lowest index is reported, in whatever
+// order the shape visits its parts. Regression: of 180,000 distances to meshes, 3680 reported another part after the
+// mesh's tree was rebuilt.
 
 #include <abut/query/closest.hpp>
 #include <abut/query/contact.hpp>
@@ -14,7 +14,7 @@
 namespace abut {
 namespace {
 
-/// Four boxes around the origin, as far from it and as like each other as can be, shown in one order or the other.
+/// Four boxes of equal distance and shape around the origin, visited in one order or the reverse.
 struct FourBoxes {
     bool backwards = false;
 };
@@ -37,7 +37,7 @@ void each_part(const FourBoxes& shape, const Aabb3& box, F&& visit) {
     }
 }
 
-TEST(Ties, OfTheNearestPartsTheLowestIsTold) {
+TEST(Ties, OfTheNearestPartsTheLowestIsReported) {
     const Sphere ball{{0, 0, 0}, 0.25f};
     for (const bool backwards : {false, true}) {
         const Closest<3> found = closest(ball, FourBoxes{backwards});
@@ -47,7 +47,7 @@ TEST(Ties, OfTheNearestPartsTheLowestIsTold) {
     }
 }
 
-TEST(Ties, OfTheDeepestPartsTheLowestIsTold) {
+TEST(Ties, OfTheDeepestPartsTheLowestIsReported) {
     const Sphere ball{{0, 0, 0}, 1.25f};
     for (const bool backwards : {false, true}) {
         const Contact<3> found = contact(ball, FourBoxes{backwards});

@@ -1,6 +1,6 @@
 #pragma once
 
-// Distance functions as a user writes them: of the same forms as shapes of the library, and one that is like none.
+// User-defined distance functions: some have the form of library shapes, one does not.
 
 #include <abut/math/aabb.hpp>
 #include <abut/math/dvec.hpp>
@@ -12,7 +12,7 @@
 
 namespace abut::users {
 
-/// A ball.
+/// A ball as a distance function.
 template <int D>
 struct Blob {
     Vec<D> center{};
@@ -29,7 +29,7 @@ float signed_distance(const Blob<D>& blob, const Vec<D>& point) {
     return static_cast<float>(length(DVec<D>(point) - DVec<D>(blob.center)) - static_cast<double>(blob.radius));
 }
 
-/// A box about the origin, whose corners are rounded.
+/// A rounded box around the origin.
 template <int D>
 struct Brick {
     Vec<D> half{1.0f};
@@ -52,7 +52,7 @@ float signed_distance(const Brick<D>& brick, const Vec<D>& point) {
     return static_cast<float>(most > 0 ? length(beyond) : most);
 }
 
-/// A capsule, with the direction as well.
+/// A capsule that also returns the direction.
 template <int D>
 struct Pill {
     Vec<D> a{}, b{};
@@ -71,18 +71,18 @@ Aabb<D> bounds(const Pill<D>& pill) {
 }
 template <int D>
 FieldSample<D> distance_sample(const Pill<D>& pill, const Vec<D>& point) {
-    const DVec<D> a(pill.a), way = DVec<D>(pill.b) - a, from = DVec<D>(point) - a;
-    const double along = std::clamp(dot(from, way) / length_squared(way), 0.0, 1.0);
-    const DVec<D> out = from - way * along;
+    const DVec<D> a(pill.a), displacement = DVec<D>(pill.b) - a, from = DVec<D>(point) - a;
+    const double along = std::clamp(dot(from, displacement) / length_squared(displacement), 0.0, 1.0);
+    const DVec<D> out = from - displacement * along;
     return {static_cast<float>(length(out) - static_cast<double>(pill.radius)),
-            to_float(normalized(out, perpendicular(way)))};
+            to_float(normalized(out, perpendicular(displacement)))};
 }
 template <int D>
 float signed_distance(const Pill<D>& pill, const Vec<D>& point) {
     return distance_sample(pill, point).distance;
 }
 
-/// Ground with hills, without end: how high a point is above it, times the cosine of the steepest slope.
+/// Unbounded ground with hills: the height of a point above it, times the cosine of the steepest slope.
 template <int D>
 struct Hills {
     float height = 0.3f;

@@ -1,4 +1,4 @@
-// Walk meshes of levels: where a walker fits, what it climbs, and that the surface has no cracks.
+// Walk meshes of levels: where a walker fits and climbs, and that the surface has no cracks.
 
 #include "../../scenes/terrain.hpp"
 #include "../oracle/random.hpp"
@@ -25,7 +25,7 @@ ProblemCode code_of(const Result<WalkMesh>& result) {
     return result.problem().code;
 }
 
-/// That nothing had to be done about what came out of it.
+/// Expects that building the mesh changed nothing.
 void expect_clean(const WalkMesh& mesh, const WalkMeshBakeReport& report) {
     EXPECT_FALSE(changed(mesh.report())) << described(mesh.report());
     EXPECT_EQ(mesh.report().mirrored, 0u);
@@ -170,7 +170,7 @@ TEST(BakeWalkMesh, TakesAnyDirectionAsUp) {
     const Level level = room_with_table();
     const Result<WalkMesh> upright = level.bake();
     ASSERT_TRUE(upright) << upright.problem().message;
-    // The level turned so that its second axis goes where `up` points.
+    // The level rotated such that its second axis points along `up`.
     const glm::quat turns[] = {{1, 0, 0, 0}, {0.5f, 0.5f, 0.5f, 0.5f}, {0.5f, -0.5f, -0.5f, -0.5f},
                                {0, 1, 0, 0}, {0.8f, 0, 0.48f, 0.36f},  {0.1f, 0.7f, -0.1f, 0.7f}};
     for (const glm::quat& turn : turns) {
@@ -185,7 +185,7 @@ TEST(BakeWalkMesh, TakesAnyDirectionAsUp) {
         EXPECT_FALSE(changed(mesh->report()));
         for (std::uint32_t i = 0; i < mesh->triangles().size(); ++i)
             EXPECT_GT(dot(DVec<3>(mesh->normal({i, {1, 0, 0}})), DVec<3>(up)), 2.9);
-        // Turned back it is the same floor, but for where cells happen to begin.
+        // Rotated back the floor is equal, except for the phase of the cells.
         double area = 0;
         for (const glm::uvec3& t : mesh->triangles()) {
             const DVec<3> a(mesh->points()[t.x]);
@@ -195,7 +195,7 @@ TEST(BakeWalkMesh, TakesAnyDirectionAsUp) {
     }
 }
 
-TEST(BakeWalkMesh, TakesTrianglesFromBothSidesWhereAsked) {
+TEST(BakeWalkMesh, TakesTrianglesFromBothSidesOnRequest) {
     Level level;
     level.quad({0, 0, 0}, {5, 0, 0}, {5, 0, 5}, {0, 0, 5});
     EXPECT_EQ(code_of(level.bake()), ProblemCode::empty_input);
@@ -225,7 +225,7 @@ TEST(BakeWalkMesh, FollowsHillsWithoutCracks) {
         expect_clean(*mesh, report);
         EXPECT_EQ(mesh->report().components, 1u);
         EXPECT_EQ(mesh->report().non_manifold_vertices, 0u);
-        // Corners are on the level, and what is between them is nearly.
+        // Corners are on the level, and points between them nearly.
         const Result<WalkMesh> ground = WalkMesh::build(level.points, level.triangles);
         ASSERT_TRUE(ground);
         for (const Vec3& point : mesh->points())
@@ -280,7 +280,7 @@ Level ruins(Random& random) {
 }
 
 TEST(BakeWalkMesh, HasNoCracksAmongRuins) {
-    std::size_t islands = 0;
+    std::size_t components = 0;
     for (std::uint64_t seed = 0; seed < 12; ++seed) {
         SCOPED_TRACE(seed);
         Random random(seed);
@@ -289,9 +289,9 @@ TEST(BakeWalkMesh, HasNoCracksAmongRuins) {
         const Result<WalkMesh> mesh = level.bake({.radius = 0.25f, .max_slope = 1, .report = &report});
         ASSERT_TRUE(mesh) << mesh.problem().message;
         expect_clean(*mesh, report);
-        islands += mesh->report().components;
+        components += mesh->report().components;
     }
-    EXPECT_GT(islands, 24u) << "the ruins are in nobody's way";
+    EXPECT_GT(components, 24u) << "the ruins are no obstacles";
 }
 
 TEST(BakeWalkMesh, KeepsTheRadiusFromWalls) {
@@ -341,19 +341,19 @@ TEST(BakeWalkMesh, IsRightAtAnyScale) {
     }
 }
 
-TEST(BakeWalkMesh, TellsHowFarItIsAndStopsWhereAsked) {
+TEST(BakeWalkMesh, ReportsProgressAndStopsOnRequest) {
     Random random(3);
     const Level level = terrain(16, 1, random);
-    std::vector<double> told;
+    std::vector<double> reported;
     const auto note = [&](double done) {
-        told.push_back(done);
+        reported.push_back(done);
         return true;
     };
     ASSERT_TRUE(level.bake({.progress = note}));
-    ASSERT_GT(told.size(), 5u);
-    EXPECT_EQ(told.back(), 1.0);
-    for (std::size_t i = 0; i < told.size(); ++i) {
-        EXPECT_GE(told[i], i == 0 ? 0.0 : told[i - 1]);
+    ASSERT_GT(reported.size(), 5u);
+    EXPECT_EQ(reported.back(), 1.0);
+    for (std::size_t i = 0; i < reported.size(); ++i) {
+        EXPECT_GE(reported[i], i == 0 ? 0.0 : reported[i - 1]);
         std::size_t calls = 0;
         const auto stop = [&](double) { return calls++ < i; };
         EXPECT_EQ(code_of(level.bake({.progress = stop})), ProblemCode::cancelled);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Levels of boxes and slopes, and what is asked of the walk meshes that are baked of them.
+// Levels of boxes and slopes, and queries of the walk meshes that are baked from them.
 
 #include <abut/math/dvec.hpp>
 #include <abut/recast/bake_walk_mesh.hpp>
@@ -19,14 +19,14 @@ struct Level {
     std::vector<Vec3> points;
     std::vector<glm::uvec3> triangles;
 
-    /// Faces the side from which its corners go round counter-clockwise.
+    /// A square that faces the side from which its corners are counter-clockwise.
     void quad(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
         const std::uint32_t first = static_cast<std::uint32_t>(points.size());
         points.insert(points.end(), {a, b, c, d});
         triangles.push_back({first, first + 1, first + 2});
         triangles.push_back({first, first + 2, first + 3});
     }
-    /// Level, from above.
+    /// A horizontal rectangle, facing up.
     void floor(float x0, float z0, float x1, float z1, float y = 0) {
         quad({x0, y, z0}, {x0, y, z1}, {x1, y, z1}, {x1, y, z0});
     }
@@ -38,7 +38,7 @@ struct Level {
         quad({a.x, a.y, a.z}, {a.x, a.y, b.z}, {a.x, b.y, b.z}, {a.x, b.y, a.z});
         quad({b.x, a.y, a.z}, {b.x, b.y, a.z}, {b.x, b.y, b.z}, {b.x, a.y, b.z});
     }
-    /// Rises along x, as wide as from z0 to z1.
+    /// A slope that rises along x, from z0 to z1.
     void slope(const Vec3& low, const Vec3& high) {
         quad({low.x, low.y, low.z}, {low.x, low.y, high.z}, {high.x, high.y, high.z}, {high.x, high.y, low.z});
     }
@@ -48,7 +48,7 @@ struct Level {
     }
 };
 
-/// The triangle that is nearest above or below a place seen along the second axis, if any is: its number and height.
+/// The triangle nearest above or below a point along the second axis, with its index and height, if there is one.
 struct Above {
     bool found = false;
     std::uint32_t triangle = 0;
@@ -71,19 +71,19 @@ inline Above at(const WalkMesh& mesh, const Vec3& place) {
     return result;
 }
 
-/// Whether there is floor at a height there, but for `off`.
+/// Whether there is floor at this height, to within `off`.
 inline bool is_floor(const WalkMesh& mesh, const Vec3& place, double off = 0.05) {
     const Above found = at(mesh, place);
     return found.found && std::abs(found.height - static_cast<double>(place.y)) <= off;
 }
 
-/// Whether there is a way from one place to the other.
+/// Whether a path joins the two points.
 inline bool joined(const WalkMesh& mesh, const Vec3& from, const Vec3& to) {
     const Above a = at(mesh, from), b = at(mesh, to);
     return a.found && b.found && mesh.component(a.triangle) == mesh.component(b.triangle);
 }
 
-/// Seen along the second axis.
+/// The projection along the second axis.
 inline double area_of(const WalkMesh& mesh) {
     double sum = 0;
     for (const glm::uvec3& t : mesh.triangles()) {
@@ -93,7 +93,7 @@ inline double area_of(const WalkMesh& mesh) {
     return sum;
 }
 
-/// Corners that lie within a border side, or beside one another without being one: where a mesh is cracked.
+/// The number of corners on or near a border edge without being its ends: cracks of the mesh.
 inline std::size_t cracks_of(const WalkMesh& mesh, double near) {
     std::vector<std::uint8_t> on_border(mesh.points().size(), 0);
     std::vector<std::pair<std::uint32_t, std::uint32_t>> border;
@@ -110,9 +110,9 @@ inline std::size_t cracks_of(const WalkMesh& mesh, double near) {
         const DVec<3> start(mesh.points()[a]), side = DVec<3>(mesh.points()[b]) - start;
         for (std::uint32_t i = 0; i < mesh.points().size(); ++i) {
             if (on_border[i] == 0 || i == a || i == b) continue;
-            const DVec<3> way = DVec<3>(mesh.points()[i]) - start;
-            const double along = std::min(1.0, std::max(0.0, dot(way, side) / dot(side, side)));
-            if (length(way - side * along) < near) ++result;
+            const DVec<3> offset = DVec<3>(mesh.points()[i]) - start;
+            const double along = std::min(1.0, std::max(0.0, dot(offset, side) / dot(side, side)));
+            if (length(offset - side * along) < near) ++result;
         }
     }
     return result;

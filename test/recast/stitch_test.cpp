@@ -1,4 +1,4 @@
-// Polygons cut each by itself, stitched into one surface.
+// Polygons that are triangulated separately, stitched into one surface.
 
 #include <abut/math/dvec.hpp>
 #include <abut/recast/stitch.hpp>
@@ -17,7 +17,7 @@ WalkMesh mesh_of(const Stitched& surface) {
     return *WalkMesh::build(points, surface.triangles);
 }
 
-/// Two squares side by side, from x = 0 to 1 and to 2, each its corners and two triangles.
+/// Two adjacent squares, from x = 0 to 1 and to 2, each as corners and two triangles.
 const std::vector<DVec<3>> corners{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 0, 1}, {1, 0, 1}, {2, 0, 1}};
 CutPolygon square(std::uint32_t first) {
     CutPolygon result{{first, first + 3, first + 4, first + 1}, {}, {{0, 1, 2}, {0, 2, 3}}};
@@ -46,7 +46,8 @@ TEST(Stitch, LeavesWhatFitsAsItIs) {
 
 TEST(Stitch, CutsBothSidesAtThePointsOfEither) {
     CutPolygon left = square(0), right = square(1);
-    // The left one has a point in the middle of the side between them, and one within; the right one two others there.
+    // The left one has a point in the middle of the common edge, and one inside; the right one has two others on the
+    // edge.
     left.points.push_back({1, 0.2, 0.5});
     left.points.push_back({0.5, 0.1, 0.5});
     left.triangles = {{0, 1, 5}, {1, 2, 5}, {2, 4, 5}, {4, 3, 5}, {3, 0, 5}};
@@ -100,7 +101,7 @@ TEST(Stitch, CutsAnewWhatItsTrianglesDoNotFill) {
 }
 
 TEST(Stitch, CutsSidesAtTheCornersOfPolygonsWithoutArea) {
-    // The right one has a corner in the middle of the side between them; what lies between is flat.
+    // The right one has a vertex in the middle of the common edge; the triangle between them is flat.
     std::vector<DVec<3>> more = corners;
     more.push_back({1, 0.3, 0.5});
     CutPolygon right{{1, 6, 4, 5, 2}, {}, {{0, 1, 4}, {1, 2, 3}, {1, 3, 4}}}, thin{{1, 4, 6}, {}, {{0, 1, 2}}};

@@ -1,4 +1,5 @@
-// Polygon and Polyhedron take every non-empty set of finite points, and every question answers on what they make of it.
+// Polygon and Polyhedron take every non-empty set of finite points, and every query returns valid answers for the
+// result.
 #include "../oracle/random.hpp"
 #include <abut/convex/hull/hull_input.hpp>
 #include <abut/math/affine.hpp>
@@ -35,7 +36,7 @@ struct PointSet {
     std::string name;
     std::vector<Vec<D>> points;
     int rank;
-    bool has_room = true;  ///< for neighbours of its own size, in the range of float
+    bool has_neighbours = true;  ///< whether neighbours of its own size are in the range of float
 };
 
 template <int D>
@@ -73,7 +74,7 @@ std::vector<Vec<D>> lattice(int sides) {
     return result;
 }
 
-/// On the line from -end to end.
+/// Points on the segment from -end to end.
 template <int D>
 std::vector<Vec<D>> along(const Vec<D>& end, int count) {
     std::vector<Vec<D>> result;
@@ -115,7 +116,7 @@ std::vector<Vec<D>> random_cloud(int count) {
 
 constexpr float most = std::numeric_limits<float>::max(), least = std::numeric_limits<float>::denorm_min();
 
-/// Those of any dimension.
+/// Point sets of any dimension.
 template <int D>
 std::vector<PointSet<D>> common_sets() {
     Vec<D> slanted, one_axis(0.0f);
@@ -208,8 +209,8 @@ cpp_rational exact_dot(const Vec3& a, const Vec3& b) {
            cpp_rational(a.z) * cpp_rational(b.z);
 }
 
-/// No point is above a plane: in double, and in solids (whose planes are pushed out by more than rounding) exactly. The
-/// faces are a closed surface, and where no rounding bent them they are convex exactly.
+/// Expects no point above a plane: in double, and exactly for solids, whose planes are moved out by more than rounding.
+/// The faces are a closed surface; without rounding they are exactly convex.
 void expect_exact(const Polyhedron& polyhedron, const std::vector<Vec3>& points) {
     const Facets& facets = polyhedron.facets();
     const std::span<const Vec3> corners = polyhedron.points();
@@ -300,14 +301,15 @@ void expect_unit(const Vec<D>& normal) {
     EXPECT_NEAR(length(DVec<D>(normal)), 1, 1e-6);
 }
 
-/// Shapes next to it and in it, of its own size, and itself.
+/// Queries with shapes of its own size beside and inside of it, and with itself.
 template <int D, class S>
 void expect_answers(const S& shape) {
     const Aabb<D> box = bounds(convex(shape));
     const DVec<D> middle = 0.5 * (DVec<D>(box.min) + DVec<D>(box.max));
     const double around = 0.5 * length(DVec<D>(box.max) - DVec<D>(box.min));
     const double magnitude = std::max(largest(DVec<D>(box.min)), largest(DVec<D>(box.max)));
-    const double size = std::max({around, 1e-3 * magnitude, 1e-30});  // of the others: no smaller than floats tell
+    const double size =
+        std::max({around, 1e-3 * magnitude, 1e-30});  // of the other shapes, limited by the resolution of floats
     const double margin = 1e-5 * size + 16 * 0x1p-23 * magnitude;
 
     EXPECT_TRUE(overlaps(shape, shape));
@@ -326,7 +328,7 @@ void expect_answers(const S& shape) {
     EXPECT_GT(dot(DVec<D>(gap.normal), away), 0);
     EXPECT_TRUE(contains(box, to_float(DVec<D>(gap.on_a) + (middle - DVec<D>(gap.on_a)) * 1e-4)) || around == 0);
 
-    // Every corner is in a ball around it, and every shape through a ball in its middle.
+    // A ball around each corner overlaps it, and so does every shape through a ball in its middle.
     for (const Vec<D>& corner : shape.points().first(std::min<std::size_t>(shape.points().size(), 8))) {
         const Ball<D> ball{corner, static_cast<float>(0.1 * size)};
         EXPECT_TRUE(overlaps(shape, ball));
@@ -342,7 +344,7 @@ void expect_answers(const S& shape) {
     EXPECT_LE(closest(inside, shape).distance, -0.5 * size + margin);
     EXPECT_GE(contact(inside, shape).depth, 0.5 * size - margin);
 
-    // From outside to its centre of gravity a ray meets it, unless it has no width to meet.
+    // A ray from outside to its centroid hits, unless its width is zero.
     const DVec<D> centroid(shape.centroid());
     const Vec<D> from = to_float(centroid + 2 * (around + size) * away);
     const auto hit = raycast(Ray<D>::between(from, to_float(centroid - (around + size) * away)), shape);
@@ -359,21 +361,21 @@ void expect_answers(const S& shape) {
 TEST(AnyPoints, OfThePlaneAnswerEveryQuestion) {
     for (const PointSet<2>& set : sets(std::integral_constant<int, 2>())) {
         SCOPED_TRACE(set.name);
-        if (set.has_room) expect_answers<2>(*Polygon::build(set.points));
+        if (set.has_neighbours) expect_answers<2>(*Polygon::build(set.points));
     }
 }
 
 TEST(AnyPoints, OfSpaceAnswerEveryQuestion) {
     for (const PointSet<3>& set : sets(std::integral_constant<int, 3>())) {
         SCOPED_TRACE(set.name);
-        if (set.has_room) expect_answers<3>(*Polyhedron::build(set.points));
+        if (set.has_neighbours) expect_answers<3>(*Polyhedron::build(set.points));
     }
 }
 
-// A ray straight at a flat polygon meets it, from either side.
+// A ray perpendicular to a flat polygon hits it, from either side.
 TEST(AnyPoints, InAPlaneStopARayAcross) {
     for (const PointSet<3>& set : sets(std::integral_constant<int, 3>())) {
-        if (set.rank != 2 || !set.has_room) continue;
+        if (set.rank != 2 || !set.has_neighbours) continue;
         SCOPED_TRACE(set.name);
         const Polyhedron flat = *Polyhedron::build(set.points);
         const double size = abut::size(convex(flat));

@@ -63,13 +63,13 @@ TEST(Chain, IsSolidInContainsWhereItIsClosed) {
     EXPECT_TRUE(contains(square(), Vec2(2, 1)));
     EXPECT_FALSE(contains(square(), Vec2(3, 1)));
     EXPECT_FALSE(contains(square(), Vec2(1, -0.5f)));
-    // At the height of corners, and through them.
+    // Rays at the height of corners, and through them.
     EXPECT_FALSE(contains(square(), Vec2(-1, 0)));
     EXPECT_FALSE(contains(square(), Vec2(-1, 2)));
     const Chain open = *Chain::build({{0, 0}, {2, 0}, {2, 2}, {0, 2}}, false);
     EXPECT_FALSE(contains(open, Vec2(1, 1)));
     EXPECT_TRUE(contains(open, Vec2(1, 0)));
-    // Twice around is around; a figure of eight is solid in both loops.
+    // A loop that winds twice contains its inside; a figure of eight is solid in both loops.
     const Chain eight = *Chain::build({{-2, -1}, {2, 1}, {2, -1}, {-2, 1}}, true);
     EXPECT_TRUE(contains(eight, Vec2(-1.5f, 0)));
     EXPECT_TRUE(contains(eight, Vec2(1.5f, 0)));
@@ -81,7 +81,7 @@ TEST(Chain, TellsTheSegment) {
     const Circle beside{{3, 1}, 0.5f};
     EXPECT_EQ(closest(square(), beside).feature_a.part, 1u);
     EXPECT_FLOAT_EQ(closest(square(), beside).distance, 0.5f);
-    // Of no thickness: inside is apart.
+    // A chain has no thickness: a shape within the loop is apart.
     EXPECT_FALSE(overlaps(square(), Circle{{1, 1}, 0.5f}));
     const auto hit = raycast(Ray2::between({1, 1}, {1, 5}), square());
     ASSERT_TRUE(hit);
@@ -102,22 +102,22 @@ TEST(Chain, OneSidedIsMetFromItsFrontAlone) {
     ASSERT_TRUE(hit);
     EXPECT_FLOAT_EQ(hit->distance, 1.75f);
     EXPECT_FLOAT_EQ(hit->normal.y, 1);
-    // The other way round: the chain comes.
+    // The reverse: the chain moves.
     EXPECT_TRUE(sweep(chain, Vec2(0, 6), Circle{{1, 4}, 0.25f}));
     EXPECT_FALSE(sweep(chain, Vec2(0, -6), ball));
-    // The way out of what is mostly inside would be inwards.
+    // If a shape is mostly behind the chain, the separating direction would point inwards.
     EXPECT_FALSE(contact(chain, Circle{{1, 1.9f}, 0.25f}));
     const Contact<2> touch = contact(chain, Circle{{1, 2.1f}, 0.25f});
     ASSERT_TRUE(touch);
     EXPECT_FLOAT_EQ(touch.normal.y, 1);
     EXPECT_NEAR(touch.depth, 0.15, 1e-6);
     EXPECT_FALSE(contact(Circle{{1, 1.9f}, 0.25f}, chain));
-    // Sides don't matter to what is asked of sets.
+    // overlaps and closest ignore which side is the front.
     EXPECT_TRUE(overlaps(chain, Circle{{1, 1.9f}, 0.25f}));
     EXPECT_NEAR(closest(chain, Vec2(1, 1.5f)).distance, 0.5, 1e-6);
 }
 
-/// At its end: what goes along it, or at its front but below it, passes.
+/// At the end of a chain: a motion along it, or towards its front but below it, doesn't hit.
 TEST(Chain, OneSidedIsPassedAtItsEnds) {
     const Chain platform = *Chain::build({{1, 0}, {-1, 0}}, false, {.one_sided = true});
     EXPECT_FALSE(sweep(Circle{{-3, 0.1f}, 0.25f}, Vec2(6, 0), platform));
@@ -135,7 +135,7 @@ TEST(Chain, OneSidedKeepsItsFrontWhereItIsMirroredOrTurned) {
     const auto turned = at(chain, Pose2{{0, 0}, Turn{0, 1}});  // a quarter: from -2 to 0 along x
     EXPECT_FALSE(raycast(Ray2::between({-1, 1}, {-5, 1}), turned));
     EXPECT_TRUE(raycast(Ray2::between({-5, 1}, {-1, 1}), turned));
-    // By half a turn about its lower left corner, up and over what lies there.
+    // Rotates by pi about its lower left corner, up and over the obstacle.
     const Box2 box{{-1, -1}, {0.25f, 0.25f}};
     EXPECT_TRUE(sweep(chain, Pose2{}, Pose2{{0, 0}, Turn{0, 1}}, Box2{{-1, 1}, {0.25f, 0.25f}}, Pose2{}, Pose2{}));
     EXPECT_FALSE(sweep(chain, Pose2{}, Pose2{{0, 0}, Turn{0, 1}}, box, Pose2{}, Pose2{}));

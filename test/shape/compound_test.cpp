@@ -47,7 +47,7 @@ TEST(Compound, TellsTheChild) {
     EXPECT_FALSE(contains(dumbbell, Vec2(-0.5f, 0.5f)));
 }
 
-TEST(Compound, OfLevelsTellsTheChildAndIsSolidWhereThatIs) {
+TEST(Compound, OfLevelsReportsTheChildAndIsSolidWhereThatIs) {
     const Mesh cube = test::box_surface({-1, -1, -1}, {1, 1, 1}).mesh();
     const Compound3 inner = *Compound3::build({Sphere{{0, 5, 0}, 1}, at(cube, Pose3{{10, 0, 0}})});
     const Compound3 outer =
@@ -59,7 +59,7 @@ TEST(Compound, OfLevelsTellsTheChildAndIsSolidWhereThatIs) {
     EXPECT_FALSE(overlaps(outer, Sphere{{10, 0, 10}, 0.5f}));  // within the mesh's surface
 }
 
-/// A compound of an instance of a mesh in a world: nothing of it is copied, and all questions find it.
+/// A compound of an instance of a mesh in a world: nothing is copied, and all queries find it.
 TEST(Compound, InAWorldOutlivesWhatItWasMadeOf) {
     World3 world;
     Id id;

@@ -68,7 +68,7 @@ TEST(HeightField, WithoutGroundInAHole) {
     EXPECT_EQ(closest(nothing, Vec3(1, 1, 1)).distance, std::numeric_limits<float>::infinity());
 }
 
-/// The neighbour beyond each edge has that edge, the other way round.
+/// The neighbour across each edge has that edge reversed.
 TEST(HeightField, KnowsNeighbours) {
     oracle::Random random(1);
     std::vector<float> heights;
@@ -100,13 +100,13 @@ TEST(HeightField, KnowsNeighbours) {
             EXPECT_EQ(shared, 1) << i << " " << edge;
         }
     }
-    // Each seam is told from both sides. Around it there are 20 borders, and more around the holes.
+    // Each internal edge is reported from both sides. There are 20 border edges around, and more around the holes.
     EXPECT_EQ(seams % 2, 0);
     EXPECT_EQ(seams + borders, 3 * 42);
     EXPECT_GT(borders, 20);
 }
 
-/// Large enough for several levels of blocks; the same triangles as a mesh, in the same order.
+/// Large enough for several levels of blocks, with an equal mesh whose triangles have the same order.
 TEST(HeightField, AnswersAsTheMeshOfItsTriangles) {
     oracle::Random random(2);
     constexpr std::uint32_t columns = 90, rows = 70;
@@ -149,7 +149,7 @@ TEST(HeightField, AnswersAsTheMeshOfItsTriangles) {
     EXPECT_TRUE(hits > 200 && apart > 100 && apart < 500) << hits << " " << apart;
 }
 
-/// A tall thin box and a wide flat one high above ask few of the many blocks, and none of the cells where none is near.
+/// A tall thin box, and a wide flat one high above, visit few of the blocks, and no cells where none is near.
 TEST(HeightField, RefusesByBlocks) {
     const HeightField field = *HeightField::build(std::vector<float>(1000 * 1000, 0.0f), 1000, 1.0f);
     int seen = 0;

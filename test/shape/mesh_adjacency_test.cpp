@@ -11,13 +11,13 @@ namespace {
 
 using Edge = std::array<std::array<float, 3>, 2>;
 
-/// By the positions of its ends, the lesser first; -0 as 0.
+/// An edge by the positions of its ends, the lesser first; -0 counts as 0.
 Edge edge_of(const Vec3& a, const Vec3& b) {
     const auto place = [](const Vec3& p) { return std::array<float, 3>{p.x + 0.0f, p.y + 0.0f, p.z + 0.0f}; };
     return place(a) < place(b) ? Edge{place(a), place(b)} : Edge{place(b), place(a)};
 }
 
-/// Every edge of every triangle against every edge of every other.
+/// A reference: compares every edge of every triangle with every other.
 void check_neighbours(const Mesh& mesh, int& borders, int& seams, int& shared_by_many) {
     const auto count = static_cast<std::uint32_t>(mesh.triangles().size());
     const auto edge = [&](std::uint32_t t, std::uint32_t side) {
@@ -49,12 +49,12 @@ TEST(MeshAdjacency, OfACubeIsAllSeams) {
     EXPECT_EQ(borders, 0);
     EXPECT_EQ(seams, 36);
     EXPECT_EQ(shared_by_many, 0);
-    const auto* asked = &cube;
-    EXPECT_EQ(view(cube).neighbour(asked, 0, 1), cube.neighbour(0, 1));
+    const auto* other = &cube;
+    EXPECT_EQ(view(cube).neighbour(other, 0, 1), cube.neighbour(0, 1));
 }
 
 TEST(MeshAdjacency, WeldsPointsAtTheSamePosition) {
-    // Two triangles with points of their own; of one of those a coordinate is -0.
+    // Two triangles with separate points; a coordinate of one of them is -0.
     const std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}, {-0.0f, 1, 0}};
     const std::vector<glm::uvec3> triangles{{0, 1, 2}, {3, 4, 5}};
     const Mesh mesh = *Mesh::build(points, triangles);
@@ -64,8 +64,8 @@ TEST(MeshAdjacency, WeldsPointsAtTheSamePosition) {
 }
 
 TEST(MeshAdjacency, SaysWhereThereIsNoSurface) {
-    // Three fans about one edge, one of them the other way round; a triangle that is doubled; one with an edge of no
-    // length; one that goes to and fro.
+    // Three fans about one edge, one of them reversed; a repeated triangle; one with an edge of length 0; one with an
+    // edge and its reverse.
     const std::vector<Vec3> points{{0, 0, 0},  {0, 0, 1}, {1, 0, 0}, {0, 1, 0},
                                    {-1, 0, 0}, {5, 0, 0}, {6, 0, 0}, {5, 1, 0}};
     const std::vector<glm::uvec3> triangles{{0, 1, 2}, {1, 0, 3}, {0, 1, 4}, {5, 6, 7},
@@ -82,10 +82,10 @@ TEST(MeshAdjacency, SaysWhereThereIsNoSurface) {
 
 TEST(MeshAdjacency, AgreesWithTryingAllEdges) {
     int borders = 0, seams = 0, shared_by_many = 0;
-    for (int seed = 0; seed < oracle::amount(30); ++seed) {
+    for (int seed = 0; seed < oracle::case_count(30); ++seed) {
         SCOPED_TRACE(seed);
         oracle::Random random(static_cast<std::uint64_t>(seed));
-        // Few places, so that triangles meet by chance, and points more than once at each.
+        // Few positions, so that triangles share edges by chance, and points repeat.
         std::vector<Vec3> points;
         for (int i = 0; i < 16; ++i)
             points.emplace_back(static_cast<float>(random.below(3)), static_cast<float>(random.below(2)), 0.0f);

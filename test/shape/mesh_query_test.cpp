@@ -1,5 +1,5 @@
-// Questions about meshes against the same questions about each of their triangles: the least over all of them, to the
-// bit, and the part that is named attains it.
+// Queries of meshes against a reference over all triangles: the least answer, bit for bit, and the reported part
+// attains it.
 
 #include "../world/random_shapes.hpp"
 #include "meshes.hpp"
@@ -16,12 +16,12 @@
 namespace abut::test {
 namespace {
 
-/// How often the answers were of each kind.
+/// Counts of the kinds of answers.
 struct Seen {
-    int gaps = 0, depths = 0, unfelt = 0, hits = 0, misses = 0;
+    int gaps = 0, depths = 0, filtered = 0, hits = 0, misses = 0;
 };
 
-/// All triangles of a mesh, each placed as the mesh is.
+/// All triangles of a mesh with its pose.
 struct Parts {
     std::vector<View<3>> views;
 
@@ -37,7 +37,7 @@ std::vector<Triangle3> triangles_of(const Mesh& mesh) {
     return result;
 }
 
-/// How far two boxes are apart at least.
+/// A lower bound of the distance of two boxes.
 double gap(const Aabb3& a, const Aabb3& b) {
     double widest = 0;
     for (int i = 0; i < 3; ++i)
@@ -46,8 +46,8 @@ double gap(const Aabb3& a, const Aabb3& b) {
     return widest;
 }
 
-/// The least distance over all parts; those whose box alone is farther off are passed over.
-float least_distance(const Parts& parts, const View<3>& other) {
+/// The least distance over all parts; a part whose box is farther away is skipped.
+float min_distance(const Parts& parts, const View<3>& other) {
     const Aabb3 box = bounds(other);
     float least = std::numeric_limits<float>::infinity();
     for (const View<3>& part : parts.views)
@@ -57,7 +57,7 @@ float least_distance(const Parts& parts, const View<3>& other) {
 }
 
 void check_closest(const View<3>& mesh, const Parts& parts, const View<3>& other, Seen& seen) {
-    const float expected = least_distance(parts, other);
+    const float expected = min_distance(parts, other);
     const Closest<3> found = closest(mesh, other), swapped = closest(other, mesh);
     ASSERT_EQ(found.distance, expected);
     const Closest<3> part = closest(parts.views.at(found.feature_a.part), other);
@@ -76,14 +76,14 @@ void check_closest(const View<3>& mesh, const Parts& parts, const View<3>& other
     ASSERT_EQ(static_cast<bool>(touch), touches) << expected;
     if (!touches) return;
     if (touch.depth != -expected) {
-        // The deepest triangle isn't felt there: then it is the deepest of those that are.
+        // The internal-edge filter removed the deepest triangle's normal: then the answer is the deepest of the others.
         float deepest = -std::numeric_limits<float>::infinity();
         each_contact(mesh, other, [&](const Contact<3>& one) { deepest = std::max(deepest, one.depth); });
         EXPECT_EQ(touch.depth, deepest);
-        ++seen.unfelt;
+        ++seen.filtered;
         return;
     }
-    // A composite shape may feel a triangle alone by another plane than one among others.
+    // A triangle alone may have another separating plane than one among the parts of a composite shape.
     if (std::holds_alternative<Composite<3>>(other)) return;
     const Contact<3> part_touch = contact(parts.views.at(touch.feature_a.part), other);
     EXPECT_EQ(part_touch.depth, touch.depth) << "part " << touch.feature_a.part;
@@ -117,7 +117,7 @@ void check_raycast(const View<3>& mesh, const Parts& parts, const Ray3& ray, See
     EXPECT_EQ(part->started_inside, found->started_inside);
 }
 
-/// Random shapes and rays near a mesh of about one's size, placed by `place`.
+/// Random shapes and rays near a mesh of size about 1, placed by `place`.
 template <class Place>
 void check_placed(oracle::Random& random, const Mesh& mesh, Place place, Seen& seen) {
     const std::vector<Triangle3> triangles = triangles_of(mesh);
@@ -140,7 +140,7 @@ void check_placed(oracle::Random& random, const Mesh& mesh, Place place, Seen& s
     }
 }
 
-/// The ways to place a mesh: its triangles are placed alike.
+/// Ways to place a mesh: its triangles have the same pose.
 void check_mesh(oracle::Random& random, const Mesh& mesh, Seen& seen) {
     const Pose3 pose = random_pose<3>(random, 5), inner = random_pose<3>(random, 2);
     const Vec3 scale = random_scale(random);
@@ -161,12 +161,12 @@ void check_mesh(oracle::Random& random, const Mesh& mesh, Seen& seen) {
 }
 
 void expect_both_kinds(const Seen& seen) {
-    std::cout << "gaps " << seen.gaps << ", depths " << seen.depths << ", unfelt " << seen.unfelt << ", hits "
+    std::cout << "gaps " << seen.gaps << ", depths " << seen.depths << ", filtered " << seen.filtered << ", hits "
               << seen.hits << ", misses " << seen.misses << "\n";
     const int pairs = seen.gaps + seen.depths, rays = seen.hits + seen.misses;
     EXPECT_GT(seen.gaps, pairs / 5);
     EXPECT_GT(seen.depths, pairs / 5);
-    EXPECT_LT(seen.unfelt, seen.depths / 2);
+    EXPECT_LT(seen.filtered, seen.depths / 2);
     EXPECT_GT(seen.hits, rays / 5);
     EXPECT_GT(seen.misses, rays / 10);
 }
@@ -185,7 +185,7 @@ TEST(MeshQuery, ClosedMeshAgreesWithItsTriangles) {
     expect_both_kinds(seen);
 }
 
-/// The same triangles as a user's own shape, which has them in no order.
+/// The triangles as a user's own composite shape, unsorted.
 struct Heap {
     Mesh mesh;
 };
@@ -243,10 +243,10 @@ TEST(MeshQuery, MeshAgainstMeshAgreesWithAllPairsOfTriangles) {
         const auto mesh_a = place_a(a);
         const auto mesh_b = place_b(b);
         check_closest(view(mesh_a), parts_a, view(mesh_b), seen);
-        // And down to single triangles on both sides.
+        // Down to single triangles on both sides.
         const Closest<3> found = closest(mesh_a, mesh_b);
         float least = std::numeric_limits<float>::infinity();
-        for (const View<3>& part : parts_b.views) least = std::min(least, least_distance(parts_a, part));
+        for (const View<3>& part : parts_b.views) least = std::min(least, min_distance(parts_a, part));
         EXPECT_EQ(found.distance, least);
         EXPECT_EQ(closest(parts_a.views[found.feature_a.part], parts_b.views[found.feature_b.part]).distance, least);
     }
@@ -276,14 +276,14 @@ TEST(MeshQuery, TerrainOfTwentyThousandTriangles) {
         const Vec3 from{random.uniform_float(-60, 60), random.uniform_float(-60, 60), random.uniform_float(3, 10)};
         check_raycast(view(placed), parts, {from, to_float(random.direction<3>()), 100}, seen);
     }
-    std::cout << "gaps " << seen.gaps << ", depths " << seen.depths << ", unfelt " << seen.unfelt << ", hits "
+    std::cout << "gaps " << seen.gaps << ", depths " << seen.depths << ", filtered " << seen.filtered << ", hits "
               << seen.hits << ", misses " << seen.misses << "\n";
     EXPECT_GT(seen.gaps, 3);
     EXPECT_GT(seen.depths, 3);
     EXPECT_GT(seen.hits, 1);
 }
 
-// Where a ray comes down straight on the surface, its height is known without any triangle.
+// Where a vertical ray hits the surface, the height is known in closed form.
 TEST(MeshQuery, RaysFindTheHeightOfTerrain) {
     oracle::Random random(5);
     const Terrain terrain = random_terrain(random, 100, 2);

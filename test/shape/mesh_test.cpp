@@ -1,4 +1,4 @@
-// Meshes as data: what can be built, what is closed, what a closed one contains.
+// Meshes as data: building, watertightness, and containment.
 
 #include "meshes.hpp"
 #include <abut/query/contains.hpp>
@@ -130,7 +130,7 @@ TEST(MeshClosed, TellsWhetherTrianglesBoundAVolume) {
     EXPECT_TRUE(cell_surface(3, ring).mesh().closed()) << "points of its own for each square";
     EXPECT_TRUE(joined(cube, box_surface({5, 5, 5}, {6, 6, 6})).mesh().closed());
     EXPECT_TRUE(joined(cube, cube).mesh().closed()) << "the same twice";
-    // Two cubes that share an edge: four triangles meet there, two each way.
+    // Two cubes that share an edge: it has four triangles, two in each direction.
     EXPECT_TRUE(joined(cube, box_surface({1, 1, 0}, {2, 2, 1})).mesh().closed());
 
     for (std::size_t i = 0; i < 12; ++i) {
@@ -139,11 +139,11 @@ TEST(MeshClosed, TellsWhetherTrianglesBoundAVolume) {
         EXPECT_FALSE(open.mesh().closed()) << "without triangle " << i;
         Surface turned = cube;
         std::swap(turned.triangles[i].x, turned.triangles[i].y);
-        EXPECT_FALSE(turned.mesh().closed()) << "triangle " << i << " the other way round";
+        EXPECT_FALSE(turned.mesh().closed()) << "triangle " << i << " reversed";
     }
     EXPECT_FALSE(Surface({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}).mesh().closed());
     EXPECT_TRUE(Surface({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}}}).mesh().closed());
-    // Closed but for a crack of one rounding.
+    // Closed except for a crack of one ulp.
     Surface cracked = cell_surface(3, ring);
     cracked.points[0].x = std::nextafter(cracked.points[0].x, -1.0f);
     EXPECT_FALSE(cracked.mesh().closed());
@@ -172,7 +172,8 @@ bool in_cells(int size, const Cells& full, const Vec3& p) {
     return false;
 }
 
-/// At every quarter of a cell: in corners, on edges and faces, level with them, and between. All of it is exact.
+/// Tests points at every quarter of a cell: on corners, edges and faces, level with them, and between. All arithmetic
+/// is exact.
 void expect_cells(int size, const Cells& full) {
     const Surface surface = cell_surface(size, full);
     const Mesh mesh = surface.mesh(), inwards = reversed(surface).mesh();
@@ -199,7 +200,7 @@ TEST(MeshContains, SolidsOfCellsExactly) {
     expect_cells(2, bend);
     expect_cells(3, ring);
     expect_cells(3, [](int x, int y, int z) { return x != 1 || y != 1 || z != 1; });  // hollow
-    expect_cells(3, [](int x, int y, int z) { return (x + y + z) % 2 == 0; });        // meeting in edges and corners
+    expect_cells(3, [](int x, int y, int z) { return (x + y + z) % 2 == 0; });  // cells that share edges and corners
 }
 
 TEST(MeshContains, RandomCellsExactly) {
@@ -235,7 +236,7 @@ TEST(MeshContains, OpenMeshIsItsTrianglesAlone) {
     EXPECT_TRUE(contains(mesh, {0, 0, 0}));
 }
 
-// The ray that counts crossings runs along x: here it meets slanted triangles in their corners and along their edges.
+// The ray that counts crossings is parallel to x: here it hits slanted triangles in corners and along edges.
 TEST(MeshContains, SlantedSurfaceAlsoLevelWithItsCorners) {
     oracle::Random random(3);
     const Terrain terrain = random_terrain(random, 12, 4);
@@ -274,7 +275,7 @@ Surface hull_surface(const Polyhedron& hull) {
     return result;
 }
 
-/// How far a point is above the highest of the planes: below zero inside.
+/// The height of a point above the highest of the planes; below zero inside.
 double height_over(const Polyhedron& hull, const DVec<3>& point) {
     double highest = -std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < hull.facets().normals.size(); ++i)
@@ -282,7 +283,7 @@ double height_over(const Polyhedron& hull, const DVec<3>& point) {
     return highest;
 }
 
-// Moved, turned, stretched and mirrored, at sizes from 1e-3 to 1e4, against the planes of the hull itself.
+// Moved, rotated, scaled and mirrored, at sizes from 1e-3 to 1e4, against the planes of the hull.
 TEST(MeshContains, PlacedHullsAgreeWithTheirPlanes) {
     oracle::Random random(4);
     int inside = 0, checked = 0;

@@ -1,4 +1,4 @@
-// Trees of meshes made again from how they part their triangles.
+// Trees of meshes rebuilt from their stored topology.
 
 #include "../oracle/random.hpp"
 #include "meshes.hpp"
@@ -41,7 +41,7 @@ void expect_same(const MeshTree& a, const MeshTree& b) {
     EXPECT_EQ(a.spread, b.spread);
 }
 
-/// Every triangle is in one leaf, its corners where they are, all within the boxes on the way there; how deep that is.
+/// Checks that every triangle is in one leaf, and within all boxes above it; returns the depth.
 int checked_depth(const MeshTree& tree, std::uint32_t ref, const Aabb3& box, const Welded& mesh,
                   std::vector<int>& found) {
     if (!is_leaf(ref)) {
@@ -156,7 +156,7 @@ TEST(MeshTreeTopology, AreAsLongAsTheyShouldBeAndNotTooDeep) {
     EXPECT_FALSE(changed([](MeshTreeTopology& plan) { plan.children.clear(); }));
     EXPECT_FALSE(changed([](MeshTreeTopology& plan) { plan = {}; }));
 
-    // One leaf a node, and the next node: as deep as there are leaves, but for the depth that searches have room for.
+    // Each node has a leaf and the next node: the maximum depth, up to the stack of the searches.
     for (const std::uint32_t nodes :
          {static_cast<std::uint32_t>(bvh_depth), static_cast<std::uint32_t>(bvh_depth) + 1}) {
         Welded few = mesh;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Meshes for tests, as points and triangles that can still be changed.
+// Meshes for tests, as points and triangles that tests can change.
 
 #include "../oracle/random.hpp"
 #include <abut/shape/mesh.hpp>
@@ -17,7 +17,7 @@ struct Surface {
 
     Mesh mesh() const { return *Mesh::build(points, triangles); }
 
-    /// Four corners, counter-clockwise seen from outside, cut along one diagonal or the other.
+    /// Adds a square: four corners, counter-clockwise seen from outside, cut along one diagonal or the other.
     void add_quad(const std::array<Vec3, 4>& corner, bool other_diagonal) {
         const auto first = static_cast<std::uint32_t>(points.size());
         points.insert(points.end(), corner.begin(), corner.end());
@@ -28,7 +28,7 @@ struct Surface {
     }
 };
 
-/// One after the other, as one mesh.
+/// The union of two meshes.
 inline Surface joined(Surface a, const Surface& b) {
     const auto first = static_cast<std::uint32_t>(a.points.size());
     a.points.insert(a.points.end(), b.points.begin(), b.points.end());
@@ -36,7 +36,7 @@ inline Surface joined(Surface a, const Surface& b) {
     return a;
 }
 
-/// Inside out.
+/// Reverses the winding of all triangles.
 inline Surface reversed(Surface a) {
     for (glm::uvec3& t : a.triangles) std::swap(t.y, t.z);
     return a;
@@ -91,8 +91,8 @@ struct Terrain {
     float height(int x, int y) const { return heights[static_cast<std::size_t>(y * (cells + 1) + x)]; }
     Vec3 corner(int x, int y) const { return {static_cast<float>(x), static_cast<float>(y), height(x, y)}; }
 
-    /// Of the surface, for x and y in [0, cells): each square is two triangles, cut from its lowest corner to its
-    /// highest.
+    /// The height of the surface for x and y in [0, cells): each square is two triangles, cut from its lowest corner to
+    /// its highest.
     double height_at(double x, double y) const {
         const int i = static_cast<int>(x), j = static_cast<int>(y);
         const double u = x - i, v = y - j;
@@ -115,7 +115,7 @@ struct Terrain {
         return result;
     }
 
-    /// Closed by walls and by a floor of two triangles a square at the given height.
+    /// The terrain closed by walls, and by a floor of two triangles per square at the given height.
     Surface solid(float floor) const {
         Terrain flat = *this;
         for (float& height : flat.heights) height = floor;
@@ -139,7 +139,7 @@ inline Terrain random_terrain(oracle::Random& random, int cells, double roughnes
     return result;
 }
 
-/// Along each axis somewhere from 0.5 to 2, half of the time mirrored.
+/// A scale of 0.5 to 2 along each axis, mirrored half of the time.
 inline Vec3 random_scale(oracle::Random& random) {
     Vec3 result;
     for (int i = 0; i < 3; ++i) {
@@ -149,7 +149,7 @@ inline Vec3 random_scale(oracle::Random& random) {
     return result;
 }
 
-/// Triangles anywhere in a cube, without order or meaning.
+/// Random triangles in a cube.
 inline Surface random_soup(oracle::Random& random, int count, double extent, double size) {
     Surface result;
     for (int i = 0; i < count; ++i) {

@@ -59,7 +59,7 @@ TEST(Polygon, OfPointsOnALineIsASegment) {
     EXPECT_EQ(polygon->centroid(), Vec2(2, 4));
 }
 
-// Tenths are no floats: these lie on a line only before they are rounded.
+// Tenths aren't floats: these points are collinear only before rounding.
 TEST(Polygon, OfPointsOnALineButForRoundingIsASegment) {
     std::vector<Vec2> points;
     for (int i = 0; i <= 10; ++i) points.emplace_back(static_cast<float>(i * 0.1), static_cast<float>(i * 0.3));
@@ -93,8 +93,8 @@ TEST(Polygon, NamesThePointThatIsNotFinite) {
 TEST(Polygon, TakesAnyContiguousPoints) {
     const std::array<Vec2, 3> array{Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)};
     const std::vector<Vec2> vector(array.begin(), array.end());
-    const Vec2 plain[] = {array[0], array[1], array[2]};
-    for (const auto& polygon : {Polygon::build(array), Polygon::build(vector), Polygon::build(plain),
+    const Vec2 c_array[] = {array[0], array[1], array[2]};
+    for (const auto& polygon : {Polygon::build(array), Polygon::build(vector), Polygon::build(c_array),
                                 Polygon::build(std::span<const Vec2>(vector))})
         EXPECT_EQ(corners(*polygon), vector);
 }

@@ -256,13 +256,13 @@ TEST(Polyhedron, LooksToTheEnginesLikeItsCornersAndFaces) {
 TEST(Polyhedron, TakesAnyContiguousPoints) {
     const std::array<Vec3, 2> array{Vec3(0), Vec3(1)};
     const std::vector<Vec3> vector(array.begin(), array.end());
-    const Vec3 plain[] = {array[0], array[1]};
-    for (const auto& built : {Polyhedron::build(array), Polyhedron::build(vector), Polyhedron::build(plain),
+    const Vec3 c_array[] = {array[0], array[1]};
+    for (const auto& built : {Polyhedron::build(array), Polyhedron::build(vector), Polyhedron::build(c_array),
                               Polyhedron::build(std::span<const Vec3>(vector))})
         EXPECT_EQ(corners(*built), vector);
 }
 
-// The centre of a body of two parts is their weighted mean: a tetrahedron cut off a cube.
+// The centroid of a body of two parts is their weighted mean: a tetrahedron cut off a cube.
 TEST(Polyhedron, CentroidsAddUp) {
     const Polyhedron cube = *Polyhedron::build(cube_grid(1, 4));
     std::vector<Vec3> rest = cube_grid(1, 4);
@@ -276,7 +276,7 @@ TEST(Polyhedron, CentroidsAddUp) {
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(mean[i], 2, 1e-6);
 }
 
-// A thin plate's centre lies in its middle, however little volume there is to divide by.
+// A thin plate's centroid is in its middle, even though its volume is tiny.
 TEST(Polyhedron, CentroidOfAThinPlateIsItsMiddle) {
     abut::oracle::Random random(81);
     for (const double thickness : {1e-2, 1e-4, 1e-6}) {

@@ -1,4 +1,4 @@
-// The plain shapes: bounds, sizes and supports, by hand and against one another.
+// The primitive shapes: bounds, sizes and supports, with known answers and against each other.
 
 #include "../oracle/expect.hpp"
 #include "../oracle/pair.hpp"
@@ -75,28 +75,28 @@ TYPED_TEST(Support, IsTheFarthestPointOfEveryKind) {
             oracle::Random random(seed);
             const double size = random.power_of_two(-10, 13);
             const DVec<D> center = random.direction<D>() * size;
-            const auto sample = oracle::Maker<D>(random, center, size).make(static_cast<oracle::Kind>(kind));
+            const auto sample = oracle::SampleGenerator<D>(random, center, size).make(static_cast<oracle::Kind>(kind));
             const auto& shape = std::get<Convex<D>>(sample.view);
-            const double doubt = 4e-7 * size * D;
+            const double tolerance = 4e-7 * size * D;
             for (int i = 0; i < 20; ++i) {
                 const DVec<D> n = random.direction<D>();
                 double farthest = -std::numeric_limits<double>::infinity();
-                for (const DVec<D>& corner : oracle::corners_seen_from(sample.solid, DVec<D>(0.0)))
+                for (const DVec<D>& corner : oracle::corners_relative_to(sample.solid, DVec<D>(0.0)))
                     farthest = std::max(farthest, dot(n, corner) + sample.solid.radius);
-                EXPECT_NEAR(dot(n, support(shape, n * 3.0)), farthest, doubt);
+                EXPECT_NEAR(dot(n, support(shape, n * 3.0)), farthest, tolerance);
             }
             const Aabb<D> box = bounds(sample.view);
             for (int i = 0; i < D; ++i) {
                 double low = std::numeric_limits<double>::infinity(), high = -low;
-                for (const DVec<D>& corner : oracle::corners_seen_from(sample.solid, DVec<D>(0.0))) {
+                for (const DVec<D>& corner : oracle::corners_relative_to(sample.solid, DVec<D>(0.0))) {
                     low = std::min(low, corner[i] - sample.solid.radius);
                     high = std::max(high, corner[i] + sample.solid.radius);
                 }
-                EXPECT_NEAR(box.min[i], low, doubt);
-                EXPECT_NEAR(box.max[i], high, doubt);
+                EXPECT_NEAR(box.min[i], low, tolerance);
+                EXPECT_NEAR(box.max[i], high, tolerance);
             }
-            EXPECT_GE(abut::size(shape), oracle::size(sample.solid) - doubt);
-            EXPECT_LE(abut::size(shape), std::sqrt(D) * oracle::size(sample.solid) + doubt);
+            EXPECT_GE(abut::size(shape), oracle::size(sample.solid) - tolerance);
+            EXPECT_LE(abut::size(shape), std::sqrt(D) * oracle::size(sample.solid) + tolerance);
         }
 }
 

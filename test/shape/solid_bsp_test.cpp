@@ -1,4 +1,4 @@
-// Solid trees: what is in them, against exact winding; in which order faces come; what can be built.
+// Solid BSP trees: containment against exact winding numbers, the order of faces, and building.
 
 #include "solid_levels.hpp"
 #include <abut/math/dvec.hpp>
@@ -17,8 +17,8 @@ struct Count {
 };
 
 template <int D>
-void expect_solid(const Level<D>& level, const SolidBsp<D>& tree, const Vec<D>& p, bool room, Count& count) {
-    const Place place = place_in(level, p, room);
+void expect_solid(const Level<D>& level, const SolidBsp<D>& tree, const Vec<D>& p, bool hollow, Count& count) {
+    const Place place = place_in(level, p, hollow);
     if (place == Place::on_nothing) return;
     const bool expected = place == Place::inside;
     ASSERT_EQ(tree.contains(p), expected) << p.x << " " << p.y << " " << p[D - 1];
@@ -27,7 +27,7 @@ void expect_solid(const Level<D>& level, const SolidBsp<D>& tree, const Vec<D>& 
 }
 
 template <int D>
-void expect_solid_everywhere(const Level<D>& level, bool room, oracle::Random& random, int points, Count& count) {
+void expect_solid_everywhere(const Level<D>& level, bool hollow, oracle::Random& random, int points, Count& count) {
     const SolidBsp<D> tree = level.tree();
     Aabb<D> box = tree.bounds();
     const Vec<D> extent = box.max - box.min;
@@ -43,11 +43,11 @@ void expect_solid_everywhere(const Level<D>& level, bool room, oracle::Random& r
             const std::size_t face = random.below(static_cast<std::uint32_t>(level.faces.size()));
             p = 0.5f * (level.corner(face, 0) + level.corner(face, 1));
         }
-        expect_solid(level, tree, p, room, count);
+        expect_solid(level, tree, p, hollow, count);
         if (testing::Test::HasFatalFailure()) return;
     }
     for (const Vec<D>& p : level.points) {
-        expect_solid(level, tree, p, room, count);
+        expect_solid(level, tree, p, hollow, count);
         if (testing::Test::HasFatalFailure()) return;
     }
 }
@@ -74,9 +74,9 @@ TEST(SolidBsp2, ContainsWhatOutlinesWindAround) {
         SCOPED_TRACE(testing::Message() << "seed 61 level " << i);
         Level<2> level = random_block(random, i % 6 == 3 ? 8 : 100);
         if (i % 2 == 0) snap(level);
-        const bool room = i % 5 == 0;
-        if (room) turn_around(level);
-        expect_solid_everywhere(level, room, random, 100, count);
+        const bool hollow = i % 5 == 0;
+        if (hollow) turn_around(level);
+        expect_solid_everywhere(level, hollow, random, 100, count);
         if (HasFatalFailure()) return;
     }
     std::cout << count.inside << " of " << count.checked << " inside\n";
@@ -129,7 +129,7 @@ TEST(SolidBsp2, SliversOfAMillionth) {
 }
 
 TEST(SolidBsp2, ByHand) {
-    // A square with a notch that comes from a T-junction: the right side is in two parts.
+    // A square with a notch at a T-junction: the right side is in two parts.
     Level<2> level{{{0, 0}, {4, 0}, {4, 1}, {4, 4}, {0, 4}}, {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 0}}};
     const SolidBsp2 block = level.tree();
     EXPECT_TRUE(block.contains({2, 2}));
@@ -142,10 +142,10 @@ TEST(SolidBsp2, ByHand) {
     EXPECT_EQ(block.node_count(), 4u) << "two faces in one plane";
     EXPECT_EQ(block.piece_count(), 5u);
     turn_around(level);
-    const SolidBsp2 room = level.tree();
-    EXPECT_FALSE(room.contains({2, 2}));
-    EXPECT_TRUE(room.contains({4, 2.5f}));
-    EXPECT_TRUE(room.contains({-1, 9}));
+    const SolidBsp2 hollow = level.tree();
+    EXPECT_FALSE(hollow.contains({2, 2}));
+    EXPECT_TRUE(hollow.contains({4, 2.5f}));
+    EXPECT_TRUE(hollow.contains({-1, 9}));
 }
 
 TEST(SolidBsp2, OpenGeometryIsSolidBehindItsFaces) {
@@ -190,7 +190,7 @@ void expect_refused() {
         EXPECT_EQ(problem({good}).index, 1u);
     }
     points[1][0] = 1;
-    // Nothing is left of faces without extent, and nothing is solid.
+    // Faces without extent are dropped, and nothing is solid.
     const auto empty = SolidBsp<D>::build(points, std::vector<Face>{Face(1), Face(2)});
     ASSERT_TRUE(empty);
     EXPECT_EQ(empty->node_count(), 0u);
@@ -238,10 +238,10 @@ TEST(SolidBsp3, BoxesThatOverlapTouchAndRepeat) {
         Surface surface = random_box(random, i % 2 == 0);
         for (int k = 0; k < 5; ++k) surface = joined(surface, random_box(random, i % 2 == 0));
         if (i % 3 == 0) surface = joined(surface, surface);
-        // Or pillars in a room; then the solid has no end.
-        const bool room = i % 5 == 0;
-        if (room) surface = joined(surface, reversed(box_surface(Vec3(-9), Vec3(12))));
-        expect_solid_everywhere(level_of(surface), room, random, 300, count);
+        // Some are pillars in a room, where the solid is unbounded.
+        const bool hollow = i % 5 == 0;
+        if (hollow) surface = joined(surface, reversed(box_surface(Vec3(-9), Vec3(12))));
+        expect_solid_everywhere(level_of(surface), hollow, random, 300, count);
         if (HasFatalFailure()) return;
     }
     std::cout << count.inside << " of " << count.checked << " inside\n";
@@ -277,7 +277,7 @@ TEST(SolidBsp3, SliversOfAMillionth) {
     EXPECT_GT(count.inside, count.checked / 50);
 }
 
-/// One piece after another along rays from the eye. Returns how many rays met several.
+/// Compares the pieces along rays from the eye, nearest first. Returns the number of rays with several pieces.
 template <int D>
 int expect_in_order(const SolidBsp<D>& tree, std::size_t faces, const Vec<D>& eye, oracle::Random& random) {
     struct Piece {
@@ -296,7 +296,7 @@ int expect_in_order(const SolidBsp<D>& tree, std::size_t faces, const Vec<D>& ey
     for (int repeat = 0; repeat < 100; ++repeat) {
         const DVec<D> direction = random.direction<D>(), origin(eye);
         double last = 0;
-        int met = 0;
+        int crossings = 0;
         for (const Piece& piece : pieces) {
             double along = -1;
             const auto corner = [&](std::size_t i) {
@@ -326,9 +326,9 @@ int expect_in_order(const SolidBsp<D>& tree, std::size_t faces, const Vec<D>& ey
             if (along <= 0) continue;
             EXPECT_GE(along, last * (1 - 1e-5) - 1e-5) << "face " << piece.face;
             last = along;
-            ++met;
+            ++crossings;
         }
-        several += met > 1 ? 1 : 0;
+        several += crossings > 1 ? 1 : 0;
     }
     return several;
 }
@@ -375,7 +375,7 @@ TEST(SolidBspFromBrushes, IsTheUnionOfThem) {
         for (int k = 0; k < 6; ++k) {
             const Surface box = random_box(random, i % 2 == 0);
             for (const HalfSpace3& side : box_sides(box.points[0], box.points[7])) sides.push_back(side);
-            // Corners cut off, and a side twice.
+            // Corners cut off, and a repeated side.
             if (k % 2 == 0) sides.push_back({Vec3(random.direction<3>()), random.uniform_float(0, 5)});
             if (k % 3 == 0) sides.push_back(sides.back());
             ends.push_back(static_cast<std::uint32_t>(sides.size()));
@@ -399,7 +399,7 @@ TEST(SolidBspFromBrushes, IsTheUnionOfThem) {
                 unsure = unsure || !sure;
                 begin = end;
             }
-            // A brush may be flat: then it has no volume, and is left out.
+            // A flat brush has no volume, and is dropped.
             if (unsure) continue;
             EXPECT_EQ(tree->contains(p), expected) << "seed 69 level " << i << ": " << p.x << " " << p.y << " " << p.z;
             count.inside += expected ? 1 : 0;

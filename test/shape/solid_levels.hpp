@@ -1,6 +1,6 @@
 #pragma once
 
-// Levels for solid trees, and what is solid in them: by exact winding, face by face.
+// Levels for solid BSP trees, and a reference for containment: exact winding numbers, face by face.
 
 #include "../oracle/random.hpp"
 #include "meshes.hpp"
@@ -23,7 +23,7 @@ struct Level {
     Vec<D> corner(std::size_t face, int i) const { return points[faces[face][i]]; }
 };
 
-/// Appends an outline; the solid is inside of it where it goes round counter-clockwise.
+/// Appends an outline; the solid is inside if the outline is counter-clockwise.
 inline void add_outline(Level<2>& level, const std::vector<Vec2>& outline) {
     const auto first = static_cast<std::uint32_t>(level.points.size()),
                count = static_cast<std::uint32_t>(outline.size());
@@ -41,7 +41,7 @@ inline std::vector<Vec2> star(oracle::Random& random, int count, const Vec2& cen
     return result;
 }
 
-/// Whole numbers: corners coincide, faces overlap and run through one another's corners.
+/// Integers: corners coincide, faces overlap and cross each other's corners.
 template <int D>
 void snap(Level<D>& level) {
     for (Vec<D>& point : level.points)
@@ -57,7 +57,7 @@ inline Level<3> level_of(const Surface& surface) {
     return {surface.points, surface.triangles};
 }
 
-/// Where a face is seen from a point, looking along the first axis.
+/// The projection of a face from a point along the first axis.
 struct Seen {
     int turns = 0;
     bool touches = false;
@@ -90,7 +90,7 @@ inline Seen seen_from(const Level<3>& level, std::size_t face, const Vec3& p) {
     if (side == 0) {
         bool inside = true;
         for (int skip = 0; skip < 3; ++skip) inside = inside && in_shadow(a, b, c, p, skip);
-        // In a shadow of no width much is: the box tells.
+        // A projection without width has no orientation: the box decides.
         for (int i = 0; i < 3; ++i)
             inside = inside && std::min({a[i], b[i], c[i]}) <= p[i] && p[i] <= std::max({a[i], b[i], c[i]});
         return {0, inside};
@@ -110,7 +110,7 @@ inline Seen seen_from(const Level<3>& level, std::size_t face, const Vec3& p) {
     return {turns, false};
 }
 
-/// Whether they are in one plane and face each other's backs.
+/// Whether two faces are coplanar, with opposite normals.
 inline bool back_to_back(const Level<2>& level, std::size_t f, std::size_t g) {
     const DVec<2> u(level.corner(f, 1) - level.corner(f, 0)), v(level.corner(g, 1) - level.corner(g, 0));
     return orientation(level.corner(f, 0), level.corner(f, 1), level.corner(g, 0)) == 0 &&
@@ -129,11 +129,11 @@ inline bool back_to_back(const Level<3>& level, std::size_t f, std::size_t g) {
 
 enum class Place { outside, inside, on_nothing };
 
-/// `room`: the solid goes on without end outside. On nothing: on two faces back to back, which may be the border of
+/// `hollow`: the solid is unbounded outside. A point on two faces back to back may be undecided, as they may border
 /// nothing.
 template <int D>
-Place place_in(const Level<D>& level, const Vec<D>& p, bool room) {
-    int turns = room ? 1 : 0;
+Place place_in(const Level<D>& level, const Vec<D>& p, bool hollow) {
+    int turns = hollow ? 1 : 0;
     std::vector<std::size_t> touched;
     for (std::size_t face = 0; face < level.faces.size(); ++face) {
         const Seen seen = seen_from(level, face, p);
@@ -146,24 +146,24 @@ Place place_in(const Level<D>& level, const Vec<D>& p, bool room) {
     return turns > 0 || !touched.empty() ? Place::inside : Place::outside;
 }
 
-/// Where a ray meets a face, above zero where it goes in; in lengths of its direction.
-struct Meeting {
+/// The intersection of a ray with a face, in lengths of its direction; the sign is above zero where it enters.
+struct Crossing {
     double along = 0;
     int turns = 0;
-    bool sure = true;  ///< false where it meets the border of the face, or skims it
+    bool sure = true;  ///< false if it hits the border of the face, or is nearly parallel to it
 };
 
-inline Meeting meeting(const Level<2>& level, std::size_t face, const DVec<2>& origin, const DVec<2>& direction) {
+inline Crossing crossing_of(const Level<2>& level, std::size_t face, const DVec<2>& origin, const DVec<2>& direction) {
     const DVec<2> a = DVec<2>(level.corner(face, 0)) - origin, side = DVec<2>(level.corner(face, 1)) - origin - a;
-    const double slope = cross(side, direction), doubt = 1e-6 * length(side);
-    if (slope == 0) return {0, 0, std::abs(cross(side, a)) > doubt};
+    const double slope = cross(side, direction), tolerance = 1e-6 * length(side);
+    if (slope == 0) return {0, 0, std::abs(cross(side, a)) > tolerance};
     const double part = cross(direction, a) / slope, along = cross(side, a) / slope;
     if (part < -1e-6 || part > 1 + 1e-6) return {};
-    const bool border = part < 1e-6 || part > 1 - 1e-6 || std::abs(slope) < doubt;
+    const bool border = part < 1e-6 || part > 1 - 1e-6 || std::abs(slope) < tolerance;
     return {along, slope > 0 ? 1 : -1, !border};
 }
 
-inline Meeting meeting(const Level<3>& level, std::size_t face, const DVec<3>& origin, const DVec<3>& direction) {
+inline Crossing crossing_of(const Level<3>& level, std::size_t face, const DVec<3>& origin, const DVec<3>& direction) {
     const DVec<3> a = DVec<3>(level.corner(face, 0)) - origin, b = DVec<3>(level.corner(face, 1)) - origin,
                   c = DVec<3>(level.corner(face, 2)) - origin, normal = cross(b - a, c - a);
     const double slope = -dot(normal, direction), size = length(normal);
@@ -172,25 +172,27 @@ inline Meeting meeting(const Level<3>& level, std::size_t face, const DVec<3>& o
     const std::array<double, 3> sides{dot(direction, cross(a, b)), dot(direction, cross(b, c)),
                                       dot(direction, cross(c, a))};
     const auto [least, most] = std::minmax_element(sides.begin(), sides.end());
-    const double doubt = 1e-6 * size;
-    if (*least<-doubt&& * most> doubt) return {};
-    return {-dot(normal, a) / slope, slope > 0 ? 1 : -1, (*least > doubt || *most < -doubt) && std::abs(slope) > doubt};
+    const double tolerance = 1e-6 * size;
+    if (*least<-tolerance&& * most> tolerance) return {};
+    return {-dot(normal, a) / slope, slope > 0 ? 1 : -1,
+            (*least > tolerance || *most < -tolerance) && std::abs(slope) > tolerance};
 }
 
-/// The first place where a ray comes into the solid, infinite where none is. NaN where rounding could say otherwise.
+/// The first point where a ray enters the solid; infinite without one, NaN if rounding may decide.
 template <int D>
-double first_entry(const Level<D>& level, const Vec<D>& from, const DVec<D>& direction, bool room) {
-    std::vector<Meeting> met;
-    int turns = room ? 1 : 0;
+double first_entry(const Level<D>& level, const Vec<D>& from, const DVec<D>& direction, bool hollow) {
+    std::vector<Crossing> crossings;
+    int turns = hollow ? 1 : 0;
     for (std::size_t face = 0; face < level.faces.size(); ++face) {
         const Seen seen = seen_from(level, face, from);
         turns += seen.turns;
-        const Meeting here = meeting(level, face, DVec<D>(from), direction);
+        const Crossing here = crossing_of(level, face, DVec<D>(from), direction);
         if (!here.sure || seen.touches) return std::nan("");
-        if (here.turns != 0 && here.along > 0) met.push_back(here);
+        if (here.turns != 0 && here.along > 0) crossings.push_back(here);
     }
-    std::sort(met.begin(), met.end(), [](const Meeting& a, const Meeting& b) { return a.along < b.along; });
-    for (const Meeting& here : met) {
+    std::sort(crossings.begin(), crossings.end(),
+              [](const Crossing& a, const Crossing& b) { return a.along < b.along; });
+    for (const Crossing& here : crossings) {
         const bool was_open = turns <= 0;
         turns += here.turns;
         if (was_open && turns > 0) return here.along;

@@ -1,4 +1,4 @@
-// A solid level as a shape made of parts: these are what is solid, and tell whose they are.
+// A solid level as a composite shape: its parts are the solid, and know their brush.
 
 #include "solid_levels.hpp"
 #include <abut/query/closest.hpp>
@@ -29,7 +29,7 @@ struct Counts {
     int inside = 0, checked = 0, in_one = 0;
 };
 
-/// A point is in a part iff the tree says that it is in the solid; and in no other, but where they meet.
+/// A point is in a part iff the tree contains it, and in two parts only on their common faces.
 template <int D>
 void expect_parts_are_the_solid(const SolidBsp<D>& tree, oracle::Random& random, int points, Counts& counts) {
     Aabb<D> box = bounds(tree);
@@ -112,9 +112,9 @@ void add_box(const Vec<D>& low, const Vec<D>& high, std::vector<HalfSpace<D>>& s
     ends.push_back(static_cast<std::uint32_t>(sides.size()));
 }
 
-/// Three brushes: of these the second has no volume.
+/// Three brushes; the second has no volume.
 template <int D>
-SolidBsp<D> three_lumps() {
+SolidBsp<D> three_brushes() {
     std::vector<HalfSpace<D>> sides;
     std::vector<std::uint32_t> ends;
     add_box<D>(Vec<D>(0.0f), Vec<D>(4.0f), sides, ends);
@@ -127,8 +127,8 @@ SolidBsp<D> three_lumps() {
 }
 
 template <int D>
-void expect_lumps_by_hand() {
-    const SolidBsp<D> level = three_lumps<D>();
+void expect_known_brushes() {
+    const SolidBsp<D> level = three_brushes<D>();
     EXPECT_EQ(level.part_count(), 2u);
     Vec<D> low(0.0f), high(4.0f);
     high[0] = 10;
@@ -147,14 +147,14 @@ void expect_lumps_by_hand() {
     EXPECT_EQ(nearest.feature_a.part, 2u) << "the one left out is counted";
     EXPECT_NEAR(nearest.normal[1], 1, 1e-6);
     center[1] = 5;
-    Vec<D> way(0.0f);
-    way[1] = -4;
-    const auto hit = sweep(Ball<D>{center, 0.25f}, way, level);
+    Vec<D> motion(0.0f);
+    motion[1] = -4;
+    const auto hit = sweep(Ball<D>{center, 0.25f}, motion, level);
     ASSERT_TRUE(hit);
     EXPECT_NEAR(hit->fraction, 1.75 / 4, 1e-6);
     EXPECT_EQ(hit->feature.part, 2u);
-    // The level's own ray tells the side, that of its parts the brush.
-    const Ray<D> ray = Ray<D>::between(center, center + way);
+    // The level's own raycast reports the side; that of its parts reports the brush.
+    const Ray<D> ray = Ray<D>::between(center, center + motion);
     const auto side = raycast(ray, level), brush = raycast(ray, at(level, Pose<D>{}));
     ASSERT_TRUE(side && brush);
     EXPECT_EQ(side->distance, 2);
@@ -165,19 +165,19 @@ void expect_lumps_by_hand() {
 }
 
 TEST(SolidParts, AreTheLumpsByNumber) {
-    expect_lumps_by_hand<2>();
-    expect_lumps_by_hand<3>();
+    expect_known_brushes<2>();
+    expect_known_brushes<3>();
 }
 
-TEST(SolidParts, OfARoomGoOnBeyondItsWalls) {
-    const SolidBsp3 room = level_of(reversed(box_surface({0, 0, 0}, {4, 2, 2}))).tree();
-    EXPECT_EQ(room.bounds(), (Aabb3{{0, 0, 0}, {4, 2, 2}}));
-    EXPECT_EQ(bounds(room), (Aabb3{{-4, -4, -4}, {8, 6, 6}}));
-    EXPECT_NEAR(closest(room, Vec3(1, 1, 1.25f)).distance, 0.75, 1e-6);
-    EXPECT_NEAR(contact(room, Sphere{{1, 1, 2.5f}, 0.25f}).depth, 0.75, 1e-6);
-    EXPECT_NEAR(sweep(Sphere{{1, 1, 1}, 0.5f}, Vec3(0, 0, -9), room)->fraction, 0.5 / 9, 1e-6);
-    EXPECT_TRUE(room.contains(Vec3(100)));
-    // Open geometry is solid behind, as far.
+TEST(SolidParts, OfARoomExtendBeyondItsWalls) {
+    const SolidBsp3 hollow = level_of(reversed(box_surface({0, 0, 0}, {4, 2, 2}))).tree();
+    EXPECT_EQ(hollow.bounds(), (Aabb3{{0, 0, 0}, {4, 2, 2}}));
+    EXPECT_EQ(bounds(hollow), (Aabb3{{-4, -4, -4}, {8, 6, 6}}));
+    EXPECT_NEAR(closest(hollow, Vec3(1, 1, 1.25f)).distance, 0.75, 1e-6);
+    EXPECT_NEAR(contact(hollow, Sphere{{1, 1, 2.5f}, 0.25f}).depth, 0.75, 1e-6);
+    EXPECT_NEAR(sweep(Sphere{{1, 1, 1}, 0.5f}, Vec3(0, 0, -9), hollow)->fraction, 0.5 / 9, 1e-6);
+    EXPECT_TRUE(hollow.contains(Vec3(100)));
+    // Behind open geometry the solid extends as far.
     const SolidBsp2 wall = *SolidBsp2::build(std::vector<Vec2>{{0, 0}, {4, 0}}, std::vector<glm::uvec2>{{0, 1}});
     EXPECT_EQ(bounds(wall), (Aabb2{{-4, 0}, {8, 4}}));
     EXPECT_NEAR(closest(wall, Vec2(7, 1)).distance, -1, 1e-6);
@@ -196,7 +196,7 @@ TEST(SolidParts, OfNothingAreNone) {
     EXPECT_TRUE(world.update().began.empty());
 }
 
-/// Where floats are coarse a part keeps its form: its corners are told in its own frame.
+/// Where floats are coarse a part keeps its form: its corners are relative to its own frame.
 TEST(SolidParts, FarFromTheOriginKeepTheirForm) {
     const float far = 1 << 16;
     std::vector<HalfSpace3> sides;
@@ -240,10 +240,10 @@ void expect_nearest_face(const abut::test::Level<D>& level, oracle::Random& rand
                 least = distance;
                 nearest = face;
             }
-        const auto told = tree.nearest_face(p);
-        ASSERT_TRUE(told);
-        EXPECT_NEAR(distance_to(*told, p), least, 1e-5);
-        unsure += *told == nearest ? 0 : 1;
+        const auto reported = tree.nearest_face(p);
+        ASSERT_TRUE(reported);
+        EXPECT_NEAR(distance_to(*reported, p), least, 1e-5);
+        unsure += *reported == nearest ? 0 : 1;
     }
 }
 
@@ -268,7 +268,7 @@ TEST(SolidParts, TheNearestFaceIsThatOfAll) {
 }
 
 TEST(SolidParts, InACompoundAndAWorldAreItsOwn) {
-    const SolidBsp3 level = three_lumps<3>();
+    const SolidBsp3 level = three_brushes<3>();
     const Compound3 two = *Compound3::build({level, at(stretched(level, Vec3(-1, 1, 1)), Pose3{{0, 0, 20}})});
     EXPECT_EQ(contact(two, Sphere{{2, 2, 0.5f}, 0.1f}).feature_a.part, 0u);
     EXPECT_EQ(closest(two, Vec3(-9, 2, 22)).feature_a.part, 1u);
@@ -284,16 +284,16 @@ TEST(SolidParts, InACompoundAndAWorldAreItsOwn) {
     EXPECT_EQ(world.raycast(Ray3::between({7, 2, 20}, {7, 2, 4}))->id, ball);
 }
 
-/// A world finds nothing beyond the bounds of a shape, where the tree of a room said "inside" of all there is.
+/// A world finds nothing beyond the bounds of a shape, where the tree of a room once contained all of space.
 TEST(SolidParts, SolidAroundARoomContainsWhatItsPartsDo) {
     const std::vector<Vec2> points{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
     const std::vector<glm::uvec2> faces{{1, 0}, {2, 1}, {3, 2}, {0, 3}};
-    const SolidBsp2 room = *SolidBsp2::build(points, faces);
-    EXPECT_FALSE(contains(room, Vec2(0, 0)));
-    EXPECT_TRUE(contains(room, Vec2(1.5f, 0)));
-    EXPECT_TRUE(room.contains({1000, 0}));
-    EXPECT_FALSE(contains(room, Vec2(1000, 0)));
-    EXPECT_FALSE(overlaps(room, Circle{{1000, 0}, 1}));
+    const SolidBsp2 hollow = *SolidBsp2::build(points, faces);
+    EXPECT_FALSE(contains(hollow, Vec2(0, 0)));
+    EXPECT_TRUE(contains(hollow, Vec2(1.5f, 0)));
+    EXPECT_TRUE(hollow.contains({1000, 0}));
+    EXPECT_FALSE(contains(hollow, Vec2(1000, 0)));
+    EXPECT_FALSE(overlaps(hollow, Circle{{1000, 0}, 1}));
 }
 
 }  // namespace

@@ -19,9 +19,9 @@ struct Rays {
 };
 
 template <int D>
-void expect_same_ray(const Level<D>& level, const SolidBsp<D>& tree, const Ray<D>& ray, bool room, Rays& rays) {
+void expect_same_ray(const Level<D>& level, const SolidBsp<D>& tree, const Ray<D>& ray, bool hollow, Rays& rays) {
     const DVec<D> direction = normalized(DVec<D>(ray.direction));
-    const double expected = first_entry(level, ray.origin, direction, room);
+    const double expected = first_entry(level, ray.origin, direction, hollow);
     if (std::isnan(expected)) {
         ++rays.unsure;
         return;
@@ -37,12 +37,12 @@ void expect_same_ray(const Level<D>& level, const SolidBsp<D>& tree, const Ray<D
     ASSERT_NEAR(static_cast<double>(hit->distance), expected, 1e-6 * scale);
     ASSERT_LT(dot(DVec<D>(hit->normal), direction), 0);
     ASSERT_NEAR(length(DVec<D>(hit->normal)), 1, 1e-6);
-    ASSERT_EQ(hit->started_inside, place_in(level, ray.origin, room) == Place::inside);
-    // The face that it names is met there.
+    ASSERT_EQ(hit->started_inside, place_in(level, ray.origin, hollow) == Place::inside);
+    // The ray hits the reported face there.
     ASSERT_LT(hit->feature.part, level.faces.size());
-    const Meeting met = meeting(level, hit->feature.part, DVec<D>(ray.origin), direction);
-    ASSERT_EQ(met.turns, 1) << "face " << hit->feature.part;
-    ASSERT_NEAR(met.along, expected, 1e-6 * scale);
+    const Crossing crossings = crossing_of(level, hit->feature.part, DVec<D>(ray.origin), direction);
+    ASSERT_EQ(crossings.turns, 1) << "face " << hit->feature.part;
+    ASSERT_NEAR(crossings.along, expected, 1e-6 * scale);
 }
 
 template <int D>
@@ -64,8 +64,8 @@ TEST(SolidRaycast, OutlinesAndTheirHoles) {
         for (int k = 0; k < 6; ++k)
             add_outline(level,
                         star(random, 3 + static_cast<int>(random.below(9)), Vec2(random.in_cube<2>() * 9.0), 1, 5));
-        const bool room = i % 3 == 0;
-        if (room) {
+        const bool hollow = i % 3 == 0;
+        if (hollow) {
             Level<2> wall;
             add_outline(wall, star(random, 30, Vec2(0), 20, 25));
             turn_around(wall);
@@ -75,7 +75,7 @@ TEST(SolidRaycast, OutlinesAndTheirHoles) {
         }
         const SolidBsp2 tree = level.tree();
         for (int k = 0; k < 200; ++k) {
-            expect_same_ray(level, tree, ray_into(tree.bounds(), random), room, rays);
+            expect_same_ray(level, tree, ray_into(tree.bounds(), random), hollow, rays);
             if (HasFatalFailure()) return;
         }
     }
@@ -132,7 +132,7 @@ TEST(SolidRaycast, ByHand) {
     ASSERT_TRUE(next);
     EXPECT_EQ(next->distance, 4);
     EXPECT_TRUE(next->started_inside);
-    // Through two that touch it is one way.
+    // Two that touch are one interval.
     const SolidBsp3 row = level_of(joined(box_surface({0, 0, 0}, {2, 2, 2}), box_surface({2, 0, 0}, {4, 2, 2}))).tree();
     EXPECT_FALSE(raycast(Ray3{{1, 1, 0.5f}, {1, 0, 0}}, row));
     EXPECT_FALSE(raycast(Ray3{{2, 1, 0.5f}, {1, 0, 0}}, row)) << "starts between them";
@@ -140,24 +140,24 @@ TEST(SolidRaycast, ByHand) {
 }
 
 TEST(SolidRaycast, SlipsThroughNoCorner) {
-    // Rays at corners and edges of a closed room, from inside: each must hit, whatever rounding does.
+    // Rays at corners and edges of a closed room, from inside: each must hit despite rounding.
     oracle::Random random(73);
     for (int i = 0; i < 20; ++i) {
         const Level<3> level = level_of(reversed(random_terrain(random, 6, 3).solid(-4)));
-        const SolidBsp3 room = level.tree();
+        const SolidBsp3 hollow = level.tree();
         for (int k = 0; k < 300; ++k) {
             const Vec3 eye(random.in_cube<3>() * 0.9 + DVec<3>(3, 3, -2));
-            ASSERT_FALSE(room.contains(eye));
+            ASSERT_FALSE(hollow.contains(eye));
             const std::size_t face = random.below(static_cast<std::uint32_t>(level.faces.size()));
             const Vec3 a = level.corner(face, 0), b = level.corner(face, 1);
             Ray3 ray = Ray3::between(eye, k % 2 == 0 ? a : 0.5f * (a + b));
             ray.length = std::numeric_limits<float>::infinity();
-            ASSERT_TRUE(raycast(ray, room)) << "seed 73 level " << i << " ray " << k;
+            ASSERT_TRUE(raycast(ray, hollow)) << "seed 73 level " << i << " ray " << k;
         }
     }
 }
 
-/// Whether each corner is left as often as it is come to.
+/// Whether each corner is left as often as it is reached.
 bool is_closed(const Level<2>& level) {
     std::map<std::pair<float, float>, int> balance;
     for (const glm::uvec2& face : level.faces) {
@@ -167,7 +167,7 @@ bool is_closed(const Level<2>& level) {
     return std::all_of(balance.begin(), balance.end(), [](const auto& each) { return each.second == 0; });
 }
 
-/// Of all maps.
+/// The counts over all maps.
 struct Nodes {
     std::size_t maps = 0, walls = 0, all_lines = 0, wad = 0;
 };

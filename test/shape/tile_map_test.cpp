@@ -66,7 +66,7 @@ TEST(TileMap, OfEachKindHoldsWhatItsNameSays) {
     }
 }
 
-TEST(TileMap, OneWayTilesAreMetFromOutside) {
+TEST(TileMap, OneWayTilesAreHitFromOutside) {
     struct Row {
         Tile tile;
         Vec2 out;
@@ -84,7 +84,8 @@ TEST(TileMap, OneWayTilesAreMetFromOutside) {
         EXPECT_FALSE(sweep(inside, row.out * 6.0f, map));
         EXPECT_TRUE(raycast(Ray2::between(outside, middle), map));
         EXPECT_FALSE(raycast(Ray2::between(middle, outside), map));
-        // Resting on it, a hair deep, it is held; jumping up through it, it isn't until it is mostly past.
+        // A shape resting on it, slightly deep, is supported; one jumping up through it is free until it is mostly
+        // past.
         const Box2 resting{middle + row.out * 1.24f, {0.25f, 0.25f}}, jumping{middle + row.out * 0.9f, {0.25f, 0.25f}};
         ASSERT_TRUE(contact(resting, map));
         EXPECT_TRUE(near(contact(resting, map).normal, -row.out));

@@ -1,4 +1,4 @@
-// A user's own shapes, found by argument-dependent lookup: a convex one and a composite one, in every question.
+// User-defined shapes, found by argument-dependent lookup: a convex one and a composite one, in every query.
 
 #include "../oracle/expect.hpp"
 #include "../oracle/random.hpp"
@@ -145,7 +145,7 @@ TEST(UserShape, OfPartsAnswersEveryQuestion) {
 TEST(UserShape, OfPartsCanBePlacedRoundedAndStretched) {
     const Voxels voxels = corner_of_cells();
     const Pose3 quarter{{0, 0, 0}, turn_about({0, 0, 1}, 1.57079633f)};
-    // Turned by a quarter the L lies from x = -3 to 0, its long arm along y.
+    // Rotated by a quarter, the L is at x from -3 to 0, its long arm along y.
     EXPECT_NEAR(closest(at(voxels, quarter), Vec3(-0.5f, 7, 0.5f)).distance, 2, 1e-5);
     EXPECT_NEAR(closest(rounded(voxels, 0.25f), Vec3(2.5f, 3, 0.5f)).distance, 1.25, 1e-5);
     // Stretched threefold along x, the short arm ends at 3: out there two left, below three.

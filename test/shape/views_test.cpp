@@ -66,7 +66,7 @@ TEST(View, OfABallStretchedIsAnEllipse) {
         SCOPED_TRACE(seed);
         oracle::Random random(seed);
         const Vec2 point = to_float(random.in_cube<2>() * DVec<2>(4, 1.5));
-        // Every thousandth of the way round, from the rational parametrisation of the circle.
+        // Every thousandth of the circle, by its rational parametrisation.
         double least = std::numeric_limits<double>::infinity();
         for (int i = -2000; i <= 2000; ++i) {
             const double t = static_cast<double>(i) / 2000, x = (1 - t * t) / (1 + t * t), y = 2 * t / (1 + t * t);
@@ -120,7 +120,7 @@ TEST(View, OfAHalfSpaceMovesItsBorder) {
     const HalfSpace3 ground{{0, 1, 0}, 1};
     EXPECT_FLOAT_EQ(closest(at(ground, Pose3{{5, 2, 5}}), Vec3(0, 10, 0)).distance, 7);
     EXPECT_FLOAT_EQ(closest(stretched(ground, Vec3(7, 3, 7)), Vec3(0, 10, 0)).distance, 7);
-    // Tilted by a quarter turn about z, what was up is now -x.
+    // Rotated by a quarter about z, +y becomes -x.
     const Pose3 quarter{{0, 0, 0}, turn_about({0, 0, 1}, 1.57079633f)};
     EXPECT_NEAR(closest(at(ground, quarter), Vec3(-10, 0, 0)).distance, 9, 1e-5);
     // x + y <= 1 stretched by two along x is x / 2 + y <= 1.

@@ -6,7 +6,7 @@ namespace abut {
 namespace {
 
 TEST(Weld, MakesPointsAtOnePositionOne) {
-    // A square of two triangles with corners of their own, and a point nobody uses.
+    // A square of two triangles with separate corners, and an unused point.
     const std::vector<Vec3> points{{9, 9, 9}, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-0.0f, 0, 0}, {1, 1, 0}, {0, 1, 0}};
     const Welded welded = weld(points, std::vector<glm::uvec3>{{1, 2, 3}, {4, 5, 6}});
     EXPECT_EQ(welded.points, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));

@@ -1,4 +1,4 @@
-// What meets between two frames.
+// Contacts between two frames.
 
 #include "scene_of.hpp"
 #include "tool/check/check.hpp"
@@ -91,8 +91,8 @@ TEST(Between, HoweverThinAndFast) {
     }
 }
 
-TEST(Between, WhatIsFoundAtAFrameIsNotToldAgain) {
-    // In the wall at the second of three frames; past it at both sides.
+TEST(Between, WhatIsFoundAtAFrameIsReportedOnce) {
+    // In the wall at the second of three frames; beside it at the others.
     const CheckResult<3> result = check_scene(walker_and_wall({{0, {-5, 0, 0}}, {1, {0.25, 0, 0}}, {2, {5, 0, 0}}}));
     ASSERT_EQ(result.findings.size(), 1u);
     EXPECT_FALSE(result.findings[0].between);
@@ -107,7 +107,7 @@ TEST(Between, ThingsMaySlideAndRestOnThings) {
         const double y = 0.5 - depth;
         add_motion(scene, test::add_unit_box(scene, "Crate", {-20, y, 0}), {{0, {-20, y, 0}}, {1, {20, y, 7}}});
         EXPECT_TRUE(check_scene(scene).findings.empty()) << depth;
-        // A bump on the way is one.
+        // A bump between two keys is one.
         test::add_unit_box(scene, "Bump", {0, -0.49, 3.5});
         EXPECT_EQ(check_scene(scene).findings.size(), 2u) << depth << ": the bump is in the floor, and met";
         EXPECT_EQ(check_scene(scene, {.limits = {.allow = 0.02f}, .pairs = {{"Bump", "Crate"}}}).findings.size(), 0u);
@@ -115,7 +115,7 @@ TEST(Between, ThingsMaySlideAndRestOnThings) {
 }
 
 TEST(Between, WheelsOnRailsAreFine) {
-    // A wheel of 32 corners that rolls on a rail, by a turn of 11.25 degrees a key, from side to side.
+    // A wheel of 32 corners that rolls on a rail by 11.25 degrees per key, from side to side.
     constexpr int corners = 32;
     const double angle = 2 * 3.14159265358979 / corners, inner = std::cos(angle / 2);
     test::Triangles wheel;
@@ -148,7 +148,7 @@ TEST(Between, WheelsOnRailsAreFine) {
     animation.length = 8;
     scene.animations.push_back(animation);
     schedule(scene);
-    // A corner goes 1 - cos(5.6 degrees) of the radius under the rail between two keys: more than is allowed of itself.
+    // A corner goes below the rail by 1 - cos(5.6 degrees) of the radius between two keys: more than --allow permits.
     const float bump = static_cast<float>(1 - inner);
     EXPECT_TRUE(check_scene(scene, {.limits = {.allow = 1.1f * bump}}).findings.empty());
     const CheckResult<3> result = check_scene(scene, {.limits = {.allow = 0.5f * bump}});
@@ -177,7 +177,7 @@ TEST(Between, WhatLeapsWithinOneFrameJumps) {
         return keys;
     };
     EXPECT_TRUE(check_scene(walker_and_wall(walk(4))).findings.empty());
-    // What goes as fast all the time is fast, and sampled all the same.
+    // A constant high speed is fast, and sampled all the same.
     Keys fast;
     for (int i = 0; i <= 48; ++i) fast.emplace_back(i / 24.0, glm::dvec3(-98 + 4 * i, 0, 0));
     EXPECT_EQ(check_scene(walker_and_wall(fast)).findings.size(), 1u);
@@ -209,7 +209,7 @@ TEST(Between, KeysBetweenFramesAreFollowed) {
 }
 
 TEST(Between, SplinesAreFollowed) {
-    // Out through the wall and back to where it began, in one piece of a spline: no sign of it at its ends.
+    // Out through the wall and back to the start, in one piece of a spline: the ends don't show it.
     Scene scene = walker_and_wall({{0, {-2, 0, 0}}, {1, {-2, 0, 0}}}, Interpolation::cubic);
     KeyTrack<glm::dvec3>& track = scene.animations[0].motions[0].translation;
     track.out_tangents[0] = {16, 0, 0};
@@ -247,7 +247,7 @@ TEST(Between, TurnsAreFollowedAroundTheirAxis) {
     EXPECT_TRUE(check_scene(with({5, 5, 0})).findings.empty()) << "on the chord";
 }
 
-TEST(Between, WhatChangesItsShapeIsLookedAtAtFrames) {
+TEST(Between, WhatChangesItsShapeIsTestedAtFrames) {
     Scene scene = walker_and_wall({{0, {-5, 0, 0}}, {1, {5, 0, 0}}});
     KeyTrack<glm::dvec3>& scale = scene.animations[0].motions[0].scale;
     scale.times = {0, 1};
@@ -260,7 +260,7 @@ TEST(Between, WhatChangesItsShapeIsLookedAtAtFrames) {
     EXPECT_EQ(objects.discontinuous(), std::vector<std::string>{"Walker"});
 }
 
-TEST(Between, ClearanceHoldsOnTheWayToo) {
+TEST(Between, ClearanceHoldsBetweenFramesToo) {
     Scene scene = walker_and_wall({{0, {-5, 5.75, 0}}, {1, {5, 5.75, 0}}});  // 0.25 above the wall's end
     EXPECT_TRUE(check_scene(scene).findings.empty());
     EXPECT_TRUE(check_scene(scene, {.limits = {.clearance = 0.2f}}).findings.empty());
@@ -284,7 +284,7 @@ TEST(Between, MeshesTooAndOnesThatMoveTogetherAreLeftAlone) {
     EXPECT_EQ(result.findings.size(), 3u) << "and the load in the train, all the time";
 }
 
-// 3,000 boxes in one place took 5 GB, for all that there was to say of 4,498,500 pairs.
+// 3,000 boxes at one place once took 5 GB, to report 4,498,500 pairs.
 TEST(Findings, OfMoreThanWantedTheDeepestAreGiven) {
     Scene scene;
     for (int i = 0; i < 60; ++i) test::add_unit_box(scene, "Box " + std::to_string(100 + i), {0.01 * i, 0, 0});

@@ -1,4 +1,4 @@
-// `abut cast` as its users see it.
+// `abut cast` as a command line.
 
 #include "tool_runs.hpp"
 
@@ -31,7 +31,7 @@ std::string row() {
     return builder.text();
 }
 
-TEST_F(Cast, TellsWhatIsInTheWay) {
+TEST_F(Cast, ReportsTheFirstHit) {
     const std::string file = write("row.gltf", row()).string();
     const Json json = cast({file, "--from", "-3,0,0", "--to", "9,0,0"}, 1);
     EXPECT_EQ(json["objects"], 3);
@@ -71,7 +71,7 @@ TEST_F(Cast, OfAMeshNamesTheTriangle) {
     EXPECT_EQ(hit["normal"], Json({1.0, 0.0, 0.0})) << "towards where the ray comes from";
 }
 
-TEST_F(Cast, TellsAllThatIsInTheWay) {
+TEST_F(Cast, ReportsAllHits) {
     const std::string file = write("row.gltf", row()).string();
     const Json json = cast({file, "--from", "-3,0.25,0", "--to", "9,0.25,0", "--all"}, 1);
     ASSERT_EQ(json["hits"].size(), 3u) << "each thing once, though the ray comes out of the boxes too";
@@ -105,7 +105,7 @@ TEST_F(Cast, FromInsideSaysSo) {
 
 TEST_F(Cast, BouncesBetweenMirrorsAndGoesOnBeyondTheTarget) {
     const std::string file = write("row.gltf", row()).string();
-    // To and fro between the boxes, whose faces are 3 apart.
+    // Back and forth between the boxes, whose faces are 3 apart.
     Json json = cast({file, "--from", "1,0,0", "--to", "1.5,0,0", "--bounces", "4"}, 1);
     ASSERT_EQ(json["hits"].size(), 5u) << "the last one isn't thrown back";
     for (std::size_t i = 0; i < 5; ++i) {
@@ -114,7 +114,7 @@ TEST_F(Cast, BouncesBetweenMirrorsAndGoesOnBeyondTheTarget) {
         EXPECT_NEAR(hit["travelled"].get<double>(), 2.5 + 3 * static_cast<double>(i), 1e-5);
     }
     EXPECT_EQ(json["end"], json["hits"][4]["point"]);
-    // Off the right box at a slant, past the left one, and away.
+    // Reflected by the right box at an angle, past the left one, and into the distance.
     json = cast({file, "--from", "2,0.4,0", "--to", "3.5,0.1,0", "--bounces", "9"}, 1);
     EXPECT_GE(json["hits"].size(), 1u);
     EXPECT_LT(json["hits"].size(), 10u);
@@ -122,7 +122,7 @@ TEST_F(Cast, BouncesBetweenMirrorsAndGoesOnBeyondTheTarget) {
     cast({file, "--from", "2,2,0", "--to", "2,3,0", "--bounces", "9"}, 0);
 }
 
-TEST_F(Cast, IsAtTheMomentAskedFor) {
+TEST_F(Cast, IsAtTheRequestedMoment) {
     // A door across the x axis goes up by 4 in a third of 10 seconds.
     GltfBuilder builder;
     const int node = builder.add_node("Door", builder.add_mesh("Door", box_triangles({0.5f, 0.5f, 0.5f})), {0, 0, 0});

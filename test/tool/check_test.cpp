@@ -17,7 +17,7 @@ CheckResult<3> check_scene(const Scene& scene, const CheckOptions& options = {})
     return *std::move(result);
 }
 
-TEST(Check, ToldByHand) {
+TEST(Check, ReportsKnownDistances) {
     Scene scene;
     test::add_unit_box(scene, "a", {0, 0, 0});
     test::add_unit_box(scene, "b", {0.75, 0, 0});
@@ -114,7 +114,7 @@ TEST(Check, AShapeThatGoesEndsItsFindings) {
     EXPECT_EQ(result.findings[1].first, 3u);
 }
 
-TEST(Check, OnlyThePairsThatAreAskedFor) {
+TEST(Check, OnlyTheRequestedPairs) {
     Scene scene;
     for (const char* name : {"Player", "Wall 1", "Wall 2", "Crate"}) test::add_unit_box(scene, name, {0, 0, 0});
     EXPECT_EQ(check_scene(scene).findings.size(), 6u);
@@ -163,7 +163,7 @@ TEST(Check, ThingsInARoomAreNotInsideOfABody) {
 }
 
 TEST(Check, TheSameMeshPlacedTwice) {
-    // The surfaces only touch; the bodies are one another's place.
+    // The surfaces only touch, but the bodies coincide.
     Scene scene;
     test::add_object(scene, "Wall", test::corner_triangles(4));
     test::add_object(scene, "Wall copy", test::corner_triangles(4));

@@ -1,4 +1,4 @@
-// `abut decompose` as its users see it.
+// `abut decompose` as a command line.
 
 #include "../../scenes/solid_meshes.hpp"
 #include "../oracle/part_quality.hpp"
@@ -118,7 +118,7 @@ TEST_F(DecomposeVerb, TakesObjectsWhereTheyStand) {
     EXPECT_EQ(json["repairs"]["triangles_turned"], 0) << "what is mirrored is turned as it is read";
 }
 
-TEST_F(DecomposeVerb, LeavesRoomsHollowIfAsked) {
+TEST_F(DecomposeVerb, LeavesRoomsHollowIfRequested) {
     scenes::SolidMesh room = boxes();
     for (glm::uvec3& t : room.triangles) std::swap(t.y, t.z);
     const std::string file = write_mesh("room.obj", room);

@@ -52,7 +52,7 @@ TEST(Duplicates, TheOrderOfCornersAndTrianglesDoesntMatter) {
     test::add_object(scene, "b", shuffled);
     EXPECT_EQ(duplicates_of(scene).groups.size(), 1u);
 
-    // The same corners with other triangles between them are something else.
+    // Equal corners with other triangles are another mesh.
     std::swap(scene.geometries[1].triangles[0].x, scene.geometries[1].triangles[5].x);
     EXPECT_TRUE(duplicates_of(scene).groups.empty());
 }
@@ -61,7 +61,7 @@ TEST(Duplicates, TurnedOntoItselfACubeIsThereTwice) {
     Scene scene;
     test::add_unit_box(scene, "a", {0, 0, 0});
     const std::uint32_t b = test::add_unit_box(scene, "b", {0, 0, 0});
-    // Other diagonals of its sides come to where those of the first are.
+    // Its other diagonals coincide with those of the first.
     scene.nodes[b].local = glm::dmat4(0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 1);
     EXPECT_EQ(duplicates_of(std::move(scene)).groups.size(), 1u);
 }

@@ -1,4 +1,4 @@
-// `abut field` as its users see it.
+// `abut field` as a command line.
 
 #include "../../scenes/solid_meshes.hpp"
 #include "tool_runs.hpp"
@@ -83,7 +83,7 @@ TEST_F(FieldVerb, MeasuresHowFarOffItIs) {
     EXPECT_LT(sharp["near"]["rms"], rough["near"]["rms"]);
 }
 
-TEST_F(FieldVerb, KeepsWhatItIsTold) {
+TEST_F(FieldVerb, StoresItsOptions) {
     const std::string file = cube();
     const Json sparse = baked({file, "-o", out("a.field"), "--cell", "0.04"})["field"],
                wide = baked({file, "-o", out("b.field"), "--cell", "0.04", "--band", "9"})["field"],
@@ -112,7 +112,7 @@ TEST_F(FieldVerb, SaysWhatItDid) {
         EXPECT_NE(ran.out.find(said), std::string::npos) << said << "\n" << ran.out;
 }
 
-TEST_F(FieldVerb, TellsWhatIsInDoubt) {
+TEST_F(FieldVerb, ReportsUndecidedSamples) {
     scenes::SolidMesh mesh = scenes::of_cubes({{"#"}});
     std::swap(mesh.triangles[3].x, mesh.triangles[3].y);
     const Json turned = baked({write_mesh("turned.obj", mesh), "-o", out("turned.field")});
@@ -177,7 +177,7 @@ TEST_F(FieldVerb, DrawsSlices) {
     EXPECT_EQ(count(two, "y = "), 0u);
 }
 
-TEST_F(FieldVerb, InfoTellsWhatIsInAField) {
+TEST_F(FieldVerb, InfoDescribesAField) {
     const Json json = baked({cube(), "-o", out("cube.field")});
     const Json info = json_of({"info", out("cube.field")}, 0);
     for (const auto& [key, value] : json["field"].items()) EXPECT_EQ(info[key], value) << key;

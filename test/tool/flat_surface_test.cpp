@@ -26,7 +26,7 @@ float length_of(const Surface<2>& surface) {
     return sum;
 }
 
-// The shape is on the left of each of its edges and, somewhere along it, not on the right.
+// The shape is on the left of each of its edges, and at some point of it not on the right.
 template <class S>
 void expect_fronts_are_free(const S& shape, const Surface<2>& surface, float away) {
     for (std::size_t i = 0; i < surface.facets.size(); ++i) {
@@ -64,7 +64,7 @@ TEST(FlatSurface, CurvesByLinesWithinTheirTolerance) {
 }
 
 TEST(FlatSurface, TilesHaveNoEdgesBetweenThem) {
-    // A floor with a slope and a half, somewhere and turned: coordinates are rounded tile by tile.
+    // A floor with a slope and a half, moved and rotated: coordinates are rounded tile by tile.
     const std::vector<Tile> tiles{Tile::empty,     Tile::full, Tile::slope_high_x_high_y,
                                   Tile::empty,  //
                                   Tile::full,      Tile::full, Tile::full,
@@ -98,7 +98,7 @@ TEST(FlatSurface, OneWayTilesAndOpenLinesAreFreeOnBothSides) {
 }
 
 TEST(FlatSurface, WhatLinesGoAroundIsBehindThem) {
-    // A wall with a hole, whichever way each is drawn.
+    // A wall with a hole, with either winding of both.
     for (const bool turned : {false, true})
         for (const bool hole_turned : {false, true}) {
             std::vector<Vec2> outer{{0, 0}, {9, 0}, {9, 9}, {0, 9}}, inner{{3, 3}, {6, 3}, {6, 6}, {3, 6}};
@@ -112,8 +112,8 @@ TEST(FlatSurface, WhatLinesGoAroundIsBehindThem) {
         }
 }
 
-// Nobody gets into random tiles, or a compound of tiles and a polygon, without going through an edge.
-TEST(FlatSurface, IsCrossedByAllWaysIn) {
+// No path enters random tiles, or a compound of tiles and a polygon, without crossing an edge.
+TEST(FlatSurface, IsCrossedByAllPathsIn) {
     constexpr std::uint64_t seed = 20260;
     oracle::Random random(seed);
     int crossings = 0;

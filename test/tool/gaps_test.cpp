@@ -51,7 +51,7 @@ TEST(Gaps, ADoorInAWallOfLines) {
 
 TEST(Gaps, NoneInCornersCracksAndNiches) {
     test::PlaneLevel level;
-    // A room whose corners are all there is to it; a corner of 30 degrees; a crack with a bottom, 0.3 wide.
+    // A room with nothing but its corners; a corner of 30 degrees; a crack with a bottom, 0.3 wide.
     level.add_box("south", {0, -1}, {8, 0});
     level.add_box("west", {-1, 0}, {0, 5});
     level.add("slope", {{0, 5}, {8, 1}, {8, 5}});
@@ -81,7 +81,7 @@ TEST(Gaps, APassageThatBendsIsOne) {
     for (const Gap<2>& gap : gaps) EXPECT_NEAR(gap.width, 0.5, 0.02);
 }
 
-// Rooms with a door in each wall between two, of widths that are known: those are told that are narrower, no others.
+// Rooms with doors of known widths in the walls between them: exactly the narrower ones are reported.
 struct Door {
     Vec2 middle{};
     float width = 0;
@@ -160,8 +160,8 @@ TEST(Gaps, TheSameMazeInSpace) {
     expect_doors(maze, find_gaps(FacetTree<3>(level.view_of().objects), {0.8, 0.1, DVec<3>(0, 1, 0)}), 0.8);
 }
 
-// Of convex obstacles, necks are where two are nearest one another and nothing else is in the ball between: asked of
-// the polygons as wholes, each with each.
+// The necks of convex obstacles are the closest pairs with nothing else in the ball between them: a reference over all
+// pairs of polygons.
 TEST(Gaps, NecksOfConvexObstaclesAreThoseOfAllPairs) {
     constexpr double width = 1, least = 0.1;
     std::size_t necks_in_all = 0;
@@ -183,37 +183,38 @@ TEST(Gaps, NecksOfConvexObstaclesAreThoseOfAllPairs) {
             polygons.push_back(*polygon);
             level.add("p" + std::to_string(polygons.size()), {polygon->points().begin(), polygon->points().end()});
         }
-        // What reaches into a ball by a part of its radius this small may or may not be in it.
-        constexpr float doubt = 0.004f;
+        // An obstacle that reaches into the ball by a smaller share of the radius may or may not count.
+        constexpr float tolerance = 0.004f;
         const std::vector<Neck<2>> necks = find_necks(FacetTree<2>(level.view_of().objects), {width, least});
         for (std::size_t i = 0; i < polygons.size(); ++i)
             for (std::size_t j = i + 1; j < polygons.size(); ++j) {
-                const Closest<2> way = closest(polygons[i], polygons[j]);
-                const Vec2 middle = (way.on_a + way.on_b) * 0.5f;
+                const Closest<2> between = closest(polygons[i], polygons[j]);
+                const Vec2 middle = (between.on_a + between.on_b) * 0.5f;
                 float nearest = 100;
                 for (std::size_t k = 0; k < polygons.size(); ++k)
                     if (k != i && k != j) nearest = std::min(nearest, closest(polygons[k], middle).distance);
-                const float radius = 0.5f * way.distance;
-                const bool fits = static_cast<double>(way.distance)<width&& static_cast<double>(way.distance)> least;
+                const float radius = 0.5f * between.distance;
+                const bool fits =
+                    static_cast<double>(between.distance)<width&& static_cast<double>(between.distance)> least;
                 const auto found = std::count_if(necks.begin(), necks.end(), [&](const Neck<2>& neck) {
                     return std::min(neck.a, neck.b) == i && std::max(neck.a, neck.b) == j &&
-                           std::abs(static_cast<float>(neck.width) - way.distance) < 1e-3f * way.distance;
+                           std::abs(static_cast<float>(neck.width) - between.distance) < 1e-3f * between.distance;
                 });
-                if (fits && nearest > radius * (1 + doubt)) {
-                    EXPECT_GE(found, 1) << i << " and " << j << ", " << way.distance;
+                if (fits && nearest > radius * (1 + tolerance)) {
+                    EXPECT_GE(found, 1) << i << " and " << j << ", " << between.distance;
                     ++necks_in_all;
                 }
-                if (!fits || nearest < radius * (1 - doubt)) {
-                    EXPECT_EQ(found, 0) << i << " and " << j << ", " << way.distance;
+                if (!fits || nearest < radius * (1 - tolerance)) {
+                    EXPECT_EQ(found, 0) << i << " and " << j << ", " << between.distance;
                 }
             }
     }
     EXPECT_GT(necks_in_all, 400u);
 }
 
-// The way from one place to another that keeps farthest from everything, on a fine grid, is narrowest in a neck: of
-// half its width. Polygons may overlap here.
-TEST(Gaps, TheWidestWaysOfAGridGoThroughNecks) {
+// The path between two places with the largest clearance, on a fine grid, is narrowest at a neck, and its clearance is
+// half of the neck's width. Polygons may overlap here.
+TEST(Gaps, TheWidestPathsOfAGridGoThroughNecks) {
     constexpr double step = 0.04, width = 1.2;
     constexpr int cells = 200;
     std::size_t narrow = 0;
@@ -239,7 +240,7 @@ TEST(Gaps, TheWidestWaysOfAGridGoThroughNecks) {
             clearance.push_back(static_cast<double>(least));
         }
         const std::vector<Neck<2>> necks = find_necks(FacetTree<2>(objects), {width, 0.0});
-        // Places with room grow together from the widest on: where two such areas meet there is a neck.
+        // Areas grow from the places of largest clearance: where two of them join there is a neck.
         std::vector<int> order(clearance.size()), area(clearance.size(), -1);
         for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
         std::sort(order.begin(), order.end(), [&](int a, int b) {
@@ -262,11 +263,11 @@ TEST(Gaps, TheWidestWaysOfAGridGoThroughNecks) {
                     if (area[static_cast<std::size_t>(other)] < 0) continue;
                     const int a = root(cell), b = root(other);
                     if (a == b) continue;
-                    // The wider one's first place stands for both.
+                    // The first place of the wider one represents both.
                     const double wide_a = clearance[static_cast<std::size_t>(a)],
                                  wide_b = clearance[static_cast<std::size_t>(b)];
                     area[static_cast<std::size_t>(wide_a >= wide_b ? b : a)] = wide_a >= wide_b ? a : b;
-                    // Both with room to spare beside the place where they meet, which the grid's steps don't explain.
+                    // Both are wider than the place where they join, by more than the grid's steps.
                     if (std::min(wide_a, wide_b) < here + 3 * step || 2 * (here + step) > width) continue;
                     const bool at_border = x < 2 || y < 2 || x >= cells - 2 || y >= cells - 2;
                     if (at_border) continue;
@@ -292,7 +293,7 @@ TEST(Gaps, CratesOnAFloorAndAgainstAWall) {
     EXPECT_NEAR(gaps[0].width, 0.4, 1e-5);
     EXPECT_NEAR(gaps[0].position.x, 1.2, 1e-5);
 
-    // With a wall behind them there is no way through, though light gets in from above and in front.
+    // With a wall behind them there is no path through, though they are open from above and in front.
     test::add_box(scene, "wall", {-5, 0, 1}, {5, 2, 2});
     EXPECT_TRUE(gaps_of(scene, 0.8).empty());
 }
@@ -341,7 +342,7 @@ TEST(Gaps, NoneOnStairsAndInRooms) {
 }
 
 TEST(Gaps, WhatIsUnderTheGroundIsNoPassage) {
-    // Two posts that go as deep into an open ground as they stand out of it.
+    // Two posts as deep below an open ground as they are high.
     Scene scene;
     test::add_box(scene, "a", {0, -2, 0}, {0.2, 2, 0.2});
     test::add_box(scene, "b", {0.6, -2, 0}, {0.8, 2, 0.2});

@@ -1,4 +1,4 @@
-// `abut hull` as its users see it.
+// `abut hull` as a command line.
 
 #include "tool_runs.hpp"
 #include <abut/bake/solid.hpp>
@@ -58,7 +58,7 @@ TEST_F(HullVerb, HoldsAllObjectsInTheWorld) {
     }
 }
 
-TEST_F(HullVerb, OfEachObjectIfAsked) {
+TEST_F(HullVerb, OfEachObjectIfRequested) {
     const std::string file = write("two.gltf", two_boxes()).string();
     const Json json = hull({file, "-o", out("hulls.glb"), "--each"});
     ASSERT_EQ(json["hulls"].size(), 2u);
@@ -75,7 +75,7 @@ TEST_F(HullVerb, OfEachObjectIfAsked) {
     EXPECT_NE(ran.out.find("2 hulls"), std::string::npos) << ran.out;
 }
 
-TEST_F(HullVerb, OfNoMoreCornersThanAsked) {
+TEST_F(HullVerb, HasAtMostTheRequestedCorners) {
     GltfBuilder builder;
     test::Triangles ball;
     for (int x = -4; x <= 4; ++x)

@@ -61,7 +61,7 @@ TEST_F(ImportInChild, LargeFilesMayTakeLonger) {
 
 TEST_F(ImportInChild, LimitsTheMemory) {
     if (!limits_memory()) GTEST_SKIP() << "not in builds with sanitizers";
-    // 16 million points of zeros, asked for by a few bytes.
+    // A few bytes request 16 million points of zeros.
     const std::filesystem::path greedy = write("greedy.gltf", R"({"asset":{"version":"2.0"},
         "accessors":[{"count":16000000,"componentType":5126,"type":"VEC3"}],
         "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"nodes":[{"mesh":0}]})");

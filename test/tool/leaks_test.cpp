@@ -53,7 +53,7 @@ TEST(Leaks, AMissingTriangleIsAHole) {
     EXPECT_NEAR(leaks[0].share, 2.0 / 22, 1e-6);
 }
 
-TEST(Leaks, WhatIsMeantToBeOpenIsOnlyToldIfAsked) {
+TEST(Leaks, IntendedOpeningsAreReportedOnlyOnRequest) {
     EXPECT_TRUE(leaks_of(sheet(4)).empty());
     const std::vector<LevelLeak> border = leaks_of(sheet(4), true);
     ASSERT_EQ(border.size(), 1u);
@@ -79,7 +79,7 @@ TEST(Leaks, AHoleInAGroundIsOneThoughItsBorderIsNone) {
 }
 
 TEST(Leaks, SeparateCardsAreNoHolesOfAll) {
-    // Each leaf of a tree is small beside the tree, and all border beside itself.
+    // Each leaf of a tree is small relative to the tree, and only borders relative to itself.
     test::Triangles leaves;
     for (std::uint32_t i = 0; i < 50; ++i) {
         const auto x = static_cast<float>(3 * i);
@@ -90,7 +90,7 @@ TEST(Leaks, SeparateCardsAreNoHolesOfAll) {
 }
 
 TEST(Leaks, TJunctionsAreCracksAndNoHoles) {
-    // The top edge of one side of the cube has one corner more, which its other triangle doesn't have.
+    // The top edge of one side of the cube has an additional corner, which its other triangle doesn't have.
     test::Triangles split = cube();
     const glm::uvec3 t = split.triangles[0];
     const auto middle = static_cast<std::uint32_t>(split.points.size());
@@ -103,7 +103,7 @@ TEST(Leaks, TJunctionsAreCracksAndNoHoles) {
     EXPECT_EQ(leaks[0].count, 2u);
     EXPECT_FLOAT_EQ(leaks[0].length, glm::distance(split.points[t.x], split.points[t.y]));
 
-    // The same with the corner beside the edge, so that there is something to see through: a hole.
+    // With the corner beside the edge there is a visible hole.
     split.points[middle] *= 0.9f;
     const std::vector<LevelLeak> holes = leaks_of(split, true);
     ASSERT_EQ(holes.size(), 1u);
@@ -113,7 +113,7 @@ TEST(Leaks, TJunctionsAreCracksAndNoHoles) {
 
 TEST(Leaks, ASeamOfCornersThatAreNearlyTheSameIsACrack) {
     test::Triangles seam = sheet(2);
-    // One triangle with corners of its own, a little off.
+    // One triangle with separate corners, slightly moved.
     for (int corner = 0; corner < 3; ++corner) {
         seam.points.push_back(seam.points[seam.triangles[0][corner]] + Vec3(0, 1e-5f, 0));
         seam.triangles[0][corner] = static_cast<std::uint32_t>(seam.points.size()) - 1;
@@ -124,7 +124,7 @@ TEST(Leaks, ASeamOfCornersThatAreNearlyTheSameIsACrack) {
     EXPECT_EQ(leaks[0].count, 2u) << "its third edge is at the outer border";
 }
 
-TEST(Leaks, TrianglesThatFaceTheWrongWay) {
+TEST(Leaks, TrianglesWithReversedWinding) {
     test::Triangles flipped = cube();
     std::swap(flipped.triangles[7].y, flipped.triangles[7].z);
     std::swap(flipped.triangles[2].y, flipped.triangles[2].z);
@@ -135,7 +135,7 @@ TEST(Leaks, TrianglesThatFaceTheWrongWay) {
     EXPECT_EQ(leaks[0].triangle, 2u);
 }
 
-TEST(Leaks, AFinMakesACrowdedEdge) {
+TEST(Leaks, AFinMakesANonManifoldEdge) {
     test::Triangles fin = cube();
     const glm::uvec3 t = fin.triangles[0];
     fin.points.push_back(fin.points[t.x] * 3.0f);
@@ -153,7 +153,7 @@ TEST(Leaks, ASheetWithTwoSidesIsASheet) {
     EXPECT_TRUE(leaks_of(both).empty());
 }
 
-TEST(Leaks, AMeshIsToldOnceWithAllItsObjects) {
+TEST(Leaks, AMeshIsReportedOnceWithAllItsObjects) {
     test::Triangles open = cube();
     open.triangles.pop_back();
     Scene scene;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Levels for the checks of levels, made in memory: of polygons in the plane, of scenes in space.
+// Levels made in memory: 2D levels of polygons, 3D levels of scenes.
 
 #include "scene_of.hpp"
 #include "tool/objects/level_view.hpp"
@@ -65,7 +65,7 @@ private:
     tool::LevelView<2> level_;
 };
 
-/// A scene and all that its level refers to.
+/// A scene, and all data that its level refers to.
 class SpaceLevel {
 public:
     explicit SpaceLevel(Scene scene)
@@ -95,8 +95,8 @@ inline void add_place(Scene& scene, const std::string& name, const glm::dvec3& a
     scene.nodes.push_back(std::move(node));
 }
 
-/// An outline of the x-y-plane, counter-clockwise, extruded along z from `low` to `high`; closed, wound outwards. Its
-/// caps are given as triangles of the outline.
+/// An outline in the x-y-plane, counter-clockwise, extruded along z from `low` to `high`: closed, wound outwards.
+/// `caps` are the triangles of the outline.
 inline Triangles extruded(const std::vector<Vec2>& outline, const std::vector<glm::uvec3>& caps, float low,
                           float high) {
     Triangles result;

@@ -1,4 +1,4 @@
-// The tool on levels, as its users see it.
+// The tool on levels, as a command line.
 
 #include "tool_runs.hpp"
 
@@ -95,7 +95,7 @@ TEST_F(ToolOnLevels, CheckKnowsTheInsideOfWhatIsNotConvex) {
     EXPECT_EQ(walled["contacts"][0]["a"], "in the wall");
 }
 
-// A room of tiles with a wall across it, in which there is a door of 8, and the objects that are given.
+// A room of tiles with a wall across it, a door of 8 in the wall, and the given objects.
 std::string room_with(const std::string& objects) {
     return "<map orientation='orthogonal' width='6' height='4' tilewidth='16' tileheight='16'><tileset firstgid='1' "
            "tilewidth='16' tileheight='16' tilecount='2'><tile id='0'><objectgroup><object width='16' height='16'/>"
@@ -110,8 +110,8 @@ std::string point(const std::string& name, const std::string& type, int x, int y
            "'><point/></object>";
 }
 
-TEST_F(ToolOnLevels, CheckTellsSpawnsInWalls) {
-    // Free, in a wall, too near to one for somebody who isn't a point, and no spawn.
+TEST_F(ToolOnLevels, CheckReportsSpawnsInWalls) {
+    // Spawns: a free one, one in a wall, one too near to a wall for a wide character; and another object.
     const std::string points = point("a", "spawn", 24, 32) + point("Player_Start 2", "", 40, 20) +
                                point("c", "enemy spawn", 24, 20) + point("exit", "", 40, 20);
     const std::string file = write("room.tmx", room_with(points)).string();
@@ -127,7 +127,7 @@ TEST_F(ToolOnLevels, CheckTellsSpawnsInWalls) {
     EXPECT_EQ(wide["spawns"][1]["name"], "Things/c");
     EXPECT_NEAR(wide["spawns"][1]["depth"].get<double>(), 2, 1e-4);
     EXPECT_NEAR(wide["spawns"][1]["free"][1].get<double>(), 22, 0.1);
-    // By class, by name; and an up that y doesn't have.
+    // By class and by name; and an up direction that isn't y.
     EXPECT_EQ(json_of({"check", file, "--spawn", "exit"}, 1)["spawns"].size(), 1u);
     EXPECT_EQ(json_of({"check", file, "--spawn", "enemy*"}, 0)["spawn_points"], 1);
     EXPECT_EQ(refusal({"check", file, "--spawn", "nobody"}), "abut: " + file + ": --spawn: nothing is named 'nobody'");
@@ -136,7 +136,7 @@ TEST_F(ToolOnLevels, CheckTellsSpawnsInWalls) {
               "abut: " + file + ": --closed: leaks are checked in 3D only");
 }
 
-TEST_F(ToolOnLevels, CheckTellsSpawnsUnderTheGround) {
+TEST_F(ToolOnLevels, CheckReportsSpawnsUnderTheGround) {
     // Where up is -y the lowest point of the character is at the spawn, and below it nothing but the ground.
     const std::string objects = "<object name='ground' x='0' y='40' width='90' height='10'/>";
     const std::string file = write("ground.tmx", map_of(objects + point("spawn", "", 20, 40))).string();
@@ -146,7 +146,7 @@ TEST_F(ToolOnLevels, CheckTellsSpawnsUnderTheGround) {
     const Json json = json_of({"check", below, "--character", "3,10", "--up", "-y"}, 1);
     ASSERT_EQ(json["spawns"].size(), 1u);
     EXPECT_EQ(json["spawns"][0]["fault"], "no ground");
-    // A line overhead is no ground from below, whichever way it is drawn.
+    // A line overhead is no ground from below, in either direction.
     for (const char* ends : {"0,0 40,0", "40,0 0,0"}) {
         const std::string rope =
             "<object name='rope' x='0' y='10'><polyline points='" + std::string(ends) + "'/></object>";
@@ -155,7 +155,7 @@ TEST_F(ToolOnLevels, CheckTellsSpawnsUnderTheGround) {
     }
 }
 
-TEST_F(ToolOnLevels, CheckTellsPassagesThatAreTooNarrow) {
+TEST_F(ToolOnLevels, CheckReportsPassagesThatAreTooNarrow) {
     const std::string file = write("room.tmx", room_with("")).string();
     const Json json = json_of({"check", file, "--gap", "12"}, 1);
     ASSERT_EQ(json["gaps"].size(), 1u) << json["gaps"];
@@ -169,13 +169,13 @@ TEST_F(ToolOnLevels, CheckTellsPassagesThatAreTooNarrow) {
     for (const char* line : {"gaps narrower than 10\n   1. within Walls\n        8 wide at (40, 44)\n",
                              "FAULTS FOUND: 1 passage is too narrow\n"})
         EXPECT_NE(ran.out.find(line), std::string::npos) << line << ran.out;
-    // Lines are met from both sides, whichever way they are drawn.
-    for (const char* way : {"M0 0H40", "M40 0H0"}) {
+    // Lines block both sides, in either direction.
+    for (const char* path : {"M0 0H40", "M40 0H0"}) {
         const std::string lines =
-            "<svg><g fill='none'><path d='" + std::string(way) + "'/><path d='M40 5H0'/></g></svg>";
-        EXPECT_EQ(json_of({"check", write("lines.svg", lines).string(), "--gap", "8"}, 1)["gaps"].size(), 1u) << way;
+            "<svg><g fill='none'><path d='" + std::string(path) + "'/><path d='M40 5H0'/></g></svg>";
+        EXPECT_EQ(json_of({"check", write("lines.svg", lines).string(), "--gap", "8"}, 1)["gaps"].size(), 1u) << path;
     }
-    // Between curved things, by the distance between them.
+    // Between curved objects, by their distance.
     const std::string drawing =
         write("two.svg", "<svg><circle id='a' cx='0' cy='0' r='9'/><circle id='b' cx='20' cy='0' r='9'/></svg>")
             .string();
@@ -184,7 +184,7 @@ TEST_F(ToolOnLevels, CheckTellsPassagesThatAreTooNarrow) {
     EXPECT_NEAR(round["gaps"][0]["width"].get<double>(), 2, 2 * 18e-4) << "polygons in them";
 }
 
-TEST_F(ToolOnLevels, CheckTellsWhatIsThereTwice) {
+TEST_F(ToolOnLevels, CheckReportsDuplicates) {
     const std::string rope = "<object name='rope' x='60' y='20'><polyline points='0,0 4,9 2,20'/></object>";
     const std::string file =
         write("twice.tmx", map_of(box("a", "0") + box("b", "20") + box("a again", "0") + rope + rope)).string();
@@ -212,7 +212,7 @@ TEST_F(ToolOnLevels, CastInTheFilesOwnCoordinates) {
     EXPECT_EQ(json["hits"][0]["point"], Json({340.0, 150.0}));
     EXPECT_EQ(json["hits"][0]["normal"], Json({-1.0, 0.0}));
     EXPECT_EQ(json["from"], Json({320.0, 150.0}));
-    // Down through the platform, which lets pass what comes from below.
+    // Down through the one-way platform, which is open from below.
     EXPECT_EQ(json_of({"cast", file, "--from", "190,70", "--to", "190,100"}, 1)["hits"][0]["point"],
               Json({190.0, 80.0}));
     EXPECT_EQ(json_of({"cast", file, "--from", "190,100", "--to", "190,70"}, 0)["clear"], true);
@@ -244,7 +244,7 @@ TEST_F(ToolOnLevels, CastDrawsWithYDown) {
     EXPECT_LT(number("y1"), number("y2"));
 }
 
-TEST_F(ToolOnLevels, InfoTellsWhatIsThere) {
+TEST_F(ToolOnLevels, InfoListsObjects) {
     const Json json = json_of({"info", bundled("plateau.tmx")}, 0);
     ASSERT_EQ(json["objects"].size(), 8u);
     EXPECT_EQ(json["objects"][0]["name"], "Things/Barrel");
@@ -283,8 +283,8 @@ TEST_F(ToolOnLevels, BadInputIsNamed) {
               "abut: " + file + ": --pairs: no object is named 'Start'");
 }
 
-// Levels by themselves: what is beside them is read, and what isn't there is named by what refers to it.
-TEST_F(ToolOnLevels, TilesetsAreLookedForBesideTheMap) {
+// Levels alone: files beside them are read, and a missing file is reported with the object that refers to it.
+TEST_F(ToolOnLevels, TilesetsAreFoundBesideTheMap) {
     std::filesystem::create_directories(folder() / "maps" / "sets");
     write("maps/sets/t.tsx",
           "<tileset tilewidth='8' tileheight='8'><tile id='0'><objectgroup><object width='8' height='4'/>"

@@ -1,4 +1,4 @@
-// The tool where there is less memory than is wanted.
+// The tool with too little memory.
 
 #include "tool/shared/import_in_child.hpp"
 #include "tool_runs.hpp"
@@ -40,14 +40,14 @@ TEST_F(Memory, ContactsBeyondTheLimitAreCountedAlone) {
     const Json json = Json::parse(ran.out);
     EXPECT_EQ(json["contacts"].size(), 100'000u);
     EXPECT_EQ(json["contacts_left_out"], 1200 * 1199 / 2 - 100'000);
-    // As a baseline it says what it lacks.
+    // As a baseline it reports what is missing.
     const std::string old = write("old.json", ran.out).string();
     const Ran again = run({"check", file, "--baseline", old, "--pairs", "Box 0:Box 1"});
     EXPECT_NE(again.out.find("note: the baseline left out 619400 contacts, which count as new"), std::string::npos)
         << again.out;
 }
 
-// These ended with 134, by std::bad_alloc.
+// These once ended with code 134, by std::bad_alloc.
 TEST_F(Memory, WantOfItIsOneLine) {
     const std::string heap = boxes_in_one_place(1200);
     expect_one_line(run_within(60, {"check", heap, "--json"}),
@@ -60,7 +60,7 @@ TEST_F(Memory, WantOfItIsOneLine) {
     EXPECT_FALSE(std::filesystem::exists(out("a.field")));
 }
 
-// A level of the plane is read by the program itself.
+// The program itself reads a 2D level.
 TEST_F(Memory, LevelsToo) {
     const std::string map = write(
                                 "m.tmx",

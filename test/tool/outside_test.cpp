@@ -1,4 +1,4 @@
-// Files that a scene or a level refers to: read where they lie in its folder, and refused where a name leads out of it.
+// Files that a scene or a level refers to: read if they are in its folder, refused if the path leads out of it.
 
 #include "tool_runs.hpp"
 
@@ -28,7 +28,7 @@ protected:
         std::filesystem::create_symlink("loop.bin", folder() / "in" / "loop.bin");
     }
 
-    /// A scene in the folder "in" whose buffer has this URI, as JSON has it.
+    /// A scene in the folder "in" whose buffer has this URI, as in JSON.
     std::string scene(const std::string& uri) const { return write("in/scene.gltf", builder_.text(uri)).string(); }
 
     std::string absolute() const { return std::filesystem::absolute(folder() / "secret.bin").string(); }
@@ -50,37 +50,37 @@ TEST_F(Outside, WhatIsInTheFolderIsRead) {
               std::string::npos);
 }
 
-// Each of these was read, and numbers from any file of the machine came back in messages.
-TEST_F(Outside, EveryWayOutIsRefused) {
-    const std::vector<std::string> ways{"../secret.bin",
-                                        "%2e%2e/secret.bin",
-                                        "%2E%2e%2fsecret.bin",
-                                        "./.././secret.bin",
-                                        "below/../../secret.bin",
-                                        "none/../../secret.bin",
-                                        "own.bin/../../secret.bin",
-                                        absolute(),
-                                        "/" + absolute(),
-                                        "file://" + absolute(),
-                                        "FILE://localhost" + absolute(),
-                                        "file:" + absolute(),
-                                        "link.bin",
-                                        "up/secret.bin",
-                                        "below/../up/secret.bin"};
-    for (const std::string& way : ways) {
-        const std::string file = scene(way);
+// Each of these was once read, and numbers from any file of the machine appeared in messages.
+TEST_F(Outside, EveryPathOutIsRefused) {
+    const std::vector<std::string> paths{"../secret.bin",
+                                         "%2e%2e/secret.bin",
+                                         "%2E%2e%2fsecret.bin",
+                                         "./.././secret.bin",
+                                         "below/../../secret.bin",
+                                         "none/../../secret.bin",
+                                         "own.bin/../../secret.bin",
+                                         absolute(),
+                                         "/" + absolute(),
+                                         "file://" + absolute(),
+                                         "FILE://localhost" + absolute(),
+                                         "file:" + absolute(),
+                                         "link.bin",
+                                         "up/secret.bin",
+                                         "below/../up/secret.bin"};
+    for (const std::string& path : paths) {
+        const std::string file = scene(path);
         const std::string line = refusal({"info", file});
         EXPECT_TRUE(line.starts_with("abut: " + file + ": mesh 'Box': accessors[0]: buffers[0]: '")) << line;
         EXPECT_TRUE(line.ends_with(refused)) << line;
-        const bool exists = way.find("none/") == std::string::npos && way.find("own.bin/") == std::string::npos;
+        const bool exists = path.find("none/") == std::string::npos && path.find("own.bin/") == std::string::npos;
         if (exists) {
-            EXPECT_EQ(run({"info", file, "--allow-outside"}).code, 0) << way;
+            EXPECT_EQ(run({"info", file, "--allow-outside"}).code, 0) << path;
         }
     }
-    // The same of what isn't there: nobody learns which files there are.
-    for (const char* way : {"../none.bin", "..\\\\secret.bin", "\\\\\\\\server\\\\secret.bin", "C:/secret.bin",
-                            "c:\\\\secret.bin", "up/none.bin", "/etc/none"})
-        EXPECT_TRUE(refusal({"info", scene(way)}).ends_with(refused)) << way;
+    // Missing files give the same message, so that nobody learns which files exist.
+    for (const char* path : {"../none.bin", "..\\\\secret.bin", "\\\\\\\\server\\\\secret.bin", "C:/secret.bin",
+                             "c:\\\\secret.bin", "up/none.bin", "/etc/none"})
+        EXPECT_TRUE(refusal({"info", scene(path)}).ends_with(refused)) << path;
 }
 
 TEST_F(Outside, OtherBadNamesAreNamed) {
@@ -133,7 +133,7 @@ TEST_F(Outside, WhatAssimpOpens) {
     // A scene of another file.
     write("secret.obj", "o A\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     const std::string lws = write("in/a.lws", "LWSC\n1\n\nLoadObject ../secret.obj\n").string();
-    EXPECT_TRUE(refusal({"info", lws}).ends_with("no triangles in it: 0 objects")) << "looked for, and not there";
+    EXPECT_TRUE(refusal({"info", lws}).ends_with("no triangles in it: 0 objects")) << "not found";
     EXPECT_EQ(run({"info", lws, "--allow-outside"}).code, 0);
 }
 
@@ -178,7 +178,7 @@ TEST_F(Outside, TilesetsAndTemplates) {
     EXPECT_NE(run({"check", tmx("own.tsx", " template='own.tx'")}).code, 2);
     EXPECT_TRUE(refusal({"check", tmx("own.tsx", " template='../secret.tx'")}).ends_with(refused));
     EXPECT_TRUE(refusal({"check", tmj("own.tsx", R"(,"template":"../secret.tx")")}).ends_with(refused));
-    // A template's own tileset is looked for from the template.
+    // A template's own tileset is relative to the template.
     write("in/below/up.tx", "<template><tileset firstgid='1' source='../../secret.tsx'/><object gid='1'/></template>");
     EXPECT_TRUE(refusal({"check", tmx("own.tsx", " template='below/up.tx'")}).ends_with(refused));
     // Pictures aren't read, wherever they are.

@@ -1,4 +1,4 @@
-// What a bar is told while the work goes on.
+// The calls to a progress bar during the work.
 
 #include "scene_of.hpp"
 #include "tool/cast/cast.hpp"
@@ -14,7 +14,7 @@ namespace abut::tool {
 namespace {
 
 /// "1/3 2/3 3/3"
-struct Told {
+struct Recorded {
     std::string all;
 
     void operator()(std::size_t done, std::size_t of) {
@@ -33,27 +33,27 @@ Scene two_boxes() {
 TEST(Progress, OfPlacingIsInObjects) {
     const Scene scene = two_boxes();
     SceneObjects objects(scene);
-    Told told;
-    ASSERT_FALSE(objects.go_to(0, told));
-    EXPECT_EQ(told.all, "1/2 2/2");
+    Recorded progress;
+    ASSERT_FALSE(objects.go_to(0, progress));
+    EXPECT_EQ(progress.all, "1/2 2/2");
 }
 
 TEST(Progress, OfACheckIsInFrames) {
     const Scene scene = two_boxes();
     SceneObjects objects(scene);
     ASSERT_FALSE(objects.go_to(0));
-    Told told;
-    ASSERT_TRUE(check(objects, {0, 1, 2}, {}, told));
-    EXPECT_EQ(told.all, "1/3 2/3 3/3");
+    Recorded progress;
+    ASSERT_TRUE(check(objects, {0, 1, 2}, {}, progress));
+    EXPECT_EQ(progress.all, "1/3 2/3 3/3");
 }
 
 TEST(Progress, OfACastIsInHits) {
     const Scene scene = two_boxes();
     SceneObjects objects(scene);
     ASSERT_FALSE(objects.go_to(0));
-    Told told;
-    cast(objects, {.from = {1, 0, 0}, .to = {2, 0, 0}, .bounces = 2}, told);
-    EXPECT_EQ(told.all, "1/3 2/3 3/3");
+    Recorded progress;
+    cast(objects, {.from = {1, 0, 0}, .to = {2, 0, 0}, .bounces = 2}, progress);
+    EXPECT_EQ(progress.all, "1/3 2/3 3/3");
 }
 
 }  // namespace

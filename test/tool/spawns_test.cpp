@@ -50,7 +50,7 @@ TEST(Spawns, InAFloorAndInAWall) {
     EXPECT_NEAR(wall[0].depth, 0.2, 1e-5);
     ASSERT_TRUE(wall[0].free);
     EXPECT_NEAR(wall[0].free->x, -0.2, 0.01);
-    EXPECT_TRUE(faults_of(scene, {std::nullopt, Vec3(0, 1, 0)}).empty()) << "a point has room";
+    EXPECT_TRUE(faults_of(scene, {std::nullopt, Vec3(0, 1, 0)}).empty()) << "a point fits";
     EXPECT_TRUE(faults_of(scene, {Character{0.1f, 1.8f}, Vec3(0, 1, 0)}).empty()) << "somebody thinner as well";
 }
 
@@ -110,7 +110,7 @@ TEST(Spawns, BelowAGroundAndAboveNothing) {
     }
 }
 
-TEST(Spawns, MarksAreInNobodysWay) {
+TEST(Spawns, MarksAreNoObstacles) {
     Scene scene = floor_and({0, 0, 0});
     test::add_box(scene, "Mark", {-0.2, 0, -0.2}, {0.2, 1, 0.2});
     scene.nodes.back().parent = 1;

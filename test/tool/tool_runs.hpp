@@ -1,6 +1,6 @@
 #pragma once
 
-// The tool run as its users run it: arguments in, stdout, stderr and an exit code out.
+// Runs the tool as a program: arguments in; stdout, stderr and an exit code out.
 
 #include "../io/gltf_builder.hpp"
 
@@ -31,13 +31,13 @@ protected:
     /// Each argument as one word, whatever is in it.
     Ran run(const std::vector<std::string>& arguments) const { return run_after("", arguments); }
 
-    /// The same with no more than so many MB of address space.
+    /// The same run with a limit of address space, in MB.
     Ran run_within(int megabytes, const std::vector<std::string>& arguments) const {
         return run_after("ulimit -v " + std::to_string(megabytes * 1024) + "; ", arguments);
     }
 
 private:
-    /// `before` is for the shell.
+    /// `before` is a shell command.
     Ran run_after(const std::string& before, const std::vector<std::string>& arguments) const {
         std::string command = before + quoted(ABUT_TOOL_FILE);
         for (const std::string& argument : arguments) command += " " + quoted(argument);
@@ -49,7 +49,7 @@ private:
     }
 
 protected:
-    /// Bad input and bad usage look the same: nothing on stdout, one line on stderr, exit code 2.
+    /// Bad input and bad usage have one form: nothing on stdout, one line on stderr, exit code 2.
     std::string refusal(const std::vector<std::string>& arguments) const {
         const Ran ran = run(arguments);
         EXPECT_EQ(ran.code, 2);
@@ -59,14 +59,14 @@ protected:
         EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
         return ran.err.substr(0, ran.err.size() - (ran.err.empty() ? 0 : 1));
     }
-    /// The same of a verb for a file, with more arguments.
+    /// Runs a verb on a file that it must refuse, with more arguments.
     std::string refusal(const std::string& verb, const std::string& file, const std::vector<std::string>& more) const {
         std::vector<std::string> all{verb, file};
         all.insert(all.end(), more.begin(), more.end());
         return refusal(all);
     }
 
-    /// What the refusal of a file says behind its name.
+    /// The message of a refusal after the file's name.
     std::string refusal_of(const std::string& name, std::string_view content) const {
         const std::string file = write(name, content).string();
         const std::string line = refusal({"check", file});
@@ -75,7 +75,7 @@ protected:
         return line.substr(std::min(line.size(), begins.size()));
     }
 
-    /// What the first of the arguments, a verb, says with --json.
+    /// The parsed output of a verb, the first argument, with --json.
     Json json_of(std::vector<std::string> arguments, int code) const {
         arguments.insert(arguments.begin() + 1, "--json");
         const Ran ran = run(arguments);
@@ -88,7 +88,7 @@ protected:
         return json_of(std::move(arguments), code);
     }
 
-    /// By a verb that makes a file of a mesh: with what is wrong told, and nothing written.
+    /// Expects a verb that writes a file from a mesh to report the problem and write nothing.
     void expect_bad_meshes_refused(const std::string& verb, const std::string& output) const {
         const std::string nan = write("nan.obj", "o a\nv nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").string();
         EXPECT_TRUE(refusal({verb, nan, "-o", output}).starts_with("abut: " + nan + ": "));

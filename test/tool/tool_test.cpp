@@ -1,4 +1,4 @@
-// The tool as its users see it: arguments in, stdout, stderr and an exit code out.
+// The tool as a command line: arguments in; stdout, stderr and an exit code out.
 
 #include "tool_runs.hpp"
 
@@ -210,8 +210,8 @@ TEST_F(Tool, BaselineKnowsMoments) {
     EXPECT_EQ(json["contacts"][0]["time"], 3.0);
 }
 
-// A wall between two keys, which a walker goes through in between: `check` reported CLEAN.
-TEST_F(Tool, WhatMeetsBetweenFramesIsFound) {
+// A wall between two keys, with a walker through it in between: `check` once reported CLEAN.
+TEST_F(Tool, ContactsBetweenFramesAreFound) {
     GltfBuilder builder;
     const int mesh = builder.add_mesh("Box", box_triangles({0.5f, 0.5f, 0.5f}));
     builder.add_node("Wall", mesh);
@@ -246,7 +246,7 @@ TEST_F(Tool, WhatMeetsBetweenFramesIsFound) {
     EXPECT_FALSE(json["contacts"][0].contains("between"));
 }
 
-// Of an animation of 1e9 seconds it advised --frames 30000000001, which it refused.
+// For an animation of 1e9 seconds it once advised --frames 30000000001, which it refused.
 TEST_F(Tool, TheFramesThatItAdvisesAreTaken) {
     for (const float length : {2.0f, 300.0f, 1e9f}) {
         GltfBuilder builder;
@@ -301,14 +301,14 @@ TEST_F(Tool, TrianglesOfZeroAreaAreLeftOutAndCounted) {
                                        ": mesh 'Box', triangle 12: zero area (without --strict such triangles are left "
                                        "out)");
     }
-    // The crate is the convex solid that it is without them, and found as before.
+    // Without them the crate is a convex solid, and found as before.
     const Json json = checked({file}, 1);
     EXPECT_EQ(json["solids"], 3);
     ASSERT_EQ(json["contacts"].size(), 1u);
     EXPECT_EQ(json["contacts"][0]["a"], "Crate");
     EXPECT_NEAR(json["contacts"][0]["distance"].get<double>(), -0.25, 1e-6);
 
-    // Verbs that mend meshes take the same file.
+    // Verbs that repair meshes take the file.
     EXPECT_EQ(run({"hull", file, "-o", out("hull.obj")}).code, 0);
     EXPECT_EQ(run({"decompose", file, "-o", out("parts.obj")}).code, 0);
     EXPECT_NE(run({"field", file, "-o", out("a.field"), "--cell", "0.1"}).code, 2);
@@ -319,7 +319,7 @@ TEST_F(Tool, TrianglesOfZeroAreaAreLeftOutAndCounted) {
     EXPECT_EQ(refusal_of("line.gltf", nothing.text()), "all triangles in it have zero area: 0 objects");
 }
 
-// Triangles that are there twice are a finding, and no reason to refuse anything.
+// Repeated triangles are a finding, and no reason to refuse the file.
 TEST_F(Tool, TrianglesThatAreThereTwiceAreTakenByAllVerbs) {
     GltfBuilder builder;
     test::Triangles box = box_triangles({0.5f, 0.5f, 0.5f});
@@ -335,7 +335,7 @@ TEST_F(Tool, TrianglesThatAreThereTwiceAreTakenByAllVerbs) {
     for (const char* verb : {"info", "walk"}) EXPECT_EQ(run({verb, file}).code, 0) << verb;
 }
 
-/// A crate to start in, a passage of 0.5, a crate that is there twice and an open one.
+/// A crate to start in, a passage of 0.5, a duplicate crate and an open one.
 std::string faulty_level() {
     GltfBuilder builder;
     const int box = builder.add_mesh("Box", box_triangles({0.5f, 0.5f, 0.5f}));
@@ -377,7 +377,7 @@ TEST_F(Tool, TellsSpawnsGapsDuplicatesAndLeaks) {
                              "FAULTS FOUND: 1 pair collides, 1 spawn is blocked or out of place"})
         EXPECT_NE(text.out.find(part), std::string::npos) << part << " in\n" << text.out;
 
-    // Somebody as wide as that looks for the same passages.
+    // A character of that width has the same passages.
     EXPECT_EQ(checked({file, "--character", "0.35,1"}, 1)["gaps"], json["gaps"]);
     EXPECT_EQ(checked({file}, 1)["gaps"].size(), 0u);
 }
@@ -395,19 +395,19 @@ TEST_F(Tool, LevelFaultsAloneAreFoundToo) {
     const Json json = checked({file, "--closed", "Open"}, 1);
     EXPECT_EQ(json["leaks"].size(), 1u);
     EXPECT_EQ(json["contacts"].size(), 0u);
-    // What a baseline has isn't told again.
+    // Findings of the baseline aren't reported again.
     const std::string old = write("old.json", json.dump()).string();
     EXPECT_EQ(checked({file, "--closed", "Open", "--baseline", old}, 0)["known"], 1);
 }
 
-TEST_F(Tool, AskedForPairsItTellsNothingElse) {
+TEST_F(Tool, WithPairsItReportsNothingElse) {
     const std::string file = write("level.gltf", faulty_level()).string();
     const Json json = checked({file, "--gap", "0.7", "--pairs", "A:B"}, 1);
     EXPECT_EQ(json["gaps"].size(), 1u);
     for (const char* kind : {"contacts", "spawns", "duplicates", "leaks"}) EXPECT_EQ(json[kind].size(), 0u) << kind;
-    const Json asked = checked({file, "--pairs", "A:Open", "--closed", "Open", "--spawn", "Sp*"}, 1);
-    EXPECT_EQ(asked["leaks"].size(), 1u);
-    EXPECT_EQ(asked["spawns"].size(), 1u);
+    const Json found = checked({file, "--pairs", "A:Open", "--closed", "Open", "--spawn", "Sp*"}, 1);
+    EXPECT_EQ(found["leaks"].size(), 1u);
+    EXPECT_EQ(found["spawns"].size(), 1u);
 }
 
 TEST_F(Tool, BadUsageOfLevelChecksIsRefused) {
@@ -422,7 +422,7 @@ TEST_F(Tool, BadUsageOfLevelChecksIsRefused) {
     EXPECT_EQ(refusal({"check", file, "--up", "w"}), "abut: --up: 'w' is not one of x, -x, y, -y, z, -z and none");
 }
 
-TEST_F(Tool, InfoTellsWhatIsThere) {
+TEST_F(Tool, InfoListsObjects) {
     GltfBuilder builder;
     builder.add_node("Crate", builder.add_mesh("Box", box_triangles({1, 2, 3})));
     test::Triangles sheet = box_triangles({1, 1, 1});
@@ -442,7 +442,7 @@ TEST_F(Tool, InfoTellsWhatIsThere) {
     refusal({"info", (folder() / "missing.glb").string()});
 }
 
-// What the script that wrote the level says is wrong with it is what is found: no less, and no more.
+// The tool finds exactly the faults that the script put into the level.
 TEST_F(Tool, FindsTheFaultsOfTheBundledLevel) {
     const std::string scene = (folder() / "level.gltf").string();
     const std::string faults_file = (folder() / "faults.json").string();

@@ -1,4 +1,4 @@
-// `abut walk` as its users see it.
+// `abut walk` as a command line.
 
 #include "tool_runs.hpp"
 #include <abut/io/read_walk_mesh.hpp>
@@ -80,7 +80,7 @@ TEST_F(WalkVerb, TellsWhatThereIs) {
         EXPECT_NE(ran.out.find(said), std::string::npos) << said << "\n" << ran.out;
 }
 
-TEST_F(WalkVerb, FindsTheWay) {
+TEST_F(WalkVerb, FindsThePath) {
     const std::string file = room();
     const Json json = walked({file, "--from", "1.5,0.25,1.5", "--to", "3.5,-0.5,1.5"});
     EXPECT_EQ(json["from"]["asked"], (Json{1.5, 0.25, 1.5}));
@@ -115,7 +115,7 @@ TEST_F(WalkVerb, TellsThatThereIsNone) {
         << ran.out;
 }
 
-TEST_F(WalkVerb, ReachesAsFarAsItIsTold) {
+TEST_F(WalkVerb, ReachesAsFarAsGiven) {
     const std::string file = room();
     const std::vector<std::string> ends{file, "--from", "0.5,0.25,0.5", "--to", "4.5,0,0.5", "--reach"};
     const auto within = [&](const char* reach, int code) {
@@ -163,9 +163,9 @@ TEST_F(WalkVerb, WritesWhatAGameLoads) {
 }
 
 TEST_F(WalkVerb, NamesWhatIsWrong) {
-    const std::string pinched = write("pinched.obj", squares("floor", {"####", "#.##", "##.#", "####"}, 0)).string();
-    EXPECT_EQ(walked({pinched})["pinched"], (Json{{2, 0, 2}}));
-    EXPECT_NE(run({"walk", pinched}).out.find("vertices    1 non-manifold vertex: (2, 0, 2)\n"), std::string::npos);
+    const std::string touching = write("pinched.obj", squares("floor", {"####", "#.##", "##.#", "####"}, 0)).string();
+    EXPECT_EQ(walked({touching})["pinched"], (Json{{2, 0, 2}}));
+    EXPECT_NE(run({"walk", touching}).out.find("vertices    1 non-manifold vertex: (2, 0, 2)\n"), std::string::npos);
     const std::string wall =
         write("wall.obj", squares("floor", {"##"}, 0) + "v 1 0 0\nv 1 0 1\nv 1 1 1\nv 1 1 0\nf -4 -3 -2 -1\n").string();
     EXPECT_EQ(walked({wall})["crowded"].size(), 1u);

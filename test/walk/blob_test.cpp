@@ -1,4 +1,4 @@
-// Walk meshes as bytes, and back.
+// Saving and loading of walk meshes.
 
 #include "../oracle/random.hpp"
 #include "../oracle/seal.hpp"
@@ -26,8 +26,8 @@ using test::Surface;
 
 using Bytes = std::vector<std::byte>;
 
-/// What there can be: a ledge twice, a flat triangle between two others, one turned, one by itself, edges of three, a
-/// point used by nothing, and -0.
+/// A mesh with all special cases: a repeated and a flat triangle, a reversed one, a component of one, non-manifold
+/// edges, an unused point, and -0.
 Surface odd() {
     Surface result;
     result.points = {{0, 0, -0.0f}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {1, 1, 0}, {4, 0, 1}, {4, 2, 1},
@@ -123,11 +123,11 @@ TEST(WalkBlob, IsTheSameMeshAgain) {
 }
 
 TEST(WalkBlob, IsTheSameMeshAgainForAnyTriangles) {
-    std::size_t turned = 0, pinched = 0, crowded = 0, mirrored = 0;
+    std::size_t turned = 0, non_manifold_vertices = 0, non_manifold_edges = 0, mirrored = 0;
     for (std::uint64_t seed = 0; seed < 300; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         Random random(seed);
-        // Few places, so that points, edges and triangles are there again and again.
+        // Few distinct coordinates, so that points, edges and triangles repeat.
         Surface soup;
         const std::uint32_t points = 5 + random.below(12);
         for (std::uint32_t i = 0; i < points; ++i) {
@@ -148,14 +148,14 @@ TEST(WalkBlob, IsTheSameMeshAgainForAnyTriangles) {
         const Result<WalkMesh> mesh = WalkMesh::build(soup.points, soup.triangles, normals, areas);
         if (!mesh) continue;
         turned += mesh->report().turned;
-        pinched += mesh->report().non_manifold_vertices;
-        crowded += mesh->report().non_manifold_edges;
+        non_manifold_vertices += mesh->report().non_manifold_vertices;
+        non_manifold_edges += mesh->report().non_manifold_edges;
         mirrored += mesh->report().mirrored;
         expect_same(*mesh);
     }
     EXPECT_GT(turned, 100u);
-    EXPECT_GT(pinched, 100u);
-    EXPECT_GT(crowded, 100u);
+    EXPECT_GT(non_manifold_vertices, 100u);
+    EXPECT_GT(non_manifold_edges, 100u);
     EXPECT_GT(mirrored, 20u);
 }
 
@@ -167,7 +167,7 @@ TEST(WalkBlob, IsTheSameMeshAgainWhereThereIsMuch) {
 }
 
 TEST(WalkBlob, HasTheSameBytesOnEveryMachine) {
-    // Few numbers that are exact, so that it is the layout alone that is pinned.
+    // A few numbers that are exact, so that the test pins only the layout.
     Surface surface;
     surface.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0.5f}};
     surface.triangles = {{0, 1, 2}, {0, 2, 3}, {2, 1, 0}};
@@ -199,7 +199,7 @@ TEST(WalkBlob, CutShortOrDamagedIsRefused) {
     EXPECT_EQ(code_of(longer), ProblemCode::bad_format);
 }
 
-/// Two triangles in a square, and a third that stands there twice.
+/// Two triangles in a square, and a third that repeats one of them.
 class ForgedWalkBlob : public testing::Test {
 protected:
     ForgedWalkBlob() {
@@ -263,18 +263,18 @@ TEST_F(ForgedWalkBlob, GoesOnInWhatIsBesideIt) {
     std::uint32_t code = 0;
     std::memcpy(&code, bytes.data() + links + 8, 4);
     ASSERT_EQ(code, WalkLink::to(1, 0, false).code);
-    EXPECT_EQ(refused(links + 8, border), wrong(1)) << "not the other way";
+    EXPECT_EQ(refused(links + 8, border), wrong(1)) << "not in reverse";
     EXPECT_EQ(refused(links + 8, WalkLink::to(1, 1, false).code), wrong(0)) << "another side";
     EXPECT_EQ(refused(links + 8, WalkLink::to(1, 3, false).code), wrong(0)) << "no side";
-    EXPECT_EQ(refused(links + 8, WalkLink::to(1, 0, true).code), wrong(0)) << "the other way round";
+    EXPECT_EQ(refused(links + 8, WalkLink::to(1, 0, true).code), wrong(0)) << "in reverse";
     EXPECT_EQ(refused(links + 8, WalkLink::to(2, 0, false).code), wrong(0)) << "one that is left out";
     EXPECT_EQ(refused(links + 8, WalkLink::to(3, 0, false).code), wrong(0)) << "one that there isn't";
-    EXPECT_EQ(refused(links + 8, left_out), wrong(0)) << "a half of what tells that it is left out";
+    EXPECT_EQ(refused(links + 8, left_out), wrong(0)) << "half of the code of a left-out triangle";
     EXPECT_EQ(refused(links + 0, WalkLink::to(0, 0, true).code), wrong(0)) << "itself";
     EXPECT_EQ(refused(links + 0, WalkLink::to(1, 1, false).code), wrong(0));
     EXPECT_EQ(refused(links + 0, 0x7fffffffu), wrong(0));
 
-    // Both of the two sides name one another, and aren't at the same place.
+    // The two sides link to each other, but aren't at one place.
     Bytes twisted = bytes;
     const std::uint32_t to_one = WalkLink::to(1, 1, false).code, to_zero = WalkLink::to(0, 0, false).code;
     std::memcpy(twisted.data() + links, &to_one, 4);
@@ -284,7 +284,7 @@ TEST_F(ForgedWalkBlob, GoesOnInWhatIsBesideIt) {
     ASSERT_FALSE(mesh);
     EXPECT_EQ(mesh.problem().message, wrong(0));
 
-    // What was linked may have a border: another mesh, and a sound one.
+    // A linked side may become a border: another valid mesh.
     Bytes parted = bytes;
     std::memcpy(parted.data() + links + 8, &border, 4);
     std::memcpy(parted.data() + links + 12, &border, 4);

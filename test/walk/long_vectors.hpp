@@ -1,6 +1,6 @@
 #pragma once
 
-// Vectors of long double, for what is told plainly.
+// Vectors of long double, for reference implementations.
 
 #include <glm/vec3.hpp>
 

@@ -1,7 +1,7 @@
-// The first point of a walk mesh along a ray: against all triangles one by one, told plainly; and where a ray comes to
-// an edge or a corner, along a triangle, or starts on one.
+// The first point of a walk mesh along a ray: against a reference over all triangles; and rays to edges and corners,
+// along a triangle, and from a point of one.
 
-#include "../oracle/vector_units.hpp"
+#include "../oracle/simd_targets.hpp"
 #include "../query/hash.hpp"
 #include "long_vectors.hpp"
 #include "walk_surfaces.hpp"
@@ -25,7 +25,7 @@ Long position(const WalkMesh& mesh, const WalkPoint& place) {
     return at(t.x) * w.x + at(t.y) * w.y + at(t.z) * w.z;
 }
 
-/// Where a line is met by the planes of triangles, of those that it passes so far inside of: the first.
+/// The first intersection of a line with the planes of triangles, of those that it crosses at least this far inside.
 long double first_along(const WalkMesh& mesh, const Vec3& point, const Long& direction, long double inside) {
     long double result = std::numeric_limits<long double>::infinity();
     for (std::uint32_t i = 0; i < mesh.triangles().size(); ++i) {
@@ -43,7 +43,7 @@ long double first_along(const WalkMesh& mesh, const Vec3& point, const Long& dir
     return result;
 }
 
-class WalkNearestAlong : public oracle::ByVectorUnit {};
+class WalkNearestAlong : public oracle::BySimdTarget {};
 
 TEST_P(WalkNearestAlong, is_the_first_of_all_triangles) {
     const std::uint64_t seed = 1;
@@ -51,7 +51,7 @@ TEST_P(WalkNearestAlong, is_the_first_of_all_triangles) {
     Random random(seed);
     int met = 0, missed = 0;
     std::vector<NamedSurface> all = surfaces(seed);
-    // And one with numbers that floats can't multiply.
+    // And a surface with coordinates whose products aren't exact in float.
     all.push_back({"huge hills", hills(24)});
     for (Vec3& point : all.back().surface.points) point *= 1e13f;
     for (const auto& [name, surface] : all) {
@@ -64,12 +64,12 @@ TEST_P(WalkNearestAlong, is_the_first_of_all_triangles) {
             const Vec3 about = surface.points[random.below(count)];
             const Vec3 point = about + to_float(random.in_cube<3>() * (0.5 * size));
             const Vec3 target = surface.points[random.below(count)] + to_float(random.in_cube<3>() * (0.1 * size));
-            const Vec3 direction = target - point;
-            const Long way(direction);
-            // Surely inside of some, surely outside of all but those already told.
-            const long double sure = first_along(*mesh, point, way, 1e-9L),
-                              maybe = first_along(*mesh, point, way, -1e-9L);
-            const std::optional<WalkPoint> place = mesh->nearest_along(point, direction);
+            const Vec3 toward = target - point;
+            const Long direction(toward);
+            // Some intersection is certainly inside; others are possible up to rounding.
+            const long double sure = first_along(*mesh, point, direction, 1e-9L),
+                              maybe = first_along(*mesh, point, direction, -1e-9L);
+            const std::optional<WalkPoint> place = mesh->nearest_along(point, toward);
             if (maybe == std::numeric_limits<long double>::infinity()) {
                 ++missed;
                 EXPECT_FALSE(place);
@@ -78,13 +78,13 @@ TEST_P(WalkNearestAlong, is_the_first_of_all_triangles) {
             if (sure != maybe) continue;
             ++met;
             ASSERT_TRUE(place);
-            const Long off = position(*mesh, *place) - (Long(point) + way * sure);
+            const Long off = position(*mesh, *place) - (Long(point) + direction * sure);
             EXPECT_LT(std::sqrt(product(off, off)), 1e-6L * size);
 
-            // It is met from where it is seen, whatever the direction's length, and no farther than it is.
-            EXPECT_EQ(mesh->nearest_along(point, direction * 0x1p-30f), place);
-            EXPECT_EQ(mesh->nearest_along(point, direction * 0x1p40f), place);
-            const double distance = static_cast<double>(sure * std::sqrt(product(way, way)));
+            // The hit doesn't depend on the direction's length, and isn't beyond the surface.
+            EXPECT_EQ(mesh->nearest_along(point, toward * 0x1p-30f), place);
+            EXPECT_EQ(mesh->nearest_along(point, toward * 0x1p40f), place);
+            const double distance = static_cast<double>(sure * std::sqrt(product(direction, direction)));
             EXPECT_EQ(mesh->nearest_along(point, direction, static_cast<float>(distance * 1.000001)), place);
             const auto sooner = mesh->nearest_along(point, direction, static_cast<float>(distance * 0.999999));
             EXPECT_FALSE(sooner);
@@ -94,7 +94,7 @@ TEST_P(WalkNearestAlong, is_the_first_of_all_triangles) {
     EXPECT_GT(missed, 50);
 }
 
-/// From within a closed surface each ray comes to it, also to its corners and edges, and where it all but goes along.
+/// From within a closed surface each ray hits it, also at corners and edges, and nearly parallel to a face.
 TEST_P(WalkNearestAlong, goes_through_no_edge) {
     const std::uint64_t seed = 2;
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -115,7 +115,7 @@ TEST_P(WalkNearestAlong, goes_through_no_edge) {
     }
 }
 
-/// Where nothing is rounded: exactly over corners and edges, the border's too, and beside them.
+/// Without rounding: exactly through corners and edges, those of the border too, and beside them.
 TEST_P(WalkNearestAlong, edges_and_corners_belong_to_it) {
     const Surface surface = flat(4, 4);
     const Result<WalkMesh> mesh = WalkMesh::build(surface.points, surface.triangles);
@@ -125,12 +125,12 @@ TEST_P(WalkNearestAlong, edges_and_corners_belong_to_it) {
             for (const Vec3& direction : {Vec3(0, 0, -1), Vec3(1, 0, -1), Vec3(0.25f, -0.5f, -2), Vec3(16, 8, -1)}) {
                 const Vec3 target = to_float(DVec<3>(0.25 * column, 0.25 * row, 0));
                 for (const float side : {1.0f, -1.0f}) {
-                    const Vec3 way(direction.x, direction.y, side * direction.z);
-                    const std::optional<WalkPoint> place = mesh->nearest_along(target - 2.0f * way, way);
+                    const Vec3 down(direction.x, direction.y, side * direction.z);
+                    const std::optional<WalkPoint> place = mesh->nearest_along(target - 2.0f * down, down);
                     ASSERT_TRUE(place);
                     EXPECT_EQ(mesh->to_world(*place), target);
-                    // The other way there is nothing.
-                    EXPECT_FALSE(mesh->nearest_along(target - 2.0f * way, -way));
+                    // There is nothing in the opposite direction.
+                    EXPECT_FALSE(mesh->nearest_along(target - 2.0f * down, -down));
                 }
             }
     for (const float beside : {-1e-6f, 4.000001f}) {
@@ -164,7 +164,7 @@ TEST_P(WalkNearestAlong, along_its_plane_it_begins_at_the_border) {
     ASSERT_TRUE(one);
     EXPECT_TRUE(one->nearest_along({-3, 2, 0}, {1, 0, 0}, 5));
     EXPECT_FALSE(one->nearest_along({-3, 2, 0}, {1, 0, 0}, 4));
-    // Hardly down: it is met where it is come to.
+    // Nearly horizontal: it hits at the point of entry.
     const Vec3 skimmed = at({-1, 1.5f, 0x1p-22f}, {1, 0, -0x1p-24f});
     EXPECT_NEAR(skimmed.x, 3, 1e-5);
     EXPECT_EQ(skimmed.z, 0);
@@ -185,7 +185,7 @@ TEST_P(WalkNearestAlong, what_starts_on_it_is_there) {
     }
 }
 
-/// Walls, seen from above along them: their upper edges are met.
+/// Walls, seen from above along them: the ray hits their upper edges.
 TEST_P(WalkNearestAlong, upright_walls_are_met_at_their_edges) {
     Surface wall;
     wall.points = {{0, 0, 0}, {4, 0, 0}, {4, 0, 3}, {0, 0, 3}};
@@ -241,7 +241,7 @@ TEST_P(WalkNearestAlong, is_the_same_bits_everywhere) {
     EXPECT_EQ(hash.value(), 0x0ccc851706aaa6c9u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, WalkNearestAlong, oracle::vector_units(), oracle::name_of_unit);
+INSTANTIATE_TEST_SUITE_P(Each, WalkNearestAlong, oracle::simd_targets(), oracle::simd_target_name);
 
 TEST(WalkNearestAlongInput, a_ray_of_length_zero_or_not_finite_hits_nothing) {
     const Surface surface = flat(3, 3);

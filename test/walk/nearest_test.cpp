@@ -1,8 +1,8 @@
-// The nearest point of a walk mesh: against all triangles one by one, told plainly; and to the last bit against all of
-// them measured as the search does it, by each kind of vector unit.
+// The nearest point of a walk mesh: against a reference over all triangles; and bit for bit against the search's own
+// distances of all triangles, for each SIMD target.
 
 #include "../broad_phase/allocations.hpp"
-#include "../oracle/vector_units.hpp"
+#include "../oracle/simd_targets.hpp"
 #include "../query/hash.hpp"
 #include "long_vectors.hpp"
 #include "walk_surfaces.hpp"
@@ -26,8 +26,8 @@ long double square_from(const Long& p, const Long& a, const Long& b, const Long&
     const auto from_side = [&](const Long& start, const Long& end) {
         const Long along = end - start;
         const long double part = std::clamp(product(p - start, along) / product(along, along), 0.0L, 1.0L);
-        const Long way = start + along * part - p;
-        return product(way, way);
+        const Long direction = start + along * part - p;
+        return product(direction, direction);
     };
     const long double beside = std::min({from_side(a, b), from_side(b, c), from_side(c, a)});
     const Long normal = turned(b - a, c - a);
@@ -48,12 +48,12 @@ Long position(const WalkMesh& mesh, const WalkPoint& place) {
     const Long w(place.weights);
     return Long(t.a) * w.x + Long(t.b) * w.y + Long(t.c) * w.z;
 }
-/// The least square of all, and the first triangle that has it, as the search measures them.
+/// The least squared distance of all triangles and the first triangle with it, measured as the search does.
 struct Least {
     double square = std::numeric_limits<double>::infinity();
     std::uint32_t triangle = 0;
 };
-Least least_of_all(const WalkMesh& mesh, const Vec3& point) {
+Least min_of_all(const WalkMesh& mesh, const Vec3& point) {
     Least result;
     for (std::uint32_t i = 0; i < mesh.triangles().size(); ++i) {
         if (!mesh.is_walkable(i)) continue;
@@ -62,7 +62,7 @@ Least least_of_all(const WalkMesh& mesh, const Vec3& point) {
     }
     return result;
 }
-long double least_plainly(const WalkMesh& mesh, const Vec3& point) {
+long double reference_distance(const WalkMesh& mesh, const Vec3& point) {
     long double result = std::numeric_limits<long double>::infinity();
     for (std::uint32_t i = 0; i < mesh.triangles().size(); ++i) {
         if (!mesh.is_walkable(i)) continue;
@@ -85,34 +85,33 @@ void expect_valid(const WalkMesh& mesh, const WalkPoint& place) {
     EXPECT_EQ(sum, 0x1p24);
 }
 
-/// All that there is to say about the nearest point of one. Of a needle what is nearest may be told too far away, by so
-/// much of its size.
+/// Checks the nearest point of one query. For a needle triangle the distance may be too large by a share of its size.
 void check(const WalkMesh& mesh, const Vec3& point, Random& random, double needle = 0) {
     const WalkPoint place = mesh.nearest(point);
     expect_valid(mesh, place);
-    const Least least = least_of_all(mesh, point);
+    const Least least = min_of_all(mesh, point);
     EXPECT_EQ(place.triangle, least.triangle);
 
     const Triangle3 t = triangle_of(mesh, place.triangle);
     const double size = std::max(largest(DVec<3>(t.b) - DVec<3>(t.a)), largest(DVec<3>(t.c) - DVec<3>(t.a)));
-    const long double truth = least_plainly(mesh, point);
+    const long double truth = reference_distance(mesh, point);
     const double rounding = 1e-13 * (static_cast<double>(truth) + size);
     EXPECT_NEAR(0.5 * std::sqrt(least.square), static_cast<double>(truth), rounding + needle * size);
-    const Long way = position(mesh, place) - Long(point);
-    EXPECT_NEAR(static_cast<double>(std::sqrt(product(way, way))), static_cast<double>(truth),
+    const Long direction = position(mesh, place) - Long(point);
+    EXPECT_NEAR(static_cast<double>(std::sqrt(product(direction, direction))), static_cast<double>(truth),
                 rounding + (needle + 4 * 0x1p-24) * size);
 
-    // From anywhere the same.
+    // The starting triangle doesn't change the answer.
     const std::uint32_t other = random.below(static_cast<std::uint32_t>(mesh.triangles().size()));
     EXPECT_EQ(mesh.nearest(point, WalkPoint{other, {1, 0, 0}}), place);
     EXPECT_EQ(mesh.nearest(point, place), place);
 
-    // Within reach or not: that is asked in double, of a reach that is a float.
+    // The reach is a float, and the comparison is in double.
     const float reach = static_cast<float>(0.5 * std::sqrt(least.square));
-    for (const float asked : {std::nextafter(reach, 0.0f), reach, std::nextafter(reach, 3e38f), 3e38f}) {
-        const double twice = 2 * static_cast<double>(asked);
-        const std::optional<WalkPoint> found = mesh.nearest(point, asked);
-        EXPECT_EQ(found.has_value(), least.square <= twice * twice) << asked;
+    for (const float requested : {std::nextafter(reach, 0.0f), reach, std::nextafter(reach, 3e38f), 3e38f}) {
+        const double twice = 2 * static_cast<double>(requested);
+        const std::optional<WalkPoint> found = mesh.nearest(point, requested);
+        EXPECT_EQ(found.has_value(), least.square <= twice * twice) << requested;
         if (found) {
             EXPECT_EQ(*found, place);
         }
@@ -128,7 +127,7 @@ Vec3 about(const Surface& surface, Random& random, double grown) {
     for (int i = 0; i < 3; ++i) result[i] = random.uniform(low[i] - beyond, high[i] + beyond);
     return to_float(result);
 }
-/// A corner, a place on an edge or within a triangle, and what is a little off it.
+/// A corner, a point on an edge or within a triangle, and points near it.
 Vec3 near_by(const Surface& surface, Random& random) {
     const glm::uvec3& t = surface.triangles[random.below(static_cast<std::uint32_t>(surface.triangles.size()))];
     const DVec<3> a(surface.points[t.x]), b(surface.points[t.y]), c(surface.points[t.z]);
@@ -142,7 +141,7 @@ Surface changed(Surface surface, double scale, const DVec<3>& offset) {
     return surface;
 }
 
-class WalkNearest : public oracle::ByVectorUnit {};
+class WalkNearest : public oracle::BySimdTarget {};
 
 void check_all(const std::vector<NamedSurface>& all, double scale, const DVec<3>& offset, Random& random, int count) {
     for (const auto& [name, given] : all) {
@@ -216,17 +215,17 @@ TEST_P(WalkNearest, of_a_bridge_and_the_floor_below_it) {
         const WalkPoint on_floor = mesh->nearest({x, y, 1.5f}), on_bridge = mesh->nearest({x, y, 2.5f});
         EXPECT_LT(on_floor.triangle, first_of_bridge);
         EXPECT_GE(on_bridge.triangle, first_of_bridge);
-        // What is farther from the last place is found nonetheless.
+        // A point far from the last place is found as well.
         EXPECT_EQ(mesh->nearest({x, y, 1.5f}, on_bridge), on_floor);
         EXPECT_EQ(mesh->nearest({x, y, 2.5f}, on_floor), on_bridge);
-        // In the middle both are as far: the floor's numbers are lower.
+        // In the middle both are equally far: the floor's indices are lower.
         EXPECT_LT(mesh->nearest({x, y, 2}, on_bridge).triangle, first_of_bridge);
         EXPECT_FALSE(mesh->nearest({x, y, 2}, 1.999f));
         EXPECT_TRUE(mesh->nearest({x, y, 2}, 2));
     }
 }
 
-/// Of numbers that leave nothing to rounding, by what the triangle has at the point's foot.
+/// Without rounding: each feature of the triangle is the closest one once.
 TEST_P(WalkNearest, of_several_is_the_lowest) {
     const Surface surface = flat(10, 10);
     const Result<WalkMesh> mesh = WalkMesh::build(surface.points, surface.triangles);
@@ -253,13 +252,13 @@ TEST_P(WalkNearest, of_several_is_the_lowest) {
                 }
             }
 
-    // The middle of a cube, and of two of them in one place but for their numbers.
+    // The middle of a cube, and of two coinciding cubes with different indices.
     const Surface cube = box_surface({-1, -1, -1}, {1, 1, 1});
     EXPECT_EQ(WalkMesh::build(cube.points, cube.triangles)->nearest({0, 0, 0}).triangle, 0u);
 }
 
-/// Corners and edges that are shared are as far from each triangle that has them: the first takes the place, also where
-/// all numbers are rounded.
+/// Shared corners and edges are equally far from their triangles: the first triangle wins, also if all coordinates are
+/// rounded.
 TEST_P(WalkNearest, of_those_at_a_corner_is_the_lowest) {
     const std::uint64_t seed = 5;
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -276,7 +275,7 @@ TEST_P(WalkNearest, of_those_at_a_corner_is_the_lowest) {
     }
 }
 
-/// Triangles as thin as there are, side by side at any slope.
+/// The thinnest possible triangles, side by side at any slope.
 TEST_P(WalkNearest, of_needles) {
     const std::uint64_t seed = 8;
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -298,7 +297,7 @@ TEST_P(WalkNearest, of_needles) {
 }
 
 TEST_P(WalkNearest, leaves_out_what_is_left_out) {
-    // Twice there, without an area where a neighbour can be cut, and without one where none can be.
+    // Repeated triangles: without area where a neighbour can be cut, and where none can be.
     Surface surface = flat(6, 6);
     const auto count = static_cast<std::uint32_t>(surface.triangles.size());
     for (std::uint32_t i = 0; i < count; i += 3) surface.triangles.push_back(surface.triangles[i]);
@@ -331,7 +330,7 @@ TEST_P(WalkNearest, is_the_same_bits_everywhere) {
     EXPECT_EQ(hash.value(), 0x0bb1b23e68f9478au);
 }
 
-/// This program's assertions go on.
+/// This program's assertion handler returns.
 TEST(WalkNearestInput, a_point_that_is_not_finite_gives_a_valid_place_or_none) {
     const Surface surface = flat(3, 3);
     const Result<WalkMesh> mesh = WalkMesh::build(surface.points, surface.triangles);
@@ -375,7 +374,7 @@ TEST(WalkNearestInput, a_reach_below_zero_reaches_nothing) {
     EXPECT_FALSE(mesh->nearest(on_it, std::numeric_limits<float>::quiet_NaN()));
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, WalkNearest, oracle::vector_units(), oracle::name_of_unit);
+INSTANTIATE_TEST_SUITE_P(Each, WalkNearest, oracle::simd_targets(), oracle::simd_target_name);
 
 }  // namespace
 }  // namespace abut::test

@@ -1,6 +1,6 @@
 #pragma once
 
-// Ground for paths.
+// Meshes for paths.
 
 #include "../oracle/random.hpp"
 #include <abut/walk/walk_mesh.hpp>
@@ -26,8 +26,8 @@ struct Ground {
     }
 };
 
-/// Squares of edge 1, `columns` x `rows`, two triangles each, in the plane z = 0; `there(column, row)` tells which,
-/// `height(x, y)` moves their corners.
+/// A floor of `columns` x `rows` unit squares of two triangles each, in the plane z = 0. `there(column, row)` selects
+/// the squares, `height(x, y)` raises their corners.
 template <class There, class Height>
 Ground grid(int columns, int rows, There&& there, Height&& height) {
     Ground result;
@@ -39,7 +39,7 @@ Ground grid(int columns, int rows, There&& there, Height&& height) {
             if (!there(x, y)) continue;
             const auto a = static_cast<std::uint32_t>(y * (columns + 1) + x), b = a + 1;
             const std::uint32_t c = a + static_cast<std::uint32_t>(columns) + 1, d = c + 1;
-            // One diagonal or the other, as a chess board.
+            // The diagonals alternate like a chess board.
             if ((x + y) % 2 == 0) {
                 result.triangles.emplace_back(a, b, d);
                 result.triangles.emplace_back(a, d, c);
@@ -78,8 +78,8 @@ inline double length_of(const std::vector<Vec3>& points) {
     return result;
 }
 
-/// What holds of every path: ends where asked, as long as its points are apart, its places at its points, and each
-/// piece walked by the mesh's own steps ends where the next begins.
+/// Checks the invariants of a path: its ends, its length, its places at its points, and that a walk along each piece
+/// ends where the next begins.
 inline void expect_whole(const WalkMesh& mesh, const WalkPoint& from, const WalkPoint& to, const WalkPath& path,
                          double tolerance, const std::optional<WalkAllow>& allow = std::nullopt) {
     ASSERT_GE(path.points.size(), 2u);

@@ -1,7 +1,7 @@
-// Paths over random ground, against ways that are found otherwise.
+// Paths over random ground, compared with shortest paths of other algorithms.
 
-#include "../oracle/flat_paths.hpp"
 #include "../oracle/surface_paths.hpp"
+#include "../oracle/visibility_graph.hpp"
 #include "../query/hash.hpp"
 #include "path_meshes.hpp"
 #include <abut/math/pose.hpp>
@@ -21,7 +21,7 @@ int times(int count) {
     return std::getenv("ABUT_LONG") != nullptr ? 40 * count : count;
 }
 
-/// Squares with holes that meet at no corner alone.
+/// A grid of squares with holes, of which no two share only a corner.
 oracle::Squares random_squares(int size, double missing, oracle::Random& random) {
     oracle::Squares result{size, size, {}};
     for (int i = 0; i < size * size; ++i) result.there.push_back(!random.chance(missing));
@@ -41,7 +41,7 @@ oracle::Squares random_squares(int size, double missing, oracle::Random& random)
 }
 
 TEST(path_oracle, flat_ground_with_holes_against_corners_that_see_one_another) {
-    int paths = 0, turning = 0, longer = 0, much_longer = 0;
+    int paths = 0, turns = 0, longer = 0, much_longer = 0;
     for (int round = 0; round < times(40); ++round) {
         const std::uint64_t seed = 500 + static_cast<std::uint64_t>(round);
         SCOPED_TRACE(seed);
@@ -53,7 +53,7 @@ TEST(path_oracle, flat_ground_with_holes_against_corners_that_see_one_another) {
         if (ground.triangles.empty()) continue;
         const WalkMesh flat = ground.mesh();
         EXPECT_EQ(flat.report().non_manifold_vertices, 0u);
-        // The same in space, turned.
+        // A rotated copy in space.
         const glm::quat rotation = random.rotation<3>();
         for (Vec3& point : ground.points) point = rotate(rotation, point) + Vec3(3, -7, 20);
         const WalkMesh turned = ground.mesh();
@@ -61,7 +61,7 @@ TEST(path_oracle, flat_ground_with_holes_against_corners_that_see_one_another) {
             const WalkPoint from = random_place(flat, random);
             const WalkPoint to = random_place(flat, random);
             const DVec<2> a(flat.to_world(from)), b(flat.to_world(to));
-            const double best = oracle::shortest(squares, a, b);
+            const double best = oracle::shortest_path_length(squares, a, b);
             const std::optional<WalkPath> path = flat.find_path(from, to);
             ASSERT_EQ(path.has_value(), best < std::numeric_limits<double>::infinity());
             ASSERT_EQ(turned.find_path(from, to).has_value(), path.has_value());
@@ -69,12 +69,12 @@ TEST(path_oracle, flat_ground_with_holes_against_corners_that_see_one_another) {
             expect_whole(flat, from, to, *path, 1e-5);
             expect_whole(turned, from, to, *turned.find_path(from, to), 5e-5);
             ++paths;
-            turning += path->points.size() > 2;
+            turns += path->points.size() > 2;
             EXPECT_GE(path->length, best - 1e-5);
             const double over = path->length / std::max(best, 1e-3) - 1;
             longer += over > 1e-3;
             much_longer += over > 0.1;
-            // It turns at nothing but corners of holes.
+            // The path turns only at corners of holes.
             for (std::size_t k = 1; k + 1 < path->points.size(); ++k) {
                 const Vec3& p = path->points[k];
                 EXPECT_TRUE(p.x == std::round(p.x) && p.y == std::round(p.y)) << p.x << ' ' << p.y;
@@ -83,12 +83,12 @@ TEST(path_oracle, flat_ground_with_holes_against_corners_that_see_one_another) {
             }
         }
     }
-    EXPECT_GT(turning, paths / 4);
+    EXPECT_GT(turns, paths / 4);
     EXPECT_LE(longer, paths / 20);
     EXPECT_LE(much_longer, paths / 100);
 }
 
-/// Hills of several sizes; `rough` is the largest step from a corner to the next.
+/// Hills of several sizes; `rough` is the largest height step between neighbouring corners.
 Ground hills(int size, double high, double rough, oracle::Random& random) {
     std::vector<DVec<3>> tops;
     for (int i = 0; i < 6; ++i) {
@@ -106,7 +106,7 @@ Ground hills(int size, double high, double rough, oracle::Random& random) {
     });
 }
 
-/// It turns at corners of the surface alone, and there is half a turn or more on either side.
+/// The path turns only at corners of the surface, with an angle of at least pi on either side.
 void expect_tight(const Ground& ground, const WalkMesh& mesh, const WalkPath& path) {
     for (std::size_t i = 1; i + 1 < path.points.size(); ++i) {
         const WalkPoint& place = path.places[i];
@@ -114,7 +114,7 @@ void expect_tight(const Ground& ground, const WalkMesh& mesh, const WalkPath& pa
             if (place.weights[k] != 1) continue;
             const DVec<3> before = DVec<3>(path.points[i - 1]) - DVec<3>(path.points[i]);
             const DVec<3> after = DVec<3>(path.points[i + 1]) - DVec<3>(path.points[i]);
-            // Where points are rounded to floats, short pieces have no direction.
+            // Short pieces have no direction, as the points are rounded to floats.
             if (length(before) < 0.02 || length(after) < 0.02) continue;
             const auto sides = oracle::angles_beside(ground.points, mesh.triangles(),
                                                      mesh.triangles()[place.triangle][k], before, after);
@@ -145,7 +145,7 @@ TEST(path_oracle, hills_against_lines_between_points_of_edges) {
             ++paths;
             tight += path->points.size() > 2;
             EXPECT_GE(path->length, length(b - a) - 1e-5);
-            const double over = path->length / graph.cheapest(from.triangle, a, to.triangle, b) - 1;
+            const double over = path->length / graph.min_cost(from.triangle, a, to.triangle, b) - 1;
             longer += over > 1e-3;
             EXPECT_LE(over, is_rough ? 0.03 : 2e-3);
         }
@@ -180,15 +180,15 @@ TEST(path_oracle, costs_against_lines_between_points_of_edges) {
             const WalkPoint from = random_place(mesh, random);
             const WalkPoint to = random_place(mesh, random);
             const std::optional<WalkPath> path = mesh.find_path(from, to, {.area_costs = costs});
-            const std::optional<WalkPath> plain = mesh.find_path(from, to);
-            ASSERT_TRUE(path && plain);
+            const std::optional<WalkPath> unweighted = mesh.find_path(from, to);
+            ASSERT_TRUE(path && unweighted);
             expect_whole(mesh, from, to, *path, 2e-5);
-            EXPECT_GE(path->length, plain->length * (1 - 2e-3));
+            EXPECT_GE(path->length, unweighted->length * (1 - 2e-3));
             EXPECT_GE(path->cost, 0.5 * path->length * (1 - 1e-9));
-            const double best = graph.cheapest(from.triangle, DVec<3>(mesh.to_world(from)), to.triangle,
+            const double best = graph.min_cost(from.triangle, DVec<3>(mesh.to_world(from)), to.triangle,
                                                DVec<3>(mesh.to_world(to)), of_triangle);
             ++paths;
-            detours += path->length > plain->length * 1.01;
+            detours += path->length > unweighted->length * 1.01;
             const double over = path->cost / best - 1;
             sum += over;
             dearer += over > 0.01;
@@ -216,12 +216,12 @@ TEST(path_oracle, the_nearest_reachable_place_is_the_nearest) {
         ASSERT_TRUE(path);
         expect_whole(mesh, from, to, *path, 1e-5);
         EXPECT_EQ(path->reached, mesh.component(from.triangle) == mesh.component(to.triangle));
-        // Of the start's island alone.
-        Ground island;
-        island.points = ground.points;
+        // The component of the start alone.
+        Ground component;
+        component.points = ground.points;
         for (std::uint32_t t = 0; t < ground.triangles.size(); ++t)
-            if (mesh.component(t) == mesh.component(from.triangle)) island.triangles.push_back(ground.triangles[t]);
-        const WalkMesh alone = island.mesh();
+            if (mesh.component(t) == mesh.component(from.triangle)) component.triangles.push_back(ground.triangles[t]);
+        const WalkMesh alone = component.mesh();
         const Vec3 end = mesh.to_world(to);
         EXPECT_NEAR(distance(path->points.back(), end), distance(alone.to_world(alone.nearest(end)), end), 1e-6);
     }
@@ -235,7 +235,7 @@ TEST(path_oracle, edges_that_may_not_be_crossed_are_not) {
         oracle::Random random(seed);
         const Ground ground = hills(14, 4, 0.1, random);
         const WalkMesh mesh = ground.mesh();
-        // Each way over each edge by itself.
+        // Each half-edge is allowed or not by itself.
         std::vector<bool> open;
         for (std::size_t i = 0; i < 3 * ground.triangles.size(); ++i) open.push_back(!random.chance(0.15));
         const auto allow = [&](const WalkSide& from, const WalkSide&) { return open[3 * from.triangle + from.side]; };
@@ -243,7 +243,7 @@ TEST(path_oracle, edges_that_may_not_be_crossed_are_not) {
             const WalkPoint from = random_place(mesh, random);
             const WalkPoint to = random_place(mesh, random);
             const std::optional<WalkPath> path = mesh.find_path(from, to, {.allow = allow});
-            // By triangles alone.
+            // Whole triangles are allowed or not.
             std::vector<bool> reached(ground.triangles.size(), false);
             std::vector<std::uint32_t> now{from.triangle};
             reached[from.triangle] = true;
@@ -287,7 +287,7 @@ TEST(path_oracle, scales_and_far_from_the_origin) {
 }
 
 TEST(path_oracle, the_same_bits_everywhere) {
-    // Of whole numbers, so that no arithmetic of this file is in the answers.
+    // Integer coordinates, so that the answers don't depend on this file's arithmetic.
     oracle::Random random(5);
     std::vector<float> heights;
     for (int i = 0; i < 41 * 41; ++i) heights.push_back(static_cast<float>(random.below(64)));

@@ -1,4 +1,4 @@
-// Paths with answers that are worked out by hand.
+// Paths with known answers.
 
 #include "path_meshes.hpp"
 
@@ -88,15 +88,15 @@ TEST(path, from_edges_and_corners_leads_straight_away_to_either_side) {
 }
 
 TEST(path, does_not_lead_through_a_non_manifold_vertex) {
-    // Two rooms that meet at a corner, and a corridor around.
-    const auto rooms = [](bool corridor) {
+    // Two floors that share only a corner, and a corridor around.
+    const auto floors = [](bool corridor) {
         return grid(6, 6, [=](int x, int y) {
             if (x < 3 && y < 3) return true;
             if (x >= 3 && y >= 3) return true;
             return corridor && (y == 0 || x == 5);
         });
     };
-    const WalkMesh apart = rooms(false).mesh(), joined = rooms(true).mesh();
+    const WalkMesh apart = floors(false).mesh(), joined = floors(true).mesh();
     const Vec3 a(2.5f, 2.5f, 0), b(3.5f, 3.5f, 0);
     EXPECT_FALSE(apart.find_path(apart.nearest(a), apart.nearest(b)));
     EXPECT_FALSE(apart.path(apart.nearest(a), apart.nearest(b)));
@@ -139,7 +139,7 @@ TEST(path, leads_round_a_box_as_unfolded) {
     EXPECT_NEAR(across.length, 2, 1e-12);
 }
 
-/// A band of `count` squares round a circle of so many sides, turned over `twists` half turns on its way.
+/// A band of `count` squares around a circle of so many sides, with `twists` half turns along it.
 Ground band(int count, int half_turns) {
     Ground result;
     const double tau = 6.283185307179586;
@@ -169,7 +169,7 @@ TEST(path, leads_around_a_moebius_strip_by_the_short_side) {
     ASSERT_GT(mesh.report().mirrored, 0u);
     for (int from = 0; from < 60; from += 7)
         for (int to = 0; to < 60; to += 3) {
-            // In the middle of the band, where each piece is as long.
+            // In the middle of the band, where all pieces have one length.
             const Vec3 a = mesh.points()[static_cast<std::size_t>(3 * from + 1)];
             const Vec3 b = mesh.points()[static_cast<std::size_t>(3 * to + 1)];
             const WalkPath path = found(mesh, mesh.nearest(a), mesh.nearest(b));
@@ -213,11 +213,11 @@ TEST(path, leads_round_the_back_of_a_ball) {
 }
 
 TEST(path, keeps_to_doors_that_may_be_crossed) {
-    // Two rooms and a door of one square in the wall between them, and a long way round.
+    // Two floors, a door of one square in the wall between them, and a long detour.
     const WalkMesh mesh = grid(9, 9, [](int x, int y) { return x != 4 || y == 4 || y == 0; }).mesh();
     const WalkPoint from = mesh.nearest({1.5f, 4.5f, 0}), to = mesh.nearest({7.5f, 4.5f, 0});
     EXPECT_NEAR(found(mesh, from, to).length, 6, 1e-6);
-    // Closed to those who go right.
+    // The door is closed in the direction +x.
     const auto closed = [&](const WalkSide& side, const WalkSide& next) {
         const auto middle = [&](std::uint32_t triangle) {
             return mesh.to_world({triangle, {1.0f / 3, 1.0f / 3, 1.0f / 3}});
@@ -242,9 +242,9 @@ TEST(path, unreachable_ends_are_reported_and_the_nearest_place_found) {
     EXPECT_FALSE(path.reached);
     EXPECT_LE(distance(path.points.back(), Vec3(5, 1.75f, 0)), 1e-6);
     EXPECT_NEAR(path.length, std::hypot(4.5, 0.75), 1e-6);
-    // Where it can be reached, it is.
+    // A reachable goal is reached.
     EXPECT_TRUE(found(mesh, from, mesh.nearest({3, 3, 0}), options).reached);
-    // On one island, but closed.
+    // In one component, but closed.
     const WalkMesh whole = grid(9, 5, everywhere).mesh();
     const auto never = [](const WalkSide&, const WalkSide&) { return false; };
     options.allow = never;
@@ -271,15 +271,15 @@ TEST(path, goes_round_mud_and_along_a_road) {
     EXPECT_NEAR(round.length, 2 * std::hypot(7, 6) + 4, 1e-6);
     EXPECT_NEAR(round.cost, round.length, 1e-9);
 
-    // Through, if mud is not so bad: 14 outside and 4 within.
+    // Through the mud, if it is cheap: 14 outside and 4 within.
     const std::vector<float> wet = {1, 1.25f};
     const WalkPath through = found(mesh, from, to, {.area_costs = wet});
     EXPECT_NEAR(through.length, 18, 1e-6);
     EXPECT_NEAR(through.cost, 14 + 4 * 1.25, 1e-6);
 
-    // Along the road, entered and left at an angle whose sine is its share of the cost: at its edge y = 1.
-    const std::vector<float> quick = {1, 1, 0.125f};
-    const WalkPath ride = found(mesh, mesh.nearest({1, 2, 0}), mesh.nearest({19, 2, 0}), {.area_costs = quick});
+    // Along the edge y = 1 of the road, entered and left at an angle whose sine is the ratio of the costs.
+    const std::vector<float> cheap_road = {1, 1, 0.125f};
+    const WalkPath ride = found(mesh, mesh.nearest({1, 2, 0}), mesh.nearest({19, 2, 0}), {.area_costs = cheap_road});
     const double slope = 0.125 / std::sqrt(1 - 0.125 * 0.125);
     const double best = 2 * std::sqrt(1 + slope * slope) + (18 - 2 * slope) * 0.125;
     EXPECT_NEAR(ride.cost, best, 1e-3 * best);
@@ -314,7 +314,7 @@ TEST(path, is_refracted_where_the_cost_changes) {
 }
 
 TEST(path, may_be_one_sided_floors_and_ceilings) {
-    // The same ground upside down.
+    // The mesh upside down.
     Ground ground = grid(12, 12, [](int x, int y) { return x != 6 || y > 9; });
     const WalkMesh floor = ground.mesh();
     for (glm::uvec3& t : ground.triangles) std::swap(t.y, t.z);

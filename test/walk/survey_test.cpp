@@ -1,4 +1,4 @@
-// Islands, borders and places of note of walk meshes.
+// Connected components, borders and non-manifold places of walk meshes.
 
 #include "../oracle/random.hpp"
 #include "../shape/meshes.hpp"
@@ -28,7 +28,7 @@ WalkMesh built(const Surface& surface) {
     return *std::move(result);
 }
 
-/// Unit squares in the plane z = 0, wound upwards.
+/// Unit squares in the plane z = 0, counter-clockwise from above.
 Surface floor_of(int columns, int rows, const std::function<bool(int, int)>& is_floor) {
     Surface result;
     for (int y = 0; y < rows; ++y)
@@ -39,7 +39,7 @@ Surface floor_of(int columns, int rows, const std::function<bool(int, int)>& is_
     return result;
 }
 
-/// Twice the area around which a loop in the plane goes, counter-clockwise.
+/// Twice the signed area of a loop in the plane, above zero if counter-clockwise.
 double turned_round(const WalkBorder& border) {
     double result = 0;
     for (std::size_t i = 0; i < border.points.size(); ++i) {
@@ -49,7 +49,7 @@ double turned_round(const WalkBorder& border) {
     return result;
 }
 
-TEST(WalkSurvey, TellsARoomWithPillars) {
+TEST(WalkSurvey, ReportsAFloorWithPillars) {
     const WalkMesh mesh = built(floor_of(7, 5, [](int x, int y) { return !(y == 2 && (x == 1 || x == 4 || x == 5)); }));
     const WalkSurvey found = survey(mesh);
     ASSERT_EQ(found.components.size(), 1u);
@@ -70,7 +70,7 @@ TEST(WalkSurvey, TellsARoomWithPillars) {
     EXPECT_TRUE(found.mirrored.empty());
 }
 
-TEST(WalkSurvey, TellsIslandsByTheirFirstTriangles) {
+TEST(WalkSurvey, ReportsComponentsByTheirFirstTriangles) {
     Surface surface = floor_of(2, 1, [](int, int) { return true; });
     Surface far = floor_of(3, 3, [](int x, int y) { return x != 1 || y != 1; });
     for (Vec3& p : far.points) p = Vec3(p.y, 4, p.x) * 2.0f;
@@ -116,24 +116,26 @@ TEST(WalkSurvey, TheBorderOfAMoebiusStripIsOneLoop) {
     EXPECT_GT(length(across), 0.5);
 }
 
-TEST(WalkSurvey, NamesWhatIsPinchedAndCrowded) {
-    // Two pillars that touch at a corner: nobody comes through between them, so that one border goes round both.
-    const WalkSurvey pinched =
+TEST(WalkSurvey, ReportsNonManifoldVerticesAndEdges) {
+    // Two pillars that share a corner: the passage is closed between them, so that one border goes around both.
+    const WalkSurvey non_manifold_vertices =
         survey(built(floor_of(4, 4, [](int x, int y) { return (x != 1 || y != 1) && (x != 2 || y != 2); })));
-    EXPECT_EQ(pinched.non_manifold_vertices, (std::vector<Vec3>{{2, 2, 0}}));
-    ASSERT_EQ(pinched.borders.size(), 2u);
-    for (const WalkBorder& border : pinched.borders) EXPECT_DOUBLE_EQ(border.length, border.is_rim ? 16 : 8);
+    EXPECT_EQ(non_manifold_vertices.non_manifold_vertices, (std::vector<Vec3>{{2, 2, 0}}));
+    ASSERT_EQ(non_manifold_vertices.borders.size(), 2u);
+    for (const WalkBorder& border : non_manifold_vertices.borders)
+        EXPECT_DOUBLE_EQ(border.length, border.is_rim ? 16 : 8);
 
     Surface wall = floor_of(2, 1, [](int, int) { return true; });
     wall.add_quad({Vec3{1, 0, 0}, {1, 0, 1}, {1, 1, 1}, {1, 1, 0}}, false);
-    const WalkSurvey crowded = survey(built(wall));
-    ASSERT_EQ(crowded.non_manifold_edges.size(), 1u);
-    EXPECT_EQ(crowded.non_manifold_edges[0].from + crowded.non_manifold_edges[0].to, Vec3(2, 1, 0));
-    EXPECT_EQ(crowded.components.size(), 2u) << "the floor goes on below the wall";
+    const WalkSurvey non_manifold_edges = survey(built(wall));
+    ASSERT_EQ(non_manifold_edges.non_manifold_edges.size(), 1u);
+    EXPECT_EQ(non_manifold_edges.non_manifold_edges[0].from + non_manifold_edges.non_manifold_edges[0].to,
+              Vec3(2, 1, 0));
+    EXPECT_EQ(non_manifold_edges.components.size(), 2u) << "the floor goes on below the wall";
 }
 
-/// All that is told, found again in the plainest way by `beyond`.
-void expect_as_plain(const WalkMesh& mesh) {
+/// Compares a survey with a reference implementation by `beyond`.
+void expect_reference_survey(const WalkMesh& mesh) {
     const WalkSurvey found = survey(mesh);
     const WalkMeshReport& report = mesh.report();
     EXPECT_EQ(found.components.size(), report.components);
@@ -149,14 +151,14 @@ void expect_as_plain(const WalkMesh& mesh) {
         if (std::tie(b.x, b.y, b.z) < std::tie(a.x, a.y, a.z)) std::swap(a, b);
         return Edge{a.x, a.y, a.z, b.x, b.y, b.z};
     };
-    std::vector<Edge> plain, told;
-    std::vector<std::array<float, 3>> pinched, told_pinched;
+    std::vector<Edge> expected, reported;
+    std::vector<std::array<float, 3>> non_manifold_vertices, reported_vertices;
     const auto count = static_cast<std::uint32_t>(mesh.triangles().size());
     std::vector<std::tuple<std::array<float, 3>, std::uint32_t>> at;
     for (std::uint32_t t = 0; t < count; ++t) {
         if (!mesh.is_walkable(t)) continue;
         for (std::uint32_t k = 0; k < 3; ++k) {
-            if (!mesh.beyond({t, k})) plain.push_back(edge(corner(t, k), corner(t, k + 1)));
+            if (!mesh.beyond({t, k})) expected.push_back(edge(corner(t, k), corner(t, k + 1)));
             const Vec3 p = corner(t, k);
             at.push_back({{p.x, p.y, p.z}, t});
         }
@@ -175,18 +177,18 @@ void expect_as_plain(const WalkMesh& mesh) {
                 if (next && std::find(reached.begin(), reached.end(), next->triangle) == reached.end())
                     reached.push_back(next->triangle);
             }
-        if (reached.size() < here.size()) pinched.push_back(place);
+        if (reached.size() < here.size()) non_manifold_vertices.push_back(place);
     }
-    for (const Vec3& p : found.non_manifold_vertices) told_pinched.push_back({p.x, p.y, p.z});
-    std::sort(told_pinched.begin(), told_pinched.end());
-    EXPECT_EQ(told_pinched, pinched);
+    for (const Vec3& p : found.non_manifold_vertices) reported_vertices.push_back({p.x, p.y, p.z});
+    std::sort(reported_vertices.begin(), reported_vertices.end());
+    EXPECT_EQ(reported_vertices, non_manifold_vertices);
 
     std::vector<double> rims(report.components, -1), longest(report.components, -1);
     for (const WalkBorder& border : found.borders) {
         double length = 0;
         for (std::size_t i = 0; i < border.points.size(); ++i) {
             const Vec3 &a = border.points[i], &b = border.points[(i + 1) % border.points.size()];
-            told.push_back(edge(a, b));
+            reported.push_back(edge(a, b));
             length += abut::length(DVec<3>(b) - DVec<3>(a));
         }
         EXPECT_NEAR(border.length, length, 1e-9);
@@ -197,9 +199,9 @@ void expect_as_plain(const WalkMesh& mesh) {
         }
     }
     EXPECT_EQ(rims, longest);
-    std::sort(plain.begin(), plain.end());
-    std::sort(told.begin(), told.end());
-    EXPECT_EQ(told, plain);
+    std::sort(expected.begin(), expected.end());
+    std::sort(reported.begin(), reported.end());
+    EXPECT_EQ(reported, expected);
 
     std::size_t triangles = 0;
     for (std::uint32_t i = 0; i < found.components.size(); ++i) {
@@ -209,8 +211,8 @@ void expect_as_plain(const WalkMesh& mesh) {
     EXPECT_EQ(triangles, count - report.duplicates - report.left_out);
 }
 
-TEST(WalkSurvey, IsAsThePlainestWayTells) {
-    std::size_t borders = 0, pinched = 0, mirrored = 0, crowded = 0;
+TEST(WalkSurvey, EqualsTheReference) {
+    std::size_t borders = 0, non_manifold_vertices = 0, mirrored = 0, non_manifold_edges = 0;
     for (std::uint64_t seed = 0; seed < 400; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         Random random(seed);
@@ -224,18 +226,18 @@ TEST(WalkSurvey, IsAsThePlainestWayTells) {
         }
         const Result<WalkMesh> mesh = WalkMesh::build(soup.points, soup.triangles);
         if (!mesh) continue;
-        expect_as_plain(*mesh);
+        expect_reference_survey(*mesh);
         borders += mesh->report().border;
-        pinched += mesh->report().non_manifold_vertices;
+        non_manifold_vertices += mesh->report().non_manifold_vertices;
         mirrored += mesh->report().mirrored;
-        crowded += mesh->report().non_manifold_edges;
+        non_manifold_edges += mesh->report().non_manifold_edges;
     }
     EXPECT_GT(borders, 1000u);
-    EXPECT_GT(pinched, 300u);
+    EXPECT_GT(non_manifold_vertices, 300u);
     EXPECT_GT(mirrored, 20u);
-    EXPECT_GT(crowded, 300u);
+    EXPECT_GT(non_manifold_edges, 300u);
     Random random(9);
-    expect_as_plain(built(floor_of(30, 30, [&](int, int) { return random.chance(0.7); })));
+    expect_reference_survey(built(floor_of(30, 30, [&](int, int) { return random.chance(0.7); })));
 }
 
 }  // namespace

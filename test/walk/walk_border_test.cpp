@@ -20,7 +20,7 @@ WalkMesh built(const Surface& surface) {
     return *WalkMesh::build(surface.points, surface.triangles);
 }
 
-/// Squares of a floor of 4 x 4 but for one.
+/// The squares of a floor of 4 x 4 without one of them.
 WalkMesh without(std::uint32_t hole_column, std::uint32_t hole_row) {
     return built(sheet(
         4, 4, [](std::uint32_t column, std::uint32_t row) { return DVec<3>(column, row, 0); },
@@ -39,7 +39,7 @@ void expect(const WalkMesh& mesh, const Walked& walked, const Expected& expected
     EXPECT_NEAR(walked.lost, expected.lost, 1e-5);
     EXPECT_EQ(walked.met, expected.met);
     EXPECT_EQ(walked.met == WalkMet::nothing, walked.side == WalkSide{});
-    EXPECT_TRUE(are_kept(walked.place.weights));
+    EXPECT_TRUE(are_valid_weights(walked.place.weights));
 }
 
 Walked walk(const WalkMesh& mesh, const Vec3& from, const Vec3& step, const WalkOptions& options = {}) {
@@ -68,10 +68,10 @@ TEST(WalkBorder, StopsInACorner) {
     // 2.5 to the wall, 0.5 along it, and the next wall turns in.
     expect(mesh, walk(mesh, {2, 2, 0}, {4, 3, 0}), {{4, 4, 0}, 3, 2, WalkMet::corner});
     expect(mesh, walk(mesh, {2, 2, 0}, {400, 300, 0}), {{4, 4, 0}, 3, 497, WalkMet::corner});
-    // Right into it.
+    // Straight into the corner.
     expect(mesh, walk(mesh, {2, 2, 0}, {3, 3, 0}),
            {{4, 4, 0}, std::sqrt(8.0), std::sqrt(18.0) - std::sqrt(8.0), WalkMet::corner});
-    // And from it.
+    // And away from it.
     for (const std::uint32_t triangle : {30u, 31u}) {
         const WalkPoint corner{triangle, triangle == 30 ? Vec3(0, 0, 1) : Vec3(0, 1, 0)};
         ASSERT_EQ(mesh.to_world(corner), Vec3(4, 4, 0));
@@ -91,7 +91,7 @@ TEST(WalkBorder, StopsHeadOn) {
         expect(mesh, walk(mesh, start, {0, 7, 0}), {{start.x, 4, 0}, 4 - start.y, 3 + start.y, WalkMet::corner});
         expect(mesh, walk(mesh, start, {0, -7, 0}), {{start.x, 0, 0}, start.y, 7 - start.y, WalkMet::corner});
     }
-    // Who stands at the wall stays there, and walks away from it.
+    // A walker at the wall stays there, and can walk away from it.
     for (const float y : {0.0f, 0.3f, 1.0f, 2.5f}) {
         expect(mesh, walk(mesh, {4, y, 0}, {2, 0, 0}), {{4, y, 0}, 0, 2, WalkMet::corner});
         expect(mesh, walk(mesh, {4, y, 0}, {-2, 0, 0}), {{2, y, 0}, 2, 0, WalkMet::nothing});
@@ -99,7 +99,7 @@ TEST(WalkBorder, StopsHeadOn) {
 }
 
 TEST(WalkBorder, StopsHeadOnWhereThatIsOnlyRounded) {
-    // Hills, the rim of which runs up and down: straight out is square to it, but not in floats.
+    // The rim of the hills goes up and down. The step is perpendicular to it, but not exactly in floats.
     oracle::Random random(20261123);
     const scenes::Terrain terrain = scenes::random_terrain(64, random);
     const WalkMesh mesh = *WalkMesh::build(terrain.points, terrain.triangles);
@@ -139,15 +139,15 @@ TEST(WalkBorder, WalksAlongAWallWithoutLosingAnything) {
 }
 
 TEST(WalkBorder, StartsToSlideFromWhereItStands) {
-    // Out over the wall that it stands at, at all angles, the smallest too.
+    // Out over the wall at the start, at all angles, the smallest too.
     const WalkMesh mesh = built(flat(4, 4));
     for (const float at : {0.3f, 1.0f, 1.55f})
         for (const float out : {1e-12f, 1e-9f, 1e-6f, 1e-3f, 0.5f, 1.0f, 3.0f}) {
-            const double asked = std::sqrt(1 + static_cast<double>(out) * static_cast<double>(out));
+            const double requested = std::sqrt(1 + static_cast<double>(out) * static_cast<double>(out));
             const auto slides = [&](const Vec3& from, const Vec3& step, const Vec3& end) {
                 const Walked walked = walk(mesh, from, step);
-                // What is lost in rounding may be told as nothing.
-                expect(mesh, walked, {end, 1, asked - 1, out < 1e-6f ? walked.met : WalkMet::border});
+                // A loss by rounding may be reported as zero.
+                expect(mesh, walked, {end, 1, requested - 1, out < 1e-6f ? walked.met : WalkMet::border});
             };
             slides({4, at, 0}, {out, 1, 0}, {4, at + 1, 0});
             slides({at, 4, 0}, {1, out, 0}, {at + 1, 4, 0});
@@ -155,20 +155,22 @@ TEST(WalkBorder, StartsToSlideFromWhereItStands) {
         }
 }
 
-TEST(WalkBorder, GoesOnAsItBeganPastACornerThatTurnsAway) {
-    // The square from (2, 1) to (3, 2) is missing. To (2, 1.75) half way, up to (2, 2), then on in the same direction.
+TEST(WalkBorder, GoesOnAsItBeganPastACornerThatIsReflex) {
+    // The square from (2, 1) to (3, 2) is missing. To (2, 1.75) half of the length, up to (2, 2), then on in the old
+    // direction.
     const WalkMesh mesh = without(2, 1);
-    const DVec<2> way = normalized(DVec<2>(2, 1.5));
-    const double to_wall = 1.25, left = 2.5 - to_wall, slid = 0.25, used = slid / way.y, rest = left - used;
-    const Vec3 end(static_cast<float>(2 + way.x * rest), static_cast<float>(2 + way.y * rest), 0);
+    const DVec<2> direction = normalized(DVec<2>(2, 1.5));
+    const double to_wall = 1.25, left = 2.5 - to_wall, slid = 0.25, used = slid / direction.y, rest = left - used;
+    const Vec3 end(static_cast<float>(2 + direction.x * rest), static_cast<float>(2 + direction.y * rest), 0);
     expect(mesh, walk(mesh, {1, 1, 0}, {2, 1.5f, 0}), {end, to_wall + slid + rest, used - slid, WalkMet::border});
-    // The other way round it.
-    const Vec3 below(static_cast<float>(2 + way.x * rest), static_cast<float>(1 - way.y * rest), 0);
+    // The mirror image.
+    const Vec3 below(static_cast<float>(2 + direction.x * rest), static_cast<float>(1 - direction.y * rest), 0);
     expect(mesh, walk(mesh, {1, 2, 0}, {2, -1.5f, 0}), {below, to_wall + slid + rest, used - slid, WalkMet::border});
 }
 
-TEST(WalkBorder, StartsFromACornerThatTurnsAway) {
-    // The floor goes three quarters round (2, 2). From each of its triangles there, to all sides of it.
+TEST(WalkBorder, StartsFromACornerThatIsReflex) {
+    // The floor spans three quarters around (2, 2). The walk starts from each of its triangles there, in all
+    // directions.
     const WalkMesh mesh = without(2, 1);
     int starts = 0;
     for (std::uint32_t i = 0; i < mesh.triangles().size(); ++i)
@@ -178,9 +180,9 @@ TEST(WalkBorder, StartsFromACornerThatTurnsAway) {
             if (mesh.to_world({i, weights}) != Vec3(2, 2, 0)) continue;
             for (int turn = 1; turn < 48; ++turn) {
                 // From +x, counter-clockwise, to -y; along these two themselves it may run into a wall's end.
-                const DVec<2> way = scenes::on_circle(turn / 16.0) * 0.75;
-                const Walked walked = mesh.walk({i, weights}, to_float(DVec<3>(way.x, way.y, 0)));
-                const Vec3 end = Vec3(2, 2, 0) + to_float(DVec<3>(way.x, way.y, 0));
+                const DVec<2> direction = scenes::on_circle(turn / 16.0) * 0.75;
+                const Walked walked = mesh.walk({i, weights}, to_float(DVec<3>(direction.x, direction.y, 0)));
+                const Vec3 end = Vec3(2, 2, 0) + to_float(DVec<3>(direction.x, direction.y, 0));
                 EXPECT_TRUE(near<3>(mesh.to_world(walked.place), end, 2e-6)) << i << " " << turn;
                 EXPECT_NEAR(walked.length, 0.75, 1e-6);
                 EXPECT_NEAR(walked.lost, 0, 1e-6);
@@ -191,26 +193,29 @@ TEST(WalkBorder, StartsFromACornerThatTurnsAway) {
 }
 
 TEST(WalkBorder, SlidesOnWhereAWallTurnsInALittle) {
-    // A floor within eight walls: from the one at its right to the one at its upper right, and there at its cosine.
+    // A floor within eight walls: from the right one to the upper right one, and along that by its cosine.
     const Surface floor = fan(std::vector<double>(8, 0.0));
     const WalkMesh mesh = built(floor);
     const DVec<2> corner = scenes::on_circle(0.5), next = scenes::on_circle(1), right = scenes::on_circle(0);
     const DVec<2> first = normalized(corner - right), second = normalized(next - corner);
-    const DVec<2> middle = (right + corner) * 0.5, way = normalized(normalized(middle) + first * 3.0);
-    const DVec<2> start = middle - way * 0.25;
-    const double to_corner = length(corner - middle), cosine = dot(way, first), next_cosine = dot(way, second);
+    const DVec<2> middle = (right + corner) * 0.5, direction = normalized(normalized(middle) + first * 3.0);
+    const DVec<2> start = middle - direction * 0.25;
+    const double to_corner = length(corner - middle), cosine = dot(direction, first),
+                 next_cosine = dot(direction, second);
     ASSERT_GT(next_cosine, 0.1);
-    const double asked = 0.9, left = asked - 0.25 - to_corner / cosine, slid = left * next_cosine;
+    const double requested = 0.9, left = requested - 0.25 - to_corner / cosine, slid = left * next_cosine;
     ASSERT_GT(left, 0.1);
     ASSERT_LT(slid, length(next - corner));
     const DVec<2> end = corner + second * slid;
-    const Vec3 from = to_float(DVec<3>(start.x, start.y, 0)), step = to_float(DVec<3>(way.x, way.y, 0) * asked);
+    const Vec3 from = to_float(DVec<3>(start.x, start.y, 0)),
+               step = to_float(DVec<3>(direction.x, direction.y, 0) * requested);
     const double walked = 0.25 + to_corner + slid;
-    expect(mesh, walk(mesh, from, step), {to_float(DVec<3>(end.x, end.y, 0)), walked, asked - walked, WalkMet::border});
+    expect(mesh, walk(mesh, from, step),
+           {to_float(DVec<3>(end.x, end.y, 0)), walked, requested - walked, WalkMet::border});
 }
 
 TEST(WalkBorder, SlidesRoundTheRimOfATube) {
-    // Straight up and round: at the rim all of the way round is left.
+    // Straight up around the corner: at the rim the whole rest of the length is left.
     const std::uint32_t sides = 16;
     const WalkMesh mesh = built(tube(sides, 3));
     const auto around = [&](std::uint32_t side) { return scenes::on_circle(4.0 * (side % sides) / sides); };
@@ -226,13 +231,13 @@ TEST(WalkBorder, SlidesRoundTheRimOfATube) {
 }
 
 TEST(WalkBorder, ADoorThatIsClosedIsABorder) {
-    // Between the columns 1 and 2, in row 1 alone there is a way.
+    // Only row 1 connects columns 1 and 2.
     const WalkMesh mesh = built(flat(4, 4));
     const auto column = [](std::uint32_t triangle) { return triangle / 2 % 4; };
     const auto row = [](std::uint32_t triangle) { return triangle / 8; };
-    int asked = 0;
+    int requested = 0;
     const auto allow = [&](const WalkSide& from, const WalkSide& to) {
-        ++asked;
+        ++requested;
         EXPECT_EQ(mesh.beyond(from), to);
         const std::uint32_t a = column(from.triangle), b = column(to.triangle);
         return std::min(a, b) != 1 || std::max(a, b) != 2 || row(from.triangle) == 1;
@@ -242,7 +247,7 @@ TEST(WalkBorder, ADoorThatIsClosedIsABorder) {
     expect(mesh, walk(mesh, {3.5f, 2.5f, 0}, {-3, 0, 0}, options), {{2, 2.5f, 0}, 1.5, 1.5, WalkMet::corner});
     expect(mesh, walk(mesh, {1, 1.5f, 0}, {2.5f, 0, 0}, options), {{3.5f, 1.5f, 0}, 2.5, 0, WalkMet::nothing});
     expect(mesh, walk(mesh, {1, 2.25f, 0}, {4, 3, 0}, options), {{2, 4, 0}, 2.25, 2.75, WalkMet::corner});
-    EXPECT_GT(asked, 0);
+    EXPECT_GT(requested, 0);
     // Along it down to the door, and through.
     const double to_wall = 0.5 / 0.8, to_post = (2.5 - 0.6 * to_wall - 2) / 0.6, rest = 1 - to_wall - to_post;
     const Vec3 end(static_cast<float>(2 + 0.8 * rest), static_cast<float>(2 - 0.6 * rest), 0);
@@ -250,9 +255,9 @@ TEST(WalkBorder, ADoorThatIsClosedIsABorder) {
            {end, 1 - 0.4 * to_post, 0.4 * to_post, WalkMet::border});
 }
 
-TEST(WalkBorder, SomeWaysAreOneWay) {
+TEST(WalkBorder, SomeEdgesAreOneWay) {
     const WalkMesh mesh = built(flat(4, 4));
-    // Down, never up.
+    // Down is allowed, up is not.
     const auto allow = [&](const WalkSide& from, const WalkSide& to) { return to.triangle / 8 <= from.triangle / 8; };
     const WalkOptions options{.allow = allow};
     expect(mesh, walk(mesh, {1.3f, 1.5f, 0}, {0, 2, 0}, options), {{1.3f, 2, 0}, 0.5, 1.5, WalkMet::corner});
@@ -263,7 +268,7 @@ TEST(WalkBorder, RandomDoorsAgreeWithTheOracle) {
     constexpr std::uint64_t seed = 20261124;
     for (const NamedSurface& named : surfaces(seed)) {
         const WalkMesh mesh = built(named.surface);
-        // A third of the edges is closed, some one way only.
+        // A third of the edges is closed, some in one direction only.
         const auto is_open = [](const WalkSide& from, const WalkSide& to) {
             oracle::Random random(std::uint64_t{from.triangle} << 32 | to.triangle << 2 | from.side);
             return random.chance(0.7);
@@ -281,7 +286,7 @@ TEST(WalkBorder, RandomDoorsAgreeWithTheOracle) {
             const Vec3 step = to_float(random.direction<3>() * (random.uniform(0, 5) * check.edge()));
             place = check.check<3>(place, step, tally, options).place;
         }
-        EXPECT_EQ(tally.faults, 0u) << named.name << ", seed " << seed << ": " << tally.faults_told();
+        EXPECT_EQ(tally.faults, 0u) << named.name << ", seed " << seed << ": " << tally.faults_text();
         EXPECT_GT(tally.slid, 300u);
         EXPECT_GT(tally.stopped, 100u);
     }

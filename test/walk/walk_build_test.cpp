@@ -1,4 +1,4 @@
-// What is made of triangles: each line of the report by a mesh that has just that.
+// Building a walk mesh: for each line of the report, a mesh with only that.
 
 #include "../oracle/expect.hpp"
 #include "../shape/meshes.hpp"
@@ -30,7 +30,7 @@ Surface square() {
     return {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
 }
 
-/// Triangles from the edge (0, 0, 0) - (0, 0, 1) to these points beside it, each the same way round.
+/// Triangles from the edge (0, 0, 0) - (0, 0, 1) to these points, all with the same winding.
 Surface book(const std::vector<Vec2>& pages) {
     Surface result{{{0, 0, 0}, {0, 0, 1}}, {}};
     for (const Vec2& page : pages) {
@@ -40,7 +40,7 @@ Surface book(const std::vector<Vec2>& pages) {
     return result;
 }
 
-/// The page that goes on beyond the book's spine, which is from point 0 to point 1, whichever way round.
+/// The page across the book's spine, the edge between points 0 and 1 in either direction.
 std::optional<std::uint32_t> beyond_spine(const WalkMesh& mesh, std::uint32_t page) {
     const glm::uvec3 t = mesh.triangles()[page];
     for (std::uint32_t side = 0; side < 3; ++side) {
@@ -59,8 +59,8 @@ double area_of(const WalkMesh& mesh, std::uint32_t i) {
     return length(cross(b - a, c - a)) / 2;
 }
 
-/// Over which sides one comes where: each way leads back.
-void expect_ways_lead_back(const WalkMesh& mesh) {
+/// Checks that the half-edge across each side links back to it.
+void expect_symmetric_adjacency(const WalkMesh& mesh) {
     std::size_t borders = 0;
     for (std::uint32_t t = 0; t < mesh.triangles().size(); ++t)
         for (std::uint32_t side = 0; side < 3; ++side) {
@@ -106,7 +106,7 @@ TEST(WalkBuild, JoinsByPositionsNotByNumbers) {
     const WalkMesh mesh = built(apart);
     EXPECT_EQ(mesh.report(), (WalkMeshReport{.border = 4, .components = 1}));
     EXPECT_EQ(mesh.beyond({0, 2}), (WalkSide{1, 0}));
-    EXPECT_EQ(mesh.triangles()[1], glm::uvec3(3, 4, 5)) << "numbers are kept as given";
+    EXPECT_EQ(mesh.triangles()[1], glm::uvec3(3, 4, 5)) << "the order of triangles is unchanged";
     EXPECT_EQ(mesh.points().size(), 6u);
 
     Surface cracked = apart;
@@ -126,11 +126,12 @@ TEST(WalkBuild, LeavesOutAllButTheFirstOfDoubles) {
     EXPECT_FALSE(mesh.is_walkable(1) || mesh.is_walkable(3));
     EXPECT_EQ(mesh.triangles()[1], glm::uvec3(2, 0, 1)) << "as given";
     EXPECT_EQ(mesh.beyond({0, 2}), (WalkSide{2, 0}));
-    expect_ways_lead_back(mesh);
+    expect_symmetric_adjacency(mesh);
 }
 
 TEST(WalkBuild, CutsTheNeighbourOfATriangleWithoutArea) {
-    // The lower square's top has a corner in its middle, the upper square's bottom has not: what closes that is flat.
+    // The lower square's top has a vertex in its middle, the upper square's bottom has none: the triangle between them
+    // is flat.
     const Surface surface{{{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {0, 1, 0}, {1, 2, 0}},
                           {{0, 1, 3}, {1, 2, 3}, {0, 3, 4}, {4, 3, 2}, {4, 2, 5}}};
     const std::vector<std::uint8_t> areas{1, 2, 3, 4, 5};
@@ -149,7 +150,7 @@ TEST(WalkBuild, CutsTheNeighbourOfATriangleWithoutArea) {
     EXPECT_EQ(mesh.area(4), 5);
     EXPECT_DOUBLE_EQ(area_of(mesh, 3), 0.5);
     EXPECT_DOUBLE_EQ(area_of(mesh, 4), 0.5);
-    expect_ways_lead_back(mesh);
+    expect_symmetric_adjacency(mesh);
 }
 
 TEST(WalkBuild, LeavesOutTrianglesWithoutAreaThatNothingLiesBeyond) {
@@ -163,7 +164,7 @@ TEST(WalkBuild, LeavesOutTrianglesWithoutAreaThatNothingLiesBeyond) {
     EXPECT_FALSE(mesh.is_walkable(2) || mesh.is_walkable(3));
     EXPECT_EQ(mesh.triangles()[2], glm::uvec3(0, 1, 4)) << "as given";
     EXPECT_EQ(bounds(mesh), (Aabb3{{0, 0, 0}, {1, 1, 0}})) << "of what is walked on";
-    expect_ways_lead_back(mesh);
+    expect_symmetric_adjacency(mesh);
 }
 
 TEST(WalkBuild, ATriangleWithTwoCornersAtOnePositionHasNoArea) {
@@ -184,21 +185,21 @@ TEST(WalkBuild, TurnsTheFewToTheMany) {
     EXPECT_EQ(mesh.triangles()[1], glm::uvec3(0, 2, 3)) << "corners 1 and 2 exchanged";
     for (std::uint32_t i : {0u, 2u, 3u}) EXPECT_EQ(mesh.triangles()[i], surface.triangles[i]);
     for (std::uint32_t i = 0; i < 4; ++i) EXPECT_EQ(mesh.normal({i, {1, 0, 0}}), Vec3(0, 0, 1));
-    // Weights are of the corners as they are now.
+    // Weights refer to the new order of corners.
     EXPECT_EQ(mesh.to_world({1, {0, 1, 0}}), Vec3(1, 1, 0));
-    expect_ways_lead_back(mesh);
+    expect_symmetric_adjacency(mesh);
 }
 
 TEST(WalkBuild, EachPatchKeepsItsOwnSide) {
-    // A floor and a ceiling that looks down: nothing is turned, nothing assumes that any way is up.
+    // A floor and a ceiling that faces down: no triangle is reversed, as no direction is up.
     const WalkMesh mesh = built(test::joined(square(), test::reversed(square())));
     EXPECT_EQ(mesh.report().duplicates, 2u);
     Surface ceiling = test::reversed(square());
     for (Vec3& point : ceiling.points) point.z = 3;
-    const WalkMesh room = built(test::joined(square(), ceiling));
-    EXPECT_EQ(room.report(), (WalkMeshReport{.border = 8, .components = 2}));
-    EXPECT_EQ(room.normal({0, {1, 0, 0}}), Vec3(0, 0, 1));
-    EXPECT_EQ(room.normal({2, {1, 0, 0}}), Vec3(0, 0, -1));
+    const WalkMesh both = built(test::joined(square(), ceiling));
+    EXPECT_EQ(both.report(), (WalkMeshReport{.border = 8, .components = 2}));
+    EXPECT_EQ(both.normal({0, {1, 0, 0}}), Vec3(0, 0, 1));
+    EXPECT_EQ(both.normal({2, {1, 0, 0}}), Vec3(0, 0, -1));
 }
 
 TEST(WalkBuild, OfThreeAtAnEdgeTheFlattestGoOn) {
@@ -217,23 +218,23 @@ TEST(WalkBuild, OfThreeAtAnEdgeTheFlattestGoOn) {
         EXPECT_EQ(mesh.report().border, 7u);
         EXPECT_EQ(mesh.report().components, 2u);
         EXPECT_TRUE(changed(mesh.report()));
-        expect_ways_lead_back(mesh);
+        expect_symmetric_adjacency(mesh);
     }
 }
 
 TEST(WalkBuild, OfFourAtAnEdgeBothPairsGoOn) {
-    // Two floors through one another, 30 degrees apart: each goes straight on, not back along the other.
+    // Two floors that cross at 30 degrees: each continues straight on, not back along the other.
     const WalkMesh mesh = built(book({{1, 0}, {-0.87f, -0.5f}, {0.87f, 0.5f}, {-1, 0.01f}}));
     EXPECT_EQ(beyond_spine(mesh, 0), 3u);
     EXPECT_EQ(beyond_spine(mesh, 1), 2u);
     EXPECT_EQ(mesh.report().non_manifold_edges, 1u);
     EXPECT_EQ(mesh.report().border, 8u);
     EXPECT_EQ(mesh.report().components, 2u);
-    expect_ways_lead_back(mesh);
+    expect_symmetric_adjacency(mesh);
 }
 
-TEST(WalkBuild, WhatGoesOnAtACrowdedEdgeIsWoundAlike) {
-    // Two halves of a floor, wound differently, and a wall between: the halves can be made to agree.
+TEST(WalkBuild, NeighboursAtANonManifoldEdgeAreOrientedConsistently) {
+    // Two halves of a floor with opposite winding and a wall between: the halves can be oriented consistently.
     Surface surface = book({{1, 0}, {-1, 0}, {0, 1}});
     const WalkMesh mesh = built(surface);
     EXPECT_EQ(mesh.report().mirrored, 0u);
@@ -255,7 +256,7 @@ TEST(WalkBuild, AnEdgeOfMoreThan64IsABorder) {
         EXPECT_EQ(mesh.report().non_manifold_edges, 1u);
         EXPECT_EQ(mesh.report().border, count == 64 ? 128u : 195u);
         EXPECT_EQ(mesh.report().components, count == 64 ? 32u : 65u);
-        expect_ways_lead_back(mesh);
+        expect_symmetric_adjacency(mesh);
     }
 }
 
@@ -269,17 +270,18 @@ TEST(WalkBuild, AMoebiusStripTurnsOverOnce) {
     EXPECT_EQ(mesh.report().border, 6u);
     EXPECT_EQ(mesh.report().non_manifold_vertices, 0u);
     EXPECT_NE(described(mesh.report()).find("1 edge where the surface turns over"), std::string::npos);
-    expect_ways_lead_back(mesh);
+    expect_symmetric_adjacency(mesh);
 }
 
-TEST(WalkBuild, BowTiesArePinched) {
+TEST(WalkBuild, BowTiesAreNonManifold) {
     const Surface bow{{{0, 0, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {-1, -1, 0}}, {{0, 1, 2}, {0, 3, 4}}};
     const WalkMesh mesh = built(bow);
     EXPECT_EQ(mesh.report(), (WalkMeshReport{.border = 6, .non_manifold_vertices = 1, .components = 2}));
     EXPECT_FALSE(changed(mesh.report())) << "nothing was done about it";
     EXPECT_EQ(described(mesh.report()), "2 components, 1 non-manifold vertex, 6 border edges");
 
-    // Two squares that touch at a corner, and a way round from the one to the other: one island, pinched all the same.
+    // Two squares that share a corner, and a path around from one to the other: one component, but a non-manifold
+    // vertex.
     Surface ring{{}, {}};
     const auto add = [&](float x, float y) {
         ring.add_quad({Vec3(x, y, 0), {x + 1, y, 0}, {x + 1, y + 1, 0}, {x, y + 1, 0}}, false);
@@ -296,7 +298,7 @@ TEST(WalkBuild, BowTiesArePinched) {
     EXPECT_EQ(round.report().components, 1u);
 }
 
-TEST(WalkBuild, CountsIslandsInTheOrderOfTheirFirstTriangles) {
+TEST(WalkBuild, CountsComponentsInTheOrderOfTheirFirstTriangles) {
     Surface surface = square();
     for (int i = 1; i < 4; ++i) {
         Surface other = square();

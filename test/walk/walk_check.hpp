@@ -1,6 +1,6 @@
 #pragma once
 
-// Walks, each held against the oracle's.
+// Compares walks with the oracle's.
 
 #include "../oracle/geodesic.hpp"
 #include "../oracle/random.hpp"
@@ -18,7 +18,7 @@
 namespace abut::test {
 
 /// Weights that a WalkMesh may return.
-inline bool are_kept(const Vec3& weights) {
+inline bool are_valid_weights(const Vec3& weights) {
     double sum = 0;
     for (int k = 0; k < 3; ++k) {
         const double grains = static_cast<double>(weights[k]) * 0x1p24;
@@ -46,14 +46,14 @@ inline std::string text(const Walked& walked) {
     return out.str();
 }
 
-/// What was seen over many walks.
+/// Counts and largest errors over many walks.
 struct WalkTally {
     std::uint64_t walks = 0, crossings = 0, slid = 0, stopped = 0, near_corners = 0, mirrored = 0;
-    std::uint64_t open = 0;   ///< with more corners close to them than were followed, and an end that none of those has
-    std::uint64_t home = 0;   ///< that were walked back
-    double worst = 0;         ///< end, as a part of what is allowed
-    double worst_turn = 0;    ///< change of a unit vector
-    double worst_length = 0;  ///< as a part of what was asked
+    std::uint64_t open = 0;   ///< with more close corners than were followed, and an end that no branch has
+    std::uint64_t home = 0;   ///< walked back
+    double worst = 0;         ///< the largest error of an end, as a share of the tolerance
+    double worst_turn = 0;    ///< the largest change of a unit vector
+    double worst_length = 0;  ///< as a share of the requested length
     std::uint64_t faults = 0;
     std::map<std::string, std::string> first_faults;  ///< one of each kind
 
@@ -61,7 +61,7 @@ struct WalkTally {
         ++faults;
         first_faults.try_emplace(kind, what);
     }
-    std::string faults_told() const {
+    std::string faults_text() const {
         std::string result;
         for (const auto& [kind, what] : first_faults) result += "\n" + kind + ": " + what;
         return result;
@@ -80,7 +80,7 @@ class WalkCheck {
 public:
     using End = oracle::GeodesicEnd<long double>;
 
-    WalkCheck(const WalkMesh& mesh, const Surface& surface, const oracle::JoinedTriangles::Allow& allow = nullptr)
+    WalkCheck(const WalkMesh& mesh, const Surface& surface, const oracle::TriangleAdjacency::Allow& allow = nullptr)
         : mesh_(mesh),
           size_(size_of(surface)),
           edge_(edge_of(surface)),
@@ -90,7 +90,7 @@ public:
 
     double edge() const { return edge_; }
 
-    /// The walk's answer, after it was looked at.
+    /// The walk's answer, after comparing it with the oracle's.
     template <int D>
     Walked check(const WalkPoint& place, const Vec<D>& step, WalkTally& tally, const WalkOptions& options = {}) {
         const Walked walked = mesh_.walk(place, step, options);
@@ -115,7 +115,7 @@ public:
             fault("off the mesh");
             return stayed;
         }
-        if (!are_kept(walked.place.weights)) {
+        if (!are_valid_weights(walked.place.weights)) {
             fault("weights");
             return stayed;
         }
@@ -138,7 +138,7 @@ public:
         return walked;
     }
 
-    /// Back over the same way, where no corner is near to it: comes home.
+    /// Walks back over the path, if no corner is near: the walk ends at the start.
     void check_back(const WalkPoint& place, const Vec3& step, const Walked& walked, WalkTally& tally) {
         if (walked.met != WalkMet::nothing || walked.length > 30 * edge_) return;
         const std::vector<End> ends = far_.walk(place, step);
@@ -168,22 +168,22 @@ private:
         return out.str();
     }
 
-    /// What of an answer isn't the oracle's; empty where all is.
+    /// The name of a wrong part of the answer; empty if the oracle agrees.
     std::string fault_of(const WalkPoint& start, double step, const Walked& walked, const End& end,
                          WalkTally& tally) const {
-        // In doubles the length along the surface is a difference.
-        const double asked = static_cast<double>(end.asked), rounding = 1e-6 * asked + 1e-15 * step;
+        // The length along the surface is a difference of doubles.
+        const double requested = static_cast<double>(end.requested), rounding = 1e-6 * requested + 1e-15 * step;
         const double off = length(where(walked.place) - end.point.rounded()) / allowed(walked);
         if (!(off <= 1) || !touch(walked.place.triangle, end.triangle)) return "end";
         const double length_off = std::abs(static_cast<double>(walked.length) - static_cast<double>(end.length));
         if (!(length_off <= rounding + allowed(walked))) return "length";
         const double sum = static_cast<double>(walked.length) + static_cast<double>(walked.lost);
-        if (!(std::abs(sum - asked) <= rounding)) return "length and lost";
+        if (!(std::abs(sum - requested) <= rounding)) return "length and lost";
         const double little = rounding + 1e-7 * size_;
         const bool lost_little = static_cast<double>(walked.lost) <= little && static_cast<double>(end.lost) <= little;
         if (walked.met != end.met && !end.near_head_on && !lost_little) return "met";
         if ((walked.met == WalkMet::nothing) != (walked.side.triangle == no_walk_side)) return "met without a side";
-        if (walked.met == WalkMet::nothing && walked.lost != 0) return "lost without meeting";
+        if (walked.met == WalkMet::nothing && walked.lost != 0) return "lost without a border";
         const bool is_inside = is_inner(start.weights);
         if (walked.side != end.side && !lost_little && !end.near_corner && is_inside) return "side";
         if (walked.crossings != end.crossings && is_inside && !end.passed_corner && end.met == WalkMet::nothing &&
@@ -191,23 +191,24 @@ private:
             return "crossings";
         if (walked.place.triangle == end.triangle && !is_turned(start, walked, end, tally)) return "turn";
         tally.worst = std::max(tally.worst, off);
-        if (asked > 1e-6 * step) tally.worst_length = std::max(tally.worst_length, std::abs(sum - asked) / asked);
+        if (requested > 1e-6 * step)
+            tally.worst_length = std::max(tally.worst_length, std::abs(sum - requested) / requested);
         return "";
     }
 
-    bool is_mirrored(const End& end) const { return dot(end.up, geodesic_.normal_of(end.triangle)) < 0; }
+    bool is_mirrored(const End& end) const { return dot(end.normal, geodesic_.normal_of(end.triangle)) < 0; }
 
-    /// The turn takes the step's way and the triangle's normal to where they are now, in space and in the frames.
+    /// The turn maps the step's direction and the triangle's normal to those at the end, in space and in the frames.
     bool is_turned(const WalkPoint& start, const Walked& walked, const End& end, WalkTally& tally) const {
-        if (!(end.asked > 0)) return true;
-        const Vec3 first = to_float(end.first_way.rounded()), up = to_float(end.first_up.rounded());
-        const Vec3 way = walked.turn * first;
-        const double off_way = length(DVec<3>(way) - end.way.rounded());
-        const double off_up = length(DVec<3>(walked.turn * up) - end.up.rounded());
-        const Vec2 in_frame = mesh_.to_plane(end.triangle, way);
+        if (!(end.requested > 0)) return true;
+        const Vec3 first = to_float(end.first_direction.rounded()), up = to_float(end.first_normal.rounded());
+        const Vec3 direction = walked.turn * first;
+        const double off_direction = length(DVec<3>(direction) - end.direction.rounded());
+        const double off_up = length(DVec<3>(walked.turn * up) - end.normal.rounded());
+        const Vec2 in_frame = mesh_.to_plane(end.triangle, direction);
         const Vec2 turned = walked.turn * mesh_.to_plane(start.triangle, first);
         const double off_frame = length(DVec<2>(in_frame) - DVec<2>(turned));
-        const double worst = std::max({off_way, off_up, off_frame});
+        const double worst = std::max({off_direction, off_up, off_frame});
         if (!(worst <= 2e-6) || is_mirrored(end) != walked.turn.mirrored()) return false;
         tally.worst_turn = std::max(tally.worst_turn, worst);
         return true;
@@ -216,7 +217,7 @@ private:
     static bool is_inner(const Vec3& weights) {
         return std::min({weights.x, weights.y, weights.z}) > 1e-4f * std::max({weights.x, weights.y, weights.z});
     }
-    /// Whether two triangles are one, or have a corner in common.
+    /// Whether two triangles are equal or share a corner.
     bool touch(std::uint32_t a, std::uint32_t b) const {
         for (std::uint32_t i = 0; i < 3; ++i)
             for (std::uint32_t k = 0; k < 3; ++k)
@@ -226,7 +227,7 @@ private:
 
     const WalkMesh& mesh_;
     double size_, edge_;
-    oracle::JoinedTriangles triangles_;
+    oracle::TriangleAdjacency triangles_;
     oracle::Geodesic<long double> geodesic_, far_;
 };
 

@@ -1,9 +1,8 @@
-// The same bits everywhere: a hash over the bits of 200,000 walks and what the lower steps answer, compared with a
-// constant.
+// A golden hash over the bits of 200,000 walks and of the answers of the lower-level steps.
 //
-// The surfaces and steps are whole numbers, so no arithmetic of this file is in the answers. Where a change of the
-// library is meant to change answers, the constant is renewed from the failing test's output, after the same output was
-// seen from gcc and clang, -O0 and -O3 -march=native.
+// The surfaces and steps are integers, so that no arithmetic of this file affects the answers. If a change of the
+// library is meant to change answers, replace the constant by the failing test's output, once gcc and clang agree on it
+// at -O0 and -O3 -march=native.
 
 #include "../oracle/random.hpp"
 #include "../query/hash.hpp"
@@ -23,7 +22,7 @@ float whole(oracle::Random& random, int most) {
     return static_cast<float>(static_cast<int>(random.below(static_cast<std::uint32_t>(2 * most + 1))) - most);
 }
 
-/// Ground with borders, holes and folds, some of its triangles the other way round.
+/// A mesh with borders, holes and folds; some of its triangles are reversed.
 Surface ground(oracle::Random& random) {
     constexpr std::uint32_t columns = 20;
     Surface result;

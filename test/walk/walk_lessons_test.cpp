@@ -1,4 +1,4 @@
-// The two lower steps by themselves: as far as the triangle goes, and over the edge. A walk is made of them.
+// The two lower-level steps: walking within a triangle, and crossing an edge. A walk consists of them.
 
 #include "../oracle/expect.hpp"
 #include "../oracle/random.hpp"
@@ -96,9 +96,10 @@ TEST(CrossEdge, AtACornerTakesTheSideWithATriangleBeyond) {
     ASSERT_TRUE(start && end);
     EXPECT_EQ(start->place, (WalkPoint{1, {1, 0, 0}}));
     EXPECT_EQ(end->place, (WalkPoint{1, {0, 1, 0}}));
-    EXPECT_FALSE(mesh.cross_edge({0, {1, 0, 0}}, 0)) << "a border, asked for by its number";
+    EXPECT_FALSE(mesh.cross_edge({0, {1, 0, 0}}, 0)) << "a border, given by its index";
 
-    // In the middle of a fan each corner 0 has a triangle beyond both of its sides: the one beyond side 0.
+    // In the middle of a fan, corner 0 of each triangle has neighbours across both sides: the one across side 0 is
+    // taken.
     const WalkMesh fan_mesh = built(fan(std::vector<double>(6, 0.0)));
     for (std::uint32_t i = 0; i < 6; ++i) {
         EXPECT_EQ(fan_mesh.cross_edge({i, {1, 0, 0}})->place, (WalkPoint{(i + 5) % 6, {1, 0, 0}}));
@@ -130,7 +131,7 @@ TEST(CrossEdge, IsTheSamePointAndTurnsNormalsToNormals) {
     }
 }
 
-/// A walk made of the two.
+/// A walk that consists of the two steps.
 struct Loop {
     WalkPoint place;
     double length = 0;
@@ -161,8 +162,8 @@ TEST(WalkLessons, ALoopOfTheTwoIsAWalk) {
     for (const NamedSurface& named : surfaces(seed)) {
         const WalkMesh mesh = built(named.surface);
         const double edge = edge_of(named.surface), size = size_of(named.surface);
-        const oracle::JoinedTriangles triangles(mesh);
-        // In places of floats a way may pass a corner on the other side that is as near as this.
+        const oracle::TriangleAdjacency triangles(mesh);
+        // Positions are floats, so a path may pass a corner this near on its other side.
         oracle::Geodesic<long double> geodesic(triangles, static_cast<long double>(3e-5 * size));
         oracle::Random random(seed);
         int same = 0, borders = 0;
@@ -170,11 +171,11 @@ TEST(WalkLessons, ALoopOfTheTwoIsAWalk) {
             const std::uint32_t triangle = random.below(static_cast<std::uint32_t>(mesh.triangles().size()));
             const float a = random.uniform_float(0.1, 1), b = random.uniform_float(0.1, 1);
             const WalkPoint start{triangle, {a, b, 0.5f}};
-            const DVec<3> way = random.direction<3>();
-            const Vec3 step = to_float(way * (edge * random.uniform(0, 12)));
+            const DVec<3> direction = random.direction<3>();
+            const Vec3 step = to_float(direction * (edge * random.uniform(0, 12)));
             const Loop loop = walk_by_hand(mesh, start, step);
             EXPECT_LT(loop.rounds, 1000) << named.name << ", seed " << seed << ", item " << i;
-            EXPECT_TRUE(are_kept(loop.place.weights));
+            EXPECT_TRUE(are_valid_weights(loop.place.weights));
             const auto ends = geodesic.walk(start, step);
             if (ends.size() != 1 || ends[0].near_corner) continue;
             const Walked walked = mesh.walk(start, step);

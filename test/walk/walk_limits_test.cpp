@@ -1,4 +1,4 @@
-// Steps that are nothing, too much, or not numbers; a limit of crossings; and that nothing is allocated.
+// Steps that are zero, too long or not numbers; a limit of crossings; and no allocations.
 
 #include "../broad_phase/allocations.hpp"
 #include "../oracle/expect.hpp"
@@ -14,10 +14,10 @@
 #include <gtest/gtest.h>
 
 namespace {
-int assertions = 0;  // how many there were is up to the build
+int assertions = 0;  // the expected number depends on the build
 }
 
-// This program's own, which goes on.
+// This program's assertion handler, which returns.
 void abut::assert_failed(const char*, const char*, int) {
     ++assertions;
 }
@@ -60,7 +60,7 @@ TEST_F(WalkLimits, AStepOfNothingStays) {
 TEST_F(WalkLimits, AStepThatIsNotANumberStays) {
     const WalkMesh mesh = built(flat(2, 2));
     const WalkPoint place{1, {0.25f, 0.25f, 0.5f}};
-    int asked = 0;
+    int requested = 0;
     for (const float bad : {nan, infinity, -infinity})
         for (int axis = 0; axis < 3; ++axis) {
             Vec3 step(0.5f);
@@ -72,23 +72,23 @@ TEST_F(WalkLimits, AStepThatIsNotANumberStays) {
             EXPECT_EQ(mesh.walk(place, Vec2(bad, 0)).place, place);
             EXPECT_EQ(mesh.walk_in_triangle(place, step).end, place);
             EXPECT_EQ(mesh.walk_in_triangle(place, Vec2(0, bad)).end, place);
-            asked += 4;
+            requested += 4;
         }
 #ifdef NDEBUG
-    EXPECT_TRUE(assertions == 0 || assertions >= asked);
+    EXPECT_TRUE(assertions == 0 || assertions >= requested);
 #else
-    EXPECT_GE(assertions, asked);
+    EXPECT_GE(assertions, requested);
 #endif
 }
 
 TEST_F(WalkLimits, HugeStepsEndSomewhere) {
-    // Millions of times round a small ball, within the limit of crossings or told; the largest floats.
+    // Millions of revolutions around a small ball, within the limit of crossings or with a report; the largest floats.
     oracle::Random random(20261123);
     const scenes::BumpyBall ball = scenes::bumpy_ball(6, 0.1, 0.02, random);
     const WalkMesh mesh = *WalkMesh::build(ball.points, ball.triangles);
     for (const float far : {1e3f, 1e6f, 1e9f, 1e20f, 1e30f, 3e38f}) {
         const Walked walked = mesh.walk({5, {0.25f, 0.25f, 0.5f}}, to_float(random.direction<3>()) * far);
-        EXPECT_TRUE(are_kept(walked.place.weights)) << far;
+        EXPECT_TRUE(are_valid_weights(walked.place.weights)) << far;
         EXPECT_TRUE(std::isfinite(walked.length) && std::isfinite(walked.lost)) << far;
         EXPECT_EQ(walked.met, far > 1e5f ? WalkMet::limit : WalkMet::nothing) << far;
         EXPECT_LE(walked.crossings, 1u << 20);
@@ -117,7 +117,7 @@ TEST_F(WalkLimits, TinyStepsAreStepsToo) {
             for (std::uint32_t triangle = 0; triangle < 12; ++triangle) {
                 const WalkPoint start{triangle, weights};
                 const Walked walked = mesh.walk(start, Vec3(far, -far, far * 0.5f));
-                EXPECT_TRUE(are_kept(walked.place.weights)) << far;
+                EXPECT_TRUE(are_valid_weights(walked.place.weights)) << far;
                 EXPECT_EQ(walked.met, WalkMet::nothing);
                 EXPECT_TRUE(
                     near<3>(mesh.to_world(walked.place), mesh.to_world(start), 2 * static_cast<double>(far) + 1e-7));
@@ -140,7 +140,7 @@ TEST_F(WalkLimits, StopsAtItsLimitOfCrossings) {
         EXPECT_EQ(walked.met, WalkMet::limit) << most;
         EXPECT_EQ(walked.crossings, most);
         EXPECT_FLOAT_EQ(walked.length + walked.lost, 6);
-        // At the edge that it was not to cross.
+        // At the edge that the limit forbids to cross.
         const float x = mesh.to_world(walked.place).x;
         EXPECT_FLOAT_EQ(x, most % 2 == 0 ? 1 + static_cast<float>(most / 2) : 1.25f + static_cast<float>(most / 2));
         EXPECT_FLOAT_EQ(x - 0.75f, walked.length);

@@ -1,6 +1,6 @@
-// A crowd on each of several surfaces, 1,000,000 steps and more: nobody is lost, nobody is stuck. The faults that
-// walkers made by hand are lost by: a start exactly on an edge, a weight of exactly 0, `<=` against `<`, a triangle
-// left the wrong way round, and one that is left waiting at a limit of steps.
+// A crowd on each of several surfaces, 1,000,000 steps and more: no walker leaves the mesh or gets stuck. Simple
+// walkers fail by: a start exactly on an edge, a weight of exactly 0, `<=` instead of `<`, a reversed triangle, and a
+// limit of steps.
 
 #include "../broad_phase/executors.hpp"
 #include "../oracle/random.hpp"
@@ -26,14 +26,14 @@ bool is_long() {
     return std::getenv("ABUT_LONG") != nullptr;
 }
 
-/// Where steps of some walkers like to end: on edges and corners, over and over.
+/// Preferred ends of the steps of some walkers: on edges and corners, again and again.
 enum class Habit { anywhere, on_edges, along_edges, through_corners, whole_steps };
 
 struct Walker {
     WalkPoint place;
     Habit habit = Habit::anywhere;
     oracle::Random random{0};
-    int stops = 0;  ///< one after the other
+    int stops = 0;  ///< consecutive ones
 };
 
 class Crowd {
@@ -72,25 +72,26 @@ private:
             // Exactly to the edge ahead, and over it the next time.
             const WalkedInTriangle walked = mesh_.walk_in_triangle(before, step * 10.0f);
             walker.place = walked.end;
-            look(walker, before, "in its triangle");
+            check_place(walker, before, "in its triangle");
             return;
         }
         const Walked walked = mesh_.walk(before, step);
         walker.place = walked.place;
-        if (!look(walker, before, "on its way")) return;
-        const double asked = length(DVec<2>(mesh_.to_plane(before.triangle, step)));
+        if (!check_place(walker, before, "on its path")) return;
+        const double requested = length(DVec<2>(mesh_.to_plane(before.triangle, step)));
         const double length = static_cast<double>(walked.length), lost = static_cast<double>(walked.lost);
         if (walked.met == WalkMet::limit) return fault(walker, before, "is at its limit");
-        if (!(std::abs(length + lost - asked) <= 2e-6 * asked + 1e-30)) return fault(walker, before, "has no length");
-        if (walked.met == WalkMet::nothing && lost > 0) return fault(walker, before, "has lost a part of its way");
+        if (!(std::abs(length + lost - requested) <= 2e-6 * requested + 1e-30))
+            return fault(walker, before, "has no length");
+        if (walked.met == WalkMet::nothing && lost > 0) return fault(walker, before, "has lost a part of its path");
         if (mesh_.report().border == 0 && walked.met != WalkMet::nothing)
             return fault(walker, before, "has met a border that isn't there");
         if (mesh_.component(before.triangle) != mesh_.component(walker.place.triangle))
-            return fault(walker, before, "is on another island");
-        // Nobody can come farther than by the length of the way.
+            return fault(walker, before, "is on another component");
+        // No walker moves farther than its path is long.
         if (abut::length(where(walker.place) - where(before)) > length * (1 + 1e-6) + 1e-6 * size_)
             return fault(walker, before, "has jumped");
-        walker.stops = walked.met == WalkMet::corner && length < 1e-3 * asked ? walker.stops + 1 : 0;
+        walker.stops = walked.met == WalkMet::corner && length < 1e-3 * requested ? walker.stops + 1 : 0;
         if (walker.stops > 60) return fault(walker, before, "is stuck");
     }
 
@@ -99,7 +100,7 @@ private:
         const auto k = static_cast<glm::length_t>(walker.random.below(3));
         const Vec3 corner = mesh_.points()[t[k]], next = mesh_.points()[t[(k + 1) % 3]];
         const double far = edge_ * walker.random.uniform(0.01, 3);
-        const DVec<3> way = walker.random.direction<3>();
+        const DVec<3> direction = walker.random.direction<3>();
         switch (walker.habit) {
             case Habit::along_edges:
                 return next - corner;
@@ -111,7 +112,7 @@ private:
                 return step;
             }
             default:
-                return to_float(way * far);
+                return to_float(direction * far);
         }
     }
 
@@ -122,9 +123,9 @@ private:
                 DVec<3>(mesh_.points()[mesh_.triangles()[place.triangle][k]]) * static_cast<double>(place.weights[k]);
         return result;
     }
-    bool look(const Walker& walker, const WalkPoint& before, const char* where) {
+    bool check_place(const Walker& walker, const WalkPoint& before, const char* where) {
         if (walker.place.triangle < mesh_.triangles().size() && mesh_.is_walkable(walker.place.triangle) &&
-            are_kept(walker.place.weights))
+            are_valid_weights(walker.place.weights))
             return true;
         fault(walker, before, where);
         return false;

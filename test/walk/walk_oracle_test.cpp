@@ -1,5 +1,5 @@
-// Random walks over every kind of surface, against the oracle: a million where the environment sets ABUT_LONG, a share
-// of it where not. None off the mesh, none stuck, none anywhere else.
+// Random walks over every kind of surface, compared with the oracle: a million if the environment sets ABUT_LONG, else
+// a share of it. None leaves the mesh, gets stuck or ends elsewhere.
 
 #include "walk_check.hpp"
 
@@ -19,7 +19,7 @@ std::uint64_t walks_on_each(std::size_t surfaces) {
     return (std::getenv("ABUT_LONG") != nullptr ? 1'000'000 : 60'000) / surfaces + 1;
 }
 
-/// In the middle, on an edge, on a corner; weights that nobody would give.
+/// In the middle, on an edge, on a corner; and unusual weights.
 WalkPoint random_place(const WalkMesh& mesh, oracle::Random& random) {
     const std::uint32_t triangle = random.below(static_cast<std::uint32_t>(mesh.triangles().size()));
     if (!mesh.is_walkable(triangle)) return random_place(mesh, random);
@@ -35,20 +35,20 @@ WalkPoint random_place(const WalkMesh& mesh, oracle::Random& random) {
     return {triangle, weights};
 }
 
-/// Anywhere, along an axis, along a side, towards a corner.
-Vec3 random_way(const WalkMesh& mesh, const WalkPoint& place, oracle::Random& random) {
+/// A random direction, or along an axis, along a side or towards a corner.
+Vec3 random_direction(const WalkMesh& mesh, const WalkPoint& place, oracle::Random& random) {
     const glm::uvec3 t = mesh.triangles()[place.triangle];
     const auto k = static_cast<glm::length_t>(random.below(3));
     const double kind = random.unit();
-    DVec<3> way = random.direction<3>();
-    if (kind < 0.1) way = axis<3>(static_cast<int>(k), random.chance(0.5) ? 1 : -1);
-    if (kind > 0.8) way = DVec<3>(mesh.points()[t[(k + 1) % 3]]) - DVec<3>(mesh.points()[t[k]]);
-    if (kind > 0.9) way = DVec<3>(mesh.points()[t[k]]) - DVec<3>(mesh.to_world(place));
-    const double norm = length(way);
+    DVec<3> direction = random.direction<3>();
+    if (kind < 0.1) direction = axis<3>(static_cast<int>(k), random.chance(0.5) ? 1 : -1);
+    if (kind > 0.8) direction = DVec<3>(mesh.points()[t[(k + 1) % 3]]) - DVec<3>(mesh.points()[t[k]]);
+    if (kind > 0.9) direction = DVec<3>(mesh.points()[t[k]]) - DVec<3>(mesh.to_world(place));
+    const double norm = length(direction);
     if (norm == 0) return {0, 0, 1};
-    // Some exactly as they are, but for a power of two.
+    // Some stay exact, scaled by a power of two.
     const bool is_exact = kind > 0.8 && random.chance(0.3);
-    return to_float(is_exact ? way * std::ldexp(1.0, -std::ilogb(norm)) : way / norm);
+    return to_float(is_exact ? direction * std::ldexp(1.0, -std::ilogb(norm)) : direction / norm);
 }
 
 double random_length(oracle::Random& random) {
@@ -60,7 +60,7 @@ double random_length(oracle::Random& random) {
     return kind < 0.985 ? 10 : 1000;
 }
 
-/// One who walks on and on, and begins elsewhere now and then.
+/// A walker that goes on from its last end, and begins elsewhere now and then.
 WalkTally walk_at_random(const WalkMesh& mesh, const Surface& surface, std::uint64_t walks) {
     WalkCheck check(mesh, surface);
     oracle::Random random(seed);
@@ -69,7 +69,7 @@ WalkTally walk_at_random(const WalkMesh& mesh, const Surface& surface, std::uint
     for (std::uint64_t i = 0; i < walks; ++i) {
         if (random.chance(0.1)) place = random_place(mesh, random);
         const double far = random_length(random) * check.edge();
-        const Vec3 step = random_way(mesh, place, random) * static_cast<float>(far);
+        const Vec3 step = random_direction(mesh, place, random) * static_cast<float>(far);
         const Walked walked = random.chance(0.8) ? check.check<3>(place, step, tally)
                                                  : check.check<2>(place, mesh.to_plane(place.triangle, step), tally);
         check.check_back(place, step, walked, tally);
@@ -87,7 +87,7 @@ TEST_P(WalkOracle, AgreesOnEachSurface) {
     const std::uint64_t walks = walks_on_each(all.size());
     const WalkTally tally = walk_at_random(mesh, at.surface, walks);
     std::cout << at.name << " (" << described(mesh.report()) << "): " << tally.text() << "\n";
-    EXPECT_EQ(tally.faults, 0u) << at.name << ", seed " << seed << ": " << tally.faults_told();
+    EXPECT_EQ(tally.faults, 0u) << at.name << ", seed " << seed << ": " << tally.faults_text();
     EXPECT_LE(tally.open * 500, tally.walks) << "of these the oracle doesn't know enough";
     EXPECT_GT(tally.crossings, walks / 2);
     EXPECT_GT(tally.home, walks / 20);
@@ -104,30 +104,30 @@ TEST_P(WalkOracle, AgreesAtAllScalesAndFarFromTheOrigin) {
             ASSERT_TRUE(mesh);
             const WalkTally tally = walk_at_random(*mesh, surface, walks_on_each(400));
             EXPECT_EQ(tally.faults, 0u) << at.name << " at scale " << scale << ", away by " << away << ", seed " << seed
-                                        << ": " << tally.faults_told();
+                                        << ": " << tally.faults_text();
         }
 }
 
-/// The oracle is right itself: in quadruple precision it ends at the same places.
+/// Validates the oracle: in quadruple precision it has the same ends.
 TEST_P(WalkOracle, IsRightItself) {
     using Quad = boost::multiprecision::cpp_bin_float_quad;
     const NamedSurface at = surfaces(seed)[GetParam()];
     const WalkMesh mesh = *WalkMesh::build(at.surface.points, at.surface.triangles);
     const double size = size_of(at.surface), edge = edge_of(at.surface);
-    const oracle::JoinedTriangles triangles(mesh);
+    const oracle::TriangleAdjacency triangles(mesh);
     oracle::Geodesic<long double> rough(triangles, static_cast<long double>(1e-9 * size));
     oracle::Geodesic<Quad> exact(triangles, Quad(1e-9 * size));
     oracle::Random random(seed);
     for (int i = 0; i < 60; ++i) {
         const WalkPoint place = random_place(mesh, random);
-        const Vec3 step = random_way(mesh, place, random) * static_cast<float>(random.uniform(0, 30) * edge);
+        const Vec3 step = random_direction(mesh, place, random) * static_cast<float>(random.uniform(0, 30) * edge);
         const auto a = rough.walk(place, step);
         const auto b = exact.walk(place, step);
         if (a.size() != 1 || b.size() != 1) continue;
         EXPECT_LE(length(a[0].point.rounded() - b[0].point.rounded()), 1e-12 * size)
             << at.name << ", seed " << seed << ", item " << i;
         EXPECT_NEAR(static_cast<double>(a[0].length), static_cast<double>(b[0].length), 1e-12 * size);
-        EXPECT_LE(length(a[0].way.rounded() - b[0].way.rounded()), 1e-12);
+        EXPECT_LE(length(a[0].direction.rounded() - b[0].direction.rounded()), 1e-12);
     }
 }
 

@@ -1,4 +1,4 @@
-// Places on a walk mesh: where they are, which way is up there, and vectors in the frames of triangles.
+// Places on a walk mesh: their positions and normals, and vectors in the frames of triangles.
 
 #include "../../scenes/bumpy_ball.hpp"
 #include "../oracle/expect.hpp"
@@ -20,7 +20,7 @@ using test::Surface;
 
 constexpr std::uint64_t seed = 20261123;
 
-/// A roof: two triangles that meet at (0, 0, 0) - (0, 2, 0), the one level to the right, the other steep to the left.
+/// A roof: two triangles that share the edge (0, 0, 0) - (0, 2, 0), one level to the right, one steep to the left.
 Surface roof() {
     return {{{0, 0, 0}, {0, 2, 0}, {3, 1, 0}, {-1, 1, -1}}, {{0, 2, 1}, {0, 1, 3}}};
 }
@@ -35,7 +35,7 @@ TEST(WalkPlace, WeightsAreSharesOfTheirSum) {
 }
 
 TEST(WalkPlace, SmoothNormalsAreThoseGiven) {
-    // Of any length; the triangle was turned since, and each corner still has its own.
+    // Normals may have any length. The triangle was reordered since, and each corner still has its own.
     Surface surface = roof();
     surface.triangles.push_back({0, 2, 4});
     surface.points.push_back({3, -1, 0});
@@ -49,7 +49,7 @@ TEST(WalkPlace, SmoothNormalsAreThoseGiven) {
     EXPECT_TRUE(near<3>(mesh.smooth_normal({2, {0, 1, 0}}), {-1, 0, 0}));
     EXPECT_TRUE(near<3>(mesh.smooth_normal({2, {0, 0, 1}}), {0, 0, 1}));
     EXPECT_TRUE(near<3>(mesh.smooth_normal({0, {0.5f, 0, 0.5f}}), to_float(normalized(DVec<3>(1, 1, 0)))));
-    // They cancel out between the corners 0 and 1 of the last: its own normal is left.
+    // They cancel between corners 0 and 1 of the last triangle: the triangle's own normal remains.
     EXPECT_EQ(mesh.smooth_normal({2, {0.5f, 0.5f, 0}}), mesh.normal({2, {1, 0, 0}}));
 }
 
@@ -63,7 +63,7 @@ TEST(WalkPlace, SmoothNormalsTakeSharesToo) {
 
 TEST(WalkPlace, SmoothNormalsGoOverEdges) {
     const WalkMesh mesh = *WalkMesh::build(roof().points, roof().triangles);
-    // The same from both triangles, between the two normals on the edge, the triangle's own at a corner of it alone.
+    // Equal from both triangles: between the two normals on the edge, the triangle's own at an unshared corner.
     const Vec3 from_right = mesh.smooth_normal({0, {0.25f, 0, 0.75f}});
     EXPECT_EQ(from_right, mesh.smooth_normal({1, {0.25f, 0.75f, 0}}));
     EXPECT_TRUE(oracle::is_unit<3>(from_right));

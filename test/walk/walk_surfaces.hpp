@@ -17,7 +17,7 @@
 
 namespace abut::test {
 
-/// Where the point of a sheet is that is so many columns and rows from its first corner.
+/// The point of a sheet in this column and row.
 using Sheet = std::function<DVec<3>(std::uint32_t column, std::uint32_t row)>;
 
 /// Squares of two triangles each. `is_there` leaves holes.
@@ -40,7 +40,7 @@ inline Surface flat(std::uint32_t columns, std::uint32_t rows) {
     return sheet(columns, rows, [](std::uint32_t column, std::uint32_t row) { return DVec<3>(column, row, 0); });
 }
 
-/// Heights are whole but for a power of 2, so that no compiler has a say in them.
+/// Heights are integers over a power of 2, so that no compiler's rounding affects them.
 inline Surface stepped_hills(std::uint32_t columns, oracle::Random& random) {
     Surface result = flat(columns, columns);
     for (Vec3& point : result.points) point.z = static_cast<float>(random.below(64)) / 16;
@@ -62,21 +62,21 @@ inline Surface hills(std::uint32_t columns) {
     });
 }
 
-/// Like a folded fan: every strip turns back by nearly half a turn.
+/// Like a folded fan: every strip turns back by nearly pi.
 inline Surface accordion(std::uint32_t folds, std::uint32_t rows) {
     return sheet(folds, rows, [](std::uint32_t column, std::uint32_t row) {
         return DVec<3>(0.1 * column, row, column % 2 == 0 ? 0 : 1);
     });
 }
 
-/// Long thin triangles, across one another.
+/// Long thin triangles, perpendicular to each other.
 inline Surface slats(std::uint32_t columns) {
     return sheet(columns, columns, [](std::uint32_t column, std::uint32_t row) {
         return DVec<3>(column, 0.001 * row, 0.0003 * ((column * 7 + row * 3) % 5));
     });
 }
 
-/// Open at both ends.
+/// A tube, open at both ends.
 inline Surface tube(std::uint32_t sides, std::uint32_t rings) {
     return sheet(sides, rings, [&](std::uint32_t column, std::uint32_t row) {
         const DVec<2> around = scenes::on_circle(4.0 * (column % sides) / sides);
@@ -84,7 +84,7 @@ inline Surface tube(std::uint32_t sides, std::uint32_t rings) {
     });
 }
 
-/// `half_turns` of a twist on its way round.
+/// A strip with `half_turns` half turns of twist.
 inline Surface twisted_strip(std::uint32_t columns, std::uint32_t rows, std::uint32_t half_turns) {
     const std::uint32_t whole = half_turns % 2;
     return sheet(columns, rows, [&](std::uint32_t column, std::uint32_t row) {
@@ -98,7 +98,7 @@ inline Surface twisted_strip(std::uint32_t columns, std::uint32_t rows, std::uin
     });
 }
 
-/// A track on its way through a loop, upside down at the top; its ends pass one another.
+/// A track through a loop, upside down at the top; its ends pass beside each other.
 inline Surface loop(std::uint32_t columns, std::uint32_t rows) {
     return sheet(columns, rows, [&](std::uint32_t column, std::uint32_t row) {
         const double at = 5.0 * column / columns;
@@ -107,7 +107,7 @@ inline Surface loop(std::uint32_t columns, std::uint32_t rows) {
     });
 }
 
-/// Triangles round the origin, their rims at these heights: less than a full turn of them at a tip, more at a saddle.
+/// A fan around the origin with these rim heights: the angle around a tip is below 2 pi, around a saddle above.
 inline Surface fan(const std::vector<double>& heights) {
     Surface result;
     result.points.emplace_back(0.0f, 0.0f, 0.0f);
@@ -120,7 +120,7 @@ inline Surface fan(const std::vector<double>& heights) {
     return result;
 }
 
-/// Cubes that touch one another at edges and corners, too.
+/// Cubes that also share only edges and corners.
 inline Surface random_cubes(oracle::Random random) {
     std::vector<bool> full;
     for (int i = 0; i < 125; ++i) full.push_back(random.chance(0.5));
@@ -158,14 +158,14 @@ inline std::vector<NamedSurface> surfaces(std::uint64_t seed) {
     return result;
 }
 
-/// The length of the diagonal of what the points are in.
+/// The diagonal of the points' bounding box.
 inline double size_of(const Surface& surface) {
     Aabb3 box = Aabb3::empty();
     for (const Vec3& point : surface.points) box = merged(box, Aabb3{point, point});
     return length(DVec<3>(box.max) - DVec<3>(box.min));
 }
 
-/// The sides' mean length.
+/// The mean length of the edges.
 inline double edge_of(const Surface& surface) {
     double sum = 0;
     for (const glm::uvec3& t : surface.triangles)

@@ -1,4 +1,4 @@
-// Walks whose ends are known by hand, and what holds of all of them.
+// Walks with known ends, and the invariants of every walk.
 
 #include "../oracle/expect.hpp"
 #include "../oracle/random.hpp"
@@ -21,7 +21,7 @@ WalkMesh built(const Surface& surface) {
     return *WalkMesh::build(surface.points, surface.triangles);
 }
 
-/// Where this point is, which is on the mesh.
+/// The place of this point, which is on the mesh.
 WalkPoint at(const WalkMesh& mesh, const Vec3& point) {
     const WalkPoint place = mesh.nearest(point);
     EXPECT_TRUE(near<3>(mesh.to_world(place), point, 1e-5));
@@ -34,7 +34,7 @@ void expect_all_walked(const WalkMesh& mesh, const Walked& walked, const Vec3& e
     EXPECT_EQ(walked.lost, 0);
     EXPECT_EQ(walked.met, WalkMet::nothing);
     EXPECT_EQ(walked.side, WalkSide{});
-    EXPECT_TRUE(are_kept(walked.place.weights));
+    EXPECT_TRUE(are_valid_weights(walked.place.weights));
 }
 
 TEST(Walk, GoesStraightOnOverAFloor) {
@@ -77,7 +77,7 @@ TEST(Walk, ComesHomeRoundABox) {
 }
 
 TEST(Walk, IsTheSameOnACeiling) {
-    // A cave's floor, and the same as a ceiling: everything is as in a mirror.
+    // A cave's floor, and its mirror image as a ceiling.
     oracle::Random random(7);
     const scenes::Terrain terrain = scenes::random_terrain(8, random);
     Surface ceiling{terrain.points, terrain.triangles};
@@ -86,7 +86,7 @@ TEST(Walk, IsTheSameOnACeiling) {
     for (int i = 0; i < 500; ++i) {
         const std::uint32_t triangle = random.below(128);
         const Vec3 step = to_float(random.direction<3>() * random.uniform(0, 5));
-        // Corners 1 and 2 have changed places.
+        // Corners 1 and 2 are swapped.
         const Walked a = below.walk({triangle, {0.25f, 0.25f, 0.5f}}, step);
         const Walked b = above.walk({triangle, {0.25f, 0.5f, 0.25f}}, {step.x, -step.y, step.z});
         const Vec3 end = below.to_world(a.place);
@@ -98,10 +98,11 @@ TEST(Walk, IsTheSameOnACeiling) {
 TEST(Walk, PassesExactlyThroughCornersOfAFloor) {
     // Along the diagonals, along the lines, from corner to corner, and against the diagonals through all corners.
     const WalkMesh mesh = built(flat(10, 10));
-    for (const Vec3& way : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(1, 1, 0), Vec3(-1, 1, 0), Vec3(2, 1, 0), Vec3(-1, 2, 0)})
+    for (const Vec3& direction :
+         {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(1, 1, 0), Vec3(-1, 1, 0), Vec3(2, 1, 0), Vec3(-1, 2, 0)})
         for (const float sign : {1.0f, -1.0f})
             for (const Vec3& start : {Vec3(5, 5, 0), Vec3(5.5f, 5, 0), Vec3(5, 5.25f, 0), Vec3(5.5f, 5.5f, 0)}) {
-                const Vec3 step = way * (sign * 2);
+                const Vec3 step = direction * (sign * 2);
                 const Walked walked = mesh.walk(at(mesh, start), step);
                 expect_all_walked(mesh, walked, start + step, length(DVec<3>(step)));
             }
@@ -117,8 +118,8 @@ TEST(Walk, StartsAtACornerOfAFloorInAnyOfItsTriangles) {
             const Vec3 start = mesh.to_world({i, weights});
             if (start.x == 0 || start.y == 0 || start.x == 4 || start.y == 4) continue;
             for (int turn = 0; turn < 64; ++turn) {
-                const DVec<2> way = scenes::on_circle(turn / 16.0) * 0.9;
-                const Vec3 step = to_float(DVec<3>(way.x, way.y, 0));
+                const DVec<2> direction = scenes::on_circle(turn / 16.0) * 0.9;
+                const Vec3 step = to_float(DVec<3>(direction.x, direction.y, 0));
                 expect_all_walked(mesh, mesh.walk({i, weights}, step), start + step, 0.9);
                 ++starts;
             }
@@ -165,7 +166,7 @@ TEST(Walk, TheTwoDoorsAgree) {
     }
 }
 
-TEST(Walk, StaysOnItsIsland) {
+TEST(Walk, StaysInItsComponent) {
     const WalkMesh mesh = built(flat_with_holes(16, oracle::Random(4)));
     oracle::Random random(5);
     for (int i = 0; i < 2000; ++i) {

@@ -1,4 +1,4 @@
-// What a way turns: frames carried round a tip, a saddle, and along a strip with a twist.
+// The turn of a walk: frames carried around a tip, a saddle, and along a twisted strip.
 
 #include "../oracle/expect.hpp"
 #include "../oracle/random.hpp"
@@ -18,7 +18,7 @@ using oracle::near;
 
 constexpr double whole_turn = 6.283185307179586;
 
-/// One who carries vectors along, in the frame of the triangle and in space.
+/// A walker that carries vectors, in the frame of the triangle and in space.
 struct Carrier {
     const WalkMesh& mesh;
     WalkPoint place;
@@ -37,7 +37,7 @@ struct Carrier {
     void go_to(const Vec3& point) { go(point - mesh.to_world(place)); }
 };
 
-/// How far vectors have turned that were carried once round the middle of a fan, counter-clockwise seen from above.
+/// The angle by which vectors turn that are carried once around the middle of a fan, counter-clockwise from above.
 struct Turned {
     double in_plane = 0, in_space = 0;
 };
@@ -58,7 +58,7 @@ Turned carried_round(const WalkMesh& mesh, std::uint32_t triangles) {
     return {angle(DVec<2>(carrier.in_plane)), angle(DVec<2>(mesh.to_plane(0, carrier.in_space)))};
 }
 
-/// Of the triangles at point 0.
+/// A mesh of the triangles at point 0.
 double angle_round(const Surface& surface) {
     double sum = 0;
     for (const glm::uvec3& t : surface.triangles) {
@@ -79,7 +79,7 @@ TEST(WalkTurn, RoundATipItTurnsByWhatIsMissing) {
     }
 }
 
-TEST(WalkTurn, RoundASaddleItTurnsTheOtherWay) {
+TEST(WalkTurn, AroundASaddleItTurnsInReverse) {
     const Surface saddle = fan({0.5, -0.5, 0.5, -0.5, 0.5, -0.5, 0.5, -0.5});
     const Turned turned = carried_round(*WalkMesh::build(saddle.points, saddle.triangles), 8);
     const double excess = angle_round(saddle) - whole_turn;
@@ -124,7 +124,7 @@ TEST(WalkTurn, OnceRoundAMoebiusStripIsMirrored) {
 }
 
 TEST(WalkTurn, IsARotationOfSpace) {
-    // The quaternion turns as the turn does, half turns about any axis as well.
+    // The quaternion rotates as the turn does, by pi about any axis as well.
     constexpr std::uint64_t seed = 20261123;
     oracle::Random random(seed);
     int half_turns = 0;
@@ -147,7 +147,7 @@ TEST(WalkTurn, IsARotationOfSpace) {
     EXPECT_GT(half_turns, 50);
 }
 
-TEST(WalkTurn, StandsStillWithoutTurning) {
+TEST(WalkTurn, AZeroStepDoesNotRotate) {
     const Surface floor = flat(2, 2);
     const WalkMesh mesh = *WalkMesh::build(floor.points, floor.triangles);
     const WalkTurn turn = mesh.walk({0, {0.5f, 0.25f, 0.25f}}, Vec3(0)).turn;

@@ -1,4 +1,4 @@
-// What an item was added with, read and changed afterwards: what queries see at once, and what the next update reports.
+// Reading and changing the options of an item: queries see a change at once, the next update reports it.
 
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
@@ -76,7 +76,7 @@ TYPED_TEST(Access, GettersReturnWhatWasGivenAndSet) {
     EXPECT_EQ(this->world.user(plain), 0u);
 }
 
-TYPED_TEST(Access, SettersThatChangeNothingLookAtNothing) {
+TYPED_TEST(Access, SettersThatChangeNothingTestNothing) {
     const Id a = this->add(0, {.sensor = true}), b = this->add(1, {.fixed = true});
     this->world.update();
     this->world.set_fixed(a, false);
@@ -96,7 +96,7 @@ TYPED_TEST(Access, SensorGoesOnTouchingWithoutAContact) {
     this->world.set_sensor(b, true);
     EXPECT_EQ(this->found(), std::vector{a}) << "queries skip it at once";
     EXPECT_EQ(this->found({.sensors = true}), (std::vector{a, b}));
-    EXPECT_EQ(this->world.contacts().size(), 1u) << "as of the last update";
+    EXPECT_EQ(this->world.contacts().size(), 1u) << "contacts are those of the last update";
     this->expect_update({}, pair, {}, 0);
     EXPECT_EQ(this->world.touching(a), std::vector{b});
     this->world.set_sensor(b, false);
@@ -111,10 +111,10 @@ TYPED_TEST(Access, TwoFixedItemsEndAndOneOfThemBeginsAgain) {
     EXPECT_EQ(this->found(), (std::vector{a, b}));
     const Events fixed = this->world.update();
     EXPECT_EQ(list(fixed.ended), (Pairs{{a, b}}));
-    EXPECT_EQ(list(fixed.stayed), (Pairs{{a, c}, {b, c}})) << "what moves goes on touching it";
+    EXPECT_EQ(list(fixed.stayed), (Pairs{{a, c}, {b, c}})) << "moving items still touch it";
     EXPECT_TRUE(fixed.began.empty());
     EXPECT_EQ(this->found(), (std::vector{a, b}));
-    // It may be moved, and rests where it is.
+    // A moved item that is fixed again rests at its new pose.
     this->world.move(b, this->place(20));
     EXPECT_EQ(list(this->world.update().ended), (Pairs{{b, c}}));
     this->world.move(b, this->place(1));
@@ -124,7 +124,7 @@ TYPED_TEST(Access, TwoFixedItemsEndAndOneOfThemBeginsAgain) {
     EXPECT_EQ(this->found(), (std::vector{a, b}));
 }
 
-// Items change places between the two broad phases, in which places are used again.
+// Items move between the two broad phases, which reuse free places.
 TYPED_TEST(Access, ManyGoToAndFroBetweenTheBroadPhases) {
     std::vector<Id> ids;
     for (int i = 0; i < 40; ++i) ids.push_back(this->add(1.5f * static_cast<float>(i), {.fixed = i % 2 == 0}));
@@ -147,7 +147,7 @@ TYPED_TEST(Access, ManyGoToAndFroBetweenTheBroadPhases) {
     EXPECT_EQ(this->world.update().began.size(), 39u);
 }
 
-TYPED_TEST(Access, ContinuousCountsTheWaySinceTheLastUpdate) {
+TYPED_TEST(Access, ContinuousCountsTheMotionSinceTheLastUpdate) {
     for (const bool before_it_moves : {false, true}) {
         const Id wall = this->add(0, {.fixed = true}), bullet = this->add(-5);
         const IdPair pair{std::min(wall, bullet), std::max(wall, bullet)};
@@ -159,7 +159,7 @@ TYPED_TEST(Access, ContinuousCountsTheWaySinceTheLastUpdate) {
         EXPECT_EQ(list(passed.began), Pairs{pair});
         this->world.set_continuous(bullet, false);
         this->world.move(bullet, this->place(-5));
-        EXPECT_TRUE(this->world.update().began.empty()) << "it is only put elsewhere";
+        EXPECT_TRUE(this->world.update().began.empty()) << "the item is not continuous";
         this->world.remove(wall);
         this->world.remove(bullet);
     }

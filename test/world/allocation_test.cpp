@@ -1,4 +1,4 @@
-// What allocates nothing: an update of a world that has seen as much before, and questions that return no list.
+// Allocations: none in an update of a world that has seen a scene of this size, and none in queries without a list.
 
 #include "../broad_phase/allocations.hpp"
 #include "simulation.hpp"
@@ -22,7 +22,7 @@ TEST(Allocation, IsCounted) {
     EXPECT_GT(allocations_of([&] { world.update(); }), 0u);
 }
 
-/// A lap of poses for every item, with a pause here and there.
+/// A closed path of poses for every item, with a few pauses.
 template <int D>
 std::vector<std::vector<std::pair<Id, Pose<D>>>> lap(Simulation<D>& game, int frames) {
     std::vector<std::vector<std::pair<Id, Pose<D>>>> result(static_cast<std::size_t>(frames));
@@ -39,13 +39,13 @@ void expect_later_laps_allocate_nothing(std::uint64_t seed) {
     const auto moves = lap<D>(game, 51);
     const auto run_a_lap = [&] {
         std::size_t result = 0;
-        std::size_t most = 0;
+        std::size_t max_contacts = 0;
         for (const auto& frame : moves) {
             for (const auto& [id, pose] : frame) game.world.move(id, pose);
             result += allocations_of([&] { game.world.update(); });
-            most = std::max(most, game.world.contacts().size());
+            max_contacts = std::max(max_contacts, game.world.contacts().size());
         }
-        EXPECT_GT(most, 10u);
+        EXPECT_GT(max_contacts, 10u);
         return result;
     };
     EXPECT_GT(run_a_lap(), 0u);
@@ -58,7 +58,7 @@ TEST(Allocation, UpdateAllocatesNothingOnceWarm) {
     expect_later_laps_allocate_nothing<3>(2);
 }
 
-// The lists of events had to grow one by one, each when it was first long; so had those that take turns.
+// Regression: each list of events grew when it was first long, and so did both lists of a swapped pair.
 TEST(Allocation, OneUpdateOfThisSizeIsEnough) {
     World2 world;
     std::vector<Id> ids;
@@ -78,7 +78,7 @@ TEST(Allocation, OneUpdateOfThisSizeIsEnough) {
         move_all(false);
         EXPECT_EQ(update(), 0u) << "all begin";
         EXPECT_EQ(world.contacts().size(), pairs);
-        // Others in the same slots.
+        // New items take the same slots.
         for (Id& id : ids) {
             world.remove(id);
             id = world.add(Box2{{0, 0}, {1, 1}}, {.fixed = id.index % 4 == 0});
@@ -88,7 +88,7 @@ TEST(Allocation, OneUpdateOfThisSizeIsEnough) {
 }
 
 template <int D>
-void expect_questions_allocate_nothing(std::uint64_t seed) {
+void expect_queries_allocate_nothing(std::uint64_t seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Simulation<D> game(seed, 60);
     int found = 0, touching = 0;
@@ -127,9 +127,9 @@ void expect_questions_allocate_nothing(std::uint64_t seed) {
     EXPECT_GT(touching, 600);
 }
 
-TEST(Allocation, QuestionsThatReturnNoListAllocateNothing) {
-    expect_questions_allocate_nothing<2>(3);
-    expect_questions_allocate_nothing<3>(4);
+TEST(Allocation, QueriesThatReturnNoListAllocateNothing) {
+    expect_queries_allocate_nothing<2>(3);
+    expect_queries_allocate_nothing<3>(4);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
 
-// Answers of a world as plain words: two of them are the same only where every bit of them is.
+// Answers of a world as integers, which compare equal only if every bit is equal.
 
 #include <abut/world/world.hpp>
 
@@ -65,7 +65,7 @@ public:
         put(answer.has_value());
         if (answer) put(*answer);
     }
-    /// Anything that can be looped over, with its length.
+    /// Any range, with its length.
     template <class List>
     auto put(const List& list) -> decltype(list.begin(), void()) {
         put(static_cast<std::uint32_t>(list.size()));

@@ -1,4 +1,4 @@
-// Balls hold their shapes, at all scales and places, and never part what touches.
+// Bounding balls contain their shapes at all scales and positions, and never separate shapes that touch.
 
 #include "random_shapes.hpp"
 #include <abut/query/contact.hpp>
@@ -46,7 +46,7 @@ TEST(BoundingBall, ApartIsMoreThanTouching) {
     EXPECT_FALSE(apart(ball(nan, 1), ball(0, 1)));
 }
 
-/// A shape of any kind and size at any place, with its ball. What refers to it goes to `take`.
+/// Passes a view of a shape of any kind, size and position, with its ball, to `take`.
 template <int D, class Take>
 void with_placed(oracle::Random& random, double size, const Pose<D>& pose, Take&& take) {
     with_random_shape<D>(random, random_kind<D>(random, 0.1), [&](const auto& shape) {
@@ -89,7 +89,7 @@ TEST(BoundingBall, HoldsItsShape) {
     }
 }
 
-/// A user's composite of one box, whose bounds come out of arithmetic of their own, an ulp short.
+/// A user's composite of one box, whose bounds are an ulp too small by rounding.
 struct Crate {
     Aabb3 box;
 };
@@ -118,7 +118,7 @@ struct Seen {
     int apart = 0, touching = 0, close = 0;
 };
 
-/// Two shapes whose balls about touch.
+/// Tests pairs of shapes whose balls nearly touch.
 template <int D>
 void check_pair(std::uint64_t seed, Seen& seen) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -156,7 +156,7 @@ TEST(BoundingBall, NeverPartsWhatTouches) {
     EXPECT_GT(seen.touching, 500);
 }
 
-/// Balls, which fill theirs: touching to the last bit, and a hair on either side of it.
+/// Tests balls, which fill their bounding balls, that touch exactly, overlap slightly, or have a slight gap.
 template <int D>
 void check_round_pair(std::uint64_t seed, Seen& seen) {
     SCOPED_TRACE("seed " + std::to_string(seed));

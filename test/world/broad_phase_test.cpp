@@ -1,8 +1,8 @@
-// Which broad phase a world chooses, and that no answer tells.
+// The broad phase that a world chooses, on which no answer depends.
 
 #include "bits.hpp"
 #include "simulation.hpp"
-#include <abut/world/question_count.hpp>
+#include <abut/world/query_count.hpp>
 
 #include <algorithm>
 #include <array>
@@ -16,7 +16,7 @@ namespace {
 constexpr std::array all_kinds{BroadPhaseKind::brute_force,     BroadPhaseKind::grid, BroadPhaseKind::layered_grid,
                                BroadPhaseKind::sweep_and_prune, BroadPhaseKind::bvh,  BroadPhaseKind::bsp};
 
-/// A game that begins small, grows, asks much for a while and then nothing, and what its world says all the time.
+/// A game that starts small, grows, sends many queries for a while and then none; it records all answers of its world.
 template <int D>
 struct Script {
     explicit Script(const WorldOptions& options) : world(options) {
@@ -27,17 +27,17 @@ struct Script {
         EXPECT_GT(pairs, 10000u);
     }
 
-    void play(int frames, std::size_t items, int questions) {
+    void play(int frames, std::size_t items, int count) {
         for (int frame = 0; frame < frames; ++frame) {
             while (ids.size() < items) add();
             for (const Id id : ids)
                 if (random.chance(0.4)) world.move(id, moved_a_little(random, world.pose(id), 0.2));
-            // Whoever comes next may be fixed where this one was not.
+            // The next item of this slot may be fixed if this one was not.
             std::swap(ids[random.below(static_cast<std::uint32_t>(ids.size()))], ids.back());
             world.remove(ids.back());
             ids.pop_back();
             add();
-            ask(questions);
+            run_queries(count);
             update();
         }
         kinds.push_back(world.broad_phase());
@@ -49,8 +49,8 @@ struct Script {
             ids.push_back(world.add(shape, {.pose = pose, .fixed = fixed}));
         });
     }
-    void ask(int questions) {
-        for (int i = 0; i < questions; ++i) {
+    void run_queries(int count) {
+        for (int i = 0; i < count; ++i) {
             const Vec<D> from = to_float(random.in_cube<D>() * extent), to = to_float(random.in_cube<D>() * extent);
             said.put(world.raycast(Ray<D>::between(from, to)));
             said.put(world.raycast_all(Ray<D>::between(from, to)));
@@ -73,17 +73,17 @@ struct Script {
     World<D> world;
     std::vector<Id> ids;
     Bits said;
-    std::vector<BroadPhaseKind> kinds;  ///< after each part
+    std::vector<BroadPhaseKind> kinds;  ///< the broad phase after each part of the game
     std::size_t pairs = 0;
 };
 
 template <int D>
 void expect_same_answers_whatever_is_chosen() {
-    const Script<D> chosen({.pretest = Pretest::never});
+    const Script<D> chosen({.ball_early_out = BallEarlyOut::never});
     EXPECT_EQ(chosen.kinds, (std::vector{BroadPhaseKind::brute_force, BroadPhaseKind::grid, BroadPhaseKind::bvh,
                                          BroadPhaseKind::grid}));
     for (const BroadPhaseKind kind : all_kinds) {
-        const Script<D> forced({.pretest = Pretest::never, .broad_phase = kind});
+        const Script<D> forced({.ball_early_out = BallEarlyOut::never, .broad_phase = kind});
         EXPECT_EQ(forced.kinds, std::vector(4, kind));
         EXPECT_TRUE(forced.said == chosen.said) << static_cast<int>(kind);
     }
@@ -94,7 +94,7 @@ TEST(BroadPhaseOfAWorld, ChangesNoAnswer) {
     expect_same_answers_whatever_is_chosen<3>();
 }
 
-/// Balls that go round, asked by so many rays before each update that has a turn.
+/// Moves balls in circles, with `rays` raycasts before every `every`-th update.
 int changes_of_kind(int rays, int every, int frames, BroadPhaseKind last) {
     World2 world;
     std::vector<Id> ids;
@@ -119,7 +119,7 @@ int changes_of_kind(int rays, int every, int frames, BroadPhaseKind last) {
     return changes;
 }
 
-TEST(BroadPhaseOfAWorld, DoesNotWaverWithRaysNowAndThen) {
+TEST(BroadPhaseOfAWorld, IsStableWithOccasionalRays) {
     EXPECT_EQ(changes_of_kind(0, 1, 300, BroadPhaseKind::grid), 0);
     EXPECT_EQ(changes_of_kind(1, 10, 300, BroadPhaseKind::grid), 0);
     EXPECT_EQ(changes_of_kind(120, 1, 300, BroadPhaseKind::bvh), 1);
@@ -127,8 +127,8 @@ TEST(BroadPhaseOfAWorld, DoesNotWaverWithRaysNowAndThen) {
     EXPECT_EQ(changes_of_kind(120, 4, 300, BroadPhaseKind::bvh), 1);
 }
 
-TEST(QuestionCount, IsTheSameFromManyThreads) {
-    QuestionCount count;
+TEST(QueryCount, IsTheSameFromManyThreads) {
+    QueryCount count;
     EXPECT_EQ(count.take(1000), 0u);
     const auto add_from_threads = [&](int times) {
         std::vector<std::thread> threads;
@@ -143,7 +143,7 @@ TEST(QuestionCount, IsTheSameFromManyThreads) {
     add_from_threads(5000);
     EXPECT_EQ(count.take(77), 1000u);
     count.add(region_weight);
-    QuestionCount moved = std::move(count);
+    QueryCount moved = std::move(count);
     EXPECT_EQ(moved.take(0), region_weight);
     moved.add(ray_weight);
     EXPECT_EQ(moved.take(0), 0u);

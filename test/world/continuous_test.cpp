@@ -1,4 +1,4 @@
-// What continuous items meet between two updates: examples worked out by hand, and motions followed in fine steps.
+// Continuous collision detection between two updates: closed-form examples, and motions sampled in fine steps.
 
 #include "../broad_phase/allocations.hpp"
 #include "bits.hpp"
@@ -22,7 +22,7 @@ Pairs list(std::span<const IdPair> pairs) {
     return Pairs(pairs.begin(), pairs.end());
 }
 
-/// Updates, and compares the lists; returns the fractions.
+/// Updates the world and compares the lists; returns the fractions.
 std::vector<float> expect_update(World2& world, const Pairs& began, const Pairs& stayed, const Pairs& ended) {
     const Events events = world.update();
     EXPECT_EQ(list(events.began), began);
@@ -54,10 +54,10 @@ TEST(Continuous, BulletThatPassedAWallBeganAndEnds) {
     EXPECT_TRUE(world.contacts().empty());
     expect_update(world, {}, {}, pair);
     expect_update(world, {}, {}, {});
-    EXPECT_EQ(world.counts().near, 0u) << "its box is no longer that of its way";
+    EXPECT_EQ(world.counts().near, 0u) << "its box is no longer the swept AABB";
 }
 
-TEST(Continuous, EachPassIsTold) {
+TEST(Continuous, EachPassIsReported) {
     World2 world;
     const Id wall = world.add(thin, {.fixed = true}),
              bullet = world.add(small, {.pose = place(-10), .continuous = true});
@@ -76,7 +76,7 @@ TEST(Continuous, EachPassIsTold) {
     expect_update(world, {}, {}, pair);
 }
 
-TEST(Continuous, WhatTouchesNowIsToldWithWhenItMet) {
+TEST(Continuous, TouchingPairsHaveTheirTimeOfImpact) {
     World2 world;
     const Id wall = world.add(Box2{{0, 0}, {1, 1}}, {.fixed = true}),
              bullet = world.add(small, {.pose = place(-5.5f), .continuous = true}),
@@ -91,7 +91,7 @@ TEST(Continuous, WhatTouchesNowIsToldWithWhenItMet) {
     EXPECT_EQ(world.contacts().size(), 3u);
 }
 
-TEST(Continuous, TwoThatChangePlacesMeetHalfway) {
+TEST(Continuous, ItemsThatChangePlacesTouchHalfway) {
     World2 world;
     const Id a = world.add(small, {.pose = place(-4), .continuous = true}), b = world.add(small, {.pose = place(4)});
     world.update();
@@ -99,7 +99,7 @@ TEST(Continuous, TwoThatChangePlacesMeetHalfway) {
     world.move(b, place(-4));
     const std::vector<float> fractions = expect_update(world, {{a, b}}, {}, {});
     EXPECT_NEAR(fractions.at(0), 7.0f / 16, 1e-6f);
-    // Side by side at every moment, though their ways cross.
+    // The items stay side by side, although their paths cross.
     world.move(a, place(4, 20));
     world.move(b, place(-4, 20));
     expect_update(world, {}, {}, {{a, b}});
@@ -108,7 +108,7 @@ TEST(Continuous, TwoThatChangePlacesMeetHalfway) {
     expect_update(world, {}, {}, {});
 }
 
-TEST(Continuous, WhatRestsIsMetByWhatMoves) {
+TEST(Continuous, MovingItemsHitRestingOnes) {
     World2 world;
     const Id sensor = world.add(small, {.sensor = true, .continuous = true}),
              mover = world.add(small, {.pose = place(-4)}), door = world.add(thin, {.pose = place(30), .fixed = true});
@@ -121,16 +121,16 @@ TEST(Continuous, WhatRestsIsMetByWhatMoves) {
     expect_update(world, {}, {}, {{sensor, door}});
 }
 
-TEST(Continuous, RodThatTurnsMeetsWhatItSweepsOver) {
+TEST(Continuous, RotatingRodHitsWhatItSweepsOver) {
     World2 world;
     const Id post = world.add(Circle{{0, 3}, 0.1f}, {.fixed = true}),
              rod = world.add(Capsule2{{-4, 0}, {4, 0}, 0.05f}, {.continuous = true});
     world.add(Circle{{0, 4.2f}, 0.1f}, {.fixed = true});
     world.update();
     world.move(rod, {{0, 0}, Turn::by(3)});
-    const float met = expect_update(world, {{post, rod}}, {}, {}).at(0);
-    EXPECT_GT(met, (1.5707f - 0.06f) / 3);
-    EXPECT_LT(met, (1.5707f - 0.04f) / 3);
+    const float fraction = expect_update(world, {{post, rod}}, {}, {}).at(0);
+    EXPECT_GT(fraction, (1.5707f - 0.06f) / 3);
+    EXPECT_LT(fraction, (1.5707f - 0.04f) / 3);
     expect_update(world, {}, {}, {{post, rod}});
 }
 
@@ -166,13 +166,13 @@ TEST(Continuous, WhatIsNewOrChangedHasNoMotion) {
     world.set_shape(bullet, small);
     world.move(bullet, place(10));
     expect_update(world, {}, {}, {});
-    // In the same slot.
+    // A new item in the same slot has no motion.
     world.move(bullet, place(-10));
     world.remove(bullet);
     const Id next = world.add(small, {.pose = place(-10), .continuous = true});
     EXPECT_EQ(next.index, bullet.index);
     expect_update(world, {}, {}, {});
-    // What was moved several times went straight from the first place to the last.
+    // An item that was moved several times moves linearly from the first pose to the last.
     world.move(next, place(10));
     world.move(next, place(-11));
     expect_update(world, {}, {}, {});
@@ -183,7 +183,7 @@ TEST(Continuous, WhatIsNewOrChangedHasNoMotion) {
     expect_update(world, {}, {}, {{wall, next}});
 }
 
-TEST(Continuous, MeetsAThinWallAtTenThousandTimesItsSizeAStep) {
+TEST(Continuous, HitsAThinWallAtTenThousandTimesItsSizeAStep) {
     for (const double size : {1e-3, 1.0, 1e3}) {
         SCOPED_TRACE(size);
         World3 world;
@@ -204,7 +204,7 @@ TEST(Continuous, MeetsAThinWallAtTenThousandTimesItsSizeAStep) {
     }
 }
 
-/// What is moved, with where it was.
+/// A moved item with its previous pose.
 template <int D>
 struct Mover {
     Id id;
@@ -218,15 +218,15 @@ struct Mover {
     }
 };
 
-/// Among few fast shapes, nothing that overlaps at some moment is missed or told late, and nothing is told that isn't
-/// near then.
+/// Tests a few fast shapes: no pair that overlaps at some time is missed or reported late, and no reported pair is far
+/// apart at its time of impact.
 template <int D>
 void follow_in_fine_steps(std::uint64_t seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     oracle::Random random(seed);
     constexpr int steps = 64;
     constexpr double extent = D == 2 ? 4 : 1.8;
-    int passed = 0, met = 0, none = 0;
+    int passed = 0, touching = 0, none = 0;
     for (int round = 0; round < 20; ++round) {
         World<D> world;
         std::vector<Mover<D>> movers;
@@ -257,22 +257,22 @@ void follow_in_fine_steps(std::uint64_t seed) {
                            !overlaps(a.at(static_cast<float>(first) / steps), b.at(static_cast<float>(first) / steps)))
                         ++first;
                     const IdPair pair{a.id, b.id};
-                    const auto told = std::find(events.began.begin(), events.began.end(), pair);
-                    if (told == events.began.end()) {
+                    const auto began = std::find(events.began.begin(), events.began.end(), pair);
+                    if (began == events.began.end()) {
                         ASSERT_GT(first, steps) << "missed";
                         ++none;
                         continue;
                     }
-                    const float fraction = events.fractions[static_cast<std::size_t>(told - events.began.begin())];
+                    const float fraction = events.fractions[static_cast<std::size_t>(began - events.began.begin())];
                     ASSERT_LE(fraction, (static_cast<float>(first) + 0.001f) / steps) << "late";
                     ASSERT_NEAR(closest(a.at(fraction), b.at(fraction)).distance, 0, 3e-5f);
-                    ++(overlaps(a.at(1), b.at(1)) ? met : passed);
+                    ++(overlaps(a.at(1), b.at(1)) ? touching : passed);
                 }
         }
     }
-    std::cout << "seed " << seed << ": passed " << passed << ", met " << met << ", none " << none << "\n";
+    std::cout << "seed " << seed << ": passed " << passed << ", touching " << touching << ", none " << none << "\n";
     EXPECT_GT(passed, 50);
-    EXPECT_GT(met, 10);
+    EXPECT_GT(touching, 10);
     EXPECT_GT(none, 50);
 }
 
@@ -281,7 +281,7 @@ TEST(Continuous, MissesNothingThatFineStepsFind) {
     follow_in_fine_steps<3>(62);
 }
 
-/// All that a world says of a crowd, some of it fast; `more` is added to it.
+/// Records all answers of a world of many items, some of them fast; `more` adds items.
 template <int D, class More>
 Bits record(const WorldOptions& options, double continuous, bool fractions, More&& more) {
     Bits said;
@@ -323,8 +323,8 @@ Bits record(const WorldOptions& options, double continuous, bool fractions, More
 
 TEST(Continuous, AnswersAreTheSameWhateverTheBroadPhase) {
     const auto nothing = [](auto&) {};
-    const Bits expected2 = record<2>({.pretest = Pretest::never}, 0.3, true, nothing),
-               expected3 = record<3>({.pretest = Pretest::always}, 0.3, true, nothing);
+    const Bits expected2 = record<2>({.ball_early_out = BallEarlyOut::never}, 0.3, true, nothing),
+               expected3 = record<3>({.ball_early_out = BallEarlyOut::always}, 0.3, true, nothing);
     for (const BroadPhaseKind kind : {BroadPhaseKind::brute_force, BroadPhaseKind::grid, BroadPhaseKind::layered_grid,
                                       BroadPhaseKind::sweep_and_prune, BroadPhaseKind::bvh, BroadPhaseKind::bsp}) {
         EXPECT_TRUE(record<2>({.broad_phase = kind}, 0.3, true, nothing) == expected2) << static_cast<int>(kind);
@@ -332,7 +332,7 @@ TEST(Continuous, AnswersAreTheSameWhateverTheBroadPhase) {
     }
 }
 
-// The wider boxes of all that moves are there for one continuous item, and nobody else is told of it.
+// One continuous item widens the boxes of all moving items, but changes no answer about the others.
 TEST(Continuous, ChangesNothingAmongTheOthers) {
     const auto nothing = [](auto&) {};
     EXPECT_TRUE(record<2>({}, 0, true, nothing) == record<2>({}, 0, true, [](World2& world) {
@@ -350,19 +350,19 @@ TEST(Continuous, UpdateAllocatesNothingOnceWarm) {
         ids.push_back(world.add(small, {.pose = place(2 * static_cast<float>(i)), .continuous = i % 2 == 0}));
     const Id wall = world.add(Box2{{0, 5}, {100, 0.001f}}, {.fixed = true});
     EXPECT_TRUE(world.contains(wall));
-    std::size_t most = 0, last = 1;
+    std::size_t max_began = 0, last = 1;
     const auto lap = [&] {
         const std::size_t before = allocations();
         for (int frame = 0; frame < 6; ++frame) {
             for (std::size_t i = 0; i < ids.size(); ++i)
                 world.move(ids[i], place(2 * static_cast<float>(i * (frame % 3 == 0 ? 0 : 1)), frame % 2 == 0 ? 9 : 0));
-            most = std::max(most, world.update().began.size());
+            max_began = std::max(max_began, world.update().began.size());
         }
         last = allocations() - before;
     };
     lap();
     EXPECT_GT(last, 0u);
-    EXPECT_GT(most, 700u);
+    EXPECT_GT(max_began, 700u);
     lap();
     EXPECT_EQ(last, 0u);
     lap();

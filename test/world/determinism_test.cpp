@@ -1,4 +1,4 @@
-// The same calls give the same bits, and what order items were added in shows in their ids alone.
+// The same calls give the same bits, and the order in which items were added affects only their ids.
 
 #include "bits.hpp"
 #include "simulation.hpp"
@@ -11,10 +11,11 @@
 namespace abut::test {
 namespace {
 
-/// All that a world says in the course of a game; `balls` counts the pairs that were settled by their balls.
+/// Records all answers of a world during a game; `balls` counts the pairs that were rejected by their balls.
 template <int D>
-Bits record(std::uint64_t seed, Pretest pretest = Pretest::measured, int frames = 40, std::size_t* balls = nullptr) {
-    Simulation<D> game(seed, 30, false, {.pretest = pretest});
+Bits record(std::uint64_t seed, BallEarlyOut early_out = BallEarlyOut::measured, int frames = 40,
+            std::size_t* balls = nullptr) {
+    Simulation<D> game(seed, 30, false, {.ball_early_out = early_out});
     Bits result;
     for (int frame = 0; frame < frames; ++frame) {
         const Events events = game.world.update();
@@ -28,7 +29,7 @@ Bits record(std::uint64_t seed, Pretest pretest = Pretest::measured, int frames 
         result.put(game.world.raycast_all(Ray<D>::between(from, to)));
         result.put(game.world.closest(from));
         result.put(game.world.overlapping(Ball<D>{to, 1}));
-        // In no promised order, and yet in the same one.
+        // The order is unspecified, but deterministic.
         game.world.each_overlapping(Ball<D>{to, 2}, [&](Id id) { result.put(id); });
     }
     return result;
@@ -45,9 +46,9 @@ void expect_same_with_and_without_balls(std::uint64_t seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     constexpr int frames = 200;
     std::size_t by_balls = 0, without = 0;
-    const Bits never = record<D>(seed, Pretest::never, frames, &without);
-    EXPECT_TRUE(never == record<D>(seed, Pretest::always, frames, &by_balls));
-    EXPECT_TRUE(never == record<D>(seed, Pretest::measured, frames));
+    const Bits never = record<D>(seed, BallEarlyOut::never, frames, &without);
+    EXPECT_TRUE(never == record<D>(seed, BallEarlyOut::always, frames, &by_balls));
+    EXPECT_TRUE(never == record<D>(seed, BallEarlyOut::measured, frames));
     EXPECT_EQ(without, 0u);
     EXPECT_GT(by_balls, 100u);
 }
@@ -57,11 +58,11 @@ TEST(Determinism, BoundingBallsChangeNoAnswer) {
     expect_same_with_and_without_balls<3>(12);
 }
 
-/// So many pairs of one type that the world makes up its own mind within a frame, one way or the other.
+/// Records a game with so many pairs of one type that the world's measurements suffice for a decision within a frame.
 template <int D>
-Bits record_crowd(Pretest pretest, std::size_t& balls) {
+Bits record_crowd(BallEarlyOut early_out, std::size_t& balls) {
     oracle::Random random(D);
-    World<D> world({.pretest = pretest});
+    World<D> world({.ball_early_out = early_out});
     const double extent = D == 2 ? 14 : 5;
     const auto points = cloud<D>(random, 9, 0.9);
     const auto hull = [&] {
@@ -92,13 +93,13 @@ Bits record_crowd(Pretest pretest, std::size_t& balls) {
 template <int D>
 void expect_crowd_the_same() {
     std::size_t always = 0, measured = 0, never = 0;
-    const Bits expected = record_crowd<D>(Pretest::never, never);
-    EXPECT_TRUE(expected == record_crowd<D>(Pretest::always, always));
-    EXPECT_TRUE(expected == record_crowd<D>(Pretest::measured, measured));
+    const Bits expected = record_crowd<D>(BallEarlyOut::never, never);
+    EXPECT_TRUE(expected == record_crowd<D>(BallEarlyOut::always, always));
+    EXPECT_TRUE(expected == record_crowd<D>(BallEarlyOut::measured, measured));
     EXPECT_EQ(never, 0u);
     EXPECT_GT(always, 1000u);
     EXPECT_LE(measured, always);
-    std::cout << D << "D: of " << always << " pairs that balls can settle, " << measured << " were left to them\n";
+    std::cout << D << "D: of " << always << " pairs that balls can reject, they rejected " << measured << "\n";
 }
 
 TEST(Determinism, WhatIsMeasuredChangesNoAnswer) {
@@ -106,12 +107,12 @@ TEST(Determinism, WhatIsMeasuredChangesNoAnswer) {
     expect_crowd_the_same<3>();
 }
 
-/// Turned boxes and balls so close that most contacts have others beside them: surface normals and what stands in for
-/// normals inside the surface.
+/// Records dense rotated boxes and balls, so that most contacts have neighbours: surface normals, and substitutes for
+/// normals of internal edges.
 template <int D>
 std::uint64_t hash_of_crowd(std::size_t items, double extent) {
     oracle::Random random(D);
-    World<D> world({.pretest = Pretest::never});
+    World<D> world({.ball_early_out = BallEarlyOut::never});
     std::vector<Id> ids;
     for (std::size_t i = 0; i < items; ++i) {
         const ItemOptions<D> options{.pose = random_pose<D>(random, extent), .fixed = i % 5 == 0};
@@ -129,14 +130,14 @@ std::uint64_t hash_of_crowd(std::size_t items, double extent) {
     return bits.hash();
 }
 
-/// As they were when each contact looked at all that is near it.
+/// The hash is that of the first implementation, in which each contact tested all items near it.
 TEST(Determinism, CrowdsAreGolden) {
     EXPECT_EQ(hash_of_crowd<2>(300, 5), 14127432392399345725u);
     EXPECT_EQ(hash_of_crowd<2>(600, 5), 2711637442001575144u);
     EXPECT_EQ(hash_of_crowd<3>(400, 3), 7045974268265656831u);
 }
 
-/// A scene whose items know their number by `user`, added in some order.
+/// A scene whose items are added in some order, with their number as `user`.
 template <int D>
 class Scene {
 public:
@@ -166,7 +167,7 @@ public:
         return result;
     }
 
-    /// By distance, then by number: where a ray starts inside of several, the lowest id comes first.
+    /// Sorts by distance, then by number: if a ray starts inside several items, the lowest id comes first.
     std::vector<std::pair<float, std::uint32_t>> hits(const Ray<D>& ray) const {
         std::vector<std::pair<float, std::uint32_t>> result;
         for (const WorldHit<D>& each : world.raycast_all(ray)) result.emplace_back(each.hit.distance, number(each.id));
@@ -225,7 +226,7 @@ void expect_same_in_any_order(std::uint64_t seed) {
     EXPECT_GT(hits, 20u);
 }
 
-TEST(Determinism, OrderOfAddingShowsInIdsAlone) {
+TEST(Determinism, OrderOfAddingAffectsIdsAlone) {
     expect_same_in_any_order<2>(100);
     expect_same_in_any_order<3>(200);
 }

@@ -1,4 +1,4 @@
-// Distance functions and fields among the shapes of a world: every question, every kind of shape beside them.
+// Distance functions and fields among the shapes of a world: every query, with every kind of shape.
 
 #include "../query/user_functions.hpp"
 #include <abut/bake/field.hpp>
@@ -37,7 +37,7 @@ Pose<D> pose_at(double height) {
     result.position = at_height<D>(height);
     return result;
 }
-/// A box of the given sides, as a field: its samples lie on its sides.
+/// A box as a field whose samples lie on the box's sides.
 template <int D>
 Field<D> field_of_box(const Vec<D>& half, float cell) {
     return *bake_field(Box<D>{Vec<D>(0.0f), half}, FieldOptions<D>{.cell = cell});
@@ -47,7 +47,7 @@ AnyShape<D> level() {
     if constexpr (D == 2)
         return *Chain::build({{-4, 0.5f}, {0, -0.5f}, {4, 0.5f}}, false);
     else {
-        // Its heights go up.
+        // The triangles of the height field face up.
         const float half = std::sqrt(0.5f);
         const std::vector<float> heights{0.5f, 0.5f, 0.5f, 0.5f, -0.5f, 0.5f, 0.5f, 0.5f, 0.5f};
         return at(*HeightField::build(heights, 3, 4), Pose3{{-4, 0, 4}, {half, -half, 0, 0}});
@@ -68,7 +68,7 @@ struct Drawing final : Canvas<D> {
     std::vector<Vec<D>> points;
 };
 
-/// No question of any kind about any pair ends badly, and those that go together agree.
+/// All queries about all pairs are finite, and related queries agree.
 TYPED_TEST(FunctionWorld, EveryKindBesideEveryKind) {
     constexpr int D = TypeParam::value;
     const Field<D> field = field_of_box<D>(Vec<D>(1.0f), 0.25f);
@@ -93,11 +93,11 @@ TYPED_TEST(FunctionWorld, EveryKindBesideEveryKind) {
             EXPECT_TRUE(overlaps(lower, b));
             const Contact<D> contact = abut::contact(lower, b);
             EXPECT_TRUE(contact);
-            int told = 0;
-            each_contact(lower, b, [&](const Contact<D>&) { ++told; });
-            EXPECT_GE(told, 1);
+            int contacts = 0;
+            each_contact(lower, b, [&](const Contact<D>&) { ++contacts; });
+            EXPECT_GE(contacts, 1);
             EXPECT_GE(certify(lower, b, nearest).margin, 0);
-            // From far above, straight down.
+            // The motion starts far above and goes down.
             if (index(a) != 1) {
                 const auto high = at(a, pose_at<D>(12));
                 EXPECT_TRUE(sweep(high, at_height<D>(-12), b));
@@ -105,7 +105,7 @@ TYPED_TEST(FunctionWorld, EveryKindBesideEveryKind) {
                 EXPECT_TRUE(sweep(a, pose_at<D>(12), pose_at<D>(0), b, Pose<D>{}, Pose<D>{}));
                 EXPECT_GT(closest(high, b).distance, 1);
             }
-            // A world finds what the question finds.
+            // A world returns the answer of the query function.
             World<D> world;
             const Id id_a = world.add(a, {.pose = pose_at<D>(-0.125)}), id_b = world.add(b);
             EXPECT_EQ(world.update().began.size(), 1u);
@@ -117,7 +117,7 @@ TYPED_TEST(FunctionWorld, EveryKindBesideEveryKind) {
     EXPECT_EQ(pairs, 33);
 }
 
-TYPED_TEST(FunctionWorld, QuestionsToAWorld) {
+TYPED_TEST(FunctionWorld, QueriesOfAWorld) {
     constexpr int D = TypeParam::value;
     World<D> world;
     const Id ground = world.add(users::Hills<D>{0.2f}, {.fixed = true});
@@ -148,15 +148,15 @@ TYPED_TEST(FunctionWorld, QuestionsToAWorld) {
     EXPECT_EQ(swept->id, rock);
     EXPECT_NEAR(swept->hit.distance, 1.375f, 1e-3f);
 
-    // Moved through the ground, continuously.
+    // A continuous item passes through the ground.
     const Id bullet = world.add(Ball<D>{Vec<D>(0.0f), 0.05f}, {.pose = pose_at<D>(2), .continuous = true});
     world.update();
     world.move(bullet, pose_at<D>(-3));
-    bool met = false;
-    for (const IdPair& pair : world.update().began) met = met || pair == IdPair{ground, bullet};
-    EXPECT_TRUE(met);
+    bool hit_ground = false;
+    for (const IdPair& pair : world.update().began) hit_ground = hit_ground || pair == IdPair{ground, bullet};
+    EXPECT_TRUE(hit_ground);
 
-    // What asks the world goes by the same.
+    // Functions that query the world agree.
     const Depenetration<D> out = depenetrate(Ball<D>{at_height<D>(-0.1), 0.25f}, world, {.ignore = ball});
     EXPECT_TRUE(out);
     EXPECT_GT(out.push[1], 0.2f);
@@ -170,7 +170,7 @@ TYPED_TEST(FunctionWorld, QuestionsToAWorld) {
     EXPECT_GT(drawing.points.size(), 100u);
 }
 
-/// A mover walks over hills as over any ground, and stays on them.
+/// A mover walks over hills and stays on the ground.
 TYPED_TEST(FunctionWorld, AMoverOnHills) {
     constexpr int D = TypeParam::value;
     World<D> world;
@@ -196,7 +196,7 @@ TYPED_TEST(FunctionWorld, AMoverOnHills) {
     EXPECT_LT(closest(at(body, pose), hills).distance, 0.1f);
 }
 
-/// A child must have convex parts.
+/// A compound's child must have convex parts.
 TYPED_TEST(FunctionWorld, NoChildOfACompound) {
     constexpr int D = TypeParam::value;
     const auto built = Compound<D>::build({Ball<D>{}, field_of_box<D>(Vec<D>(1.0f), 0.5f)});
@@ -205,7 +205,7 @@ TYPED_TEST(FunctionWorld, NoChildOfACompound) {
     EXPECT_EQ(built.problem().index, 1u);
 }
 
-/// The corners of what is drawn lie where the distance is 0.
+/// The vertices of the drawn outline have distance 0.
 TYPED_TEST(FunctionWorld, DrawnWhereItIsZero) {
     constexpr int D = TypeParam::value;
     const users::Blob<D> blob{Vec<D>(0.5f), 1.5f};

@@ -1,4 +1,4 @@
-// What a World takes an item, shape and broad phase included.
+// The memory that a World takes for each item, including shape and broad phase.
 
 #include "../broad_phase/allocations.hpp"
 #include <abut/shape/ball.hpp>
@@ -18,7 +18,7 @@ struct BytesAnItem {
     double added = 0, updated = 0, moved = 0;
 };
 
-/// Items on a lattice, none near another.
+/// Measures items on a lattice, none of them near another.
 template <int D, class S>
 BytesAnItem bytes_an_item(const S& shape, std::size_t count) {
     std::vector<Id> ids;
@@ -45,25 +45,25 @@ BytesAnItem bytes_an_item(const S& shape, std::size_t count) {
     return result;
 }
 
-/// The most of several numbers of items: lists grow by a quarter at a time, so that more or less of them is unused.
+/// Tests the maximum over several numbers of items: lists grow by a quarter at a time, so their unused share varies.
 template <int D, class S>
 void expect_little(const char* name, const S& shape) {
-    BytesAnItem most;
+    BytesAnItem max_bytes;
     for (const std::size_t count : {64'000u, 80'000u, 100'000u}) {
         const BytesAnItem bytes = bytes_an_item<D>(shape, count);
-        most.added = std::max(most.added, bytes.added);
-        most.updated = std::max(most.updated, bytes.updated);
-        most.moved = std::max(most.moved, bytes.moved);
+        max_bytes.added = std::max(max_bytes.added, bytes.added);
+        max_bytes.updated = std::max(max_bytes.updated, bytes.updated);
+        max_bytes.moved = std::max(max_bytes.moved, bytes.moved);
     }
-    std::cout << name << ": " << most.added << " bytes added, " << most.updated << " updated, " << most.moved
-              << " moved\n";
+    std::cout << name << ": " << max_bytes.added << " bytes added, " << max_bytes.updated << " updated, "
+              << max_bytes.moved << " moved\n";
     constexpr double limit = 256 + sizeof(S), growth = 1.25;
-    EXPECT_LT(most.updated, limit);
-    // Where each was at the last update, and a list of those that have moved.
-    EXPECT_LT(most.moved, limit + growth * (sizeof(Pose<D>) + sizeof(std::uint32_t)));
+    EXPECT_LT(max_bytes.updated, limit);
+    // Moved items need their previous pose and an entry in the list of changed items.
+    EXPECT_LT(max_bytes.moved, limit + growth * (sizeof(Pose<D>) + sizeof(std::uint32_t)));
 }
 
-// After an update of 64,000 to 100,000 of them a circle took 292 bytes, a sphere 335 and a box in 3D 367.
+// Measured after an update of 64,000 to 100,000 items: 292 bytes for a circle, 335 for a sphere, 367 for a 3D box.
 TEST(Memory, OfAnItem) {
     expect_little<2>("circle", Circle{{0, 0}, 1});
     expect_little<2>("box in 2D", Box2{{0, 0}, {1, 1}});

@@ -1,5 +1,5 @@
-// Misuse of a world: stale and null ids, numbers that aren't. Where assertions are on, each trips exactly one; where
-// they are off, and where the user's own assert_failed returns, the answer is the neutral one and nothing else happens.
+// Misuse of a world: stale and null ids, non-finite numbers. With assertions, each call trips exactly one. Without
+// them, or if the user's assert_failed returns, the answer is neutral and nothing else happens.
 
 #include "bits.hpp"
 #include "random_shapes.hpp"
@@ -18,7 +18,7 @@ int trips = 0;
 
 }  // namespace
 
-// For all tests of this program: an assertion that no test waits for is a failure.
+// In all tests of this program, an unexpected assertion is a failure.
 void abut::assert_failed(const char* expression, const char* file, int line) {
     if (expected)
         ++trips;
@@ -47,7 +47,7 @@ const Circle unit{{0, 0}, 1};
 constexpr float infinity = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
 const Vec2 nowhere(nan, 0);
 
-/// Everything that takes an id, with an id that names nothing.
+/// Calls every function that takes an id, with an invalid id.
 void expect_caught(World2& world, Id id) {
     EXPECT_FALSE(world.contains(id));
     EXPECT_EQ(trips_of([&] { world.move(id, {{5, 5}}); }), once);
@@ -76,10 +76,10 @@ void expect_caught(World2& world, Id id) {
               0)
         << "pairs of an update may have gone since";
     EXPECT_EQ(trips_of([&] { world.overlapping(unit, {.ignore_ids = std::span(&id, 1)}); }), 0);
-    EXPECT_EQ(trips_of([&] { world.overlapping(unit, {.ignore = id}); }), 0) << "to ignore nobody is no misuse";
+    EXPECT_EQ(trips_of([&] { world.overlapping(unit, {.ignore = id}); }), 0) << "an invalid id to ignore is no misuse";
 }
 
-TEST(Misuse, NamesOfNothingAreCaughtAndHurtNobody) {
+TEST(Misuse, InvalidIdsAreCaughtAndChangeNothing) {
     World2 world;
     expect_caught(world, {});
     const Id gone = world.add(unit, {.user = 1}), held = world.add(unit, {.user = 2});
@@ -112,7 +112,7 @@ TEST(Misuse, NamesOfNothingAreCaughtAndHurtNobody) {
     EXPECT_EQ(world.update().stayed.size(), 1u);
 }
 
-TEST(Misuse, QuestionsThatAreNotFiniteHaveNoAnswer) {
+TEST(Misuse, NonFiniteQueriesHaveNoAnswer) {
     World2 world;
     const auto check = [&] {
         EXPECT_EQ(trips_of([&] { EXPECT_FALSE(world.raycast({nowhere, {1, 0}, 1})); }), once);
@@ -136,7 +136,7 @@ TEST(Misuse, QuestionsThatAreNotFiniteHaveNoAnswer) {
     check();
 }
 
-/// An item that isn't finite is there by its id, and touches nothing.
+/// A non-finite item has an id and touches nothing.
 void expect_nowhere(World2& world, Id id) {
     const auto check = [&] {
         EXPECT_TRUE(world.contains(id));
@@ -153,13 +153,13 @@ void expect_nowhere(World2& world, Id id) {
     check();
 }
 
-TEST(Misuse, ItemsThatAreNotFiniteAreNowhere) {
+TEST(Misuse, NonFiniteItemsTouchNothing) {
     for (const bool fixed : {false, true}) {
         World2 world;
         Id id;
         EXPECT_EQ(trips_of([&] { id = world.add(Circle{nowhere, 1}, {.fixed = fixed}); }), once);
         expect_nowhere(world, id);
-        EXPECT_EQ(trips_of([&] { world.move(id, {{1, 1}}); }), once) << "still a shape without a place";
+        EXPECT_EQ(trips_of([&] { world.move(id, {{1, 1}}); }), once) << "the item is still not finite";
         expect_nowhere(world, id);
         world.set_shape(id, unit);
         EXPECT_EQ(world.containing({1, 1}), std::vector{id});

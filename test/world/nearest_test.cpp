@@ -1,6 +1,6 @@
-// The nearest items to a point or a shape, and several that a query ignores, with answers worked out by hand.
+// The items nearest to a point or a shape, and queries that ignore several items, with known answers.
 
-#include "before_and_after.hpp"
+#include "before_and_after_update.hpp"
 #include "bits.hpp"
 #include <abut/shape/ball.hpp>
 #include <abut/shape/half_space.hpp>
@@ -67,7 +67,7 @@ TYPED_TEST(Nearest, ComeByDistanceAndThenById) {
     });
 }
 
-TYPED_TEST(Nearest, FillsWhatItIsGivenAndNoMore) {
+TYPED_TEST(Nearest, FillsTheSpanAndNoMore) {
     static constexpr int N = TestFixture::D;
     const Id a = this->add(2), b = this->add(4);
     const WorldClosest<N> untouched{{77, 7}, {}};

@@ -1,7 +1,6 @@
-// Questions to a world, with answers worked out by hand; each asked before the update that takes the items into the
-// trees, and again after it.
+// Queries of a world with known answers, before the update that takes the items into the trees and after it.
 
-#include "before_and_after.hpp"
+#include "before_and_after_update.hpp"
 #include "bits.hpp"
 #include "random_shapes.hpp"
 #include <abut/world/world.hpp>
@@ -30,7 +29,7 @@ TEST(Queries, EmptyWorldHasNoAnswers) {
     });
 }
 
-TEST(Queries, RayMeetsItemsFromNearToFar) {
+TEST(Queries, RayHitsItemsFrontToBack) {
     World2 world;
     const Id far = world.add(unit, {.pose = place(8)}), near = world.add(unit, {.pose = place(-4)}),
              between = world.add(unit, {.pose = place(2), .fixed = true});
@@ -54,7 +53,7 @@ TEST(Queries, RayMeetsItemsFromNearToFar) {
     });
 }
 
-TEST(Queries, OfEquallyNearTheLowestIdAnswers) {
+TEST(Queries, LowestIdWinsAmongEquallyNear) {
     World2 world;
     std::vector<Id> ids;
     for (int i = 0; i < 20; ++i) ids.push_back(world.add(unit, {.fixed = i % 3 == 0}));
@@ -69,7 +68,7 @@ TEST(Queries, OfEquallyNearTheLowestIdAnswers) {
         EXPECT_EQ(world.containing({0, 0}), ids);
     };
     before_and_after_update(world, check);
-    // The lowest is among those that have moved, and then alone in not having moved.
+    // The item with the lowest id moves first, and then all the others do.
     world.move(ids.front(), place(5));
     world.move(ids.front(), place(0));
     check();
@@ -79,7 +78,7 @@ TEST(Queries, OfEquallyNearTheLowestIdAnswers) {
     check();
 }
 
-TEST(Queries, ClosestIsSignedAndFromTheAskingSide) {
+TEST(Queries, ClosestIsSignedAndFromTheQuerysShape) {
     World2 world;
     const Id left = world.add(unit, {.pose = place(-5)}), right = world.add(unit, {.pose = place(4), .fixed = true});
     before_and_after_update(world, [&] {
@@ -94,7 +93,7 @@ TEST(Queries, ClosestIsSignedAndFromTheAskingSide) {
         ASSERT_TRUE(inside);
         EXPECT_EQ(inside->id, left);
         EXPECT_EQ(inside->closest.distance, -0.5f);
-        // Farther from one than from the other by its depth in it alone.
+        // The deeper overlap is the closest.
         EXPECT_EQ(world.closest(Capsule2{{-5, 0}, {4, 0}, 0.25f}, {.ignore = left})->id, right);
     });
 }
@@ -155,10 +154,10 @@ TEST(Queries, VisitorsStopOrGoOn) {
         int visits = 0;
         world.each_overlapping(unit, [&](Id) { ++visits; });
         EXPECT_EQ(visits, 10);
-        for (int most = 1; most <= 10; ++most) {
+        for (int limit = 1; limit <= 10; ++limit) {
             visits = 0;
-            world.each_overlapping(unit, [&](Id) { return ++visits < most; });
-            EXPECT_EQ(visits, most);
+            world.each_overlapping(unit, [&](Id) { return ++visits < limit; });
+            EXPECT_EQ(visits, limit);
         }
     });
 }
@@ -171,14 +170,14 @@ TEST(Queries, HalfSpacesReachEverywhereAndDontPair) {
         EXPECT_EQ(world.overlapping(Circle{{-3e5f, 1}, 1}), std::vector{ground});
         EXPECT_EQ(world.closest(Vec2(1e6f, 2))->id, ground);
         EXPECT_EQ(world.raycast({{700, 3}, {0, -1}})->hit.distance, 3);
-        const HalfSpace2 asked{{0, -1}, -1};
-        EXPECT_EQ(world.overlapping(asked), std::vector{ball});
-        EXPECT_EQ(world.closest(asked)->id, ball);
-        EXPECT_EQ(world.closest(asked)->closest.distance, -5);
+        const HalfSpace2 half_space{{0, -1}, -1};
+        EXPECT_EQ(world.overlapping(half_space), std::vector{ball});
+        EXPECT_EQ(world.closest(half_space)->id, ball);
+        EXPECT_EQ(world.closest(half_space)->closest.distance, -5);
     });
 }
 
-/// A segment that is known by its support function alone: rays search for it.
+/// A segment with a support function alone, so that a raycast is iterative.
 struct Rod {
     Vec2 from{2, -3}, to{3, -2};
 };
@@ -189,8 +188,8 @@ Vec2 support(const Rod& rod, const Vec2& direction) {
     return direction.x + direction.y > 0 ? rod.to : rod.from;
 }
 
-// A ray that passes a shape within the rounding of a raycast counts as a hit, though it misses the shape's box; it did
-// so only until the shape had gone into the tree.
+// A ray that misses a shape by less than the rounding of a raycast is a hit, although it misses the shape's box.
+// Regression: it was a hit only until the shape was in the tree.
 TEST(Queries, GrazingRayHitsBeforeAndAfterTheUpdate) {
     const Rod segment;
     const Ray2 grazing{{-2.5f, -1}, {0.913811564f, -0.40613848f}, 10};
@@ -207,7 +206,7 @@ TEST(Queries, GrazingRayHitsBeforeAndAfterTheUpdate) {
     }
 }
 
-// Far away from what there is, a closest item of infinite distance came back, until the update.
+// Regression: before the update, a query returned a closest item with infinite distance.
 TEST(Queries, ShapesWithoutPartsAreNowhere) {
     World2 world;
     world.add(Stairs<2>{});

@@ -1,6 +1,6 @@
 #pragma once
 
-// Shapes of every kind for the tests of the world, and two of a user's own.
+// Shapes of every kind for the tests of the world, and two user-defined ones.
 
 #include "../oracle/random.hpp"
 #include <abut/shape/ball.hpp>
@@ -20,7 +20,7 @@
 
 namespace abut::test {
 
-/// A user's convex shape, known by its bounds and support: |x| + |y| (+ |z|) <= radius.
+/// A user's convex shape, given by bounds and a support function: |x| + |y| (+ |z|) <= radius.
 template <int D>
 struct Diamond {
     Vec<D> center{};
@@ -42,7 +42,7 @@ Vec<D> support(const Diamond<D>& shape, const Vec<D>& direction) {
     return result;
 }
 
-/// A user's composite shape: boxes one beside and above the other, kept in a container of its own.
+/// A user's composite shape: boxes in the form of stairs, in a container of its own.
 template <int D>
 struct Stairs {
     std::vector<Aabb<D>> steps;
@@ -71,7 +71,7 @@ void each_part(const Stairs<D>& shape, const Aabb<D>& box, F&& visit) {
         if (overlaps(shape.steps[i], box) && !visit(shape.steps[i], i)) return;
 }
 
-/// A closed mesh of eight triangles: a ridged roof over a square floor, wound outwards.
+/// A closed mesh of eight triangles with outward winding: a ridged roof over a square floor.
 inline Mesh house(float size) {
     const float s = size;
     const std::array<Vec3, 6> points{
@@ -81,7 +81,7 @@ inline Mesh house(float size) {
     return *Mesh::build(points, triangles);
 }
 
-/// Points in a cube, as many as `count`.
+/// Returns `count` points in a cube.
 template <int D>
 std::vector<Vec<D>> cloud(oracle::Random& random, int count, double size) {
     std::vector<Vec<D>> result;
@@ -92,8 +92,8 @@ std::vector<Vec<D>> cloud(oracle::Random& random, int count, double size) {
 template <int D>
 inline constexpr int shape_kinds = D == 2 ? 12 : 16;
 
-/// Calls `take` with a random shape of one of the kinds, about its own origin, at most about one across. It may refer
-/// to what dies after the call: `take` has to copy it as World::add does.
+/// Calls `take` with a random shape of one of the kinds, around its own origin, with an extent of about 1 or less. The
+/// shape may refer to temporaries, so `take` must copy it as World::add does.
 template <int D, class Take>
 void with_random_shape(oracle::Random& random, int kind, Take&& take) {
     const auto length = [&] { return random.uniform_float(0.2, 0.6); };
@@ -159,7 +159,7 @@ void with_random_shape(oracle::Random& random, int kind, Take&& take) {
     }
 }
 
-/// A half-space reaches everywhere: one kind of many, so that few of a scene are.
+/// A random kind; half-spaces are rare, because they are unbounded.
 template <int D>
 int random_kind(oracle::Random& random, double half_spaces = 0.3) {
     for (;;) {
@@ -173,7 +173,7 @@ Pose<D> random_pose(oracle::Random& random, double extent) {
     return {to_float(random.in_cube<D>() * extent), random.rotation<D>()};
 }
 
-/// The pose a frame later: a small step and, in 3D as in 2D, a small turn.
+/// The pose a frame later, after a small translation and a small rotation.
 template <int D>
 Pose<D> moved_a_little(oracle::Random& random, const Pose<D>& pose, double step) {
     const float angle = random.uniform_float(-0.1, 0.1);

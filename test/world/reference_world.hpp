@@ -1,7 +1,7 @@
 #pragma once
 
-// What a World must answer, in the plainest way: every item against every other, nothing kept from frame to frame but
-// who touched.
+// The reference implementation of World: it tests every item against every other, and stores nothing from update to
+// update except the touching pairs.
 
 #include <abut/query/contains.hpp>
 #include <abut/query/detail/surface/contact_with_neighbours.hpp>
@@ -24,8 +24,8 @@ public:
         std::function<View<D>(const Pose<D>&)> placed;
         ItemOptions<D> options;
         bool changed = true;
-        bool settled = false;           ///< was there at the last update, as it is
-        std::optional<Pose<D>> before;  ///< at the last update, if it has moved since
+        bool settled = false;           ///< present at the last update with this shape
+        std::optional<Pose<D>> before;  ///< the pose at the last update, if the item has moved since
 
         View<D> view() const { return placed(options.pose); }
     };
@@ -61,16 +61,16 @@ public:
 
     void update() {
         const std::vector<IdPair> before = std::move(touching_), passed_before = std::move(passed_);
-        touched_ = before;
+        last_touching_ = before;
         touching_.clear();
         passed_.clear();
-        met_.clear();
+        impacts_.clear();
         contacts.clear();
         found_.clear();
-        least = most = {};
+        min_counts = max_counts = {};
         for (auto a = items_.begin(); a != items_.end(); ++a)
-            for (auto b = std::next(a); b != items_.end(); ++b) look_at(*a, *b);
-        tell_contacts();
+            for (auto b = std::next(a); b != items_.end(); ++b) test_pair(*a, *b);
+        report_contacts();
         began = difference(touching_, before);
         ended = difference(before, touching_);
         stayed.clear();
@@ -81,9 +81,9 @@ public:
         std::sort(began.begin(), began.end());
         std::sort(ended.begin(), ended.end());
         fractions.clear();
-        for (const IdPair& pair : began) fractions.push_back(met_.contains(pair) ? met_[pair].fraction : 1);
+        for (const IdPair& pair : began) fractions.push_back(impacts_.contains(pair) ? impacts_[pair].fraction : 1);
         impacts.clear();
-        for (const auto& [pair, hit] : met_) impacts.push_back({pair.a, pair.b, hit});
+        for (const auto& [pair, hit] : impacts_) impacts.push_back({pair.a, pair.b, hit});
         passed = passed_.size();
         for (auto& [id, item] : items_) {
             item.changed = false;
@@ -95,7 +95,7 @@ public:
     std::vector<WorldHit<D>> raycast_all(const Ray<D>& ray, const Filter& filter) const {
         std::vector<WorldHit<D>> all;
         for (const auto& [id, item] : items_)
-            if (asked(id, item, filter))
+            if (passes(id, item, filter))
                 if (const auto hit = abut::raycast(ray, item.view())) all.push_back({id, *hit});
         std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
             return std::tie(a.hit.distance, a.id) < std::tie(b.hit.distance, b.id);
@@ -106,7 +106,7 @@ public:
     std::optional<WorldClosest<D>> closest(const View<D>& shape, const Filter& filter) const {
         std::optional<WorldClosest<D>> nearest;
         for (const auto& [id, item] : items_) {
-            if (!asked(id, item, filter) || both_half_spaces(shape, item.view())) continue;
+            if (!passes(id, item, filter) || both_half_spaces(shape, item.view())) continue;
             const Closest<D> found = abut::closest(shape, item.view());
             if (!nearest || found.distance < nearest->closest.distance) nearest = {id, found};
         }
@@ -116,7 +116,7 @@ public:
     std::vector<WorldClosest<D>> k_nearest(const View<D>& shape, std::size_t k, const Filter& filter) const {
         std::vector<WorldClosest<D>> all;
         for (const auto& [id, item] : items_)
-            if (asked(id, item, filter) && !both_half_spaces(shape, item.view()))
+            if (passes(id, item, filter) && !both_half_spaces(shape, item.view()))
                 all.push_back({id, abut::closest(shape, item.view())});
         std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
             return std::tie(a.closest.distance, a.id) < std::tie(b.closest.distance, b.id);
@@ -125,7 +125,7 @@ public:
         return all;
     }
 
-    /// Of the items that are there now, as of the last update.
+    /// The pairs of the last update, without items that have been removed since.
     std::vector<Id> touching(Id id) const {
         std::vector<Id> result;
         for (const IdPair& pair : touching_)
@@ -138,7 +138,7 @@ public:
     std::vector<Id> overlapping(const View<D>& shape, const Filter& filter) const {
         std::vector<Id> result;
         for (const auto& [id, item] : items_)
-            if (asked(id, item, filter) && !both_half_spaces(shape, item.view()) && overlaps(shape, item.view()))
+            if (passes(id, item, filter) && !both_half_spaces(shape, item.view()) && overlaps(shape, item.view()))
                 result.push_back(id);
         return result;
     }
@@ -146,11 +146,11 @@ public:
     std::vector<Id> containing(const Vec<D>& point, const Filter& filter) const {
         std::vector<Id> result;
         for (const auto& [id, item] : items_)
-            if (asked(id, item, filter) && abut::contains(item.view(), point)) result.push_back(id);
+            if (passes(id, item, filter) && abut::contains(item.view(), point)) result.push_back(id);
         return result;
     }
 
-    static bool asked(Id id, const Item& item, const Filter& filter) {
+    static bool passes(Id id, const Item& item, const Filter& filter) {
         return (filter.layers & item.options.mask) != 0 && (item.options.layers & filter.mask) != 0 &&
                (filter.sensors || !item.options.sensor) && id != filter.ignore &&
                std::count(filter.ignore_ids.begin(), filter.ignore_ids.end(), id) == 0;
@@ -158,11 +158,11 @@ public:
 
     std::vector<IdPair> began, stayed, ended;
     std::vector<float> fractions;
-    std::size_t passed = 0;  ///< of those that began, what doesn't touch
+    std::size_t passed = 0;  ///< pairs that began and don't touch now
     std::vector<WorldContact<D>> contacts;
     std::vector<WorldImpact<D>> impacts;
-    std::size_t ghosts = 0, left_out = 0;  ///< so far: normals that aren't felt, and those of them without a contact
-    UpdateCounts least, most;              ///< of what the world may count, whose boxes are a little wider than need be
+    std::size_t ghosts = 0, covered = 0;  ///< so far: normals of internal edges, and those of them without a contact
+    UpdateCounts min_counts, max_counts;  ///< bounds of the world's counts, whose boxes have margins
 
 private:
     void set(Id id, bool& option, bool value) {
@@ -172,8 +172,8 @@ private:
 
     template <class S>
     static std::function<View<D>(const Pose<D>&)> placer(const S& shape) {
-        const auto kept = std::make_shared<const decltype(owned(shape))>(owned(shape));
-        return [kept](const Pose<D>& pose) -> View<D> { return abut::view(at(*kept, pose)); };
+        const auto owned_shape = std::make_shared<const decltype(owned(shape))>(owned(shape));
+        return [owned_shape](const Pose<D>& pose) -> View<D> { return abut::view(at(*owned_shape, pose)); };
     }
 
     static bool both_half_spaces(const View<D>& a, const View<D>& b) {
@@ -192,14 +192,14 @@ private:
         counts.tested += near && changed ? 1 : 0;
     }
 
-    void look_at(const std::pair<const Id, Item>& a, const std::pair<const Id, Item>& b) {
+    void test_pair(const std::pair<const Id, Item>& a, const std::pair<const Id, Item>& b) {
         const ItemOptions<D>&p = a.second.options, &q = b.second.options;
         const View<D> view_a = a.second.view(), view_b = b.second.view();
         if ((p.fixed && q.fixed) || (p.layers & q.mask) == 0 || (q.layers & p.mask) == 0) return;
         if (both_half_spaces(view_a, view_b)) return;
         const bool changed = a.second.changed || b.second.changed;
-        count(overlaps(abut::bounds(view_a), abut::bounds(view_b)), changed, least);
-        count(overlaps(widened(abut::bounds(view_a)), widened(abut::bounds(view_b))), changed, most);
+        count(overlaps(abut::bounds(view_a), abut::bounds(view_b)), changed, min_counts);
+        count(overlaps(widened(abut::bounds(view_a)), widened(abut::bounds(view_b))), changed, max_counts);
         const IdPair pair{a.first, b.first};
         bool touch = false;
         if (p.sensor || q.sensor) {
@@ -214,62 +214,62 @@ private:
         }
         if (touch) touching_.push_back(pair);
         if ((!p.continuous && !q.continuous) || (!a.second.before && !b.second.before)) return;
-        if (changed && !touch) ++most.near, ++most.tested;
-        if (std::binary_search(touched_.begin(), touched_.end(), pair)) return;
+        if (changed && !touch) ++max_counts.near, ++max_counts.tested;
+        if (std::binary_search(last_touching_.begin(), last_touching_.end(), pair)) return;
         const std::optional<Hit<D>> hit = sweep_between(a.second, b.second);
-        if (hit) met_[pair] = *hit;
+        if (hit) impacts_[pair] = *hit;
         if (hit && !touch) passed_.push_back(pair);
     }
 
     using Entry = std::pair<const Id, Item>;
 
-    /// All that an item feels beside another one: what pairs with it, is no sensor, and has a box that overlaps its
-    /// own.
-    auto others(const Entry& feeler, const Entry& but) const {
-        return [this, &feeler, &but](const DVec<D>& point, double within, ClosestPointVisitor<D> visit) {
-            const ItemOptions<D>& p = feeler.second.options;
-            const View<D> own = feeler.second.view();
+    /// Visits the closest points on the neighbours of an item, except on `but`: items that pair with it, are no
+    /// sensors, and have boxes that overlap its own.
+    auto others(const Entry& item, const Entry& but) const {
+        return [this, &item, &but](const DVec<D>& point, double within, ClosestPointVisitor<D> visit) {
+            const ItemOptions<D>& p = item.second.options;
+            const View<D> own = item.second.view();
             for (const Entry& other : items_) {
                 const ItemOptions<D>& q = other.second.options;
                 const View<D> view = other.second.view();
-                if (other.first == feeler.first || other.first == but.first || q.sensor) continue;
+                if (other.first == item.first || other.first == but.first || q.sensor) continue;
                 if ((p.layers & q.mask) == 0 || (q.layers & p.mask) == 0 || both_half_spaces(own, view)) continue;
                 if (overlaps(abut::bounds(own), abut::bounds(view))) each_closest_point_on(view, point, within, visit);
             }
         };
     }
 
-    /// What isn't felt is told where no other contact of who doesn't feel it tells of it: no felt one, and none that is
-    /// told in the place of another and comes before.
-    void tell_contacts() {
-        std::vector<bool> told;
-        for (const Found& found : found_) told.push_back(static_cast<bool>(found.felt));
+    /// Reports the contacts with surface normals. A ghost is reported if no other contact of the item covers it: none
+    /// with a surface normal, and no reported ghost before it.
+    void report_contacts() {
+        std::vector<bool> reported;
+        for (const FoundContact& found : found_) reported.push_back(static_cast<bool>(found.surface_normal));
         for (std::size_t i = 0; i < found_.size(); ++i) {
-            const Found& ghost = found_[i];
-            if (ghost.felt) continue;
-            told[i] = true;
+            const FoundContact& ghost = found_[i];
+            if (ghost.surface_normal) continue;
+            reported[i] = true;
             const double size =
-                std::min(abut::size(items_.at(ghost.told.a).view()), abut::size(items_.at(ghost.told.b).view()));
-            for (const auto& [feeler, feels] :
-                 {std::pair(ghost.told.a, ghost.felt.a), std::pair(ghost.told.b, ghost.felt.b)}) {
-                if (feels || items_.at(feeler).options.fixed) continue;
-                const auto normal = [id = feeler](const WorldContact<D>& c) {
+                std::min(abut::size(items_.at(ghost.result.a).view()), abut::size(items_.at(ghost.result.b).view()));
+            for (const auto& [item, is_surface_normal] : {std::pair(ghost.result.a, ghost.surface_normal.a),
+                                                          std::pair(ghost.result.b, ghost.surface_normal.b)}) {
+                if (is_surface_normal || items_.at(item).options.fixed) continue;
+                const auto normal = [id = item](const WorldContact<D>& c) {
                     return DVec<D>(c.contact.normal) * (c.a == id ? 1.0 : -1.0);
                 };
                 for (std::size_t k = 0; k < found_.size(); ++k) {
-                    const WorldContact<D>& other = found_[k].told;
-                    const bool shares = k != i && (other.a == feeler || other.b == feeler);
-                    if (shares && told[k] &&
-                        covers_contact<D>(normal(other), static_cast<double>(other.contact.depth), normal(ghost.told),
-                                          static_cast<double>(ghost.told.contact.depth), size))
-                        told[i] = false;
+                    const WorldContact<D>& other = found_[k].result;
+                    const bool shares = k != i && (other.a == item || other.b == item);
+                    if (shares && reported[k] &&
+                        covers_contact<D>(normal(other), static_cast<double>(other.contact.depth), normal(ghost.result),
+                                          static_cast<double>(ghost.result.contact.depth), size))
+                        reported[i] = false;
                 }
             }
         }
         for (std::size_t i = 0; i < found_.size(); ++i) {
-            if (told[i]) contacts.push_back(found_[i].told);
-            ghosts += found_[i].felt ? 0 : 1;
-            left_out += told[i] ? 0 : 1;
+            if (reported[i]) contacts.push_back(found_[i].result);
+            ghosts += found_[i].surface_normal ? 0 : 1;
+            covered += reported[i] ? 0 : 1;
         }
     }
 
@@ -283,13 +283,13 @@ private:
     }
 
     std::map<Id, Item> items_;
-    std::vector<IdPair> touching_, touched_, passed_;
-    std::map<IdPair, Hit<D>> met_;
-    struct Found {
-        WorldContact<D> told;
-        SurfaceNormalFlags felt;
+    std::vector<IdPair> touching_, last_touching_, passed_;
+    std::map<IdPair, Hit<D>> impacts_;
+    struct FoundContact {
+        WorldContact<D> result;
+        SurfaceNormalFlags surface_normal;
     };
-    std::vector<Found> found_;
+    std::vector<FoundContact> found_;
 };
 
 }  // namespace abut::test

@@ -1,5 +1,5 @@
-// Floors of separate items: nothing that slides over them is pushed sideways at a seam, and real walls, steps and ends
-// are felt.
+// Ghost collisions on floors of separate items: no sliding item gets a sideways contact normal at an internal edge, and
+// walls, steps and ends of the floor do give one.
 
 #include "../oracle/random.hpp"
 #include "bits.hpp"
@@ -28,7 +28,7 @@ namespace {
 using oracle::Random;
 
 constexpr std::uint64_t seed = 20261122;
-constexpr int side = 16;  // floors go from -8 to 8 along each axis; their surface is at height 0
+constexpr int side = 16;  // floors extend from -8 to 8 along each axis; their surface is at height 0
 
 float about(float number, Random* random) {
     return random != nullptr ? number + random->uniform_float(-1e-6, 1e-6) : number;
@@ -37,7 +37,7 @@ float about(float number, Random* random) {
 template <int D>
 using AddFloor = std::function<void(World<D>&, Random*, const Pose<D>&)>;
 
-/// Every piece is an item of its own.
+/// A floor of which every piece is an item.
 void add_boxes(World3& world, Random* random, const Pose3& pose) {
     for (int z = -8; z < 8; ++z)
         for (int x = -8; x < 8; ++x)
@@ -57,7 +57,7 @@ void add_triangles(World3& world, Random* random, const Pose3& pose) {
             world.add(Triangle3{corner(1, 0), corner(0, 1), corner(1, 1)}, {.pose = pose, .fixed = true});
         }
 }
-/// Every piece is a mesh of two triangles.
+/// A floor of which every piece is a mesh of two triangles.
 void add_meshes(World3& world, Random* random, const Pose3& pose) {
     for (int z = -8; z < 8; ++z)
         for (int x = -8; x < 8; ++x) {
@@ -89,7 +89,7 @@ struct Seen {
     int frames = 0, contacts = 0, alone_aside = 0;
 };
 
-/// Slides the shape, whose lowest point is `reach` below it, through the middle of the floor. `depth` in it.
+/// Slides a shape through the middle of the floor, `depth` deep. Its lowest point is `reach` below its position.
 template <int D, class S>
 void slide(const AddFloor<D>& add_floor, const S& shape, float reach, bool turned, Random* noise, Seen& seen) {
     Random random(seed);
@@ -106,17 +106,17 @@ void slide(const AddFloor<D>& add_floor, const S& shape, float reach, bool turne
     for (int run = 0; run < 24; ++run) {
         const float speed = std::array{0.003f, 0.02f, 0.11f, 0.7f}[static_cast<std::size_t>(run % 4)];
         const double depth = std::array{1e-4, 0.01, 0.04}[static_cast<std::size_t>(run % 3)];
-        Vec<D> way(0.0f), place(0.0f);
-        way[0] = run % 2 == 0 ? 1.0f : -1.0f;
+        Vec<D> direction(0.0f), place(0.0f);
+        direction[0] = run % 2 == 0 ? 1.0f : -1.0f;
         if constexpr (D == 3) {
             const double angle = random.chance(0.3) ? 0.7853981633974483 * random.below(8) : random.uniform(0, 6.28);
-            way = {static_cast<float>(std::cos(angle)), 0, static_cast<float>(std::sin(angle))};
+            direction = {static_cast<float>(std::cos(angle)), 0, static_cast<float>(std::sin(angle))};
             place[2] = random.chance(0.5) ? 0.0f : random.uniform_float(-1, 1);
         }
-        // About a seam, slowly, or over many of them.
-        place -= way * std::min(20 * speed, 5.0f);
+        // The shape moves slowly around one internal edge, or fast over many.
+        place -= direction * std::min(20 * speed, 5.0f);
         place[1] = reach - static_cast<float>(depth);
-        for (int frame = 0; frame < 40; ++frame, place += way * speed) {
+        for (int frame = 0; frame < 40; ++frame, place += direction * speed) {
             if (std::abs(place[0]) > 6 || std::abs(place[D - 1]) > 6) break;
             Pose<D> there{to_float(out.point(DVec<D>(place))), pose.rotation};
             world.move(id, there);
@@ -124,14 +124,14 @@ void slide(const AddFloor<D>& add_floor, const S& shape, float reach, bool turne
             ++seen.frames;
             double deepest = -1;
             for (const WorldContact<D>& contact : world.contacts()) {
-                const DVec<D> normal(contact.contact.normal);  // into the floor, or out of it
+                const DVec<D> normal(contact.contact.normal);  // it points into the floor or out of it
                 const double level = dot(normal, up) * (contact.b == id ? 1 : -1);
                 seen.most_aside = std::max(seen.most_aside, level < 0 ? 1 : length(normal - up * dot(normal, up)));
                 deepest = std::max(deepest, static_cast<double>(contact.contact.depth));
                 ++seen.contacts;
             }
             seen.most_wrong_depth = std::max(seen.most_wrong_depth, std::abs(deepest - depth));
-            // What each pair would say by itself.
+            // The contact of each pair alone, without the neighbours.
             bool aside = false;
             world.each_in_box(grown(bounds(world.shape(id)), 1e-3f), [&](Id other, const View<D>& piece) {
                 const Contact<D> alone = other != id ? contact(piece, world.shape(id)) : Contact<D>();
@@ -170,23 +170,23 @@ void with_shapes_in_space(F&& expect) {
     expect("cylinder", Cylinder{{0, -0.3f, 0}, {0, 0.3f, 0}, 0.4f}, 0.3f, true);
 }
 
-TEST(Seams, OfBoxesInSpaceAreNotFelt) {
+TEST(Seams, OfBoxesInSpaceGiveNoContact) {
     with_shapes_in_space([](const char* name, const auto& shape, float reach, bool ghosts) {
         expect_no_catch<3>(name, static_cast<void (*)(World3&, Random*, const Pose3&)>(add_boxes), shape, reach,
                            ghosts);
     });
 }
-TEST(Seams, OfTrianglesAreNotFelt) {
+TEST(Seams, OfTrianglesGiveNoContact) {
     with_shapes_in_space([](const char* name, const auto& shape, float reach, bool ghosts) {
         expect_no_catch<3>(name, add_triangles, shape, reach, ghosts);
     });
 }
-TEST(Seams, OfMeshesAreNotFelt) {
+TEST(Seams, OfMeshesGiveNoContact) {
     with_shapes_in_space([](const char* name, const auto& shape, float reach, bool ghosts) {
         expect_no_catch<3>(name, add_meshes, shape, reach, ghosts);
     });
 }
-TEST(Seams, OfThePlaneAreNotFelt) {
+TEST(Seams, OfThePlaneGiveNoContact) {
     for (const AddFloor<2>& floor : {AddFloor<2>(static_cast<void (*)(World2&, Random*, const Pose2&)>(add_boxes)),
                                      AddFloor<2>(add_segments), AddFloor<2>(add_tile_maps)}) {
         expect_no_catch<2>("box", floor, Box2{{0, 0}, {0.4f, 0.3f}}, 0.3f, true);
@@ -196,7 +196,7 @@ TEST(Seams, OfThePlaneAreNotFelt) {
     }
 }
 
-/// The normals of all contacts of an item, out of it.
+/// The normals of all contacts of an item, away from it.
 std::vector<Vec2> normals_of(const World2& world, Id id) {
     std::vector<Vec2> result;
     for (const WorldContact<2>& contact : world.contacts()) {
@@ -210,7 +210,7 @@ int count_near(const std::vector<Vec2>& normals, const Vec2& normal) {
                                           [&](const Vec2& each) { return glm::dot(each, normal) > 0.9999f; }));
 }
 
-TEST(Seams, WallsStepsAndEndsAreFelt) {
+TEST(Seams, WallsStepsAndEndsGiveContacts) {
     for (const float depth : {1e-4f, 0.01f, 0.05f}) {
         SCOPED_TRACE(depth);
         World2 world;
@@ -218,7 +218,7 @@ TEST(Seams, WallsStepsAndEndsAreFelt) {
         for (int y = 0; y < 4; ++y)
             world.add(Box2{{4.5f, static_cast<float>(y) + 0.5f}, {0.5f, 0.5f}}, {.fixed = true});
         const Id low = world.add(Box2{{0.5f, -0.48f}, {0.5f, 0.5f}}, {.fixed = true});
-        // In the corner of wall and floor; at a step of a fiftieth; over the end of the floor.
+        // The corner of wall and floor; a step of 1/50; the end of the floor.
         const Id wedged = world.add(Box2{{3.5f + depth, 1 - depth}, {0.5f, 1}}),
                  stepping = world.add(Box2{{-0.5f + 0.001f, 0.3f - 0.001f}, {0.5f, 0.3f}}),
                  hanging = world.add(Circle{{-8.3f, 0.4f - depth}, 0.5f});
@@ -235,13 +235,13 @@ TEST(Seams, WallsStepsAndEndsAreFelt) {
     }
 }
 
-/// Crates in a stack, and beside one another on a floor of boxes: each is held by all that it touches.
+/// Crates in a stack, and in a row on a floor of boxes, have contacts with all that supports them.
 TEST(Seams, StacksAndRowsHold) {
     for (const float depth : {1e-5f, 1e-3f, 0.01f}) {
         SCOPED_TRACE(depth);
         World2 world;
         add_boxes(world, nullptr, Pose2{});
-        // A row of four, three upon them over their seams, and one on top; each in its neighbours by `depth`.
+        // A row of four, three above their seams, and one on top; each overlaps its neighbours by `depth`.
         std::vector<std::vector<Id>> rows;
         const float step = 0.8f - depth;
         const auto add_row = [&](int count, float from, float height) {
@@ -281,8 +281,8 @@ TEST(Seams, StacksAndRowsHold) {
     }
 }
 
-/// What moves is a surface as well: planks that lie side by side, and what lies on them.
-TEST(Seams, OfWhatMovesAreNotFelt) {
+/// Moving items form a surface as well: planks side by side, with a box on them.
+TEST(Seams, OfMovingItemsGiveNoContact) {
     World2 world;
     std::vector<Id> planks;
     for (int i = 0; i < 6; ++i) planks.push_back(world.add(Box2{{static_cast<float>(i) + 0.5f, -0.2f}, {0.5f, 0.2f}}));
@@ -296,7 +296,7 @@ TEST(Seams, OfWhatMovesAreNotFelt) {
     }
 }
 
-/// A ghost has events, and comes back as a contact when what covered it is gone, though neither of the two has moved.
+/// A ghost has events, and becomes a contact when the item that covered it is removed, although the pair rests.
 TEST(Seams, AreRealOnceTheNeighbourIsGone) {
     for (const int how : {0, 1, 2, 3}) {
         SCOPED_TRACE(how);
@@ -327,7 +327,7 @@ TEST(Seams, AreRealOnceTheNeighbourIsGone) {
     }
 }
 
-TEST(Seams, OfWhatDoesNotPairAreFelt) {
+TEST(Seams, OfItemsThatDoNotPairGiveContacts) {
     for (const bool sensor : {false, true}) {
         World2 world;
         const Id left = world.add(Box2{{-0.5f, -0.5f}, {0.5f, 0.5f}}, {.fixed = true});
@@ -341,8 +341,8 @@ TEST(Seams, OfWhatDoesNotPairAreFelt) {
     }
 }
 
-/// One that has so many others near it that they are looked up another way.
-TEST(Seams, OfManyPiecesAreNotFelt) {
+/// An item with so many neighbours that they are found through the broad phases.
+TEST(Seams, OfManyPiecesGiveNoContact) {
     World2 world;
     constexpr int count = 300;
     for (int i = 0; i < count; ++i)

@@ -1,6 +1,6 @@
 #pragma once
 
-// A random game: a world and the reference world beside it, to which the same things happen.
+// A random game, played on a world and on the reference world alike.
 
 #include "random_shapes.hpp"
 #include "reference_world.hpp"
@@ -12,14 +12,15 @@ namespace abut::test {
 template <int D>
 class Simulation {
 public:
-    /// On a lattice all is of unit size at whole coordinates, so that much touches exactly and many answers tie.
+    /// On a lattice, all shapes have unit size and integer coordinates, so that many touch exactly and many answers
+    /// tie.
     Simulation(std::uint64_t seed, int items, bool lattice = false, const WorldOptions& options = {},
                double continuous = 0)
         : world(options), random_(seed), lattice_(lattice), continuous_(continuous) {
         for (int i = 0; i < items; ++i) add();
     }
 
-    /// What a frame of a game may do to its world, in any order.
+    /// Changes the world at random, as a frame of a game may.
     void change() {
         const std::vector<Id> ids = all_ids();
         for (const Id id : ids) {
@@ -41,7 +42,7 @@ public:
         if (reference.items().size() < ids.size() || random_.chance(0.1)) add();
     }
 
-    /// A filter of any kind, most often the one that asks for all. Valid until the next one.
+    /// A random filter, most often the default one. Valid until the next call.
     Filter filter() {
         Filter result;
         if (random_.chance(0.3)) result.layers = random_bits();
@@ -114,7 +115,7 @@ public:
                 return reference.set_sensor(id, sensor);
             }
             case 2: {
-                // One continuous item alone makes the broad phases look at all ways.
+                // A single continuous item makes the broad phases use all swept AABBs.
                 const bool continuous = continuous_ > 0 && random_.chance(continuous_);
                 world.set_continuous(id, continuous);
                 return reference.set_continuous(id, continuous);
@@ -149,13 +150,13 @@ public:
 
     oracle::Random& random() { return random_; }
 
-    static constexpr double extent = D == 2 ? 5 : 2.5;  ///< half the side of the square or cube that it happens in
+    static constexpr double extent = D == 2 ? 5 : 2.5;  ///< half the side of the square or cube of the game
 
     World<D> world;
     ReferenceWorld<D> reference;
-    bool with_all = false;  ///< sets options, too, and ignores several
-    int reused = 0;         ///< items that got a slot another had before
-    bool fresh_ids = true;  ///< no id was given twice
+    bool with_all = false;  ///< whether the game also sets options and ignores several ids
+    int reused = 0;         ///< the number of items that reused a slot
+    bool fresh_ids = true;  ///< whether no id was given twice
 
 private:
     static Vec<D> snapped(const Vec<D>& v) {
@@ -167,12 +168,12 @@ private:
         if (!lattice_) return moved_a_little(random_, pose, 0.15);
         return {pose.position + snapped(to_float(random_.in_cube<D>() + DVec<D>(0.5)))};
     }
-    /// Three layers, and at least one of them.
+    /// A random non-empty set of three layers.
     std::uint32_t random_bits() { return 1 + random_.below(7); }
 
     oracle::Random random_;
     bool lattice_;
-    double continuous_;  ///< the part of the items that are
+    double continuous_;  ///< the share of continuous items
     std::set<Id> given_;
     std::vector<Id> ignored_;
 };

@@ -1,5 +1,5 @@
-// Random games against the plain reference: whatever happens to a world, its events, contacts and answers are those of
-// looking at every pair.
+// Random games against the reference implementation: the events, contacts and answers of a world are always those of
+// testing every pair.
 
 #include "simulation.hpp"
 
@@ -13,9 +13,9 @@
 namespace abut::test {
 namespace {
 
-/// How often each answer came out interesting: a test of questions that all say no proves nothing.
+/// Counts the positive answers of each query: a test in which all answers are negative proves nothing.
 struct Seen {
-    int passed = 0, on_the_way = 0, ghosts = 0, left_out = 0;
+    int passed = 0, on_the_way = 0, ghosts = 0, covered = 0;
     int touching = 0, several_touching = 0, nearest = 0, all_nearest = 0;
     int began = 0, stayed = 0, ended = 0, contacts = 0, untested = 0;
     int hits = 0, several_hits = 0, misses = 0, gaps = 0, depths = 0, overlapping = 0, containing = 0, stopped = 0;
@@ -25,8 +25,8 @@ std::ostream& operator<<(std::ostream& out, const Seen& seen) {
     return out << "began " << seen.began << ", stayed " << seen.stayed << ", ended " << seen.ended << ", contacts "
                << seen.contacts << ", untested " << seen.untested << "; hits " << seen.hits << ", several "
                << seen.several_hits << ", misses " << seen.misses << "; gaps " << seen.gaps << ", depths "
-               << seen.depths << "; ghosts " << seen.ghosts << ", left out " << seen.left_out << "; passed "
-               << seen.passed << ", met on the way " << seen.on_the_way << "; overlapping " << seen.overlapping
+               << seen.depths << "; ghosts " << seen.ghosts << ", left out " << seen.covered << "; passed "
+               << seen.passed << ", impacts " << seen.on_the_way << "; overlapping " << seen.overlapping
                << ", containing " << seen.containing << ", stopped " << seen.stopped << "; touching " << seen.touching
                << ", several " << seen.several_touching << "; nearest " << seen.nearest << ", all there are "
                << seen.all_nearest;
@@ -49,19 +49,19 @@ void check_rays(Simulation<D>& game, Seen& seen) {
     seen.several_hits += expected.size() > 1 ? 1 : 0;
 }
 
-/// The visitor that stops after some gets that many, each once, all of them right.
+/// Checks a visitor that stops after `limit` calls: it gets that many distinct and correct items.
 template <int D, class S>
 void check_early_stop(const Simulation<D>& game, const S& shape, const Filter& filter, const std::vector<Id>& all,
-                      std::size_t most, Seen& seen) {
+                      std::size_t limit, Seen& seen) {
     std::vector<Id> visited;
     game.world.each_overlapping(
         shape,
         [&](Id id) {
             visited.push_back(id);
-            return visited.size() < most;
+            return visited.size() < limit;
         },
         filter);
-    ASSERT_EQ(visited.size(), std::min(most, all.size()));
+    ASSERT_EQ(visited.size(), std::min(limit, all.size()));
     std::sort(visited.begin(), visited.end());
     ASSERT_TRUE(std::includes(all.begin(), all.end(), visited.begin(), visited.end()));
     ASSERT_EQ(std::adjacent_find(visited.begin(), visited.end()), visited.end());
@@ -75,17 +75,17 @@ void check_shapes(Simulation<D>& game, Seen& seen) {
     const Pose<D> pose = game.any_pose();
     game.with_any_shape([&](const auto& shape) {
         const auto placed = at(shape, pose);
-        const View<D> asked = view(placed);
-        const auto nearest = game.reference.closest(asked, filter);
+        const View<D> query = view(placed);
+        const auto nearest = game.reference.closest(query, filter);
         ASSERT_EQ(Bits(game.world.closest(placed, filter)), Bits(nearest));
         if (nearest) ++(nearest->closest.distance > 0 ? seen.gaps : seen.depths);
 
         const std::size_t k = random.below(random.chance(0.7) ? 12 : 200);
-        const auto nearest_k = game.reference.k_nearest(asked, k, filter);
+        const auto nearest_k = game.reference.k_nearest(query, k, filter);
         ASSERT_EQ(Bits(game.world.k_nearest(placed, k, filter)), Bits(nearest_k));
         ++(nearest_k.size() < k ? seen.all_nearest : seen.nearest);
 
-        const std::vector<Id> all = game.reference.overlapping(asked, filter);
+        const std::vector<Id> all = game.reference.overlapping(query, filter);
         ASSERT_EQ(game.world.overlapping(placed, filter), all);
         seen.overlapping += all.empty() ? 0 : 1;
         check_early_stop(game, placed, filter, all, 1 + random.below(3), seen);
@@ -132,7 +132,7 @@ void check_items(const Simulation<D>& game) {
     ASSERT_EQ(all, game.all_ids());
 }
 
-/// Whether anything has changed since the last update or not.
+/// Checks the queries, which must not depend on whether anything changed since the last update.
 template <int D>
 void check_touching(const Simulation<D>& game, Seen& seen) {
     for (const Id id : game.all_ids()) {
@@ -149,7 +149,7 @@ void check_touching(const Simulation<D>& game, Seen& seen) {
     }
 }
 
-/// Of all pairs that touch, or that have begun to, those that are among the lists have what these hold.
+/// Checks that `contact` and `impact` of every touching or begun pair return the entries of the lists.
 template <int D>
 void check_pairs(const World<D>& world, const Events& events) {
     std::size_t contacts = 0, impacts = 0;
@@ -165,10 +165,10 @@ void check_pairs(const World<D>& world, const Events& events) {
             }
             contacts += contact ? 1 : 0;
             const std::optional<Hit<D>> impact = world.impact(pair);
-            const auto met = std::find_if(world.impacts().begin(), world.impacts().end(), is_of_pair);
-            ASSERT_EQ(impact.has_value(), met != world.impacts().end());
+            const auto found = std::find_if(world.impacts().begin(), world.impacts().end(), is_of_pair);
+            ASSERT_EQ(impact.has_value(), found != world.impacts().end());
             if (impact) {
-                ASSERT_EQ(Bits(*impact), Bits(met->hit));
+                ASSERT_EQ(Bits(*impact), Bits(found->hit));
             }
             impacts += impact ? 1 : 0;
         }
@@ -192,9 +192,12 @@ void check_update(Simulation<D>& game, Seen& seen) {
     ASSERT_EQ(Bits(game.world.contacts()), Bits(game.reference.contacts));
     ASSERT_EQ(Bits(game.world.impacts()), Bits(game.reference.impacts));
     ASSERT_NO_FATAL_FAILURE(check_pairs(game.world, events));
-    const UpdateCounts counts = game.world.counts(), least = game.reference.least, most = game.reference.most;
-    ASSERT_TRUE(least.near <= counts.near && counts.near <= most.near) << least.near << " " << counts.near;
-    ASSERT_TRUE(least.tested <= counts.tested && counts.tested <= most.tested) << least.tested << " " << counts.tested;
+    const UpdateCounts counts = game.world.counts(), min_counts = game.reference.min_counts,
+                       max_counts = game.reference.max_counts;
+    ASSERT_TRUE(min_counts.near <= counts.near && counts.near <= max_counts.near)
+        << min_counts.near << " " << counts.near;
+    ASSERT_TRUE(min_counts.tested <= counts.tested && counts.tested <= max_counts.tested)
+        << min_counts.tested << " " << counts.tested;
     seen.began += static_cast<int>(events.began.size());
     seen.passed += static_cast<int>(game.reference.passed);
     for (const float fraction : events.fractions) seen.on_the_way += fraction < 1 ? 1 : 0;
@@ -204,7 +207,7 @@ void check_update(Simulation<D>& game, Seen& seen) {
     seen.untested += static_cast<int>(game.world.counts().near - game.world.counts().tested);
 }
 
-/// Plays one game, and adds what it saw.
+/// Plays one game and adds its counts.
 template <int D>
 void play(std::uint64_t seed, int items, int frames, bool lattice, Seen& seen, double continuous = 0) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -223,26 +226,26 @@ void play(std::uint64_t seed, int items, int frames, bool lattice, Seen& seen, d
     EXPECT_TRUE(game.fresh_ids);
     EXPECT_GT(game.reused, frames / 10);
     seen.ghosts += static_cast<int>(game.reference.ghosts);
-    seen.left_out += static_cast<int>(game.reference.left_out);
+    seen.covered += static_cast<int>(game.reference.covered);
     std::cout << "seed " << seed << ", so far: " << seen << "\n";
 }
 
-/// A crowd, a few that meet now and then, and for a short while so many that some have more others near them than are
-/// looked at one by one.
+/// Plays a dense game, a sparse one, and a short one that is so dense that some items have more neighbours than are
+/// tested one by one.
 template <int D>
 void play_all(std::uint64_t seed, bool lattice) {
     constexpr int frames = 150;
     Seen seen;
-    for (int game = 0; game < oracle::amount(1); ++game) {
+    for (int game = 0; game < oracle::case_count(1); ++game) {
         play<D>(seed++, 40, frames, lattice, seen);
         play<D>(seed++, 12, frames, lattice, seen);
         play<D>(seed++, 100, 12, lattice, seen);
     }
     for (const int count :
          {seen.began, seen.stayed, seen.ended, seen.contacts, seen.untested, seen.hits, seen.several_hits, seen.misses,
-          seen.gaps, seen.depths, seen.ghosts, seen.left_out, seen.overlapping, seen.containing, seen.stopped,
+          seen.gaps, seen.depths, seen.ghosts, seen.covered, seen.overlapping, seen.containing, seen.stopped,
           seen.touching, seen.several_touching, seen.nearest, 3 * seen.all_nearest})
-        EXPECT_GT(count, oracle::amount(frames / 2));
+        EXPECT_GT(count, oracle::case_count(frames / 2));
 }
 
 TEST(Simulation, Plane) {
@@ -263,12 +266,12 @@ void play_continuous(std::uint64_t seed) {
     constexpr int frames = 100;
     for (const bool lattice : {false, true}) {
         Seen seen;
-        for (int game = 0; game < oracle::amount(1); ++game) {
+        for (int game = 0; game < oracle::case_count(1); ++game) {
             play<D>(seed++, 30, frames, lattice, seen, 0.3);
             play<D>(seed++, 10, frames, lattice, seen, 1);
         }
         for (const int count : {seen.began, seen.ended, seen.passed, seen.on_the_way - seen.passed})
-            EXPECT_GT(count, oracle::amount(frames / 6));
+            EXPECT_GT(count, oracle::case_count(frames / 6));
     }
 }
 

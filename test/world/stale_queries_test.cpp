@@ -1,5 +1,5 @@
-// What queries cost while items wait for the next update: no more than twice what they cost after it. Work is counted
-// by a shape that counts how often it is looked at.
+// The cost of queries before the next update is at most twice the cost after it. A shape counts the calls of its
+// support function as the measure of cost.
 
 #include "bits.hpp"
 #include "simulation.hpp"
@@ -14,9 +14,9 @@
 namespace abut::test {
 namespace {
 
-std::atomic<std::size_t> looks = 0;
+std::atomic<std::size_t> support_calls = 0;
 
-/// A ball that is known by its support alone.
+/// A ball with a support function alone, which counts its calls.
 template <int D>
 struct CountingBall {
     float radius = 0.25f;
@@ -29,7 +29,7 @@ Aabb<D> bounds(const CountingBall<D>& shape) {
 
 template <int D>
 Vec<D> support(const CountingBall<D>& shape, const Vec<D>& direction) {
-    ++looks;
+    ++support_calls;
     return to_float(normalized(DVec<D>(direction)) * static_cast<double>(shape.radius));
 }
 
@@ -45,7 +45,7 @@ public:
     }
     void move(Id id) {
         Pose<D> pose = world.pose(id);
-        // Most go a step, some somewhere else.
+        // Most balls move a step, some to another place.
         pose = random.chance(0.9) ? Pose<D>{pose.position + 0.2f * to_float(random.in_cube<D>())} : any_pose();
         world.move(id, pose);
     }
@@ -59,14 +59,14 @@ public:
         world.overlapping(Ball<D>{to, 0.5f});
         world.containing(to);
     }
-    /// Looks a query, with `before` done before each.
-    double looks_a_query(const std::function<void(std::size_t)>& before) {
-        looks = 0;
+    /// The mean number of support calls of a query, with `before` run before each.
+    double calls_per_query(const std::function<void(std::size_t)>& before) {
+        support_calls = 0;
         for (std::size_t i = 0; i < count; ++i) {
             before(i);
             query();
         }
-        return static_cast<double>(looks) / static_cast<double>(count);
+        return static_cast<double>(support_calls) / static_cast<double>(count);
     }
 
     static constexpr std::size_t count = 300;
@@ -76,17 +76,17 @@ public:
     std::vector<Id> ids;
 };
 
-// 300 balls that had moved were looked at 8833 times by seven queries in 2D and 11722 times in 3D, against 520 and 452
-// times after an update.
+// Regression: seven queries called the supports of 300 moved balls 8833 times in 2D and 11722 times in 3D, against 520
+// and 452 times after an update.
 template <int D>
 void expect_work_of_settled_queries(const WorldOptions& options) {
     Crowd<D> crowd(options);
     crowd.add_all();
     crowd.world.update();
-    const double settled = crowd.looks_a_query([](std::size_t) {});
+    const double settled = crowd.calls_per_query([](std::size_t) {});
     EXPECT_GT(settled, 1);
     const auto expect = [&](const std::string& what, const std::function<void(std::size_t)>& before) {
-        EXPECT_LT(crowd.looks_a_query(before), 2 * settled) << what;
+        EXPECT_LT(crowd.calls_per_query(before), 2 * settled) << what;
     };
     for (const Id id : crowd.ids) crowd.move(id);
     expect("all moved", [](std::size_t) {});
@@ -127,9 +127,9 @@ Bits answers(const World<D>& world, std::uint64_t seed) {
     return result;
 }
 
-/// Several threads ask first after all has moved; one of them does the work.
+/// Several threads send the first query after all items moved; one of them does the deferred work.
 template <int D>
-void ask_first_from_many_threads(BroadPhaseKind kind) {
+void query_first_from_many_threads(BroadPhaseKind kind) {
     Crowd<D> crowd({.broad_phase = kind}), twin({.broad_phase = kind});
     constexpr std::uint64_t threads = 4;
     for (int round = 0; round < 20; ++round) {
@@ -152,8 +152,8 @@ void ask_first_from_many_threads(BroadPhaseKind kind) {
 
 TEST(StaleQueries, AnswerAllThreadsAlike) {
     for (const BroadPhaseKind kind : {BroadPhaseKind::bvh, BroadPhaseKind::grid}) {
-        ask_first_from_many_threads<2>(kind);
-        ask_first_from_many_threads<3>(kind);
+        query_first_from_many_threads<2>(kind);
+        query_first_from_many_threads<3>(kind);
     }
 }
 
@@ -167,7 +167,7 @@ void put_update(World<D>& world, Bits& result) {
     result.put(world.contacts());
 }
 
-/// Two games of the same seed, of which one refreshes now and then.
+/// Plays two games of one seed, one of which calls refresh() sometimes.
 template <int D>
 void expect_same_with_refresh(std::uint64_t seed, double continuous) {
     SCOPED_TRACE("seed " + std::to_string(seed));

@@ -1,7 +1,7 @@
-// Sweeps through a world: examples worked out by hand, and every item asked by itself.
+// Sweeps through a world: examples with known answers, and comparison with a sweep of every single item.
 
 #include "../oracle/pair.hpp"
-#include "before_and_after.hpp"
+#include "before_and_after_update.hpp"
 #include "bits.hpp"
 #include "simulation.hpp"
 #include <abut/math/rigid_path.hpp>
@@ -25,7 +25,7 @@ Pose2 place(float x, float y = 0) {
     return {{x, y}};
 }
 
-TEST(WorldSweep, HitsTheFirstOnItsWay) {
+TEST(WorldSweep, HitsTheFirstOnItsPath) {
     World2 world;
     world.add(unit, {.pose = place(8)});
     const Id near = world.add(unit, {.pose = place(-4)});
@@ -44,7 +44,7 @@ TEST(WorldSweep, HitsTheFirstOnItsWay) {
     });
 }
 
-TEST(WorldSweep, OfEquallyEarlyTheLowestIdAnswers) {
+TEST(WorldSweep, LowestIdWinsAmongEquallyEarly) {
     for (const BroadPhaseKind kind : all_kinds) {
         World2 world({.broad_phase = kind});
         std::vector<Id> ids;
@@ -121,7 +121,7 @@ TEST(WorldSweep, NothingIsTooThinOrTooFast) {
         World3 world({.broad_phase = kind});
         oracle::Random random(31);
         const Id wall = world.add(Box3{{0, 0, 0}, {0.5e-3f, 50, 50}}, {.fixed = true});
-        for (int i = 0; i < 50; ++i)  // beside the way
+        for (int i = 0; i < 50; ++i)  // beside the path
             world.add(Sphere{{0, 0, 0}, 1}, {.pose = {to_float(random.in_cube<3>() * 40.0) + Vec3(0, 0, 60)}});
         world.update();
         for (int i = 0; i < 200; ++i) {
@@ -141,7 +141,7 @@ TEST(WorldSweep, NothingIsTooThinOrTooFast) {
     }
 }
 
-/// All that is asked of all items, one by one.
+/// The first hit of a sweep of every single item.
 template <int D, class SweepAt>
 std::optional<WorldHit<D>> first_of_all(const ReferenceWorld<D>& reference, const View<D>& shape, const Filter& filter,
                                         SweepAt&& sweep_at) {
@@ -150,7 +150,7 @@ std::optional<WorldHit<D>> first_of_all(const ReferenceWorld<D>& reference, cons
         const View<D> view = item.view();
         const bool solids =
             std::holds_alternative<HalfSpaceView<D>>(shape) && std::holds_alternative<HalfSpaceView<D>>(view);
-        if (solids || !ReferenceWorld<D>::asked(id, item, filter)) continue;
+        if (solids || !ReferenceWorld<D>::passes(id, item, filter)) continue;
         const std::optional<Hit<D>> hit = sweep_at(item);
         if (hit && (!first || hit->fraction < first->hit.fraction)) first = WorldHit<D>{id, *hit};
     }
@@ -161,8 +161,8 @@ struct Seen {
     int hits = 0, misses = 0, at_once = 0;
 };
 
-/// Where several items meet, the normal is that of all of them together: then it faces the mover, and that is all that
-/// is expected of it here.
+/// Compares two hits. If several items touch at the hit, the normal is that of their union, and only its side is
+/// compared: it faces the mover.
 template <int D>
 void expect_same_but_for_seams(const std::optional<WorldHit<D>>& found, std::optional<WorldHit<D>> expected,
                                const ReferenceWorld<D>& reference, const View<D>& mover, const DVec<D>& motion) {
@@ -170,7 +170,7 @@ void expect_same_but_for_seams(const std::optional<WorldHit<D>>& found, std::opt
         int near = 0;
         for (const auto& [id, item] : reference.items())
             near += closest(item.view(), found->hit.point).distance < 3 * 1e-3 * size(mover) ? 1 : 0;
-        // What one item has felt of itself is rounded when it is felt once more.
+        // The normal of a single composite is filtered twice, and rounded each time.
         const double off = length(DVec<D>(found->hit.normal) - DVec<D>(expected->hit.normal));
         EXPECT_TRUE(near > 1 || off < 1e-6) << off;
         EXPECT_NEAR(length(DVec<D>(found->hit.normal)), 1, 1e-6);
@@ -194,12 +194,12 @@ void check_sweeps(Simulation<D>& game, Seen& seen) {
     };
     game.with_any_shape([&](const auto& shape) {
         const auto placed = at(shape, from);
-        const View<D> asked = view(placed), own = view(shape);
+        const View<D> query = view(placed), own = view(shape);
         using Item = typename ReferenceWorld<D>::Item;
-        const auto straight = first_of_all<D>(game.reference, asked, filter, [&](const Item& item) {
-            return sweep(asked, motion, item.view(), Vec<D>(0.0f));
+        const auto straight = first_of_all<D>(game.reference, query, filter, [&](const Item& item) {
+            return sweep(query, motion, item.view(), Vec<D>(0.0f));
         });
-        expect_same_but_for_seams<D>(game.world.sweep(placed, motion, filter), straight, game.reference, asked,
+        expect_same_but_for_seams<D>(game.world.sweep(placed, motion, filter), straight, game.reference, query,
                                      DVec<D>(motion));
         ASSERT_FALSE(testing::Test::HasFatalFailure());
         note(straight);
@@ -208,10 +208,10 @@ void check_sweeps(Simulation<D>& game, Seen& seen) {
         });
         const auto expect_same_on = [&](const std::optional<WorldHit<D>>& found,
                                         const std::optional<WorldHit<D>>& expected, const RigidPath<D>& path) {
-            const DVec<D> way = found
-                                    ? path.velocity(static_cast<double>(found->hit.fraction), DVec<D>(found->hit.point))
-                                    : DVec<D>(0.0);
-            expect_same_but_for_seams<D>(found, expected, game.reference, own, way);
+            const DVec<D> direction =
+                found ? path.velocity(static_cast<double>(found->hit.fraction), DVec<D>(found->hit.point))
+                      : DVec<D>(0.0);
+            expect_same_but_for_seams<D>(found, expected, game.reference, own, direction);
         };
         expect_same_on(game.world.sweep(shape, turning, filter), spun, rigid_path(turning));
         ASSERT_FALSE(testing::Test::HasFatalFailure());
@@ -231,7 +231,7 @@ void play(std::uint64_t seed, bool lattice) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Simulation<D> game(seed, 40, lattice);
     Seen seen;
-    for (int frame = 0; frame < oracle::amount(40); ++frame) {
+    for (int frame = 0; frame < oracle::case_count(40); ++frame) {
         SCOPED_TRACE("frame " + std::to_string(frame));
         for (int i = 0; i < 3; ++i) ASSERT_NO_FATAL_FAILURE(check_sweeps(game, seen));
         game.world.update();
@@ -257,7 +257,7 @@ TEST(WorldSweep, IsTheFirstOfAllItemsInSpace) {
 template <int D>
 Bits record(BroadPhaseKind kind) {
     Bits said;
-    World<D> world({.pretest = Pretest::never, .broad_phase = kind});
+    World<D> world({.ball_early_out = BallEarlyOut::never, .broad_phase = kind});
     oracle::Random random(51);
     constexpr double extent = D == 2 ? 25 : 10;
     int hits = 0;

@@ -1,4 +1,4 @@
-// Questions from many threads at once, while some items wait for the next update: each gets the answer it gets alone.
+// Queries from many threads at once, before an update: each has the same answer as on one thread.
 
 #include "bits.hpp"
 #include "simulation.hpp"
@@ -30,7 +30,7 @@ Bits answers(const World<D>& world, std::uint64_t seed) {
 }
 
 template <int D>
-void ask_from_many_threads() {
+void query_from_many_threads() {
     Simulation<D> game(5, 40);
     game.world.update();
     game.change();
@@ -45,12 +45,12 @@ void ask_from_many_threads() {
     EXPECT_EQ(found, expected);
 }
 
-TEST(Threads, ManyMayAskAtOnce) {
-    ask_from_many_threads<2>();
-    ask_from_many_threads<3>();
+TEST(Threads, ManyMayQueryAtOnce) {
+    query_from_many_threads<2>();
+    query_from_many_threads<3>();
 }
 
-/// Worlds share nothing, not even a mesh's data in a way that shows.
+/// Worlds on different threads don't interfere, even if they share a mesh's data.
 TEST(Threads, WorldsOfTheirOwnRunSideBySide) {
     const Mesh mesh = house(1);
     const auto play = [&mesh] {

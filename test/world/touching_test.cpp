@@ -1,4 +1,4 @@
-// Pairs as the last update found them: who touches an item, the contact of a pair, and how two met on their way.
+// Pairs of the last update: the items that touch an item, and the contact and impact of a pair.
 
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
@@ -89,14 +89,14 @@ TYPED_TEST(Touching, PairsHaveTheContactOfTheList) {
     EXPECT_FALSE(this->world.contact({{}, {}}));
     EXPECT_TRUE(this->world.impacts().empty());
     EXPECT_FALSE(this->world.impact({a, b})) << "neither is continuous";
-    // As of the last update.
+    // The contact remains that of the last update.
     this->world.remove(b);
     EXPECT_TRUE(this->world.contact({a, b}));
     this->world.update();
     EXPECT_FALSE(this->world.contact({a, b}));
 }
 
-TYPED_TEST(Touching, ImpactsTellWhereABulletHit) {
+TYPED_TEST(Touching, ImpactsHaveTheHitOfABullet) {
     const Id wall = this->add(0, {.fixed = true}), bullet = this->add(-10, {.continuous = true}),
              zone = this->add(4, {.fixed = true, .sensor = true});
     this->world.update();
@@ -117,17 +117,17 @@ TYPED_TEST(Touching, ImpactsTellWhereABulletHit) {
     ASSERT_TRUE(in_zone) << "sensors have one, too";
     EXPECT_NEAR(in_zone->fraction, 0.6, 1e-6);
     EXPECT_NEAR(in_zone->point[0], 3, 1e-5);
-    // What stands still met nothing.
+    // A resting item has no impact.
     this->world.update();
     EXPECT_TRUE(this->world.impacts().empty());
     EXPECT_FALSE(this->world.impact({wall, bullet}));
-    // What it comes to rest in has both.
+    // The item in which the bullet comes to rest has both an impact and a contact.
     this->world.move(bullet, this->place(1.5f));
     this->world.update();
     ASSERT_TRUE(this->world.impact({wall, bullet}));
     EXPECT_NEAR(this->world.impact({wall, bullet})->point[0], 1, 1e-5);
     EXPECT_TRUE(this->world.contact({wall, bullet}));
-    // And where it goes on touching, it has a contact alone.
+    // A pair that stays has a contact alone.
     this->world.move(bullet, this->place(1.25f));
     EXPECT_EQ(this->world.update().stayed.size(), 1u);
     EXPECT_FALSE(this->world.impact({wall, bullet}));

@@ -1,4 +1,4 @@
-// What an update tells: who began to touch, who went on, who ceased; and what it does not look at again.
+// The results of an update: pairs that began, stayed and ended; and pairs that are not tested again.
 
 #include "bits.hpp"
 #include "random_shapes.hpp"
@@ -17,7 +17,7 @@ Pairs list(std::span<const IdPair> pairs) {
     return Pairs(pairs.begin(), pairs.end());
 }
 
-/// Updates, and compares all three lists.
+/// Updates the world and compares all three lists.
 void expect_update(World2& world, const Pairs& began, const Pairs& stayed, const Pairs& ended) {
     const Events events = world.update();
     EXPECT_EQ(list(events.began), began);
@@ -64,12 +64,12 @@ TEST(Update, ListsAreSorted) {
     for (std::size_t i = 0; i < ids.size(); ++i)
         for (std::size_t j = i + 1; j < ids.size(); ++j) all.push_back({ids[i], ids[j]});
     expect_update(world, all, {}, {});
-    // Where many are in one another, some touch only inside the others: those have no contact.
+    // Pairs that touch only inside other items have no contact.
     EXPECT_GT(world.contacts().size(), ids.size());
-    Pairs told;
-    for (const WorldContact<2>& contact : world.contacts()) told.push_back({contact.a, contact.b});
-    EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
-    EXPECT_TRUE(std::includes(all.begin(), all.end(), told.begin(), told.end()));
+    Pairs reported;
+    for (const WorldContact<2>& contact : world.contacts()) reported.push_back({contact.a, contact.b});
+    EXPECT_TRUE(std::is_sorted(reported.begin(), reported.end()));
+    EXPECT_TRUE(std::includes(all.begin(), all.end(), reported.begin(), reported.end()));
     for (const Id id : ids) world.move(id, place(0, 0.1f));
     expect_update(world, {}, all, {});
     for (const Id id : ids) world.remove(id);
@@ -137,7 +137,7 @@ TEST(Update, NewFilterEndsAndBeginsPairs) {
     expect_update(world, {}, pair, {});
 }
 
-TEST(Update, NewShapeCountsAtItsPlace) {
+TEST(Update, NewShapeTouchesAtItsPose) {
     World2 world;
     const Id a = world.add(unit), b = world.add(unit, {.pose = place(5)});
     expect_update(world, {}, {}, {});
@@ -148,7 +148,7 @@ TEST(Update, NewShapeCountsAtItsPlace) {
     expect_update(world, {}, {}, {{a, b}});
 }
 
-TEST(Update, RemovalEndsPairsUnderTheOldName) {
+TEST(Update, RemovalEndsPairsOfTheOldId) {
     World2 world;
     const Id a = world.add(unit), b = world.add(unit), c = world.add(unit, {.pose = place(1)});
     expect_update(world, {{a, b}, {a, c}, {b, c}}, {}, {});
@@ -158,7 +158,7 @@ TEST(Update, RemovalEndsPairsUnderTheOldName) {
     EXPECT_EQ(Bits(world.contacts()), before) << "as of the last update";
     expect_update(world, {}, {{a, c}}, {{a, b}, {b, c}});
 
-    // The same slot within one update: the old one's pairs end, the new one's begin.
+    // A slot is reused before the update: the pairs of the old id end, those of the new id begin.
     world.remove(a);
     const Id d = world.add(unit), e = world.add(unit);
     EXPECT_NE(d, a);
@@ -200,16 +200,16 @@ TEST(Update, PairThatDidNotMoveIsNotTestedAgain) {
     };
     expect_same(0);
     expect_same(0);
-    // To where it is already is no move.
+    // A move to the same pose changes nothing.
     for (const Id id : {a, b, c, near}) world.move(id, world.pose(id));
     expect_same(0);
-    // One of a pair is enough, and only its pairs are looked at.
+    // The pairs of the one moved item are tested, and no others.
     world.move(near, {{-0.9f, -0.95f, 1.2f}});
     expect_same(1);
     world.move(a, {{0, 0, 1e-30f}});
     expect_same(3);
     expect_same(0);
-    // There and back between two updates is looked at, with the same result.
+    // An item that moved and returned is tested again, with the same result.
     world.move(b, {{50, 0, 0}});
     world.move(b, {{0.9f, 0, 0.3f}});
     expect_same(1);

@@ -1,4 +1,4 @@
-// A world as a container: names, what it keeps of what it is given, and that it can be moved.
+// A world as a container: ids, the data it stores, and moving the world.
 
 #include "bits.hpp"
 #include "random_shapes.hpp"
@@ -14,7 +14,7 @@ namespace {
 
 static_assert(!std::is_copy_constructible_v<World2> && std::is_nothrow_move_constructible_v<World2>);
 
-TEST(World, KeepsWhatItIsGivenByName) {
+TEST(World, StoresItemsById) {
     World3 world;
     EXPECT_EQ(world.size(), 0u);
     const Pose3 pose{{1, 2, 3}, turn_about({0, 0, 1}, 0.5f)};
@@ -36,7 +36,7 @@ TEST(World, KeepsWhatItIsGivenByName) {
     EXPECT_EQ(world.size(), 1u);
 }
 
-TEST(World, NameOfARemovedItemIsNeverGivenAgain) {
+TEST(World, IdOfARemovedItemIsNeverReused) {
     World2 world;
     std::set<Id> given;
     for (int i = 0; i < 100; ++i) {
@@ -50,14 +50,14 @@ TEST(World, NameOfARemovedItemIsNeverGivenAgain) {
     }
 }
 
-/// A tetrahedron with a corner at the origin.
+/// A tetrahedron with a vertex at the origin.
 Mesh corner_mesh(float size) {
     const std::vector<Vec3> points{{0, 0, 0}, {size, 0, 0}, {0, size, 0}, {0, 0, size}};
     const std::vector<glm::uvec3> triangles{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
     return *Mesh::build(points, triangles);
 }
 
-/// Every shape here refers to a local in one way or another; none of them may be referred to by the world.
+/// Adds shapes that refer to local variables; the world must copy them.
 std::vector<Id> add_all_from_locals(World3& world) {
     std::vector<Id> ids;
     Mesh mesh = corner_mesh(2);
@@ -75,7 +75,7 @@ std::vector<Id> add_all_from_locals(World3& world) {
     ids.push_back(world.add(rounded(at(*steps, {{70, 0, 0}}), 0.125f)));
     Diamond<3> diamond{{0, 0, 0}, 1};
     ids.push_back(world.add(diamond, {.pose = {{80, 0, 0}}}));
-    // What is left behind would be seen.
+    // Overwritten locals would change the answers of a world that refers to them.
     diamond.center = {1000, 0, 0};
     steps->steps.clear();
     mesh = corner_mesh(100);

@@ -1,5 +1,5 @@
-// A game's first lines with abut, built by the tests twice: with our flags, and outside from the installed package with
-// -O3 -march=native. Both must print the same: the same inputs give the same bits whatever the user compiles with.
+// A minimal client of abut, built by the tests twice: with our flags, and outside from the installed package with -O3
+// -march=native. Both must print the same: equal inputs give equal bits with any flags of the user.
 #include <abut/abut.hpp>
 
 #include <bit>
@@ -8,7 +8,7 @@
 
 namespace {
 
-// Numbers in [-2, 2] that every machine makes alike.
+// Numbers in [-2, 2] that are equal on every machine.
 class Numbers {
 public:
     float next() {
@@ -70,6 +70,6 @@ int main() {
     }
     std::printf("%d pairs, %d overlap, hash %016llx\n", kPairs, overlapping,
                 static_cast<unsigned long long>(hash.value()));
-    // A sample that is all apart or all overlapping would say little.
+    // The sample must have both separated and overlapping pairs.
     return overlapping > kPairs / 5 && overlapping < kPairs * 4 / 5 ? 0 : 1;
 }

@@ -1,5 +1,5 @@
-// Misuse trips assertions in the library and in the headers, or in neither, as the package tells: a library that was
-// installed once had none, whatever its user wanted.
+// Misuse trips assertions in the library and in the headers, or in neither, as the package defines: an installed
+// library once had none, whatever its user chose.
 #include <abut/abut.hpp>
 
 #include <cstdio>

@@ -1,4 +1,4 @@
-// A floor becomes a walk mesh, by the installed abut::recast.
+// Bakes a walk mesh of a floor with the installed abut::recast.
 #include <abut/recast.hpp>
 
 #include <cstdio>

@@ -1,5 +1,5 @@
-// Calls that must not compile, one a line, each with a word that the compiler must say of it. refused.cmake counts the
-// lines of the message of each: a circle against a sphere once took 65, without the word "dimension".
+// Calls that must not compile, one per line, each with a word that must be in the compiler's message. refused.cmake
+// counts the lines of each message: a circle against a sphere once took 65, without the word "dimension".
 #include <abut/abut.hpp>
 
 using namespace abut;

@@ -1,7 +1,8 @@
 // A game compiled with -O3 -mavx2 that leaves the upper halves of its vector registers in use before each call of the
 // library, and in each of its own functions that the library calls. The library is compiled for SSE2; on Intel's
-// processors a distance of a sphere and a box once took 188 ns in that state, and 29 ns without. Here each door clears
-// the upper halves: the user's functions find them cleared. Ends with 77 where the processor doesn't tell.
+// processors a distance of a sphere and a box once took 188 ns in that state, and 29 ns without. Here each public
+// function clears the upper halves: the user's functions find them clear. Exits with 77 if the processor doesn't report
+// the state.
 
 #include "probe.hpp"
 
@@ -25,7 +26,8 @@ void expect_cleared(const char* door, const F& call) {
                 probe::calls);
 }
 
-/// Of a door that calls no function of the user's: the library, which uses none, leaves them as the door has.
+/// For public functions that call no user function: the library, which uses no upper halves, leaves them as they were
+/// after the entry.
 template <class F>
 void expect_cleared_after(const char* door, const F& call) {
     probe::return_with_upper_halves_in_use();
@@ -35,7 +37,7 @@ void expect_cleared_after(const char* door, const F& call) {
     std::printf("%s: upper halves in use after the call\n", door);
 }
 
-/// With questions that find nothing: a visitor, once called, leaves them cleared.
+/// Queries that find nothing: a visitor leaves them clear after its call.
 template <class Phase>
 void try_broad_phase(const char* name) {
     using namespace abut;
@@ -55,8 +57,8 @@ void try_broad_phase(const char* name) {
     expect_cleared_after("closest", [&] { phase.closest(Vec3(3, 3, 3), any, 0.5f); });
 }
 
-/// Shapes of the library's own in a world.
-void try_plain_doors() {
+/// The library's own shapes in a world.
+void call_public_functions() {
     using namespace abut;
     [[maybe_unused]] volatile bool sink = false;
     const Ray3 ray{{1, 3, 1}, {0, -1, 0}, 10};
@@ -97,7 +99,7 @@ void try_doors(const S& shape, const char* name) {
     expect_cleared("each_contact",
                    [&] { each_contact(shape, box, [](const Contact<3>&) { probe::use_upper_halves(); }); });
     expect_cleared("sweep", [&] { sink = sweep(shape, motion, Box3{{4, 0, 0}, {2, 2, 2}}).has_value(); });
-    expect_cleared("sweep with turning", [&] { sink = sweep(shape, from, to, box, still, still).has_value(); });
+    expect_cleared("sweep with rotation", [&] { sink = sweep(shape, from, to, box, still, still).has_value(); });
     expect_cleared("raycast", [&] { sink = raycast(ray, shape).has_value(); });
     expect_cleared("each_hit", [&] { each_hit(ray, shape, [](const Hit<3>&) { probe::use_upper_halves(); }); });
     expect_cleared("contains", [&] { sink = contains(shape, Vec3(0.1f, 0.2f, 0.3f)); });
@@ -112,18 +114,18 @@ void try_doors(const S& shape, const char* name) {
                    [&] { world.each_overlapping(shape, [](Id) { probe::use_upper_halves(); }); });
     expect_cleared("World::closest", [&] { sink = world.closest(shape).has_value(); });
     expect_cleared("World::sweep", [&] { sink = world.sweep(shape, motion).has_value(); });
-    expect_cleared("World::sweep with turning", [&] { sink = world.sweep(shape, from, to).has_value(); });
+    expect_cleared("World::sweep with rotation", [&] { sink = world.sweep(shape, from, to).has_value(); });
 }
 
 }  // namespace
 
 int main() {
-    if (!probe::can_look()) return 77;
+    if (!probe::can_check()) return 77;
     const abut::Sphere ball{{0, 0, 0}, 1};
     try_doors(probe::BySupport{ball}, "by its support function");
     try_doors(probe::ByParts{ball}, "by its parts");
     try_doors(probe::ByDistance{ball}, "by its distance");
-    try_plain_doors();
+    call_public_functions();
     try_broad_phase<abut::BruteForce<3>>("BruteForce");
     try_broad_phase<abut::Grid<3>>("Grid");
     try_broad_phase<abut::LayeredGrid<3>>("LayeredGrid");

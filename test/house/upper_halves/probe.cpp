@@ -1,4 +1,4 @@
-// Compiled without AVX, so that nothing but the caller decides how the registers are when it is called.
+// Compiled without AVX, so that only the caller decides the state of the registers at a call.
 
 #include "probe.hpp"
 
@@ -14,13 +14,13 @@ void return_with_upper_halves_in_use() {
 
 bool upper_halves_in_use() {
     unsigned low = 0, high = 0;
-    asm volatile("xgetbv" : "=a"(low), "=d"(high) : "c"(1));  // the state that isn't as it is after a reset
+    asm volatile("xgetbv" : "=a"(low), "=d"(high) : "c"(1));  // the register state that differs from its initial one
     return (low & 4u) != 0;
 }
 
 namespace {
 
-void look() {
+void check() {
     ++calls;
     dirty_calls += upper_halves_in_use() ? 1 : 0;
 }
@@ -35,7 +35,7 @@ float length(const abut::Vec3& v) {
 
 }  // namespace
 
-bool can_look() {
+bool can_check() {
     if (!__builtin_cpu_supports("avx2")) return false;
     unsigned a = 13, b = 0, c = 1, d = 0;
     asm volatile("cpuid" : "+a"(a), "=b"(b), "+c"(c), "=d"(d));
@@ -58,14 +58,14 @@ abut::Aabb3 bounds(const ByDistance& shape) {
 }
 
 abut::Vec3 support(const BySupport& shape, const abut::Vec3& direction) {
-    look();
+    check();
     const abut::Vec3 result = shape.ball.center + direction * (shape.ball.radius / length(direction));
     use_upper_halves();
     return result;
 }
 
 float signed_distance(const ByDistance& shape, const abut::Vec3& point) {
-    look();
+    check();
     const float result = length(point - shape.ball.center) - shape.ball.radius;
     use_upper_halves();
     return result;

@@ -1,0 +1,91 @@
+// The decisions of the early out by bounding balls, from synthetic measurements.
+
+#include "random_shapes.hpp"
+#include <abut/world/ball_early_out.hpp>
+
+#include <set>
+
+#include <gtest/gtest.h>
+
+namespace abut::test {
+namespace {
+
+template <class S>
+ShapeType type_of(const S& shape) {
+    return shape_type(View<dimension<S>>(view(shape)));
+}
+
+TEST(BallEarlyOut, TypesOfShapes) {
+    const Sphere sphere{{0, 0, 0}, 1};
+    EXPECT_EQ(type_of(sphere), ShapeType::ball);
+    EXPECT_EQ(type_of(stretched(sphere, {1, 2, 3})), ShapeType::ball);
+    EXPECT_EQ(type_of(Capsule3{{0, 0, 0}, {1, 0, 0}, 1}), ShapeType::segment);
+    EXPECT_EQ(type_of(Triangle3{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}), ShapeType::triangle);
+    EXPECT_EQ(type_of(*Polygon::build(std::vector<Vec2>{{0, 0}, {1, 0}, {1, 1}, {0, 1}})), ShapeType::points);
+    EXPECT_EQ(type_of(Box3{{0, 0, 0}, {1, 1, 1}}), ShapeType::box);
+    EXPECT_EQ(type_of(Cone{{0, 0, 0}, {1, 0, 0}, 1}), ShapeType::discs);
+    EXPECT_EQ(type_of(Diamond<2>{}), ShapeType::function);
+    EXPECT_EQ(type_of(stairs<2>(2, 1)), ShapeType::composite);
+    EXPECT_EQ(type_of(HalfSpace2{{1, 0}, 0}), ShapeType::half_space);
+}
+
+constexpr std::array all_types{ShapeType::ball,     ShapeType::segment,    ShapeType::triangle,
+                               ShapeType::points,   ShapeType::box,        ShapeType::discs,
+                               ShapeType::function, ShapeType::half_space, ShapeType::composite};
+
+TEST(BallEarlyOut, EachPairOfTypesHasAnEntryOfItsOwn) {
+    BallEarlyOuts early_outs;
+    std::set<const BallEarlyOuts::Entry*> entries;
+    for (const ShapeType a : all_types)
+        for (const ShapeType b : all_types)
+            for (const bool sensor : {false, true}) {
+                entries.insert(&early_outs.entry(a, b, sensor));
+                EXPECT_EQ(&early_outs.entry(a, b, sensor), &early_outs.entry(b, a, sensor));
+            }
+    EXPECT_EQ(entries.size(), 2u * 45);
+}
+
+/// Adds samples in which the balls take 5 ns and the shapes `shapes` ns, and one pair in `rare` passes the balls.
+void measure(BallEarlyOuts& early_outs, BallEarlyOuts::Entry& entry, int samples, double shapes, int rare) {
+    for (int i = 0; i < samples; ++i)
+        early_outs.add_sample(entry, {20, 25, 20 + shapes}, i % rare == 0, i % (2 * rare) == 0);
+}
+
+TEST(BallEarlyOut, IsUsedWhereMeasurementsSayThatItPays) {
+    BallEarlyOuts early_outs;
+    BallEarlyOuts::Entry& boxes = early_outs.entry(ShapeType::box, ShapeType::box, false);
+    BallEarlyOuts::Entry& balls = early_outs.entry(ShapeType::ball, ShapeType::ball, false);
+    BallEarlyOuts::Entry& others = early_outs.entry(ShapeType::box, ShapeType::ball, false);
+    EXPECT_FALSE(early_outs.is_used(boxes));
+    measure(early_outs, boxes, 31, 300, 4);
+    early_outs.decide();
+    EXPECT_FALSE(early_outs.is_used(boxes)) << "too few samples";
+    measure(early_outs, boxes, 1, 300, 4);
+    measure(early_outs, balls, 40, 6, 4);
+    EXPECT_FALSE(early_outs.is_used(boxes)) << "decide() was not called";
+    early_outs.decide();
+    EXPECT_TRUE(early_outs.is_used(boxes)) << "5 + 300 / 4 < 300";
+    EXPECT_FALSE(early_outs.is_used(balls)) << "5 + 6 / 4 > 6";
+    EXPECT_FALSE(early_outs.is_used(others));
+    // Now the balls overlap nearly always.
+    for (int frame = 0; frame < 20; ++frame) {
+        measure(early_outs, boxes, 400, 300, 1);
+        early_outs.decide();
+    }
+    EXPECT_FALSE(early_outs.is_used(boxes));
+}
+
+TEST(BallEarlyOut, ForcedModesDontMeasure) {
+    for (const BallEarlyOut mode : {BallEarlyOut::always, BallEarlyOut::never, BallEarlyOut::measured}) {
+        BallEarlyOuts early_outs(mode);
+        int due = 0;
+        for (const ShapeType a : all_types)
+            for (int i = 0; i < 1000; ++i) due += early_outs.due(early_outs.entry(a, a, true)) ? 1 : 0;
+        EXPECT_EQ(due, mode == BallEarlyOut::measured ? 9 * 3 : 0);
+        EXPECT_EQ(early_outs.is_used(early_outs.entry(ShapeType::box, ShapeType::box, false)),
+                  mode == BallEarlyOut::always);
+    }
+}
+
+}  // namespace
+}  // namespace abut::test
