@@ -20,15 +20,19 @@ foreach(component IN LISTS components)
     install(EXPORT abut_${component} NAMESPACE abut:: DESTINATION ${package_dir})
 endforeach()
 
-set(left_out)
-if(NOT ABUT_IO)
-    list(APPEND left_out REGEX "/abut/io(/|\\.hpp)" EXCLUDE)
+# Private headers are installed only where a public one includes them.
+set(fronts abut/abut.hpp abut/bake.hpp abut/draw.hpp)
+if(ABUT_IO)
+    list(APPEND fronts abut/io.hpp)
 endif()
-if(NOT ABUT_RECAST)
-    list(APPEND left_out REGEX "/abut/recast(/|\\.hpp)" EXCLUDE)
+if(ABUT_RECAST)
+    list(APPEND fronts abut/recast.hpp)
 endif()
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/abut DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-    FILES_MATCHING PATTERN "*.hpp" PATTERN "*.glsl" ${left_out})
+install(CODE "set(source \"${PROJECT_SOURCE_DIR}\")
+    set(fronts \"${fronts}\")
+    set(destination \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_INCLUDEDIR}\")")
+install(SCRIPT ${CMAKE_CURRENT_LIST_DIR}/install_headers.cmake)
+install(FILES ${PROJECT_SOURCE_DIR}/abut/field/abut_field.glsl DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/abut/field)
 
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/abutConfig.cmake.in ${PROJECT_BINARY_DIR}/abutConfig.cmake
     INSTALL_DESTINATION ${package_dir})

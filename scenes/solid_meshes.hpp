@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <glm/ext/vector_uint3.hpp>
@@ -19,6 +20,27 @@ struct SolidMesh {
     std::vector<Vec3> points;
     std::vector<glm::uvec3> triangles;
 };
+
+inline void add(SolidMesh& mesh, const SolidMesh& other) {
+    const auto first = static_cast<std::uint32_t>(mesh.points.size());
+    mesh.points.insert(mesh.points.end(), other.points.begin(), other.points.end());
+    for (const glm::uvec3& t : other.triangles) mesh.triangles.push_back(t + first);
+}
+
+inline SolidMesh together(SolidMesh a, const SolidMesh& b) {
+    add(a, b);
+    return a;
+}
+
+inline SolidMesh inside_out(SolidMesh mesh) {
+    for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
+    return mesh;
+}
+
+inline SolidMesh moved(SolidMesh mesh, float scale, const Vec3& by) {
+    for (Vec3& p : mesh.points) p = p * scale + by;
+    return mesh;
+}
 
 /// A trefoil knot as a tube: `rings` of `sides` vertices each, and twice as many triangles. About 6 across, with radius
 /// 0.5.

@@ -17,7 +17,7 @@ constexpr double quarter_turn = 1.57079632679489661923;
 // More segments than this indicate a mistaken tolerance and not a finer curve.
 constexpr double max_arc_segments = 4096;
 
-bool is_finite(const DVec<2>& v) {
+bool fits_float(const DVec<2>& v) {
     constexpr double max_value = std::numeric_limits<float>::max();
     return std::abs(v.x) <= max_value && std::abs(v.y) <= max_value;
 }
@@ -143,8 +143,8 @@ std::vector<DVec<2>> rounded_rectangle_points(const DVec<2>& size, const DVec<2>
 }
 
 Result<PlacedShape> place_rectangle(const Affine<2>& map, const DVec<2>& size) {
-    if (!is_finite(map.offset) || !is_finite(map.point(size)) || !is_finite(map.point({size.x, 0})) ||
-        !is_finite(map.point({0, size.y})))
+    if (!fits_float(map.offset) || !fits_float(map.point(size)) || !fits_float(map.point({size.x, 0})) ||
+        !fits_float(map.point({0, size.y})))
         return out_of_range();
     if (preserves_right_angles(map)) {
         const Box2 result = box(map, size);
@@ -170,14 +170,14 @@ Result<PlacedShape> place_rounded_rectangle(const Affine<2>& map, const DVec<2>&
         return PlacedShape{RoundedBox{std::get<Box2>(core->shape), radius}, {}, false};
     }
     const DVec<2> a = map.point(clamped_radii), b = map.point(size - clamped_radii);
-    if (!is_finite(a) || !is_finite(b)) return out_of_range();
+    if (!fits_float(a) || !fits_float(b)) return out_of_range();
     return PlacedShape{Capsule2{to_float(a), to_float(b), radius}, {}, false};
 }
 
 Result<PlacedShape> place_ellipse(const Affine<2>& map, const DVec<2>& radii) {
     const Affine<2> whole = map * scaling_by(radii);
     const DVec<2>&u = whole.column[0], &v = whole.column[1];
-    if (!is_finite(whole.offset) || !is_finite(u) || !is_finite(v)) return out_of_range();
+    if (!fits_float(whole.offset) || !fits_float(u) || !fits_float(v)) return out_of_range();
     const Vec2 middle = to_float(whole.offset);
     if (preserves_circles(whole)) {
         const auto radius = static_cast<float>(length(u));
@@ -199,7 +199,7 @@ Result<PlacedShape> place_polyline(const Affine<2>& map, std::span<const DVec<2>
     line.reserve(points.size());
     for (const DVec<2>& point : points) {
         const DVec<2> placed = map.point(point);
-        if (!is_finite(placed)) return out_of_range();
+        if (!fits_float(placed)) return out_of_range();
         const Vec2 rounded = to_float(placed) + Vec2(0, 0);  // -0 becomes 0
         if (line.empty() || line.back() != rounded) line.push_back(rounded);
     }

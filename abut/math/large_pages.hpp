@@ -1,6 +1,6 @@
 #pragma once
 
-// An allocator for large arrays with random access: it asks the system for large pages. With small pages a TLB miss
+// An allocator for large arrays with random access: it requests large pages from the system. With small pages a TLB miss
 // costs as much as the memory access.
 
 #include <cstddef>
@@ -10,7 +10,7 @@ namespace abut {
 
 inline constexpr std::size_t large_page = std::size_t{1} << 21;
 
-/// Asks the system to back the memory, aligned to `large_page`, by large pages. Only a hint.
+/// Requests that the system back the memory, aligned to `large_page`, by large pages. Only a hint.
 void prefer_large_pages(void* memory, std::size_t bytes);
 
 template <class T>

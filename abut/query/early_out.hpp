@@ -1,6 +1,6 @@
 #pragma once
 
-// Early out: the order in which to run tests that must all pass, and whether a cheap pretest pays.
+// Early out: the order in which to run tests that must all pass, and whether a cheap test before the others pays.
 //
 //    t_i   cost of test i, in any unit                   p_i   the fraction of its inputs that passes it
 //    T     = t_1 + p_1 t_2 + p_1 p_2 t_3 + ...           the cost of a run that ends with the first refusal

@@ -66,14 +66,14 @@ std::vector<DVec<2>> inscribed_corners(const Convex<2>& convex, double tolerance
     std::vector<Corner> loop;
     for (const DVec<2>& direction : {DVec<2>(1, 0), DVec<2>(0, 1), DVec<2>(-1, 0), DVec<2>(0, -1)})
         loop.push_back({support(convex, direction)});
-    for (bool grown = true; grown && loop.size() < most_polygon_corners;) {
+    for (bool grown = true; grown && loop.size() < max_polygon_vertices;) {
         grown = false;
         std::vector<Corner> finer;
         for (std::size_t i = 0; i < loop.size(); ++i) {
             finer.push_back(loop[i]);
             const DVec<2> from = loop[i].position, edge = loop[(i + 1) % loop.size()].position - from;
             const std::size_t left = loop.size() - i - 1;
-            if (loop[i].settled || finer.size() + left >= most_polygon_corners || !(largest(edge) > 0)) continue;
+            if (loop[i].settled || finer.size() + left >= max_polygon_vertices || !(largest(edge) > 0)) continue;
             const DVec<2> out = normalized(DVec<2>(edge.y, -edge.x)), beyond = support(convex, out);
             finer.back().settled = !(dot(beyond - from, out) > tolerance);
             if (finer.back().settled) continue;
@@ -158,7 +158,7 @@ std::vector<Vec3> InscribedPolyhedron::inscribed_corners() {
                          [](const Outside& a, const Outside& b) { return a.height > b.height; });
         const auto far_less = [&](const Outside& outside) { return outside.height < 0.25 * outside_.front().height; };
         outside_.erase(std::find_if(outside_.begin(), outside_.end(), far_less), outside_.end());
-        outside_.resize(std::min(outside_.size(), most_polyhedron_corners - found));
+        outside_.resize(std::min(outside_.size(), max_polyhedron_vertices - found));
         if (outside_.empty()) return points_;
         for (const Outside& outside : outside_) points_.push_back(outside.point);
     }
@@ -204,7 +204,7 @@ PolytopeOf<D> inscribed_polytope(const Convex<D>& shape, float tolerance) {
     ABUT_ASSERT(finite);
     if (!finite) return {};
     const Centered<D> centered(shape);
-    const double reached = std::max(least_polytope_tolerance * centered.extent, static_cast<double>(tolerance));
+    const double reached = std::max(min_polytope_tolerance * centered.extent, static_cast<double>(tolerance));
     std::vector<Vec<D>> points;
     for (const DVec<D>& point : inscribed_corners(centered.convex, reached))
         points.push_back(to_float(centered.origin + point));

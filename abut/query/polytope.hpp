@@ -22,12 +22,12 @@ template <int D>
 using PolytopeOf = std::conditional_t<D == 2, Polygon, Polyhedron>;
 
 /// The limits on the corners of `polytope(shape, tolerance)`.
-inline constexpr std::size_t most_polygon_corners = 4096;
-inline constexpr std::size_t most_polyhedron_corners = 16384;
+inline constexpr std::size_t max_polygon_vertices = 4096;
+inline constexpr std::size_t max_polyhedron_vertices = 16384;
 
 /// A tolerance below this fraction of the extent (the longest side of the bounding box) counts as this fraction: floats
 /// are no finer.
-inline constexpr double least_polytope_tolerance = 0x1p-18;
+inline constexpr double min_polytope_tolerance = 0x1p-18;
 
 namespace detail {
 
@@ -97,7 +97,7 @@ inline Polyhedron polytope(const Polyhedron& polyhedron) {
 ///
 /// The error falls with the square of the number of corners in the plane, and with their number in space: a ball takes
 /// 2.2 to 4.4 / sqrt(e) corners in the plane and about 6 / e in space, for a tolerance of e times its radius. If more
-/// than `most_polygon_corners` or `most_polyhedron_corners` would be needed, the result is about as close as that many
+/// than `max_polygon_vertices` or `max_polyhedron_vertices` would be needed, the result is about as close as that many
 /// allow; for a ball in space, within 1e-3 of its radius. A tolerance not above zero trips ABUT_ASSERT and counts as
 /// the least.
 template <Shape S>

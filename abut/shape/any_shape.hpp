@@ -42,12 +42,14 @@ private:
 
         // A user's `bounds` may leave the upper halves in use.
         View<D> view() const override {
-            const View<D> own(abut::view(shape));
+            using abut::view;  // and what a header included later declares beside its shape
+            const View<D> own(view(shape));
             detail::clear_upper_halves();
             return own;
         }
         View<D> moved(const Affine<D>& rigid) const override {
-            const auto& own = abut::view(shape);
+            using abut::view;
+            const auto& own = view(shape);
             detail::clear_upper_halves();
             return abut::moved(own, rigid);
         }

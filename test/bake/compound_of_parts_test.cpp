@@ -22,10 +22,10 @@ namespace {
 
 using oracle::Random;
 
-using Outline = std::vector<DVec<2>>;
+using DoubleOutline = std::vector<DVec<2>>;
 
-Outline behind(const Outline& outline, const DVec<2>& normal, double offset) {
-    Outline result;
+DoubleOutline behind(const DoubleOutline& outline, const DVec<2>& normal, double offset) {
+    DoubleOutline result;
     for (std::size_t i = 0; i < outline.size(); ++i) {
         const DVec<2>&a = outline[i], &b = outline[(i + 1) % outline.size()];
         const double from = dot(normal, a) - offset, to = dot(normal, b) - offset;
@@ -37,7 +37,7 @@ Outline behind(const Outline& outline, const DVec<2>& normal, double offset) {
 
 /// A floor of 10 by 10 around the origin, its top at y = 0, cut into convex parts by random vertical planes.
 std::vector<Polyhedron> cut_floor(int cuts, Random& random) {
-    std::vector<Outline> outlines{{{-5, -5}, {5, -5}, {5, 5}, {-5, 5}}};
+    std::vector<DoubleOutline> outlines{{{-5, -5}, {5, -5}, {5, 5}, {-5, 5}}};
     for (int i = 0; i < cuts; ++i) {
         const DVec<2> normal = random.direction<2>();
         const double offset = random.uniform(-3, 3);
@@ -45,15 +45,15 @@ std::vector<Polyhedron> cut_floor(int cuts, Random& random) {
         const std::size_t first = i % 2 == 0 ? 0 : random.below(static_cast<std::uint32_t>(outlines.size()));
         const std::size_t last = i % 2 == 0 ? outlines.size() : first + 1;
         for (std::size_t part = first; part < last; ++part) {
-            Outline other = behind(outlines[part], -normal, -offset);
-            Outline rest = behind(outlines[part], normal, offset);
+            DoubleOutline other = behind(outlines[part], -normal, -offset);
+            DoubleOutline rest = behind(outlines[part], normal, offset);
             if (other.size() < 3 || rest.size() < 3) continue;
             outlines[part] = std::move(rest);
             outlines.push_back(std::move(other));
         }
     }
     std::vector<Polyhedron> parts;
-    for (const Outline& outline : outlines) {
+    for (const DoubleOutline& outline : outlines) {
         std::vector<Vec3> points;
         for (const DVec<2>& p : outline)
             for (const double y : {-1.0, 0.0}) points.push_back(to_float(DVec<3>(p.x, y, p.y)));

@@ -1,10 +1,10 @@
 #include "../../scenes/outlines.hpp"
+#include "../oracle/is_long.hpp"
 #include "../oracle/outline_parts.hpp"
 #include "../oracle/random.hpp"
 #include <abut/bake/decompose_outline.hpp>
 #include <abut/query/contains.hpp>
 
-#include <cstdlib>
 #include <map>
 #include <utility>
 
@@ -248,7 +248,7 @@ TEST(DecomposeOutline, TakesCellsOutOfASquare) {
 /// Random rings on a small grid, which touch themselves and each other without crossing.
 TEST(DecomposeOutline, TakesRingsThatTouchAnyhow) {
     std::size_t taken = 0, touching = 0, refused = 0;
-    const std::uint64_t samples = std::getenv("ABUT_LONG") != nullptr ? 200'000 : 5000;
+    const std::uint64_t samples = oracle::is_long() ? 200'000 : 5000;
     for (std::uint64_t seed = 0; seed < samples; ++seed) {
         SCOPED_TRACE(seed);
         oracle::Random random(seed);
@@ -381,7 +381,7 @@ private:
 
 TEST(DecomposeOutline, MakesAsFewPartsAsEveryCut) {
     std::size_t rings = 0, straight = 0, conforming_has_more = 0;
-    const std::uint64_t samples = std::getenv("ABUT_LONG") != nullptr ? 20'000 : 600;
+    const std::uint64_t samples = oracle::is_long() ? 20'000 : 600;
     for (std::uint64_t seed = 0; seed < samples; ++seed) {
         SCOPED_TRACE(seed);
         oracle::Random random(seed);

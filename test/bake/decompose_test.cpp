@@ -24,26 +24,10 @@ namespace {
 using oracle::PartQuality;
 using scenes::SolidMesh;
 
-void add(SolidMesh& mesh, const SolidMesh& other) {
-    const auto first = static_cast<std::uint32_t>(mesh.points.size());
-    mesh.points.insert(mesh.points.end(), other.points.begin(), other.points.end());
-    for (const glm::uvec3& t : other.triangles) mesh.triangles.push_back(t + glm::uvec3(first));
-}
-
 SolidMesh box(const Vec3& low, const Vec3& high) {
     SolidMesh result = scenes::of_cubes({{"#"}});
     for (Vec3& p : result.points) p = low + p * (high - low);
     return result;
-}
-
-SolidMesh inside_out(SolidMesh mesh) {
-    for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
-    return mesh;
-}
-
-SolidMesh moved(SolidMesh mesh, float scale, const Vec3& by) {
-    for (Vec3& p : mesh.points) p = p * scale + by;
-    return mesh;
 }
 
 std::vector<Polyhedron> parts_of(const SolidMesh& mesh, const DecomposeOptions& options) {

@@ -4,10 +4,10 @@
 #include "../../scenes/bumpy_ball.hpp"
 #include "../../scenes/solid_meshes.hpp"
 #include "../oracle/field.hpp"
+#include "../oracle/is_long.hpp"
 #include <abut/bake/field.hpp>
 
 #include <array>
-#include <cstdlib>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -24,33 +24,13 @@ using scenes::SolidMesh;
 
 constexpr std::uint64_t seed = 20240607;
 
-bool is_long() {
-    return std::getenv("ABUT_LONG") != nullptr;
-}
 std::size_t sample_count() {
-    return is_long() ? 20'000 : 500;
+    return oracle::is_long() ? 20'000 : 500;
 }
 
 SolidMesh stone(std::uint32_t rows, double waves, double roughness, Random& random) {
     scenes::BumpyBall ball = scenes::bumpy_ball(rows, waves, roughness, random);
     return {std::move(ball.points), std::move(ball.triangles)};
-}
-
-SolidMesh moved(SolidMesh mesh, float scale, const Vec3& by) {
-    for (Vec3& point : mesh.points) point = point * scale + by;
-    return mesh;
-}
-
-SolidMesh inside_out(SolidMesh mesh) {
-    for (glm::uvec3& triangle : mesh.triangles) std::swap(triangle.y, triangle.z);
-    return mesh;
-}
-
-SolidMesh together(SolidMesh a, const SolidMesh& b) {
-    const auto shift = static_cast<std::uint32_t>(a.points.size());
-    a.points.insert(a.points.end(), b.points.begin(), b.points.end());
-    for (const glm::uvec3& triangle : b.triangles) a.triangles.push_back(triangle + shift);
-    return a;
 }
 
 /// The mesh without so many triangles, no two of which share a corner.
@@ -119,7 +99,7 @@ struct Case {
 };
 
 std::vector<Case> cases(Random& random) {
-    const std::uint32_t rows = is_long() ? 24 : 9;
+    const std::uint32_t rows = oracle::is_long() ? 24 : 9;
     const SolidMesh ball = stone(rows, 0.2, 0.03, random), knot = scenes::knotted_tube(4 * rows, 8),
                     house = scenes::house();
     std::vector<Case> result;
@@ -188,7 +168,7 @@ TEST(FieldOracle, SamplesAreExact) {
             FieldReport report;
             FieldOptions<3> options;
             options.store = store;
-            options.cell = longest_side(one.baked) / (is_long() ? 20 : 14);
+            options.cell = longest_side(one.baked) / (oracle::is_long() ? 20 : 14);
             options.report = &report;
             const Result<Field3> field = bake_field(one.baked.points, one.baked.triangles, options);
             ASSERT_TRUE(field) << field.problem().message;
@@ -247,7 +227,7 @@ struct NearError {
 NearError near_error(const Field3& field, const SolidMesh& mesh, Random& random) {
     const oracle::TriangleTruth truth(mesh.points, mesh.triangles);
     const double cell = static_cast<double>(field.cell());
-    const std::size_t count = is_long() ? 20'000 : 600;
+    const std::size_t count = oracle::is_long() ? 20'000 : 600;
     NearError result;
     for (std::size_t i = 0; i < count; ++i) {
         const glm::uvec3& t = mesh.triangles[random.below(static_cast<std::uint32_t>(mesh.triangles.size()))];
@@ -270,7 +250,7 @@ NearError near_error(const Field3& field, const SolidMesh& mesh, Random& random)
 TEST(FieldOracle, ErrorsNearTheSurfaceAreSmall) {
     Random random(seed);
     SCOPED_TRACE("seed " + std::to_string(seed));
-    const SolidMesh smooth = stone(is_long() ? 24 : 16, 0.1, 0, random), edges = scenes::house();
+    const SolidMesh smooth = stone(oracle::is_long() ? 24 : 16, 0.1, 0, random), edges = scenes::house();
     for (const SolidMesh* mesh : {&smooth, &edges}) {
         const Result<Field3> field = bake_field(mesh->points, mesh->triangles);
         ASSERT_TRUE(field) << field.problem().message;

@@ -9,13 +9,13 @@
 namespace abut {
 namespace {
 
-/// The corners and triangles of a box, wound outwards.
+/// The corners and triangles of a soup_box, wound outwards.
 struct Soup {
     std::vector<Vec3> points;
     std::vector<glm::uvec3> triangles;
 };
 
-Soup box(const Vec3& low, const Vec3& high) {
+Soup soup_box(const Vec3& low, const Vec3& high) {
     Soup result;
     for (int i = 0; i < 8; ++i)
         result.points.emplace_back(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z);
@@ -28,14 +28,14 @@ Soup box(const Vec3& low, const Vec3& high) {
 }
 
 Polyhedron solid_box(const Vec3& low, const Vec3& high) {
-    return *Polyhedron::build(box(low, high).points);
+    return *Polyhedron::build(soup_box(low, high).points);
 }
 
 constexpr std::uint32_t samples = 20000;
 constexpr double by_chance = 0.03;
 
 TEST(PartQuality, WhatIsThereAndNoMoreIsFoundExact) {
-    const Soup soup = box(Vec3(0), Vec3(2, 1, 1));
+    const Soup soup = soup_box(Vec3(0), Vec3(2, 1, 1));
     const std::vector<Polyhedron> halves = {solid_box(Vec3(0), Vec3(1)), solid_box(Vec3(1, 0, 0), Vec3(2, 1, 1))};
     const oracle::PartQuality found = oracle::quality_of(soup.points, soup.triangles, halves, samples, 1);
     EXPECT_EQ(found.extra, 0);
@@ -48,7 +48,7 @@ TEST(PartQuality, WhatIsThereAndNoMoreIsFoundExact) {
 }
 
 TEST(PartQuality, MissingAndExtraVolumesAreReported) {
-    const Soup soup = box(Vec3(0), Vec3(2, 1, 1));
+    const Soup soup = soup_box(Vec3(0), Vec3(2, 1, 1));
     // A quarter is uncovered, and half of the volume sticks out to the left.
     const std::vector<Polyhedron> parts = {solid_box(Vec3(-1, 0, 0), Vec3(1.5f, 1, 1))};
     const oracle::PartQuality found = oracle::quality_of(soup.points, soup.triangles, parts, samples, 2);
@@ -59,7 +59,7 @@ TEST(PartQuality, MissingAndExtraVolumesAreReported) {
 }
 
 TEST(PartQuality, AnOpenMeshHasOnlyItsSurface) {
-    Soup soup = box(Vec3(0), Vec3(1));
+    Soup soup = soup_box(Vec3(0), Vec3(1));
     soup.triangles.resize(2);
     const std::vector<Polyhedron> parts = {*Polyhedron::build(std::span(soup.points).first(4))};
     const oracle::PartQuality found = oracle::quality_of(soup.points, soup.triangles, parts, samples, 3);

@@ -20,7 +20,7 @@ namespace {
 using oracle::Random;
 using scenes::SolidMesh;
 
-SolidMesh box(const Vec3& low, const Vec3& high) {
+SolidMesh box_between(const Vec3& low, const Vec3& high) {
     SolidMesh result;
     for (int i = 0; i < 8; ++i)
         result.points.push_back(
@@ -28,17 +28,6 @@ SolidMesh box(const Vec3& low, const Vec3& high) {
     result.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                         {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
     return result;
-}
-
-void add(SolidMesh& mesh, const SolidMesh& more) {
-    const auto shift = static_cast<std::uint32_t>(mesh.points.size());
-    mesh.points.insert(mesh.points.end(), more.points.begin(), more.points.end());
-    for (const glm::uvec3& t : more.triangles) mesh.triangles.push_back(t + shift);
-}
-
-SolidMesh inside_out(SolidMesh mesh) {
-    for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
-    return mesh;
 }
 
 /// Each triangle with separate corners, in any order.
@@ -146,8 +135,8 @@ TEST(Repair, FacesOutwards) {
     EXPECT_EQ(volume(repaired(inside_out(house))), volume(house));
     EXPECT_EQ(volume(repaired(inside_out(house), {.face_outwards = false})), -volume(house)) << "a room";
     // Boxes that share an edge with four triangles, one of the two inside out.
-    SolidMesh two = box({0, 0, 0}, {1, 1, 1});
-    add(two, inside_out(box({1, 1, 0}, {2, 2, 1})));
+    SolidMesh two = box_between({0, 0, 0}, {1, 1, 1});
+    add(two, inside_out(box_between({1, 1, 0}, {2, 2, 1})));
     const Repaired result = repaired(two);
     EXPECT_DOUBLE_EQ(volume(result), 2);
     EXPECT_EQ(result.repairs.triangles_turned, 12u);
@@ -156,8 +145,8 @@ TEST(Repair, FacesOutwards) {
 }
 
 TEST(Repair, TellsCavitiesFromSolids) {
-    const SolidMesh outer = box({0, 0, 0}, {4, 4, 4}), inner = box({1, 1, 1}, {3, 3, 3}),
-                    core = box({1.5f, 1.5f, 1.5f}, {2, 2, 2});
+    const SolidMesh outer = box_between({0, 0, 0}, {4, 4, 4}), inner = box_between({1, 1, 1}, {3, 3, 3}),
+                    core = box_between({1.5f, 1.5f, 1.5f}, {2, 2, 2});
     const auto both = [](SolidMesh a, const SolidMesh& b) {
         add(a, b);
         return a;
@@ -184,14 +173,14 @@ TEST(Repair, TellsCavitiesFromSolids) {
         EXPECT_TRUE(result.closed);
     }
     // Boxes that cross are no cavities.
-    EXPECT_DOUBLE_EQ(volume(repaired(both(outer, inside_out(box({3, 1, 1}, {5, 2, 2}))))), 64 + 2);
+    EXPECT_DOUBLE_EQ(volume(repaired(both(outer, inside_out(box_between({3, 1, 1}, {5, 2, 2}))))), 64 + 2);
 }
 
 TEST(Repair, LeavesRoomsAroundThings) {
-    SolidMesh level = inside_out(box({0, 0, 0}, {9, 9, 9}));
-    add(level, box({1, 1, 1}, {2, 2, 2}));
-    add(level, box({4, 4, 4}, {6, 6, 6}));
-    add(level, inside_out(box({4.5f, 4.5f, 4.5f}, {5, 5, 5})));
+    SolidMesh level = inside_out(box_between({0, 0, 0}, {9, 9, 9}));
+    add(level, box_between({1, 1, 1}, {2, 2, 2}));
+    add(level, box_between({4, 4, 4}, {6, 6, 6}));
+    add(level, inside_out(box_between({4.5f, 4.5f, 4.5f}, {5, 5, 5})));
     const Repaired result = repaired(level);
     EXPECT_FALSE(changed(result.repairs));
     EXPECT_EQ(result.repairs.rooms, 1u);
@@ -220,7 +209,7 @@ TEST(Repair, FillsSmallHolesAlone) {
 }
 
 TEST(Repair, LeavesMouthsAndSheetsOpen) {
-    SolidMesh crate = box({0, 0, 0}, {1, 1, 1});
+    SolidMesh crate = box_between({0, 0, 0}, {1, 1, 1});
     crate.triangles.erase(crate.triangles.begin() + 2, crate.triangles.begin() + 4);
     EXPECT_EQ(repaired(crate).repairs.open_edges, 4u);
     EXPECT_EQ(described(repaired(crate).repairs), "nothing to repair; 4 open edges left");
@@ -269,7 +258,7 @@ TEST(Repair, FillsAFlatHoleWithoutFolds) {
 
 TEST(Repair, ClosesCracksWhereACornerLiesOnAnEdge) {
     // The edge from corner 0 to corner 1 is cut in four on one side only.
-    SolidMesh cracked = box({0, 0, 0}, {4, 4, 4});
+    SolidMesh cracked = box_between({0, 0, 0}, {4, 4, 4});
     const auto replaced = std::find(cracked.triangles.begin(), cracked.triangles.end(), glm::uvec3(0, 1, 5));
     ASSERT_NE(replaced, cracked.triangles.end());
     cracked.triangles.erase(replaced);
@@ -285,7 +274,7 @@ TEST(Repair, ClosesCracksWhereACornerLiesOnAnEdge) {
 }
 
 TEST(Repair, CutsTheNeighboursOfTrianglesWithoutArea) {
-    SolidMesh mesh = box({0, 0, 0}, {4, 4, 4});
+    SolidMesh mesh = box_between({0, 0, 0}, {4, 4, 4});
     *std::find(mesh.triangles.begin(), mesh.triangles.end(), glm::uvec3(0, 1, 5)) = {0, 8, 5};
     mesh.points.push_back({1, 0, 0});
     mesh.triangles.insert(mesh.triangles.end(), {{8, 1, 5}, {0, 1, 8}});
@@ -298,14 +287,14 @@ TEST(Repair, CutsTheNeighboursOfTrianglesWithoutArea) {
 }
 
 TEST(Repair, WallsBetweenBoxesGo) {
-    SolidMesh two = box({0, 0, 0}, {1, 1, 1});
-    add(two, box({1, 0, 0}, {2, 1, 1}));
+    SolidMesh two = box_between({0, 0, 0}, {1, 1, 1});
+    add(two, box_between({1, 0, 0}, {2, 1, 1}));
     std::swap(two.triangles[10], two.triangles[22]);
     const Repaired result = repaired(two);
     // The wall's diagonals differ between the two, so that it consists of four triangles without duplicates.
     EXPECT_DOUBLE_EQ(volume(result), 2);
-    SolidMesh consistent = box({0, 0, 0}, {1, 1, 1});
-    SolidMesh right = box({1, 0, 0}, {2, 1, 1});
+    SolidMesh consistent = box_between({0, 0, 0}, {1, 1, 1});
+    SolidMesh right = box_between({1, 0, 0}, {2, 1, 1});
     right.triangles.erase(right.triangles.begin() + 8, right.triangles.begin() + 10);
     add(consistent, right);
     const auto wall = consistent.triangles;
@@ -319,8 +308,8 @@ TEST(Repair, WallsBetweenBoxesGo) {
 }
 
 TEST(Repair, FinsOfTwoSidesStayOnce) {
-    // At an edge of the box, which is closed without it.
-    SolidMesh fin = box({0, 0, 0}, {1, 1, 1});
+    // At an edge of the box_between, which is closed without it.
+    SolidMesh fin = box_between({0, 0, 0}, {1, 1, 1});
     add(fin, {{{1, 1, 0}, {2, 2, 0}, {2, 2, 1}, {1, 1, 1}}, {{0, 1, 2}, {0, 2, 3}, {2, 1, 0}, {3, 2, 0}}});
     const Repaired result = repaired(fin);
     EXPECT_EQ(result.repairs.triangles_double, 2u);
@@ -341,7 +330,7 @@ TEST(Repair, HolesGetNoEdgeThatIsThere) {
 }
 
 TEST(Repair, OfATwoSidedSolidOneSideStays) {
-    SolidMesh both = box({0, 0, 0}, {1, 2, 3});
+    SolidMesh both = box_between({0, 0, 0}, {1, 2, 3});
     add(both, inside_out(both));
     const Repaired result = repaired(both);
     EXPECT_EQ(result.triangles.size(), 12u);
@@ -370,7 +359,7 @@ TEST(Repair, TellsWhatCantAgree) {
 }
 
 TEST(Repair, NamesWhatCantBeUsed) {
-    const SolidMesh good = box({0, 0, 0}, {1, 1, 1});
+    const SolidMesh good = box_between({0, 0, 0}, {1, 1, 1});
     const auto code = [](const SolidMesh& mesh, const RepairOptions& options = {}) {
         const Result<Repaired> result = repair(mesh.points, mesh.triangles, options);
         EXPECT_FALSE(result);

@@ -11,7 +11,7 @@
 namespace abut {
 namespace {
 
-Welded box(const Vec3& half, const Vec3& middle = {}) {
+Welded box_around(const Vec3& half, const Vec3& middle = {}) {
     Welded result;
     for (int i = 0; i < 8; ++i)
         result.points.push_back(middle +
@@ -72,35 +72,35 @@ bool solid(const Welded& a) {
 
 TEST(Solid, BoxesAndBallsAreSolid) {
     for (const float scale : {1e-3f, 1.0f, 1e4f}) {
-        EXPECT_TRUE(solid(box(Vec3(1, 2, 3) * scale))) << scale;
-        EXPECT_TRUE(solid(box(Vec3(1, 2, 3) * scale, Vec3(50, -70, 90) * scale))) << scale;
+        EXPECT_TRUE(solid(box_around(Vec3(1, 2, 3) * scale))) << scale;
+        EXPECT_TRUE(solid(box_around(Vec3(1, 2, 3) * scale, Vec3(50, -70, 90) * scale))) << scale;
     }
     EXPECT_TRUE(solid(ball(4)));
     EXPECT_TRUE(solid(ball(30)));
 }
 
 TEST(Solid, WhatIsSeenFromInsideIsNot) {
-    EXPECT_FALSE(solid(inside_out(box({1, 2, 3}))));
+    EXPECT_FALSE(solid(inside_out(box_around({1, 2, 3}))));
     EXPECT_FALSE(solid(inside_out(ball(8))));
 }
 
 TEST(Solid, OneTriangleTurnedOrMissingIsNot) {
     for (std::size_t i = 0; i < 12; ++i) {
-        Welded turned = box({1, 1, 1});
+        Welded turned = box_around({1, 1, 1});
         std::swap(turned.triangles[i].y, turned.triangles[i].z);
         EXPECT_FALSE(solid(turned)) << i;
-        Welded open = box({1, 1, 1});
+        Welded open = box_around({1, 1, 1});
         open.triangles.erase(open.triangles.begin() + static_cast<std::ptrdiff_t>(i));
         EXPECT_FALSE(solid(open)) << i;
     }
 }
 
 TEST(Solid, SeveralBodiesAreNot) {
-    const Welded twice = joined(box({1, 1, 1}), box({1, 1, 1}));
+    const Welded twice = joined(box_around({1, 1, 1}), box_around({1, 1, 1}));
     EXPECT_FALSE(solid(weld(twice.points, twice.triangles)));
-    EXPECT_FALSE(solid(joined(box({1, 1, 1}), box({1, 1, 1}, {5, 0, 0}))));
-    EXPECT_FALSE(solid(joined(box({1, 1, 1}), box({2, 2, 2}))));
-    EXPECT_FALSE(solid(joined(box({1, 1, 1}), box({1, 1, 1}, {1, 1, 1}))));
+    EXPECT_FALSE(solid(joined(box_around({1, 1, 1}), box_around({1, 1, 1}, {5, 0, 0}))));
+    EXPECT_FALSE(solid(joined(box_around({1, 1, 1}), box_around({2, 2, 2}))));
+    EXPECT_FALSE(solid(joined(box_around({1, 1, 1}), box_around({1, 1, 1}, {1, 1, 1}))));
 }
 
 TEST(Solid, FlatThingsAreNot) {
@@ -115,8 +115,8 @@ TEST(Solid, FlatThingsAreNot) {
 }
 
 TEST(Solid, BendsWithinTheMarginAreForgiven) {
-    // The size of this box is sqrt(3), so the margin 1.7e-5.
-    Welded pressed = joined(box({1, 1, 1}), {});
+    // The size of this box_around is sqrt(3), so the margin 1.7e-5.
+    Welded pressed = joined(box_around({1, 1, 1}), {});
     pressed.points.push_back({0, 0, 1});
     pressed.triangles[2] = {4, 5, 8};
     pressed.triangles[3] = {5, 7, 8};

@@ -1,5 +1,6 @@
 // The reference of the other broad phases, against simple loops.
 
+#include "dimensions.hpp"
 #include "scenes.hpp"
 #include <abut/broad_phase/brute_force.hpp>
 
@@ -10,11 +11,6 @@ namespace {
 
 template <class T>
 class BruteForceIn : public testing::Test {};
-template <int d>
-struct Dimension {
-    static constexpr int value = d;
-};
-using Both = testing::Types<Dimension<2>, Dimension<3>>;
 TYPED_TEST_SUITE(BruteForceIn, Both);
 
 TYPED_TEST(BruteForceIn, ReportsWhatPlainLoopsReportInTheirOrder) {

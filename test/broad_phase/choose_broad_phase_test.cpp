@@ -27,8 +27,8 @@ std::vector<Aabb<D>> heaps(std::uint32_t count) {
 
 template <class T>
 class Choices : public testing::Test {};
-using Dimensions = testing::Types<ChosenBroadPhase<2>, ChosenBroadPhase<3>>;
-TYPED_TEST_SUITE(Choices, Dimensions);
+using ChoiceDimensions = testing::Types<ChosenBroadPhase<2>, ChosenBroadPhase<3>>;
+TYPED_TEST_SUITE(Choices, ChoiceDimensions);
 
 template <int D>
 BroadPhaseKind choice(std::span<const Aabb<D>> boxes, const BroadPhaseHistory& history = {}) {

@@ -38,8 +38,8 @@ Pairs grid_pairs(const std::vector<Aabb<D>>& boxes, float edge = 0) {
 
 template <class T>
 class Grids : public testing::Test {};
-using Dimensions = testing::Types<Grid<2>, Grid<3>>;
-TYPED_TEST_SUITE(Grids, Dimensions);
+using GridDimensions = testing::Types<Grid<2>, Grid<3>>;
+TYPED_TEST_SUITE(Grids, GridDimensions);
 
 /// Corners lie on a lattice as fine as the steps of the cells, or on their borders: boxes touch, end where a cell ends,
 /// and lie in up to four cells along an axis.

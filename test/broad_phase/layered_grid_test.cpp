@@ -1,6 +1,7 @@
 // Cases that only a hierarchical grid has: all sizes at once, borders of cells, dense clusters, and outliers.
 
 #include "../../scenes/skewed_boxes.hpp"
+#include "dimensions.hpp"
 #include "scenes.hpp"
 #include <abut/broad_phase/bvh.hpp>
 #include <abut/broad_phase/layered_grid.hpp>
@@ -66,11 +67,6 @@ std::vector<Aabb<D>> all_sizes(oracle::Random& random, std::size_t count, int lo
 
 template <class T>
 class Layered : public testing::Test {};
-template <int d>
-struct Dimension {
-    static constexpr int value = d;
-};
-using Both = testing::Types<Dimension<2>, Dimension<3>>;
 TYPED_TEST_SUITE(Layered, Both);
 
 TYPED_TEST(Layered, HoldsSizesOfManyDecades) {

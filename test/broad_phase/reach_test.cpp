@@ -1,6 +1,7 @@
 // A ray visits every box that it touches: against points along it, and at the corners where rounding decides.
 
 #include "../oracle/random.hpp"
+#include "dimensions.hpp"
 #include <abut/broad_phase/reach.hpp>
 
 #include <gtest/gtest.h>
@@ -25,11 +26,6 @@ double distance_squared(const Vec<D>& point, const Aabb<D>& box) {
 
 template <class T>
 class Reach : public testing::Test {};
-template <int d>
-struct Dimension {
-    static constexpr int value = d;
-};
-using Both = testing::Types<Dimension<2>, Dimension<3>>;
 TYPED_TEST_SUITE(Reach, Both);
 
 TYPED_TEST(Reach, OfARayInClosedForm) {

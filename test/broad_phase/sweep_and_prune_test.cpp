@@ -1,6 +1,7 @@
 // Sweep and prune: many columns, new plans, and sorted orders that remain or are sorted anew.
 
 #include "../../scenes/moving_boxes.hpp"
+#include "dimensions.hpp"
 #include "scenes.hpp"
 #include <abut/broad_phase/brute_force.hpp>
 #include <abut/broad_phase/reach.hpp>
@@ -60,11 +61,6 @@ void expect_right(const SweepAndPrune<D>& phase, std::span<const Aabb<D>> boxes,
 
 template <class T>
 class SweepAndPruneIn : public testing::Test {};
-template <int d>
-struct Dimension {
-    static constexpr int value = d;
-};
-using Both = testing::Types<Dimension<2>, Dimension<3>>;
 TYPED_TEST_SUITE(SweepAndPruneIn, Both);
 
 TYPED_TEST(SweepAndPruneIn, ManyColumnsWhileAllMove) {

@@ -16,10 +16,10 @@ namespace {
 using oracle::Random;
 
 /// The position of the triangle relative to the box.
-enum class Family { any, flush, corners_on_a_grid, sliver, large_triangle };
+enum class TriangleFamily { any, flush, corners_on_a_grid, sliver, large_triangle };
 constexpr int family_count = 5;
 
-struct Pair {
+struct BoxAndTriangle {
     Box3 box;
     Triangle3 triangle;
     double size;  ///< of the smaller
@@ -29,29 +29,30 @@ float whole(Random& random) {
     return 0.25f * static_cast<float>(static_cast<int>(random.below(17)) - 8);
 }
 
-Pair random_pair(Random& random, Family family) {
+BoxAndTriangle random_pair(Random& random, TriangleFamily family) {
     const double size = random.power_of_two(-8, 9);
-    const double reach = family == Family::large_triangle ? 64 * size : size * random.power_of_two(-1, 1);
-    Pair pair{{Vec3(0), Vec3(0), random.rotation<3>()}, {}, 0};
+    const double reach = family == TriangleFamily::large_triangle ? 64 * size : size * random.power_of_two(-1, 1);
+    BoxAndTriangle pair{{Vec3(0), Vec3(0), random.rotation<3>()}, {}, 0};
     for (int i = 0; i < 3; ++i) pair.box.half[i] = static_cast<float>(size * random.uniform(0.2, 1));
     const auto corner = [&] { return to_float(random.in_cube<3>() * reach); };
     pair.triangle = {corner(), corner(), corner()};
     const Vec3 aside = to_float(random.in_cube<3>() * (0.7 * size));
     for (Vec3* point : {&pair.triangle.a, &pair.triangle.b, &pair.triangle.c}) *point += aside;
-    if (family == Family::large_triangle) {
+    if (family == TriangleFamily::large_triangle) {
         // Through the box, or nearly.
         const Vec3 middle = (pair.triangle.a + pair.triangle.b + pair.triangle.c) / 3.0f;
         for (Vec3* point : {&pair.triangle.a, &pair.triangle.b, &pair.triangle.c}) *point += aside - middle;
     }
-    if (family == Family::flush || family == Family::corners_on_a_grid) pair.box.rotation = no_rotation<3>;
-    if (family == Family::flush) {
+    if (family == TriangleFamily::flush || family == TriangleFamily::corners_on_a_grid)
+        pair.box.rotation = no_rotation<3>;
+    if (family == TriangleFamily::flush) {
         // A floor with edges parallel to those of the box.
         const float height = random.chance(0.5) ? -pair.box.half.y : random.uniform_float(-0.5, 0.2) * pair.box.half.y;
         pair.triangle.b = {pair.triangle.a.x, height, pair.triangle.b.z};
         pair.triangle.c = {pair.triangle.c.x, height, pair.triangle.a.z};
         pair.triangle.a.y = height;
     }
-    if (family == Family::corners_on_a_grid) {
+    if (family == TriangleFamily::corners_on_a_grid) {
         for (int i = 0; i < 3; ++i) {
             pair.box.half[i] = std::abs(whole(random)) + 0.25f;
             pair.triangle.a[i] = whole(random);
@@ -59,7 +60,7 @@ Pair random_pair(Random& random, Family family) {
             pair.triangle.c[i] = whole(random);
         }
     }
-    if (family == Family::sliver)
+    if (family == TriangleFamily::sliver)
         pair.triangle.c = pair.triangle.a + (pair.triangle.b - pair.triangle.a) * random.uniform_float(-1, 2);
     pair.size = std::min(abut::size(convex(pair.box)), abut::size(convex(pair.triangle)));
     return pair;
@@ -73,13 +74,13 @@ double gap_along(const Convex<3>& a, const Convex<3>& b, const DVec<3>& out) {
 class BoxTriangleFamily : public testing::TestWithParam<int> {};
 
 TEST_P(BoxTriangleFamily, AnswersAsTheSearches) {
-    const auto family = static_cast<Family>(GetParam());
+    const auto family = static_cast<TriangleFamily>(GetParam());
     constexpr int count = 3000;
     int overlapping = 0, apart = 0, unknown = 0;
     for (std::uint64_t seed = 0; seed < count; ++seed) {
         SCOPED_TRACE(testing::Message() << "family " << GetParam() << " seed " << seed);
         Random random(seed);
-        const Pair pair = random_pair(random, family);
+        const BoxAndTriangle pair = random_pair(random, family);
         Convex<3> box = convex(pair.box);
         const Convex<3> triangle = convex(pair.triangle);
         if (random.chance(0.2))
@@ -113,7 +114,7 @@ TEST_P(BoxTriangleFamily, AnswersAsTheSearches) {
             EXPECT_LT(found.corners.b[i], 3u);
         }
     }
-    if (family == Family::sliver) {
+    if (family == TriangleFamily::sliver) {
         EXPECT_GT(unknown, count / 4);
         return;
     }

@@ -15,8 +15,8 @@ namespace {
 using oracle::Random;
 
 /// The relative position of two boxes.
-enum class Family { any, aligned, flush, turned_about_a_normal, edge_on_edge, nested, stretched_out };
-constexpr int family_count = 7;
+enum class BoxFamily { any, aligned, flush, turned_about_a_normal, edge_on_edge, nested, stretched_out };
+constexpr int box_family_count = 7;
 
 struct Boxes {
     Box3 a, b;
@@ -48,10 +48,10 @@ void put_apart(Boxes& boxes, Random& random) {
     boxes.b.center += to_float(now.normal * (wanted - now.distance));
 }
 
-Boxes random_boxes(Random& random, Family family) {
+Boxes random_boxes(Random& random, BoxFamily family) {
     const double size_a = random.power_of_two(-10, 13);
     const double size_b = random.chance(0.8) ? size_a * random.power_of_two(-1, 1) : random.power_of_two(-10, 13);
-    const bool long_ones = family == Family::stretched_out;
+    const bool long_ones = family == BoxFamily::stretched_out;
     Boxes boxes;
     boxes.a.half = random_half(random, size_a, long_ones);
     boxes.b.half = random_half(random, size_b, long_ones);
@@ -61,16 +61,16 @@ Boxes random_boxes(Random& random, Family family) {
     boxes.b.rotation = random.rotation<3>();
     boxes.b.center = boxes.a.center + to_float(random.direction<3>() * (1.5 * (size_a + size_b)));
     switch (family) {
-        case Family::any:
-        case Family::stretched_out:
+        case BoxFamily::any:
+        case BoxFamily::stretched_out:
             put_apart(boxes, random);
             break;
-        case Family::aligned:
+        case BoxFamily::aligned:
             if (random.chance(0.5)) boxes.a.rotation = no_rotation<3>;
             boxes.b.rotation = boxes.a.rotation * quarter_turns(random);
             put_apart(boxes, random);
             break;
-        case Family::flush: {
+        case BoxFamily::flush: {
             // Coplanar faces that touch exactly.
             boxes.a.rotation = boxes.b.rotation = no_rotation<3>;
             boxes.a.center = Vec3(0);
@@ -81,7 +81,7 @@ Boxes random_boxes(Random& random, Family family) {
             }
             break;
         }
-        case Family::turned_about_a_normal: {
+        case BoxFamily::turned_about_a_normal: {
             const int up = static_cast<int>(random.below(3));
             Vec3 normal(0), offset(0);
             normal[up] = 1;
@@ -94,7 +94,7 @@ Boxes random_boxes(Random& random, Family family) {
             boxes.b.rotation = pose.rotation;
             break;
         }
-        case Family::edge_on_edge: {
+        case BoxFamily::edge_on_edge: {
             const float eighth = 0.78539816f;
             boxes.a.rotation = turn_about({1, 0, 0}, eighth);
             boxes.b.rotation = turn_about({0, 0, 1}, random.uniform_float(0, 3)) * turn_about({1, 0, 0}, eighth);
@@ -102,7 +102,7 @@ Boxes random_boxes(Random& random, Family family) {
             put_apart(boxes, random);
             break;
         }
-        case Family::nested:
+        case BoxFamily::nested:
             boxes.b.center = boxes.a.center + to_float(random.in_cube<3>() * (0.3 * size_a));
             break;
     }
@@ -114,11 +114,11 @@ template <class Visit>
 void each_pair(Visit&& visit) {
     int pairs = 0, overlapping = 0;
     for (int i = 0; i < oracle::case_count(3000); ++i)
-        for (int family = 0; family < family_count; ++family) {
+        for (int family = 0; family < box_family_count; ++family) {
             const auto seed = static_cast<std::uint64_t>(pairs++);
             SCOPED_TRACE(testing::Message() << "seed " << seed << ", family " << family);
             Random random(seed);
-            const Boxes boxes = random_boxes(random, static_cast<Family>(family));
+            const Boxes boxes = random_boxes(random, static_cast<BoxFamily>(family));
             overlapping += signed_distance<3>(view(boxes.a), view(boxes.b)).distance <= 0 ? 1 : 0;
             visit(boxes, random);
             if (testing::Test::HasFailure()) return;
@@ -244,7 +244,7 @@ std::vector<double> numbers_of_contacts() {
     std::vector<double> numbers;
     for (std::uint64_t seed = 0; seed < 700; ++seed) {
         Random random(seed);
-        const Boxes boxes = random_boxes(random, static_cast<Family>(seed % family_count));
+        const Boxes boxes = random_boxes(random, static_cast<BoxFamily>(seed % box_family_count));
         SignedDistance<3> distance;
         Manifold<3> points;
         if (!contact_of_boxes(view(boxes.a), view(boxes.b), boxes.size, boxes.size, {}, distance, points)) continue;

@@ -109,7 +109,7 @@ TEST(HullCore, IsInsideOfTheRestExactly) {
                                       [](const Vec3& a, const Vec3& b) { return less<3>(a, b); }));
             all += points.size();
             dropped += points.size() - rest.size();
-            const Grid grid = on_grid(points), rest_grid = on_grid(rest);
+            const HullGrid grid = on_grid(points), rest_grid = on_grid(rest);
             ASSERT_EQ(grid.least, rest_grid.least);
             ASSERT_EQ(grid.greatest, rest_grid.greatest);
             const Spread spread = spread_of(rest_grid, rest_grid.tolerance);

@@ -99,7 +99,7 @@ TEST(HullPlanes, AreFoundFromAnyCorner) {
         Random random(kind);
         const std::vector<Vec3> points = kinds[kind].make(random);
         if (abut::hull(points)->rank < 3) continue;
-        const Grid grid = on_grid(points);
+        const HullGrid grid = on_grid(points);
         const auto farthest = [&](const DVec<3>& normal) {
             const auto along = [&](std::uint32_t i) {
                 return std::abs(dot(normal, DVec<3>(points[i]) - DVec<3>(points[0])));
@@ -157,7 +157,7 @@ TEST(HullGrid, ReturnsHowFarItMovedThePoints) {
         SCOPED_TRACE(kinds[kind].name + ", seed " + std::to_string(kind));
         Random random(kind);
         const std::vector<Vec3> points = kinds[kind].make(random);
-        const Grid grid = on_grid(points);
+        const HullGrid grid = on_grid(points);
         const double extent = abut::extent<3>(points);
         EXPECT_GE(extent / grid.step, 0x1p27);
         EXPECT_LT(extent / grid.step, 0x1p28);

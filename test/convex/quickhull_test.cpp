@@ -13,11 +13,11 @@
 namespace abut::test {
 namespace {
 
-double height_above(const Grid& grid, const TriangleSurface& surface, std::size_t triangle, const GridPoint& point) {
+double height_above(const HullGrid& grid, const TriangleSurface& surface, std::size_t triangle, const GridPoint& point) {
     return grid_dot(surface.normals[triangle], point - grid.points[surface.origin[3 * triangle]]);
 }
 
-void expect_closed_and_convex(const Grid& grid, const TriangleSurface& surface) {
+void expect_closed_and_convex(const HullGrid& grid, const TriangleSurface& surface) {
     ASSERT_EQ(surface.origin.size(), 3 * surface.normals.size());
     ASSERT_EQ(surface.twin.size(), surface.origin.size());
     for (std::uint32_t h = 0; h < surface.origin.size(); ++h) {
@@ -50,7 +50,7 @@ TEST(Quickhull, HoldsEveryPointExactlyWhereNothingMayBeLeftOut) {
             SCOPED_TRACE(kinds[kind].name + ", seed " + std::to_string(seed));
             Random random(seed);
             const std::vector<Vec3> points = kinds[kind].make(random);
-            const Grid grid = on_grid(points);
+            const HullGrid grid = on_grid(points);
             const Spread spread = spread_of(grid, grid.tolerance);
             if (spread.rank < 3) continue;
             const TriangleSurface surface = quickhull(grid.points, spread.points, 0);
@@ -77,7 +77,7 @@ TEST(Quickhull, BoundsTheDistanceOfOmittedPoints) {
             SCOPED_TRACE(kinds[kind].name + ", seed " + std::to_string(seed));
             Random random(seed);
             const std::vector<Vec3> points = kinds[kind].make(random);
-            const Grid grid = on_grid(points);
+            const HullGrid grid = on_grid(points);
             const double tolerance = 100 * grid.tolerance;
             const Spread spread = spread_of(grid, tolerance);
             if (spread.rank < 3) continue;

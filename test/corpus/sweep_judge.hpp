@@ -25,7 +25,7 @@ template <int D>
 Sample<D> shifted(const Sample<D>& sample, const DVec<D>& by) {
     Affine<D> shift;
     shift.offset = by;
-    return {sample.kind, sample.keeper, moved(sample.view, shift), oracle::mapped(sample.solid, shift)};
+    return {sample.kind, sample.owner, moved(sample.view, shift), oracle::mapped(sample.solid, shift)};
 }
 
 /// A difficult direction: along the surface, towards it, along an axis, or along an edge of either shape.

@@ -21,7 +21,7 @@ namespace {
 
 using test::Recorder;
 
-const Style filled{{1, 2, 3}, 1, {4, 5, 6, 200}};
+const Style region_style{{1, 2, 3}, 1, {4, 5, 6, 200}};
 const Style lines_only{{1, 2, 3}, 1};
 
 TEST(Voronoi, OfABoxInThePlaneIsAGridWithDiagonals) {
@@ -56,7 +56,7 @@ bool holds(const std::vector<Vec2>& points, const Vec2& point) {
 template <class S>
 void expect_regions(const S& shape) {
     Recorder<2> canvas;
-    draw(canvas, voronoi(shape), filled);
+    draw(canvas, voronoi(shape), region_style);
     Convex<2> core = view(shape);
     core.radius = 0;
     std::vector<std::uint32_t> owner(canvas.polygons.size(), ~0u);
@@ -90,7 +90,7 @@ TEST(Voronoi, AreasAreTheRegionsOfTheEngine) {
 
 TEST(Voronoi, OfASegmentTwoLinesAcross) {
     Recorder<2> canvas;
-    draw(canvas, voronoi(Segment2{{-1, 0}, {2, 0}}), filled);
+    draw(canvas, voronoi(Segment2{{-1, 0}, {2, 0}}), region_style);
     ASSERT_EQ(canvas.lines.size(), 4u);
     for (const auto& line : canvas.lines) {
         EXPECT_TRUE(line.a.x == -1 || line.a.x == 2);
@@ -99,7 +99,7 @@ TEST(Voronoi, OfASegmentTwoLinesAcross) {
     }
     EXPECT_EQ(canvas.polygons.size(), 4u);
     Recorder<2> capsule;
-    draw(capsule, voronoi(Capsule2{{-1, 0}, {2, 0}, 1}), filled);
+    draw(capsule, voronoi(Capsule2{{-1, 0}, {2, 0}, 1}), region_style);
     EXPECT_EQ(capsule.lines.size(), 4u) << "those of its core";
 }
 
@@ -108,7 +108,7 @@ TEST(Voronoi, NothingIsDrawnBeyondWhatIsShown) {
     for (const float far : {0.0f, 12.0f, 1000.0f}) {
         SCOPED_TRACE(far);
         Recorder<2> canvas;
-        draw(canvas, voronoi(at(triangle, {{far, 0}, Turn::by(1)})), filled);
+        draw(canvas, voronoi(at(triangle, {{far, 0}, Turn::by(1)})), region_style);
         EXPECT_GT(canvas.polygons.size(), 0u);
         for (const Vec2& place : canvas.places()) EXPECT_LE(std::max(std::abs(place.x), std::abs(place.y)), 10.00001f);
     }
@@ -117,7 +117,7 @@ TEST(Voronoi, NothingIsDrawnBeyondWhatIsShown) {
 TEST(Voronoi, InSpaceTheWallsOnTheEdgesOfFaces) {
     Recorder<3> canvas;
     const Box3 box{{1, 0, 0}, {1, 1, 1}};
-    draw(canvas, voronoi(box), filled);
+    draw(canvas, voronoi(box), region_style);
     const auto walls = std::count_if(canvas.polygons.begin(), canvas.polygons.end(),
                                      [](const auto& area) { return area.style.fill.visible(); });
     EXPECT_EQ(walls, 24) << "one a face and edge";
@@ -136,14 +136,14 @@ TEST(Voronoi, InSpaceTheWallsOnTheEdgesOfFaces) {
 
 TEST(Voronoi, NothingOfWhatHasNoFeatures) {
     Recorder<2> canvas;
-    draw(canvas, voronoi(Circle{{0, 0}, 1}), filled);
-    draw(canvas, voronoi(HalfSpace2{{0, 1}, 0}), filled);
-    draw(canvas, voronoi(stretched(Circle{{0, 0}, 1}, {1, 2})), filled);
-    draw(canvas, voronoi(Box2{{std::numeric_limits<float>::quiet_NaN(), 0}, {1, 1}}), filled);
+    draw(canvas, voronoi(Circle{{0, 0}, 1}), region_style);
+    draw(canvas, voronoi(HalfSpace2{{0, 1}, 0}), region_style);
+    draw(canvas, voronoi(stretched(Circle{{0, 0}, 1}, {1, 2})), region_style);
+    draw(canvas, voronoi(Box2{{std::numeric_limits<float>::quiet_NaN(), 0}, {1, 1}}), region_style);
     EXPECT_EQ(canvas.calls(), 0u);
     Recorder<3> space;
-    draw(space, voronoi(Sphere{{0, 0, 0}, 1}), filled);
-    draw(space, voronoi(Cylinder{{0, 0, 0}, {1, 0, 0}, 1}), filled);
+    draw(space, voronoi(Sphere{{0, 0, 0}, 1}), region_style);
+    draw(space, voronoi(Cylinder{{0, 0, 0}, {1, 0, 0}, 1}), region_style);
     EXPECT_EQ(space.calls(), 0u);
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 using test::Recorder;
 
-const Style filled{{30, 60, 90, 255}, 2, {4, 5, 6, 70}};
+const Style mesh_style{{30, 60, 90, 255}, 2, {4, 5, 6, 70}};
 
 /// Three unit squares in a row along x, a separate one 10 farther on, and a repeated triangle.
 WalkMesh squares() {
@@ -31,14 +31,14 @@ WalkMesh squares() {
 
 TEST(DrawWalkMesh, FillsTrianglesAndDrawsEachEdgeOnce) {
     Recorder<3> canvas({{-20, -20, -20}, {20, 20, 20}});
-    draw(canvas, squares(), filled);
+    draw(canvas, squares(), mesh_style);
     ASSERT_EQ(canvas.polygons.size(), 8u) << "not the one that is left out";
-    EXPECT_EQ(canvas.polygons[0].style.fill, filled.fill);
+    EXPECT_EQ(canvas.polygons[0].style.fill, mesh_style.fill);
     EXPECT_EQ(canvas.polygons[0].style.stroke, transparent);
     std::size_t borders = 0, edges = 0;
     bool borders_last = true;
     for (const auto& line : canvas.lines) {
-        const bool is_border = line.style.stroke == filled.stroke;
+        const bool is_border = line.style.stroke == mesh_style.stroke;
         (is_border ? borders : edges) += 1;
         borders_last = borders_last && (is_border || borders == 0);
         EXPECT_EQ(line.style.width, is_border ? 2 : 1);
@@ -63,7 +63,7 @@ TEST(DrawWalkMesh, HasAStyleForEachTriangle) {
     Recorder<3> canvas({{-20, -20, -20}, {20, 20, 20}});
     const WalkMesh mesh = squares();
     draw(canvas, mesh, [&](std::uint32_t triangle) {
-        Style style = filled;
+        Style style = mesh_style;
         style.fill.red = static_cast<std::uint8_t>(mesh.component(triangle));
         if (mesh.component(triangle) == 1) style.stroke = transparent;
         return style;
@@ -79,12 +79,12 @@ TEST(DrawWalkMesh, DrawsPaths) {
     EXPECT_EQ(canvas.calls(), 0u);
     WalkPath path;
     path.points = {{0, 0, 0}};
-    draw(canvas, path, filled);
+    draw(canvas, path, mesh_style);
     EXPECT_EQ(canvas.points, path.points);
     EXPECT_EQ(canvas.calls(), 1u);
     Recorder<3> all;
     path.points = {{0, 0, 0}, {1, 0, 0}, {1, 2, 0}, {3, 2, 1}};
-    draw(all, path, filled);
+    draw(all, path, mesh_style);
     EXPECT_EQ(all.points, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 2, 0}}));
     ASSERT_EQ(all.lines.size(), 3u);
     EXPECT_EQ(all.lines[1].b, Vec3(1, 2, 0));
@@ -99,7 +99,7 @@ TEST(DrawWalkMesh, DrawsWalks) {
     const WalkPoint from{1, {0.25f, 0.25f, 0.5f}};
     // The step reaches the far side, and slides along it.
     const Vec3 step(2, 1, 0);
-    draw_walk(canvas, mesh, from, step, filled);
+    draw_walk(canvas, mesh, from, step, mesh_style);
     EXPECT_EQ(canvas.points, (std::vector<Vec3>{mesh.to_world(from)}));
     ASSERT_EQ(canvas.lines.size(), 64u + 1) << "its parts are too short for an arrow's head: one is drawn over them";
     for (std::size_t i = 0; i + 1 < 64; ++i) EXPECT_EQ(canvas.lines[i].b, canvas.lines[i + 1].a);
@@ -114,7 +114,7 @@ TEST(DrawWalkMesh, DrawsWalks) {
         }
     }
     Recorder<3> still;
-    draw_walk(still, mesh, from, Vec3(0), filled);
+    draw_walk(still, mesh, from, Vec3(0), mesh_style);
     EXPECT_EQ(still.calls(), 1u);
 }
 

@@ -40,7 +40,7 @@ std::uint64_t hash_of(const Bytes& bytes) {
 }
 
 template <class T>
-void put(Bytes& bytes, std::size_t at, T value) {
+void write_at(Bytes& bytes, std::size_t at, T value) {
     std::memcpy(bytes.data() + at, &value, sizeof(value));
 }
 
@@ -136,7 +136,7 @@ TEST(FieldBlob, WhatItSaysOfItselfIsChecked) {
     constexpr std::size_t counts = 58, numbers = counts + 48;
     const auto changed = [&](std::size_t at, auto value) {
         Bytes result = bytes;
-        put(result, at, value);
+        write_at(result, at, value);
         seal(result);
         return code_of<2>(result);
     };
@@ -171,7 +171,7 @@ TEST(FieldBlob, ABrickThatIsntThereIsRefused) {
     const FieldData<3> data = small_torus(FieldStore::sparse);
     Bytes bytes = save(Field3(data));
     constexpr std::size_t bricks = 8 + 8 + 2 + 3 * 16 + 8 + 48;
-    put(bytes, bricks, static_cast<std::uint32_t>(data.distance.size() / brick_samples<3>));
+    write_at(bytes, bricks, static_cast<std::uint32_t>(data.distance.size() / brick_samples<3>));
     seal(bytes);
     EXPECT_EQ(code_of<3>(bytes), ProblemCode::bad_format);
 }

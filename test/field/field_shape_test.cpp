@@ -1,6 +1,7 @@
 // A field as a shape, against its own look-ups.
 
 #include "../../scenes/bumpy_ball.hpp"
+#include "../oracle/is_long.hpp"
 #include "../oracle/random.hpp"
 #include <abut/bake/field.hpp>
 #include <abut/math/rigid_path.hpp>
@@ -16,8 +17,6 @@
 #include <abut/shape/cylinder.hpp>
 #include <abut/shape/placed.hpp>
 #include <abut/shape/polyhedron.hpp>
-
-#include <cstdlib>
 
 #include <gtest/gtest.h>
 
@@ -362,7 +361,7 @@ void compare_rays(const Field3& stone, std::uint64_t seed, int count) {
 }
 
 TEST(FieldShape, RaysHitTheSurface) {
-    const bool is_long = std::getenv("ABUT_LONG") != nullptr;
+    const bool is_long = oracle::is_long();
     std::uint64_t seed = 23;
     for (const Field3& stone : stones()) compare_rays(stone, seed++, is_long ? 250000 : 2500);
 }

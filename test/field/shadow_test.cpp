@@ -1,3 +1,4 @@
+#include "../oracle/is_long.hpp"
 #include "../oracle/random.hpp"
 #include "analytic.hpp"
 #include <abut/field/field.hpp>
@@ -5,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <iostream>
 #include <limits>
 #include <vector>
@@ -102,7 +102,7 @@ TEST(FieldShadow, StepsFindTheLeastSlope) {
     double sum = 0, most = 0;
     int between = 0;
     std::vector<double> errors;
-    for (const Question& q : questions(5, std::getenv("ABUT_LONG") != nullptr ? 20000 : 2000)) {
+    for (const Question& q : questions(5, oracle::is_long() ? 20000 : 2000)) {
         const double least = min_slope(scene(), DVec<3>(q.point), DVec<3>(q.light), static_cast<double>(cell));
         const double right = smooth(least / 0.2);
         const double off = std::abs(static_cast<double>(scene_field().shadow(q.point, q.light, 0.2f)) - right);

@@ -49,7 +49,7 @@ void question(const Field<D>& field, std::uint64_t seed) {
     for (int i = 0; i < 4; ++i) {
         const Vec<D> from = place_near(volume, random), to = place_near(volume, random);
         const FieldSample<D> here = field.sample(from);
-        require(std::isfinite(here.distance) && oracle::is_unit<D>(here.normal));
+        require(std::isfinite(here.distance) && oracle::is_direction<D>(here.normal));
         require(is_finite<D>(field.closest(from)));
         const float light = field.shadow(from, to, random.uniform_float(0, 1));
         require(light >= 0 && light <= 1);

@@ -11,8 +11,8 @@
 namespace abut::test {
 namespace {
 
-/// The rounding error of a float of this size, with that of the computation of a position.
-constexpr double rounding = 1e-5;
+/// The drop_tolerance error of a float of this size, with that of the computation of a position.
+constexpr double drop_tolerance = 1e-5;
 
 /// Drops a ball from above a position, and again from its rest; returns the number of drops.
 template <class S>
@@ -26,10 +26,10 @@ int drop(const View<3>& level, const Vec3& place, const S& shape) {
         ++falls;
         from += motion * hit->fraction;
         const Closest<3> found = closest(level, at(shape, Pose3{from}));
-        EXPECT_NEAR(found.distance, 0, rounding);
+        EXPECT_NEAR(found.distance, 0, drop_tolerance);
         // The ground must be below.
         EXPECT_GT(hit->normal.z, 0);
-        EXPECT_GE(from.z, place.z - rounding);
+        EXPECT_GE(from.z, place.z - drop_tolerance);
         motion = Vec3(0, 0, -0.1f);
     }
     return falls;
@@ -151,7 +151,7 @@ TEST(Drop, Turning) {
         const auto hit = sweep(box, from, to, mesh, Pose3{}, Pose3{});
         ASSERT_TRUE(hit);
         const Pose3 then = pose_at(Motion3::between(from, to), hit->fraction);
-        EXPECT_NEAR(closest(at(box, then), mesh).distance, 0, 2 * rounding);
+        EXPECT_NEAR(closest(at(box, then), mesh).distance, 0, 2 * drop_tolerance);
         EXPECT_GT(then.position.z, 0);
         ++rounds;
     }
@@ -215,7 +215,7 @@ TEST(Drop, OnAHeightFieldAndAChain) {
                 const auto hit = sweep(above, Vec2(0, -12), chain);
                 ASSERT_TRUE(hit) << place.x;
                 EXPECT_GE(9 - 12 * hit->fraction, place.y);
-                EXPECT_NEAR(closest(at(above, Pose2{{0, -12 * hit->fraction}}), chain).distance, 0, rounding);
+                EXPECT_NEAR(closest(at(above, Pose2{{0, -12 * hit->fraction}}), chain).distance, 0, drop_tolerance);
             }
     }
 }

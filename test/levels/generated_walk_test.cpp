@@ -1,6 +1,7 @@
 // A Mover on generated levels of every kind of shape, checked frame by frame against each part by the oracle, without
 // the library.
 
+#include "../oracle/is_long.hpp"
 #include "../oracle/random.hpp"
 #include "levels.hpp"
 #include "walks.hpp"
@@ -82,7 +83,7 @@ void walk_over(const char* name, const Level<D>& level, int up, int frames) {
 }
 
 int frames() {
-    return std::getenv("ABUT_LONG") != nullptr ? 20000 : 1200;
+    return oracle::is_long() ? 20000 : 1200;
 }
 
 TEST(GeneratedWalk, OverAChain) {

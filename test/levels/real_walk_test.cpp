@@ -1,11 +1,11 @@
 // A Mover on levels of real games: along paths of a search over squares, and at random on all levels. The oracle checks
 // every frame against every piece.
 
+#include "../oracle/is_long.hpp"
 #include "../oracle/random.hpp"
 #include "plane_walk.hpp"
 #include "space_walk.hpp"
 
-#include <cstdlib>
 #include <iostream>
 
 #include <gtest/gtest.h>
@@ -15,9 +15,6 @@ namespace {
 
 constexpr std::uint64_t seed = 20260923;
 
-bool is_long() {
-    return std::getenv("ABUT_LONG") != nullptr;
-}
 constexpr const char* only_long = "only where ABUT_LONG is set";
 
 void print_counts(const std::string& name, const Walked& walked) {
@@ -57,7 +54,7 @@ bool go_to(Walker<2>& walker, const Vec2& place, float speed, double near) {
 }
 
 TEST(RealWalk, ThroughMapsOfFreedoom) {
-    if (!is_long()) GTEST_SKIP() << only_long;
+    if (!oracle::is_long()) GTEST_SKIP() << only_long;
     const std::vector<scenes::WadMap> maps = freedoom_maps();
     if (maps.empty()) GTEST_SKIP() << no_freedoom;
     Walked walked;
@@ -85,7 +82,7 @@ TEST(RealWalk, ThroughMapsOfFreedoom) {
 }
 
 TEST(RealWalk, AtRandomOverAllMapsOfFreedoom) {
-    if (!is_long()) GTEST_SKIP() << only_long;
+    if (!oracle::is_long()) GTEST_SKIP() << only_long;
     const std::vector<scenes::WadMap> maps = freedoom_maps();
     if (maps.empty()) GTEST_SKIP() << no_freedoom;
     oracle::Random random(seed);
@@ -137,7 +134,7 @@ std::vector<Walking<3>> rolling(float radius) {
 }
 
 TEST(RealWalk, FromTheBallToTheGoalInNeverball) {
-    if (!is_long()) GTEST_SKIP() << only_long;
+    if (!oracle::is_long()) GTEST_SKIP() << only_long;
     const std::vector<std::string> files = neverball_files();
     if (files.empty()) GTEST_SKIP() << no_neverball;
     Walked walked;
@@ -178,7 +175,7 @@ TEST(RealWalk, FromTheBallToTheGoalInNeverball) {
 }
 
 TEST(RealWalk, AtRandomOverAllLevelsOfNeverball) {
-    if (!is_long()) GTEST_SKIP() << only_long;
+    if (!oracle::is_long()) GTEST_SKIP() << only_long;
     const std::vector<std::string> files = neverball_files();
     if (files.empty()) GTEST_SKIP() << no_neverball;
     oracle::Random random(seed);

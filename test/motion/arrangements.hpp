@@ -33,6 +33,11 @@ private:
     std::vector<Convex<D>> views_;
 };
 
+/// Three sticks, each of which blocks another.
+inline std::vector<Aabb3> three_sticks() {
+    return {{{-5, -1, 0}, {5, 0, 1}}, {{0, -5, -1}, {1, 5, 0}}, {{-1, 0, -5}, {0, 1, 5}}};
+}
+
 /// A convex polygon cut by random lines: the pieces touch along their sides.
 inline void cut_up(Things<2>& things, oracle::Random& random, std::vector<DVec<2>> loop, int cuts, const Pose2& pose) {
     if (cuts == 0) {

@@ -20,7 +20,7 @@ namespace {
 
 using oracle::Random;
 
-constexpr std::uint64_t seed = 20260925;
+constexpr std::uint64_t shortest_seed = 20260925;
 
 Polygon random_polygon(Random& random, const DVec<2>& center, double size) {
     std::vector<Vec2> points;
@@ -101,7 +101,7 @@ struct Lengths {
 };
 
 Lengths in_the_plane(int pieces, double spread) {
-    Random random(seed);
+    Random random(shortest_seed);
     Lengths result;
     for (int run = 0; run < 700; ++run) {
         World2 world;
@@ -142,7 +142,7 @@ TEST(DepenetrateShortest, IsShortComparedWithAllWaysOutIn2D) {
 
 /// In 3D, no random nearer position is free.
 TEST(DepenetrateShortest, NoneIsFoundNearerInSpace) {
-    Random random(seed);
+    Random random(shortest_seed);
     int inside = 0, freed = 0, nearer = 0, tried = 0;
     for (int run = 0; run < 150; ++run) {
         World3 world;
@@ -175,7 +175,7 @@ TEST(DepenetrateShortest, NoneIsFoundNearerInSpace) {
 }
 
 TEST(DepenetrateShortest, TakesNoMemory) {
-    Random random(seed);
+    Random random(shortest_seed);
     World3 world;
     std::vector<AnyShape<3>> boxes;
     for (int i = 0; i < 60; ++i) {

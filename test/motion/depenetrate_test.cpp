@@ -17,7 +17,7 @@ namespace {
 using oracle::near;
 using oracle::Random;
 
-constexpr std::uint64_t seed = 20260722;
+constexpr std::uint64_t depenetrate_seed = 20260722;
 
 TEST(Depenetrate, LeavesWhatIsFreeWhereItIs) {
     World2 world;
@@ -63,7 +63,7 @@ TEST(Depenetrate, UsesItemsThatPassTheFilterAlone) {
 
 template <int D>
 void at_random() {
-    Random random(seed);
+    Random random(depenetrate_seed);
     int inside = 0, freed = 0;
     for (int i = 0; i < 300; ++i) {
         World<D> world;

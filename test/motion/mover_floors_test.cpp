@@ -22,7 +22,7 @@ namespace {
 
 using oracle::Random;
 
-constexpr std::uint64_t seed = 20260722;
+constexpr std::uint64_t floors_seed = 20260722;
 constexpr int tiles = 16;  // along each axis, each 1 wide, from -8 on; the surface is at height 0
 
 float about(float number, Random* random) {
@@ -112,7 +112,7 @@ Vec<D> level_direction(Random& random) {
 /// `off` is the tolerance of normals.
 template <int D, class S>
 void expect_no_catch(const char* name, const World<D>& world, const S& shape, float reach, double off) {
-    Random random(seed);
+    Random random(floors_seed);
     for (const float speed : {0.003f, 0.05f, 0.4f, 2.7f}) {
         for (int run = 0; run < 12; ++run) {
             Mover<D> mover;
@@ -141,7 +141,7 @@ void expect_no_catch(const char* name, const World<D>& world, const S& shape, fl
 }
 
 TEST(MoverFloors, NothingCatchesInSpace) {
-    Random perturbation(seed);
+    Random perturbation(floors_seed);
     for (Random* random : {static_cast<Random*>(nullptr), &perturbation}) {
         for (const auto& add : {static_cast<void (*)(World3&, Random*)>(add_boxes), add_mesh, add_solid<3>}) {
             World3 world;
@@ -156,7 +156,7 @@ TEST(MoverFloors, NothingCatchesInSpace) {
 }
 
 TEST(MoverFloors, NothingCatchesInThePlane) {
-    Random perturbation(seed);
+    Random perturbation(floors_seed);
     for (Random* random : {static_cast<Random*>(nullptr), &perturbation}) {
         for (const auto& add :
              {static_cast<void (*)(World2&, Random*)>(add_boxes), add_segments, add_solid<2>, add_solid_of_faces}) {
@@ -244,8 +244,8 @@ void walk_at_random(std::uint64_t number) {
 
 TEST(MoverFloors, AtRandomItNeverEndsInsideNorGoesFarther) {
     for (std::uint64_t number = 0; number < 40; ++number) {
-        walk_at_random<2>(seed + number);
-        walk_at_random<3>(seed + number);
+        walk_at_random<2>(floors_seed + number);
+        walk_at_random<3>(floors_seed + number);
     }
 }
 

@@ -212,12 +212,8 @@ TEST(Rearrange, BallsAndBoxesInSpace) {
     }
 }
 
-std::vector<Aabb3> three_sticks() {
-    return {{{-5, -1, 0}, {5, 0, 1}}, {{0, -5, -1}, {1, 5, 0}}, {{-1, 0, -5}, {0, 1, 5}}};
-}
-
 TEST(Rearrange, GoesAlongAnAxisIfBlockedInOtherDirections) {
-    const std::vector<Aabb3> sticks = three_sticks();
+    const std::vector<Aabb3> sticks = test::three_sticks();
     const std::vector<Pose3> from(3), to{{Vec3(20, 0, 0)}, {Vec3(-20, 0, 0)}, {Vec3(0, 20, 20)}};
     EXPECT_FALSE(removal_order(sticks, {1, 1, 1}));
     const auto plan = rearrange(sticks, from, to, {.away = Vec3(1, 1, 1)});
@@ -229,7 +225,7 @@ TEST(Rearrange, GoesAlongAnAxisIfBlockedInOtherDirections) {
 TEST(Rearrange, NamesWhatIsStuckInSpace) {
     std::vector<Convex<3>> shapes;
     std::vector<Pose3> from, to;
-    const std::vector<Aabb3> sticks = three_sticks();
+    const std::vector<Aabb3> sticks = test::three_sticks();
     // The rotation that takes (1, 1, 1) to an axis: about their cross product, by the angle between them.
     const float angle = 0.95531662f;
     const Vec3 axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

@@ -339,13 +339,8 @@ TEST(RemovalOrder, OfThingsOfAllKindsInSpaceIsJudgedBySweeps) {
     EXPECT_GT(waits, 400);
 }
 
-/// Three long sticks along the axes, each over another one in the direction (1, 1, 1).
-std::vector<Aabb3> three_sticks() {
-    return {{{-5, -1, 0}, {5, 0, 1}}, {{0, -5, -1}, {1, 5, 0}}, {{-1, 0, -5}, {0, 1, 5}}};
-}
-
 TEST(RemovalOrder, ThreeSticksBlockOneAnother) {
-    const std::vector<Aabb3> sticks = three_sticks();
+    const std::vector<Aabb3> sticks = test::three_sticks();
     for (const Aabb3& a : sticks)
         for (const Aabb3& b : sticks)
             if (&a != &b) {
@@ -363,7 +358,7 @@ TEST(RemovalOrder, ThreeSticksBlockOneAnother) {
 }
 
 TEST(RemovalOrder, NamesWhatCanLeaveBeforeTheCycle) {
-    std::vector<Aabb3> things = three_sticks();
+    std::vector<Aabb3> things = test::three_sticks();
     things.insert(things.begin(), Aabb3{Vec3(9), Vec3(10)});  // above them all
     things.push_back(Aabb3{Vec3(-10), Vec3(-9)});             // below
     const RemovalOrder order = removal_order(things, {1, 1, 1});

@@ -17,7 +17,7 @@
 namespace abut::oracle {
 
 template <int D>
-bool is_unit(const Vec<D>& v) {
+bool is_direction(const Vec<D>& v) {
     double squared = 0;
     for (int a = 0; a < D; ++a) squared += static_cast<double>(v[a]) * static_cast<double>(v[a]);
     return std::abs(squared - 1) < 1e-4;
@@ -26,13 +26,13 @@ bool is_unit(const Vec<D>& v) {
 /// The distance may be infinite: a composite shape without parts, or a field without a surface, has no closest point.
 template <int D>
 bool is_finite_answer(const Closest<D>& found) {
-    return found.distance > -std::numeric_limits<float>::infinity() && is_unit<D>(found.normal) &&
+    return found.distance > -std::numeric_limits<float>::infinity() && is_direction<D>(found.normal) &&
            is_finite<D>(found.on_a) && is_finite<D>(found.on_b);
 }
 template <int D>
 bool is_finite_answer(const Contact<D>& found) {
     if (!found) return true;
-    bool result = std::isfinite(found.depth) && is_unit<D>(found.normal);
+    bool result = std::isfinite(found.depth) && is_direction<D>(found.normal);
     for (const ContactPoint<D>& point : found.points)
         result = result && std::isfinite(point.depth) && is_finite<D>(point.position);
     return result;
@@ -40,7 +40,7 @@ bool is_finite_answer(const Contact<D>& found) {
 template <int D>
 bool is_finite_answer(const std::optional<Hit<D>>& hit) {
     return !hit || (hit->fraction >= 0 && hit->fraction <= 1 && hit->distance >= 0 && std::isfinite(hit->distance) &&
-                    is_finite<D>(hit->point) && is_unit<D>(hit->normal));
+                    is_finite<D>(hit->point) && is_direction<D>(hit->normal));
 }
 
 /// The name of the first query whose answer isn't finite; null if all are.

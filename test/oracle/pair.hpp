@@ -3,15 +3,14 @@
 // Random pairs of shapes, so near to each other that about half of them overlap.
 
 #include "distance.hpp"
+#include "is_long.hpp"
 #include "sample.hpp"
-
-#include <cstdlib>
 
 namespace abut::oracle {
 
 /// The number of random cases of a test: `few`, or a hundred times as many if the environment sets ABUT_LONG.
 inline int case_count(int few) {
-    return std::getenv("ABUT_LONG") != nullptr ? 100 * few : few;
+    return is_long() ? 100 * few : few;
 }
 
 template <int D>

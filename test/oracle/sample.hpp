@@ -43,6 +43,11 @@ struct Sample {
     Polytope<D> solid;
 };
 
+template <int D>
+const Convex<D>& convex_of(const Sample<D>& sample) {
+    return std::get<Convex<D>>(sample.view);
+}
+
 /// A user-defined shape: the hull of points, given by its support function.
 template <int D>
 struct PointCloud {

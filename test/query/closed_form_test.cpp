@@ -20,11 +20,6 @@ std::optional<SignedDistance<D>> form_of(const Convex<D>& a, const Convex<D>& b)
     return closed_form_distance(a, b, result) ? std::optional(result) : std::nullopt;
 }
 
-template <int D>
-const Convex<D>& convex_of(const oracle::Sample<D>& sample) {
-    return std::get<Convex<D>>(sample.view);
-}
-
 TEST(ClosedForm, OfABallDeepInABoxIsExact) {
     const Box3 box{{0, 0, 0}, {1, 2, 3}};
     const auto found = form_of<3>(view(box), view(Sphere{{0.25f, -0.5f, 0.125f}, 0.5f}));

@@ -77,7 +77,7 @@ struct DrawnMotion {
 };
 
 /// The tolerance, with rounding to floats, of pairs of size 1 at most 8 from the origin.
-constexpr double tolerance = 5e-5;
+constexpr double pair_tolerance = 5e-5;
 
 TEST(DirectSweep, AnswersAreThoseOfTheViews) {
     Counts counts;
@@ -88,7 +88,8 @@ TEST(DirectSweep, AnswersAreThoseOfTheViews) {
         const DrawnMotion motion(random, shapes);
         shapes.draw(
             [&](const auto& a) {
-                shapes.draw([&](const auto& b) { compare(a, motion.motion_a, b, motion.motion_b, tolerance, counts); });
+                shapes.draw(
+                    [&](const auto& b) { compare(a, motion.motion_a, b, motion.motion_b, pair_tolerance, counts); });
             },
             motion.from);
         if (HasFailure()) return;

@@ -25,7 +25,7 @@ namespace {
 
 using oracle::Random;
 
-struct Counts {
+struct ComparisonCounts {
     int pairs = 0, overlapping = 0, rays = 0, hits = 0, at_corners = 0;
 };
 
@@ -62,7 +62,7 @@ void expect_near(const Contact<D>& direct, const Contact<D>& of_views) {
 
 /// A ray that hits a corner may report either side; one that ends at the surface may miss.
 template <int D>
-void expect_near(const std::optional<Hit<D>>& direct, const std::optional<Hit<D>>& of_views, Counts& counts) {
+void expect_near(const std::optional<Hit<D>>& direct, const std::optional<Hit<D>>& of_views, ComparisonCounts& counts) {
     if (direct.has_value() != of_views.has_value()) {
         EXPECT_NEAR((direct ? direct : of_views)->fraction, 1, rounding);
         return;
@@ -80,7 +80,7 @@ void expect_near(const std::optional<Hit<D>>& direct, const std::optional<Hit<D>
 }
 
 template <class A, class B>
-void compare(const A& a, const B& b, float margin, Counts& counts) {
+void compare(const A& a, const B& b, float margin, ComparisonCounts& counts) {
     constexpr int D = dimension<A>;
     const View<D> view_a(view(a)), view_b(view(b));
     ++counts.pairs;
@@ -112,7 +112,7 @@ TYPED_TEST_SUITE(Direct, Dimensions);
 
 TYPED_TEST(Direct, AnswersOfPairsAreThoseOfTheirViews) {
     constexpr int D = TypeParam::value;
-    Counts counts;
+    ComparisonCounts counts;
     this->for_each_seed([&](Random& random, DrawnShapes<D>& shapes) {
         const float margin = random.uniform_float(0, 0.5);
         shapes.draw([&](const auto& a) { shapes.draw([&](const auto& b) { compare(a, b, margin, counts); }); });
@@ -123,7 +123,7 @@ TYPED_TEST(Direct, AnswersOfPairsAreThoseOfTheirViews) {
 
 TYPED_TEST(Direct, RaysAndPointsTooAreThoseOfTheViews) {
     constexpr int D = TypeParam::value;
-    Counts counts;
+    ComparisonCounts counts;
     this->for_each_seed([&](Random&, DrawnShapes<D>& shapes) {
         shapes.draw([&](const auto& shape) {
             const View<D> as_view(view(shape));
@@ -144,7 +144,7 @@ TYPED_TEST(Direct, RaysAndPointsTooAreThoseOfTheViews) {
 // A cache must not change answers, whether it holds the last state of the pair or that of another pair.
 
 template <int D>
-void expect_same_from(Cache& cache, const auto& a, const auto& b, Counts& counts) {
+void expect_same_from(Cache& cache, const auto& a, const auto& b, ComparisonCounts& counts) {
     const View<D> view_a(view(a)), view_b(view(b));
     const Closest<D> anew = closest(view_a, view_b);
     ++counts.pairs;
@@ -166,7 +166,7 @@ void expect_same_from(Cache& cache, const auto& a, const auto& b, Counts& counts
 
 TYPED_TEST(Direct, AnswersFromACacheAreThoseAnew) {
     constexpr int D = TypeParam::value;
-    Counts counts;
+    ComparisonCounts counts;
     this->for_each_seed([&](Random& random, DrawnShapes<D>& shapes) {
         Cache cache;
         if (random.chance(0.2)) {

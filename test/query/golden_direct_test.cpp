@@ -111,7 +111,7 @@ void add_answers(Hash& hash, PlainShapes<D>& shapes, const A& a, const B& b, Cac
 }
 
 template <int D>
-std::uint64_t hash_of_answers() {
+std::uint64_t hash_of_closed_forms() {
     Hash hash;
     Cache cache;
     for (std::uint64_t seed = 0; seed < 100000; ++seed) {
@@ -141,10 +141,10 @@ std::uint64_t hash_of_sweeps() {
 class GoldenDirect : public oracle::BySimdTarget {};
 
 TEST_P(GoldenDirect, AnswersInThePlaneHaveTheSameBitsEverywhere) {
-    EXPECT_EQ(hash_of_answers<2>(), 12870591022412243438u);
+    EXPECT_EQ(hash_of_closed_forms<2>(), 12870591022412243438u);
 }
 TEST_P(GoldenDirect, AnswersInSpaceHaveTheSameBitsEverywhere) {
-    EXPECT_EQ(hash_of_answers<3>(), 4438090921802455054u);
+    EXPECT_EQ(hash_of_closed_forms<3>(), 4438090921802455054u);
 }
 TEST_P(GoldenDirect, SweepsInThePlaneHaveTheSameBitsEverywhere) {
     EXPECT_EQ(hash_of_sweeps(), 11923179436133139510u);

@@ -18,9 +18,9 @@ namespace {
 
 /// Each random number is drawn in a statement of its own, because compilers evaluate arguments in any order.
 template <int D>
-class WholeNumbers {
+class WholeNumberFunctions {
 public:
-    explicit WholeNumbers(std::uint64_t seed) : random_(seed) {}
+    explicit WholeNumberFunctions(std::uint64_t seed) : random_(seed) {}
 
     float number(std::uint32_t most) {
         return static_cast<float>(static_cast<int>(random_.below(2 * most + 1)) - static_cast<int>(most)) / 128;
@@ -70,8 +70,8 @@ private:
 };
 
 template <int D>
-std::uint64_t hash_of_answers() {
-    WholeNumbers<D> draw(31);
+std::uint64_t hash_of_function_answers() {
+    WholeNumberFunctions<D> draw(31);
     Hash hash;
     for (int i = 0; i < 400; ++i) {
         const AnyShape<D> a = draw.function(), b = draw.other(), c = draw.function();
@@ -89,10 +89,10 @@ std::uint64_t hash_of_answers() {
 }
 
 TEST(GoldenFunctions, InThePlane) {
-    EXPECT_EQ(hash_of_answers<2>(), 6711895071436241758u);
+    EXPECT_EQ(hash_of_function_answers<2>(), 6711895071436241758u);
 }
 TEST(GoldenFunctions, InSpace) {
-    EXPECT_EQ(hash_of_answers<3>(), 6432159189123826835u);
+    EXPECT_EQ(hash_of_function_answers<3>(), 6432159189123826835u);
 }
 
 }  // namespace

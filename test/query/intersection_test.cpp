@@ -202,11 +202,6 @@ static_assert(!Intersect<Box2, Box3> && !Intersect<Box2, Ball<2>> && !Intersect<
 constexpr oracle::Kind polytopes[] = {oracle::Kind::segment, oracle::Kind::triangle,      oracle::Kind::box,
                                       oracle::Kind::aabb,    oracle::Kind::stretched_box, oracle::Kind::polytope};
 
-template <int D>
-const Convex<D>& convex_of(const oracle::Sample<D>& sample) {
-    return std::get<Convex<D>>(sample.view);
-}
-
 /// The tolerance of the intersection's surface, including rounding to floats.
 template <int D>
 double allowed_error(const oracle::Sample<D>& a, const oracle::Sample<D>& b, const PolytopeOf<D>& found) {

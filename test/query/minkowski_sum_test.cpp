@@ -112,11 +112,6 @@ oracle::Sample<D> lattice_polytope(oracle::LatticeGenerator<D>& maker) {
     }
 }
 
-template <int D>
-const Convex<D>& convex_of(const oracle::Sample<D>& sample) {
-    return std::get<Convex<D>>(sample.view);
-}
-
 /// All sums of a corner of A and a corner of B.
 template <int D>
 std::vector<Vec<D>> all_sums(const Convex<D>& a, const Convex<D>& b) {

@@ -173,8 +173,8 @@ TEST(Polytope, HasAsManyCornersAsTheToleranceNeeds) {
 TEST(Polytope, StopsAtItsMostCorners) {
     const Convex<3> sphere = view(Sphere{{0, 0, 0}, 1});
     const Polyhedron near = polytope(sphere, 1e-6f);
-    EXPECT_LE(near.points().size(), most_polyhedron_corners);
-    EXPECT_GT(near.points().size(), most_polyhedron_corners - 100);
+    EXPECT_LE(near.points().size(), max_polyhedron_vertices);
+    EXPECT_GT(near.points().size(), max_polyhedron_vertices - 100);
     EXPECT_LT(gaps<3>(sphere, near, Random(1))[1], 1e-3);
 }
 
@@ -188,7 +188,7 @@ struct Endless {
 };
 
 TEST(Polytope, StopsWhereASupportFunctionContradictsItself) {
-    EXPECT_LE(polytope(Endless{}, 1e-3f).points().size(), most_polygon_corners);
+    EXPECT_LE(polytope(Endless{}, 1e-3f).points().size(), max_polygon_vertices);
 }
 
 #ifdef NDEBUG

@@ -11,12 +11,12 @@
 #include <abut/shape/tile_map.hpp>
 #include <abut/shape/triangle.hpp>
 
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 namespace abut {
 namespace {
-
-constexpr float pi = 3.14159265f;
 
 Chain chain(std::initializer_list<Vec2> points, bool one_sided = true) {
     return *Chain::build(points, false, {.one_sided = one_sided});
@@ -28,18 +28,22 @@ const Box2 rod{{1, 0}, {1, 0.05f}};
 TEST(SweepRotatingFronts, ARodMeetsAWallFromItsFrontAlone) {
     // The front of the wall faces right.
     const std::initializer_list<Vec2> up{{0, 1}, {0, 3}};
-    const Motion2 from_front{{}, {}, pi}, from_back{{{0, 0}, Turn::by(pi)}, {}, -pi};
+    const Motion2 from_front{{}, {}, std::numbers::pi_v<float>},
+        from_back{{{0, 0}, Turn::by(std::numbers::pi_v<float>)}, {}, -std::numbers::pi_v<float>};
     for (const bool one_sided : {false, true}) {
         const Chain wall = chain(up, one_sided);
         const auto at_front = sweep(rod, from_front, wall);
         ASSERT_TRUE(at_front);
         // The rod's upper side hits the segment's lower end, at a distance of 1.
-        EXPECT_NEAR(at_front->fraction * pi, pi / 2 - std::asin(0.05), 1e-4);
+        EXPECT_NEAR(at_front->fraction * std::numbers::pi_v<float>, std::numbers::pi_v<float> / 2 - std::asin(0.05),
+                    1e-4);
         EXPECT_GT(at_front->normal.x, 0.99f);
         EXPECT_EQ(sweep(rod, from_back, wall).has_value(), !one_sided);
         // Now the wall rotates.
-        EXPECT_TRUE(sweep(wall, Motion2{{}, {}, -pi}, rod));
-        EXPECT_EQ(sweep(wall, Motion2{{}, {}, pi}, rod, Motion2{{{0, 0}, Turn::by(pi)}, {}, 0}).has_value(),
+        EXPECT_TRUE(sweep(wall, Motion2{{}, {}, -std::numbers::pi_v<float>}, rod));
+        EXPECT_EQ(sweep(wall, Motion2{{}, {}, std::numbers::pi_v<float>}, rod,
+                        Motion2{{{0, 0}, Turn::by(std::numbers::pi_v<float>)}, {}, 0})
+                      .has_value(),
                   !one_sided);
     }
 }
@@ -48,14 +52,14 @@ TEST(SweepRotatingFronts, ARodMeetsAWallFromItsFrontAlone) {
 // the other side.
 
 /// The angle at which a ball of radius 0.1 on a circle of radius 2 comes down to height 1.
-const double comes_down = static_cast<double>(pi) - std::asin(1.1 / 2);
+const double comes_down = static_cast<double>(std::numbers::pi_v<float>) - std::asin(1.1 / 2);
 
 template <int D>
 Motion<D> circling() {
     if constexpr (D == 2)
-        return {{}, {}, -2 * pi};
+        return {{}, {}, -2 * std::numbers::pi_v<float>};
     else
-        return {{}, {}, {0, 2 * pi, 0}};
+        return {{}, {}, {0, 2 * std::numbers::pi_v<float>, 0}};
 }
 template <int D>
 Ball<D> circler() {
@@ -67,7 +71,7 @@ Ball<D> circler() {
 template <int D>
 void expect_met_from_above(const std::optional<Hit<D>>& hit) {
     ASSERT_TRUE(hit);
-    EXPECT_NEAR(hit->fraction * 2 * pi, comes_down, 1e-4);
+    EXPECT_NEAR(hit->fraction * 2 * std::numbers::pi_v<float>, comes_down, 1e-4);
     EXPECT_NEAR(hit->normal[D - 1], 1, 1e-4);
     EXPECT_NEAR(hit->point[D - 1], 1, 1e-4);
     EXPECT_FALSE(hit->started_inside);
@@ -75,7 +79,7 @@ void expect_met_from_above(const std::optional<Hit<D>>& hit) {
 template <int D>
 void expect_met_from_below(const std::optional<Hit<D>>& hit) {
     ASSERT_TRUE(hit);
-    EXPECT_NEAR(hit->fraction * 2 * pi, std::asin(0.9 / 2), 1e-4);
+    EXPECT_NEAR(hit->fraction * 2 * std::numbers::pi_v<float>, std::asin(0.9 / 2), 1e-4);
     EXPECT_NEAR(hit->normal[D - 1], -1, 1e-4);
 }
 
@@ -102,7 +106,7 @@ TEST(SweepRotatingFronts, APlatformIsPassedFromBelowAndMetFromAbove) {
 TEST(SweepRotatingFronts, APlatformThatAHalfSpaceTurnsIntoHasAFront) {
     // A ceiling that swings down about the origin.
     const HalfSpace2 ceiling{{0, -1}, 0};
-    const Motion2 motion{{}, {}, 0.9f * pi};
+    const Motion2 motion{{}, {}, 0.9f * std::numbers::pi_v<float>};
     Convex<2> up = convex(Segment2{{-2, -1}, {-3, -1}}), down = convex(Segment2{{-3, -1}, {-2, -1}});
     up.one_sided = down.one_sided = true;
     EXPECT_TRUE(sweep(View<2>(view(ceiling)), motion, View<2>(up), Motion2{}));
@@ -126,7 +130,7 @@ TEST(SweepRotatingFronts, ATriangleInSpaceOfAUserHasAFront) {
     const auto hit = sweep(convex(box), motion, up, Motion3{});
     ASSERT_TRUE(hit);
     EXPECT_GT(hit->normal.z, 0.999f);
-    EXPECT_GT(hit->fraction * 2 * pi, pi / 2);
+    EXPECT_GT(hit->fraction * 2 * std::numbers::pi_v<float>, std::numbers::pi_v<float> / 2);
     EXPECT_LT(sweep(convex(box), motion, down, Motion3{})->normal.z, -0.999f);
 }
 
@@ -135,7 +139,7 @@ TEST(SweepRotatingFronts, ATriangleInSpaceOfAUserHasAFront) {
 TEST(SweepRotatingFronts, WhatIsInItFromTheBackGoesOnAndIsMetWhenItComesBack) {
     const Chain platform = chain({{3, 0}, {-3, 0}});
     const Circle below{{-2, -0.05f}, 0.1f}, above{{-2, 0.05f}, 0.1f};
-    const Motion2 up = circling<2>(), down{{}, {}, 2 * pi};
+    const Motion2 up = circling<2>(), down{{}, {}, 2 * std::numbers::pi_v<float>};
     const auto after = [&](const Circle& ball, const Motion2& motion) {
         const auto hit = sweep(ball, motion, platform);
         EXPECT_TRUE(hit && hit->started_inside);

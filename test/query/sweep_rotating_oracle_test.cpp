@@ -6,10 +6,10 @@
 #include <abut/math/rigid_path.hpp>
 #include <abut/query/sweep_turning.hpp>
 
+#include <numbers>
+
 namespace abut {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 template <int D>
 struct MovingPair {
@@ -80,7 +80,9 @@ MovingPair<D> random_motion(oracle::Random& random) {
                     .make(kind);
         }
     }
-    const double max_distance = random.chance(0.5) ? 2 * pi : random.chance(0.5) ? pi / 4 : 0;
+    const double max_distance = random.chance(0.5)   ? 2 * std::numbers::pi
+                                : random.chance(0.5) ? std::numbers::pi / 4
+                                                     : 0;
     const DVec<D> from = random.direction<D>() * away,
                   displacement = random.direction<D>() * (size * random.uniform(1, 5));
     Motion<D> a{{to_float(from), random.rotation<D>()},

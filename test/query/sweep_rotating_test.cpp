@@ -14,12 +14,12 @@
 #include <abut/shape/placed.hpp>
 #include <abut/shape/segment.hpp>
 
+#include <numbers>
+
 namespace abut {
 namespace {
 
 using oracle::near;
-
-constexpr float pi = 3.14159265f;
 
 // Examples in 2D.
 
@@ -28,17 +28,17 @@ TEST(SweepRotating, ARodThatTurnsOnceAroundMeetsAPost) {
     // its half width 0.1 over that distance is below the post, sin a = 0.1 / 0.9.
     const Box2 rod{{0, 0}, {1, 0.1f}};
     const Circle post{{0, 1}, 0.1f};
-    const auto hit = sweep(rod, Motion2{{}, {}, 2 * pi}, post);
+    const auto hit = sweep(rod, Motion2{{}, {}, 2 * std::numbers::pi_v<float>}, post);
     ASSERT_TRUE(hit);
     // The rod's long side hits the circle: the center is 1 from the hub, and 0.2 off the axis.
-    EXPECT_NEAR(hit->fraction * 2 * pi, std::acos(0.2), 1e-5);
+    EXPECT_NEAR(hit->fraction * 2 * std::numbers::pi_v<float>, std::acos(0.2), 1e-5);
     EXPECT_FALSE(hit->started_inside);
     EXPECT_EQ(hit->distance, 0);
     // The normal faces the rod, and the point is on the circle.
     EXPECT_NEAR(length(DVec<2>(hit->point) - DVec<2>(0, 1)), 0.1, 1e-5);
     EXPECT_GT(hit->normal.x, 0.9f);
     // Beyond the reach of the rod there is no hit, even in five revolutions.
-    EXPECT_FALSE(sweep(rod, Motion2{{}, {}, 10 * pi}, Circle{{0, 1.2f}, 0.1f}));
+    EXPECT_FALSE(sweep(rod, Motion2{{}, {}, 10 * std::numbers::pi_v<float>}, Circle{{0, 1.2f}, 0.1f}));
     // A motion between equal poses has no hit.
     EXPECT_FALSE(sweep(rod, Pose2{}, Pose2{}, post, Pose2{}, Pose2{}));
 }
@@ -46,11 +46,12 @@ TEST(SweepRotating, ARodThatTurnsOnceAroundMeetsAPost) {
 TEST(SweepRotating, BothTurn) {
     // The teeth of two gears rotate against each other at the same speed: their tips touch midway.
     const Segment<2> tooth{{0, 0}, {1, 0}};
-    const auto later = sweep(tooth, Motion2{{{0, 0}, Turn::by(-pi / 2)}, {}, pi}, tooth,
-                             Motion2{{{1.2f, 0}, Turn::by(1.5f * pi)}, {}, -pi});
+    const auto later =
+        sweep(tooth, Motion2{{{0, 0}, Turn::by(-std::numbers::pi_v<float> / 2)}, {}, std::numbers::pi_v<float>}, tooth,
+              Motion2{{{1.2f, 0}, Turn::by(1.5f * std::numbers::pi_v<float>)}, {}, -std::numbers::pi_v<float>});
     ASSERT_TRUE(later);
     // At the angle below the line of centres at which half of 1.2 is the cosine.
-    EXPECT_NEAR(later->fraction * pi, pi / 2 - std::acos(0.6), 1e-4);
+    EXPECT_NEAR(later->fraction * std::numbers::pi_v<float>, std::numbers::pi_v<float> / 2 - std::acos(0.6), 1e-4);
     EXPECT_NEAR(later->point.x, 0.6, 1e-4);
 }
 
@@ -58,7 +59,8 @@ TEST(SweepRotating, MovesAndTurns) {
     // A square moves to a wall and hits it with its corner, after 45 degrees.
     const Box2 square{{0, 0}, {1, 1}};
     const HalfSpace2 wall{{-1, 0}, -10};
-    const auto hit = sweep(square, Motion2{{{0, 0}}, {(10 - std::sqrt(2.0f)) * 2, 0}, pi / 2}, wall);
+    const auto hit =
+        sweep(square, Motion2{{{0, 0}}, {(10 - std::sqrt(2.0f)) * 2, 0}, std::numbers::pi_v<float> / 2}, wall);
     ASSERT_TRUE(hit);
     EXPECT_NEAR(hit->fraction, 0.5, 1e-4);
     EXPECT_TRUE(near(hit->normal, Vec2(-1, 0)));
@@ -74,7 +76,8 @@ TEST(SweepRotating, ABoxOnAFloorTurnsOnTheSpotAndSlides) {
     const Box3 slab{{0, 0, -1}, {20, 20, 1}};
     const auto plane = test::box_surface(Vec3(-20, -20, -1), Vec3(20, 20, 0)).mesh();
     for (const Motion3& motion :
-         {Motion3{{}, {}, {0, 0, 2 * pi}}, Motion3{{}, {3, 1, 0}, {0, 0, -pi}}, Motion3{{}, {5, 0, 0}, {}}}) {
+         {Motion3{{}, {}, {0, 0, 2 * std::numbers::pi_v<float>}},
+          Motion3{{}, {3, 1, 0}, {0, 0, -std::numbers::pi_v<float>}}, Motion3{{}, {5, 0, 0}, {}}}) {
         EXPECT_FALSE(sweep(box, motion, ground));
         EXPECT_FALSE(sweep(box, motion, slab));
         EXPECT_FALSE(sweep(box, motion, plane));
@@ -112,7 +115,9 @@ TEST(SweepRotating, ABoxPivotsAboutItsEdge) {
     const HalfSpace3 ground{{0, 0, 1}, 0};
     const Box3 slab{{0, 0, -1}, {20, 20, 1}};
     const auto plane = test::box_surface(Vec3(-20, -20, -1), Vec3(20, 20, 0)).mesh();
-    const Motion3 up{{}, {}, {0, -0.45f * pi, 0}}, down{{}, {}, {0, 0.45f * pi, 0}}, over{{}, {}, {0, -0.75f * pi, 0}};
+    const Motion3 up{{}, {}, {0, -0.45f * std::numbers::pi_v<float>, 0}},
+        down{{}, {}, {0, 0.45f * std::numbers::pi_v<float>, 0}},
+        over{{}, {}, {0, -0.75f * std::numbers::pi_v<float>, 0}};
     const auto expect = [&](const auto& floor) {
         EXPECT_FALSE(sweep(box, up, floor));
         const auto in = sweep(box, down, floor);
@@ -135,8 +140,8 @@ TEST(SweepRotating, APlankOverAPostIsJudgedWhereTheyTouch) {
     // The post is under one half of the plank. That half goes up, and the other goes down beside the post.
     const Box2 plank{{0, 0.1f}, {2, 0.1f}};
     const Box2 post{{1, -1}, {0.25f, 1}};
-    EXPECT_FALSE(sweep(plank, Motion2{{}, {}, pi / 4}, post));
-    const auto in = sweep(plank, Motion2{{}, {}, -pi / 4}, post);
+    EXPECT_FALSE(sweep(plank, Motion2{{}, {}, std::numbers::pi_v<float> / 4}, post));
+    const auto in = sweep(plank, Motion2{{}, {}, -std::numbers::pi_v<float> / 4}, post);
     ASSERT_TRUE(in);
     EXPECT_EQ(in->fraction, 0);
 }
@@ -161,16 +166,16 @@ TEST(SweepRotating, WhatStartsInsideIsHitWhereItGetsDeeperThanItWas) {
     const Box2 bar{{1, 0}, {1, 0.1f}};
     const auto expect = [&](const auto& below) {
         // The bar goes up and around. On the other side it is no deeper than at the start until its end touches.
-        const auto around = sweep(bar, Motion2{{}, {}, 1.5f * pi}, below);
+        const auto around = sweep(bar, Motion2{{}, {}, 1.5f * std::numbers::pi_v<float>}, below);
         ASSERT_TRUE(around);
-        EXPECT_GT(around->fraction * 1.5f * pi, 3.1f);
-        EXPECT_LT(around->fraction * 1.5f * pi, 3.2f);
+        EXPECT_GT(around->fraction * 1.5f * std::numbers::pi_v<float>, 3.1f);
+        EXPECT_LT(around->fraction * 1.5f * std::numbers::pi_v<float>, 3.2f);
         EXPECT_TRUE(around->started_inside);
-        EXPECT_FALSE(sweep(bar, Motion2{{}, {}, 0.9f * pi}, below));
+        EXPECT_FALSE(sweep(bar, Motion2{{}, {}, 0.9f * std::numbers::pi_v<float>}, below));
         // A bar that the motion lifts out first hits the ground as a bar from outside does.
-        const auto lifted = sweep(bar, Motion2{{}, {0, 1.5f}, 1.5f * pi}, below);
+        const auto lifted = sweep(bar, Motion2{{}, {0, 1.5f}, 1.5f * std::numbers::pi_v<float>}, below);
         ASSERT_TRUE(lifted);
-        const Pose2 there = pose_at(Motion2{{}, {0, 1.5f}, 1.5f * pi}, lifted->fraction);
+        const Pose2 there = pose_at(Motion2{{}, {0, 1.5f}, 1.5f * std::numbers::pi_v<float>}, lifted->fraction);
         EXPECT_NEAR(closest(at(bar, there), below).distance, 0, 2e-5);
         EXPECT_GT(lifted->fraction, 0.1f);
     };
@@ -182,7 +187,8 @@ TEST(SweepRotating, WhatIsALittleInItsFloorSlidesAndTurnsOnIt) {
     // The bar is as deep as solvers leave bodies, during the whole motion.
     const Box3 box{{0, 0, 0.995f}, {1, 1, 1}};
     const auto plane = test::box_surface(Vec3(-20, -20, -1), Vec3(20, 20, 0)).mesh();
-    for (const Motion3& motion : {Motion3{{}, {5, 1, 0}, {0, 0, pi}}, Motion3{{}, {0.1f, 0, 0}, {0, 0, 0.2f}}}) {
+    for (const Motion3& motion :
+         {Motion3{{}, {5, 1, 0}, {0, 0, std::numbers::pi_v<float>}}, Motion3{{}, {0.1f, 0, 0}, {0, 0, 0.2f}}}) {
         EXPECT_FALSE(sweep(box, motion, HalfSpace3{{0, 0, 1}, 0}));
         EXPECT_FALSE(sweep(box, motion, Box3{{0, 0, -1}, {20, 20, 1}}));
         EXPECT_FALSE(sweep(box, motion, plane));
@@ -194,7 +200,7 @@ TEST(SweepRotating, ComesBackToWhatItWasInside) {
     const Box2 rod{{1, 0}, {1, 0.05f}};
     for (const float side : {1.0f, -1.0f}) {
         const Box2 post{{1.95f, -0.12f * side}, {0.2f, 0.1f}};
-        const Motion2 revolution{{}, {}, 2 * pi * side};
+        const Motion2 revolution{{}, {}, 2 * std::numbers::pi_v<float> * side};
         const auto hit = sweep(rod, revolution, post);
         ASSERT_TRUE(hit);
         EXPECT_GT(hit->fraction, 0.9f);
@@ -207,12 +213,12 @@ TEST(SweepRotating, ComesBackToWhatItLeft) {
     // A door that touches its frame opens, goes around, and hits the other side of the frame.
     const Box2 door{{1, 0.05f}, {1, 0.05f}};
     const Box2 frame{{1.9f, -0.1f}, {0.1f, 0.1f}};
-    const auto hit = sweep(door, Motion2{{}, {}, 2 * pi}, frame);
+    const auto hit = sweep(door, Motion2{{}, {}, 2 * std::numbers::pi_v<float>}, frame);
     ASSERT_TRUE(hit);
     // Its upper side, 0.1 above the hinge's line, hits the frame's lower corner near the hinge.
     EXPECT_GT(hit->fraction, 0.9f);
     EXPECT_LT(hit->fraction, 0.99f);
-    const Pose2 there = pose_at(Motion2{{}, {}, 2 * pi}, hit->fraction);
+    const Pose2 there = pose_at(Motion2{{}, {}, 2 * std::numbers::pi_v<float>}, hit->fraction);
     EXPECT_NEAR(closest(at(door, there), frame).distance, 0, 2e-6);
 }
 
@@ -238,7 +244,7 @@ TEST(SweepRotating, ACylinderTipsOver) {
     // It rotates about the edge of its base onto a box as high as its radius: its wall hits the corner.
     const Cylinder column{{1, 0, 0}, {1, 0, 6}, 1};
     const HalfSpace3 ground{{0, 0, 1}, 0};
-    const Motion3 over{{}, {}, {0, -0.75f * pi, 0}};
+    const Motion3 over{{}, {}, {0, -0.75f * std::numbers::pi_v<float>, 0}};
     const auto hit = sweep(column, over, ground);
     ASSERT_TRUE(hit);
     EXPECT_NEAR(hit->fraction, 2.0 / 3, 1e-4);
@@ -253,12 +259,12 @@ TEST(SweepRotating, AHalfSpaceThatTurnsMeetsWhatStands) {
     // until upright. A lid that falls on the ball does.
     const HalfSpace3 lid{{1, 0, 0}, 0};
     const Sphere ball{{4, 0, 2}, 1};
-    const auto hit = sweep(lid, Motion3{{}, {}, {0, pi, 0}}, ball);
+    const auto hit = sweep(lid, Motion3{{}, {}, {0, std::numbers::pi_v<float>, 0}}, ball);
     ASSERT_TRUE(hit);
     // The boundary passes through the origin; it hits the ball when the distance of the center is 1.
-    const Pose3 there = pose_at(Motion3{{}, {}, {0, pi, 0}}, hit->fraction);
+    const Pose3 there = pose_at(Motion3{{}, {}, {0, std::numbers::pi_v<float>, 0}}, hit->fraction);
     EXPECT_NEAR(closest(at(lid, there), ball).distance, 0, 1e-5);
-    const auto other_way = sweep(ball, Motion3{}, lid, Motion3{{}, {}, {0, pi, 0}});
+    const auto other_way = sweep(ball, Motion3{}, lid, Motion3{{}, {}, {0, std::numbers::pi_v<float>, 0}});
     ASSERT_TRUE(other_way);
     EXPECT_NEAR(other_way->fraction, hit->fraction, 2e-6);
     EXPECT_TRUE(near(other_way->normal, -hit->normal, 1e-5));

@@ -85,13 +85,13 @@ void check_closest(const View<3>& mesh, const Parts& parts, const View<3>& other
     }
     // A triangle alone may have another separating plane than one among the parts of a composite shape.
     if (std::holds_alternative<Composite<3>>(other)) return;
-    const Contact<3> part_touch = contact(parts.views.at(touch.feature_a.part), other);
-    EXPECT_EQ(part_touch.depth, touch.depth) << "part " << touch.feature_a.part;
-    EXPECT_EQ(part_touch.normal, touch.normal);
-    ASSERT_EQ(part_touch.points.size(), touch.points.size());
+    const Contact<3> part_contact = contact(parts.views.at(touch.feature_a.part), other);
+    EXPECT_EQ(part_contact.depth, touch.depth) << "part " << touch.feature_a.part;
+    EXPECT_EQ(part_contact.normal, touch.normal);
+    ASSERT_EQ(part_contact.points.size(), touch.points.size());
     for (std::size_t i = 0; i < touch.points.size(); ++i) {
-        EXPECT_EQ(part_touch.points[i].position, touch.points[i].position);
-        EXPECT_EQ(part_touch.points[i].depth, touch.points[i].depth);
+        EXPECT_EQ(part_contact.points[i].position, touch.points[i].position);
+        EXPECT_EQ(part_contact.points[i].depth, touch.points[i].depth);
     }
 }
 

@@ -1,10 +1,10 @@
 // Rays into solid trees, against every face of the level.
 
 #include "../../scenes/wad.hpp"
+#include "../oracle/is_long.hpp"
 #include "solid_levels.hpp"
 #include <abut/query/raycast_solid_bsp.hpp>
 
-#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <map>
@@ -201,7 +201,7 @@ void expect_same_map(const scenes::WadMap& map, oracle::Random& random, Nodes& n
 }
 
 TEST(SolidRaycast, MapsOfFreedoom) {
-    if (std::getenv("ABUT_LONG") == nullptr) GTEST_SKIP() << "only where ABUT_LONG is set";
+    if (!oracle::is_long()) GTEST_SKIP() << "only where ABUT_LONG is set";
     Nodes nodes;
     oracle::Random random(74);
     for (const char* name : {"freedoom1.wad", "freedoom2.wad"}) {

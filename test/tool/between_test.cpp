@@ -25,7 +25,7 @@ CheckResult<3> check_at(const Scene& scene, const std::vector<double>& times, co
     EXPECT_TRUE(result);
     return *std::move(result);
 }
-CheckResult<3> check_scene(const Scene& scene, const CheckOptions& options = {}) {
+CheckResult<3> check_between_keys(const Scene& scene, const CheckOptions& options = {}) {
     return check_at(scene, key_times(scene), options);
 }
 
@@ -65,7 +65,7 @@ TEST(Between, AThingIsMetThatIsPassedThrough) {
     Scene scene;
     test::add_unit_box(scene, "House", {0, 0, 0});
     add_motion(scene, test::add_unit_box(scene, "Train", {-10, 0, 0}), {{0, {-10, 0, 0}}, {5, {10, 0, 0}}});
-    const CheckResult<3> result = check_scene(scene);
+    const CheckResult<3> result = check_between_keys(scene);
     ASSERT_EQ(result.findings.size(), 1u);
     const Finding<3>& finding = result.findings[0];
     EXPECT_TRUE(finding.between);
@@ -84,7 +84,7 @@ TEST(Between, AThingIsMetThatIsPassedThrough) {
 TEST(Between, HoweverThinAndFast) {
     for (const double speed : {10.0, 1e3, 1e5}) {
         const CheckResult<3> result =
-            check_scene(walker_and_wall({{0, {-speed, 0, 0}}, {1, {-speed, 0, 0.25}}, {2, {speed, 0, 0}}}));
+            check_between_keys(walker_and_wall({{0, {-speed, 0, 0}}, {1, {-speed, 0, 0.25}}, {2, {speed, 0, 0}}}));
         ASSERT_EQ(result.findings.size(), 1u) << speed;
         EXPECT_EQ(result.findings[0].first, 1u);
         EXPECT_NEAR(result.findings[0].time, 1 + 0.5 * (speed - 0.5005) / speed, 1e-5);
@@ -93,7 +93,8 @@ TEST(Between, HoweverThinAndFast) {
 
 TEST(Between, WhatIsFoundAtAFrameIsReportedOnce) {
     // In the wall at the second of three frames; beside it at the others.
-    const CheckResult<3> result = check_scene(walker_and_wall({{0, {-5, 0, 0}}, {1, {0.25, 0, 0}}, {2, {5, 0, 0}}}));
+    const CheckResult<3> result =
+        check_between_keys(walker_and_wall({{0, {-5, 0, 0}}, {1, {0.25, 0, 0}}, {2, {5, 0, 0}}}));
     ASSERT_EQ(result.findings.size(), 1u);
     EXPECT_FALSE(result.findings[0].between);
     EXPECT_EQ(result.findings[0].first, 1u);
@@ -106,11 +107,12 @@ TEST(Between, ThingsMaySlideAndRestOnThings) {
                          glm::translate(glm::dmat4(1.0), glm::dvec3(0, -1, 0)));
         const double y = 0.5 - depth;
         add_motion(scene, test::add_unit_box(scene, "Crate", {-20, y, 0}), {{0, {-20, y, 0}}, {1, {20, y, 7}}});
-        EXPECT_TRUE(check_scene(scene).findings.empty()) << depth;
+        EXPECT_TRUE(check_between_keys(scene).findings.empty()) << depth;
         // A bump between two keys is one.
         test::add_unit_box(scene, "Bump", {0, -0.49, 3.5});
-        EXPECT_EQ(check_scene(scene).findings.size(), 2u) << depth << ": the bump is in the floor, and met";
-        EXPECT_EQ(check_scene(scene, {.limits = {.allow = 0.02f}, .pairs = {{"Bump", "Crate"}}}).findings.size(), 0u);
+        EXPECT_EQ(check_between_keys(scene).findings.size(), 2u) << depth << ": the bump is in the floor, and met";
+        EXPECT_EQ(check_between_keys(scene, {.limits = {.allow = 0.02f}, .pairs = {{"Bump", "Crate"}}}).findings.size(),
+                  0u);
     }
 }
 
@@ -150,19 +152,19 @@ TEST(Between, WheelsOnRailsAreFine) {
     schedule(scene);
     // A corner goes below the rail by 1 - cos(5.6 degrees) of the radius between two keys: more than --allow permits.
     const float bump = static_cast<float>(1 - inner);
-    EXPECT_TRUE(check_scene(scene, {.limits = {.allow = 1.1f * bump}}).findings.empty());
-    const CheckResult<3> result = check_scene(scene, {.limits = {.allow = 0.5f * bump}});
+    EXPECT_TRUE(check_between_keys(scene, {.limits = {.allow = 1.1f * bump}}).findings.empty());
+    const CheckResult<3> result = check_between_keys(scene, {.limits = {.allow = 0.5f * bump}});
     ASSERT_EQ(result.findings.size(), 8u) << "one for each gap between frames";
     for (const Finding<3>& finding : result.findings) EXPECT_NEAR(finding.distance, -bump, 0.2f * bump);
 }
 
 TEST(Between, StepsJump) {
     const Keys keys{{0, {-5, 0, 0}}, {1, {5, 0, 0}}, {2, {-5, 0, 0}}};
-    EXPECT_EQ(check_scene(walker_and_wall(keys)).findings.size(), 2u);
-    EXPECT_TRUE(check_scene(walker_and_wall(keys, Interpolation::step)).findings.empty());
+    EXPECT_EQ(check_between_keys(walker_and_wall(keys)).findings.size(), 2u);
+    EXPECT_TRUE(check_between_keys(walker_and_wall(keys, Interpolation::step)).findings.empty());
     EXPECT_TRUE(check_at(walker_and_wall(keys, Interpolation::step), {0, 0.3, 1.7, 2}).findings.empty());
     // Two keys at one time are a step too.
-    EXPECT_TRUE(check_scene(walker_and_wall({{0, {-5, 0, 0}}, {1, {-4, 0, 0}}, {1, {4, 0, 0}}, {2, {5, 0, 0}}}))
+    EXPECT_TRUE(check_between_keys(walker_and_wall({{0, {-5, 0, 0}}, {1, {-4, 0, 0}}, {1, {4, 0, 0}}, {2, {5, 0, 0}}}))
                     .findings.empty());
 }
 
@@ -176,20 +178,20 @@ TEST(Between, WhatLeapsWithinOneFrameJumps) {
         }
         return keys;
     };
-    EXPECT_TRUE(check_scene(walker_and_wall(walk(4))).findings.empty());
+    EXPECT_TRUE(check_between_keys(walker_and_wall(walk(4))).findings.empty());
     // A constant high speed is fast, and sampled all the same.
     Keys fast;
     for (int i = 0; i <= 48; ++i) fast.emplace_back(i / 24.0, glm::dvec3(-98 + 4 * i, 0, 0));
-    EXPECT_EQ(check_scene(walker_and_wall(fast)).findings.size(), 1u);
+    EXPECT_EQ(check_between_keys(walker_and_wall(fast)).findings.size(), 1u);
     // So is an animation that is as short as that.
-    EXPECT_EQ(check_scene(walker_and_wall({{0, {-3, 0, 0}}, {1 / 24.0, {3, 0, 0}}})).findings.size(), 1u);
+    EXPECT_EQ(check_between_keys(walker_and_wall({{0, {-3, 0, 0}}, {1 / 24.0, {3, 0, 0}}})).findings.size(), 1u);
 }
 
 TEST(Between, TheNextClipBeginsWhereItBegins) {
     Scene scene = walker_and_wall({{0, {-5, 0, 0}}, {1, {-3, 0, 0}}});
     add_motion(scene, 1, {{0, {5, 0, 0}}, {1, {3, 0, 0}}});
     EXPECT_GT(scene.animations[1].start, 1.0);
-    EXPECT_TRUE(check_scene(scene).findings.empty());
+    EXPECT_TRUE(check_between_keys(scene).findings.empty());
     EXPECT_TRUE(check_at(scene, {0, 2}).findings.empty());
     add_motion(scene, 1, {{0, {5, 0, 0}}, {1, {-3, 0, 0}}});
     const CheckResult<3> result = check_at(scene, {0, 2, 4});
@@ -214,13 +216,13 @@ TEST(Between, SplinesAreFollowed) {
     KeyTrack<glm::dvec3>& track = scene.animations[0].motions[0].translation;
     track.out_tangents[0] = {16, 0, 0};
     track.in_tangents[1] = {-16, 0, 0};  // x = -2 + 16 t (1 - t), 2 at most
-    const CheckResult<3> result = check_scene(scene);
+    const CheckResult<3> result = check_between_keys(scene);
     ASSERT_EQ(result.findings.size(), 1u);
     const double x = -0.5005, t = 0.5 - std::sqrt(0.25 - (x + 2) / 16);
     EXPECT_NEAR(result.findings[0].time, t, 2e-3);
     track.out_tangents[0] = {5, 0, 0};
     track.in_tangents[1] = {-5, 0, 0};  // to -0.75
-    EXPECT_TRUE(check_scene(scene).findings.empty());
+    EXPECT_TRUE(check_between_keys(scene).findings.empty());
 }
 
 TEST(Between, TurnsAreFollowedAroundTheirAxis) {
@@ -243,8 +245,8 @@ TEST(Between, TurnsAreFollowedAroundTheirAxis) {
         schedule(scene);
         return scene;
     };
-    EXPECT_EQ(check_scene(with({7.07, 7.07, 0})).findings.size(), 1u) << "on the arc";
-    EXPECT_TRUE(check_scene(with({5, 5, 0})).findings.empty()) << "on the chord";
+    EXPECT_EQ(check_between_keys(with({7.07, 7.07, 0})).findings.size(), 1u) << "on the arc";
+    EXPECT_TRUE(check_between_keys(with({5, 5, 0})).findings.empty()) << "on the chord";
 }
 
 TEST(Between, WhatChangesItsShapeIsTestedAtFrames) {
@@ -262,9 +264,9 @@ TEST(Between, WhatChangesItsShapeIsTestedAtFrames) {
 
 TEST(Between, ClearanceHoldsBetweenFramesToo) {
     Scene scene = walker_and_wall({{0, {-5, 5.75, 0}}, {1, {5, 5.75, 0}}});  // 0.25 above the wall's end
-    EXPECT_TRUE(check_scene(scene).findings.empty());
-    EXPECT_TRUE(check_scene(scene, {.limits = {.clearance = 0.2f}}).findings.empty());
-    const CheckResult<3> result = check_scene(scene, {.limits = {.clearance = 0.3f}});
+    EXPECT_TRUE(check_between_keys(scene).findings.empty());
+    EXPECT_TRUE(check_between_keys(scene, {.limits = {.clearance = 0.2f}}).findings.empty());
+    const CheckResult<3> result = check_between_keys(scene, {.limits = {.clearance = 0.3f}});
     ASSERT_EQ(result.findings.size(), 1u);
     EXPECT_NEAR(result.findings[0].distance, 0.25f, 1e-5f);
 }
@@ -276,7 +278,7 @@ TEST(Between, MeshesTooAndOnesThatMoveTogetherAreLeftAlone) {
     const std::uint32_t load = test::add_unit_box(scene, "Load", {0.9, 0.9, 0});  // 0.1 in it
     scene.nodes[load].parent = train;
     add_motion(scene, train, {{0, {-9, 0.3, 0.2}}, {3, {9, 0.3, 0.2}}});
-    const CheckResult<3> result = check_scene(scene);
+    const CheckResult<3> result = check_between_keys(scene);
     std::vector<std::pair<std::size_t, std::size_t>> pairs;
     for (const Finding<3>& finding : result.findings)
         if (finding.between) pairs.emplace_back(finding.a, finding.b);
@@ -289,10 +291,10 @@ TEST(Findings, OfMoreThanWantedTheDeepestAreGiven) {
     Scene scene;
     for (int i = 0; i < 60; ++i) test::add_unit_box(scene, "Box " + std::to_string(100 + i), {0.01 * i, 0, 0});
     add_motion(scene, 59, {{0, {0.59, 0, 0}}, {1, {0.59, 0.001, 0}}, {2, {0, 0, 0}}});
-    CheckResult<3> all = check_scene(scene);
+    CheckResult<3> all = check_between_keys(scene);
     ASSERT_EQ(all.findings.size(), 60u * 59u / 2u);
     EXPECT_EQ(all.left_out, 0u);
-    const CheckResult<3> some = check_scene(scene, {.limits = {}, .pairs = {}, .max_findings = 7});
+    const CheckResult<3> some = check_between_keys(scene, {.limits = {}, .pairs = {}, .max_findings = 7});
     EXPECT_EQ(some.left_out, all.findings.size() - 7);
     ASSERT_EQ(some.findings.size(), 7u);
     std::sort(all.findings.begin(), all.findings.end(), [](const Finding<3>& x, const Finding<3>& y) {

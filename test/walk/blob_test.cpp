@@ -22,6 +22,7 @@ namespace abut {
 namespace {
 
 using oracle::Random;
+using test::built;
 using test::Surface;
 
 using Bytes = std::vector<std::byte>;
@@ -85,12 +86,6 @@ void expect_same(const WalkMesh& mesh) {
     EXPECT_EQ(a.bounds, b.bounds);
     expect_same(a.tree, b.tree);
     EXPECT_EQ(a.leaf_of, b.leaf_of);
-}
-
-WalkMesh built(const Surface& surface, std::span<const Vec3> normals = {}, std::span<const std::uint8_t> areas = {}) {
-    Result<WalkMesh> result = WalkMesh::build(surface.points, surface.triangles, normals, areas);
-    EXPECT_TRUE(result) << (result ? "" : result.problem().message);
-    return *std::move(result);
 }
 
 ProblemCode code_of(const Bytes& bytes) {

@@ -18,7 +18,7 @@ namespace abut::test {
 namespace {
 
 using oracle::Random;
-Long position(const WalkMesh& mesh, const WalkPoint& place) {
+Long position_of(const WalkMesh& mesh, const WalkPoint& place) {
     const glm::uvec3& t = mesh.triangles()[place.triangle];
     const auto at = [&](std::uint32_t k) { return Long(mesh.points()[k]); };
     const Long w(place.weights);
@@ -78,7 +78,7 @@ TEST_P(WalkNearestAlong, is_the_first_of_all_triangles) {
             if (sure != maybe) continue;
             ++met;
             ASSERT_TRUE(place);
-            const Long off = position(*mesh, *place) - (Long(point) + direction * sure);
+            const Long off = position_of(*mesh, *place) - (Long(point) + direction * sure);
             EXPECT_LT(std::sqrt(product(off, off)), 1e-6L * size);
 
             // The hit doesn't depend on the direction's length, and isn't beyond the surface.

@@ -2,6 +2,7 @@
 // distances of all triangles, for each SIMD target.
 
 #include "../broad_phase/allocations.hpp"
+#include "../oracle/is_long.hpp"
 #include "../oracle/simd_targets.hpp"
 #include "../query/hash.hpp"
 #include "long_vectors.hpp"
@@ -11,7 +12,6 @@
 #include <abut/walk/walk_mesh.hpp>
 
 #include <algorithm>
-#include <cstdlib>
 #include <limits>
 #include <optional>
 
@@ -161,7 +161,7 @@ TEST_P(WalkNearest, is_that_of_all_triangles_one_by_one) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
     const std::vector<NamedSurface> all = surfaces(seed);
-    const int count = std::getenv("ABUT_LONG") != nullptr ? 2000 : 8;
+    const int count = oracle::is_long() ? 2000 : 8;
     for (const double scale : {1e-3, 1.0, 1e4}) {
         SCOPED_TRACE(scale);
         check_all(all, scale, DVec<3>(0.0), random, count);

@@ -1,5 +1,6 @@
 // Paths over random ground, compared with shortest paths of other algorithms.
 
+#include "../oracle/is_long.hpp"
 #include "../oracle/surface_paths.hpp"
 #include "../oracle/visibility_graph.hpp"
 #include "../query/hash.hpp"
@@ -8,7 +9,6 @@
 
 #include <bit>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <optional>
 
@@ -18,7 +18,7 @@ namespace abut::test {
 namespace {
 
 int times(int count) {
-    return std::getenv("ABUT_LONG") != nullptr ? 40 * count : count;
+    return oracle::is_long() ? 40 * count : count;
 }
 
 /// A grid of squares with holes, of which no two share only a corner.

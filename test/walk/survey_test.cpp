@@ -20,13 +20,8 @@ namespace abut {
 namespace {
 
 using oracle::Random;
+using test::built;
 using test::Surface;
-
-WalkMesh built(const Surface& surface) {
-    Result<WalkMesh> result = WalkMesh::build(surface.points, surface.triangles);
-    EXPECT_TRUE(result) << (result ? "" : result.problem().message);
-    return *std::move(result);
-}
 
 /// Unit squares in the plane z = 0, counter-clockwise from above.
 Surface floor_of(int columns, int rows, const std::function<bool(int, int)>& is_floor) {

@@ -16,10 +16,6 @@ namespace {
 
 using oracle::near;
 
-WalkMesh built(const Surface& surface) {
-    return *WalkMesh::build(surface.points, surface.triangles);
-}
-
 /// The squares of a floor of 4 x 4 without one of them.
 WalkMesh without(std::uint32_t hole_column, std::uint32_t hole_row) {
     return built(sheet(

@@ -2,6 +2,7 @@
 
 #include "../oracle/expect.hpp"
 #include "../shape/meshes.hpp"
+#include "walk_surfaces.hpp"
 #include <abut/walk/walk_mesh.hpp>
 
 #include <cstdint>
@@ -15,15 +16,10 @@
 namespace abut {
 namespace {
 
+using test::built;
 using test::Surface;
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-
-WalkMesh built(const Surface& surface) {
-    Result<WalkMesh> result = WalkMesh::build(surface.points, surface.triangles);
-    EXPECT_TRUE(result) << (result ? "" : result.problem().message);
-    return *result;
-}
 
 /// The unit square at height 0, both triangles counter-clockwise from above, cut from (0, 0) to (1, 1).
 Surface square() {

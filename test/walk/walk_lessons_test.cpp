@@ -18,11 +18,7 @@ namespace {
 
 using oracle::near;
 
-constexpr std::uint64_t seed = 20261123;
-
-WalkMesh built(const Surface& surface) {
-    return *WalkMesh::build(surface.points, surface.triangles);
-}
+constexpr std::uint64_t walk_lessons_seed = 20261123;
 
 /// Two triangles with a diagonal from (0, 0) to (1, 1), the second upright on the first where `is_folded`.
 WalkMesh two(bool is_folded) {
@@ -108,8 +104,8 @@ TEST(CrossEdge, AtACornerTakesTheSideWithATriangleBeyond) {
 }
 
 TEST(CrossEdge, IsTheSamePointAndTurnsNormalsToNormals) {
-    oracle::Random random(seed);
-    for (const NamedSurface& named : surfaces(seed)) {
+    oracle::Random random(walk_lessons_seed);
+    for (const NamedSurface& named : surfaces(walk_lessons_seed)) {
         const WalkMesh mesh = built(named.surface);
         for (int i = 0; i < 300; ++i) {
             const std::uint32_t triangle = random.below(static_cast<std::uint32_t>(mesh.triangles().size()));
@@ -159,13 +155,13 @@ Loop walk_by_hand(const WalkMesh& mesh, const WalkPoint& start, Vec3 step) {
 }
 
 TEST(WalkLessons, ALoopOfTheTwoIsAWalk) {
-    for (const NamedSurface& named : surfaces(seed)) {
+    for (const NamedSurface& named : surfaces(walk_lessons_seed)) {
         const WalkMesh mesh = built(named.surface);
         const double edge = edge_of(named.surface), size = size_of(named.surface);
         const oracle::TriangleAdjacency triangles(mesh);
         // Positions are floats, so a path may pass a corner this near on its other side.
         oracle::Geodesic<long double> geodesic(triangles, static_cast<long double>(3e-5 * size));
-        oracle::Random random(seed);
+        oracle::Random random(walk_lessons_seed);
         int same = 0, borders = 0;
         for (int i = 0; i < 600; ++i) {
             const std::uint32_t triangle = random.below(static_cast<std::uint32_t>(mesh.triangles().size()));
@@ -174,17 +170,18 @@ TEST(WalkLessons, ALoopOfTheTwoIsAWalk) {
             const DVec<3> direction = random.direction<3>();
             const Vec3 step = to_float(direction * (edge * random.uniform(0, 12)));
             const Loop loop = walk_by_hand(mesh, start, step);
-            EXPECT_LT(loop.rounds, 1000) << named.name << ", seed " << seed << ", item " << i;
+            EXPECT_LT(loop.rounds, 1000) << named.name << ", walk_lessons_seed " << walk_lessons_seed << ", item " << i;
             EXPECT_TRUE(are_valid_weights(loop.place.weights));
             const auto ends = geodesic.walk(start, step);
             if (ends.size() != 1 || ends[0].near_corner) continue;
             const Walked walked = mesh.walk(start, step);
-            EXPECT_EQ(loop.at_border, walked.met != WalkMet::nothing) << named.name << ", seed " << seed << ", " << i;
+            EXPECT_EQ(loop.at_border, walked.met != WalkMet::nothing)
+                << named.name << ", walk_lessons_seed " << walk_lessons_seed << ", " << i;
             borders += loop.at_border;
             if (loop.at_border) continue;
             ++same;
             EXPECT_TRUE(near<3>(mesh.to_world(loop.place), mesh.to_world(walked.place), 1e-5 * size))
-                << named.name << ", seed " << seed << ", item " << i;
+                << named.name << ", walk_lessons_seed " << walk_lessons_seed << ", item " << i;
             EXPECT_NEAR(loop.length, walked.length, 1e-5 * size);
         }
         EXPECT_GT(same, 5) << named.name;
@@ -194,9 +191,9 @@ TEST(WalkLessons, ALoopOfTheTwoIsAWalk) {
 
 TEST(WalkLessons, ALoopOfTheTwoNeverRunsForEver) {
     // Exactly along edges and through corners, from corners, in every triangle.
-    for (const NamedSurface& named : surfaces(seed)) {
+    for (const NamedSurface& named : surfaces(walk_lessons_seed)) {
         const WalkMesh mesh = built(named.surface);
-        oracle::Random random(seed);
+        oracle::Random random(walk_lessons_seed);
         for (std::uint32_t triangle = 0; triangle < mesh.triangles().size(); ++triangle) {
             if (!mesh.is_walkable(triangle)) continue;
             const glm::uvec3 t = mesh.triangles()[triangle];

@@ -30,10 +30,6 @@ using oracle::near;
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-WalkMesh built(const Surface& surface) {
-    return *WalkMesh::build(surface.points, surface.triangles);
-}
-
 class WalkLimits : public testing::Test {
 protected:
     void SetUp() override { assertions = 0; }

@@ -3,6 +3,7 @@
 // limit of steps.
 
 #include "../broad_phase/executors.hpp"
+#include "../oracle/is_long.hpp"
 #include "../oracle/random.hpp"
 #include "walk_check.hpp"
 #include "walk_surfaces.hpp"
@@ -10,7 +11,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -20,11 +20,7 @@
 namespace abut::test {
 namespace {
 
-constexpr std::uint64_t seed = 20261123;
-
-bool is_long() {
-    return std::getenv("ABUT_LONG") != nullptr;
-}
+constexpr std::uint64_t walk_many_seed = 20261123;
 
 /// Preferred ends of the steps of some walkers: on edges and corners, again and again.
 enum class Habit { anywhere, on_edges, along_edges, through_corners, whole_steps };
@@ -40,7 +36,7 @@ class Crowd {
 public:
     Crowd(const WalkMesh& mesh, const Surface& surface, std::uint32_t walkers)
         : mesh_(mesh), edge_(edge_of(surface)), size_(size_of(surface)) {
-        oracle::Random random(seed);
+        oracle::Random random(walk_many_seed);
         const auto count = static_cast<std::uint32_t>(mesh.triangles().size());
         while (walkers_.size() < walkers) {
             const std::uint32_t triangle = random.below(count);
@@ -144,12 +140,13 @@ private:
 
 TEST(WalkMany, NobodyIsLost) {
     std::uint64_t steps = 0;
-    const std::vector<NamedSurface> all = surfaces(seed);
+    const std::vector<NamedSurface> all = surfaces(walk_many_seed);
     for (const NamedSurface& named : all) {
         const WalkMesh mesh = *WalkMesh::build(named.surface.points, named.surface.triangles);
         Crowd crowd(mesh, named.surface, 400);
-        for (int i = 0; i < (is_long() ? 500 : 140); ++i) crowd.step();
-        EXPECT_EQ(crowd.lost(), 0u) << named.name << ", seed " << seed << ": " << crowd.first_fault();
+        for (int i = 0; i < (oracle::is_long() ? 500 : 140); ++i) crowd.step();
+        EXPECT_EQ(crowd.lost(), 0u) << named.name << ", walk_many_seed " << walk_many_seed << ": "
+                                    << crowd.first_fault();
         steps += crowd.steps();
     }
     std::cout << steps << " steps on " << all.size() << " surfaces\n";
@@ -157,24 +154,24 @@ TEST(WalkMany, NobodyIsLost) {
 
 TEST(WalkMany, NobodyIsLostAtAnyScaleAndFarFromTheOrigin) {
     for (const double scale : {1e-3, 30.0, 1e4})
-        for (const NamedSurface& named : surfaces(seed)) {
+        for (const NamedSurface& named : surfaces(walk_many_seed)) {
             Surface surface = named.surface;
             for (Vec3& point : surface.points) point = to_float(DVec<3>(point) * scale + DVec<3>(100, -50, 20) * scale);
             const Result<WalkMesh> mesh = WalkMesh::build(surface.points, surface.triangles);
             ASSERT_TRUE(mesh);
             Crowd crowd(*mesh, surface, 200);
-            for (int i = 0; i < (is_long() ? 200 : 10); ++i) crowd.step();
-            EXPECT_EQ(crowd.lost(), 0u) << named.name << " at " << scale << ", seed " << seed << ": "
-                                        << crowd.first_fault();
+            for (int i = 0; i < (oracle::is_long() ? 200 : 10); ++i) crowd.step();
+            EXPECT_EQ(crowd.lost(), 0u) << named.name << " at " << scale << ", walk_many_seed " << walk_many_seed
+                                        << ": " << crowd.first_fault();
         }
 }
 
 TEST(WalkMany, ManyThreadsWalkAtOnce) {
-    const NamedSurface named = surfaces(seed)[6];
+    const NamedSurface named = surfaces(walk_many_seed)[6];
     const WalkMesh mesh = *WalkMesh::build(named.surface.points, named.surface.triangles);
     constexpr std::uint32_t count = 512;
     const auto walk = [&](std::uint32_t i) {
-        oracle::Random random(seed + i);
+        oracle::Random random(walk_many_seed + i);
         WalkPoint place{i % static_cast<std::uint32_t>(mesh.triangles().size()), {0.25f, 0.25f, 0.5f}};
         for (int step = 0; step < 20; ++step) place = mesh.walk(place, to_float(random.direction<3>() * 0.5)).place;
         return place;

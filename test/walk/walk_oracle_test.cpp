@@ -1,10 +1,10 @@
 // Random walks over every kind of surface, compared with the oracle: a million if the environment sets ABUT_LONG, else
 // a share of it. None leaves the mesh, gets stuck or ends elsewhere.
 
+#include "../oracle/is_long.hpp"
 #include "walk_check.hpp"
 
 #include <cmath>
-#include <cstdlib>
 #include <iostream>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
@@ -13,10 +13,10 @@
 namespace abut::test {
 namespace {
 
-constexpr std::uint64_t seed = 20261123;
+constexpr std::uint64_t walk_oracle_seed = 20261123;
 
 std::uint64_t walks_on_each(std::size_t surfaces) {
-    return (std::getenv("ABUT_LONG") != nullptr ? 1'000'000 : 60'000) / surfaces + 1;
+    return (oracle::is_long() ? 1'000'000 : 60'000) / surfaces + 1;
 }
 
 /// In the middle, on an edge, on a corner; and unusual weights.
@@ -63,7 +63,7 @@ double random_length(oracle::Random& random) {
 /// A walker that goes on from its last end, and begins elsewhere now and then.
 WalkTally walk_at_random(const WalkMesh& mesh, const Surface& surface, std::uint64_t walks) {
     WalkCheck check(mesh, surface);
-    oracle::Random random(seed);
+    oracle::Random random(walk_oracle_seed);
     WalkTally tally;
     WalkPoint place = random_place(mesh, random);
     for (std::uint64_t i = 0; i < walks; ++i) {
@@ -81,20 +81,20 @@ WalkTally walk_at_random(const WalkMesh& mesh, const Surface& surface, std::uint
 class WalkOracle : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(WalkOracle, AgreesOnEachSurface) {
-    const std::vector<NamedSurface> all = surfaces(seed);
+    const std::vector<NamedSurface> all = surfaces(walk_oracle_seed);
     const NamedSurface& at = all[GetParam()];
     const WalkMesh mesh = *WalkMesh::build(at.surface.points, at.surface.triangles);
     const std::uint64_t walks = walks_on_each(all.size());
     const WalkTally tally = walk_at_random(mesh, at.surface, walks);
     std::cout << at.name << " (" << described(mesh.report()) << "): " << tally.text() << "\n";
-    EXPECT_EQ(tally.faults, 0u) << at.name << ", seed " << seed << ": " << tally.faults_text();
+    EXPECT_EQ(tally.faults, 0u) << at.name << ", walk_oracle_seed " << walk_oracle_seed << ": " << tally.faults_text();
     EXPECT_LE(tally.open * 500, tally.walks) << "of these the oracle doesn't know enough";
     EXPECT_GT(tally.crossings, walks / 2);
     EXPECT_GT(tally.home, walks / 20);
 }
 
 TEST_P(WalkOracle, AgreesAtAllScalesAndFarFromTheOrigin) {
-    const NamedSurface at = surfaces(seed)[GetParam()];
+    const NamedSurface at = surfaces(walk_oracle_seed)[GetParam()];
     for (const double scale : {1e-3, 0.1, 30.0, 1e4})
         for (const double away : {0.0, 30.0}) {
             Surface surface = at.surface;
@@ -103,21 +103,21 @@ TEST_P(WalkOracle, AgreesAtAllScalesAndFarFromTheOrigin) {
             const Result<WalkMesh> mesh = WalkMesh::build(surface.points, surface.triangles);
             ASSERT_TRUE(mesh);
             const WalkTally tally = walk_at_random(*mesh, surface, walks_on_each(400));
-            EXPECT_EQ(tally.faults, 0u) << at.name << " at scale " << scale << ", away by " << away << ", seed " << seed
-                                        << ": " << tally.faults_text();
+            EXPECT_EQ(tally.faults, 0u) << at.name << " at scale " << scale << ", away by " << away
+                                        << ", walk_oracle_seed " << walk_oracle_seed << ": " << tally.faults_text();
         }
 }
 
 /// Validates the oracle: in quadruple precision it has the same ends.
 TEST_P(WalkOracle, IsRightItself) {
     using Quad = boost::multiprecision::cpp_bin_float_quad;
-    const NamedSurface at = surfaces(seed)[GetParam()];
+    const NamedSurface at = surfaces(walk_oracle_seed)[GetParam()];
     const WalkMesh mesh = *WalkMesh::build(at.surface.points, at.surface.triangles);
     const double size = size_of(at.surface), edge = edge_of(at.surface);
     const oracle::TriangleAdjacency triangles(mesh);
     oracle::Geodesic<long double> rough(triangles, static_cast<long double>(1e-9 * size));
     oracle::Geodesic<Quad> exact(triangles, Quad(1e-9 * size));
-    oracle::Random random(seed);
+    oracle::Random random(walk_oracle_seed);
     for (int i = 0; i < 60; ++i) {
         const WalkPoint place = random_place(mesh, random);
         const Vec3 step = random_direction(mesh, place, random) * static_cast<float>(random.uniform(0, 30) * edge);
@@ -125,18 +125,19 @@ TEST_P(WalkOracle, IsRightItself) {
         const auto b = exact.walk(place, step);
         if (a.size() != 1 || b.size() != 1) continue;
         EXPECT_LE(length(a[0].point.rounded() - b[0].point.rounded()), 1e-12 * size)
-            << at.name << ", seed " << seed << ", item " << i;
+            << at.name << ", walk_oracle_seed " << walk_oracle_seed << ", item " << i;
         EXPECT_NEAR(static_cast<double>(a[0].length), static_cast<double>(b[0].length), 1e-12 * size);
         EXPECT_LE(length(a[0].direction.rounded() - b[0].direction.rounded()), 1e-12);
     }
 }
 
 std::string name_of(const testing::TestParamInfo<std::size_t>& number) {
-    std::string name = surfaces(seed)[number.param].name;
+    std::string name = surfaces(walk_oracle_seed)[number.param].name;
     std::replace(name.begin(), name.end(), ' ', '_');
     return name;
 }
-INSTANTIATE_TEST_SUITE_P(Surfaces, WalkOracle, testing::Range(std::size_t{0}, surfaces(seed).size()), name_of);
+INSTANTIATE_TEST_SUITE_P(Surfaces, WalkOracle, testing::Range(std::size_t{0}, surfaces(walk_oracle_seed).size()),
+                         name_of);
 
 }  // namespace
 }  // namespace abut::test

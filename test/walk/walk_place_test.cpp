@@ -18,7 +18,7 @@ namespace {
 using oracle::near;
 using test::Surface;
 
-constexpr std::uint64_t seed = 20261123;
+constexpr std::uint64_t walk_place_seed = 20261123;
 
 /// A roof: two triangles that share the edge (0, 0, 0) - (0, 2, 0), one level to the right, one steep to the left.
 Surface roof() {
@@ -73,7 +73,7 @@ TEST(WalkPlace, SmoothNormalsGoOverEdges) {
 }
 
 TEST(WalkPlace, SmoothNormalsOfABallPointOutwards) {
-    oracle::Random random(seed);
+    oracle::Random random(walk_place_seed);
     const scenes::BumpyBall ball = scenes::bumpy_ball(24, 0, 0, random);
     const WalkMesh mesh = *WalkMesh::build(ball.points, ball.triangles);
     double smooth_error = 0, flat_error = 0;
@@ -119,7 +119,7 @@ TEST(WalkPlace, TheFirstAxisOfATrianglesFrameLeadsToItsSecondCorner) {
 }
 
 TEST(WalkPlace, VectorsGoToThePlaneAndBackAtAllScales) {
-    oracle::Random random(seed);
+    oracle::Random random(walk_place_seed);
     for (const double scale : {1e-3, 0.1, 1.0, 30.0, 1e4})
         for (int i = 0; i < 2000; ++i) {
             const DVec<3> far = random.direction<3>() * (random.chance(0.5) ? 0 : 10 * scale);
@@ -130,7 +130,8 @@ TEST(WalkPlace, VectorsGoToThePlaneAndBackAtAllScales) {
             ASSERT_TRUE(mesh);
             const Vec2 vector(random.uniform_float(-1, 1), 0.7f);
             const Vec3 in_space = mesh->to_space(0, vector);
-            EXPECT_TRUE(near<2>(mesh->to_plane(0, in_space), vector, 1e-6)) << "seed " << seed << ", item " << i;
+            EXPECT_TRUE(near<2>(mesh->to_plane(0, in_space), vector, 1e-6))
+                << "walk_place_seed " << walk_place_seed << ", item " << i;
             EXPECT_NEAR(length(DVec<3>(in_space)), length(DVec<2>(vector)), 1e-6);
             EXPECT_NEAR(dot(DVec<3>(mesh->normal({0, {1, 1, 1}})), DVec<3>(in_space)), 0, 1e-6);
             // The frame is right-handed: first axis, second axis, normal.
@@ -142,7 +143,7 @@ TEST(WalkPlace, VectorsGoToThePlaneAndBackAtAllScales) {
 }
 
 TEST(WalkPlace, CornersAreWhereTheyWereGiven) {
-    oracle::Random random(seed);
+    oracle::Random random(walk_place_seed);
     for (const double scale : {1e-3, 1.0, 1e4}) {
         scenes::BumpyBall ball = scenes::bumpy_ball(8, 0.2, 0.02, random);
         for (Vec3& point : ball.points) point = to_float(DVec<3>(point) * scale);

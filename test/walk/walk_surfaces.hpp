@@ -7,13 +7,17 @@
 #include "../../scenes/terrain.hpp"
 #include "../shape/meshes.hpp"
 #include <abut/math/dvec.hpp>
+#include <abut/walk/walk_mesh.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 namespace abut::test {
 
@@ -125,6 +129,14 @@ inline Surface random_cubes(oracle::Random random) {
     std::vector<bool> full;
     for (int i = 0; i < 125; ++i) full.push_back(random.chance(0.5));
     return cell_surface(5, [&](int x, int y, int z) { return full[static_cast<std::size_t>(25 * x + 5 * y + z)]; });
+}
+
+/// The mesh of a surface that must build.
+inline WalkMesh built(const Surface& surface, std::span<const Vec3> normals = {},
+                      std::span<const std::uint8_t> areas = {}) {
+    Result<WalkMesh> result = WalkMesh::build(surface.points, surface.triangles, normals, areas);
+    EXPECT_TRUE(result) << (result ? "" : result.problem().message);
+    return *std::move(result);
 }
 
 struct NamedSurface {

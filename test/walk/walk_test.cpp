@@ -17,10 +17,6 @@ namespace {
 
 using oracle::near;
 
-WalkMesh built(const Surface& surface) {
-    return *WalkMesh::build(surface.points, surface.triangles);
-}
-
 /// The place of this point, which is on the mesh.
 WalkPoint at(const WalkMesh& mesh, const Vec3& point) {
     const WalkPoint place = mesh.nearest(point);

@@ -1,5 +1,6 @@
 // Reading and changing the options of an item: queries see a change at once, the next update reports it.
 
+#include "circles.hpp"
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/world/world.hpp>
@@ -11,12 +12,6 @@
 
 namespace abut::test {
 namespace {
-
-using Pairs = std::vector<IdPair>;
-
-Pairs list(std::span<const IdPair> pairs) {
-    return Pairs(pairs.begin(), pairs.end());
-}
 
 template <class Dimension>
 class Access : public testing::Test {

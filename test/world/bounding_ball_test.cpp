@@ -114,13 +114,13 @@ TEST(BoundingBall, AllowsForRoundedBoundsFarOut) {
     EXPECT_LE(length(DVec<3>(crate.box.max) - ball.center), ball.radius);
 }
 
-struct Seen {
+struct PairCounts {
     int apart = 0, touching = 0, close = 0;
 };
 
 /// Tests pairs of shapes whose balls nearly touch.
 template <int D>
-void check_pair(std::uint64_t seed, Seen& seen) {
+void check_pair(std::uint64_t seed, PairCounts& seen) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     oracle::Random random(seed);
     const double size_a = random.power_of_two(-10, 14), size_b = size_a * random.power_of_two(-4, 4);
@@ -147,7 +147,7 @@ void check_pair(std::uint64_t seed, Seen& seen) {
 }
 
 TEST(BoundingBall, NeverPartsWhatTouches) {
-    Seen seen;
+    PairCounts seen;
     for (std::uint64_t seed = 0; seed < 2000; ++seed) {
         check_pair<2>(seed, seen);
         check_pair<3>(seed, seen);
@@ -158,7 +158,7 @@ TEST(BoundingBall, NeverPartsWhatTouches) {
 
 /// Tests balls, which fill their bounding balls, that touch exactly, overlap slightly, or have a slight gap.
 template <int D>
-void check_round_pair(std::uint64_t seed, Seen& seen) {
+void check_round_pair(std::uint64_t seed, PairCounts& seen) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     oracle::Random random(seed);
     const float radius_a = static_cast<float>(random.power_of_two(-10, 14)),
@@ -176,7 +176,7 @@ void check_round_pair(std::uint64_t seed, Seen& seen) {
 }
 
 TEST(BoundingBall, NeverPartsBallsThatTouch) {
-    Seen seen;
+    PairCounts seen;
     for (std::uint64_t seed = 0; seed < 5000; ++seed) {
         check_round_pair<2>(seed, seen);
         check_round_pair<3>(seed, seen);

@@ -2,6 +2,7 @@
 
 #include "../broad_phase/allocations.hpp"
 #include "bits.hpp"
+#include "circles.hpp"
 #include "random_shapes.hpp"
 #include <abut/math/motion.hpp>
 #include <abut/query/overlaps.hpp>
@@ -16,12 +17,6 @@
 namespace abut::test {
 namespace {
 
-using Pairs = std::vector<IdPair>;
-
-Pairs list(std::span<const IdPair> pairs) {
-    return Pairs(pairs.begin(), pairs.end());
-}
-
 /// Updates the world and compares the lists; returns the fractions.
 std::vector<float> expect_update(World2& world, const Pairs& began, const Pairs& stayed, const Pairs& ended) {
     const Events events = world.update();
@@ -30,10 +25,6 @@ std::vector<float> expect_update(World2& world, const Pairs& began, const Pairs&
     EXPECT_EQ(list(events.ended), ended);
     EXPECT_EQ(events.fractions.size(), events.began.size());
     return {events.fractions.begin(), events.fractions.end()};
-}
-
-Pose2 place(float x, float y = 0) {
-    return {{x, y}};
 }
 
 const Circle small{{0, 0}, 0.5f};

@@ -2,6 +2,7 @@
 // them, or if the user's assert_failed returns, the answer is neutral and nothing else happens.
 
 #include "bits.hpp"
+#include "circles.hpp"
 #include "random_shapes.hpp"
 #include <abut/math/assert.hpp>
 #include <abut/world/world.hpp>
@@ -43,7 +44,6 @@ int trips_of(const std::function<void()>& misuse) {
     return trips;
 }
 
-const Circle unit{{0, 0}, 1};
 constexpr float infinity = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
 const Vec2 nowhere(nan, 0);
 

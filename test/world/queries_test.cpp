@@ -2,6 +2,7 @@
 
 #include "before_and_after_update.hpp"
 #include "bits.hpp"
+#include "circles.hpp"
 #include "random_shapes.hpp"
 #include <abut/world/world.hpp>
 
@@ -10,11 +11,6 @@
 namespace abut::test {
 namespace {
 
-Pose2 place(float x, float y = 0) {
-    return {{x, y}};
-}
-
-const Circle unit{{0, 0}, 1};
 const Ray2 to_the_right{{-10, 0}, {1, 0}, 100};
 
 TEST(Queries, EmptyWorldHasNoAnswers) {

@@ -84,14 +84,14 @@ void add_tile_maps(World2& world, Random* random, const Pose2& pose) {
     }
 }
 
-struct Seen {
+struct SlideCounts {
     double most_aside = 0, most_wrong_depth = 0;
     int frames = 0, contacts = 0, alone_aside = 0;
 };
 
 /// Slides a shape through the middle of the floor, `depth` deep. Its lowest point is `reach` below its position.
 template <int D, class S>
-void slide(const AddFloor<D>& add_floor, const S& shape, float reach, bool turned, Random* noise, Seen& seen) {
+void slide(const AddFloor<D>& add_floor, const S& shape, float reach, bool turned, Random* noise, SlideCounts& seen) {
     Random random(seed);
     Pose<D> pose{};
     if (turned) {
@@ -148,7 +148,7 @@ void expect_no_catch(const char* name, const AddFloor<D>& add_floor, const S& sh
     for (const bool turned : {false, true})
         for (Random* random : {static_cast<Random*>(nullptr), &noise}) {
             SCOPED_TRACE(std::string(name) + (turned ? ", turned" : "") + (random != nullptr ? ", with noise" : ""));
-            Seen seen;
+            SlideCounts seen;
             slide<D>(add_floor, shape, reach, turned, random, seen);
             const bool exact = !turned && random == nullptr;
             EXPECT_LT(seen.most_aside, exact ? 1e-5 : 1e-3);

@@ -112,7 +112,7 @@ TEST(StaleQueries, CostWhatSettledOnesDo) {
 }
 
 template <int D>
-Bits answers(const World<D>& world, std::uint64_t seed) {
+Bits stale_answers(const World<D>& world, std::uint64_t seed) {
     oracle::Random random(seed);
     Bits result;
     for (int i = 0; i < 10; ++i) {
@@ -141,10 +141,10 @@ void query_first_from_many_threads(BroadPhaseKind kind) {
         }
         twin.world.refresh();
         std::vector<Bits> expected(threads), found(threads);
-        for (std::uint64_t i = 0; i < threads; ++i) expected[i] = answers(twin.world, i);
+        for (std::uint64_t i = 0; i < threads; ++i) expected[i] = stale_answers(twin.world, i);
         std::vector<std::thread> running;
         for (std::uint64_t i = 0; i < threads; ++i)
-            running.emplace_back([&, i] { found[i] = answers(std::as_const(crowd.world), i); });
+            running.emplace_back([&, i] { found[i] = stale_answers(std::as_const(crowd.world), i); });
         for (std::thread& thread : running) thread.join();
         EXPECT_EQ(found, expected);
     }
@@ -185,7 +185,7 @@ void expect_same_with_refresh(std::uint64_t seed, double continuous) {
             refreshed.change();
             if (random.chance(0.7)) refreshed.world.refresh();
             const std::uint64_t at = random.below(1000);
-            ASSERT_EQ(answers(plain.world, at), answers(refreshed.world, at));
+            ASSERT_EQ(stale_answers(plain.world, at), stale_answers(refreshed.world, at));
         }
         if (random.chance(0.3)) refreshed.world.refresh();
     }

@@ -3,6 +3,7 @@
 #include "../oracle/pair.hpp"
 #include "before_and_after_update.hpp"
 #include "bits.hpp"
+#include "circles.hpp"
 #include "simulation.hpp"
 #include <abut/math/rigid_path.hpp>
 #include <abut/query/sweep.hpp>
@@ -18,12 +19,6 @@ namespace {
 
 constexpr std::array all_kinds{BroadPhaseKind::brute_force,     BroadPhaseKind::grid, BroadPhaseKind::layered_grid,
                                BroadPhaseKind::sweep_and_prune, BroadPhaseKind::bvh,  BroadPhaseKind::bsp};
-
-const Circle unit{{0, 0}, 1};
-
-Pose2 place(float x, float y = 0) {
-    return {{x, y}};
-}
 
 TEST(WorldSweep, HitsTheFirstOnItsPath) {
     World2 world;
@@ -157,7 +152,7 @@ std::optional<WorldHit<D>> first_of_all(const ReferenceWorld<D>& reference, cons
     return first;
 }
 
-struct Seen {
+struct SweepCounts {
     int hits = 0, misses = 0, at_once = 0;
 };
 
@@ -181,7 +176,7 @@ void expect_same_but_for_seams(const std::optional<WorldHit<D>>& found, std::opt
 }
 
 template <int D>
-void check_sweeps(Simulation<D>& game, Seen& seen) {
+void check_sweeps(Simulation<D>& game, SweepCounts& seen) {
     oracle::Random& random = game.random();
     const Filter filter = game.filter();
     const Pose<D> from = game.any_pose(), to = game.any_pose();
@@ -230,7 +225,7 @@ template <int D>
 void play(std::uint64_t seed, bool lattice) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Simulation<D> game(seed, 40, lattice);
-    Seen seen;
+    SweepCounts seen;
     for (int frame = 0; frame < oracle::case_count(40); ++frame) {
         SCOPED_TRACE("frame " + std::to_string(frame));
         for (int i = 0; i < 3; ++i) ASSERT_NO_FATAL_FAILURE(check_sweeps(game, seen));

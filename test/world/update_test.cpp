@@ -1,6 +1,7 @@
 // The results of an update: pairs that began, stayed and ended; and pairs that are not tested again.
 
 #include "bits.hpp"
+#include "circles.hpp"
 #include "random_shapes.hpp"
 #include <abut/world/world.hpp>
 
@@ -11,12 +12,6 @@
 namespace abut::test {
 namespace {
 
-using Pairs = std::vector<IdPair>;
-
-Pairs list(std::span<const IdPair> pairs) {
-    return Pairs(pairs.begin(), pairs.end());
-}
-
 /// Updates the world and compares all three lists.
 void expect_update(World2& world, const Pairs& began, const Pairs& stayed, const Pairs& ended) {
     const Events events = world.update();
@@ -24,12 +19,6 @@ void expect_update(World2& world, const Pairs& began, const Pairs& stayed, const
     EXPECT_EQ(list(events.stayed), stayed);
     EXPECT_EQ(list(events.ended), ended);
 }
-
-Pose2 place(float x, float y = 0) {
-    return {{x, y}};
-}
-
-const Circle unit{{0, 0}, 1};
 
 TEST(Update, PairBeginsStaysAndEnds) {
     World2 world;

@@ -15,7 +15,7 @@ namespace {
 // Tolerances relative to the width. Penetration of a surface into the ball of a neck.
 constexpr double ball_tolerance = 1e-3;
 // Deviation in direction and width of necks that count as translates of one another.
-constexpr double parallel_tolerance = 1e-3;
+constexpr double translate_tolerance = 1e-3;
 // Maximum distance of their sets of midpoints.
 constexpr double max_offset = 0.5;
 
@@ -123,8 +123,8 @@ std::optional<FacetNecks<D>> NeckSearch<D>::facet_necks(std::size_t i, std::size
 template <int D>
 bool NeckSearch<D>::are_translates(const FacetNecks<D>& a, const FacetNecks<D>& b) const {
     const FacetGap<D>&first = a.facing, &second = b.facing;
-    if (std::abs(first.width - second.width) > parallel_tolerance * first.width) return false;
-    if (std::abs(dot(first.across, second.across)) < 1 - 0.5 * parallel_tolerance * parallel_tolerance) return false;
+    if (std::abs(first.width - second.width) > translate_tolerance * first.width) return false;
+    if (std::abs(dot(first.across, second.across)) < 1 - 0.5 * translate_tolerance * translate_tolerance) return false;
     const auto set_of = [](const FacetGap<D>& facing) {
         std::vector<Vec<D>> points;
         for (const DVec<D>& middle : facing.midpoints) points.push_back(Vec<D>(middle));

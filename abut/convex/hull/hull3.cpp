@@ -58,7 +58,7 @@ double offset_across(const Vec3& normal, std::span<const Vec3> points) {
 
 /// Volume, area and centroid, from triangles that cover the surface (three corners each). The triangles are exact;
 /// merged faces aren't quite flat, which would change the volume of a thin body.
-void measure(Hull3& hull, const Grid& grid, std::span<const std::uint32_t> triangles) {
+void measure(Hull3& hull, const HullGrid& grid, std::span<const std::uint32_t> triangles) {
     const GridPoint& origin = grid.points[triangles[0]];
     const auto seen = [&](std::size_t i) { return grid.points[triangles[i]] - origin; };
     // The centroid of the tetrahedron with the origin is (a + b + c) / 4, that of the triangle (a + b + c) / 3.
@@ -88,7 +88,7 @@ std::vector<std::uint32_t> triangles_of(const HullFaces& faces) {
 }
 
 /// For points that aren't collinear.
-Hull3 hull_with_faces(std::span<const Vec3> points, const Grid& grid, const Spread& spread) {
+Hull3 hull_with_faces(std::span<const Vec3> points, const HullGrid& grid, const Spread& spread) {
     Hull3 result;
     result.rank = spread.rank;
     if (spread.rank == 2) {
@@ -115,7 +115,7 @@ Result<Hull3> hull(std::span<const Vec3> points) {
     const std::vector<Vec3> sorted = sorted_without_copies(points);
     Hull3 result;
     if (sorted.size() > 1) {
-        const Grid grid = on_grid(sorted);
+        const HullGrid grid = on_grid(sorted);
         const Spread spread = spread_of(grid, grid.tolerance);
         if (spread.rank > 1) return hull_with_faces(sorted, grid, spread);
         const auto [low, high] = std::minmax(spread.points[0], spread.points[1]);

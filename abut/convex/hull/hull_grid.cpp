@@ -10,8 +10,8 @@ namespace abut {
 namespace {
 
 template <class Point>
-Grid grid_of(std::span<const Point> points) {
-    Grid result;
+HullGrid grid_of(std::span<const Point> points) {
+    HullGrid result;
     result.least = result.greatest = DVec<3>(points[0]);
     for (const Point& point : points)
         for (int i = 0; i < 3; ++i) {
@@ -37,15 +37,15 @@ Grid grid_of(std::span<const Point> points) {
 
 }  // namespace
 
-Grid on_grid(std::span<const Vec3> points) {
+HullGrid on_grid(std::span<const Vec3> points) {
     return grid_of(points);
 }
 
-Grid on_grid(std::span<const DVec<3>> points) {
+HullGrid on_grid(std::span<const DVec<3>> points) {
     return grid_of(points);
 }
 
-Spread spread_of(const Grid& grid, double tolerance) {
+Spread spread_of(const HullGrid& grid, double tolerance) {
     const std::vector<GridPoint>& points = grid.points;
     const auto distance_from = [&](std::uint32_t from) {
         return [&points, from](const GridPoint& p) { return length(DVec<3>(p - points[from])); };

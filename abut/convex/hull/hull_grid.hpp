@@ -12,7 +12,7 @@
 namespace abut {
 
 /// Points rounded to a grid whose steps are a power of two, so that points on a coarser grid don't move.
-struct Grid {
+struct HullGrid {
     std::vector<GridPoint> points;
     DVec<3> least, greatest;             ///< of the bounding box of the unrounded points; `least` is the origin
     double step = 0;                     ///< the length of a step
@@ -21,8 +21,8 @@ struct Grid {
 };
 
 /// The points are not all equal.
-Grid on_grid(std::span<const Vec3> points);
-Grid on_grid(std::span<const DVec<3>> points);
+HullGrid on_grid(std::span<const Vec3> points);
+HullGrid on_grid(std::span<const DVec<3>> points);
 
 /// The affine rank of the set, and rank + 1 points that span it: two distant points, the farthest from their line, and
 /// the farthest from the plane of the three. A distance of at most `tolerance` (in steps of the grid) counts as zero.
@@ -31,6 +31,6 @@ struct Spread {
     int rank = 0;
 };
 
-Spread spread_of(const Grid& grid, double tolerance);
+Spread spread_of(const HullGrid& grid, double tolerance);
 
 }  // namespace abut

@@ -58,7 +58,7 @@ private:
 /// How much higher along the normal an input point can be than the support point of the surface. It sums the distance
 /// of points left out, the rounding of both to the grid, and the rounding of double in that distance (2^-20 of a step)
 /// and in both dot products (two sums each).
-double rounding_error(const Vec3& normal, const Grid& grid, double left_out) {
+double rounding_error(const Vec3& normal, const HullGrid& grid, double left_out) {
     const DVec<3> n(normal);
     double steps = left_out * length(n), magnitude = 0;
     for (int i = 0; i < 3; ++i) {
@@ -70,7 +70,7 @@ double rounding_error(const Vec3& normal, const Grid& grid, double left_out) {
 
 }  // namespace
 
-std::vector<double> plane_offsets(const HullFaces& faces, std::span<const Vec3> points, const Grid& grid,
+std::vector<double> plane_offsets(const HullFaces& faces, std::span<const Vec3> points, const HullGrid& grid,
                                   const TriangleSurface& surface) {
     const HillClimb hill_climb(grid.points, surface);
     std::vector<double> result;

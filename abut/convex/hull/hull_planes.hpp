@@ -14,7 +14,7 @@ namespace abut {
 /// Along an axis it is the smallest such number. Otherwise it is larger by at most `surface.left_out`, two steps of the
 /// grid, and some roundings of double if every point is on the grid. O(n), unless many faces and triangles share one
 /// corner: then it is the product of the two.
-std::vector<double> plane_offsets(const HullFaces& faces, std::span<const Vec3> points, const Grid& grid,
+std::vector<double> plane_offsets(const HullFaces& faces, std::span<const Vec3> points, const HullGrid& grid,
                                   const TriangleSurface& surface);
 
 }  // namespace abut

@@ -98,7 +98,7 @@ private:
 };
 
 std::optional<Body> Body::around(std::span<const Vec3> points, DirectionMap& map) {
-    const Grid grid = on_grid(points);
+    const HullGrid grid = on_grid(points);
     const Spread spread = spread_of(grid, min_thickness * (grid.tolerance / hull_tolerance));
     if (spread.rank < 3) return std::nullopt;
     Body result;

@@ -35,18 +35,18 @@ struct SeenTriangle {
 };
 
 /// A point on a triangle and the corners that span it; the first is repeated for missing ones.
-struct Place {
+struct TrianglePoint {
     DVec<3> point;
     std::array<std::uint32_t, 3> corners;
 };
 
-Place on_edge(const SeenTriangle& t, std::uint32_t from, std::uint32_t to, double part) {
+TrianglePoint on_edge(const SeenTriangle& t, std::uint32_t from, std::uint32_t to, double part) {
     if (part <= 0) return {t.corners[from], {from, from, from}};
     if (part >= 1) return {t.corners[to], {to, to, to}};
     return {t.corners[from] + (t.corners[to] - t.corners[from]) * part, {from, to, from}};
 }
 
-void name_corners(const Place& on_triangle, std::uint32_t first, std::uint32_t last, ClosestCorners<3>& corners) {
+void name_corners(const TrianglePoint& on_triangle, std::uint32_t first, std::uint32_t last, ClosestCorners<3>& corners) {
     corners.count = 3;
     for (std::size_t i = 0; i < 3; ++i) {
         corners.a[i] = on_triangle.corners[i];
@@ -56,7 +56,7 @@ void name_corners(const Place& on_triangle, std::uint32_t first, std::uint32_t l
 
 /// The closest point on an edge or corner, by Voronoi regions. Returns false if the point projects into the triangle.
 /// Ericson, Real-Time Collision Detection (2005), 5.1.5.
-bool nearest_beside(const SeenTriangle& t, const DVec<3>& point, Place& place) {
+bool nearest_beside(const SeenTriangle& t, const DVec<3>& point, TrianglePoint& place) {
     const DVec<3>&b = t.corners[1], &c = t.corners[2];
     const double bb = dot(b, b), bc = dot(b, c), cc = dot(c, c);
     const double b0 = dot(b, point), c0 = dot(c, point), b1 = b0 - bb, c1 = c0 - bc, b2 = b0 - bc, c2 = c0 - cc;
@@ -121,7 +121,7 @@ bool deep_in_triangle(const SeenTriangle& t, const Convex<3>& triangle, const Co
         const std::uint32_t end = dot(direction.out, q) < dot(direction.out, p) ? 1 : 0;
         const DVec<3>& deepest = end == 0 ? p : q;
         if (!t.is_over(deepest)) return false;
-        const Place place{deepest - direction.out * direction.separation, {0, 1, 2}};
+        const TrianglePoint place{deepest - direction.out * direction.separation, {0, 1, 2}};
         name_corners(place, end, end, result.corners);
         set_result(t, triangle, segment, direction.separation, direction.out, place.point, result);
         return true;
@@ -129,7 +129,7 @@ bool deep_in_triangle(const SeenTriangle& t, const Convex<3>& triangle, const Co
     const DVec<3>& corner = t.corners[direction.from];
     const DVec<3> edge = t.corners[direction.to] - corner, along = q - p;
     const SegmentParameters places = closest_parameters(edge, along, corner - p);
-    const Place place = on_edge(t, direction.from, direction.to, places.on_a);
+    const TrianglePoint place = on_edge(t, direction.from, direction.to, places.on_a);
     if (largest(p + along * places.on_b - place.point - direction.out * direction.separation) >
         round3_tolerance * scale)
         return false;
@@ -144,7 +144,7 @@ bool triangle_point(const Convex<3>& triangle, const Convex<3>& point, SignedDis
     const SeenTriangle t(triangle);
     if (t.is_thin()) return false;
     const DVec<3> seen = core_corner(point, 0) - t.origin;
-    Place place;
+    TrianglePoint place;
     if (!nearest_beside(t, seen, place)) {
         const double one = 1 / std::sqrt(t.square), height = dot(t.area, seen) * one;
         const DVec<3> normal = t.area * (height < 0 ? -one : one);
@@ -171,7 +171,7 @@ TriangleClosest closest_point_on_triangle(const Convex<3>& triangle, const DVec<
     const double height = dot(t.area, seen), reach = within + triangle.radius;
     // Rounded outwards, so that a point just within reach isn't lost.
     if (height * height > reach * reach * t.square * (1 + 1e-9)) return TriangleClosest::beyond;
-    Place place;
+    TrianglePoint place;
     if (nearest_beside(t, seen, place)) {
         distance = length(seen - place.point);
     } else {
@@ -201,7 +201,7 @@ bool triangle_segment(const Convex<3>& triangle, const Convex<3>& segment, Signe
         if (t.is_over(lower)) {
             const double one = 1 / std::sqrt(t.square), height = std::abs(end == 0 ? at_p : at_q) * one;
             const DVec<3> normal = t.area * (at_p > 0 ? one : -one);
-            const Place place{lower - normal * height, {0, 1, 2}};
+            const TrianglePoint place{lower - normal * height, {0, 1, 2}};
             name_corners(place, end, end, result.corners);
             set_result(t, triangle, segment, height, normal, place.point, result);
             return true;
@@ -223,7 +223,7 @@ bool triangle_segment(const Convex<3>& triangle, const Convex<3>& segment, Signe
         best = places;
         nearest = i;
     }
-    const Place place = on_edge(t, nearest, (nearest + 1) % 3, best.on_a);
+    const TrianglePoint place = on_edge(t, nearest, (nearest + 1) % 3, best.on_a);
     const DVec<3> between = p + along * best.on_b - place.point;
     const double gap = length(between);
     if (!(gap > min_round3_gap * scale)) return deep_in_triangle(t, triangle, segment, p, q, scale, gap, result);

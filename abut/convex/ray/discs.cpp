@@ -5,7 +5,7 @@ namespace {
 
 /// The candidate entry on a disc or on the side. A ray enters a convex set once, so several candidates are equal but
 /// for rounding.
-struct Place {
+struct CandidateEntry {
     double along = -std::numeric_limits<double>::infinity();
     DVec<3> normal{0.0};
 
@@ -37,11 +37,11 @@ RayEntry<3> enter_discs(const DRay<3>& ray, const DVec<3>& a, const DVec<3>& b, 
     const double along_axis = dot(near, up), climbs = dot(ray.direction, up);
     const DVec<3> off_axis = near - up * along_axis, across = ray.direction - up * climbs;
     const double z = along_axis + 0.5 * height, narrows = (radius_a - radius_b) / height;
-    Place place;
+    CandidateEntry entry;
     if (climbs != 0) {
         const double at = climbs > 0 ? -z / climbs : (height - z) / climbs;
         if (length(off_axis + across * at) <= (climbs > 0 ? radius_a : radius_b) + tolerance)
-            place.offer(at, climbs > 0 ? -up : up);
+            entry.offer(at, climbs > 0 ? -up : up);
     }
     const double here = radius_a - narrows * z;
     const double square = length_squared(across) - narrows * narrows * climbs * climbs;
@@ -57,14 +57,14 @@ RayEntry<3> enter_discs(const DRay<3>& ray, const DVec<3>& a, const DVec<3>& b, 
             // The normal is undefined at the apex, and for a root without digits.
             const double wide = length(out);
             if (!(wide > 1e-6 * widest && std::abs(wide - radius) <= 1e-7 * reach + tolerance)) return {};
-            place.offer(at, normalized(out / wide + up * narrows));
+            entry.offer(at, normalized(out / wide + up * narrows));
         }
-    } else if (square <= 0 && place.along < -reach / pace) {
+    } else if (square <= 0 && entry.along < -reach / pace) {
         return {};
     }
     RayEntry<3> result;
-    result.along = passes_at + place.along;
-    result.normal = place.normal;
+    result.along = passes_at + entry.along;
+    result.normal = entry.normal;
     if (result.normal == DVec<3>(0.0) || result.along > ray.length) return ray_misses<3>();
     if (!(-dot(ray.direction, result.normal) * result.along > tolerance)) return {};
     result.answer = RayAnswer::enters;

@@ -7,7 +7,7 @@
 namespace abut {
 
 std::optional<ConvexSurface> convex_surface(std::span<const DVec<3>> points, double tolerance) {
-    const Grid grid = on_grid(points);
+    const HullGrid grid = on_grid(points);
     const Spread spread = spread_of(grid, grid.tolerance);
     if (spread.rank < 3) return std::nullopt;
     ConvexSurface result{{}, quickhull(grid.points, spread.points, grid.tolerance * (tolerance / hull_tolerance))};

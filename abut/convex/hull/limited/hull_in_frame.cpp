@@ -73,7 +73,7 @@ std::optional<Hull3> hull_in_frame(std::span<const Vec3> corners, std::span<cons
     sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
     std::vector<DVec<3>> seen;
     for (const Vec3& corner : sorted) seen.push_back(frame.from_world(DVec<3>(corner)));
-    const Grid grid = on_grid(seen);
+    const HullGrid grid = on_grid(seen);
     const Spread spread = spread_of(grid, grid.tolerance);
     if (spread.rank < 3) return std::nullopt;
     const TriangleSurface surface = quickhull(grid.points, spread.points, 0);

@@ -24,7 +24,8 @@ bool hit_sphere(const Ray3& ray, const ShapeRef<3>& given, std::optional<Hit<3>>
     const DVec<3> from(ray.origin), direction(ray.direction), unit_direction = unit(direction), middle(sphere.center);
     const DVec<3> center = (given.pose != nullptr ? placed<3>(middle, *given.pose) : middle) - from;
     const double radius = static_cast<double>(sphere.radius), length = static_cast<double>(ray.length);
-    const double nearest = dot(center, unit_direction), square = length_squared(center), reach = radius * outside_factor;
+    const double nearest = dot(center, unit_direction), square = length_squared(center),
+                 reach = radius * outside_factor;
     if (!(radius > 0 && square > reach * reach && std::isfinite(square + nearest) && length >= 0)) return false;
     if (direction == DVec<3>(0.0)) return true;
     // The square of the distance at which the ray passes the centre, which stays precise for a distant sphere.

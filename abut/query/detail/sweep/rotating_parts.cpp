@@ -45,11 +45,11 @@ public:
     Aabb<D> box(const TimeSpan& span, double margin) const {
         const DVec<D> first = center(span.from), last = center(span.to);
         const double time = span.to - span.from, radius = ball_.radius + margin + acceleration_ * time * time / 8;
-        const double rounding = 1e-6 * (radius + std::max(largest(first), largest(last)));
+        const double outwards = 1e-6 * (radius + std::max(largest(first), largest(last)));
         Aabb<D> result;
         for (int i = 0; i < D; ++i) {
-            result.min[i] = static_cast<float>(std::min(first[i], last[i]) - radius - rounding);
-            result.max[i] = static_cast<float>(std::max(first[i], last[i]) + radius + rounding);
+            result.min[i] = static_cast<float>(std::min(first[i], last[i]) - radius - outwards);
+            result.max[i] = static_cast<float>(std::max(first[i], last[i]) + radius + outwards);
         }
         return result;
     }

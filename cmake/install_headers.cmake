@@ -1,0 +1,20 @@
+# Installs the headers that a user can include, abut/*.hpp, and those that these include in turn. It runs at install time, so
+# that the set is that of the installed sources.
+#   source: the project's folder; destination: the include folder; fronts: such as abut/abut.hpp
+set(found ${fronts})
+set(unread ${fronts})
+while(unread)
+    list(POP_FRONT unread header)
+    file(STRINGS ${source}/${header} includes REGEX "^#include <abut/")
+    foreach(include IN LISTS includes)
+        string(REGEX REPLACE "^#include <([^>]+)>.*" "\\1" included "${include}")
+        if(NOT included IN_LIST found)
+            list(APPEND found ${included})
+            list(APPEND unread ${included})
+        endif()
+    endforeach()
+endwhile()
+foreach(header IN LISTS found)
+    get_filename_component(folder ${header} DIRECTORY)
+    file(INSTALL DESTINATION ${destination}/${folder} TYPE FILE FILES ${source}/${header})
+endforeach()
