@@ -1,6 +1,7 @@
 # Installs the headers that a user can include, abut/*.hpp, and those that these include in turn. It runs at install time, so
 # that the set is that of the installed sources.
 #   source: the project's folder; destination: the include folder; fronts: such as abut/abut.hpp
+cmake_policy(VERSION 3.22)
 set(found ${fronts})
 set(unread ${fronts})
 while(unread)

@@ -14,8 +14,8 @@ namespace abut {
 namespace {
 
 /// Returns false if the visitor stops the search.
-bool add_pairs(std::span<const BoxOverlaps> overlaps, PairBuffer& pairs) {
-    for (const BoxOverlaps& overlap : overlaps)
+bool add_pairs(std::span<const detail::BoxOverlaps> overlaps, detail::PairBuffer& pairs) {
+    for (const detail::BoxOverlaps& overlap : overlaps)
         for (std::uint32_t bits = overlap.bits; bits != 0; bits &= bits - 1)
             if (!pairs.add(overlap.box, overlap.first + static_cast<std::uint32_t>(std::countr_zero(bits))))
                 return false;
@@ -24,7 +24,7 @@ bool add_pairs(std::span<const BoxOverlaps> overlaps, PairBuffer& pairs) {
 
 /// Visits the boxes that overlap `box`. Returns false if the visitor stops the search.
 template <int D>
-bool visit_overlaps(const BoxSoaView<D>& boxes, std::size_t count, const Aabb<D>& box, ItemCall visit) {
+bool visit_overlaps(const detail::BoxSoaView<D>& boxes, std::size_t count, const Aabb<D>& box, ItemCall visit) {
     for (std::size_t first = 0; first < count; first += 64) {
         std::uint64_t bits = overlap_bits(boxes, first, std::min<std::size_t>(count - first, 64), box);
         for (; bits != 0; bits &= bits - 1)
@@ -39,7 +39,7 @@ bool visit_overlaps(const BoxSoaView<D>& boxes, std::size_t count, const Aabb<D>
 template <int D>
 void BruteForce<D>::write(std::size_t index, const Aabb<D>& box) {
     const Aabb<D> stored = usable(box);
-    boxes_.set(index, is_empty(stored) ? nan_box<D>() : stored);
+    boxes_.set(index, is_empty(stored) ? detail::nan_box<D>() : stored);
 }
 
 template <int D>
@@ -69,7 +69,7 @@ std::uint32_t BruteForce<D>::insert(const Aabb<D>& box) {
     const std::uint32_t index = free_.take(static_cast<std::uint32_t>(size_));
     if (index == size_) {
         ABUT_ASSERT(size_ + 1 < std::size_t{1} << 32);
-        if (size_ == boxes_.capacity()) boxes_.grow(2 * size_ + box_lanes, size_);
+        if (size_ == boxes_.capacity()) boxes_.grow(2 * size_ + detail::box_lanes, size_);
         ++size_;
     }
     write(index, box);
@@ -80,7 +80,7 @@ template <int D>
 void BruteForce<D>::erase(std::uint32_t index) {
     ABUT_ASSERT(index < size());
     if (index >= size() || free_.contains(index)) return;
-    boxes_.set(index, nan_box<D>());
+    boxes_.set(index, detail::nan_box<D>());
     free_.add(index);
 }
 
@@ -94,7 +94,7 @@ bool BruteForce<D>::set(std::uint32_t index, const Aabb<D>& box) {
 template <int D>
 Aabb<D> BruteForce<D>::bounds() const {
     Aabb<D> result = Aabb<D>::empty();
-    const BoxSoaView<D> boxes = boxes_.view();
+    const detail::BoxSoaView<D> boxes = boxes_.view();
     for (std::size_t i = 0; i < size_; ++i)
         if (!is_empty(boxes[i])) result = merged(result, boxes[i]);
     return result;
@@ -102,11 +102,11 @@ Aabb<D> BruteForce<D>::bounds() const {
 
 template <int D>
 void BruteForce<D>::visit_pairs(PairsCall visit, Executor* executor) const {
-    const BoxSoaView<D> boxes = boxes_.view();
+    const detail::BoxSoaView<D> boxes = boxes_.view();
     const auto visit_from = [&](std::size_t first, std::size_t last, PairsCall report) {
-        PairBuffer pairs(report);
+        detail::PairBuffer pairs(report);
         bool continues = true;
-        const auto add = [&](std::span<const BoxOverlaps> overlaps) {
+        const auto add = [&](std::span<const detail::BoxOverlaps> overlaps) {
             return continues = continues && add_pairs(overlaps, pairs);
         };
         each_overlap(boxes, first, last, size_, add);
@@ -118,16 +118,17 @@ void BruteForce<D>::visit_pairs(PairsCall visit, Executor* executor) const {
     // Box k is tested against the boxes after it. A task takes one range from each end, so that all tasks are equal.
     const std::size_t parts = std::min<std::size_t>(4 * std::size_t{executor->workers()}, size_ / 64),
                       halves = 2 * parts;
-    report_in_parallel(*executor, static_cast<std::uint32_t>(parts), visit, [&](std::uint32_t part, PairsCall report) {
-        for (const std::size_t half : {std::size_t{part}, halves - 1 - part})
-            visit_from(size_ * half / halves, size_ * (half + 1) / halves, report);
-    });
+    detail::report_in_parallel(*executor, static_cast<std::uint32_t>(parts), visit,
+                               [&](std::uint32_t part, PairsCall report) {
+                                   for (const std::size_t half : {std::size_t{part}, halves - 1 - part})
+                                       visit_from(size_ * half / halves, size_ * (half + 1) / halves, report);
+                               });
 }
 
 template <int D>
 void BruteForce<D>::visit_pairs(const BruteForce& other, PairsCall visit) const {
-    const BoxSoaView<D> boxes = boxes_.view(), others = other.boxes_.view();
-    PairBuffer pairs(visit);
+    const detail::BoxSoaView<D> boxes = boxes_.view(), others = other.boxes_.view();
+    detail::PairBuffer pairs(visit);
     for (std::uint32_t i = 0; i < size_; ++i) {
         const auto add = [&](std::uint32_t j) { return pairs.add(i, j); };
         if (!visit_overlaps(others, other.size_, boxes[i], add)) return;
@@ -137,7 +138,7 @@ void BruteForce<D>::visit_pairs(const BruteForce& other, PairsCall visit) const 
 
 template <int D>
 void BruteForce<D>::visit_boxes(BoxCall<D> visit) const {
-    const BoxSoaView<D> boxes = boxes_.view();
+    const detail::BoxSoaView<D> boxes = boxes_.view();
     for (std::uint32_t i = 0; i < size_; ++i)
         if (!is_empty(boxes[i]) && !visit(i, boxes[i])) return;
 }
@@ -166,7 +167,7 @@ void BruteForce<D>::visit_near(const Aabb<D>& box, float reach, ReachCall visit)
 template <int D>
 template <class Reach>
 void BruteForce<D>::visit_within(Reach reach, ReachCall visit) const {
-    const BoxSoaView<D> boxes = boxes_.view();
+    const detail::BoxSoaView<D> boxes = boxes_.view();
     for (std::uint32_t i = 0; i < size_ && !reach.is_exhausted(); ++i) {
         double measure = 0;
         if (!is_empty(boxes[i]) && reach.measure(boxes[i], measure)) reach.shrink(visit(i));

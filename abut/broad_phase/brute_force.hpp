@@ -20,7 +20,7 @@ namespace abut {
 /// A BroadPhase without a structure; concept.hpp documents its functions. It visits items in the order of their indices
 /// and tests 16 boxes at a time by SIMD. Memory: a copy of the boxes, 24 bytes an item in 3D, 16 in 2D.
 template <int D>
-class BruteForce : public BroadPhaseInterface<BruteForce<D>, D> {
+class BruteForce : public detail::BroadPhaseInterface<BruteForce<D>, D> {
 public:
     void build(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
     void update(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
@@ -39,7 +39,7 @@ public:
     Aabb<D> bounds() const;
 
 private:
-    friend BroadPhaseInterface<BruteForce<D>, D>;
+    friend detail::BroadPhaseInterface<BruteForce<D>, D>;
     void visit_pairs(PairsCall visit, Executor* executor) const;
     void visit_pairs(const BruteForce& other, PairsCall visit) const;
     void visit_boxes(BoxCall<D> visit) const;
@@ -54,8 +54,8 @@ private:
     void visit_within(Reach reach, ReachCall visit) const;
 
     std::size_t size_ = 0;
-    BoxSoa<D> boxes_;  // an empty box is stored as NaNs
-    FreeIndices free_;
+    detail::BoxSoa<D> boxes_;  // an empty box is stored as NaNs
+    detail::FreeIndices free_;
 };
 
 extern template class BruteForce<2>;

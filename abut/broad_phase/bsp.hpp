@@ -14,7 +14,9 @@
 
 namespace abut {
 
+namespace detail {
 class PairBuffer;
+}
 
 /// A BroadPhase: a binary space partitioning tree whose planes are axis-aligned, a k-d tree (concept.hpp documents each
 /// function).
@@ -30,7 +32,7 @@ class PairBuffer;
 ///
 /// Up to 2^31 items. Memory: at most 132 bytes an item in 3D, 116 in 2D.
 template <int D>
-class Bsp : public BroadPhaseInterface<Bsp<D>, D> {
+class Bsp : public detail::BroadPhaseInterface<Bsp<D>, D> {
 public:
     void build(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
     void update(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
@@ -40,7 +42,7 @@ public:
     Aabb<D> bounds() const { return bounds_; }
 
 private:
-    friend BroadPhaseInterface<Bsp<D>, D>;
+    friend detail::BroadPhaseInterface<Bsp<D>, D>;
     struct Entry {
         Aabb<D> box;
         std::uint32_t item;
@@ -64,7 +66,7 @@ private:
     Split choose_split(std::uint32_t begin, std::uint32_t end);
     template <class Visit>
     bool visit_region(std::uint32_t node, const Aabb<D>& box, const Visit& visit) const;
-    bool visit_pairs_of(std::uint32_t node, PairBuffer& pairs) const;
+    bool visit_pairs_of(std::uint32_t node, detail::PairBuffer& pairs) const;
     template <class Reach>
     void visit_within(std::uint32_t node, const Aabb<D>& cell, Reach& reach, ReachCall visit) const;
 

@@ -25,7 +25,7 @@ namespace abut {
 /// Up to 2^31 items. Memory: 56 bytes an item in 3D (50 in 2D) if there are many. That includes up to 190 kilobytes of
 /// working memory, and as much again for each further thread that builds.
 template <int D>
-class Bvh : public BroadPhaseInterface<Bvh<D>, D> {
+class Bvh : public detail::BroadPhaseInterface<Bvh<D>, D> {
 public:
     void build(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
     void update(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
@@ -48,7 +48,7 @@ public:
     double cost() const { return tree_.cost(); }
 
 private:
-    friend BroadPhaseInterface<Bvh<D>, D>;
+    friend detail::BroadPhaseInterface<Bvh<D>, D>;
     void visit_pairs(PairsCall visit, Executor* executor) const;
     void visit_pairs(const Bvh& other, PairsCall visit) const;
     void visit_boxes(BoxCall<D> visit) const;
@@ -57,7 +57,7 @@ private:
     void visit_along(const MovingBox<D>& box, ReachCall visit) const;
     void visit_near(const Aabb<D>& box, float reach, ReachCall visit) const;
 
-    BvhTree<D> tree_;
+    detail::BvhTree<D> tree_;
 };
 
 extern template class Bvh<2>;

@@ -38,12 +38,12 @@ bool is_not_empty(const Aabb<D>& box) {
 /// cell with the same probability as any two boxes.
 template <int D>
 double pairs_per_cell(std::span<const Aabb<D>> sample, std::size_t count) {
-    GridStatistics<D> statistics = statistics_of(sample);
+    detail::GridStatistics<D> statistics = detail::statistics_of(sample);
     if (statistics.count < 2) return 0;
     statistics.count = statistics.count * count / sample.size();
-    const GridCells<D> cells =
-        make_cells(statistics.region, choose_cell_edge(statistics, grid_boxes_per_cell, grid_min_edge_ratio),
-                   grid_max_cells(count));
+    const detail::GridCells<D> cells = detail::make_cells(
+        statistics.region, choose_cell_edge(statistics, detail::grid_boxes_per_cell, detail::grid_min_edge_ratio),
+        detail::grid_max_cells(count));
     std::array<std::uint32_t, sample_size> cell;
     std::size_t found = 0;
     for (const Aabb<D>& box : sample)

@@ -140,7 +140,7 @@ void ChosenBroadPhase<D>::visit_pairs(const ChosenBroadPhase& other, PairsCall v
         if constexpr (std::is_same_v<A, B>) {
             own.each_overlapping_pair(others, visit);
         } else {
-            PairBuffer pairs(visit);
+            detail::PairBuffer pairs(visit);
             bool continues = true;
             if (first_queries_second(size(), kind(), other.size(), other.kind()))
                 query_each_box(own, others,

@@ -20,7 +20,7 @@ namespace abut {
 /// and at the next update after the history changed by a factor of two. If the choice differs, it builds the other
 /// structure; that update takes as long as a build, and allocates. Memory: that of the current structure.
 template <int D>
-class ChosenBroadPhase : public BroadPhaseInterface<ChosenBroadPhase<D>, D> {
+class ChosenBroadPhase : public detail::BroadPhaseInterface<ChosenBroadPhase<D>, D> {
 public:
     ChosenBroadPhase() = default;
     /// Always uses this structure: for tests and measurements.
@@ -46,7 +46,7 @@ public:
     BroadPhaseKind kind() const { return static_cast<BroadPhaseKind>(phase_.index()); }
 
 private:
-    friend BroadPhaseInterface<ChosenBroadPhase<D>, D>;
+    friend detail::BroadPhaseInterface<ChosenBroadPhase<D>, D>;
     void visit_pairs(PairsCall visit, Executor* executor) const;
     void visit_pairs(const ChosenBroadPhase& other, PairsCall visit) const;
     void visit_boxes(BoxCall<D> visit) const;

@@ -36,7 +36,7 @@ namespace abut {
 /// Up to 2^27 items. Memory: at most 62 bytes an item in 3D (54 in 2D), and 50 KB. An executor adds one byte an item,
 /// and insertions add up to a quarter as spare capacity.
 template <int D>
-class Grid : public BroadPhaseInterface<Grid<D>, D> {
+class Grid : public detail::BroadPhaseInterface<Grid<D>, D> {
 public:
     Grid() = default;
     /// Uses cells of this edge, or larger cells if these exceed the limit on memory.
@@ -66,7 +66,7 @@ public:
     double pair_cost() const { return cost_.time(); }
 
 private:
-    friend BroadPhaseInterface<Grid<D>, D>;
+    friend detail::BroadPhaseInterface<Grid<D>, D>;
     bool visit_large(PairsCall visit) const;
     void visit_pairs(PairsCall visit, Executor* executor) const;
     void visit_pairs(const Grid& other, PairsCall visit) const;
@@ -95,14 +95,14 @@ private:
     Cost cost(Executor* executor) const;
 
     float requested_edge_ = 0;  ///< 0: chosen from the data
-    GridCells<D> cells_;
+    detail::GridCells<D> cells_;
     Aabb<D> region_{};  ///< the box that the cells fill
-    GridStore store_;
+    detail::GridStore store_;
     std::vector<Aabb<D>> boxes_;
     std::vector<std::uint32_t> large_;  ///< the items that are in no cell
     Cost chosen_cost_, cost_;           ///< when the cells were chosen, and now
     std::size_t capacity_ = 0;          ///< the number of boxes that memory is reserved for
-    FreeIndices free_;
+    detail::FreeIndices free_;
     std::vector<std::uint8_t> marks_;  ///< of the items, for a fill on several threads
 };
 

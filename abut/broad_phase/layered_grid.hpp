@@ -15,7 +15,9 @@
 
 namespace abut {
 
+namespace detail {
 class PairBuffer;
+}
 
 /// A BroadPhase: a hierarchical hash grid (concept.hpp documents each function).
 ///
@@ -32,7 +34,7 @@ class PairBuffer;
 ///
 /// Up to 2^31 items. Memory: 92 to 96 bytes an item in 3D, 68 to 72 in 2D.
 template <int D>
-class LayeredGrid : public BroadPhaseInterface<LayeredGrid<D>, D> {
+class LayeredGrid : public detail::BroadPhaseInterface<LayeredGrid<D>, D> {
 public:
     void build(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
     void update(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
@@ -42,7 +44,7 @@ public:
     Aabb<D> bounds() const { return bounds_; }
 
 private:
-    friend BroadPhaseInterface<LayeredGrid<D>, D>;
+    friend detail::BroadPhaseInterface<LayeredGrid<D>, D>;
     using Cell = std::array<std::int32_t, D>;
     struct Entry {
         Aabb<D> box;
@@ -66,7 +68,7 @@ private:
     bool covers_few_cells(const Aabb<D>& box) const;
     template <class Visit>
     bool visit_region(const Aabb<D>& box, const Visit& visit) const;
-    bool visit_pairs_of(const Entry& entry, PairBuffer& pairs) const;
+    bool visit_pairs_of(const Entry& entry, detail::PairBuffer& pairs) const;
     double common_edge() const;
 
     void visit_pairs(PairsCall visit, Executor* executor) const;

@@ -16,6 +16,7 @@
 #include <vector>
 
 namespace abut {
+namespace detail {
 
 /// The axes in cyclic order, so that `first` becomes axis 0.
 template <int D, class T>
@@ -72,6 +73,8 @@ struct SweepPlan {
     }
 };
 
+}  // namespace detail
+
 /// A BroadPhase: sweep and prune, in columns (concept.hpp documents each function).
 ///
 /// Sorts the boxes along the axis on which the fewest overlap, and compares each with those that begin before it ends.
@@ -89,7 +92,7 @@ struct SweepPlan {
 ///
 /// Up to 2^30 items. Memory: at most 71 bytes an item in 3D, 58 in 2D, and some thousand for each structure.
 template <int D>
-class SweepAndPrune : public BroadPhaseInterface<SweepAndPrune<D>, D> {
+class SweepAndPrune : public detail::BroadPhaseInterface<SweepAndPrune<D>, D> {
 public:
     void build(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
     void update(std::span<const Aabb<D>> boxes, Executor* executor = nullptr);
@@ -98,10 +101,10 @@ public:
     /// The common box of all items; Aabb::empty() without any.
     Aabb<D> bounds() const { return bounds_; }
     /// The chosen axis and columns; for tests and visualization.
-    const SweepPlan<D>& plan() const { return plan_; }
+    const detail::SweepPlan<D>& plan() const { return plan_; }
 
 private:
-    friend BroadPhaseInterface<SweepAndPrune<D>, D>;
+    friend detail::BroadPhaseInterface<SweepAndPrune<D>, D>;
     struct Place {
         std::uint32_t key;  ///< the lower bound along the axis, as an integer of the same order
         std::uint32_t item;
@@ -134,19 +137,19 @@ private:
     void visit_near(const Aabb<D>& box, float reach, ReachCall visit) const;
 
     std::size_t size_ = 0;
-    SweepPlan<D> plan_;
+    detail::SweepPlan<D> plan_;
     double planned_cost_ = 0;
     Aabb<D> bounds_ = Aabb<D>::empty();
-    std::vector<Place> order_, scratch_;  ///< the sorted items, and as much work memory
-    std::size_t filled_ = 0;              ///< the number of items that are not empty
-    std::vector<ColumnSpan> spans_;       ///< of each item
-    std::vector<std::uint32_t> columns_;  ///< where each column ends in the rows, at a box of NaNs
+    std::vector<Place> order_, scratch_;     ///< the sorted items, and as much work memory
+    std::size_t filled_ = 0;                 ///< the number of items that are not empty
+    std::vector<detail::ColumnSpan> spans_;  ///< of each item
+    std::vector<std::uint32_t> columns_;     ///< where each column ends in the rows, at a box of NaNs
 
     // The sorted boxes, column by column, with all axes turned so that the plan's is axis 0.
     std::size_t count_ = 0;
-    BoxSoa<D> boxes_;
+    detail::BoxSoa<D> boxes_;
     std::vector<std::uint32_t> items_;     ///< with copy_bits
-    BoxSoa<D> tree_;                       ///< common boxes, level by level
+    detail::BoxSoa<D> tree_;               ///< common boxes, level by level
     std::array<std::size_t, 9> levels_{};  ///< where each level begins in the tree, and where the last one ends
     std::size_t level_count_ = 0;
 };

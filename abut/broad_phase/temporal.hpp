@@ -72,11 +72,11 @@ public:
     const TemporalCounts& counts() const { return core_.counts(); }
 
 private:
-    using Inners = std::array<Inner, temporal_groups>;
+    using Inners = std::array<Inner, detail::temporal_groups>;
 
-    class Search final : public TemporalSearch<D> {
+    class Search final : public detail::TemporalSearch<D> {
     public:
-        using Found = typename TemporalSearch<D>::Found;
+        using Found = typename detail::TemporalSearch<D>::Found;
 
         Search(Inners& inner, Executor* executor) : inner_(inner), executor_(executor) {}
 
@@ -97,7 +97,7 @@ private:
     };
 
     Inners inner_;
-    TemporalCore<D> core_;
+    detail::TemporalCore<D> core_;
 };
 
 }  // namespace abut

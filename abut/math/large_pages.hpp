@@ -1,7 +1,7 @@
 #pragma once
 
-// An allocator for large arrays with random access: it requests large pages from the system. With small pages a TLB miss
-// costs as much as the memory access.
+// An allocator for large arrays with random access: it requests large pages from the system. With small pages a TLB
+// miss costs as much as the memory access.
 
 #include <cstddef>
 #include <new>

@@ -81,7 +81,7 @@ ContactWithNeighbours<D> deepest_surface_contact(const View<D>& a, const View<D>
                                                  const NeighbourSurfaces<D>& neighbours) {
     ContactWithNeighbours<D> result;
     each_contact_with_neighbours<D>(a, b, options, neighbours,
-                                    [&](const Contact<D>& found, const SurfaceNormalFlags& flags) {
+                                    [&](const Contact<D>& found, const detail::SurfaceNormalFlags& flags) {
                                         const auto order = [](const Contact<D>& c) {
                                             return std::tuple(-c.depth, c.feature_a.part, c.feature_b.part);
                                         };
@@ -102,7 +102,7 @@ ContactWithNeighbours<D> only_contact(const View<D>& a, const View<D>& b, const 
     EdgeFilter<D> filter(a, b, neighbours);
     each_part_pair(a, b, 0, [&](const auto& part_a, std::uint32_t index_a, const auto& part_b, std::uint32_t index_b) {
         PartContact<D> found = deepest.found;
-        const SurfaceNormalFlags flags = filter.surface_normal_flags(
+        const detail::SurfaceNormalFlags flags = filter.surface_normal_flags(
             part_a, part_b, found.distance, [&]() -> const Manifold<D>& { return found.manifold; });
         if (flags) return false;
         const bool is_replaced = filter.replace(part_a, part_b, flags, found);

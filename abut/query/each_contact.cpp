@@ -54,7 +54,7 @@ class ContactReporter {
 public:
     ContactReporter(const View<D>& a, const View<D>& b, const QueryOptions<D>& options,
                     const NeighbourSurfaces<D>& neighbours,
-                    FunctionRef<bool(const Contact<D>&, const SurfaceNormalFlags&)> visit)
+                    FunctionRef<bool(const Contact<D>&, const detail::SurfaceNormalFlags&)> visit)
         : a_(a), b_(b), options_(options), filter_(a, b, neighbours), visit_(visit) {
         is_cached_ = cache_.fill(a, b, static_cast<double>(options.margin), filter_.reach());
         if (is_cached_) filter_.use_cache(cache_.parts());
@@ -64,7 +64,7 @@ public:
         visit_pairs(
             [&](const PartContact<D>& found, const Contact<D>& contact) {
                 surface_contacts_.add(found.distance.normal, -found.distance.distance);
-                return go_on_ = visit_(contact, SurfaceNormalFlags{});
+                return go_on_ = visit_(contact, detail::SurfaceNormalFlags{});
             },
             [&](const Ghost<D>& ghost) {
                 if (!is_reported(ghost)) ghosts_.add(ghost);
@@ -108,7 +108,7 @@ private:
             write(found.distance, found.manifold, contact);
             name_features(part_a, part_b, found.distance, index_a, index_b, contact);
         };
-        const SurfaceNormalFlags flags = filter_.surface_normal_flags(part_a, part_b, found.distance, manifold);
+        const detail::SurfaceNormalFlags flags = filter_.surface_normal_flags(part_a, part_b, found.distance, manifold);
         if (flags) {
             manifold();
             Contact<D> contact;
@@ -165,7 +165,7 @@ private:
     const QueryOptions<D>& options_;
     EdgeFilter<D> filter_;
     PartPairCache<D> cache_;
-    FunctionRef<bool(const Contact<D>&, const SurfaceNormalFlags&)> visit_;
+    FunctionRef<bool(const Contact<D>&, const detail::SurfaceNormalFlags&)> visit_;
     ReportedNormals<D> surface_contacts_, replacements_;
     DeepestGhosts<D> ghosts_;
     bool go_on_ = true;
@@ -177,7 +177,7 @@ private:
 template <int D>
 void each_contact_with_neighbours(const View<D>& a, const View<D>& b, const QueryOptions<D>& options,
                                   const NeighbourSurfaces<D>& neighbours,
-                                  FunctionRef<bool(const Contact<D>&, const SurfaceNormalFlags&)> visit) {
+                                  FunctionRef<bool(const Contact<D>&, const detail::SurfaceNormalFlags&)> visit) {
     const bool finite = is_finite(a) && is_finite(b);
     ABUT_ASSERT(finite);
     if (finite) ContactReporter<D>(a, b, options, neighbours, visit).report();
@@ -187,14 +187,15 @@ template <int D>
 void each_contact_of(const View<D>& a, const View<D>& b, const QueryOptions<D>& options,
                      FunctionRef<bool(const Contact<D>&)> visit) {
     each_contact_with_neighbours<D>(
-        a, b, options, {}, [&](const Contact<D>& contact, const SurfaceNormalFlags&) { return visit(contact); });
+        a, b, options, {},
+        [&](const Contact<D>& contact, const detail::SurfaceNormalFlags&) { return visit(contact); });
 }
 
-#define ABUT_INSTANTIATE(D)                                                                                      \
-    template void each_contact_with_neighbours(const View<D>&, const View<D>&, const QueryOptions<D>&,           \
-                                               const NeighbourSurfaces<D>&,                                      \
-                                               FunctionRef<bool(const Contact<D>&, const SurfaceNormalFlags&)>); \
-    template void each_contact_of(const View<D>&, const View<D>&, const QueryOptions<D>&,                        \
+#define ABUT_INSTANTIATE(D)                                                                  \
+    template void each_contact_with_neighbours(                                              \
+        const View<D>&, const View<D>&, const QueryOptions<D>&, const NeighbourSurfaces<D>&, \
+        FunctionRef<bool(const Contact<D>&, const detail::SurfaceNormalFlags&)>);            \
+    template void each_contact_of(const View<D>&, const View<D>&, const QueryOptions<D>&,    \
                                   FunctionRef<bool(const Contact<D>&)>);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

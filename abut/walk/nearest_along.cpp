@@ -58,7 +58,7 @@ double entry_along(const DVec<3>& direction, const DVec<3>& a, const DVec<3>& b,
 /// The nearest hit so far.
 struct FirstHit {
     double along;
-    std::uint32_t triangle = bvh_none;
+    std::uint32_t triangle = detail::bvh_none;
 
     void update(double entry, std::uint32_t number) {
         if (!(entry >= 0 && entry <= along)) return;
@@ -99,7 +99,7 @@ std::optional<WalkPoint> WalkMesh::nearest_along(const Vec3& point, const Vec3& 
     } else if (hit.triangle != nullptr) {
         first = {hit.entry.along, *hit.triangle};
     }
-    if (first.triangle == bvh_none) return std::nullopt;
+    if (first.triangle == detail::bvh_none) return std::nullopt;
     const Vec3* const corner = data_->walk[first.triangle].corner;
     const NearestOnTriangle on = nearest_on({corner[0], corner[1], corner[2]}, beam.at(first.along));
     return WalkPoint{first.triangle, quantised_weights(on.second, on.third)};

@@ -203,7 +203,7 @@ public:
         while (stack_size > 0) {
             StackEntry next = stack[--stack_size];
             while (next.square <= limit_ && !is_leaf(next.ref)) next = nearest_child(next.ref, stack, stack_size);
-            const std::uint32_t leaf = next.ref & ~bvh_leaf_bit;
+            const std::uint32_t leaf = next.ref & ~detail::bvh_leaf_bit;
             if (next.square <= limit_ && leaf != tested) test_leaf(leaf);
         }
     }
@@ -223,7 +223,7 @@ private:
         __builtin_prefetch(node.child);  // stored apart from the boxes, and needed right after them
         HWY_ALIGN Number squares[mesh_lanes];
         std::uint32_t bits = boxes_(node, limit_, squares);
-        if (bits == 0) return {std::numeric_limits<Number>::quiet_NaN(), bvh_none};
+        if (bits == 0) return {std::numeric_limits<Number>::quiet_NaN(), detail::bvh_none};
         const auto next_child = [&]() -> StackEntry {
             const std::uint32_t lane = next_lane(bits);
             return {squares[lane], node.child[lane]};

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// Relative margins of the radius and of the position, many times the rounding errors in double.
@@ -119,4 +119,4 @@ ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -5,7 +5,7 @@
 #include <abut/convex/bounding_ball.hpp>
 #include <abut/shape/view/view.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// A ball that contains a shape, with a margin for rounding. The radius is infinite or NaN if no such ball exists. The
 /// ball of a composite shape, or of one with a user's support function, contains its AABB.
@@ -30,4 +30,4 @@ BoundingBall<D> moved(const BoundingBall<D>& ball, const Affine<D>& pose);
 template <int D>
 bool apart(const BoundingBall<D>& a, const BoundingBall<D>& b);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// One list for each slot. Building allocates nothing once the lists have held as many entries.
 template <class Entry>
@@ -34,4 +34,4 @@ private:
     std::vector<Entry> entries_;
 };
 
-}  // namespace abut
+}  // namespace abut::detail

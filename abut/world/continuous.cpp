@@ -21,23 +21,23 @@ template <int D>
 void World<D>::widen_boxes() {
     widened_ = false;
     if (continuous_ == 0) return;
-    swept_boxes_.assign(previous_poses_.size(), SweptBox<D>());
+    swept_boxes_.assign(previous_poses_.size(), detail::SweptBox<D>());
     for (const std::uint32_t slot : pending_) {
         const Item& item = items_[slot];
         if (item.previous == none || is_empty(box(slot))) continue;
         const Pose<D>& from = previous_poses_[item.previous];
         const Aabb<D> first = box_at(item, from);
         if (is_empty(first)) continue;
-        SweptBox<D>& path = swept_boxes_[item.previous];
-        path = swept_box(item.local_ball.ball(), first, Motion<D>::between(from, item.pose));
+        detail::SweptBox<D>& path = swept_boxes_[item.previous];
+        path = detail::swept_box(item.local_ball.ball(), first, Motion<D>::between(from, item.pose));
         boxes_of(item).widen(item.place, merged(bounds(path), box(slot)));
         widened_ = true;
     }
 }
 
 template <int D>
-SweptBox<D> World<D>::swept_box_of(std::uint32_t slot) const {
-    return has_swept_box(slot) ? swept_boxes_[items_[slot].previous] : swept_box(box(slot), Vec<D>(0.0f));
+detail::SweptBox<D> World<D>::swept_box_of(std::uint32_t slot) const {
+    return has_swept_box(slot) ? swept_boxes_[items_[slot].previous] : detail::swept_box(box(slot), Vec<D>(0.0f));
 }
 
 /// Whether the present AABBs of two items overlap, or their swept boxes if one is continuous. Their boxes in the broad
@@ -47,7 +47,8 @@ bool World<D>::may_touch(std::uint32_t slot, std::uint32_t other) const {
     const Item &a = items_[slot], &b = items_[other];
     if (overlaps(box(slot), box(other))) return true;
     if (!a.continuous && !b.continuous) return false;
-    return (has_swept_box(slot) || has_swept_box(other)) && may_overlap(swept_box_of(slot), swept_box_of(other));
+    return (has_swept_box(slot) || has_swept_box(other)) &&
+           detail::may_overlap(swept_box_of(slot), swept_box_of(other));
 }
 
 /// Adds the impact of a pair since the last update, unless the pair touched at that update.

@@ -5,7 +5,7 @@
 #include <atomic>
 #include <cstdint>
 
-namespace abut {
+namespace abut::detail {
 
 /// Runs deferred work once, on the first thread that needs it, while other threads wait. `defer`, `cancel` and copies
 /// must not run at the same time as `run`.
@@ -42,4 +42,4 @@ private:
     std::atomic<std::uint8_t> state_ = done;
 };
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -84,7 +84,7 @@ void World<D>::each_closest_point_beside(std::uint32_t slot, std::uint32_t other
     }
     const Item& item = items_[slot];
     const Filter filter{.layers = item.layers, .mask = item.mask};
-    for (const ItemBoxes<D>* items : {&moving_, &fixed_}) {
+    for (const detail::ItemBoxes<D>* items : {&moving_, &fixed_}) {
         if (within == stop_visiting) return;
         items->phase().each_overlapping(near, [&](std::uint32_t place) {
             const std::uint32_t found = items->slot(place);

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// The number of stale boxes up to which queries test them one by one.
@@ -162,4 +162,4 @@ void ItemBoxes<D>::closest(const Aabb<D>& box, ReachCall visit, float max_distan
 template class ItemBoxes<2>;
 template class ItemBoxes<3>;
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// Gives each item a place, its index in the broad phase, and keeps the broad phase up to date.
 ///
@@ -74,4 +74,4 @@ private:
 extern template class ItemBoxes<2>;
 extern template class ItemBoxes<3>;
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -22,7 +22,7 @@ std::size_t World<D>::nearest_to(const View<D>& shape, std::span<WorldClosest<D>
     const bool finite = is_finite(shape);
     ABUT_ASSERT(finite);
     if (!finite || out.empty()) return 0;
-    query_count_.add(ray_weight);
+    query_count_.add(detail::ray_weight);
     // `out` is a heap with the farthest item at its front.
     std::size_t count = 0;
     const auto heap = [&] { return out.first(count); };

@@ -5,7 +5,7 @@
 #include <bit>
 #include <numeric>
 
-namespace abut {
+namespace abut::detail {
 
 /// A stable sort by b's index suffices: the pairs are sorted by a, and in one update each index belongs to one id.
 void PairIndex::build(std::span<const IdPair> pairs, std::size_t capacity) {
@@ -33,4 +33,4 @@ void PairIndex::visit(std::span<const IdPair> pairs, Id id, FunctionRef<bool(Id)
         if (!visit(pair->b)) return;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

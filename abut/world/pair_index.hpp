@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// Indexes a list of pairs sorted by (a, b), which it doesn't store. It allocates nothing once it has indexed as many.
 class PairIndex {
@@ -26,4 +26,4 @@ private:
     std::vector<std::uint32_t> by_b_, scratch_;  // indices of the pairs, sorted by (b, a)
 };
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -41,7 +41,7 @@ bool World<D>::passes(std::uint32_t slot, const Filter& filter) const {
 template <int D>
 template <class F>
 void World<D>::each_near(const Aabb<D>& box, const Filter& filter, F&& visit) const {
-    query_count_.add(region_weight);
+    query_count_.add(detail::region_weight);
     bool go_on = true;
     const auto visit_passing = [&](std::uint32_t slot) -> bool {
         if (passes(slot, filter)) go_on = visit(slot);
@@ -56,7 +56,7 @@ template <int D>
 template <class F>
 void World<D>::each_near_ray(const Ray<D>& ray, const Filter& filter, F&& visit) const {
     if (!is_valid_query(ray)) return;
-    query_count_.add(ray_weight);
+    query_count_.add(detail::ray_weight);
     Ray<D> rest = ray;
     const auto visit_passing = [&](std::uint32_t slot) -> float {
         if (passes(slot, filter)) rest.length = std::min(rest.length, static_cast<float>(visit(slot)));

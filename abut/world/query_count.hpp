@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <utility>
 
-namespace abut {
+namespace abut::detail {
 
 /// The weights of a ray or nearest query and of a region query: the cost of the former differs ten times as much
 /// between broad phases.
@@ -41,4 +41,4 @@ private:
     std::uint32_t limit_ = 0;
 };
 
-}  // namespace abut
+}  // namespace abut::detail

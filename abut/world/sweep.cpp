@@ -31,8 +31,8 @@ bool is_valid_query(bool finite) {
 }
 
 template <int D>
-SweptBox<D> swept_box_of_shape(const View<D>& shape, const Motion<D>& motion) {
-    return swept_box(bounding_ball(shape), bounds(moved(shape, affine(motion.from))), motion);
+detail::SweptBox<D> swept_box_of_shape(const View<D>& shape, const Motion<D>& motion) {
+    return detail::swept_box(detail::bounding_ball(shape), bounds(moved(shape, affine(motion.from))), motion);
 }
 
 template <int D>
@@ -45,11 +45,11 @@ MoverAtHit<D> mover_of(const View<D>& shape, const RigidPath<D>& path, const Hit
 /// The first hit on a path; `sweep_at(item)` returns the hit on one item.
 template <int D>
 template <class F>
-std::optional<WorldHit<D>> World<D>::first_on_path(const View<D>& shape, const SweptBox<D>& path, const Filter& filter,
-                                                   F&& sweep_at) const {
+std::optional<WorldHit<D>> World<D>::first_on_path(const View<D>& shape, const detail::SweptBox<D>& path,
+                                                   const Filter& filter, F&& sweep_at) const {
     std::optional<WorldHit<D>> first;
     if (is_empty(path.box)) return first;
-    query_count_.add(ray_weight);
+    query_count_.add(detail::ray_weight);
     const MovingBox<D> moving = moving_box(path);
     // This test rejects the items that a broad phase visits by rounding, so that no kind of broad phase tests more.
     const RayReach<D> whole = RayReach<D>::of_box(moving);
@@ -65,7 +65,7 @@ std::optional<WorldHit<D>> World<D>::first_on_path(const View<D>& shape, const S
         if (!first || hit->fraction < reach || id < first->id) first = WorldHit<D>{id, *hit};
         return reach = first->hit.fraction;
     };
-    for (const ItemBoxes<D>* items : {&moving_, &fixed_}) {
+    for (const detail::ItemBoxes<D>* items : {&moving_, &fixed_}) {
         if (whole.is_exhausted()) {
             // The path is unbounded, such as that of a half-space.
             constexpr float far = std::numeric_limits<float>::infinity();
@@ -99,7 +99,7 @@ std::optional<WorldHit<D>> World<D>::sweep_linear(const View<D>& shape, const Ve
                                                   const Filter& filter) const {
     if (!is_valid_query(is_finite(shape) && is_finite(motion))) return std::nullopt;
     std::optional<WorldHit<D>> first =
-        first_on_path(shape, swept_box(bounds(shape), motion), filter,
+        first_on_path(shape, detail::swept_box(bounds(shape), motion), filter,
                       [&](const Item& item) { return abut::sweep(shape, motion, placed(item), Vec<D>(0.0f)); });
     if (first)
         filter_normal(linear_mover_at_hit<D>(shape, DVec<D>(motion) * static_cast<double>(first->hit.fraction)), filter,

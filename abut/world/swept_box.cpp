@@ -1,7 +1,7 @@
 #include <abut/broad_phase/reach.hpp>
 #include <abut/world/swept_box.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 float radians(float rotation) {
@@ -113,4 +113,4 @@ ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -6,7 +6,7 @@
 #include <abut/math/ray.hpp>
 #include <abut/world/bounding_ball.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// A box that moves linearly with a shape's position and contains it at every rotation during the motion. The tolerance
 /// of a sweep and rounding are included.
@@ -37,4 +37,4 @@ MovingBox<D> moving_box(const SweptBox<D>& path, const Vec<D>& move_of_other = V
 template <int D>
 bool may_overlap(const SweptBox<D>& a, const SweptBox<D>& b);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -12,8 +12,8 @@ void World<D>::refresh_boxes() {
     // The running mean over 16 updates serves a game that sends its queries in every second or every tenth update. The
     // limit is high enough to count the queries of several updates in one.
     constexpr double averaged_updates = 16;
-    const auto limit = static_cast<std::uint32_t>(ray_weight * (moving_.size() + 64));
-    const double queries = static_cast<double>(query_count_.take(limit)) / ray_weight;
+    const auto limit = static_cast<std::uint32_t>(detail::ray_weight * (moving_.size() + 64));
+    const double queries = static_cast<double>(query_count_.take(limit)) / detail::ray_weight;
     queries_per_item_ += (queries / static_cast<double>(std::max<std::size_t>(moving_.size(), 1)) - queries_per_item_) /
                          averaged_updates;
     moving_.refresh(queries_per_item_);
@@ -74,7 +74,7 @@ void World<D>::repeat_last(const IdPair& pair) {
 
 template <int D>
 bool World<D>::balls_apart(const IdPair& pair) const {
-    return apart(ball(items_[pair.a.index - 1]), ball(items_[pair.b.index - 1]));
+    return detail::apart(ball(items_[pair.a.index - 1]), ball(items_[pair.b.index - 1]));
 }
 
 template <int D>

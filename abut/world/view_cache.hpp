@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 template <int D>
 class ViewCache {
@@ -37,4 +37,4 @@ private:
     std::vector<Entry> entries_;
 };
 
-}  // namespace abut
+}  // namespace abut::detail

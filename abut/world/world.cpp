@@ -36,7 +36,7 @@ template <int D>
 Id World<D>::add_shape(const AnyShape<D>& shape, const ItemOptions<D>& options) {
     std::uint32_t slot = static_cast<std::uint32_t>(items_.size());
     if (free_.empty()) {
-        reserve_one_more(items_);
+        detail::reserve_one_more(items_);
         items_.push_back(Item{.stored = shape});
     } else {
         slot = free_.back();
@@ -66,7 +66,7 @@ void World<D>::reset_item(std::uint32_t slot) {
     Item& item = items_[slot];
     const View<D> own = item.stored.view();
     item.type = shape_type(own);
-    item.local_ball = SmallBall<D>::around(bounding_ball(own));
+    item.local_ball = detail::SmallBall<D>::around(detail::bounding_ball(own));
     item.settled = false;
     item.previous = none;
     update_box(slot);
@@ -88,7 +88,7 @@ void World<D>::move_to(Id id, const Pose<D>& pose) {
     if (item == nullptr || item->pose == pose) return;
     if (item->settled && item->previous == none) {
         item->previous = static_cast<std::uint32_t>(previous_poses_.size());
-        reserve_one_more(previous_poses_);
+        detail::reserve_one_more(previous_poses_);
         previous_poses_.push_back(item->pose);
     }
     item->pose = pose;
@@ -136,14 +136,14 @@ Aabb<D> World<D>::box_at(const Item& item, const Pose<D>& pose) const {
 
 template <int D>
 BoundingBall<D> World<D>::ball(const Item& item) const {
-    return moved(item.local_ball.ball(), affine(item.pose));
+    return detail::moved(item.local_ball.ball(), affine(item.pose));
 }
 
 template <int D>
 void World<D>::mark_pending(std::uint32_t slot) {
     if (items_[slot].pending) return;
     items_[slot].pending = true;
-    reserve_one_more(pending_);
+    detail::reserve_one_more(pending_);
     pending_.push_back(slot);
 }
 

@@ -349,7 +349,7 @@ private:
         AnyShape<D> stored;  // empty in a free slot
         std::uint64_t user = 0;
         Pose<D> pose{};
-        SmallBall<D> local_ball{};  // in the shape's own frame
+        detail::SmallBall<D> local_ball{};  // in the shape's own frame
         std::uint32_t layers = 1, mask = 0xffffffff;
         std::uint32_t generation = 0;
         std::uint32_t place = 0;        // the place of its box in fixed_ or moving_
@@ -364,7 +364,7 @@ private:
     /// The contact of a touching pair, before ghost contacts are dropped.
     struct FoundContact {
         WorldContact<D> result;
-        SurfaceNormalFlags
+        detail::SurfaceNormalFlags
             surface_normal;     // false for an item if the normal is a substitute for one of an internal edge
         bool reported = false;  // whether it is among contacts()
     };
@@ -389,7 +389,7 @@ private:
     const Item* find(Id id) const;
     Item* find(Id id);
     Id id_of(std::uint32_t slot) const { return {slot + 1, items_[slot].generation}; }
-    ItemBoxes<D>& boxes_of(const Item& item) { return item.fixed ? fixed_ : moving_; }
+    detail::ItemBoxes<D>& boxes_of(const Item& item) { return item.fixed ? fixed_ : moving_; }
     /// The item's AABB; empty for a free slot, and for an item that is not finite or has no parts.
     const Aabb<D>& box(std::uint32_t slot) const {
         const Item& item = items_[slot];
@@ -408,7 +408,7 @@ private:
     void refresh_boxes();
     bool has_swept_box(std::uint32_t slot) const;
     void widen_boxes();
-    SweptBox<D> swept_box_of(std::uint32_t slot) const;
+    detail::SweptBox<D> swept_box_of(std::uint32_t slot) const;
     bool may_touch(std::uint32_t slot, std::uint32_t other) const;
     void add_if_near(std::uint32_t slot, std::uint32_t other);
     void test_pair(const IdPair& pair);
@@ -437,8 +437,8 @@ private:
     template <class F>
     void each_near_ray(const Ray<D>& ray, const Filter& filter, F&& visit) const;
     template <class F>
-    std::optional<WorldHit<D>> first_on_path(const View<D>& shape, const SweptBox<D>& path, const Filter& filter,
-                                             F&& sweep_at) const;
+    std::optional<WorldHit<D>> first_on_path(const View<D>& shape, const detail::SweptBox<D>& path,
+                                             const Filter& filter, F&& sweep_at) const;
     void filter_normal(const MoverAtHit<D>& mover, const Filter& filter, WorldHit<D>& hit) const;
     std::optional<WorldHit<D>> sweep_linear(const View<D>& shape, const Vec<D>& motion, const Filter& filter) const;
     std::optional<WorldHit<D>> sweep_rotating(const View<D>& shape, const Motion<D>& motion,
@@ -453,16 +453,16 @@ private:
     void visit_in_box(const Aabb<D>& box, const Filter& filter, FunctionRef<bool(Id, const View<D>&)> visit) const;
 
     std::vector<Item> items_;
-    std::vector<Pose<D>> previous_poses_;   // poses of moved items at the last update
-    std::vector<SweptBox<D>> swept_boxes_;  // by index in previous_poses_; in an update with continuous items
+    std::vector<Pose<D>> previous_poses_;           // poses of moved items at the last update
+    std::vector<detail::SweptBox<D>> swept_boxes_;  // by index in previous_poses_; in an update with continuous items
     std::vector<std::uint32_t> free_;
     std::vector<std::uint32_t> pending_;
     bool widened_ = false;  // the broad phases hold swept AABBs of moved items
     std::size_t count_ = 0, continuous_ = 0;
 
-    ItemBoxes<D> fixed_, moving_;
-    mutable QueryCount query_count_;  // since the last update
-    double queries_per_item_ = 0;     // running mean of queries per update and moving item
+    detail::ItemBoxes<D> fixed_, moving_;
+    mutable detail::QueryCount query_count_;  // since the last update
+    double queries_per_item_ = 0;             // running mean of queries per update and moving item
 
     std::vector<IdPair> near_, last_near_;
     /// An item that pairs with another item and whose AABB overlaps its AABB.
@@ -470,9 +470,9 @@ private:
         Aabb<D> box;
         std::uint32_t slot;
     };
-    CompressedLists<Neighbour> neighbours_;         // of the items whose contacts get surface normals
-    CompressedLists<std::uint32_t> found_by_slot_;  // indices in found_, in an update with substitute normals
-    ViewCache<D> views_;                            // valid during an update
+    detail::CompressedLists<Neighbour> neighbours_;         // of the items whose contacts get surface normals
+    detail::CompressedLists<std::uint32_t> found_by_slot_;  // indices in found_, in an update with substitute normals
+    detail::ViewCache<D> views_;                            // valid during an update
     std::vector<char> neighbour_changed_;           // by slot: an item near it has changed since the last update
     std::vector<IdPair> touching_, last_touching_;  // now and at the last update
     std::vector<FoundContact> found_, last_found_;
@@ -481,7 +481,7 @@ private:
     std::vector<IdPair> passed_, last_passed_;  // pairs with an impact that don't touch at the end; last update's
     std::vector<IdPair> began_, stayed_, ended_;
     std::vector<float> fractions_;  // by index in began_
-    PairIndex pair_index_;          // over touching_
+    detail::PairIndex pair_index_;  // over touching_
     UpdateCounts counts_;
     BallEarlyOuts ball_early_outs_;
     /// The first shape of the pair that was tested last. Pairs are sorted, so consecutive pairs share it.

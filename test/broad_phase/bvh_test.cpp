@@ -24,8 +24,8 @@ template <int D>
 class Nodes {
 public:
     Nodes(const std::vector<Aabb<D>>& boxes, bool bounded) {
-        for (std::uint32_t i = 0; i < boxes.size(); ++i) part_.items.push_back(item_of(boxes[i], i));
-        build_subtree(part_, bounded, 0);
+        for (std::uint32_t i = 0; i < boxes.size(); ++i) part_.items.push_back(detail::item_of(boxes[i], i));
+        detail::build_subtree(part_, bounded, 0);
         walk(part_.root, 0);
     }
     int depth() const { return depth_; }
@@ -34,13 +34,13 @@ public:
 private:
     void walk(std::uint32_t ref, int depth) {
         depth_ = std::max(depth_, depth);
-        if (is_leaf(ref)) return;
-        area_ += children_area(part_.nodes[ref]);
+        if (detail::is_leaf(ref)) return;
+        area_ += detail::children_area(part_.nodes[ref]);
         for (const std::uint32_t child : part_.nodes[ref].child)
-            if (child != bvh_none) walk(child, depth + 1);
+            if (child != detail::bvh_none) walk(child, depth + 1);
     }
 
-    BvhSubtree<D> part_;
+    detail::BvhSubtree<D> part_;
     int depth_ = 0;
     double area_ = 0;
 };
@@ -111,7 +111,7 @@ TEST(Bvh, IsNeverDeeperThanItsStacks) {
             }
     const int depth = Nodes<3>(boxes, true).depth();
     EXPECT_GT(depth, 2) << "too easy to prove anything";
-    EXPECT_LE(depth, bvh_depth);
+    EXPECT_LE(depth, detail::bvh_depth);
 }
 
 TEST(Bvh, PartsWhatCoincidesByIndex) {

@@ -26,9 +26,9 @@ TEST(SortPairs, LikeStdSort) {
         for (const std::uint32_t items : {1u, 2u, 3u, 100u, 1025u, 1u << 16, 3u << 20, ~0u}) {
             std::vector<ItemPair> pairs = some_pairs(count, items, random), expected = pairs;
             std::sort(expected.begin(), expected.end());
-            sort_pairs(pairs);
+            detail::sort_pairs(pairs);
             EXPECT_TRUE(pairs == expected) << count << " pairs of " << items << " items, seed 12";
-            sort_pairs(pairs);
+            detail::sort_pairs(pairs);
             EXPECT_TRUE(pairs == expected) << "sorted before";
         }
 }
@@ -39,7 +39,7 @@ TEST(SortPairs, AllocatesNothingWhereThereIsRoomForTwice) {
     pairs.reserve(10000);
     const ItemPair* const place = pairs.data();
     const std::size_t before = allocations();
-    sort_pairs(pairs);
+    detail::sort_pairs(pairs);
     EXPECT_EQ(allocations(), before);
     EXPECT_EQ(pairs.data(), place);
 }

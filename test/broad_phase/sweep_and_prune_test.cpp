@@ -112,7 +112,7 @@ TYPED_TEST(SweepAndPruneIn, SortsAlongTheAxisThatPartsTheBoxes) {
         phase.build(boxes);
         EXPECT_EQ(phase.plan().axis, longest);
         // A reversal of the order would compare every item with every other.
-        for (Aabb<D>& box : boxes) box = turned<D>(box, 1);
+        for (Aabb<D>& box : boxes) box = detail::turned<D>(box, 1);
         phase.update(boxes);
         EXPECT_EQ(phase.plan().axis, (longest + D - 1) % D);
         expect_right<D>(phase, boxes, random);

@@ -13,7 +13,8 @@
 namespace abut::test {
 namespace {
 
-double height_above(const HullGrid& grid, const TriangleSurface& surface, std::size_t triangle, const GridPoint& point) {
+double height_above(const HullGrid& grid, const TriangleSurface& surface, std::size_t triangle,
+                    const GridPoint& point) {
     return grid_dot(surface.normals[triangle], point - grid.points[surface.origin[3 * triangle]]);
 }
 

@@ -7,7 +7,7 @@
 namespace abut::corpus {
 
 /// The relative tolerance of depths of user-defined and curved shapes, above the minimum.
-inline constexpr double depth_slack = 1e-3;
+inline constexpr double depth_tolerance = 1e-3;
 
 template <int D>
 Known known_of(const SamplePair<D>& pair) {
@@ -15,7 +15,7 @@ Known known_of(const SamplePair<D>& pair) {
     const double size_a = oracle::size(pair.a.solid), size_b = oracle::size(pair.b.solid);
     const bool by_support = pair.a.kind == Kind::cloud || pair.b.kind == Kind::cloud;
     return {truth.distance, oracle::tolerance_for(pair.a.solid, pair.b.solid),
-            by_support ? depth_slack * std::min(size_a, size_b) : 0, truth.duality_gap, size_a + size_b};
+            by_support ? depth_tolerance * std::min(size_a, size_b) : 0, truth.duality_gap, size_a + size_b};
 }
 
 /// A point near the surface, and a ray to the center from outside.
@@ -117,7 +117,7 @@ void judge_round(Random random, Verdict& verdict) {
     Known known;
     known.distance = -least_overlap(pair, n);
     known.margin = 1e-5 * smaller + 16 * oracle::ulp(reach) + 1e-14 * abut::largest(origin);
-    known.too_deep = depth_slack * smaller;
+    known.too_deep = depth_tolerance * smaller;
     known.sizes = size_a + size_b;
     const RoundSide<D> a{pair.a, origin}, b{pair.b, origin};
     Judge<D, RoundSide<D>, RoundSide<D>>(pair.a.view, pair.b.view, a, b, known, verdict).judge({});

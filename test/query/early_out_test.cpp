@@ -98,7 +98,7 @@ TEST(EarlyOut, BestOrderCostsTheLeastOfAllPermutations) {
     EXPECT_GT(improved, 300);
 }
 
-TEST(EarlyOut, PretestPaysWhereItsCostIsLess) {
+TEST(EarlyOut, CheapTestPaysWhereItsCostIsLess) {
     static_assert(worth_pretesting(1, 0.5, 3) && !worth_pretesting(1, 0.5, 2) && !worth_pretesting(1, 0.5, 1.5));
     EXPECT_FALSE(worth_pretesting(0, 1, 100));
     EXPECT_FALSE(worth_pretesting(0, 1, infinity));

@@ -44,11 +44,11 @@ void expect_same(const MeshTree& a, const MeshTree& b) {
 /// Checks that every triangle is in one leaf, and within all boxes above it; returns the depth.
 int checked_depth(const MeshTree& tree, std::uint32_t ref, const Aabb3& box, const Welded& mesh,
                   std::vector<int>& found) {
-    if (!is_leaf(ref)) {
+    if (!detail::is_leaf(ref)) {
         int deepest = 0;
         for (std::uint32_t lane = 0; lane < mesh_lanes; ++lane) {
             const MeshNode& node = tree.node(ref);
-            if (node.child[lane] == bvh_none) continue;
+            if (node.child[lane] == detail::bvh_none) continue;
             EXPECT_EQ(merged(box, node.box(lane)), box);
             deepest = std::max(deepest, checked_depth(tree, node.child[lane], node.box(lane), mesh, found));
         }
@@ -119,14 +119,14 @@ TEST(MeshTreeTopology, AnyOtherPlanMakesASoundTreeOrNone) {
                 }
                 default:
                     plan.children[one_of(plan.children)] =
-                        random.chance(0.5) ? random.below(12) : bvh_leaf_bit | random.below(40);
+                        random.chance(0.5) ? random.below(12) : detail::bvh_leaf_bit | random.below(40);
             }
         const std::optional<MeshTree> tree = build_mesh_tree(mesh.points, mesh.triangles, plan);
         (tree ? made : refused) += 1;
         if (!tree) continue;
         std::vector<int> found(mesh.triangles.size(), 0);
         const Aabb3 all{Vec3(-1e9f), Vec3(1e9f)};
-        EXPECT_LE(checked_depth(*tree, tree->root(0).ref, all, mesh, found), bvh_depth);
+        EXPECT_LE(checked_depth(*tree, tree->root(0).ref, all, mesh, found), detail::bvh_depth);
         ASSERT_EQ(found, std::vector<int>(mesh.triangles.size(), 1));
     }
     EXPECT_GT(made, 200u);
@@ -158,7 +158,7 @@ TEST(MeshTreeTopology, AreAsLongAsTheyShouldBeAndNotTooDeep) {
 
     // Each node has a leaf and the next node: the maximum depth, up to the stack of the searches.
     for (const std::uint32_t nodes :
-         {static_cast<std::uint32_t>(bvh_depth), static_cast<std::uint32_t>(bvh_depth) + 1}) {
+         {static_cast<std::uint32_t>(detail::bvh_depth), static_cast<std::uint32_t>(detail::bvh_depth) + 1}) {
         Welded few = mesh;
         few.triangles.resize(nodes + 1);
         MeshTreeTopology chain;
@@ -167,12 +167,12 @@ TEST(MeshTreeTopology, AreAsLongAsTheyShouldBeAndNotTooDeep) {
             chain.corners.push_back(0 | 1 << 3 | 2 << 6);
             chain.counts.push_back(1);
             if (i == nodes) break;
-            std::vector<std::uint32_t> children(8, bvh_none);
-            children[0] = bvh_leaf_bit | i;
-            children[1] = i + 1 < nodes ? i + 1 : bvh_leaf_bit | nodes;
+            std::vector<std::uint32_t> children(8, detail::bvh_none);
+            children[0] = detail::bvh_leaf_bit | i;
+            children[1] = i + 1 < nodes ? i + 1 : detail::bvh_leaf_bit | nodes;
             chain.children.insert(chain.children.end(), children.begin(), children.end());
         }
-        EXPECT_EQ(build_mesh_tree(few.points, few.triangles, chain).has_value(), nodes == bvh_depth) << nodes;
+        EXPECT_EQ(build_mesh_tree(few.points, few.triangles, chain).has_value(), nodes == detail::bvh_depth) << nodes;
     }
 }
 

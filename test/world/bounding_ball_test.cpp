@@ -12,7 +12,7 @@ namespace {
 
 template <class S>
 auto ball_of(const S& shape) {
-    return bounding_ball(View<dimension<S>>(view(shape)));
+    return detail::bounding_ball(View<dimension<S>>(view(shape)));
 }
 
 template <int D>
@@ -37,13 +37,13 @@ TEST(BoundingBall, OfKnownShapesIsTheLeast) {
 
 TEST(BoundingBall, ApartIsMoreThanTouching) {
     const auto ball = [](double x, double radius) { return BoundingBall<2>{{x, 0}, radius}; };
-    EXPECT_TRUE(apart(ball(0, 1), ball(3, 1)));
-    EXPECT_FALSE(apart(ball(0, 1), ball(2, 1)));
-    EXPECT_FALSE(apart(ball(0, 1), ball(1, 1)));
+    EXPECT_TRUE(detail::apart(ball(0, 1), ball(3, 1)));
+    EXPECT_FALSE(detail::apart(ball(0, 1), ball(2, 1)));
+    EXPECT_FALSE(detail::apart(ball(0, 1), ball(1, 1)));
     constexpr double infinity = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_FALSE(apart(ball(0, infinity), ball(1e300, 1)));
-    EXPECT_FALSE(apart(ball(0, nan), ball(1e300, 1)));
-    EXPECT_FALSE(apart(ball(nan, 1), ball(0, 1)));
+    EXPECT_FALSE(detail::apart(ball(0, infinity), ball(1e300, 1)));
+    EXPECT_FALSE(detail::apart(ball(0, nan), ball(1e300, 1)));
+    EXPECT_FALSE(detail::apart(ball(nan, 1), ball(0, 1)));
 }
 
 /// Passes a view of a shape of any kind, size and position, with its ball, to `take`.
@@ -51,7 +51,7 @@ template <int D, class Take>
 void with_placed(oracle::Random& random, double size, const Pose<D>& pose, Take&& take) {
     with_random_shape<D>(random, random_kind<D>(random, 0.1), [&](const auto& shape) {
         const View<D> own = mapped(View<D>(view(shape)), scaling<D>(Vec<D>(static_cast<float>(size))));
-        take(mapped(own, affine(pose)), moved(bounding_ball(own), affine(pose)));
+        take(mapped(own, affine(pose)), detail::moved(detail::bounding_ball(own), affine(pose)));
     });
 }
 
@@ -137,7 +137,7 @@ void check_pair(std::uint64_t seed, PairCounts& seen) {
             Affine<D> shift;
             shift.offset = ball_a.center - ball_b.center + towards * reach;
             const View<D> moved_b = mapped(b, shift);
-            const bool balls_apart = apart(ball_a, moved(ball_b, shift));
+            const bool balls_apart = detail::apart(ball_a, detail::moved(ball_b, shift));
             const bool touch = overlaps(a, moved_b), contacts = static_cast<bool>(contact(a, moved_b));
             EXPECT_FALSE(balls_apart && (touch || contacts));
             seen.apart += balls_apart ? 1 : 0;
@@ -168,7 +168,7 @@ void check_round_pair(std::uint64_t seed, PairCounts& seen) {
     const DVec<D> towards = random.chance(0.3) ? axis<D>(0) : random.direction<D>();
     const Vec<D> center_b = to_float(DVec<D>(center_a) + towards * (reach * (1 + random.uniform(-2e-4, 4e-4))));
     const Ball<D> a{center_a, radius_a}, b{center_b, radius_b};
-    const bool balls_apart = apart(ball_of(a), ball_of(b));
+    const bool balls_apart = detail::apart(ball_of(a), ball_of(b));
     EXPECT_FALSE(balls_apart && (overlaps(a, b) || contact(a, b)));
     seen.apart += balls_apart ? 1 : 0;
     seen.touching += overlaps(a, b) ? 1 : 0;

@@ -128,24 +128,24 @@ TEST(BroadPhaseOfAWorld, IsStableWithOccasionalRays) {
 }
 
 TEST(QueryCount, IsTheSameFromManyThreads) {
-    QueryCount count;
+    detail::QueryCount count;
     EXPECT_EQ(count.take(1000), 0u);
     const auto add_from_threads = [&](int times) {
         std::vector<std::thread> threads;
         for (int i = 0; i < 4; ++i)
             threads.emplace_back([&count, times] {
-                for (int k = 0; k < times; ++k) count.add(ray_weight);
+                for (int k = 0; k < times; ++k) count.add(detail::ray_weight);
             });
         for (std::thread& thread : threads) thread.join();
     };
     add_from_threads(20);
-    EXPECT_EQ(count.take(1000), 4 * 20 * ray_weight);
+    EXPECT_EQ(count.take(1000), 4 * 20 * detail::ray_weight);
     add_from_threads(5000);
     EXPECT_EQ(count.take(77), 1000u);
-    count.add(region_weight);
-    QueryCount moved = std::move(count);
-    EXPECT_EQ(moved.take(0), region_weight);
-    moved.add(ray_weight);
+    count.add(detail::region_weight);
+    detail::QueryCount moved = std::move(count);
+    EXPECT_EQ(moved.take(0), detail::region_weight);
+    moved.add(detail::ray_weight);
     EXPECT_EQ(moved.take(0), 0u);
 }
 

@@ -287,7 +287,7 @@ private:
     std::map<IdPair, Hit<D>> impacts_;
     struct FoundContact {
         WorldContact<D> result;
-        SurfaceNormalFlags surface_normal;
+        detail::SurfaceNormalFlags surface_normal;
     };
     std::vector<FoundContact> found_;
 };

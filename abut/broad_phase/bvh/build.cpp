@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <new>
 
-namespace abut {
+namespace abut::detail {
 
 template <int D>
 void BvhTree<D>::build(std::span<const Aabb<D>> boxes, Executor* executor) {
@@ -298,4 +298,4 @@ template void BvhTree<3>::free_node(std::uint32_t);
 template void BvhTree<3>::free_leaf(std::uint32_t);
 template double BvhTree<3>::cost() const;
 
-}  // namespace abut
+}  // namespace abut::detail

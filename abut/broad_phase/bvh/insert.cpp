@@ -12,7 +12,7 @@
 #include <functional>
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// The entries of a node that overflows: eight and a new one.
@@ -372,4 +372,4 @@ template void BvhTree<3>::add(std::uint32_t, const Aabb<3>&);
 template void BvhTree<3>::remove_from_leaf(std::uint32_t, std::uint32_t);
 template std::uint32_t BvhTree<3>::lane_of(std::uint32_t) const;
 
-}  // namespace abut
+}  // namespace abut::detail

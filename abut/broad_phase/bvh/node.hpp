@@ -10,7 +10,7 @@
 #include <limits>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 inline constexpr std::uint32_t bvh_lanes = 8;
 inline constexpr std::uint32_t bvh_none = 0xFFFFFFFF;
@@ -122,4 +122,4 @@ struct BvhRoot {
     Aabb<D> box = Aabb<D>::empty();
 };
 
-}  // namespace abut
+}  // namespace abut::detail

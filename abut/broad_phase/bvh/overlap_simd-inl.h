@@ -15,7 +15,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace abut::HWY_NAMESPACE {
+namespace abut::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -60,7 +60,7 @@ HWY_INLINE std::uint32_t overlapping_lanes(const BvhRows<D>& rows, const BvhRows
         rows, [&](int i) { return others.min[i][lane]; }, [&](int i) { return others.max[i][lane]; });
 }
 
-}  // namespace abut::HWY_NAMESPACE
+}  // namespace abut::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -16,7 +16,7 @@
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();
-namespace abut::HWY_NAMESPACE {
+namespace abut::detail::HWY_NAMESPACE {
 
 /// A box, as one lane of eight.
 template <int D>
@@ -121,11 +121,11 @@ bool pairs_of_3(const BvhTree<3>& a, const BvhTree<3>& b, const BvhPairTask<3>& 
     return pairs_of<3>(a, b, task, pairs);
 }
 
-}  // namespace abut::HWY_NAMESPACE
+}  // namespace abut::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace abut {
+namespace abut::detail {
 
 HWY_EXPORT(pairs_of_2);
 HWY_EXPORT(pairs_of_3);
@@ -139,5 +139,5 @@ bool find_pairs<3>(const BvhTree<3>& a, const BvhTree<3>& b, const BvhPairTask<3
     return HWY_DYNAMIC_DISPATCH(pairs_of_3)(a, b, task, pairs);
 }
 
-}  // namespace abut
+}  // namespace abut::detail
 #endif

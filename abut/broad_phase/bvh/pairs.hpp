@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-namespace abut {
+namespace abut::detail {
 
 /// The pairs of an item below node `a` and an item below node `b`. If `b` is bvh_none: the pairs of two items below
 /// `a`.
@@ -27,4 +27,4 @@ bool find_pairs<2>(const BvhTree<2>&, const BvhTree<2>&, const BvhPairTask<2>&, 
 template <>
 bool find_pairs<3>(const BvhTree<3>&, const BvhTree<3>&, const BvhPairTask<3>&, PairBuffer&);
 
-}  // namespace abut
+}  // namespace abut::detail

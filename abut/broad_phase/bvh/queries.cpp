@@ -11,7 +11,7 @@
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();
-namespace abut::HWY_NAMESPACE {
+namespace abut::detail::HWY_NAMESPACE {
 
 /// A functor that returns the leaf of a reference.
 template <int D>
@@ -44,11 +44,11 @@ void near_3(const BvhTree<3>& tree, const BoxReach<3>& reach, ReachCall visit) {
     visit_near<3>(tree, leaves_of(tree), reach, visit);
 }
 
-}  // namespace abut::HWY_NAMESPACE
+}  // namespace abut::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace abut {
+namespace abut::detail {
 
 HWY_EXPORT(overlapping_2);
 HWY_EXPORT(overlapping_3);
@@ -84,5 +84,5 @@ void find_within(const BvhTree<3>& tree, const BoxReach<3>& reach, ReachCall vis
     HWY_DYNAMIC_DISPATCH(near_3)(tree, reach, visit);
 }
 
-}  // namespace abut
+}  // namespace abut::detail
 #endif

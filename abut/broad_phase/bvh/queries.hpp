@@ -6,7 +6,7 @@
 #include <abut/broad_phase/reach.hpp>
 #include <abut/broad_phase/visit.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// Requires a box from `usable`.
 void find_overlapping(const BvhTree<2>& tree, const Aabb<2>& box, ItemCall visit);
@@ -21,4 +21,4 @@ void find_within(const BvhTree<3>& tree, const RayReach<3>& reach, ReachCall vis
 void find_within(const BvhTree<2>& tree, const BoxReach<2>& reach, ReachCall visit);
 void find_within(const BvhTree<3>& tree, const BoxReach<3>& reach, ReachCall visit);
 
-}  // namespace abut
+}  // namespace abut::detail

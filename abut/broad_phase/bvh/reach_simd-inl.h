@@ -16,7 +16,7 @@
 #include <limits>
 
 HWY_BEFORE_NAMESPACE();
-namespace abut::HWY_NAMESPACE {
+namespace abut::detail::HWY_NAMESPACE {
 
 /// A relative and an absolute tolerance that exceed a few rounding errors of float.
 constexpr float float_tolerance = 1 + 5e-7f;
@@ -195,7 +195,7 @@ private:
     const Reach& reach_;
 };
 
-}  // namespace abut::HWY_NAMESPACE
+}  // namespace abut::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -17,7 +17,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace abut::HWY_NAMESPACE {
+namespace abut::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -304,11 +304,11 @@ Aabb<3> box_of_all_3(const BvhItem* items, std::uint32_t begin, std::uint32_t en
     return box_of_all<3>(items, begin, end);
 }
 
-}  // namespace abut::HWY_NAMESPACE
+}  // namespace abut::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace abut {
+namespace abut::detail {
 
 HWY_EXPORT(split_2);
 HWY_EXPORT(split_3);
@@ -332,5 +332,5 @@ void split<3>(BvhItem* items, bool bounded, const BvhRange<3>& range, BvhRange<3
     HWY_DYNAMIC_DISPATCH(split_3)(items, bounded, range, left, right);
 }
 
-}  // namespace abut
+}  // namespace abut::detail
 #endif

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace abut {
+namespace abut::detail {
 
 /// The maximum number of items of a node whose children are all leaves.
 inline constexpr std::uint32_t bvh_node_items = bvh_lanes * bvh_lanes;
@@ -53,4 +53,4 @@ void split<2>(BvhItem*, bool, const BvhRange<2>&, BvhRange<2>&, BvhRange<2>&);
 template <>
 void split<3>(BvhItem*, bool, const BvhRange<3>&, BvhRange<3>&, BvhRange<3>&);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 template <int D>
@@ -115,4 +115,4 @@ template void build_subtree(BvhSubtree<3>&, bool, int);
 template double children_area(const BvhNode<2>&);
 template double children_area(const BvhNode<3>&);
 
-}  // namespace abut
+}  // namespace abut::detail

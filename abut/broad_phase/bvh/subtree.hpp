@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// The maximum number of items of a subtree, which fits into the cache of one core.
 inline constexpr std::uint32_t bvh_subtree_items = 2048;
@@ -51,4 +51,4 @@ void build_subtree(BvhSubtree<D>& subtree, bool bounded, int depth);
 template <int D>
 double children_area(const BvhNode<D>& node);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 
 /// Half the surface area of a box in 3D, half its perimeter in 2D.
 struct BoxSize {
@@ -42,4 +42,4 @@ bool is_bounded(const Aabb<D>& box) {
     return true;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -19,7 +19,7 @@
 #include <hwy/cache_control.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace abut::HWY_NAMESPACE {
+namespace abut::detail::HWY_NAMESPACE {
 
 /// A traversal pushes at most the seven siblings of each node on its path, and the two roots.
 constexpr std::size_t max_stack_size = bvh_depth * (bvh_lanes - 1) + 2;
@@ -162,7 +162,7 @@ void visit_near(const Tree& tree, LeafOf leaf_of, BoxReach<D> reach, ReachCall v
         visit_within<D>(tree, leaf_of, reach, ScalarLanes<D, BoxReach<D>>(reach), visit);
 }
 
-}  // namespace abut::HWY_NAMESPACE
+}  // namespace abut::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 template <int D>
 class BvhTree {
@@ -117,4 +117,4 @@ private:
     std::vector<BvhSubtree<D>> subtrees_;  // one for each thread of a build
 };
 
-}  // namespace abut
+}  // namespace abut::detail

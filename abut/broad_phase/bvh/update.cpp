@@ -12,7 +12,7 @@
 
 #include <hwy/cache_control.h>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// The maximum sum of the areas of a node's children, relative to the sum when it was built. It varies with the node,
@@ -179,4 +179,4 @@ bool BvhTree<D>::insert_missing(std::span<const Aabb<D>> boxes) {
 template void BvhTree<2>::update(std::span<const Aabb<2>>, Executor*);
 template void BvhTree<3>::update(std::span<const Aabb<3>>, Executor*);
 
-}  // namespace abut
+}  // namespace abut::detail

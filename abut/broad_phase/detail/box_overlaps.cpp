@@ -14,7 +14,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace abut::HWY_NAMESPACE {
+namespace abut::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -193,11 +193,11 @@ ABUT_FOR_DIMENSION(2)
 ABUT_FOR_DIMENSION(3)
 #undef ABUT_FOR_DIMENSION
 
-}  // namespace abut::HWY_NAMESPACE
+}  // namespace abut::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace abut {
+namespace abut::detail {
 
 HWY_EXPORT(overlap_bits_2);
 HWY_EXPORT(overlap_bits_3);
@@ -253,5 +253,5 @@ template void block_bounds(const BoxSoaView<2>&, const std::uint32_t*, std::uint
 template void block_bounds(const BoxSoaView<3>&, const std::uint32_t*, std::uint32_t, std::size_t, std::size_t,
                            BoxSoa<3>&);
 
-}  // namespace abut
+}  // namespace abut::detail
 #endif

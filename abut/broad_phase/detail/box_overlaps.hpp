@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <span>
 
-namespace abut {
+namespace abut::detail {
 
 /// The overlaps of box `box` among consecutive boxes: bit k is set if it overlaps box `first + k`.
 struct BoxOverlaps {
@@ -40,4 +40,4 @@ template <int D>
 void block_bounds(const BoxSoaView<D>& boxes, const std::uint32_t* marks, std::uint32_t excluded, std::size_t blocks,
                   std::size_t begin, BoxSoa<D>& result);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// Box i has the bounds min[axis][i], max[axis][i].
 template <int D>
@@ -82,4 +82,4 @@ private:
     std::vector<float> numbers_;
 };
 
-}  // namespace abut
+}  // namespace abut::detail

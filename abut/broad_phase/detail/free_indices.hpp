@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 class FreeIndices {
 public:
@@ -52,4 +52,4 @@ private:
     std::vector<std::uint32_t> min_heap_;
 };
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// The queries of a broad phase; concept.hpp documents each. `Phase` derives from this class (CRTP), declares it a
 /// friend, and implements `visit_...` functions that take type-erased visitors, so that they compile in a .cpp file.
@@ -80,4 +80,4 @@ private:
     }
 };
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -7,7 +7,7 @@
 #include <array>
 #include <cstddef>
 
-namespace abut {
+namespace abut::detail {
 
 /// Passes its pairs to the visitor when it is full, and on `flush`.
 class PairBuffer {
@@ -35,4 +35,4 @@ private:
     std::array<ItemPair, 256> pairs_;
 };
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <span>
 
-namespace abut {
+namespace abut::detail {
 
 /// Calls task(0) to task(count - 1): by the executor if there is one, else in this order.
 template <class Task>
@@ -34,4 +34,4 @@ void report_in_parallel(Executor& executor, std::uint32_t count, PairsCall visit
     });
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <utility>
 
-namespace abut {
+namespace abut::detail {
 
 /// Sorts by the lowest `bits` bits of key(item), an unsigned number. The sort is stable (least significant digit
 /// first, at most 11 bits a pass). `scratch` has capacity for `count` items. The result points to the sorted items: it
@@ -36,4 +36,4 @@ T* radix_sort(T* items, T* scratch, std::size_t count, int bits, Key key) {
     return items;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

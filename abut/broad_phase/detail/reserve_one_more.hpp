@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// Reserves capacity for one more entry. Capacity grows by a quarter: doubling it leaves up to half of the memory
 /// unused.
@@ -14,4 +14,4 @@ void reserve_one_more(std::vector<T>& list) {
     if (list.size() == list.capacity()) list.reserve(list.size() + list.size() / part + min_growth);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

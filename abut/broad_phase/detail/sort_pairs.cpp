@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace abut {
+namespace abut::detail {
 
 void sort_pairs(std::vector<ItemPair>& pairs) {
     const std::size_t count = pairs.size();
@@ -26,4 +26,4 @@ void sort_pairs(std::vector<ItemPair>& pairs) {
     pairs.resize(count);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -6,10 +6,10 @@
 
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// Sorts pairs by (i, j), by radix sort from 64 pairs on. The pairs must be distinct. For that the vector grows to
 /// twice its size and shrinks again: nothing is allocated if its capacity is twice the number of pairs.
 void sort_pairs(std::vector<ItemPair>& pairs);
 
-}  // namespace abut
+}  // namespace abut::detail

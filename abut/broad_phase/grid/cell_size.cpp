@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// The ratio of successive edges in the search: the inverse of the fourth root of two. It is a literal, for functions
@@ -134,4 +134,4 @@ template float choose_cell_edge(const GridStatistics<3>&, double, double);
 template GridCells<2> make_cells(const Aabb<2>&, float, std::uint32_t);
 template GridCells<3> make_cells(const Aabb<3>&, float, std::uint32_t);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -7,7 +7,7 @@
 
 #include <span>
 
-namespace abut {
+namespace abut::detail {
 
 /// The targets of a Grid: the number of boxes per cell, the minimum ratio of the cell edge to the mean edge of the
 /// boxes, and the maximum number of cells that memory is reserved for.
@@ -35,4 +35,4 @@ float choose_cell_edge(const GridStatistics<D>& statistics, double boxes_per_cel
 template <int D>
 GridCells<D> make_cells(const Aabb<D>& region, float edge, std::uint32_t max_count);
 
-}  // namespace abut
+}  // namespace abut::detail

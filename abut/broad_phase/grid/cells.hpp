@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace abut {
+namespace abut::detail {
 
 /// A box with quantised coordinates. A cell has PackedBounds::steps steps along each axis.
 template <int D>
@@ -116,4 +116,4 @@ struct PackedBox {
     }
 };
 
-}  // namespace abut
+}  // namespace abut::detail

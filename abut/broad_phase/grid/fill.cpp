@@ -17,7 +17,7 @@
 
 #ifndef ABUT_GRID_FILL_ONCE
 #define ABUT_GRID_FILL_ONCE
-namespace abut {
+namespace abut::detail {
 
 /// The number of boxes that are quantised at a time.
 inline constexpr std::size_t grid_batch_size = 256;
@@ -65,11 +65,11 @@ struct CellParts {
     std::array<CellPart, max_count> list;
 };
 
-}  // namespace abut
+}  // namespace abut::detail
 #endif
 
 HWY_BEFORE_NAMESPACE();
-namespace abut::HWY_NAMESPACE {
+namespace abut::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -200,11 +200,11 @@ ABUT_FOR_DIMENSION(2)
 ABUT_FOR_DIMENSION(3)
 #undef ABUT_FOR_DIMENSION
 
-}  // namespace abut::HWY_NAMESPACE
+}  // namespace abut::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace abut {
+namespace abut::detail {
 
 HWY_EXPORT(pack_all_2);
 HWY_EXPORT(pack_all_3);
@@ -387,5 +387,5 @@ template void fill(const GridCells<2>&, std::span<const Aabb<2>>, Aabb<2>*, Grid
 template void fill(const GridCells<3>&, std::span<const Aabb<3>>, Aabb<3>*, GridStore&, std::vector<std::uint32_t>&,
                    std::uint8_t*, Executor*);
 
-}  // namespace abut
+}  // namespace abut::detail
 #endif

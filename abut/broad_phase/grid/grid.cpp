@@ -20,7 +20,7 @@ namespace {
 
 /// The capacity suffices for two or three copies of each box. If it doesn't, the cells are enlarged.
 std::uint32_t max_page_count(std::size_t boxes) {
-    return static_cast<std::uint32_t>(boxes / 6) + (GridStore::pages_per_cell + 1) * 64;
+    return static_cast<std::uint32_t>(boxes / 6) + (detail::GridStore::pages_per_cell + 1) * 64;
 }
 
 }  // namespace
@@ -32,9 +32,9 @@ double Grid<D>::Cost::time() const {
 
 template <int D>
 typename Grid<D>::Cost Grid<D>::cost(Executor* executor) const {
-    std::array<Cost, part_count> parts;
-    run_parts(executor, boxes_.size(), [&](std::uint32_t part) {
-        const auto [begin, end] = range_of_part(cells_.total, part);
+    std::array<Cost, detail::part_count> parts;
+    detail::run_parts(executor, boxes_.size(), [&](std::uint32_t part) {
+        const auto [begin, end] = detail::range_of_part(cells_.total, part);
         Cost cost;
         for (auto cell = static_cast<std::uint32_t>(begin); cell < end; ++cell) {
             std::uint64_t pages = 0;
@@ -60,12 +60,12 @@ void Grid<D>::reserve(std::size_t count) {
     if (count <= capacity_) return;
     capacity_ = count;
     large_.reserve(count);
-    store_.reserve(max_page_count(count), grid_max_cells(count), PackedBounds<D>::guards);
+    store_.reserve(max_page_count(count), detail::grid_max_cells(count), detail::PackedBounds<D>::guards);
 }
 
 template <int D>
 void Grid<D>::set_edge(float edge) {
-    cells_ = make_cells(region_, edge, grid_max_cells(boxes_.size()));
+    cells_ = detail::make_cells(region_, edge, detail::grid_max_cells(boxes_.size()));
 }
 
 template <int D>
@@ -92,10 +92,11 @@ void Grid<D>::build(std::span<const Aabb<D>> boxes, Executor* executor) {
 template <int D>
 void Grid<D>::choose_cells_and_fill(std::span<const Aabb<D>> boxes, Executor* executor) {
     reserve(boxes.size());
-    const GridStatistics<D> statistics = statistics_of(boxes, executor);
+    const detail::GridStatistics<D> statistics = detail::statistics_of(boxes, executor);
     region_ = statistics.region;
-    set_edge(requested_edge_ > 0 ? requested_edge_
-                                 : choose_cell_edge(statistics, grid_boxes_per_cell, grid_min_edge_ratio));
+    set_edge(requested_edge_ > 0
+                 ? requested_edge_
+                 : choose_cell_edge(statistics, detail::grid_boxes_per_cell, detail::grid_min_edge_ratio));
     fill_cells(boxes, executor);
     chosen_cost_ = cost_;
 }
@@ -111,14 +112,14 @@ void Grid<D>::update(std::span<const Aabb<D>> boxes, Executor* executor) {
 
 template <int D>
 bool Grid<D>::insert_into_cells(std::uint32_t index) {
-    const QuantisedBox<D> quantised = cells_.quantised(boxes_[index]);
-    const CellRange<D> range = cells_.range(quantised);
-    if (!fits_in_cells(range)) {
+    const detail::QuantisedBox<D> quantised = cells_.quantised(boxes_[index]);
+    const detail::CellRange<D> range = cells_.range(quantised);
+    if (!detail::fits_in_cells(range)) {
         large_.insert(std::lower_bound(large_.begin(), large_.end(), index), index);
         return true;
     }
     return each_cell<D>(range, [&](const std::array<std::uint32_t, D>& at) {
-        const PackedBox<D> packed(quantised, at);
+        const detail::PackedBox<D> packed(quantised, at);
         const std::uint32_t cell = cells_.index(at);
         store_.add(cell, packed.low, packed.high, index);
         ++cost_.copies;
@@ -129,8 +130,8 @@ bool Grid<D>::insert_into_cells(std::uint32_t index) {
 
 template <int D>
 void Grid<D>::remove_from_cells(std::uint32_t index) {
-    const CellRange<D> range = cells_.range(boxes_[index]);
-    if (!fits_in_cells(range)) {
+    const detail::CellRange<D> range = cells_.range(boxes_[index]);
+    if (!detail::fits_in_cells(range)) {
         large_.erase(std::lower_bound(large_.begin(), large_.end(), index));
         return;
     }
@@ -148,7 +149,7 @@ std::uint32_t Grid<D>::insert(const Aabb<D>& box) {
     const std::uint32_t index = free_.take(static_cast<std::uint32_t>(size()));
     if (index == size()) {
         ABUT_ASSERT(size() < std::size_t{1} << 27);
-        reserve_one_more(boxes_);
+        detail::reserve_one_more(boxes_);
         boxes_.emplace_back();
     }
     boxes_[index] = usable(box);
@@ -197,7 +198,7 @@ Aabb<D> Grid<D>::bounds() const {
 
 template <int D>
 bool Grid<D>::visit_large(PairsCall visit) const {
-    PairBuffer pairs(visit);
+    detail::PairBuffer pairs(visit);
     for (const std::uint32_t large : large_)
         for (std::uint32_t i = 0; i < boxes_.size(); ++i) {
             if (!overlaps(boxes_[large], boxes_[i]) || i == large) continue;
@@ -216,7 +217,7 @@ void Grid<D>::visit_pairs(PairsCall visit, Executor* executor) const {
         return;
     }
     const std::uint32_t parts = std::min(4 * executor->workers(), cells_.total);
-    report_in_parallel(*executor, parts + 1, visit, [&](std::uint32_t part, PairsCall report) {
+    detail::report_in_parallel(*executor, parts + 1, visit, [&](std::uint32_t part, PairsCall report) {
         const auto cell = [&](std::uint64_t i) { return static_cast<std::uint32_t>(i * cells_.total / parts); };
         if (part == 0)
             visit_large(report);
@@ -227,7 +228,7 @@ void Grid<D>::visit_pairs(PairsCall visit, Executor* executor) const {
 
 template <int D>
 void Grid<D>::visit_pairs(const Grid& other, PairsCall visit) const {
-    PairBuffer pairs(visit);
+    detail::PairBuffer pairs(visit);
     bool continues = true;
     for (std::uint32_t j = 0; j < other.size() && continues; ++j)
         this->each_overlapping(other.boxes_[j], [&](std::uint32_t i) { return continues = pairs.add(i, j); });
@@ -246,7 +247,7 @@ void Grid<D>::visit_overlapping(const Aabb<D>& box, ItemCall visit) const {
     if (size() == 0 || is_empty(query)) return;
     for (const std::uint32_t large : large_)
         if (overlaps(boxes_[large], query) && !visit(large)) return;
-    find_overlapping<D>({cells_, store_, boxes_.data()}, query, visit);
+    detail::find_overlapping<D>({cells_, store_, boxes_.data()}, query, visit);
 }
 
 template <int D>
@@ -257,7 +258,7 @@ void Grid<D>::visit_within(Reach reach, ReachCall visit) const {
         double measure = 0;
         if (reach.measure(boxes_[large_[i]], measure)) reach.shrink(visit(large_[i]));
     }
-    if (!reach.is_exhausted()) find_within<D>({cells_, store_, boxes_.data()}, reach, visit);
+    if (!reach.is_exhausted()) detail::find_within<D>({cells_, store_, boxes_.data()}, reach, visit);
 }
 
 template <int D>

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-namespace abut {
+namespace abut::detail {
 
 /// A word has a field and a flag for each axis. The field of the low word is the lower bound of the box in steps from
 /// the low side of the cell; the field of the high word is the upper bound. Bounds beyond the cell are clamped to it. A
@@ -65,4 +65,4 @@ struct PackedBounds {
     }
 };
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -13,7 +13,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace abut::HWY_NAMESPACE {
+namespace abut::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -185,11 +185,11 @@ bool visit_cells3(const GridStore& store, const Aabb<3>* boxes, std::uint32_t be
     return visit(store, boxes, begin, end, call);
 }
 
-}  // namespace abut::HWY_NAMESPACE
+}  // namespace abut::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace abut {
+namespace abut::detail {
 
 HWY_EXPORT(visit_cells2);
 HWY_EXPORT(visit_cells3);
@@ -205,5 +205,5 @@ bool visit_cells(const GridStore& store, const Aabb<3>* boxes, std::uint32_t beg
     return HWY_DYNAMIC_DISPATCH(visit_cells3)(store, boxes, begin, end, visit);
 }
 
-}  // namespace abut
+}  // namespace abut::detail
 #endif

@@ -5,11 +5,11 @@
 #include <abut/broad_phase/grid/store.hpp>
 #include <abut/broad_phase/visit.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// Visits the overlapping pairs whose first common cell is in [begin, end). Pairs that the quantised bounds don't
 /// decide are decided by their boxes. Returns false if the visitor stops the search.
 template <int D>
 bool visit_cells(const GridStore& store, const Aabb<D>* boxes, std::uint32_t begin, std::uint32_t end, PairsCall visit);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <utility>
 
-namespace abut {
+namespace abut::detail {
 
 /// The number of parts doesn't depend on the number of threads, so that sums over the parts are always the same.
 inline constexpr std::uint32_t part_count = 32;
@@ -28,4 +28,4 @@ void run_parts(Executor* executor, std::size_t boxes, Part part) {
     for (std::uint32_t i = 0; i < part_count; ++i) part(i);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

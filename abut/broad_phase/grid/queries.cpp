@@ -16,7 +16,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace abut::HWY_NAMESPACE {
+namespace abut::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -280,11 +280,11 @@ ABUT_FOR_DIMENSION(2)
 ABUT_FOR_DIMENSION(3)
 #undef ABUT_FOR_DIMENSION
 
-}  // namespace abut::HWY_NAMESPACE
+}  // namespace abut::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace abut {
+namespace abut::detail {
 
 #define ABUT_FOR_DIMENSION(D)                                                                \
     HWY_EXPORT(overlapping_##D);                                                             \
@@ -306,5 +306,5 @@ ABUT_FOR_DIMENSION(2)
 ABUT_FOR_DIMENSION(3)
 #undef ABUT_FOR_DIMENSION
 
-}  // namespace abut
+}  // namespace abut::detail
 #endif

@@ -6,7 +6,7 @@
 #include <abut/broad_phase/reach.hpp>
 #include <abut/broad_phase/visit.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// The cells, their contents, and the boxes of all items.
 template <int D>
@@ -28,4 +28,4 @@ void find_within(const GridItems<D>& items, const RayReach<D>& reach, ReachCall 
 template <int D>
 void find_within(const GridItems<D>& items, const BoxReach<D>& reach, ReachCall visit);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// A copy of a box in a cell.
 struct GridRecord {
@@ -160,4 +160,4 @@ template <int D>
 void fill(const GridCells<D>& cells, std::span<const Aabb<D>> boxes, Aabb<D>* own, GridStore& store,
           std::vector<std::uint32_t>& large, std::uint8_t* marks, Executor* executor);
 
-}  // namespace abut
+}  // namespace abut::detail

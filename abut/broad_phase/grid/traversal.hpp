@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 
 template <int D>
 using GridCell = std::array<std::uint32_t, D>;
@@ -266,4 +266,4 @@ private:
     std::array<double, D> tolerance_{};
 };
 
-}  // namespace abut
+}  // namespace abut::detail

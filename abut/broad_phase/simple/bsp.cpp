@@ -124,7 +124,7 @@ bool Bsp<D>::visit_region(std::uint32_t index, const Aabb<D>& box, const Visit& 
 
 /// Adds the pairs within a leaf. Of an inner node, adds the pairs of a straddling box with a box on either side.
 template <int D>
-bool Bsp<D>::visit_pairs_of(std::uint32_t index, PairBuffer& pairs) const {
+bool Bsp<D>::visit_pairs_of(std::uint32_t index, detail::PairBuffer& pairs) const {
     const Node& node = nodes_[index];
     const bool is_leaf = node.below == 0;
     const std::uint32_t end = is_leaf ? node.end : node.straddles == 0 ? node.begin : nodes_[node.straddles].end;
@@ -176,19 +176,19 @@ void Bsp<D>::visit_pairs(PairsCall visit, Executor* executor) const {
     const std::size_t parts =
         executor == nullptr ? 1 : std::clamp<std::size_t>(count / 64, 1, 16 * std::size_t{executor->workers()});
     const auto visit_part = [&](std::size_t part, PairsCall report) {
-        PairBuffer pairs(report);
+        detail::PairBuffer pairs(report);
         for (std::size_t node = part; node < count; node += parts)
             if (!visit_pairs_of(static_cast<std::uint32_t>(node), pairs)) return;
         pairs.flush();
     };
     if (parts == 1) return visit_part(0, visit);
-    report_in_parallel(*executor, static_cast<std::uint32_t>(parts), visit, visit_part);
+    detail::report_in_parallel(*executor, static_cast<std::uint32_t>(parts), visit, visit_part);
 }
 
 template <int D>
 void Bsp<D>::visit_pairs(const Bsp& other, PairsCall visit) const {
     if (nodes_.empty()) return;
-    PairBuffer pairs(visit);
+    detail::PairBuffer pairs(visit);
     for (const Entry& theirs : other.entries_) {
         const auto add = [&](const Entry& ours) { return pairs.add(ours.item, theirs.item); };
         if (!visit_region(0, theirs.box, add)) return;

@@ -206,7 +206,7 @@ bool LayeredGrid<D>::visit_region(const Aabb<D>& box, const Visit& visit) const 
 /// Adds the pairs of a box with those of its level that follow it, and with all of coarser levels. Boxes of a level are
 /// ordered by their cell on axis 0, then by their index.
 template <int D>
-bool LayeredGrid<D>::visit_pairs_of(const Entry& entry, PairBuffer& pairs) const {
+bool LayeredGrid<D>::visit_pairs_of(const Entry& entry, detail::PairBuffer& pairs) const {
     for (const Level& level : levels_) {
         if (level.level < entry.level) continue;
         CellRange range = range_of(level, entry.box);
@@ -236,18 +236,18 @@ void LayeredGrid<D>::visit_pairs(PairsCall visit, Executor* executor) const {
     const std::size_t parts =
         executor == nullptr ? 1 : std::clamp<std::size_t>(count / 512, 1, 4 * std::size_t{executor->workers()});
     const auto visit_part = [&](std::size_t part, PairsCall report) {
-        PairBuffer pairs(report);
+        detail::PairBuffer pairs(report);
         for (std::size_t i = count * part / parts; i < count * (part + 1) / parts; ++i)
             if (!visit_pairs_of(entries_[i], pairs)) return;
         pairs.flush();
     };
     if (parts == 1) return visit_part(0, visit);
-    report_in_parallel(*executor, static_cast<std::uint32_t>(parts), visit, visit_part);
+    detail::report_in_parallel(*executor, static_cast<std::uint32_t>(parts), visit, visit_part);
 }
 
 template <int D>
 void LayeredGrid<D>::visit_pairs(const LayeredGrid& other, PairsCall visit) const {
-    PairBuffer pairs(visit);
+    detail::PairBuffer pairs(visit);
     for (const Entry& theirs : other.entries_) {
         const auto add = [&](const Entry& ours) {
             return !both_overlap(ours.box, theirs.box) || pairs.add(ours.item, theirs.item);

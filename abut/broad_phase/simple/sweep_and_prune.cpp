@@ -18,7 +18,7 @@
 namespace abut {
 namespace {
 
-constexpr std::size_t fan = box_lanes;
+constexpr std::size_t fan = detail::box_lanes;
 
 /// A stored item has one of these bits for each axis on which its box began before the column of this copy.
 constexpr std::uint32_t copy_bits = 3u << 30;
@@ -40,9 +40,10 @@ double sweep_cost(double copies, double comparisons) {
 }
 
 /// Equal parts; a single one if the count is too large for the range.
-Parts parts_of(std::uint32_t count, float low, float high) {
+detail::Parts parts_of(std::uint32_t count, float low, float high) {
     const float scale = static_cast<float>(count) / (high - low);
-    return count <= 1u << 16 && high > low && std::isfinite(scale) ? Parts{count, low, high, scale} : Parts{};
+    return count <= 1u << 16 && high > low && std::isfinite(scale) ? detail::Parts{count, low, high, scale}
+                                                                   : detail::Parts{};
 }
 
 constexpr std::size_t max_sample = 1024, max_overlaps = 4096;
@@ -76,7 +77,7 @@ public:
 
     /// Turns the boxes, and collects intersections of some pairs that overlap on axis 0 then.
     void turn(int axis) {
-        for (std::size_t i = 0; i < count_; ++i) boxes_[i] = turned<D>(boxes_[i], axis);
+        for (std::size_t i = 0; i < count_; ++i) boxes_[i] = detail::turned<D>(boxes_[i], axis);
         for (std::size_t step = 1; step < count_ && overlap_count_ < max_overlaps; ++step)
             for (std::size_t i = step; i < count_ && overlap_count_ < max_overlaps; ++i, ++tested_) {
                 const Aabb<D>&a = boxes_[i - step], &b = boxes_[i];
@@ -85,17 +86,17 @@ public:
     }
 
     /// The mean number of columns that a box is in.
-    double copies(const SweepPlan<D>& plan) const {
+    double copies(const detail::SweepPlan<D>& plan) const {
         return count_ == 0 ? 0 : columns_of(plan, {boxes_.data(), count_}) / static_cast<double>(count_);
     }
     /// The mean number of comparisons of a box.
-    double comparisons(const SweepPlan<D>& plan) const {
+    double comparisons(const detail::SweepPlan<D>& plan) const {
         const double columns = columns_of(plan, {overlaps_.data(), overlap_count_});
         return tested_ == 0 ? 0 : others_ * columns / static_cast<double>(tested_);
     }
 
     /// The range of the lower bounds without a 32nd of the boxes at either end, on an axis as turned.
-    Parts range(int axis) const {
+    detail::Parts range(int axis) const {
         if (count_ == 0) return {};
         std::array<float, max_sample> places;
         for (std::size_t i = 0; i < count_; ++i) places[i] = std::clamp(boxes_[i].min[axis], -1e37f, 1e37f);
@@ -109,12 +110,12 @@ private:
         return (static_cast<int>(a.min[axis] <= b.max[axis]) & static_cast<int>(b.min[axis] <= a.max[axis])) != 0;
     }
     /// The sum over boxes, or over intersections of boxes, which may be empty on the other axes.
-    static double columns_of(const SweepPlan<D>& plan, std::span<const Aabb<D>> boxes) {
+    static double columns_of(const detail::SweepPlan<D>& plan, std::span<const Aabb<D>> boxes) {
         std::uint64_t sum = 0;
         for (const Aabb<D>& box : boxes) {
             std::uint32_t columns = 1;
             for (int k = 1; k < D; ++k) {
-                const Parts& parts = plan.parts[static_cast<std::size_t>(k - 1)];
+                const detail::Parts& parts = plan.parts[static_cast<std::size_t>(k - 1)];
                 const std::uint32_t first = parts.at(box.min[k]), end = parts.at(box.max[k]) + 1;
                 columns *= end - std::min(first, end);
             }
@@ -131,9 +132,9 @@ private:
 
 /// Chooses by a sample of the boxes, with at most `max_columns` and an estimate of at most 1.4 copies a box.
 template <int D>
-SweepPlan<D> plan_sweep(std::span<const Aabb<D>> boxes, std::uint32_t max_columns) {
+detail::SweepPlan<D> plan_sweep(std::span<const Aabb<D>> boxes, std::uint32_t max_columns) {
     Sample<D> sample(boxes);
-    SweepPlan<D> best;
+    detail::SweepPlan<D> best;
     best.axis = sample.best_axis();
     sample.turn(best.axis);
     double least = sweep_cost(1, sample.comparisons(best));
@@ -143,9 +144,9 @@ SweepPlan<D> plan_sweep(std::span<const Aabb<D>> boxes, std::uint32_t max_column
     // Doubles the columns along the axis where that saves most, as long as it saves anything.
     for (bool better = true; better;) {
         better = false;
-        const SweepPlan<D> last = best;
+        const detail::SweepPlan<D> last = best;
         for (std::size_t k = 0; k < D - 1; ++k) {
-            SweepPlan<D> next = last;
+            detail::SweepPlan<D> next = last;
             next.parts[k] = parts_of(2 * last.parts[k].count, last.parts[k].low, last.parts[k].high);
             const double copies = sample.copies(next);
             if (next.columns() <= last.columns() || next.columns() > max_columns || copies > 1.4) continue;
@@ -161,7 +162,7 @@ SweepPlan<D> plan_sweep(std::span<const Aabb<D>> boxes, std::uint32_t max_column
 
 /// visit(column, the copy bits of a box there)
 template <class F>
-void each_column(const ColumnSpan& span, std::uint32_t row, F&& visit) {
+void each_column(const detail::ColumnSpan& span, std::uint32_t row, F&& visit) {
     for (std::uint32_t i = 0; i <= span.more_rows; ++i)
         for (std::uint32_t k = 0; k <= span.more; ++k)
             visit(span.first + i * row + k, (k > 0 ? 1u << 30 : 0u) | (i > 0 ? 1u << 31 : 0u));
@@ -169,8 +170,8 @@ void each_column(const ColumnSpan& span, std::uint32_t row, F&& visit) {
 
 /// Adds the pairs of which this is the first column: in any other, both boxes began before it on some axis. Returns
 /// false as soon as the visitor does.
-bool add_hits(std::span<const BoxOverlaps> hits, const std::uint32_t* items, PairBuffer& pairs) {
-    for (const BoxOverlaps& hit : hits)
+bool add_hits(std::span<const detail::BoxOverlaps> hits, const std::uint32_t* items, detail::PairBuffer& pairs) {
+    for (const detail::BoxOverlaps& hit : hits)
         for (std::uint32_t bits = hit.bits; bits != 0; bits &= bits - 1) {
             const std::uint32_t item = items[hit.box];
             const std::uint32_t other = items[hit.first + static_cast<std::uint32_t>(std::countr_zero(bits))];
@@ -219,7 +220,8 @@ void SweepAndPrune<D>::sort(std::span<const Aabb<D>> boxes) {
     filled_ = 0;
     for (std::uint32_t i = 0; i < size_; ++i)
         if (const Aabb<D> box = usable(boxes[i]); !is_empty(box)) order_[filled_++] = {key_of(box.min[plan_.axis]), i};
-    const Place* sorted = radix_sort(order_.data(), scratch_.data(), filled_, 32, [](const Place& p) { return p.key; });
+    const Place* sorted =
+        detail::radix_sort(order_.data(), scratch_.data(), filled_, 32, [](const Place& p) { return p.key; });
     if (sorted != order_.data()) order_.swap(scratch_);
 }
 
@@ -240,8 +242,9 @@ template <int axis>
 void SweepAndPrune<D>::place_along(std::span<const Aabb<D>> boxes) {
     // Large boxes may have more copies than there is capacity for.
     while (count_copies<axis>(boxes) > max_copies(size_)) {
-        Parts& most = *std::max_element(plan_.parts.begin(), plan_.parts.end(),
-                                        [](const Parts& a, const Parts& b) { return a.count < b.count; });
+        detail::Parts& most =
+            *std::max_element(plan_.parts.begin(), plan_.parts.end(),
+                              [](const detail::Parts& a, const detail::Parts& b) { return a.count < b.count; });
         most = parts_of(most.count / 2, most.low, most.high);
     }
     for (std::size_t i = 0; i < filled_; ++i) {
@@ -251,7 +254,7 @@ void SweepAndPrune<D>::place_along(std::span<const Aabb<D>> boxes) {
     }
     std::uint32_t i = 0;
     for (const std::uint32_t end : columns_) {
-        for (; i < end; ++i) boxes_.set(i, turned<D>(boxes[items_[i] & ~copy_bits], axis));
+        for (; i < end; ++i) boxes_.set(i, detail::turned<D>(boxes[items_[i] & ~copy_bits], axis));
         end_column(i++);
     }
     count_ = size_ == 0 ? 0 : i;
@@ -267,7 +270,7 @@ std::size_t SweepAndPrune<D>::count_copies(std::span<const Aabb<D>> boxes) {
     std::size_t copies = 0;
     for (std::size_t item = 0; item < size_ && copies <= max_copies(size_); ++item) {
         if (is_empty(usable(boxes[item]))) continue;
-        const ColumnSpan span = plan_.span(turned<D>(boxes[item], axis));
+        const detail::ColumnSpan span = plan_.span(detail::turned<D>(boxes[item], axis));
         spans_[item] = span;
         copies += (std::size_t{span.more_rows} + 1) * (std::size_t{span.more} + 1);
         if (span.more_rows <= 1 && span.more <= 1) {
@@ -290,7 +293,7 @@ std::size_t SweepAndPrune<D>::count_copies(std::span<const Aabb<D>> boxes) {
 template <int D>
 void SweepAndPrune<D>::end_column(std::size_t i) {
     items_[i] = ~0u;
-    boxes_.set(i, nan_box<D>());
+    boxes_.set(i, detail::nan_box<D>());
 }
 
 /// Level 0 of the tree has the common boxes of 16 boxes each, of those that begin in their column. The next level has
@@ -305,7 +308,7 @@ void SweepAndPrune<D>::build_tree() {
     block_bounds(boxes_.view(), items_.data(), copy_bits, blocks, 0, tree_);
     for (;;) {
         const std::size_t end = begin + whole_blocks(blocks) * fan;
-        for (std::size_t i = begin + blocks; i < end; ++i) tree_.set(i, nan_box<D>());
+        for (std::size_t i = begin + blocks; i < end; ++i) tree_.set(i, detail::nan_box<D>());
         levels_[++level_count_] = end;
         if (blocks <= fan) break;
         blocks = whole_blocks(blocks);
@@ -314,14 +317,14 @@ void SweepAndPrune<D>::build_tree() {
     }
     for (std::size_t i = begin; i < levels_[level_count_]; ++i)
         if (const Aabb<D> box = tree_.view()[i]; !is_empty(box)) bounds_ = merged(bounds_, box);
-    bounds_ = turned_back<D>(bounds_, plan_.axis);
+    bounds_ = detail::turned_back<D>(bounds_, plan_.axis);
 }
 
 /// Estimates the time for pairs by the comparisons of some boxes.
 template <int D>
 double SweepAndPrune<D>::cost() const {
     const std::size_t step = std::max<std::size_t>(64, count_ / 512);
-    const BoxSoaView<D> boxes = boxes_.view();
+    const detail::BoxSoaView<D> boxes = boxes_.view();
     std::size_t tested = 0, comparisons = 0;
     for (std::size_t i = step / 2; i < count_; i += step, ++tested) {
         const std::size_t end = *std::lower_bound(columns_.begin(), columns_.end(), i);
@@ -341,19 +344,19 @@ void SweepAndPrune<D>::visit_pairs(PairsCall visit, Executor* executor) const {
                                   ? 1
                                   : std::min<std::size_t>(4 * std::size_t{executor->workers()}, count_ / 256);
     const auto visit_part = [&](std::size_t part, PairsCall report) {
-        PairBuffer pairs(report);
+        detail::PairBuffer pairs(report);
         bool go_on = true;
         const auto add = [&](auto hits) { return go_on = add_hits(hits, items_.data(), pairs); };
         each_sorted_overlap(boxes_.view(), count_ * part / parts, count_ * (part + 1) / parts, add);
         if (go_on) pairs.flush();
     };
     if (parts == 1) return visit_part(0, visit);
-    report_in_parallel(*executor, static_cast<std::uint32_t>(parts), visit, visit_part);
+    detail::report_in_parallel(*executor, static_cast<std::uint32_t>(parts), visit, visit_part);
 }
 
 template <int D>
 void SweepAndPrune<D>::visit_pairs(const SweepAndPrune& other, PairsCall visit) const {
-    PairBuffer pairs(visit);
+    detail::PairBuffer pairs(visit);
     bool go_on = true;
     visit_boxes([&](std::uint32_t i, const Aabb<D>& box) {
         other.visit_overlapping(box, [&](std::uint32_t j) { return go_on = pairs.add(i, j); });
@@ -365,14 +368,15 @@ void SweepAndPrune<D>::visit_pairs(const SweepAndPrune& other, PairsCall visit) 
 template <int D>
 void SweepAndPrune<D>::visit_boxes(BoxCall<D> visit) const {
     for (std::size_t i = 0; i < count_; ++i)
-        if ((items_[i] & copy_bits) == 0 && !visit(items_[i], turned_back<D>(boxes_.view()[i], plan_.axis))) return;
+        if ((items_[i] & copy_bits) == 0 && !visit(items_[i], detail::turned_back<D>(boxes_.view()[i], plan_.axis)))
+            return;
 }
 
 template <int D>
 void SweepAndPrune<D>::visit_overlapping(const Aabb<D>& box, ItemCall visit) const {
     const Aabb<D> query = usable(box);
     if (level_count_ > 0 && !is_empty(query))
-        visit_overlapping_below(level_count_, 0, turned<D>(query, plan_.axis), visit);
+        visit_overlapping_below(level_count_, 0, detail::turned<D>(query, plan_.axis), visit);
 }
 
 /// Searches 16 neighbours, at level 0 boxes and above that nodes of the tree. Returns false as soon as the visitor
@@ -380,7 +384,7 @@ void SweepAndPrune<D>::visit_overlapping(const Aabb<D>& box, ItemCall visit) con
 template <int D>
 bool SweepAndPrune<D>::visit_overlapping_below(std::size_t level, std::size_t first, const Aabb<D>& box,
                                                ItemCall visit) const {
-    const BoxSoaView<D> rows = level == 0 ? boxes_.view() : tree_.view(levels_[level - 1]);
+    const detail::BoxSoaView<D> rows = level == 0 ? boxes_.view() : tree_.view(levels_[level - 1]);
     for (auto bits = overlap_bits(rows, first, fan, box); bits != 0; bits &= bits - 1) {
         const std::size_t i = first + static_cast<std::size_t>(std::countr_zero(bits));
         if (level > 0 ? !visit_overlapping_below(level - 1, i * fan, box, visit)
@@ -392,19 +396,19 @@ bool SweepAndPrune<D>::visit_overlapping_below(std::size_t level, std::size_t fi
 
 template <int D>
 void SweepAndPrune<D>::visit_along(const Ray<D>& ray, ReachCall visit) const {
-    const auto turn = [axis = plan_.axis](const Vec<D>& v) { return turned<D>(v, axis); };
+    const auto turn = [axis = plan_.axis](const Vec<D>& v) { return detail::turned<D>(v, axis); };
     visit_within(RayReach<D>(Ray<D>{turn(ray.origin), turn(ray.direction), ray.length}), visit);
 }
 
 template <int D>
 void SweepAndPrune<D>::visit_along(const MovingBox<D>& box, ReachCall visit) const {
-    const auto turn = [axis = plan_.axis](const DVec<D>& v) { return turned<D>(v, axis); };
+    const auto turn = [axis = plan_.axis](const DVec<D>& v) { return detail::turned<D>(v, axis); };
     visit_within(RayReach<D>::of_box({turn(box.center), turn(box.half), turn(box.direction), box.length}), visit);
 }
 
 template <int D>
 void SweepAndPrune<D>::visit_near(const Aabb<D>& box, float reach, ReachCall visit) const {
-    visit_within(BoxReach<D>(turned<D>(box, plan_.axis), reach), visit);
+    visit_within(BoxReach<D>(detail::turned<D>(box, plan_.axis), reach), visit);
 }
 
 template <int D>
@@ -417,7 +421,7 @@ void SweepAndPrune<D>::visit_within(Reach reach, ReachCall visit) const {
 template <int D>
 template <class Reach>
 void SweepAndPrune<D>::visit_within_below(std::size_t level, std::size_t first, Reach& reach, ReachCall visit) const {
-    const BoxSoaView<D> rows = level == 0 ? boxes_.view() : tree_.view(levels_[level - 1]);
+    const detail::BoxSoaView<D> rows = level == 0 ? boxes_.view() : tree_.view(levels_[level - 1]);
     std::array<std::pair<double, std::size_t>, fan> found;
     std::size_t count = 0;
     for (std::size_t i = first; i < first + fan; ++i) {

@@ -10,7 +10,7 @@
 
 #include <hwy/cache_control.h>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 constexpr float unbounded = std::numeric_limits<float>::infinity();
@@ -401,4 +401,4 @@ void TemporalCore<D>::fill(std::uint32_t a, std::uint32_t b, std::span<const Aab
 template class TemporalCore<2>;
 template class TemporalCore<3>;
 
-}  // namespace abut
+}  // namespace abut::detail

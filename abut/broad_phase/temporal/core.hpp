@@ -27,6 +27,8 @@ struct TemporalCounts {
     std::uint64_t too_fast = 0;        ///< items found farther away than their top speed allows
 };
 
+namespace detail {
+
 /// Items of like speed are searched for together: a group. Group 0 is searched in each update.
 inline constexpr std::uint32_t temporal_groups = 8;
 
@@ -114,4 +116,5 @@ private:
 extern template class TemporalCore<2>;
 extern template class TemporalCore<3>;
 
+}  // namespace detail
 }  // namespace abut

@@ -15,7 +15,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 
 inline constexpr float leeway = 1e-6f;
 inline constexpr float rounding = 0x1p-22f;  ///< two ulp at least
@@ -110,4 +110,4 @@ inline float no_earlier(double time) {
     return static_cast<float>(std::min(time * (1 + 0x1p-23), static_cast<double>(std::numeric_limits<float>::max())));
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace abut {
+namespace abut::detail {
 
 void SearchWindow::begin(double margin) {
     *this = {};
@@ -36,4 +36,4 @@ bool SearchWindow::wakes(double speed, double step) {
     return true;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 
 /// A wide margin needs few searches and finds many pairs; a narrow one needs many searches and finds few pairs. The
 /// margin is multiplied by the factor that helped last time, towards the least cost an update. If items are so fast
@@ -46,4 +46,4 @@ private:
     bool resting_ = false;
 };
 
-}  // namespace abut
+}  // namespace abut::detail

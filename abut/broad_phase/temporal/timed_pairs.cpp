@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 float earliest_in(const float* due) {
@@ -76,4 +76,4 @@ bool TimedPairs::add_touching(std::size_t begin, std::size_t end, PairBuffer& ou
     return true;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -12,7 +12,7 @@
 #include <limits>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// Stores pairs in blocks, in the order in which they were added. A block has the earliest time of its pairs, so that
 /// blocks in which nothing is due are skipped. 12.2 bytes a pair.
@@ -86,4 +86,4 @@ private:
     std::vector<std::uint64_t> touching_;  // of each block, a bit a pair
 };
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -46,7 +46,8 @@ TrianglePoint on_edge(const SeenTriangle& t, std::uint32_t from, std::uint32_t t
     return {t.corners[from] + (t.corners[to] - t.corners[from]) * part, {from, to, from}};
 }
 
-void name_corners(const TrianglePoint& on_triangle, std::uint32_t first, std::uint32_t last, ClosestCorners<3>& corners) {
+void name_corners(const TrianglePoint& on_triangle, std::uint32_t first, std::uint32_t last,
+                  ClosestCorners<3>& corners) {
     corners.count = 3;
     for (std::size_t i = 0; i < 3; ++i) {
         corners.a[i] = on_triangle.corners[i];

@@ -18,9 +18,9 @@ namespace abut::HWY_NAMESPACE {
 struct LeafBoxes {
     const MeshTree& tree;
 
-    BvhLeaf<3> operator()(std::uint32_t ref) const {
+    detail::BvhLeaf<3> operator()(std::uint32_t ref) const {
         const MeshLeaf& leaf = tree.leaf(ref);
-        BvhLeaf<3> result;
+        detail::BvhLeaf<3> result;
         for (std::uint32_t lane = 0; lane < mesh_lanes; lane += bvh_step) {
             const LeafNumbers numbers(leaf, lane);
             const V3 a = numbers.pick<0>(leaf.corner), b = numbers.pick<1>(leaf.corner),
@@ -36,7 +36,7 @@ struct LeafBoxes {
         for (std::uint32_t lane = 0; lane < count; ++lane) result.index[lane] = tree.order[leaf.first + lane];
         for (std::uint32_t lane = count; lane < mesh_lanes; ++lane) {
             result.clear(lane);
-            result.index[lane] = bvh_none;
+            result.index[lane] = detail::bvh_none;
         }
         return result;
     }

@@ -11,7 +11,7 @@
 namespace abut {
 
 /// The box of a triangle, padded by the tolerance of ray hits. `all` grows by the unpadded box.
-BvhItem item_of(const Triangle3& triangle, std::uint32_t index, Aabb3& all);
+detail::BvhItem item_of(const Triangle3& triangle, std::uint32_t index, Aabb3& all);
 
 /// The extent |x| + |y| + |z| of the box of a leaf's vertices, for error bounds.
 float extent_of(const MeshLeaf& leaf);

@@ -45,7 +45,7 @@ public:
             const V to = hn::Min(hn::Min(hn::Max(x[0], x[1]), hn::Set(bvh_tag, max_time)),
                                  hn::Min(hn::Max(y[0], y[1]), hn::Max(z[0], z[1])));
             const auto children = hn::Load(child_tag, node.child + lane);
-            const auto used = hn::RebindMask(bvh_tag, hn::Ne(children, hn::Set(child_tag, bvh_none)));
+            const auto used = hn::RebindMask(bvh_tag, hn::Ne(children, hn::Set(child_tag, detail::bvh_none)));
             result |= bits_of(hn::And(used, hn::Le(from, hn::Mul(to, hn::Set(bvh_tag, tolerance))))) << lane;
             hn::StoreU(from, bvh_tag, times + lane);
         }

@@ -13,6 +13,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace abut::HWY_NAMESPACE {
 
+using namespace detail;
+using namespace detail::HWY_NAMESPACE;
+
 using V = BvhVector;
 
 struct V3 {

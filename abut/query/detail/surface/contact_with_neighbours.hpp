@@ -12,13 +12,13 @@ namespace abut {
 template <int D>
 void each_contact_with_neighbours(const View<D>& a, const View<D>& b, const QueryOptions<D>& options,
                                   const NeighbourSurfaces<D>& neighbours,
-                                  FunctionRef<bool(const Contact<D>&, const SurfaceNormalFlags&)> visit);
+                                  FunctionRef<bool(const Contact<D>&, const detail::SurfaceNormalFlags&)> visit);
 
 template <int D>
 struct ContactWithNeighbours {
-    Contact<D> contact;                  ///< empty if the surfaces don't touch
-    bool touch = false;                  ///< whether the two shapes themselves touch
-    SurfaceNormalFlags surface_normals;  ///< false for a side whose surface doesn't have the pair's own normal
+    Contact<D> contact;                          ///< empty if the surfaces don't touch
+    bool touch = false;                          ///< whether the two shapes themselves touch
+    detail::SurfaceNormalFlags surface_normals;  ///< false for a side whose surface doesn't have the pair's own normal
 };
 
 /// Like contact: the deepest contact of each_contact_with_neighbours.

@@ -41,9 +41,10 @@ public:
     /// Tests the normal between two parts in the centre of their contact area and at the deepest point. manifold_of()
     /// returns that area.
     template <class PartA, class PartB, class Manifolds>
-    SurfaceNormalFlags surface_normal_flags(const PartA& part_a, const PartB& part_b, const SignedDistance<D>& distance,
-                                            const Manifolds& manifold_of) const {
-        SurfaceNormalFlags result;
+    detail::SurfaceNormalFlags surface_normal_flags(const PartA& part_a, const PartB& part_b,
+                                                    const SignedDistance<D>& distance,
+                                                    const Manifolds& manifold_of) const {
+        detail::SurfaceNormalFlags result;
         if (is_composite(b_) || neighbours_.of_a != nullptr)
             result.a = is_surface_normal_of(part_b, point_on_b(distance), -0.5, manifold_of, b_, neighbours_.of_a,
                                             [&] { return place_on_b(part_a, distance); });
@@ -57,7 +58,8 @@ public:
     /// shapes the larger counts as the level. Of two such planes it takes the one that separates sooner, so that
     /// swapping A and B changes nothing. Returns false, and changes nothing, if there is no plane.
     template <class PartA, class PartB>
-    bool replace(const PartA& part_a, const PartB& part_b, const SurfaceNormalFlags& flags, PartContact<D>& contact) {
+    bool replace(const PartA& part_a, const PartB& part_b, const detail::SurfaceNormalFlags& flags,
+                 PartContact<D>& contact) {
         std::optional<PartContact<D>> for_a, for_b;
         if (larger_is_level_ ? size_excess_of_a_ <= 0 : !flags.a) {
             NearestToCenter<D> nearest;

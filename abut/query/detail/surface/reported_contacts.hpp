@@ -51,7 +51,7 @@ private:
 template <int D>
 struct Ghost {
     Contact<D> contact;
-    SurfaceNormalFlags surface_normals;
+    detail::SurfaceNormalFlags surface_normals;
     DVec<D> normal;
     double depth = 0;
     bool reported = false;  ///< another contact covers it

@@ -2,7 +2,7 @@
 
 // Whether the normal of a contact is a surface normal.
 
-namespace abut {
+namespace abut::detail {
 
 /// `a`: the normal between A and B is one of B's surface, so that A needs no replacement. `b`: it is one of A's
 /// surface.
@@ -12,4 +12,4 @@ struct SurfaceNormalFlags {
     explicit operator bool() const { return a && b; }
 };
 
-}  // namespace abut
+}  // namespace abut::detail
