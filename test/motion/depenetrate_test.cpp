@@ -39,7 +39,7 @@ TEST(Depenetrate, LeavesAWallAndTheFloorAtOnce) {
 TEST(Depenetrate, LeavesAFloorOfTilesUpwards) {
     World2 world;
     for (int x = -4; x < 4; ++x) world.add(Box2{{static_cast<float>(x) + 0.5f, -0.5f}, {0.5f, 0.5f}}, {.fixed = true});
-    // For each single tile, the shortest way out is sideways.
+    // For each single tile, the shortest separating direction is sideways.
     const auto result = depenetrate(Box2{{0, 0.2f}, {0.1f, 0.4f}}, world);
     EXPECT_TRUE(result);
     EXPECT_TRUE(near(result.push, Vec2(0, 0.2f), 1e-3));

@@ -94,7 +94,7 @@ TEST(ClosedForm, OfCapsulesThatCrossIsTheSumOfTheirRadii) {
 
 TEST(ClosedForm, OfACapsuleInABoxIsTheNearestWayOut) {
     const Box3 box{{0, 0, 0}, {2, 1, 3}};
-    // Both ends are in the box; the way out is up.
+    // Both ends are in the box; the separating direction is up.
     const auto side = form_of<3>(view(box), view(Capsule3{{-1, 0.5f, 0}, {1, 0.75f, 0}, 0.25f}));
     ASSERT_TRUE(side);
     EXPECT_EQ(side->distance, -0.75);
