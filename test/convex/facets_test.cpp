@@ -1,4 +1,4 @@
-#include "point_sets.hpp"
+#include "hull/point_sets.hpp"
 #include <abut/convex/facets.hpp>
 #include <abut/convex/hull/hull.hpp>
 

@@ -1,0 +1,33 @@
+#pragma once
+
+// Ray casts against one mesh, and the peers' answers: one file per peer. One value per ray: the distance, or -1 for a
+// miss. A build job reports the distance of a ray afterwards.
+
+#include "../bench.hpp"
+#include <abut/math/ray.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <glm/ext/vector_uint3.hpp>
+
+namespace abut::bench {
+
+struct RayMesh {
+    std::vector<Vec3> points;
+    std::vector<glm::uvec3> triangles;
+    std::vector<Ray3> rays;
+};
+using SharedRayMesh = std::shared_ptr<const RayMesh>;
+
+enum class Quality { usual, high };
+enum class Edges { fast, robust };
+
+Side embree_rays(const SharedRayMesh& scene, Quality quality, Edges edges);
+Side embree_mesh_build(const SharedRayMesh& scene, Quality quality);
+/// btBvhTriangleMeshShape with a quantised tree.
+Side bullet_rays(const SharedRayMesh& scene);
+Side bullet_mesh_build(const SharedRayMesh& scene);
+
+}  // namespace abut::bench
