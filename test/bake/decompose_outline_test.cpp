@@ -13,7 +13,7 @@
 namespace abut {
 namespace {
 
-using oracle::BigInteger;
+using oracle::Integer;
 using oracle::OutlineParts;
 using scenes::Outline;
 
@@ -32,7 +32,7 @@ Ring reversed(Ring ring) {
 }
 
 /// The checked parts of an outline.
-std::vector<Polygon> checked(const Ring& ring, const Rings& holes, const BigInteger& twice_area,
+std::vector<Polygon> checked(const Ring& ring, const Rings& holes, const Integer& twice_area,
                              OutlineOptions options = {}, OutlineReport* report_out = nullptr) {
     OutlineReport report;
     options.report = &report;
@@ -57,7 +57,7 @@ std::vector<Polygon> checked(const Ring& ring, const Rings& holes = {}, const Ou
 }
 
 /// In units of the rings' own coordinates.
-BigInteger twice_of(int area) {
+Integer twice_of(int area) {
     return oracle::to_integer(1) * oracle::to_integer(1) * 2 * area;
 }
 
@@ -401,7 +401,7 @@ TEST(DecomposeOutline, MakesAsFewPartsAsEveryCut) {
         OutlineReport report;
         std::size_t fewest[2];
         for (const bool conforming : {false, true}) {
-            const BigInteger area = oracle::twice_area(ring);
+            const Integer area = oracle::twice_area(ring);
             const std::size_t parts = checked(ring, {}, area, {.conforming = conforming}, &report).size();
             fewest[conforming ? 1 : 0] = EveryCut(ring, conforming).fewest();
             EXPECT_EQ(parts, fewest[conforming ? 1 : 0]);

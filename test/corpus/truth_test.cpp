@@ -2,9 +2,9 @@
 // the separating plane.
 
 #include "../oracle/axes.hpp"
+#include "../oracle/rational.hpp"
 #include "pairs.hpp"
 
-#include <boost/multiprecision/cpp_int.hpp>
 #include <gtest/gtest.h>
 
 namespace abut::corpus {
@@ -18,7 +18,7 @@ TYPED_TEST_SUITE(OracleTruth, Dimensions);
 /// The minimal extent of A - B over all axes, without the radii, in rational numbers.
 template <int D>
 double exact_extent(const Polytope<D>& a, const Polytope<D>& b) {
-    using Rational = boost::multiprecision::cpp_rational;
+    using oracle::Rational;
     const oracle::LocalPair<Rational, D> exact(a, b, oracle::middle(a));
     double least = std::numeric_limits<double>::infinity();
     const bool flat = oracle::is_nearly_flat(oracle::LocalPair<double, D>(a, b, oracle::middle(a)));

@@ -1,6 +1,7 @@
 // The predicates against rational numbers, on all kinds of points: random, nearly degenerate, exactly degenerate, and
 // of any exponents.
 #include "../oracle/random.hpp"
+#include "../oracle/rational.hpp"
 #include <abut/math/dvec.hpp>
 #include <abut/math/predicates.hpp>
 
@@ -11,42 +12,41 @@
 #include <map>
 #include <string>
 
-#include <boost/multiprecision/cpp_int.hpp>
 #include <gtest/gtest.h>
 
 namespace abut::test {
 namespace {
 
-using boost::multiprecision::cpp_rational;
 using oracle::Random;
+using oracle::Rational;
 
 template <int D>
-using Rational = std::array<cpp_rational, D>;
+using RationalVec = std::array<oracle::Rational, D>;
 template <int D>
 using Points = std::array<Vec<D>, D + 1>;
 
 template <int D>
-Rational<D> difference(const Vec<D>& a, const Vec<D>& b) {
-    Rational<D> result;
-    for (int i = 0; i < D; ++i) result[static_cast<std::size_t>(i)] = cpp_rational(a[i]) - cpp_rational(b[i]);
+RationalVec<D> difference(const Vec<D>& a, const Vec<D>& b) {
+    RationalVec<D> result;
+    for (int i = 0; i < D; ++i) result[static_cast<std::size_t>(i)] = Rational(a[i]) - Rational(b[i]);
     return result;
 }
 
-Rational<3> cross(const Rational<3>& p, const Rational<3>& q) {
+RationalVec<3> cross(const RationalVec<3>& p, const RationalVec<3>& q) {
     return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
 }
 
 int exact(const Points<2>& points) {
-    const Rational<2> p = difference<2>(points[1], points[0]), q = difference<2>(points[2], points[0]);
-    return cpp_rational(p[0] * q[1] - p[1] * q[0]).sign();
+    const RationalVec<2> p = difference<2>(points[1], points[0]), q = difference<2>(points[2], points[0]);
+    return Rational(p[0] * q[1] - p[1] * q[0]).sign();
 }
 int exact(const Points<3>& points) {
-    const Rational<3> normal = cross(difference<3>(points[1], points[0]), difference<3>(points[2], points[0]));
-    const Rational<3> r = difference<3>(points[3], points[0]);
-    return cpp_rational(normal[0] * r[0] + normal[1] * r[1] + normal[2] * r[2]).sign();
+    const RationalVec<3> normal = cross(difference<3>(points[1], points[0]), difference<3>(points[2], points[0]));
+    const RationalVec<3> r = difference<3>(points[3], points[0]);
+    return Rational(normal[0] * r[0] + normal[1] * r[1] + normal[2] * r[2]).sign();
 }
 bool exactly_on_line(const Vec3& a, const Vec3& b, const Vec3& p) {
-    const Rational<3> normal = cross(difference<3>(b, a), difference<3>(p, a));
+    const RationalVec<3> normal = cross(difference<3>(b, a), difference<3>(p, a));
     return normal[0] == 0 && normal[1] == 0 && normal[2] == 0;
 }
 
@@ -272,7 +272,7 @@ TEST(Predicates, KnowTheSignOfASumWhereDoublesCancel) {
         Random random(seed);
         const double a = random.uniform(-1, 1) * random.power_of_two(-60, 60), b = random.uniform(-1, 1);
         const double c = -(a + b) + static_cast<double>(random.below(3)) * 0x1p-80;
-        const cpp_rational sum = cpp_rational(a) + cpp_rational(b) + cpp_rational(c);
+        const Rational sum = Rational(a) + Rational(b) + Rational(c);
         ASSERT_EQ(sign_of_sum(a, b, c), sum.sign()) << "seed " << seed;
     }
 }

@@ -1,11 +1,10 @@
 #include "min_extent.hpp"
 
 #include "axes.hpp"
+#include "rational.hpp"
 
 #include <algorithm>
 #include <cmath>
-
-#include <boost/multiprecision/cpp_int.hpp>
 
 namespace abut::oracle {
 
@@ -40,7 +39,6 @@ MinExtent<D> min_extent(const Polytope<D>& a, const Polytope<D>& b, Arithmetic a
     result.overlap = result.extent > 0;
     if (std::abs(result.extent) > error_bound || arithmetic == Arithmetic::floating_point) return result;
 
-    using Rational = boost::multiprecision::cpp_rational;
     const LocalPair<Rational, D> exact(a, b, origin);
     result.rational = true;
     result.overlap = true;

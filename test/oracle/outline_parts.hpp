@@ -2,6 +2,7 @@
 
 // Whether convex parts cover exactly the inside of an outline, in integers of any size.
 
+#include "rational.hpp"
 #include <abut/math/aabb.hpp>
 #include <abut/math/predicates.hpp>
 #include <abut/shape/polygon.hpp>
@@ -16,23 +17,19 @@
 #include <utility>
 #include <vector>
 
-#include <boost/multiprecision/cpp_int.hpp>
-
 namespace abut::oracle {
 
-using BigInteger = boost::multiprecision::cpp_int;
-
 /// A float as an integer multiple of 2^-149.
-inline BigInteger to_integer(float value) {
+inline Integer to_integer(float value) {
     int exponent = 0;
     const auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(static_cast<double>(value), &exponent), 24));
     const int shift = exponent - 24 + 149;
-    return shift >= 0 ? BigInteger(mantissa) << shift : BigInteger(mantissa >> -shift);
+    return shift >= 0 ? Integer(mantissa) << shift : Integer(mantissa >> -shift);
 }
 
 /// Twice the signed area of a ring, in units of 2^-298; above zero if the ring is counter-clockwise.
-inline BigInteger twice_area(std::span<const Vec2> ring) {
-    BigInteger sum = 0;
+inline Integer twice_area(std::span<const Vec2> ring) {
+    Integer sum = 0;
     for (std::size_t i = 0; i < ring.size(); ++i) {
         const Vec2 &a = ring[i], &b = ring[i + 1 == ring.size() ? 0 : i + 1];
         sum += to_integer(a.x) * to_integer(b.y) - to_integer(a.y) * to_integer(b.x);
@@ -41,8 +38,8 @@ inline BigInteger twice_area(std::span<const Vec2> ring) {
 }
 
 /// Twice the area of a simple outline with disjoint holes inside it.
-inline BigInteger twice_area(std::span<const Vec2> outline, std::span<const std::vector<Vec2>> holes) {
-    BigInteger result = abs(twice_area(outline));
+inline Integer twice_area(std::span<const Vec2> outline, std::span<const std::vector<Vec2>> holes) {
+    Integer result = abs(twice_area(outline));
     for (const std::vector<Vec2>& hole : holes) result -= abs(twice_area(hole));
     return result;
 }
@@ -62,8 +59,8 @@ public:
         std::ranges::sort(parts_, {}, [](const Part& part) { return part.box.min.x; });
     }
 
-    BigInteger twice_area() const {
-        BigInteger sum = 0;
+    Integer twice_area() const {
+        Integer sum = 0;
         for (const Part& part : parts_) sum += oracle::twice_area(part.loop);
         return sum;
     }
@@ -145,14 +142,14 @@ public:
     }
 
     /// All checks but those of single places and T-junctions; `expected` is twice the area.
-    std::string fault(const BigInteger& expected) const {
+    std::string fault(const Integer& expected) const {
         for (const std::string& found : {fault_of_corners(), fault_of_overlaps(), fault_of_inside()})
             if (!found.empty()) return found;
         return twice_area() == expected ? "" : "the area is wrong";
     }
 
 private:
-    using IntegerRing = std::vector<std::pair<BigInteger, BigInteger>>;
+    using IntegerRing = std::vector<std::pair<Integer, Integer>>;
     struct Part {
         std::span<const Vec2> loop;
         Aabb2 box;
@@ -181,8 +178,8 @@ private:
     /// Whether, by the even-odd rule, the ring contains the centroid of the first triangle of a loop. Coordinates are
     /// multiplied by 3.
     static bool contains_centroid(const IntegerRing& ring, std::span<const Vec2> loop) {
-        const BigInteger x = to_integer(loop[0].x) + to_integer(loop[1].x) + to_integer(loop[2].x);
-        const BigInteger y = to_integer(loop[0].y) + to_integer(loop[1].y) + to_integer(loop[2].y);
+        const Integer x = to_integer(loop[0].x) + to_integer(loop[1].x) + to_integer(loop[2].x);
+        const Integer y = to_integer(loop[0].y) + to_integer(loop[1].y) + to_integer(loop[2].y);
         bool result = false;
         for (std::size_t i = 0; i < ring.size(); ++i) {
             // Edges go from left to right, so that an edge and its reverse cancel even if the point is on them.

@@ -3,17 +3,14 @@
 // The volume of the overlap of two polytopes, in rational numbers.
 
 #include "axes.hpp"
+#include "rational.hpp"
 
 #include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include <boost/multiprecision/cpp_int.hpp>
-
 namespace abut::oracle {
-
-using Rational = boost::multiprecision::cpp_rational;
 
 /// Half-spaces a . x <= b in rational numbers. The volume of their intersection needs none of its corners (Lasserre,
 /// "An analytical expression and an algorithm for the volume of a convex polyhedron in R^n", 1983).

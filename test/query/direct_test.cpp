@@ -79,17 +79,30 @@ void expect_near(const std::optional<Hit<D>>& direct, const std::optional<Hit<D>
         expect_near<D>(direct->normal, of_views->normal);
 }
 
+/// All answers about one pair.
+template <int D>
+struct PairAnswers {
+    bool overlap;
+    Closest<D> closest, closest_untraced;
+    Contact<D> contact, contact_within;
+};
+
 template <class A, class B>
-void compare(const A& a, const B& b, float margin, ComparisonCounts& counts) {
-    constexpr int D = dimension<A>;
-    const View<D> view_a(view(a)), view_b(view(b));
+PairAnswers<dimension<A>> answers_of(const A& a, const B& b, float margin) {
+    return {overlaps(a, b), closest(a, b), closest(a, b, {.trace = nullptr}), contact(a, b),
+            contact(a, b, {.margin = margin})};
+}
+
+template <int D>
+void compare(const PairAnswers<D>& direct, const View<D>& a, const View<D>& b, float margin, ComparisonCounts& counts) {
+    const PairAnswers<D> of_views = answers_of(a, b, margin);
     ++counts.pairs;
-    counts.overlapping += overlaps(view_a, view_b) ? 1 : 0;
-    EXPECT_EQ(overlaps(a, b), overlaps(view_a, view_b));
-    expect_near(closest(a, b), closest(view_a, view_b));
-    expect_near(contact(a, b), contact(view_a, view_b));
-    expect_near(contact(a, b, {.margin = margin}), contact(view_a, view_b, {.margin = margin}));
-    expect_near(closest(a, b, {.trace = nullptr}), closest(view_a, view_b));
+    counts.overlapping += of_views.overlap ? 1 : 0;
+    EXPECT_EQ(direct.overlap, of_views.overlap);
+    expect_near(direct.closest, of_views.closest);
+    expect_near(direct.contact, of_views.contact);
+    expect_near(direct.contact_within, of_views.contact_within);
+    expect_near(direct.closest_untraced, of_views.closest_untraced);
 }
 
 template <class D>
@@ -115,7 +128,9 @@ TYPED_TEST(Direct, AnswersOfPairsAreThoseOfTheirViews) {
     ComparisonCounts counts;
     this->for_each_seed([&](Random& random, DrawnShapes<D>& shapes) {
         const float margin = random.uniform_float(0, 0.5);
-        shapes.draw([&](const auto& a) { shapes.draw([&](const auto& b) { compare(a, b, margin, counts); }); });
+        shapes.draw([&](const auto& a) {
+            shapes.draw([&](const auto& b) { compare<D>(answers_of(a, b, margin), view(a), view(b), margin, counts); });
+        });
     });
     EXPECT_GT(counts.overlapping, counts.pairs * 3 / 10);
     EXPECT_LT(counts.overlapping, counts.pairs * 7 / 10);

@@ -1,6 +1,7 @@
 // Polygon and Polyhedron take every non-empty set of finite points, and every query returns valid answers for the
 // result.
 #include "../oracle/random.hpp"
+#include "../oracle/rational.hpp"
 #include <abut/convex/hull/hull_input.hpp>
 #include <abut/math/affine.hpp>
 #include <abut/math/predicates.hpp>
@@ -22,14 +23,13 @@
 #include <utility>
 #include <vector>
 
-#include <boost/multiprecision/cpp_int.hpp>
 #include <gtest/gtest.h>
 
 namespace abut::test {
 namespace {
 
-using boost::multiprecision::cpp_rational;
 using oracle::Random;
+using oracle::Rational;
 
 template <int D>
 struct PointSet {
@@ -204,9 +204,8 @@ void expect_exact(const Polygon& polygon, const std::vector<Vec2>& points) {
     }
 }
 
-cpp_rational exact_dot(const Vec3& a, const Vec3& b) {
-    return cpp_rational(a.x) * cpp_rational(b.x) + cpp_rational(a.y) * cpp_rational(b.y) +
-           cpp_rational(a.z) * cpp_rational(b.z);
+Rational exact_dot(const Vec3& a, const Vec3& b) {
+    return Rational(a.x) * Rational(b.x) + Rational(a.y) * Rational(b.y) + Rational(a.z) * Rational(b.z);
 }
 
 /// Expects no point above a plane: in double, and exactly for solids, whose planes are moved out by more than rounding.
@@ -228,7 +227,7 @@ void expect_exact(const Polyhedron& polyhedron, const std::vector<Vec3>& points)
         for (const Vec3& point : points) {
             EXPECT_LE(dot(DVec<3>(normal), DVec<3>(point)), offset) << "a point outside";
             if (polyhedron.rank() == 3) {
-                EXPECT_LE(exact_dot(normal, point), cpp_rational(offset)) << "a point outside";
+                EXPECT_LE(exact_dot(normal, point), Rational(offset)) << "a point outside";
             }
         }
         const std::span<const std::uint32_t> loop = facets.loop(face);

@@ -2,6 +2,7 @@
 
 // Whether points lie in the convex hull of others, in rational numbers where doubles are undecided.
 
+#include "../../oracle/rational.hpp"
 #include <abut/math/dvec.hpp>
 #include <abut/math/vec.hpp>
 
@@ -11,11 +12,9 @@
 #include <cstddef>
 #include <span>
 
-#include <boost/multiprecision/cpp_int.hpp>
-
 namespace abut::test {
 
-using Rational = boost::multiprecision::cpp_rational;
+using oracle::Rational;
 
 /// The side of the plane abc, or of the line ab, that p is on: 1 to the left of ab, and 1 where abc is
 /// counter-clockwise.
