@@ -17,7 +17,7 @@ using oracle::Kind;
 using oracle::Random;
 
 /// Counts, so that no sample is vacuous.
-struct Tally {
+struct PairCounts {
     int pairs = 0, answered = 0, overlapping = 0;
 };
 
@@ -31,7 +31,7 @@ Closest<2> as_closest(const SignedDistance<2>& distance) {
 }
 
 /// Expects the answers of the general searches, certified, and again with a cache.
-void expect_agreement(const Convex<2>& a, const Convex<2>& b, double tolerance, Tally& tally) {
+void expect_agreement(const Convex<2>& a, const Convex<2>& b, double tolerance, PairCounts& tally) {
     ++tally.pairs;
     PlacedPolygon outline_a, outline_b;
     if (!set_placed_polygon(a, outline_a) || !set_placed_polygon(b, outline_b)) return;
@@ -91,7 +91,7 @@ const Convex<2>& convex_of(const oracle::Sample<2>& sample) {
 TEST(PlanePairs, AgreeWithTheSearches) {
     constexpr Kind kinds[] = {Kind::ball, Kind::capsule, Kind::segment, Kind::triangle,
                               Kind::box,  Kind::aabb,    Kind::polytope};
-    Tally tally;
+    PairCounts tally;
     for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(oracle::case_count(10000)); ++seed) {
         SCOPED_TRACE(seed);
         Random random(seed);
@@ -108,7 +108,7 @@ TEST(PlanePairs, AgreeWithTheSearches) {
 
 /// Corners on a coarse grid: collinear edges, touching corners, nested shapes, boxes without width.
 TEST(PlanePairs, AgreeOnAGrid) {
-    Tally tally;
+    PairCounts tally;
     for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(oracle::case_count(10000)); ++seed) {
         SCOPED_TRACE(seed);
         Random random(seed);

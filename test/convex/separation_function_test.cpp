@@ -89,12 +89,12 @@ TEST(SeparationFunction, AcceleratesWithinItsBound) {
     EXPECT_GT(sharpest, 0.9);
 }
 
-struct Tally {
+struct StepCounts {
     int whole = 0, closed = 0, cut = 0;
 };
 
 template <int D>
-void expect_open(std::uint64_t seed, Tally& tally) {
+void expect_open(std::uint64_t seed, StepCounts& tally) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     oracle::Random random(seed);
     Case<D> c(random);
@@ -109,7 +109,7 @@ void expect_open(std::uint64_t seed, Tally& tally) {
 }
 
 TEST(SeparationFunction, IsOpenUntilTheReportedTime) {
-    Tally tally;
+    StepCounts tally;
     for (std::uint64_t seed = 1; seed <= 2000; ++seed) {
         expect_open<2>(seed, tally);
         expect_open<3>(seed, tally);

@@ -17,19 +17,19 @@ namespace {
 using oracle::Random;
 
 /// A composite whose parts store their vertices, or refer to them.
-struct Ground {
+struct GroundOfParts {
     std::vector<Triangle3> triangles;
     bool refers = false;
 };
 
-Aabb3 bounds(const Ground& ground) {
+Aabb3 bounds(const GroundOfParts& ground) {
     Aabb3 result = Aabb3::empty();
     for (const Triangle3& triangle : ground.triangles) result = merged(result, bounds(convex(triangle)));
     return result;
 }
 
 template <class Visit>
-void each_part(const Ground& ground, const Aabb3& box, Visit&& visit) {
+void each_part(const GroundOfParts& ground, const Aabb3& box, Visit&& visit) {
     for (std::uint32_t i = 0; i < ground.triangles.size(); ++i) {
         const Triangle3& triangle = ground.triangles[i];
         Convex<3> part = convex(triangle);
@@ -43,14 +43,14 @@ void each_part(const Ground& ground, const Aabb3& box, Visit&& visit) {
     }
 }
 
-Ground random_ground(Random& random) {
+GroundOfParts random_ground(Random& random) {
     constexpr int columns = 12;
     Vec3 points[columns + 1][columns + 1];
     const float rough = random.chance(0.3) ? 0 : random.uniform_float(0, 0.6);
     for (int i = 0; i <= columns; ++i)
         for (int j = 0; j <= columns; ++j)
             points[i][j] = {static_cast<float>(i) - 6, rough * random.uniform_float(-1, 1), static_cast<float>(j) - 6};
-    Ground result;
+    GroundOfParts result;
     for (int i = 0; i < columns; ++i)
         for (int j = 0; j < columns; ++j) {
             result.triangles.push_back({points[i][j], points[i][j + 1], points[i + 1][j]});
@@ -75,7 +75,7 @@ void expect_same(const std::vector<Contact<3>>& a, const std::vector<Contact<3>>
 }
 
 template <class Shape>
-std::vector<Contact<3>> contacts(const Shape& shape, const Ground& ground, float margin, bool turned_round) {
+std::vector<Contact<3>> contacts(const Shape& shape, const GroundOfParts& ground, float margin, bool turned_round) {
     std::vector<Contact<3>> result;
     const auto take = [&](const Contact<3>& contact) { result.push_back(contact); };
     if (turned_round)
@@ -90,7 +90,7 @@ TEST(PartCache, GivesTheContactsOfUncachedParts) {
     for (std::uint64_t seed = 0; seed < 300; ++seed) {
         SCOPED_TRACE(testing::Message() << "seed " << seed);
         Random random(seed);
-        Ground ground = random_ground(random);
+        GroundOfParts ground = random_ground(random);
         const float size = random.chance(0.25) ? 4 : random.uniform_float(0.3, 1.5);
         const float margin = random.chance(0.5) ? 0 : 0.1f * size;
         const Vec3 center = {random.uniform_float(-4, 4), size * random.uniform_float(-0.3, 1.2),
@@ -124,7 +124,7 @@ TEST(PartCache, GivesTheContactsOfUncachedParts) {
 
 TEST(PartCache, VisitsClosestPointsWithinItsBoxAlone) {
     Random random(1);
-    const Ground ground = random_ground(random);
+    const GroundOfParts ground = random_ground(random);
     const Composite<3> shape = view(ground);
     PartCache<3> parts;
     ASSERT_TRUE(parts.fill(shape, {Vec3(-1.2f), Vec3(1.2f)}));
