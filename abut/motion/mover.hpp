@@ -16,7 +16,7 @@ struct MoverOptions {
     float step_height = 0.3f;   ///< maximum height of steps and edges that are climbed
     float steepest = 0.87f;     ///< maximum slope angle of ground; steeper slopes are walls
     float stick = 0.3f;         ///< maximum drop per move over which it is snapped down to the ground
-    float skin = 0;             ///< gap kept to all obstacles, approximately; 0: a hundredth of the shape's size
+    float skin = 0;             ///< gap left to all obstacles, approximately; 0: a hundredth of the shape's size
     Filter filter{};            ///< what it collides with; must exclude the character itself if it is in the world
 
 private:

@@ -157,10 +157,10 @@ std::size_t remove_duplicate_triangles(Welded& surface) {
         const bool majority_even = even == odd ? sorted[begin].is_even : even > odd;
         bool found_one = false;
         for (std::size_t i = begin; i < end; ++i) {
-            const bool is_kept = !found_one && sorted[i].is_even == majority_even;
-            removed[sorted[i].triangle] = !is_kept;
-            found_one = found_one || is_kept;
-            if (is_kept && even == odd) walls.push_back(sorted[i].triangle);
+            const bool remains = !found_one && sorted[i].is_even == majority_even;
+            removed[sorted[i].triangle] = !remains;
+            found_one = found_one || remains;
+            if (remains && even == odd) walls.push_back(sorted[i].triangle);
         }
         begin = end;
     }

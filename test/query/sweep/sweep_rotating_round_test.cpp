@@ -56,8 +56,8 @@ void check(const A& a, const B& b, std::uint64_t seed, Tally& tally) {
     const auto hit = sweep(a, of_a, b, of_b);
     const double end = hit ? static_cast<double>(hit->fraction) : 1;
     for (int i = 0; i < 300; ++i) ASSERT_GE(distance(end * i / 300), -2e-5) << (hit ? "late" : "missed");
-    RotatingImpact<3> meeting;
-    EXPECT_EQ(time_of_impact<3>(view(a), path_a, view(b), path_b, {.max_iterations = 100}, {}, meeting),
+    RotatingImpact<3> impact;
+    EXPECT_EQ(time_of_impact<3>(view(a), path_a, view(b), path_b, {.max_iterations = 100}, {}, impact),
               hit.has_value());
     if (!hit) return;
     ++tally.hits;
