@@ -15,6 +15,9 @@
 
 namespace abut::test {
 
+using detail::axis;
+using detail::DVec;
+
 using Rational = boost::multiprecision::cpp_rational;
 
 /// The side of the plane abc, or of the line ab, that p is on: 1 to the left of ab, and 1 where abc is

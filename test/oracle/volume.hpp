@@ -13,6 +13,9 @@
 
 namespace abut::oracle {
 
+using detail::cross;
+using detail::dot;
+
 using Rational = boost::multiprecision::cpp_rational;
 
 /// Half-spaces a . x <= b in rational numbers. The volume of their intersection needs none of its corners (Lasserre,
