@@ -52,17 +52,9 @@ struct Moved {
     std::span<const MoverTouch<D>> touches;
 };
 
-}  // namespace abut
-
-namespace abut::detail {
-
 /// Returns true if the mover passes through the contact, such as a platform from below.
 template <int D>
 using MoverPasses = FunctionRef<bool(const MoverTouch<D>&)>;
-
-}  // namespace abut::detail
-
-namespace abut {
 
 /// A one-way platform: solid from above, passable from below and from the sides. For `passes`.
 template <int D>
@@ -107,7 +99,7 @@ public:
     template <Shape S>
     requires(detail::is_convex_view<detail::ViewOf<S>>&& dimension<S> ==
              D) Moved<D> move(const World<D>& world, const S& shape, const Vec<D>& position, const Vec<D>& motion,
-                              detail::MoverPasses<D> passes) {
+                              MoverPasses<D> passes) {
         return move_convex(world, view(shape), position, motion, &passes);
     }
 
@@ -115,7 +107,7 @@ private:
     struct Memory;
 
     Moved<D> move_convex(const World<D>& world, const detail::Convex<D>& shape, const Vec<D>& position,
-                         const Vec<D>& motion, const detail::MoverPasses<D>* passes);
+                         const Vec<D>& motion, const MoverPasses<D>* passes);
 
     MoverOptions<D> options_;
     std::unique_ptr<Memory> memory_;
