@@ -11,7 +11,6 @@
 #include <abut/broad_phase/layered_grid.hpp>
 #include <abut/broad_phase/sweep_and_prune.hpp>
 #include <abut/broad_phase/temporal.hpp>
-#include <abut/convex/features.hpp>
 #include <abut/field/field.hpp>
 #include <abut/field/file.hpp>
 #include <abut/field/texture.hpp>

@@ -90,15 +90,15 @@ int draw_map(const char* name, const char* out) {
     int frame = 0;
     bool arrived = true;
     for (const abut::Vec2& place : way_through(world, all, position)) {
-        for (int i = 0; i < 20 && length(abut::DVec<2>(place - position)) > 9; ++i, ++frame) {
+        for (int i = 0; i < 20 && length(glm::dvec2(place - position)) > 9; ++i, ++frame) {
             const abut::Vec2 left = place - position;
-            const auto far = static_cast<float>(length(abut::DVec<2>(left)));
+            const auto far = static_cast<float>(length(glm::dvec2(left)));
             const auto moved = mover.move(world, player, position, left * std::min(1.0f, 8 / far));
             canvas.line(position, moved.position, path);
             position = moved.position;
             if (frame % 24 == 0) draw(canvas, at(player, abut::Pose2{position}), ghost);
         }
-        arrived = arrived && length(abut::DVec<2>(place - position)) <= 9;
+        arrived = arrived && length(glm::dvec2(place - position)) <= 9;
     }
     std::fprintf(stderr, "%s: %d frames\n", map.name.c_str(), frame);
     return write(canvas, out) && arrived && frame > 100 ? 0 : 1;
@@ -149,7 +149,7 @@ int draw_level(const char* name, const char* out) {
         fall = std::min(fall + 0.005f, 0.2f);
         const auto moved = mover.move(world, ball, position, ahead + abut::Vec3(0, -fall, 0));
         canvas.line(from_above(position), from_above(moved.position), path);
-        if (length(abut::DVec<3>(moved.position - position)) < 0.05 * static_cast<double>(radius)) ++turn;
+        if (length(glm::dvec3(moved.position - position)) < 0.05 * static_cast<double>(radius)) ++turn;
         position = moved.position;
         if (moved.grounded) fall = 0.01f;
         if (frame % 200 == 0) canvas.ball(from_above(position), radius, ghost);

@@ -13,6 +13,9 @@
 
 namespace abut::scenes {
 
+using detail::DVec;
+using detail::to_float;
+
 struct BumpyBall {
     std::vector<Vec3> points;
     std::vector<glm::uvec3> triangles;

@@ -50,9 +50,9 @@ public:
         double gap = gaps.high;
         do gap = random_.uniform(gaps.low, gaps.high);
         while (!gaps.allow(gap));
-        const Placed<D> a{any(a_), {to_float<D>(random_.in_cube<D>() * 10.0), random_.rotation<D>()}};
+        const Placed<D> a{any(a_), {detail::to_float<D>(random_.in_cube<D>() * 10.0), random_.rotation<D>()}};
         Placed<D> b{a_.size() + any(b_),
-                    {a.pose.position + to_float<D>(random_.direction<D>() * 5.0), random_.rotation<D>()}};
+                    {a.pose.position + detail::to_float<D>(random_.direction<D>() * 5.0), random_.rotation<D>()}};
         const Closest<D> before = closest({a, b});
         b.pose.position += (static_cast<float>(gap) - before.distance) * before.normal;
         return {a, b};

@@ -45,7 +45,7 @@ inline Capsule3 random_capsule(oracle::Random& random) {
 template <int D>
 std::vector<Vec<D>> random_directions(oracle::Random& random, std::size_t count) {
     std::vector<Vec<D>> result;
-    while (result.size() < count) result.push_back(to_float<D>(random.direction<D>()));
+    while (result.size() < count) result.push_back(detail::to_float<D>(random.direction<D>()));
     return result;
 }
 

@@ -61,12 +61,12 @@ ConvexPairs<D> moving_pairs(PairMaker<D, A, B>& maker, std::size_t count, const 
     std::vector<std::vector<PlacedPair<D>>> found;
     while (found.size() < count) {
         const PlacedPair<D> middle = maker.make(midway);
-        Vec<D> direction = to_float<D>(random.direction<D>());
+        Vec<D> direction = detail::to_float<D>(random.direction<D>());
         if (along == Along::surface) {
             const Vec<D> normal = maker.closest(middle).normal;
             direction = glm::normalize(direction - glm::dot(direction, normal) * normal);
         }
-        const Step<D> step{random.uniform_float(0.01, 0.02) * direction, to_float<D>(random.direction<D>())};
+        const Step<D> step{random.uniform_float(0.01, 0.02) * direction, detail::to_float<D>(random.direction<D>())};
         const std::vector<PlacedPair<D>> pair = swung(middle, step, random.below(moving_frames));
         if (std::ranges::all_of(pair, [&](const auto& at) { return always.allow(maker.closest(at).distance); }))
             found.push_back(pair);
@@ -84,7 +84,7 @@ struct StackedBoxes {
 /// B rests on a face of A, rotated about its normal, with a depth of 0.01 to 0.03.
 inline StackedBoxes stacked_boxes(std::size_t number, oracle::Random& random) {
     const Box3 below = random_box<3>(random), above = random_box<3>(random);
-    const Pose3 pose{to_float<3>(random.in_cube<3>() * 10.0), random.rotation<3>()};
+    const Pose3 pose{detail::to_float<3>(random.in_cube<3>() * 10.0), random.rotation<3>()};
     const Vec3 offset{random.uniform_float(-0.2, 0.2), below.half.y + above.half.y - random.uniform_float(0.01, 0.03),
                       random.uniform_float(-0.2, 0.2)};
     const glm::quat about_normal = turn_about({0, 1, 0}, random.uniform_float(0, 6.28));
@@ -108,7 +108,7 @@ inline ConvexPairs<3> sliding_stacks(std::size_t count, oracle::Random& random) 
     while (found.size() < count) {
         const StackedBoxes stack = stacked_boxes(found.size(), random);
         const Rotation<3>& rotation = stack.pair.a.pose.rotation;
-        const Vec2 direction = random.uniform_float(0.01, 0.02) * to_float<2>(random.direction<2>());
+        const Vec2 direction = random.uniform_float(0.01, 0.02) * detail::to_float<2>(random.direction<2>());
         const Step<3> step{rotate(rotation, {direction.x, 0, direction.y}), rotate(rotation, {0, 1, 0})};
         const std::vector<PlacedPair<3>> pair = swung(stack.pair, step, random.below(moving_frames));
         const auto lies = [&](const PlacedPair<3>& at) {

@@ -14,6 +14,9 @@
 
 namespace abut::scenes {
 
+using detail::DVec;
+using detail::to_float;
+
 struct Outline {
     std::vector<Vec2> ring;
     std::vector<std::vector<Vec2>> holes;

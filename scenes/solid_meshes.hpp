@@ -16,6 +16,12 @@
 
 namespace abut::scenes {
 
+using detail::cross;
+using detail::dot;
+using detail::DVec;
+using detail::normalized;
+using detail::to_float;
+
 struct SolidMesh {
     std::vector<Vec3> points;
     std::vector<glm::uvec3> triangles;

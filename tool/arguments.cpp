@@ -5,6 +5,9 @@
 #include <system_error>
 
 namespace abut::tool {
+
+using namespace detail;
+
 namespace {
 
 constexpr std::size_t max_bounces = 100'000;

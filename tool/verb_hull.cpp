@@ -97,7 +97,7 @@ Result<ExitCode> run_hull(const HullRequest& request) {
     Stopwatch watch;
     Result<Meshes> meshes = load_meshes(request.mesh, request.files);
     if (!meshes) return meshes.problem();
-    if (!request.each) meshes->objects = {merge_meshes(meshes->objects, name_of(request.mesh))};
+    if (!request.each) meshes->objects = {detail::merge_meshes(meshes->objects, name_of(request.mesh))};
     HullReport report{{}, meshes->warnings, watch.lap(), 0, 0};
     Result<std::vector<NamedHull>> hulls = hulls_of(request, meshes->objects);
     if (!hulls) return hulls.problem();

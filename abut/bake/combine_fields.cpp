@@ -11,6 +11,9 @@
 #include <utility>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 enum class Operation : std::uint8_t { union_of, max_samples, difference, smooth_union, grown };

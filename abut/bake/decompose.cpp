@@ -14,6 +14,9 @@
 #include <utility>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// Pieces per part: the body is cut into more pieces than there may be parts, and merging finds the needless cuts.

@@ -10,6 +10,9 @@
 #include <optional>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 using outline::Partition;

@@ -10,6 +10,9 @@
 #include <glm/ext/quaternion_geometric.hpp>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// The largest distance of a corner of the part outside the shape, and of a point of the shape outside the part.

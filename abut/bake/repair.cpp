@@ -13,6 +13,9 @@
 #include <utility>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 constexpr std::uint32_t max_hole_edges = 1000;

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace abut {
+namespace abut::detail {
 
 /// Returns the box itself, or Aabb::empty() if it is empty or has a NaN. A NaN trips ABUT_ASSERT.
 template <int D>
@@ -26,4 +26,4 @@ bool is_empty(const Aabb<D>& box) {
     return !(box.min[0] <= box.max[0]);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -11,6 +11,9 @@
 #include <bit>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// Returns false if the visitor stops the search.

@@ -40,18 +40,18 @@ public:
 
 private:
     friend detail::BroadPhaseInterface<BruteForce<D>, D>;
-    void visit_pairs(PairsCall visit, Executor* executor) const;
-    void visit_pairs(const BruteForce& other, PairsCall visit) const;
-    void visit_boxes(BoxCall<D> visit) const;
-    void visit_overlapping(const Aabb<D>& box, ItemCall visit) const;
-    void visit_along(const Ray<D>& ray, ReachCall visit) const;
-    void visit_along(const MovingBox<D>& box, ReachCall visit) const;
-    void visit_near(const Aabb<D>& box, float reach, ReachCall visit) const;
+    void visit_pairs(detail::PairsCall visit, Executor* executor) const;
+    void visit_pairs(const BruteForce& other, detail::PairsCall visit) const;
+    void visit_boxes(detail::BoxCall<D> visit) const;
+    void visit_overlapping(const Aabb<D>& box, detail::ItemCall visit) const;
+    void visit_along(const Ray<D>& ray, detail::ReachCall visit) const;
+    void visit_along(const MovingBox<D>& box, detail::ReachCall visit) const;
+    void visit_near(const Aabb<D>& box, float reach, detail::ReachCall visit) const;
 
     void write(std::size_t index, const Aabb<D>& box);
     void set_all(std::span<const Aabb<D>> boxes);
     template <class Reach>
-    void visit_within(Reach reach, ReachCall visit) const;
+    void visit_within(Reach reach, detail::ReachCall visit) const;
 
     std::size_t size_ = 0;
     detail::BoxSoa<D> boxes_;  // an empty box is stored as NaNs

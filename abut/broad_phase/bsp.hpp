@@ -68,15 +68,15 @@ private:
     bool visit_region(std::uint32_t node, const Aabb<D>& box, const Visit& visit) const;
     bool visit_pairs_of(std::uint32_t node, detail::PairBuffer& pairs) const;
     template <class Reach>
-    void visit_within(std::uint32_t node, const Aabb<D>& cell, Reach& reach, ReachCall visit) const;
+    void visit_within(std::uint32_t node, const Aabb<D>& cell, Reach& reach, detail::ReachCall visit) const;
 
-    void visit_pairs(PairsCall visit, Executor* executor) const;
-    void visit_pairs(const Bsp& other, PairsCall visit) const;
-    void visit_boxes(BoxCall<D> visit) const;
-    void visit_overlapping(const Aabb<D>& box, ItemCall visit) const;
-    void visit_along(const Ray<D>& ray, ReachCall visit) const;
-    void visit_along(const MovingBox<D>& box, ReachCall visit) const;
-    void visit_near(const Aabb<D>& box, float reach, ReachCall visit) const;
+    void visit_pairs(detail::PairsCall visit, Executor* executor) const;
+    void visit_pairs(const Bsp& other, detail::PairsCall visit) const;
+    void visit_boxes(detail::BoxCall<D> visit) const;
+    void visit_overlapping(const Aabb<D>& box, detail::ItemCall visit) const;
+    void visit_along(const Ray<D>& ray, detail::ReachCall visit) const;
+    void visit_along(const MovingBox<D>& box, detail::ReachCall visit) const;
+    void visit_near(const Aabb<D>& box, float reach, detail::ReachCall visit) const;
 
     std::size_t size_ = 0;
     std::vector<Entry> entries_, scratch_;  ///< the boxes that are not empty, leaf by leaf

@@ -6,6 +6,9 @@
 #include <type_traits>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// The time of an overlap query of each structure, as a multiple of that of a tree, in the order of BroadPhaseKind;

@@ -47,13 +47,13 @@ public:
 
 private:
     friend detail::BroadPhaseInterface<ChosenBroadPhase<D>, D>;
-    void visit_pairs(PairsCall visit, Executor* executor) const;
-    void visit_pairs(const ChosenBroadPhase& other, PairsCall visit) const;
-    void visit_boxes(BoxCall<D> visit) const;
-    void visit_overlapping(const Aabb<D>& box, ItemCall visit) const;
-    void visit_along(const Ray<D>& ray, ReachCall visit) const;
-    void visit_along(const MovingBox<D>& box, ReachCall visit) const;
-    void visit_near(const Aabb<D>& box, float reach, ReachCall visit) const;
+    void visit_pairs(detail::PairsCall visit, Executor* executor) const;
+    void visit_pairs(const ChosenBroadPhase& other, detail::PairsCall visit) const;
+    void visit_boxes(detail::BoxCall<D> visit) const;
+    void visit_overlapping(const Aabb<D>& box, detail::ItemCall visit) const;
+    void visit_along(const Ray<D>& ray, detail::ReachCall visit) const;
+    void visit_along(const MovingBox<D>& box, detail::ReachCall visit) const;
+    void visit_near(const Aabb<D>& box, float reach, detail::ReachCall visit) const;
 
     BroadPhaseKind choose(std::span<const Aabb<D>> boxes) const;
     void become(BroadPhaseKind kind);

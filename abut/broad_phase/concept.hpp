@@ -51,7 +51,7 @@ concept BroadPhase = std::semiregular<T> &&
              const MovingBox<D>& moving, const Vec<D>& point, float reach, void (*each)(std::uint32_t),
              bool (*until)(std::uint32_t), float (*within)(std::uint32_t),
              void (*each_pair)(std::uint32_t, std::uint32_t), bool (*until_pair)(std::uint32_t, std::uint32_t),
-             std::vector<ItemPair>& out, Executor* executor) {
+             std::vector<detail::ItemPair>& out, Executor* executor) {
     changing.build(boxes);
     changing.build(boxes, executor);
     changing.update(boxes);

@@ -67,16 +67,16 @@ public:
 
 private:
     friend detail::BroadPhaseInterface<Grid<D>, D>;
-    bool visit_large(PairsCall visit) const;
-    void visit_pairs(PairsCall visit, Executor* executor) const;
-    void visit_pairs(const Grid& other, PairsCall visit) const;
-    void visit_boxes(BoxCall<D> visit) const;
-    void visit_overlapping(const Aabb<D>& box, ItemCall visit) const;
-    void visit_along(const Ray<D>& ray, ReachCall visit) const;
-    void visit_along(const MovingBox<D>& box, ReachCall visit) const;
-    void visit_near(const Aabb<D>& box, float reach, ReachCall visit) const;
+    bool visit_large(detail::PairsCall visit) const;
+    void visit_pairs(detail::PairsCall visit, Executor* executor) const;
+    void visit_pairs(const Grid& other, detail::PairsCall visit) const;
+    void visit_boxes(detail::BoxCall<D> visit) const;
+    void visit_overlapping(const Aabb<D>& box, detail::ItemCall visit) const;
+    void visit_along(const Ray<D>& ray, detail::ReachCall visit) const;
+    void visit_along(const MovingBox<D>& box, detail::ReachCall visit) const;
+    void visit_near(const Aabb<D>& box, float reach, detail::ReachCall visit) const;
     template <class Reach>
-    void visit_within(Reach reach, ReachCall visit) const;
+    void visit_within(Reach reach, detail::ReachCall visit) const;
 
     /// Counts of the work that the pairs take.
     struct Cost {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -44,4 +44,4 @@ void NearestItems<D>::sort() {
 template class NearestItems<2>;
 template class NearestItems<3>;
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -22,6 +22,10 @@ struct NearItem {
     friend auto operator<=>(const NearItem&, const NearItem&) = default;
 };
 
+}  // namespace abut
+
+namespace abut::detail {
+
 /// Collects the k nearest of the boxes that are offered to it, for a visitor of BroadPhase::closest.
 template <int D>
 class NearestItems {
@@ -42,13 +46,17 @@ private:
 extern template class NearestItems<2>;
 extern template class NearestItems<3>;
 
+}  // namespace abut::detail
+
+namespace abut {
+
 /// Writes the k boxes nearest to the point to `out`, or all boxes if there are fewer, sorted by (distance, index).
 /// Among boxes at equal distances, those of lower index count as nearer. Distances are rounded to float before they are
 /// compared. `boxes` are the boxes of the last build or update of `phase`. Allocates only to grow `out` to k items.
 template <int D, BroadPhase<D> Phase>
 void k_nearest(const Phase& phase, std::type_identity_t<std::span<const Aabb<D>>> boxes, const Vec<D>& point,
                std::size_t k, std::vector<NearItem>& out) {
-    NearestItems<D> nearest(point, k, out);
+    detail::NearestItems<D> nearest(point, k, out);
     phase.closest(point, [&](std::uint32_t item) { return nearest.offer(item, boxes[item]); });
     nearest.sort();
 }

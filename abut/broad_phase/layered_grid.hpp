@@ -71,13 +71,13 @@ private:
     bool visit_pairs_of(const Entry& entry, detail::PairBuffer& pairs) const;
     double common_edge() const;
 
-    void visit_pairs(PairsCall visit, Executor* executor) const;
-    void visit_pairs(const LayeredGrid& other, PairsCall visit) const;
-    void visit_boxes(BoxCall<D> visit) const;
-    void visit_overlapping(const Aabb<D>& box, ItemCall visit) const;
-    void visit_along(const Ray<D>& ray, ReachCall visit) const;
-    void visit_along(const MovingBox<D>& box, ReachCall visit) const;
-    void visit_near(const Aabb<D>& box, float reach, ReachCall visit) const;
+    void visit_pairs(detail::PairsCall visit, Executor* executor) const;
+    void visit_pairs(const LayeredGrid& other, detail::PairsCall visit) const;
+    void visit_boxes(detail::BoxCall<D> visit) const;
+    void visit_overlapping(const Aabb<D>& box, detail::ItemCall visit) const;
+    void visit_along(const Ray<D>& ray, detail::ReachCall visit) const;
+    void visit_along(const MovingBox<D>& box, detail::ReachCall visit) const;
+    void visit_near(const Aabb<D>& box, float reach, detail::ReachCall visit) const;
 
     std::size_t size_ = 0;
     std::vector<Entry> entries_;               ///< the boxes that are not empty, bucket by bucket

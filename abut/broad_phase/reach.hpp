@@ -12,7 +12,7 @@
 #include <cmath>
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 
 /// A factor that covers the rounding of a distance, or of the length of a unit direction, to float.
 inline constexpr double reach_tolerance = 1 + 1e-6;
@@ -116,4 +116,4 @@ private:
     double reach_squared_ = -1;
 };
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -122,19 +122,20 @@ private:
     void build_tree();
     double cost() const;
 
-    bool visit_overlapping_below(std::size_t level, std::size_t first, const Aabb<D>& box, ItemCall visit) const;
+    bool visit_overlapping_below(std::size_t level, std::size_t first, const Aabb<D>& box,
+                                 detail::ItemCall visit) const;
     template <class Reach>
-    void visit_within_below(std::size_t level, std::size_t first, Reach& reach, ReachCall visit) const;
+    void visit_within_below(std::size_t level, std::size_t first, Reach& reach, detail::ReachCall visit) const;
     template <class Reach>
-    void visit_within(Reach reach, ReachCall visit) const;
+    void visit_within(Reach reach, detail::ReachCall visit) const;
 
-    void visit_pairs(PairsCall visit, Executor* executor) const;
-    void visit_pairs(const SweepAndPrune& other, PairsCall visit) const;
-    void visit_boxes(BoxCall<D> visit) const;
-    void visit_overlapping(const Aabb<D>& box, ItemCall visit) const;
-    void visit_along(const Ray<D>& ray, ReachCall visit) const;
-    void visit_along(const MovingBox<D>& box, ReachCall visit) const;
-    void visit_near(const Aabb<D>& box, float reach, ReachCall visit) const;
+    void visit_pairs(detail::PairsCall visit, Executor* executor) const;
+    void visit_pairs(const SweepAndPrune& other, detail::PairsCall visit) const;
+    void visit_boxes(detail::BoxCall<D> visit) const;
+    void visit_overlapping(const Aabb<D>& box, detail::ItemCall visit) const;
+    void visit_along(const Ray<D>& ray, detail::ReachCall visit) const;
+    void visit_along(const MovingBox<D>& box, detail::ReachCall visit) const;
+    void visit_near(const Aabb<D>& box, float reach, detail::ReachCall visit) const;
 
     std::size_t size_ = 0;
     detail::SweepPlan<D> plan_;

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 
 /// The path of a moving box through `bounds`, in pieces of equal length. The box around a long diagonal path is huge;
 /// the boxes around its pieces are small.
@@ -84,4 +84,4 @@ private:
     int count_ = 0;
 };
 
-}  // namespace abut
+}  // namespace abut::detail

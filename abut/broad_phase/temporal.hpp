@@ -56,11 +56,11 @@ public:
     void jumped(std::uint32_t item) { core_.jumped(item); }
 
     /// Every pair of boxes that overlapped at the last update, once, with i < j; see BroadPhase.
-    template <Visitor<std::uint32_t, std::uint32_t> F>
+    template <detail::Visitor<std::uint32_t, std::uint32_t> F>
     void each_pair(F&& visit, Executor* executor = nullptr) const {
-        core_.visit_pairs(batch_visitor(visit), executor);
+        core_.visit_pairs(detail::batch_visitor(visit), executor);
     }
-    void sorted_pairs(std::vector<ItemPair>& out) const {
+    void sorted_pairs(std::vector<detail::ItemPair>& out) const {
         out.clear();
         each_pair([&](std::uint32_t i, std::uint32_t j) { out.emplace_back(i, j); });
         std::sort(out.begin(), out.end());

@@ -12,7 +12,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace abut {
+namespace abut::detail {
 
 /// A callable that receives pairs or items: `visit(i, j)` or `visit(i)`. It returns nothing (continue) or bool (false
 /// stops).
@@ -82,4 +82,4 @@ auto reach_visitor(F& visit) {
     }
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -6,7 +6,7 @@
 
 #include <span>
 
-namespace abut {
+namespace abut::detail {
 
 template <int D>
 struct BoundingBall {
@@ -28,4 +28,4 @@ BoundingBall<D> ball_around(std::span<const Vec<D>> points) {
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 struct Buckets {
     std::vector<std::uint64_t> keys;  ///< of all buckets, one after the other, each sorted
@@ -40,4 +40,4 @@ Buckets in_buckets(std::size_t count, Each each) {
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -1,7 +1,7 @@
 #include <abut/convex/face.hpp>
 #include <abut/convex/farthest_point.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 template <int D>
@@ -230,4 +230,4 @@ void clip(Face<D>& face, const DVec<D>& normal, double offset, std::uint32_t pla
 template void clip(Face<2>&, const DVec<2>&, double, std::uint32_t);
 template void clip(Face<3>&, const DVec<3>&, double, std::uint32_t);
 
-}  // namespace abut
+}  // namespace abut::detail

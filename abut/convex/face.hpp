@@ -4,7 +4,7 @@
 
 #include <abut/convex/support.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// The cosine of 1.8 degrees. Within this angle a face, an edge in 2D or a flat end counts as facing a direction, and a
 /// line as orthogonal to it.
@@ -47,4 +47,4 @@ Face<3> face_along(const Convex<3>& convex, const DVec<3>& direction);
 template <int D>
 void clip(Face<D>& face, const DVec<D>& normal, double offset, std::uint32_t plane_name);
 
-}  // namespace abut
+}  // namespace abut::detail

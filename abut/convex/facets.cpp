@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace abut {
+namespace abut::detail {
 
 std::vector<FacetEdge> facet_edges(std::span<const std::uint32_t> loops, std::span<const std::uint32_t> loop_ends) {
     if (loops.empty()) return {};
@@ -33,4 +33,4 @@ std::vector<FacetEdge> facet_edges(std::span<const std::uint32_t> loops, std::sp
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

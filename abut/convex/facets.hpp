@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// An edge between two faces; the arc between their normals on the Gauss map.
 struct FacetEdge {
@@ -36,4 +36,4 @@ struct Facets {
 /// The edges of a closed surface of loops.
 std::vector<FacetEdge> facet_edges(std::span<const std::uint32_t> loops, std::span<const std::uint32_t> loop_ends);
 
-}  // namespace abut
+}  // namespace abut::detail

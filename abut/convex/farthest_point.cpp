@@ -13,7 +13,7 @@
 #include <abut/convex/farthest_simd-inl.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace abut::HWY_NAMESPACE {
+namespace abut::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -88,11 +88,11 @@ std::uint32_t farthest_of_lanes(const PointSoa& points, const DVec<3>& direction
     return farthest_lane(points, direction);
 }
 
-}  // namespace abut::HWY_NAMESPACE
+}  // namespace abut::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace abut {
+namespace abut::detail {
 
 HWY_EXPORT(farthest_in_plane);
 HWY_EXPORT(farthest_in_space);
@@ -108,5 +108,5 @@ std::uint32_t farthest_point(const PointSoa& points, const DVec<3>& direction) {
     return HWY_DYNAMIC_DISPATCH(farthest_of_lanes)(points, direction);
 }
 
-}  // namespace abut
+}  // namespace abut::detail
 #endif

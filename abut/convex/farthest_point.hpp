@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-namespace abut {
+namespace abut::detail {
 
 /// The index of the point with the largest dot product, evaluated in double as x + y (+ z); of several the lowest.
 /// There is at least one point. The evaluation uses SIMD, and the result is the same on every target.
@@ -29,4 +29,4 @@ std::uint32_t farthest_of(const Points& points, Measure measure) {
     return best;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -1,7 +1,7 @@
 #include <abut/convex/features.hpp>
 #include <abut/math/assert.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// A smaller distance, relative to the coordinates, may be rounding, and has no direction.
@@ -167,4 +167,4 @@ ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
 
-}  // namespace abut
+}  // namespace abut::detail

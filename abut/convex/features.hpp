@@ -20,7 +20,7 @@
 
 #include <span>
 
-namespace abut {
+namespace abut::detail {
 
 /// All fields are always valid: point + distance * normal is the query point, to within a billionth of the shape's
 /// size.
@@ -84,4 +84,4 @@ bool has_features(const Convex<D>& convex) {
 template <int D>
 ClosestFeature<D> closest_feature(const Convex<D>& core, const DVec<D>& point);
 
-}  // namespace abut
+}  // namespace abut::detail

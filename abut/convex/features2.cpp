@@ -4,7 +4,7 @@
 
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// A point no farther behind an edge than this, relative to the coordinates, may lie on it.
@@ -128,4 +128,4 @@ ClosestFeature<2> closest_on_polygon(std::span<const Vec2> points, const DVec<2>
                            [&](std::uint32_t i) { return relative.point(DVec<2>(points[i])); });
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// A point no farther behind a face than this may lie on it: relative to the coordinates for rounding, and relative to
@@ -232,4 +232,4 @@ ClosestFeature<3> closest_on_polyhedron(std::span<const Vec3> points, const Face
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace abut {
+namespace abut::detail {
 
 PointSoa make_soa(std::span<const Vec3> points, float* memory) {
     PointSoa lanes;
@@ -24,4 +24,4 @@ PointSoa make_soa(std::span<const Vec3> points, float* memory) {
     return lanes;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

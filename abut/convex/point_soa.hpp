@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-namespace abut {
+namespace abut::detail {
 
 /// Refers to memory owned elsewhere.
 struct PointSoa {
@@ -43,4 +43,4 @@ constexpr std::size_t padded_count(std::size_t count) {
 /// The direction has any nonzero length.
 std::uint32_t farthest_point(const PointSoa& points, const DVec<3>& direction);
 
-}  // namespace abut
+}  // namespace abut::detail

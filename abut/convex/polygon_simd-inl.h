@@ -13,7 +13,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace abut::HWY_NAMESPACE::polygon_simd {
+namespace abut::detail::HWY_NAMESPACE::polygon_simd {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -95,7 +95,7 @@ HWY_INLINE std::uint32_t lowest(const Points& points, std::size_t capacity, doub
     return first_of(heights, capacity, hn::MinOfLanes(d, lowest_height));
 }
 
-}  // namespace abut::HWY_NAMESPACE::polygon_simd
+}  // namespace abut::detail::HWY_NAMESPACE::polygon_simd
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -1,7 +1,7 @@
 #include <abut/convex/pairs/round3.hpp>
 #include <abut/convex/polygon_soa.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// Writes corners in order to SoA rows.
@@ -97,4 +97,4 @@ bool set_placed_polygon(const Convex<2>& convex, PlacedPolygon& polygon) {
     return convex.count == 3 && polygon.set_triangle(points[0], points[1], points[2]);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

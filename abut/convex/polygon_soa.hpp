@@ -8,7 +8,7 @@
 
 #include <span>
 
-namespace abut {
+namespace abut::detail {
 
 /// Polygons of more edges have no SoA, and take the general algorithms.
 inline constexpr std::uint32_t max_soa_edges = 16;
@@ -181,4 +181,4 @@ inline void PlacedPolygon::set_point(const DVec<2>& point) {
     sides.area = 0;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -1,8 +1,9 @@
 #include <abut/convex/farthest_point.hpp>
+#include <abut/convex/point_soa.hpp>
 #include <abut/convex/support.hpp>
 #include <abut/math/assert.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// From this count on SIMD is faster.
@@ -246,4 +247,4 @@ ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -8,7 +8,6 @@
 // between the cores of two touching rounded shapes is the sum of their radii.
 
 #include <abut/convex/facets.hpp>
-#include <abut/convex/point_soa.hpp>
 #include <abut/math/aabb.hpp>
 #include <abut/math/affine.hpp>
 
@@ -16,7 +15,9 @@
 #include <cstdint>
 #include <initializer_list>
 
-namespace abut {
+namespace abut::detail {
+
+struct PointSoa;
 
 /// The kinds of convex cores.
 enum class Core : std::uint8_t {
@@ -163,4 +164,4 @@ DVec<D> reference_point(const Convex<D>& convex);
 template <int D>
 double size(const Convex<D>& convex);
 
-}  // namespace abut
+}  // namespace abut::detail

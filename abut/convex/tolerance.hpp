@@ -2,7 +2,7 @@
 
 // The tolerance of answers about two parts. For .cpp files.
 
-namespace abut {
+namespace abut::detail {
 
 /// Sixteen units in the last place of a float, relative to its value: one such unit is at least 2^-24 of it.
 inline constexpr double sixteen_ulp = 16 * 0x1p-24;
@@ -12,4 +12,4 @@ inline double tolerance_for(double smaller_size, double largest_coordinate) {
     return 1e-5 * smaller_size + sixteen_ulp * largest_coordinate;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

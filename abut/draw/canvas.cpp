@@ -3,6 +3,8 @@
 
 namespace abut {
 
+using namespace detail;
+
 template <int D>
 void Canvas<D>::polygon(std::span<const Vec<D>> points, const Style& style) {
     if (!style.stroke.visible()) return;

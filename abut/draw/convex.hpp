@@ -5,7 +5,7 @@
 #include <abut/convex/support.hpp>
 #include <abut/draw/canvas.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 void draw_convex(Canvas<2>& canvas, const Convex<2>& convex, const Style& style);
 void draw_convex(Canvas<3>& canvas, const Convex<3>& convex, const Style& style);
@@ -29,4 +29,4 @@ inline Style fill_only(Style style) {
     return style;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

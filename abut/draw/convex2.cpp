@@ -1,7 +1,7 @@
 #include <abut/draw/convex.hpp>
 #include <abut/draw/outline.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 void draw_convex(Canvas<2>& canvas, const Convex<2>& convex, const Style& style) {
     if (is_ball(convex)) return draw_ball(canvas, convex, style);
@@ -14,4 +14,4 @@ void draw_convex(Canvas<2>& canvas, const Convex<2>& convex, const Style& style)
         canvas.polygon(points, style);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 // --- lines of polytopes ---
@@ -163,4 +163,4 @@ void draw_convex(Canvas<3>& canvas, const Convex<3>& convex, const Style& style)
         draw_outlines(canvas, convex, style);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// Cells along the longest side.
@@ -130,4 +130,4 @@ void draw_function(Canvas<D>& canvas, const DistanceFunction<D>& function, const
 template void draw_function(Canvas<2>&, const DistanceFunction<2>&, const Style&);
 template void draw_function(Canvas<3>&, const DistanceFunction<3>&, const Style&);
 
-}  // namespace abut
+}  // namespace abut::detail

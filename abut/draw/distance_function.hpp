@@ -5,9 +5,9 @@
 #include <abut/draw/canvas.hpp>
 #include <abut/shape/view/distance_function.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 template <int D>
 void draw_function(Canvas<D>& canvas, const DistanceFunction<D>& function, const Style& style);
 
-}  // namespace abut
+}  // namespace abut::detail

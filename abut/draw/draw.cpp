@@ -9,6 +9,9 @@
 #include <vector>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// The diagonal of the visible box.

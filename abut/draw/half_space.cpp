@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// A point of the border near the box's center, and the largest distance of the border from it within the box.
@@ -67,4 +67,4 @@ void draw_half_space(Canvas<3>& canvas, const HalfSpaceView<3>& solid, const Sty
     if (border.size() > 2) canvas.polygon(border, style);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -5,9 +5,9 @@
 #include <abut/draw/canvas.hpp>
 #include <abut/shape/half_space.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 void draw_half_space(Canvas<2>& canvas, const HalfSpaceView<2>& solid, const Style& style);
 void draw_half_space(Canvas<3>& canvas, const HalfSpaceView<3>& solid, const Style& style);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -14,7 +14,7 @@
 #include <array>
 #include <utility>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// Relative to the set's size. A circle becomes 64 points.
@@ -95,4 +95,4 @@ std::vector<Vec2> outline(const Convex<2>& convex) {
 template std::vector<Vec2> outline(const Convex<2>&, const OutlinePlane<2>&);
 template std::vector<Vec3> outline(const Convex<3>&, const OutlinePlane<3>&);
 
-}  // namespace abut
+}  // namespace abut::detail

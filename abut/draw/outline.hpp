@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// The directions whose support points make the outline: cos * x + sin * y + tilt. The tilt makes all of them choose
 /// the same end of a shape with two, such as a cylinder along it.
@@ -25,4 +25,4 @@ std::vector<Vec<D>> outline(const Convex<D>& convex, const OutlinePlane<D>& plan
 /// The outline in the plane.
 std::vector<Vec2> outline(const Convex<2>& convex);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 void add_face(PlacedFaces& result, const Convex<3>& convex, const DVec<3>& normal, std::vector<std::uint32_t> corners) {
@@ -62,4 +62,4 @@ PlacedFaces placed_faces(const Convex<3>& convex) {
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// In world coordinates, without the set's radius.
 struct PlacedFaces {
@@ -21,4 +21,4 @@ struct PlacedFaces {
 /// The faces of a box, a triangle (two faces, back to back) or a polyhedron; other sets have none.
 PlacedFaces placed_faces(const Convex<3>& convex);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -5,6 +5,8 @@
 
 namespace abut {
 
+using namespace detail;
+
 Projected::Projected(Canvas<2>& flat, const Aabb3& shown, const Vec3& towards_eye, const Vec3& up)
     : flat_(flat), shown_(shown) {
     const DVec<3> back = normalized(DVec<3>(towards_eye), axis<3>(2));

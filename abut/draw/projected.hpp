@@ -26,7 +26,7 @@ public:
 private:
     Canvas<2>& flat_;
     Aabb3 shown_;
-    DVec<3> right_, up_;
+    detail::DVec<3> right_, up_;
 };
 
 }  // namespace abut

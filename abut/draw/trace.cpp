@@ -7,6 +7,9 @@
 #include <string>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// The opacity of the first step, relative to that of the last.

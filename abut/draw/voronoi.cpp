@@ -7,6 +7,9 @@
 #include <vector>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 // --- 2D ---

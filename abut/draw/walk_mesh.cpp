@@ -6,6 +6,9 @@
 #include <vector>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 constexpr std::size_t walk_segments = 64;

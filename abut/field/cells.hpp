@@ -5,7 +5,7 @@
 #include <abut/field/look_up/stencil.hpp>
 #include <abut/math/dvec.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 template <int D>
 using Cell = glm::vec<D, std::int32_t>;
@@ -150,4 +150,4 @@ CellValues<D> values_around(const FieldData<D>& data, const DVec<D>& place) {
     return values_in(data, grid_of(data, cell), cell);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 constexpr std::size_t no_item = std::numeric_limits<std::size_t>::max();
@@ -126,4 +126,4 @@ template std::optional<Problem> fault_of(const FieldData<3>&);
 template std::optional<Problem> fault_of_numbers(const FieldData<2>&);
 template std::optional<Problem> fault_of_numbers(const FieldData<3>&);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -7,7 +7,7 @@
 
 #include <optional>
 
-namespace abut {
+namespace abut::detail {
 
 /// Maximum number of cells along an axis: floats represent every integer up to it.
 inline constexpr std::uint32_t max_cells = 1u << 24;
@@ -32,4 +32,4 @@ std::optional<Problem> fault_of(const FieldData<D>& data);
 template <int D>
 std::optional<Problem> fault_of_numbers(const FieldData<D>& data);
 
-}  // namespace abut
+}  // namespace abut::detail

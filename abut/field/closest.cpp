@@ -12,6 +12,9 @@
 #include <limits>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// Descends along the gradient until the surface is nearly reached. Returns the place of least distance on the path.

@@ -25,6 +25,10 @@ enum class FieldLookup : std::uint8_t {
     gradient,
 };
 
+}  // namespace abut
+
+namespace abut::detail {
+
 /// Cells of a brick along each axis.
 template <int D>
 inline constexpr std::uint32_t brick_cells = D == 2 ? 8 : 4;
@@ -90,4 +94,4 @@ struct FieldData {
     std::size_t samples() const { return steps.empty() ? distance.size() : steps.size(); }
 };
 
-}  // namespace abut
+}  // namespace abut::detail

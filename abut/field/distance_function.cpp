@@ -8,6 +8,9 @@
 #include <optional>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// The first root region in (0, 1] of a cubic given at 0, 1/3, 2/3 and 1: the first place where it is at most 0.

@@ -10,6 +10,9 @@
 #include <utility>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// The strides of a grid whose first axis is the fastest.

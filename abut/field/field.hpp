@@ -23,7 +23,7 @@ template <int D>
 class Field {
 public:
     /// For bakers and loaders, not for users. `data` must be consistent.
-    explicit Field(FieldData<D> data);
+    explicit Field(detail::FieldData<D> data);
 
     /// The signed distance, interpolated within the volume. Outside the volume it is a lower bound of the distance to
     /// the surface in the volume. A solid that the volume cuts ends at its border. Infinite if a coordinate isn't
@@ -70,10 +70,10 @@ public:
     /// The memory of the samples.
     std::size_t bytes() const;
 
-    const FieldData<D>& data() const { return *data_; }  ///< not for users
+    const detail::FieldData<D>& data() const { return *data_; }  ///< not for users
 
 private:
-    std::shared_ptr<const FieldData<D>> data_;
+    std::shared_ptr<const detail::FieldData<D>> data_;
 };
 
 using Field2 = Field<2>;

@@ -3,7 +3,7 @@
 
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// A box with more samples is to be cut first.
@@ -535,4 +535,4 @@ ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
 
-}  // namespace abut
+}  // namespace abut::detail

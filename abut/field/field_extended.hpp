@@ -14,7 +14,7 @@
 #include <abut/field/data.hpp>
 #include <abut/shape/view/distance_function.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// The distance at any point of the field's own frame, and how it grows there along each axis.
 template <int D>
@@ -35,4 +35,4 @@ float extended_slope(const FieldData<D>& data);
 template <int D>
 bool holds_surface(const FieldData<D>& data);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -50,8 +50,8 @@ Problem problem(const char* message, ProblemCode code = ProblemCode::bad_format)
 
 template <int D>
 std::vector<std::byte> save(const Field<D>& field) {
-    const FieldData<D>& data = field.data();
-    BlobWriter writer;
+    const detail::FieldData<D>& data = field.data();
+    detail::BlobWriter writer;
     writer.bytes.reserve(256 + field.bytes());
     for (const char c : magic) writer.number(c);
     writer.number(version);
@@ -65,7 +65,7 @@ std::vector<std::byte> save(const Field<D>& field) {
 
 template <int D>
 Result<Field<D>> load_field(std::span<const std::byte> bytes) {
-    BlobReader reader(bytes);
+    detail::BlobReader reader(bytes);
     std::array<char, 8> start{};
     for (char& c : start)
         if (!reader.number(c)) return problem("this is not a field: its signature is truncated");
@@ -79,7 +79,7 @@ Result<Field<D>> load_field(std::span<const std::byte> bytes) {
     if (reader.left() < sizeof(std::uint64_t)) return problem("the field is truncated");
     if (!reader.checksum(bytes)) return problem("the field is damaged: its checksum is wrong");
 
-    FieldData<D> data;
+    detail::FieldData<D> data;
     bool complete = true;
     each_number(data, [&](auto& value) { complete = complete && reader.number(value); });
     std::array<std::uint64_t, 6> counts{};
@@ -92,7 +92,7 @@ Result<Field<D>> load_field(std::span<const std::byte> bytes) {
 
     if (data.store > FieldStore::sparse || data.lookup > FieldLookup::gradient)
         return problem("the field is of an unknown kind");
-    if (!std::isfinite(data.cell) || !std::isfinite(data.step) || !is_finite<D>(data.origin))
+    if (!std::isfinite(data.cell) || !std::isfinite(data.step) || !detail::is_finite<D>(data.origin))
         return problem("a number of the field is NaN or infinite", ProblemCode::not_finite);
     if (data.steps.empty() && std::bit_cast<std::uint32_t>(data.step) != 0)
         return problem("the field has a step and no steps");
@@ -101,7 +101,7 @@ Result<Field<D>> load_field(std::span<const std::byte> bytes) {
 }
 
 int field_dimension(std::span<const std::byte> bytes) {
-    BlobReader reader(bytes);
+    detail::BlobReader reader(bytes);
     std::array<char, 8> start{};
     for (char& c : start)
         if (!reader.number(c)) return 0;

@@ -5,7 +5,7 @@
 #include <bit>
 #include <cstdint>
 
-namespace abut {
+namespace abut::detail {
 
 /// Rounds to nearest, ties to even; too large values become infinite. The value is not NaN.
 inline std::uint16_t half_of(float value) {
@@ -35,4 +35,4 @@ inline float float_of(std::uint16_t half) {
     return std::bit_cast<float>(std::bit_cast<std::uint32_t>(magnitude) | sign);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

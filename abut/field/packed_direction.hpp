@@ -9,9 +9,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace abut {
-
-namespace detail {
+namespace abut::detail {
 
 inline std::uint16_t packed_once(const Vec2& v) {
     const float along = v.x / (std::abs(v.x) + std::abs(v.y));
@@ -31,8 +29,6 @@ inline std::uint16_t packed_once(const Vec3& v) {
     };
     return static_cast<std::uint16_t>(steps(x) | steps(y) << 8);
 }
-
-}  // namespace detail
 
 template <int D>
 Vec<D> unpacked(std::uint16_t bits);
@@ -59,10 +55,10 @@ inline Vec3 unpacked<3>(std::uint16_t bits) {
 
 /// Packs a nonzero vector. The encoding is canonical: packing an unpacked vector gives the same bits.
 inline std::uint16_t packed(const Vec2& v) {
-    return detail::packed_once(unpacked<2>(detail::packed_once(v)));
+    return packed_once(unpacked<2>(packed_once(v)));
 }
 inline std::uint16_t packed(const Vec3& v) {
-    return detail::packed_once(unpacked<3>(detail::packed_once(v)));
+    return packed_once(unpacked<3>(packed_once(v)));
 }
 
-}  // namespace abut
+}  // namespace abut::detail

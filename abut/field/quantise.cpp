@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 
 template <int D>
 void quantise(FieldData<D>& data) {
@@ -28,4 +28,4 @@ void quantise(FieldData<D>& data) {
 template void quantise(FieldData<2>&);
 template void quantise(FieldData<3>&);
 
-}  // namespace abut
+}  // namespace abut::detail

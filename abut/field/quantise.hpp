@@ -4,7 +4,7 @@
 
 #include <abut/field/data.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// Quantises the distances of the samples to 16 bits, with a step of a 32767th of the largest. The error is at most
 /// half a step. In a sparse field it is negligible, because its samples are near the surface; in a dense field with
@@ -13,4 +13,4 @@ namespace abut {
 template <int D>
 void quantise(FieldData<D>& data);
 
-}  // namespace abut
+}  // namespace abut::detail

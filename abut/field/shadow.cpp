@@ -13,6 +13,8 @@
 namespace abut {
 namespace {
 
+using detail::is_finite;
+
 /// Number of points per batch.
 constexpr std::size_t batch_size = 64;
 
@@ -23,7 +25,7 @@ std::array<Vec<D>, occlusion_samples> places_along(const Vec<D>& point, const Ve
     std::array<Vec<D>, occlusion_samples> result;
     for (std::size_t i = 0; i < occlusion_samples; ++i) {
         const double height = static_cast<double>(reach) * static_cast<double>(i + 1) / occlusion_samples;
-        result[i] = Vec<D>(DVec<D>(point) + height * DVec<D>(normal));
+        result[i] = Vec<D>(detail::DVec<D>(point) + height * detail::DVec<D>(normal));
     }
     return result;
 }
@@ -45,7 +47,7 @@ float occlusion_of(const float* distances, float reach) {
 template <int D>
 float Field<D>::shadow(const Vec<D>& point, const Vec<D>& light, float softness) const {
     ABUT_ASSERT(is_finite<D>(point) && is_finite<D>(light) && softness >= 0);
-    ShadowRay<D> ray(*data_, point, light);
+    detail::ShadowRay<D> ray(*data_, point, light);
     while (ray.is_running()) ray.advance(distance(ray.place()));
     return ray.light(softness);
 }
@@ -53,14 +55,14 @@ float Field<D>::shadow(const Vec<D>& point, const Vec<D>& light, float softness)
 template <int D>
 void Field<D>::shadow(std::span<const Vec<D>> points, const Vec<D>& light, float softness, std::span<float> out) const {
     ABUT_ASSERT(points.size() == out.size() && is_finite<D>(light) && softness >= 0);
-    std::array<ShadowRay<D>, batch_size> rays;
+    std::array<detail::ShadowRay<D>, batch_size> rays;
     std::array<std::uint32_t, batch_size> of;  // the point of each ray
     std::array<Vec<D>, batch_size> places;
     std::array<float, batch_size> found;
     std::size_t next = 0, active = 0;
     while (next < points.size() || active > 0) {
         for (; active < batch_size && next < points.size(); ++next, ++active) {
-            rays[active] = ShadowRay<D>(*data_, points[next], light);
+            rays[active] = detail::ShadowRay<D>(*data_, points[next], light);
             of[active] = static_cast<std::uint32_t>(next);
         }
         for (std::size_t i = 0; i < active; ++i) places[i] = rays[i].place();

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace abut {
+namespace abut::detail {
 
 /// The slope of the narrowest cone around the ray that touches an obstacle: the minimum of clearance / distance along
 /// the ray. It is computed from clearances at increasing distances. All slopes are stored squared.
@@ -134,4 +134,4 @@ private:
     bool dark_ = false;
 };
 
-}  // namespace abut
+}  // namespace abut::detail

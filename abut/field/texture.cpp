@@ -23,7 +23,7 @@ void append(std::vector<std::byte>& bytes, T value) {
 
 template <int D>
 glm::vec<D, std::uint32_t> texels_along(const Field<D>& field, double cell) {
-    const FieldData<D>& data = field.data();
+    const detail::FieldData<D>& data = field.data();
     glm::vec<D, std::uint32_t> result;
     for (int i = 0; i < D; ++i) {
         // A partial last cell is rounded up, except for rounding errors.
@@ -40,9 +40,9 @@ std::vector<float> distances(const Field<D>& field, const glm::vec<D, std::uint3
     if constexpr (D == 3) rows *= size[2];
     std::vector<float> result(size[0] * rows);
     std::vector<Vec<D>> row(size[0]);
-    const DVec<D> origin(field.data().origin);
+    const detail::DVec<D> origin(field.data().origin);
     for (std::size_t r = 0; r < rows; ++r) {
-        DVec<D> at(0.0);
+        detail::DVec<D> at(0.0);
         at[1] = static_cast<double>(r % size[1]);
         if constexpr (D == 3) at[2] = static_cast<double>(r / size[1]);
         for (std::size_t i = 0; i < row.size(); ++i) {
@@ -107,7 +107,7 @@ Result<FieldTexture<D>> to_texture(const Field<D>& field, const TextureOptions& 
             exponent = std::clamp(exponent, -100, 100);
             texture.scale = static_cast<float>(std::ldexp(1.0, exponent));
             texture.error = static_cast<float>(std::max(largest / 2048, std::ldexp(1.0, exponent - 25)));
-            for (const float value : values) append(texture.bytes, half_of(value / texture.scale));
+            for (const float value : values) append(texture.bytes, detail::half_of(value / texture.scale));
             break;
         }
         case TextureFormat::r32f:
@@ -126,7 +126,7 @@ float texel_distance(const FieldTexture<D>& texture, std::size_t texel) {
     } else if (texture.format == TextureFormat::r16f) {
         std::uint16_t half = 0;
         std::memcpy(&half, from + 2 * texel, sizeof half);
-        value = float_of(half);
+        value = detail::float_of(half);
     } else {
         std::memcpy(&value, from + 4 * texel, sizeof value);
     }

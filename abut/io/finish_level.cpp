@@ -6,7 +6,7 @@
 #include <unordered_set>
 #include <utility>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 class Paths {
@@ -57,4 +57,4 @@ Result<Level> finish_level(Level level) {
     return level;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

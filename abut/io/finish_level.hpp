@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// Collects warnings: one line for each kind of thing left out, with the count and the path of the first one.
 class LeftOut {
@@ -31,4 +31,4 @@ private:
 /// without any.
 Result<Level> finish_level(Level level);
 
-}  // namespace abut
+}  // namespace abut::detail

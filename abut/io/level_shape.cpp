@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 // Relative tolerance that absorbs rounding of a right angle or of two equal lengths.
@@ -233,4 +233,4 @@ Result<PlacedShape> join_shapes(std::vector<PlacedShape> shapes) {
     return PlacedShape{*std::move(built), {}, filled};
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// A shape with its pose.
 struct PlacedShape {
@@ -52,4 +52,4 @@ Affine<2> scaling_by(const DVec<2>& by);
 /// points up.
 std::vector<DVec<2>> rounded_rectangle_points(const DVec<2>& size, const DVec<2>& radii, double tolerance);
 
-}  // namespace abut
+}  // namespace abut::detail

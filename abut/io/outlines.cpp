@@ -13,7 +13,7 @@ int winding_number(const Chain& chain, const Vec2& point) {
     Aabb2 ahead{point, point};
     ahead.max.x = std::numeric_limits<float>::infinity();
     int winding = 0;
-    each_part(chain, ahead, [&](const Convex<2>&, std::uint32_t index) {
+    each_part(chain, ahead, [&](const detail::Convex<2>&, std::uint32_t index) {
         const Segment2 s = chain.segment(index);
         const bool from_below = s.a.y <= point.y, to_below = s.b.y <= point.y;
         if (from_below && !to_below && orientation(s.a, s.b, point) > 0) ++winding;
@@ -31,11 +31,11 @@ Aabb2 bounds(const Outlines& outlines) {
     return result;
 }
 
-void each_part(const Outlines& outlines, const Aabb2& box, PartVisitor<2> visit) {
+void each_part(const Outlines& outlines, const Aabb2& box, detail::PartVisitor<2> visit) {
     std::uint32_t first = 0;
     bool continues = true;
     for (const Chain& chain : outlines.chains) {
-        each_part(chain, box, [&](const Convex<2>& part, std::uint32_t index) {
+        each_part(chain, box, [&](const detail::Convex<2>& part, std::uint32_t index) {
             continues = visit(part, first + index);
             return continues;
         });

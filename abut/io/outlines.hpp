@@ -27,7 +27,7 @@ struct Outlines {
 Aabb2 bounds(const Outlines& outlines);
 
 /// Visits the segments whose boxes overlap `box`; the visitor returns false to stop.
-void each_part(const Outlines& outlines, const Aabb2& box, PartVisitor<2> visit);
+void each_part(const Outlines& outlines, const Aabb2& box, detail::PartVisitor<2> visit);
 
 /// True if the point is inside by the fill rule. Decided exactly.
 bool solid_contains(const Outlines& outlines, const Vec2& point);

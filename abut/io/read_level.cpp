@@ -11,6 +11,9 @@
 #include <vector>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 // The parsed tree takes about ten times as much memory as the text.

@@ -28,7 +28,7 @@ std::optional<Result<Scene>> read_if_gltf(std::span<const std::byte> bytes, cons
 
 std::optional<Problem> check_format(std::span<const std::byte> bytes, const std::string& extension) {
     if (bytes.empty()) return Problem{ProblemCode::empty_input, "is empty"};
-    if (!assimp_knows(extension))
+    if (!detail::assimp_knows(extension))
         return Problem{ProblemCode::bad_format, extension.empty() ? "has no ending that names a format"
                                                                   : "'" + extension + "' is not a known scene format"};
     return std::nullopt;
@@ -36,26 +36,26 @@ std::optional<Problem> check_format(std::span<const std::byte> bytes, const std:
 
 Result<Scene> finished(Result<Scene> scene, const ReadOptions& options) {
     if (!scene) return scene;
-    return finish_scene(*std::move(scene), options);
+    return detail::finish_scene(*std::move(scene), options);
 }
 
 }  // namespace
 
 Result<Scene> read_scene(const std::filesystem::path& file, const ReadOptions& options) {
-    const Result<std::vector<std::byte>> bytes = read_file(file);
+    const Result<std::vector<std::byte>> bytes = detail::read_file(file);
     if (!bytes) return bytes.problem();
-    const std::string extension = lower_case(file.extension().string());
+    const std::string extension = detail::lower_case(file.extension().string());
     if (const std::optional<Problem> problem = check_format(*bytes, extension)) return *problem;
     const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
     std::optional<Result<Scene>> scene = read_if_gltf(*bytes, extension, folder, options);
-    return finished(scene ? *std::move(scene) : read_assimp(file, options), options);
+    return finished(scene ? *std::move(scene) : detail::read_assimp(file, options), options);
 }
 
 Result<Scene> read_scene(std::span<const std::byte> bytes, std::string_view extension, const ReadOptions& options) {
-    const std::string ending = lower_case(std::string(extension));
+    const std::string ending = detail::lower_case(std::string(extension));
     if (const std::optional<Problem> problem = check_format(bytes, ending)) return *problem;
     std::optional<Result<Scene>> scene = read_if_gltf(bytes, ending, {}, options);
-    return finished(scene ? *std::move(scene) : read_assimp(bytes, ending, options), options);
+    return finished(scene ? *std::move(scene) : detail::read_assimp(bytes, ending, options), options);
 }
 
 }  // namespace abut

@@ -41,18 +41,18 @@ std::string names_in(const Scene& scene) {
 Result<NamedWalkMesh> walk_mesh_of(const Scene& scene, std::string_view name) {
     bool is_found = name.empty();
     const auto filter = [&](std::size_t node, std::uint32_t geometry) {
-        const bool is_match = name.empty() || glob_matches(name, path(scene, node)) ||
-                              glob_matches(name, scene.nodes[node].name) ||
-                              glob_matches(name, mesh_name(scene.geometries[geometry]));
+        const bool is_match = name.empty() || detail::glob_matches(name, path(scene, node)) ||
+                              detail::glob_matches(name, scene.nodes[node].name) ||
+                              detail::glob_matches(name, mesh_name(scene.geometries[geometry]));
         is_found = is_found || is_match;
         return is_match;
     };
-    Result<PlacedMeshes> placed = placed_meshes(scene, filter);
+    Result<detail::PlacedMeshes> placed = detail::placed_meshes(scene, filter);
     if (!is_found)
         return Problem{ProblemCode::empty_input,
                        "nothing in it is named '" + std::string(name) + "'; there are " + names_in(scene)};
     if (!placed) return placed.problem();
-    const Geometry merged = merge_meshes(placed->objects, {});
+    const Geometry merged = detail::merge_meshes(placed->objects, {});
     Result<WalkMesh> mesh = WalkMesh::build(merged.points, merged.triangles, merged.normals);
     if (!mesh) return mesh.problem();
     NamedWalkMesh result{*std::move(mesh), {}, std::move(placed->warnings)};
@@ -61,7 +61,7 @@ Result<NamedWalkMesh> walk_mesh_of(const Scene& scene, std::string_view name) {
 }
 
 Result<WalkMesh> read_walk_mesh(const std::filesystem::path& file, std::string_view name) {
-    const Result<std::vector<std::byte>> bytes = read_file(file);
+    const Result<std::vector<std::byte>> bytes = detail::read_file(file);
     if (!bytes) return bytes.problem();
     if (is_walk_mesh(*bytes)) {
         if (!name.empty()) return Problem{ProblemCode::bad_argument, "a baked walk mesh has no names in it"};

@@ -91,7 +91,7 @@ struct GltfBuilder {
 };
 
 Result<GltfBuilder> build(std::span<const Geometry> meshes) {
-    if (std::optional<Problem> problem = problem_of(meshes)) return *std::move(problem);
+    if (std::optional<Problem> problem = detail::problem_of(meshes)) return *std::move(problem);
     std::size_t size = 0;
     for (const Geometry& mesh : meshes) size += 12 * (mesh.points.size() + mesh.triangles.size());
     // Leaves room for the JSON beside the buffer.
@@ -117,7 +117,8 @@ std::string to_text(const Json& json) {
 Result<std::string> write_gltf(std::span<const Geometry> meshes) {
     Result<GltfBuilder> builder = build(meshes);
     if (!builder) return builder.problem();
-    builder->json["buffers"][0]["uri"] = "data:application/octet-stream;base64," + encode_base64(builder->buffer);
+    builder->json["buffers"][0]["uri"] =
+        "data:application/octet-stream;base64," + detail::encode_base64(builder->buffer);
     return to_text(builder->json) + "\n";
 }
 

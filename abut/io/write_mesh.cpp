@@ -31,13 +31,17 @@ std::optional<Problem> write(const std::filesystem::path& file, const Result<Con
 Geometry mesh_of(const Polyhedron& polyhedron, std::string name) {
     const std::span<const Vec3> points = polyhedron.points();
     Geometry mesh{std::move(name), {points.begin(), points.end()}, {}};
-    const Facets& facets = polyhedron.facets();
+    const detail::Facets& facets = polyhedron.facets();
     for (std::size_t face = 0; face < facets.normals.size(); ++face) {
         const std::span<const std::uint32_t> loop = facets.loop(face);
         for (std::size_t i = 1; i + 1 < loop.size(); ++i) mesh.triangles.emplace_back(loop[0], loop[i], loop[i + 1]);
     }
     return mesh;
 }
+
+}  // namespace abut
+
+namespace abut::detail {
 
 std::optional<Problem> problem_of(std::span<const Geometry> meshes) {
     if (meshes.empty()) return Problem{ProblemCode::empty_input, "no meshes to write"};
@@ -56,6 +60,10 @@ std::optional<Problem> problem_of(std::span<const Geometry> meshes) {
     }
     return std::nullopt;
 }
+
+}  // namespace abut::detail
+
+namespace abut {
 
 bool can_write_meshes(const std::filesystem::path& file) {
     return format_of(file) != MeshFormat::none;

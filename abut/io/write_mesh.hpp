@@ -17,10 +17,6 @@ namespace abut {
 /// segment or a point gives a mesh without triangles, which can't be written.
 Geometry mesh_of(const Polyhedron& polyhedron, std::string name = {});
 
-/// Checks that meshes can be written. The Problem is `empty_input` for no meshes or a mesh without triangles,
-/// `not_finite` for a coordinate, and `index_out_of_range` for a triangle. Its index is that of the mesh.
-std::optional<Problem> problem_of(std::span<const Geometry> meshes);
-
 /// True if `write_meshes` supports the file's extension, in any case: .gltf, .glb or .obj.
 bool can_write_meshes(const std::filesystem::path& file);
 
@@ -30,3 +26,11 @@ bool can_write_meshes(const std::filesystem::path& file);
 std::optional<Problem> write_meshes(const std::filesystem::path& file, std::span<const Geometry> meshes);
 
 }  // namespace abut
+
+namespace abut::detail {
+
+/// Checks that meshes can be written. The Problem is `empty_input` for no meshes or a mesh without triangles,
+/// `not_finite` for a coordinate, and `index_out_of_range` for a triangle. Its index is that of the mesh.
+std::optional<Problem> problem_of(std::span<const Geometry> meshes);
+
+}  // namespace abut::detail

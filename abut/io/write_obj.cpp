@@ -26,7 +26,7 @@ std::string one_word(std::string name) {
 }  // namespace
 
 Result<std::string> write_obj(std::span<const Geometry> meshes) {
-    if (std::optional<Problem> problem = problem_of(meshes)) return *std::move(problem);
+    if (std::optional<Problem> problem = detail::problem_of(meshes)) return *std::move(problem);
     std::string text = "# obj, written by abut\n";
     std::size_t first = 1;
     for (const Geometry& mesh : meshes) {

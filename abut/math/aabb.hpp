@@ -69,8 +69,8 @@ template <int D>
 Aabb<D> grown(const Aabb<D>& box, float distance) {
     Aabb<D> result;
     for (int i = 0; i < D; ++i) {
-        result.min[i] = next_down(box.min[i] - distance);
-        result.max[i] = next_up(box.max[i] + distance);
+        result.min[i] = detail::next_down(box.min[i] - distance);
+        result.max[i] = detail::next_up(box.max[i] + distance);
     }
     return result;
 }

@@ -7,7 +7,7 @@
 
 #include <array>
 
-namespace abut {
+namespace abut::detail {
 
 /// The map p -> linear * p + offset, stored as columns: column[i] is the image of axis i.
 template <int D>
@@ -96,4 +96,4 @@ Affine<D> scaling(const Vec<D>& scale) {
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

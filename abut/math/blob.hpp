@@ -14,7 +14,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// Converts a number to or from little-endian order.
 template <class T>
@@ -136,4 +136,4 @@ private:
     std::span<const std::byte> bytes_;
 };
 
-}  // namespace abut
+}  // namespace abut::detail

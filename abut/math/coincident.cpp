@@ -3,7 +3,7 @@
 #include <bit>
 #include <cstddef>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// The hash of a position; -0 counts as 0.
@@ -33,4 +33,4 @@ std::vector<std::uint32_t> first_coincident(std::span<const Vec3> points) {
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

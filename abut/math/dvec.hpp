@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace abut {
+namespace abut::detail {
 
 inline double dot(const DVec<2>& a, const DVec<2>& b) {
     return a.x * b.x + a.y * b.y;
@@ -90,4 +90,4 @@ DVec<D> to_double(const glm::vec<D, float>& v) {
     return DVec<D>(v);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -4,7 +4,7 @@
 #include <sys/mman.h>
 #endif
 
-namespace abut {
+namespace abut::detail {
 
 void prefer_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #ifdef __linux__
@@ -13,4 +13,4 @@ void prefer_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::siz
 #endif
 }
 
-}  // namespace abut
+}  // namespace abut::detail

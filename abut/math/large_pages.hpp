@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <new>
 
-namespace abut {
+namespace abut::detail {
 
 inline constexpr std::size_t large_page = std::size_t{1} << 21;
 
@@ -39,4 +39,4 @@ private:
     }
 };
 
-}  // namespace abut
+}  // namespace abut::detail

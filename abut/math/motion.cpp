@@ -4,7 +4,8 @@
 
 #include <glm/ext/quaternion_double.hpp>
 
-namespace abut {
+namespace abut::detail {
+
 namespace {
 
 /// The angle of the shortest rotation from `from` to `to`.
@@ -64,6 +65,12 @@ Affine<D> place_at(const RigidPath<D>& path, double time) {
 }
 template Affine<2> place_at(const RigidPath<2>&, double);
 template Affine<3> place_at(const RigidPath<3>&, double);
+
+}  // namespace abut::detail
+
+namespace abut {
+
+using namespace detail;
 
 template <int D>
 Motion<D> Motion<D>::between(const Pose<D>& from, const Pose<D>& to) {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 
 /// The smallest float above x; infinity and NaN are unchanged.
 inline float next_up(float x) {
@@ -21,4 +21,4 @@ inline float next_down(float x) {
     return -next_up(-x);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 
 /// Stands in a table of indices where there is none.
 inline constexpr std::uint32_t no_index = std::numeric_limits<std::uint32_t>::max();
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -5,7 +5,26 @@
 
 #include <glm/ext/quaternion_double.hpp>
 
+namespace abut::detail {
+
+Affine<2> affine(const Pose2& pose) {
+    Affine<2> result;
+    set_affine(result, pose);
+    return result;
+}
+
+Affine<3> affine(const Pose3& pose) {
+    Affine<3> result;
+    set_affine(result, pose);
+    return result;
+}
+
+}  // namespace abut::detail
+
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 glm::dquat unit(const glm::quat& q) {
@@ -31,18 +50,6 @@ glm::quat turn_about(const Vec3& axis, float radians) {
     const SinCos s = sin_cos(0.5 * static_cast<double>(radians));
     const DVec<3> v = normalized(DVec<3>(axis), DVec<3>(0.0)) * s.sin;
     return glm::quat(glm::dquat(s.cos, v.x, v.y, v.z));
-}
-
-Affine<2> affine(const Pose2& pose) {
-    Affine<2> result;
-    set_affine(result, pose);
-    return result;
-}
-
-Affine<3> affine(const Pose3& pose) {
-    Affine<3> result;
-    set_affine(result, pose);
-    return result;
 }
 
 Vec2 rotate(const Turn& rotation, const Vec2& v) {

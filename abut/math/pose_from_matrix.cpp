@@ -9,6 +9,9 @@
 #include <glm/ext/quaternion_double.hpp>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// Tolerance of a rotation's axis lengths and of the cosines between axes.

@@ -12,6 +12,8 @@
 namespace abut {
 namespace {
 
+using detail::DVec;
+
 int sign(double value) {
     return value > 0 ? 1 : value < 0 ? -1 : 0;
 }
@@ -121,25 +123,6 @@ int orientation(const Vec2& a, const Vec2& b, const Vec2& c) {
     return exact_orientation(DVec<2>(a), DVec<2>(b), DVec<2>(c));
 }
 
-int turn_towards(const Vec2& a, const Vec2& b, const DVec<2>& c) {
-    const DVec<2> from(a), to(b), p = to - from, q = c - from;
-    const double left = p.x * q.y, right = p.y * q.x, turn = left - right;
-    if (std::abs(turn) >= 0x1p-50 * (std::abs(left) + std::abs(right))) return sign(turn);  // as above
-    Expansion sum;
-    const auto add_product = [&](double factor, double number) {
-        const Sum product = two_product(factor, number);
-        sum.add(product.error);
-        sum.add(product.rounded);
-    };
-    sum.add(from.x * to.y);
-    sum.add(-from.y * to.x);
-    add_product(to.x, c.y);
-    add_product(-to.y, c.x);
-    add_product(-from.x, c.y);
-    add_product(from.y, c.x);
-    return sum.sign();
-}
-
 int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     const DVec<3> p = DVec<3>(b) - DVec<3>(a), q = DVec<3>(c) - DVec<3>(a), r = DVec<3>(d) - DVec<3>(a);
     double volume = 0, magnitude = 0;
@@ -171,6 +154,29 @@ bool in_plane(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) {
     return orientation(a, b, c, p) == 0;
 }
 
+}  // namespace abut
+
+namespace abut::detail {
+
+int turn_towards(const Vec2& a, const Vec2& b, const DVec<2>& c) {
+    const DVec<2> from(a), to(b), p = to - from, q = c - from;
+    const double left = p.x * q.y, right = p.y * q.x, turn = left - right;
+    if (std::abs(turn) >= 0x1p-50 * (std::abs(left) + std::abs(right))) return sign(turn);  // as above
+    Expansion sum;
+    const auto add_product = [&](double factor, double number) {
+        const Sum product = two_product(factor, number);
+        sum.add(product.error);
+        sum.add(product.rounded);
+    };
+    sum.add(from.x * to.y);
+    sum.add(-from.y * to.x);
+    add_product(to.x, c.y);
+    add_product(-to.y, c.x);
+    add_product(-from.x, c.y);
+    add_product(from.y, c.x);
+    return sum.sign();
+}
+
 int sign_of_sum(double a, double b, double c) {
     // a + b is off by at most half an ulp. If c nearly cancels it, the next sum is exact and not smaller than that; the
     // rounding error decides only if the sum is 0.
@@ -179,4 +185,4 @@ int sign_of_sum(double a, double b, double c) {
     return sign(three != 0 ? three : two.error);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

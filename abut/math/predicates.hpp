@@ -15,9 +15,6 @@ int orientation(const Vec2& a, const Vec2& b, const Vec2& c);
 /// a)), -1 if it is clockwise, 0 if the points are coplanar.
 int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
-/// The orientation of triangle abc with c in double: each coordinate is 0 or from 2^-300 to 2^300 in magnitude.
-int turn_towards(const Vec2& a, const Vec2& b, const DVec<2>& c);
-
 /// True if p lies on the line through a and b, also beyond them; always true if a == b.
 bool on_line(const Vec2& a, const Vec2& b, const Vec2& p);
 bool on_line(const Vec3& a, const Vec3& b, const Vec3& p);
@@ -25,7 +22,14 @@ bool on_line(const Vec3& a, const Vec3& b, const Vec3& p);
 /// True if p lies in the plane through a, b and c; always true if these are collinear.
 bool in_plane(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p);
 
+}  // namespace abut
+
+namespace abut::detail {
+
+/// The orientation of triangle abc with c in double: each coordinate is 0 or from 2^-300 to 2^300 in magnitude.
+int turn_towards(const Vec2& a, const Vec2& b, const DVec<2>& c);
+
 /// The sign of a + b + c: -1, 0 or 1. The numbers and their sums are finite.
 int sign_of_sum(double a, double b, double c);
 
-}  // namespace abut
+}  // namespace abut::detail

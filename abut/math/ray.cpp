@@ -3,6 +3,8 @@
 
 namespace abut {
 
+using namespace detail;
+
 template <int D>
 Ray<D> Ray<D>::between(const Vec<D>& a, const Vec<D>& b) {
     const DVec<D> offset = DVec<D>(b) - DVec<D>(a);

@@ -27,9 +27,9 @@ using Ray3 = Ray<3>;
 /// direction * length`; the direction may have any length.
 template <int D>
 struct MovingBox {
-    DVec<D> center{0.0};
-    DVec<D> half{0.0};
-    DVec<D> direction{0.0};
+    detail::DVec<D> center{0.0};
+    detail::DVec<D> half{0.0};
+    detail::DVec<D> direction{0.0};
     double length = 0;
 };
 

@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace abut {
+namespace abut::detail {
 
 /// Angular velocity in radians per unit of time (the whole motion); in 3D along the axis.
 template <int D>
@@ -109,4 +109,4 @@ RigidPath<3> rigid_path(const Pose3& from, const Pose3& to);
 template <int D>
 Affine<D> place_at(const RigidPath<D>& path, double time);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -4,7 +4,7 @@
 
 #include <abut/math/affine.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 inline DVec<2> unit(const Turn& turn) {
     return unit(DVec<2>(turn.cos, turn.sin));
@@ -40,4 +40,4 @@ template <int D>
     return place.point(point);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace abut {
+namespace abut::detail {
 
 struct SinCos {
     double sin, cos;
@@ -63,4 +63,4 @@ inline double angle_of(double cosine, double sine) {
     return sine < 0 ? -angle : angle;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// Disjoint sets of 0..n-1; each element starts as a set of its own.
 class UnionFind {
@@ -41,4 +41,4 @@ private:
     std::vector<std::size_t> parent_;
 };
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -19,16 +19,20 @@ using Vec = glm::vec<D, float>;
 using Vec2 = Vec<2>;
 using Vec3 = Vec<3>;
 
-/// A double vector, for internal arithmetic.
-template <int D>
-using DVec = glm::vec<D, double>;
-
 // glm's configuration macros change the layout or type of its vectors, which would break the binary interface of the
 // library.
 static_assert(sizeof(Vec2) == 2 * sizeof(float) && sizeof(Vec3) == 3 * sizeof(float) && alignof(Vec3) == alignof(float),
               "abut needs glm's packed vectors: build without GLM_FORCE_DEFAULT_ALIGNED_GENTYPES");
 static_assert(std::is_same_v<glm::length_t, int>,
               "abut needs glm's lengths to be int: build without GLM_FORCE_SIZE_T_LENGTH");
+
+}  // namespace abut
+
+namespace abut::detail {
+
+/// A double vector, for internal arithmetic.
+template <int D>
+using DVec = glm::vec<D, double>;
 
 template <int D>
 bool is_finite(const Vec<D>& v) {
@@ -37,4 +41,4 @@ bool is_finite(const Vec<D>& v) {
     return true;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

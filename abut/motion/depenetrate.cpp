@@ -1,7 +1,7 @@
 #include <abut/motion/depenetrate.hpp>
 #include <abut/motion/push/shortest_push.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 template <int D>
 Depenetration<D> depenetrate_convex(const Convex<D>& shape, const World<D>& world, const Filter& filter) {
@@ -9,7 +9,7 @@ Depenetration<D> depenetrate_convex(const Convex<D>& shape, const World<D>& worl
     const bool finite = is_finite(shape);
     ABUT_ASSERT(finite);
     if (!finite) return result;
-    const double touching = 1e-5 * abut::size(shape);
+    const double touching = 1e-5 * detail::size(shape);
     const ShortestPush<D> found = shortest_push(shape, world, filter, 10 * touching);
     result.push = to_float(found.push);
     result.depth = found.found || found.depth <= touching ? 0 : static_cast<float>(found.depth);
@@ -19,4 +19,4 @@ Depenetration<D> depenetrate_convex(const Convex<D>& shape, const World<D>& worl
 template Depenetration<2> depenetrate_convex(const Convex<2>&, const World<2>&, const Filter&);
 template Depenetration<3> depenetrate_convex(const Convex<3>&, const World<3>&, const Filter&);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -15,8 +15,16 @@ struct Depenetration {
     explicit operator bool() const { return depth == 0; }
 };
 
+}  // namespace abut
+
+namespace abut::detail {
+
 template <int D>
 Depenetration<D> depenetrate_convex(const Convex<D>& shape, const World<D>& world, const Filter& filter);
+
+}  // namespace abut::detail
+
+namespace abut {
 
 /// Finds a short push that separates a convex shape from everything it overlaps. It searches along lines: out of each
 /// part, out of all parts at once, and in evenly spread directions. From each free point it slides back towards the
@@ -29,7 +37,7 @@ Depenetration<D> depenetrate_convex(const Convex<D>& shape, const World<D>& worl
 template <Shape S>
 requires(detail::is_convex_view<detail::ViewOf<S>>) Depenetration<dimension<S>> depenetrate(
     const S& shape, const World<dimension<S>>& world, const Filter& filter = {}) {
-    return depenetrate_convex<dimension<S>>(view(shape), world, filter);
+    return detail::depenetrate_convex<dimension<S>>(view(shape), world, filter);
 }
 
 }  // namespace abut

@@ -8,6 +8,9 @@
 #include <tuple>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// A raycast that starts nearer to a thin part than this, relative to its size, may count as leaving it. The true

@@ -2,6 +2,9 @@
 #include <abut/motion/mover/move_and_slide.hpp>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 template <int D>

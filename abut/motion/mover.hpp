@@ -106,8 +106,8 @@ public:
 private:
     struct Memory;
 
-    Moved<D> move_convex(const World<D>& world, const Convex<D>& shape, const Vec<D>& position, const Vec<D>& motion,
-                         const MoverPasses<D>* passes);
+    Moved<D> move_convex(const World<D>& world, const detail::Convex<D>& shape, const Vec<D>& position,
+                         const Vec<D>& motion, const MoverPasses<D>* passes);
 
     MoverOptions<D> options_;
     std::unique_ptr<Memory> memory_;

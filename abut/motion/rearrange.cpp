@@ -7,6 +7,9 @@
 #include <numeric>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// Plans the moves and updates the arrangement.

@@ -46,19 +46,19 @@ private:
 /// along `away`; then the axes are tried. If all fail, `stuck` holds the shapes that block one another along `away`.
 /// Lists of different lengths, NaN and infinity trip ABUT_ASSERT, and all shapes are stuck.
 template <int D>
-Rearrangement<D> rearrange(std::span<const Convex<D>> shapes, std::span<const Pose<D>> from,
+Rearrangement<D> rearrange(std::span<const detail::Convex<D>> shapes, std::span<const Pose<D>> from,
                            std::span<const Pose<D>> to, const RearrangeOptions<D>& options = {});
 
-template <ConvexShapes Shapes>
+template <detail::ConvexShapes Shapes>
 Rearrangement<dimension<detail::ElementOf<Shapes>>> rearrange(
     const Shapes& shapes, const std::vector<Pose<dimension<detail::ElementOf<Shapes>>>>& from,
     const std::vector<Pose<dimension<detail::ElementOf<Shapes>>>>& to,
     const RearrangeOptions<dimension<detail::ElementOf<Shapes>>>& options = {}) {
     constexpr int D = dimension<detail::ElementOf<Shapes>>;
-    std::vector<Convex<D>> views;
+    std::vector<detail::Convex<D>> views;
     for (const auto& shape : shapes) views.push_back(view(shape));
-    return rearrange(std::span<const Convex<D>>(views), std::span<const Pose<D>>(from), std::span<const Pose<D>>(to),
-                     options);
+    return rearrange(std::span<const detail::Convex<D>>(views), std::span<const Pose<D>>(from),
+                     std::span<const Pose<D>>(to), options);
 }
 
 }  // namespace abut

@@ -7,6 +7,9 @@
 #include <queue>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// An adjacency list for each shape, in one array.

@@ -34,26 +34,29 @@ struct RemovalOrder {
 /// NaN and infinity trip ABUT_ASSERT. In release such a shape blocks nothing and isn't blocked; along an invalid
 /// direction nothing is blocked.
 template <int D>
-RemovalOrder removal_order(std::span<const Convex<D>> shapes, const Vec<D>& direction);
+RemovalOrder removal_order(std::span<const detail::Convex<D>> shapes, const Vec<D>& direction);
 
-namespace detail {
+}  // namespace abut
+
+namespace abut::detail {
 
 template <class Shapes>
 using ElementOf = std::remove_cvref_t<decltype(*std::begin(std::declval<const Shapes&>()))>;
 
-}  // namespace detail
-
 /// A range of convex shapes of one type, such as a std::vector<Polygon>.
 template <class Shapes>
-concept ConvexShapes =
-    Shape<detail::ElementOf<Shapes>> && detail::is_convex_view<detail::ViewOf<detail::ElementOf<Shapes>>>;
+concept ConvexShapes = Shape<ElementOf<Shapes>> && is_convex_view<ViewOf<ElementOf<Shapes>>>;
 
-template <ConvexShapes Shapes>
+}  // namespace abut::detail
+
+namespace abut {
+
+template <detail::ConvexShapes Shapes>
 RemovalOrder removal_order(const Shapes& shapes, const Vec<dimension<detail::ElementOf<Shapes>>>& direction) {
     constexpr int D = dimension<detail::ElementOf<Shapes>>;
-    std::vector<Convex<D>> views;
+    std::vector<detail::Convex<D>> views;
     for (const auto& shape : shapes) views.push_back(view(shape));
-    return removal_order(std::span<const Convex<D>>(views), direction);
+    return removal_order(std::span<const detail::Convex<D>>(views), direction);
 }
 
 }  // namespace abut

@@ -4,6 +4,9 @@
 #include <abut/query/detail/sdf/placed_function.hpp>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// Calls visit(part) for a shape itself, or for the part of a composite shape with this number.

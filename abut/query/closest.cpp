@@ -8,6 +8,9 @@
 #include <utility>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// Calls visit(part, index) for a convex shape, half-space or distance function itself, or for the parts of a composite

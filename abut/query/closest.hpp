@@ -34,11 +34,11 @@ private:
 template <int D>
 Closest<D> closest(const View<D>& a, const View<D>& b, const QueryOptions<D>& options = {});
 template <int D>
-Closest<D> closest(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options = {});
+Closest<D> closest(const detail::Convex<D>& a, const detail::Convex<D>& b, const QueryOptions<D>& options = {});
 template <int D>
-Closest<D> closest(const ShapeRef<D>& a, const ShapeRef<D>& b, const QueryOptions<D>& options = {});
+Closest<D> closest(const detail::ShapeRef<D>& a, const detail::ShapeRef<D>& b, const QueryOptions<D>& options = {});
 template <>
-Closest<2> closest(const ShapeRef<2>& a, const ShapeRef<2>& b, const QueryOptions<2>& options);
+Closest<2> closest(const detail::ShapeRef<2>& a, const detail::ShapeRef<2>& b, const QueryOptions<2>& options);
 
 /// The signed distance of two shapes, with the closest points and the direction between them. The error is at most 1e-5
 /// x the size of the smaller shape. The depth of cylinders, cones and shapes known by a support function is a valid

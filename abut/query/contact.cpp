@@ -9,6 +9,9 @@
 #include <utility>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 template <int D>
@@ -163,6 +166,10 @@ Contact<D> contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& op
     return surface.contact ? surface.contact : deepest.contact;
 }
 
+}  // namespace abut
+
+namespace abut::detail {
+
 template <int D>
 ContactWithNeighbours<D> contact_with_neighbours(const View<D>& a, const View<D>& b,
                                                  const NeighbourSurfaces<D>& neighbours) {
@@ -185,6 +192,10 @@ ContactWithNeighbours<D> contact_with_neighbours(const View<D>& a, const View<D>
 
 template ContactWithNeighbours<2> contact_with_neighbours(const View<2>&, const View<2>&, const NeighbourSurfaces<2>&);
 template ContactWithNeighbours<3> contact_with_neighbours(const View<3>&, const View<3>&, const NeighbourSurfaces<3>&);
+}  // namespace abut::detail
+
+namespace abut {
+
 template Contact<2> contact(const View<2>&, const View<2>&, const QueryOptions<2>&);
 template Contact<3> contact(const View<3>&, const View<3>&, const QueryOptions<3>&);
 template Contact<2> contact(const Convex<2>&, const Convex<2>&, const QueryOptions<2>&);

@@ -60,11 +60,11 @@ struct Contact {
 template <int D>
 Contact<D> contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& options = {});
 template <int D>
-Contact<D> contact(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options = {});
+Contact<D> contact(const detail::Convex<D>& a, const detail::Convex<D>& b, const QueryOptions<D>& options = {});
 template <int D>
-Contact<D> contact(const ShapeRef<D>& a, const ShapeRef<D>& b, const QueryOptions<D>& options = {});
+Contact<D> contact(const detail::ShapeRef<D>& a, const detail::ShapeRef<D>& b, const QueryOptions<D>& options = {});
 template <>
-Contact<2> contact(const ShapeRef<2>& a, const ShapeRef<2>& b, const QueryOptions<2>& options);
+Contact<2> contact(const detail::ShapeRef<2>& a, const detail::ShapeRef<2>& b, const QueryOptions<2>& options);
 
 /// The contact of two touching or overlapping shapes. Composite shapes return the contact of their deepest pair of
 /// parts, or, if that lies on an internal edge, the deepest contact of each_contact. With a margin, shapes up to that

@@ -4,6 +4,8 @@
 
 namespace abut {
 
+using namespace detail;
+
 template <int D>
 bool contains(const View<D>& shape, const Vec<D>& point) {
     const Convex<D> as_shape = round_points<D>({point}, 0);

@@ -4,7 +4,7 @@
 #include <abut/query/detail/write_answer.hpp>
 #include <abut/query/each_contact.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// The limit on further passes over the parts for the next ghosts in their order. The remaining ghosts are reported in
@@ -201,4 +201,4 @@ ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -5,12 +5,16 @@
 #include <abut/broad_phase/visit.hpp>
 #include <abut/query/contact.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// The query for views; the visitor returns false to stop.
 template <int D>
 void each_contact_of(const View<D>& a, const View<D>& b, const QueryOptions<D>& options,
                      FunctionRef<bool(const Contact<D>&)> visit);
+
+}  // namespace abut::detail
+
+namespace abut {
 
 /// Calls visit(contact) for each pair of touching parts, in no promised order; visit returns nothing, or false to stop.
 /// The set of contacts doesn't depend on the numbering of the parts. With a margin, parts up to that far apart count as
@@ -20,12 +24,13 @@ void each_contact_of(const View<D>& a, const View<D>& b, const QueryOptions<D>& 
 /// only, and there are no ghost collisions. A contact on an internal edge is left out if another contact covers it, or
 /// else reported with the normal and depth of the surface and one point. Edges lower than about a thousandth of the
 /// smaller shape's size don't count.
-template <class A, class B, Visitor<Contact<dimension<A>>> F>
+template <class A, class B, detail::Visitor<Contact<dimension<A>>> F>
 requires Pair<A, B>
 void each_contact(const A& a, const B& b, F&& visit, const QueryOptions<dimension<A>>& options = {}) {
     constexpr int D = dimension<A>;
     detail::with_view(a, [&](const View<D>& x) {
-        detail::with_view(b, [&](const View<D>& y) { each_contact_of<D>(x, y, options, bool_visitor(visit)); });
+        detail::with_view(
+            b, [&](const View<D>& y) { detail::each_contact_of<D>(x, y, options, detail::bool_visitor(visit)); });
     });
 }
 template <class A, class B, class F, class Why = detail::WhyNoPair<A, B>>

@@ -65,12 +65,14 @@ double expected_cost(std::span<const TestCost> tests, std::span<const std::size_
     return run.cost;
 }
 
+}  // namespace abut
+
+namespace abut::detail {
+
 std::uint64_t steady_nanoseconds() {
     const auto since = std::chrono::steady_clock::now().time_since_epoch();
     return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(since).count());
 }
-
-namespace detail {
 
 void best_order(std::span<const double> times, std::span<const double> outcomes, std::span<std::size_t> order) {
     std::size_t before = 0;
@@ -95,5 +97,4 @@ void best_order(std::span<const double> times, std::span<const double> outcomes,
     }
 }
 
-}  // namespace detail
-}  // namespace abut
+}  // namespace abut::detail

@@ -56,17 +56,17 @@ constexpr bool worth_pretesting(double t_a, double p_a, double t_b) {
     return t_a < (1 - p_a) * t_b;
 }
 
+}  // namespace abut
+
+namespace abut::detail {
+
 /// A clock: nanoseconds since some moment, never decreasing.
 using NanosecondClock = std::uint64_t (*)();
 
 std::uint64_t steady_nanoseconds();
 
-namespace detail {
-
 /// The best order by joint outcomes: outcomes[m] counts the samples in which exactly the tests of the bits of m passed.
 void best_order(std::span<const double> times, std::span<const double> outcomes, std::span<std::size_t> order);
-
-}  // namespace detail
 
 /// The costs and pass rates of N tests, from samples: now and then all tests run on the same input, each between two
 /// readings of a clock. For callers that run the tests themselves; EarlyOut does it by itself.
@@ -159,6 +159,10 @@ private:
     std::uint32_t period_ = min_period, left_ = min_period;
 };
 
+}  // namespace abut::detail
+
+namespace abut {
+
 /// Several tests as one: true iff all pass, run in the order that refuses at the least cost.
 ///
 ///    EarlyOut seen{in_range, in_front, not_hidden};
@@ -204,7 +208,7 @@ public:
     /// Puts the tests in the best known order, if 32 samples have been made. To be called between frames, not during
     /// one.
     void reorder() {
-        if (sampled_.samples() < SampledTests<size>::enough) return;
+        if (sampled_.samples() < detail::SampledTests<size>::enough) return;
         order_ = sampled_.best_order();
         sampled_.fade();
     }
@@ -216,7 +220,7 @@ public:
     TestCost cost(std::size_t i) const { return sampled_.cost(i); }
 
     /// Replaces steady_nanoseconds by another clock, in any unit.
-    void set_clock(NanosecondClock clock) { clock_ = clock; }
+    void set_clock(detail::NanosecondClock clock) { clock_ = clock; }
 
 private:
     template <class... Arguments>
@@ -253,8 +257,8 @@ private:
 
     std::tuple<Tests...> tests_;
     std::array<std::size_t, size> order_{};
-    SampledTests<size> sampled_;
-    NanosecondClock clock_ = steady_nanoseconds;
+    detail::SampledTests<size> sampled_;
+    detail::NanosecondClock clock_ = detail::steady_nanoseconds;
 };
 
 }  // namespace abut

@@ -6,6 +6,9 @@
 #include <abut/query/overlaps.hpp>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 template <int D>

@@ -9,8 +9,10 @@
 
 namespace abut {
 
-bool intersection(const Convex<2>& a, const Convex<2>& b, Polygon& out, const QueryOptions<2>& options = {});
-bool intersection(const Convex<3>& a, const Convex<3>& b, Polyhedron& out, const QueryOptions<3>& options = {});
+bool intersection(const detail::Convex<2>& a, const detail::Convex<2>& b, Polygon& out,
+                  const QueryOptions<2>& options = {});
+bool intersection(const detail::Convex<3>& a, const detail::Convex<3>& b, Polyhedron& out,
+                  const QueryOptions<3>& options = {});
 
 /// Writes all points that are in both to `out`, a Polygon or Polyhedron with area or volume, centroid and normal.
 /// Returns whether there are any, exactly as `overlaps`; if not, `out` stays as it was. Touching shapes share a face,
@@ -26,8 +28,8 @@ requires(dimension<A> == dimension<B>) bool intersection(const A& a, const B& b,
                                                          const QueryOptions<dimension<A>>& options = {}) {
     const auto& corners_a = detail::by_corners(a);
     const auto& corners_b = detail::by_corners(b);
-    const Convex<dimension<A>>& view_a = view(corners_a);
-    const Convex<dimension<A>>& view_b = view(corners_b);
+    const detail::Convex<dimension<A>>& view_a = view(corners_a);
+    const detail::Convex<dimension<A>>& view_b = view(corners_b);
     detail::clear_upper_halves();
     return intersection(view_a, view_b, out, options);
 }

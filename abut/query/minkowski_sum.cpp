@@ -10,6 +10,9 @@
 #include <vector>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// Corners as floats, relative to an origin.

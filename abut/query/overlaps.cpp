@@ -3,6 +3,9 @@
 #include <abut/query/overlaps.hpp>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 template <int D>

@@ -10,9 +10,9 @@ namespace abut {
 template <int D>
 bool overlaps(const View<D>& a, const View<D>& b, const QueryOptions<D>& options = {});
 template <int D>
-bool overlaps(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options = {});
+bool overlaps(const detail::Convex<D>& a, const detail::Convex<D>& b, const QueryOptions<D>& options = {});
 template <int D>
-bool overlaps(const ShapeRef<D>& a, const ShapeRef<D>& b, const QueryOptions<D>& options = {});
+bool overlaps(const detail::ShapeRef<D>& a, const detail::ShapeRef<D>& b, const QueryOptions<D>& options = {});
 
 /// True if the shapes overlap or touch. This is cheaper than `closest`: it stops at the first separating axis.
 template <class A, class B>

@@ -101,8 +101,8 @@ inline Polyhedron polytope(const Polyhedron& polyhedron) {
 /// allow; for a ball in space, within 1e-3 of its radius. A tolerance not above zero trips ABUT_ASSERT and counts as
 /// the least.
 template <Shape S>
-requires std::same_as<detail::ViewOf<S>, Convex<dimension<S>>> PolytopeOf<dimension<S>> polytope(const S& shape,
-                                                                                                 float tolerance) {
+requires std::same_as<detail::ViewOf<S>, detail::Convex<dimension<S>>> PolytopeOf<dimension<S>> polytope(
+    const S& shape, float tolerance) {
     return detail::inscribed_polytope(view(shape), tolerance);
 }
 

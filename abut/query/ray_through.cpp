@@ -2,6 +2,9 @@
 #include <abut/query/ray_through.hpp>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// All points p with dot(normal, p) + offset == 0.

@@ -8,6 +8,9 @@
 #include <algorithm>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 template <int D>

@@ -23,11 +23,12 @@ class SolidBsp;
 template <int D>
 std::optional<Hit<D>> raycast(const Ray<D>& ray, const View<D>& shape, const QueryOptions<D>& options = {});
 template <int D>
-std::optional<Hit<D>> raycast(const Ray<D>& ray, const Convex<D>& shape, const QueryOptions<D>& options = {});
+std::optional<Hit<D>> raycast(const Ray<D>& ray, const detail::Convex<D>& shape, const QueryOptions<D>& options = {});
 template <int D>
-std::optional<Hit<D>> raycast(const Ray<D>& ray, const Composite<D>& shape, const QueryOptions<D>& options = {});
+std::optional<Hit<D>> raycast(const Ray<D>& ray, const detail::Composite<D>& shape,
+                              const QueryOptions<D>& options = {});
 template <int D>
-std::optional<Hit<D>> raycast(const Ray<D>& ray, const ShapeRef<D>& shape, const QueryOptions<D>& options = {});
+std::optional<Hit<D>> raycast(const Ray<D>& ray, const detail::ShapeRef<D>& shape, const QueryOptions<D>& options = {});
 
 /// A mesh without a pose, without a view of it.
 std::optional<Hit<3>> raycast(const Ray<3>& ray, const Mesh& mesh, const QueryOptions<3>& options = {});

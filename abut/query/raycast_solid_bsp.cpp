@@ -7,6 +7,8 @@
 
 namespace abut {
 
+using namespace detail;
+
 template <int D>
 std::optional<Hit<D>> raycast(const Ray<D>& ray, const SolidBsp<D>& level, const QueryOptions<D>&) {
     const bool finite = is_finite(ray.origin) && is_finite(ray.direction) && !std::isnan(ray.length);

@@ -4,6 +4,8 @@
 
 namespace abut {
 
+using namespace detail;
+
 /// With d the direction, n the normal and s = -dot(d, n) the sine of the angle of incidence, the ray leaves along d + 2
 /// s n.
 ///

@@ -5,6 +5,9 @@
 #include <abut/query/sweep.hpp>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// The two motions of a query.

@@ -16,11 +16,11 @@ template <int D>
 std::optional<Hit<D>> sweep(const View<D>& a, const Vec<D>& motion_a, const View<D>& b, const Vec<D>& motion_b,
                             const QueryOptions<D>& options = {});
 template <int D>
-std::optional<Hit<D>> sweep(const Convex<D>& a, const Vec<D>& motion_a, const Convex<D>& b, const Vec<D>& motion_b,
-                            const QueryOptions<D>& options = {});
+std::optional<Hit<D>> sweep(const detail::Convex<D>& a, const Vec<D>& motion_a, const detail::Convex<D>& b,
+                            const Vec<D>& motion_b, const QueryOptions<D>& options = {});
 template <int D>
-std::optional<Hit<D>> sweep(const ShapeRef<D>& a, const Vec<D>& motion_a, const ShapeRef<D>& b, const Vec<D>& motion_b,
-                            const QueryOptions<D>& options = {});
+std::optional<Hit<D>> sweep(const detail::ShapeRef<D>& a, const Vec<D>& motion_a, const detail::ShapeRef<D>& b,
+                            const Vec<D>& motion_b, const QueryOptions<D>& options = {});
 
 /// The first hit of two shapes that both move straight, without rotation, in the same time.
 ///

@@ -5,6 +5,9 @@
 #include <abut/query/sweep_turning.hpp>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 template <int D>

@@ -11,20 +11,22 @@ template <int D>
 std::optional<Hit<D>> sweep(const View<D>& a, const Motion<D>& motion_a, const View<D>& b, const Motion<D>& motion_b,
                             const QueryOptions<D>& options = {});
 template <int D>
-std::optional<Hit<D>> sweep(const Convex<D>& a, const Motion<D>& motion_a, const Convex<D>& b,
+std::optional<Hit<D>> sweep(const detail::Convex<D>& a, const Motion<D>& motion_a, const detail::Convex<D>& b,
                             const Motion<D>& motion_b, const QueryOptions<D>& options = {});
 template <int D>
-std::optional<Hit<D>> sweep(const ShapeRef<D>& a, const Motion<D>& motion_a, const ShapeRef<D>& b,
+std::optional<Hit<D>> sweep(const detail::ShapeRef<D>& a, const Motion<D>& motion_a, const detail::ShapeRef<D>& b,
                             const Motion<D>& motion_b, const QueryOptions<D>& options = {});
 template <int D>
 std::optional<Hit<D>> sweep(const View<D>& a, const Pose<D>& from_a, const Pose<D>& to_a, const View<D>& b,
                             const Pose<D>& from_b, const Pose<D>& to_b, const QueryOptions<D>& options = {});
 template <int D>
-std::optional<Hit<D>> sweep(const Convex<D>& a, const Pose<D>& from_a, const Pose<D>& to_a, const Convex<D>& b,
-                            const Pose<D>& from_b, const Pose<D>& to_b, const QueryOptions<D>& options = {});
+std::optional<Hit<D>> sweep(const detail::Convex<D>& a, const Pose<D>& from_a, const Pose<D>& to_a,
+                            const detail::Convex<D>& b, const Pose<D>& from_b, const Pose<D>& to_b,
+                            const QueryOptions<D>& options = {});
 template <int D>
-std::optional<Hit<D>> sweep(const ShapeRef<D>& a, const Pose<D>& from_a, const Pose<D>& to_a, const ShapeRef<D>& b,
-                            const Pose<D>& from_b, const Pose<D>& to_b, const QueryOptions<D>& options = {});
+std::optional<Hit<D>> sweep(const detail::ShapeRef<D>& a, const Pose<D>& from_a, const Pose<D>& to_a,
+                            const detail::ShapeRef<D>& b, const Pose<D>& from_b, const Pose<D>& to_b,
+                            const QueryOptions<D>& options = {});
 
 /// The first contact gained while both shapes move and rotate, or none. Each shape is in the frame that its motion
 /// moves, such as a Box around the origin or a Mesh in its own coordinates. It may rotate by any angle, also several

@@ -17,6 +17,9 @@
 #include <vector>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 constexpr std::size_t max_triangles = std::size_t{1} << 28;

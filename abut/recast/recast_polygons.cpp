@@ -9,7 +9,7 @@
 
 #include <recastnavigation/Recast.h>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 constexpr int max_spans = (1 << 24) - 1;          // Recast's span numbers have 24 bits
@@ -231,4 +231,4 @@ Result<RecastPolygons> recast_polygons(std::span<const Vec3> points, std::span<c
     return pipeline.result();
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -14,7 +14,7 @@
 
 #include <glm/ext/vector_uint3.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// The answer after a callback returned false.
 inline Problem cancelled() {
@@ -44,4 +44,4 @@ Result<RecastPolygons> recast_polygons(std::span<const Vec3> points, std::span<c
                                        std::span<const std::uint8_t> floor, const RecastPlan& plan,
                                        FunctionRef<bool(double done)> report);
 
-}  // namespace abut
+}  // namespace abut::detail

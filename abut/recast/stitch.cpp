@@ -11,7 +11,7 @@
 #include <tuple>
 #include <utility>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// The projection along the second axis.
@@ -293,4 +293,4 @@ Stitched stitch(std::span<const DVec<3>> corners, std::span<const CutPolygon> po
     return Stitcher(corners, polygons, options).run();
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -11,7 +11,7 @@
 
 #include <glm/ext/vector_uint3.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// A polygon, convex in projection along the second axis, with its triangulation and further points on its sides and
 /// inside.
@@ -37,4 +37,4 @@ struct StitchOptions {
 /// polygons, at the mean of their heights.
 Stitched stitch(std::span<const DVec<3>> corners, std::span<const CutPolygon> polygons, const StitchOptions& options);
 
-}  // namespace abut
+}  // namespace abut::detail

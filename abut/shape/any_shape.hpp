@@ -2,12 +2,24 @@
 
 // A type-erased shape that owns its data.
 
+#include <abut/shape/ball.hpp>
+#include <abut/shape/box.hpp>
 #include <abut/shape/counted.hpp>
 #include <abut/shape/placed.hpp>
-#include <abut/shape/view/bounds_at.hpp>
 
 #include <type_traits>
 #include <utility>
+
+namespace abut::detail {
+
+/// The bounding box without a view, bit for bit that of the view. It is empty if a number of the shape or the pose is
+/// NaN or infinite.
+template <int D>
+Aabb<D> bounds_at(const Ball<D>& ball, const Pose<D>& pose);
+template <int D>
+Aabb<D> bounds_at(const Box<D>& box, const Pose<D>& pose);
+
+}  // namespace abut::detail
 
 namespace abut {
 
@@ -23,15 +35,15 @@ public:
     /// A view of the shape. Each call makes one; it refers to this shape and must not outlive it.
     View<D> view() const { return stored_->view(); }
     /// A view of the shape after a rigid map.
-    View<D> moved(const Affine<D>& rigid) const { return stored_->moved(rigid); }
+    View<D> moved(const detail::Affine<D>& rigid) const { return stored_->moved(rigid); }
     /// The bounding box of the shape at a pose; empty if a number is NaN or infinite.
     Aabb<D> bounds(const Pose<D>& pose) const { return stored_->bounds(pose); }
 
 private:
-    struct Stored : Counted {
+    struct Stored : detail::Counted {
         virtual ~Stored() = default;
         virtual View<D> view() const = 0;
-        virtual View<D> moved(const Affine<D>& rigid) const = 0;
+        virtual View<D> moved(const detail::Affine<D>& rigid) const = 0;
         virtual Aabb<D> bounds(const Pose<D>& pose) const = 0;
     };
     template <class S>
@@ -47,29 +59,29 @@ private:
             detail::clear_upper_halves();
             return own;
         }
-        View<D> moved(const Affine<D>& rigid) const override {
+        View<D> moved(const detail::Affine<D>& rigid) const override {
             using abut::view;
             const auto& own = view(shape);
             detail::clear_upper_halves();
-            return abut::moved(own, rigid);
+            return detail::moved(own, rigid);
         }
         Aabb<D> bounds(const Pose<D>& pose) const override {
             if constexpr (std::is_same_v<S, Ball<D>> || std::is_same_v<S, Box<D>>) {
-                return bounds_at(shape, pose);
+                return detail::bounds_at(shape, pose);
             } else {
-                const View<D> placed = moved(affine(pose));
-                return is_finite(placed) ? abut::bounds(placed) : Aabb<D>::empty();
+                const View<D> placed = moved(detail::affine(pose));
+                return detail::is_finite(placed) ? detail::bounds(placed) : Aabb<D>::empty();
             }
         }
 
         const S shape;
     };
     template <class S>
-    static CountedPointer<const Stored> store(S shape) {
-        return CountedPointer<const Stored>(new const StoredOf<S>(std::move(shape)));
+    static detail::CountedPointer<const Stored> store(S shape) {
+        return detail::CountedPointer<const Stored>(new const StoredOf<S>(std::move(shape)));
     }
 
-    CountedPointer<const Stored> stored_;
+    detail::CountedPointer<const Stored> stored_;
 };
 
 template <int D>

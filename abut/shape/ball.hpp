@@ -18,12 +18,12 @@ using Circle = Ball<2>;
 using Sphere = Ball<3>;
 
 template <int D>
-Convex<D> convex(const Ball<D>& ball);
+detail::Convex<D> convex(const Ball<D>& ball);
 template <int D>
-Convex<D> convex(const Ball<D>& ball, const Pose<D>& pose);
+detail::Convex<D> convex(const Ball<D>& ball, const Pose<D>& pose);
 template <int D>
-ShapeRef<D> shape_ref(const Ball<D>& ball) {
-    return {ShapeKind::ball, &ball};
+detail::ShapeRef<D> shape_ref(const Ball<D>& ball) {
+    return {detail::ShapeKind::ball, &ball};
 }
 
 }  // namespace abut

@@ -19,15 +19,15 @@ using Box2 = Box<2>;
 using Box3 = Box<3>;
 
 template <int D>
-Convex<D> convex(const Box<D>& box);
+detail::Convex<D> convex(const Box<D>& box);
 template <int D>
-Convex<D> convex(const Box<D>& box, const Pose<D>& pose);
+detail::Convex<D> convex(const Box<D>& box, const Pose<D>& pose);
 template <int D>
-ShapeRef<D> shape_ref(const Box<D>& box) {
-    return {ShapeKind::box, &box};
+detail::ShapeRef<D> shape_ref(const Box<D>& box) {
+    return {detail::ShapeKind::box, &box};
 }
 
 template <int D>
-Convex<D> convex(const Aabb<D>& box);
+detail::Convex<D> convex(const Aabb<D>& box);
 
 }  // namespace abut

@@ -19,12 +19,12 @@ using Capsule2 = Capsule<2>;
 using Capsule3 = Capsule<3>;
 
 template <int D>
-Convex<D> convex(const Capsule<D>& capsule);
+detail::Convex<D> convex(const Capsule<D>& capsule);
 template <int D>
-Convex<D> convex(const Capsule<D>& capsule, const Pose<D>& pose);
+detail::Convex<D> convex(const Capsule<D>& capsule, const Pose<D>& pose);
 template <int D>
-ShapeRef<D> shape_ref(const Capsule<D>& capsule) {
-    return {ShapeKind::capsule, &capsule};
+detail::ShapeRef<D> shape_ref(const Capsule<D>& capsule) {
+    return {detail::ShapeKind::capsule, &capsule};
 }
 
 }  // namespace abut

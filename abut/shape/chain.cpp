@@ -17,8 +17,8 @@ struct Chain::Data {
     Segment2 segment(std::uint32_t index) const {
         return {points[index], points[index + 1 == points.size() ? 0 : index + 1]};
     }
-    Convex<2> part(std::uint32_t index) const {
-        Convex<2> result = convex(segment(index));
+    detail::Convex<2> part(std::uint32_t index) const {
+        detail::Convex<2> result = convex(segment(index));
         result.one_sided = one_sided;
         return result;
     }
@@ -40,7 +40,7 @@ Result<Chain> Chain::build(std::span<const Vec2> points, bool closed, const Chai
                            std::to_string(min_count) + " points, and there are " + std::to_string(points.size()),
                        points.size()};
     for (std::size_t i = 0; i < points.size(); ++i)
-        if (!is_finite(points[i]))
+        if (!detail::is_finite(points[i]))
             return Problem{ProblemCode::not_finite,
                            "point " + std::to_string(i) + " has a coordinate that is not finite", i};
     auto data = std::make_shared<Data>();
@@ -93,17 +93,17 @@ Aabb2 bounds(const Chain& chain) {
     return chain.data_->tree.bounds();
 }
 
-void each_part(const Chain& chain, const Aabb2& box, PartVisitor<2> visit) {
+void each_part(const Chain& chain, const Aabb2& box, detail::PartVisitor<2> visit) {
     const Chain::Data& data = *chain.data_;
     data.tree.each_overlapping(box, [&](std::uint32_t index) -> bool { return visit(data.part(index), index); });
 }
 
-void each_part_along(const Chain& chain, const MovingBox<2>& box, PartReachVisitor<2> visit) {
+void each_part_along(const Chain& chain, const MovingBox<2>& box, detail::PartReachVisitor<2> visit) {
     const Chain::Data& data = *chain.data_;
     data.tree.sweep(box, [&](std::uint32_t index) -> float { return visit(data.part(index), index); });
 }
 
-void each_part_near(const Chain& chain, const Aabb2& box, PartReachVisitor<2> visit) {
+void each_part_near(const Chain& chain, const Aabb2& box, detail::PartReachVisitor<2> visit) {
     const Chain::Data& data = *chain.data_;
     data.tree.closest(box, [&](std::uint32_t index) -> float { return visit(data.part(index), index); });
 }

@@ -46,9 +46,9 @@ private:
     explicit Chain(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
 
     friend Aabb2 bounds(const Chain& chain);
-    friend void each_part(const Chain& chain, const Aabb2& box, PartVisitor<2> visit);
-    friend void each_part_along(const Chain& chain, const MovingBox<2>& box, PartReachVisitor<2> visit);
-    friend void each_part_near(const Chain& chain, const Aabb2& box, PartReachVisitor<2> visit);
+    friend void each_part(const Chain& chain, const Aabb2& box, detail::PartVisitor<2> visit);
+    friend void each_part_along(const Chain& chain, const MovingBox<2>& box, detail::PartReachVisitor<2> visit);
+    friend void each_part_near(const Chain& chain, const Aabb2& box, detail::PartReachVisitor<2> visit);
     friend bool solid_contains(const Chain& chain, const Vec2& point);
 
     std::shared_ptr<const Data> data_;
@@ -57,15 +57,15 @@ private:
 Aabb2 bounds(const Chain& chain);
 
 /// Visits the segments whose boxes overlap `box`; the visitor returns false to stop.
-void each_part(const Chain& chain, const Aabb2& box, PartVisitor<2> visit);
+void each_part(const Chain& chain, const Aabb2& box, detail::PartVisitor<2> visit);
 
 /// Visits the segments whose boxes the moving box overlaps, roughly front to back. The visitor returns the new, shorter
 /// reach.
-void each_part_along(const Chain& chain, const MovingBox<2>& box, PartReachVisitor<2> visit);
+void each_part_along(const Chain& chain, const MovingBox<2>& box, detail::PartReachVisitor<2> visit);
 
 /// Visits the segments, roughly nearest first by the distance of their boxes to `box`. The visitor returns the new,
 /// shorter reach.
-void each_part_near(const Chain& chain, const Aabb2& box, PartReachVisitor<2> visit);
+void each_part_near(const Chain& chain, const Aabb2& box, detail::PartReachVisitor<2> visit);
 
 /// True if a closed chain winds around the point, decided exactly; false for an open chain. Points on the chain itself
 /// are left to the tests of its segments.

@@ -6,6 +6,8 @@
 
 namespace abut {
 
+using namespace detail;
+
 template <int D>
 struct Compound<D>::Data {
     std::vector<AnyShape<D>> children;
@@ -44,7 +46,7 @@ Result<Compound<D>> Compound<D>::build(std::span<const AnyShape<D>> children) {
             return problem_of<D>(i, ProblemCode::bad_argument, " is a half-space, which has no bounds");
         if (std::holds_alternative<DistanceFunction<D>>(child))
             return problem_of<D>(i, ProblemCode::bad_argument, " is a distance function, which has no convex parts");
-        const Aabb<D> box = abut::bounds(child);
+        const Aabb<D> box = detail::bounds(child);
         const bool has_parts = box.min[0] <= box.max[0];
         if (!is_finite(child) || (has_parts && !(is_finite(box.min) && is_finite(box.max))))
             return problem_of<D>(i, ProblemCode::not_finite, " has a coordinate that is not finite");
@@ -78,8 +80,8 @@ void Compound<D>::each_part(const Aabb<D>& box, PartVisitor<D> visit) const {
         const View<D>& one = child(index);
         if (const auto* part = std::get_if<Convex<D>>(&one)) return visit(*part, index);
         bool go_on = true;
-        abut::each_part<D>(std::get<Composite<D>>(one), box,
-                           [&](const Convex<D>& part, std::uint32_t) { return go_on = visit(part, index); });
+        detail::each_part<D>(std::get<Composite<D>>(one), box,
+                             [&](const Convex<D>& part, std::uint32_t) { return go_on = visit(part, index); });
         return go_on;
     });
 }
@@ -98,8 +100,8 @@ void Compound<D>::each_part_along(const MovingBox<D>& box, PartReachVisitor<D> v
         if (const auto* part = std::get_if<Convex<D>>(&one))
             visit_part(*part, index);
         else
-            abut::each_part_along<D>(std::get<Composite<D>>(one), with_unit_direction(box, direction_length, reach),
-                                     visit_part);
+            detail::each_part_along<D>(std::get<Composite<D>>(one), with_unit_direction(box, direction_length, reach),
+                                       visit_part);
         return static_cast<float>(reach);
     });
 }
@@ -115,7 +117,7 @@ void Compound<D>::each_part_near(const Aabb<D>& box, PartReachVisitor<D> visit) 
         if (const auto* part = std::get_if<Convex<D>>(&one))
             visit_part(*part, index);
         else
-            abut::each_part_near<D>(std::get<Composite<D>>(one), box, visit_part);
+            detail::each_part_near<D>(std::get<Composite<D>>(one), box, visit_part);
         return reach;
     });
 }

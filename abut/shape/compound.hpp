@@ -29,9 +29,9 @@ public:
     const View<D>& child(std::uint32_t index) const;
 
     Aabb<D> bounds() const;
-    void each_part(const Aabb<D>& box, PartVisitor<D> visit) const;
-    void each_part_along(const MovingBox<D>& box, PartReachVisitor<D> visit) const;
-    void each_part_near(const Aabb<D>& box, PartReachVisitor<D> visit) const;
+    void each_part(const Aabb<D>& box, detail::PartVisitor<D> visit) const;
+    void each_part_along(const MovingBox<D>& box, detail::PartReachVisitor<D> visit) const;
+    void each_part_near(const Aabb<D>& box, detail::PartReachVisitor<D> visit) const;
     bool solid_contains(const Vec<D>& point) const;
 
 private:
@@ -55,7 +55,7 @@ Aabb<D> bounds(const Compound<D>& compound) {
 /// Visits the convex children and the parts of composite children whose boxes overlap `box`. The visitor returns false
 /// to stop.
 template <int D>
-void each_part(const Compound<D>& compound, const Aabb<D>& box, std::type_identity_t<PartVisitor<D>> visit) {
+void each_part(const Compound<D>& compound, const Aabb<D>& box, std::type_identity_t<detail::PartVisitor<D>> visit) {
     compound.each_part(box, visit);
 }
 
@@ -63,14 +63,15 @@ void each_part(const Compound<D>& compound, const Aabb<D>& box, std::type_identi
 /// reach.
 template <int D>
 void each_part_along(const Compound<D>& compound, const MovingBox<D>& box,
-                     std::type_identity_t<PartReachVisitor<D>> visit) {
+                     std::type_identity_t<detail::PartReachVisitor<D>> visit) {
     compound.each_part_along(box, visit);
 }
 
 /// Visits the parts, roughly nearest first by the distance of their boxes to `box`. The visitor returns the new,
 /// shorter reach.
 template <int D>
-void each_part_near(const Compound<D>& compound, const Aabb<D>& box, std::type_identity_t<PartReachVisitor<D>> visit) {
+void each_part_near(const Compound<D>& compound, const Aabb<D>& box,
+                    std::type_identity_t<detail::PartReachVisitor<D>> visit) {
     compound.each_part_near(box, visit);
 }
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <utility>
 
-namespace abut {
+namespace abut::detail {
 
 /// The base of what a CountedPointer owns.
 class Counted {
@@ -49,4 +49,4 @@ private:
     T* object_;  // null only where it was moved from
 };
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -20,7 +20,7 @@ struct Cone {
     float radius = 0;  ///< of the base; not below zero
 };
 
-Convex<3> convex(const Cylinder& cylinder);
-Convex<3> convex(const Cone& cone);
+detail::Convex<3> convex(const Cylinder& cylinder);
+detail::Convex<3> convex(const Cone& cone);
 
 }  // namespace abut

@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// `Summary` holds what is known of a block. Its default is that of an empty block; `merged(a, b)` combines two.
 template <class Summary>
@@ -134,4 +134,4 @@ private:
     }
 };
 
-}  // namespace abut
+}  // namespace abut::detail

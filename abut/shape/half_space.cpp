@@ -1,6 +1,6 @@
 #include <abut/shape/half_space.hpp>
 
-namespace abut {
+namespace abut::detail {
 template <int D>
 HalfSpaceView<D> half_space_view(const HalfSpace<D>& half_space) {
     const DVec<D> normal(half_space.normal);
@@ -44,4 +44,4 @@ ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
 
-}  // namespace abut
+}  // namespace abut::detail

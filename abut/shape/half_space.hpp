@@ -19,6 +19,10 @@ HalfSpace(glm::vec<D, float>, float) -> HalfSpace<D>;
 using HalfSpace2 = HalfSpace<2>;
 using HalfSpace3 = HalfSpace<3>;
 
+}  // namespace abut
+
+namespace abut::detail {
+
 /// The view of a half-space: placed in the world, in double.
 template <int D>
 struct HalfSpaceView {
@@ -47,9 +51,13 @@ HalfSpaceView<D> rounded(const HalfSpaceView<D>& view, double radius);
 template <int D>
 Aabb<D> bounds(const HalfSpaceView<D>& view);
 
+}  // namespace abut::detail
+
+namespace abut {
+
 template <int D>
 Aabb<D> bounds(const HalfSpace<D>& half_space) {
-    return bounds(half_space_view(half_space));
+    return bounds(detail::half_space_view(half_space));
 }
 
 }  // namespace abut

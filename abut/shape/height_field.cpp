@@ -5,6 +5,9 @@
 #include <vector>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// The range of heights in a block.

@@ -47,7 +47,8 @@ private:
                                 FunctionRef<float(const Triangle3& part, std::uint32_t index)> visit);
     friend void each_part_near(const Mesh& mesh, const Aabb3& box,
                                FunctionRef<float(const Triangle3& part, std::uint32_t index)> visit);
-    friend const MeshTree& triangle_tree(const Mesh& mesh);
+    /// The tree of the mesh, for ray casts; found by argument-dependent lookup alone.
+    friend const detail::MeshTree& triangle_tree(const Mesh& mesh);
     friend bool solid_contains(const Mesh& mesh, const Vec3& point);
 
     std::shared_ptr<const Data> data_;
@@ -67,9 +68,6 @@ void each_part_along(const Mesh& mesh, const MovingBox<3>& box,
 /// shorter reach.
 void each_part_near(const Mesh& mesh, const Aabb3& box,
                     FunctionRef<float(const Triangle3& part, std::uint32_t index)> visit);
-
-/// The tree of the mesh, for ray casts. Not for users.
-const MeshTree& triangle_tree(const Mesh& mesh);
 
 /// True if a closed mesh winds around the point; false for a mesh that isn't closed. Points on the surface itself are
 /// left to the tests of its triangles.

@@ -105,14 +105,14 @@ auto view(const At<S>& shape) {
     if constexpr (detail::PlacedByPose<Inner, dimension<Inner>>)
         return convex(std::as_const(shape.shape), shape.pose);
     else if constexpr (detail::HasOwnFrame<Inner, dimension<Inner>>)
-        return convex(std::as_const(shape.shape), affine(shape.pose));
+        return convex(std::as_const(shape.shape), detail::affine(shape.pose));
     else
-        return moved(view(std::as_const(shape.shape)), affine(shape.pose));
+        return moved(view(std::as_const(shape.shape)), detail::affine(shape.pose));
 }
 /// Only for a shape that isn't placed by a pose already.
 template <class S>
 requires(detail::HasShapeRef<std::remove_cvref_t<S>> && !detail::is_at<std::remove_cvref_t<S>>)
-    ShapeRef<dimension<std::remove_cvref_t<S>>> shape_ref(const At<S>& shape) {
+    detail::ShapeRef<dimension<std::remove_cvref_t<S>>> shape_ref(const At<S>& shape) {
     const auto inner = shape_ref(std::as_const(shape.shape));
     return {inner.kind, inner.shape, &shape.pose};
 }
@@ -124,7 +124,7 @@ auto view(const Rounded<S>& shape) {
 }
 template <class S>
 auto view(const Stretched<S>& shape) {
-    return mapped(view(std::as_const(shape.shape)), scaling(shape.scale));
+    return mapped(view(std::as_const(shape.shape)), detail::scaling(shape.scale));
 }
 
 namespace detail {

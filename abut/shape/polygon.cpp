@@ -9,6 +9,9 @@
 #include <utility>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 constexpr Vec2 origin2(0.0f);

@@ -63,10 +63,10 @@ private:
     std::vector<double> sides_;
 };
 
-Convex<2> convex(const Polygon& polygon, const Affine<2>& place = {});
-Convex<2> convex(const Polygon& polygon, const Pose2& pose);
-inline ShapeRef<2> shape_ref(const Polygon& polygon) {
-    return {ShapeKind::polytope, &polygon};
+detail::Convex<2> convex(const Polygon& polygon, const detail::Affine<2>& place = {});
+detail::Convex<2> convex(const Polygon& polygon, const Pose2& pose);
+inline detail::ShapeRef<2> shape_ref(const Polygon& polygon) {
+    return {detail::ShapeKind::polytope, &polygon};
 }
 
 }  // namespace abut

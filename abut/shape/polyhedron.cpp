@@ -1,11 +1,15 @@
 #include <abut/convex/hull/hull.hpp>
 #include <abut/convex/hull/limited/limited_hull.hpp>
+#include <abut/convex/point_soa.hpp>
 #include <abut/math/dvec.hpp>
 #include <abut/shape/polyhedron.hpp>
 
 #include <utility>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 constexpr Vec3 origin3(0.0f);

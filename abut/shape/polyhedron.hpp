@@ -41,7 +41,7 @@ public:
     /// The faces, in lexicographical order of their loops; each loop starts at its lowest vertex. Every edge belongs to
     /// two faces, once in each direction. Neighbouring faces within a slab of 1e-6 of the extent are merged if the
     /// result is convex. A flat polygon has two faces back to back; a segment or a point has none.
-    const Facets& facets() const;
+    const detail::Facets& facets() const;
 
     /// The plane offset of each face: its plane is dot(normal, p) == offset. No input point is above it in double
     /// arithmetic, whether it became a vertex or not: dot(normal, p) <= offset. Planes across an axis, and planes of
@@ -67,19 +67,19 @@ public:
     Vec3 normal() const;
 
     /// A ball that contains all vertices, to the rounding of doubles.
-    BoundingBall<3> ball() const;
+    detail::BoundingBall<3> ball() const;
 
     /// The vertices as a structure of arrays for SIMD; null if it isn't useful.
-    const PointSoa* lanes() const;
+    const detail::PointSoa* lanes() const;
 
 private:
     struct Data;
     std::shared_ptr<const Data> data_;  ///< null: the point 0, also after a move
 };
 
-Convex<3> convex(const Polyhedron& polyhedron, const Affine<3>& place = {});
-inline ShapeRef<3> shape_ref(const Polyhedron& polyhedron) {
-    return {ShapeKind::polytope, &polyhedron};
+detail::Convex<3> convex(const Polyhedron& polyhedron, const detail::Affine<3>& place = {});
+inline detail::ShapeRef<3> shape_ref(const Polyhedron& polyhedron) {
+    return {detail::ShapeKind::polytope, &polyhedron};
 }
 
 }  // namespace abut

@@ -18,12 +18,12 @@ using Segment2 = Segment<2>;
 using Segment3 = Segment<3>;
 
 template <int D>
-Convex<D> convex(const Segment<D>& segment);
+detail::Convex<D> convex(const Segment<D>& segment);
 template <int D>
-Convex<D> convex(const Segment<D>& segment, const Pose<D>& pose);
+detail::Convex<D> convex(const Segment<D>& segment, const Pose<D>& pose);
 template <int D>
-ShapeRef<D> shape_ref(const Segment<D>& segment) {
-    return {ShapeKind::segment, &segment};
+detail::ShapeRef<D> shape_ref(const Segment<D>& segment) {
+    return {detail::ShapeKind::segment, &segment};
 }
 
 }  // namespace abut

@@ -19,7 +19,7 @@
 #include <glm/ext/vector_uint2.hpp>
 #include <glm/ext/vector_uint3.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 template <int D>
 struct SolidTree;
@@ -33,6 +33,10 @@ struct SolidEntry {
     bool has_face = false;  ///< false if there is no face, as in open geometry
     bool started_inside = false;
 };
+
+}  // namespace abut::detail
+
+namespace abut {
 
 /// A solid BSP tree. Fuchs, Kedem, Naylor, "On visible surface generation by a priori tree structures" (1980);
 /// Thibault, Naylor, "Set operations on polyhedra using binary space partitioning trees" (1987).
@@ -101,7 +105,8 @@ public:
 
     /// Casts a ray of at most `length` lengths of the direction: the first point where it enters the solid. A ray that
     /// starts inside has to leave first. A ray along a face counts as in front of it. The base of raycast.
-    bool enter(const Vec<D>& origin, const DVec<D>& direction, double length, SolidEntry<D>& entry) const;
+    bool enter(const Vec<D>& origin, const detail::DVec<D>& direction, double length,
+               detail::SolidEntry<D>& entry) const;
 
     /// The face nearest to a point, the lowest index of equals; for the material of a contact. Nothing if no face has
     /// an extent or the point isn't finite.
@@ -112,9 +117,9 @@ public:
 
     /// The box around all parts.
     Aabb<D> part_bounds() const;
-    void each_part(const Aabb<D>& box, PartVisitor<D> visit) const;
-    void each_part_along(const MovingBox<D>& box, PartReachVisitor<D> visit) const;
-    void each_part_near(const Aabb<D>& box, PartReachVisitor<D> visit) const;
+    void each_part(const Aabb<D>& box, detail::PartVisitor<D> visit) const;
+    void each_part_along(const MovingBox<D>& box, detail::PartReachVisitor<D> visit) const;
+    void each_part_near(const Aabb<D>& box, detail::PartReachVisitor<D> visit) const;
     std::size_t part_count() const;
 
     std::size_t node_count() const;
@@ -126,10 +131,10 @@ public:
 private:
     using PieceCall = FunctionRef<bool(std::uint32_t, std::span<const Vec<D>>)>;
 
-    explicit SolidBsp(std::shared_ptr<const SolidTree<D>> tree) : tree_(std::move(tree)) {}
+    explicit SolidBsp(std::shared_ptr<const detail::SolidTree<D>> tree) : tree_(std::move(tree)) {}
     void visit_from(const Vec<D>& eye, PieceCall visit) const;
 
-    std::shared_ptr<const SolidTree<D>> tree_;
+    std::shared_ptr<const detail::SolidTree<D>> tree_;
 };
 
 extern template class SolidBsp<2>;
@@ -145,7 +150,7 @@ Aabb<D> bounds(const SolidBsp<D>& level) {
 
 /// Visits the parts whose boxes overlap `box`; the visitor returns false to stop.
 template <int D>
-void each_part(const SolidBsp<D>& level, const Aabb<D>& box, std::type_identity_t<PartVisitor<D>> visit) {
+void each_part(const SolidBsp<D>& level, const Aabb<D>& box, std::type_identity_t<detail::PartVisitor<D>> visit) {
     level.each_part(box, visit);
 }
 
@@ -153,14 +158,15 @@ void each_part(const SolidBsp<D>& level, const Aabb<D>& box, std::type_identity_
 /// reach.
 template <int D>
 void each_part_along(const SolidBsp<D>& level, const MovingBox<D>& box,
-                     std::type_identity_t<PartReachVisitor<D>> visit) {
+                     std::type_identity_t<detail::PartReachVisitor<D>> visit) {
     level.each_part_along(box, visit);
 }
 
 /// Visits the parts, roughly nearest first by the distance of their boxes to `box`. The visitor returns the new,
 /// shorter reach.
 template <int D>
-void each_part_near(const SolidBsp<D>& level, const Aabb<D>& box, std::type_identity_t<PartReachVisitor<D>> visit) {
+void each_part_near(const SolidBsp<D>& level, const Aabb<D>& box,
+                    std::type_identity_t<detail::PartReachVisitor<D>> visit) {
     level.each_part_near(box, visit);
 }
 

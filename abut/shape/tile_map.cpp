@@ -8,6 +8,9 @@
 #include <vector>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// The range of columns and rows in a block that hold non-empty tiles.

@@ -48,7 +48,7 @@ public:
     Aabb2 box(std::uint32_t index) const;  ///< the box of the whole cell
 
     /// The shape of the tile in the map's frame; for an empty tile a point in it.
-    Convex<2> part(std::uint32_t index) const;
+    detail::Convex<2> part(std::uint32_t index) const;
 
     /// The adjacent tile across side 2 * axis (high end) or 2 * axis + 1 (low end); no_neighbour if it is empty or
     /// outside.
@@ -59,9 +59,9 @@ private:
     explicit TileMap(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
 
     friend Aabb2 bounds(const TileMap& map);
-    friend void each_part(const TileMap& map, const Aabb2& box, PartVisitor<2> visit);
-    friend void each_part_along(const TileMap& map, const MovingBox<2>& box, PartReachVisitor<2> visit);
-    friend void each_part_near(const TileMap& map, const Aabb2& box, PartReachVisitor<2> visit);
+    friend void each_part(const TileMap& map, const Aabb2& box, detail::PartVisitor<2> visit);
+    friend void each_part_along(const TileMap& map, const MovingBox<2>& box, detail::PartReachVisitor<2> visit);
+    friend void each_part_near(const TileMap& map, const Aabb2& box, detail::PartReachVisitor<2> visit);
 
     std::shared_ptr<const Data> data_;
 };
@@ -70,15 +70,15 @@ private:
 Aabb2 bounds(const TileMap& map);
 
 /// Visits the non-empty tiles whose boxes overlap `box`; the visitor returns false to stop.
-void each_part(const TileMap& map, const Aabb2& box, PartVisitor<2> visit);
+void each_part(const TileMap& map, const Aabb2& box, detail::PartVisitor<2> visit);
 
 /// Visits the non-empty tiles that the moving box overlaps, roughly front to back. The visitor returns the new, shorter
 /// reach.
-void each_part_along(const TileMap& map, const MovingBox<2>& box, PartReachVisitor<2> visit);
+void each_part_along(const TileMap& map, const MovingBox<2>& box, detail::PartReachVisitor<2> visit);
 
 /// Visits the non-empty tiles, roughly nearest first by the distance to `box`. The visitor returns the new, shorter
 /// reach.
-void each_part_near(const TileMap& map, const Aabb2& box, PartReachVisitor<2> visit);
+void each_part_near(const TileMap& map, const Aabb2& box, detail::PartReachVisitor<2> visit);
 
 inline std::uint32_t part_neighbour(const TileMap& map, std::uint32_t part, std::uint32_t side) {
     return map.neighbour(part, side);

@@ -19,12 +19,12 @@ using Triangle2 = Triangle<2>;
 using Triangle3 = Triangle<3>;
 
 template <int D>
-Convex<D> convex(const Triangle<D>& triangle);
+detail::Convex<D> convex(const Triangle<D>& triangle);
 template <int D>
-Convex<D> convex(const Triangle<D>& triangle, const Pose<D>& pose);
+detail::Convex<D> convex(const Triangle<D>& triangle, const Pose<D>& pose);
 template <int D>
-ShapeRef<D> shape_ref(const Triangle<D>& triangle) {
-    return {ShapeKind::triangle, &triangle};
+detail::ShapeRef<D> shape_ref(const Triangle<D>& triangle) {
+    return {detail::ShapeKind::triangle, &triangle};
 }
 
 }  // namespace abut

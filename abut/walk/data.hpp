@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// The neighbour across a side: its triangle, its side, and whether both triangles traverse the shared edge in the same
 /// direction. They then disagree which side is up.
@@ -67,4 +67,4 @@ inline std::uint32_t next_corner(std::uint32_t corner) {
     return corner == 2 ? 0 : corner + 1;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -20,6 +20,9 @@
 #include <utility>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 constexpr std::array<char, 8> magic{'a', 'b', 'u', 't', 'w', 'l', 'k', '\n'};

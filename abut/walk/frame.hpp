@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace abut {
+namespace abut::detail {
 
 /// Barycentric coordinates of a point: corner 0 + second * (corner 1 - corner 0) + third * (corner 2 - corner 0).
 struct WalkWeights {
@@ -116,4 +116,4 @@ inline bool is_within(const WalkWeights& weights) {
     return std::min(std::min(weights.first, weights.second), weights.third) >= outside;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

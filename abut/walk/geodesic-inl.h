@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace abut {
+namespace abut::detail {
 
 /// A geodesic over several triangles: straight in the unfolded plane. Only the last triangle is stored.
 struct WalkGeodesic {
@@ -73,4 +73,4 @@ inline WalkStop trace_geodesic(const WalkTriangle* triangles, const WalkOptions&
     return stop;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -5,6 +5,9 @@
 #include <abut/walk/nearest_search.hpp>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// A fallback for points that are not finite.

@@ -12,6 +12,9 @@
 #include <limits>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// Points this near to a triangle lie on it, relative to the largest coordinate from the ray's origin; it exceeds all

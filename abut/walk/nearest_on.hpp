@@ -14,7 +14,7 @@
 
 #include <algorithm>
 
-namespace abut {
+namespace abut::detail {
 
 struct NearestOnTriangle {
     double square = 0;             ///< squared double distance
@@ -55,4 +55,4 @@ inline NearestOnTriangle nearest_on(const Triangle3& triangle, const DVec<3>& po
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -13,7 +13,7 @@
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();
-namespace abut::HWY_NAMESPACE {
+namespace abut::detail::HWY_NAMESPACE {
 
 using Doubles = hn::CappedTag<double, bvh_step>;
 constexpr Doubles doubles;
@@ -259,11 +259,11 @@ void search(const MeshTree& tree, const Vec3& point, std::uint32_t first_leaf, N
         search_with<DoubleBoxes>(tree, point, first_leaf, nearest);
 }
 
-}  // namespace abut::HWY_NAMESPACE
+}  // namespace abut::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace abut {
+namespace abut::detail {
 
 HWY_EXPORT(search);
 
@@ -271,5 +271,5 @@ void find_nearest(const MeshTree& tree, const Vec3& point, std::uint32_t first_l
     HWY_DYNAMIC_DISPATCH(search)(tree, point, first_leaf, nearest);
 }
 
-}  // namespace abut
+}  // namespace abut::detail
 #endif

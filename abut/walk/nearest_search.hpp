@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 
 /// The nearest triangle so far.
 struct NearestTriangle {
@@ -24,4 +24,4 @@ struct NearestTriangle {
 /// the lowest number. The point is finite. `first_leaf` is a warm start, or none.
 void find_nearest(const MeshTree& tree, const Vec3& point, std::uint32_t first_leaf, NearestTriangle& nearest);
 
-}  // namespace abut
+}  // namespace abut::detail

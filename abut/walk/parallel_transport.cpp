@@ -3,7 +3,8 @@
 
 #include <cmath>
 
-namespace abut {
+namespace abut::detail {
+
 namespace {
 
 /// An orthonormal frame: the rotated axes of a triangle's frame, and the normal.
@@ -37,6 +38,12 @@ WalkTurn transport_along(const WalkTriangle& from, const DVec<2>& tangent_from, 
                         static_cast<float>(cross(turned, tangent_to) * scale)};
     return {from, to, in_plane, mirrored};
 }
+
+}  // namespace abut::detail
+
+namespace abut {
+
+using namespace detail;
 
 Vec3 WalkTurn::operator*(const Vec3& vector) const {
     if (from_ == nullptr) return vector;

@@ -38,7 +38,15 @@ struct WalkSide {
     friend bool operator==(const WalkSide&, const WalkSide&) = default;
 };
 
+}  // namespace abut
+
+namespace abut::detail {
+
 struct WalkTriangle;
+
+}  // namespace abut::detail
+
+namespace abut {
 
 /// Parallel transport along a path over the surface, for the walker's frame, a velocity, or the rest of a step. Refers
 /// to the mesh and must not outlive it.
@@ -47,7 +55,7 @@ public:
     /// The identity.
     WalkTurn() = default;
     /// Between two triangles; made by the walk mesh.
-    WalkTurn(const WalkTriangle& from, const WalkTriangle& to, const Turn& in_plane, bool mirrored)
+    WalkTurn(const detail::WalkTriangle& from, const detail::WalkTriangle& to, const Turn& in_plane, bool mirrored)
         : from_(&from), to_(&to), in_plane_(in_plane), mirrored_(mirrored) {}
 
     /// Transports a vector of space: normals become normals, and tangents become tangents.
@@ -67,8 +75,8 @@ public:
     bool mirrored() const { return mirrored_; }
 
 private:
-    const WalkTriangle* from_ = nullptr;
-    const WalkTriangle* to_ = nullptr;
+    const detail::WalkTriangle* from_ = nullptr;
+    const detail::WalkTriangle* to_ = nullptr;
     Turn in_plane_{};
     bool mirrored_ = false;
 };

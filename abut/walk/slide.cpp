@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// Smaller cosines are rounding.
@@ -114,4 +114,4 @@ void WalkSlide::end_at(WalkMet met, double fraction) {
     weights_ = geodesic_.here.weights_at(fraction);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

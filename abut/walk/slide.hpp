@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-namespace abut {
+namespace abut::detail {
 
 /// Continues a geodesic along barriers and between them until the step ends.
 class WalkSlide {
@@ -43,4 +43,4 @@ private:
     Vec3 weights_{1, 0, 0};
 };
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -9,6 +9,9 @@
 #include <limits>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// `step` is in the frame of the triangle.

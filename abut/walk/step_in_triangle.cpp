@@ -10,6 +10,9 @@
 #include <limits>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 WalkedInTriangle step_in_triangle(const WalkTriangle& walk, const WalkPoint& place, const DVec<2>& step) {

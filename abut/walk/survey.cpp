@@ -9,6 +9,9 @@
 #include <utility>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 double length_of(const WalkEdge& edge) {

@@ -21,7 +21,7 @@ inline double cross(Double2 a, Double2 b) {
 
 }  // namespace abut::lanes
 
-namespace abut {
+namespace abut::detail {
 
 /// A triangle that a geodesic crosses. The geodesic is the first axis of its coordinates, and left is the second. The
 /// geodesic leaves by a side with one end to its right and one to its left. Geodesics are straight lines in unfolded
@@ -179,4 +179,4 @@ inline UnfoldedTriangle unfolded_ahead(const WalkTriangle& walk, std::uint32_t t
     return here;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

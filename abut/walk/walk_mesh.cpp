@@ -5,6 +5,9 @@
 #include <string>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 std::string counted(std::size_t count, const char* one, const char* many) {

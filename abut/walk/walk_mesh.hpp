@@ -20,9 +20,13 @@
 
 #include <glm/ext/vector_uint3.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 struct WalkMeshData;
+
+}  // namespace abut::detail
+
+namespace abut {
 
 /// Faults of the input triangles of a walk mesh, and how they were treated.
 struct WalkMeshReport {
@@ -165,11 +169,11 @@ public:
                                       const WalkPathOptions& options = {}) const;
 
     /// For other parts of the library.
-    const WalkMeshData& data() const { return *data_; }
-    explicit WalkMesh(std::shared_ptr<const WalkMeshData> data) : data_(std::move(data)) {}
+    const detail::WalkMeshData& data() const { return *data_; }
+    explicit WalkMesh(std::shared_ptr<const detail::WalkMeshData> data) : data_(std::move(data)) {}
 
 private:
-    std::shared_ptr<const WalkMeshData> data_;
+    std::shared_ptr<const detail::WalkMeshData> data_;
 };
 
 Aabb3 bounds(const WalkMesh& mesh);

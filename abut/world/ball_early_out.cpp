@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace abut {
+namespace abut::detail {
 
 template <int D>
 ShapeType shape_type(const View<D>& view) {
@@ -52,4 +52,4 @@ void BallEarlyOuts::decide() {
 template ShapeType shape_type(const View<2>&);
 template ShapeType shape_type(const View<3>&);
 
-}  // namespace abut
+}  // namespace abut::detail

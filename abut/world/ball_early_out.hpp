@@ -15,6 +15,10 @@ enum class BallEarlyOut : std::uint8_t {
     never,
 };
 
+}  // namespace abut
+
+namespace abut::detail {
+
 /// The type of a shape, as fine as the cost of a test depends on it.
 enum class ShapeType : std::uint8_t {
     ball,
@@ -64,4 +68,4 @@ private:
     bool has_new_samples_ = false;  // since the last decide()
 };
 
-}  // namespace abut
+}  // namespace abut::detail

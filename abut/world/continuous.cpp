@@ -14,7 +14,7 @@ namespace abut {
 template <int D>
 bool World<D>::has_swept_box(std::uint32_t slot) const {
     const std::uint32_t previous = items_[slot].previous;
-    return previous != none && !swept_boxes_.empty() && !is_empty(swept_boxes_[previous].box);
+    return previous != none && !swept_boxes_.empty() && !detail::is_empty(swept_boxes_[previous].box);
 }
 
 template <int D>
@@ -24,10 +24,10 @@ void World<D>::widen_boxes() {
     swept_boxes_.assign(previous_poses_.size(), detail::SweptBox<D>());
     for (const std::uint32_t slot : pending_) {
         const Item& item = items_[slot];
-        if (item.previous == none || is_empty(box(slot))) continue;
+        if (item.previous == none || detail::is_empty(box(slot))) continue;
         const Pose<D>& from = previous_poses_[item.previous];
         const Aabb<D> first = box_at(item, from);
-        if (is_empty(first)) continue;
+        if (detail::is_empty(first)) continue;
         detail::SweptBox<D>& path = swept_boxes_[item.previous];
         path = detail::swept_box(item.local_ball.ball(), first, Motion<D>::between(from, item.pose));
         boxes_of(item).widen(item.place, merged(bounds(path), box(slot)));
@@ -72,8 +72,8 @@ std::optional<Hit<D>> World<D>::sweep_pair(std::uint32_t slot, std::uint32_t oth
     const Pose<D>&from_a = from(slot), &from_b = from(other), &to_a = a.pose, &to_b = b.pose;
     const View<D> own_a = a.stored.view(), own_b = b.stored.view();
     if (from_a.rotation == to_a.rotation && from_b.rotation == to_b.rotation)
-        return abut::sweep(moved(own_a, affine(from_a)), to_a.position - from_a.position, moved(own_b, affine(from_b)),
-                           to_b.position - from_b.position);
+        return abut::sweep(moved(own_a, detail::affine(from_a)), to_a.position - from_a.position,
+                           moved(own_b, detail::affine(from_b)), to_b.position - from_b.position);
     return abut::sweep(own_a, from_a, to_a, own_b, from_b, to_b);
 }
 

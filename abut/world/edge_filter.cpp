@@ -8,6 +8,9 @@
 #include <algorithm>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// An item with more neighbours finds those near a point through the broad phases.

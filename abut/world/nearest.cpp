@@ -30,7 +30,7 @@ std::size_t World<D>::nearest_to(const View<D>& shape, std::span<WorldClosest<D>
     const auto visit = [&](std::uint32_t slot) -> float {
         const Item& item = items_[slot];
         if (!passes(slot, filter) ||
-            (std::holds_alternative<HalfSpaceView<D>>(shape) && item.type == ShapeType::half_space))
+            (std::holds_alternative<detail::HalfSpaceView<D>>(shape) && item.type == detail::ShapeType::half_space))
             return reach;
         const WorldClosest<D> found{id_of(slot), abut::closest(shape, placed(item))};
         if (std::isinf(found.closest.distance)) return reach;

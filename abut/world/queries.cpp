@@ -9,6 +9,9 @@
 #include <algorithm>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// Checks the query's input once, before the items are visited.

@@ -9,6 +9,9 @@
 #include <abut/world/world.hpp>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 template <int D>

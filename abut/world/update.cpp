@@ -33,7 +33,7 @@ void World<D>::add_if_near(std::uint32_t slot, std::uint32_t other) {
     if (widened_ && !may_touch(slot, other)) return;
     const Item &a = items_[slot], &b = items_[other];
     if ((a.layers & b.mask) == 0 || (b.layers & a.mask) == 0) return;
-    if (a.type == ShapeType::half_space && b.type == ShapeType::half_space) return;
+    if (a.type == detail::ShapeType::half_space && b.type == detail::ShapeType::half_space) return;
     near_.push_back({id_of(std::min(slot, other)), id_of(std::max(slot, other))});
 }
 
@@ -52,7 +52,7 @@ void World<D>::test_pair(const IdPair& pair) {
 template <int D>
 bool World<D>::test_touch(const IdPair& pair) {
     const Item &a = items_[pair.a.index - 1], &b = items_[pair.b.index - 1];
-    BallEarlyOuts::Entry& entry = ball_early_outs_.entry(a.type, b.type, a.sensor || b.sensor);
+    detail::BallEarlyOuts::Entry& entry = ball_early_outs_.entry(a.type, b.type, a.sensor || b.sensor);
     if (ball_early_outs_.due(entry)) return measure(pair, entry);
     if (!ball_early_outs_.is_used(entry) || !balls_apart(pair)) return test_shapes(pair);
     ++counts_.balls;
@@ -102,16 +102,16 @@ bool World<D>::test_shapes(const IdPair& pair) {
 /// Measures the tests of the balls and of the shapes. The test of the balls runs 16 times, because it takes less time
 /// than reading the clock, and once before: if the early out isn't in use, the balls must be fetched from memory first.
 template <int D>
-bool World<D>::measure(const IdPair& pair, BallEarlyOuts::Entry& entry) {
+bool World<D>::measure(const IdPair& pair, detail::BallEarlyOuts::Entry& entry) {
     constexpr int repetitions = 16;
     bool overlap = !balls_apart(pair);
     std::array<std::uint64_t, 4> clock{};
-    clock[0] = steady_nanoseconds();
-    clock[1] = steady_nanoseconds();
+    clock[0] = detail::steady_nanoseconds();
+    clock[1] = detail::steady_nanoseconds();
     for (int i = 0; i < repetitions; ++i) overlap = !balls_apart(pair);
-    clock[2] = steady_nanoseconds();
+    clock[2] = detail::steady_nanoseconds();
     const bool touch = test_shapes(pair);
-    clock[3] = steady_nanoseconds();
+    clock[3] = detail::steady_nanoseconds();
     std::array<double, 3> nanoseconds{};
     for (std::size_t i = 0; i < 3; ++i) nanoseconds[i] = static_cast<double>(clock[i + 1] - clock[i]);
     nanoseconds[1] = nanoseconds[0] + (nanoseconds[1] - nanoseconds[0]) / repetitions;

@@ -6,6 +6,9 @@
 #include <utility>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// Grows a box so that it rejects no hit within the tolerance: a ray may hit a shape that it misses by rounding (1e-7

@@ -24,12 +24,16 @@
 #include <span>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 template <int D>
 struct MoverAtHit;
 template <int D>
 struct ClosestPoint;
+
+}  // namespace abut::detail
+
+namespace abut {
 
 /// The options of an item: a shape in a world.
 template <int D>
@@ -202,9 +206,9 @@ public:
 
     /// Calls visit(id) for all items, sorted by index; it returns nothing, or false to stop. It may change and remove
     /// items. Items that it adds may be visited or not.
-    template <Visitor<Id> F>
+    template <detail::Visitor<Id> F>
     void each_item(F&& visit) const {
-        visit_items(bool_visitor(visit));
+        visit_items(detail::bool_visitor(visit));
     }
 
     /// Finds all touching pairs. It allocates nothing once it has seen a scene of this size, and skips pairs of which
@@ -241,9 +245,9 @@ public:
     std::vector<Id> touching(Id id) const;
     /// Calls visit(other) for the items of `touching`, sorted, without allocating; it returns nothing, or false to
     /// stop.
-    template <Visitor<Id> F>
+    template <detail::Visitor<Id> F>
     void each_touching(Id id, F&& visit) const {
-        visit_touching(id, bool_visitor(visit));
+        visit_touching(id, detail::bool_visitor(visit));
     }
     /// The contact of a pair at the last update, from the lower id to the higher. It is false if the pair doesn't
     /// touch, has a sensor, touched only during its motion, or if other contacts cover the same surface
@@ -323,9 +327,10 @@ public:
     template <class S, class Why = detail::WhyNotIn<D, S>>
     auto overlapping(const S& shape, const Filter& filter = {}) const;
     /// Calls visit(id) for the overlapping items, in an unspecified order; it returns nothing, or false to stop.
-    template <detail::ShapeIn<D> S, Visitor<Id> F>
+    template <detail::ShapeIn<D> S, detail::Visitor<Id> F>
     void each_overlapping(const S& shape, F&& visit, const Filter& filter = {}) const {
-        detail::with_view(shape, [&](const View<D>& own) { visit_overlapping(own, filter, bool_visitor(visit)); });
+        detail::with_view(shape,
+                          [&](const View<D>& own) { visit_overlapping(own, filter, detail::bool_visitor(visit)); });
     }
     template <class S, class F, class Why = detail::WhyNotIn<D, S>>
     auto each_overlapping(const S& shape, F&& visit, const Filter& filter = {}) const;
@@ -336,10 +341,10 @@ public:
 
     /// Calls visit(id, shape) for the items whose AABBs overlap a box, in an unspecified order; it returns nothing, or
     /// false to stop. Each shape is at its present pose. Users build queries of their own with it.
-    template <Visitor<Id, const View<D>&> F>
+    template <detail::Visitor<Id, const View<D>&> F>
     void each_in_box(const Aabb<D>& box, F&& visit, const Filter& filter = {}) const {
         detail::clear_upper_halves();
-        visit_in_box(box, filter, bool_visitor(visit));
+        visit_in_box(box, filter, detail::bool_visitor(visit));
     }
 
 private:
@@ -354,7 +359,7 @@ private:
         std::uint32_t generation = 0;
         std::uint32_t place = 0;        // the place of its box in fixed_ or moving_
         std::uint32_t previous = none;  // index in previous_poses_; none if not moved since the last update
-        ShapeType type{};
+        detail::ShapeType type{};
         bool in_use = false;  // false if the slot is free
         bool fixed = false, sensor = false, continuous = false;
         bool pending = false;  // changed since the last update
@@ -371,7 +376,7 @@ private:
 
     static View<D> point_view(const Vec<D>& point) {
         detail::clear_upper_halves();
-        return View<D>(round_points<D>({point}, 0));
+        return View<D>(detail::round_points<D>({point}, 0));
     }
 
     // The bodies of the public functions, compiled with the library's flags.
@@ -395,9 +400,9 @@ private:
         const Item& item = items_[slot];
         return (item.fixed ? fixed_ : moving_).box(item.place);
     }
-    View<D> placed(const Item& item) const { return item.stored.moved(affine(item.pose)); }
+    View<D> placed(const Item& item) const { return item.stored.moved(detail::affine(item.pose)); }
     Aabb<D> box_at(const Item& item, const Pose<D>& pose) const;
-    BoundingBall<D> ball(const Item& item) const;
+    detail::BoundingBall<D> ball(const Item& item) const;
     const View<D>& first_placed(std::uint32_t slot);
     void visit_items(FunctionRef<bool(Id)> visit) const;
     void visit_touching(Id id, FunctionRef<bool(Id)> visit) const;
@@ -418,13 +423,13 @@ private:
     void repeat_last(const IdPair& pair);
     bool balls_apart(const IdPair& pair) const;
     bool test_shapes(const IdPair& pair);
-    bool measure(const IdPair& pair, BallEarlyOuts::Entry& entry);
+    bool measure(const IdPair& pair, detail::BallEarlyOuts::Entry& entry);
     bool filters_edges(std::uint32_t slot) const;
     bool are_solid(std::uint32_t slot, std::uint32_t other) const;
     void find_neighbours();
     bool neighbours_changed(const IdPair& pair) const;
-    void each_closest_point_beside(std::uint32_t slot, std::uint32_t other, const DVec<D>& point, double within,
-                                   FunctionRef<double(const ClosestPoint<D>&)> visit);
+    void each_closest_point_beside(std::uint32_t slot, std::uint32_t other, const detail::DVec<D>& point, double within,
+                                   FunctionRef<double(const detail::ClosestPoint<D>&)> visit);
     bool find_contact(const IdPair& pair);
     static FoundContact* found_contact(std::vector<FoundContact>& list, const IdPair& pair);
     bool is_covered(const FoundContact& ghost, const Id& item) const;
@@ -439,7 +444,7 @@ private:
     template <class F>
     std::optional<WorldHit<D>> first_on_path(const View<D>& shape, const detail::SweptBox<D>& path,
                                              const Filter& filter, F&& sweep_at) const;
-    void filter_normal(const MoverAtHit<D>& mover, const Filter& filter, WorldHit<D>& hit) const;
+    void filter_normal(const detail::MoverAtHit<D>& mover, const Filter& filter, WorldHit<D>& hit) const;
     std::optional<WorldHit<D>> sweep_linear(const View<D>& shape, const Vec<D>& motion, const Filter& filter) const;
     std::optional<WorldHit<D>> sweep_rotating(const View<D>& shape, const Motion<D>& motion,
                                               const Filter& filter) const;
@@ -483,7 +488,7 @@ private:
     std::vector<float> fractions_;  // by index in began_
     detail::PairIndex pair_index_;  // over touching_
     UpdateCounts counts_;
-    BallEarlyOuts ball_early_outs_;
+    detail::BallEarlyOuts ball_early_outs_;
     /// The first shape of the pair that was tested last. Pairs are sorted, so consecutive pairs share it.
     struct {
         std::uint32_t slot = none;

@@ -9,6 +9,8 @@
 
 namespace abut::bench {
 
+using namespace detail;
+
 namespace {
 
 constexpr std::size_t query_count = 1024;

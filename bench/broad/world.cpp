@@ -14,6 +14,8 @@
 
 namespace abut::bench {
 
+using namespace detail;
+
 namespace {
 
 enum class Shapes { mixed, balls };

@@ -12,6 +12,9 @@
 #include <utility>
 
 namespace abut::bench {
+
+using namespace detail;
+
 namespace {
 
 constexpr std::size_t items = 5000;

@@ -20,7 +20,7 @@ Side side(const char* who, const SharedPoints2& points, Hull hull) {
                 std::vector<Point> loop;
                 hull(*own, loop);
                 write_loop(
-                    loop.size(), [&](std::size_t i) { return DVec<2>(loop[i].x(), loop[i].y()); }, values);
+                    loop.size(), [&](std::size_t i) { return detail::DVec<2>(loop[i].x(), loop[i].y()); }, values);
             }};
 }
 

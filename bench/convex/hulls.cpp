@@ -11,6 +11,9 @@
 #include <numbers>
 
 namespace abut::bench {
+
+using namespace detail;
+
 namespace {
 
 constexpr std::uint64_t seed = 1;

@@ -11,6 +11,11 @@
 
 namespace abut::bench {
 
+using detail::cross;
+using detail::dot;
+using detail::DVec;
+using detail::length;
+
 using SharedPoints = std::shared_ptr<const std::vector<Vec3>>;
 
 /// Sums up the triangles of a closed surface, counter-clockwise seen from outside.

@@ -10,6 +10,9 @@
 #include <cmath>
 
 namespace abut::bench {
+
+using namespace detail;
+
 namespace {
 
 constexpr std::uint64_t seed = 1;

@@ -10,6 +10,9 @@
 
 namespace abut::bench {
 
+using detail::cross;
+using detail::length;
+
 using SharedPoints2 = std::shared_ptr<const std::vector<Vec2>>;
 
 /// Writes the values of a closed polygon of consistent orientation.
@@ -17,7 +20,7 @@ template <class At>
 void write_loop(std::size_t count, At at, std::span<double> values) {
     values[0] = values[1] = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        const DVec<2> a = at(i) - at(0), b = at(i + 1 == count ? 0 : i + 1) - at(0);
+        const detail::DVec<2> a = at(i) - at(0), b = at(i + 1 == count ? 0 : i + 1) - at(0);
         values[0] += 0.5 * cross(a, b);
         values[1] += length(b - a);
     }

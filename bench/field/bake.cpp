@@ -15,6 +15,9 @@
 #include <vector>
 
 namespace abut::bench {
+
+using namespace detail;
+
 namespace {
 
 constexpr std::size_t places = 20'000;

@@ -17,6 +17,9 @@
 #include <vector>
 
 namespace abut::bench {
+
+using namespace detail;
+
 namespace {
 
 constexpr std::uint32_t cells = 256;

@@ -10,6 +10,8 @@
 
 namespace abut::bench {
 
+using namespace detail;
+
 FieldOptions<3> FieldScene::options(std::uint32_t cells) const {
     // Slightly less, so that rounding adds no cell.
     const float size = cell(cells) * (static_cast<float>(cells) - 0.25f);

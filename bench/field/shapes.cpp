@@ -20,6 +20,9 @@
 #include <vector>
 
 namespace abut::bench {
+
+using namespace detail;
+
 namespace {
 
 constexpr std::uint32_t cells = 128;

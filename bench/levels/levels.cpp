@@ -16,6 +16,8 @@
 
 namespace abut::bench {
 
+using namespace detail;
+
 namespace {
 
 constexpr std::size_t query_count = 8192;
@@ -71,7 +73,7 @@ Job overlaps_in_solid(const std::variant<Box3, Capsule3>& shape) {
             sides.push_back({normal, dot(normal, center) + static_cast<float>(height)});
         };
         for (int axis = 0; axis < 3; ++axis)
-            for (const double end : {-1.0, 1.0}) add(abut::axis<3>(axis, end), random.uniform(0.5, 2));
+            for (const double end : {-1.0, 1.0}) add(abut::detail::axis<3>(axis, end), random.uniform(0.5, 2));
         for (int k = 0; k < 3; ++k) add(random.direction<3>(), random.uniform(0.5, 2));
         ends.push_back(static_cast<std::uint32_t>(sides.size()));
     }

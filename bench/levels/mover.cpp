@@ -11,6 +11,8 @@
 
 namespace abut::bench {
 
+using namespace detail;
+
 namespace {
 
 constexpr std::size_t walker_count = 256;

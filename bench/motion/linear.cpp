@@ -9,6 +9,8 @@
 
 namespace abut::bench {
 
+using namespace detail;
+
 namespace {
 
 /// Approximate minimum distance or maximum depth.

@@ -10,6 +10,8 @@
 
 namespace abut::bench {
 
+using namespace detail;
+
 namespace {
 
 constexpr std::size_t ray_count = 16384;

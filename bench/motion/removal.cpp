@@ -13,6 +13,9 @@
 #include <numeric>
 
 namespace abut::bench {
+
+using namespace detail;
+
 namespace {
 
 constexpr Vec2 away(0.3f, 1);

@@ -12,6 +12,8 @@
 
 namespace abut::bench {
 
+using namespace detail;
+
 namespace {
 
 constexpr std::size_t pair_count = 1024;

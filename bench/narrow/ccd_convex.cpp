@@ -13,6 +13,8 @@
 
 namespace abut::bench {
 
+using namespace detail;
+
 namespace {
 
 /// A box stores its half extents as its only point, a hull its vertices.

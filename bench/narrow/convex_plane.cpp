@@ -13,6 +13,8 @@
 
 namespace abut::bench {
 
+using namespace detail;
+
 double area_of(std::span<const Vec2> ring) {
     double twice = 0;
     for (std::size_t i = 0; i < ring.size(); ++i)

@@ -36,7 +36,7 @@ Geometry geometry_of(const Polyhedron& hull) {
     auto points = std::make_shared<std::vector<fcl::Vector3d>>();
     for (const Vec3& point : hull.points()) points->push_back(to_fcl(point));
     auto faces = std::make_shared<std::vector<int>>();
-    const Facets& facets = hull.facets();
+    const detail::Facets& facets = hull.facets();
     std::uint32_t begin = 0;
     for (const std::uint32_t end : facets.loop_ends) {
         faces->push_back(static_cast<int>(end - begin));

@@ -8,6 +8,8 @@
 
 namespace abut::bench {
 
+using namespace detail;
+
 namespace {
 
 // Bullet's cast stops slightly before round shapes, and hits a few that it should miss. Closed forms in double, and the

@@ -9,6 +9,8 @@
 
 namespace abut::bench {
 
+using namespace detail;
+
 namespace {
 
 DVec<3> from_detour(const float* p) {

@@ -30,7 +30,7 @@ SharedWalkPaths at_random(std::uint32_t columns, std::size_t count) {
         const std::uint32_t triangle = random.below(static_cast<std::uint32_t>(paths_to_find.scene->triangles.size()));
         const double first = random.unit(), second = (1 - first) * random.unit();
         (i % 2 == 0 ? paths_to_find.from : paths_to_find.to)
-            .push_back({triangle, Vec3(DVec<3>(first, second, 1 - first - second))});
+            .push_back({triangle, Vec3(detail::DVec<3>(first, second, 1 - first - second))});
     }
     return std::make_shared<const WalkPaths>(std::move(paths_to_find));
 }

@@ -20,6 +20,7 @@
 namespace {
 
 using namespace abut;
+using namespace abut::detail;
 
 constexpr double cell = 0.05;
 

@@ -23,7 +23,7 @@ using scenes::SolidMesh;
 /// The largest change of the distance between neighbouring samples, in cells; for a dense field.
 template <int D>
 double steepest(const Field<D>& field) {
-    const FieldData<D>& data = field.data();
+    const detail::FieldData<D>& data = field.data();
     glm::vec<D, std::size_t> stride(1);
     for (int a = 1; a < D; ++a) stride[a] = stride[a - 1] * (data.cells[a - 1] + 1);
     double result = 0;

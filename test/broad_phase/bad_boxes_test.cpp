@@ -22,6 +22,9 @@ void abut::assert_failed(const char* expression, const char* file, int line) {
 }
 
 namespace abut::test {
+
+using namespace detail;
+
 namespace {
 
 #ifdef NDEBUG

@@ -25,7 +25,7 @@ TYPED_TEST(BruteForceIn, ReportsWhatPlainLoopsReportInTheirOrder) {
             // The array was larger before; its remains behind the boxes must not be read.
             phase.build(std::vector<Aabb<D>>(230, {Vec<D>(-100), Vec<D>(100)}));
             phase.build(boxes);
-            std::vector<ItemPair> expected, pairs, other_expected, other_pairs;
+            std::vector<detail::ItemPair> expected, pairs, other_expected, other_pairs;
             for (std::uint32_t i = 0; i < count; ++i)
                 for (std::uint32_t j = 0; j < count; ++j) {
                     if (!overlaps(boxes[i], boxes[j])) continue;

@@ -11,6 +11,9 @@
 #include <gtest/gtest.h>
 
 namespace abut::test {
+
+using namespace detail;
+
 namespace {
 
 using Items = std::vector<std::uint32_t>;

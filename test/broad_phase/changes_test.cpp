@@ -52,7 +52,7 @@ void expect_same(const Phase& phase, const std::vector<Aabb<D>>& boxes, oracle::
     oracle.build(boxes);
     ASSERT_EQ(phase.size(), boxes.size());
     EXPECT_EQ(phase.bounds(), oracle.bounds());
-    std::vector<ItemPair> pairs, expected;
+    std::vector<detail::ItemPair> pairs, expected;
     phase.sorted_pairs(pairs);
     oracle.sorted_pairs(expected);
     ASSERT_EQ(pairs, expected);
@@ -155,7 +155,7 @@ void add_one_by_one(bool sorted) {
     fresh.build(boxes);
     EXPECT_LT(grid.pair_cost(), 1.6 * fresh.pair_cost()) << sorted;
     grid.update(boxes);
-    std::vector<ItemPair> pairs, expected;
+    std::vector<detail::ItemPair> pairs, expected;
     grid.sorted_pairs(pairs);
     fresh.sorted_pairs(expected);
     EXPECT_EQ(pairs, expected);

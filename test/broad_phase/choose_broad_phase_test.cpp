@@ -76,7 +76,7 @@ TYPED_TEST(Choices, ChangeWithTheScene) {
     phase.build(scene.boxes());
     EXPECT_EQ(phase.kind(), BroadPhaseKind::grid);
     BruteForce<D> oracle;
-    std::vector<ItemPair> expected, found;
+    std::vector<detail::ItemPair> expected, found;
     for (int frame = 1; frame <= 200; ++frame) {
         scene.step();
         if (frame == 80) phase.set_history({.queries = 1});
@@ -139,7 +139,7 @@ TYPED_TEST(Choices, AnyTwoKindsFindTheirPairs) {
     BruteForce<D> oracle, few_oracle;
     oracle.build(many);
     few_oracle.build(few);
-    std::vector<ItemPair> expected, found;
+    std::vector<detail::ItemPair> expected, found;
     oracle.each_overlapping_pair(few_oracle, [&](std::uint32_t i, std::uint32_t j) { expected.emplace_back(i, j); });
     EXPECT_GT(expected.size(), 100u);
     for (const BroadPhaseKind kind : all_kinds)

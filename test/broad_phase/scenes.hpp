@@ -13,6 +13,9 @@
 
 namespace abut::test {
 
+using detail::axis;
+using detail::DVec;
+
 /// The dimension of a broad phase.
 template <class T>
 inline constexpr int dimension_of = decltype(T().bounds().min)::length();

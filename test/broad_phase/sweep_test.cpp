@@ -54,7 +54,7 @@ TYPED_TEST(Sweep, ComesToAllThatItTouches) {
         const DVec<D> low(bounds.min), extent = DVec<D>(bounds.max) - low;
         for (int i = 0; i < 20; ++i) {
             const MovingBox<D> moving = some_way<D>(random, low, extent);
-            const RayReach<D> reach = RayReach<D>::of_box(moving);
+            const detail::RayReach<D> reach = detail::RayReach<D>::of_box(moving);
             std::vector<int> visited_count(boxes.size());
             phase.sweep(moving, [&](std::uint32_t item) { ++visited_count[item]; });
             for (std::size_t k = 0; k < boxes.size(); ++k) {
@@ -82,7 +82,7 @@ TYPED_TEST(Sweep, StopsWhereTheReachEnds) {
         const DVec<D> low(bounds.min), extent = DVec<D>(bounds.max) - low;
         MovingBox<D> moving = some_way<D>(random, low, extent);
         moving.length = 1;
-        const RayReach<D> reach = RayReach<D>::of_box(moving);
+        const detail::RayReach<D> reach = detail::RayReach<D>::of_box(moving);
         std::vector<float> entries;
         for (const Aabb<D>& box : boxes) {
             double enters = 0;

@@ -32,24 +32,24 @@ using Kinds = testing::Types<Over<2, Bvh>, Over<3, Bvh>, Over<2, BruteForce>, Ov
 TYPED_TEST_SUITE(TemporalTest, Kinds);
 
 template <int D>
-std::vector<ItemPair> all_pairs(const std::vector<Aabb<D>>& boxes) {
+std::vector<detail::ItemPair> all_pairs(const std::vector<Aabb<D>>& boxes) {
     BruteForce<D> oracle;
     oracle.build(boxes);
-    std::vector<ItemPair> result;
+    std::vector<detail::ItemPair> result;
     oracle.sorted_pairs(result);
     return result;
 }
 
 template <class T>
-std::vector<ItemPair> sorted(const T& phase) {
-    std::vector<ItemPair> result;
+std::vector<detail::ItemPair> sorted(const T& phase) {
+    std::vector<detail::ItemPair> result;
     phase.sorted_pairs(result);
     return result;
 }
 
 template <class T>
-std::vector<ItemPair> in_order(const T& phase) {
-    std::vector<ItemPair> result;
+std::vector<detail::ItemPair> in_order(const T& phase) {
+    std::vector<detail::ItemPair> result;
     phase.each_pair([&](std::uint32_t i, std::uint32_t j) { result.emplace_back(i, j); });
     return result;
 }
@@ -185,7 +185,7 @@ TYPED_TEST(TemporalTest, NeverMissesAPair) {
             Rascals<D> rascals(50, scale, speed, seed, far);
             typename TypeParam::Type phase;
             phase.build(rascals.boxes(), rascals.speeds());
-            std::vector<ItemPair> before;
+            std::vector<detail::ItemPair> before;
             std::size_t changes = 0;
             for (int frame = 0; frame < 4000; ++frame) {
                 const double time = some_time(rascals.random());
@@ -285,7 +285,7 @@ TYPED_TEST(TemporalTest, SeveralThreadsReportTheSamePairs) {
     phase.build(rascals.boxes(), rascals.speeds());
     ThreadExecutor threads(3);
     std::mutex mutex;
-    std::vector<ItemPair> pairs;
+    std::vector<detail::ItemPair> pairs;
     phase.each_pair(
         [&](std::uint32_t i, std::uint32_t j) {
             const std::lock_guard lock(mutex);

@@ -11,6 +11,9 @@
 #include <gtest/gtest.h>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 using oracle::Random;
@@ -62,7 +65,7 @@ BoxAndTriangle random_pair(Random& random, TriangleFamily family) {
     }
     if (family == TriangleFamily::sliver)
         pair.triangle.c = pair.triangle.a + (pair.triangle.b - pair.triangle.a) * random.uniform_float(-1, 2);
-    pair.size = std::min(abut::size(convex(pair.box)), abut::size(convex(pair.triangle)));
+    pair.size = std::min(detail::size(convex(pair.box)), abut::size(convex(pair.triangle)));
     return pair;
 }
 

@@ -8,6 +8,9 @@
 #include <gtest/gtest.h>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 const Cylinder cylinder{{1, 2, 3}, {1, 4, 3.5f}, 0.7f};

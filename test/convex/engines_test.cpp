@@ -15,6 +15,9 @@
 #include <gtest/gtest.h>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 template <int D, class A, class B>

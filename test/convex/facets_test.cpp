@@ -13,26 +13,26 @@ namespace {
 
 using Edge = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>;
 
-std::vector<Edge> as_tuples(std::span<const FacetEdge> edges) {
+std::vector<Edge> as_tuples(std::span<const detail::FacetEdge> edges) {
     std::vector<Edge> result;
-    for (const FacetEdge& edge : edges) result.emplace_back(edge.from, edge.to, edge.left, edge.right);
+    for (const detail::FacetEdge& edge : edges) result.emplace_back(edge.from, edge.to, edge.left, edge.right);
     return result;
 }
 
 TEST(FacetEdges, OfATetrahedron) {
     const std::vector<std::uint32_t> loops{0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2}, ends{3, 6, 9, 12};
-    EXPECT_EQ(as_tuples(facet_edges(loops, ends)),
+    EXPECT_EQ(as_tuples(detail::facet_edges(loops, ends)),
               (std::vector<Edge>{{0, 1, 0, 2}, {0, 2, 1, 0}, {0, 3, 2, 1}, {1, 2, 0, 3}, {1, 3, 3, 2}, {2, 3, 1, 3}}));
 }
 
 TEST(FacetEdges, OfASquareWithTwoSides) {
     const std::vector<std::uint32_t> loops{0, 1, 3, 2, 0, 2, 3, 1}, ends{4, 8};
-    EXPECT_EQ(as_tuples(facet_edges(loops, ends)),
+    EXPECT_EQ(as_tuples(detail::facet_edges(loops, ends)),
               (std::vector<Edge>{{0, 1, 0, 1}, {0, 2, 1, 0}, {1, 3, 0, 1}, {2, 3, 1, 0}}));
 }
 
 TEST(FacetEdges, OfNothingAreNone) {
-    EXPECT_TRUE(facet_edges({}, {}).empty());
+    EXPECT_TRUE(detail::facet_edges({}, {}).empty());
 }
 
 TEST(FacetEdges, OfEveryHullRunAlongBothTheirFaces) {
@@ -42,8 +42,8 @@ TEST(FacetEdges, OfEveryHullRunAlongBothTheirFaces) {
             const std::uint64_t seed = 1000 * kind + round;
             SCOPED_TRACE(kinds[kind].name + ", seed " + std::to_string(seed));
             Random random(seed);
-            const Hull3 hull = *abut::hull(kinds[kind].make(random));
-            const Facets facets{hull.normals, hull.loops, hull.loop_ends, hull.edges};
+            const detail::Hull3 hull = *abut::detail::hull(kinds[kind].make(random));
+            const detail::Facets facets{hull.normals, hull.loops, hull.loop_ends, hull.edges};
             const auto runs_along = [&](std::uint32_t face, std::uint32_t from, std::uint32_t to) {
                 const std::span<const std::uint32_t> loop = facets.loop(face);
                 for (std::size_t i = 0; i < loop.size(); ++i)
@@ -51,7 +51,7 @@ TEST(FacetEdges, OfEveryHullRunAlongBothTheirFaces) {
                 return false;
             };
             EXPECT_EQ(2 * hull.edges.size(), hull.loops.size());
-            for (const FacetEdge& edge : hull.edges) {
+            for (const detail::FacetEdge& edge : hull.edges) {
                 EXPECT_LT(edge.from, edge.to);
                 ASSERT_LT(std::max(edge.left, edge.right), hull.normals.size());
                 EXPECT_TRUE(runs_along(edge.left, edge.from, edge.to));

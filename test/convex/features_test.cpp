@@ -8,6 +8,9 @@
 #include <gtest/gtest.h>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 using oracle::Random;

@@ -11,6 +11,9 @@
 #include <gtest/gtest.h>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 class HighestPlane : public oracle::BySimdTarget {};

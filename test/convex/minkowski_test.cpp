@@ -9,6 +9,9 @@
 #include <gtest/gtest.h>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 using Pairs = std::vector<CornerPair>;

@@ -15,6 +15,9 @@
 #include <vector>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 using Extent = std::function<double(const DVec<3>&)>;

@@ -5,6 +5,9 @@
 #include <abut/convex/toi/separation_function.hpp>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 template <int D>

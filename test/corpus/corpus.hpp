@@ -6,6 +6,13 @@
 
 namespace abut::corpus {
 
+using detail::axis;
+using detail::dot;
+using detail::DVec;
+using detail::length;
+using detail::normalized;
+using detail::to_float;
+
 /// The relative tolerance of depths of user-defined and curved shapes, above the minimum.
 inline constexpr double depth_tolerance = 1e-3;
 
@@ -116,7 +123,7 @@ void judge_round(Random random, Verdict& verdict) {
 
     Known known;
     known.distance = -least_overlap(pair, n);
-    known.margin = 1e-5 * smaller + 16 * oracle::ulp(reach) + 1e-14 * abut::largest(origin);
+    known.margin = 1e-5 * smaller + 16 * oracle::ulp(reach) + 1e-14 * detail::largest(origin);
     known.too_deep = depth_tolerance * smaller;
     known.sizes = size_a + size_b;
     const RoundSide<D> a{pair.a, origin}, b{pair.b, origin};

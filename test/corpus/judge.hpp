@@ -16,6 +16,11 @@
 
 namespace abut::corpus {
 
+using detail::dot;
+using detail::DVec;
+using detail::length;
+using detail::normalized;
+
 /// A kind of wrong answer. One pair may give several.
 enum class Fault {
     oracle,          ///< the oracle can't prove its own answer

@@ -8,6 +8,10 @@
 
 namespace abut::corpus {
 
+using detail::axis;
+using detail::DVec;
+using detail::to_float;
+
 using oracle::Arithmetic;
 using oracle::Truth;
 

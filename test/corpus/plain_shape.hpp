@@ -7,6 +7,12 @@
 
 namespace abut::corpus {
 
+using detail::dot;
+using detail::DVec;
+using detail::length;
+using detail::normalized;
+using detail::to_float;
+
 using oracle::Kind;
 using oracle::Random;
 using oracle::Sample;
@@ -14,7 +20,7 @@ using oracle::Sample;
 /// Refers to data of the sample.
 struct PlainSample {
     Sample<2> sample;
-    ShapeRef<2> given;
+    detail::ShapeRef<2> given;
 };
 
 template <class S>
@@ -29,7 +35,7 @@ inline PlainSample plain_box(const DVec<2>& a, const DVec<2>& b, const DVec<2>& 
     const Box2 box{to_float((a + c) * 0.5),
                    to_float(DVec<2>(length(b - a), length(c - b)) * 0.5),
                    {static_cast<float>(along.x), static_cast<float>(along.y)}};
-    return plain_sample(Kind::box, box, oracle::box_of<2>(affine(Pose2{box.center, box.rotation}), box.half));
+    return plain_sample(Kind::box, box, oracle::box_of<2>(detail::affine(Pose2{box.center, box.rotation}), box.half));
 }
 
 /// The shape with its vertices rounded to floats; shapes other than balls and capsules lose their radius.
@@ -56,13 +62,14 @@ inline PlainSample plain(const Sample<2>& sample, Random& random) {
     Pose2 pose;
     if (random.chance(0.5)) {
         pose = {points[0], random.rotation<2>()};
-        const Affine<2> place = affine(pose);
+        const detail::Affine<2> place = detail::affine(pose);
         for (std::size_t i = 0; i < points.size(); ++i)
             points[i] = to_float(place.transposed(corners[i] - place.offset));
     }
     Polygon polygon = *Polygon::build(points);
     std::vector<Vec2> built(polygon.points().begin(), polygon.points().end());
-    return plain_sample(Kind::polytope, at(std::move(polygon), pose), mapped(solid(std::move(built), 0), affine(pose)));
+    return plain_sample(Kind::polytope, at(std::move(polygon), pose),
+                        mapped(solid(std::move(built), 0), detail::affine(pose)));
 }
 
 }  // namespace abut::corpus

@@ -8,6 +8,9 @@
 
 namespace abut::corpus {
 
+using detail::DVec;
+using detail::normalized;
+
 template <int D>
 struct RoundPair {
     RoundShape<D> a, b;

@@ -15,6 +15,13 @@
 
 namespace abut::corpus {
 
+using detail::dot;
+using detail::DVec;
+using detail::length;
+using detail::length_squared;
+using detail::normalized;
+using detail::to_float;
+
 using oracle::Random;
 
 /// The core mapped by `place`, with a radius. The core is a capsule (a ball if a == b) that `place` stretches, a box
@@ -26,7 +33,7 @@ struct RoundShape {
     std::shared_ptr<const void> keeper;
     View<D> view;
     Core core = Core::capsule;
-    Affine<D> place;
+    detail::Affine<D> place;
     DVec<D> a{0.0}, b{0.0};             ///< capsule, discs: the ends; box: a = half extents
     double radius_a = 0, radius_b = 0;  ///< of the ends
     double radius = 0;
@@ -65,7 +72,7 @@ struct RoundShape {
         return 0.5 * length(b - a) + std::max(radius_a, radius_b) + radius;
     }
 
-    DVec<D> axis_of_discs() const { return normalized(b - a, abut::axis<D>(D - 1)); }
+    DVec<D> axis_of_discs() const { return normalized(b - a, detail::axis<D>(D - 1)); }
 
 private:
     DVec<D> off_axis(const DVec<D>& v) const {
@@ -91,7 +98,7 @@ private:
             for (int i = 0; i < D; ++i) q[i] = half[i] * half[i] * point[i] / (t + half[i] * half[i]);
             return q;
         };
-        if (abut::largest(half) == 0) return length(point);
+        if (detail::largest(half) == 0) return length(point);
         if (length(point / half) <= 1) return 0;
         double low = 0, high = length(point * half);
         for (int i = 0; i < 120; ++i) {
@@ -148,8 +155,8 @@ RoundShape<D> with_view(RoundShape<D> round, S shape) {
 
 /// A stretch along the axes, then a rotation.
 template <int D>
-Affine<D> turned_stretch(const Pose<D>& pose, const Vec<D>& scale) {
-    return affine(pose) * scaling(scale);
+detail::Affine<D> turned_stretch(const Pose<D>& pose, const Vec<D>& scale) {
+    return detail::affine(pose) * detail::scaling(scale);
 }
 
 /// A shape around `center`. Kinds 0 and 1 are stretched, 2 to 4 have rims (only in 3D), 5 and 6 are their partners.
@@ -187,7 +194,7 @@ RoundShape<D> round_shape(Random random, int kind, const DVec<D>& center, double
             return with_view(result, Ball<D>{a, radius});
         case 6:
             result.core = Shape::Core::box;
-            result.place = affine(pose);
+            result.place = detail::affine(pose);
             result.a = DVec<D>(scale);
             return with_view(result, Box<D>{pose.position, scale, pose.rotation});
         default:

@@ -6,6 +6,9 @@
 
 namespace abut::corpus {
 
+using detail::DVec;
+using detail::to_float;
+
 using oracle::Kind;
 using oracle::Polytope;
 using oracle::Random;
@@ -16,11 +19,11 @@ using oracle::Sample;
 template <int D>
 Sample<D> shape_of(Random& random, std::vector<Vec<D>> points, float radius, Pose<D> pose, bool baked) {
     if (baked) {
-        const Affine<D> place = affine(pose);
+        const detail::Affine<D> place = detail::affine(pose);
         for (Vec<D>& point : points) point = to_float(place.point(DVec<D>(point)));
         pose = {};
     }
-    const Polytope<D> solid = mapped(oracle::hull_of<D>(points, static_cast<double>(radius)), affine(pose));
+    const Polytope<D> solid = mapped(oracle::hull_of<D>(points, static_cast<double>(radius)), detail::affine(pose));
     const auto done = [&](Kind kind, auto shape) { return oracle::sample<D>(kind, at(std::move(shape), pose), solid); };
     const std::uint32_t form = random.below(3);
     if (form == 0 && points.size() == 1) return done(Kind::ball, Ball<D>{points[0], radius});
@@ -41,7 +44,7 @@ Sample<D> shape_of(Random& random, std::vector<Vec<D>> points, float radius, Pos
 /// A random box: rotated by itself or by the pose, axis-aligned, or rounded.
 template <int D>
 Sample<D> box_shape(Random& random, const Vec<D>& center, const Vec<D>& half, float radius, const Pose<D>& pose) {
-    const Affine<D> place = affine(pose);
+    const detail::Affine<D> place = detail::affine(pose);
     const auto done = [&](Kind kind, auto shape, const Polytope<D>& solid) {
         return oracle::sample<D>(kind, at(std::move(shape), pose), mapped(solid, place));
     };
@@ -52,7 +55,8 @@ Sample<D> box_shape(Random& random, const Vec<D>& center, const Vec<D>& half, fl
         return done(Kind::rounded_box, rounded(Aabb<D>(box), radius), solid);
     }
     const Box<D> box{center, half, no_rotation<D>};
-    const auto solid = oracle::box_of(affine(Pose<D>{center, no_rotation<D>}), half, static_cast<double>(radius));
+    const auto solid =
+        oracle::box_of(detail::affine(Pose<D>{center, no_rotation<D>}), half, static_cast<double>(radius));
     if (radius == 0) return done(Kind::box, box, solid);
     return done(Kind::rounded_box, rounded(Box<D>(box), radius), solid);
 }

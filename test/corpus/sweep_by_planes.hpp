@@ -11,6 +11,13 @@
 
 namespace abut::corpus {
 
+using detail::axis;
+using detail::dot;
+using detail::DVec;
+using detail::length;
+using detail::normalized;
+using detail::to_float;
+
 /// Difficult directions: along the separating plane, towards it, along an axis, or random.
 template <int D>
 DVec<D> some_way(Random& random, const DVec<D>& normal) {
@@ -75,7 +82,7 @@ public:
 
 private:
     DVec<D> axis_at(double fraction) const {
-        Affine<D> shift;
+        detail::Affine<D> shift;
         shift.offset = motion_ * fraction;
         return axis_of_(moved(view_a_, shift));
     }
@@ -200,7 +207,7 @@ SweepVerdict judged_sweep_at_half_space(Random random) {
 
 template <int D>
 RoundShape<D> shifted(RoundShape<D> shape, const DVec<D>& by) {
-    Affine<D> shift;
+    detail::Affine<D> shift;
     shift.offset = by;
     shape.view = moved(shape.view, shift);
     shape.place.offset += by;
@@ -222,7 +229,7 @@ SweepVerdict judged_round_sweep(Random random) {
     if (motion == Vec<D>(0.0f)) return {};
 
     const double reach = size_a + length(pair.b.place.offset - origin) + 2 * size_b;
-    const MovingKnown known{1e-5 * smaller + 16 * oracle::ulp(reach) + 1e-14 * abut::largest(origin), smaller,
+    const MovingKnown known{1e-5 * smaller + 16 * oracle::ulp(reach) + 1e-14 * detail::largest(origin), smaller,
                             size_a + size_b};
     const RoundShape<D> mover = shifted(pair.a, way * -lengths.before);
     const RoundSide<D> a{mover, origin}, b{pair.b, origin};

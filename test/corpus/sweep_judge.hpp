@@ -14,6 +14,15 @@
 
 namespace abut::corpus {
 
+using detail::axis;
+using detail::cross;
+using detail::dot;
+using detail::DVec;
+using detail::length;
+using detail::normalized;
+using detail::perpendicular;
+using detail::to_float;
+
 /// A pair and the motion of its first shape.
 template <int D>
 struct MovingPair {
@@ -23,7 +32,7 @@ struct MovingPair {
 
 template <int D>
 Sample<D> shifted(const Sample<D>& sample, const DVec<D>& by) {
-    Affine<D> shift;
+    detail::Affine<D> shift;
     shift.offset = by;
     return {sample.kind, sample.owner, moved(sample.view, shift), oracle::mapped(sample.solid, shift)};
 }
@@ -141,7 +150,7 @@ private:
         return oracle::truth(a_at(fraction), pair_.b.solid, Arithmetic::floating_point);
     }
     Polytope<D> a_at(double fraction) const {
-        Affine<D> shift;
+        detail::Affine<D> shift;
         shift.offset = motion_ * fraction;
         return oracle::mapped(pair_.a.solid, shift);
     }

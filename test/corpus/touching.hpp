@@ -7,6 +7,14 @@
 
 namespace abut::corpus {
 
+using detail::axis;
+using detail::cross;
+using detail::dot;
+using detail::DVec;
+using detail::length;
+using detail::length_squared;
+using detail::to_float;
+
 using oracle::SamplePair;
 
 /// The feature of a shape that lies in the plane.

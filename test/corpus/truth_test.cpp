@@ -8,6 +8,9 @@
 #include <gtest/gtest.h>
 
 namespace abut::corpus {
+
+using namespace detail;
+
 namespace {
 
 template <class T>

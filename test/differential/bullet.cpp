@@ -12,6 +12,9 @@
 #include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
 
 namespace abut::differential {
+
+using namespace detail;
+
 namespace {
 
 btVector3 vector(const DVec<3>& v) {

@@ -5,6 +5,9 @@
 #include <ccd/ccd.h>
 
 namespace abut::differential {
+
+using namespace detail;
+
 namespace {
 
 /// Both shapes are relative to the center of A, which avoids cancellation far from the origin.

@@ -17,6 +17,10 @@
 
 namespace abut::differential {
 
+using detail::dot;
+using detail::DVec;
+using detail::to_float;
+
 using oracle::Random;
 
 /// The shape around the origin of its own frame; a capsule lies along the y axis.
@@ -57,7 +61,7 @@ inline double radius_of(const auto& shape) {
 /// The oracle's shape, without its edges and faces, which are not needed for its size.
 inline oracle::Polytope<3> corners_and_radius(const Body& body) {
     oracle::Polytope<3> result;
-    result.place = affine(body.pose);
+    result.place = detail::affine(body.pose);
     result.points = std::visit([](const auto& shape) { return corners_of(shape); }, body.shape);
     result.radius = std::visit([](const auto& shape) { return radius_of(shape); }, body.shape);
     return result;

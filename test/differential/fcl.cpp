@@ -13,6 +13,9 @@
 #include <fcl/narrowphase/distance.h>
 
 namespace abut::differential {
+
+using namespace detail;
+
 namespace {
 
 fcl::Vector3d vector(const DVec<3>& v) {

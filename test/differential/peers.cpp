@@ -3,6 +3,9 @@
 #include <abut/shape/polyhedron.hpp>
 
 namespace abut::differential {
+
+using namespace detail;
+
 namespace {
 
 bool is_box(oracle::Kind kind) {

@@ -10,6 +10,8 @@
 
 namespace abut::differential {
 
+using detail::DVec;
+
 enum class Form { ball, capsule, box, hull };
 
 /// A shape about a center whose coordinates are floats. The rest is relative to it, in double.
@@ -19,7 +21,7 @@ struct PeerShape {
     std::vector<DVec<3>> points;  ///< ball: its center; capsule: its ends; box and hull: corners
     double radius = 0;            ///< of a ball or capsule
     DVec<3> half{0.0};            ///< of a box, along `axes`
-    std::array<DVec<3>, 3> axes = Affine<3>::identity();
+    std::array<DVec<3>, 3> axes = detail::Affine<3>::identity();
     std::vector<std::vector<int>> faces;  ///< of a hull: loops of points, counter-clockwise from outside
     double size = 0;
 

@@ -14,6 +14,10 @@
 
 namespace abut::test {
 
+using detail::dot;
+using detail::DVec;
+using detail::normalized;
+
 template <int D>
 class Recorder final : public Canvas<D> {
 public:
@@ -67,7 +71,7 @@ private:
 ///     dot(point, d) - dot(support(d), d)
 /// over all d of length 1. It uses only the support function of the library.
 template <int D>
-double tried_distance(const Convex<D>& set, const Vec<D>& point, oracle::Random& random) {
+double tried_distance(const detail::Convex<D>& set, const Vec<D>& point, oracle::Random& random) {
     const auto beyond = [&](const DVec<D>& d) { return dot(d, DVec<D>(point) - support(set, d)); };
     DVec<D> best = random.direction<D>();
     double most = beyond(best), step = 4;

@@ -17,6 +17,9 @@
 #include <gtest/gtest.h>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 using test::Recorder;

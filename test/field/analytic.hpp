@@ -13,6 +13,13 @@
 
 namespace abut::oracle {
 
+using detail::cross;
+using detail::dot;
+using detail::DVec;
+using detail::length;
+using detail::normalized;
+using detail::to_float;
+
 /// A solid by its exact signed distance in double.
 template <int D>
 struct Analytic {
@@ -107,10 +114,10 @@ std::size_t product(const glm::vec<D, std::uint32_t>& counts) {
 
 /// The field that a baker makes of a solid.
 template <int D>
-FieldData<D> filled(const Analytic<D>& solid, const Vec<D>& origin, float cell, glm::vec<D, std::uint32_t> cells,
-                    const FillOptions& options = {}) {
+detail::FieldData<D> filled(const Analytic<D>& solid, const Vec<D>& origin, float cell,
+                            glm::vec<D, std::uint32_t> cells, const FillOptions& options = {}) {
     using Counts = glm::vec<D, std::uint32_t>;
-    FieldData<D> data;
+    detail::FieldData<D> data;
     data.origin = origin;
     data.cell = cell;
     data.surface = solid.surface;
@@ -129,7 +136,7 @@ FieldData<D> filled(const Analytic<D>& solid, const Vec<D>& origin, float cell, 
         for (std::size_t i = 0; i < product<D>(counts); ++i) keep(counted<D>(i, counts));
         return data;
     }
-    constexpr std::uint32_t side = brick_cells<D>;
+    constexpr std::uint32_t side = detail::brick_cells<D>;
     const Counts blocks = (cells + (side - 1)) / side;
     data.cells = blocks * side;
     for (std::size_t i = 0; i < product<D>(blocks + 1u); ++i)
@@ -140,7 +147,7 @@ FieldData<D> filled(const Analytic<D>& solid, const Vec<D>& origin, float cell, 
         const Counts first = counted<D>(i, blocks) * side;
         const double reach = half * std::sqrt(static_cast<double>(D)) + options.band * step;
         if (std::abs(solid.distance(place(first) + half)) > reach) {
-            data.brick.push_back(no_brick);
+            data.brick.push_back(detail::no_brick);
             continue;
         }
         data.brick.push_back(bricks++);
@@ -152,7 +159,8 @@ FieldData<D> filled(const Analytic<D>& solid, const Vec<D>& origin, float cell, 
 
 /// The lower corner and the cells of a volume around a box, with `padding` cells around it.
 template <int D>
-FieldData<D> filled_around(const Analytic<D>& solid, float cell, float padding, const FillOptions& options = {}) {
+detail::FieldData<D> filled_around(const Analytic<D>& solid, float cell, float padding,
+                                   const FillOptions& options = {}) {
     glm::vec<D, std::uint32_t> cells;
     for (int a = 0; a < D; ++a)
         cells[a] =

@@ -92,7 +92,7 @@ void expect_same_of(const Analytic<D>& solid, float cell) {
             options.store = store;
             options.lookup = lookup;
             options.band = 1;
-            FieldData<D> data = filled_around<D>(solid, cell, 5, options);
+            detail::FieldData<D> data = filled_around<D>(solid, cell, 5, options);
             expect_same(Field<D>(data));
             quantise(data);
             expect_same(Field<D>(data));
@@ -117,7 +117,7 @@ TEST(FieldBits, AreTheSameEverywhere) {
         options.lookup = kind & 2 ? FieldLookup::gradient : FieldLookup::linear;
         options.closest_points = kind & 4;
         options.band = 1;
-        FieldData<3> data = filled_around<3>(solid, 0.25f, 3, options);
+        detail::FieldData<3> data = filled_around<3>(solid, 0.25f, 3, options);
         if (kind & 8) quantise(data);
         const Field3 field(data);
         for (const Vec3& point : points_of(field, 500, false)) {

@@ -19,7 +19,7 @@ using namespace oracle;
 
 using Bytes = std::vector<std::byte>;
 
-FieldData<3> small_torus(FieldStore store) {
+detail::FieldData<3> small_torus(FieldStore store) {
     FillOptions options;
     options.store = store;
     options.closest_points = true;
@@ -27,7 +27,7 @@ FieldData<3> small_torus(FieldStore store) {
     return filled_around<3>(torus({0.5, 0, 0}, 2, 0.75), 0.25f, 2, options);
 }
 
-FieldData<2> small_disc() {
+detail::FieldData<2> small_disc() {
     FillOptions options;
     options.lookup = FieldLookup::gradient;
     return filled_around<2>(ball<2>({0.5, 0.25}, 1), 0.25f, 2, options);
@@ -55,7 +55,7 @@ ProblemCode code_of(const Bytes& bytes) {
 }
 
 template <int D>
-void expect_same(const FieldData<D>& data) {
+void expect_same(const detail::FieldData<D>& data) {
     const Field<D> field(data);
     const Bytes bytes = save(field);
     const Result<Field<D>> again = load_field<D>(bytes);
@@ -76,7 +76,7 @@ void expect_same(const FieldData<D>& data) {
 
 TEST(FieldBlob, IsTheSameFieldAgain) {
     for (const FieldStore store : {FieldStore::dense, FieldStore::sparse}) {
-        FieldData<3> data = small_torus(store);
+        detail::FieldData<3> data = small_torus(store);
         expect_same(data);
         quantise(data);
         expect_same(data);
@@ -86,7 +86,7 @@ TEST(FieldBlob, IsTheSameFieldAgain) {
 
 TEST(FieldBlob, HasTheSameBytesOnEveryMachine) {
     // A few exact numbers, so that the test pins only the layout.
-    FieldData<2> data;
+    detail::FieldData<2> data;
     data.origin = {-1, 2};
     data.cell = 0.5f;
     data.cells = {2, 1};
@@ -168,10 +168,10 @@ TEST(FieldBlob, WhatItSaysOfItselfIsChecked) {
 }
 
 TEST(FieldBlob, ABrickThatIsntThereIsRefused) {
-    const FieldData<3> data = small_torus(FieldStore::sparse);
+    const detail::FieldData<3> data = small_torus(FieldStore::sparse);
     Bytes bytes = save(Field3(data));
     constexpr std::size_t bricks = 8 + 8 + 2 + 3 * 16 + 8 + 48;
-    write_at(bytes, bricks, static_cast<std::uint32_t>(data.distance.size() / brick_samples<3>));
+    write_at(bytes, bricks, static_cast<std::uint32_t>(data.distance.size() / detail::brick_samples<3>));
     seal(bytes);
     EXPECT_EQ(code_of<3>(bytes), ProblemCode::bad_format);
 }

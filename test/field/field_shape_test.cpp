@@ -21,6 +21,9 @@
 #include <gtest/gtest.h>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// The distance that queries use: the look-up within the volume, and its continuation outside.

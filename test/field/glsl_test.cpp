@@ -17,6 +17,7 @@
 namespace {
 
 using namespace abut;
+using namespace abut::detail;
 using test::GlContext, test::GlKind;
 
 std::string shader_file() {

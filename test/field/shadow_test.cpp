@@ -15,6 +15,7 @@
 namespace {
 
 using namespace abut;
+using namespace abut::detail;
 
 constexpr float cell = 0.05f;
 

@@ -11,6 +11,7 @@
 namespace {
 
 using namespace abut;
+using namespace abut::detail;
 
 Field3 ball_field(float cell = 0.1f) {
     return Field3(oracle::filled_around(oracle::ball<3>({0.3, -0.2, 0.1}, 1), cell, 4));

@@ -22,6 +22,7 @@
 namespace {
 
 using namespace abut;
+using namespace abut::detail;
 
 void require(bool condition) {
     if (!condition) std::abort();

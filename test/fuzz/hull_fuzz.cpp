@@ -20,6 +20,7 @@
 namespace {
 
 using namespace abut;
+using namespace abut::detail;
 
 constexpr std::size_t max_points = 200;
 

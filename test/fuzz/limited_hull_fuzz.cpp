@@ -21,6 +21,7 @@
 namespace {
 
 using namespace abut;
+using namespace abut::detail;
 
 constexpr std::size_t max_points = 60;
 

@@ -50,6 +50,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const Closest<2> answer = closest(object, Vec2(3, 4));
         require(!(answer.distance != answer.distance));
     }
-    for (const LevelPoint& point : level->points) require(paths.insert(point.path).second && is_finite(point.position));
+    for (const LevelPoint& point : level->points)
+        require(paths.insert(point.path).second && detail::is_finite(point.position));
     return 0;
 }

@@ -22,6 +22,7 @@ extern "C" __attribute__((weak)) int LLVMFuzzerRunDriver(int*, char***, int (*)(
 namespace {
 
 using namespace abut;
+using namespace abut::detail;
 
 void require(bool condition) {
     if (!condition) std::abort();

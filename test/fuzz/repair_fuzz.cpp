@@ -77,7 +77,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             is_used[t[k]] = true;
         }
     for (const bool used : is_used) require(used);
-    const EdgeFaults faults = edge_faults(result->triangles);
+    const detail::EdgeFaults faults = detail::edge_faults(result->triangles);
     require(faults.closed == result->closed && faults.boundary == result->repairs.open_edges &&
             faults.non_manifold == result->repairs.non_manifold_edges &&
             faults.inconsistent == result->repairs.disagreeing_edges);

@@ -22,7 +22,7 @@ void require_place(const WalkMesh& mesh, const WalkPoint& place) {
     require(place.triangle < mesh.triangles().size() && mesh.is_walkable(place.triangle));
     require(place.weights.x >= 0 && place.weights.y >= 0 && place.weights.z >= 0);
     require(place.weights.x + place.weights.y + place.weights.z == 1);
-    require(is_finite(mesh.to_world(place)) && is_finite(mesh.smooth_normal(place)));
+    require(detail::is_finite(mesh.to_world(place)) && detail::is_finite(mesh.smooth_normal(place)));
 }
 
 /// Walks from the middle of each of the first triangles, along the axes, as far as the mesh is large; and calls the
@@ -45,7 +45,7 @@ void walk_about(const WalkMesh& mesh) {
             require_place(mesh, mesh.nearest(mesh.to_world(walked.place) + step));
             if (mesh.nearest_along(box.min, step)) require_place(mesh, *mesh.nearest_along(box.min, step));
             const auto path = mesh.path({triangle, {1, 0, 0}}, walked.place);
-            require(!path || is_finite(path->back()));
+            require(!path || detail::is_finite(path->back()));
         }
     }
 }

@@ -8,40 +8,40 @@ namespace abut {
 namespace {
 
 TEST(Glob, MatchesWholeNames) {
-    EXPECT_TRUE(glob_matches("Door", "Door"));
-    EXPECT_FALSE(glob_matches("Door", "Doors"));
-    EXPECT_FALSE(glob_matches("Door", "A Door"));
-    EXPECT_FALSE(glob_matches("Door", "door"));
-    EXPECT_FALSE(glob_matches("", "Door"));
-    EXPECT_TRUE(glob_matches("", ""));
+    EXPECT_TRUE(detail::glob_matches("Door", "Door"));
+    EXPECT_FALSE(detail::glob_matches("Door", "Doors"));
+    EXPECT_FALSE(detail::glob_matches("Door", "A Door"));
+    EXPECT_FALSE(detail::glob_matches("Door", "door"));
+    EXPECT_FALSE(detail::glob_matches("", "Door"));
+    EXPECT_TRUE(detail::glob_matches("", ""));
 }
 
 TEST(Glob, StarsStandForAnything) {
-    EXPECT_TRUE(glob_matches("*", ""));
-    EXPECT_TRUE(glob_matches("*", "Level/Door"));
-    EXPECT_TRUE(glob_matches("Player*", "Player"));
-    EXPECT_TRUE(glob_matches("Player*", "Player/Left Arm"));
-    EXPECT_TRUE(glob_matches("*/Wall*", "Level/Walls/North"));
-    EXPECT_TRUE(glob_matches("*a*b*", "xxaxxbxx"));
-    EXPECT_FALSE(glob_matches("*a*b*", "xxbxxaxx"));
-    EXPECT_TRUE(glob_matches("a**c", "abc"));
+    EXPECT_TRUE(detail::glob_matches("*", ""));
+    EXPECT_TRUE(detail::glob_matches("*", "Level/Door"));
+    EXPECT_TRUE(detail::glob_matches("Player*", "Player"));
+    EXPECT_TRUE(detail::glob_matches("Player*", "Player/Left Arm"));
+    EXPECT_TRUE(detail::glob_matches("*/Wall*", "Level/Walls/North"));
+    EXPECT_TRUE(detail::glob_matches("*a*b*", "xxaxxbxx"));
+    EXPECT_FALSE(detail::glob_matches("*a*b*", "xxbxxaxx"));
+    EXPECT_TRUE(detail::glob_matches("a**c", "abc"));
 }
 
 TEST(Glob, QuestionMarksStandForOneCharacter) {
-    EXPECT_TRUE(glob_matches("Crate.?01", "Crate.001"));
-    EXPECT_TRUE(glob_matches("a?b", "a/b"));
-    EXPECT_FALSE(glob_matches("a?b", "ab"));
+    EXPECT_TRUE(detail::glob_matches("Crate.?01", "Crate.001"));
+    EXPECT_TRUE(detail::glob_matches("a?b", "a/b"));
+    EXPECT_FALSE(detail::glob_matches("a?b", "ab"));
 }
 
 TEST(Glob, EarlierStarsBacktrack) {
-    EXPECT_TRUE(glob_matches("*ab*ab", "abab"));
-    EXPECT_TRUE(glob_matches("*aab", "aaab"));
-    EXPECT_FALSE(glob_matches("*aab", "aaba"));
+    EXPECT_TRUE(detail::glob_matches("*ab*ab", "abab"));
+    EXPECT_TRUE(detail::glob_matches("*aab", "aaab"));
+    EXPECT_FALSE(detail::glob_matches("*aab", "aaba"));
 }
 
 TEST(Glob, LongNamesAreNoTrouble) {
     const std::string name(10000, 'a');
-    EXPECT_FALSE(glob_matches("*a*a*a*a*a*a*a*b", name));
+    EXPECT_FALSE(detail::glob_matches("*a*a*a*a*a*a*a*b", name));
 }
 
 }  // namespace

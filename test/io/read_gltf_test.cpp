@@ -48,9 +48,9 @@ TEST_F(ReadGltf, AgreesWithAssimp) {
     const std::filesystem::path file = std::filesystem::path(ABUT_SCENE_FOLDER) / "level.gltf";
     const Result<Scene> ours = read_scene(file);
     ASSERT_TRUE(ours) << ours.problem().message;
-    Result<Scene> other = read_assimp(file, {});
+    Result<Scene> other = detail::read_assimp(file, {});
     ASSERT_TRUE(other) << other.problem().message;
-    const Result<Scene> theirs = finish_scene(*std::move(other), {});
+    const Result<Scene> theirs = detail::finish_scene(*std::move(other), {});
     ASSERT_TRUE(theirs) << theirs.problem().message;
 
     EXPECT_EQ(key_times(*ours).size(), key_times(*theirs).size());
@@ -81,7 +81,7 @@ TEST_F(ReadGltf, ThroughAssimpNodesOfOneNameAreWarnedOf) {
     builder.add_motion(1, "Fall", {0, 1}, {{0, 0, 0}, {0, 8, 0}});
     builder.add_text(R"(,"scenes":[{"nodes":[0,1]}],"scene":0)");
     const std::string text = builder.text();
-    const Result<Scene> scene = read_assimp(test::bytes_of(text), ".gltf", {});
+    const Result<Scene> scene = detail::read_assimp(test::bytes_of(text), ".gltf", {});
     ASSERT_TRUE(scene) << scene.problem().message;
     EXPECT_EQ(scene->warnings,
               std::vector<std::string>{"several nodes are named 'Crate': the first is taken for the one that moves"});

@@ -189,12 +189,12 @@ TEST_F(ReadScene, FromMemoryNoFileIsRead) {
 }
 
 TEST(ZeroArea, IsJudgedBesideTheLongestEdge) {
-    EXPECT_TRUE(has_zero_area({1, 2, 3}, {1, 2, 3}, {1, 2, 3}));
-    EXPECT_TRUE(has_zero_area({1, 2, 3}, {1, 2, 3}, {4, 5, 7}));
-    EXPECT_TRUE(has_zero_area({0, 0, 0}, {1, 1e-13f, 0}, {2, 0, 0}));
-    EXPECT_FALSE(has_zero_area({0, 0, 0}, {1, 1e-10f, 0}, {2, 0, 0}));
-    EXPECT_FALSE(has_zero_area({0, 0, 0}, {1e-20f, 0, 0}, {0, 1e-20f, 0}));
-    EXPECT_FALSE(has_zero_area({-3e38f, 0, 0}, {3e38f, 0, 0}, {0, 3e38f, 0}));
+    EXPECT_TRUE(detail::has_zero_area({1, 2, 3}, {1, 2, 3}, {1, 2, 3}));
+    EXPECT_TRUE(detail::has_zero_area({1, 2, 3}, {1, 2, 3}, {4, 5, 7}));
+    EXPECT_TRUE(detail::has_zero_area({0, 0, 0}, {1, 1e-13f, 0}, {2, 0, 0}));
+    EXPECT_FALSE(detail::has_zero_area({0, 0, 0}, {1, 1e-10f, 0}, {2, 0, 0}));
+    EXPECT_FALSE(detail::has_zero_area({0, 0, 0}, {1e-20f, 0, 0}, {0, 1e-20f, 0}));
+    EXPECT_FALSE(detail::has_zero_area({-3e38f, 0, 0}, {3e38f, 0, 0}, {0, 3e38f, 0}));
 }
 
 TEST_F(ReadScene, PolygonsWithCornersInARowAreFine) {

@@ -33,10 +33,10 @@ Scene full_scene() {
 }
 
 TEST(SceneBytes, GoThereAndBack) {
-    const std::vector<std::byte> bytes = to_bytes(full_scene());
-    const Result<Scene> scene = scene_from_bytes(bytes);
+    const std::vector<std::byte> bytes = detail::to_bytes(full_scene());
+    const Result<Scene> scene = detail::scene_from_bytes(bytes);
     ASSERT_TRUE(scene);
-    EXPECT_EQ(to_bytes(*scene), bytes);
+    EXPECT_EQ(detail::to_bytes(*scene), bytes);
     EXPECT_EQ(scene->nodes[1].name, "Crate");
     EXPECT_EQ(scene->nodes[1].local, full_scene().nodes[1].local);
     EXPECT_EQ(scene->geometries[0].triangles, full_scene().geometries[0].triangles);
@@ -46,7 +46,7 @@ TEST(SceneBytes, GoThereAndBack) {
 }
 
 TEST(SceneBytes, BringProblems) {
-    const Result<Scene> scene = scene_from_bytes(to_bytes(Problem{ProblemCode::degenerate, "zero area", 7}));
+    const Result<Scene> scene = detail::scene_from_bytes(detail::to_bytes(Problem{ProblemCode::degenerate, "zero area", 7}));
     ASSERT_FALSE(scene);
     EXPECT_EQ(scene.problem().code, ProblemCode::degenerate);
     EXPECT_EQ(scene.problem().message, "zero area");
@@ -54,18 +54,18 @@ TEST(SceneBytes, BringProblems) {
 }
 
 TEST(SceneBytes, NothingLessAndNothingMoreIsAScene) {
-    std::vector<std::byte> bytes = to_bytes(full_scene());
+    std::vector<std::byte> bytes = detail::to_bytes(full_scene());
     for (std::size_t size = 0; size < bytes.size(); ++size)
-        ASSERT_FALSE(scene_from_bytes(std::span(bytes).first(size))) << size;
+        ASSERT_FALSE(detail::scene_from_bytes(std::span(bytes).first(size))) << size;
     bytes.push_back(std::byte{0});
-    EXPECT_FALSE(scene_from_bytes(bytes));
+    EXPECT_FALSE(detail::scene_from_bytes(bytes));
 }
 
 TEST(SceneBytes, WhatPointsNowhereIsNoScene) {
     const auto refuses = [](auto&& change) {
         Scene scene = full_scene();
         change(scene);
-        return !scene_from_bytes(to_bytes(scene));
+        return !detail::scene_from_bytes(detail::to_bytes(scene));
     };
     EXPECT_FALSE(refuses([](Scene&) {}));
     EXPECT_TRUE(refuses([](Scene& scene) { scene.geometries[0].triangles[0].y = 3; }));
@@ -79,13 +79,13 @@ TEST(SceneBytes, WhatPointsNowhereIsNoScene) {
 }
 
 TEST(SceneBytes, AnyByteChangedIsStillSafe) {
-    const std::vector<std::byte> bytes = to_bytes(full_scene());
+    const std::vector<std::byte> bytes = detail::to_bytes(full_scene());
     std::size_t refused = 0;
     for (std::size_t i = 0; i < bytes.size(); ++i)
         for (const unsigned flip : {0x01u, 0x80u, 0xffu}) {
             std::vector<std::byte> changed = bytes;
             changed[i] ^= static_cast<std::byte>(flip);
-            refused += scene_from_bytes(changed) ? 0 : 1;
+            refused += detail::scene_from_bytes(changed) ? 0 : 1;
         }
     EXPECT_GT(refused, bytes.size() / 3);
 }

@@ -24,6 +24,9 @@
 #include <nlohmann/json.hpp>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 using Corners = std::array<std::array<float, 3>, 3>;

@@ -9,6 +9,9 @@
 #include <gtest/gtest.h>
 
 namespace abut::test {
+
+using namespace detail;
+
 namespace {
 
 /// The drop_tolerance error of a float of this size, with that of the computation of a position.

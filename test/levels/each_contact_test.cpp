@@ -9,6 +9,8 @@
 
 namespace abut::test {
 
+using namespace detail;
+
 /// A reference composite that visits all parts of a level. Its box is the level's, because the size and center of the
 /// box affect the surface normals of two level shapes.
 template <int D>

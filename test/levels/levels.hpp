@@ -24,6 +24,12 @@
 
 namespace abut::test {
 
+using detail::axis;
+using detail::dot;
+using detail::DVec;
+using detail::length;
+using detail::to_float;
+
 /// The placement of a level in the world.
 template <int D>
 struct Placing {
@@ -32,7 +38,7 @@ struct Placing {
     float radius = 0;
 
     View<D> operator()(const View<D>& shape) const {
-        const View<D> stands = moved(mapped(shape, scaling(scale)), affine(pose));
+        const View<D> stands = moved(mapped(shape, detail::scaling(scale)), detail::affine(pose));
         return radius > 0 ? rounded(stands, static_cast<double>(radius)) : stands;
     }
 };
@@ -132,7 +138,7 @@ inline AnyShape<3> random_convex(oracle::Random& random, std::integral_constant<
 inline Level<2> level_of(const Chain& chain) {
     Level<2> result{chain, {}};
     for (std::uint32_t i = 0; i < chain.size(); ++i) {
-        Convex<2> part = convex(chain.segment(i));
+        detail::Convex<2> part = convex(chain.segment(i));
         part.one_sided = chain.one_sided();
         result.parts.push_back({part, i});
     }
@@ -161,7 +167,7 @@ Level<D> level_of(const SolidBsp<D>& solid) {
     Level<D> result{solid, {}};
     constexpr float max_float = std::numeric_limits<float>::max();
     each_part(solid, Aabb<D>{Vec<D>(-max_float), Vec<D>(max_float)},
-              [&](const Convex<D>& part, std::uint32_t index) -> bool {
+              [&](const detail::Convex<D>& part, std::uint32_t index) -> bool {
                   result.parts.push_back({part, index});
                   return true;
               });
@@ -259,7 +265,7 @@ Level<D> random_brushes(oracle::Random& random) {
             sides.push_back({normal, dot(normal, center) + static_cast<float>(height)});
         };
         for (int axis = 0; axis < D; ++axis)
-            for (const double end : {-1.0, 1.0}) add(abut::axis<D>(axis, end), random.uniform(0.05, 0.8));
+            for (const double end : {-1.0, 1.0}) add(detail::axis<D>(axis, end), random.uniform(0.05, 0.8));
         for (std::uint32_t k = random.below(4); k > 0; --k)
             add(random.direction<D>(), random.uniform(random.chance(0.05) ? -1.5 : 0.05, 0.8));
         ends.push_back(static_cast<std::uint32_t>(sides.size()));
@@ -376,7 +382,7 @@ Other<D> random_other(oracle::Random& random, const PlacedLevel<D>& level) {
         return {Ball<D>{}, View<D>(view(side)), {{View<D>(view(side)), 0}}};
     }
     const AnyShape<D> shape = random_convex(random, std::integral_constant<int, D>(), 0.1, 1);
-    const View<D> stands = moved(shape.view(), affine(pose));
+    const View<D> stands = moved(shape.view(), detail::affine(pose));
     return {shape, stands, {{stands, 0}}};
 }
 

@@ -13,6 +13,9 @@
 
 namespace abut::test {
 
+using detail::DVec;
+using detail::length;
+
 /// The radius of a player of the game.
 inline constexpr float player_radius = 16;
 

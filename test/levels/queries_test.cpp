@@ -17,6 +17,9 @@
 #include <gtest/gtest.h>
 
 namespace abut::test {
+
+using namespace detail;
+
 namespace {
 
 /// The tolerance between the results: parts may be tested in another frame.

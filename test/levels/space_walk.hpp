@@ -11,11 +11,13 @@
 
 namespace abut::test {
 
+using detail::length;
+
 inline oracle::Polytope<3> polytope_of(const Polyhedron& shape, const Vec3& offset) {
     oracle::Polytope<3> result;
-    result.place.offset = DVec<3>(offset);
+    result.place.offset = detail::DVec<3>(offset);
     result.points.assign(shape.points().begin(), shape.points().end());
-    const Facets& facets = shape.facets();
+    const detail::Facets& facets = shape.facets();
     for (std::size_t face = 0; face < facets.loop_ends.size(); ++face) {
         const auto loop = facets.loop(face);
         for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -73,8 +75,8 @@ public:
             const Place here = open.front();
             open.pop();
             const Vec3 at = from_.at(here).position;
-            const double off = length(
-                DVec<2>(static_cast<double>(at.x - goal.position.x), static_cast<double>(at.z - goal.position.z)));
+            const double off = length(detail::DVec<2>(static_cast<double>(at.x - goal.position.x),
+                                                      static_cast<double>(at.z - goal.position.z)));
             if (off < static_cast<double>(std::max(goal.radius, cell_)) && std::abs(at.y - goal.position.y) < 1) {
                 for (Place place = here;; place = from_.at(place).from) {
                     path_.push_back(from_.at(place).position);

@@ -14,6 +14,13 @@
 
 namespace abut::test {
 
+using detail::dot;
+using detail::DVec;
+using detail::largest;
+using detail::length;
+using detail::normalized;
+using detail::to_float;
+
 /// The convex pieces of a level, with a tree of their boxes.
 template <int D>
 class Pieces {
@@ -141,7 +148,7 @@ private:
         walked_.grounded += moved_.grounded ? 1 : 0;
         walked_.touching += moved_.touches.empty() ? 0 : 1;
         walked_.crushed += moved_.crushed ? 1 : 0;
-        if (!is_finite(position_) || !is_finite(moved_.motion)) {
+        if (!detail::is_finite(position_) || !detail::is_finite(moved_.motion)) {
             position_ = before;
             return walked_.fault("isn't finite, from " + text_of<D>(before));
         }

@@ -120,7 +120,7 @@ TYPED_TEST(Boxes, HaveACenter) {
     EXPECT_EQ(center(cube<D>(-far, far)), Vec<D>(0));
     EXPECT_EQ(center(cube<D>(most / 2, most)), Vec<D>(0.75f * most)) << "no overflow";
     for (const auto& box : {cube<D>(-far, 5), cube<D>(5, far), cube<D>(-far, -most), cube<D>(most, far)}) {
-        EXPECT_TRUE(is_finite(center(box)));
+        EXPECT_TRUE(detail::is_finite(center(box)));
         EXPECT_TRUE(contains(box, center(box)));
     }
 }

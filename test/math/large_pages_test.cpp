@@ -15,12 +15,12 @@ struct alignas(64) Line {
 };
 
 TEST(LargePages, HoldWhatIsWrittenAndAreAligned) {
-    for (const std::size_t count : {std::size_t{1}, large_page / sizeof(Line) - 1, large_page / sizeof(Line),
-                                    3 * large_page / sizeof(Line) + 5}) {
-        std::vector<Line, LargePages<Line>> lines(count);
+    for (const std::size_t count : {std::size_t{1}, detail::large_page / sizeof(Line) - 1,
+                                    detail::large_page / sizeof(Line), 3 * detail::large_page / sizeof(Line) + 5}) {
+        std::vector<Line, detail::LargePages<Line>> lines(count);
         EXPECT_EQ(reinterpret_cast<std::uintptr_t>(lines.data()) % alignof(Line), 0u);
-        if (count * sizeof(Line) >= large_page) {
-            EXPECT_EQ(reinterpret_cast<std::uintptr_t>(lines.data()) % large_page, 0u);
+        if (count * sizeof(Line) >= detail::large_page) {
+            EXPECT_EQ(reinterpret_cast<std::uintptr_t>(lines.data()) % detail::large_page, 0u);
         }
         for (std::size_t i = 0; i < count; ++i) lines[i].number = i;
         lines.push_back({count});

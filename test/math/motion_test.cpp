@@ -7,6 +7,9 @@
 #include <abut/math/set_affine.hpp>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 using oracle::near;

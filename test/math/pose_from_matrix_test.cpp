@@ -12,6 +12,9 @@
 #include <gtest/gtest.h>
 
 namespace abut::test {
+
+using namespace detail;
+
 namespace {
 
 glm::mat3 matrix_of(const Pose2& pose) {
@@ -95,7 +98,7 @@ TYPED_TEST(PoseFrom, RoundingIsAcceptedAndNormalised) {
 TEST(PoseFromMatrix, HalfTurns) {
     oracle::Random random(3);
     for (int i = 0; i < 1000; ++i) {
-        const Vec3 axis = i < 3 ? to_float(abut::axis<3>(i)) : to_float(random.direction<3>());
+        const Vec3 axis = i < 3 ? to_float(abut::detail::axis<3>(i)) : to_float(random.direction<3>());
         const glm::quat turn = turn_about(axis, 3.14159265f + (i % 3 == 0 ? 0.0f : random.uniform_float(-1e-3, 1e-3)));
         const auto found = pose_from(matrix_of(Pose3{{}, turn}));
         ASSERT_TRUE(found) << "seed 3, " << i << ": " << found.problem().message;

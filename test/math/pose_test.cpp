@@ -8,6 +8,9 @@
 #include <gtest/gtest.h>
 
 namespace abut::test {
+
+using namespace detail;
+
 namespace {
 
 constexpr double ulp = 1.2e-7;

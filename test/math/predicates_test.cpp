@@ -15,6 +15,9 @@
 #include <gtest/gtest.h>
 
 namespace abut::test {
+
+using namespace detail;
+
 namespace {
 
 using oracle::Random;
@@ -51,12 +54,14 @@ bool exactly_on_line(const Vec3& a, const Vec3& b, const Vec3& p) {
 }
 
 int in_double(const Points<2>& points) {
-    const double turn = abut::cross(DVec<2>(points[1]) - DVec<2>(points[0]), DVec<2>(points[2]) - DVec<2>(points[0]));
+    const double turn =
+        abut::detail::cross(DVec<2>(points[1]) - DVec<2>(points[0]), DVec<2>(points[2]) - DVec<2>(points[0]));
     return turn > 0 ? 1 : turn < 0 ? -1 : 0;
 }
 int in_double(const Points<3>& points) {
     const DVec<3> a(points[0]);
-    const double volume = dot(abut::cross(DVec<3>(points[1]) - a, DVec<3>(points[2]) - a), DVec<3>(points[3]) - a);
+    const double volume =
+        dot(abut::detail::cross(DVec<3>(points[1]) - a, DVec<3>(points[2]) - a), DVec<3>(points[3]) - a);
     return volume > 0 ? 1 : volume < 0 ? -1 : 0;
 }
 

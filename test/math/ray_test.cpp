@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 namespace abut::test {
+
+using namespace detail;
+
 namespace {
 
 TEST(Ray, BetweenByHand) {

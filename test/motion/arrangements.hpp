@@ -16,6 +16,12 @@
 
 namespace abut::test {
 
+using detail::axis;
+using detail::dot;
+using detail::DVec;
+using detail::length;
+using detail::to_float;
+
 /// Owned shapes of any kind, with views of them.
 template <int D>
 class Things {
@@ -26,11 +32,11 @@ public:
         views_.push_back(view(*std::static_pointer_cast<S>(shapes_.back())));
     }
     std::size_t size() const { return views_.size(); }
-    std::span<const Convex<D>> views() const { return views_; }
+    std::span<const detail::Convex<D>> views() const { return views_; }
 
 private:
     std::vector<std::shared_ptr<void>> shapes_;
-    std::vector<Convex<D>> views_;
+    std::vector<detail::Convex<D>> views_;
 };
 
 /// Three sticks, each of which blocks another.

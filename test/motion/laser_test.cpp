@@ -12,6 +12,9 @@
 #include <gtest/gtest.h>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// The shapes of the walls of a room.

@@ -13,6 +13,9 @@
 #include <gtest/gtest.h>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 constexpr double pi = 3.14159265358979;

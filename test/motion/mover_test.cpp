@@ -17,6 +17,9 @@
 #include <gtest/gtest.h>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 constexpr float gravity = 0.02f;  // the fall in each frame

@@ -10,6 +10,9 @@
 #include <gtest/gtest.h>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// Executes the moves, and checks at samples of each move the distance of the moved shape to all others.

@@ -15,8 +15,15 @@
 
 namespace abut::oracle {
 
-using abut::cross;
-using abut::dot;
+using detail::cross;
+using detail::dot;
+using detail::DVec;
+using detail::length;
+using detail::normalized;
+using detail::unit;
+
+using abut::detail::cross;
+using abut::detail::dot;
 
 template <class T>
 T dot(const std::array<T, 2>& a, const std::array<T, 2>& b) {

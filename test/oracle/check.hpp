@@ -11,6 +11,9 @@
 
 namespace abut::oracle {
 
+using detail::DVec;
+using detail::length;
+
 /// The counts and largest errors over many pairs.
 struct Tally {
     int pairs = 0;

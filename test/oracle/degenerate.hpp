@@ -77,12 +77,13 @@ private:
     template <class S>
     Sample<D> placed(Kind kind, S shape, std::vector<Vec<D>> points, float radius = 0) {
         return sample<D>(kind, at(std::move(shape), pose_),
-                         mapped(hull_of<D>(std::move(points), static_cast<double>(radius)), affine(pose_)));
+                         mapped(hull_of<D>(std::move(points), static_cast<double>(radius)), detail::affine(pose_)));
     }
     Sample<D> box(const Vec<D>& center, const Vec<D>& half) {
         const Box<D> box{center, abs(half)};
-        return sample<D>(Kind::box, At<Box<D>>{box, pose_},
-                         mapped(box_of<D>(affine(Pose<D>{box.center, box.rotation}), box.half), affine(pose_)));
+        return sample<D>(
+            Kind::box, At<Box<D>>{box, pose_},
+            mapped(box_of<D>(detail::affine(Pose<D>{box.center, box.rotation}), box.half), detail::affine(pose_)));
     }
     static Vec<D> abs(Vec<D> v) {
         for (int i = 0; i < D; ++i) v[i] = std::abs(v[i]);

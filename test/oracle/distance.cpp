@@ -3,6 +3,9 @@
 #include <cmath>
 
 namespace abut::oracle {
+
+using namespace detail;
+
 namespace {
 
 /// The closest points found so far.

@@ -16,6 +16,10 @@
 
 namespace abut::oracle {
 
+using detail::cross;
+using detail::dot;
+using detail::DVec;
+
 template <int D>
 struct Truth {
     bool overlap = false;    ///< with the radii; exact for polytopes without radius and Arithmetic::exact

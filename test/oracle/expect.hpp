@@ -8,6 +8,9 @@
 
 namespace abut::oracle {
 
+using detail::DVec;
+using detail::length;
+
 template <int D>
 std::string text(const glm::vec<D, float>& v) {
     std::string result = "(";

@@ -21,6 +21,9 @@
 
 namespace abut::oracle {
 
+using detail::axis;
+using detail::DVec;
+
 template <int D>
 using LongVec = glm::vec<D, long double>;
 
@@ -171,7 +174,7 @@ struct StoredSample {
 template <int D>
 std::vector<StoredSample<D>> stored_samples(const Field<D>& field) {
     using Index = glm::vec<D, std::uint32_t>;
-    const FieldData<D>& data = field.data();
+    const detail::FieldData<D>& data = field.data();
     std::vector<StoredSample<D>> result;
     const auto position = [&](const Index& at) {
         DVec<D> place;
@@ -199,16 +202,16 @@ std::vector<StoredSample<D>> stored_samples(const Field<D>& field) {
         });
         return result;
     }
-    const Index blocks = data.cells / brick_cells<D>;
+    const Index blocks = data.cells / detail::brick_cells<D>;
     each(blocks, [&](std::size_t number, const Index& block) {
-        if (data.brick[number] == no_brick) return;
-        const std::size_t first = std::size_t{data.brick[number]} * brick_samples<D>;
-        each(Index(brick_cells<D> + 1), [&](std::size_t inner, const Index& at) {
-            result.push_back({position(block * brick_cells<D> + at), distance(first + inner)});
+        if (data.brick[number] == detail::no_brick) return;
+        const std::size_t first = std::size_t{data.brick[number]} * detail::brick_samples<D>;
+        each(Index(detail::brick_cells<D> + 1), [&](std::size_t inner, const Index& at) {
+            result.push_back({position(block * detail::brick_cells<D> + at), distance(first + inner)});
         });
     });
     each(blocks + 1u, [&](std::size_t number, const Index& corner) {
-        result.push_back({position(corner * brick_cells<D>), static_cast<double>(data.coarse[number])});
+        result.push_back({position(corner * detail::brick_cells<D>), static_cast<double>(data.coarse[number])});
     });
     return result;
 }

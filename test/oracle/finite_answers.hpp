@@ -27,20 +27,20 @@ bool is_direction(const Vec<D>& v) {
 template <int D>
 bool is_finite_answer(const Closest<D>& found) {
     return found.distance > -std::numeric_limits<float>::infinity() && is_direction<D>(found.normal) &&
-           is_finite<D>(found.on_a) && is_finite<D>(found.on_b);
+           detail::is_finite<D>(found.on_a) && detail::is_finite<D>(found.on_b);
 }
 template <int D>
 bool is_finite_answer(const Contact<D>& found) {
     if (!found) return true;
     bool result = std::isfinite(found.depth) && is_direction<D>(found.normal);
     for (const ContactPoint<D>& point : found.points)
-        result = result && std::isfinite(point.depth) && is_finite<D>(point.position);
+        result = result && std::isfinite(point.depth) && detail::is_finite<D>(point.position);
     return result;
 }
 template <int D>
 bool is_finite_answer(const std::optional<Hit<D>>& hit) {
     return !hit || (hit->fraction >= 0 && hit->fraction <= 1 && hit->distance >= 0 && std::isfinite(hit->distance) &&
-                    is_finite<D>(hit->point) && is_direction<D>(hit->normal));
+                    detail::is_finite<D>(hit->point) && is_direction<D>(hit->normal));
 }
 
 /// The name of the first query whose answer isn't finite; null if all are.

@@ -13,6 +13,11 @@
 
 namespace abut::oracle {
 
+using detail::cross;
+using detail::dot;
+using detail::length;
+using detail::unit;
+
 /// The end of a walk, with the transported vectors.
 template <class Real>
 struct GeodesicEnd {

@@ -8,6 +8,8 @@
 
 namespace abut::oracle {
 
+using namespace detail;
+
 template <int D>
 MinExtent<D> min_extent(const Polytope<D>& a, const Polytope<D>& b, Arithmetic arithmetic) {
     const DVec<D> origin = middle(a);

@@ -16,6 +16,14 @@
 
 namespace abut::oracle {
 
+using detail::axis;
+using detail::cross;
+using detail::dot;
+using detail::DVec;
+using detail::length;
+using detail::normalized;
+using detail::perpendicular;
+
 /// The axes of a box and the lengths of its sides.
 struct OrientedBox {
     std::array<DVec<3>, 3> axes;
@@ -94,7 +102,7 @@ inline OrientedBox refined(std::span<const DVec<3>> points, std::array<DVec<3>, 
 
 /// Starts from the coordinate axes, the principal directions of the points, all faces of their hull, and random axes.
 inline OrientedBox min_volume_box(std::span<const Vec3> points, std::uint64_t seed) {
-    const Hull3 full = *hull(points);
+    const detail::Hull3 full = *detail::hull(points);
     std::vector<DVec<3>> corners;
     for (const Vec3& p : points) corners.push_back(DVec<3>(p) - DVec<3>(points[0]));
     std::vector<DVec<3>> normals{axis<3>(0)};

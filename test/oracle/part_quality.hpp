@@ -19,6 +19,12 @@
 
 namespace abut::oracle {
 
+using detail::cross;
+using detail::dot;
+using detail::DVec;
+using detail::length;
+using detail::to_float;
+
 struct PartQuality {
     double extra = 0;      ///< volume of the parts outside of the mesh, as a share of the mesh's; 0 if the mesh is open
     double missing = 0;    ///< volume of the mesh in no part, as a share of the mesh's; 0 if the mesh is open
@@ -59,7 +65,7 @@ public:
 
 private:
     static bool contains_point(const Polyhedron& part, const Vec3& point) {
-        const Facets& facets = part.facets();
+        const detail::Facets& facets = part.facets();
         if (facets.normals.empty()) return false;
         for (std::size_t i = 0; i < facets.normals.size(); ++i)
             if (dot(DVec<3>(facets.normals[i]), DVec<3>(point)) > part.offsets()[i]) return false;

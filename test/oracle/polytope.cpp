@@ -4,6 +4,9 @@
 #include <utility>
 
 namespace abut::oracle {
+
+using namespace detail;
+
 namespace {
 
 /// Whether the line through points i and j has points on both sides, beyond the rounding of doubles.

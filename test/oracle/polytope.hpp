@@ -14,11 +14,15 @@
 
 namespace abut::oracle {
 
+using detail::DVec;
+using detail::largest;
+using detail::length;
+
 /// The convex hull of place(points), and all points within `radius` of it. The lists must hold all edges and triangles
 /// of the hull; they may hold others that lie in it.
 template <int D>
 struct Polytope {
-    Affine<D> place;
+    detail::Affine<D> place;
     std::vector<Vec<D>> points;
     std::vector<std::array<std::uint32_t, 2>> edges;
     std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -46,7 +50,7 @@ std::vector<std::array<T, D>> corners(const Polytope<D>& polytope, const DVec<D>
 template <int D>
 std::vector<DVec<D>> corners_relative_to(const Polytope<D>& polytope, const DVec<D>& origin) {
     std::vector<DVec<D>> result;
-    Affine<D> place = polytope.place;
+    detail::Affine<D> place = polytope.place;
     place.offset -= origin;
     for (const Vec<D>& point : polytope.points) result.push_back(place.point(DVec<D>(point)));
     return result;
@@ -122,17 +126,17 @@ Polytope<D> hull_of(std::vector<Vec<D>> points, double radius = 0);
 
 /// The box between two corners, transformed by `place`.
 template <int D>
-Polytope<D> box_between(const Vec<D>& low, const Vec<D>& high, const Affine<D>& place = {}, double radius = 0);
+Polytope<D> box_between(const Vec<D>& low, const Vec<D>& high, const detail::Affine<D>& place = {}, double radius = 0);
 
 /// A box about the origin of `place`.
 template <int D>
-Polytope<D> box_of(const Affine<D>& place, const Vec<D>& half, double radius = 0) {
+Polytope<D> box_of(const detail::Affine<D>& place, const Vec<D>& half, double radius = 0) {
     return box_between(-half, half, place, radius);
 }
 
 /// The polytope transformed by `map`. Its radius must be zero unless `map` is a pose.
 template <int D>
-Polytope<D> mapped(Polytope<D> polytope, const Affine<D>& map) {
+Polytope<D> mapped(Polytope<D> polytope, const detail::Affine<D>& map) {
     polytope.place = map * polytope.place;
     return polytope;
 }

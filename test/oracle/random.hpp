@@ -10,6 +10,11 @@
 
 namespace abut::oracle {
 
+using detail::dot;
+using detail::DVec;
+using detail::length;
+using detail::unit;
+
 /// splitmix64 (Steele, Lea, Flood 2014). A copy repeats the numbers.
 class Random {
 public:

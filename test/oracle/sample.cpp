@@ -25,7 +25,7 @@ Sample<D> SampleGenerator<D>::make(Kind kind) {
         }
         case Kind::box: {
             const Box<D> box{point(0), half(), random_.rotation<D>()};
-            return sample<D>(kind, box, box_of<D>(affine(Pose<D>{box.center, box.rotation}), box.half));
+            return sample<D>(kind, box, box_of<D>(detail::affine(Pose<D>{box.center, box.rotation}), box.half));
         }
         case Kind::aabb: {
             const Vec<D> middle = point(0), extent = half();
@@ -36,7 +36,7 @@ Sample<D> SampleGenerator<D>::make(Kind kind) {
             const Box<D> box{point(0), half() * 0.5f, random_.rotation<D>()};
             return sample<D>(
                 kind, rounded(Box<D>(box), radius),
-                box_of<D>(affine(Pose<D>{box.center, box.rotation}), box.half, static_cast<double>(radius)));
+                box_of<D>(detail::affine(Pose<D>{box.center, box.rotation}), box.half, static_cast<double>(radius)));
         }
         case Kind::cloud: {
             std::vector<Vec<D>> points;
@@ -52,13 +52,14 @@ Sample<D> SampleGenerator<D>::make(Kind kind) {
             const Pose<D> pose{point(0), random_.rotation<D>()};
             const Vec<D> a = local(0.7), b = local(0.7);
             return sample<D>(kind, at(Capsule<D>{a, b, radius}, pose),
-                             mapped(hull_of<D>({a, b}, static_cast<double>(radius)), affine(pose)));
+                             mapped(hull_of<D>({a, b}, static_cast<double>(radius)), detail::affine(pose)));
         }
         case Kind::stretched_box: {
             const Pose<D> pose{point(0), random_.rotation<D>()};
             const Box<D> box{local(0.1), half() * 0.5f, random_.rotation<D>()};
             const Vec<D> scale = local(2) / static_cast<float>(size_);
-            const Affine<D> place = affine(pose) * scaling(scale) * affine(Pose<D>{box.center, box.rotation});
+            const detail::Affine<D> place =
+                detail::affine(pose) * detail::scaling(scale) * detail::affine(Pose<D>{box.center, box.rotation});
             return sample<D>(kind, at(stretched(Box<D>(box), scale), pose), box_of<D>(place, box.half));
         }
         case Kind::rounded_triangle: {

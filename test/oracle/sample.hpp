@@ -18,6 +18,10 @@
 
 namespace abut::oracle {
 
+using detail::dot;
+using detail::DVec;
+using detail::to_float;
+
 enum class Kind {
     ball,
     capsule,
@@ -44,8 +48,8 @@ struct Sample {
 };
 
 template <int D>
-const Convex<D>& convex_of(const Sample<D>& sample) {
-    return std::get<Convex<D>>(sample.view);
+const detail::Convex<D>& convex_of(const Sample<D>& sample) {
+    return std::get<detail::Convex<D>>(sample.view);
 }
 
 /// A user-defined shape: the hull of points, given by its support function.

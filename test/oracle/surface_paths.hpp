@@ -20,6 +20,11 @@
 
 namespace abut::oracle {
 
+using detail::cross;
+using detail::dot;
+using detail::DVec;
+using detail::length;
+
 /// A graph of points on the edges of triangles, with a segment between any two of one triangle. Its shortest path is no
 /// shorter than the geodesic.
 class EdgePointGraph {

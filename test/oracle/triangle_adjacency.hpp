@@ -18,6 +18,10 @@
 
 namespace abut::oracle {
 
+using detail::dot;
+using detail::length;
+using detail::unit;
+
 template <class Real>
 struct RealVec3 {
     Real x = 0, y = 0, z = 0;
@@ -39,7 +43,7 @@ struct RealVec3 {
         return sqrt(dot(a, a));
     }
     friend RealVec3 unit(const RealVec3& a) { return a * (1 / length(a)); }
-    DVec<3> rounded() const { return {static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)}; }
+    detail::DVec<3> rounded() const { return {static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)}; }
 };
 
 /// The triangle across each edge, by the positions of the corners. At a non-manifold edge the two triangles with the

@@ -12,6 +12,10 @@
 
 namespace abut::oracle {
 
+using detail::axis;
+using detail::DVec;
+using detail::length;
+
 /// A grid of squares of edge 1, of which some are missing. No two missing ones may share only a corner.
 struct Squares {
     int columns = 0, rows = 0;

@@ -12,6 +12,9 @@
 
 namespace abut::oracle {
 
+using detail::cross;
+using detail::dot;
+
 /// Half-spaces a . x <= b in rational numbers. The volume of their intersection needs none of its corners (Lasserre,
 /// "An analytical expression and an algorithm for the volume of a convex polyhedron in R^n", 1983).
 struct HalfSpaces {

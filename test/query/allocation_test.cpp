@@ -61,6 +61,9 @@ void operator delete[](void* memory, std::size_t) noexcept {
 }
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 template <int D>

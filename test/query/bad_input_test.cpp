@@ -55,7 +55,7 @@ void expect_harmless(const View<D>& bad, const View<D>& good) {
         const Closest<D> found = closest(*a, *b);
         EXPECT_EQ(found.distance, infinity);
         EXPECT_TRUE(oracle::is_unit(found.normal));
-        EXPECT_TRUE(is_finite<D>(found.on_a) && is_finite<D>(found.on_b));
+        EXPECT_TRUE(detail::is_finite<D>(found.on_a) && detail::is_finite<D>(found.on_b));
         const Contact<D> touch = contact(*a, *b);
         EXPECT_FALSE(touch);
         EXPECT_TRUE(oracle::is_unit(touch.normal));

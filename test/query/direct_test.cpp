@@ -21,6 +21,9 @@
 #include <gtest/gtest.h>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 using oracle::Random;

@@ -133,8 +133,8 @@ double joint_cost(const Order& order, const std::vector<double>& times, const st
 }
 
 template <std::size_t N>
-SampledTests<N> sampled(const std::vector<double>& times, const std::vector<double>& outcomes) {
-    SampledTests<N> result;
+detail::SampledTests<N> sampled(const std::vector<double>& times, const std::vector<double>& outcomes) {
+    detail::SampledTests<N> result;
     std::array<double, N + 1> laps{};
     laps[0] = 20;  // the clock's own time
     for (std::size_t i = 0; i < N; ++i) laps[i + 1] = 20 + times[i];
@@ -389,9 +389,9 @@ TEST(EarlyOut, InterruptedSampleDoesNotUpsetTheOrder) {
 }
 
 TEST(EarlyOut, SteadyClockNeverGoesBack) {
-    std::uint64_t last = steady_nanoseconds();
+    std::uint64_t last = detail::steady_nanoseconds();
     for (int i = 0; i < 1000; ++i) {
-        const std::uint64_t next = steady_nanoseconds();
+        const std::uint64_t next = detail::steady_nanoseconds();
         EXPECT_GE(next, last);
         last = next;
     }

@@ -16,6 +16,9 @@
 #include <gtest/gtest.h>
 
 namespace abut {
+
+using namespace detail;
+
 namespace users {
 
 /// A function that violates the contract of a distance function.

@@ -20,6 +20,9 @@
 #include <gtest/gtest.h>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// A function and its twin at the same pose.

@@ -8,6 +8,9 @@
 #include <abut/query/intersection.hpp>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 using oracle::near;

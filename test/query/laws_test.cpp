@@ -6,6 +6,9 @@
 #include <abut/query/contains.hpp>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 using oracle::near;

@@ -12,6 +12,14 @@
 
 namespace abut::users {
 
+using detail::dot;
+using detail::DVec;
+using detail::length;
+using detail::length_squared;
+using detail::normalized;
+using detail::perpendicular;
+using detail::to_float;
+
 /// A ball as a distance function.
 template <int D>
 struct Blob {
@@ -91,7 +99,7 @@ template <int D>
 double ground(const Hills<D>& hills, const Vec<D>& point) {
     double result = 0;
     for (int i = 0; i < D; ++i)
-        if (i != 1) result += sin_cos(static_cast<double>(point[i])).sin;
+        if (i != 1) result += detail::sin_cos(static_cast<double>(point[i])).sin;
     return result * static_cast<double>(hills.height);
 }
 template <int D>

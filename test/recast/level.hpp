@@ -15,6 +15,11 @@
 
 namespace abut::recast_test {
 
+using detail::cross;
+using detail::dot;
+using detail::DVec;
+using detail::length;
+
 struct Level {
     std::vector<Vec3> points;
     std::vector<glm::uvec3> triangles;

@@ -9,6 +9,9 @@
 #include <gtest/gtest.h>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 WalkMesh mesh_of(const Stitched& surface) {

@@ -26,6 +26,9 @@
 #include <gtest/gtest.h>
 
 namespace abut::test {
+
+using namespace detail;
+
 namespace {
 
 using oracle::Random;
@@ -189,7 +192,7 @@ std::vector<PointSet<3>> sets(std::integral_constant<int, 3>) {
 
 void expect_exact(const Polygon& polygon, const std::vector<Vec2>& points) {
     const std::span<const Vec2> loop = polygon.points();
-    const double extent = abut::extent<2>(points);
+    const double extent = abut::detail::extent<2>(points);
     for (std::size_t i = 0; i < loop.size(); ++i) {
         const Vec2 &a = loop[i], &b = loop[(i + 1) % loop.size()];
         EXPECT_NE(std::find(points.begin(), points.end(), a), points.end()) << "a corner from nowhere";
@@ -377,7 +380,7 @@ TEST(AnyPoints, InAPlaneStopARayAcross) {
         if (set.rank != 2 || !set.has_neighbours) continue;
         SCOPED_TRACE(set.name);
         const Polyhedron flat = *Polyhedron::build(set.points);
-        const double size = abut::size(convex(flat));
+        const double size = abut::detail::size(convex(flat));
         for (const Vec3& normal : flat.facets().normals) {
             const DVec<3> centroid(flat.centroid()), up(normal);
             const auto hit =

@@ -13,6 +13,9 @@
 #include <vector>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 using oracle::near;

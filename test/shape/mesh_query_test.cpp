@@ -14,6 +14,9 @@
 #include <gtest/gtest.h>
 
 namespace abut::test {
+
+using namespace detail;
+
 namespace {
 
 /// Counts of the kinds of answers.

@@ -13,6 +13,9 @@
 #include <gtest/gtest.h>
 
 namespace abut::test {
+
+using namespace detail;
+
 namespace {
 
 const Surface cube = box_surface({0, 0, 0}, {1, 1, 1});

@@ -11,6 +11,9 @@
 
 namespace abut::test {
 
+using detail::axis;
+using detail::to_float;
+
 struct Surface {
     std::vector<Vec3> points;
     std::vector<glm::uvec3> triangles;
@@ -153,7 +156,7 @@ inline Vec3 random_scale(oracle::Random& random) {
 inline Surface random_soup(oracle::Random& random, int count, double extent, double size) {
     Surface result;
     for (int i = 0; i < count; ++i) {
-        const DVec<3> center = random.in_cube<3>() * extent;
+        const detail::DVec<3> center = random.in_cube<3>() * extent;
         const auto first = static_cast<std::uint32_t>(result.points.size());
         for (int j = 0; j < 3; ++j) result.points.push_back(to_float(center + random.in_cube<3>() * size));
         result.triangles.emplace_back(first, first + 1, first + 2);

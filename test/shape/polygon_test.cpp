@@ -10,10 +10,10 @@
 
 namespace {
 
-using abut::DVec;
 using abut::Polygon;
 using abut::ProblemCode;
 using abut::Vec2;
+using abut::detail::DVec;
 
 std::vector<Vec2> corners(const Polygon& polygon) {
     return {polygon.points().begin(), polygon.points().end()};
@@ -111,8 +111,8 @@ TEST(Polygon, IsAValue) {
 
 TEST(Polygon, LooksToTheEnginesLikeItsCorners) {
     const Polygon polygon = *Polygon::build({{0, 0}, {4, 0}, {4, 1}, {0, 3}});
-    const abut::Convex<2> seen = convex(polygon);
-    EXPECT_EQ(seen.core, abut::Core::points);
+    const abut::detail::Convex<2> seen = convex(polygon);
+    EXPECT_EQ(seen.core, abut::detail::Core::points);
     EXPECT_EQ(seen.count, 4u);
     EXPECT_EQ(seen.vertices(), polygon.points().data());
     EXPECT_EQ(bounds(seen), (abut::Aabb2{{0, 0}, {4, 3}}));
@@ -126,27 +126,29 @@ TEST(Polygon, IsConvexAndHoldsItsPointsAtEveryScale) {
                 SCOPED_TRACE("scale " + std::to_string(scale) + ", away " + std::to_string(away) + ", seed " +
                              std::to_string(seed));
                 abut::oracle::Random random(seed);
-                const DVec<2> offset = random.direction<2>() * away;
+                const abut::detail::DVec<2> offset = random.direction<2>() * away;
                 std::vector<Vec2> points;
                 for (std::uint32_t i = 0, count = 3 + random.below(100); i < count; ++i)
-                    points.emplace_back(abut::to_float((random.in_cube<2>() + offset) * scale));
+                    points.emplace_back(abut::detail::to_float((random.in_cube<2>() + offset) * scale));
                 const Polygon polygon = *Polygon::build(points);
                 ASSERT_EQ(polygon.rank(), 2);
                 const auto loop = corners(polygon);
                 double twice_area = 0;
-                DVec<2> weighted(0.0);
+                abut::detail::DVec<2> weighted(0.0);
                 for (std::size_t i = 0; i < loop.size(); ++i) {
-                    const DVec<2> a(loop[i]), b(loop[(i + 1) % loop.size()]), c(loop[(i + 2) % loop.size()]);
-                    EXPECT_GT(abut::cross(b - a, c - b), 0);
+                    const abut::detail::DVec<2> a(loop[i]), b(loop[(i + 1) % loop.size()]),
+                        c(loop[(i + 2) % loop.size()]);
+                    EXPECT_GT(abut::detail::cross(b - a, c - b), 0);
                     for (const Vec2& point : points)
-                        ASSERT_GE(abut::cross(b - a, DVec<2>(point) - a), 0) << "a point outside";
-                    const DVec<2> from_point = a - DVec<2>(points[0]), to_point = b - DVec<2>(points[0]);
-                    twice_area += abut::cross(from_point, to_point);
-                    weighted += abut::cross(from_point, to_point) * (from_point + to_point);
+                        ASSERT_GE(abut::detail::cross(b - a, abut::detail::DVec<2>(point) - a), 0) << "a point outside";
+                    const abut::detail::DVec<2> from_point = a - abut::detail::DVec<2>(points[0]),
+                                                to_point = b - abut::detail::DVec<2>(points[0]);
+                    twice_area += abut::detail::cross(from_point, to_point);
+                    weighted += abut::detail::cross(from_point, to_point) * (from_point + to_point);
                 }
                 EXPECT_NEAR(polygon.area(), 0.5 * twice_area, 1e-9 * twice_area);
-                const DVec<2> centroid = DVec<2>(points[0]) + weighted / (3 * twice_area);
-                EXPECT_LT(length(DVec<2>(polygon.centroid()) - centroid), 1e-7 * (1 + away) * scale);
+                const abut::detail::DVec<2> centroid = abut::detail::DVec<2>(points[0]) + weighted / (3 * twice_area);
+                EXPECT_LT(length(abut::detail::DVec<2>(polygon.centroid()) - centroid), 1e-7 * (1 + away) * scale);
 
                 std::vector<Vec2> backwards(points.rbegin(), points.rend());
                 EXPECT_EQ(corners(*Polygon::build(backwards)), loop);

@@ -11,11 +11,11 @@
 
 namespace {
 
-using abut::DVec;
-using abut::Facets;
 using abut::Polyhedron;
 using abut::ProblemCode;
 using abut::Vec3;
+using abut::detail::DVec;
+using abut::detail::Facets;
 
 using Loop = std::vector<std::uint32_t>;
 
@@ -213,8 +213,8 @@ TEST(Polyhedron, TakesAnyFiniteFloats) {
         EXPECT_EQ(built->facets().normals.size(), 4u);
         EXPECT_GT(built->volume(), 0);
         EXPECT_TRUE(std::isfinite(built->volume()));
-        EXPECT_TRUE(abut::is_finite<3>(built->centroid()));
-        for (const Vec3& normal : built->facets().normals) EXPECT_NEAR(length(DVec<3>(normal)), 1, 1e-6);
+        EXPECT_TRUE(abut::detail::is_finite<3>(built->centroid()));
+        for (const Vec3& normal : built->facets().normals) EXPECT_NEAR(length(abut::detail::DVec<3>(normal)), 1, 1e-6);
     }
 }
 
@@ -240,14 +240,14 @@ TEST(Polyhedron, SharesWhatWasBuiltWithItsCopies) {
 
 TEST(Polyhedron, LooksToTheEnginesLikeItsCornersAndFaces) {
     const Polyhedron cube = *Polyhedron::build(cube_grid(2, 1));
-    const abut::Convex<3> seen = convex(cube);
-    EXPECT_EQ(seen.core, abut::Core::points);
+    const abut::detail::Convex<3> seen = convex(cube);
+    EXPECT_EQ(seen.core, abut::detail::Core::points);
     EXPECT_EQ(seen.count, 8u);
     EXPECT_EQ(seen.vertices(), cube.points().data());
     EXPECT_EQ(seen.facets, &cube.facets());
     EXPECT_EQ(bounds(seen), (abut::Aabb3{Vec3(0), Vec3(1)}));
 
-    const abut::Convex<3> segment = convex(*Polyhedron::build({{0, 0, 0}, {1, 1, 1}}));
+    const abut::detail::Convex<3> segment = convex(*Polyhedron::build({{0, 0, 0}, {1, 1, 1}}));
     EXPECT_EQ(segment.count, 2u);
     EXPECT_EQ(segment.facets, nullptr);
     EXPECT_EQ(bounds(convex(Polyhedron())), (abut::Aabb3{Vec3(0), Vec3(0)}));
@@ -271,8 +271,9 @@ TEST(Polyhedron, CentroidsAddUp) {
     rest.insert(rest.end(), {cut[1], cut[2]});
     const Polyhedron body = *Polyhedron::build(rest), corner = *Polyhedron::build({Vec3(0), cut[0], cut[1], cut[2]});
     EXPECT_DOUBLE_EQ(body.volume() + corner.volume(), 64);
-    const DVec<3> mean =
-        (DVec<3>(body.centroid()) * body.volume() + DVec<3>(corner.centroid()) * corner.volume()) / cube.volume();
+    const abut::detail::DVec<3> mean = (abut::detail::DVec<3>(body.centroid()) * body.volume() +
+                                        abut::detail::DVec<3>(corner.centroid()) * corner.volume()) /
+                                       cube.volume();
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(mean[i], 2, 1e-6);
 }
 
@@ -282,12 +283,14 @@ TEST(Polyhedron, CentroidOfAThinPlateIsItsMiddle) {
     for (const double thickness : {1e-2, 1e-4, 1e-6}) {
         SCOPED_TRACE(thickness);
         std::vector<Vec3> points;
-        const DVec<3> x = random.direction<3>(), z = abut::perpendicular(x), y = abut::cross(z, x);
+        const abut::detail::DVec<3> x = random.direction<3>(), z = abut::detail::perpendicular(x),
+                                    y = abut::detail::cross(z, x);
         for (const double i : {-1.0, 1.0})
             for (const double j : {-1.0, 1.0})
-                for (const double k : {-1.0, 1.0}) points.push_back(abut::to_float(x * i + y * j + z * k * thickness));
+                for (const double k : {-1.0, 1.0})
+                    points.push_back(abut::detail::to_float(x * i + y * j + z * k * thickness));
         const Polyhedron plate = *Polyhedron::build(points);
-        EXPECT_LT(length(DVec<3>(plate.centroid())), 3e-8 / thickness + 1e-6);
+        EXPECT_LT(length(abut::detail::DVec<3>(plate.centroid())), 3e-8 / thickness + 1e-6);
         EXPECT_NEAR(plate.volume() / (8 * thickness), 1, 1e-7 / thickness);
     }
 }

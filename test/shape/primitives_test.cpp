@@ -11,6 +11,9 @@
 #include <abut/shape/triangle.hpp>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 using oracle::near;
@@ -95,8 +98,8 @@ TYPED_TEST(Support, IsTheFarthestPointOfEveryKind) {
                 EXPECT_NEAR(box.min[i], low, tolerance);
                 EXPECT_NEAR(box.max[i], high, tolerance);
             }
-            EXPECT_GE(abut::size(shape), oracle::size(sample.solid) - tolerance);
-            EXPECT_LE(abut::size(shape), std::sqrt(D) * oracle::size(sample.solid) + tolerance);
+            EXPECT_GE(detail::size(shape), oracle::size(sample.solid) - tolerance);
+            EXPECT_LE(detail::size(shape), std::sqrt(D) * oracle::size(sample.solid) + tolerance);
         }
 }
 

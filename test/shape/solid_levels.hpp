@@ -14,6 +14,11 @@
 
 namespace abut::test {
 
+using detail::cross;
+using detail::dot;
+using detail::DVec;
+using detail::length;
+
 template <int D>
 struct Level {
     std::vector<Vec<D>> points;

@@ -56,6 +56,9 @@ void each_part(const Voxels& v, const Aabb3& box, Visit&& visit) {
 }  // namespace game
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 using game::Ellipsoid;

@@ -12,6 +12,9 @@
 #include <abut/shape/triangle.hpp>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 using oracle::near;

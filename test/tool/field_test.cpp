@@ -26,7 +26,7 @@ protected:
     std::string cube() const { return write_mesh("cube.obj", scenes::of_cubes({{"#"}})); }
     template <int D>
     static Field<D> loaded(const std::string& file) {
-        const Result<std::vector<std::byte>> bytes = read_file(file);
+        const Result<std::vector<std::byte>> bytes = detail::read_file(file);
         EXPECT_TRUE(bytes) << file;
         Result<Field<D>> field = load_field<D>(*bytes);
         EXPECT_TRUE(field) << (field ? "" : field.problem().message);

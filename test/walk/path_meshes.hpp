@@ -14,6 +14,8 @@
 
 namespace abut::test {
 
+using detail::length;
+
 struct Ground {
     std::vector<Vec3> points;
     std::vector<glm::uvec3> triangles;
@@ -70,7 +72,7 @@ inline WalkPoint random_place(const WalkMesh& mesh, oracle::Random& random) {
 }
 
 inline double distance(const Vec3& a, const Vec3& b) {
-    return length(DVec<3>(a) - DVec<3>(b));
+    return length(detail::DVec<3>(a) - detail::DVec<3>(b));
 }
 inline double length_of(const std::vector<Vec3>& points) {
     double result = 0;

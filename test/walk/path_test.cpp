@@ -11,6 +11,9 @@
 #include <gtest/gtest.h>
 
 namespace abut::test {
+
+using namespace detail;
+
 namespace {
 
 constexpr float infinite = std::numeric_limits<float>::infinity();

@@ -17,6 +17,9 @@
 #include <gtest/gtest.h>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 using oracle::Random;
@@ -184,7 +187,7 @@ void expect_reference_survey(const WalkMesh& mesh) {
         for (std::size_t i = 0; i < border.points.size(); ++i) {
             const Vec3 &a = border.points[i], &b = border.points[(i + 1) % border.points.size()];
             reported.push_back(edge(a, b));
-            length += abut::length(DVec<3>(b) - DVec<3>(a));
+            length += detail::length(DVec<3>(b) - DVec<3>(a));
         }
         EXPECT_NEAR(border.length, length, 1e-9);
         longest[border.component] = std::max(longest[border.component], border.length);

@@ -17,6 +17,11 @@
 
 namespace abut::test {
 
+using detail::dot;
+using detail::DVec;
+using detail::length;
+using detail::to_float;
+
 /// Weights that a WalkMesh may return.
 inline bool are_valid_weights(const Vec3& weights) {
     double sum = 0;

@@ -23,6 +23,9 @@ void abut::assert_failed(const char*, const char*, int) {
 }
 
 namespace abut::test {
+
+using namespace detail;
+
 namespace {
 
 using oracle::near;

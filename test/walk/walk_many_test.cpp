@@ -18,6 +18,9 @@
 #include <gtest/gtest.h>
 
 namespace abut::test {
+
+using namespace detail;
+
 namespace {
 
 constexpr std::uint64_t walk_many_seed = 20261123;
@@ -85,7 +88,7 @@ private:
         if (mesh_.component(before.triangle) != mesh_.component(walker.place.triangle))
             return fault(walker, before, "is on another component");
         // No walker moves farther than its path is long.
-        if (abut::length(where(walker.place) - where(before)) > length * (1 + 1e-6) + 1e-6 * size_)
+        if (abut::detail::length(where(walker.place) - where(before)) > length * (1 + 1e-6) + 1e-6 * size_)
             return fault(walker, before, "has jumped");
         walker.stops = walked.met == WalkMet::corner && length < 1e-3 * requested ? walker.stops + 1 : 0;
         if (walker.stops > 60) return fault(walker, before, "is stuck");

@@ -11,6 +11,9 @@
 #include <gtest/gtest.h>
 
 namespace abut::test {
+
+using namespace detail;
+
 namespace {
 
 constexpr std::uint64_t walk_oracle_seed = 20261123;

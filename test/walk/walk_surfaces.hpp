@@ -21,6 +21,10 @@
 
 namespace abut::test {
 
+using detail::DVec;
+using detail::length;
+using detail::to_float;
+
 /// The point of a sheet in this column and row.
 using Sheet = std::function<DVec<3>(std::uint32_t column, std::uint32_t row)>;
 

@@ -31,9 +31,9 @@ static_assert(is_ownable<Circle, 2> && is_ownable<AnyShape<3>, 3> && is_ownable<
 static_assert(is_ownable<Stretched<AnyShape<3>>, 3> && is_ownable<Rounded<At<AnyShape<2>>>, 2> &&
               is_ownable<Compound2, 2>);
 static_assert(is_ownable<Unowned<2>, 2> && is_ownable<At<Unowned<3>>, 3>);
-static_assert(is_refused<View<2>, 2> && is_refused<Convex<3>, 3> && is_refused<Composite<3>, 3>);
+static_assert(is_refused<View<2>, 2> && is_refused<detail::Convex<3>, 3> && is_refused<detail::Composite<3>, 3>);
 static_assert(is_refused<DistanceFunction<2>, 2> && is_refused<At<View<2>>, 2> && is_refused<Stretched<View<3>&>, 3>);
-static_assert(is_refused<Rounded<At<const Convex<2>&>>, 2>);
+static_assert(is_refused<Rounded<At<const detail::Convex<2>&>>, 2>);
 
 Polyhedron tetrahedron(float size) {
     return *Polyhedron::build(

@@ -11,33 +11,34 @@ namespace abut::test {
 namespace {
 
 template <class S>
-ShapeType type_of(const S& shape) {
+detail::ShapeType type_of(const S& shape) {
     return shape_type(View<dimension<S>>(view(shape)));
 }
 
 TEST(BallEarlyOut, TypesOfShapes) {
     const Sphere sphere{{0, 0, 0}, 1};
-    EXPECT_EQ(type_of(sphere), ShapeType::ball);
-    EXPECT_EQ(type_of(stretched(sphere, {1, 2, 3})), ShapeType::ball);
-    EXPECT_EQ(type_of(Capsule3{{0, 0, 0}, {1, 0, 0}, 1}), ShapeType::segment);
-    EXPECT_EQ(type_of(Triangle3{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}), ShapeType::triangle);
-    EXPECT_EQ(type_of(*Polygon::build(std::vector<Vec2>{{0, 0}, {1, 0}, {1, 1}, {0, 1}})), ShapeType::points);
-    EXPECT_EQ(type_of(Box3{{0, 0, 0}, {1, 1, 1}}), ShapeType::box);
-    EXPECT_EQ(type_of(Cone{{0, 0, 0}, {1, 0, 0}, 1}), ShapeType::discs);
-    EXPECT_EQ(type_of(Diamond<2>{}), ShapeType::function);
-    EXPECT_EQ(type_of(stairs<2>(2, 1)), ShapeType::composite);
-    EXPECT_EQ(type_of(HalfSpace2{{1, 0}, 0}), ShapeType::half_space);
+    EXPECT_EQ(type_of(sphere), detail::ShapeType::ball);
+    EXPECT_EQ(type_of(stretched(sphere, {1, 2, 3})), detail::ShapeType::ball);
+    EXPECT_EQ(type_of(Capsule3{{0, 0, 0}, {1, 0, 0}, 1}), detail::ShapeType::segment);
+    EXPECT_EQ(type_of(Triangle3{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}), detail::ShapeType::triangle);
+    EXPECT_EQ(type_of(*Polygon::build(std::vector<Vec2>{{0, 0}, {1, 0}, {1, 1}, {0, 1}})), detail::ShapeType::points);
+    EXPECT_EQ(type_of(Box3{{0, 0, 0}, {1, 1, 1}}), detail::ShapeType::box);
+    EXPECT_EQ(type_of(Cone{{0, 0, 0}, {1, 0, 0}, 1}), detail::ShapeType::discs);
+    EXPECT_EQ(type_of(Diamond<2>{}), detail::ShapeType::function);
+    EXPECT_EQ(type_of(stairs<2>(2, 1)), detail::ShapeType::composite);
+    EXPECT_EQ(type_of(HalfSpace2{{1, 0}, 0}), detail::ShapeType::half_space);
 }
 
-constexpr std::array all_types{ShapeType::ball,     ShapeType::segment,    ShapeType::triangle,
-                               ShapeType::points,   ShapeType::box,        ShapeType::discs,
-                               ShapeType::function, ShapeType::half_space, ShapeType::composite};
+constexpr std::array all_types{
+    detail::ShapeType::ball,     detail::ShapeType::segment,    detail::ShapeType::triangle,
+    detail::ShapeType::points,   detail::ShapeType::box,        detail::ShapeType::discs,
+    detail::ShapeType::function, detail::ShapeType::half_space, detail::ShapeType::composite};
 
 TEST(BallEarlyOut, EachPairOfTypesHasAnEntryOfItsOwn) {
-    BallEarlyOuts early_outs;
-    std::set<const BallEarlyOuts::Entry*> entries;
-    for (const ShapeType a : all_types)
-        for (const ShapeType b : all_types)
+    detail::BallEarlyOuts early_outs;
+    std::set<const detail::BallEarlyOuts::Entry*> entries;
+    for (const detail::ShapeType a : all_types)
+        for (const detail::ShapeType b : all_types)
             for (const bool sensor : {false, true}) {
                 entries.insert(&early_outs.entry(a, b, sensor));
                 EXPECT_EQ(&early_outs.entry(a, b, sensor), &early_outs.entry(b, a, sensor));
@@ -46,16 +47,17 @@ TEST(BallEarlyOut, EachPairOfTypesHasAnEntryOfItsOwn) {
 }
 
 /// Adds samples in which the balls take 5 ns and the shapes `shapes` ns, and one pair in `rare` passes the balls.
-void measure(BallEarlyOuts& early_outs, BallEarlyOuts::Entry& entry, int samples, double shapes, int rare) {
+void measure(detail::BallEarlyOuts& early_outs, detail::BallEarlyOuts::Entry& entry, int samples, double shapes,
+             int rare) {
     for (int i = 0; i < samples; ++i)
         early_outs.add_sample(entry, {20, 25, 20 + shapes}, i % rare == 0, i % (2 * rare) == 0);
 }
 
 TEST(BallEarlyOut, IsUsedWhereMeasurementsSayThatItPays) {
-    BallEarlyOuts early_outs;
-    BallEarlyOuts::Entry& boxes = early_outs.entry(ShapeType::box, ShapeType::box, false);
-    BallEarlyOuts::Entry& balls = early_outs.entry(ShapeType::ball, ShapeType::ball, false);
-    BallEarlyOuts::Entry& others = early_outs.entry(ShapeType::box, ShapeType::ball, false);
+    detail::BallEarlyOuts early_outs;
+    detail::BallEarlyOuts::Entry& boxes = early_outs.entry(detail::ShapeType::box, detail::ShapeType::box, false);
+    detail::BallEarlyOuts::Entry& balls = early_outs.entry(detail::ShapeType::ball, detail::ShapeType::ball, false);
+    detail::BallEarlyOuts::Entry& others = early_outs.entry(detail::ShapeType::box, detail::ShapeType::ball, false);
     EXPECT_FALSE(early_outs.is_used(boxes));
     measure(early_outs, boxes, 31, 300, 4);
     early_outs.decide();
@@ -77,12 +79,12 @@ TEST(BallEarlyOut, IsUsedWhereMeasurementsSayThatItPays) {
 
 TEST(BallEarlyOut, ForcedModesDontMeasure) {
     for (const BallEarlyOut mode : {BallEarlyOut::always, BallEarlyOut::never, BallEarlyOut::measured}) {
-        BallEarlyOuts early_outs(mode);
+        detail::BallEarlyOuts early_outs(mode);
         int due = 0;
-        for (const ShapeType a : all_types)
+        for (const detail::ShapeType a : all_types)
             for (int i = 0; i < 1000; ++i) due += early_outs.due(early_outs.entry(a, a, true)) ? 1 : 0;
         EXPECT_EQ(due, mode == BallEarlyOut::measured ? 9 * 3 : 0);
-        EXPECT_EQ(early_outs.is_used(early_outs.entry(ShapeType::box, ShapeType::box, false)),
+        EXPECT_EQ(early_outs.is_used(early_outs.entry(detail::ShapeType::box, detail::ShapeType::box, false)),
                   mode == BallEarlyOut::always);
     }
 }

@@ -15,6 +15,9 @@
 #include <gtest/gtest.h>
 
 namespace abut::test {
+
+using namespace detail;
+
 namespace {
 
 /// Updates the world and compares the lists; returns the fractions.

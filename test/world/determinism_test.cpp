@@ -9,6 +9,9 @@
 #include <gtest/gtest.h>
 
 namespace abut::test {
+
+using namespace detail;
+
 namespace {
 
 /// Records all answers of a world during a game; `balls` counts the pairs that were rejected by their balls.

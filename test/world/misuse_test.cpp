@@ -56,7 +56,7 @@ void expect_caught(World2& world, Id id) {
     EXPECT_EQ(trips_of([&] { world.remove(id); }), once);
     EXPECT_EQ(trips_of([&] { EXPECT_EQ(world.user(id), 0u); }), once);
     EXPECT_EQ(trips_of([&] { EXPECT_EQ(world.pose(id), Pose2{}); }), once);
-    EXPECT_EQ(trips_of([&] { EXPECT_TRUE(std::holds_alternative<Convex<2>>(world.shape(id))); }), once);
+    EXPECT_EQ(trips_of([&] { EXPECT_TRUE(std::holds_alternative<detail::Convex<2>>(world.shape(id))); }), once);
     EXPECT_EQ(trips_of([&] { world.set_user(id, 9); }), once);
     EXPECT_EQ(trips_of([&] { world.set_fixed(id, true); }), once);
     EXPECT_EQ(trips_of([&] { world.set_sensor(id, true); }), once);

@@ -20,6 +20,9 @@
 
 namespace abut::test {
 
+using detail::length;
+using detail::to_float;
+
 /// A user's convex shape, given by bounds and a support function: |x| + |y| (+ |z|) <= radius.
 template <int D>
 struct Diamond {

@@ -177,7 +177,8 @@ private:
     }
 
     static bool both_half_spaces(const View<D>& a, const View<D>& b) {
-        return std::holds_alternative<HalfSpaceView<D>>(a) && std::holds_alternative<HalfSpaceView<D>>(b);
+        return std::holds_alternative<detail::HalfSpaceView<D>>(a) &&
+               std::holds_alternative<detail::HalfSpaceView<D>>(b);
     }
 
     static std::vector<IdPair> difference(const std::vector<IdPair>& a, const std::vector<IdPair>& b) {
@@ -198,16 +199,16 @@ private:
         if ((p.fixed && q.fixed) || (p.layers & q.mask) == 0 || (q.layers & p.mask) == 0) return;
         if (both_half_spaces(view_a, view_b)) return;
         const bool changed = a.second.changed || b.second.changed;
-        count(overlaps(abut::bounds(view_a), abut::bounds(view_b)), changed, min_counts);
-        count(overlaps(widened(abut::bounds(view_a)), widened(abut::bounds(view_b))), changed, max_counts);
+        count(overlaps(detail::bounds(view_a), detail::bounds(view_b)), changed, min_counts);
+        count(overlaps(widened(detail::bounds(view_a)), widened(detail::bounds(view_b))), changed, max_counts);
         const IdPair pair{a.first, b.first};
         bool touch = false;
         if (p.sensor || q.sensor) {
             touch = overlaps(view_a, view_b);
         } else {
             const auto others_of_a = others(a, b), others_of_b = others(b, a);
-            const EachClosestPoint<D> of_a(others_of_a), of_b(others_of_b);
-            const ContactWithNeighbours<D> among =
+            const detail::EachClosestPoint<D> of_a(others_of_a), of_b(others_of_b);
+            const detail::ContactWithNeighbours<D> among =
                 contact_with_neighbours<D>(view_a, view_b, {p.fixed ? nullptr : &of_a, q.fixed ? nullptr : &of_b});
             touch = among.touch;
             if (among.contact) found_.push_back({{a.first, b.first, among.contact}, among.surface_normals});
@@ -226,7 +227,7 @@ private:
     /// Visits the closest points on the neighbours of an item, except on `but`: items that pair with it, are no
     /// sensors, and have boxes that overlap its own.
     auto others(const Entry& item, const Entry& but) const {
-        return [this, &item, &but](const DVec<D>& point, double within, ClosestPointVisitor<D> visit) {
+        return [this, &item, &but](const detail::DVec<D>& point, double within, detail::ClosestPointVisitor<D> visit) {
             const ItemOptions<D>& p = item.second.options;
             const View<D> own = item.second.view();
             for (const Entry& other : items_) {
@@ -234,7 +235,8 @@ private:
                 const View<D> view = other.second.view();
                 if (other.first == item.first || other.first == but.first || q.sensor) continue;
                 if ((p.layers & q.mask) == 0 || (q.layers & p.mask) == 0 || both_half_spaces(own, view)) continue;
-                if (overlaps(abut::bounds(own), abut::bounds(view))) each_closest_point_on(view, point, within, visit);
+                if (overlaps(detail::bounds(own), detail::bounds(view)))
+                    each_closest_point_on(view, point, within, visit);
             }
         };
     }
@@ -248,20 +250,21 @@ private:
             const FoundContact& ghost = found_[i];
             if (ghost.surface_normal) continue;
             reported[i] = true;
-            const double size =
-                std::min(abut::size(items_.at(ghost.result.a).view()), abut::size(items_.at(ghost.result.b).view()));
+            const double size = std::min(abut::detail::size(items_.at(ghost.result.a).view()),
+                                         abut::detail::size(items_.at(ghost.result.b).view()));
             for (const auto& [item, is_surface_normal] : {std::pair(ghost.result.a, ghost.surface_normal.a),
                                                           std::pair(ghost.result.b, ghost.surface_normal.b)}) {
                 if (is_surface_normal || items_.at(item).options.fixed) continue;
                 const auto normal = [id = item](const WorldContact<D>& c) {
-                    return DVec<D>(c.contact.normal) * (c.a == id ? 1.0 : -1.0);
+                    return detail::DVec<D>(c.contact.normal) * (c.a == id ? 1.0 : -1.0);
                 };
                 for (std::size_t k = 0; k < found_.size(); ++k) {
                     const WorldContact<D>& other = found_[k].result;
                     const bool shares = k != i && (other.a == item || other.b == item);
                     if (shares && reported[k] &&
-                        covers_contact<D>(normal(other), static_cast<double>(other.contact.depth), normal(ghost.result),
-                                          static_cast<double>(ghost.result.contact.depth), size))
+                        detail::covers_contact<D>(normal(other), static_cast<double>(other.contact.depth),
+                                                  normal(ghost.result), static_cast<double>(ghost.result.contact.depth),
+                                                  size))
                         reported[i] = false;
                 }
             }

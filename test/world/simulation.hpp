@@ -9,6 +9,8 @@
 
 namespace abut::test {
 
+using detail::to_float;
+
 template <int D>
 class Simulation {
 public:
@@ -166,7 +168,7 @@ private:
     }
     Pose<D> step_from(const Pose<D>& pose) {
         if (!lattice_) return moved_a_little(random_, pose, 0.15);
-        return {pose.position + snapped(to_float(random_.in_cube<D>() + DVec<D>(0.5)))};
+        return {pose.position + snapped(to_float(random_.in_cube<D>() + detail::DVec<D>(0.5)))};
     }
     /// A random non-empty set of three layers.
     std::uint32_t random_bits() { return 1 + random_.below(7); }

@@ -99,7 +99,7 @@ void check_points(Simulation<D>& game, Seen& seen) {
     const std::vector<Id> holders = game.reference.containing(point, filter);
     ASSERT_EQ(game.world.containing(point, filter), holders);
     seen.containing += holders.empty() ? 0 : 1;
-    const View<D> as_shape(round_points<D>({point}, 0));
+    const View<D> as_shape(detail::round_points<D>({point}, 0));
     ASSERT_EQ(Bits(game.world.closest(point, filter)), Bits(game.reference.closest(as_shape, filter)));
     ASSERT_EQ(Bits(game.world.k_nearest(point, 3, filter)), Bits(game.reference.k_nearest(as_shape, 3, filter)));
 }

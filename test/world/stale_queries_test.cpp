@@ -12,6 +12,9 @@
 #include <gtest/gtest.h>
 
 namespace abut::test {
+
+using namespace detail;
+
 namespace {
 
 std::atomic<std::size_t> support_calls = 0;

@@ -6,6 +6,9 @@
 #include <algorithm>
 
 namespace abut::tool {
+
+using namespace detail;
+
 namespace {
 
 constexpr Style plain{{148, 163, 184, 120}, 0.7f}, hit_thing{{37, 99, 235, 200}, 1, {37, 99, 235, 26}};

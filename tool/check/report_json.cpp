@@ -72,7 +72,7 @@ template std::string json_report(const Report<2>& report);
 template std::string json_report(const Report<3>& report);
 
 Result<Baseline> read_baseline(const std::filesystem::path& file) {
-    const Result<std::vector<std::byte>> bytes = read_file(file);
+    const Result<std::vector<std::byte>> bytes = detail::read_file(file);
     if (!bytes) return bytes.problem();
     const auto* text = reinterpret_cast<const char*>(bytes->data());
     Json json = Json::parse(text, text + bytes->size(), nullptr, false);

@@ -5,6 +5,9 @@
 #include <utility>
 
 namespace abut::tool {
+
+using namespace detail;
+
 namespace {
 
 // A pair that touches and separates more often than this on a stage is not followed further.

@@ -9,6 +9,9 @@
 #include <tuple>
 
 namespace abut::tool {
+
+using namespace detail;
+
 namespace {
 
 constexpr Vec3 towards_eye{1, 0.9f, 1.4f};

@@ -37,7 +37,7 @@ Result<ExitCode> run_decompose(const DecomposeRequest& request) {
     Stopwatch watch;
     Result<Meshes> meshes = load_meshes(request.mesh, request.files);
     if (!meshes) return meshes.problem();
-    const Geometry whole = merge_meshes(meshes->objects, name_of(request.mesh));
+    const Geometry whole = detail::merge_meshes(meshes->objects, name_of(request.mesh));
     DecomposeOutcome outcome;
     outcome.warnings = meshes->warnings;
     outcome.triangles = whole.triangles.size();

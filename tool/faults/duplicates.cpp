@@ -95,7 +95,7 @@ void find_copies(const std::vector<ViewedObject<D>>& objects, float tolerance, s
     tree.build(boxes);
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
     tree.sorted_pairs(pairs);
-    UnionFind groups(objects.size());
+    detail::UnionFind groups(objects.size());
     std::map<std::size_t, float> max_distances;  // by the second object of a pair
     for (const auto& [i, j] : pairs) {
         const ViewedObject<D>&a = objects[i], &b = objects[j];

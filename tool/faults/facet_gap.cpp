@@ -8,6 +8,9 @@
 #include <utility>
 
 namespace abut::tool {
+
+using namespace detail;
+
 namespace {
 
 // Tolerance of parallel facets, relative to the width.

@@ -9,6 +9,8 @@
 
 namespace abut::tool {
 
+using detail::DVec;
+
 /// The set of all shortest segments between two convex facets. They are translates of one segment: from A along
 /// `across`, `width` long.
 template <int D>

@@ -7,6 +7,9 @@
 #include <utility>
 
 namespace abut::tool {
+
+using namespace detail;
+
 namespace {
 
 DVec<2> front_of(const Segment<2>& segment) {

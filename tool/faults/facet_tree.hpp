@@ -13,6 +13,8 @@
 
 namespace abut::tool {
 
+using detail::DVec;
+
 template <int D>
 using FacetShape = std::conditional_t<D == 2, Segment<D>, Triangle<D>>;
 

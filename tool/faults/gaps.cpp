@@ -7,6 +7,9 @@
 #include <tuple>
 
 namespace abut::tool {
+
+using namespace detail;
+
 namespace {
 
 constexpr int max_steps = 256;

@@ -10,6 +10,9 @@
 #include <utility>
 
 namespace abut::tool {
+
+using namespace detail;
+
 namespace {
 
 // Width of a crack relative to the object's size: narrower ones are invisible.

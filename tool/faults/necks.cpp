@@ -10,6 +10,9 @@
 #include <utility>
 
 namespace abut::tool {
+
+using namespace detail;
+
 namespace {
 
 // Tolerances relative to the width. Penetration of a surface into the ball of a neck.

@@ -10,6 +10,8 @@
 
 namespace abut::tool {
 
+using detail::DVec;
+
 template <int D>
 struct Neck {
     std::size_t a = 0, b = 0;  ///< objects, the first at the start of `across`

@@ -13,6 +13,9 @@
 #include <glm/geometric.hpp>
 
 namespace abut::tool {
+
+using namespace detail;
+
 namespace {
 
 // Default allowed depth relative to the smaller one's size: characters on the ground may penetrate this far.

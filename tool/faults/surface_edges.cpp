@@ -10,6 +10,9 @@
 #include <utility>
 
 namespace abut::tool {
+
+using namespace detail;
+
 namespace {
 
 // Visits runs of elements with equal keys.

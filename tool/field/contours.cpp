@@ -9,6 +9,9 @@
 #include <utility>
 
 namespace abut::tool {
+
+using namespace detail;
+
 namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
@@ -79,8 +82,8 @@ void add_squares(const PaddedGrid& grid, float level, std::vector<std::uint32_t>
 
 double distance_to_line(const Vec2& point, const Vec2& from, const Vec2& to) {
     const DVec<2> along = DVec<2>(to) - DVec<2>(from), there = DVec<2>(point) - DVec<2>(from);
-    const double length = abut::length(along);
-    return length > 0 ? std::abs(cross(along, there)) / length : abut::length(there);
+    const double length = abut::detail::length(along);
+    return length > 0 ? std::abs(cross(along, there)) / length : abut::detail::length(there);
 }
 
 // Greedy simplification: skips ahead from each vertex while all vertices skipped are within the tolerance of the line.

@@ -53,7 +53,7 @@ Result<FieldErrors> measure_error(const Field<D>& field, const Baker<D>& bake, E
     const Result<Field<D>> exact = bake(options);
     if (!exact) return exact.problem();
 
-    const FieldData<D>& data = exact->data();
+    const detail::FieldData<D>& data = exact->data();
     const double cell = static_cast<double>(field.cell());
     ErrorSum near, all;
     glm::vec<D, std::uint32_t> at(0u);

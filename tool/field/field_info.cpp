@@ -44,7 +44,7 @@ Result<ExitCode> print_info(const InfoRequest& request, std::span<const std::byt
 }  // namespace
 
 Result<ExitCode> run_field_info(const InfoRequest& request) {
-    const Result<std::vector<std::byte>> bytes = read_file(request.scene);
+    const Result<std::vector<std::byte>> bytes = detail::read_file(request.scene);
     if (!bytes) return Problem{bytes.problem().code, request.scene + ": " + bytes.problem().message};
     return field_dimension(*bytes) == 2 ? print_info<2>(request, *bytes) : print_info<3>(request, *bytes);
 }

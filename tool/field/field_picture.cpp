@@ -8,6 +8,9 @@
 #include <cstdint>
 
 namespace abut::tool {
+
+using namespace detail;
+
 namespace {
 
 constexpr float samples_along = 256;  // samples along the longest side of a picture

@@ -68,7 +68,7 @@ std::string megabytes(std::size_t bytes) {
 
 template <int D>
 std::string described(const Field<D>& field) {
-    const FieldData<D>& data = field.data();
+    const detail::FieldData<D>& data = field.data();
     std::string cells;
     for (int i = 0; i < D; ++i) cells += (i == 0 ? "" : " x ") + std::to_string(data.cells[i]);
     std::string text = fmt::format("volume      {} cells of {}, from {} on\n", cells,
@@ -77,8 +77,8 @@ std::string described(const Field<D>& field) {
         data.store == FieldStore::dense
             ? "dense"
             : fmt::format("{} of {} blocks have bricks",
-                          data.brick.size() -
-                              static_cast<std::size_t>(std::count(data.brick.begin(), data.brick.end(), no_brick)),
+                          data.brick.size() - static_cast<std::size_t>(
+                                                  std::count(data.brick.begin(), data.brick.end(), detail::no_brick)),
                           data.brick.size());
     text += fmt::format("samples     {} of {} bits, {}{}{}: {}\n", data.samples(), data.steps.empty() ? 32 : 16,
                         storage, data.lookup == FieldLookup::gradient ? ", with gradients" : "",
@@ -90,7 +90,7 @@ template std::string described(const Field<3>&);
 
 template <int D>
 Json json_of(const Field<D>& field) {
-    const FieldData<D>& data = field.data();
+    const detail::FieldData<D>& data = field.data();
     Json cells = Json::array();
     for (int i = 0; i < D; ++i) cells.push_back(data.cells[i]);
     const Aabb<D> volume = field.volume();

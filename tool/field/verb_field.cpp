@@ -47,7 +47,7 @@ template <>
 Result<Source<3>> read<3>(const FieldRequest& request) {
     Result<Meshes> meshes = load_meshes(request.mesh, request.files);
     if (!meshes) return meshes.problem();
-    Geometry whole = merge_meshes(meshes->objects, name_of(request.mesh));
+    Geometry whole = detail::merge_meshes(meshes->objects, name_of(request.mesh));
     Source<3> source{whole.triangles.size(), std::move(meshes->warnings), {}, {}};
     for (const glm::uvec3& t : whole.triangles)
         source.triangles.push_back({whole.points[t.x], whole.points[t.y], whole.points[t.z]});

@@ -13,6 +13,9 @@
 #include <glm/geometric.hpp>
 
 namespace abut::tool {
+
+using namespace detail;
+
 namespace {
 
 // Maximum distance of a curved part from its polygon, relative to its extent.
@@ -128,7 +131,7 @@ std::vector<Edge> without_internal(const std::vector<Edge>& edges, float toleran
 void add_intersections(const Edge& edge, const Edge& other, double tolerance, std::vector<double>& splits) {
     const DVec<2> from(edge.from), along = DVec<2>(edge.to) - from;
     const DVec<2> other_from(other.from), other_along = DVec<2>(other.to) - other_from;
-    const double length = abut::length(along);
+    const double length = abut::detail::length(along);
     for (const DVec<2>& end : {other_from, DVec<2>(other.to)})
         if (std::abs(cross(along, end - from)) <= tolerance * length)
             splits.push_back(dot(end - from, along) / (length * length));

@@ -47,9 +47,9 @@ std::optional<Problem> LevelObjects::go_to(double, ProgressCall progress) {
         object.inside = interior_point(source.shape, source.filled);
         object.pose = source.pose;
         object.placed = view(source);
-        object.radius = static_cast<float>(abut::size(object.placed));
+        object.radius = static_cast<float>(abut::detail::size(object.placed));
         object.box = bounds(object.placed);
-        if (!is_finite(object.box.min) || !is_finite(object.box.max))
+        if (!detail::is_finite(object.box.min) || !detail::is_finite(object.box.max))
             return Problem{ProblemCode::not_finite,
                            "object '" + object.path + "': it reaches out of the range of floats"};
         progress(i + 1, objects_.size());

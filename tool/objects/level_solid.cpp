@@ -49,13 +49,13 @@ Result<LevelSolid> level_solid(const Level& level) {
 Aabb2 bounds(const LevelSolid& solid) {
     return solid.boundary.bounds();
 }
-void each_part(const LevelSolid& solid, const Aabb2& box, PartVisitor<2> visit) {
+void each_part(const LevelSolid& solid, const Aabb2& box, detail::PartVisitor<2> visit) {
     solid.boundary.each_part(box, visit);
 }
-void each_part_along(const LevelSolid& solid, const MovingBox<2>& box, PartReachVisitor<2> visit) {
+void each_part_along(const LevelSolid& solid, const MovingBox<2>& box, detail::PartReachVisitor<2> visit) {
     solid.boundary.each_part_along(box, visit);
 }
-void each_part_near(const LevelSolid& solid, const Aabb2& box, PartReachVisitor<2> visit) {
+void each_part_near(const LevelSolid& solid, const Aabb2& box, detail::PartReachVisitor<2> visit) {
     solid.boundary.each_part_near(box, visit);
 }
 bool solid_contains(const LevelSolid& solid, const Vec2& point) {

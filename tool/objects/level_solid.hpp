@@ -22,9 +22,9 @@ struct LevelSolid {
 Result<LevelSolid> level_solid(const Level& level);
 
 Aabb2 bounds(const LevelSolid& solid);
-void each_part(const LevelSolid& solid, const Aabb2& box, PartVisitor<2> visit);
-void each_part_along(const LevelSolid& solid, const MovingBox<2>& box, PartReachVisitor<2> visit);
-void each_part_near(const LevelSolid& solid, const Aabb2& box, PartReachVisitor<2> visit);
+void each_part(const LevelSolid& solid, const Aabb2& box, detail::PartVisitor<2> visit);
+void each_part_along(const LevelSolid& solid, const MovingBox<2>& box, detail::PartReachVisitor<2> visit);
+void each_part_near(const LevelSolid& solid, const Aabb2& box, detail::PartReachVisitor<2> visit);
 bool solid_contains(const LevelSolid& solid, const Vec2& point);
 
 }  // namespace abut::tool

@@ -125,7 +125,8 @@ std::optional<Problem> SceneObjects::set_transform(std::size_t i, const glm::dma
     object.pose.rotation = glm::qua<float>(glm::normalize(glm::quat_cast(*rotation)));
     object.placed = std::visit([&](const auto& shape) { return View<3>(view(at(shape, object.pose))); }, node.shape);
     object.box = bounds(object.placed);
-    if (!abut::is_finite(object.box.min) || !abut::is_finite(object.box.max)) return out_of_range(object);
+    if (!abut::detail::is_finite(object.box.min) || !abut::detail::is_finite(object.box.max))
+        return out_of_range(object);
     return std::nullopt;
 }
 

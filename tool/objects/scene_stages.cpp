@@ -53,7 +53,8 @@ std::optional<Pose3> SceneObjects::pose_of(std::size_t i, const glm::dmat4& matr
 
 std::optional<Motion3> SceneObjects::motion_of(std::size_t i, const glm::dmat4& from, const glm::dmat4& to) const {
     const std::optional<Pose3> begin = pose_of(i, from), end = pose_of(i, to);
-    if (!begin || !end || !abut::is_finite(begin->position) || !abut::is_finite(end->position)) return std::nullopt;
+    if (!begin || !end || !abut::detail::is_finite(begin->position) || !abut::detail::is_finite(end->position))
+        return std::nullopt;
     return Motion3::between(*begin, *end);
 }
 

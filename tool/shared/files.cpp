@@ -12,7 +12,7 @@ int dimension_of(const std::string& file) {
 
 std::string hint(const Problem& problem) {
     if (problem.code == ProblemCode::degenerate) return " (without --strict such triangles are left out)";
-    return is_outside(problem) ? " (--allow-outside permits that)" : "";
+    return detail::is_outside(problem) ? " (--allow-outside permits that)" : "";
 }
 
 template <>

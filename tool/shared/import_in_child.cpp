@@ -75,11 +75,12 @@ void send(int pipe, std::span<const std::byte> bytes) {
     redirect_streams_and_limit(limits);
     throw_when_out_of_memory();
     try {
-        send(pipe, to_bytes(read_scene(file, options)));
+        send(pipe, detail::to_bytes(read_scene(file, options)));
     } catch (const std::bad_alloc&) {
-        send(pipe, to_bytes(too_big(limits)));
+        send(pipe, detail::to_bytes(too_big(limits)));
     } catch (const std::exception& exception) {
-        send(pipe, to_bytes(Problem{ProblemCode::bad_format, std::string("the importer failed: ") + exception.what()}));
+        send(pipe, detail::to_bytes(
+                       Problem{ProblemCode::bad_format, std::string("the importer failed: ") + exception.what()}));
     }
     _exit(0);
 }
@@ -158,7 +159,7 @@ Result<Scene> import_in_child(const std::filesystem::path& file, const ReadOptio
     const int status = wait_for(child);
     if (!bytes) return too_slow(limits);
     if (WIFSIGNALED(status)) return crashed(WTERMSIG(status), limits);
-    return scene_from_bytes(*bytes);
+    return detail::scene_from_bytes(*bytes);
 }
 
 }  // namespace abut::tool

@@ -12,7 +12,7 @@ Result<Meshes> load_meshes(const std::string& file, const FileOptions& options) 
     if (dimension_of(file) == 2) return Problem{ProblemCode::bad_argument, file + ": is a 2D level, and has no meshes"};
     Result<Scene> scene = load<3>(file, options);
     if (!scene) return scene.problem();
-    Result<PlacedMeshes> placed = placed_meshes(*scene);
+    Result<detail::PlacedMeshes> placed = detail::placed_meshes(*scene);
     if (!placed) return Problem{placed.problem().code, file + ": " + placed.problem().message};
     Meshes result{std::move(placed->objects), std::move(scene->warnings)};
     for (std::string& warning : placed->warnings) result.warnings.push_back(std::move(warning));

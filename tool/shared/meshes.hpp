@@ -14,7 +14,7 @@
 namespace abut::tool {
 
 /// The objects of a scene at its first time as triangle meshes in world space, with all warnings.
-using Meshes = PlacedMeshes;
+using Meshes = detail::PlacedMeshes;
 
 /// Loads a scene as meshes. Returns a Problem, whose message begins with the file, if it can't be read, is a 2D level,
 /// or has no triangles left. Triangles of zero area and objects scaled to a point are left out with a warning.

@@ -11,7 +11,7 @@ namespace abut::tool {
 /// True if the pattern matches the item's path or its own name.
 template <class Named>
 bool matches_name(std::string_view pattern, const Named& named) {
-    return glob_matches(pattern, named.path) || glob_matches(pattern, named.name);
+    return detail::glob_matches(pattern, named.path) || detail::glob_matches(pattern, named.name);
 }
 
 }  // namespace abut::tool

@@ -13,6 +13,9 @@
 #include <utility>
 
 namespace abut::tool {
+
+using namespace detail;
+
 namespace {
 
 Problem in(const std::string& file, const Problem& problem) {

@@ -10,6 +10,9 @@
 #include <vector>
 
 namespace abut::tool {
+
+using namespace detail;
+
 namespace {
 
 constexpr Style fault_style{{220, 38, 38}, 3}, orientation_style{{147, 51, 234}, 3}, path_line{{15, 23, 42}, 3},

@@ -8,6 +8,9 @@
 #include <fmt/format.h>
 
 namespace abut::tool {
+
+using namespace detail;
+
 namespace {
 
 constexpr std::size_t max_listed_areas = 20, max_listed_points = 100;

@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace abut {
+namespace abut::detail {
 
 class BakeJob {
 public:
@@ -68,4 +68,4 @@ private:
     double done_ = 0, share_ = 0, reported_ = 0;
 };
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -11,7 +11,7 @@
 #include <numeric>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 template <int D>
@@ -320,4 +320,4 @@ template Result<Field<2>> fill_field(FieldData<2>, const SampleSource<2>&, const
 template Result<Field<3>> fill_field(FieldData<3>, const SampleSource<3>&, const FieldOptions<3>&, BakeJob&,
                                      FieldReport&);
 
-}  // namespace abut
+}  // namespace abut::detail

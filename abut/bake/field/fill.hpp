@@ -8,7 +8,7 @@
 #include <abut/field/data.hpp>
 #include <abut/math/result.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// Evaluates `source` at the samples of `grid`, which has none yet, and adds their number to the report. A Problem if
 /// there would be too many samples, or if the user cancels.
@@ -16,4 +16,4 @@ template <int D>
 Result<Field<D>> fill_field(FieldData<D> grid, const SampleSource<D>& source, const FieldOptions<D>& options,
                             BakeJob& work, FieldReport& report);
 
-}  // namespace abut
+}  // namespace abut::detail

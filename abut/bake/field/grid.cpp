@@ -7,7 +7,7 @@
 #include <limits>
 #include <string>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -81,4 +81,4 @@ Result<FieldData<D>> field_grid(const Aabb<D>& surface, const FieldOptions<D>& o
 template Result<FieldData<2>> field_grid(const Aabb<2>&, const FieldOptions<2>&);
 template Result<FieldData<3>> field_grid(const Aabb<3>&, const FieldOptions<3>&);
 
-}  // namespace abut
+}  // namespace abut::detail

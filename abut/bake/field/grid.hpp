@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace abut {
+namespace abut::detail {
 
 /// The maximum number of samples that a field stores.
 inline constexpr double max_field_samples = 2147483648.0;
@@ -82,4 +82,4 @@ FieldOptions<D> aligned_options(FieldOptions<D> options, const Field<D>& like, A
     return options;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

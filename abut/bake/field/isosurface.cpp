@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 template <int D>
@@ -142,4 +142,4 @@ template Aabb<3> isosurface_bounds(const FieldData<3>&);
 template std::vector<std::array<Vec<2>, 2>> isosurface<2>(const FieldData<2>&);
 template std::vector<std::array<Vec<3>, 3>> isosurface<3>(const FieldData<3>&);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -9,7 +9,7 @@
 #include <array>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// The box around all cells in which the interpolated distance changes its sign; empty if there are none.
 template <int D>
@@ -20,4 +20,4 @@ Aabb<D> isosurface_bounds(const FieldData<D>& data);
 template <int D>
 std::vector<std::array<Vec<D>, D>> isosurface(const FieldData<D>& data);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -17,6 +17,9 @@
 #include <vector>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 std::vector<PrimitiveCorners<3>> primitives_of(const FieldSurface& surface) {

@@ -21,7 +21,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace abut::HWY_NAMESPACE {
+namespace abut::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -334,11 +334,11 @@ void nearest_to_block3(const PrimitiveBvh<3>& tree, const SampleLattice<3>& latt
     nearest_to_block(tree, lattice, block, nearest);
 }
 
-}  // namespace abut::HWY_NAMESPACE
+}  // namespace abut::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace abut {
+namespace abut::detail {
 
 HWY_EXPORT(nearest_to_point2);
 HWY_EXPORT(nearest_to_point3);
@@ -364,5 +364,5 @@ void nearest_primitives(const PrimitiveBvh<3>& tree, const SampleLattice<3>& lat
     HWY_DYNAMIC_DISPATCH(nearest_to_block3)(tree, lattice, block, nearest);
 }
 
-}  // namespace abut
+}  // namespace abut::detail
 #endif

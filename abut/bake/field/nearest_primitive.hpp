@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-namespace abut {
+namespace abut::detail {
 
 /// The number of the nearest primitive and its squared distance. The distance is accurate to a few units in the last
 /// place of the larger of the distance and the primitive's size.
@@ -27,4 +27,4 @@ template <int D>
 void nearest_primitives(const PrimitiveBvh<D>& tree, const SampleLattice<D>& lattice, const SampleBlock<D>& block,
                         NearestPrimitive* nearest);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -12,6 +12,9 @@
 #include <utility>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// The segments of an outline and its holes.

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 template <int D>
@@ -142,4 +142,4 @@ PrimitiveBvh<D> build_primitive_bvh(std::span<const PrimitiveCorners<D>> primiti
 template PrimitiveBvh<2> build_primitive_bvh<2>(std::span<const PrimitiveCorners<2>>);
 template PrimitiveBvh<3> build_primitive_bvh<3>(std::span<const PrimitiveCorners<3>>);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 inline constexpr std::uint32_t primitive_lanes = 8;
 
@@ -67,4 +67,4 @@ using PrimitiveCorners = std::array<Vec<D>, D>;
 template <int D>
 PrimitiveBvh<D> build_primitive_bvh(std::span<const PrimitiveCorners<D>> primitives);
 
-}  // namespace abut
+}  // namespace abut::detail

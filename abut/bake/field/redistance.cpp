@@ -16,6 +16,9 @@
 #include <vector>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 template <int D>

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace abut {
+namespace abut::detail {
 
 /// Reuses a sample that was nearer to the surface than it is to the changed box: its closest point lies outside the
 /// box, and nothing in the box is closer.
@@ -90,4 +90,4 @@ private:
     SampleLattice<D> lattice_;
 };
 
-}  // namespace abut
+}  // namespace abut::detail

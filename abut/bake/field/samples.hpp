@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace abut {
+namespace abut::detail {
 
 /// A regular lattice of samples: along an axis, sample i has the coordinate origin + cell * i.
 template <int D>
@@ -82,4 +82,4 @@ public:
     virtual double distance(const DVec<D>& point) const = 0;
 };
 
-}  // namespace abut
+}  // namespace abut::detail

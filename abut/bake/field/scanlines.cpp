@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace abut {
+namespace abut::detail {
 
 Scanlines::Range Scanlines::range(const glm::uvec3& triangle, int axis) const {
     const float a = points_[triangle.x][axis], b = points_[triangle.y][axis], c = points_[triangle.z][axis];
@@ -79,4 +79,4 @@ void ScanlineWindings::evaluate(const glm::vec<3, std::uint32_t>& first, std::ui
     }
 }
 
-}  // namespace abut
+}  // namespace abut::detail

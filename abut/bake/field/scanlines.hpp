@@ -13,7 +13,7 @@
 
 #include <glm/ext/vector_uint3.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// The crossing of a scanline and a triangle: the first sample at or behind it, and the change of the winding number.
 struct ScanlineCrossing {
@@ -75,4 +75,4 @@ private:
     std::vector<ScanlineCrossing> crossings_;  // sorted along each line
 };
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -8,6 +8,9 @@
 #include <cmath>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 template <int D>

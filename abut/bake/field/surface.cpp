@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// An edge that the surface traverses more often in this direction than in the other, once for each excess.
@@ -114,4 +114,4 @@ Result<FieldSurface> field_surface(std::span<const Vec3> points, std::span<const
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

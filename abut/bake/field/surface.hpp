@@ -14,7 +14,7 @@
 
 #include <glm/ext/vector_uint3.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 struct FieldSurface {
     Welded mesh;                               ///< all triangles with three distinct corners, oriented consistently
@@ -31,4 +31,4 @@ struct FieldSurface {
 /// Returns the Problems of `bake_field`.
 Result<FieldSurface> field_surface(std::span<const Vec3> points, std::span<const glm::uvec3> triangles);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 constexpr double full_angle = 4 * 3.14159265358979323846;
@@ -118,4 +118,4 @@ std::optional<double> GeneralizedWindingNumber::approximate(const DVec<3>& point
     return sum;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

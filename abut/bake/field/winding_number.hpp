@@ -13,7 +13,7 @@
 
 #include <glm/ext/vector_uint3.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// The generalized winding number of triangles, closed or not: the sum of their signed solid angles as seen from a
 /// point, divided by 4 pi. A closed surface that is oriented outwards gives 1 inside. Jacobson, Kavan, Sorkine-Hornung
@@ -50,4 +50,4 @@ private:
     std::vector<Group> groups_;
 };
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -3,6 +3,9 @@
 #include <abut/math/predicates.hpp>
 
 namespace abut::outline {
+
+using namespace detail;
+
 namespace {
 
 std::uint32_t next(std::uint32_t half_edge) {

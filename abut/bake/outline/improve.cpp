@@ -6,6 +6,8 @@
 namespace abut::outline {
 namespace {
 
+using detail::no_index;
+
 /// Another round is worthwhile if the last one saved at least one face in this many.
 constexpr std::size_t is_worthwhile = 40;
 

@@ -13,6 +13,9 @@
 #include <tuple>
 
 namespace abut::outline {
+
+using namespace detail;
+
 namespace {
 
 double distance_to_line(const Vec2& p, const Vec2& from, const Vec2& to) {

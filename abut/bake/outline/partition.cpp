@@ -5,6 +5,8 @@
 
 namespace abut::outline {
 
+using detail::no_index;
+
 Partition::Partition(const Triangulation& triangles, bool conforming)
     : points_(triangles.points),
       origins_(triangles.origins),

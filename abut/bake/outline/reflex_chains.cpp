@@ -3,6 +3,8 @@
 
 namespace abut::outline {
 
+using detail::no_index;
+
 std::uint32_t ReflexChains::add(std::uint32_t point, std::uint32_t below, std::uint32_t above, Link link) {
     const auto node = static_cast<std::uint32_t>(nodes_.size());
     nodes_.push_back({point, below, above, link});

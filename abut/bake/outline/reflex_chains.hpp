@@ -9,7 +9,7 @@ namespace abut::outline {
 /// The untriangulated front between two edges that the sweep line crosses. It runs from the left end of the lower edge
 /// to that of the upper edge, and no corner along it is convex. The point added last is the rightmost.
 struct ReflexChain {
-    std::uint32_t bottom = no_index, top = no_index, last = no_index;
+    std::uint32_t bottom = detail::no_index, top = detail::no_index, last = detail::no_index;
 };
 
 /// The chains, and the triangles cut off to their left.

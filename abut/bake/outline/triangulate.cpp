@@ -13,6 +13,8 @@
 namespace abut::outline {
 namespace {
 
+using detail::no_index;
+
 /// An edge from left to right. Several rings may run along it.
 struct Edge {
     std::uint32_t left, right;
@@ -113,7 +115,7 @@ std::optional<Problem> Sweep::sort_points() {
     for (const std::span<const Vec2> ring : rings_)
         for (std::size_t i = 0; i < ring.size(); ++i) {
             const auto tag = static_cast<std::uint32_t>(places.size());
-            if (!is_finite(ring[i]))
+            if (!detail::is_finite(ring[i]))
                 return Problem{ProblemCode::not_finite, "point " + name(tag) + " is not finite", i};
             places.push_back({ring[i] + Vec2(0.0f), tag});
         }

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 constexpr double min_tolerance = 0.9;  // in grid steps: the rounding of a point
@@ -205,4 +205,4 @@ std::vector<std::array<std::uint32_t, 3>> ApproximateHull::triangles() const {
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

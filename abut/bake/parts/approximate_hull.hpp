@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// Reuses its memory for the next hull.
 class ApproximateHull {
@@ -68,4 +68,4 @@ private:
     double tolerance_ = 0;  ///< in grid steps
 };
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
@@ -207,4 +207,4 @@ double farthest_distance(const HullSurface& first, const HullSurface& second, co
     });
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 using Corners = std::array<DVec<3>, 3>;  ///< of a triangle
 
@@ -39,4 +39,4 @@ double farthest_distance(const Piece& piece, const HullSurface& surface, const D
 double farthest_distance(const HullSurface& first, const HullSurface& second, const HullSurface& surface,
                          const DistanceThreshold& threshold);
 
-}  // namespace abut
+}  // namespace abut::detail

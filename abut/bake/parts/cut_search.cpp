@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// The weight of unequal volumes of the two sides. If one cut gains nothing yet, a balanced one is preferred.
@@ -310,4 +310,4 @@ std::vector<RatedCut> best_cuts(const Piece& piece, ApproximateHull& hull, std::
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

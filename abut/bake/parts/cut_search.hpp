@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 struct RatedCut {
     CutPlane plane;
@@ -27,4 +27,4 @@ double cut_tolerance(const Piece& piece);
 /// Measures the volume of the piece's hull. An open piece's hull is as thick as the piece.
 void measure_hull(Piece& piece, ApproximateHull& hull);
 
-}  // namespace abut
+}  // namespace abut::detail

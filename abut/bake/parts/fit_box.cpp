@@ -8,7 +8,7 @@
 #include <glm/ext/quaternion_double.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 using Symmetric = std::array<std::array<double, 3>, 3>;
@@ -140,4 +140,4 @@ Box<3> oriented_box_around(const Polyhedron& part, const Axes& principal) {
     return box_of(part, minimised(part, bounds_along(part, principal)).axes);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

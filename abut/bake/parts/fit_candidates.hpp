@@ -10,7 +10,7 @@
 #include <array>
 #include <optional>
 
-namespace abut {
+namespace abut::detail {
 
 using Axes = std::array<DVec<3>, 3>;
 
@@ -31,4 +31,4 @@ std::optional<Capsule<3>> fit_capsule(const Polyhedron& part, const DVec<3>& axi
 /// The distance of a point from a capsule's core segment.
 double distance_to_axis(const Capsule<3>& capsule, const DVec<3>& point);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// The core segment of a capsule; its ends are equal for a ball.
@@ -120,4 +120,4 @@ std::optional<Capsule<3>> fit_capsule(const Polyhedron& part, const DVec<3>& axi
     return descend(part, {middle + axis * (center - half), middle + axis * (center + half)}, false);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 constexpr double merged_hull_tolerance = 1e-3;
@@ -131,4 +131,4 @@ void merge_parts(std::vector<MergePart>& parts, std::size_t max_parts, const Dis
     Merger(parts, threshold, hull).run(max_parts);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

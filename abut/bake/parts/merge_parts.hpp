@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// A part before its final hull is built.
 struct MergePart {
@@ -25,4 +25,4 @@ struct MergePart {
 void merge_parts(std::vector<MergePart>& parts, std::size_t max_parts, const DistanceThreshold& threshold,
                  ApproximateHull& hull);
 
-}  // namespace abut
+}  // namespace abut::detail

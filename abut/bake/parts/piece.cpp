@@ -13,7 +13,7 @@
 #include <tuple>
 #include <utility>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// One side of a cut. Points have the numbers of the piece that is cut.
@@ -404,4 +404,4 @@ bool is_convex(const Piece& component) {
     return is_convex_solid(points, component.triangles);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -10,7 +10,7 @@
 
 #include <glm/ext/vector_uint3.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// The plane of all p with dot(normal, p) == offset.
 struct CutPlane {
@@ -71,4 +71,4 @@ std::vector<Piece> components_of(std::span<const Vec3> points, std::span<const g
 /// True if the piece has no caps and is the surface of a convex solid.
 bool is_convex(const Piece& component);
 
-}  // namespace abut
+}  // namespace abut::detail

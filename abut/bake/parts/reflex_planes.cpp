@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <tuple>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 struct Weighted {
@@ -85,4 +85,4 @@ std::vector<ParallelPlanes> reflex_planes(const Piece& piece) {
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// A normal and the ascending offsets of parallel planes.
 using ParallelPlanes = std::pair<DVec<3>, std::vector<double>>;
@@ -16,4 +16,4 @@ using ParallelPlanes = std::pair<DVec<3>, std::vector<double>>;
 /// planes are merged; the heaviest ones are returned.
 std::vector<ParallelPlanes> reflex_planes(const Piece& piece);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -187,4 +187,4 @@ FilledHoles fill_holes(Welded& surface, Patches& patches, std::uint32_t max_edge
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace abut {
+namespace abut::detail {
 
 struct FilledHoles {
     std::size_t holes = 0;
@@ -23,4 +23,4 @@ struct FilledHoles {
 /// triangles oriented consistently. O(n log n + k^3) for loops of k edges.
 FilledHoles fill_holes(Welded& surface, Patches& patches, std::uint32_t max_edges, double max_area);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -9,7 +9,7 @@
 #include <optional>
 #include <utility>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 constexpr std::uint32_t none = no_half_edge;
@@ -130,4 +130,4 @@ InwardSurfaces orient_outwards(Welded& surface, const Patches& patches) {
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

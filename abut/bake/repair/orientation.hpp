@@ -6,7 +6,7 @@
 
 #include <cstddef>
 
-namespace abut {
+namespace abut::detail {
 
 struct InwardSurfaces {
     std::size_t cavities = 0, rooms = 0;
@@ -20,4 +20,4 @@ struct InwardSurfaces {
 /// those of volume 0 are unchanged.
 InwardSurfaces orient_outwards(Welded& surface, const Patches& patches);
 
-}  // namespace abut
+}  // namespace abut::detail

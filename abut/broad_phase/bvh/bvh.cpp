@@ -9,6 +9,9 @@
 #include <array>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// The pairs of one tree, divided into tasks for several threads. The order doesn't depend on the number of threads.

@@ -16,6 +16,9 @@
 #include <limits>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// The capacity suffices for two or three copies of each box. If it doesn't, the cells are enlarged.

@@ -9,6 +9,9 @@
 #include <algorithm>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 constexpr std::uint32_t leaf_boxes = 8;

@@ -14,6 +14,9 @@
 #include <numeric>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 constexpr double largest_float = std::numeric_limits<float>::max();

@@ -16,6 +16,9 @@
 #include <glm/common.hpp>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 constexpr std::size_t fan = detail::box_lanes;

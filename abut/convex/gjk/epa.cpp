@@ -1,6 +1,6 @@
 #include <abut/convex/gjk/epa.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 constexpr int max_descent_steps = 64;
@@ -32,4 +32,4 @@ void minimise_depth(const CoreDifference<D>& difference, EpaResult<D>& result) {
 template void minimise_depth(const CoreDifference<2>&, EpaResult<2>&);
 template void minimise_depth(const CoreDifference<3>&, EpaResult<3>&);
 
-}  // namespace abut
+}  // namespace abut::detail

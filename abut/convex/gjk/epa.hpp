@@ -12,7 +12,7 @@
 
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 
 enum class EpaExit : std::uint8_t {
     exact,          ///< the nearest face is a face of A - B
@@ -51,4 +51,4 @@ EpaResult<2> epa(const CoreDifference<2>& difference, const SearchOptions<2>& op
 EpaResult<3> epa(const CoreDifference<3>& difference, const SearchOptions<3>& options = {},
                  const Simplex<3>* start = nullptr);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -1,6 +1,6 @@
 #include <abut/convex/gjk/epa.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// A convex polygon inside A - B, counter-clockwise: the expanding polytope in 2D.
@@ -117,4 +117,4 @@ EpaResult<2> epa(const CoreDifference<2>& difference, const SearchOptions<2>& op
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

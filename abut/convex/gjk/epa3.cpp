@@ -2,7 +2,7 @@
 
 #include <optional>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// It has no initialisers, so that the unused capacity of a polytope costs nothing.
@@ -330,4 +330,4 @@ EpaResult<3> epa(const CoreDifference<3>& difference, const SearchOptions<3>& op
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

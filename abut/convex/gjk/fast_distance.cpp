@@ -1,7 +1,7 @@
 #include <abut/convex/gjk/fast_distance.hpp>
 #include <abut/convex/gjk/gjk_fast.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// Loads the vertices of the cache up to the first invalid index.
@@ -65,4 +65,4 @@ std::optional<bool> fast_overlap(const Convex<3>& a, const Convex<3>& b, const S
     return overlapping;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

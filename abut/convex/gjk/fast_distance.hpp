@@ -7,7 +7,7 @@
 
 #include <optional>
 
-namespace abut {
+namespace abut::detail {
 
 /// Returns false if the cores overlap, or if the two bounds of the distance differ. If the cores surely overlap,
 /// `inside` receives the simplex that contains the origin.
@@ -23,4 +23,4 @@ inline std::optional<bool> fast_overlap(const Convex<2>&, const Convex<2>&, cons
     return std::nullopt;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

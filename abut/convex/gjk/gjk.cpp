@@ -2,7 +2,7 @@
 
 #include <optional>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 template <int D>
@@ -185,4 +185,4 @@ ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
 
-}  // namespace abut
+}  // namespace abut::detail

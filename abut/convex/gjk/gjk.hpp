@@ -12,7 +12,7 @@
 
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 
 /// Why the iteration ended.
 enum class GjkExit : std::uint8_t {
@@ -34,8 +34,8 @@ struct GjkResult {
     /// A lower bound of the signed distance: moving B by -lower_bound along `axis` leaves the cores disjoint or
     /// touching.
     double lower_bound = -std::numeric_limits<double>::infinity();
-    DVec<D> axis = abut::axis<D>(0);  ///< from A to B, of length 1
-    double tolerance = 0;             ///< the bounds agree if they differ by at most this
+    DVec<D> axis = detail::axis<D>(0);  ///< from A to B, of length 1
+    double tolerance = 0;               ///< the bounds agree if they differ by at most this
 
     bool converged() const { return upper_bound - lower_bound <= tolerance; }
 };
@@ -54,4 +54,4 @@ GjkResult<D> gjk(const CoreDifference<D>& difference, double max_distance = std:
 template <int D>
 GjkResult<D> gjk_common_point(const CoreDifference<D>& difference);
 
-}  // namespace abut
+}  // namespace abut::detail

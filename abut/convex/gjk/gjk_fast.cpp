@@ -12,7 +12,7 @@
 #include <abut/convex/farthest_simd-inl.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace abut::HWY_NAMESPACE {
+namespace abut::detail::HWY_NAMESPACE {
 
 /// The vertices of one core, in its own frame.
 class Corners {
@@ -308,11 +308,11 @@ GjkFastExit find_distance(const Convex<3>& a, const Convex<3>& b, GjkFastSimplex
     return exit == GjkFastExit::converged && !solver.closest_points(result) ? GjkFastExit::undecided : exit;
 }
 
-}  // namespace abut::HWY_NAMESPACE
+}  // namespace abut::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace abut {
+namespace abut::detail {
 namespace {
 
 bool fits_simd(const Convex<3>& core) {
@@ -344,5 +344,5 @@ GjkFastExit gjk_fast_overlap(const Convex<3>& a, const Convex<3>& b, double max_
     return HWY_DYNAMIC_DISPATCH(decide)(a, b, max_distance, simplex, trace);
 }
 
-}  // namespace abut
+}  // namespace abut::detail
 #endif

@@ -7,7 +7,7 @@
 #include <abut/convex/gjk/search_options.hpp>
 #include <abut/convex/support.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// The simplex before and after a run: vertex indices of A and B, whose pairs are points of A - B.
 struct GjkFastSimplex {
@@ -42,4 +42,4 @@ GjkFastExit gjk_fast_distance(const Convex<3>& a, const Convex<3>& b, GjkFastSim
 GjkFastExit gjk_fast_overlap(const Convex<3>& a, const Convex<3>& b, double max_distance, GjkFastSimplex& simplex,
                              Trace<3>* trace);
 
-}  // namespace abut
+}  // namespace abut::detail

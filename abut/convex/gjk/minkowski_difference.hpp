@@ -4,7 +4,7 @@
 
 #include <abut/convex/support.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// A point of A - B with the points of A and B that it is the difference of. It has no initialisers, because the
 /// searches hold arrays of them.
@@ -43,4 +43,4 @@ private:
     Convex<D> a_, b_;
 };
 
-}  // namespace abut
+}  // namespace abut::detail

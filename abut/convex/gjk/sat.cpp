@@ -1,6 +1,6 @@
 #include <abut/convex/gjk/sat.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// The best of the tested axes.
@@ -172,4 +172,4 @@ SeparatingAxis<3> separating_axis(const CoreDifference<3>& difference, double ma
 template Interval interval(const Convex<2>&, const DVec<2>&);
 template Interval interval(const Convex<3>&, const DVec<3>&);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -12,7 +12,7 @@
 
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 
 /// The projection of a core onto an axis.
 struct Interval {
@@ -41,4 +41,4 @@ SeparatingAxis<3> separating_axis(const CoreDifference<3>& difference,
                                   double max_distance = std::numeric_limits<double>::infinity(),
                                   Trace<3>* trace = nullptr);
 
-}  // namespace abut
+}  // namespace abut::detail

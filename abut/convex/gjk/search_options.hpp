@@ -5,7 +5,7 @@
 #include <abut/convex/gjk/cache.hpp>
 #include <abut/convex/gjk/trace.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 template <int D>
 struct SearchOptions {
@@ -13,4 +13,4 @@ struct SearchOptions {
     Trace<D>* trace = nullptr;  ///< receives every step; null: none
 };
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -5,7 +5,7 @@
 #include <abut/convex/gjk/sat.hpp>
 #include <abut/convex/gjk/signed_distance.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// The signed distance of two cores, with the simplex of A - B at it.
@@ -140,4 +140,4 @@ ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
 
-}  // namespace abut
+}  // namespace abut::detail

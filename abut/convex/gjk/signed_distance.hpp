@@ -6,7 +6,7 @@
 #include <abut/convex/gjk/search_options.hpp>
 #include <abut/convex/gjk/simplex.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// The vertex indices of the cores that span the closest points on A and on B; 0 for cores without vertices.
 template <int D>
@@ -53,4 +53,4 @@ SignedDistance<D> signed_distance(const Convex<D>& a, const Convex<D>& b, const 
 template <int D>
 bool convex_overlap(const Convex<D>& a, const Convex<D>& b, const SearchOptions<D>& options = {});
 
-}  // namespace abut
+}  // namespace abut::detail

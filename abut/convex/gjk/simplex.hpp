@@ -7,7 +7,7 @@
 #include <array>
 #include <initializer_list>
 
-namespace abut {
+namespace abut::detail {
 
 /// 1 to D + 1 points of the Minkowski difference, with weights that sum to 1.
 template <int D>
@@ -33,4 +33,4 @@ DVec<D> reduce_to_closest(Simplex<D>& simplex);
 template <int D>
 Simplex<D> closest_subsimplex(std::initializer_list<DifferencePoint<D>> corners, const DVec<D>& target);
 
-}  // namespace abut
+}  // namespace abut::detail

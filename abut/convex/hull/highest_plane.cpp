@@ -11,7 +11,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace abut::HWY_NAMESPACE {
+namespace abut::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -35,11 +35,11 @@ void find_highest_planes(std::span<const OrientedPlane> planes, const PointColum
     }
 }
 
-}  // namespace abut::HWY_NAMESPACE
+}  // namespace abut::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace abut {
+namespace abut::detail {
 
 HWY_EXPORT(find_highest_planes);
 
@@ -48,5 +48,5 @@ void highest_planes(std::span<const OrientedPlane> planes, const PointColumns& p
     HWY_DYNAMIC_DISPATCH(find_highest_planes)(planes, points, heights, numbers);
 }
 
-}  // namespace abut
+}  // namespace abut::detail
 #endif

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <span>
 
-namespace abut {
+namespace abut::detail {
 
 /// Points above it: dot(normal, p) > offset.
 struct OrientedPlane {
@@ -28,4 +28,4 @@ struct PointColumns {
 void highest_planes(std::span<const OrientedPlane> planes, const PointColumns& points, double* heights,
                     double* numbers);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// The relative tolerance of a hull: the rounding of a float as large as the extent (the longest side of the bounding
 /// box). Points no farther than this from the hull of the others may be left out, and thinner sets are flat.
@@ -55,4 +55,4 @@ Result<Hull2> hull(std::span<const Vec2> points);
 /// and convex for any input. Corners are input points, bit by bit (-0 becomes 0).
 Result<Hull3> hull(std::span<const Vec3> points);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// Twice the area of the triangle abc, in double.
@@ -70,4 +70,4 @@ Result<Hull2> hull(std::span<const Vec2> points) {
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -14,7 +14,7 @@
 #include <cmath>
 #include <utility>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 std::vector<Vec3> sorted_without_copies(std::span<const Vec3> points) {
@@ -128,4 +128,4 @@ Result<Hull3> hull(std::span<const Vec3> points) {
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

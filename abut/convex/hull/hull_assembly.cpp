@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// Two consecutive points identify a loop.
 HullFaces in_order(const HullFaces& faces, std::size_t point_count) {
@@ -64,4 +64,4 @@ double offset_above(const Vec3& normal, std::span<const Vec3> points) {
     return along_an_axis ? result : result + 0x1p-50 * size;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <utility>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 constexpr std::size_t worth_filtering = 64, worth_counting = 2048;
@@ -165,4 +165,4 @@ std::vector<HullColumn> hull_columns(std::span<const Vec2> points) {
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// A copy of a point, because the points are far apart in memory.
 struct NumberedPoint {
@@ -25,4 +25,4 @@ struct HullColumn {
 /// convex hull algorithm", 1978). The points are finite; there is at least one. O(n).
 std::vector<HullColumn> hull_columns(std::span<const Vec2> points);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// Faces with a larger angle between their normals (45 degrees) are never merged, however small they are. Otherwise the
@@ -252,4 +252,4 @@ HullFaces hull_faces(std::span<const GridPoint> points, const TriangleSurface& s
     return mesh.faces();
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// The faces of a polytope as loops of point numbers, counter-clockwise seen from outside.
 struct HullFaces {
@@ -30,4 +30,4 @@ struct HullFaces {
 HullFaces hull_faces(std::span<const GridPoint> points, const TriangleSurface& surface, double tolerance,
                      double flatness);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 template <class Point>
@@ -72,4 +72,4 @@ Spread spread_of(const HullGrid& grid, double tolerance) {
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

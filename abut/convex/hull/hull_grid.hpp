@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// Points rounded to a grid whose steps are a power of two, so that points on a coarser grid don't move.
 struct HullGrid {
@@ -33,4 +33,4 @@ struct Spread {
 
 Spread spread_of(const HullGrid& grid, double tolerance);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -11,7 +11,7 @@
 #include <span>
 #include <string>
 
-namespace abut {
+namespace abut::detail {
 
 /// Nothing if the hull of the points can be built. Otherwise the problem, with the number of the first bad point.
 template <int D>
@@ -59,4 +59,4 @@ double extent(std::span<const Vec<D>> points) {
     return largest(max_corner<D>(points) - min_corner<D>(points));
 }
 
-}  // namespace abut
+}  // namespace abut::detail

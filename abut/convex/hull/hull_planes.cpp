@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 class HillClimb {
@@ -89,4 +89,4 @@ std::vector<double> plane_offsets(const HullFaces& faces, std::span<const Vec3> 
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// One per face: dot(normal, p) <= offset for all points, including those that the hull left out, evaluated in double.
 /// Along an axis it is the smallest such number. Otherwise it is larger by at most `surface.left_out`, two steps of the
@@ -17,4 +17,4 @@ namespace abut {
 std::vector<double> plane_offsets(const HullFaces& faces, std::span<const Vec3> points, const HullGrid& grid,
                                   const TriangleSurface& surface);
 
-}  // namespace abut
+}  // namespace abut::detail

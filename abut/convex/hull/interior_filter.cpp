@@ -17,7 +17,7 @@
 #include <limits>
 #include <optional>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 constexpr std::size_t min_points = 2000;  ///< below this number of points the filter doesn't pay
@@ -195,4 +195,4 @@ std::vector<Vec3> without_interior_points(std::span<const Vec3> points) {
     return all;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

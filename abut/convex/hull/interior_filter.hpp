@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// The points in any order, without many of those strictly inside of the hull of the others. The hull stays the same,
 /// and the result doesn't depend on the order of the points. All points are returned if they are few, thin, or so large
@@ -18,4 +18,4 @@ namespace abut {
 /// a point is compared with a single plane, that of its cell. O(n).
 std::vector<Vec3> without_interior_points(std::span<const Vec3> points);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -10,7 +10,7 @@
 #include <tuple>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// A corner of a sum: the numbers of its two terms.
 struct CornerPair {
@@ -42,4 +42,4 @@ struct Surface {
 /// O(n m) steps for n and m corners, of a few comparisons each; k log k for the k pairs found.
 std::vector<CornerPair> sum_corners(const Surface& a, const Surface& b);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -3,7 +3,7 @@
 #include <abut/convex/hull/minkowski.hpp>
 #include <abut/math/dvec.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// value + error is the product of two doubles, exactly (Veltkamp 1968, Dekker 1971).
@@ -84,4 +84,4 @@ std::vector<CornerPair> sum_corners(std::span<const DVec<2>> a, std::span<const 
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// Along directions this close, the support points of one are within `GaussMap::tolerance_` of those of the other.
@@ -170,4 +170,4 @@ std::vector<CornerPair> sum_corners(const Surface& a, const Surface& b) {
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -12,7 +12,7 @@
 #include <limits>
 #include <numeric>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 double distance_squared_to_segment(const DVec<3>& p, const DVec<3>& a, const DVec<3>& b) {
@@ -378,4 +378,4 @@ TriangleSurface quickhull(std::span<const GridPoint> points, const std::array<st
     return hull.surface();
 }
 
-}  // namespace abut
+}  // namespace abut::detail

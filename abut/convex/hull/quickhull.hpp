@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// A point of the grid. Two points of a set differ by at most 2^28 on every axis.
 using GridPoint = glm::vec<3, std::int64_t>;
@@ -44,4 +44,4 @@ inline std::uint32_t following(std::uint32_t half_edge) {
 TriangleSurface quickhull(std::span<const GridPoint> points, const std::array<std::uint32_t, 4>& start,
                           double tolerance);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -10,7 +10,7 @@
 
 #ifndef ABUT_CONVEX_BOX_PATCH_LANES
 #define ABUT_CONVEX_BOX_PATCH_LANES
-namespace abut {
+namespace abut::detail {
 
 /// A point in front of a face, by its coordinates along the face and along the normal.
 struct FacePoint {
@@ -31,11 +31,11 @@ struct ClipPoints {
     std::uint32_t starts, by_x, falls_x, falls_y;  ///< bits of the edges, the upper four for leaving
 };
 
-}  // namespace abut
+}  // namespace abut::detail
 #endif
 
 HWY_BEFORE_NAMESPACE();
-namespace abut::HWY_NAMESPACE {
+namespace abut::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -120,11 +120,11 @@ void clip_faces(const FacePair& face, ClipPoints& points) {
     }
 }
 
-}  // namespace abut::HWY_NAMESPACE
+}  // namespace abut::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace abut {
+namespace abut::detail {
 
 HWY_EXPORT(clip_faces);
 
@@ -185,5 +185,5 @@ std::uint32_t BoxFaceClip::name(std::size_t i) const {
     return (2 + crossed) << 16 | (corners_[from] | to) << 4 | (corners_[from] & to);
 }
 
-}  // namespace abut
+}  // namespace abut::detail
 #endif

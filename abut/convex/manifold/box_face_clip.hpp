@@ -4,7 +4,7 @@
 
 #include <abut/convex/pairs/box_frame.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// The corners of the intersection of the face of B that is most opposed to `out`, and the face of A that faces it
 /// most, seen along `out`; in no order. Coincident corners may occur twice.
@@ -53,4 +53,4 @@ inline std::size_t steepest(const Triple& v) {
     return steep[2] > steep[first] ? 2 : first;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -2,7 +2,7 @@
 #include <abut/convex/manifold/box_manifold.hpp>
 #include <abut/convex/manifold/reduce.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// A point in the frame of a box, in the world.
@@ -104,4 +104,4 @@ bool manifold_of_boxes(const BoxPlacement& a, const BoxPlacement& b, const BoxFr
     return writer.add_clipped_face(b, frame.swapped(), {-along_b[0], -along_b[1], -along_b[2]}, 1u << 31);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

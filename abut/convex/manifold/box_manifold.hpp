@@ -5,7 +5,7 @@
 #include <abut/convex/manifold/manifold.hpp>
 #include <abut/convex/pairs/box_closest.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// As `manifold`, from the closest features of two boxes. Feature names are its own: they persist while the same
 /// corners and edges touch and the same face is the reference. If the normal is that of a face, the closest point need
@@ -14,4 +14,4 @@ namespace abut {
 bool manifold_of_boxes(const BoxPlacement& a, const BoxPlacement& b, const BoxFrame& frame, const BoxClosest& closest,
                        double margin, DVec<3>* on_a, Manifold<3>& points);
 
-}  // namespace abut
+}  // namespace abut::detail

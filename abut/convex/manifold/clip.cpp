@@ -6,7 +6,7 @@
 
 #include <utility>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 using VertexLoop = std::vector<std::uint32_t>;
@@ -263,4 +263,4 @@ ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
 
-}  // namespace abut
+}  // namespace abut::detail

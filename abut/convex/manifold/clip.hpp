@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// The half-space dot(normal, p) <= offset.
 template <int D>
@@ -59,4 +59,4 @@ std::vector<std::vector<std::uint32_t>> cut(ClipBody<D>& body, const ClipPlane<D
 template <int D>
 std::vector<DVec<D>> clip(const Convex<D>& a, const Convex<D>& b, Trace<D>* trace = nullptr);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -4,7 +4,7 @@
 
 #include <numeric>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// The half-planes of a box around nearly collinear points.
@@ -62,4 +62,4 @@ ClipPlanes<2> clip_planes(const ClipBody<2>& body) {
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 using Loop = std::vector<std::uint32_t>;
@@ -165,4 +165,4 @@ ClipPlanes<3> clip_planes(const ClipBody<3>& body) {
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

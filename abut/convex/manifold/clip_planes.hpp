@@ -4,7 +4,7 @@
 
 #include <abut/convex/manifold/clip.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// A body is flat if its measure is no more than this times its boundary's and its extent. Floats have no such bodies;
 /// only a stretched placement makes them.
@@ -49,4 +49,4 @@ inline double excess(double max_depth, double extent, double inside, double outs
     return max_depth * extent * outside / inside;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -2,7 +2,7 @@
 #include <abut/convex/manifold/manifold.hpp>
 #include <abut/convex/manifold/reduce.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// The component of v orthogonal to the unit vector n, normalised.
@@ -219,4 +219,4 @@ ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
 
-}  // namespace abut
+}  // namespace abut::detail

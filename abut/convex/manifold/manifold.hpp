@@ -5,7 +5,7 @@
 #include <abut/convex/face.hpp>
 #include <abut/convex/gjk/signed_distance.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 template <int D>
 struct ManifoldPoint {
@@ -46,4 +46,4 @@ Manifold<D> manifold(const Convex<D>& a, const Convex<D>& b, const SignedDistanc
 template <int D>
 Manifold<D> manifold_with_plane(const Convex<D>& a, const DVec<D>& normal, double offset, double margin);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -2,7 +2,7 @@
 
 #include <abut/convex/manifold/polygon_clip.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// A polygon with a smaller part of its bounding box has so sharp corners that the rounding of a line moves them by
@@ -65,4 +65,4 @@ bool clip_polygons(const PolygonPair& pair, ClippedLoop& loop) {
     return true;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

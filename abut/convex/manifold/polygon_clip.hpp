@@ -5,7 +5,7 @@
 
 #include <abut/convex/pairs/polygon2.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// Corners in the world, counter-clockwise; some may coincide or be collinear.
 struct ClippedLoop {
@@ -17,4 +17,4 @@ struct ClippedLoop {
 /// cut stay in place; a corner within rounding of a line lies on it.
 bool clip_polygons(const PolygonPair& pair, ClippedLoop& loop);
 
-}  // namespace abut
+}  // namespace abut::detail

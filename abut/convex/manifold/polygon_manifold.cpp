@@ -1,7 +1,7 @@
 #include <abut/convex/manifold/polygon_manifold.hpp>
 #include <abut/math/simd/double2-inl.h>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// An edge in the frame of the reference polygon.
@@ -155,4 +155,4 @@ void set_polygon_manifold(const PolygonPair& pair, const ClosestFeatures2& close
     reduce(candidates, tolerance, result);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -11,7 +11,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace abut::HWY_NAMESPACE {
+namespace abut::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -31,11 +31,11 @@ void areas_about_diagonals(const double* x, const double* y, std::size_t used, s
     }
 }
 
-}  // namespace abut::HWY_NAMESPACE
+}  // namespace abut::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace abut {
+namespace abut::detail {
 
 HWY_EXPORT(areas_about_diagonals);
 
@@ -70,5 +70,5 @@ std::array<std::size_t, 4> largest_quadrilateral(std::span<const double> x, std:
     return {first, best, left, right};
 }
 
-}  // namespace abut
+}  // namespace abut::detail
 #endif

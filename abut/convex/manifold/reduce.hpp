@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <span>
 
-namespace abut {
+namespace abut::detail {
 
 /// The indices of `first` and of the three points that make the largest quadrilateral with it. For each opposite point
 /// these are the two farthest from the diagonal on either side. An index occurs twice if fewer points make as large an
@@ -14,4 +14,4 @@ namespace abut {
 std::array<std::size_t, 4> largest_quadrilateral(std::span<const double> x, std::span<const double> y,
                                                  std::size_t first);
 
-}  // namespace abut
+}  // namespace abut::detail

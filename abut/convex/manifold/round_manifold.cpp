@@ -3,7 +3,7 @@
 #include <abut/convex/manifold/round_manifold.hpp>
 #include <abut/convex/pairs/round3.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 constexpr double tilt_squared = 1 - aligned * aligned;
@@ -232,4 +232,4 @@ bool round_manifold(const Convex<3>& a, const Convex<3>& b, const SignedDistance
     return is_round_points(a, 2) && clip_to_solid(b, a, distance, -distance.normal, margin, result);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -4,7 +4,7 @@
 #include <abut/convex/pairs/box_axes.hpp>
 #include <abut/convex/pairs/box_distance.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// Warm start: whether the cached axis still separates the boxes by more than `reach`, which is not below zero. An
@@ -247,4 +247,4 @@ bool contact_of_boxes(const Convex<3>& a, const Convex<3>& b, double reach, doub
     return true;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -6,7 +6,7 @@
 #include <abut/convex/pairs/box_axes.hpp>
 #include <abut/convex/pairs/box_closest.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// Whether a box isn't nearly flat. Flat boxes take the general algorithms.
 inline bool has_volume(const Vec3& half) {
@@ -37,4 +37,4 @@ BoxContact contact_in_frame(const BoxFrame& frame, const BoxFaceGap& face, const
 bool contact_of_boxes(const Convex<3>& a, const Convex<3>& b, double reach, double margin,
                       const SearchOptions<3>& options, SignedDistance<3>& distance, Manifold<3>& points);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -3,7 +3,7 @@
 
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// An edge axis of a smaller squared length is nothing but rounding.
@@ -104,4 +104,4 @@ std::size_t BoxEdgeGaps::widest(double min_gap) const {
     return best;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

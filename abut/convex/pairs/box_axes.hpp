@@ -8,7 +8,7 @@
 
 #include <abut/convex/pairs/box_frame.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// The widest gap along a face normal.
 struct BoxFaceGap {
@@ -54,4 +54,4 @@ inline Triple edge_axis(const BoxFrame& frame, std::size_t number) {
     return axis;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -5,7 +5,7 @@
 #include <abut/convex/gjk/signed_distance.hpp>
 #include <abut/convex/pairs/box_frame.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// A vertex, edge or face of a box by its bits: the axes at whose low end it is, and the axes along which it extends.
 struct BoxFeature {
@@ -71,4 +71,4 @@ inline void set_corners(const BoxClosest& closest, bool by_b, ClosestCorners<3>&
     }
 }
 
-}  // namespace abut
+}  // namespace abut::detail

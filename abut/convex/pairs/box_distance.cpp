@@ -1,6 +1,6 @@
 #include <abut/convex/pairs/box_distance.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// The tolerance of two bounds that should agree, relative to the sum of all coordinates.
@@ -137,4 +137,4 @@ bool closest_on_edges(const BoxFrame& frame, std::size_t number, BoxClosest& clo
     return true;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

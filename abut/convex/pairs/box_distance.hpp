@@ -6,7 +6,7 @@
 #include <abut/convex/pairs/box_axes.hpp>
 #include <abut/convex/pairs/box_closest.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// The closest points of A and of a vertex of B, or of the vertex that it leads on to. Returns false if nothing is
 /// proven: another vertex, or none, is closest.
@@ -19,4 +19,4 @@ bool nearest_corner(const BoxFrame& frame, BoxClosest& closest);
 /// Returns false if the edges don't cross within their ends.
 bool closest_on_edges(const BoxFrame& frame, std::size_t number, BoxClosest& closest);
 
-}  // namespace abut
+}  // namespace abut::detail

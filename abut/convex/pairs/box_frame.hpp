@@ -4,7 +4,7 @@
 
 #include <abut/convex/support.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 using Triple = std::array<double, 3>;
 
@@ -34,8 +34,8 @@ struct BoxFrame {
             const DVec<3>& axis_a = a.place.column[i];
             half_a[i] = static_cast<double>(a.own[0][static_cast<int>(i)]) * a.scale;
             half_b[i] = static_cast<double>(b.own[0][static_cast<int>(i)]) * b.scale;
-            middle[i] = abut::dot(axis_a, between) * one_a;
-            for (std::size_t j = 0; j < 3; ++j) axis_b[j][i] = abut::dot(axis_a, b.place.column[j]) * one_both;
+            middle[i] = abut::detail::dot(axis_a, between) * one_a;
+            for (std::size_t j = 0; j < 3; ++j) axis_b[j][i] = abut::detail::dot(axis_a, b.place.column[j]) * one_both;
         }
     }
 
@@ -45,8 +45,8 @@ struct BoxFrame {
         for (std::size_t i = 0; i < 3; ++i) {
             half_a[i] = static_cast<double>(half_of_a[static_cast<int>(i)]);
             half_b[i] = static_cast<double>(half_of_b[static_cast<int>(i)]);
-            middle[i] = abut::dot(a.column[i], between);
-            for (std::size_t j = 0; j < 3; ++j) axis_b[j][i] = abut::dot(a.column[i], b.column[j]);
+            middle[i] = abut::detail::dot(a.column[i], between);
+            for (std::size_t j = 0; j < 3; ++j) axis_b[j][i] = abut::detail::dot(a.column[i], b.column[j]);
         }
     }
 
@@ -84,4 +84,4 @@ struct BoxPlacement {
     DVec<3> vector(const Triple& v) const { return place.vector(DVec<3>(v[0] * one, v[1] * one, v[2] * one)); }
 };
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -8,12 +8,12 @@
 #include <cstdint>
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 
 /// The vertex, edge or face of a box by its bits: the axes at one end, and among those the axes at the low end. Numbers
 /// are in both lanes.
 struct BoxClosestPoint {
-    lanes::Double3 offset;   ///< to the point; inside, of length 1 along the nearest outward normal
+    lanes::Double3 offset;      ///< to the point; inside, of length 1 along the nearest outward normal
     lanes::Double2 distance;    ///< of the point; below zero inside
     lanes::Double2 per_length;  ///< normalises the offset
     std::uint32_t fixed, low;
@@ -46,4 +46,4 @@ inline void nearest_from_inside(const DVec<3>& half, const DVec<3>& point, BoxCl
     place.low = sign < 0 ? place.fixed : 0;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -5,7 +5,7 @@
 
 #include <abut/convex/pairs/box_triangle.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// The rounding error of a point, relative to the largest coordinate.
@@ -259,4 +259,4 @@ BoxTriangle box_triangle_distance(const Convex<3>& box, const Convex<3>& triangl
     return BoxTriangle::overlapping;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -5,7 +5,7 @@
 #include <abut/convex/pairs/box3.hpp>
 #include <abut/convex/pairs/round3.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// Whether the functions below take A and B. Both may have balls around them.
 inline bool are_box_and_triangle(const Convex<3>& a, const Convex<3>& b) {
@@ -22,4 +22,4 @@ BoxTriangle box_triangle_overlap(const Convex<3>& box, const Convex<3>& triangle
 BoxTriangle box_triangle_distance(const Convex<3>& box, const Convex<3>& triangle, double reach,
                                   SignedDistance<3>& result);
 
-}  // namespace abut
+}  // namespace abut::detail

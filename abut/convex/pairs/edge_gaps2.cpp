@@ -12,7 +12,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace abut::HWY_NAMESPACE {
+namespace abut::detail::HWY_NAMESPACE {
 
 using namespace polygon_simd;
 
@@ -58,11 +58,11 @@ void widest_gap_of_two(const PolygonSoa& a, const PolygonSoa& b, const Rigid2 (&
     result.corner = lowest(points[of], (of == 0 ? b : a).capacity, reference.normal_x[side], reference.normal_y[side]);
 }
 
-}  // namespace abut::HWY_NAMESPACE
+}  // namespace abut::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace abut {
+namespace abut::detail {
 
 HWY_EXPORT(widest_gap_of_two);
 
@@ -105,5 +105,5 @@ void widest_edge_gap(const PolygonSoa& a, const PolygonSoa& b, const Rigid2 (&se
     HWY_DYNAMIC_DISPATCH(widest_gap_of_two)(a, b, seen, max_distance, tolerance, result);
 }
 
-}  // namespace abut
+}  // namespace abut::detail
 #endif

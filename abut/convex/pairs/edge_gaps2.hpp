@@ -4,7 +4,7 @@
 
 #include <abut/convex/polygon_soa.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// The edge with the widest gap in front of it, and the corner of the other polygon that is nearest to its line.
 struct EdgeGap {
@@ -22,4 +22,4 @@ void widest_edge_gap(const PolygonSoa& a, const PolygonSoa& b, const Rigid2 (&se
 /// The widest gap of two boxes, in closed form.
 void gap_of_boxes(const DVec<2>& a, const DVec<2>& b, const Rigid2 (&seen)[2], double tolerance, EdgeGap& result);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -2,7 +2,7 @@
 #include <abut/convex/pairs/pair2.hpp>
 #include <abut/convex/pairs/point2.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
@@ -86,4 +86,4 @@ PairAnswer2 pair2_contact(const PlacedPolygon& a, const PlacedPolygon& b, double
     return answer;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

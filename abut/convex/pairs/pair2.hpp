@@ -6,7 +6,7 @@
 #include <abut/convex/manifold/manifold.hpp>
 #include <abut/convex/pairs/polygon2.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 using PairAnswer2 = PolygonPair::Answer;
 
@@ -20,4 +20,4 @@ PairAnswer2 pair2_distance(const PlacedPolygon& a, const PlacedPolygon& b, Cache
 PairAnswer2 pair2_contact(const PlacedPolygon& a, const PlacedPolygon& b, double reach, double margin, Cache* cache,
                           SignedDistance<2>& distance, Manifold<2>& manifold);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -1,6 +1,6 @@
 #include <abut/convex/pairs/point2.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// Inside, the second nearest edge is the right one. Outside, of collinear edges the wrong one may have been found.
 void locate_past_edge(const PolygonSoa& sides, const DVec<2>& point, PointLocation& place) {
@@ -27,4 +27,4 @@ void locate_past_edge(const PolygonSoa& sides, const DVec<2>& point, PointLocati
     }
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -9,7 +9,7 @@
 
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 
 /// The location of a point relative to a polygon: in the region of an edge, or of a vertex, which occurs twice.
 struct PointLocation {
@@ -132,4 +132,4 @@ inline std::uint32_t point_name(const ClosestCorners<2>& corners) {
     return (corners.a[0] << 8 ^ corners.b[0]) & (0u - (at_corner ? 1u : 0u));
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -1,6 +1,6 @@
 #include <abut/convex/pairs/polygon2.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// A walk takes a step or two. One that reaches this bound cycles on rounding.
@@ -271,4 +271,4 @@ PolygonPair::Answer PolygonPair::near(double max_distance, Cache* cache) const {
     return closest.gap > max_distance ? Answer::beyond : Answer::within;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

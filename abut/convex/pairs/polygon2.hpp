@@ -13,7 +13,7 @@
 
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 
 /// The closest features of two cores, or those of the minimum penetration, in the frame of the reference polygon.
 struct ClosestFeatures2 {
@@ -68,4 +68,4 @@ private:
     Rigid2 seen_[2];
 };
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -9,7 +9,7 @@
 
 #include <abut/convex/gjk/signed_distance.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// Whether the core has this number of points, in any placement.
 template <int D>
@@ -91,4 +91,4 @@ TriangleClosest closest_point_on_triangle(const Convex<3>& triangle, const DVec<
 /// Gives a result if the point is inside the polyhedron.
 bool hull_point(const Convex<3>& hull, const Convex<3>& point, SignedDistance<3>& result);
 
-}  // namespace abut
+}  // namespace abut::detail

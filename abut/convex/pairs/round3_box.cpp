@@ -3,7 +3,7 @@
 #include <abut/convex/pairs/box_point-inl.h>
 #include <abut/convex/pairs/round3.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// A smaller distance, relative to the largest coordinate, may have a direction that is rounding.
@@ -205,4 +205,4 @@ bool box_segment(const Convex<3>& box, const Convex<3>& segment, SignedDistance<
     return true;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -3,7 +3,7 @@
 #include <abut/convex/farthest_point.hpp>
 #include <abut/convex/pairs/round3.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// A point with a smaller depth, relative to its depth below the farthest face, may be outside.
@@ -54,4 +54,4 @@ bool hull_point(const Convex<3>& hull, const Convex<3>& point, SignedDistance<3>
     return true;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

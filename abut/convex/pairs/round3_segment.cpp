@@ -1,7 +1,7 @@
 #include <abut/convex/pairs/round3.hpp>
 #include <abut/convex/pairs/round3_simd-inl.h>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 double part_of(double along, double whole) {
@@ -134,4 +134,4 @@ template SegmentParameters closest_end_parameters(const DVec<3>&, const DVec<3>&
 template bool segment_segment(const Convex<2>&, const Convex<2>&, SignedDistance<2>&);
 template bool segment_segment(const Convex<3>&, const Convex<3>&, SignedDistance<3>&);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -7,7 +7,7 @@
 
 #include <bit>
 
-namespace abut {
+namespace abut::detail {
 
 /// Two points with balls around them.
 inline void distance_of_points(const DVec<3>& a, double radius_a, const DVec<3>& b, double radius_b,
@@ -26,7 +26,7 @@ struct SegmentPair {
 };
 
 struct SegmentClosest {
-    lanes::Double2 distance;          ///< in both lanes
+    lanes::Double2 distance;       ///< in both lanes
     lanes::Double3 normal, on_a;   ///< as in a SignedDistance
     std::size_t place_a, place_b;  ///< 0 at the start, 1 between, 2 at the end
 };
@@ -74,4 +74,4 @@ inline bool closest_on_segments(const SegmentPair& s, SegmentClosest& result) {
     return true;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -2,7 +2,7 @@
 
 #include <abut/convex/pairs/round3.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// Slivers, whose edges enclose no sine above a thousandth, are left to the general algorithms.
@@ -236,4 +236,4 @@ bool triangle_segment(const Convex<3>& triangle, const Convex<3>& segment, Signe
     return true;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

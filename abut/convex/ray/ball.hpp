@@ -4,7 +4,7 @@
 
 #include <abut/convex/ray/closed_forms.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// The parameter at which a ray from outside enters a ball. It uses the squared distance of the ray from the centre,
 /// which stays precise for distant balls. `enters` is false if the ray misses.
@@ -36,4 +36,4 @@ RayEntry<D> enter_ball(const DRay<D>& ray, const DVec<D>& center, double radius)
     return enter_end(ray, center, radius, 0);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -1,6 +1,6 @@
 #include <abut/convex/ray/closed_forms.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 template <int D>
@@ -54,4 +54,4 @@ RayEntry<D> enter_box(const DRay<D>& ray, const DVec<D>& half, double radius) {
 template RayEntry<2> enter_box(const DRay<2>&, const DVec<2>&, double);
 template RayEntry<3> enter_box(const DRay<3>&, const DVec<3>&, double);
 
-}  // namespace abut
+}  // namespace abut::detail

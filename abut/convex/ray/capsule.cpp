@@ -1,6 +1,6 @@
 #include <abut/convex/ray/ball.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 template <int D>
@@ -46,4 +46,4 @@ RayEntry<D> enter_capsule(const DRay<D>& ray, const DVec<D>& a, const DVec<D>& b
 template RayEntry<2> enter_capsule(const DRay<2>&, const DVec<2>&, const DVec<2>&, double);
 template RayEntry<3> enter_capsule(const DRay<3>&, const DVec<3>&, const DVec<3>&, double);
 
-}  // namespace abut
+}  // namespace abut::detail

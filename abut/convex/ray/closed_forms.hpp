@@ -8,7 +8,7 @@
 #include <limits>
 #include <span>
 
-namespace abut {
+namespace abut::detail {
 
 /// Smaller values, relative to the coordinates, may be rounding.
 inline constexpr double ray_tolerance = 1e-9;
@@ -63,4 +63,4 @@ RayEntry<D> enter_capsule(const DRay<D>& ray, const DVec<D>& a, const DVec<D>& b
 RayEntry<2> enter_segment(const DRay<2>& ray, const DVec<2>& a, const DVec<2>& b);
 RayEntry<3> enter_triangle(const DRay<3>& ray, const DVec<3>& a, const DVec<3>& b, const DVec<3>& c);
 
-}  // namespace abut
+}  // namespace abut::detail

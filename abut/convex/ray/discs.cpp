@@ -1,6 +1,6 @@
 #include <abut/convex/ray/closed_forms.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// The candidate entry on a disc or on the side. A ray enters a convex set once, so several candidates are equal but
@@ -71,4 +71,4 @@ RayEntry<3> enter_discs(const DRay<3>& ray, const DVec<3>& a, const DVec<3>& b, 
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -9,7 +9,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace abut::HWY_NAMESPACE {
+namespace abut::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -97,11 +97,11 @@ PlaneCut cut_many(const Vec3* normals, const double* offsets, std::size_t count,
     return result;
 }
 
-}  // namespace abut::HWY_NAMESPACE
+}  // namespace abut::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace abut {
+namespace abut::detail {
 
 HWY_EXPORT(cut_many);
 
@@ -110,5 +110,5 @@ PlaneCut cut_by_planes(std::span<const Vec3> normals, std::span<const double> of
     return HWY_DYNAMIC_DISPATCH(cut_many)(normals.data(), offsets.data(), normals.size(), out, origin, direction);
 }
 
-}  // namespace abut
+}  // namespace abut::detail
 #endif

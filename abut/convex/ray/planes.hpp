@@ -4,7 +4,7 @@
 
 #include <abut/convex/ray/closed_forms.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 struct PlaneCut {
     RayCut cut;
@@ -17,4 +17,4 @@ struct PlaneCut {
 PlaneCut cut_by_planes(std::span<const Vec3> normals, std::span<const double> offsets, double out,
                        const DVec<3>& origin, const DVec<3>& direction);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -1,6 +1,6 @@
 #include <abut/convex/ray/closed_forms.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// An edge and the line through it, relative to the ray's origin.
@@ -76,4 +76,4 @@ RayEntry<2> enter_polygon(const DRay<2>& ray, std::span<const Vec2> points, doub
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -4,7 +4,7 @@
 
 #include <abut/convex/ray/closed_forms.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// In the polygon's own frame, with a ball of `radius` around it.
 inline RayEntry<2> enter_polygon_soa(const DRay<2>& ray, const PolygonSoa& sides, double radius) {
@@ -50,4 +50,4 @@ inline RayEntry<2> enter_polygon_soa(const DRay<2>& ray, const PolygonSoa& sides
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -1,7 +1,7 @@
 #include <abut/convex/ray/closed_forms.hpp>
 #include <abut/convex/ray/planes.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// A lower bound of the distance of a point in a face's plane from the inside of its loop; 0 inside.
@@ -51,4 +51,4 @@ RayEntry<3> enter_polyhedron(const DRay<3>& ray, std::span<const Vec3> points, c
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// Bounds on the search for a portal, and on its refinement.
@@ -195,4 +195,4 @@ PortalHit<D> enter_difference(const Convex<D>& a, const Convex<D>& b, const DVec
 template PortalHit<2> enter_difference(const Convex<2>&, const Convex<2>&, const DVec<2>&, const PortalTolerances&);
 template PortalHit<3> enter_difference(const Convex<3>&, const Convex<3>&, const DVec<3>&, const PortalTolerances&);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -15,7 +15,7 @@
 
 #include <abut/convex/gjk/minkowski_difference.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 enum class PortalAnswer : std::uint8_t { undecided, misses, enters };
 
@@ -40,4 +40,4 @@ template <int D>
 PortalHit<D> enter_difference(const Convex<D>& a, const Convex<D>& b, const DVec<D>& direction,
                               const PortalTolerances& tolerances);
 
-}  // namespace abut
+}  // namespace abut::detail

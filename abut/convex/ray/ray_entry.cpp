@@ -1,7 +1,7 @@
 #include <abut/convex/ray/ball.hpp>
 #include <abut/convex/ray/polygon_soa.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// The ray in the shape's own frame, if the inverse placement is well conditioned.
@@ -86,4 +86,4 @@ RayEntry<D> ray_entry(const Convex<D>& convex, const DRay<D>& ray) {
 template RayEntry<2> ray_entry(const Convex<2>&, const DRay<2>&);
 template RayEntry<3> ray_entry(const Convex<3>&, const DRay<3>&);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -11,7 +11,7 @@
 #include <abut/convex/feature.hpp>
 #include <abut/convex/support.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// A ray in double.
 template <int D>
@@ -42,4 +42,4 @@ struct RayEntry {
 template <int D>
 RayEntry<D> ray_entry(const Convex<D>& convex, const DRay<D>& ray);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -1,6 +1,6 @@
 #include <abut/convex/ray/triangle.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 RayEntry<2> enter_segment(const DRay<2>& ray, const DVec<2>& a, const DVec<2>& b) {
     const DVec<2> along_it = b - a, normal(along_it.y, -along_it.x);
@@ -23,4 +23,4 @@ RayEntry<3> enter_triangle(const DRay<3>& ray, const DVec<3>& a, const DVec<3>& 
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace abut {
+namespace abut::detail {
 
 /// A ray that starts nearer to the line or plane of a thin part, relative to the coordinates, may be leaving it.
 inline constexpr double ray_start_tolerance = sixteen_ulp;
@@ -52,4 +52,4 @@ inline bool surely_misses_plane(double height, double scale) {
     return RayAnswer::enters;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

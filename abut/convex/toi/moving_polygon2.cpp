@@ -9,7 +9,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace abut::HWY_NAMESPACE {
+namespace abut::detail::HWY_NAMESPACE {
 
 using namespace polygon_simd;
 
@@ -80,11 +80,11 @@ bool passage_of_any(const PolygonSoa& a, const PolygonSoa& b, const Rigid2 (&pla
     return true;
 }
 
-}  // namespace abut::HWY_NAMESPACE
+}  // namespace abut::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace abut {
+namespace abut::detail {
 
 HWY_EXPORT(passage_of_any);
 
@@ -93,5 +93,5 @@ bool passage_of_polygons(const PolygonSoa& a, const PolygonSoa& b, const Rigid2 
     return HWY_DYNAMIC_DISPATCH(passage_of_any)(a, b, placed, motion, radius, depth, latest, result);
 }
 
-}  // namespace abut
+}  // namespace abut::detail
 #endif

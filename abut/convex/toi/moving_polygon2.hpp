@@ -11,7 +11,7 @@
 #include <abut/convex/polygon_soa.hpp>
 #include <abut/math/simd/double2-inl.h>
 
-namespace abut {
+namespace abut::detail {
 
 /// Times are fractions of the motion, and may lie before or after it.
 struct Passage {
@@ -106,4 +106,4 @@ inline bool passage_of_boxes(const lanes::Double2 (&half)[2], lanes::Double2 tur
     return true;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

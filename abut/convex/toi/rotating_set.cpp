@@ -1,6 +1,6 @@
 #include <abut/convex/toi/rotating_set.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// From this number of corners on their bounding box is used.
@@ -83,4 +83,4 @@ RotatingSet<D>::RotatingSet(const Convex<D>& set, const RigidPath<D>& path, doub
 template class RotatingSet<2>;
 template class RotatingSet<3>;
 
-}  // namespace abut
+}  // namespace abut::detail

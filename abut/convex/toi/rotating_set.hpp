@@ -5,7 +5,7 @@
 #include <abut/convex/support.hpp>
 #include <abut/math/rigid_path.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// Refers to the same data as the set. `here` gives the set at the time of the last `go_to`.
 template <int D>
@@ -49,4 +49,4 @@ private:
     RotatingVector<D> offset_;  ///< of the set's placement, from the pivot
 };
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -1,6 +1,6 @@
 #include <abut/convex/toi/separation_function.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// The bound on the steps along one axis; a handful is usual.
@@ -253,4 +253,4 @@ ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -24,7 +24,7 @@
 #include <abut/convex/gjk/signed_distance.hpp>
 #include <abut/convex/toi/rotating_set.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// The separation at a time, with its derivatives for the current support points; other points may come nearer.
 struct Gap {
@@ -77,4 +77,4 @@ template <int D>
 AngularVelocity<D> axis_angular_velocity(const RotatingSet<D>& a, const RotatingSet<D>& b, const DVec<D>& normal,
                                          const ClosestCorners<D>& corners);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -20,7 +20,7 @@
 // After the Highway headers: this part is compiled once for each target.
 
 HWY_BEFORE_NAMESPACE();
-namespace abut::HWY_NAMESPACE {
+namespace abut::detail::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -259,11 +259,11 @@ void samples3(const FieldData<3>& data, const Vec3* points, std::size_t count, F
     look_up_all<3>(data, points, count, out);
 }
 
-}  // namespace abut::HWY_NAMESPACE
+}  // namespace abut::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace abut {
+namespace abut::detail {
 
 HWY_EXPORT(distances2);
 HWY_EXPORT(distances3);
@@ -283,5 +283,5 @@ void look_up_all(const FieldData<3>& data, std::span<const Vec3> points, std::sp
     HWY_DYNAMIC_DISPATCH(samples3)(data, points.data(), points.size(), out.data());
 }
 
-}  // namespace abut
+}  // namespace abut::detail
 #endif

@@ -8,11 +8,11 @@
 
 #include <span>
 
-namespace abut {
+namespace abut::detail {
 
 void look_up_all(const FieldData<2>& data, std::span<const Vec2> points, std::span<float> out);
 void look_up_all(const FieldData<3>& data, std::span<const Vec3> points, std::span<float> out);
 void look_up_all(const FieldData<2>& data, std::span<const Vec2> points, std::span<FieldSample<2>> out);
 void look_up_all(const FieldData<3>& data, std::span<const Vec3> points, std::span<FieldSample<3>> out);
 
-}  // namespace abut
+}  // namespace abut::detail

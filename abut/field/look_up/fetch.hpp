@@ -10,7 +10,7 @@
 #include <cstring>
 #include <type_traits>
 
-namespace abut {
+namespace abut::detail {
 
 /// Number of points per batch.
 inline constexpr std::size_t batch_size = 64;
@@ -96,4 +96,4 @@ bool fetch_all(const FieldData<D>& data, std::size_t count, Batch<D>& batch) {
     return any_coarse;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -14,7 +14,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 template <int D>
@@ -209,4 +209,4 @@ FieldSample<3> gradient_sample_reference(const FieldData<3>& data, const Vec3& p
     return sample_reference<3>(data, point);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

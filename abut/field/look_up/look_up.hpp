@@ -9,7 +9,7 @@
 #include <bit>
 #include <cstring>
 
-namespace abut {
+namespace abut::detail {
 
 /// Interpolation from distances and gradients, for points in the volume.
 FieldSample<2> gradient_sample(const FieldData<2>& data, const Vec2& point);
@@ -199,4 +199,4 @@ void look_up(const FieldData<D>& data, const Vec<D>& point, FieldSample<D>& out)
     out = look_up_sample(data, point);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

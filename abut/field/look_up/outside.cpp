@@ -6,7 +6,7 @@
 
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// A lower bound of the distance from a point of the volume to the surface: each sample is the center of a ball free of
@@ -87,4 +87,4 @@ FieldSample<D> outer_sample(const FieldData<D>& data, const Vec<D>& point) {
 template FieldSample<2> outer_sample(const FieldData<2>&, const Vec2&);
 template FieldSample<3> outer_sample(const FieldData<3>&, const Vec3&);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -13,7 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace abut {
+namespace abut::detail {
 
 template <int D>
 inline constexpr std::size_t cell_corners = std::size_t{1} << D;
@@ -164,4 +164,4 @@ FieldSample<D> linear_sample(const FieldData<D>& data, const Vec<D>& point) {
 template <int D>
 FieldSample<D> outer_sample(const FieldData<D>& data, const Vec<D>& point);
 
-}  // namespace abut
+}  // namespace abut::detail

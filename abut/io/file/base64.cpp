@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 int digit(char c) {
@@ -51,4 +51,4 @@ std::string encode_base64(std::span<const std::byte> bytes) {
     return text;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -8,7 +8,7 @@
 #include <zlib.h>
 #include <zstd.h>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 constexpr std::size_t chunk_size = std::size_t{1} << 16;
@@ -68,4 +68,4 @@ Result<std::vector<std::byte>> decompress_zstd(std::span<const std::byte> bytes,
     }
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// Decompresses zlib (RFC 1950) or gzip (RFC 1952) data; the header decides which. Returns a Problem if the data is
 /// damaged or truncated (`bad_format`), or decompresses to more than `max_bytes` (`too_large`).
@@ -17,4 +17,4 @@ Result<std::vector<std::byte>> decompress_zlib(std::span<const std::byte> bytes,
 /// Decompresses Zstandard data (RFC 8878). The Problems are those of `decompress_zlib`.
 Result<std::vector<std::byte>> decompress_zstd(std::span<const std::byte> bytes, std::size_t max_bytes);
 
-}  // namespace abut
+}  // namespace abut::detail

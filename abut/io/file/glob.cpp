@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-namespace abut {
+namespace abut::detail {
 
 // Backtracking returns to the latest star only: a match that gives an earlier star more characters exists only if one
 // that gives the latest star more characters exists too.
@@ -29,4 +29,4 @@ bool glob_matches(std::string_view pattern, std::string_view name) {
     return p == pattern.size();
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <system_error>
 
-namespace abut {
+namespace abut::detail {
 
 Result<std::vector<std::byte>> read_file(const std::filesystem::path& file) {
     std::error_code error;
@@ -23,4 +23,4 @@ Result<std::vector<std::byte>> read_file(const std::filesystem::path& file) {
     return bytes;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

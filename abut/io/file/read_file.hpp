@@ -8,10 +8,10 @@
 #include <filesystem>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// Returns all bytes of a regular file. Returns a Problem if the file doesn't exist (`not_found`), is not a regular
 /// file or can't be read (both `unreadable`). The message doesn't name the file.
 Result<std::vector<std::byte>> read_file(const std::filesystem::path& file);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <system_error>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 constexpr std::size_t max_quoted_length = 200;
@@ -106,4 +106,4 @@ Result<std::vector<std::byte>> ReferencedFiles::bytes(const std::string& name) c
     return read_file(*path);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// Resolves names relative to the folder of the referring file. A name is outside if it is absolute, if ".." climbs
 /// above the folder, or if a symbolic link on its path points outside. "\" counts as "/". The check precedes any test
@@ -46,4 +46,4 @@ std::optional<Problem> check_name(std::string_view name, bool allow_outside);
 /// The name in single quotes for a message, cut after 200 characters.
 std::string quoted_name(std::string_view name);
 
-}  // namespace abut
+}  // namespace abut::detail

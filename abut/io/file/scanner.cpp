@@ -4,7 +4,7 @@
 #include <cmath>
 #include <system_error>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 bool is_blank(char c) {
@@ -68,4 +68,4 @@ std::string_view Scanner::word() {
     return text_.substr(first, position_ - first);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace abut {
+namespace abut::detail {
 
 /// Whether the character is an ASCII letter.
 inline bool is_letter(char c) {
@@ -46,4 +46,4 @@ private:
 /// The text without leading and trailing blanks.
 std::string_view trimmed(std::string_view text);
 
-}  // namespace abut
+}  // namespace abut::detail

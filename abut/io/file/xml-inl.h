@@ -14,7 +14,7 @@
 
 #include <pugixml.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 class Xml {
 public:
@@ -52,4 +52,4 @@ private:
     std::vector<std::ptrdiff_t> line_ends_;
 };
 
-}  // namespace abut
+}  // namespace abut::detail

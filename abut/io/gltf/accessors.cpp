@@ -11,6 +11,8 @@
 
 namespace abut::gltf {
 
+using detail::no_index;
+
 // Elements at a constant stride in a buffer.
 struct AccessorReader::Elements {
     std::span<const std::byte> bytes;
@@ -99,22 +101,22 @@ std::string decode_percent(std::string_view uri) {
     return result;
 }
 
-Result<std::vector<std::byte>> load(const std::string& uri, const ReferencedFiles& files) {
+Result<std::vector<std::byte>> load(const std::string& uri, const detail::ReferencedFiles& files) {
     constexpr std::string_view base64 = ";base64,";
     if (!uri.starts_with("data:")) {
         const std::string name = decode_percent(uri);
         Result<std::vector<std::byte>> bytes = files.bytes(name);
-        if (!bytes) return Problem{bytes.problem().code, quoted_name(name) + ": " + bytes.problem().message};
+        if (!bytes) return Problem{bytes.problem().code, detail::quoted_name(name) + ": " + bytes.problem().message};
         return bytes;
     }
     const std::size_t marker = uri.find(base64);
     if (marker == std::string::npos) return Problem{ProblemCode::bad_format, "embedded data isn't base64"};
-    return decode_base64(std::string_view(uri).substr(marker + base64.size()));
+    return detail::decode_base64(std::string_view(uri).substr(marker + base64.size()));
 }
 
 }  // namespace
 
-AccessorReader::AccessorReader(const Document& document, ReferencedFiles files)
+AccessorReader::AccessorReader(const Document& document, detail::ReferencedFiles files)
     : document_(document),
       files_(std::move(files)),
       loaded_(document.buffers.size()),

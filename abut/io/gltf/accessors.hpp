@@ -17,7 +17,7 @@ namespace abut::gltf {
 class AccessorReader {
 public:
     /// Refers to the document. External buffers are found among `files`.
-    AccessorReader(const Document& document, ReferencedFiles files);
+    AccessorReader(const Document& document, detail::ReferencedFiles files);
 
     /// `components` numbers per element. Normalized integers are converted to [0, 1] or [-1, 1].
     Result<std::vector<double>> numbers(std::uint32_t accessor, std::uint32_t components);
@@ -34,7 +34,7 @@ private:
     Result<std::vector<Number>> read(std::uint32_t accessor, std::uint32_t components, Convert convert);
 
     const Document& document_;
-    ReferencedFiles files_;
+    detail::ReferencedFiles files_;
     std::vector<std::vector<std::byte>> loaded_;
     std::vector<bool> is_loaded_;
 };

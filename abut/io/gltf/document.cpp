@@ -15,6 +15,8 @@
 namespace abut::gltf {
 namespace {
 
+using detail::no_index;
+
 using Json = nlohmann::json;
 
 // The array element that a message refers to.

@@ -26,14 +26,14 @@ struct Buffer {
 };
 
 struct BufferView {
-    std::uint32_t buffer = no_index;
+    std::uint32_t buffer = detail::no_index;
     std::uint64_t offset = 0;
     std::uint64_t length = 0;
     std::uint64_t stride = 0;  ///< 0: tightly packed
 };
 
 struct Accessor {
-    std::uint32_t view = no_index;
+    std::uint32_t view = detail::no_index;
     std::uint64_t offset = 0;
     std::uint64_t count = 0;
     std::uint32_t component = 0;   ///< 5120..5126: the specification's component type
@@ -41,17 +41,17 @@ struct Accessor {
     bool normalized = false;
 
     std::uint64_t sparse_count = 0;
-    std::uint32_t sparse_indices_view = no_index;
+    std::uint32_t sparse_indices_view = detail::no_index;
     std::uint64_t sparse_indices_offset = 0;
     std::uint32_t sparse_indices_component = 0;
-    std::uint32_t sparse_values_view = no_index;
+    std::uint32_t sparse_values_view = detail::no_index;
     std::uint64_t sparse_values_offset = 0;
 };
 
 struct Primitive {
-    std::uint32_t positions = no_index;
-    std::uint32_t normals = no_index;
-    std::uint32_t indices = no_index;
+    std::uint32_t positions = detail::no_index;
+    std::uint32_t normals = detail::no_index;
+    std::uint32_t indices = detail::no_index;
     std::uint32_t mode = 4;
     bool draco = false;  ///< compressed with KHR_draco_mesh_compression
 };
@@ -65,7 +65,7 @@ struct Mesh {
 struct Node {
     std::string name;
     std::vector<std::uint32_t> children;
-    std::uint32_t mesh = no_index;
+    std::uint32_t mesh = detail::no_index;
     bool skinned = false;
     bool instanced = false;  ///< drawn several times by EXT_mesh_gpu_instancing
     bool has_matrix = false;
@@ -78,16 +78,16 @@ struct Node {
 enum class Target : std::uint8_t { translation, rotation, scale, weights };
 
 struct Channel {
-    std::uint32_t sampler = no_index;
-    std::uint32_t node = no_index;
+    std::uint32_t sampler = detail::no_index;
+    std::uint32_t node = detail::no_index;
     Target target = Target::translation;
 };
 
 enum class Curve : std::uint8_t { linear, step, cubic };
 
 struct Sampler {
-    std::uint32_t input = no_index;
-    std::uint32_t output = no_index;
+    std::uint32_t input = detail::no_index;
+    std::uint32_t output = detail::no_index;
     Curve curve = Curve::linear;
 };
 

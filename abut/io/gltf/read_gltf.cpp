@@ -16,6 +16,8 @@
 namespace abut::gltf {
 namespace {
 
+using detail::no_index;
+
 enum Mode : std::uint32_t { triangle_list = 4, triangle_strip = 5, triangle_fan = 6 };
 
 // Assembles triangles from vertex indices. Degenerate triangles that join parts of a strip are left out, and so are
@@ -41,7 +43,7 @@ class SceneReader {
 public:
     SceneReader(const Document& document, const std::filesystem::path& folder, const ReadOptions& options)
         : document_(document),
-          data_(document, ReferencedFiles(folder, options.allow_outside)),
+          data_(document, detail::ReferencedFiles(folder, options.allow_outside)),
           with_normals_(options.normals),
           scene_node_(document.nodes.size(), no_index) {}
 

@@ -11,7 +11,7 @@
 
 #include <assimp/DefaultIOSystem.h>
 
-namespace abut {
+namespace abut::detail {
 
 /// An Assimp IO system that opens the scene's file and, read-only, files that `ReferencedFiles` permits. Other files
 /// don't exist for Assimp. The first refused name is recorded.
@@ -61,4 +61,4 @@ private:
     std::optional<Problem> refused_;
 };
 
-}  // namespace abut
+}  // namespace abut::detail

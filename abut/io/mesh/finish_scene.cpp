@@ -10,7 +10,7 @@
 
 #include <glm/ext/quaternion_geometric.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 constexpr std::size_t max_depth = 1000;
@@ -223,4 +223,4 @@ Result<Scene> finish_scene(Scene scene, const ReadOptions& options) {
     return scene;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

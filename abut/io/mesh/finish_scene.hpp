@@ -19,6 +19,10 @@ struct ReadOptions {
     bool allow_outside = false;
 };
 
+}  // namespace abut
+
+namespace abut::detail {
+
 /// Validates a scene and completes it. Triangles of zero area are counted and left out, empty geometries are removed
 /// from nodes, paths become unique ("Crate", "Crate#2"), rotations are normalized and animations scheduled. Normals
 /// that aren't finite, or not one per point, are left out with a warning. Returns a Problem that names the mesh, node
@@ -27,4 +31,4 @@ struct ReadOptions {
 /// (`degenerate`).
 Result<Scene> finish_scene(Scene scene, const ReadOptions& options);
 
-}  // namespace abut
+}  // namespace abut::detail

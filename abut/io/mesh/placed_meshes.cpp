@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 void add(Geometry& to, const Geometry& from) {
@@ -84,4 +84,4 @@ Geometry merge_meshes(std::span<const Geometry> meshes, std::string name) {
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

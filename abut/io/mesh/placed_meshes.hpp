@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 struct PlacedMeshes {
     std::vector<Geometry> objects;  ///< named by their paths and sorted by them; at least one
@@ -31,4 +31,4 @@ Result<PlacedMeshes> placed_meshes(const Scene& scene);
 /// Merges meshes to one; it has normals if all of them have normals.
 Geometry merge_meshes(std::span<const Geometry> meshes, std::string name);
 
-}  // namespace abut
+}  // namespace abut::detail

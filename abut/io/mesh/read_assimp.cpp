@@ -15,7 +15,7 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 // Assimp's default if a file has no rate of its own.
@@ -272,4 +272,4 @@ Result<Scene> read_assimp(std::span<const std::byte> bytes, const std::string& e
     });
 }
 
-}  // namespace abut
+}  // namespace abut::detail

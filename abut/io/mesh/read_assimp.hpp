@@ -11,7 +11,7 @@
 #include <span>
 #include <string>
 
-namespace abut {
+namespace abut::detail {
 
 /// True if Assimp supports the extension (".obj", with the dot).
 bool assimp_knows(const std::string& extension);
@@ -24,4 +24,4 @@ Result<Scene> read_assimp(const std::filesystem::path& file, const ReadOptions& 
 /// Reads a scene from memory. `extension` names the format. Files that the scene refers to are not read.
 Result<Scene> read_assimp(std::span<const std::byte> bytes, const std::string& extension, const ReadOptions& options);
 
-}  // namespace abut
+}  // namespace abut::detail

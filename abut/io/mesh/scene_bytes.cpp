@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 constexpr std::uint32_t magic = 0x53545541;  // "AUTS": rejects other data and the other endianness
@@ -210,4 +210,4 @@ Result<Scene> scene_from_bytes(std::span<const std::byte> bytes) {
     return scene;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// Serializes the scene, or the Problem in its place, in the byte order of this machine.
 std::vector<std::byte> to_bytes(const Result<Scene>& scene);
@@ -18,4 +18,4 @@ std::vector<std::byte> to_bytes(const Result<Scene>& scene);
 /// `to_bytes` can't have produced. All lengths and indices are checked, so that a scene returned is safe to traverse.
 Result<Scene> scene_from_bytes(std::span<const std::byte> bytes);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -10,6 +10,9 @@
 #include <string>
 
 namespace abut::svg {
+
+using namespace detail;
+
 namespace {
 
 double tangent(double degrees) {

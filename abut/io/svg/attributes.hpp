@@ -17,7 +17,7 @@ std::optional<double> length(std::string_view text, double whole);
 
 /// Parses a `transform` attribute; the last function of the list applies first. Returns a Problem with the character
 /// position of the first error.
-Result<Affine<2>> transform(std::string_view text);
+Result<detail::Affine<2>> transform(std::string_view text);
 
 /// The value of a property in a `style` attribute: the last one if it is declared repeatedly, nothing if it isn't
 /// declared.

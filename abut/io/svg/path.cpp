@@ -12,6 +12,9 @@
 #include <utility>
 
 namespace abut::svg {
+
+using namespace detail;
+
 namespace {
 
 using Point = DVec<2>;

@@ -12,8 +12,8 @@
 namespace abut::svg {
 
 struct Subpath {
-    std::vector<DVec<2>> points;  ///< at least one
-    bool closed = false;          ///< by the command Z
+    std::vector<detail::DVec<2>> points;  ///< at least one
+    bool closed = false;                  ///< by the command Z
 };
 
 /// Flattens path data: M L H V C S Q T A Z, absolute and relative

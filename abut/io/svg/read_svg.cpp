@@ -14,7 +14,7 @@
 #include <unordered_map>
 #include <utility>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 using pugi::xml_node;
@@ -149,7 +149,7 @@ Affine<2> Reader::viewport(const xml_node& node, const DVec<2>& size, DVec<2>& i
 
 double Reader::tolerance_in(const Affine<2>& map, double extent) const {
     constexpr double relative_tolerance = 1e-3;
-    const double scale = abut::length(map.column[0]) + abut::length(map.column[1]);
+    const double scale = abut::detail::length(map.column[0]) + abut::detail::length(map.column[1]);
     return tolerance_ ? *tolerance_ / std::max(scale, 1e-30) : relative_tolerance * extent;
 }
 
@@ -266,7 +266,7 @@ Result<PlacedShape> Reader::round(const xml_node& node, bool circle, const Inher
     const DVec<2> middle = lengths(node, "cx", "cy", from.viewport);
     DVec<2> radii;
     if (circle) {
-        radii = DVec<2>(length(node, "r", abut::length(from.viewport) / std::sqrt(2.0)));
+        radii = DVec<2>(length(node, "r", abut::detail::length(from.viewport) / std::sqrt(2.0)));
     } else {
         const double rx = length(node, "rx", from.viewport.x, -1), ry = length(node, "ry", from.viewport.y, -1);
         radii = {rx < 0 ? ry : rx, ry < 0 ? rx : ry};
@@ -368,4 +368,4 @@ Result<Level> read_svg(std::span<const std::byte> bytes, std::optional<double> t
     return finish_level(*std::move(level));
 }
 
-}  // namespace abut
+}  // namespace abut::detail

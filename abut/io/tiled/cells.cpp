@@ -20,8 +20,8 @@ bool is_blank(char c) {
 Result<std::vector<std::byte>> decompressed(std::vector<std::byte> bytes, std::string_view compression,
                                             std::size_t max_bytes) {
     if (compression.empty()) return bytes;
-    if (compression == "zlib" || compression == "gzip") return decompress_zlib(bytes, max_bytes);
-    if (compression == "zstd") return decompress_zstd(bytes, max_bytes);
+    if (compression == "zlib" || compression == "gzip") return detail::decompress_zlib(bytes, max_bytes);
+    if (compression == "zstd") return detail::decompress_zstd(bytes, max_bytes);
     return Problem{ProblemCode::bad_format, "unknown compression '" + std::string(compression) + "'"};
 }
 
@@ -63,7 +63,7 @@ Result<std::vector<std::uint32_t>> cells_from_base64(std::string_view text, std:
                                                      std::size_t count) {
     std::string digits;
     std::copy_if(text.begin(), text.end(), std::back_inserter(digits), [](char c) { return !is_blank(c); });
-    Result<std::vector<std::byte>> encoded = decode_base64(digits);
+    Result<std::vector<std::byte>> encoded = detail::decode_base64(digits);
     if (!encoded) return encoded.problem();
     const Result<std::vector<std::byte>> bytes = decompressed(*std::move(encoded), compression, 4 * count);
     if (!bytes) return bytes.problem();

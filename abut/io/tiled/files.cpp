@@ -10,7 +10,7 @@ namespace {
 template <class T>
 Result<T> named(const std::string& file, Result<T> result) {
     if (result) return result;
-    return Problem{result.problem().code, quoted_name(file) + ": " + result.problem().message};
+    return Problem{result.problem().code, detail::quoted_name(file) + ": " + result.problem().message};
 }
 
 }  // namespace
@@ -29,7 +29,7 @@ std::string resolved_path(const std::string& from, const std::string& name) {
 }
 
 Result<std::vector<std::byte>> Files::bytes(const std::string& name) {
-    if (std::optional<Problem> problem = check_name(name, allow_outside_)) return *std::move(problem);
+    if (std::optional<Problem> problem = detail::check_name(name, allow_outside_)) return *std::move(problem);
     return open_(name);
 }
 

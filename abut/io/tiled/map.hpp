@@ -19,11 +19,11 @@ enum class Form : std::uint8_t { rectangle, ellipse, capsule, point, polygon, po
 struct Object {
     std::uint32_t id = 0;
     std::string name, type;
-    DVec<2> position{0}, size{0};
+    detail::DVec<2> position{0}, size{0};
     double rotation = 0;    ///< degrees, clockwise on the screen
     std::uint32_t gid = 0;  ///< nonzero: shows a tile, with flip flags
     Form form = Form::rectangle;
-    std::vector<DVec<2>> points;  ///< vertices of polygons and polylines, relative to the position
+    std::vector<detail::DVec<2>> points;  ///< vertices of polygons and polylines, relative to the position
     std::vector<LevelProperty> properties;
 };
 
@@ -40,7 +40,7 @@ struct Layer {
     LayerKind kind = LayerKind::group;
     std::uint32_t id = 0;
     std::string name, type;
-    DVec<2> offset{0}, parallax{1};
+    detail::DVec<2> offset{0}, parallax{1};
     bool visible = true;
     std::vector<LevelProperty> properties;
     std::vector<Cells> cells;     ///< of a tile layer: one, or the chunks of an infinite map
@@ -50,7 +50,7 @@ struct Layer {
 
 /// The collision data of a tile.
 struct TileData {
-    DVec<2> size{0};  ///< 0: the tileset's tile size
+    detail::DVec<2> size{0};  ///< 0: the tileset's tile size
     std::string type;
     std::vector<LevelProperty> properties;
     std::vector<Object> shapes;
@@ -60,7 +60,7 @@ struct Tileset {
     std::uint32_t first_gid = 1;
     std::string file;  ///< file it was read from; empty if embedded in the map
     std::string name;
-    DVec<2> tile_size{0}, offset{0};
+    detail::DVec<2> tile_size{0}, offset{0};
     std::string alignment = "unspecified";
     bool fills_grid = false, keeps_aspect = false;
     std::map<std::uint32_t, TileData> tiles;  ///< tiles with data, by their number in the tileset
@@ -68,7 +68,7 @@ struct Tileset {
 
 struct Map {
     std::uint32_t columns = 0, rows = 0;
-    DVec<2> cell{0};
+    detail::DVec<2> cell{0};
     std::vector<Tileset> tilesets;  ///< sorted by first gid
     std::vector<Layer> layers;
 };

@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 using namespace tiled;
@@ -238,4 +238,4 @@ Result<Level> read_tiled(std::span<const std::byte> bytes, OpenFile open, bool a
     return finish_level(*std::move(level));
 }
 
-}  // namespace abut
+}  // namespace abut::detail

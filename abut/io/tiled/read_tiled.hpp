@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <span>
 
-namespace abut {
+namespace abut::detail {
 
 /// Reads an orthogonal map, XML or JSON, in pixels with y down: positions equal those that Tiled shows.
 /// A tile layer is one object. A tile has the shapes of its tileset's collision editor; if no tileset has collision
@@ -21,4 +21,4 @@ namespace abut {
 /// unless they are allowed.
 Result<Level> read_tiled(std::span<const std::byte> bytes, tiled::OpenFile open, bool allow_outside);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -9,6 +9,9 @@
 #include <utility>
 
 namespace abut::tiled {
+
+using namespace detail;
+
 namespace {
 
 // Tolerance of a corner's position relative to the cell's size; equals the relative tolerance of queries.

@@ -15,16 +15,16 @@ namespace abut::tiled {
 
 /// The shape of an object, or of a collision shape of a tile, under an affine map of its file coordinates. The Problems
 /// are those of `place_polyline`.
-Result<PlacedShape> place_object(const Affine<2>& map, const Object& object);
+Result<detail::PlacedShape> place_object(const detail::Affine<2>& map, const Object& object);
 
 /// The collision of a tile: a tile kind of TileMap, or else its own shapes.
 struct TileCollision {
     Tile kind = Tile::empty;
-    std::vector<PlacedShape> shapes;  ///< relative to the low corner of its cell
+    std::vector<detail::PlacedShape> shapes;  ///< relative to the low corner of its cell
 };
 
 /// The tile kind whose shape equals these shapes in a cell; `empty` if there is none.
-Tile kind_of(std::span<const PlacedShape> shapes, const DVec<2>& cell);
+Tile kind_of(std::span<const detail::PlacedShape> shapes, const detail::DVec<2>& cell);
 
 /// Looks up tiles by gid and caches their collision shapes.
 class Tiles {
@@ -38,7 +38,8 @@ public:
 
     /// The shapes of a tile object of this size; its rectangle if the tile has none. `map` places the rectangle from
     /// the origin to `size`.
-    Result<std::vector<PlacedShape>> shown(std::uint32_t gid, const DVec<2>& size, const Affine<2>& map) const;
+    Result<std::vector<detail::PlacedShape>> shown(std::uint32_t gid, const detail::DVec<2>& size,
+                                                   const detail::Affine<2>& map) const;
 
     const Tileset* tileset_of(std::uint32_t gid) const;
     const TileData* tile_of(std::uint32_t gid) const;
@@ -46,7 +47,7 @@ public:
     bool have_shapes() const { return have_shapes_; }
 
 private:
-    DVec<2> size_of(std::uint32_t gid) const;
+    detail::DVec<2> size_of(std::uint32_t gid) const;
     Result<TileCollision> compute_collision(std::uint32_t gid) const;
 
     const Map& map_;

@@ -14,12 +14,12 @@ using std::string_view_literals::operator""sv;
 
 class XmlFields final : public Fields {
 public:
-    XmlFields(const Xml& xml, const xml_node& node) : xml_(xml), node_(node) {}
+    XmlFields(const detail::Xml& xml, const xml_node& node) : xml_(xml), node_(node) {}
 
     bool has(const char* key) const override { return static_cast<bool>(node_.attribute(key)); }
     std::string text(const char* key) const override { return node_.attribute(key).value(); }
     std::optional<double> as_number(const char* key) const override {
-        Scanner scanner(node_.attribute(key).value());
+        detail::Scanner scanner(node_.attribute(key).value());
         const std::optional<double> value = scanner.number();
         return scanner.at_end() ? value : std::nullopt;
     }
@@ -31,13 +31,13 @@ public:
     std::string where() const override { return xml_.line(node_); }
 
 private:
-    const Xml& xml_;
+    const detail::Xml& xml_;
     xml_node node_;
 };
 
 class XmlReader {
 public:
-    XmlReader(const Xml& xml, Map* map, Files* files) : xml_(xml), map_(map), files_(files) {}
+    XmlReader(const detail::Xml& xml, Map* map, Files* files) : xml_(xml), map_(map), files_(files) {}
 
     void map(const xml_node& node);
     void tileset(const xml_node& node, Tileset& to);
@@ -61,7 +61,7 @@ private:
     void object(const xml_node& node, Object& to);
     void points(const xml_node& node, Object& to);
 
-    const Xml& xml_;
+    const detail::Xml& xml_;
     Map* map_;      ///< the map being read; null for tilesets and templates
     Files* files_;  ///< null for tilesets and templates
     Budget budget_;
@@ -87,7 +87,7 @@ void XmlReader::properties(const xml_node& node, std::vector<LevelProperty>& to,
 
 void XmlReader::points(const xml_node& node, Object& to) {
     to.points.clear();
-    Scanner scanner(node.attribute("points").value());
+    detail::Scanner scanner(node.attribute("points").value());
     while (!scanner.at_end()) {
         const std::optional<double> x = scanner.number(), y = x ? scanner.number() : std::nullopt;
         if (!y) return fail(node, "points: pairs of numbers were expected");
@@ -240,7 +240,7 @@ void XmlReader::object_template(const xml_node& node, Template& to) {
 // Reads a document with this root element.
 template <class T, class Read>
 Result<T> read(std::span<const std::byte> bytes, const char* element, Files* files, Read read_it) {
-    const Result<std::unique_ptr<Xml>> xml = Xml::parse(bytes);
+    const Result<std::unique_ptr<detail::Xml>> xml = detail::Xml::parse(bytes);
     if (!xml) return xml.problem();
     const xml_node root = (*xml)->root();
     if (std::string_view(root.name()) != element)

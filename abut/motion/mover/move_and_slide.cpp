@@ -3,7 +3,7 @@
 
 #include <array>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// Maximum number of slides in one move.
@@ -244,4 +244,4 @@ void MoveAndSlide<D>::report(const NearContact<D>& contact) {
 template class MoveAndSlide<2>;
 template class MoveAndSlide<3>;
 
-}  // namespace abut
+}  // namespace abut::detail

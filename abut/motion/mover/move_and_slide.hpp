@@ -6,7 +6,7 @@
 #include <abut/motion/mover/nearby_surface.hpp>
 #include <abut/motion/push/plane_solver.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// The mover's options in double.
 template <int D>
@@ -67,4 +67,4 @@ private:
     double depth_ = 0;
 };
 
-}  // namespace abut
+}  // namespace abut::detail

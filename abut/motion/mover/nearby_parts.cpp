@@ -1,6 +1,6 @@
 #include <abut/motion/mover/nearby_parts.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 template <int D>
@@ -98,4 +98,4 @@ void NearbyParts<D>::visit_again(const Composite<D>& composite, const Aabb<D>& b
 template class NearbyParts<2>;
 template class NearbyParts<3>;
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -5,7 +5,7 @@
 #include <abut/query/detail/surface/surface_normal.hpp>
 #include <abut/world/world.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// Identifies a part of an item.
 struct PartName {
@@ -79,4 +79,4 @@ private:
 extern template class NearbyParts<2>;
 extern template class NearbyParts<3>;
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// A shape deeper behind a one-sided front than this part of its size is passing through. A shallower one stands on it,
@@ -33,7 +33,7 @@ void NearbySurface<D>::begin(const World<D>& world, const Filter& filter, const 
     shape_ = shape;
     start_ = start;
     passes_ = passes;
-    size_ = abut::size(shape);
+    size_ = detail::size(shape);
     scale_ = surface_probe_scale * size_;
     parts_.clear();
     passed_.clear();
@@ -284,4 +284,4 @@ std::optional<DVec<D>> NearbySurface<D>::normal_above(const DVec<D>& point, cons
 template class NearbySurface<2>;
 template class NearbySurface<3>;
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -6,7 +6,7 @@
 #include <abut/motion/mover/nearby_parts.hpp>
 #include <abut/motion/mover/sdf_planes.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// A contact of the shape with a part, with the normal of the whole surface.
 template <int D>
@@ -95,4 +95,4 @@ private:
 extern template class NearbySurface<2>;
 extern template class NearbySurface<3>;
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <optional>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// Extra range of rays, relative to the shape's size: the maximum curvature offset of a ball.
@@ -90,4 +90,4 @@ ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
 
-}  // namespace abut
+}  // namespace abut::detail

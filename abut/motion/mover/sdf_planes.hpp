@@ -14,7 +14,7 @@
 #include <cstddef>
 #include <span>
 
-namespace abut {
+namespace abut::detail {
 
 /// A contact plane of the part, at the support point of the shape along it.
 template <int D>
@@ -39,4 +39,4 @@ std::size_t find_sdf_planes(const Convex<D>& shape, const DistanceFunction<D>& f
 template <int D>
 double distance_to_surface(const Convex<D>& shape, const DistanceFunction<D>& function, const DVec<D>& direction);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -4,7 +4,7 @@
 #include <abut/query/closest.hpp>
 #include <abut/query/sweep.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 template <int D>
@@ -65,4 +65,4 @@ std::optional<std::uint32_t> Arrangement<D>::first_within_reach(std::uint32_t sh
 template class Arrangement<2>;
 template class Arrangement<3>;
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// Shapes at changing poses. Refers to the shapes.
 template <int D>
@@ -42,4 +42,4 @@ private:
     std::vector<double> reach_;
 };
 
-}  // namespace abut
+}  // namespace abut::detail

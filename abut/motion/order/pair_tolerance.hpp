@@ -5,7 +5,7 @@
 #include <abut/convex/support.hpp>
 #include <abut/convex/tolerance.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 template <int D>
 double tolerance_for(const Convex<D>& a, const Convex<D>& b) {
@@ -14,4 +14,4 @@ double tolerance_for(const Convex<D>& a, const Convex<D>& b) {
     return tolerance_for(std::min(size_a, size_b), apart + size_a + size_b);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

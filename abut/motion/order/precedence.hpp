@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// An edge of the precedence graph: `upper` has to be removed before `lower`.
 struct Precedence {
@@ -21,4 +21,4 @@ std::vector<Precedence> precedences(std::span<const Convex<2>> shapes, const DVe
 /// All edges, sorted by `lower`, then `upper`.
 std::vector<Precedence> precedences(std::span<const Convex<3>> shapes, const DVec<3>& up);
 
-}  // namespace abut
+}  // namespace abut::detail

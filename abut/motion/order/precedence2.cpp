@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <set>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// A polyline of two segments inside a shape, from its leftmost point via an interior point to its rightmost. Of two
@@ -113,4 +113,4 @@ std::vector<Precedence> precedences(std::span<const Convex<2>> shapes, const DVe
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <memory>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 MovingBox<3> moving_box(const Aabb3& box, const DVec<3>& up, double length) {
@@ -51,4 +51,4 @@ std::vector<Precedence> precedences(std::span<const Convex<3>> shapes, const DVe
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

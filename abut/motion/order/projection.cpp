@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 Projection::Projection(const Convex<3>& shape, const DVec<3>& x, const DVec<3>& y)
     : shape_(&shape), origin_(reference_point(shape)), x_(x), y_(y) {
@@ -50,4 +50,4 @@ double projected_depth(const Convex<3>& a, const Convex<3>& b, const DVec<3>& al
     return projected_depth(Projection(a, x, y), Projection(b, x, y));
 }
 
-}  // namespace abut
+}  // namespace abut::detail

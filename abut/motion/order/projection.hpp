@@ -5,7 +5,7 @@
 #include <abut/convex/support.hpp>
 #include <abut/shape/polygon.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// The projection of a 3D shape on a plane: a polygon with a radius, or a support function. Refers to the shape.
 class Projection {
@@ -33,4 +33,4 @@ double projected_depth(const Projection& a, const Projection& b);
 double projected_depth(const Convex<2>& a, const Convex<2>& b, const DVec<2>& along);
 double projected_depth(const Convex<3>& a, const Convex<3>& b, const DVec<3>& along);
 
-}  // namespace abut
+}  // namespace abut::detail

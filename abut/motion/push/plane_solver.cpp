@@ -3,7 +3,7 @@
 #include <array>
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 template <std::size_t N>
@@ -105,4 +105,4 @@ bool nearest_move(std::span<const MovePlane<D>> planes, const DVec<D>& target, d
 template bool nearest_move(std::span<const MovePlane<2>>, const DVec<2>&, double, DVec<2>&);
 template bool nearest_move(std::span<const MovePlane<3>>, const DVec<3>&, double, DVec<3>&);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -6,7 +6,7 @@
 
 #include <span>
 
-namespace abut {
+namespace abut::detail {
 
 /// Constrains moves v to dot(normal, v) >= -clearance. A negative clearance requires a separating move.
 template <int D>
@@ -25,4 +25,4 @@ inline constexpr std::size_t max_move_planes = 32;
 template <int D>
 bool nearest_move(std::span<const MovePlane<D>> planes, const DVec<D>& target, double tolerance, DVec<D>& move);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -3,7 +3,7 @@
 
 #include <array>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// Maximum number of pushes; each one uses the contacts after the last one.
@@ -55,4 +55,4 @@ PushOut<D> push_out(NearbySurface<D>& near, const DVec<D>& at, double trigger, d
 template PushOut<2> push_out(NearbySurface<2>&, const DVec<2>&, double, double, double);
 template PushOut<3> push_out(NearbySurface<3>&, const DVec<3>&, double, double, double);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -4,7 +4,7 @@
 
 #include <abut/motion/mover/nearby_surface.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 template <int D>
 struct PushOut {
@@ -18,4 +18,4 @@ struct PushOut {
 template <int D>
 PushOut<D> push_out(NearbySurface<D>& near, const DVec<D>& at, double trigger, double target, double reach);
 
-}  // namespace abut
+}  // namespace abut::detail

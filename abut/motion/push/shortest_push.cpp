@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// Maximum number of parts along one line.
@@ -257,4 +257,4 @@ ShortestPush<D> shortest_push(const Convex<D>& shape, const World<D>& world, con
 template ShortestPush<2> shortest_push(const Convex<2>&, const World<2>&, const Filter&, double);
 template ShortestPush<3> shortest_push(const Convex<3>&, const World<3>&, const Filter&, double);
 
-}  // namespace abut
+}  // namespace abut::detail

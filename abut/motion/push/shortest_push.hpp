@@ -6,7 +6,7 @@
 
 #include <array>
 
-namespace abut {
+namespace abut::detail {
 
 template <int D>
 struct ShortestPush {
@@ -24,4 +24,4 @@ struct ShortestPush {
 template <int D>
 ShortestPush<D> shortest_push(const Convex<D>& shape, const World<D>& world, const Filter& filter, double gap);
 
-}  // namespace abut
+}  // namespace abut::detail

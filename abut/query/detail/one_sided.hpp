@@ -4,7 +4,7 @@
 
 #include <abut/shape/view/view.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// Whether a motion in this direction, seen by the part, goes against its front.
 template <int D>
@@ -48,4 +48,4 @@ bool touch_at_fronts(const PartA& a, const PartB& b, const DVec<D>& normal) {
     return exits_by_front(a, normal) && exits_by_front(b, -normal);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -5,7 +5,7 @@
 #include <abut/query/detail/closed_form/convex_distance.hpp>
 #include <abut/query/detail/pair_dispatch.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 // Paths for any dimension.
@@ -160,4 +160,4 @@ template bool part_contact(const Convex<2>&, const Convex<2>&, double, double, c
 template bool part_contact(const Convex<3>&, const Convex<3>&, double, double, const SearchOptions<3>&,
                            PartContact<3>&);
 
-}  // namespace abut
+}  // namespace abut::detail

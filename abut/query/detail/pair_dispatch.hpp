@@ -6,7 +6,7 @@
 #include <abut/convex/gjk/signed_distance.hpp>
 #include <abut/convex/manifold/manifold.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// Whether the parts share a point.
 template <int D>
@@ -38,4 +38,4 @@ template <int D>
 bool part_contact(const Convex<D>& a, const Convex<D>& b, double reach, double margin, const SearchOptions<D>& options,
                   PartContact<D>& contact);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -2,7 +2,7 @@
 #include <abut/convex/features.hpp>
 #include <abut/query/detail/part_pairs.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 template <int D>
 SignedDistance<D> part_distance(const Convex<D>& a, const HalfSpaceView<D>& b, const SearchOptions<D>&) {
@@ -126,4 +126,4 @@ ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
 
-}  // namespace abut
+}  // namespace abut::detail

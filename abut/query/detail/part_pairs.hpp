@@ -9,7 +9,7 @@
 #include <abut/query/options.hpp>
 #include <abut/shape/view/view.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// Calls visit(part, index) for a convex shape, half-space or distance function itself, or for the parts of a composite
 /// shape that are at most `reach` from `other`. The visitor returns false to stop.
@@ -118,4 +118,4 @@ void name_features(const PartA& part_a, const PartB& part_b, const SignedDistanc
     name_feature(part_b, corners.b, corners.count, -distance.normal, number_b, answer.feature_b);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

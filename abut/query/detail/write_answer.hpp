@@ -6,7 +6,7 @@
 #include <abut/query/contact.hpp>
 #include <abut/query/detail/pair_dispatch.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 template <int D>
 void write(const SignedDistance<D>& distance, Closest<D>& result) {
@@ -27,4 +27,4 @@ void write(const SignedDistance<D>& distance, const Manifold<D>& manifold, Conta
     }
 }
 
-}  // namespace abut
+}  // namespace abut::detail

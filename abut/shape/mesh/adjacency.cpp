@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// One use of an edge by a triangle: its higher point, the triangle, the side, and the direction.
@@ -66,4 +66,4 @@ MeshAdjacency build_mesh_adjacency(std::span<const glm::uvec3> triangles, std::s
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

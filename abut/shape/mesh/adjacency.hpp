@@ -11,7 +11,7 @@
 
 #include <glm/ext/vector_uint3.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 struct MeshAdjacency {
     /// For each triangle, the triangle across the edge from corner i to the next, in either direction.
@@ -23,4 +23,4 @@ struct MeshAdjacency {
 /// `same` maps each point to the lowest index at its position. O(n log k) for k triangles around a point.
 MeshAdjacency build_mesh_adjacency(std::span<const glm::uvec3> triangles, std::span<const std::uint32_t> same);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -12,7 +12,7 @@
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();
-namespace abut::HWY_NAMESPACE {
+namespace abut::detail::HWY_NAMESPACE {
 
 /// Computes the boxes of a leaf's triangles, with their indices in the mesh.
 struct LeafBoxes {
@@ -52,11 +52,11 @@ void near_boxes(const MeshTree& tree, const BoxReach<3>& reach, ReachCall visit)
     visit_near<3>(tree, LeafBoxes{tree}, reach, visit);
 }
 
-}  // namespace abut::HWY_NAMESPACE
+}  // namespace abut::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace abut {
+namespace abut::detail {
 
 HWY_EXPORT(overlapping_boxes);
 HWY_EXPORT(along_boxes);
@@ -73,5 +73,5 @@ void find_within(const MeshTree& tree, const BoxReach<3>& reach, ReachCall visit
     HWY_DYNAMIC_DISPATCH(near_boxes)(tree, reach, visit);
 }
 
-}  // namespace abut
+}  // namespace abut::detail
 #endif

@@ -12,7 +12,7 @@
 #include <limits>
 #include <memory>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// A node of the binary tree that is built first, with the costs of its collapse into nodes of eight children.
@@ -37,16 +37,16 @@ public:
 
     void build() {
         const auto count = static_cast<std::uint32_t>(triangles_.size());
-        storage_ = std::make_unique_for_overwrite<detail::BvhItem[]>(count);
+        storage_ = std::make_unique_for_overwrite<BvhItem[]>(count);
         items_ = storage_.get();
         Aabb3 exact = Aabb3::empty();
         for (std::uint32_t i = 0; i < count; ++i) items_[i] = item_of(triangle(i), i, exact);
         tree_.leaves.reserve(count / 4 + 1);
         tree_.nodes.reserve(count / 20 + 1);
         tree_.order.reserve(count);
-        detail::BvhRange<3> all = detail::whole_range<3>(items_, 0, count, 0);
+        BvhRange<3> all = whole_range<3>(items_, 0, count, 0);
         all.leaves = count;
-        bounded_ = detail::is_bounded(all.box);
+        bounded_ = is_bounded(all.box);
         nodes_.reserve(count / 2 + 1);
         const std::uint32_t root = grow(all);
         set_root(tree_, add(root), exact);
@@ -60,12 +60,12 @@ private:
         return {points_[t.x], points_[t.y], points_[t.z]};
     }
 
-    std::uint32_t grow(const detail::BvhRange<3>& range) {
+    std::uint32_t grow(const BvhRange<3>& range) {
         if (range.count() <= max_small_set) {
             const SmallTriangleSet small({items_ + range.begin, range.count()}, triangles_, same_);
             return grow(small, small.all(), range.box);
         }
-        detail::BvhRange<3> left, right;
+        BvhRange<3> left, right;
         split<3>(items_, bounded_, range, left, right);
         left.leaves = left.count();
         right.leaves = right.count();
@@ -107,7 +107,7 @@ private:
             }
             return best;
         };
-        node.cost[0] = shared(mesh_lanes, node.own_to_left) + static_cast<float>(detail::box_size(node.box).area);
+        node.cost[0] = shared(mesh_lanes, node.own_to_left) + static_cast<float>(box_size(node.box).area);
         for (std::size_t i = 1; i < BinaryNode::max_slots; ++i) {
             node.cost[i] = shared(i + 1, node.to_left[i]);
             if (node.cost[i] < node.cost[i - 1]) continue;
@@ -142,7 +142,7 @@ private:
         tree_.nodes.emplace_back();
         for (std::uint32_t lane = 0; lane < mesh_lanes; ++lane) {
             const bool used = lane < children.count;
-            const std::uint32_t child = used ? add(children.nodes[lane]) : detail::bvh_none;
+            const std::uint32_t child = used ? add(children.nodes[lane]) : bvh_none;
             MeshNode& rows = tree_.nodes[result];
             rows.child[lane] = child;
             if (used)
@@ -158,23 +158,23 @@ private:
         leaf.first = static_cast<std::uint32_t>(tree_.order.size());
         tree_.order.resize(tree_.order.size() + part.count);
         small.fill(part, points_, leaf, tree_.order.data() + leaf.first);
-        return static_cast<std::uint32_t>(tree_.leaves.size() - 1) | detail::bvh_leaf_bit;
+        return static_cast<std::uint32_t>(tree_.leaves.size() - 1) | bvh_leaf_bit;
     }
 
     std::span<const Vec3> points_;
     std::span<const glm::uvec3> triangles_;
     std::span<const std::uint32_t> same_;
     MeshTree& tree_;
-    std::unique_ptr<detail::BvhItem[]> storage_;
-    detail::BvhItem* items_ = nullptr;
+    std::unique_ptr<BvhItem[]> storage_;
+    BvhItem* items_ = nullptr;
     bool bounded_ = true;
     std::vector<BinaryNode, LargePages<BinaryNode>> nodes_;
 };
 
 }  // namespace
 
-detail::BvhItem item_of(const Triangle3& t, std::uint32_t index, Aabb3& all) {
-    detail::BvhItem result{{0, 0, 0}, index, {0, 0, 0}, 0};
+BvhItem item_of(const Triangle3& t, std::uint32_t index, Aabb3& all) {
+    BvhItem result{{0, 0, 0}, index, {0, 0, 0}, 0};
     float sum = 0;
     for (int i = 0; i < 3; ++i) {
         result.min[i] = std::min({t.a[i], t.b[i], t.c[i]});
@@ -207,4 +207,4 @@ MeshTree build_mesh_tree(std::span<const Vec3> points, std::span<const glm::uvec
     return tree;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -8,10 +8,10 @@
 
 #include <cstdint>
 
-namespace abut {
+namespace abut::detail {
 
 /// The box of a triangle, padded by the tolerance of ray hits. `all` grows by the unpadded box.
-detail::BvhItem item_of(const Triangle3& triangle, std::uint32_t index, Aabb3& all);
+BvhItem item_of(const Triangle3& triangle, std::uint32_t index, Aabb3& all);
 
 /// The extent |x| + |y| + |z| of the box of a leaf's vertices, for error bounds.
 float extent_of(const MeshLeaf& leaf);
@@ -19,4 +19,4 @@ float extent_of(const MeshLeaf& leaf);
 /// Sets the root; `exact` is the box of all triangles without padding.
 void set_root(MeshTree& tree, std::uint32_t ref, const Aabb3& exact);
 
-}  // namespace abut
+}  // namespace abut::detail

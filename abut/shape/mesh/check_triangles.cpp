@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace abut {
+namespace abut::detail {
 
 std::optional<Problem> problem_of_triangles(std::span<const Vec3> points, std::span<const glm::uvec3> triangles,
                                             std::string_view what) {
@@ -32,4 +32,4 @@ bool has_zero_area(const Vec3& a, const Vec3& b, const Vec3& c) {
     return area <= 1e-12 * longest;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

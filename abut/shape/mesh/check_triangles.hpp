@@ -11,7 +11,7 @@
 
 #include <glm/ext/vector_uint3.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// Returns a Problem if there is no triangle, if a coordinate isn't finite or if an index is out of range. The message
 /// names the point or triangle; `what` is its subject, such as "a mesh".
@@ -22,4 +22,4 @@ std::optional<Problem> problem_of_triangles(std::span<const Vec3> points, std::s
 /// edge.
 bool has_zero_area(const Vec3& a, const Vec3& b, const Vec3& c);
 
-}  // namespace abut
+}  // namespace abut::detail

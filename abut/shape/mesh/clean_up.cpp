@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 using Corners = std::array<std::uint32_t, 3>;
@@ -192,4 +192,4 @@ std::size_t remove_slivers(Welded& surface) {
     return done.flipped + remove_marked(surface.triangles, done.left);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

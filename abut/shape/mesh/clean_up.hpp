@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// Removes duplicates: of triangles with the same three corners, the first with the majority orientation is left. If
 /// both orientations are equally frequent, the triangles are a two-sided wall. A wall that only divides a closed
@@ -32,4 +32,4 @@ SliverFlips flip_slivers(Welded& surface);
 /// Flips slivers and removes the remaining ones. Returns the number of removed triangles.
 std::size_t remove_slivers(Welded& surface);
 
-}  // namespace abut
+}  // namespace abut::detail

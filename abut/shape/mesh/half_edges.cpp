@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-namespace abut {
+namespace abut::detail {
 
 std::vector<HalfEdge> sorted_half_edges(std::span<const glm::uvec3> triangles) {
     // A counting sort by the lower end point leaves short rows to sort.
@@ -59,4 +59,4 @@ EdgeFaults edge_faults(std::span<const glm::uvec3> triangles) {
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

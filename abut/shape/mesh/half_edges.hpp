@@ -13,7 +13,7 @@
 
 #include <glm/ext/vector_uint3.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// A half-edge. Triangle t has half-edges 3t, 3t + 1 and 3t + 2; half-edge 3t + k goes from corner k to the next.
 struct HalfEdge {
@@ -66,4 +66,4 @@ struct EdgeFaults {
 };
 EdgeFaults edge_faults(std::span<const glm::uvec3> triangles);
 
-}  // namespace abut
+}  // namespace abut::detail

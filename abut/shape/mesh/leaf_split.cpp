@@ -6,13 +6,13 @@
 #include <bit>
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// An accumulating bounding box.
 class GrowingBox {
 public:
-    void add(const detail::BvhItem& item) {
+    void add(const BvhItem& item) {
         low_ = float4::min(low_, float4::load(item.min));
         high_ = float4::max(high_, float4::load(item.max));
     }
@@ -82,7 +82,7 @@ float extent_of(const MeshLeaf& leaf) {
     return result > 1e-9f && result < 1e12f ? result : std::numeric_limits<float>::infinity();
 }
 
-SmallTriangleSet::SmallTriangleSet(std::span<const detail::BvhItem> items, std::span<const glm::uvec3> triangles,
+SmallTriangleSet::SmallTriangleSet(std::span<const BvhItem> items, std::span<const glm::uvec3> triangles,
                                    std::span<const std::uint32_t> same)
     : count_(static_cast<std::uint32_t>(items.size())) {
     std::array<std::uint8_t, 256> table;
@@ -213,4 +213,4 @@ void SmallTriangleSet::split(const Part& part, Part& left, Part& right) const {
     }
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -11,7 +11,7 @@
 
 #include <glm/ext/vector_uint3.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// The maximum size of a small set; the bits of one word hold its vertices.
 inline constexpr std::uint32_t max_small_set = 16;
@@ -20,7 +20,7 @@ inline constexpr std::uint32_t max_small_set = 16;
 class SmallTriangleSet {
 public:
     /// `same` maps each point to the lowest index at its position.
-    SmallTriangleSet(std::span<const detail::BvhItem> items, std::span<const glm::uvec3> triangles,
+    SmallTriangleSet(std::span<const BvhItem> items, std::span<const glm::uvec3> triangles,
                      std::span<const std::uint32_t> same);
 
     struct Part {
@@ -43,11 +43,11 @@ private:
     std::uint8_t vertex_number(std::uint32_t point, std::array<std::uint8_t, 256>& table);
 
     std::uint32_t count_, vertex_count_ = 0;
-    std::array<detail::BvhItem, max_small_set> items_;
+    std::array<BvhItem, max_small_set> items_;
     std::array<std::array<std::uint8_t, 3>, max_small_set>
         triangle_vertices_;                                  ///< corners of each triangle, as indices into `vertices_`
     std::array<VertexBits, max_small_set> vertex_bits_;      ///< corners of each triangle as a bit set
     std::array<std::uint32_t, 3 * max_small_set> vertices_;  ///< point indices
 };
 
-}  // namespace abut
+}  // namespace abut::detail

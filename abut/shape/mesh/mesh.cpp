@@ -13,6 +13,8 @@
 
 namespace abut {
 
+using namespace detail;
+
 struct Mesh::Data {
     std::vector<Vec3> points;
     std::vector<glm::uvec3> triangles;

@@ -5,7 +5,7 @@
 #include <span>
 #include <utility>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 constexpr std::uint32_t none = AdjacentTriangle::none;
@@ -69,4 +69,4 @@ Patches orient_consistently(Welded& surface, std::span<const AdjacentTriangle> a
     return patches;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

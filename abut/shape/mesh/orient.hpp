@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// Patches: the connected components of triangles across manifold edges (edges of exactly two triangles).
 struct Patches {
@@ -36,4 +36,4 @@ Patches orient_consistently(Welded& surface);
 /// edges.
 Patches orient_consistently(Welded& surface, std::span<const AdjacentTriangle> across);
 
-}  // namespace abut
+}  // namespace abut::detail

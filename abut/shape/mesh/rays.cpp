@@ -16,7 +16,7 @@
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();
-namespace abut::HWY_NAMESPACE {
+namespace abut::detail::HWY_NAMESPACE {
 
 /// Slab test of a ray against eight boxes; the boxes are padded by the error of the ray's origin.
 class RayBoxTest {
@@ -306,11 +306,11 @@ bool each_hit(const MeshTree& tree, const MeshRay& ray, const RobustTriangleTest
     return find_each(tree, ray, TriangleTest<ToRayByMap>(ray, {*ray.to_ray}, undecided), visit);
 }
 
-}  // namespace abut::HWY_NAMESPACE
+}  // namespace abut::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace abut {
+namespace abut::detail {
 
 HWY_EXPORT(first_hit);
 HWY_EXPORT(each_hit);
@@ -324,5 +324,5 @@ bool find_each_hit(const MeshTree& tree, const MeshRay& ray, const RobustTriangl
     return HWY_DYNAMIC_DISPATCH(each_hit)(tree, ray, undecided, visit);
 }
 
-}  // namespace abut
+}  // namespace abut::detail
 #endif

@@ -6,7 +6,7 @@
 #include <abut/math/affine.hpp>
 #include <abut/shape/mesh/tree.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// A ray in world space and in the mesh's local frame.
 struct MeshRay {
@@ -40,4 +40,4 @@ using MeshHitCall = FunctionRef<double(const RayEntry<3>& entry, std::uint32_t t
 bool find_each_hit(const MeshTree& tree, const MeshRay& beam, const RobustTriangleTest& undecided,
                    const MeshHitCall& visit);
 
-}  // namespace abut
+}  // namespace abut::detail

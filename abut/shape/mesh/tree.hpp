@@ -20,9 +20,9 @@
 
 #include <glm/ext/vector_uint3.hpp>
 
-namespace abut {
+namespace abut::detail {
 
-inline constexpr std::uint32_t mesh_lanes = detail::bvh_lanes;
+inline constexpr std::uint32_t mesh_lanes = bvh_lanes;
 
 /// Up to eight triangles, in ascending order, that share up to eight vertices. Sharing reduces a triangle to about
 /// three of its nine floats.
@@ -45,7 +45,7 @@ struct alignas(64) MeshLeaf {
 };
 
 /// An inner node of eight children. Its boxes are padded.
-struct alignas(32) MeshNode : detail::BvhRows<3> {
+struct alignas(32) MeshNode : BvhRows<3> {
     std::uint32_t child[mesh_lanes];  ///< bvh_none where unused
 };
 
@@ -59,15 +59,15 @@ struct MeshTree {
     std::vector<MeshLeaf, LargePages<MeshLeaf>> leaves;
     /// The input's triangles in the order of the leaves.
     std::vector<std::uint32_t, LargePages<std::uint32_t>> order;
-    std::array<detail::BvhRoot<3>, 2> roots;  ///< as in a Bvh; the second root of a mesh is empty
-    DVec<3> middle{0.0};                      ///< middle of the mesh's box
-    double off_center = 0;                    ///< |x| + |y| + |z| of the middle
+    std::array<BvhRoot<3>, 2> roots;  ///< as in a Bvh; the second root of a mesh is empty
+    DVec<3> middle{0.0};              ///< middle of the mesh's box
+    double off_center = 0;            ///< |x| + |y| + |z| of the middle
     /// |x| + |y| + |z| from the middle to a corner of the box; infinite if a coordinate exceeds max_mesh_extent.
     double spread = 0;
 
-    const detail::BvhRoot<3>& root(std::size_t kind) const { return roots[kind]; }
+    const BvhRoot<3>& root(std::size_t kind) const { return roots[kind]; }
     const MeshNode& node(std::uint32_t ref) const { return nodes[ref]; }
-    const MeshLeaf& leaf(std::uint32_t ref) const { return leaves[ref & ~detail::bvh_leaf_bit]; }
+    const MeshLeaf& leaf(std::uint32_t ref) const { return leaves[ref & ~bvh_leaf_bit]; }
 };
 
 /// `same` maps each point to the lowest index at its position. There is at least one triangle; all numbers are finite.
@@ -80,4 +80,4 @@ void find_overlapping(const MeshTree& tree, const Aabb3& box, ItemCall visit);
 void find_within(const MeshTree& tree, const RayReach<3>& reach, ReachCall visit);
 void find_within(const MeshTree& tree, const BoxReach<3>& reach, ReachCall visit);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -5,7 +5,7 @@
 #include <array>
 #include <utility>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 class TopologyReader {
@@ -21,7 +21,7 @@ public:
         if (!counted || !add_leaves() || !add_nodes()) return std::nullopt;
         const bool has_nodes = !tree_.nodes.empty();
         if (!has_nodes && tree_.leaves.size() > 1) return std::nullopt;
-        set_root(tree_, has_nodes ? 0 : detail::bvh_leaf_bit, exact_);
+        set_root(tree_, has_nodes ? 0 : bvh_leaf_bit, exact_);
         return std::move(tree_);
     }
 
@@ -45,7 +45,7 @@ private:
     }
 
     bool add_leaf(std::uint32_t first, std::uint32_t count) {
-        constexpr std::uint32_t no_point = detail::bvh_none;
+        constexpr std::uint32_t no_point = bvh_none;
         std::array<std::uint32_t, mesh_lanes> point;
         point.fill(no_point);
         MeshLeaf& leaf = tree_.leaves.emplace_back();
@@ -62,7 +62,7 @@ private:
                 vertex = t[k];
             }
             leaf.triangle[lane] = numbers;
-            const detail::BvhItem wide = item_of({points_[t.x], points_[t.y], points_[t.z]}, item, exact_);
+            const BvhItem wide = item_of({points_[t.x], points_[t.y], points_[t.z]}, item, exact_);
             box = merged(box, Aabb3{{wide.min[0], wide.min[1], wide.min[2]}, {wide.max[0], wide.max[1], wide.max[2]}});
         }
         const auto end = std::find(point.begin(), point.end(), no_point);
@@ -92,17 +92,17 @@ private:
             for (std::uint32_t lane = 0; lane < mesh_lanes; ++lane) {
                 const std::uint32_t ref = topology_.children[mesh_lanes * node + lane];
                 tree_.nodes[node].child[lane] = ref;
-                if (ended && ref != detail::bvh_none) return false;
-                ended = ended || ref == detail::bvh_none;
+                if (ended && ref != bvh_none) return false;
+                ended = ended || ref == bvh_none;
                 if (ended) continue;
-                const std::uint32_t number = ref & ~detail::bvh_leaf_bit;
-                std::vector<bool>& those = detail::is_leaf(ref) ? leaf_is_used : node_is_used;
-                if (number >= those.size() || those[number] || (!detail::is_leaf(ref) && number <= node)) return false;
+                const std::uint32_t number = ref & ~bvh_leaf_bit;
+                std::vector<bool>& those = is_leaf(ref) ? leaf_is_used : node_is_used;
+                if (number >= those.size() || those[number] || (!is_leaf(ref) && number <= node)) return false;
                 those[number] = true;
                 ++child_count;
-                if (detail::is_leaf(ref)) continue;
+                if (is_leaf(ref)) continue;
                 depth[number] = depth[node] + 1;
-                if (depth[number] > detail::bvh_depth) return false;
+                if (depth[number] > bvh_depth) return false;
             }
         }
         if (count > 0 && child_count != count - 1 + leaf_is_used.size()) return false;
@@ -117,11 +117,11 @@ private:
             MeshNode& rows = tree_.nodes[node];
             for (std::uint32_t lane = 0; lane < mesh_lanes; ++lane) {
                 const std::uint32_t ref = rows.child[lane];
-                if (ref == detail::bvh_none) {
+                if (ref == bvh_none) {
                     rows.clear(lane);
                     continue;
                 }
-                const Aabb3& box = detail::is_leaf(ref) ? leaf_boxes_[ref & ~detail::bvh_leaf_bit] : boxes[ref];
+                const Aabb3& box = is_leaf(ref) ? leaf_boxes_[ref & ~bvh_leaf_bit] : boxes[ref];
                 rows.set(lane, box);
                 boxes[node] = merged(boxes[node], box);
             }
@@ -155,4 +155,4 @@ std::optional<MeshTree> build_mesh_tree(std::span<const Vec3> points, std::span<
     return TopologyReader(points, triangles, topology).tree();
 }
 
-}  // namespace abut
+}  // namespace abut::detail

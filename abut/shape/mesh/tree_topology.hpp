@@ -11,7 +11,7 @@
 
 #include <glm/ext/vector_uint3.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// The grouping of triangles into leaves and nodes. Memory: about 7 bytes a triangle.
 struct MeshTreeTopology {
@@ -27,4 +27,4 @@ MeshTreeTopology topology_of(const MeshTree& tree);
 std::optional<MeshTree> build_mesh_tree(std::span<const Vec3> points, std::span<const glm::uvec3> triangles,
                                         const MeshTreeTopology& topology);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -11,7 +11,7 @@
 #include <abut/shape/mesh/tree.hpp>
 
 HWY_BEFORE_NAMESPACE();
-namespace abut::HWY_NAMESPACE {
+namespace abut::detail::HWY_NAMESPACE {
 
 using namespace detail;
 using namespace detail::HWY_NAMESPACE;
@@ -76,7 +76,7 @@ private:
     Numbers numbers_;
 };
 
-}  // namespace abut::HWY_NAMESPACE
+}  // namespace abut::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

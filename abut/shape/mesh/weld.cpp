@@ -13,6 +13,9 @@
 #include <unordered_map>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// A cell of a uniform hash grid, by its integer coordinates.

@@ -8,6 +8,9 @@
 #include <string>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// A brush is unbounded if a vertex is farther away than this times the farthest side.

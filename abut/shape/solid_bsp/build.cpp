@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 constexpr std::size_t max_candidates = 24;               ///< faces whose planes are candidates
@@ -193,4 +193,4 @@ void build_tree(SolidTree<D>& tree, SolidBuild<D> build) {
 template void build_tree(SolidTree<2>&, SolidBuild<2>);
 template void build_tree(SolidTree<3>&, SolidBuild<3>);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 enum class Content : std::uint8_t { open, solid, both };
@@ -87,4 +87,4 @@ void add_cells(SolidTree<D>& tree, double margin) {
 template void add_cells(SolidTree<2>&, double);
 template void add_cells(SolidTree<3>&, double);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -9,6 +9,9 @@
 #include <limits>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 template <int D>

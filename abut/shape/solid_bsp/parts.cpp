@@ -1,10 +1,11 @@
 #include <abut/convex/hull/hull.hpp>
+#include <abut/convex/point_soa.hpp>
 #include <abut/convex/polygon_soa.hpp>
 #include <abut/shape/solid_bsp/parts.hpp>
 
 #include <cmath>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// The origin of a part's local frame: a multiple of a power of two that is at least twice the part's extent. Float
@@ -107,7 +108,7 @@ void SolidParts<D>::finish() {
     places_.shrink_to_fit();
     std::vector<Aabb<D>> boxes;
     boxes.reserve(size());
-    for (std::size_t i = 0; i < size(); ++i) boxes.push_back(abut::bounds(part(i)));
+    for (std::size_t i = 0; i < size(); ++i) boxes.push_back(detail::bounds(part(i)));
     tree_.build(boxes);
 }
 
@@ -137,4 +138,4 @@ void SolidParts<D>::each_part_near(const Aabb<D>& box, PartReachVisitor<D> visit
 template class SolidParts<2>;
 template class SolidParts<3>;
 
-}  // namespace abut
+}  // namespace abut::detail

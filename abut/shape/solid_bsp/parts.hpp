@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// Convex hulls in packed arrays.
 template <int D>
@@ -88,4 +88,4 @@ private:
     Bvh<D> tree_;
 };
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -8,6 +8,9 @@
 #include <string>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// Relative to the largest coordinate: far above the rounding of doubles, far below that of floats.

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// Twice the sum of the roundings in a plane and in a height above it.
@@ -80,7 +80,7 @@ SolidPlane<D> plane_of(const HalfSpace<D>& side) {
 
 template <int D>
 SolidPlane<D> plane_across(int axis, float at) {
-    return {abut::axis<D>(axis), static_cast<double>(at), 0, 0, no_index};
+    return {detail::axis<D>(axis), static_cast<double>(at), 0, 0, no_index};
 }
 
 template <int D>
@@ -138,4 +138,4 @@ ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
 
-}  // namespace abut
+}  // namespace abut::detail

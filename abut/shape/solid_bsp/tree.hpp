@@ -13,7 +13,7 @@
 #include <optional>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 inline constexpr std::uint32_t solid_leaf = 0xfffffffeu, open_leaf = 0xfffffffdu;
 inline constexpr std::size_t solid_depth = 256;
@@ -109,4 +109,4 @@ struct SolidBuild {
 template <int D>
 void build_tree(SolidTree<D>& tree, SolidBuild<D> build);
 
-}  // namespace abut
+}  // namespace abut::detail

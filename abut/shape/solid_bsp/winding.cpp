@@ -8,7 +8,7 @@
 #include <array>
 #include <tuple>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// The signed crossing of a face by the line ahead of a point.
@@ -166,4 +166,4 @@ std::optional<SolidSides> SolidWinding<D>::beside(const DVec<D>& place, const So
 template class SolidWinding<2>;
 template class SolidWinding<3>;
 
-}  // namespace abut
+}  // namespace abut::detail

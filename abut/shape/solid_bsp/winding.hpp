@@ -5,7 +5,7 @@
 #include <abut/broad_phase/bvh.hpp>
 #include <abut/shape/solid_bsp/tree.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// Refers to the points and faces of the tree.
 template <int D>
@@ -28,4 +28,4 @@ private:
     Bvh<D> faces_;
 };
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -1,11 +1,11 @@
 #include <abut/math/next_float.hpp>
 #include <abut/math/set_affine.hpp>
-#include <abut/shape/view/bounds_at.hpp>
+#include <abut/shape/any_shape.hpp>
 #include <abut/shape/view/view.hpp>
 
 #include <cmath>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// The box of half extents `reach` + `radius` around the middle, rounded outwards.
@@ -68,4 +68,4 @@ template Aabb<3> bounds_at(const Ball<3>&, const Pose<3>&);
 template Aabb<2> bounds_at(const Box<2>&, const Pose<2>&);
 template Aabb<3> bounds_at(const Box<3>&, const Pose<3>&);
 
-}  // namespace abut
+}  // namespace abut::detail

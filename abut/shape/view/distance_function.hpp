@@ -19,6 +19,10 @@ struct FieldSample {
     Vec<D> normal{};                                          ///< unit vector, out of the shape
 };
 
+}  // namespace abut
+
+namespace abut::detail {
+
 /// A lower bound of a signed distance in a box, by planes through the box's middle. The distance is at least `value +
 /// dot(gradient, x - middle)`, at least `requested_value + dot(requested_gradient, x - middle)`, and at least
 /// `lower_bound`.
@@ -67,12 +71,16 @@ struct DistanceRange {
     double low = 0, high = std::numeric_limits<double>::infinity();
 };
 
+}  // namespace abut::detail
+
+namespace abut {
+
 /// The set of points whose signed distance is at most 0, with a placement. Refers to the shape and must not outlive it.
 ///
 /// Under a non-uniform scale the set is exact, but the distance is only a lower bound: the local distance times the
 /// smallest scale factor. If a factor is 0, `is_finite` is false.
 template <int D>
-struct DistanceFunction : Placement<D> {
+struct DistanceFunction : detail::Placement<D> {
     Aabb<D> bounds;  ///< in the local frame: the box around all points whose distance is at most 0
     const void* object = nullptr;
     /// The signed distance of a point in the local frame. It is Lipschitz continuous with constant `slope`.
@@ -80,23 +88,28 @@ struct DistanceFunction : Placement<D> {
     /// The distance and the gradient direction. Null: the gradient is found by differences.
     FieldSample<D> (*sample)(const void* object, const Vec<D>& point) = nullptr;
     /// The distance in double, and its gradient. It is set if `bound` is set.
-    double (*gradient)(const void* object, const DVec<D>& point, DVec<D>& gradient) = nullptr;
+    double (*gradient)(const void* object, const detail::DVec<D>& point, detail::DVec<D>& gradient) = nullptr;
     /// The size of the smallest details that a search has to find, in the local frame, such as a field's cell. 0:
     /// unknown.
     float resolution = 0;
     /// The Lipschitz constant, at least 1. Interpolation between samples of a distance may be steeper than 1.
     float slope = 1;
     /// A lower bound of the distance in a box of the local frame. Null: only the Lipschitz bound is known.
-    DistanceBoundStatus (*bound)(const void* object, const DVec<D>& low, const DVec<D>& high,
-                                 DistanceBound<D>& bound) = nullptr;
+    detail::DistanceBoundStatus (*bound)(const void* object, const detail::DVec<D>& low, const detail::DVec<D>& high,
+                                         detail::DistanceBound<D>& bound) = nullptr;
     /// The first crossing of a line in the local frame out of a range. It never steps over a crossing. The direction
     /// may have any length. Null: the line is sphere traced.
-    DistanceCrossing (*crossing)(const void* object, const DVec<D>& origin, const DVec<D>& direction, double reach,
-                                 const DistanceRange& range) = nullptr;
+    detail::DistanceCrossing (*crossing)(const void* object, const detail::DVec<D>& origin,
+                                         const detail::DVec<D>& direction, double reach,
+                                         const detail::DistanceRange& range) = nullptr;
 };
+
+}  // namespace abut
+
+namespace abut::detail {
 
 /// A lower bound of the placement's smallest scale factor (its smallest singular value); 0 if the shape is flattened.
 template <int D>
 double min_scale_factor(const Placement<D>& placement);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -5,7 +5,7 @@
 #include <abut/math/aabb.hpp>
 #include <abut/math/affine.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// The box of a box under an affine map, rounded outwards.
 template <int D>
@@ -26,4 +26,4 @@ Aabb<D> mapped_box(const Aabb<D>& box, const Affine<D>& map) {
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -1,7 +1,7 @@
 #include <abut/shape/view/mapped_box.hpp>
 #include <abut/shape/view/view.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 template <int D>
@@ -179,4 +179,4 @@ ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
 
-}  // namespace abut
+}  // namespace abut::detail

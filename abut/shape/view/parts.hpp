@@ -9,7 +9,7 @@
 
 #include <cstdint>
 
-namespace abut {
+namespace abut::detail {
 
 /// Receives one convex part of a composite shape and its index; returns false to stop.
 template <int D>
@@ -65,4 +65,4 @@ void each_part_near(const Composite<D>& composite, const Aabb<D>& box, PartReach
 template <int D>
 bool contains_inside(const Composite<D>& composite, const Vec<D>& point);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -9,6 +9,9 @@
 #include <abut/shape/triangle.hpp>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 template <int D, class... Points>

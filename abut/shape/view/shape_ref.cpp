@@ -9,7 +9,7 @@
 
 #include <type_traits>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 template <class S, int D>
@@ -45,4 +45,4 @@ Convex<D> convex_of(const ShapeRef<D>& ref) {
 template Convex<2> convex_of(const ShapeRef<2>&);
 template Convex<3> convex_of(const ShapeRef<3>&);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -8,7 +8,7 @@
 
 #include <cstdint>
 
-namespace abut {
+namespace abut::detail {
 
 enum class ShapeKind : std::uint8_t {
     ball,
@@ -43,4 +43,4 @@ const Pose<D>& pose_or_none(const Pose<D>* pose) {
 template <int D>
 Convex<D> convex_of(const ShapeRef<D>& ref);
 
-}  // namespace abut
+}  // namespace abut::detail

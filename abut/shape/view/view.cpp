@@ -2,7 +2,7 @@
 #include <abut/shape/view/mapped_box.hpp>
 #include <abut/shape/view/view.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// The world-space box of a local box with the rounding radii of a placement.
@@ -202,4 +202,4 @@ ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -23,9 +23,14 @@
 
 namespace abut {
 
-/// The view of any shape.
+/// The view of any shape, such as World::shape returns. One alternative is in this namespace, so that calls of queries
+/// with views alone are found by argument-dependent lookup.
 template <int D>
-using View = std::variant<Convex<D>, HalfSpaceView<D>, Composite<D>, DistanceFunction<D>>;
+using View = std::variant<detail::Convex<D>, detail::HalfSpaceView<D>, detail::Composite<D>, DistanceFunction<D>>;
+
+}  // namespace abut
+
+namespace abut::detail {
 
 /// The bounding box, rounded outwards. For a rotated or scaled composite it is the box around its mapped local box.
 template <int D>
@@ -92,8 +97,6 @@ View<D> rounded(const View<D>& view, double radius);
 // narrower than an 8th of the other shape may be missed if the distance an 8th away doesn't show them. The bounds may
 // be infinite; such a shape can't be paired with a half-space or with another unbounded shape.
 
-namespace detail {
-
 template <class S>
 concept HasConvex = requires(const S& shape) {
     convex(shape);
@@ -149,18 +152,20 @@ concept HasDistance = HasBounds<S> && requires(const S& shape) {
     { signed_distance(shape, Vec<box_dimension<S>>()) } -> std::convertible_to<float>;
 };
 
-}  // namespace detail
+}  // namespace abut::detail
+
+namespace abut {
 
 template <int D>
 const View<D>& view(const View<D>& shape) {
     return shape;
 }
 template <int D>
-const Convex<D>& view(const Convex<D>& shape) {
+const detail::Convex<D>& view(const detail::Convex<D>& shape) {
     return shape;
 }
 template <int D>
-const Composite<D>& view(const Composite<D>& shape) {
+const detail::Composite<D>& view(const detail::Composite<D>& shape) {
     return shape;
 }
 template <int D>
@@ -168,8 +173,8 @@ const DistanceFunction<D>& view(const DistanceFunction<D>& shape) {
     return shape;
 }
 template <int D>
-HalfSpaceView<D> view(const HalfSpace<D>& shape) {
-    return half_space_view(shape);
+detail::HalfSpaceView<D> view(const HalfSpace<D>& shape) {
+    return detail::half_space_view(shape);
 }
 
 template <detail::HasConvex S>
@@ -180,8 +185,8 @@ auto view(const S& shape) {
 template <class S>
 requires(!detail::HasConvex<S> && detail::HasSupport<S>) auto view(const S& shape) {
     constexpr int D = detail::box_dimension<S>;
-    Convex<D> result;
-    result.core = Core::function;
+    detail::Convex<D> result;
+    result.core = detail::Core::function;
     result.object = &shape;
     result.function = [](const void* object, const Vec<D>& direction) -> Vec<D> {
         const Vec<D> farthest = support(*static_cast<const S*>(object), direction);
@@ -208,25 +213,25 @@ auto part_to(const Visit& visit) {
 template <class S>
 requires(!detail::HasConvex<S> && !detail::HasSupport<S> && detail::HasParts<S>) auto view(const S& shape) {
     constexpr int D = detail::box_dimension<S>;
-    Composite<D> result;
+    detail::Composite<D> result;
     result.bounds = bounds(shape);
     result.object = &shape;
-    result.each_part = [](const void* object, const Aabb<D>& box, PartVisitor<D> visit) {
+    result.each_part = [](const void* object, const Aabb<D>& box, detail::PartVisitor<D> visit) {
         each_part(*static_cast<const S*>(object), box, detail::part_to<bool>(visit));
         detail::clear_upper_halves();
     };
     if constexpr (requires { each_part_along(shape, MovingBox<D>(), detail::AnyPartReach<D>()); })
-        result.each_part_along = [](const void* object, const MovingBox<D>& box, PartReachVisitor<D> visit) {
+        result.each_part_along = [](const void* object, const MovingBox<D>& box, detail::PartReachVisitor<D> visit) {
             each_part_along(*static_cast<const S*>(object), box, detail::part_to<float>(visit));
             detail::clear_upper_halves();
         };
     if constexpr (requires { each_part_near(shape, Aabb<D>(), detail::AnyPartReach<D>()); })
-        result.each_part_near = [](const void* object, const Aabb<D>& box, PartReachVisitor<D> visit) {
+        result.each_part_near = [](const void* object, const Aabb<D>& box, detail::PartReachVisitor<D> visit) {
             each_part_near(*static_cast<const S*>(object), box, detail::part_to<float>(visit));
             detail::clear_upper_halves();
         };
     if constexpr (requires {
-                      { triangle_tree(shape) } -> std::same_as<const MeshTree&>;
+                      { triangle_tree(shape) } -> std::same_as<const detail::MeshTree&>;
                   })
         result.triangles = &triangle_tree(shape);
     if constexpr (requires {
@@ -330,8 +335,8 @@ inline constexpr int dimension = detail::DimensionOfView<detail::ViewOf<S>>::val
 /// Two shapes of one dimension, at most one of them a half-space.
 template <class A, class B>
 concept Pair = Shape<A> && Shape<B> && dimension<A>
-== dimension<B> && !(std::same_as<detail::ViewOf<A>, HalfSpaceView<dimension<A>>> &&
-                     std::same_as<detail::ViewOf<B>, HalfSpaceView<dimension<B>>>);
+== dimension<B> && !(std::same_as<detail::ViewOf<A>, detail::HalfSpaceView<dimension<A>>> &&
+                     std::same_as<detail::ViewOf<B>, detail::HalfSpaceView<dimension<B>>>);
 
 namespace detail {
 

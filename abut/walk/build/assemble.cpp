@@ -5,7 +5,7 @@
 
 #include <utility>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// Sets the corners in space and in the triangle's frame.
@@ -121,4 +121,4 @@ LinkedTriangles disassemble(const WalkMeshData& data) {
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

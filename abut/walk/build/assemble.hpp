@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// The walkable triangles, with welded points and nonzero areas, and their ascending numbers in the mesh.
 struct Walkable {
@@ -31,4 +31,4 @@ struct LinkedTriangles {
 /// The inverse of `assemble`.
 LinkedTriangles disassemble(const WalkMeshData& data);
 
-}  // namespace abut
+}  // namespace abut::detail

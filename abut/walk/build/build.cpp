@@ -9,6 +9,9 @@
 #include <tuple>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// Keeps the first of all triangles with the same three corners, and none with fewer corners.

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <string>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 constexpr std::size_t max_triangles = std::size_t{1} << 28;
@@ -38,4 +38,4 @@ std::optional<Problem> problem_of_walk_mesh(std::span<const Vec3> points, std::s
     return std::nullopt;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

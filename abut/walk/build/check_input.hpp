@@ -11,10 +11,10 @@
 
 #include <glm/ext/vector_uint3.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// The Problems of WalkMesh::build, except for `degenerate`.
 std::optional<Problem> problem_of_walk_mesh(std::span<const Vec3> points, std::span<const glm::uvec3> triangles,
                                             std::span<const Vec3> normals, std::span<const std::uint8_t> areas);
 
-}  // namespace abut
+}  // namespace abut::detail

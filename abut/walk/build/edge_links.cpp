@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <tuple>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 constexpr std::size_t max_triangles_at_edge = 64;
@@ -67,4 +67,4 @@ WalkLinks link_triangles(std::span<const Vec3> points, std::span<const glm::uvec
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

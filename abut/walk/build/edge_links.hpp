@@ -12,7 +12,7 @@
 
 #include <glm/ext/vector_uint3.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 struct WalkLinks {
     std::vector<std::array<WalkLink, 3>> of;  ///< by triangle and side
@@ -26,4 +26,4 @@ struct WalkLinks {
 /// 64 none are linked.
 WalkLinks link_triangles(std::span<const Vec3> points, std::span<const glm::uvec3> triangles);
 
-}  // namespace abut
+}  // namespace abut::detail

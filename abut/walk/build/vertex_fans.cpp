@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// Unites the corners 3t, 3t + 1 and 3t + 2 of each triangle t across edges, by union-find.
@@ -69,4 +69,4 @@ WalkNormals fan_normals(std::span<const Vec3> points, std::span<const glm::uvec3
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -11,7 +11,7 @@
 
 #include <glm/ext/vector_uint3.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// Vertices with more than one fan of triangles, ascending. Points are welded.
 std::vector<std::uint32_t> non_manifold_vertices(std::span<const glm::uvec3> triangles, const WalkLinks& links);
@@ -25,4 +25,4 @@ struct WalkNormals {
 /// from Facet Normals" (1999): exact on spheres, and without angles.
 WalkNormals fan_normals(std::span<const Vec3> points, std::span<const glm::uvec3> triangles, const WalkLinks& links);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// Angles within this tolerance of 180 degrees count as equal to it.
@@ -95,4 +95,4 @@ bool sides_around_corner(const WalkPathRules& rules, const WalkTautPath& path, c
     return CornerFlip(rules, path, corner).sides(result, before, after, product);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

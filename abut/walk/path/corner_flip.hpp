@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// The sides to cross instead of portals `corner.first` to `corner.last`, so that the path passes the corner on its
 /// other side. Returns false if there is a border or a forbidden edge. If directions from the corner to the path before
@@ -16,4 +16,4 @@ bool sides_around_corner(const WalkPathRules& rules, const WalkTautPath& path, c
                          std::vector<WalkSide>& result, const DVec<2>* before = nullptr, const DVec<2>* after = nullptr,
                          double* product = nullptr);
 
-}  // namespace abut
+}  // namespace abut::detail

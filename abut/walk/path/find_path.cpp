@@ -10,6 +10,9 @@
 #include <span>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// Directions in space that differ by less don't count as a bend.

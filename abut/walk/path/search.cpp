@@ -9,7 +9,7 @@
 #include <limits>
 #include <memory>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// A triangle that the search has reached, in one or two cache lines.
@@ -332,4 +332,4 @@ std::optional<WalkStrip> find_strip(const WalkPathRules& rules, const WalkPoint&
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

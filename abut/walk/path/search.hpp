@@ -6,7 +6,7 @@
 
 #include <optional>
 
-namespace abut {
+namespace abut::detail {
 
 /// A* over triangles (Hart, Nilsson & Raphael 1968). Each triangle is entered once, over one side. Its path is
 /// represented by the last bend and the cone visible from there, in the unfolded plane of its strip. This is Polyanya
@@ -17,4 +17,4 @@ namespace abut {
 std::optional<WalkStrip> find_strip(const WalkPathRules& rules, const WalkPoint& from, const WalkPoint& to,
                                     std::vector<std::uint32_t>* reached = nullptr);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 constexpr int max_shortening_rounds = 1000;
@@ -235,4 +235,4 @@ WalkTautPath shorten_path(const WalkPathRules& rules, WalkStrip strip) {
     return std::move(path);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -4,7 +4,7 @@
 
 #include <abut/walk/path/strip.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// Pulls the path tight and flips it around each corner at which it bends and whose other side has an angle below 180
 /// degrees. Without such corners it is a geodesic (Xin & Wang 2007; Sharp & Crane 2020, "You can find geodesic paths in
@@ -15,4 +15,4 @@ namespace abut {
 /// flips are tried at the corners that it touches.
 WalkTautPath shorten_path(const WalkPathRules& rules, WalkStrip strip);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 constexpr int max_rounds = 64;
@@ -124,4 +124,4 @@ void StringPuller::pull(WalkTautPath& path) {
     pull_once(path);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

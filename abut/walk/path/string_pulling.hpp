@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// The fraction of the portal, from left to right, at which the path between two points is cheapest. The cost is
 /// convex; its slope is bisected `halvings` times.
@@ -43,4 +43,4 @@ private:
     std::vector<Crossing> crossings_, best_;
 };
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// Converts a place on a side to the neighbour.
@@ -183,4 +183,4 @@ void Funnel::pull(const std::vector<WalkPortal>& portals, std::uint32_t first, s
     std::reverse(knots.begin() + static_cast<std::ptrdiff_t>(before), knots.end());
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -12,7 +12,7 @@
 #include <limits>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// Costs and permissions of a path search.
 struct WalkPathRules {
@@ -144,4 +144,4 @@ private:
     std::size_t front_ = 0, apex_ = 0, back_ = 0;
 };
 
-}  // namespace abut
+}  // namespace abut::detail

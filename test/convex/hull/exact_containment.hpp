@@ -14,6 +14,8 @@
 
 namespace abut::test {
 
+using detail::axis;
+using detail::DVec;
 using oracle::Rational;
 
 /// The side of the plane abc, or of the line ab, that p is on: 1 to the left of ab, and 1 where abc is

@@ -11,6 +11,9 @@
 #include <gtest/gtest.h>
 
 namespace abut::test {
+
+using namespace detail;
+
 namespace {
 
 std::vector<Vec3> in_a_ball(Random& random, int count) {
@@ -148,7 +151,7 @@ TEST(HullCore, IsLeftAloneWhereFloatsMightOverflow) {
     for (const float scale : {1e38f, 1e-38f}) {
         std::vector<Vec3> points = stretched(ball, Vec3(scale));
         EXPECT_EQ(without_interior_points(points), points);
-        EXPECT_EQ(abut::hull(points)->rank, 3);
+        EXPECT_EQ(abut::detail::hull(points)->rank, 3);
     }
 }
 

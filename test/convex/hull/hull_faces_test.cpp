@@ -10,6 +10,9 @@
 #include <gtest/gtest.h>
 
 namespace abut::test {
+
+using namespace detail;
+
 namespace {
 
 /// A loop of corners, and twice its vector area.
@@ -75,9 +78,9 @@ TEST(HullFaces, AreJoinedWhereTheyCanBe) {
                 return stretched(sphere, {1, 1, static_cast<float>(random.power_of_two(-20, 0))});
             };
             const std::vector<Vec3> points = kind < kinds.size() ? kinds[kind].make(random) : thin_lens();
-            const Hull3 hull = *abut::hull(points);
+            const Hull3 hull = *abut::detail::hull(points);
             if (hull.rank < 3) continue;
-            const double extent = abut::extent<3>(points);
+            const double extent = abut::detail::extent<3>(points);
             const std::vector<Face> faces = faces_of(hull);
             for (const Face& face : faces) joined_faces += face.corners.size() > 3 ? 1 : 0;
             for (const FacetEdge& edge : hull.edges)

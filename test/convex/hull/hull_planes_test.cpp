@@ -13,6 +13,9 @@
 #include <gtest/gtest.h>
 
 namespace abut::test {
+
+using namespace detail;
+
 namespace {
 
 double reach(const Vec3& normal, const std::vector<Vec3>& points) {
@@ -36,8 +39,8 @@ TEST(HullPlanes, HoldEveryPointAndNoMoreThanTheyMust) {
                 std::vector<Vec3> points = kinds[kind].make(random);
                 const DVec<3> offset = random.direction<3>() * away;
                 for (Vec3& point : points) point = to_float(DVec<3>(point) + offset);
-                const Hull3 hull = *abut::hull(points);
-                const double extent = abut::extent<3>(points);
+                const Hull3 hull = *abut::detail::hull(points);
+                const double extent = abut::detail::extent<3>(points);
                 for (std::size_t face = 0; face < hull.normals.size(); ++face) {
                     const double needed = reach(hull.normals[face], points);
                     ASSERT_LE(needed, hull.offsets[face]);
@@ -65,8 +68,8 @@ TEST(HullPlanes, TouchPointsOfAGridToTheLastBits) {
         const float scale = static_cast<float>(std::ldexp(1.0, static_cast<int>(random.below(200)) - 100));
         std::vector<Vec3> points = on_a_lattice(random, 30);
         for (Vec3& point : points) point = (point + Vec3(static_cast<float>(random.below(8)) * 0.0625f)) * scale;
-        const Hull3 hull = *abut::hull(points);
-        const double extent = abut::extent<3>(points);
+        const Hull3 hull = *abut::detail::hull(points);
+        const double extent = abut::detail::extent<3>(points);
         for (std::size_t face = 0; face < hull.normals.size(); ++face) {
             const double needed = reach(hull.normals[face], points);
             EXPECT_LE(needed, hull.offsets[face]);
@@ -83,7 +86,7 @@ TEST(HullPlanes, HoldPointsOfAGridFarAway) {
         std::vector<Vec3> points = on_a_lattice(random, 60);
         const Vec3 away(static_cast<float>(random.below(1u << 20)), static_cast<float>(random.below(1u << 20)), 7);
         for (Vec3& point : points) point += away;
-        const Hull3 hull = *abut::hull(points);
+        const Hull3 hull = *abut::detail::hull(points);
         for (std::size_t face = 0; face < hull.normals.size(); ++face) {
             const double needed = reach(hull.normals[face], points);
             ASSERT_LE(needed, hull.offsets[face]);
@@ -98,7 +101,7 @@ TEST(HullPlanes, AreFoundFromAnyCorner) {
         SCOPED_TRACE(kinds[kind].name + ", seed " + std::to_string(kind));
         Random random(kind);
         const std::vector<Vec3> points = kinds[kind].make(random);
-        if (abut::hull(points)->rank < 3) continue;
+        if (abut::detail::hull(points)->rank < 3) continue;
         const HullGrid grid = on_grid(points);
         const auto farthest = [&](const DVec<3>& normal) {
             const auto along = [&](std::uint32_t i) {
@@ -140,7 +143,7 @@ TEST(HullPlanes, OfACubeAreItsCoordinates) {
         points.push_back(point);
     }
     for (Vec3& point : points) point = point * 0.3f + Vec3(0.1f, 7.7f, -1e3f);
-    const Hull3 hull = *abut::hull(points);
+    const Hull3 hull = *abut::detail::hull(points);
     ASSERT_EQ(hull.normals.size(), 6u);
     const Vec3 least(-1 * 0.3f + 0.1f, -1 * 0.3f + 7.7f, -1 * 0.3f - 1e3f);
     const Vec3 greatest(0.3f + 0.1f, 0.3f + 7.7f, 0.3f - 1e3f);
@@ -158,7 +161,7 @@ TEST(HullGrid, ReturnsHowFarItMovedThePoints) {
         Random random(kind);
         const std::vector<Vec3> points = kinds[kind].make(random);
         const HullGrid grid = on_grid(points);
-        const double extent = abut::extent<3>(points);
+        const double extent = abut::detail::extent<3>(points);
         EXPECT_GE(extent / grid.step, 0x1p27);
         EXPECT_LT(extent / grid.step, 0x1p28);
         DVec<3> moved(0.0);

@@ -16,6 +16,9 @@
 #include <gtest/gtest.h>
 
 namespace abut::test {
+
+using namespace detail;
+
 namespace {
 
 std::vector<std::vector<std::uint32_t>> loops_of(const Hull3& hull) {
@@ -92,7 +95,7 @@ double volume_below_faces(const Hull3& hull) {
 }
 
 void expect_laws(const Hull3& hull, const std::vector<Vec3>& points, Random& random) {
-    const double extent = abut::extent<3>(points);
+    const double extent = abut::detail::extent<3>(points);
     std::set<std::tuple<float, float, float>> given;
     for (const Vec3& point : points) given.insert(key(point));
     for (const Vec3& point : hull.points) EXPECT_TRUE(given.contains(key(point))) << "a corner from nowhere";
@@ -231,7 +234,7 @@ TEST(Hull, HasTheFacesFoundByTryingEveryPlane) {
         SCOPED_TRACE("seed 73, round " + std::to_string(round));
         const int count = 4 + static_cast<int>(random.below(12));
         const std::vector<Vec3> points = on_a_lattice(random, count);
-        const Hull3 hull = *abut::hull(points);
+        const Hull3 hull = *abut::detail::hull(points);
         if (hull.rank < 3) continue;
         ++solid;
 
@@ -294,7 +297,7 @@ TEST(Hull, KeepsItsLawsAtEveryScale) {
                     std::vector<Vec3> points = kinds[kind].make(random);
                     const DVec<3> offset = random.direction<3>() * away;
                     for (Vec3& point : points) point = to_float((DVec<3>(point) + offset) * scale);
-                    const auto hull = abut::hull(points);
+                    const auto hull = abut::detail::hull(points);
                     ASSERT_TRUE(hull);
                     expect_laws(*hull, points, random);
                     ++ranks[hull->rank];
@@ -310,11 +313,11 @@ TEST(Hull, DoesNotDependOnTheOrderOfThePoints) {
         Random random(kind);
         std::vector<Vec3> points = kinds[kind].make(random);
         points.insert(points.end(), {Vec3(0.0f), Vec3(-0.0f)});
-        const Hull3 first = *abut::hull(points);
+        const Hull3 first = *abut::detail::hull(points);
         for (int round = 0; round < 5; ++round) {
             shuffle(points, random);
             points.push_back(points[random.below(static_cast<std::uint32_t>(points.size()))]);
-            const Hull3 again = *abut::hull(points);
+            const Hull3 again = *abut::detail::hull(points);
             EXPECT_EQ(first.points, again.points);
             EXPECT_EQ(first.normals, again.normals);
             EXPECT_EQ(first.offsets, again.offsets);
@@ -329,8 +332,8 @@ TEST(Hull, OfAHullIsTheSame) {
         if (kinds[kind].name == "near copies") continue;  // points that differ by about the tolerance
         SCOPED_TRACE(kinds[kind].name + ", seed " + std::to_string(kind));
         Random random(kind);
-        const Hull3 once = *abut::hull(kinds[kind].make(random));
-        const Hull3 twice = *abut::hull(once.points);
+        const Hull3 once = *abut::detail::hull(kinds[kind].make(random));
+        const Hull3 twice = *abut::detail::hull(once.points);
         EXPECT_EQ(once.points, twice.points);
         EXPECT_EQ(once.rank, twice.rank);
     }
@@ -342,25 +345,26 @@ TEST(Hull, HasTheFacesThatWereMeantWhereRoundingBentThem) {
     int grids_of_six_faces = 0;
     for (int round = 0; round < 50; ++round) {
         SCOPED_TRACE("seed 74, round " + std::to_string(round));
-        const Hull3 box = *abut::hull(turned(box_surface(1), random));
+        const Hull3 box = *abut::detail::hull(turned(box_surface(1), random));
         EXPECT_EQ(box.loop_ends.size(), 6u);
         EXPECT_EQ(box.points.size(), 8u);
         const int sides = 3 + static_cast<int>(random.below(62));
-        const Hull3 cylinder = *abut::hull(turned(rings(sides), random));
+        const Hull3 cylinder = *abut::detail::hull(turned(rings(sides), random));
         EXPECT_EQ(cylinder.loop_ends.size(), static_cast<std::size_t>(sides + 2));
         EXPECT_EQ(cylinder.points.size(), static_cast<std::size_t>(2 * sides));
         // Points within a face may stick out by more than the tolerance; then it sometimes becomes two faces.
-        grids_of_six_faces += abut::hull(turned(box_surface(5), random))->loop_ends.size() == 6 ? 1 : 0;
+        grids_of_six_faces += abut::detail::hull(turned(box_surface(5), random))->loop_ends.size() == 6 ? 1 : 0;
     }
     EXPECT_GE(grids_of_six_faces, 46);
 }
 
 // Corners that differ only in the sign of a zero are one corner, whichever comes first.
 TEST(Hull, HasNoNegativeZeros) {
-    const Hull3 hull = *abut::hull(std::vector<Vec3>{{1, -0.0f, -0.0f}, {-0.0f, 1, 0}, {-0.0f, 0, 1}, Vec3(-0.0f)});
+    const Hull3 hull =
+        *abut::detail::hull(std::vector<Vec3>{{1, -0.0f, -0.0f}, {-0.0f, 1, 0}, {-0.0f, 0, 1}, Vec3(-0.0f)});
     for (const Vec3& point : hull.points)
         for (int i = 0; i < 3; ++i) EXPECT_FALSE(std::signbit(point[i]));
-    const Hull2 flat = *abut::hull(std::vector<Vec2>{{1, -0.0f}, {-0.0f, 1}, Vec2(-0.0f)});
+    const Hull2 flat = *abut::detail::hull(std::vector<Vec2>{{1, -0.0f}, {-0.0f, 1}, Vec2(-0.0f)});
     for (const Vec2& point : flat.points)
         for (int i = 0; i < 2; ++i) EXPECT_FALSE(std::signbit(point[i]));
 }
@@ -369,7 +373,7 @@ TEST(Hull, HasNoNegativeZeros) {
 // them.
 TEST(Hull, OfAThinPlateKeepsItsRim) {
     std::vector<Vec3> points = stretched(box_surface(1), {1, 1, 4e-7f});
-    const Hull3 hull = *abut::hull(points);
+    const Hull3 hull = *abut::detail::hull(points);
     EXPECT_EQ(hull.rank, 3);
     EXPECT_EQ(hull.loop_ends.size(), 6u);
 }
@@ -377,7 +381,7 @@ TEST(Hull, OfAThinPlateKeepsItsRim) {
 TEST(Hull, OfTenThousandPointsHasThemAll) {
     Random random(75);
     const std::vector<Vec3> points = on_a_sphere(random, 10000);
-    const Hull3 hull = *abut::hull(points);
+    const Hull3 hull = *abut::detail::hull(points);
     EXPECT_GT(hull.points.size(), 9990u);
     expect_one_closed_surface(hull);
     EXPECT_NEAR(hull.volume, 4.18879, 0.005);

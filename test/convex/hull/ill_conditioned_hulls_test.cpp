@@ -14,6 +14,9 @@
 #include <gtest/gtest.h>
 
 namespace abut::test {
+
+using namespace detail;
+
 namespace {
 
 double spacing_of_floats(double size) {

@@ -14,6 +14,10 @@
 
 namespace abut::test {
 
+using detail::DVec;
+using detail::largest;
+using detail::to_float;
+
 /// A cap of a unit sphere, far away: its height is about the square of its radius.
 inline std::vector<Vec3> cap_of_a_sphere(Random& random, int count) {
     const double radius = random.power_of_two(-12, 0) / 2;

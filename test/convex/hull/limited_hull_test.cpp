@@ -15,6 +15,9 @@
 #include <gtest/gtest.h>
 
 namespace abut::test {
+
+using namespace detail;
+
 namespace {
 
 struct Limited {
@@ -25,7 +28,7 @@ struct Limited {
 };
 
 Limited limited(const std::vector<Vec3>& points, std::uint32_t limit) {
-    Limited result{*abut::hull(points), {}};
+    Limited result{*abut::detail::hull(points), {}};
     const auto built = limited_hull(points, {limit, &result.added});
     EXPECT_TRUE(built) << built.problem().message;
     if (built) result.hull = *built;

@@ -17,6 +17,9 @@
 #include <gtest/gtest.h>
 
 namespace abut::test {
+
+using namespace detail;
+
 namespace {
 
 /// The monotone chain of Andrew (1979), without a filter.

@@ -13,6 +13,8 @@
 
 namespace abut::test {
 
+using detail::to_float;
+
 using oracle::Random;
 
 inline std::vector<Vec3> in_a_cube(Random& random, int count) {
@@ -36,8 +38,8 @@ inline std::vector<Vec3> stretched(std::vector<Vec3> points, const Vec3& factor)
     return points;
 }
 inline std::vector<Vec3> turned(std::vector<Vec3> points, Random& random) {
-    const Affine<3> place = affine(Pose3{Vec3(0.0f), random.rotation<3>()});
-    for (Vec3& point : points) point = to_float(place.point(DVec<3>(point)));
+    const detail::Affine<3> place = detail::affine(Pose3{Vec3(0.0f), random.rotation<3>()});
+    for (Vec3& point : points) point = to_float(place.point(detail::DVec<3>(point)));
     return points;
 }
 inline std::vector<Vec3> rings(int sides) {

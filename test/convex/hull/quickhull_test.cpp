@@ -11,6 +11,9 @@
 #include <gtest/gtest.h>
 
 namespace abut::test {
+
+using namespace detail;
+
 namespace {
 
 double height_above(const HullGrid& grid, const TriangleSurface& surface, std::size_t triangle,
@@ -101,7 +104,7 @@ TEST(Quickhull, OfACone) {
         std::vector<Vec3> points = rings(500);
         for (Vec3& point : points) point.z = 0;
         points.push_back({0, 0, tip});
-        const Hull3 hull = *abut::hull(points);
+        const Hull3 hull = *abut::detail::hull(points);
         EXPECT_EQ(hull.points.size(), 501u);
         EXPECT_EQ(hull.rank, 3);
         for (std::size_t face = 0; face < hull.normals.size(); ++face)

@@ -55,6 +55,13 @@ int main() {
                 gap.normal.y, gap.normal.z);
     if (abut::overlaps(ball, crate) || gap.distance != 1.0f || gap.normal.x != -1.0f) return 1;
 
+    // Argument-dependent lookup finds the queries for the views of a world.
+    abut::World3 world;
+    const abut::Id first = world.add(ball), second = world.add(crate);
+    if (overlaps(world.shape(first), world.shape(second)) ||
+        closest(world.shape(first), crate.center).distance != 2.0f || bounds(world.shape(second)).max.x != 1.0f)
+        return 1;
+
     Numbers numbers;
     Hash hash;
     constexpr int kPairs = 2000;

@@ -49,7 +49,7 @@ void try_broad_phase(const char* name) {
     int sum = 0;
     const auto count = [&](std::uint32_t) { ++sum; };
     const auto any = [&](std::uint32_t) { return 10.0f; };
-    std::vector<ItemPair> pairs;
+    std::vector<detail::ItemPair> pairs;
     expect_cleared_after("each_pair", [&] { phase.each_pair([&](std::uint32_t, std::uint32_t) { ++sum; }); });
     expect_cleared_after("sorted_pairs", [&] { phase.sorted_pairs(pairs); });
     expect_cleared_after("each_overlapping", [&] { phase.each_overlapping(box, count); });

@@ -9,6 +9,9 @@
 #include <set>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 using oracle::near;

@@ -15,6 +15,9 @@
 #include <iostream>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// The numbers of answers of each kind.

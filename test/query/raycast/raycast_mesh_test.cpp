@@ -20,6 +20,9 @@
 #include <gtest/gtest.h>
 
 namespace abut::test {
+
+using namespace detail;
+
 namespace {
 
 // Double-double arithmetic (Dekker, Knuth).

@@ -14,6 +14,9 @@
 #include <gtest/gtest.h>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 template <int D>

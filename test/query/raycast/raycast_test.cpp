@@ -8,6 +8,9 @@
 #include <abut/shape/cylinder.hpp>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 using oracle::near;

@@ -91,7 +91,7 @@ TEST(SweepRotatingFronts, APlatformIsPassedFromBelowAndMetFromAbove) {
     expect_met_from_below(sweep(ball, motion, chain({{3, 1}, {-3, 1}}, false)));
     // A chain of several segments, and a single segment as a part.
     expect_met_from_above(sweep(ball, motion, chain({{3, 1}, {1, 1}, {-1.5f, 1}, {-3, 1}})));
-    Convex<2> part = convex(Segment2{{3, 1}, {-3, 1}});
+    detail::Convex<2> part = convex(Segment2{{3, 1}, {-3, 1}});
     part.one_sided = true;
     expect_met_from_above(sweep(convex(ball), motion, part, Motion2{}));
     // The segment is a part of a compound with other parts, and with a floor below.
@@ -107,7 +107,7 @@ TEST(SweepRotatingFronts, APlatformThatAHalfSpaceTurnsIntoHasAFront) {
     // A ceiling that swings down about the origin.
     const HalfSpace2 ceiling{{0, -1}, 0};
     const Motion2 motion{{}, {}, 0.9f * std::numbers::pi_v<float>};
-    Convex<2> up = convex(Segment2{{-2, -1}, {-3, -1}}), down = convex(Segment2{{-3, -1}, {-2, -1}});
+    detail::Convex<2> up = convex(Segment2{{-2, -1}, {-3, -1}}), down = convex(Segment2{{-3, -1}, {-2, -1}});
     up.one_sided = down.one_sided = true;
     EXPECT_TRUE(sweep(View<2>(view(ceiling)), motion, View<2>(up), Motion2{}));
     EXPECT_FALSE(sweep(View<2>(view(ceiling)), motion, View<2>(down), Motion2{}));
@@ -116,9 +116,9 @@ TEST(SweepRotatingFronts, APlatformThatAHalfSpaceTurnsIntoHasAFront) {
 }
 
 TEST(SweepRotatingFronts, ATriangleInSpaceOfAUserHasAFront) {
-    Convex<3> up = convex(Triangle3{{-6, -6, 1}, {6, -6, 1}, {0, 9, 1}});
+    detail::Convex<3> up = convex(Triangle3{{-6, -6, 1}, {6, -6, 1}, {0, 9, 1}});
     up.one_sided = true;
-    Convex<3> down = convex(Triangle3{{-6, -6, 1}, {0, 9, 1}, {6, -6, 1}});
+    detail::Convex<3> down = convex(Triangle3{{-6, -6, 1}, {0, 9, 1}, {6, -6, 1}});
     down.one_sided = true;
     const Sphere ball = circler<3>();
     const Motion3 motion = circling<3>();

@@ -9,6 +9,9 @@
 #include <numbers>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 template <int D>

@@ -11,6 +11,9 @@
 #include <abut/shape/placed.hpp>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 /// A lens: all points within 1.25 of both (0, 0, 0.75) and (0, 0, -0.75).

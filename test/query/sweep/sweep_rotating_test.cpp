@@ -17,6 +17,9 @@
 #include <numbers>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 using oracle::near;

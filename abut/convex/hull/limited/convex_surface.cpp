@@ -4,7 +4,7 @@
 
 #include <utility>
 
-namespace abut {
+namespace abut::detail {
 
 std::optional<ConvexSurface> convex_surface(std::span<const DVec<3>> points, double tolerance) {
     const HullGrid grid = on_grid(points);
@@ -22,4 +22,4 @@ std::optional<ConvexSurface> convex_surface(std::span<const DVec<3>> points, dou
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

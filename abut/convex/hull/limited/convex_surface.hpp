@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 struct ConvexSurface {
     std::vector<DVec<3>> points;  ///< each is a corner of a triangle
@@ -19,4 +19,4 @@ struct ConvexSurface {
 /// be a corner. The surface is convex to 2^-28 of the extent, the grid's step. Nothing if the points are flat.
 std::optional<ConvexSurface> convex_surface(std::span<const DVec<3>> points, double tolerance);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// Calls visit(a, b, c) for the corners of each triangle.
@@ -92,4 +92,4 @@ std::optional<Hull3> hull_in_frame(std::span<const Vec3> corners, std::span<cons
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -8,7 +8,7 @@
 #include <optional>
 #include <span>
 
-namespace abut {
+namespace abut::detail {
 
 /// The hull of corners with a volume. The faces are decided in the frame, where the hull isn't thin. Normals, offsets
 /// and sizes are those of the world, and the offsets bound the points as well. Nothing if a point lies outside of the
@@ -16,4 +16,4 @@ namespace abut {
 std::optional<Hull3> hull_in_frame(std::span<const Vec3> corners, std::span<const Vec3> points,
                                    const StretchedFrame<3>& frame);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 constexpr int max_rounds = 8;
@@ -71,4 +71,4 @@ Hull3 inner_hull(std::span<const Vec3> points, std::size_t count, const Vec3& fi
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

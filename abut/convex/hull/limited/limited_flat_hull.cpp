@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// The projection of the plane of a flat hull along the axis nearest to its normal.
@@ -124,4 +124,4 @@ std::optional<Hull3> limited_flat_hull(const Hull3& full, std::span<const Vec3> 
     return flat_hull(std::move(loop), points);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -8,7 +8,7 @@
 
 #include <optional>
 
-namespace abut {
+namespace abut::detail {
 
 /// As `hull`, with options. If the hull exceeds the limit, the corners of the result are not input points. Every input
 /// point lies in the convex hull of the corners, exactly, and below the `offsets`. A Problem `too_large` if corners
@@ -29,4 +29,4 @@ inline Problem beyond_floats() {
     return {ProblemCode::too_large, "so few corners that hold all points are beyond the range of floats", 0};
 }
 
-}  // namespace abut
+}  // namespace abut::detail

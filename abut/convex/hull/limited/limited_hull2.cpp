@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 constexpr int max_margins2 = 14;
@@ -160,4 +160,4 @@ Result<Hull2> limited_hull(std::span<const Vec2> points, const HullOptions& opti
     return *std::move(result);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

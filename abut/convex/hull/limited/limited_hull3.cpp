@@ -22,7 +22,7 @@
 #include <string>
 #include <utility>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// The tolerance of the surface, for a body of about size 1. The planes move outwards to all points at the end.
@@ -273,4 +273,4 @@ Result<Hull3> limited_hull(std::span<const Vec3> points, const HullOptions& opti
     return *std::move(result);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

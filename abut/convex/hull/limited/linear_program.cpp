@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 constexpr double far_away = 1e4, below = 1e-11, min_pivot = 1e-9;
@@ -73,4 +73,4 @@ std::optional<DVec<3>> lowest_above(std::span<const Plane<3>> planes, const DVec
     return std::nullopt;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

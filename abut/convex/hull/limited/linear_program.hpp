@@ -7,7 +7,7 @@
 #include <optional>
 #include <span>
 
-namespace abut {
+namespace abut::detail {
 
 /// A line in 2D, a plane in 3D: dot(normal, p) == offset, with larger values above it.
 template <int D>
@@ -27,4 +27,4 @@ Plane<D> flipped(const Plane<D>& plane) {
 /// plane by 1e-11 times `size`. Intended for some ten planes, because each step tests all of them.
 std::optional<DVec<3>> lowest_above(std::span<const Plane<3>> planes, const DVec<3>& cost, double size);
 
-}  // namespace abut
+}  // namespace abut::detail

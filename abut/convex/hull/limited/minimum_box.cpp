@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 constexpr std::size_t refined = 3;
@@ -126,4 +126,4 @@ OrientedBox minimum_box(std::span<const DVec<3>> points, std::span<const DVec<3>
     return shrunk(points, box_along(points, std::min_element(boxes.begin(), boxes.end(), less)->axes));
 }
 
-}  // namespace abut
+}  // namespace abut::detail

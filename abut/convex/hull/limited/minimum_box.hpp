@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// All p with low[i] <= dot(axes[i], p) <= high[i]; the axes are orthonormal.
 struct OrientedBox {
@@ -35,4 +35,4 @@ std::vector<std::uint32_t> silhouette(std::span<const DVec<3>> points, const DVe
 OrientedBox minimum_box(std::span<const DVec<3>> points, std::span<const DVec<3>> approximate,
                         std::span<const DVec<3>> normals);
 
-}  // namespace abut
+}  // namespace abut::detail

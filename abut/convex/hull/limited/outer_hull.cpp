@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-namespace abut {
+namespace abut::detail {
 OuterHull::OuterHull(const ConvexSurface& surface)
     : points_(surface.points),
       leaving_(surface.points.size(), none),
@@ -257,4 +257,4 @@ void OuterHull::simplify(std::size_t count) {
     }
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// A closed convex surface in half-edges, numbered like those of `TriangleSurface`. Removed corners and triangles leave
 /// their numbers unused. The body has a size of about 1; the surface is convex to within 2e-6.
@@ -111,4 +111,4 @@ private:
     std::uint32_t touched_ = 0;  ///< the last support point of `inside`
 };
 
-}  // namespace abut
+}  // namespace abut::detail

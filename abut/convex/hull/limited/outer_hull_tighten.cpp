@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 constexpr int max_moves = 4, max_halvings = 5;
@@ -131,4 +131,4 @@ void OuterHull::tighten(const VertexGraph& inside, int rounds) {
     }
 }
 
-}  // namespace abut
+}  // namespace abut::detail

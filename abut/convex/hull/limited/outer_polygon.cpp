@@ -9,7 +9,7 @@
 #include <optional>
 #include <queue>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 constexpr int max_rounds = 40;
@@ -328,4 +328,4 @@ std::vector<DVec<2>> outer_polygon(std::span<const DVec<2>> loop, std::size_t co
     return outer.corners();
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// The corners of a convex polygon of `count` edges, 3 or more, around a loop of more corners (counter-clockwise, no
 /// three collinear), of nearly the minimum area, in double. Edges are removed, the smallest added area first, and the
@@ -17,4 +17,4 @@ namespace abut {
 /// (Klee, Laskowski: "Finding the smallest triangles containing a given convex polygon", 1985). O(n log n).
 std::vector<DVec<2>> outer_polygon(std::span<const DVec<2>> loop, std::size_t count);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// In the frame, where the body has a size of about 1. `lowest_above` may be below planes by half of this, and the
@@ -147,4 +147,4 @@ template std::vector<Vec3> corners_of_box(std::span<const Vec3>, std::size_t, do
 template std::optional<Vec2> rounded_corner(const DVec<2>&, std::span<const Plane<2>>, const StretchedFrame<2>&);
 template std::optional<Vec3> rounded_corner(const DVec<3>&, std::span<const Plane<3>>, const StretchedFrame<3>&);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 /// A float point near `corner` that is above, or on, all planes of the corner. Then it contains all that the planes and
 /// the corner contain. Corner and planes are in the frame, the point is in the world; -0 becomes 0. Nothing if there is
@@ -30,4 +30,4 @@ std::vector<DVec<D>> around_unit_cube(std::size_t limit);
 template <int D>
 std::vector<Vec<D>> corners_of_box(std::span<const Vec<D>> points, std::size_t limit, double growth);
 
-}  // namespace abut
+}  // namespace abut::detail

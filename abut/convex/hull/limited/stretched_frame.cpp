@@ -6,7 +6,7 @@
 #include <array>
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 template <int D>
@@ -71,4 +71,4 @@ std::optional<StretchedFrame<3>> stretched_frame(std::span<const Vec3> corners, 
     return frame_of<3>(corners, points);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

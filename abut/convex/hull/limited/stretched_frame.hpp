@@ -8,7 +8,7 @@
 #include <optional>
 #include <span>
 
-namespace abut {
+namespace abut::detail {
 
 /// A map of the world and its inverse. A thin, long or distant body is well conditioned in the frame. An affine map
 /// preserves ratios of volumes, so the minimum added volume is the same in both.
@@ -27,4 +27,4 @@ struct StretchedFrame {
 std::optional<StretchedFrame<2>> stretched_frame(std::span<const Vec2> corners, std::span<const Vec2> points);
 std::optional<StretchedFrame<3>> stretched_frame(std::span<const Vec3> corners, std::span<const Vec3> points);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-namespace abut {
+namespace abut::detail {
 
 VertexGraph::VertexGraph(const ConvexSurface& surface)
     : points_(surface.points), neighbours_(surface.triangles.origin.size()), ends_(surface.points.size() + 1, 0) {
@@ -53,4 +53,4 @@ std::uint32_t VertexGraph::first_touched(const DVec<3>& from, const DVec<3>& on,
     });
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace abut {
+namespace abut::detail {
 
 class VertexGraph {
 public:
@@ -34,4 +34,4 @@ private:
     std::vector<std::uint32_t> ends_;        ///< one per point: the end of its neighbours
 };
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -5,7 +5,7 @@
 #include <abut/query/detail/closed_form/closed_form.hpp>
 #include <abut/query/detail/write_answer.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 using lanes::Double2;
@@ -154,4 +154,4 @@ bool closed_form_contact(const Box3& a, const Box3& b, double margin, Cache* cac
     return true;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

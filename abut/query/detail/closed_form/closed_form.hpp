@@ -11,7 +11,7 @@
 
 #include <optional>
 
-namespace abut {
+namespace abut::detail {
 
 enum class ClosedFormAnswer : std::uint8_t { no, yes, unknown };
 
@@ -33,4 +33,4 @@ bool closed_form_contact(const Box3& a, const Box3& b, double margin, Cache* cac
 ClosedFormAnswer closed_form_sweep(const ShapeRef<2>& a, const Vec2& motion_a, const ShapeRef<2>& b,
                                    const Vec2& motion_b, std::optional<Hit<2>>& result);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -8,7 +8,8 @@
 #include <abut/shape/ball.hpp>
 #include <abut/shape/polygon.hpp>
 
-namespace abut {
+namespace abut::detail {
+
 namespace {
 
 /// A sum that is finite only if all its terms are. The other numbers of a polygon follow from these.
@@ -60,6 +61,12 @@ ClosedFormAnswer closed_form_overlap(const ShapeRef<2>& a, const ShapeRef<2>& b,
     };
     return query_polygons(a, b, query, ClosedFormAnswer::unknown);
 }
+
+}  // namespace abut::detail
+
+namespace abut {
+
+using namespace detail;
 
 namespace {
 

@@ -14,7 +14,7 @@
 
 #include <bit>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// Tests the bits, in parallel to the floating point work.
@@ -242,4 +242,4 @@ bool closed_form_contact(const ShapeRef<3>& a, const ShapeRef<3>& b, double marg
     return bounding_balls_apart(a, b, margin);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -1,7 +1,7 @@
 #include <abut/query/detail/closed_form/polygon_cores2.hpp>
 #include <abut/query/detail/closed_form/polygons2.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 using namespace polygon_cores;
@@ -151,4 +151,4 @@ bool separated_by_cache(const ShapeRef<2>& a, const ShapeRef<2>& b, const Cache&
     return is_box(a) && is_box(b) && cache_separates<BoxCore>(a, b, cache, reach);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

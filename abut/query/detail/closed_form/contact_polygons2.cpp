@@ -1,7 +1,7 @@
 #include <abut/query/detail/closed_form/polygon_cores2.hpp>
 #include <abut/query/detail/closed_form/polygons2.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 using namespace polygon_cores;
@@ -116,4 +116,4 @@ bool contact_polygons(const ShapeRef<2>& a, const ShapeRef<2>& b, double margin,
     return is_box(a) && is_box(b) && contact_of<BoxCore>(a, b, margin, cache, result);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -2,7 +2,7 @@
 #include <abut/convex/pairs/round3.hpp>
 #include <abut/query/detail/closed_form/convex_distance.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// Up to this many edges of a polygon, testing all is as fast as a search. For a polyhedron a search is always faster.
@@ -97,4 +97,4 @@ bool closed_form_distance(const Convex<D>& a, const Convex<D>& b, SignedDistance
 template bool closed_form_distance(const Convex<2>&, const Convex<2>&, SignedDistance<2>&);
 template bool closed_form_distance(const Convex<3>&, const Convex<3>&, SignedDistance<3>&);
 
-}  // namespace abut
+}  // namespace abut::detail

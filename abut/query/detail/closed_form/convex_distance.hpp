@@ -6,11 +6,11 @@
 
 #include <abut/convex/gjk/signed_distance.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// Returns false, and leaves `result` unspecified, if the pair has no closed form, or none that is certain. `result`
 /// must be newly constructed: corners with index 0 aren't written.
 template <int D>
 bool closed_form_distance(const Convex<D>& a, const Convex<D>& b, SignedDistance<D>& result);
 
-}  // namespace abut
+}  // namespace abut::detail

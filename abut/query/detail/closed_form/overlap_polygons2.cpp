@@ -1,7 +1,7 @@
 #include <abut/query/detail/closed_form/polygon_cores2.hpp>
 #include <abut/query/detail/closed_form/polygons2.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 using namespace polygon_cores;
@@ -35,4 +35,4 @@ ClosedFormAnswer overlap_polygons(const ShapeRef<2>& a, const ShapeRef<2>& b, Ca
     return is_box(a) && is_box(b) ? overlap_of<BoxCore>(a, b, cache) : ClosedFormAnswer::unknown;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -11,7 +11,7 @@
 #include <abut/shape/segment.hpp>
 #include <abut/shape/triangle.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 inline Rigid2 place_of(const ShapeRef<2>& given) {
     return given.pose != nullptr ? rigid(*given.pose) : Rigid2{1, 0, 0, 0};
@@ -72,4 +72,4 @@ inline bool set_placed_polygon(const ShapeRef<2>& given, PlacedPolygon& polygon)
     }
 }
 
-}  // namespace abut
+}  // namespace abut::detail

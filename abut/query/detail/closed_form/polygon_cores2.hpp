@@ -24,7 +24,7 @@ enum class EdgeRegion : std::uint32_t { within = 0, past_end = 1, before_start =
 class PolygonCore {
 public:
     using Shape = Polygon;
-    explicit PolygonCore(const PolygonSoa& sides) : sides_(sides) {}
+    explicit PolygonCore(const detail::PolygonSoa& sides) : sides_(sides) {}
     explicit PolygonCore(const Polygon& polygon) { sides_.view_rows(polygon.sides(), polygon.side_count()); }
 
     std::uint32_t count() const { return sides_.count; }
@@ -78,7 +78,7 @@ public:
     bool has_area() const { return true; }
     /// About half the diagonal of the bounding box.
     double extent() const { return sides_.size; }
-    const PolygonSoa& sides() const { return sides_; }
+    const detail::PolygonSoa& sides() const { return sides_; }
 
 private:
     /// Not positive: clockwise from the first normal, or along it; counter-clockwise from the second.
@@ -86,7 +86,7 @@ private:
         return (normal_x * y - normal_y * x) * Double2{1, -1};
     }
 
-    PolygonSoa sides_;
+    detail::PolygonSoa sides_;
 };
 
 class BoxCore {
@@ -135,7 +135,7 @@ public:
     std::uint32_t contact_number(std::uint32_t i) const { return (i + 2) & 3; }
     bool has_area() const { return lanes::bits(half_ > Double2{0, 0}) == 3; }
     double extent() const { return half_[0] + half_[1]; }
-    DVec<2> half() const { return {half_[0], half_[1]}; }
+    detail::DVec<2> half() const { return {half_[0], half_[1]}; }
     Double2 half_lanes() const { return half_; }
 
 private:
@@ -154,8 +154,8 @@ struct PolygonPlacement {
     Double2 cos, sin;  ///< `sin` holds the sine and minus the sine
     Double2 scale;
 
-    PolygonPlacement(const Polygon&, const Pose2* pose) : PolygonPlacement(pose_or_none(pose)) {}
-    explicit PolygonPlacement(const Rigid2& place)
+    PolygonPlacement(const Polygon&, const Pose2* pose) : PolygonPlacement(detail::pose_or_none(pose)) {}
+    explicit PolygonPlacement(const detail::Rigid2& place)
         : position(lanes::double2(place.x, place.y)), turn(lanes::double2(place.cos, place.sin)) {}
     PolygonPlacement(const Box2& box, const Pose2*)
         : position(lanes::loaded(&box.center.x)), turn(lanes::loaded(&box.rotation.cos)) {}
@@ -187,9 +187,9 @@ struct Placed {
     Core core;
     PolygonPlacement place;
 
-    explicit Placed(const ShapeRef<2>& given) : Placed(given.as<typename Core::Shape>(), given.pose) {}
+    explicit Placed(const detail::ShapeRef<2>& given) : Placed(given.as<typename Core::Shape>(), given.pose) {}
     Placed(const typename Core::Shape& shape, const Pose2* pose) : core(shape), place(shape, pose) {}
-    Placed(const Core& known, const Rigid2& where) : core(known), place(where) {}
+    Placed(const Core& known, const detail::Rigid2& where) : core(known), place(where) {}
 };
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -225,7 +225,7 @@ struct EdgeVertexPair {
 
 /// The placement of each shape in the frame of the other.
 template <class Core>
-inline void set_relative_places(const Placed<Core>& a, const Placed<Core>& b, Rigid2 (&relative_places)[2]) {
+inline void set_relative_places(const Placed<Core>& a, const Placed<Core>& b, detail::Rigid2 (&relative_places)[2]) {
     const Double2 turn = a.place.back(b.place.turn) * (a.place.scale * b.place.scale);
     const Double2 between = b.place.position - a.place.position;
     const Double2 from_a = a.place.back(between) * a.place.scale, from_b = b.place.back(-between) * b.place.scale;
@@ -238,19 +238,20 @@ inline void set_relative_places(const Placed<Core>& a, const Placed<Core>& b, Ri
     relative_places[1].y = from_b[1];
 }
 
-inline void find_widest_gap(const PolygonCore& a, const PolygonCore& b, const Rigid2 (&relative_places)[2],
-                            double tolerance, EdgeGap& found) {
+inline void find_widest_gap(const PolygonCore& a, const PolygonCore& b, const detail::Rigid2 (&relative_places)[2],
+                            double tolerance, detail::EdgeGap& found) {
     widest_edge_gap(a.sides(), b.sides(), relative_places, infinity, tolerance, found);
 }
-inline void find_widest_gap(const BoxCore& a, const BoxCore& b, const Rigid2 (&relative_places)[2], double tolerance,
-                            EdgeGap& found) {
+inline void find_widest_gap(const BoxCore& a, const BoxCore& b, const detail::Rigid2 (&relative_places)[2],
+                            double tolerance, detail::EdgeGap& found) {
     gap_of_boxes(a.half(), b.half(), relative_places, tolerance, found);
 }
 
 /// The edge with the widest gap, and the placement of each shape in the frame of the other. Returns false if a number
 /// isn't finite.
 template <class Core>
-inline bool find_widest(const Placed<Core>& a, const Placed<Core>& b, Rigid2 (&relative_places)[2], EdgeGap& widest) {
+inline bool find_widest(const Placed<Core>& a, const Placed<Core>& b, detail::Rigid2 (&relative_places)[2],
+                        detail::EdgeGap& widest) {
     set_relative_places(a, b, relative_places);
     const double size = std::abs(relative_places[0].x) + std::abs(relative_places[0].y) + a.core.size() + b.core.size();
     if (!(size < infinity)) return false;
@@ -260,7 +261,8 @@ inline bool find_widest(const Placed<Core>& a, const Placed<Core>& b, Rigid2 (&r
 
 /// Caches a separating edge. Overlapping polygons cache nothing, as all their edges are tested each time.
 template <class Core>
-inline void cache_edge(const Placed<Core>& reference, const Placed<Core>& other, const EdgeGap& widest, Cache& cache) {
+inline void cache_edge(const Placed<Core>& reference, const Placed<Core>& other, const detail::EdgeGap& widest,
+                       Cache& cache) {
     auto &of_reference = widest.of == 0 ? cache.corner_a : cache.corner_b,
          &of_other = widest.of == 0 ? cache.corner_b : cache.corner_a;
     cache.count = widest.gap > 0 ? 2 : 0;
@@ -269,11 +271,11 @@ inline void cache_edge(const Placed<Core>& reference, const Placed<Core>& other,
     of_other[0] = of_other[1] = other.core.number(widest.corner);
 }
 
-inline bool is_polygon(const ShapeRef<2>& given) {
-    return given.kind == ShapeKind::polytope && given.as<Polygon>().sides() != nullptr;
+inline bool is_polygon(const detail::ShapeRef<2>& given) {
+    return given.kind == detail::ShapeKind::polytope && given.as<Polygon>().sides() != nullptr;
 }
-inline bool is_box(const ShapeRef<2>& given) {
-    return given.kind == ShapeKind::box && given.pose == nullptr;
+inline bool is_box(const detail::ShapeRef<2>& given) {
+    return given.kind == detail::ShapeKind::box && given.pose == nullptr;
 }
 
 }  // namespace abut::polygon_cores

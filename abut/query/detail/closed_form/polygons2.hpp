@@ -6,7 +6,7 @@
 
 #include <abut/query/detail/closed_form/closed_form.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// Unknown for other shapes, and if the fast path doesn't decide.
 ClosedFormAnswer overlap_polygons(const ShapeRef<2>& a, const ShapeRef<2>& b, Cache* cache);
@@ -21,4 +21,4 @@ bool contact_polygons(const ShapeRef<2>& a, const ShapeRef<2>& b, double margin,
 /// Whether the cached edge proves that they are farther apart than `reach`. False means unknown.
 bool separated_by_cache(const ShapeRef<2>& a, const ShapeRef<2>& b, const Cache& cache, double reach);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -9,6 +9,9 @@
 #include <abut/shape/polygon.hpp>
 
 namespace abut {
+
+using namespace detail;
+
 namespace {
 
 using lanes::Double2;

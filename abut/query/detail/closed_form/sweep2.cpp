@@ -5,7 +5,7 @@
 #include <abut/query/detail/part_pairs.hpp>
 #include <abut/query/detail/sweep/tolerances.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 using namespace polygon_cores;
@@ -363,4 +363,4 @@ ClosedFormAnswer closed_form_sweep(const ShapeRef<2>& a, const Vec2& motion_a, c
     return sweep_placed_polygons(a, motion_a, b, motion_b, result);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

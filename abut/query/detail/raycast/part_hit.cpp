@@ -3,7 +3,7 @@
 #include <abut/query/detail/part_pairs.hpp>
 #include <abut/query/detail/raycast/part_hit.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// The limit on steps of conservative advancement. Each step covers the whole known gap, so a few suffice mostly.
@@ -103,4 +103,4 @@ ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
 
-}  // namespace abut
+}  // namespace abut::detail

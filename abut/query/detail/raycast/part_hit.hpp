@@ -8,7 +8,7 @@
 #include <abut/query/feature.hpp>
 #include <abut/shape/half_space.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// Like `Hit`, with a normal of any length.
 template <int D>
@@ -31,4 +31,4 @@ template <int D>
 bool part_hit_by_advance(const DRay<D>& beam, const Convex<D>& part, std::uint32_t index, Trace<D>* trace,
                          PartHit<D>& hit);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -6,7 +6,8 @@
 #include <abut/shape/mesh.hpp>
 #include <abut/shape/mesh/rays.hpp>
 
-namespace abut {
+namespace abut::detail {
+
 namespace {
 
 /// Whether the composite has no pose: its local frame is the world's.
@@ -112,6 +113,12 @@ bool each_triangle_hit(const DRay<3>& beam, const Composite<3>& composite, const
     };
     return find_each_hit(*composite.triangles, target.mesh_beam(), RobustTriangleTest(undecided), MeshHitCall(report));
 }
+
+}  // namespace abut::detail
+
+namespace abut {
+
+using namespace detail;
 
 std::optional<Hit<3>> raycast(const Ray<3>& ray, const Mesh& mesh, const QueryOptions<3>& options) {
     std::optional<Hit<3>> result;

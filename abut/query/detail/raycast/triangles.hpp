@@ -6,7 +6,7 @@
 #include <abut/query/options.hpp>
 #include <abut/shape/view/view.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// The first triangle that the ray hits within reach, the lowest of those at one distance; `found` is whether there is
 /// one. Returns false, and sets nothing, if the shape isn't known by its triangles.
@@ -21,4 +21,4 @@ using HitVisitor = FunctionRef<double(const PartHit<3>& hit)>;
 bool each_triangle_hit(const DRay<3>& beam, const Composite<3>& composite, const QueryOptions<3>& options,
                        HitVisitor visit);
 
-}  // namespace abut
+}  // namespace abut::detail

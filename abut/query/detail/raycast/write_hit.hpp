@@ -10,7 +10,7 @@
 #include <cmath>
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 
 /// A ray without direction has length 0.
 template <int D>
@@ -45,4 +45,4 @@ void write_hit(const DRay<D>& beam, const PartHit<D>& first, Hit<D>& hit) {
     hit.feature = first.feature;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -13,7 +13,7 @@
 
 #include <algorithm>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// At the limit on fine boxes the minimum may be lower by this fraction of the size.
@@ -490,4 +490,4 @@ ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -6,7 +6,7 @@
 #include <abut/query/detail/sdf/core_simplices.hpp>
 #include <abut/query/detail/sdf/minimum.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// A function that gives no bounds but its slope is estimated from samples in the centre and at the sides of cells of
 /// this fraction of the size, down to the second fraction.
@@ -126,4 +126,4 @@ DVec<D> nearest_in_core(const Convex<D>& convex, const DVec<D>& point) {
     return difference.origin() + walk.simplex.combine(&DifferencePoint<D>::on_a);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -24,7 +24,7 @@
 #include <cstddef>
 #include <limits>
 
-namespace abut {
+namespace abut::detail {
 
 template <int D>
 struct EnvelopeBound {
@@ -138,4 +138,4 @@ EnvelopeBound<D> envelope_bound(const std::array<DVec<D>, static_cast<std::size_
     return result;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

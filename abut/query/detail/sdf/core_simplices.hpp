@@ -10,7 +10,7 @@
 #include <limits>
 #include <utility>
 
-namespace abut {
+namespace abut::detail {
 
 template <int D>
 struct SearchBox {
@@ -136,4 +136,4 @@ void each_simplex(const Convex<D>& convex, Visit&& visit) {
     }
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -6,7 +6,7 @@
 
 #include <optional>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// A motion of at most this slope relative to a surface slides.
@@ -505,4 +505,4 @@ ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
 #undef ABUT_INSTANTIATE_FOR
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -13,7 +13,7 @@
 #include <abut/query/detail/sweep/linear.hpp>
 #include <abut/query/detail/sweep/rotating.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// The limits on steps of a ray and of a sweep; each step evaluates a distance.
 inline constexpr int function_ray_max_iterations = 1024, function_sweep_max_iterations = 256;
@@ -31,4 +31,4 @@ requires FunctionPair<A, B>
 bool time_of_impact(const A& a, const RigidPath<D>& path_a, const B& b, const RigidPath<D>& path_b,
                     const RotatingSweepLimits& limits, const SearchOptions<D>& options, RotatingImpact<D>& impact);
 
-}  // namespace abut
+}  // namespace abut::detail

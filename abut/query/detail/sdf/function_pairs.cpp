@@ -4,7 +4,7 @@
 #include <abut/query/detail/sdf/minimum.hpp>
 #include <abut/shape/view/view.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// The tolerance of a search as a fraction of the whole tolerance, which leaves enough for rounding elsewhere.
@@ -420,4 +420,4 @@ ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
 #undef ABUT_INSTANTIATE_FOR
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -14,7 +14,7 @@
 
 #include <type_traits>
 
-namespace abut {
+namespace abut::detail {
 
 template <class Part>
 struct PartDimension;
@@ -100,4 +100,4 @@ requires FunctionPair<A, B>
 void add_points(const A&, const B&, double, const SearchOptions<PartDimension<A>::value>&,
                 PartContact<PartDimension<A>::value>&) {}
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -13,7 +13,7 @@
 #include <limits>
 #include <optional>
 
-namespace abut {
+namespace abut::detail {
 
 /// The limit on iterations. At the limit the answer is the last time proven free of contact, which is early and never
 /// late.
@@ -99,4 +99,4 @@ std::optional<TimedDistance<D>> time_of_impact_by_intervals(TimedDistance<D> apa
     return apart;
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -1,6 +1,6 @@
 #include <abut/query/detail/sdf/branch_and_bound.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// The limit on rounds of the pattern search.
@@ -167,4 +167,4 @@ ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -11,7 +11,7 @@
 
 #include <abut/query/detail/sdf/placed_function.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// The limits on boxes, at which the best point so far is the answer: for a function that bounds itself in a box, and
 /// for one that doesn't.
@@ -71,4 +71,4 @@ template <int D>
 Minimum<D> minimum_of_larger(const PlacedFunction<D>& a, const PlacedFunction<D>& b, const Aabb<D>& box, double size,
                              const MinimumOptions<D>& options);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -1,6 +1,6 @@
 #include <abut/query/detail/sdf/branch_and_bound.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// The point of a core nearest to a point.
@@ -233,4 +233,4 @@ ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -1,6 +1,6 @@
 #include <abut/query/detail/sdf/branch_and_bound.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 template <int D>
@@ -129,4 +129,4 @@ ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
 
-}  // namespace abut
+}  // namespace abut::detail

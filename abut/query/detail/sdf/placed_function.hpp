@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace abut {
+namespace abut::detail {
 
 /// The frame in which the shape's local axes are axis-aligned, if its placement preserves angles; else the world's.
 template <int D>
@@ -169,4 +169,4 @@ private:
     bool has_own_axes_ = true;  ///< the frame's axes are those of the function
 };
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -5,7 +5,7 @@
 #include <abut/query/contact.hpp>
 #include <abut/query/detail/surface/edge_filter.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// Like each_contact, with the neighbours as parts of the surfaces. The flags are false where the contact replaces one
 /// whose normal is no surface normal.
@@ -26,4 +26,4 @@ template <int D>
 ContactWithNeighbours<D> contact_with_neighbours(const View<D>& a, const View<D>& b,
                                                  const NeighbourSurfaces<D>& neighbours);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -6,7 +6,7 @@
 #include <abut/query/detail/surface/part_cache.hpp>
 #include <abut/query/detail/surface/surface_normal_flags.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// The surfaces that continue each of two shapes; null: none. The functions must outlive this.
 template <int D>
@@ -26,7 +26,7 @@ public:
           neighbours_(neighbours),
           scale_(surface_probe_distance(a, b)),
           larger_is_level_(is_composite(a) && is_composite(b)),
-          size_excess_of_a_(larger_is_level_ ? abut::size(a) - abut::size(b) : 0),
+          size_excess_of_a_(larger_is_level_ ? detail::size(a) - detail::size(b) : 0),
           center_of_a_(a),
           center_of_b_(b) {}
 
@@ -141,7 +141,7 @@ private:
                     : is_surface_normal_at<D>(part, center, each_closest_point))
                 return true;
         }
-        return abut::is_surface_normal<D>(part, place, each_closest_point);
+        return detail::is_surface_normal<D>(part, place, each_closest_point);
     }
 
     /// Whether every neighbour is farther from p + s n than a part that contains p, by far more than rounding.
@@ -224,4 +224,4 @@ private:
     NearestToCenter<D> nearest_to_a_, nearest_to_b_;
 };
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -1,6 +1,6 @@
 #include <abut/query/detail/surface/hit_normal.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 template <int D>
 MoverAtHit<D> linear_mover_at_hit(const View<D>& mover, const DVec<D>& travelled) {
@@ -37,4 +37,4 @@ ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
 
-}  // namespace abut
+}  // namespace abut::detail

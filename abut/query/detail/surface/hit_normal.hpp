@@ -6,7 +6,7 @@
 #include <abut/query/detail/surface/surface_normal.hpp>
 #include <abut/query/hit.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// A moving shape at the moment of its hit.
 template <int D>
@@ -30,4 +30,4 @@ template <int D>
 void filter_hit_normal(const MoverAtHit<D>& mover, const View<D>& shape, EachClosestPoint<D> each_closest_point,
                        Hit<D>& hit);
 
-}  // namespace abut
+}  // namespace abut::detail

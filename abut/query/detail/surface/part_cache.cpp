@@ -1,6 +1,6 @@
 #include <abut/query/detail/surface/part_cache.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// Whether the part refers to no memory of its shape, so that a copy may outlive the visit.
@@ -58,4 +58,4 @@ bool PartCache<D>::each_closest_point(const DVec<D>& point, double within, Close
 template class PartCache<2>;
 template class PartCache<3>;
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -8,7 +8,7 @@
 #include <new>
 #include <type_traits>
 
-namespace abut {
+namespace abut::detail {
 
 /// The cache lives on the stack and has capacity for the parts that an object of a tile's size touches. It stays empty
 /// if there are more, or if the shape creates its parts during a visit; then the shape is queried again.
@@ -48,4 +48,4 @@ private:
 extern template class PartCache<2>;
 extern template class PartCache<3>;
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -9,7 +9,7 @@
 #include <span>
 #include <tuple>
 
-namespace abut {
+namespace abut::detail {
 
 /// Normals and depths that have been reported, up to a capacity. Of equal normals it stores only the deepest, which
 /// covers all that the others cover.
@@ -104,4 +104,4 @@ private:
     bool is_truncated_ = false;
 };
 
-}  // namespace abut
+}  // namespace abut::detail

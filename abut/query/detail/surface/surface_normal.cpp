@@ -2,7 +2,7 @@
 #include <abut/query/detail/sdf/placed_function.hpp>
 #include <abut/query/detail/surface/surface_normal.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// A part counts as nearer only by more than this fraction of s.
@@ -282,4 +282,4 @@ ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -19,7 +19,7 @@
 
 #include <optional>
 
-namespace abut {
+namespace abut::detail {
 
 /// s, as a fraction of the size of the other shape.
 inline constexpr double surface_probe_scale = 1e-3;
@@ -171,4 +171,4 @@ double surface_probe_distance(const View<D>& a, const View<D>& b) {
     return surface_probe_scale * std::min(size(a), size(b));
 }
 
-}  // namespace abut
+}  // namespace abut::detail

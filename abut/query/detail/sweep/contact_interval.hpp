@@ -14,7 +14,7 @@
 #include <abut/query/detail/part_pairs.hpp>
 #include <abut/query/detail/surface/surface_normal.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// An interval of time.
 struct TimeSpan {
@@ -138,4 +138,4 @@ private:
     double speed_;  ///< an upper bound of the speed of separation
 };
 
-}  // namespace abut
+}  // namespace abut::detail

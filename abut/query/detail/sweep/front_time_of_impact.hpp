@@ -6,7 +6,7 @@
 #include <abut/query/detail/sdf/function_motion.hpp>
 #include <abut/query/detail/sweep/linear.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// Like time_of_impact, with one-sided parts. On a straight path the overlap is a single interval, so parts that first
 /// touch at a back don't touch at a front later.
@@ -17,4 +17,4 @@ bool front_time_of_impact(const PartA& a, const Path<D>& path, const PartB& b, s
            time_of_impact(a, path, b, index, options, impact) && touch_at_fronts(a, b, impact.normal);
 }
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -1,9 +1,10 @@
+#include <abut/convex/point_soa.hpp>
 #include <abut/convex/ray/ball.hpp>
 #include <abut/convex/ray/portal.hpp>
 #include <abut/query/detail/sweep/linear.hpp>
 #include <abut/query/detail/sweep/tolerances.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// A motion of at most this slope relative to a surface slides: rounding explains it.
@@ -371,4 +372,4 @@ ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
 
-}  // namespace abut
+}  // namespace abut::detail

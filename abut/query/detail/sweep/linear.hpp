@@ -5,7 +5,7 @@
 #include <abut/query/detail/part_pairs.hpp>
 #include <abut/query/hit.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// The motion of A relative to B.
 template <int D>
@@ -49,4 +49,4 @@ template <int D, class A, class B>
 bool time_of_impact(const A& a, const Path<D>& path, const B& b, std::uint32_t index, const SweepOptions<D>& options,
                     LinearImpact<D>& impact);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -6,7 +6,7 @@
 #include <abut/query/detail/sweep/contact_interval.hpp>
 #include <abut/query/detail/sweep/rotating.hpp>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// From this iteration on, each one tries all axes.
@@ -356,4 +356,4 @@ ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -9,7 +9,7 @@
 #include <abut/shape/half_space.hpp>
 #include <abut/shape/view/view.hpp>
 
-namespace abut {
+namespace abut::detail {
 
 /// Like `Hit`, in the frame of the paths.
 template <int D>
@@ -62,4 +62,4 @@ template <int D>
 bool time_of_impact(const View<D>& a, const RigidPath<D>& path_a, const View<D>& b, const RigidPath<D>& path_b,
                     const SearchOptions<D>& options, RotatingImpact<D>& impact);
 
-}  // namespace abut
+}  // namespace abut::detail

@@ -5,7 +5,7 @@
 #include <optional>
 #include <tuple>
 
-namespace abut {
+namespace abut::detail {
 namespace {
 
 /// The motion is split into this many spans. One after the other, all parts near during a span are searched; the
@@ -197,4 +197,4 @@ ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
 
-}  // namespace abut
+}  // namespace abut::detail

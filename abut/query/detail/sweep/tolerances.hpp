@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace abut {
+namespace abut::detail {
 
 /// The part of the tolerance that the reported impact may use up, and the depth up to which parts slide.
 inline constexpr double touch_fraction = 1.0 / 16, slide_fraction = 0.45;
@@ -42,4 +42,4 @@ struct SweepTolerances {
     }
 };
 
-}  // namespace abut
+}  // namespace abut::detail
