@@ -1,8 +1,8 @@
-#include <abut/math/assert.hpp>
+#include <abut/query/detail/part_pairs.hpp>
 #include <abut/query/detail/raycast/part_hit.hpp>
 #include <abut/query/detail/raycast/triangles.hpp>
 #include <abut/query/detail/raycast/write_hit.hpp>
-#include <abut/query/detail/sdf/function_motion.hpp>
+#include <abut/query/detail/valid_query.hpp>
 #include <abut/query/raycast.hpp>
 
 #include <algorithm>
@@ -31,44 +31,34 @@ bool first_hit(const DRay<D>& beam, const Composite<D>& composite, const QueryOp
     return any;
 }
 
-/// Calls find(beam, first) for the first hit.
-template <int D, class Shape, class Find>
-void find_first_hit(const Ray<D>& ray, const Shape& shape, const Find& find, std::optional<Hit<D>>& result) {
-    const bool finite = is_finite(shape) && is_valid_ray(ray);
-    ABUT_ASSERT(finite);
-    if (!finite) return;
+template <int D>
+bool first_hit(const DRay<D>& beam, const View<D>& shape, const QueryOptions<D>& options, PartHit<D>& first) {
+    return detail::with_part(
+        shape, [&](const Part<D>& part) { return part_hit(beam, part, 0, options.trace, first); },
+        [&](const Composite<D>& composite) { return first_hit(beam, composite, options, first); });
+}
+template <int D>
+bool first_hit(const DRay<D>& beam, const Convex<D>& shape, const QueryOptions<D>& options, PartHit<D>& first) {
+    return part_hit(beam, shape, 0, options.trace, first);
+}
+
+template <int D, class Shape>
+std::optional<Hit<D>> answer(const Ray<D>& ray, const Shape& shape, const QueryOptions<D>& options) {
+    std::optional<Hit<D>> result;
+    if (!detail::is_valid_query(shape, ray)) return result;
     const DRay<D> beam = to_dray(ray);
     PartHit<D> first;
-    if (find(beam, first)) write_hit(beam, first, result.emplace());
+    if (first_hit(beam, shape, options, first)) write_hit(beam, first, result.emplace());
+    return result;
 }
 
+/// Calls visit(hit) for each part of a composite shape that the ray hits; visit returns the new reach.
 template <int D>
-void answer(const Ray<D>& ray, const Convex<D>& shape, const QueryOptions<D>& options, std::optional<Hit<D>>& result) {
-    const auto find = [&](const DRay<D>& beam, PartHit<D>& first) {
-        return part_hit(beam, shape, 0, options.trace, first);
-    };
-    find_first_hit(ray, shape, find, result);
-}
-
-/// Calls visit(hit) for each part that the ray hits; visit returns the new reach.
-template <int D, class Visit>
-void visit_hits(const DRay<D>& beam, const View<D>& shape, const QueryOptions<D>& options, Visit visit) {
-    PartHit<D> hit;
-    if (const auto* convex = std::get_if<Convex<D>>(&shape)) {
-        if (part_hit(beam, *convex, 0, options.trace, hit)) visit(hit);
-        return;
-    }
-    if (const auto* half_space = std::get_if<HalfSpaceView<D>>(&shape)) {
-        if (part_hit(beam, *half_space, hit)) visit(hit);
-        return;
-    }
-    if (const auto* function = std::get_if<DistanceFunction<D>>(&shape)) {
-        if (part_hit(beam, *function, hit)) visit(hit);
-        return;
-    }
-    const auto& composite = std::get<Composite<D>>(shape);
+void visit_hits(const DRay<D>& beam, const Composite<D>& composite, const QueryOptions<D>& options,
+                FunctionRef<double(const PartHit<D>&)> visit) {
     if constexpr (D == 3)
         if (each_triangle_hit(beam, composite, options, visit)) return;
+    PartHit<D> hit;
     DRay<D> rest = beam;
     each_part_along<D>(composite, beam.origin, beam.direction, beam.length,
                        [&](const Convex<D>& part, std::uint32_t index) -> float {
@@ -82,17 +72,21 @@ void visit_hits(const DRay<D>& beam, const View<D>& shape, const QueryOptions<D>
 template <int D>
 void each_hit(const Ray<D>& ray, const View<D>& shape, FunctionRef<float(const Hit<D>&)> visit,
               const QueryOptions<D>& options) {
-    const bool finite = is_finite(shape) && is_valid_ray(ray);
-    ABUT_ASSERT(finite);
-    if (!finite) return;
+    if (!detail::is_valid_query(shape, ray)) return;
     const DRay<D> beam = to_dray(ray);
     double reach = beam.length;
-    visit_hits(beam, shape, options, [&](const PartHit<D>& found) {
+    const auto report = [&](const PartHit<D>& found) {
         Hit<D> hit;
         write_hit(beam, found, hit);
-        reach = std::min(reach, static_cast<double>(visit(hit)));
-        return reach;
-    });
+        return reach = std::min(reach, static_cast<double>(visit(hit)));
+    };
+    detail::with_part(
+        shape,
+        [&](const Part<D>& part) {
+            PartHit<D> hit;
+            if (part_hit(beam, part, 0, options.trace, hit)) report(hit);
+        },
+        [&](const Composite<D>& composite) { visit_hits<D>(beam, composite, options, report); });
 }
 
 template <int D>
@@ -110,31 +104,15 @@ void raycast_all(const Ray<D>& ray, const View<D>& shape, std::vector<Hit<D>>& o
 
 template <int D>
 std::optional<Hit<D>> raycast(const Ray<D>& ray, const Convex<D>& shape, const QueryOptions<D>& options) {
-    std::optional<Hit<D>> result;
-    answer(ray, shape, options, result);
-    return result;
+    return answer(ray, shape, options);
 }
-
 template <int D>
 std::optional<Hit<D>> raycast(const Ray<D>& ray, const Composite<D>& shape, const QueryOptions<D>& options) {
-    std::optional<Hit<D>> result;
-    const auto find = [&](const DRay<D>& beam, PartHit<D>& first) { return first_hit(beam, shape, options, first); };
-    find_first_hit(ray, static_cast<const Placement<D>&>(shape), find, result);
-    return result;
+    return answer(ray, shape, options);
 }
-
 template <int D>
 std::optional<Hit<D>> raycast(const Ray<D>& ray, const View<D>& shape, const QueryOptions<D>& options) {
-    if (const auto* convex = std::get_if<Convex<D>>(&shape)) return raycast(ray, *convex, options);
-    if (const auto* composite = std::get_if<Composite<D>>(&shape)) return raycast(ray, *composite, options);
-    std::optional<Hit<D>> result;
-    const auto find = [&](const DRay<D>& beam, PartHit<D>& first) {
-        const auto* function = std::get_if<DistanceFunction<D>>(&shape);
-        return function != nullptr ? part_hit(beam, *function, first)
-                                   : part_hit(beam, std::get<HalfSpaceView<D>>(shape), first);
-    };
-    find_first_hit(ray, shape, find, result);
-    return result;
+    return answer(ray, shape, options);
 }
 
 #define ABUT_INSTANTIATE(D)                                                                                           \

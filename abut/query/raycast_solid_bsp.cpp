@@ -1,5 +1,4 @@
-#include <abut/math/assert.hpp>
-#include <abut/math/dvec.hpp>
+#include <abut/query/detail/valid_query.hpp>
 #include <abut/query/raycast_solid_bsp.hpp>
 
 #include <algorithm>
@@ -9,9 +8,7 @@ namespace abut {
 
 template <int D>
 std::optional<Hit<D>> raycast(const Ray<D>& ray, const SolidBsp<D>& level, const QueryOptions<D>&) {
-    const bool finite = is_finite(ray.origin) && is_finite(ray.direction) && !std::isnan(ray.length);
-    ABUT_ASSERT(finite);
-    if (!finite) return std::nullopt;
+    if (!detail::is_valid_query(ray)) return std::nullopt;
     // A ray that ends on a face hits it although its length is rounded.
     constexpr double more = 1 + 1e-7;
     const bool rests = ray.direction == Vec<D>(0.0f);

@@ -1,5 +1,4 @@
-#include <abut/math/assert.hpp>
-#include <abut/math/dvec.hpp>
+#include <abut/query/detail/valid_query.hpp>
 #include <abut/query/reflect.hpp>
 
 namespace abut {
@@ -12,10 +11,7 @@ namespace abut {
 /// another mirror. The step displaces the reflected ray by at most twice the lift, as sin(2 a) / sin(a) <= 2.
 template <int D>
 Ray<D> reflect(const Ray<D>& ray, const Hit<D>& hit) {
-    const bool finite = is_finite(ray.origin) && is_finite(ray.direction) && !std::isnan(ray.length) &&
-                        is_finite(hit.point) && is_finite(hit.normal) && std::isfinite(hit.distance);
-    ABUT_ASSERT(finite);
-    if (!finite) return {ray.origin, to_float(axis<D>(0)), 0};
+    if (!detail::is_valid_query(ray, hit)) return {ray.origin, to_float(axis<D>(0)), 0};
 
     // More than the rounding of a direction and a normal together, and of two points.
     constexpr double min_rise = 4e-7, rounding = 4e-7;

@@ -1,7 +1,7 @@
-#include <abut/math/assert.hpp>
 #include <abut/query/detail/closed_form/closed_form.hpp>
 #include <abut/query/detail/surface/hit_normal.hpp>
-#include <abut/query/detail/sweep/front_time_of_impact.hpp>
+#include <abut/query/detail/sweep/linear.hpp>
+#include <abut/query/detail/valid_query.hpp>
 #include <abut/query/sweep.hpp>
 
 namespace abut {
@@ -31,101 +31,11 @@ void write_hit(const Motions<D>& motions, const LinearImpact<D>& first, Hit<D>& 
     hit.feature = first.feature;
 }
 
-/// The swept box of a part along the path.
-template <int D>
-MovingBox<D> moving_box(const Aabb<D>& box, const DVec<D>& direction, double length) {
-    const DVec<D> low(box.min), high(box.max);
-    return {(low + high) * 0.5, (high - low) * 0.5, direction, length};
-}
-
-/// The first impact over all pairs of parts.
-template <int D>
-class FirstImpact {
-public:
-    FirstImpact(const Path<D>& path, const SweepOptions<D>& options) : path_(path), options_(options) {}
-
-    void search(const View<D>& a, const View<D>& b) {
-        if (const auto* convex = std::get_if<Convex<D>>(&a))
-            search_part(*convex, 0, b);
-        else if (const auto* half_space = std::get_if<HalfSpaceView<D>>(&a))
-            search_part(*half_space, 0, b);
-        else if (const auto* function = std::get_if<DistanceFunction<D>>(&a))
-            search_part(*function, 0, b);
-        else
-            each_part_on_path(std::get<Composite<D>>(a), b, -path_.direction,
-                              [&](const Convex<D>& part, std::uint32_t index) { search_part(part, index, b); });
-    }
-
-    bool found() const { return any_; }
-    const LinearImpact<D>& first() const { return first_; }
-
-private:
-    /// Tests one part of A against all of B.
-    template <class Part>
-    void search_part(const Part& part, std::uint32_t index, const View<D>& b) {
-        [[maybe_unused]] constexpr bool two_half_spaces_pair = false;
-        if (const auto* convex = std::get_if<Convex<D>>(&b))
-            test_pair(part, index, *convex, 0);
-        else if (const auto* function = std::get_if<DistanceFunction<D>>(&b))
-            test_pair(part, index, *function, 0);
-        else if (const auto* composite = std::get_if<Composite<D>>(&b))
-            each_part_on_path(
-                *composite, part, path_.direction,
-                [&](const Convex<D>& other, std::uint32_t other_index) { test_pair(part, index, other, other_index); });
-        else if constexpr (std::is_same_v<Part, HalfSpaceView<D>>)
-            ABUT_ASSERT(two_half_spaces_pair);
-        else
-            test_pair(part, index, std::get<HalfSpaceView<D>>(b), 0);
-    }
-
-    /// Calls visit(part, index) for the parts of a composite shape that another shape, moving along `direction`, may
-    /// touch no later than the first known impact.
-    template <class Other, class Visit>
-    void each_part_on_path(const Composite<D>& composite, const Other& other, const DVec<D>& direction, Visit&& visit) {
-        const Aabb<D> box = bounds(other);
-        const auto visit_and_reach = [&](const Convex<D>& part, std::uint32_t index) -> float {
-            visit(part, index);
-            return std::nextafter(static_cast<float>(reach()), std::numeric_limits<float>::infinity());
-        };
-        const MovingBox<D> moving = moving_box(box, direction, reach());
-        if (std::isfinite(length_squared(moving.half)))
-            each_part_along<D>(composite, moving, visit_and_reach);
-        else
-            each_part<D>(composite, bounds(composite), [&](const Convex<D>& part, std::uint32_t index) -> bool {
-                return visit_and_reach(part, index) >= 0;
-            });
-    }
-
-    double reach() const { return any_ ? first_.along : path_.length; }
-
-    template <class PartA, class PartB>
-    void test_pair(const PartA& part_a, std::uint32_t index_a, const PartB& part_b, std::uint32_t index_b) {
-        LinearImpact<D> impact;
-        if (!front_time_of_impact(part_a, path_, part_b, index_b, options_, impact)) return;
-        // Of several parts hit at one distance the lowest wins, whatever the order of the visits.
-        if (any_ &&
-            (impact.along > first_.along ||
-             (impact.along == first_.along && std::pair(index_b, index_a) >= std::pair(first_.feature.part, index_a_))))
-            return;
-        any_ = true;
-        first_ = impact;
-        index_a_ = index_a;
-    }
-
-    Path<D> path_;
-    SweepOptions<D> options_;
-    bool any_ = false;
-    LinearImpact<D> first_;
-    std::uint32_t index_a_ = 0;  ///< of the part of A
-};
-
 /// Calls find(path, first) for the first impact along a path.
 template <int D, class Shapes, class Find>
 void find_first_impact(const Shapes& a, const Vec<D>& motion_a, const Shapes& b, const Vec<D>& motion_b,
                        const Find& find, std::optional<Hit<D>>& result) {
-    const bool finite = is_finite(a) && is_finite(b) && is_finite(motion_a) && is_finite(motion_b);
-    ABUT_ASSERT(finite);
-    if (!finite) return;
+    if (!detail::is_valid_pair(a, b, motion_a, motion_b)) return;
     const Motions<D> motions(motion_a, motion_b);
     if (!(motions.path.length > 0)) return;
     LinearImpact<D> first;
@@ -146,7 +56,7 @@ std::optional<Hit<D>> sweep(const Convex<D>& a, const Vec<D>& motion_a, const Co
                             const QueryOptions<D>& options) {
     std::optional<Hit<D>> result;
     const auto find = [&](const Path<D>& path, LinearImpact<D>& first) {
-        return front_time_of_impact(a, path, b, 0, SweepOptions<D>{options.cache, options.trace}, first);
+        return front_time_of_impact<D>(a, path, b, 0, {options.cache, options.trace}, first);
     };
     find_first_impact(a, motion_a, b, motion_b, find, result);
     return result;
@@ -172,10 +82,7 @@ std::optional<Hit<D>> sweep(const View<D>& a, const Vec<D>& motion_a, const View
     std::optional<Hit<D>> result;
     const auto find = [&](const Path<D>& path, LinearImpact<D>& first) {
         const SearchOptions<D> options_of_pair = search_options(a, b, options);
-        FirstImpact<D> search(path, {options_of_pair.cache, options_of_pair.trace});
-        search.search(a, b);
-        first = search.first();
-        return search.found();
+        return first_impact(a, path, b, {options_of_pair.cache, options_of_pair.trace}, first);
     };
     find_first_impact(a, motion_a, b, motion_b, find, result);
     if (result && std::holds_alternative<Composite<D>>(b)) {

@@ -1,20 +1,11 @@
-#include <abut/math/assert.hpp>
 #include <abut/query/detail/part_pairs.hpp>
 #include <abut/query/detail/surface/hit_normal.hpp>
 #include <abut/query/detail/sweep/rotating.hpp>
+#include <abut/query/detail/valid_query.hpp>
 #include <abut/query/sweep_turning.hpp>
 
 namespace abut {
 namespace {
-
-template <int D>
-bool is_finite(const RigidPath<D>& path) {
-    double sum = angular_speed(path.angular_velocity);
-    for (int i = 0; i < D; ++i) sum += path.start.offset[i] + path.move[i];
-    for (const DVec<D>& column : path.start.column)
-        for (int i = 0; i < D; ++i) sum += column[i];
-    return std::isfinite(sum);
-}
 
 /// The float at or below a time from 0 to 1.
 float rounded_down(double time) {
@@ -48,9 +39,7 @@ void filter_normal(const Convex<D>&, const RigidPath<D>&, const Convex<D>&, cons
 template <int D, class Shape, class Find>
 void find_hit(const Shape& a, RigidPath<D>& path_a, const Shape& b, RigidPath<D>& path_b, const Find& find,
               std::optional<Hit<D>>& result) {
-    const bool finite = is_finite(a) && is_finite(b) && is_finite(path_a) && is_finite(path_b);
-    ABUT_ASSERT(finite);
-    if (!finite) return;
+    if (!detail::is_valid_pair(a, b, path_a, path_b)) return;
     const DVec<D> start = path_a.start.offset, move = path_a.move;
     path_b.start.offset -= start;
     path_b.move -= move;

@@ -38,12 +38,11 @@ struct SignedDistance {
     DVec<D> on_b() const { return on_a + normal * distance; }
 };
 
-/// Swaps the roles of A and B.
+/// The answer for the pair (B, A), from that for (A, B).
 template <int D>
-void swap_roles(SignedDistance<D>& distance) {
-    distance.on_a = distance.on_b();
-    distance.normal = -distance.normal;
-    std::swap(distance.corners.a, distance.corners.b);
+SignedDistance<D> flipped(const SignedDistance<D>& distance) {
+    const ClosestCorners<D>& corners = distance.corners;
+    return {distance.distance, -distance.normal, distance.on_b(), {corners.b, corners.a, corners.count}};
 }
 
 template <int D>

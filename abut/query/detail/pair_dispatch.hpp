@@ -22,6 +22,11 @@ struct PartContact {
     Manifold<D> manifold;
 };
 
+template <int D>
+PartContact<D> flipped(const PartContact<D>& contact) {
+    return {flipped(contact.distance), contact.manifold};
+}
+
 /// Whether the parts are at most `reach` apart, and then their distance. add_points() adds the manifold, unless it is
 /// found at once. Otherwise `contact` is unspecified.
 template <int D>

@@ -1,12 +1,12 @@
 #pragma once
 
-// The hit of a ray with one convex part or half-space: in closed form if there is one, else by conservative
-// advancement. For .cpp files.
+// The hit of a ray with one part. A convex part takes a closed form if there is one, else conservative advancement.
+// For .cpp files.
 
 #include <abut/convex/gjk/trace.hpp>
 #include <abut/convex/ray/ray_entry.hpp>
 #include <abut/query/feature.hpp>
-#include <abut/shape/half_space.hpp>
+#include <abut/shape/view/part.hpp>
 
 namespace abut {
 
@@ -23,7 +23,7 @@ struct PartHit {
 template <int D>
 bool part_hit(const DRay<D>& beam, const Convex<D>& part, std::uint32_t index, Trace<D>* trace, PartHit<D>& hit);
 template <int D>
-bool part_hit(const DRay<D>& beam, const HalfSpaceView<D>& part, PartHit<D>& hit);
+bool part_hit(const DRay<D>& beam, const detail::Part<D>& part, std::uint32_t index, Trace<D>* trace, PartHit<D>& hit);
 
 /// Conservative advancement alone: the ray advances to the plane that separates its point from the part, and repeats
 /// from there.

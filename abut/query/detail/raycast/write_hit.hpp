@@ -20,15 +20,6 @@ DRay<D> to_dray(const Ray<D>& ray) {
     return {DVec<D>(ray.origin), unit(direction), static_cast<double>(ray.length)};
 }
 
-/// Whether no number of the ray is NaN, and its origin and direction are finite.
-template <int D>
-bool is_valid_ray(const Ray<D>& ray) {
-    // Sums of floats in double don't overflow.
-    double sum = 0;
-    for (int i = 0; i < D; ++i) sum += static_cast<double>(ray.origin[i]) + static_cast<double>(ray.direction[i]);
-    return std::abs(sum) <= std::numeric_limits<double>::max() && !std::isnan(ray.length);
-}
-
 template <int D>
 inline void write_hit(const DRay<D>& beam, double along, const DVec<D>& normal, Hit<D>& hit) {
     hit.distance = static_cast<float>(along);
