@@ -4,7 +4,7 @@
 #include "each_pair.hpp"
 #include "rotation.hpp"
 #include <abut/query/closest.hpp>
-#include <abut/query/sweep_turning.hpp>
+#include <abut/query/sweep.hpp>
 #include <abut/shape/placed.hpp>
 
 #include <memory>

@@ -2,7 +2,7 @@
 #include <abut/query/detail/closed_form/closed_form.hpp>
 #include <abut/query/detail/one_sided.hpp>
 #include <abut/query/detail/part_pairs.hpp>
-#include <abut/query/detail/surface/contact_with_neighbours.hpp>
+#include <abut/query/detail/surface/edge_filter.hpp>
 #include <abut/query/detail/valid_query.hpp>
 #include <abut/query/detail/write_answer.hpp>
 

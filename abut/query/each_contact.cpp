@@ -1,5 +1,5 @@
 #include <abut/query/detail/one_sided.hpp>
-#include <abut/query/detail/surface/contact_with_neighbours.hpp>
+#include <abut/query/detail/surface/edge_filter.hpp>
 #include <abut/query/detail/surface/reported_contacts.hpp>
 #include <abut/query/detail/valid_query.hpp>
 #include <abut/query/detail/write_answer.hpp>

@@ -1,9 +1,9 @@
 #include <abut/query/detail/part_pairs.hpp>
 #include <abut/query/detail/raycast/part_hit.hpp>
-#include <abut/query/detail/raycast/triangles.hpp>
-#include <abut/query/detail/raycast/write_hit.hpp>
 #include <abut/query/detail/valid_query.hpp>
 #include <abut/query/raycast.hpp>
+#include <abut/query/reflect.hpp>
+#include <abut/shape/solid_bsp.hpp>
 
 #include <algorithm>
 
@@ -115,12 +115,63 @@ std::optional<Hit<D>> raycast(const Ray<D>& ray, const View<D>& shape, const Que
     return answer(ray, shape, options);
 }
 
+template <int D>
+std::optional<Hit<D>> raycast(const Ray<D>& ray, const SolidBsp<D>& level, const QueryOptions<D>&) {
+    if (!detail::is_valid_query(ray)) return std::nullopt;
+    // A ray that ends on a face hits it although its length is rounded.
+    constexpr double more = 1 + 1e-7;
+    const bool rests = ray.direction == Vec<D>(0.0f);
+    const double length = rests ? 0 : static_cast<double>(ray.length);
+    const DVec<D> direction = unit(DVec<D>(ray.direction));
+    SolidEntry<D> entry;
+    if (!level.enter(ray.origin, direction, length * more, entry)) return std::nullopt;
+    const double along = std::min(entry.along, length);
+    Hit<D> hit;
+    hit.distance = static_cast<float>(along);
+    hit.fraction = length > 0 && std::isfinite(length) ? std::min(1.0f, static_cast<float>(along / length)) : 0.0f;
+    hit.point = to_float(DVec<D>(ray.origin) + direction * along);
+    hit.normal = to_float(unit(entry.normal));
+    hit.started_inside = entry.started_inside;
+    if (entry.has_face) {
+        hit.feature.part = entry.face;
+        hit.feature.kind = D == 2 ? FeatureKind::edge : FeatureKind::face;
+        hit.feature.index = D == 2 ? edge_index(0, 1) : 0;
+    }
+    return hit;
+}
+
+/// With d the direction, n the normal and s = -dot(d, n) the sine of the angle of incidence, the ray leaves along d + 2
+/// s n.
+///
+/// The hit's point is rounded to floats, so it may lie behind the mirror. A step back along the ray by lift / s lies
+/// `lift` above the mirror. It lies in free space even in a corner, where a step along the normal could go through
+/// another mirror. The step displaces the reflected ray by at most twice the lift, as sin(2 a) / sin(a) <= 2.
+template <int D>
+Ray<D> reflect(const Ray<D>& ray, const Hit<D>& hit) {
+    if (!detail::is_valid_query(ray, hit)) return {ray.origin, to_float(axis<D>(0)), 0};
+
+    // More than the rounding of a direction and a normal together, and of two points.
+    constexpr double min_rise = 4e-7, rounding = 4e-7;
+    const DVec<D> direction = unit(DVec<D>(ray.direction)), normal = unit(DVec<D>(hit.normal)), point(hit.point);
+    const double sinks = std::max(-dot(direction, normal), 0.0);
+    const double lift = rounding * std::max(largest(point), largest(DVec<D>(ray.origin)));
+    const double travelled = static_cast<double>(hit.distance);
+    const double back = lift < sinks * travelled ? lift / sinks : travelled;
+
+    DVec<D> away = direction + normal * (2 * sinks);
+    away += normal * std::max(min_rise - dot(away, normal), 0.0);
+    const double left = std::max(static_cast<double>(ray.length) - (travelled - back), 0.0);
+    return {to_float(point - direction * back), to_float(normalized(away)), static_cast<float>(left)};
+}
+
 #define ABUT_INSTANTIATE(D)                                                                                           \
     template std::optional<Hit<D>> raycast(const Ray<D>&, const View<D>&, const QueryOptions<D>&);                    \
     template std::optional<Hit<D>> raycast(const Ray<D>&, const Composite<D>&, const QueryOptions<D>&);               \
     template std::optional<Hit<D>> raycast(const Ray<D>&, const Convex<D>&, const QueryOptions<D>&);                  \
     template void each_hit(const Ray<D>&, const View<D>&, FunctionRef<float(const Hit<D>&)>, const QueryOptions<D>&); \
-    template void raycast_all(const Ray<D>&, const View<D>&, std::vector<Hit<D>>&, const QueryOptions<D>&);
+    template void raycast_all(const Ray<D>&, const View<D>&, std::vector<Hit<D>>&, const QueryOptions<D>&);           \
+    template std::optional<Hit<D>> raycast(const Ray<D>&, const SolidBsp<D>&, const QueryOptions<D>&);                \
+    template Ray<D> reflect(const Ray<D>&, const Hit<D>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

@@ -1,11 +1,27 @@
 #include <abut/query/detail/closed_form/closed_form.hpp>
 #include <abut/query/detail/surface/hit_normal.hpp>
 #include <abut/query/detail/sweep/linear.hpp>
+#include <abut/query/detail/sweep/rotating.hpp>
 #include <abut/query/detail/valid_query.hpp>
 #include <abut/query/sweep.hpp>
 
 namespace abut {
 namespace {
+
+/// Filters the normal of a hit on an internal edge of a composite shape, which is placed as at the moment of the hit;
+/// `point` is the point of contact there.
+template <int D>
+void filter_normal(const MoverAtHit<D>& mover, const View<D>& shape, const DVec<D>& point, Hit<D>& hit) {
+    const auto closest_points = [&](const DVec<D>& from, double within, ClosestPointVisitor<D> visit) {
+        each_closest_point_on(shape, from, within, visit);
+    };
+    Hit<D> filtered = hit;
+    filtered.point = to_float(point);
+    filter_hit_normal<D>(mover, shape, closest_points, filtered);
+    hit.normal = filtered.normal;
+}
+
+// Straight motions.
 
 /// The two motions of a query.
 template <int D>
@@ -49,6 +65,62 @@ void find_first_impact(const Shapes& a, const Vec<D>& motion_a, const Shapes& b,
     result = sweep(convex_of(a), motion_a, convex_of(b), motion_b, options);
 }
 
+// Motions with rotation.
+
+/// The float at or below a time from 0 to 1.
+float rounded_down(double time) {
+    const float nearest = static_cast<float>(time);
+    return static_cast<double>(nearest) > time ? std::nextafter(nearest, 0.0f) : nearest;
+}
+
+/// Calls find(impact) in a frame in which A's pivot stays at the origin, so that precision doesn't depend on the
+/// distance from the world's origin.
+template <int D, class Shape, class Find>
+std::optional<Hit<D>> hit_on_paths(const Shape& a, RigidPath<D>& path_a, const Shape& b, RigidPath<D>& path_b,
+                                   const Find& find) {
+    std::optional<Hit<D>> result;
+    if (!detail::is_valid_pair(a, b, path_a, path_b)) return result;
+    const DVec<D> start = path_a.start.offset, move = path_a.move;
+    path_b.start.offset -= start;
+    path_b.move -= move;
+    path_a.start.offset = path_a.move = DVec<D>(0.0);
+    RotatingImpact<D> impact;
+    if (!find(impact)) return result;
+    Hit<D>& hit = result.emplace();
+    hit.fraction = rounded_down(impact.time);
+    hit.distance = hit.fraction * static_cast<float>(length(path_b.move));
+    hit.point = to_float(impact.point + start + move * impact.time);
+    hit.normal = to_float(-impact.normal);
+    hit.started_inside = impact.started_inside;
+    hit.feature = impact.feature;
+    return result;
+}
+
+template <int D>
+std::optional<Hit<D>> sweep_paths(const Convex<D>& a, RigidPath<D> path_a, const Convex<D>& b, RigidPath<D> path_b,
+                                  const QueryOptions<D>& options) {
+    return hit_on_paths(a, path_a, b, path_b, [&](RotatingImpact<D>& impact) {
+        return time_of_impact<D>(a, path_a, b, path_b, {}, {options.cache, options.trace}, impact);
+    });
+}
+
+template <int D>
+std::optional<Hit<D>> sweep_paths(const View<D>& a, RigidPath<D> path_a, const View<D>& b, RigidPath<D> path_b,
+                                  const QueryOptions<D>& options) {
+    RotatingImpact<D> first;
+    std::optional<Hit<D>> result = hit_on_paths(a, path_a, b, path_b, [&](RotatingImpact<D>& impact) {
+        const bool found = time_of_impact<D>(a, path_a, b, path_b, search_options(a, b, options), impact);
+        first = impact;
+        return found;
+    });
+    if (result && std::holds_alternative<Composite<D>>(b)) {
+        MoverAtHit<D> mover = rotating_mover_at_hit(a, path_a, first.time, first.point);
+        mover.direction -= path_b.velocity(first.time, first.point);
+        filter_normal<D>(mover, moved(b, place_at(path_b, first.time)), first.point, *result);
+    }
+    return result;
+}
+
 }  // namespace
 
 template <int D>
@@ -86,27 +158,62 @@ std::optional<Hit<D>> sweep(const View<D>& a, const Vec<D>& motion_a, const View
     };
     find_first_impact(a, motion_a, b, motion_b, find, result);
     if (result && std::holds_alternative<Composite<D>>(b)) {
-        // The point relative to B's start.
+        // Relative to B's start.
         const DVec<D> moved_b = DVec<D>(motion_b) * static_cast<double>(result->fraction);
         const DVec<D> moved_a = DVec<D>(motion_a) * static_cast<double>(result->fraction);
-        const Vec<D> point = result->point;
-        result->point = to_float(DVec<D>(point) - moved_b);
-        const auto closest_points = [&](const DVec<D>& from, double within, ClosestPointVisitor<D> visit) {
-            each_closest_point_on(b, from, within, visit);
-        };
-        filter_hit_normal<D>(linear_mover_at_hit<D>(a, moved_a - moved_b), b, closest_points, *result);
-        result->point = point;
+        filter_normal(linear_mover_at_hit<D>(a, moved_a - moved_b), b, DVec<D>(result->point) - moved_b, *result);
     }
     return result;
 }
 
+template <int D>
+std::optional<Hit<D>> sweep(const Convex<D>& a, const Motion<D>& motion_a, const Convex<D>& b,
+                            const Motion<D>& motion_b, const QueryOptions<D>& options) {
+    return sweep_paths(a, rigid_path(motion_a), b, rigid_path(motion_b), options);
+}
+template <int D>
+std::optional<Hit<D>> sweep(const ShapeRef<D>& a, const Motion<D>& motion_a, const ShapeRef<D>& b,
+                            const Motion<D>& motion_b, const QueryOptions<D>& options) {
+    return sweep(convex_of(a), motion_a, convex_of(b), motion_b, options);
+}
+template <int D>
+std::optional<Hit<D>> sweep(const View<D>& a, const Motion<D>& motion_a, const View<D>& b, const Motion<D>& motion_b,
+                            const QueryOptions<D>& options) {
+    return sweep_paths(a, rigid_path(motion_a), b, rigid_path(motion_b), options);
+}
+
+template <int D>
+std::optional<Hit<D>> sweep(const Convex<D>& a, const Pose<D>& from_a, const Pose<D>& to_a, const Convex<D>& b,
+                            const Pose<D>& from_b, const Pose<D>& to_b, const QueryOptions<D>& options) {
+    return sweep_paths(a, rigid_path(from_a, to_a), b, rigid_path(from_b, to_b), options);
+}
+template <int D>
+std::optional<Hit<D>> sweep(const ShapeRef<D>& a, const Pose<D>& from_a, const Pose<D>& to_a, const ShapeRef<D>& b,
+                            const Pose<D>& from_b, const Pose<D>& to_b, const QueryOptions<D>& options) {
+    return sweep(convex_of(a), from_a, to_a, convex_of(b), from_b, to_b, options);
+}
+template <int D>
+std::optional<Hit<D>> sweep(const View<D>& a, const Pose<D>& from_a, const Pose<D>& to_a, const View<D>& b,
+                            const Pose<D>& from_b, const Pose<D>& to_b, const QueryOptions<D>& options) {
+    return sweep_paths(a, rigid_path(from_a, to_a), b, rigid_path(from_b, to_b), options);
+}
+
+#define ABUT_INSTANTIATE_FOR(D, S)                                                                           \
+    template std::optional<Hit<D>> sweep(const S&, const Motion<D>&, const S&, const Motion<D>&,             \
+                                         const QueryOptions<D>&);                                            \
+    template std::optional<Hit<D>> sweep(const S&, const Pose<D>&, const Pose<D>&, const S&, const Pose<D>&, \
+                                         const Pose<D>&, const QueryOptions<D>&);
 #define ABUT_INSTANTIATE(D)                                                                                \
     template std::optional<Hit<D>> sweep(const View<D>&, const Vec<D>&, const View<D>&, const Vec<D>&,     \
                                          const QueryOptions<D>&);                                          \
     template std::optional<Hit<D>> sweep(const Convex<D>&, const Vec<D>&, const Convex<D>&, const Vec<D>&, \
-                                         const QueryOptions<D>&);
+                                         const QueryOptions<D>&);                                          \
+    ABUT_INSTANTIATE_FOR(D, View<D>)                                                                       \
+    ABUT_INSTANTIATE_FOR(D, Convex<D>)                                                                     \
+    ABUT_INSTANTIATE_FOR(D, ShapeRef<D>)
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
+#undef ABUT_INSTANTIATE_FOR
 
 }  // namespace abut

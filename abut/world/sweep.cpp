@@ -5,7 +5,6 @@
 #include <abut/query/detail/surface/hit_normal.hpp>
 #include <abut/query/detail/valid_query.hpp>
 #include <abut/query/sweep.hpp>
-#include <abut/query/sweep_turning.hpp>
 #include <abut/world/world.hpp>
 
 namespace abut {

@@ -2,7 +2,7 @@
 #include <abut/convex/pairs/box3.hpp>
 #include <abut/convex/pairs/box_triangle.hpp>
 #include <abut/convex/pairs/pair2.hpp>
-#include <abut/query/detail/closed_form/convex_distance.hpp>
+#include <abut/query/detail/closed_form/closed_form.hpp>
 #include <abut/query/detail/pair_dispatch.hpp>
 
 namespace abut {

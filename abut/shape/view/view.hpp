@@ -13,7 +13,6 @@
 #include <abut/shape/half_space.hpp>
 #include <abut/shape/triangle.hpp>
 #include <abut/shape/view/distance_function.hpp>
-#include <abut/shape/view/neighbour.hpp>
 #include <abut/shape/view/parts.hpp>
 #include <abut/shape/view/shape_ref.hpp>
 

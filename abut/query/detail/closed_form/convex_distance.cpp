@@ -1,6 +1,6 @@
 #include <abut/convex/features.hpp>
 #include <abut/convex/pairs/round3.hpp>
-#include <abut/query/detail/closed_form/convex_distance.hpp>
+#include <abut/query/detail/closed_form/closed_form.hpp>
 
 namespace abut {
 namespace {

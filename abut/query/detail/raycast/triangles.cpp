@@ -1,6 +1,5 @@
 #include <abut/convex/ray/triangle.hpp>
-#include <abut/query/detail/raycast/triangles.hpp>
-#include <abut/query/detail/raycast/write_hit.hpp>
+#include <abut/query/detail/raycast/part_hit.hpp>
 #include <abut/query/detail/valid_query.hpp>
 #include <abut/query/raycast.hpp>
 #include <abut/shape/mesh.hpp>
