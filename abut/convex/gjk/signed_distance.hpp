@@ -38,11 +38,18 @@ struct SignedDistance {
     DVec<D> on_b() const { return on_a + normal * distance; }
 };
 
-/// The answer for the pair (B, A), from that for (A, B).
+/// Turns the answer for a pair (A, B) into that for (B, A), in place: a copy would read it before all its members have
+/// reached memory.
 template <int D>
-SignedDistance<D> flipped(const SignedDistance<D>& distance) {
-    const ClosestCorners<D>& corners = distance.corners;
-    return {distance.distance, -distance.normal, distance.on_b(), {corners.b, corners.a, corners.count}};
+void flip(SignedDistance<D>& distance) {
+    distance.on_a = distance.on_b();
+    distance.normal = -distance.normal;
+    std::swap(distance.corners.a, distance.corners.b);
+}
+template <class Answer>
+Answer flipped(Answer answer) {
+    flip(answer);
+    return answer;
 }
 
 template <int D>

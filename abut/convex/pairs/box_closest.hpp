@@ -19,18 +19,17 @@ struct BoxClosest {
     BoxFeature part_a, part_b;
 };
 
-/// The answer for the pair (A, B) in A's frame, from that for (B, A) in B's frame; `frame` is A's.
-inline BoxClosest flipped(const BoxFrame& frame, const BoxClosest& closest) {
-    const Triple& n = closest.normal;
+/// Turns the answer for the pair (B, A) in B's frame into that for (A, B) in A's frame; `frame` is A's.
+inline void flip(const BoxFrame& frame, BoxClosest& closest) {
+    const Triple n{closest.normal[0], closest.normal[1], closest.normal[2]};
     const double d = closest.distance;
     const Triple p{closest.on_a[0] + n[0] * d, closest.on_a[1] + n[1] * d, closest.on_a[2] + n[2] * d};
     const auto& axes = frame.axis_b;
-    BoxClosest result{d, {}, {}, closest.part_b, closest.part_a};
     for (std::size_t i = 0; i < 3; ++i) {
-        result.normal[i] = -(axes[0][i] * n[0] + axes[1][i] * n[1] + axes[2][i] * n[2]);
-        result.on_a[i] = frame.middle[i] + (axes[0][i] * p[0] + axes[1][i] * p[1] + axes[2][i] * p[2]);
+        closest.normal[i] = -(axes[0][i] * n[0] + axes[1][i] * n[1] + axes[2][i] * n[2]);
+        closest.on_a[i] = frame.middle[i] + (axes[0][i] * p[0] + axes[1][i] * p[1] + axes[2][i] * p[2]);
     }
-    return result;
+    std::swap(closest.part_a, closest.part_b);
 }
 
 /// The corners that span a feature, by number; three of a face. If there are fewer than three, the last is repeated.

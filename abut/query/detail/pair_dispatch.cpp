@@ -48,7 +48,7 @@ BoxTriangle triangle_distance(const Convex<3>& a, const Convex<3>& b, double rea
     if (are_box_and_triangle(a, b)) return box_triangle_distance(a, b, reach, result);
     if (!are_box_and_triangle(b, a)) return BoxTriangle::unknown;
     const BoxTriangle answer = box_triangle_distance(b, a, reach, result);
-    if (answer == BoxTriangle::overlapping) result = flipped(result);
+    if (answer == BoxTriangle::overlapping) flip(result);
     return answer;
 }
 

@@ -23,8 +23,8 @@ struct PartContact {
 };
 
 template <int D>
-PartContact<D> flipped(const PartContact<D>& contact) {
-    return {flipped(contact.distance), contact.manifold};
+void flip(PartContact<D>& contact) {
+    flip(contact.distance);
 }
 
 /// Whether the parts are at most `reach` apart, and then their distance. add_points() adds the manifold, unless it is

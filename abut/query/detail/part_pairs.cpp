@@ -46,7 +46,7 @@ template <int D>
 bool mixed_contact(const Part<D>& a, const Part<D>& b, double reach, double margin, PartContact<D>& contact) {
     if (a.kind() <= b.kind()) return ordered_contact(a, b, reach, margin, contact);
     if (!ordered_contact(b, a, reach, margin, contact)) return false;
-    contact = flipped(contact);
+    flip(contact);
     return true;
 }
 

@@ -90,7 +90,7 @@ template <int D>
 bool closed_form_distance(const Convex<D>& a, const Convex<D>& b, SignedDistance<D>& result) {
     if (complexity(b) <= complexity(a)) return distance_from(a, b, result);
     if (!distance_from(b, a, result)) return false;
-    result = flipped(result);
+    flip(result);
     return true;
 }
 

@@ -30,7 +30,7 @@ bool is_bounded(const Aabb<D>& box) {
     return is_finite(box.min) && is_finite(box.max);
 }
 template <int D>
-bool is_empty(const Aabb<D>& box) {
+bool has_no_extent(const Aabb<D>& box) {
     return !(box.min[0] <= box.max[0]);
 }
 
@@ -95,7 +95,7 @@ ClosestCorners<D> corners_at(const Convex<D>& set, const DVec<D>& place, const D
 template <int D>
 SignedDistance<D> from_ball(const Convex<D>& ball, const DistanceFunction<D>& function,
                             const DistanceRequest& request) {
-    if (is_empty(function.bounds)) return no_distance<D>();
+    if (has_no_extent(function.bounds)) return no_distance<D>();
     const PlacedFunction<D> placed(function);
     const DVec<D> middle = ball.place.point(DVec<D>(ball.vertices()[0]));
     const double value = placed.at(middle);
@@ -114,7 +114,7 @@ SignedDistance<D> from_ball(const Convex<D>& ball, const DistanceFunction<D>& fu
 template <int D>
 SignedDistance<D> from_convex(const Convex<D>& set, const DistanceFunction<D>& function, double margin,
                               const DistanceRequest& request) {
-    if (is_empty(function.bounds)) return no_distance<D>();
+    if (has_no_extent(function.bounds)) return no_distance<D>();
     const bool by_function = function.bound != nullptr || !is_plain_box(set);
     const Affine<D> frame = by_function ? own_frame<D>(function) : own_frame<D>(set), back = back_from(frame);
     const DistanceFunction<D> own = moved(function, back);
@@ -144,7 +144,7 @@ template <int D>
 SignedDistance<D> above_half_space(const DistanceFunction<D>& function, const HalfSpaceView<D>& half_space,
                                    const DVec<D>& normal, double tolerance, double surface_tolerance,
                                    const DistanceRequest& request, int max_boxes) {
-    if (is_empty(function.bounds)) return no_distance<D>();
+    if (has_no_extent(function.bounds)) return no_distance<D>();
     const bool has_bounds = is_bounded(function.bounds);
     ABUT_ASSERT(has_bounds);
     if (!has_bounds) return no_distance<D>();
@@ -171,7 +171,7 @@ SignedDistance<D> above_half_space(const DistanceFunction<D>& function, const Ha
 template <int D>
 SignedDistance<D> between(const DistanceFunction<D>& a, const DistanceFunction<D>& b, double margin,
                           const DistanceRequest& request) {
-    if (is_empty(a.bounds) || is_empty(b.bounds)) return no_distance<D>();
+    if (has_no_extent(a.bounds) || has_no_extent(b.bounds)) return no_distance<D>();
     const bool bounded_a = is_bounded(a.bounds), bounded_b = is_bounded(b.bounds);
     const bool has_bounds = bounded_a || bounded_b;
     ABUT_ASSERT(has_bounds);
@@ -302,8 +302,9 @@ template <int D>
 SignedDistance<D> function_distance(const detail::Part<D>& a, const detail::Part<D>& b,
                                     const DistanceRequest& request) {
     if (a.kind() > b.kind()) {
-        const SignedDistance<D> result = function_distance(b, a, request);
-        return std::isfinite(result.distance) ? flipped(result) : result;
+        SignedDistance<D> result = function_distance(b, a, request);
+        if (std::isfinite(result.distance)) flip(result);
+        return result;
     }
     if (a.is_convex() && is_ball(a.convex())) return from_ball(a.convex(), b.function(), request);
     const double margin = function_tolerance(a, b);
@@ -316,7 +317,7 @@ SignedDistance<D> function_distance(const detail::Part<D>& a, const detail::Part
 template <int D>
 bool path_stays_apart(const Convex<D>& first, const Convex<D>& last, double expansion,
                       const DistanceFunction<D>& function, DVec<D>& place) {
-    if (is_empty(function.bounds)) return true;
+    if (has_no_extent(function.bounds)) return true;
     const double margin = function_tolerance<D>(first, function), radius = first.radius + expansion;
     const Affine<D> frame = own_frame<D>(function), back = back_from(frame);
     const DistanceFunction<D> own = moved(function, back);
@@ -335,7 +336,7 @@ bool path_stays_apart(const Convex<D>& first, const Convex<D>& last, double expa
 template <int D>
 bool function_overlap(const detail::Part<D>& a, const detail::Part<D>& b) {
     if (a.kind() > b.kind()) return function_overlap(b, a);
-    if (a.is_convex() && is_ball(a.convex()) && !is_empty(b.function().bounds)) {
+    if (a.is_convex() && is_ball(a.convex()) && !has_no_extent(b.function().bounds)) {
         const Convex<D>& ball = a.convex();
         return PlacedFunction<D>(b.function()).at(ball.place.point(DVec<D>(ball.vertices()[0]))) <= ball.radius;
     }

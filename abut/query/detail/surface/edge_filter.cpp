@@ -164,7 +164,7 @@ bool EdgeFilter<D>::replace(const Part<D>& part_a, const Part<D>& part_b, const 
         const auto plane = surface_plane<D>(part_a, place, closest_points_on(a_, neighbours_.of_b),
                                             has_own_center(part_b, b_) ? nearest : nearest_to_b_);
         if (plane) for_b = contact_with_plane(part_b, *plane, flipped(contact));
-        if (for_b) for_b = flipped(*for_b);
+        if (for_b) flip(*for_b);
     }
     if (!for_a && !for_b) return false;
     contact = for_a && (!for_b || for_a->distance.distance >= for_b->distance.distance) ? *for_a : *for_b;
