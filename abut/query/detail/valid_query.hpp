@@ -62,7 +62,7 @@ bool is_valid_query(const Inputs&... inputs) {
     return finite;
 }
 
-/// The same for a query of two shapes, which must not both be half-spaces.
+/// Like is_valid_query, for two shapes and more. Two half-spaces trip ABUT_ASSERT as well.
 template <int D, class... Inputs>
 bool is_valid_pair(const View<D>& a, const View<D>& b, const Inputs&... inputs) {
     const bool two_half_spaces =

@@ -71,7 +71,8 @@ void for_each_part(const View<D>& shape, const Aabb<D>& box, Visit&& visit) {
         });
 }
 
-/// The same for the parts that are at most `reach` from another shape or part.
+/// Calls visit(part, index) for a shape that is one part, or for at least the parts of a composite shape that are at
+/// most `reach` from another shape or part. The visitor returns false to stop.
 template <int D, class Other, class Visit>
 void for_each_part(const View<D>& shape, const Other& other, float reach, Visit&& visit) {
     with_part(
