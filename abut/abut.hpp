@@ -42,10 +42,8 @@
 #include <abut/query/polytope.hpp>
 #include <abut/query/ray_through.hpp>
 #include <abut/query/raycast.hpp>
-#include <abut/query/raycast_solid_bsp.hpp>
 #include <abut/query/reflect.hpp>
 #include <abut/query/sweep.hpp>
-#include <abut/query/sweep_turning.hpp>
 #include <abut/shape/any_shape.hpp>
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>

@@ -2,6 +2,7 @@
 #include <abut/draw/distance_function.hpp>
 #include <abut/draw/draw.hpp>
 #include <abut/draw/half_space.hpp>
+#include <abut/shape/view/part.hpp>
 
 #include <algorithm>
 #include <array>
@@ -68,17 +69,15 @@ double leaves_at(const DVec<D>& origin, const DVec<D>& direction, const Aabb<D>&
 template <int D>
 void draw(Canvas<D>& canvas, const View<D>& shape, const Style& style) {
     if (!is_finite(shape)) return;
-    if (const auto* convex = std::get_if<Convex<D>>(&shape))
-        draw_convex(canvas, *convex, style);
-    else if (const auto* solid = std::get_if<HalfSpaceView<D>>(&shape))
-        draw_half_space(canvas, *solid, style);
-    else if (const auto* function = std::get_if<DistanceFunction<D>>(&shape))
-        draw_function(canvas, *function, style);
-    else
-        each_part<D>(std::get<Composite<D>>(shape), canvas.shown(), [&](const Convex<D>& part, std::uint32_t) -> bool {
-            draw_convex(canvas, part, style);
-            return true;
-        });
+    detail::for_each_part(shape, canvas.shown(), [&](const detail::Part<D>& part, std::uint32_t) {
+        if (part.is_convex())
+            draw_convex(canvas, part.convex(), style);
+        else if (part.is_function())
+            draw_function(canvas, part.function(), style);
+        else
+            draw_half_space(canvas, part.half_space(), style);
+        return true;
+    });
 }
 
 template <int D>

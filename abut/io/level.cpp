@@ -11,19 +11,30 @@ std::string_view kind(const LevelShape& shape) {
     return names[shape.index()];
 }
 
-std::size_t count_parts(const LevelShape& shape) {
-    if (const auto* map = std::get_if<TileMap>(&shape)) {
-        const auto tiles = map->tiles();
+namespace {
+
+struct CountParts {
+    std::size_t operator()(const TileMap& map) const {
+        const auto tiles = map.tiles();
         return tiles.size() - static_cast<std::size_t>(std::count(tiles.begin(), tiles.end(), Tile::empty));
     }
-    if (const auto* chain = std::get_if<Chain>(&shape)) return chain->size();
-    if (const auto* compound = std::get_if<Compound2>(&shape)) return compound->size();
-    std::size_t count = 1;
-    if (const auto* outlines = std::get_if<Outlines>(&shape)) {
-        count = 0;
-        for (const Chain& chain : outlines->chains) count += chain.size();
+    std::size_t operator()(const Chain& chain) const { return chain.size(); }
+    std::size_t operator()(const Compound2& compound) const { return compound.size(); }
+    std::size_t operator()(const Outlines& outlines) const {
+        std::size_t count = 0;
+        for (const Chain& chain : outlines.chains) count += chain.size();
+        return count;
     }
-    return count;
+    template <class Convex>
+    std::size_t operator()(const Convex&) const {
+        return 1;
+    }
+};
+
+}  // namespace
+
+std::size_t count_parts(const LevelShape& shape) {
+    return std::visit(CountParts(), shape);
 }
 
 View<2> view(const LevelObject& object) {

@@ -1,14 +1,13 @@
 #include <abut/motion/depenetrate.hpp>
 #include <abut/motion/push/shortest_push.hpp>
+#include <abut/query/detail/valid_query.hpp>
 
 namespace abut::detail {
 
 template <int D>
 Depenetration<D> depenetrate_convex(const Convex<D>& shape, const World<D>& world, const Filter& filter) {
     Depenetration<D> result;
-    const bool finite = is_finite(shape);
-    ABUT_ASSERT(finite);
-    if (!finite) return result;
+    if (!detail::is_valid_query(shape)) return result;
     const double touching = 1e-5 * detail::size(shape);
     const ShortestPush<D> found = shortest_push(shape, world, filter, 10 * touching);
     result.push = to_float(found.push);

@@ -2,6 +2,7 @@
 #include <abut/math/dvec.hpp>
 #include <abut/motion/laser.hpp>
 #include <abut/shape/box.hpp>
+#include <abut/shape/view/part.hpp>
 
 #include <algorithm>
 #include <array>
@@ -145,13 +146,10 @@ void Laser<D>::bounce() {
         if (is_first) hit_ = WorldHit<D>{id, hit};
     };
     const auto test_parts = [&](Id id) {
-        const View<D> shape = world_->shape(id);
-        if (const auto* convex = std::get_if<Convex<D>>(&shape)) test_part(id, *convex, 0);
-        if (const auto* composite = std::get_if<Composite<D>>(&shape))
-            each_part<D>(*composite, about, [&](const Convex<D>& part, std::uint32_t index) -> bool {
-                test_part(id, part, index);
-                return true;
-            });
+        detail::for_each_part<D>(world_->shape(id), about, [&](const detail::Part<D>& part, std::uint32_t index) {
+            if (part.is_convex()) test_part(id, part.convex(), index);
+            return true;
+        });
     };
     world_->each_overlapping(about, test_parts, filter_);
 }

@@ -1,5 +1,6 @@
 #include <abut/motion/mover.hpp>
 #include <abut/motion/mover/move_and_slide.hpp>
+#include <abut/query/detail/valid_query.hpp>
 
 namespace abut {
 
@@ -58,10 +59,8 @@ Mover<D>& Mover<D>::operator=(Mover&&) noexcept = default;
 
 template <int D>
 void Mover<D>::set_options(const MoverOptions<D>& options) {
-    const bool finite = is_finite(options.up);
-    ABUT_ASSERT(finite);
     options_ = options;
-    if (!finite) options_.up = MoverOptions<D>{}.up;
+    if (!detail::is_valid_query(options.up)) options_.up = MoverOptions<D>{}.up;
 }
 
 template <int D>
@@ -69,9 +68,7 @@ Moved<D> Mover<D>::move_convex(const World<D>& world, const Convex<D>& shape, co
                                const Vec<D>& motion, const MoverPasses<D>* passes) {
     Moved<D> result;
     result.position = position;
-    const bool finite = is_finite(shape) && is_finite(position) && is_finite(motion);
-    ABUT_ASSERT(finite);
-    if (!finite) return result;
+    if (!detail::is_valid_query(shape, position, motion)) return result;
 
     Memory& memory = *memory_;
     memory.touches.clear();

@@ -1,6 +1,7 @@
 #include <abut/math/assert.hpp>
 #include <abut/motion/order/precedence.hpp>
 #include <abut/motion/removal_order.hpp>
+#include <abut/query/detail/valid_query.hpp>
 
 #include <algorithm>
 #include <functional>
@@ -90,9 +91,7 @@ RemovalOrder removal_order(std::span<const Convex<D>> shapes, const Vec<D>& dire
     std::vector<Convex<D>> finite;
     std::vector<std::uint32_t> index;
     for (std::uint32_t i = 0; i < shapes.size(); ++i) {
-        const bool shape_is_finite = is_finite(shapes[i]);
-        ABUT_ASSERT(shape_is_finite);
-        if (!shape_is_finite) continue;
+        if (!detail::is_valid_query(shapes[i])) continue;
         finite.push_back(shapes[i]);
         index.push_back(i);
     }

@@ -1,6 +1,7 @@
 #include <abut/convex/gjk/gjk.hpp>
 #include <abut/query/certify.hpp>
 #include <abut/query/detail/part_pairs.hpp>
+#include <abut/query/detail/sdf/function_pairs.hpp>
 #include <abut/query/detail/sdf/placed_function.hpp>
 
 namespace abut {
@@ -9,48 +10,44 @@ using namespace detail;
 
 namespace {
 
-/// Calls visit(part) for a shape itself, or for the part of a composite shape with this number.
+/// Calls visit(part) for a shape that is one part, or for the part of a composite shape with this number.
 template <int D, class Visit>
-void with_part(const View<D>& shape, std::uint32_t number, Visit&& visit) {
-    if (const auto* convex = std::get_if<Convex<D>>(&shape))
-        visit(*convex);
-    else if (const auto* half_space = std::get_if<HalfSpaceView<D>>(&shape))
-        visit(*half_space);
-    else if (const auto* function = std::get_if<DistanceFunction<D>>(&shape))
-        visit(*function);
-    else
-        each_part<D>(std::get<Composite<D>>(shape), bounds(shape), [&](const Convex<D>& part, std::uint32_t index) {
-            if (index == number) visit(part);
-            return index != number;
-        });
+void with_part_of_number(const View<D>& shape, std::uint32_t number, Visit&& visit) {
+    const bool is_composite = std::holds_alternative<Composite<D>>(shape);
+    detail::for_each_part(shape, shape, 0, [&](const Part<D>& part, std::uint32_t index) {
+        const bool found = !is_composite || index == number;
+        if (found) visit(part);
+        return !found;
+    });
 }
 
-/// The largest dot(direction, p - origin) over the part.
+/// The largest dot(direction, p - origin) over a part that is no distance function.
 template <int D>
-double extent(const Convex<D>& part, const DVec<D>& direction, const DVec<D>& origin) {
-    return dot(direction, core_support(part, direction).position - origin) + part.radius;
-}
-template <int D>
-double extent(const HalfSpaceView<D>& part, const DVec<D>& direction, const DVec<D>& origin) {
-    const bool along = length_squared(direction - part.normal) <= 1e-12;
-    return along ? part.offset - dot(part.normal, origin) : std::numeric_limits<double>::infinity();
+double extent(const AnyPart<D>& part, const DVec<D>& direction, const DVec<D>& origin) {
+    if (part.is_convex())
+        return dot(direction, core_support(part.convex(), direction).position - origin) + part.convex().radius;
+    const HalfSpaceView<D>& half_space = part.half_space();
+    const bool along = length_squared(direction - half_space.normal) <= 1e-12;
+    return along ? half_space.offset - dot(half_space.normal, origin) : std::numeric_limits<double>::infinity();
 }
 
+/// How far a point is outside of a part.
 template <int D>
-double outside(const Convex<D>& part, const DVec<D>& point) {
+double outside(const AnyPart<D>& part, const DVec<D>& point) {
+    if (part.is_function()) return std::max(0.0, PlacedFunction<D>(part.function()).at(point));
     Convex<D> as_shape;
     as_shape.place.offset = point;
-    return std::max(0.0, part_distance(part, as_shape, {}).distance);
-}
-template <int D>
-double outside(const HalfSpaceView<D>& part, const DVec<D>& point) {
-    return std::max(0.0, dot(part.normal, point) - part.offset);
+    return std::max(0.0, part_distance<D>(part, as_shape).distance);
 }
 
-/// A point of both overlapping shapes. The nearest points of the cores are weighted sums of corners; the radii bridge
-/// the gap between the cores.
+/// A point of two overlapping parts that are no distance functions. The nearest points of the cores are weighted sums
+/// of corners; the radii bridge the gap between the cores.
 template <int D>
-DVec<D> common_point(const Convex<D>& a, const Convex<D>& b) {
+DVec<D> common_point(const Part<D>& part_a, const Part<D>& part_b) {
+    if (part_a.is_half_space()) return common_point(part_b, part_a);
+    const Convex<D>& a = part_a.convex();
+    if (part_b.is_half_space()) return support(a, -part_b.half_space().normal);
+    const Convex<D>& b = part_b.convex();
     const CoreDifference<D> difference(a, b);
     const GjkResult<D> walk = gjk_common_point(difference);
     const DVec<D> on_a = walk.simplex.combine(&DifferencePoint<D>::on_a);
@@ -58,14 +55,6 @@ DVec<D> common_point(const Convex<D>& a, const Convex<D>& b) {
     const double gap = length(between);
     const double along = 0.5 * (std::max(0.0, gap - b.radius) + std::min(gap, a.radius));
     return difference.origin() + on_a + normalized(between) * along;
-}
-template <int D>
-DVec<D> common_point(const Convex<D>& a, const HalfSpaceView<D>& b) {
-    return support(a, -b.normal);
-}
-template <int D>
-DVec<D> common_point(const HalfSpaceView<D>& a, const Convex<D>& b) {
-    return common_point(b, a);
 }
 
 /// The largest coordinate relative to `origin`.
@@ -82,21 +71,21 @@ double unit_in_the_last_place(double x) {
     return static_cast<double>(std::nextafter(f, std::numeric_limits<float>::infinity())) - static_cast<double>(f);
 }
 
+/// The tolerance of a pair without a distance function.
 template <int D>
-double tolerance_of(const Convex<D>& a, const Convex<D>& b) {
-    const DVec<D> origin = reference_point(a);
-    return 1e-5 * std::min(size(a), size(b)) +
-           16 * unit_in_the_last_place(std::max(reach(a, origin), reach(b, origin)));
+double tolerance_of(const Part<D>& a, const Part<D>& b) {
+    if (a.is_half_space()) return tolerance_of(b, a);
+    const Convex<D>& set = a.convex();
+    if (b.is_half_space()) {
+        const HalfSpaceView<D>& half_space = b.half_space();
+        const double beyond = std::abs(extent(set, -half_space.normal, DVec<D>(0.0)) + half_space.offset);
+        return 1e-5 * size(set) + 16 * unit_in_the_last_place(std::max(2 * size(set), beyond));
+    }
+    const DVec<D> origin = reference_point(set);
+    return 1e-5 * std::min(size(set), size(b.convex())) +
+           16 * unit_in_the_last_place(std::max(reach(set, origin), reach(b.convex(), origin)));
 }
-template <int D>
-double tolerance_of(const Convex<D>& a, const HalfSpaceView<D>& b) {
-    const double beyond = std::abs(extent(a, -b.normal, DVec<D>(0.0)) + b.offset);
-    return 1e-5 * size(a) + 16 * unit_in_the_last_place(std::max(2 * size(a), beyond));
-}
-template <int D>
-double tolerance_of(const HalfSpaceView<D>& a, const Convex<D>& b) {
-    return tolerance_of(b, a);
-}
+
 /// The most by which rounding the coordinates to floats moves a point.
 template <int D>
 double rounding_of(const Vec<D>& point) {
@@ -105,8 +94,26 @@ double rounding_of(const Vec<D>& point) {
     return result;
 }
 
-template <int D, class A, class B>
-Certificate<D> certificate(const A& a, const B& b, const Closest<D>& answer) {
+/// Sets the remaining errors, about a common point if the parts overlap, and whether all are small enough.
+template <int D>
+void finish(const Part<D>& a, const Part<D>& b, const Closest<D>& answer, const DVec<D>& common,
+            Certificate<D>& result) {
+    const DVec<D> on_a(answer.on_a), on_b(answer.on_b);
+    const double distance = static_cast<double>(answer.distance);
+    result.across = length(on_b - on_a - normalized(DVec<D>(answer.normal)) * distance);
+    if (distance <= 0) {
+        result.common = to_float(common);
+        const DVec<D> rounded_common(result.common);
+        result.off_common = std::max(outside(a, rounded_common), outside(b, rounded_common));
+    }
+    const double rounding = rounding_of(answer.on_a) + rounding_of(answer.on_b) + rounding_of(result.common);
+    const double worst = std::max({result.plane, result.off_a, result.off_b, result.across, result.off_common});
+    result.holds = std::abs(length(DVec<D>(answer.normal)) - 1) <= 1e-6 && worst <= result.margin + 2 * rounding;
+}
+
+/// By the planes across the normal, for two parts that are no distance functions.
+template <int D>
+Certificate<D> certificate_by_planes(const Part<D>& a, const Part<D>& b, const Closest<D>& answer) {
     const DVec<D> on_a(answer.on_a), on_b(answer.on_b), normal = normalized(DVec<D>(answer.normal));
     const double distance = static_cast<double>(answer.distance);
 
@@ -116,26 +123,12 @@ Certificate<D> certificate(const A& a, const B& b, const Closest<D>& answer) {
     result.plane = std::abs(-past_b - past_a - distance);
     result.off_a = std::max(std::abs(past_a), outside(a, on_a));
     result.off_b = std::max(std::abs(extent(b, -normal, on_b)), outside(b, on_b));
-    result.across = length(on_b - on_a - normal * distance);
-    if (distance <= 0) {
-        result.common = to_float(common_point(a, b));
-        const DVec<D> common(result.common);
-        result.off_common = std::max(outside(a, common), outside(b, common));
-    }
-    const double rounding = rounding_of(answer.on_a) + rounding_of(answer.on_b) + rounding_of(result.common);
-    const double worst = std::max({result.plane, result.off_a, result.off_b, result.across, result.off_common});
-    result.holds = std::abs(length(DVec<D>(answer.normal)) - 1) <= 1e-6 && worst <= result.margin + 2 * rounding;
+    finish(a, b, answer, distance <= 0 ? common_point(a, b) : DVec<D>(0.0), result);
     return result;
 }
 
 // For a distance function the answer names a place and the value of the function there. A second search checks that the
 // value is nowhere lower.
-
-/// How far the deepest point of a set is outside of the set, or a point is outside of a function's shape.
-template <int D>
-double outside(const DistanceFunction<D>& part, const DVec<D>& point) {
-    return std::max(0.0, PlacedFunction<D>(part).at(point));
-}
 
 /// The distance measured at the place that the answer names, and how far that place is from where it must be.
 template <int D>
@@ -144,8 +137,7 @@ struct Measured {
     DVec<D> common;
 };
 template <int D>
-Measured<D> measured(const Convex<D>& a, const DistanceFunction<D>& b, const DVec<D>& on_a, const DVec<D>& normal,
-                     double) {
+Measured<D> measured(const Convex<D>& a, const DistanceFunction<D>& b, const DVec<D>& on_a, const DVec<D>& normal) {
     Convex<D> core = a;
     core.radius = 0;
     const DVec<D> deepest = on_a - normal * a.radius;
@@ -161,24 +153,18 @@ Measured<D> measured(const Convex<D>& a, const DistanceFunction<D>& b, const DVe
     return {value - a.radius, outside(core, deepest), common};
 }
 template <int D>
-Measured<D> measured(const DistanceFunction<D>& a, const HalfSpaceView<D>& b, const DVec<D>& on_a, const DVec<D>&,
-                     double) {
-    return {dot(b.normal, on_a) - b.offset, outside(a, on_a), on_a};
-}
-template <int D>
-Measured<D> measured(const DistanceFunction<D>& a, const DistanceFunction<D>& b, const DVec<D>& on_a,
-                     const DVec<D>& normal, double distance) {
+Measured<D> measured(const Part<D>& a, const Part<D>& b, const DVec<D>& on_a, const DVec<D>& normal, double distance) {
+    if (a.kind() > b.kind()) return measured(b, a, on_a + normal * distance, -normal, distance);
+    if (a.is_convex()) return measured(a.convex(), b.function(), on_a, normal);
+    if (b.is_half_space()) return {dot(b.half_space().normal, on_a) - b.half_space().offset, outside(a, on_a), on_a};
     const DVec<D> middle = on_a + normal * (0.5 * distance);
-    return {2 * std::max(PlacedFunction<D>(a).at(middle), PlacedFunction<D>(b).at(middle)), 0, middle};
-}
-template <class A, class B, int D>
-Measured<D> measured(const A& a, const B& b, const DVec<D>& on_a, const DVec<D>& normal, double distance) {
-    return measured(b, a, on_a + normal * distance, -normal, distance);
+    return {2 * std::max(PlacedFunction<D>(a.function()).at(middle), PlacedFunction<D>(b.function()).at(middle)), 0,
+            middle};
 }
 
-template <int D, class A, class B>
-requires FunctionPair<A, B> Certificate<D> certificate(const A& a, const B& b, const Closest<D>& answer) {
-    const DVec<D> on_a(answer.on_a), on_b(answer.on_b), normal = normalized(DVec<D>(answer.normal));
+template <int D>
+Certificate<D> certificate_by_search(const Part<D>& a, const Part<D>& b, const Closest<D>& answer) {
+    const DVec<D> on_a(answer.on_a), normal = normalized(DVec<D>(answer.normal));
     const double distance = static_cast<double>(answer.distance);
     Certificate<D> result;
     result.margin = function_search_tolerance(a, b);
@@ -187,16 +173,8 @@ requires FunctionPair<A, B> Certificate<D> certificate(const A& a, const B& b, c
     const double none = -std::numeric_limits<double>::infinity();
     const double minimum = function_distance(a, b, {none, distance - result.margin}).distance;
     result.plane = std::max(std::abs(found.distance - distance), distance - std::min(minimum, distance));
-    (is_function<A> ? result.off_b : result.off_a) = found.off;
-    result.across = length(on_b - on_a - normal * distance);
-    if (distance <= 0) {
-        result.common = to_float(found.common);
-        const DVec<D> common(result.common);
-        result.off_common = std::max(outside(a, common), outside(b, common));
-    }
-    const double rounding = rounding_of(answer.on_a) + rounding_of(answer.on_b) + rounding_of(result.common);
-    const double worst = std::max({result.plane, result.off_a, result.off_b, result.across, result.off_common});
-    result.holds = std::abs(length(DVec<D>(answer.normal)) - 1) <= 1e-6 && worst <= result.margin + 2 * rounding;
+    (a.is_function() ? result.off_b : result.off_a) = found.off;
+    finish(a, b, answer, found.common, result);
     return result;
 }
 
@@ -205,11 +183,11 @@ requires FunctionPair<A, B> Certificate<D> certificate(const A& a, const B& b, c
 template <int D>
 Certificate<D> certify(const View<D>& a, const View<D>& b, const Closest<D>& answer) {
     Certificate<D> result;
-    with_part(a, answer.feature_a.part, [&](const auto& part_a) {
-        with_part(b, answer.feature_b.part, [&](const auto& part_b) {
-            constexpr bool both_half_spaces = std::is_same_v<decltype(part_a), const HalfSpaceView<D>&> &&
-                                              std::is_same_v<decltype(part_b), const HalfSpaceView<D>&>;
-            if constexpr (!both_half_spaces) result = certificate<D>(part_a, part_b, answer);
+    with_part_of_number(a, answer.feature_a.part, [&](const Part<D>& part_a) {
+        with_part_of_number(b, answer.feature_b.part, [&](const Part<D>& part_b) {
+            if (part_a.is_half_space() && part_b.is_half_space()) return;
+            result = part_a.is_function() || part_b.is_function() ? certificate_by_search(part_a, part_b, answer)
+                                                                  : certificate_by_planes(part_a, part_b, answer);
         });
     });
     return result;

@@ -2,6 +2,7 @@
 #include <abut/query/closest.hpp>
 #include <abut/query/detail/closed_form/closed_form.hpp>
 #include <abut/query/detail/part_pairs.hpp>
+#include <abut/query/detail/valid_query.hpp>
 #include <abut/query/detail/write_answer.hpp>
 
 #include <optional>
@@ -13,19 +14,16 @@ using namespace detail;
 
 namespace {
 
-/// Calls visit(part, index) for a convex shape, half-space or distance function itself, or for the parts of a composite
-/// shape within reach of `other`; visit returns the new reach.
+/// Calls visit(part, index) for a shape that is one part, or for the parts of a composite shape within reach of
+/// `other`; visit returns the new reach.
 template <int D, class Other, class Visit>
 void each_part_within_reach(const View<D>& shape, const Other& other, Visit&& visit) {
-    if (const auto* convex = std::get_if<Convex<D>>(&shape))
-        visit(*convex, 0u);
-    else if (const auto* half_space = std::get_if<HalfSpaceView<D>>(&shape))
-        visit(*half_space, 0u);
-    else if (const auto* function = std::get_if<DistanceFunction<D>>(&shape))
-        visit(*function, 0u);
-    else
-        each_part_near<D>(std::get<Composite<D>>(shape), bounds(other),
-                          [&](const Convex<D>& part, std::uint32_t index) -> float { return visit(part, index); });
+    detail::with_part(
+        shape, [&](const Part<D>& part) { visit(part, 0u); },
+        [&](const Composite<D>& composite) {
+            each_part_near<D>(composite, bounds(other),
+                              [&](const Convex<D>& part, std::uint32_t index) -> float { return visit(part, index); });
+        });
 }
 
 /// A cheap test that rejects parts too far from a shape, to which it refers.
@@ -79,16 +77,13 @@ public:
     explicit Nearest(const SearchOptions<D>& options) : options_(options) {}
 
     void search(const View<D>& a, const View<D>& b) {
-        if (const auto* convex = std::get_if<Convex<D>>(&b))
-            search_around<false>(a, *convex, 0);
-        else if (const auto* half_space = std::get_if<HalfSpaceView<D>>(&b))
-            search_around<false>(a, *half_space, 0);
-        else if (const auto* function = std::get_if<DistanceFunction<D>>(&b))
-            search_around<false>(a, *function, 0);
-        else
-            each_part_within_reach(a, b, [&](const auto& part, std::uint32_t index) {
-                search_around<true>(b, part, index);
-                return reach();
+        detail::with_part(
+            b, [&](const Part<D>& part) { search_around(a, part, 0, false); },
+            [&](const Composite<D>&) {
+                each_part_within_reach(a, b, [&](const Part<D>& part, std::uint32_t index) {
+                    search_around(b, part, index, true);
+                    return reach();
+                });
             });
     }
 
@@ -105,20 +100,13 @@ private:
     }
 
     /// Tests all parts of a shape near one part of the other shape, which is A or B.
-    template <bool of_a, class Part>
-    void search_around(const View<D>& shape, const Part& part, std::uint32_t index) {
-        [[maybe_unused]] constexpr bool two_half_spaces_pair = false;
-        constexpr bool is_convex = std::is_same_v<Part, Convex<D>>;
+    void search_around(const View<D>& shape, const Part<D>& part, std::uint32_t index, bool part_is_of_a) {
         std::optional<PartCuller<D>> culler;
-        if constexpr (is_convex)
-            if (std::holds_alternative<Composite<D>>(shape)) culler.emplace(part);
-        each_part_within_reach(shape, part, [&]<class Other>(const Other& other, std::uint32_t other_index) {
-            if constexpr (is_convex && std::is_same_v<Other, Convex<D>>)
-                if (any_ && culler && nearest_.distance > 0 && culler->is_beyond(other, nearest_.distance))
-                    return reach();
-            if constexpr (std::is_same_v<Part, HalfSpaceView<D>> && std::is_same_v<Part, Other>)
-                ABUT_ASSERT(two_half_spaces_pair);
-            else if constexpr (of_a)
+        if (part.is_convex() && std::holds_alternative<Composite<D>>(shape)) culler.emplace(part.convex());
+        each_part_within_reach(shape, part, [&](const Part<D>& other, std::uint32_t other_index) {
+            if (any_ && culler && nearest_.distance > 0 && culler->is_beyond(other.convex(), nearest_.distance))
+                return reach();
+            if (part_is_of_a)
                 test_pair(part, index, other, other_index);
             else
                 test_pair(other, other_index, part, index);
@@ -126,9 +114,8 @@ private:
         });
     }
 
-    template <class PartA, class PartB>
-    void test_pair(const PartA& part_a, std::uint32_t index_a, const PartB& part_b, std::uint32_t index_b) {
-        const SignedDistance<D> distance = part_distance(part_a, part_b, options_);
+    void test_pair(const Part<D>& part_a, std::uint32_t index_a, const Part<D>& part_b, std::uint32_t index_b) {
+        const SignedDistance<D> distance = part_distance<D>(part_a, part_b, options_);
         // The distance to a function that is empty or without bounds is infinite.
         if (!(distance.distance < std::numeric_limits<double>::infinity())) return;
         // Among equally near pairs the lowest wins, whatever the order of the visits.
@@ -150,9 +137,7 @@ private:
 
 template <int D>
 void answer(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options, Closest<D>& result) {
-    const bool finite = is_finite(a) && is_finite(b);
-    ABUT_ASSERT(finite);
-    if (!finite) return;
+    if (!detail::is_valid_pair(a, b)) return;
     const SignedDistance<D> distance = part_distance(a, b, {options.cache, options.trace});
     write(distance, result);
     name_features(a, b, distance, 0, 0, result);
@@ -183,9 +168,7 @@ Closest<D> closest(const ShapeRef<D>& a, const ShapeRef<D>& b, const QueryOption
 
 template <int D>
 Closest<D> closest(const View<D>& a, const View<D>& b, const QueryOptions<D>& options) {
-    const bool finite = is_finite(a) && is_finite(b);
-    ABUT_ASSERT(finite);
-    if (!finite) return {};
+    if (!detail::is_valid_pair(a, b)) return {};
     Nearest<D> nearest(search_options(a, b, options));
     nearest.search(a, b);
     return nearest.found();

@@ -2,7 +2,8 @@
 #include <abut/query/detail/closed_form/closed_form.hpp>
 #include <abut/query/detail/one_sided.hpp>
 #include <abut/query/detail/part_pairs.hpp>
-#include <abut/query/detail/surface/contact_with_neighbours.hpp>
+#include <abut/query/detail/surface/edge_filter.hpp>
+#include <abut/query/detail/valid_query.hpp>
 #include <abut/query/detail/write_answer.hpp>
 
 #include <tuple>
@@ -15,12 +16,18 @@ using namespace detail;
 namespace {
 
 template <int D>
+Contact<D> no_contact() {
+    Contact<D> result;
+    result.normal[0] = 1;
+    return result;
+}
+
+template <int D>
 void answer(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options, Contact<D>& result) {
-    const bool finite = is_finite(a) && is_finite(b);
-    ABUT_ASSERT(finite);
+    if (!detail::is_valid_pair(a, b)) return;
     const double margin = static_cast<double>(options.margin);
     PartContact<D> found;
-    if (!finite || !part_contact(a, b, margin, margin, {options.cache, options.trace}, found)) return;
+    if (!part_contact(a, b, margin, margin, {options.cache, options.trace}, found)) return;
     if (!touch_at_fronts(a, b, found.distance.normal)) return;
     write(found.distance, found.manifold, result);
     name_features(a, b, found.distance, 0, 0, result);
@@ -38,26 +45,26 @@ template <int D>
 Deepest<D> deepest_of(const View<D>& a, const View<D>& b, const QueryOptions<D>& options) {
     const double margin = static_cast<double>(options.margin);
     const SearchOptions<D> search = search_options(a, b, options);
-    Deepest<D> result;
-    result.contact.normal[0] = 1;
+    Deepest<D> result{no_contact<D>(), {}, {}};
     double limit = margin;
-    each_part_pair(a, b, options.margin,
-                   [&](const auto& part_a, std::uint32_t index_a, const auto& part_b, std::uint32_t index_b) {
-                       PartContact<D> found;
-                       if (!part_contact(part_a, part_b, limit, margin, search, found)) return true;
-                       const SignedDistance<D>& distance = found.distance;
-                       if (!touch_at_fronts(part_a, part_b, distance.normal)) return true;
-                       const std::pair parts(index_a, index_b);
-                       // Among equally deep pairs the lowest wins, whatever the order of the visits.
-                       if (result.contact && distance.distance == limit && parts > result.parts) return true;
-                       // Written during the visit: a composite shape may create its parts as it goes.
-                       limit = distance.distance;
-                       result.parts = parts;
-                       result.found = found;
-                       write(found.distance, found.manifold, result.contact);
-                       name_features(part_a, part_b, distance, index_a, index_b, result.contact);
-                       return true;
-                   });
+    detail::for_each_part_pair(
+        a, b, options.margin,
+        [&](const Part<D>& part_a, std::uint32_t index_a, const Part<D>& part_b, std::uint32_t index_b) {
+            PartContact<D> found;
+            if (!part_contact<D>(part_a, part_b, limit, margin, search, found)) return true;
+            const SignedDistance<D>& distance = found.distance;
+            if (!touch_at_fronts(part_a, part_b, distance.normal)) return true;
+            const std::pair parts(index_a, index_b);
+            // Among equally deep pairs the lowest wins, whatever the order of the visits.
+            if (result.contact && distance.distance == limit && parts > result.parts) return true;
+            // Written during the visit: a composite shape may create its parts as it goes.
+            limit = distance.distance;
+            result.parts = parts;
+            result.found = found;
+            write(found.distance, found.manifold, result.contact);
+            name_features(part_a, part_b, distance, index_a, index_b, result.contact);
+            return true;
+        });
     return result;
 }
 
@@ -67,14 +74,14 @@ bool is_surface_contact(const View<D>& a, const View<D>& b, const Deepest<D>& de
                         const NeighbourSurfaces<D>& neighbours) {
     bool is_surface = true;
     const EdgeFilter<D> filter(a, b, neighbours);
-    each_part_pair(a, b, margin,
-                   [&](const auto& part_a, std::uint32_t index_a, const auto& part_b, std::uint32_t index_b) {
-                       if (std::pair(index_a, index_b) != deepest.parts) return true;
-                       const PartContact<D>& found = deepest.found;
-                       is_surface = static_cast<bool>(filter.surface_normal_flags(
-                           part_a, part_b, found.distance, [&]() -> const Manifold<D>& { return found.manifold; }));
-                       return false;
-                   });
+    detail::for_each_part_pair(
+        a, b, margin, [&](const Part<D>& part_a, std::uint32_t index_a, const Part<D>& part_b, std::uint32_t index_b) {
+            if (std::pair(index_a, index_b) != deepest.parts) return true;
+            const PartContact<D>& found = deepest.found;
+            is_surface = static_cast<bool>(filter.surface_normal_flags(
+                part_a, part_b, found.distance, [&]() -> const Manifold<D>& { return found.manifold; }));
+            return false;
+        });
     return is_surface;
 }
 
@@ -103,22 +110,23 @@ ContactWithNeighbours<D> only_contact(const View<D>& a, const View<D>& b, const 
     ContactWithNeighbours<D> result;
     result.contact = deepest.contact;
     EdgeFilter<D> filter(a, b, neighbours);
-    each_part_pair(a, b, 0, [&](const auto& part_a, std::uint32_t index_a, const auto& part_b, std::uint32_t index_b) {
-        PartContact<D> found = deepest.found;
-        const detail::SurfaceNormalFlags flags = filter.surface_normal_flags(
-            part_a, part_b, found.distance, [&]() -> const Manifold<D>& { return found.manifold; });
-        if (flags) return false;
-        const bool is_replaced = filter.replace(part_a, part_b, flags, found);
-        if (found.distance.distance > 0) {
-            result.contact = {};
+    detail::for_each_part_pair(
+        a, b, 0, [&](const Part<D>& part_a, std::uint32_t index_a, const Part<D>& part_b, std::uint32_t index_b) {
+            PartContact<D> found = deepest.found;
+            const detail::SurfaceNormalFlags flags = filter.surface_normal_flags(
+                part_a, part_b, found.distance, [&]() -> const Manifold<D>& { return found.manifold; });
+            if (flags) return false;
+            const bool is_replaced = filter.replace(part_a, part_b, flags, found);
+            if (found.distance.distance > 0) {
+                result.contact = {};
+                return false;
+            }
+            result.surface_normals = flags;
+            if (!is_replaced) return false;
+            write(found.distance, found.manifold, result.contact);
+            name_features(part_a, part_b, found.distance, index_a, index_b, result.contact);
             return false;
-        }
-        result.surface_normals = flags;
-        if (!is_replaced) return false;
-        write(found.distance, found.manifold, result.contact);
-        name_features(part_a, part_b, found.distance, index_a, index_b, result.contact);
-        return false;
-    });
+        });
     return result;
 }
 
@@ -133,16 +141,14 @@ template <int D>
 
 template <int D>
 Contact<D> contact(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options) {
-    Contact<D> result;
-    result.normal[0] = 1;
+    Contact<D> result = no_contact<D>();
     answer(a, b, options, result);
     return result;
 }
 
 template <int D>
 Contact<D> contact(const ShapeRef<D>& a, const ShapeRef<D>& b, const QueryOptions<D>& options) {
-    Contact<D> result;
-    result.normal[0] = 1;
+    Contact<D> result = no_contact<D>();
     if (options.trace != nullptr ||
         !closed_form_contact(a, b, static_cast<double>(options.margin), options.cache, result))
         by_views(a, b, options, result);
@@ -153,12 +159,8 @@ template <int D>
 Contact<D> contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& options) {
     const auto *convex_a = std::get_if<Convex<D>>(&a), *convex_b = std::get_if<Convex<D>>(&b);
     if (convex_a != nullptr && convex_b != nullptr) return contact(*convex_a, *convex_b, options);
-    const bool finite = is_finite(a) && is_finite(b);
-    ABUT_ASSERT(finite);
-    Deepest<D> deepest;
-    deepest.contact.normal[0] = 1;
-    if (!finite) return deepest.contact;
-    deepest = deepest_of(a, b, options);
+    if (!detail::is_valid_pair(a, b)) return no_contact<D>();
+    const Deepest<D> deepest = deepest_of(a, b, options);
     const bool has_parts = std::holds_alternative<Composite<D>>(a) || std::holds_alternative<Composite<D>>(b);
     if (!deepest.contact || !has_parts || is_surface_contact<D>(a, b, deepest, options.margin, {}))
         return deepest.contact;
@@ -174,9 +176,6 @@ template <int D>
 ContactWithNeighbours<D> contact_with_neighbours(const View<D>& a, const View<D>& b,
                                                  const NeighbourSurfaces<D>& neighbours) {
     ContactWithNeighbours<D> result;
-    const bool finite = is_finite(a) && is_finite(b);
-    ABUT_ASSERT(finite);
-    if (!finite) return result;
     const Deepest<D> deepest = deepest_of<D>(a, b, {});
     if (!deepest.contact) return result;
     const bool has_parts = std::holds_alternative<Composite<D>>(a) || std::holds_alternative<Composite<D>>(b);

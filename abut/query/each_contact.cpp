@@ -1,6 +1,7 @@
 #include <abut/query/detail/one_sided.hpp>
-#include <abut/query/detail/surface/contact_with_neighbours.hpp>
+#include <abut/query/detail/surface/edge_filter.hpp>
 #include <abut/query/detail/surface/reported_contacts.hpp>
+#include <abut/query/detail/valid_query.hpp>
 #include <abut/query/detail/write_answer.hpp>
 #include <abut/query/each_contact.hpp>
 
@@ -34,8 +35,9 @@ public:
     void each(const Visit& visit) const {
         for (std::uint32_t i = 0; i < parts_.size(); ++i) {
             if (!overlaps(parts_.box(i), box_)) continue;
-            const bool go_on = a_is_composite_ ? visit(parts_.part(i), parts_.index(i), *convex_, 0u)
-                                               : visit(*convex_, 0u, parts_.part(i), parts_.index(i));
+            const Part<D> part(parts_.part(i)), other(*convex_);
+            const bool go_on =
+                a_is_composite_ ? visit(part, parts_.index(i), other, 0u) : visit(other, 0u, part, parts_.index(i));
             if (!go_on) return;
         }
     }
@@ -80,28 +82,29 @@ public:
     }
 
 private:
+    using AtSurfaceContact = FunctionRef<bool(const PartContact<D>& found, const Contact<D>& contact)>;
+    using AtGhost = FunctionRef<bool(const Ghost<D>& ghost)>;
+
     /// Calls at_surface_contact(found, contact) or at_ghost(ghost) for each pair of parts; they return false to stop.
-    template <class AtSurfaceContact, class AtGhost>
-    void visit_pairs(const AtSurfaceContact& at_surface_contact, const AtGhost& at_ghost) {
+    void visit_pairs(AtSurfaceContact at_surface_contact, AtGhost at_ghost) {
         const SearchOptions<D> search = search_options(a_, b_, options_);
-        const auto visit = [&](const auto& part_a, std::uint32_t index_a, const auto& part_b, std::uint32_t index_b) {
+        const auto visit = [&](const Part<D>& part_a, std::uint32_t index_a, const Part<D>& part_b,
+                               std::uint32_t index_b) {
             return visit_pair(part_a, index_a, part_b, index_b, search, at_surface_contact, at_ghost);
         };
         if (is_cached_)
             cache_.each(visit);
         else
-            each_part_pair(a_, b_, options_.margin, visit);
+            detail::for_each_part_pair(a_, b_, options_.margin, visit);
     }
-    template <class PartA, class PartB, class AtSurfaceContact, class AtGhost>
-    bool visit_pair(const PartA& part_a, std::uint32_t index_a, const PartB& part_b, std::uint32_t index_b,
-                    const SearchOptions<D>& search, const AtSurfaceContact& at_surface_contact,
-                    const AtGhost& at_ghost) {
+    bool visit_pair(const Part<D>& part_a, std::uint32_t index_a, const Part<D>& part_b, std::uint32_t index_b,
+                    const SearchOptions<D>& search, AtSurfaceContact at_surface_contact, AtGhost at_ghost) {
         const double margin = static_cast<double>(options_.margin);
         PartContact<D> found;
-        if (!part_distance_within(part_a, part_b, margin, margin, search, found)) return true;
-        if (!touch_at_fronts(part_a, part_b, found.distance.normal)) return true;
+        if (!part_distance_within<D>(part_a, part_b, margin, margin, search, found)) return true;
+        if (!touch_at_fronts<D>(part_a, part_b, found.distance.normal)) return true;
         const auto manifold = [&]() -> const Manifold<D>& {
-            add_points(part_a, part_b, margin, search, found);
+            add_points<D>(part_a, part_b, margin, search, found);
             return found.manifold;
         };
         const auto write_to = [&](Contact<D>& contact) {
@@ -178,14 +181,13 @@ template <int D>
 void each_contact_with_neighbours(const View<D>& a, const View<D>& b, const QueryOptions<D>& options,
                                   const NeighbourSurfaces<D>& neighbours,
                                   FunctionRef<bool(const Contact<D>&, const detail::SurfaceNormalFlags&)> visit) {
-    const bool finite = is_finite(a) && is_finite(b);
-    ABUT_ASSERT(finite);
-    if (finite) ContactReporter<D>(a, b, options, neighbours, visit).report();
+    ContactReporter<D>(a, b, options, neighbours, visit).report();
 }
 
 template <int D>
 void each_contact_of(const View<D>& a, const View<D>& b, const QueryOptions<D>& options,
                      FunctionRef<bool(const Contact<D>&)> visit) {
+    if (!detail::is_valid_pair(a, b)) return;
     each_contact_with_neighbours<D>(
         a, b, options, {},
         [&](const Contact<D>& contact, const detail::SurfaceNormalFlags&) { return visit(contact); });

@@ -1,5 +1,7 @@
+#include <abut/query/contains.hpp>
 #include <abut/query/detail/closed_form/closed_form.hpp>
 #include <abut/query/detail/part_pairs.hpp>
+#include <abut/query/detail/valid_query.hpp>
 #include <abut/query/overlaps.hpp>
 
 namespace abut {
@@ -9,21 +11,21 @@ using namespace detail;
 namespace {
 
 template <int D>
-bool part_overlaps(const Convex<D>& a, const HalfSpaceView<D>& b, const SearchOptions<D>&) {
-    return part_distance(a, b).distance <= 0;
-}
-template <int D>
-bool part_overlaps(const HalfSpaceView<D>& a, const Convex<D>& b, const SearchOptions<D>& options) {
-    return part_overlaps(b, a, options);
+bool any_parts_overlap(const View<D>& a, const View<D>& b, const SearchOptions<D>& options) {
+    bool found = false;
+    detail::for_each_part_pair(a, b, 0,
+                               [&](const Part<D>& part_a, std::uint32_t, const Part<D>& part_b, std::uint32_t) {
+                                   found = part_overlaps<D>(part_a, part_b, options);
+                                   return !found;
+                               });
+    return found;
 }
 
 }  // namespace
 
 template <int D>
 bool overlaps(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options) {
-    const bool finite = is_finite(a) && is_finite(b);
-    ABUT_ASSERT(finite);
-    return finite && part_overlaps(a, b, SearchOptions<D>{options.cache, options.trace});
+    return detail::is_valid_pair(a, b) && part_overlaps(a, b, SearchOptions<D>{options.cache, options.trace});
 }
 
 template <int D>
@@ -37,25 +39,24 @@ bool overlaps(const ShapeRef<D>& a, const ShapeRef<D>& b, const QueryOptions<D>&
 
 template <int D>
 bool overlaps(const View<D>& a, const View<D>& b, const QueryOptions<D>& options) {
-    const auto *convex_a = std::get_if<Convex<D>>(&a), *convex_b = std::get_if<Convex<D>>(&b);
-    if (convex_a != nullptr && convex_b != nullptr) return overlaps(*convex_a, *convex_b, options);
-    const bool finite = is_finite(a) && is_finite(b);
-    ABUT_ASSERT(finite);
-    if (!finite) return false;
-    const SearchOptions<D> search = search_options(a, b, options);
-    bool found = false;
-    each_part_pair(a, b, 0, [&](const auto& part_a, std::uint32_t, const auto& part_b, std::uint32_t) {
-        found = part_overlaps(part_a, part_b, search);
-        return !found;
-    });
-    return found;
+    return detail::is_valid_pair(a, b) && any_parts_overlap(a, b, search_options(a, b, options));
 }
 
-template bool overlaps(const View<2>&, const View<2>&, const QueryOptions<2>&);
-template bool overlaps(const View<3>&, const View<3>&, const QueryOptions<3>&);
-template bool overlaps(const Convex<2>&, const Convex<2>&, const QueryOptions<2>&);
-template bool overlaps(const Convex<3>&, const Convex<3>&, const QueryOptions<3>&);
-template bool overlaps(const ShapeRef<2>&, const ShapeRef<2>&, const QueryOptions<2>&);
-template bool overlaps(const ShapeRef<3>&, const ShapeRef<3>&, const QueryOptions<3>&);
+template <int D>
+bool contains(const View<D>& shape, const Vec<D>& point) {
+    if (!detail::is_valid_query(shape, point)) return false;
+    const auto* composite = std::get_if<Composite<D>>(&shape);
+    if (composite != nullptr && contains_inside(*composite, point)) return true;
+    return any_parts_overlap<D>(shape, View<D>(round_points<D>({point}, 0)), {});
+}
+
+#define ABUT_INSTANTIATE(D)                                                                 \
+    template bool overlaps(const View<D>&, const View<D>&, const QueryOptions<D>&);         \
+    template bool overlaps(const Convex<D>&, const Convex<D>&, const QueryOptions<D>&);     \
+    template bool overlaps(const ShapeRef<D>&, const ShapeRef<D>&, const QueryOptions<D>&); \
+    template bool contains(const View<D>&, const Vec<D>&);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
 
 }  // namespace abut

@@ -9,6 +9,7 @@
 
 #include <abut/convex/hull/hull.hpp>
 #include <abut/math/assert.hpp>
+#include <abut/query/detail/valid_query.hpp>
 #include <abut/query/polytope.hpp>
 
 #include <algorithm>
@@ -203,9 +204,7 @@ template <int D>
 PolytopeOf<D> inscribed_polytope(const Convex<D>& shape, float tolerance) {
     ABUT_ASSERT(tolerance > 0);
     if (has_corners_only(shape)) return polytope_of_corners(shape);
-    const bool finite = is_finite(shape);
-    ABUT_ASSERT(finite);
-    if (!finite) return {};
+    if (!is_valid_query(shape)) return {};
     const Centered<D> centered(shape);
     const double reached = std::max(min_polytope_tolerance * centered.extent, static_cast<double>(tolerance));
     std::vector<Vec<D>> points;

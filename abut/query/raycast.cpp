@@ -1,9 +1,9 @@
-#include <abut/math/assert.hpp>
+#include <abut/query/detail/part_pairs.hpp>
 #include <abut/query/detail/raycast/part_hit.hpp>
-#include <abut/query/detail/raycast/triangles.hpp>
-#include <abut/query/detail/raycast/write_hit.hpp>
-#include <abut/query/detail/sdf/function_motion.hpp>
+#include <abut/query/detail/valid_query.hpp>
 #include <abut/query/raycast.hpp>
+#include <abut/query/reflect.hpp>
+#include <abut/shape/solid_bsp.hpp>
 
 #include <algorithm>
 
@@ -34,44 +34,34 @@ bool first_hit(const DRay<D>& beam, const Composite<D>& composite, const QueryOp
     return any;
 }
 
-/// Calls find(beam, first) for the first hit.
-template <int D, class Shape, class Find>
-void find_first_hit(const Ray<D>& ray, const Shape& shape, const Find& find, std::optional<Hit<D>>& result) {
-    const bool finite = is_finite(shape) && is_valid_ray(ray);
-    ABUT_ASSERT(finite);
-    if (!finite) return;
+template <int D>
+bool first_hit(const DRay<D>& beam, const View<D>& shape, const QueryOptions<D>& options, PartHit<D>& first) {
+    return detail::with_part(
+        shape, [&](const Part<D>& part) { return part_hit(beam, part, 0, options.trace, first); },
+        [&](const Composite<D>& composite) { return first_hit(beam, composite, options, first); });
+}
+template <int D>
+bool first_hit(const DRay<D>& beam, const Convex<D>& shape, const QueryOptions<D>& options, PartHit<D>& first) {
+    return part_hit(beam, shape, 0, options.trace, first);
+}
+
+template <int D, class Shape>
+std::optional<Hit<D>> answer(const Ray<D>& ray, const Shape& shape, const QueryOptions<D>& options) {
+    std::optional<Hit<D>> result;
+    if (!detail::is_valid_query(shape, ray)) return result;
     const DRay<D> beam = to_dray(ray);
     PartHit<D> first;
-    if (find(beam, first)) write_hit(beam, first, result.emplace());
+    if (first_hit(beam, shape, options, first)) write_hit(beam, first, result.emplace());
+    return result;
 }
 
+/// Calls visit(hit) for each part of a composite shape that the ray hits; visit returns the new reach.
 template <int D>
-void answer(const Ray<D>& ray, const Convex<D>& shape, const QueryOptions<D>& options, std::optional<Hit<D>>& result) {
-    const auto find = [&](const DRay<D>& beam, PartHit<D>& first) {
-        return part_hit(beam, shape, 0, options.trace, first);
-    };
-    find_first_hit(ray, shape, find, result);
-}
-
-/// Calls visit(hit) for each part that the ray hits; visit returns the new reach.
-template <int D, class Visit>
-void visit_hits(const DRay<D>& beam, const View<D>& shape, const QueryOptions<D>& options, Visit visit) {
-    PartHit<D> hit;
-    if (const auto* convex = std::get_if<Convex<D>>(&shape)) {
-        if (part_hit(beam, *convex, 0, options.trace, hit)) visit(hit);
-        return;
-    }
-    if (const auto* half_space = std::get_if<HalfSpaceView<D>>(&shape)) {
-        if (part_hit(beam, *half_space, hit)) visit(hit);
-        return;
-    }
-    if (const auto* function = std::get_if<DistanceFunction<D>>(&shape)) {
-        if (part_hit(beam, *function, hit)) visit(hit);
-        return;
-    }
-    const auto& composite = std::get<Composite<D>>(shape);
+void visit_hits(const DRay<D>& beam, const Composite<D>& composite, const QueryOptions<D>& options,
+                FunctionRef<double(const PartHit<D>&)> visit) {
     if constexpr (D == 3)
         if (each_triangle_hit(beam, composite, options, visit)) return;
+    PartHit<D> hit;
     DRay<D> rest = beam;
     each_part_along<D>(composite, beam.origin, beam.direction, beam.length,
                        [&](const Convex<D>& part, std::uint32_t index) -> float {
@@ -85,17 +75,21 @@ void visit_hits(const DRay<D>& beam, const View<D>& shape, const QueryOptions<D>
 template <int D>
 void each_hit(const Ray<D>& ray, const View<D>& shape, FunctionRef<float(const Hit<D>&)> visit,
               const QueryOptions<D>& options) {
-    const bool finite = is_finite(shape) && is_valid_ray(ray);
-    ABUT_ASSERT(finite);
-    if (!finite) return;
+    if (!detail::is_valid_query(shape, ray)) return;
     const DRay<D> beam = to_dray(ray);
     double reach = beam.length;
-    visit_hits(beam, shape, options, [&](const PartHit<D>& found) {
+    const auto report = [&](const PartHit<D>& found) {
         Hit<D> hit;
         write_hit(beam, found, hit);
-        reach = std::min(reach, static_cast<double>(visit(hit)));
-        return reach;
-    });
+        return reach = std::min(reach, static_cast<double>(visit(hit)));
+    };
+    detail::with_part(
+        shape,
+        [&](const Part<D>& part) {
+            PartHit<D> hit;
+            if (part_hit(beam, part, 0, options.trace, hit)) report(hit);
+        },
+        [&](const Composite<D>& composite) { visit_hits<D>(beam, composite, options, report); });
 }
 
 template <int D>
@@ -113,31 +107,64 @@ void raycast_all(const Ray<D>& ray, const View<D>& shape, std::vector<Hit<D>>& o
 
 template <int D>
 std::optional<Hit<D>> raycast(const Ray<D>& ray, const Convex<D>& shape, const QueryOptions<D>& options) {
-    std::optional<Hit<D>> result;
-    answer(ray, shape, options, result);
-    return result;
+    return answer(ray, shape, options);
 }
-
 template <int D>
 std::optional<Hit<D>> raycast(const Ray<D>& ray, const Composite<D>& shape, const QueryOptions<D>& options) {
-    std::optional<Hit<D>> result;
-    const auto find = [&](const DRay<D>& beam, PartHit<D>& first) { return first_hit(beam, shape, options, first); };
-    find_first_hit(ray, static_cast<const Placement<D>&>(shape), find, result);
-    return result;
+    return answer(ray, shape, options);
+}
+template <int D>
+std::optional<Hit<D>> raycast(const Ray<D>& ray, const View<D>& shape, const QueryOptions<D>& options) {
+    return answer(ray, shape, options);
 }
 
 template <int D>
-std::optional<Hit<D>> raycast(const Ray<D>& ray, const View<D>& shape, const QueryOptions<D>& options) {
-    if (const auto* convex = std::get_if<Convex<D>>(&shape)) return raycast(ray, *convex, options);
-    if (const auto* composite = std::get_if<Composite<D>>(&shape)) return raycast(ray, *composite, options);
-    std::optional<Hit<D>> result;
-    const auto find = [&](const DRay<D>& beam, PartHit<D>& first) {
-        const auto* function = std::get_if<DistanceFunction<D>>(&shape);
-        return function != nullptr ? part_hit(beam, *function, first)
-                                   : part_hit(beam, std::get<HalfSpaceView<D>>(shape), first);
-    };
-    find_first_hit(ray, shape, find, result);
-    return result;
+std::optional<Hit<D>> raycast(const Ray<D>& ray, const SolidBsp<D>& level, const QueryOptions<D>&) {
+    if (!detail::is_valid_query(ray)) return std::nullopt;
+    // A ray that ends on a face hits it although its length is rounded.
+    constexpr double more = 1 + 1e-7;
+    const bool rests = ray.direction == Vec<D>(0.0f);
+    const double length = rests ? 0 : static_cast<double>(ray.length);
+    const DVec<D> direction = unit(DVec<D>(ray.direction));
+    SolidEntry<D> entry;
+    if (!level.enter(ray.origin, direction, length * more, entry)) return std::nullopt;
+    const double along = std::min(entry.along, length);
+    Hit<D> hit;
+    hit.distance = static_cast<float>(along);
+    hit.fraction = length > 0 && std::isfinite(length) ? std::min(1.0f, static_cast<float>(along / length)) : 0.0f;
+    hit.point = to_float(DVec<D>(ray.origin) + direction * along);
+    hit.normal = to_float(unit(entry.normal));
+    hit.started_inside = entry.started_inside;
+    if (entry.has_face) {
+        hit.feature.part = entry.face;
+        hit.feature.kind = D == 2 ? FeatureKind::edge : FeatureKind::face;
+        hit.feature.index = D == 2 ? edge_index(0, 1) : 0;
+    }
+    return hit;
+}
+
+/// With d the direction, n the normal and s = -dot(d, n) the sine of the angle of incidence, the ray leaves along d + 2
+/// s n.
+///
+/// The hit's point is rounded to floats, so it may lie behind the mirror. A step back along the ray by lift / s lies
+/// `lift` above the mirror. It lies in free space even in a corner, where a step along the normal could go through
+/// another mirror. The step displaces the reflected ray by at most twice the lift, as sin(2 a) / sin(a) <= 2.
+template <int D>
+Ray<D> reflect(const Ray<D>& ray, const Hit<D>& hit) {
+    if (!detail::is_valid_query(ray, hit)) return {ray.origin, to_float(axis<D>(0)), 0};
+
+    // More than the rounding of a direction and a normal together, and of two points.
+    constexpr double min_rise = 4e-7, rounding = 4e-7;
+    const DVec<D> direction = unit(DVec<D>(ray.direction)), normal = unit(DVec<D>(hit.normal)), point(hit.point);
+    const double sinks = std::max(-dot(direction, normal), 0.0);
+    const double lift = rounding * std::max(largest(point), largest(DVec<D>(ray.origin)));
+    const double travelled = static_cast<double>(hit.distance);
+    const double back = lift < sinks * travelled ? lift / sinks : travelled;
+
+    DVec<D> away = direction + normal * (2 * sinks);
+    away += normal * std::max(min_rise - dot(away, normal), 0.0);
+    const double left = std::max(static_cast<double>(ray.length) - (travelled - back), 0.0);
+    return {to_float(point - direction * back), to_float(normalized(away)), static_cast<float>(left)};
 }
 
 #define ABUT_INSTANTIATE(D)                                                                                           \
@@ -145,7 +172,9 @@ std::optional<Hit<D>> raycast(const Ray<D>& ray, const View<D>& shape, const Que
     template std::optional<Hit<D>> raycast(const Ray<D>&, const Composite<D>&, const QueryOptions<D>&);               \
     template std::optional<Hit<D>> raycast(const Ray<D>&, const Convex<D>&, const QueryOptions<D>&);                  \
     template void each_hit(const Ray<D>&, const View<D>&, FunctionRef<float(const Hit<D>&)>, const QueryOptions<D>&); \
-    template void raycast_all(const Ray<D>&, const View<D>&, std::vector<Hit<D>>&, const QueryOptions<D>&);
+    template void raycast_all(const Ray<D>&, const View<D>&, std::vector<Hit<D>>&, const QueryOptions<D>&);           \
+    template std::optional<Hit<D>> raycast(const Ray<D>&, const SolidBsp<D>&, const QueryOptions<D>&);                \
+    template Ray<D> reflect(const Ray<D>&, const Hit<D>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

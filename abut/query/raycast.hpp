@@ -33,7 +33,12 @@ std::optional<Hit<D>> raycast(const Ray<D>& ray, const detail::ShapeRef<D>& shap
 /// A mesh without a pose, without a view of it.
 std::optional<Hit<3>> raycast(const Ray<3>& ray, const Mesh& mesh, const QueryOptions<3>& options = {});
 
-/// A solid level without a pose, by its tree. query/raycast_solid_bsp.hpp defines the answer.
+/// A solid level without a pose, by its tree. The hit is the first point where the ray passes from open space into the
+/// solid. A ray that starts on a face and goes in hits at 0. A ray that starts inside leaves the solid first, and sets
+/// `started_inside`. A ray along a face doesn't hit it. The feature's part is the number of the face, if there is one.
+///
+/// Placed by `at`, stretched, in a Compound or in a World, the level is a shape of convex parts like others: the ray
+/// hits one of them, also if it starts inside another, and the feature's part is its number.
 template <int D>
 std::optional<Hit<D>> raycast(const Ray<D>& ray, const SolidBsp<D>& level, const QueryOptions<D>& options = {});
 

@@ -1,7 +1,8 @@
-#include <abut/math/assert.hpp>
 #include <abut/query/detail/closed_form/closed_form.hpp>
 #include <abut/query/detail/surface/hit_normal.hpp>
-#include <abut/query/detail/sweep/front_time_of_impact.hpp>
+#include <abut/query/detail/sweep/linear.hpp>
+#include <abut/query/detail/sweep/rotating.hpp>
+#include <abut/query/detail/valid_query.hpp>
 #include <abut/query/sweep.hpp>
 
 namespace abut {
@@ -9,6 +10,21 @@ namespace abut {
 using namespace detail;
 
 namespace {
+
+/// Filters the normal of a hit on an internal edge of a composite shape, which is placed as at the moment of the hit;
+/// `point` is the point of contact there.
+template <int D>
+void filter_normal(const MoverAtHit<D>& mover, const View<D>& shape, const DVec<D>& point, Hit<D>& hit) {
+    const auto closest_points = [&](const DVec<D>& from, double within, ClosestPointVisitor<D> visit) {
+        each_closest_point_on(shape, from, within, visit);
+    };
+    Hit<D> filtered = hit;
+    filtered.point = to_float(point);
+    filter_hit_normal<D>(mover, shape, closest_points, filtered);
+    hit.normal = filtered.normal;
+}
+
+// Straight motions.
 
 /// The two motions of a query.
 template <int D>
@@ -34,101 +50,11 @@ void write_hit(const Motions<D>& motions, const LinearImpact<D>& first, Hit<D>& 
     hit.feature = first.feature;
 }
 
-/// The swept box of a part along the path.
-template <int D>
-MovingBox<D> moving_box(const Aabb<D>& box, const DVec<D>& direction, double length) {
-    const DVec<D> low(box.min), high(box.max);
-    return {(low + high) * 0.5, (high - low) * 0.5, direction, length};
-}
-
-/// The first impact over all pairs of parts.
-template <int D>
-class FirstImpact {
-public:
-    FirstImpact(const Path<D>& path, const SweepOptions<D>& options) : path_(path), options_(options) {}
-
-    void search(const View<D>& a, const View<D>& b) {
-        if (const auto* convex = std::get_if<Convex<D>>(&a))
-            search_part(*convex, 0, b);
-        else if (const auto* half_space = std::get_if<HalfSpaceView<D>>(&a))
-            search_part(*half_space, 0, b);
-        else if (const auto* function = std::get_if<DistanceFunction<D>>(&a))
-            search_part(*function, 0, b);
-        else
-            each_part_on_path(std::get<Composite<D>>(a), b, -path_.direction,
-                              [&](const Convex<D>& part, std::uint32_t index) { search_part(part, index, b); });
-    }
-
-    bool found() const { return any_; }
-    const LinearImpact<D>& first() const { return first_; }
-
-private:
-    /// Tests one part of A against all of B.
-    template <class Part>
-    void search_part(const Part& part, std::uint32_t index, const View<D>& b) {
-        [[maybe_unused]] constexpr bool two_half_spaces_pair = false;
-        if (const auto* convex = std::get_if<Convex<D>>(&b))
-            test_pair(part, index, *convex, 0);
-        else if (const auto* function = std::get_if<DistanceFunction<D>>(&b))
-            test_pair(part, index, *function, 0);
-        else if (const auto* composite = std::get_if<Composite<D>>(&b))
-            each_part_on_path(
-                *composite, part, path_.direction,
-                [&](const Convex<D>& other, std::uint32_t other_index) { test_pair(part, index, other, other_index); });
-        else if constexpr (std::is_same_v<Part, HalfSpaceView<D>>)
-            ABUT_ASSERT(two_half_spaces_pair);
-        else
-            test_pair(part, index, std::get<HalfSpaceView<D>>(b), 0);
-    }
-
-    /// Calls visit(part, index) for the parts of a composite shape that another shape, moving along `direction`, may
-    /// touch no later than the first known impact.
-    template <class Other, class Visit>
-    void each_part_on_path(const Composite<D>& composite, const Other& other, const DVec<D>& direction, Visit&& visit) {
-        const Aabb<D> box = bounds(other);
-        const auto visit_and_reach = [&](const Convex<D>& part, std::uint32_t index) -> float {
-            visit(part, index);
-            return std::nextafter(static_cast<float>(reach()), std::numeric_limits<float>::infinity());
-        };
-        const MovingBox<D> moving = moving_box(box, direction, reach());
-        if (std::isfinite(length_squared(moving.half)))
-            each_part_along<D>(composite, moving, visit_and_reach);
-        else
-            each_part<D>(composite, bounds(composite), [&](const Convex<D>& part, std::uint32_t index) -> bool {
-                return visit_and_reach(part, index) >= 0;
-            });
-    }
-
-    double reach() const { return any_ ? first_.along : path_.length; }
-
-    template <class PartA, class PartB>
-    void test_pair(const PartA& part_a, std::uint32_t index_a, const PartB& part_b, std::uint32_t index_b) {
-        LinearImpact<D> impact;
-        if (!front_time_of_impact(part_a, path_, part_b, index_b, options_, impact)) return;
-        // Of several parts hit at one distance the lowest wins, whatever the order of the visits.
-        if (any_ &&
-            (impact.along > first_.along ||
-             (impact.along == first_.along && std::pair(index_b, index_a) >= std::pair(first_.feature.part, index_a_))))
-            return;
-        any_ = true;
-        first_ = impact;
-        index_a_ = index_a;
-    }
-
-    Path<D> path_;
-    SweepOptions<D> options_;
-    bool any_ = false;
-    LinearImpact<D> first_;
-    std::uint32_t index_a_ = 0;  ///< of the part of A
-};
-
 /// Calls find(path, first) for the first impact along a path.
 template <int D, class Shapes, class Find>
 void find_first_impact(const Shapes& a, const Vec<D>& motion_a, const Shapes& b, const Vec<D>& motion_b,
                        const Find& find, std::optional<Hit<D>>& result) {
-    const bool finite = is_finite(a) && is_finite(b) && is_finite(motion_a) && is_finite(motion_b);
-    ABUT_ASSERT(finite);
-    if (!finite) return;
+    if (!detail::is_valid_pair(a, b, motion_a, motion_b)) return;
     const Motions<D> motions(motion_a, motion_b);
     if (!(motions.path.length > 0)) return;
     LinearImpact<D> first;
@@ -142,6 +68,62 @@ void find_first_impact(const Shapes& a, const Vec<D>& motion_a, const Shapes& b,
     result = sweep(convex_of(a), motion_a, convex_of(b), motion_b, options);
 }
 
+// Motions with rotation.
+
+/// The float at or below a time from 0 to 1.
+float rounded_down(double time) {
+    const float nearest = static_cast<float>(time);
+    return static_cast<double>(nearest) > time ? std::nextafter(nearest, 0.0f) : nearest;
+}
+
+/// Calls find(impact) in a frame in which A's pivot stays at the origin, so that precision doesn't depend on the
+/// distance from the world's origin.
+template <int D, class Shape, class Find>
+std::optional<Hit<D>> hit_on_paths(const Shape& a, RigidPath<D>& path_a, const Shape& b, RigidPath<D>& path_b,
+                                   const Find& find) {
+    std::optional<Hit<D>> result;
+    if (!detail::is_valid_pair(a, b, path_a, path_b)) return result;
+    const DVec<D> start = path_a.start.offset, move = path_a.move;
+    path_b.start.offset -= start;
+    path_b.move -= move;
+    path_a.start.offset = path_a.move = DVec<D>(0.0);
+    RotatingImpact<D> impact;
+    if (!find(impact)) return result;
+    Hit<D>& hit = result.emplace();
+    hit.fraction = rounded_down(impact.time);
+    hit.distance = hit.fraction * static_cast<float>(length(path_b.move));
+    hit.point = to_float(impact.point + start + move * impact.time);
+    hit.normal = to_float(-impact.normal);
+    hit.started_inside = impact.started_inside;
+    hit.feature = impact.feature;
+    return result;
+}
+
+template <int D>
+std::optional<Hit<D>> sweep_paths(const Convex<D>& a, RigidPath<D> path_a, const Convex<D>& b, RigidPath<D> path_b,
+                                  const QueryOptions<D>& options) {
+    return hit_on_paths(a, path_a, b, path_b, [&](RotatingImpact<D>& impact) {
+        return time_of_impact<D>(a, path_a, b, path_b, {}, {options.cache, options.trace}, impact);
+    });
+}
+
+template <int D>
+std::optional<Hit<D>> sweep_paths(const View<D>& a, RigidPath<D> path_a, const View<D>& b, RigidPath<D> path_b,
+                                  const QueryOptions<D>& options) {
+    RotatingImpact<D> first;
+    std::optional<Hit<D>> result = hit_on_paths(a, path_a, b, path_b, [&](RotatingImpact<D>& impact) {
+        const bool found = time_of_impact<D>(a, path_a, b, path_b, search_options(a, b, options), impact);
+        first = impact;
+        return found;
+    });
+    if (result && std::holds_alternative<Composite<D>>(b)) {
+        MoverAtHit<D> mover = rotating_mover_at_hit(a, path_a, first.time, first.point);
+        mover.direction -= path_b.velocity(first.time, first.point);
+        filter_normal<D>(mover, moved(b, place_at(path_b, first.time)), first.point, *result);
+    }
+    return result;
+}
+
 }  // namespace
 
 template <int D>
@@ -149,7 +131,7 @@ std::optional<Hit<D>> sweep(const Convex<D>& a, const Vec<D>& motion_a, const Co
                             const QueryOptions<D>& options) {
     std::optional<Hit<D>> result;
     const auto find = [&](const Path<D>& path, LinearImpact<D>& first) {
-        return front_time_of_impact(a, path, b, 0, SweepOptions<D>{options.cache, options.trace}, first);
+        return front_time_of_impact<D>(a, path, b, 0, {options.cache, options.trace}, first);
     };
     find_first_impact(a, motion_a, b, motion_b, find, result);
     return result;
@@ -175,34 +157,66 @@ std::optional<Hit<D>> sweep(const View<D>& a, const Vec<D>& motion_a, const View
     std::optional<Hit<D>> result;
     const auto find = [&](const Path<D>& path, LinearImpact<D>& first) {
         const SearchOptions<D> options_of_pair = search_options(a, b, options);
-        FirstImpact<D> search(path, {options_of_pair.cache, options_of_pair.trace});
-        search.search(a, b);
-        first = search.first();
-        return search.found();
+        return first_impact(a, path, b, {options_of_pair.cache, options_of_pair.trace}, first);
     };
     find_first_impact(a, motion_a, b, motion_b, find, result);
     if (result && std::holds_alternative<Composite<D>>(b)) {
-        // The point relative to B's start.
+        // Relative to B's start.
         const DVec<D> moved_b = DVec<D>(motion_b) * static_cast<double>(result->fraction);
         const DVec<D> moved_a = DVec<D>(motion_a) * static_cast<double>(result->fraction);
-        const Vec<D> point = result->point;
-        result->point = to_float(DVec<D>(point) - moved_b);
-        const auto closest_points = [&](const DVec<D>& from, double within, ClosestPointVisitor<D> visit) {
-            each_closest_point_on(b, from, within, visit);
-        };
-        filter_hit_normal<D>(linear_mover_at_hit<D>(a, moved_a - moved_b), b, closest_points, *result);
-        result->point = point;
+        filter_normal(linear_mover_at_hit<D>(a, moved_a - moved_b), b, DVec<D>(result->point) - moved_b, *result);
     }
     return result;
 }
 
+template <int D>
+std::optional<Hit<D>> sweep(const Convex<D>& a, const Motion<D>& motion_a, const Convex<D>& b,
+                            const Motion<D>& motion_b, const QueryOptions<D>& options) {
+    return sweep_paths(a, rigid_path(motion_a), b, rigid_path(motion_b), options);
+}
+template <int D>
+std::optional<Hit<D>> sweep(const ShapeRef<D>& a, const Motion<D>& motion_a, const ShapeRef<D>& b,
+                            const Motion<D>& motion_b, const QueryOptions<D>& options) {
+    return sweep(convex_of(a), motion_a, convex_of(b), motion_b, options);
+}
+template <int D>
+std::optional<Hit<D>> sweep(const View<D>& a, const Motion<D>& motion_a, const View<D>& b, const Motion<D>& motion_b,
+                            const QueryOptions<D>& options) {
+    return sweep_paths(a, rigid_path(motion_a), b, rigid_path(motion_b), options);
+}
+
+template <int D>
+std::optional<Hit<D>> sweep(const Convex<D>& a, const Pose<D>& from_a, const Pose<D>& to_a, const Convex<D>& b,
+                            const Pose<D>& from_b, const Pose<D>& to_b, const QueryOptions<D>& options) {
+    return sweep_paths(a, rigid_path(from_a, to_a), b, rigid_path(from_b, to_b), options);
+}
+template <int D>
+std::optional<Hit<D>> sweep(const ShapeRef<D>& a, const Pose<D>& from_a, const Pose<D>& to_a, const ShapeRef<D>& b,
+                            const Pose<D>& from_b, const Pose<D>& to_b, const QueryOptions<D>& options) {
+    return sweep(convex_of(a), from_a, to_a, convex_of(b), from_b, to_b, options);
+}
+template <int D>
+std::optional<Hit<D>> sweep(const View<D>& a, const Pose<D>& from_a, const Pose<D>& to_a, const View<D>& b,
+                            const Pose<D>& from_b, const Pose<D>& to_b, const QueryOptions<D>& options) {
+    return sweep_paths(a, rigid_path(from_a, to_a), b, rigid_path(from_b, to_b), options);
+}
+
+#define ABUT_INSTANTIATE_FOR(D, S)                                                                           \
+    template std::optional<Hit<D>> sweep(const S&, const Motion<D>&, const S&, const Motion<D>&,             \
+                                         const QueryOptions<D>&);                                            \
+    template std::optional<Hit<D>> sweep(const S&, const Pose<D>&, const Pose<D>&, const S&, const Pose<D>&, \
+                                         const Pose<D>&, const QueryOptions<D>&);
 #define ABUT_INSTANTIATE(D)                                                                                \
     template std::optional<Hit<D>> sweep(const View<D>&, const Vec<D>&, const View<D>&, const Vec<D>&,     \
                                          const QueryOptions<D>&);                                          \
     template std::optional<Hit<D>> sweep(const Convex<D>&, const Vec<D>&, const Convex<D>&, const Vec<D>&, \
-                                         const QueryOptions<D>&);
+                                         const QueryOptions<D>&);                                          \
+    ABUT_INSTANTIATE_FOR(D, View<D>)                                                                       \
+    ABUT_INSTANTIATE_FOR(D, Convex<D>)                                                                     \
+    ABUT_INSTANTIATE_FOR(D, ShapeRef<D>)
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
+#undef ABUT_INSTANTIATE_FOR
 
 }  // namespace abut

@@ -1,6 +1,7 @@
 #include <abut/broad_phase/bvh.hpp>
 #include <abut/math/assert.hpp>
 #include <abut/shape/compound.hpp>
+#include <abut/shape/view/part.hpp>
 
 #include <vector>
 
@@ -77,11 +78,10 @@ Aabb<D> Compound<D>::bounds() const {
 template <int D>
 void Compound<D>::each_part(const Aabb<D>& box, PartVisitor<D> visit) const {
     data_->tree.each_overlapping(box, [&](std::uint32_t index) -> bool {
-        const View<D>& one = child(index);
-        if (const auto* part = std::get_if<Convex<D>>(&one)) return visit(*part, index);
         bool go_on = true;
-        detail::each_part<D>(std::get<Composite<D>>(one), box,
-                             [&](const Convex<D>& part, std::uint32_t) { return go_on = visit(part, index); });
+        detail::for_each_part(child(index), box, [&](const detail::Part<D>& part, std::uint32_t) {
+            return go_on = visit(part.convex(), index);
+        });
         return go_on;
     });
 }
@@ -96,12 +96,11 @@ void Compound<D>::each_part_along(const MovingBox<D>& box, PartReachVisitor<D> v
             reach = std::min(reach, static_cast<double>(visit(part, index)));
             return static_cast<float>(reach * direction_length);
         };
-        const View<D>& one = child(index);
-        if (const auto* part = std::get_if<Convex<D>>(&one))
-            visit_part(*part, index);
-        else
-            detail::each_part_along<D>(std::get<Composite<D>>(one), with_unit_direction(box, direction_length, reach),
-                                       visit_part);
+        detail::with_part(
+            child(index), [&](const detail::Part<D>& part) { visit_part(part.convex(), index); },
+            [&](const Composite<D>& composite) {
+                detail::each_part_along<D>(composite, with_unit_direction(box, direction_length, reach), visit_part);
+            });
         return static_cast<float>(reach);
     });
 }
@@ -113,11 +112,9 @@ void Compound<D>::each_part_near(const Aabb<D>& box, PartReachVisitor<D> visit) 
         const auto visit_part = [&](const Convex<D>& part, std::uint32_t) -> float {
             return reach = std::min(reach, visit(part, index));
         };
-        const View<D>& one = child(index);
-        if (const auto* part = std::get_if<Convex<D>>(&one))
-            visit_part(*part, index);
-        else
-            detail::each_part_near<D>(std::get<Composite<D>>(one), box, visit_part);
+        detail::with_part(
+            child(index), [&](const detail::Part<D>& part) { visit_part(part.convex(), index); },
+            [&](const Composite<D>& composite) { detail::each_part_near<D>(composite, box, visit_part); });
         return reach;
     });
 }

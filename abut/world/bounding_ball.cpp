@@ -77,13 +77,17 @@ BoundingBall<D> placed_ball(const Shape& shape) {
 
 template <int D>
 BoundingBall<D> bounding_ball(const View<D>& view) {
-    if (const auto* convex = std::get_if<Convex<D>>(&view)) return placed_ball<D>(*convex);
-    if (const auto* composite = std::get_if<Composite<D>>(&view)) return placed_ball<D>(*composite);
-    if (const auto* function = std::get_if<DistanceFunction<D>>(&view)) {
-        const BoundingBall<D> ball = placed_ball<D>(*function);
-        if (std::isfinite(ball.radius)) return ball;
-    }
-    return {DVec<D>(0.0), std::numeric_limits<double>::infinity()};
+    const BoundingBall<D> everywhere{DVec<D>(0.0), std::numeric_limits<double>::infinity()};
+    return std::visit(
+        [&]<class Shape>(const Shape& shape) {
+            if constexpr (std::is_same_v<Shape, HalfSpaceView<D>>) {
+                return everywhere;
+            } else {
+                const BoundingBall<D> ball = placed_ball<D>(shape);
+                return std::is_same_v<Shape, DistanceFunction<D>> && !std::isfinite(ball.radius) ? everywhere : ball;
+            }
+        },
+        view);
 }
 
 /// The radius grows by the rounding error of the centre, and is rounded up.

@@ -3,7 +3,6 @@
 
 #include <abut/broad_phase/boxes.hpp>
 #include <abut/query/sweep.hpp>
-#include <abut/query/sweep_turning.hpp>
 #include <abut/world/world.hpp>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // of the union of all that it touches (docs/ghosts.md).
 
 #include <abut/broad_phase/boxes.hpp>
-#include <abut/query/detail/surface/contact_with_neighbours.hpp>
+#include <abut/query/detail/surface/edge_filter.hpp>
 #include <abut/world/world.hpp>
 
 #include <algorithm>
@@ -141,7 +141,7 @@ bool World<D>::is_covered(const FoundContact& ghost, const Id& item) const {
         return DVec<D>(contact.contact.normal) * (contact.a == item ? 1.0 : -1.0);
     };
     const WorldContact<D>& result = ghost.result;
-    const double size = std::min(abut::size(shape(result.a)), abut::size(shape(result.b)));
+    const double size = std::min(detail::size(shape(result.a)), detail::size(shape(result.b)));
     const std::uint32_t slot = item.index - 1;
     if (!filters_edges(slot)) return false;
     const auto others = found_by_slot_.of(slot);

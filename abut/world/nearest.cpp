@@ -1,7 +1,7 @@
 // Queries for the nearest items of a world. The broad phases visit the items front to back.
 
 #include <abut/broad_phase/boxes.hpp>
-#include <abut/math/assert.hpp>
+#include <abut/query/detail/valid_query.hpp>
 #include <abut/world/world.hpp>
 
 #include <algorithm>
@@ -19,9 +19,7 @@ bool is_nearer(const WorldClosest<D>& a, const WorldClosest<D>& b) {
 
 template <int D>
 std::size_t World<D>::nearest_to(const View<D>& shape, std::span<WorldClosest<D>> out, const Filter& filter) const {
-    const bool finite = is_finite(shape);
-    ABUT_ASSERT(finite);
-    if (!finite || out.empty()) return 0;
+    if (!detail::is_valid_query(shape) || out.empty()) return 0;
     query_count_.add(detail::ray_weight);
     // `out` is a heap with the farthest item at its front.
     std::size_t count = 0;

@@ -1,8 +1,8 @@
 // Ray, overlap and region queries of a world.
 
 #include <abut/broad_phase/boxes.hpp>
-#include <abut/math/assert.hpp>
 #include <abut/query/contains.hpp>
+#include <abut/query/detail/valid_query.hpp>
 #include <abut/query/overlaps.hpp>
 #include <abut/world/world.hpp>
 
@@ -11,24 +11,6 @@
 namespace abut {
 
 using namespace detail;
-
-namespace {
-
-/// Checks the query's input once, before the items are visited.
-template <int D>
-bool is_valid_query(const View<D>& shape) {
-    const bool finite = is_finite(shape);
-    ABUT_ASSERT(finite);
-    return finite;
-}
-template <int D>
-bool is_valid_query(const Ray<D>& ray) {
-    const bool finite = is_finite(ray.origin) && is_finite(ray.direction) && !std::isnan(ray.length);
-    ABUT_ASSERT(finite);
-    return finite;
-}
-
-}  // namespace
 
 template <int D>
 bool World<D>::passes(std::uint32_t slot, const Filter& filter) const {
@@ -58,7 +40,7 @@ void World<D>::each_near(const Aabb<D>& box, const Filter& filter, F&& visit) co
 template <int D>
 template <class F>
 void World<D>::each_near_ray(const Ray<D>& ray, const Filter& filter, F&& visit) const {
-    if (!is_valid_query(ray)) return;
+    if (!detail::is_valid_query(ray)) return;
     query_count_.add(detail::ray_weight);
     Ray<D> rest = ray;
     const auto visit_passing = [&](std::uint32_t slot) -> float {
@@ -109,7 +91,7 @@ std::vector<WorldHit<D>> World<D>::all_hits(const Ray<D>& ray, const Filter& fil
 
 template <int D>
 void World<D>::visit_overlapping(const View<D>& shape, const Filter& filter, FunctionRef<bool(Id)> visit) const {
-    if (!is_valid_query(shape)) return;
+    if (!detail::is_valid_query(shape)) return;
     each_near(bounds(shape), filter, [&](std::uint32_t slot) {
         const Item& item = items_[slot];
         if (std::holds_alternative<HalfSpaceView<D>>(shape) && item.type == ShapeType::half_space) return true;
@@ -137,7 +119,7 @@ std::vector<Id> World<D>::all_overlapping(const View<D>& shape, const Filter& fi
 template <int D>
 std::vector<Id> World<D>::all_containing(const Vec<D>& point, const Filter& filter) const {
     std::vector<Id> result;
-    if (!is_valid_query(point_view(point))) return result;
+    if (!detail::is_valid_query(point_view(point))) return result;
     each_near(Aabb<D>{point, point}, filter, [&](std::uint32_t slot) {
         if (abut::contains(placed(items_[slot]), point)) result.push_back(id_of(slot));
         return true;

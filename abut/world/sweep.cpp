@@ -2,10 +2,9 @@
 
 #include <abut/broad_phase/boxes.hpp>
 #include <abut/broad_phase/reach.hpp>
-#include <abut/math/assert.hpp>
 #include <abut/query/detail/surface/hit_normal.hpp>
+#include <abut/query/detail/valid_query.hpp>
 #include <abut/query/sweep.hpp>
-#include <abut/query/sweep_turning.hpp>
 #include <abut/world/world.hpp>
 
 namespace abut {
@@ -13,25 +12,6 @@ namespace abut {
 using namespace detail;
 
 namespace {
-
-template <int D>
-bool is_finite(const Pose<D>& pose) {
-    float sum = 0;
-    for (int i = 0; i < D; ++i) sum += pose.position[i];
-    if constexpr (D == 2)
-        sum += pose.rotation.cos + pose.rotation.sin;
-    else
-        sum += pose.rotation.w + pose.rotation.x + pose.rotation.y + pose.rotation.z;
-    return std::isfinite(sum);
-}
-bool is_finite(float number) {
-    return std::isfinite(number);
-}
-
-bool is_valid_query(bool finite) {
-    ABUT_ASSERT(finite);
-    return finite;
-}
 
 template <int D>
 detail::SweptBox<D> swept_box_of_shape(const View<D>& shape, const Motion<D>& motion) {
@@ -100,7 +80,7 @@ void World<D>::filter_normal(const MoverAtHit<D>& mover, const Filter& filter, W
 template <int D>
 std::optional<WorldHit<D>> World<D>::sweep_linear(const View<D>& shape, const Vec<D>& motion,
                                                   const Filter& filter) const {
-    if (!is_valid_query(is_finite(shape) && is_finite(motion))) return std::nullopt;
+    if (!detail::is_valid_query(shape, motion)) return std::nullopt;
     std::optional<WorldHit<D>> first =
         first_on_path(shape, detail::swept_box(bounds(shape), motion), filter,
                       [&](const Item& item) { return abut::sweep(shape, motion, placed(item), Vec<D>(0.0f)); });
@@ -113,8 +93,7 @@ std::optional<WorldHit<D>> World<D>::sweep_linear(const View<D>& shape, const Ve
 template <int D>
 std::optional<WorldHit<D>> World<D>::sweep_rotating(const View<D>& shape, const Motion<D>& motion,
                                                     const Filter& filter) const {
-    const bool finite = is_finite(motion.from) && is_finite(motion.move) && is_finite(motion.turn);
-    if (!is_valid_query(is_finite(shape) && finite)) return std::nullopt;
+    if (!detail::is_valid_query(shape, motion)) return std::nullopt;
     std::optional<WorldHit<D>> first = first_on_path(
         shape, swept_box_of_shape(shape, motion), filter,
         [&](const Item& item) { return abut::sweep(shape, motion, item.stored.view(), Motion<D>{.from = item.pose}); });
@@ -125,7 +104,7 @@ std::optional<WorldHit<D>> World<D>::sweep_rotating(const View<D>& shape, const 
 template <int D>
 std::optional<WorldHit<D>> World<D>::sweep_between(const View<D>& shape, const Pose<D>& from, const Pose<D>& to,
                                                    const Filter& filter) const {
-    if (!is_valid_query(is_finite(shape) && is_finite(from) && is_finite(to))) return std::nullopt;
+    if (!detail::is_valid_query(shape, from, to)) return std::nullopt;
     std::optional<WorldHit<D>> first =
         first_on_path(shape, swept_box_of_shape(shape, Motion<D>::between(from, to)), filter, [&](const Item& item) {
             const Pose<D>& there = item.pose;

@@ -5,7 +5,7 @@
 #include "../../test/oracle/random.hpp"
 #include "../each_pair.hpp"
 #include <abut/query/closest.hpp>
-#include <abut/query/sweep_turning.hpp>
+#include <abut/query/sweep.hpp>
 #include <abut/shape/placed.hpp>
 
 #include <memory>

@@ -11,7 +11,6 @@
 #include <abut/query/intersection.hpp>
 #include <abut/query/raycast.hpp>
 #include <abut/query/sweep.hpp>
-#include <abut/query/sweep_turning.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/chain.hpp>
 #include <abut/shape/compound.hpp>

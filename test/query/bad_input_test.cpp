@@ -7,7 +7,6 @@
 #include <abut/query/overlaps.hpp>
 #include <abut/query/raycast.hpp>
 #include <abut/query/sweep.hpp>
-#include <abut/query/sweep_turning.hpp>
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/capsule.hpp>

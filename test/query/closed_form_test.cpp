@@ -4,7 +4,7 @@
 #include <abut/convex/manifold/round_manifold.hpp>
 #include <abut/query/certify.hpp>
 #include <abut/query/contact.hpp>
-#include <abut/query/detail/closed_form/convex_distance.hpp>
+#include <abut/query/detail/closed_form/closed_form.hpp>
 
 #include <memory>
 #include <optional>

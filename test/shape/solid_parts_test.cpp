@@ -5,13 +5,14 @@
 #include <abut/query/contact.hpp>
 #include <abut/query/contains.hpp>
 #include <abut/query/overlaps.hpp>
-#include <abut/query/raycast_solid_bsp.hpp>
+#include <abut/query/raycast.hpp>
 #include <abut/query/sweep.hpp>
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/compound.hpp>
 #include <abut/shape/placed.hpp>
 #include <abut/shape/segment.hpp>
+#include <abut/shape/solid_bsp.hpp>
 #include <abut/world/world.hpp>
 
 #include <array>

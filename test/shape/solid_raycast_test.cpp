@@ -3,7 +3,8 @@
 #include "../../scenes/wad.hpp"
 #include "../oracle/is_long.hpp"
 #include "solid_levels.hpp"
-#include <abut/query/raycast_solid_bsp.hpp>
+#include <abut/query/raycast.hpp>
+#include <abut/shape/solid_bsp.hpp>
 
 #include <filesystem>
 #include <iostream>

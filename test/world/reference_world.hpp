@@ -4,10 +4,9 @@
 // update except the touching pairs.
 
 #include <abut/query/contains.hpp>
-#include <abut/query/detail/surface/contact_with_neighbours.hpp>
+#include <abut/query/detail/surface/edge_filter.hpp>
 #include <abut/query/overlaps.hpp>
 #include <abut/query/sweep.hpp>
-#include <abut/query/sweep_turning.hpp>
 #include <abut/world/world.hpp>
 
 #include <algorithm>

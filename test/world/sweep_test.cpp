@@ -7,7 +7,6 @@
 #include "simulation.hpp"
 #include <abut/math/rigid_path.hpp>
 #include <abut/query/sweep.hpp>
-#include <abut/query/sweep_turning.hpp>
 
 #include <array>
 #include <iostream>

@@ -38,12 +38,18 @@ struct SignedDistance {
     DVec<D> on_b() const { return on_a + normal * distance; }
 };
 
-/// Swaps the roles of A and B.
+/// Turns the answer for a pair (A, B) into that for (B, A), in place: a copy would read it before all its members have
+/// reached memory.
 template <int D>
-void swap_roles(SignedDistance<D>& distance) {
+void flip(SignedDistance<D>& distance) {
     distance.on_a = distance.on_b();
     distance.normal = -distance.normal;
     std::swap(distance.corners.a, distance.corners.b);
+}
+template <class Answer>
+Answer flipped(Answer answer) {
+    flip(answer);
+    return answer;
 }
 
 template <int D>

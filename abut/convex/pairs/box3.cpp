@@ -90,7 +90,7 @@ bool closest_on_face_of_a(const BoxFrame& frame, std::size_t axis, double gap, B
 bool closest_on_face(const BoxFrame& frame, const BoxFaceGap& face, BoxClosest& closest) {
     if (face.number < 3) return closest_on_face_of_a(frame, face.number, face.gap, closest);
     if (!closest_on_face_of_a(frame.swapped(), face.number - 3, face.gap, closest)) return false;
-    swap_roles(frame, closest);
+    flip(frame, closest);
     return true;
 }
 
@@ -109,7 +109,7 @@ bool nearest_points(const BoxFrame& frame, const BoxFaceGap& face, BoxClosest& c
     } else if (face.gap > 0) {
         const BoxFrame swapped_frame = frame.swapped();
         if (nearest_from_corner(swapped_frame, foremost_corner(swapped_frame, face.number - 3), closest)) {
-            swap_roles(frame, closest);
+            flip(frame, closest);
             return true;
         }
     }

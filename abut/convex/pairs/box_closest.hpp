@@ -19,8 +19,8 @@ struct BoxClosest {
     BoxFeature part_a, part_b;
 };
 
-/// Converts a result in B's frame, with B first, into A's frame; `frame` is A's.
-inline void swap_roles(const BoxFrame& frame, BoxClosest& closest) {
+/// Turns the answer for the pair (B, A) in B's frame into that for (A, B) in A's frame; `frame` is A's.
+inline void flip(const BoxFrame& frame, BoxClosest& closest) {
     const Triple n{closest.normal[0], closest.normal[1], closest.normal[2]};
     const double d = closest.distance;
     const Triple p{closest.on_a[0] + n[0] * d, closest.on_a[1] + n[1] * d, closest.on_a[2] + n[2] * d};

@@ -95,7 +95,7 @@ bool nearest_corner(const BoxFrame& frame, BoxClosest& closest) {
     NearestCorner of_b = nearest_corner_of_b(frame), of_a = nearest_corner_of_b(swapped_frame);
     if (of_b.square <= of_a.square) return from_a_to_corner(frame, of_b.number, closest);
     if (!from_a_to_corner(swapped_frame, of_a.number, closest)) return false;
-    swap_roles(frame, closest);
+    flip(frame, closest);
     return true;
 }
 

@@ -1,4 +1,5 @@
 #include <abut/motion/mover/nearby_parts.hpp>
+#include <abut/query/detail/one_sided.hpp>
 
 namespace abut::detail {
 namespace {
@@ -29,25 +30,22 @@ void NearbyParts<D>::gather(const World<D>& world, const Aabb<D>& box, const Fil
     world.each_in_box(
         box,
         [&](Id id, const View<D>& shape) {
-            const auto index = static_cast<std::uint32_t>(stored_.size());
-            if (const auto* convex = std::get_if<Convex<D>>(&shape)) {
-                has_one_sided_ = has_one_sided_ || convex->one_sided;
-                stored_.push_back({*convex});
-                order_.push_back({{id, 0}, index, bounds(*convex)});
-            } else if (const auto* half_space = std::get_if<HalfSpaceView<D>>(&shape)) {
-                stored_.push_back({*half_space});
-                order_.push_back({{id, 0}, index, everywhere<D>()});
-            } else if (const auto* function = std::get_if<DistanceFunction<D>>(&shape)) {
-                stored_.push_back({*function});
-                order_.push_back({{id, 0}, index, bounds(*function)});
-            } else {
-                // The view is valid only during this call.
-                const auto& composite = composites_.emplace_back(std::get<Composite<D>>(shape));
-                each_part<D>(composite, box, [&](const Convex<D>& part, std::uint32_t part_index) {
-                    add_part({id, part_index}, part);
-                    return true;
+            detail::with_part(
+                shape,
+                [&](const Part<D>& part) {
+                    has_one_sided_ = has_one_sided_ || is_one_sided(part);
+                    const Aabb<D> box_of_part = part.is_half_space() ? everywhere<D>() : bounds(part);
+                    order_.push_back({{id, 0}, static_cast<std::uint32_t>(stored_.size()), box_of_part});
+                    stored_.push_back({shape});
+                },
+                [&](const Composite<D>& composite) {
+                    // The view is valid only during this call.
+                    composites_.push_back(composite);
+                    each_part<D>(composite, box, [&](const Convex<D>& part, std::uint32_t index) {
+                        add_part({id, index}, part);
+                        return true;
+                    });
                 });
-            }
         },
         filter);
     // The point array no longer moves.

@@ -29,8 +29,7 @@ public:
     /// True if some part is one-sided.
     bool has_one_sided() const { return has_one_sided_; }
 
-    /// Calls visit(name, part) for the parts whose boxes overlap `box`; a part is a Convex, HalfSpaceView or
-    /// DistanceFunction.
+    /// Calls visit(name, part) for the parts whose boxes overlap `box`.
     template <class Visit>
     void each(const Aabb<D>& box, Visit&& visit) const {
         for (std::size_t i = 0; i < order_.size(); ++i) {
@@ -39,19 +38,15 @@ public:
             const StoredPart& stored = stored_[order_[i].index];
             if (stored.is_transient)
                 visit_again(composites_[stored.composite], boxes_[i], name.part,
-                            [&](const Convex<D>& part) { visit(name, part); });
-            else if (const auto* convex = std::get_if<Convex<D>>(&stored.part))
-                visit(name, *convex);
-            else if (const auto* function = std::get_if<DistanceFunction<D>>(&stored.part))
-                visit(name, *function);
+                            [&](const Part<D>& part) { visit(name, part); });
             else
-                visit(name, std::get<HalfSpaceView<D>>(stored.part));
+                visit(name, detail::single_part(stored.part));
         }
     }
 
 private:
     struct StoredPart {
-        std::variant<Convex<D>, HalfSpaceView<D>, DistanceFunction<D>> part;
+        View<D> part;                 // not composite
         std::size_t first_point = 0;  // in points_, of a part that was given with points of its own
         bool has_points = false;
         bool is_transient = false;    // by the shape, for one visit: to be visited again

@@ -1,5 +1,5 @@
 #include <abut/motion/mover/nearby_surface.hpp>
-#include <abut/query/detail/sweep/front_time_of_impact.hpp>
+#include <abut/query/detail/sweep/linear.hpp>
 
 #include <algorithm>
 #include <array>
@@ -78,7 +78,7 @@ void NearbySurface<D>::each_closest_point_of_others(const PartName& but, const D
                                                     ClosestPointVisitor<D> visit) const {
     const Vec<D> middle = to_float(point);
     parts_.each(grown(Aabb<D>{middle, middle}, static_cast<float>(within)),
-                [&](const PartName& name, const auto& part) {
+                [&](const PartName& name, const Part<D>& part) {
                     if (name == but) return;
                     if (!passed_.empty() && is_passed(name)) return;
                     if (!passed_fronts_.empty() && is_passed_front(name)) return;
@@ -92,15 +92,13 @@ template <int D>
 void NearbySurface<D>::find_passed_fronts(const Convex<D>& shape, const Aabb<D>& box) {
     passed_fronts_.clear();
     if (!parts_.has_one_sided()) return;
-    parts_.each(box, [&](const PartName& name, const auto& part) {
-        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(part)>, Convex<D>>) {
-            if (!part.one_sided) return;
-            const SignedDistance<D> distance = part_distance(shape, part, {});
-            if (!(distance.distance < 0)) return;
-            const DVec<D> out = normalized(front(part));
-            const double depth = dot(out, distance.on_b() - support(shape, -out));
-            if (depth > pass_through_depth * size_) passed_fronts_.push_back(name);
-        }
+    parts_.each(box, [&](const PartName& name, const Part<D>& part) {
+        if (!is_one_sided(part)) return;
+        const SignedDistance<D> distance = part_distance<D>(shape, part);
+        if (!(distance.distance < 0)) return;
+        const DVec<D> out = normalized(front(part.convex()));
+        const double depth = dot(out, distance.on_b() - support(shape, -out));
+        if (depth > pass_through_depth * size_) passed_fronts_.push_back(name);
     });
 }
 
@@ -116,7 +114,7 @@ bool NearbySurface<D>::is_on_passed_front(const DVec<D>& point) const {
     bool result = false;
     const Vec<D> middle = to_float(point);
     parts_.each(grown(Aabb<D>{middle, middle}, static_cast<float>(scale_)),
-                [&](const PartName& name, const auto& part) {
+                [&](const PartName& name, const Part<D>& part) {
                     result = result || (is_passed_front(name) && closest_point_on(part, point).distance <= scale_);
                 });
     return result;
@@ -124,10 +122,9 @@ bool NearbySurface<D>::is_on_passed_front(const DVec<D>& point) const {
 
 /// Passed parts are stored and hide nothing.
 template <int D>
-template <class Part>
-bool NearbySurface<D>::passes(const Part& part, NearContact<D>& contact) {
+bool NearbySurface<D>::passes(const Part<D>& part, NearContact<D>& contact) {
     if (passes_ == nullptr) return false;
-    contact.overlapped = part_distance(shape_at(start_), part, {}).distance < 0;
+    contact.overlapped = part_distance<D>(shape_at(start_), part).distance < 0;
     if (!(*passes_)(contact)) return false;
     passed_.push_back(contact.name);
     return true;
@@ -146,17 +143,17 @@ std::span<const NearContact<D>> NearbySurface<D>::contacts(const DVec<D>& at, do
     const Aabb<D> box = grown(bounds(shape), static_cast<float>(reach));
     gather(box);
     find_passed_fronts(shape, box);
-    const auto contact_with = [&](const PartName& name, const auto& part) -> std::optional<NearContact<D>> {
-        const SignedDistance<D> distance = part_distance(shape, part, {});
-        if (!(distance.distance <= reach) || !touch_at_fronts(shape, part, distance.normal)) return std::nullopt;
-        if (is_one_sided(shape, part) && is_on_passed_front(distance.on_b())) return std::nullopt;
+    const auto contact_with = [&](const PartName& name, const Part<D>& part) -> std::optional<NearContact<D>> {
+        const SignedDistance<D> distance = part_distance<D>(shape, part);
+        if (!(distance.distance <= reach) || !touch_at_fronts<D>(shape, part, distance.normal)) return std::nullopt;
+        if ((shape.one_sided || is_one_sided(part)) && is_on_passed_front(distance.on_b())) return std::nullopt;
         NearContact<D> contact{name, -distance.normal, distance.on_b(), distance.distance, {}, false};
-        contact.is_sdf = is_function<std::remove_cvref_t<decltype(part)>>;
+        contact.is_sdf = part.is_function();
         name_feature(part, distance.corners.b, distance.corners.count, -distance.normal, name.part, contact.feature);
         return contact;
     };
     if (passes_ != nullptr)
-        parts_.each(box, [&](const PartName& name, const auto& part) {
+        parts_.each(box, [&](const PartName& name, const Part<D>& part) {
             if (std::optional<NearContact<D>> contact = contact_with(name, part)) passes(part, *contact);
         });
     const DVec<D> middle = middle_of(shape, at);
@@ -164,7 +161,7 @@ std::span<const NearContact<D>> NearbySurface<D>::contacts(const DVec<D>& at, do
     const auto closest_points = [this](const DVec<D>& point, double within, ClosestPointVisitor<D> visit) {
         each_closest_point(point, within, visit);
     };
-    parts_.each(box, [&](const PartName& name, const auto& part) {
+    parts_.each(box, [&](const PartName& name, const Part<D>& part) {
         if (!passed_.empty() && is_passed(name)) return;
         const std::optional<NearContact<D>> contact = contact_with(name, part);
         if (!contact) return;
@@ -173,7 +170,7 @@ std::span<const NearContact<D>> NearbySurface<D>::contacts(const DVec<D>& at, do
             contacts_.push_back(*contact);
         else if (contact->gap < scale_)
             ghosts_.push_back({*contact, surface_plane<D>(part, place, closest_points, seen)});
-        if constexpr (is_function<std::remove_cvref_t<decltype(part)>>) add_sides(*contact, shape, part, reach);
+        if (part.is_function()) add_sides(*contact, shape, part.function(), reach);
     });
     resolve_ghosts(shape, reach);
     return contacts_;
@@ -255,13 +252,14 @@ std::optional<FirstTouch<D>> NearbySurface<D>::first_touch(const DVec<D>& at, co
         passed_.clear();
         contacts_valid_ = false;
     }
-    parts_.each(box, [&](const PartName& name, const auto& part) {
+    parts_.each(box, [&](const PartName& name, const Part<D>& part) {
         LinearImpact<D> touch;
-        if (!front_time_of_impact(shape, path, part, name.part, SweepOptions<D>{}, touch)) return;
+        if (!front_time_of_impact<D>(shape, path, part, name.part, {}, touch)) return;
         if (result && touch.along >= path.length) return;
-        if (is_one_sided(shape, part) && (is_passed_front(name) || is_on_passed_front(touch.point))) return;
+        if ((shape.one_sided || is_one_sided(part)) && (is_passed_front(name) || is_on_passed_front(touch.point)))
+            return;
         NearContact<D> contact{name, -touch.normal, touch.point, 0, touch.feature, false};
-        contact.is_sdf = is_function<std::remove_cvref_t<decltype(part)>>;
+        contact.is_sdf = part.is_function();
         if (passes(part, contact)) return;
         path.length = touch.along;
         result = FirstTouch<D>{std::min(touch.along / distance, 1.0), contact};

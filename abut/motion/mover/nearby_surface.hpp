@@ -55,8 +55,7 @@ public:
 private:
     void gather(const Aabb<D>& box);
     void each_closest_point(const DVec<D>& point, double within, ClosestPointVisitor<D> visit) const;
-    template <class Part>
-    bool passes(const Part& part, NearContact<D>& contact);
+    bool passes(const Part<D>& part, NearContact<D>& contact);
     bool is_passed(const PartName& name) const;
     /// Finds the one-sided parts that the shape is passing through.
     void find_passed_fronts(const Convex<D>& shape, const Aabb<D>& box);

@@ -1,6 +1,6 @@
 #include <abut/motion/push/plane_solver.hpp>
 #include <abut/motion/push/shortest_push.hpp>
-#include <abut/query/detail/sweep/front_time_of_impact.hpp>
+#include <abut/query/detail/sweep/linear.hpp>
 
 #include <algorithm>
 
@@ -127,17 +127,11 @@ private:
         world_.each_in_box(
             box,
             [&](Id id, const View<D>& shape) {
-                if (const auto* convex = std::get_if<Convex<D>>(&shape))
-                    visit(PartName{id, 0}, *convex);
-                else if (const auto* half_space = std::get_if<HalfSpaceView<D>>(&shape))
-                    visit(PartName{id, 0}, *half_space);
-                else if (const auto* function = std::get_if<DistanceFunction<D>>(&shape))
-                    visit(PartName{id, 0}, *function);
-                else
-                    each_part<D>(std::get<Composite<D>>(shape), box, [&](const Convex<D>& part, std::uint32_t index) {
-                        if (overlaps(bounds(part), box)) visit(PartName{id, index}, part);
-                        return true;
-                    });
+                const bool is_composite = std::holds_alternative<Composite<D>>(shape);
+                detail::for_each_part(shape, box, [&](const Part<D>& part, std::uint32_t index) {
+                    if (!is_composite || overlaps(bounds(part), box)) visit(PartName{id, index}, part);
+                    return true;
+                });
             },
             filter_);
     }
@@ -146,9 +140,9 @@ private:
     TouchedParts<D> touched_at(const DVec<D>& push, double reach) const {
         TouchedParts<D> result;
         const Convex<D> there = at(shape_, push);
-        each_part_in(grown(bounds(there), static_cast<float>(reach)), [&](const PartName& name, const auto& part) {
-            const SignedDistance<D> distance = part_distance(there, part, {});
-            if (distance.distance < reach && touch_at_fronts(there, part, distance.normal))
+        each_part_in(grown(bounds(there), static_cast<float>(reach)), [&](const PartName& name, const Part<D>& part) {
+            const SignedDistance<D> distance = part_distance<D>(there, part);
+            if (distance.distance < reach && touch_at_fronts<D>(there, part, distance.normal))
                 result.add({name, -distance.normal, distance.distance});
         });
         return result;
@@ -166,7 +160,7 @@ private:
     }
     std::optional<double> exit_distance(const DistanceFunction<D>& part, const DVec<D>& direction, double along) const {
         for (int step = 0; step < max_march_steps; ++step) {
-            const double distance = part_distance(at(grown_, direction * along), part, {}).distance;
+            const double distance = part_distance<D>(at(grown_, direction * along), part).distance;
             if (!(distance < -0.1 * gap_)) return along;
             along += std::max(-distance, 0.1 * gap_);
         }
@@ -185,11 +179,12 @@ private:
             const Convex<D> here = at(grown_, direction * along);
             double next = along;
             bool in_something = false, leaves_all = true;
-            each_part_in(bounds(here), [&](const PartName&, const auto& part) {
-                const SignedDistance<D> distance = part_distance(here, part, {});
-                if (!(distance.distance < -0.3 * gap_) || !touch_at_fronts(here, part, distance.normal)) return;
+            each_part_in(bounds(here), [&](const PartName&, const Part<D>& part) {
+                const SignedDistance<D> distance = part_distance<D>(here, part);
+                if (!(distance.distance < -0.3 * gap_) || !touch_at_fronts<D>(here, part, distance.normal)) return;
                 in_something = true;
-                const std::optional<double> end = exit_distance(part, direction, along);
+                const std::optional<double> end =
+                    part.visit([&](const auto& own) { return exit_distance(own, direction, along); });
                 leaves_all = leaves_all && end;
                 if (end) next = std::max(next, *end);
             });
@@ -231,10 +226,9 @@ private:
         here.radius += 0.5 * gap_;
         const Aabb<D> first = bounds(here), last = bounds(at(here, direction * max_length));
         double result = max_length;
-        each_part_in(merged(first, last), [&](const PartName& name, const auto& part) {
+        each_part_in(merged(first, last), [&](const PartName& name, const Part<D>& part) {
             LinearImpact<D> touch;
-            if (!front_time_of_impact(here, Path<D>{direction, max_length}, part, name.part, SweepOptions<D>{}, touch))
-                return;
+            if (!front_time_of_impact<D>(here, {direction, max_length}, part, name.part, {}, touch)) return;
             result = std::min(result, touch.along);
         });
         return result;

@@ -2,7 +2,7 @@
 #include <abut/convex/pairs/box3.hpp>
 #include <abut/convex/pairs/box_triangle.hpp>
 #include <abut/convex/pairs/pair2.hpp>
-#include <abut/query/detail/closed_form/convex_distance.hpp>
+#include <abut/query/detail/closed_form/closed_form.hpp>
 #include <abut/query/detail/pair_dispatch.hpp>
 
 namespace abut::detail {
@@ -48,7 +48,7 @@ BoxTriangle triangle_distance(const Convex<3>& a, const Convex<3>& b, double rea
     if (are_box_and_triangle(a, b)) return box_triangle_distance(a, b, reach, result);
     if (!are_box_and_triangle(b, a)) return BoxTriangle::unknown;
     const BoxTriangle answer = box_triangle_distance(b, a, reach, result);
-    if (answer == BoxTriangle::overlapping) swap_roles(result);
+    if (answer == BoxTriangle::overlapping) flip(result);
     return answer;
 }
 

@@ -22,6 +22,11 @@ struct PartContact {
     Manifold<D> manifold;
 };
 
+template <int D>
+void flip(PartContact<D>& contact) {
+    flip(contact.distance);
+}
+
 /// Whether the parts are at most `reach` apart, and then their distance. add_points() adds the manifold, unless it is
 /// found at once. Otherwise `contact` is unspecified.
 template <int D>

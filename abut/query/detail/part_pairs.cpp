@@ -1,41 +1,52 @@
 #include <abut/convex/farthest_point.hpp>
 #include <abut/convex/features.hpp>
 #include <abut/query/detail/part_pairs.hpp>
+#include <abut/query/detail/sdf/function_pairs.hpp>
 
 namespace abut::detail {
+namespace {
 
 template <int D>
-SignedDistance<D> part_distance(const Convex<D>& a, const HalfSpaceView<D>& b, const SearchOptions<D>&) {
-    const CorePoint<D> lowest = core_support(a, -b.normal);
+SignedDistance<D> distance_from_plane(const Convex<D>& set, const HalfSpaceView<D>& half_space) {
+    const CorePoint<D> lowest = core_support(set, -half_space.normal);
     SignedDistance<D> result;
-    result.normal = -b.normal;
-    result.on_a = lowest.position + result.normal * a.radius;
-    result.distance = dot(b.normal, result.on_a) - b.offset;
+    result.normal = -half_space.normal;
+    result.on_a = lowest.position + result.normal * set.radius;
+    result.distance = dot(half_space.normal, result.on_a) - half_space.offset;
     result.corners.a[0] = lowest.index;
     return result;
 }
 
+/// The kinds of the two parts are in their order.
 template <int D>
-SignedDistance<D> part_distance(const HalfSpaceView<D>& a, const Convex<D>& b, const SearchOptions<D>&) {
-    SignedDistance<D> result = part_distance(b, a);
-    swap_roles(result);
-    return result;
-}
-
-template <int D>
-bool part_contact(const Convex<D>& a, const HalfSpaceView<D>& b, double reach, double margin, const SearchOptions<D>&,
-                  PartContact<D>& contact) {
-    contact.distance = part_distance(a, b);
+bool ordered_contact(const Part<D>& a, const Part<D>& b, double reach, double margin, PartContact<D>& contact) {
+    if (!a.is_convex() || b.is_function()) return function_contact(a, b, reach, margin, contact);
+    contact.distance = distance_from_plane(a.convex(), b.half_space());
     if (contact.distance.distance > reach) return false;
-    contact.manifold = manifold_with_plane(a, b.normal, b.offset, margin);
+    contact.manifold = manifold_with_plane(a.convex(), b.half_space().normal, b.half_space().offset, margin);
     return true;
 }
 
+}  // namespace
+
 template <int D>
-bool part_contact(const HalfSpaceView<D>& a, const Convex<D>& b, double reach, double margin,
-                  const SearchOptions<D>& options, PartContact<D>& contact) {
-    if (!part_contact(b, a, reach, margin, options, contact)) return false;
-    swap_roles(contact.distance);
+bool mixed_overlaps(const Part<D>& a, const Part<D>& b) {
+    if (a.is_function() || b.is_function()) return function_overlap(a, b);
+    return mixed_distance(a, b).distance <= 0;
+}
+
+template <int D>
+SignedDistance<D> mixed_distance(const Part<D>& a, const Part<D>& b) {
+    if (a.is_function() || b.is_function()) return function_distance(a, b, DistanceRequest{});
+    return a.is_convex() ? distance_from_plane(a.convex(), b.half_space())
+                         : flipped(distance_from_plane(b.convex(), a.half_space()));
+}
+
+template <int D>
+bool mixed_contact(const Part<D>& a, const Part<D>& b, double reach, double margin, PartContact<D>& contact) {
+    if (a.kind() <= b.kind()) return ordered_contact(a, b, reach, margin, contact);
+    if (!ordered_contact(b, a, reach, margin, contact)) return false;
+    flip(contact);
     return true;
 }
 
@@ -106,22 +117,20 @@ void name_feature(const Convex<D>& part, const CornerIndices<D>& corners, std::s
 }
 
 template <int D>
-void name_feature(const HalfSpaceView<D>&, const CornerIndices<D>&, std::size_t, const DVec<D>&, std::uint32_t number,
-                  Feature& feature) {
+void name_feature(const AnyPart<D>& part, const CornerIndices<D>& corners, std::size_t count, const DVec<D>& out,
+                  std::uint32_t number, Feature& feature) {
+    if (part.is_convex()) return name_feature(part.convex(), corners, count, out, number, feature);
     feature = {number, 0, FeatureKind::none};
 }
 
 #define ABUT_INSTANTIATE(D)                                                                                           \
-    template SignedDistance<D> part_distance(const Convex<D>&, const HalfSpaceView<D>&, const SearchOptions<D>&);     \
-    template SignedDistance<D> part_distance(const HalfSpaceView<D>&, const Convex<D>&, const SearchOptions<D>&);     \
-    template bool part_contact(const Convex<D>&, const HalfSpaceView<D>&, double, double, const SearchOptions<D>&,    \
-                               PartContact<D>&);                                                                      \
-    template bool part_contact(const HalfSpaceView<D>&, const Convex<D>&, double, double, const SearchOptions<D>&,    \
-                               PartContact<D>&);                                                                      \
+    template bool mixed_overlaps(const Part<D>&, const Part<D>&);                                                     \
+    template SignedDistance<D> mixed_distance(const Part<D>&, const Part<D>&);                                        \
+    template bool mixed_contact(const Part<D>&, const Part<D>&, double, double, PartContact<D>&);                     \
     template void name_feature(const Convex<D>&, const CornerIndices<D>&, std::size_t, const DVec<D>&, std::uint32_t, \
                                Feature&);                                                                             \
-    template void name_feature(const HalfSpaceView<D>&, const CornerIndices<D>&, std::size_t, const DVec<D>&,         \
-                               std::uint32_t, Feature&);
+    template void name_feature(const Part<D>&, const CornerIndices<D>&, std::size_t, const DVec<D>&, std::uint32_t,   \
+                               Feature&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

@@ -1,79 +1,67 @@
 #pragma once
 
-// The pairs of convex parts of two shapes of any kind. For .cpp files.
+// Pairs of parts of any kind. A pair of convex parts goes to pair_dispatch.hpp at once; other pairs are dispatched here
+// by the two kinds, so that callers are compiled once for all pairs. For .cpp files.
 
-#include <abut/math/assert.hpp>
 #include <abut/query/detail/pair_dispatch.hpp>
-#include <abut/query/detail/sdf/function_pairs.hpp>
 #include <abut/query/feature.hpp>
 #include <abut/query/options.hpp>
-#include <abut/shape/view/view.hpp>
+#include <abut/shape/view/part.hpp>
+
+#include <type_traits>
 
 namespace abut::detail {
 
-/// Calls visit(part, index) for a convex shape, half-space or distance function itself, or for the parts of a composite
-/// shape that are at most `reach` from `other`. The visitor returns false to stop.
-template <int D, class Other, class Visit>
-void each_part_near(const View<D>& shape, const Other& other, float reach, Visit&& visit) {
-    if (const auto* convex = std::get_if<Convex<D>>(&shape))
-        visit(*convex, 0u);
-    else if (const auto* half_space = std::get_if<HalfSpaceView<D>>(&shape))
-        visit(*half_space, 0u);
-    else if (const auto* function = std::get_if<DistanceFunction<D>>(&shape))
-        visit(*function, 0u);
-    else
-        each_part<D>(std::get<Composite<D>>(shape), grown(bounds(other), reach),
-                     [&](const Convex<D>& part, std::uint32_t index) -> bool { return visit(part, index); });
+using detail::Part;
+
+/// For arguments of any part's type; other arguments give the dimension.
+template <int D>
+using AnyPart = std::type_identity_t<Part<D>>;
+
+// The pairs that aren't both convex, nor both half-spaces.
+
+template <int D>
+bool mixed_overlaps(const Part<D>& a, const Part<D>& b);
+template <int D>
+SignedDistance<D> mixed_distance(const Part<D>& a, const Part<D>& b);
+template <int D>
+bool mixed_contact(const Part<D>& a, const Part<D>& b, double reach, double margin, PartContact<D>& contact);
+
+template <int D>
+bool are_convex(const Part<D>& a, const Part<D>& b) {
+    return a.is_convex() && b.is_convex();
 }
 
-/// Calls visit(part_a, index_a, part_b, index_b) for at least all pairs of parts that are at most `reach` apart; each
-/// part is a Convex, a HalfSpaceView or a DistanceFunction, never both a HalfSpaceView. The visitor returns false to
-/// stop.
-template <int D, class Visit>
-void each_part_pair(const View<D>& a, const View<D>& b, float reach, Visit&& visit) {
-    each_part_near(a, b, reach, [&]<class PartA>(const PartA& part_a, std::uint32_t index_a) {
-        [[maybe_unused]] constexpr bool two_half_spaces_pair = false;
-        bool go_on = true;
-        each_part_near(b, part_a, reach, [&]<class PartB>(const PartB& part_b, std::uint32_t index_b) {
-            if constexpr (std::is_same_v<PartA, HalfSpaceView<D>> && std::is_same_v<PartB, HalfSpaceView<D>>)
-                ABUT_ASSERT(two_half_spaces_pair);
-            else
-                go_on = visit(part_a, index_a, part_b, index_b);
-            return go_on;
-        });
-        return go_on;
-    });
+/// Whether the parts share a point.
+template <int D>
+bool part_overlaps(const AnyPart<D>& a, const AnyPart<D>& b, const SearchOptions<D>& options) {
+    return are_convex<D>(a, b) ? part_overlaps(a.convex(), b.convex(), options) : mixed_overlaps<D>(a, b);
 }
 
-/// The signed distance of a convex set and a half-space, in either order, in closed form.
+/// The distance of a distance function that is empty or without bounds is infinite.
 template <int D>
-SignedDistance<D> part_distance(const Convex<D>& a, const HalfSpaceView<D>& b, const SearchOptions<D>& options = {});
-template <int D>
-SignedDistance<D> part_distance(const HalfSpaceView<D>& a, const Convex<D>& b, const SearchOptions<D>& options = {});
+SignedDistance<D> part_distance(const AnyPart<D>& a, const AnyPart<D>& b, const SearchOptions<D>& options = {}) {
+    return are_convex<D>(a, b) ? part_distance(a.convex(), b.convex(), options) : mixed_distance<D>(a, b);
+}
 
-/// The contact of a convex set and a half-space, like that of two convex parts.
+/// Like that of two convex parts. For other parts the distance comes with the contact points in one step.
 template <int D>
-bool part_contact(const Convex<D>& a, const HalfSpaceView<D>& b, double reach, double margin,
-                  const SearchOptions<D>& options, PartContact<D>& contact);
-template <int D>
-bool part_contact(const HalfSpaceView<D>& a, const Convex<D>& b, double reach, double margin,
-                  const SearchOptions<D>& options, PartContact<D>& contact);
-
-/// For a half-space the distance comes with the contact points in one step.
-template <int D>
-bool part_distance_within(const Convex<D>& a, const HalfSpaceView<D>& b, double reach, double margin,
+bool part_distance_within(const AnyPart<D>& a, const AnyPart<D>& b, double reach, double margin,
                           const SearchOptions<D>& options, PartContact<D>& contact) {
-    return part_contact(a, b, reach, margin, options, contact);
+    return are_convex<D>(a, b) ? part_distance_within(a.convex(), b.convex(), reach, margin, options, contact)
+                               : mixed_contact<D>(a, b, reach, margin, contact);
 }
 template <int D>
-bool part_distance_within(const HalfSpaceView<D>& a, const Convex<D>& b, double reach, double margin,
-                          const SearchOptions<D>& options, PartContact<D>& contact) {
-    return part_contact(a, b, reach, margin, options, contact);
+void add_points(const AnyPart<D>& a, const AnyPart<D>& b, double margin, const SearchOptions<D>& options,
+                PartContact<D>& contact) {
+    if (are_convex<D>(a, b)) add_points(a.convex(), b.convex(), margin, options, contact);
 }
 template <int D>
-void add_points(const Convex<D>&, const HalfSpaceView<D>&, double, const SearchOptions<D>&, PartContact<D>&) {}
-template <int D>
-void add_points(const HalfSpaceView<D>&, const Convex<D>&, double, const SearchOptions<D>&, PartContact<D>&) {}
+bool part_contact(const AnyPart<D>& a, const AnyPart<D>& b, double reach, double margin,
+                  const SearchOptions<D>& options, PartContact<D>& contact) {
+    return are_convex<D>(a, b) ? part_contact(a.convex(), b.convex(), reach, margin, options, contact)
+                               : mixed_contact<D>(a, b, reach, margin, contact);
+}
 
 /// The options of the engines for each pair of parts. A cache belongs to one pair of parts, so composite shapes have
 /// none.
@@ -88,6 +76,9 @@ SearchOptions<D> search_options(const View<D>& a, const View<D>& b, const QueryO
 template <int D>
 void name_feature(const Convex<D>& part, const CornerIndices<D>& corners, std::size_t count, const DVec<D>& out,
                   std::uint32_t number, Feature& feature);
+template <int D>
+void name_feature(const AnyPart<D>& part, const CornerIndices<D>& corners, std::size_t count, const DVec<D>& out,
+                  std::uint32_t number, Feature& feature);
 /// Names the vertex (the same corner twice) or the edge of a part without faces.
 template <int D>
 void name_end_or_edge(const CornerIndices<D>& corners, std::uint32_t number, Feature& feature) {
@@ -98,15 +89,6 @@ void name_end_or_edge(const CornerIndices<D>& corners, std::uint32_t number, Fea
     feature.index = corners[0] ^ ((corners[0] ^ edge) & (0u - differ));
     feature.kind = static_cast<FeatureKind>(static_cast<std::uint32_t>(FeatureKind::vertex) + differ);
     static_assert(static_cast<int>(FeatureKind::edge) == static_cast<int>(FeatureKind::vertex) + 1);
-}
-template <int D>
-void name_feature(const HalfSpaceView<D>& part, const CornerIndices<D>& corners, std::size_t count, const DVec<D>& out,
-                  std::uint32_t number, Feature& feature);
-
-template <int D>
-void name_feature(const DistanceFunction<D>&, const CornerIndices<D>&, std::size_t, const DVec<D>&,
-                  std::uint32_t number, Feature& feature) {
-    feature = {number, 0, FeatureKind::none};
 }
 
 /// Names the features of both parts.

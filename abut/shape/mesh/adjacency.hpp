@@ -2,7 +2,7 @@
 
 // Edge adjacency of the triangles of a mesh. Not for users.
 
-#include <abut/shape/view/neighbour.hpp>
+#include <abut/shape/view/parts.hpp>
 
 #include <array>
 #include <cstdint>

@@ -4,6 +4,7 @@
 
 #include <abut/broad_phase/bvh.hpp>
 #include <abut/convex/facets.hpp>
+#include <abut/convex/point_soa.hpp>
 #include <abut/convex/support.hpp>
 #include <abut/shape/view/view.hpp>
 

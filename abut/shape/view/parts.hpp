@@ -9,6 +9,20 @@
 
 #include <cstdint>
 
+namespace abut {
+
+// Adjacency of parts, for the internal-edge (ghost collision) filter.
+// Sides are numbered by the part's kind. Segment: 0 at its first point, 1 at its second. Triangle: i is the edge from
+// corner i to the next. Tile: 2 * axis, plus one at the low end, as the faces of a box.
+
+/// A boundary edge: no part is adjacent.
+inline constexpr std::uint32_t no_neighbour = 0xffffffffu;
+
+/// A non-manifold edge: more than two parts share it.
+inline constexpr std::uint32_t many_neighbours = 0xfffffffeu;
+
+}  // namespace abut
+
 namespace abut::detail {
 
 /// Receives one convex part of a composite shape and its index; returns false to stop.
@@ -38,7 +52,7 @@ struct Composite : Placement<D> {
     const MeshTree* triangles = nullptr;
     /// True if a point of the local frame is inside. Null: the shape is only the union of its parts.
     bool (*contains)(const void* object, const Vec<D>& point) = nullptr;
-    /// The part adjacent to a side of a part, see neighbour.hpp. Null: unknown.
+    /// The part adjacent to a side of a part, numbered as above. Null: unknown.
     std::uint32_t (*neighbour)(const void* object, std::uint32_t part, std::uint32_t side) = nullptr;
 };
 

@@ -15,6 +15,11 @@ Aabb<D> world_box(const Aabb<D>& own, const Placement<D>& placement) {
 }
 
 template <int D>
+bool is_finite(const HalfSpaceView<D>& half_space) {
+    return std::isfinite(length_squared(half_space.normal) + half_space.offset);
+}
+
+template <int D>
 double size_of_box(const Aabb<D>& box) {
     if (!(box.min[0] <= box.max[0])) return 0;
     return 0.5 * length(DVec<D>(box.max) - DVec<D>(box.min));
@@ -39,9 +44,10 @@ Aabb<D> bounds(const View<D>& view) {
 
 template <int D>
 double size(const View<D>& view) {
-    if (std::holds_alternative<HalfSpaceView<D>>(view)) return std::numeric_limits<double>::infinity();
-    if (const auto* convex = std::get_if<Convex<D>>(&view)) return size(*convex);
-    return size_of_box(bounds(view));
+    const auto* convex = std::get_if<Convex<D>>(&view);
+    if (convex != nullptr) return size(*convex);
+    return std::holds_alternative<HalfSpaceView<D>>(view) ? std::numeric_limits<double>::infinity()
+                                                          : size_of_box(bounds(view));
 }
 
 template <int D>
@@ -76,11 +82,7 @@ double min_scale_factor(const Placement<D>& placement) {
 
 template <int D>
 bool is_finite(const View<D>& view) {
-    if (const auto* convex = std::get_if<Convex<D>>(&view)) return is_finite(*convex);
-    if (const auto* half_space = std::get_if<HalfSpaceView<D>>(&view))
-        return std::isfinite(length_squared(half_space->normal) + half_space->offset);
-    if (const auto* function = std::get_if<DistanceFunction<D>>(&view)) return is_finite(*function);
-    return is_finite(static_cast<const Placement<D>&>(std::get<Composite<D>>(view)));
+    return std::visit([](const auto& shape) { return is_finite(shape); }, view);
 }
 
 template <int D>

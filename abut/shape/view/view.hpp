@@ -13,7 +13,6 @@
 #include <abut/shape/half_space.hpp>
 #include <abut/shape/triangle.hpp>
 #include <abut/shape/view/distance_function.hpp>
-#include <abut/shape/view/neighbour.hpp>
 #include <abut/shape/view/parts.hpp>
 #include <abut/shape/view/shape_ref.hpp>
 
@@ -127,7 +126,7 @@ concept HasSupport = HasBounds<S> && requires(const S& shape) {
 
 /// The visitor that detects whether a user's shape has each_part.
 template <int D>
-struct AnyPart {
+struct AcceptsAnyPart {
     template <class Part>
     bool operator()(const Part&, std::uint32_t) const {
         return true;
@@ -135,7 +134,7 @@ struct AnyPart {
 };
 
 template <int D>
-struct AnyPartReach {
+struct AcceptsAnyPartReach {
     template <class Part>
     float operator()(const Part&, std::uint32_t) const {
         return 0;
@@ -144,7 +143,7 @@ struct AnyPartReach {
 
 template <class S>
 concept HasParts = HasBounds<S> && requires(const S& shape) {
-    each_part(shape, bounds(shape), AnyPart<box_dimension<S>>());
+    each_part(shape, bounds(shape), AcceptsAnyPart<box_dimension<S>>());
 };
 
 template <class S>
@@ -220,12 +219,12 @@ requires(!detail::HasConvex<S> && !detail::HasSupport<S> && detail::HasParts<S>)
         each_part(*static_cast<const S*>(object), box, detail::part_to<bool>(visit));
         detail::clear_upper_halves();
     };
-    if constexpr (requires { each_part_along(shape, MovingBox<D>(), detail::AnyPartReach<D>()); })
+    if constexpr (requires { each_part_along(shape, MovingBox<D>(), detail::AcceptsAnyPartReach<D>()); })
         result.each_part_along = [](const void* object, const MovingBox<D>& box, detail::PartReachVisitor<D> visit) {
             each_part_along(*static_cast<const S*>(object), box, detail::part_to<float>(visit));
             detail::clear_upper_halves();
         };
-    if constexpr (requires { each_part_near(shape, Aabb<D>(), detail::AnyPartReach<D>()); })
+    if constexpr (requires { each_part_near(shape, Aabb<D>(), detail::AcceptsAnyPartReach<D>()); })
         result.each_part_near = [](const void* object, const Aabb<D>& box, detail::PartReachVisitor<D> visit) {
             each_part_near(*static_cast<const S*>(object), box, detail::part_to<float>(visit));
             detail::clear_upper_halves();

@@ -1,7 +1,7 @@
 // Sweeps with rotation at one-sided shapes: segments of a chain, one-way tiles, a triangle in 3D.
 
 #include <abut/query/closest.hpp>
-#include <abut/query/sweep_turning.hpp>
+#include <abut/query/sweep.hpp>
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/chain.hpp>

@@ -4,7 +4,7 @@
 #include "../../oracle/check.hpp"
 #include "../../oracle/pair.hpp"
 #include <abut/math/rigid_path.hpp>
-#include <abut/query/sweep_turning.hpp>
+#include <abut/query/sweep.hpp>
 
 #include <numbers>
 

@@ -3,7 +3,7 @@
 #include "../../oracle/random.hpp"
 #include "../../shape/meshes.hpp"
 #include <abut/query/detail/sweep/rotating.hpp>
-#include <abut/query/sweep_turning.hpp>
+#include <abut/query/sweep.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/capsule.hpp>
 #include <abut/shape/half_space.hpp>

@@ -5,7 +5,7 @@
 #include "../../oracle/random.hpp"
 #include <abut/query/closest.hpp>
 #include <abut/query/detail/sweep/rotating.hpp>
-#include <abut/query/sweep_turning.hpp>
+#include <abut/query/sweep.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/cylinder.hpp>
 #include <abut/shape/placed.hpp>

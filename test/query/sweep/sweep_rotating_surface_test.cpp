@@ -3,7 +3,7 @@
 
 #include "../../oracle/expect.hpp"
 #include "../contact/floors.hpp"
-#include <abut/query/sweep_turning.hpp>
+#include <abut/query/sweep.hpp>
 #include <abut/shape/capsule.hpp>
 #include <abut/shape/chain.hpp>
 #include <abut/shape/compound.hpp>

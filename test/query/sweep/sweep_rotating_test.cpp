@@ -7,7 +7,7 @@
 #include "../hash.hpp"
 #include <abut/query/closest.hpp>
 #include <abut/query/detail/sweep/rotating.hpp>
-#include <abut/query/sweep_turning.hpp>
+#include <abut/query/sweep.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/capsule.hpp>
 #include <abut/shape/cylinder.hpp>

@@ -4,6 +4,7 @@
 // polygons of few edges in the plane; spheres, capsules and boxes in space. Up to rounding the answers are those of
 // pair_dispatch.hpp. For .cpp files.
 
+#include <abut/convex/gjk/signed_distance.hpp>
 #include <abut/query/closest.hpp>
 #include <abut/query/contact.hpp>
 #include <abut/query/hit.hpp>
@@ -32,5 +33,12 @@ bool closed_form_contact(const Box3& a, const Box3& b, double margin, Cache* cac
 /// graze. `result` is written only if the answer is `yes`.
 ClosedFormAnswer closed_form_sweep(const ShapeRef<2>& a, const Vec2& motion_a, const ShapeRef<2>& b,
                                    const Vec2& motion_b, std::optional<Hit<2>>& result);
+
+/// The signed distance of a pair of views, as exact as GJK and EPA: a ball against a ball, a segment, a triangle, a
+/// box, a polygon of few edges or the inside of a polyhedron; a segment or capsule against another, a triangle or a
+/// box. Returns false, and leaves `result` unspecified, if the pair has no closed form, or none that is certain.
+/// `result` must be newly constructed: corners with index 0 aren't written.
+template <int D>
+bool closed_form_distance(const Convex<D>& a, const Convex<D>& b, SignedDistance<D>& result);
 
 }  // namespace abut::detail

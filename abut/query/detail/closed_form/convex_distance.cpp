@@ -1,6 +1,6 @@
 #include <abut/convex/features.hpp>
 #include <abut/convex/pairs/round3.hpp>
-#include <abut/query/detail/closed_form/convex_distance.hpp>
+#include <abut/query/detail/closed_form/closed_form.hpp>
 
 namespace abut::detail {
 namespace {
@@ -90,7 +90,7 @@ template <int D>
 bool closed_form_distance(const Convex<D>& a, const Convex<D>& b, SignedDistance<D>& result) {
     if (complexity(b) <= complexity(a)) return distance_from(a, b, result);
     if (!distance_from(b, a, result)) return false;
-    swap_roles(result);
+    flip(result);
     return true;
 }
 

@@ -2,6 +2,7 @@
 #include <abut/query/detail/one_sided.hpp>
 #include <abut/query/detail/part_pairs.hpp>
 #include <abut/query/detail/raycast/part_hit.hpp>
+#include <abut/query/detail/sdf/function_motion.hpp>
 
 namespace abut::detail {
 namespace {
@@ -87,18 +88,21 @@ bool part_hit(const DRay<D>& beam, const Convex<D>& part, std::uint32_t index, T
 }
 
 template <int D>
-bool part_hit(const DRay<D>& beam, const HalfSpaceView<D>& part, PartHit<D>& hit) {
-    const double height = dot(part.normal, beam.origin) - part.offset, approach = -dot(beam.direction, part.normal);
+bool part_hit(const DRay<D>& beam, const detail::Part<D>& part, std::uint32_t index, Trace<D>* trace, PartHit<D>& hit) {
+    if (part.is_convex()) return part_hit(beam, part.convex(), index, trace, hit);
+    if (part.is_function()) return part_hit(beam, part.function(), hit);
+    const DVec<D>& normal = part.half_space().normal;
+    const double height = dot(normal, beam.origin) - part.half_space().offset, approach = -dot(beam.direction, normal);
     if (!(approach > 0) && !(beam.rests() && height <= 0)) return false;
     const double along = beam.rests() ? 0 : std::max(height / approach, 0.0);
-    hit = {along, part.normal, height < 0, Feature()};
+    hit = {along, normal, height < 0, Feature()};
     return along <= beam.length;
 }
 
 #define ABUT_INSTANTIATE(D)                                                                                     \
     template bool part_hit_by_advance(const DRay<D>&, const Convex<D>&, std::uint32_t, Trace<D>*, PartHit<D>&); \
     template bool part_hit(const DRay<D>&, const Convex<D>&, std::uint32_t, Trace<D>*, PartHit<D>&);            \
-    template bool part_hit(const DRay<D>&, const HalfSpaceView<D>&, PartHit<D>&);
+    template bool part_hit(const DRay<D>&, const detail::Part<D>&, std::uint32_t, Trace<D>*, PartHit<D>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

@@ -1,7 +1,6 @@
 #include <abut/convex/ray/triangle.hpp>
-#include <abut/math/assert.hpp>
-#include <abut/query/detail/raycast/triangles.hpp>
-#include <abut/query/detail/raycast/write_hit.hpp>
+#include <abut/query/detail/raycast/part_hit.hpp>
+#include <abut/query/detail/valid_query.hpp>
 #include <abut/query/raycast.hpp>
 #include <abut/shape/mesh.hpp>
 #include <abut/shape/mesh/rays.hpp>
@@ -122,9 +121,7 @@ using namespace detail;
 
 std::optional<Hit<3>> raycast(const Ray<3>& ray, const Mesh& mesh, const QueryOptions<3>& options) {
     std::optional<Hit<3>> result;
-    const bool finite = is_valid_ray(ray);
-    ABUT_ASSERT(finite);
-    if (!finite) return result;
+    if (!detail::is_valid_query(ray)) return result;
     const DRay<3> beam = to_dray(ray);
     if (beam.rests()) return result;
     const auto undecided = by_advance(

@@ -30,21 +30,16 @@ bool is_bounded(const Aabb<D>& box) {
     return is_finite(box.min) && is_finite(box.max);
 }
 template <int D>
-bool is_empty(const Aabb<D>& box) {
+bool has_no_extent(const Aabb<D>& box) {
     return !(box.min[0] <= box.max[0]);
 }
 
+/// Infinite without bounds.
 template <int D>
-double finite_size(const Convex<D>& part) {
-    return size(part);
-}
-template <int D>
-double finite_size(const HalfSpaceView<D>&) {
-    return std::numeric_limits<double>::infinity();
-}
-template <int D>
-double finite_size(const DistanceFunction<D>& part) {
-    return is_bounded(part.bounds) ? size(part) : std::numeric_limits<double>::infinity();
+double finite_size(const detail::Part<D>& part) {
+    if (part.is_convex()) return size(part.convex());
+    return part.is_function() && is_bounded(part.function().bounds) ? size(part.function())
+                                                                    : std::numeric_limits<double>::infinity();
 }
 
 /// The largest coordinate at which a function is evaluated, in its local frame.
@@ -100,7 +95,7 @@ ClosestCorners<D> corners_at(const Convex<D>& set, const DVec<D>& place, const D
 template <int D>
 SignedDistance<D> from_ball(const Convex<D>& ball, const DistanceFunction<D>& function,
                             const DistanceRequest& request) {
-    if (is_empty(function.bounds)) return no_distance<D>();
+    if (has_no_extent(function.bounds)) return no_distance<D>();
     const PlacedFunction<D> placed(function);
     const DVec<D> middle = ball.place.point(DVec<D>(ball.vertices()[0]));
     const double value = placed.at(middle);
@@ -119,7 +114,7 @@ SignedDistance<D> from_ball(const Convex<D>& ball, const DistanceFunction<D>& fu
 template <int D>
 SignedDistance<D> from_convex(const Convex<D>& set, const DistanceFunction<D>& function, double margin,
                               const DistanceRequest& request) {
-    if (is_empty(function.bounds)) return no_distance<D>();
+    if (has_no_extent(function.bounds)) return no_distance<D>();
     const bool by_function = function.bound != nullptr || !is_plain_box(set);
     const Affine<D> frame = by_function ? own_frame<D>(function) : own_frame<D>(set), back = back_from(frame);
     const DistanceFunction<D> own = moved(function, back);
@@ -149,7 +144,7 @@ template <int D>
 SignedDistance<D> above_half_space(const DistanceFunction<D>& function, const HalfSpaceView<D>& half_space,
                                    const DVec<D>& normal, double tolerance, double surface_tolerance,
                                    const DistanceRequest& request, int max_boxes) {
-    if (is_empty(function.bounds)) return no_distance<D>();
+    if (has_no_extent(function.bounds)) return no_distance<D>();
     const bool has_bounds = is_bounded(function.bounds);
     ABUT_ASSERT(has_bounds);
     if (!has_bounds) return no_distance<D>();
@@ -176,7 +171,7 @@ SignedDistance<D> above_half_space(const DistanceFunction<D>& function, const Ha
 template <int D>
 SignedDistance<D> between(const DistanceFunction<D>& a, const DistanceFunction<D>& b, double margin,
                           const DistanceRequest& request) {
-    if (is_empty(a.bounds) || is_empty(b.bounds)) return no_distance<D>();
+    if (has_no_extent(a.bounds) || has_no_extent(b.bounds)) return no_distance<D>();
     const bool bounded_a = is_bounded(a.bounds), bounded_b = is_bounded(b.bounds);
     const bool has_bounds = bounded_a || bounded_b;
     ABUT_ASSERT(has_bounds);
@@ -282,78 +277,55 @@ Manifold<D> points_on_plane(const DistanceFunction<D>& function, const HalfSpace
 
 }  // namespace
 
-template <class A, class B>
-requires FunctionPair<A, B>
-double function_tolerance(const A& a, const B& b) {
+template <int D>
+double function_tolerance(const detail::Part<D>& a, const detail::Part<D>& b) {
+    if (!a.is_function()) return function_tolerance(b, a);
     const double smaller = std::min(finite_size(a), finite_size(b));
-    double coordinate = 0;
-    if constexpr (is_function<A>)
-        coordinate = largest_query_coordinate(a, b);
-    else
-        coordinate = largest_query_coordinate(b, a);
+    const double coordinate =
+        b.visit([&](const auto& part_b) { return largest_query_coordinate(a.function(), part_b); });
     return tolerance_for(std::isfinite(smaller) ? smaller : 0, coordinate + (std::isfinite(smaller) ? smaller : 0));
 }
 
-template <class A, class B>
-requires FunctionPair<A, B>
-double function_search_tolerance(const A& a, const B& b) {
-    constexpr int D = PartDimension<A>::value;
+template <int D>
+double function_search_tolerance(const detail::Part<D>& a, const detail::Part<D>& b) {
     const double margin = function_tolerance(a, b), smaller = std::min(finite_size(a), finite_size(b));
     // Functions that need no search, functions with bounds for boxes, and all others.
     double of_size = 0;
-    const auto include = [&](const auto& part) {
-        using Part = std::remove_cvref_t<decltype(part)>;
-        if constexpr (is_function<Part>) of_size = std::max(of_size, part.bound != nullptr ? 1e-4 : 1e-3);
-    };
-    include(a);
-    include(b);
-    if constexpr (std::is_same_v<A, Convex<D>>)
-        if (is_ball(a)) return margin;
-    if constexpr (std::is_same_v<B, Convex<D>>)
-        if (is_ball(b)) return margin;
+    for (const detail::Part<D>* part : {&a, &b}) {
+        if (part->is_convex() && is_ball(part->convex())) return margin;
+        if (part->is_function()) of_size = std::max(of_size, part->function().bound != nullptr ? 1e-4 : 1e-3);
+    }
     return std::isfinite(smaller) ? std::max(margin, of_size * smaller) : margin;
 }
 
-template <class A, class B>
-requires FunctionPair<A, B> SignedDistance<PartDimension<A>::value> function_distance(const A& a, const B& b,
-                                                                                      const DistanceRequest& request) {
-    constexpr int D = PartDimension<A>::value;
-    if constexpr (std::is_same_v<A, Convex<D>>)
-        if (is_ball(a)) return from_ball(a, b, request);
-    const double margin = function_tolerance(a, b);
-    if constexpr (is_function<A> && is_function<B>) {
-        return between(a, b, margin, request);
-    } else if constexpr (is_function<B>) {
-        if constexpr (std::is_same_v<A, Convex<D>>) {
-            return from_convex(a, b, margin, request);
-        } else {
-            SignedDistance<D> result = above_half_space(b, a, a.normal, search_tolerance * margin,
-                                                        search_tolerance * margin, request, max_boxes_above_half_space);
-            if (std::isfinite(result.distance)) swap_roles(result);
-            return result;
-        }
-    } else if constexpr (std::is_same_v<B, Convex<D>>) {
-        SignedDistance<D> result = is_ball(b) ? from_ball(b, a, request) : from_convex(b, a, margin, request);
-        if (std::isfinite(result.distance)) swap_roles(result);
+template <int D>
+SignedDistance<D> function_distance(const detail::Part<D>& a, const detail::Part<D>& b,
+                                    const DistanceRequest& request) {
+    if (a.kind() > b.kind()) {
+        SignedDistance<D> result = function_distance(b, a, request);
+        if (std::isfinite(result.distance)) flip(result);
         return result;
-    } else {
-        return above_half_space(a, b, b.normal, search_tolerance * margin, search_tolerance * margin, request,
-                                max_boxes_above_half_space);
     }
+    if (a.is_convex() && is_ball(a.convex())) return from_ball(a.convex(), b.function(), request);
+    const double margin = function_tolerance(a, b);
+    if (a.is_convex()) return from_convex(a.convex(), b.function(), margin, request);
+    if (b.is_function()) return between(a.function(), b.function(), margin, request);
+    return above_half_space(a.function(), b.half_space(), b.half_space().normal, search_tolerance * margin,
+                            search_tolerance * margin, request, max_boxes_above_half_space);
 }
 
 template <int D>
 bool path_stays_apart(const Convex<D>& first, const Convex<D>& last, double expansion,
                       const DistanceFunction<D>& function, DVec<D>& place) {
-    if (is_empty(function.bounds)) return true;
-    const double margin = function_tolerance(first, function), radius = first.radius + expansion;
+    if (has_no_extent(function.bounds)) return true;
+    const double margin = function_tolerance<D>(first, function), radius = first.radius + expansion;
     const Affine<D> frame = own_frame<D>(function), back = back_from(frame);
     const DistanceFunction<D> own = moved(function, back);
     const PlacedFunction<D> placed(own);
     MinimumOptions<D> options;
     options.tolerance = 0.25 * margin;
     options.reach = options.sufficient = radius - 0.75 * margin;
-    options.sufficient_bound = radius - function_search_tolerance(first, function);
+    options.sufficient_bound = radius - function_search_tolerance<D>(first, function);
     options.max_boxes = max_boxes_of_path;
     const Minimum<D> minimum = bounded_minimum(placed, moved(first, back), moved(last, back), options);
     if (minimum.lower_bound >= std::min(options.sufficient_bound, radius - margin)) return true;
@@ -361,63 +333,44 @@ bool path_stays_apart(const Convex<D>& first, const Convex<D>& last, double expa
     return false;
 }
 
-template <class A, class B>
-requires FunctionPair<A, B>
-bool function_overlap(const A& a, const B& b) {
-    constexpr int D = PartDimension<A>::value;
-    if constexpr (std::is_same_v<A, Convex<D>>) {
-        if (is_ball(a) && !is_empty(b.bounds))
-            return PlacedFunction<D>(b).at(a.place.point(DVec<D>(a.vertices()[0]))) <= a.radius;
-    } else if constexpr (std::is_same_v<B, Convex<D>>) {
-        return function_overlap(b, a);
+template <int D>
+bool function_overlap(const detail::Part<D>& a, const detail::Part<D>& b) {
+    if (a.kind() > b.kind()) return function_overlap(b, a);
+    if (a.is_convex() && is_ball(a.convex()) && !has_no_extent(b.function().bounds)) {
+        const Convex<D>& ball = a.convex();
+        return PlacedFunction<D>(b.function()).at(ball.place.point(DVec<D>(ball.vertices()[0]))) <= ball.radius;
     }
     return function_distance(a, b, {0, 0}).distance <= 0;
 }
 
-template <class A, class B>
-requires FunctionPair<A, B>
-bool part_contact(const A& a, const B& b, double reach, double margin, const SearchOptions<PartDimension<A>::value>&,
-                  PartContact<PartDimension<A>::value>& contact) {
-    constexpr int D = PartDimension<A>::value;
-    contact.distance = function_distance(a, b, {-std::numeric_limits<double>::infinity(), reach});
-    SignedDistance<D>& distance = contact.distance;
+template <int D>
+bool function_contact(const detail::Part<D>& a, const detail::Part<D>& b, double reach, double margin,
+                      PartContact<D>& contact) {
+    const SignedDistance<D>& distance = contact.distance =
+        function_distance(a, b, {-std::numeric_limits<double>::infinity(), reach});
     if (!(distance.distance <= reach)) return false;
-    if constexpr (is_function<A> && is_function<B>) {
-        const DVec<D> middle = distance.on_a + distance.normal * (0.5 * distance.distance);
-        contact.manifold.count = 1;
-        contact.manifold.points[0] = {middle, -distance.distance, 0};
-    } else if constexpr (std::is_same_v<A, Convex<D>>) {
-        contact.manifold = points_of_face(a, b, distance, margin);
-    } else if constexpr (std::is_same_v<B, Convex<D>>) {
-        SignedDistance<D> swapped = distance;
-        swap_roles(swapped);
-        contact.manifold = points_of_face(b, a, swapped, margin);
-    } else if constexpr (std::is_same_v<A, HalfSpaceView<D>>) {
-        SignedDistance<D> swapped = distance;
-        swap_roles(swapped);
-        contact.manifold = points_on_plane(b, a, swapped, margin, function_tolerance(a, b));
+    if (a.is_convex()) {
+        contact.manifold = points_of_face(a.convex(), b.function(), distance, margin);
+    } else if (b.is_half_space()) {
+        contact.manifold = points_on_plane(a.function(), b.half_space(), distance, margin, function_tolerance(a, b));
     } else {
-        contact.manifold = points_on_plane(a, b, distance, margin, function_tolerance(a, b));
+        contact.manifold.count = 1;
+        contact.manifold.points[0] = {distance.on_a + distance.normal * (0.5 * distance.distance), -distance.distance,
+                                      0};
     }
     return true;
 }
 
-#define ABUT_INSTANTIATE_FOR(D, A, B)                                                         \
-    template double function_tolerance(const A&, const B&);                                   \
-    template double function_search_tolerance(const A&, const B&);                            \
-    template bool function_overlap(const A&, const B&);                                       \
-    template SignedDistance<D> function_distance(const A&, const B&, const DistanceRequest&); \
-    template bool part_contact(const A&, const B&, double, double, const SearchOptions<D>&, PartContact<D>&);
 #define ABUT_INSTANTIATE(D)                                                                                           \
     template bool path_stays_apart(const Convex<D>&, const Convex<D>&, double, const DistanceFunction<D>&, DVec<D>&); \
-    ABUT_INSTANTIATE_FOR(D, DistanceFunction<D>, Convex<D>)                                                           \
-    ABUT_INSTANTIATE_FOR(D, Convex<D>, DistanceFunction<D>)                                                           \
-    ABUT_INSTANTIATE_FOR(D, DistanceFunction<D>, HalfSpaceView<D>)                                                    \
-    ABUT_INSTANTIATE_FOR(D, HalfSpaceView<D>, DistanceFunction<D>)                                                    \
-    ABUT_INSTANTIATE_FOR(D, DistanceFunction<D>, DistanceFunction<D>)
+    template double function_tolerance(const detail::Part<D>&, const detail::Part<D>&);                               \
+    template double function_search_tolerance(const detail::Part<D>&, const detail::Part<D>&);                        \
+    template bool function_overlap(const detail::Part<D>&, const detail::Part<D>&);                                   \
+    template SignedDistance<D> function_distance(const detail::Part<D>&, const detail::Part<D>&,                      \
+                                                 const DistanceRequest&);                                             \
+    template bool function_contact(const detail::Part<D>&, const detail::Part<D>&, double, double, PartContact<D>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
-#undef ABUT_INSTANTIATE_FOR
 
 }  // namespace abut::detail

@@ -9,8 +9,7 @@
 // of the largest ball in both.
 
 #include <abut/query/detail/pair_dispatch.hpp>
-#include <abut/shape/half_space.hpp>
-#include <abut/shape/view/distance_function.hpp>
+#include <abut/shape/view/part.hpp>
 
 #include <type_traits>
 
@@ -34,16 +33,16 @@ inline constexpr bool is_function<DistanceFunction<D>> = true;
 template <class A, class B>
 concept FunctionPair = PartDimension<A>::value == PartDimension<B>::value && (is_function<A> || is_function<B>);
 
+// The functions below take such pairs, in either order.
+
 /// The tolerance of an answer about the pair, including the rounding of the coordinates at which the function is
 /// evaluated.
-template <class A, class B>
-requires FunctionPair<A, B>
-double function_tolerance(const A& a, const B& b);
+template <int D>
+double function_tolerance(const detail::Part<D>& a, const detail::Part<D>& b);
 
 /// The tolerance of a distance found by a search; larger if a function gives no bounds.
-template <class A, class B>
-requires FunctionPair<A, B>
-double function_search_tolerance(const A& a, const B& b);
+template <int D>
+double function_search_tolerance(const detail::Part<D>& a, const detail::Part<D>& b);
 
 /// The precision that a caller needs. A distance of at most `sufficient` may be inexact, and one of more than `reach`
 /// is reported as infinite. The distance is also infinite if a function has no bounds, and the other part is a
@@ -55,14 +54,28 @@ struct DistanceRequest {
     int max_boxes = 0;     ///< of a search over a function that bounds itself; 0: the search's own limit
 };
 
-template <class A, class B>
-requires FunctionPair<A, B> SignedDistance<PartDimension<A>::value> function_distance(const A& a, const B& b,
-                                                                                      const DistanceRequest& request);
+template <int D>
+SignedDistance<D> function_distance(const detail::Part<D>& a, const detail::Part<D>& b, const DistanceRequest& request);
+
+/// Stops at the first common point.
+template <int D>
+bool function_overlap(const detail::Part<D>& a, const detail::Part<D>& b);
+
+/// The kinds of the two parts are in their order. The contact points on a convex set are those of its face towards the
+/// function's shape.
+template <int D>
+bool function_contact(const detail::Part<D>& a, const detail::Part<D>& b, double reach, double margin,
+                      PartContact<D>& contact);
 
 template <class A, class B>
-requires FunctionPair<A, B> SignedDistance<PartDimension<A>::value> part_distance(
-    const A& a, const B& b, const SearchOptions<PartDimension<A>::value>& = {}) {
-    return function_distance(a, b, {});
+requires FunctionPair<A, B>
+double function_tolerance(const A& a, const B& b) {
+    return function_tolerance<PartDimension<A>::value>(a, b);
+}
+template <class A, class B>
+requires FunctionPair<A, B> SignedDistance<PartDimension<A>::value> function_distance(const A& a, const B& b,
+                                                                                      const DistanceRequest& request) {
+    return function_distance<PartDimension<A>::value>(a, b, request);
 }
 
 /// Whether a convex set on its path is nowhere deeper in a function that bounds itself than the tolerance. The path
@@ -70,34 +83,5 @@ requires FunctionPair<A, B> SignedDistance<PartDimension<A>::value> part_distanc
 template <int D>
 bool path_stays_apart(const Convex<D>& first, const Convex<D>& last, double expansion,
                       const DistanceFunction<D>& function, DVec<D>& place);
-
-/// Stops at the first common point.
-template <class A, class B>
-requires FunctionPair<A, B>
-bool function_overlap(const A& a, const B& b);
-
-template <class A, class B>
-requires FunctionPair<A, B>
-bool part_overlaps(const A& a, const B& b, const SearchOptions<PartDimension<A>::value>&) {
-    return function_overlap(a, b);
-}
-
-/// The contact points on a convex set are those of its face towards the function's shape.
-template <class A, class B>
-requires FunctionPair<A, B>
-bool part_contact(const A& a, const B& b, double reach, double margin,
-                  const SearchOptions<PartDimension<A>::value>& options, PartContact<PartDimension<A>::value>& contact);
-
-template <class A, class B>
-requires FunctionPair<A, B>
-bool part_distance_within(const A& a, const B& b, double reach, double margin,
-                          const SearchOptions<PartDimension<A>::value>& options,
-                          PartContact<PartDimension<A>::value>& contact) {
-    return part_contact(a, b, reach, margin, options, contact);
-}
-template <class A, class B>
-requires FunctionPair<A, B>
-void add_points(const A&, const B&, double, const SearchOptions<PartDimension<A>::value>&,
-                PartContact<PartDimension<A>::value>&) {}
 
 }  // namespace abut::detail

@@ -17,16 +17,17 @@ void filter_hit_normal(const MoverAtHit<D>& mover, const View<D>& shape, EachClo
     if (!std::isfinite(mover.size)) return;
     const SurfacePlace<D> place{DVec<D>(hit.point), DVec<D>(hit.normal), mover.center,
                                 surface_probe_scale * mover.size};
-    each_part_near(shape, round_points<D>({hit.point}, 0), static_cast<float>(place.scale),
-                   [&](const auto& part, std::uint32_t index) {
-                       if (index != hit.feature.part) return true;
-                       if (is_surface_normal<D>(part, place, each_closest_point)) return false;
-                       NearestToCenter<D> nearest;
-                       const std::optional<SurfacePlane<D>> plane =
-                           surface_plane<D>(part, place, each_closest_point, nearest);
-                       if (plane && dot(plane->normal, mover.direction) < 0) hit.normal = to_float(plane->normal);
-                       return false;
-                   });
+    detail::for_each_part(shape, round_points<D>({hit.point}, 0), static_cast<float>(place.scale),
+                          [&](const Part<D>& part, std::uint32_t index) {
+                              if (index != hit.feature.part) return true;
+                              if (is_surface_normal<D>(part, place, each_closest_point)) return false;
+                              NearestToCenter<D> nearest;
+                              const std::optional<SurfacePlane<D>> plane =
+                                  surface_plane<D>(part, place, each_closest_point, nearest);
+                              if (plane && dot(plane->normal, mover.direction) < 0)
+                                  hit.normal = to_float(plane->normal);
+                              return false;
+                          });
 }
 
 #define ABUT_INSTANTIATE(D)                                                                                    \

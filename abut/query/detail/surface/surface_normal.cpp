@@ -34,41 +34,28 @@ constexpr int max_reaches = 12;
 
 /// A point inside the part and off all its edges, if the part has an interior.
 template <int D>
-DVec<D> inner_point(const Convex<D>& part, const DVec<D>& probe) {
-    if (part.core != Core::points) return middle_of(part, probe);
+DVec<D> inner_point(const Part<D>& part, const DVec<D>& probe) {
+    if (!part.is_convex()) return probe;
+    const Convex<D>& set = part.convex();
+    if (set.core != Core::points) return middle_of(part, probe);
     DVec<D> sum(0.0);
-    for (std::uint32_t i = 0; i < part.count; ++i) sum += DVec<D>(part.vertices()[i]);
-    return part.place.point(sum / static_cast<double>(part.count));
-}
-template <int D>
-DVec<D> inner_point(const HalfSpaceView<D>&, const DVec<D>& probe) {
-    return probe;
-}
-template <int D>
-DVec<D> inner_point(const DistanceFunction<D>&, const DVec<D>& probe) {
-    return probe;
+    for (std::uint32_t i = 0; i < set.count; ++i) sum += DVec<D>(set.vertices()[i]);
+    return set.place.point(sum / static_cast<double>(set.count));
 }
 
 /// Whether the part is solid with flat faces, which may be narrow.
 template <int D>
-bool has_flat_sides(const Convex<D>& part) {
-    if (part.radius > 0 || part.inner_radius > 0) return false;
-    return part.core == Core::box || (part.core == Core::points && part.count > static_cast<std::uint32_t>(D));
-}
-template <int D>
-bool has_flat_sides(const HalfSpaceView<D>&) {
-    return false;
-}
-template <int D>
-bool has_flat_sides(const DistanceFunction<D>&) {
-    return false;
+bool has_flat_sides(const Part<D>& part) {
+    if (!part.is_convex() || part.convex().radius > 0 || part.convex().inner_radius > 0) return false;
+    const Convex<D>& set = part.convex();
+    return set.core == Core::box || (set.core == Core::points && set.count > static_cast<std::uint32_t>(D));
 }
 
 /// Whether the part has a face here and not an edge: a step along the part doesn't change the distance. On a solid part
 /// a step sideways, to one side or the other, must not change it either. So the point lies on no edge, and on no face
 /// as narrow as the gap between two pieces that should touch.
-template <int D, class Part>
-bool is_face(const Part& part, const SurfacePlace<D>& place, const DVec<D>& probe, double own) {
+template <int D>
+bool is_face(const Part<D>& part, const SurfacePlace<D>& place, const DVec<D>& probe, double own) {
     const auto is_as_far = [&](const DVec<D>& point) {
         return std::abs(closest_point_on(part, point).distance - own) <= 3 * face_angle * place.scale;
     };
@@ -100,8 +87,8 @@ bool is_behind(const ClosestPoint<D>& closest, double scale) {
 
 /// Whether the part, at distance `own` from p + s n, is the nearest one. Where rounding leaves that open, a face is and
 /// an edge is not.
-template <int D, class Part>
-bool is_nearest_part(const Part& part, const SurfacePlace<D>& place, const DVec<D>& probe, double own,
+template <int D>
+bool is_nearest_part(const Part<D>& part, const SurfacePlace<D>& place, const DVec<D>& probe, double own,
                      EachClosestPoint<D> each_closest_point) {
     const double nearer = own - nearer_margin * place.scale - 1e-14 * largest(probe);
     const double certainly_nearer = own - rounding * place.scale;
@@ -150,20 +137,18 @@ bool find_closest_point(const Convex<D>& part, const DVec<D>& point, double with
 }
 
 template <int D>
-ClosestPoint<D> closest_point_on(const Convex<D>& part, const DVec<D>& point) {
-    ClosestPoint<D> result;
-    find_closest_point(part, point, std::numeric_limits<double>::infinity(), result);
-    return result;
-}
-template <int D>
-ClosestPoint<D> closest_point_on(const HalfSpaceView<D>& part, const DVec<D>& point) {
-    const double distance = dot(part.normal, point) - part.offset;
-    return {distance, point - part.normal * distance};
-}
-
-template <int D>
-ClosestPoint<D> closest_point_on(const DistanceFunction<D>& part, const DVec<D>& point) {
-    const PlacedFunction<D> nearest(part);
+ClosestPoint<D> closest_point_on(const AnyPart<D>& part, const DVec<D>& point) {
+    if (part.is_convex()) {
+        ClosestPoint<D> result;
+        find_closest_point(part.convex(), point, std::numeric_limits<double>::infinity(), result);
+        return result;
+    }
+    if (part.is_half_space()) {
+        const HalfSpaceView<D>& half_space = part.half_space();
+        const double distance = dot(half_space.normal, point) - half_space.offset;
+        return {distance, point - half_space.normal * distance};
+    }
+    const PlacedFunction<D> nearest(part.function());
     const double distance = nearest.at(point);
     if (!std::isfinite(distance)) return {};
     return {distance, point - nearest.normal(point, nearest.step(point, 1e-2 * std::abs(distance))) * distance};
@@ -184,21 +169,16 @@ ClosestPoint<D> nearest_surface_point(EachClosestPoint<D> each_closest_point, co
 
 template <int D>
 void each_closest_point_on(const View<D>& shape, const DVec<D>& point, double within, ClosestPointVisitor<D> visit) {
-    if (const auto* convex = std::get_if<Convex<D>>(&shape)) {
-        const ClosestPoint<D> closest = closest_point_on(*convex, point);
-        if (closest.distance <= within) visit(closest);
-        return;
-    }
-    const Convex<D> as_part = point_part(point);
-    each_part_near(shape, as_part, static_cast<float>(within), [&](const auto& part, std::uint32_t) {
-        ClosestPoint<D> closest;
-        if (find_closest_point(part, point, within, closest)) within = visit(closest);
-        return within > stop_visiting;
-    });
+    detail::for_each_part(shape, point_part(point), static_cast<float>(within),
+                          [&](const Part<D>& part, std::uint32_t) {
+                              ClosestPoint<D> closest;
+                              if (find_closest_point(part, point, within, closest)) within = visit(closest);
+                              return within > stop_visiting;
+                          });
 }
 
-template <int D, class Part>
-bool is_surface_normal(const Part& part, const SurfacePlace<D>& place, EachClosestPoint<D> each_closest_point) {
+template <int D>
+bool is_surface_normal(const Part<D>& part, const SurfacePlace<D>& place, EachClosestPoint<D> each_closest_point) {
     const DVec<D> probe = place.point + place.normal * place.scale;
     const double own = closest_point_on(part, probe).distance;
     if (is_nearest_part(part, place, probe, own, each_closest_point)) return true;
@@ -218,20 +198,20 @@ bool is_surface_normal(const Part& part, const SurfacePlace<D>& place, EachClose
     return false;
 }
 
-template <int D, class Part>
-bool has_normal(const Part& part, const SurfacePlace<D>& place) {
+template <int D>
+bool has_normal(const Part<D>& part, const SurfacePlace<D>& place) {
     return closest_point_on(part, place.point + place.normal * place.scale).distance > (1 - rounding) * place.scale;
 }
 
-template <int D, class Part>
-bool is_surface_normal_at(const Part& part, const SurfacePlace<D>& place, EachClosestPoint<D> each_closest_point) {
+template <int D>
+bool is_surface_normal_at(const Part<D>& part, const SurfacePlace<D>& place, EachClosestPoint<D> each_closest_point) {
     const DVec<D> probe = place.point + place.normal * place.scale;
     const double own = closest_point_on(part, probe).distance;
     return own > (1 - rounding) * place.scale && is_nearest_part(part, place, probe, own, each_closest_point);
 }
 
-template <int D, class Part>
-std::optional<SurfacePlane<D>> surface_plane(const Part& part, const SurfacePlace<D>& place,
+template <int D>
+std::optional<SurfacePlane<D>> surface_plane(const Part<D>& part, const SurfacePlace<D>& place,
                                              EachClosestPoint<D> each_closest_point, NearestToCenter<D>& nearest) {
     const double clear = min_clearance * place.scale;
     const auto plane_at = [&](const DVec<D>& point, ClosestPoint<D> closest) -> std::optional<SurfacePlane<D>> {
@@ -256,28 +236,16 @@ std::optional<SurfacePlane<D>> surface_plane(const Part& part, const SurfacePlac
     return plane_at(place.center, nearest.closest.distance <= within ? nearest.closest : ClosestPoint<D>());
 }
 
-#define ABUT_INSTANTIATE(D)                                                                                      \
-    template bool find_closest_point(const Convex<D>&, const DVec<D>&, double, ClosestPoint<D>&);                \
-    template ClosestPoint<D> closest_point_on(const Convex<D>&, const DVec<D>&);                                 \
-    template ClosestPoint<D> closest_point_on(const HalfSpaceView<D>&, const DVec<D>&);                          \
-    template ClosestPoint<D> closest_point_on(const DistanceFunction<D>&, const DVec<D>&);                       \
-    template bool has_normal(const DistanceFunction<D>&, const SurfacePlace<D>&);                                \
-    template bool is_surface_normal_at(const DistanceFunction<D>&, const SurfacePlace<D>&, EachClosestPoint<D>); \
-    template bool is_surface_normal(const DistanceFunction<D>&, const SurfacePlace<D>&, EachClosestPoint<D>);    \
-    template std::optional<SurfacePlane<D>> surface_plane(const DistanceFunction<D>&, const SurfacePlace<D>&,    \
-                                                          EachClosestPoint<D>, NearestToCenter<D>&);             \
-    template ClosestPoint<D> nearest_surface_point(EachClosestPoint<D>, const DVec<D>&, double, double, double); \
-    template void each_closest_point_on(const View<D>&, const DVec<D>&, double, ClosestPointVisitor<D>);         \
-    template bool has_normal(const Convex<D>&, const SurfacePlace<D>&);                                          \
-    template bool has_normal(const HalfSpaceView<D>&, const SurfacePlace<D>&);                                   \
-    template bool is_surface_normal_at(const Convex<D>&, const SurfacePlace<D>&, EachClosestPoint<D>);           \
-    template bool is_surface_normal_at(const HalfSpaceView<D>&, const SurfacePlace<D>&, EachClosestPoint<D>);    \
-    template bool is_surface_normal(const Convex<D>&, const SurfacePlace<D>&, EachClosestPoint<D>);              \
-    template bool is_surface_normal(const HalfSpaceView<D>&, const SurfacePlace<D>&, EachClosestPoint<D>);       \
-    template std::optional<SurfacePlane<D>> surface_plane(const Convex<D>&, const SurfacePlace<D>&,              \
-                                                          EachClosestPoint<D>, NearestToCenter<D>&);             \
-    template std::optional<SurfacePlane<D>> surface_plane(const HalfSpaceView<D>&, const SurfacePlace<D>&,       \
-                                                          EachClosestPoint<D>, NearestToCenter<D>&);
+#define ABUT_INSTANTIATE(D)                                                                                            \
+    template bool find_closest_point(const Convex<D>&, const DVec<D>&, double, ClosestPoint<D>&);                      \
+    template ClosestPoint<D> closest_point_on(const AnyPart<D>&, const DVec<D>&);                                      \
+    template ClosestPoint<D> nearest_surface_point(EachClosestPoint<D>, const DVec<D>&, double, double, double);       \
+    template void each_closest_point_on(const View<D>&, const DVec<D>&, double, ClosestPointVisitor<D>);               \
+    template bool has_normal(const Part<D>&, const SurfacePlace<D>&);                                                  \
+    template bool is_surface_normal_at(const Part<D>&, const SurfacePlace<D>&, EachClosestPoint<D>);                   \
+    template bool is_surface_normal(const Part<D>&, const SurfacePlace<D>&, EachClosestPoint<D>);                      \
+    template std::optional<SurfacePlane<D>> surface_plane(const Part<D>&, const SurfacePlace<D>&, EachClosestPoint<D>, \
+                                                          NearestToCenter<D>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

@@ -49,26 +49,17 @@ template <int D>
 ClosestPoint<D> nearest_surface_point(EachClosestPoint<D> each_closest_point, const DVec<D>& point, double within,
                                       double scale, double sufficient);
 
+/// Of a distance function: follows the gradient by the distance.
 template <int D>
-ClosestPoint<D> closest_point_on(const Convex<D>& part, const DVec<D>& point);
-template <int D>
-ClosestPoint<D> closest_point_on(const HalfSpaceView<D>& part, const DVec<D>& point);
-/// Follows the gradient by the distance.
-template <int D>
-ClosestPoint<D> closest_point_on(const DistanceFunction<D>& part, const DVec<D>& point);
+ClosestPoint<D> closest_point_on(const AnyPart<D>& part, const DVec<D>& point);
 
 /// Returns false, and leaves `closest` unspecified, if the part is farther than `within`. This is mostly cheaper than
 /// the closest point.
 template <int D>
 bool find_closest_point(const Convex<D>& part, const DVec<D>& point, double within, ClosestPoint<D>& closest);
 template <int D>
-bool find_closest_point(const HalfSpaceView<D>& part, const DVec<D>& point, double within, ClosestPoint<D>& closest) {
-    closest = closest_point_on(part, point);
-    return closest.distance <= within;
-}
-template <int D>
-bool find_closest_point(const DistanceFunction<D>& part, const DVec<D>& point, double within,
-                        ClosestPoint<D>& closest) {
+bool find_closest_point(const Part<D>& part, const DVec<D>& point, double within, ClosestPoint<D>& closest) {
+    if (part.is_convex()) return find_closest_point(part.convex(), point, within, closest);
     closest = closest_point_on(part, point);
     return closest.distance <= within;
 }
@@ -109,17 +100,17 @@ struct SurfacePlace {
 /// Whether the normal is one of the union's. A one-sided part covers nothing behind it. In a corner, where other parts
 /// are as near or contain the point, the test repeats farther along the part while the normal stays the same, up to the
 /// centre of the other shape. An edge that stands out by no more than rounding, 1e-5 of the size, is no edge.
-template <int D, class Part>
-bool is_surface_normal(const Part& part, const SurfacePlace<D>& place, EachClosestPoint<D> each_closest_point);
+template <int D>
+bool is_surface_normal(const Part<D>& part, const SurfacePlace<D>& place, EachClosestPoint<D> each_closest_point);
 
 /// Whether the part has this normal at a point near its surface.
-template <int D, class Part>
-bool has_normal(const Part& part, const SurfacePlace<D>& place);
+template <int D>
+bool has_normal(const Part<D>& part, const SurfacePlace<D>& place);
 
 /// Whether the part has this normal and no other part is nearer: is_surface_normal without the tests farther along the
 /// part.
-template <int D, class Part>
-bool is_surface_normal_at(const Part& part, const SurfacePlace<D>& place, EachClosestPoint<D> each_closest_point);
+template <int D>
+bool is_surface_normal_at(const Part<D>& part, const SurfacePlace<D>& place, EachClosestPoint<D> each_closest_point);
 
 /// A tangent plane of the union.
 template <int D>
@@ -138,8 +129,8 @@ struct NearestToCenter {
 /// A plane of the surface near a place whose normal is no surface normal. The search starts at the place and goes
 /// towards the centre of the other shape, which came from there. Of surfaces equally near, the part's own wins. There
 /// is none if everything up to the centre is inside.
-template <int D, class Part>
-std::optional<SurfacePlane<D>> surface_plane(const Part& part, const SurfacePlace<D>& place,
+template <int D>
+std::optional<SurfacePlane<D>> surface_plane(const Part<D>& part, const SurfacePlace<D>& place,
                                              EachClosestPoint<D> each_closest_point, NearestToCenter<D>& nearest);
 
 /// Whether a contact of this normal and depth makes another one superfluous: the normals are about equal, and for an
@@ -153,16 +144,8 @@ bool covers_contact(const DVec<D>& normal, double depth, const DVec<D>& other, d
 
 /// The centre of the box around a part; for a half-space, the nearby point itself.
 template <int D>
-DVec<D> middle_of(const Convex<D>& part, const DVec<D>&) {
-    return DVec<D>(center(bounds(part)));
-}
-template <int D>
-DVec<D> middle_of(const HalfSpaceView<D>&, const DVec<D>& probe) {
-    return probe;
-}
-template <int D>
-DVec<D> middle_of(const DistanceFunction<D>& part, const DVec<D>&) {
-    return DVec<D>(center(bounds(part)));
+DVec<D> middle_of(const AnyPart<D>& part, const DVec<D>& nearby) {
+    return part.is_half_space() ? nearby : DVec<D>(center(bounds(part)));
 }
 
 /// s for a pair, by the smaller shape; the other one counts as the level.

@@ -118,21 +118,21 @@ private:
     }
 
     /// A negative distance is reduced by the error of a depth.
-    template <class Part>
-    double outside_of(const Part& part, const DVec<D>& point) const {
+    double outside_of(const AnyPart<D>& part, const DVec<D>& point) const {
         const double distance = closest_point_on(part, point).distance;
         return distance < 0 ? std::min(distance + pair_.depth_error, 0.0) : distance;
     }
 
     /// The point of a part nearest to the centre of another part.
-    template <class Part, class Other>
-    static DVec<D> nearest_place(const Part& part, const Other& other) {
+    static DVec<D> nearest_place(const Part<D>& part, const Part<D>& other) {
         const DVec<D> middle = middle_of(other, nearest_to_middle(part));
         const ClosestPoint<D> closest = closest_point_on(part, middle);
         return closest.distance > 0 ? closest.point : middle;
     }
-    static DVec<D> nearest_to_middle(const Convex<D>& part) { return middle_of(part, part.place.offset); }
-    static DVec<D> nearest_to_middle(const HalfSpaceView<D>& part) { return part.normal * part.offset; }
+    static DVec<D> nearest_to_middle(const Part<D>& part) {
+        if (part.is_half_space()) return part.half_space().normal * part.half_space().offset;
+        return middle_of(part, DVec<D>(0.0));
+    }
 
     Pair& pair_;
     double speed_;  ///< an upper bound of the speed of separation

@@ -2,7 +2,7 @@
 
 // The time of impact of two convex parts, the first moving straight. For .cpp files.
 
-#include <abut/query/detail/part_pairs.hpp>
+#include <abut/query/detail/one_sided.hpp>
 #include <abut/query/hit.hpp>
 
 namespace abut::detail {
@@ -48,5 +48,26 @@ struct SweepOptions {
 template <int D, class A, class B>
 bool time_of_impact(const A& a, const Path<D>& path, const B& b, std::uint32_t index, const SweepOptions<D>& options,
                     LinearImpact<D>& impact);
+
+/// Parts of any kinds that aren't both convex.
+template <int D>
+bool mixed_time_of_impact(const Part<D>& a, const Path<D>& path, const Part<D>& b, std::uint32_t index,
+                          const SweepOptions<D>& options, LinearImpact<D>& impact);
+
+/// The first impact at the fronts of one-sided parts. On a straight path the overlap is a single interval, so parts
+/// that first touch at a back don't touch at a front later.
+template <int D>
+bool front_time_of_impact(const AnyPart<D>& a, const Path<D>& path, const AnyPart<D>& b, std::uint32_t index,
+                          const SweepOptions<D>& options, LinearImpact<D>& impact) {
+    if (!approaches_front(b, path.direction) || !approaches_front(a, -path.direction)) return false;
+    const bool found = are_convex<D>(a, b) ? time_of_impact(a.convex(), path, b.convex(), index, options, impact)
+                                           : mixed_time_of_impact(a, path, b, index, options, impact);
+    return found && touch_at_fronts(a, b, impact.normal);
+}
+
+/// The first impact at fronts over all pairs of parts of two shapes.
+template <int D>
+bool first_impact(const View<D>& a, const Path<D>& path, const View<D>& b, const SweepOptions<D>& options,
+                  LinearImpact<D>& impact);
 
 }  // namespace abut::detail

@@ -120,36 +120,33 @@ private:
     Cache cache_;
 };
 
-/// A set and a half-space. The normal of the border is the only separating axis and gives the distance in closed form.
-/// A point of the border stands for the half-space.
-template <int D, bool first_is_half_space>
+/// A set and a half-space, in either order. The normal of the border is the only separating axis and gives the distance
+/// in closed form. A point of the border stands for the half-space.
+template <int D>
 class HalfSpacePair {
 public:
-    HalfSpacePair(const HalfSpaceView<D>& half_space, const RigidPath<D>& path_of_half_space, const Convex<D>& convex,
-                  const RigidPath<D>& path_of_set)
-        : tolerance(tolerance_of(radius_of(convex), radius_of(convex))),
-          a(first_is_half_space ? border_point_of(half_space) : convex,
-            first_is_half_space ? path_of_half_space : path_of_set, first_is_half_space ? never : 0.02 * tolerance),
-          b(first_is_half_space ? convex : border_point_of(half_space),
-            first_is_half_space ? path_of_set : path_of_half_space, first_is_half_space ? 0.02 * tolerance : never),
-          depth_error(depth_error_of(convex)),
-          rotation_(path_of_half_space.angular_velocity),
-          normal_(rotation_.of(path_of_half_space.start.vector(half_space.normal))) {}
+    HalfSpacePair(const Part<D>& part_a, const RigidPath<D>& path_a, const Part<D>& part_b, const RigidPath<D>& path_b)
+        : a_is_half_space_(part_a.is_half_space()),
+          tolerance(tolerance_of(part_a, part_b)),
+          a(set_or_border_point(part_a), path_a, a_is_half_space_ ? never : 0.02 * tolerance),
+          b(set_or_border_point(part_b), path_b, a_is_half_space_ ? 0.02 * tolerance : never),
+          depth_error(depth_error_of((a_is_half_space_ ? part_b : part_a).convex())),
+          rotation_((a_is_half_space_ ? path_a : path_b).angular_velocity),
+          normal_(rotation_.of((a_is_half_space_ ? path_a : path_b)
+                                   .start.vector((a_is_half_space_ ? part_a : part_b).half_space().normal))) {}
 
     SignedDistance<D> distance(double time) {
         go_to(time);
-        SignedDistance<D> result = part_distance(set(), half_space_);
-        if (first_is_half_space) swap_roles(result);
-        return result;
+        return part_distance<D>(here_a(), here_b());
     }
     bool has_unique_normal(const SignedDistance<D>&) const { return true; }
     Manifold<D> contact_points(const SignedDistance<D>&) const {
-        return manifold_with_plane(set(), half_space_.normal, half_space_.offset, tolerance);
+        return manifold_with_plane((a_is_half_space_ ? b : a).here(), half_space_.normal, half_space_.offset,
+                                   tolerance);
     }
     double separated_to(double from, double until, double level, double step_tolerance, const SignedDistance<D>& now,
                         bool) {
-        SeparationFunction<D> gap(a, b, now.normal,
-                                  first_is_half_space ? a.path().angular_velocity : b.path().angular_velocity, from);
+        SeparationFunction<D> gap(a, b, now.normal, (a_is_half_space_ ? a : b).path().angular_velocity, from);
         return separated_until(gap, from, until, gap.at_first(now.normal, now.distance, now.on_a, now.on_b()), level,
                                step_tolerance)
             .time;
@@ -158,44 +155,40 @@ public:
         a.go_to(time);
         b.go_to(time);
         half_space_.normal = normal_.at(sin_cos(rotation_.rate * time));
-        half_space_.offset = dot(half_space_.normal, border_point().place.offset);
+        half_space_.offset = dot(half_space_.normal, (a_is_half_space_ ? a : b).here().place.offset);
     }
-    const auto& here_a() const {
-        if constexpr (first_is_half_space)
-            return half_space_;
-        else
-            return a.here();
-    }
-    const auto& here_b() const {
-        if constexpr (first_is_half_space)
-            return b.here();
-        else
-            return half_space_;
-    }
-    double reach_a() const { return first_is_half_space ? std::numeric_limits<double>::infinity() : a.reach(); }
-    double reach_b() const { return first_is_half_space ? b.reach() : std::numeric_limits<double>::infinity(); }
+    Part<D> here_a() const { return a_is_half_space_ ? Part<D>(half_space_) : Part<D>(a.here()); }
+    Part<D> here_b() const { return a_is_half_space_ ? Part<D>(b.here()) : Part<D>(half_space_); }
+    double reach_a() const { return a_is_half_space_ ? std::numeric_limits<double>::infinity() : a.reach(); }
+    double reach_b() const { return a_is_half_space_ ? b.reach() : std::numeric_limits<double>::infinity(); }
     Feature feature_on_b(const SignedDistance<D>& distance) const {
         Feature result;
-        if (first_is_half_space)
-            name_feature(set(), distance.corners.b, distance.corners.count, -distance.normal, 0, result);
+        name_feature(here_b(), distance.corners.b, distance.corners.count, -distance.normal, 0, result);
         return result;
     }
 
+private:
+    static constexpr double never = -1;
+
+    static double tolerance_of(const Part<D>& part_a, const Part<D>& part_b) {
+        const double radius = radius_of((part_a.is_half_space() ? part_b : part_a).convex());
+        return detail::tolerance_of(radius, radius);
+    }
+    static Convex<D> set_or_border_point(const Part<D>& part) {
+        if (part.is_convex()) return part.convex();
+        Convex<D> result;
+        result.place.offset = part.half_space().normal * part.half_space().offset;
+        return result;
+    }
+
+    bool a_is_half_space_;
+
+public:
     double tolerance;
     RotatingSet<D> a, b;
     double depth_error;  ///< by how much a depth may exceed the least depth
 
 private:
-    static constexpr double never = -1;
-
-    static Convex<D> border_point_of(const HalfSpaceView<D>& half_space) {
-        Convex<D> result;
-        result.place.offset = half_space.normal * half_space.offset;
-        return result;
-    }
-    const Convex<D>& border_point() const { return first_is_half_space ? a.here() : b.here(); }
-    const Convex<D>& set() const { return first_is_half_space ? b.here() : a.here(); }
-
     RotationAxis<D> rotation_;
     RotatingVector<D> normal_;
     HalfSpaceView<D> half_space_;
@@ -323,34 +316,18 @@ private:
 }  // namespace
 
 template <int D>
-bool time_of_impact(const Convex<D>& a, const RigidPath<D>& path_a, const Convex<D>& b, const RigidPath<D>& path_b,
+bool time_of_impact(const AnyPart<D>& a, const RigidPath<D>& path_a, const AnyPart<D>& b, const RigidPath<D>& path_b,
                     const RotatingSweepLimits& limits, const SearchOptions<D>& options, RotatingImpact<D>& impact) {
-    ConvexPair<D> pair(a, path_a, b, path_b, options);
-    return RotatingSweep<D, decltype(pair)>(pair, limits).run(impact);
+    if (are_convex<D>(a, b)) {
+        ConvexPair<D> pair(a.convex(), path_a, b.convex(), path_b, options);
+        return RotatingSweep<D, ConvexPair<D>>(pair, limits).run(impact);
+    }
+    HalfSpacePair<D> pair(a, path_a, b, path_b);
+    return RotatingSweep<D, HalfSpacePair<D>>(pair, limits).run(impact);
 }
 
-template <int D>
-bool time_of_impact(const Convex<D>& a, const RigidPath<D>& path_a, const HalfSpaceView<D>& b,
-                    const RigidPath<D>& path_b, const RotatingSweepLimits& limits, const SearchOptions<D>&,
-                    RotatingImpact<D>& impact) {
-    HalfSpacePair<D, false> pair(b, path_b, a, path_a);
-    return RotatingSweep<D, decltype(pair)>(pair, limits).run(impact);
-}
-
-template <int D>
-bool time_of_impact(const HalfSpaceView<D>& a, const RigidPath<D>& path_a, const Convex<D>& b,
-                    const RigidPath<D>& path_b, const RotatingSweepLimits& limits, const SearchOptions<D>&,
-                    RotatingImpact<D>& impact) {
-    HalfSpacePair<D, true> pair(a, path_a, b, path_b);
-    return RotatingSweep<D, decltype(pair)>(pair, limits).run(impact);
-}
-
-#define ABUT_INSTANTIATE(D)                                                                                           \
-    template bool time_of_impact(const Convex<D>&, const RigidPath<D>&, const Convex<D>&, const RigidPath<D>&,        \
-                                 const RotatingSweepLimits&, const SearchOptions<D>&, RotatingImpact<D>&);            \
-    template bool time_of_impact(const Convex<D>&, const RigidPath<D>&, const HalfSpaceView<D>&, const RigidPath<D>&, \
-                                 const RotatingSweepLimits&, const SearchOptions<D>&, RotatingImpact<D>&);            \
-    template bool time_of_impact(const HalfSpaceView<D>&, const RigidPath<D>&, const Convex<D>&, const RigidPath<D>&, \
+#define ABUT_INSTANTIATE(D)                                                                                      \
+    template bool time_of_impact(const AnyPart<D>&, const RigidPath<D>&, const AnyPart<D>&, const RigidPath<D>&, \
                                  const RotatingSweepLimits&, const SearchOptions<D>&, RotatingImpact<D>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

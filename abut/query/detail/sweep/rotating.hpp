@@ -2,12 +2,8 @@
 
 // The time of impact of two parts on rigid paths, by conservative advancement. For .cpp files.
 
-#include <abut/convex/gjk/search_options.hpp>
-#include <abut/convex/support.hpp>
 #include <abut/math/rigid_path.hpp>
-#include <abut/query/feature.hpp>
-#include <abut/shape/half_space.hpp>
-#include <abut/shape/view/view.hpp>
+#include <abut/query/detail/part_pairs.hpp>
 
 namespace abut::detail {
 
@@ -43,19 +39,11 @@ struct RotatingSweepLimits {
 /// may go either way, so nothing depends on the times that the search visits. Depths of shapes known by a support
 /// function are right to a thousandth of the size; for them "deeper" means by more than that.
 ///
-/// Returns false, and leaves `impact` unchanged, if there is no impact until the end. Both shapes are in the frames
-/// that their paths move.
+/// Returns false, and leaves `impact` unchanged, if there is no impact until the end. Both parts are in the frames that
+/// their paths move. Neither is a distance function, and not both are half-spaces.
 template <int D>
-bool time_of_impact(const Convex<D>& a, const RigidPath<D>& path_a, const Convex<D>& b, const RigidPath<D>& path_b,
+bool time_of_impact(const AnyPart<D>& a, const RigidPath<D>& path_a, const AnyPart<D>& b, const RigidPath<D>& path_b,
                     const RotatingSweepLimits& limits, const SearchOptions<D>& options, RotatingImpact<D>& impact);
-template <int D>
-bool time_of_impact(const Convex<D>& a, const RigidPath<D>& path_a, const HalfSpaceView<D>& b,
-                    const RigidPath<D>& path_b, const RotatingSweepLimits& limits, const SearchOptions<D>& options,
-                    RotatingImpact<D>& impact);
-template <int D>
-bool time_of_impact(const HalfSpaceView<D>& a, const RigidPath<D>& path_a, const Convex<D>& b,
-                    const RigidPath<D>& path_b, const RotatingSweepLimits& limits, const SearchOptions<D>& options,
-                    RotatingImpact<D>& impact);
 
 /// The earliest time of impact over all pairs of parts of two shapes. `impact.feature.part` is the part of B.
 template <int D>

@@ -71,22 +71,18 @@ Aabb<D> everywhere() {
     return {Vec<D>(-infinity), Vec<D>(infinity)};
 }
 
-/// The parts of a composite shape near another moving shape.
-template <int D, class Other>
+/// The parts of a composite shape near another moving shape, by its local box.
+template <int D>
 class PartsNear {
 public:
-    PartsNear(const Composite<D>& composite, const RigidPath<D>& path, const Other& other,
+    PartsNear(const Composite<D>& composite, const RigidPath<D>& path, const Aabb<D>& box_of_other,
               const RigidPath<D>& path_of_other)
-        : composite_(composite) {
-        if constexpr (!is_half_space) {
-            const Aabb<D> box = bounds(other);
-            is_empty_ = !(box.min[0] <= box.max[0]);
-            if (is_empty_ || !(is_finite(box.min) && is_finite(box.max))) return;
-            const LocalBall<D> ball = local_ball(box);
-            moving_.emplace(ball, path_of_other, path);
-            // At least the largest gap at an impact: half of the tolerance.
-            margin_ = 1e-5 * ball.radius + 1e-6 * local_ball(bounds(composite)).radius;
-        }
+        : composite_(composite), is_empty_(!(box_of_other.min[0] <= box_of_other.max[0])) {
+        if (is_empty_ || !(is_finite(box_of_other.min) && is_finite(box_of_other.max))) return;
+        const LocalBall<D> ball = local_ball(box_of_other);
+        moving_.emplace(ball, path_of_other, path);
+        // At least the largest gap at an impact: half of the tolerance.
+        margin_ = 1e-5 * ball.radius + 1e-6 * local_ball(bounds(composite)).radius;
     }
 
     /// Calls visit(part, index) for at least all parts that may be hit in this span.
@@ -101,13 +97,27 @@ public:
     }
 
 private:
-    static constexpr bool is_half_space = std::is_same_v<Other, HalfSpaceView<D>>;
-
     const Composite<D>& composite_;
-    bool is_empty_ = false;
+    bool is_empty_;
     std::optional<MovingBall<D>> moving_;
     double margin_ = 0;
 };
+
+/// The time of impact of two parts of any kinds.
+template <int D>
+bool part_time_of_impact(const Part<D>& a, const RigidPath<D>& path_a, const Part<D>& b, const RigidPath<D>& path_b,
+                         const RotatingSweepLimits& limits, const SearchOptions<D>& options,
+                         RotatingImpact<D>& impact) {
+    if (!a.is_function() && !b.is_function()) return time_of_impact(a, path_a, b, path_b, limits, options, impact);
+    return a.visit([&]<class A>(const A& part_a) {
+        return b.visit([&]<class B>(const B& part_b) {
+            if constexpr (FunctionPair<A, B>)
+                return time_of_impact<D>(part_a, path_a, part_b, path_b, limits, options, impact);
+            else
+                return false;
+        });
+    });
+}
 
 template <int D>
 class EarliestImpact {
@@ -115,25 +125,18 @@ public:
     EarliestImpact(const RigidPath<D>& path_a, const RigidPath<D>& path_b, const SearchOptions<D>& options)
         : path_a_(path_a), path_b_(path_b), options_(options) {}
 
-    template <class PartA, class PartB>
-    void search(const PartA& a, const PartB& b) {
-        [[maybe_unused]] constexpr bool two_half_spaces_pair = false;
-        if constexpr (std::is_same_v<PartA, HalfSpaceView<D>> && std::is_same_v<PartB, HalfSpaceView<D>>) {
-            ABUT_ASSERT(two_half_spaces_pair);
-        } else if constexpr (std::is_same_v<PartB, Composite<D>>) {
-            const PartsNear<D, PartA> near(b, path_b_, a, path_a_);
-            each_span<PartA>([&](const TimeSpan& span) {
-                near.each(span, [&](const Convex<D>& part, std::uint32_t index) { search_part(a, part, index, span); });
+    void search(const View<D>& a, const View<D>& b) {
+        detail::with_part(
+            b, [&](const Part<D>& part_b) { search_from(a, part_b); },
+            [&](const Composite<D>& composite_b) {
+                const PartsNear<D> near(composite_b, path_b_, bounds(a), path_a_);
+                each_span(std::holds_alternative<Convex<D>>(a) || std::holds_alternative<Composite<D>>(a),
+                          [&](const TimeSpan& span) {
+                              near.each(span, [&](const Part<D>& part_b, std::uint32_t index_b) {
+                                  search_part(a, part_b, index_b, span);
+                              });
+                          });
             });
-        } else if constexpr (std::is_same_v<PartA, Composite<D>>) {
-            const PartsNear<D, PartB> near(a, path_a_, b, path_b_);
-            each_span<PartB>([&](const TimeSpan& span) {
-                near.each(span,
-                          [&](const Convex<D>& part, std::uint32_t index) { test_pair(part, index, b, 0, span); });
-            });
-        } else {
-            test_pair(a, 0, b, 0, {});
-        }
     }
 
     bool any = false;
@@ -142,29 +145,44 @@ public:
 private:
     /// An infinite shape is near all parts all the time, and a distance function is searched over the whole motion at
     /// once.
-    template <class Other, class Visit>
-    void each_span(Visit&& visit) {
-        constexpr int count = std::is_same_v<Other, Convex<D>> || std::is_same_v<Other, Composite<D>> ? time_spans : 1;
+    template <class Visit>
+    void each_span(bool other_is_convex, Visit&& visit) {
+        const int count = other_is_convex ? time_spans : 1;
         for (int i = 0; i < count && !any; ++i)
             visit(TimeSpan{static_cast<double>(i) / count, static_cast<double>(i + 1) / count});
     }
 
-    /// Searches a whole shape A against one part of B.
-    template <class PartA>
-    void search_part(const PartA& a, const Convex<D>& b, std::uint32_t index, const TimeSpan& span) {
-        if constexpr (std::is_same_v<PartA, Composite<D>>)
-            PartsNear<D, Convex<D>>(a, path_a_, b, path_b_)
-                .each(span,
-                      [&](const Convex<D>& part, std::uint32_t index_a) { test_pair(part, index_a, b, index, span); });
-        else
-            test_pair(a, 0, b, index, span);
+    /// Searches a whole shape A against a shape B that is one part.
+    void search_from(const View<D>& a, const Part<D>& part_b) {
+        detail::with_part(
+            a, [&](const Part<D>& part_a) { test_pair(part_a, 0, part_b, 0, {}); },
+            [&](const Composite<D>& composite_a) {
+                const PartsNear<D> near(composite_a, path_a_, bounds(part_b), path_b_);
+                each_span(part_b.is_convex(), [&](const TimeSpan& span) {
+                    near.each(span, [&](const Part<D>& part_a, std::uint32_t index_a) {
+                        test_pair(part_a, index_a, part_b, 0, span);
+                    });
+                });
+            });
     }
 
-    template <class PartA, class PartB>
-    void test_pair(const PartA& a, std::uint32_t index_a, const PartB& b, std::uint32_t index_b, const TimeSpan& span) {
+    /// Searches a whole shape A against one part of a composite shape B, during a span.
+    void search_part(const View<D>& a, const Part<D>& part_b, std::uint32_t index_b, const TimeSpan& span) {
+        detail::with_part(
+            a, [&](const Part<D>& part_a) { test_pair(part_a, 0, part_b, index_b, span); },
+            [&](const Composite<D>& composite_a) {
+                const PartsNear<D> near(composite_a, path_a_, bounds(part_b), path_b_);
+                near.each(span, [&](const Part<D>& part_a, std::uint32_t index_a) {
+                    test_pair(part_a, index_a, part_b, index_b, span);
+                });
+            });
+    }
+
+    void test_pair(const Part<D>& a, std::uint32_t index_a, const Part<D>& b, std::uint32_t index_b,
+                   const TimeSpan& span) {
         RotatingImpact<D> found;
         const RotatingSweepLimits limits{.from = span.from, .until = span.to, .reach = any ? first.time : span.to};
-        if (!time_of_impact(a, path_a_, b, path_b_, limits, options_, found)) return;
+        if (!part_time_of_impact(a, path_a_, b, path_b_, limits, options_, found)) return;
         // Of several parts hit at one time the lowest wins, whatever the order of the visits.
         if (any && std::tuple(found.time, index_b, index_a) >= std::tuple(first.time, first.feature.part, index_a_))
             return;
@@ -185,7 +203,7 @@ template <int D>
 bool time_of_impact(const View<D>& a, const RigidPath<D>& path_a, const View<D>& b, const RigidPath<D>& path_b,
                     const SearchOptions<D>& options, RotatingImpact<D>& impact) {
     EarliestImpact<D> earliest(path_a, path_b, options);
-    std::visit([&](const auto& part_a, const auto& part_b) { earliest.search(part_a, part_b); }, a, b);
+    earliest.search(a, b);
     if (earliest.any) impact = earliest.first;
     return earliest.any;
 }

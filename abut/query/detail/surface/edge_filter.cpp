@@ -1,0 +1,177 @@
+#include <abut/query/detail/surface/edge_filter.hpp>
+
+namespace abut::detail {
+namespace {
+
+template <int D>
+bool is_composite(const View<D>& view) {
+    return std::holds_alternative<Composite<D>>(view);
+}
+
+/// Whether every neighbour is farther from p + s n than a part that contains p, by far more than rounding.
+template <int D>
+bool is_alone(const SurfacePlace<D>& place, const EachClosestPoint<D>& neighbours) {
+    bool alone = true;
+    neighbours(place.point + place.normal * place.scale, 1.1 * place.scale, [&](const ClosestPoint<D>&) {
+        alone = false;
+        return stop_visiting;
+    });
+    return alone;
+}
+
+/// False for a part that is the whole shape. A flat part uses the centre of its whole shape.
+template <int D>
+bool has_own_center(const Part<D>& part, const View<D>& shape) {
+    if (!part.is_convex()) return part.is_half_space();
+    const Convex<D>& set = part.convex();
+    const bool flat = set.core == Core::points && set.count <= D && set.radius == 0;
+    return !flat && is_composite(shape);
+}
+
+/// These two leave out the centre.
+template <int D>
+SurfacePlace<D> point_on_a(const SignedDistance<D>& distance, double scale) {
+    return {distance.on_a, distance.normal, DVec<D>(0.0), scale};
+}
+template <int D>
+SurfacePlace<D> point_on_b(const SignedDistance<D>& distance, double scale) {
+    return {distance.on_b(), -distance.normal, DVec<D>(0.0), scale};
+}
+
+/// The contact of a part with the half-space behind a plane. The normal points out of the part. There is none for a
+/// half-space, which keeps its own contact, and for a distance function, which would need a search.
+template <int D>
+std::optional<PartContact<D>> contact_with_plane(const Part<D>& part, const SurfacePlane<D>& plane,
+                                                 const PartContact<D>& own) {
+    if (!part.is_convex()) return std::nullopt;
+    PartContact<D> contact = own;
+    SignedDistance<D>& distance = contact.distance;
+    distance.normal = -plane.normal;
+    const CorePoint<D> deepest = core_support(part.convex(), distance.normal);
+    distance.on_a = deepest.position + distance.normal * part.convex().radius;
+    distance.distance = dot(plane.normal, distance.on_a - plane.point);
+    distance.corners.count = 1;
+    distance.corners.a[0] = deepest.index;
+    contact.manifold.count = 1;
+    contact.manifold.points[0] = {distance.on_a + distance.normal * (0.5 * distance.distance), -distance.distance, 0};
+    return contact;
+}
+
+}  // namespace
+
+/// The centre of the bounding box of a shape, computed on the first call; the origin for a half-space.
+template <int D>
+const DVec<D>& EdgeFilter<D>::Center::get() const {
+    if (!found_)
+        found_ = std::holds_alternative<HalfSpaceView<D>>(view_) ? DVec<D>(0.0) : DVec<D>(center(bounds(view_)));
+    return *found_;
+}
+
+template <int D>
+EdgeFilter<D>::EdgeFilter(const View<D>& a, const View<D>& b, const NeighbourSurfaces<D>& neighbours)
+    : a_(a),
+      b_(b),
+      neighbours_(neighbours),
+      scale_(surface_probe_distance(a, b)),
+      larger_is_level_(is_composite(a) && is_composite(b)),
+      size_excess_of_a_(larger_is_level_ ? detail::size(a) - detail::size(b) : 0),
+      center_of_a_(a),
+      center_of_b_(b) {}
+
+/// The point, and the centre of the other shape or part.
+template <int D>
+SurfacePlace<D> EdgeFilter<D>::place_on_a(const Part<D>& part_b, const SignedDistance<D>& distance) const {
+    SurfacePlace<D> place = point_on_a(distance, scale_);
+    place.center = has_own_center(part_b, b_) ? middle_of(part_b, place.point) : center_of_b_.get();
+    return place;
+}
+template <int D>
+SurfacePlace<D> EdgeFilter<D>::place_on_b(const Part<D>& part_a, const SignedDistance<D>& distance) const {
+    SurfacePlace<D> place = point_on_b(distance, scale_);
+    place.center = has_own_center(part_a, a_) ? middle_of(part_a, place.point) : center_of_a_.get();
+    return place;
+}
+
+/// The closest points on a shape and its neighbours.
+template <int D>
+auto EdgeFilter<D>::closest_points_on(const View<D>& view, const EachClosestPoint<D>* neighbours) const {
+    const PartCache<D>* const cache = is_composite(view) ? cache_ : nullptr;
+    return [&view, neighbours, cache](const DVec<D>& point, double within, ClosestPointVisitor<D> visit) {
+        double reach_left = within;
+        const auto visit_own = [&](const ClosestPoint<D>& closest) { return reach_left = visit(closest); };
+        if (cache == nullptr || !cache->each_closest_point(point, within, visit_own))
+            each_closest_point_on<D>(view, point, within, visit_own);
+        if (neighbours != nullptr && reach_left > stop_visiting) (*neighbours)(point, reach_left, visit);
+    };
+}
+
+/// Whether the normal of a part of `shape` is a surface normal at a point. The points of the manifold lie midway
+/// between two surfaces; a step along the normal by `to_surface` times their depth moves them to this one. Mostly
+/// no other part is near, and a cheap test finds that out first; `place_of()`, which adds the other shape's centre,
+/// costs more.
+template <int D>
+bool EdgeFilter<D>::is_surface_normal_of(const Part<D>& part, const SurfacePlace<D>& point, double to_surface,
+                                         FunctionRef<const Manifold<D>&()> manifold_of, const View<D>& shape,
+                                         const EachClosestPoint<D>* neighbours,
+                                         FunctionRef<SurfacePlace<D>()> place_of) const {
+    const bool is_one_part = !is_composite(shape);
+    if (is_one_part && is_alone(point, *neighbours)) return true;
+    const SurfacePlace<D> place = place_of();
+    const auto each_closest_point = closest_points_on(shape, neighbours);
+    const Manifold<D>& manifold = manifold_of();
+    if (manifold.count > 1) {
+        const DVec<D> normal = to_surface < 0 ? -place.normal : place.normal;
+        DVec<D> sum(0.0);
+        for (std::size_t i = 0; i < manifold.count; ++i)
+            sum += manifold.points[i].position + normal * (to_surface * manifold.points[i].depth);
+        SurfacePlace<D> center = place;
+        center.point = sum / static_cast<double>(manifold.count);
+        if (is_one_part && is_alone(center, *neighbours) ? has_normal(part, center)
+                                                         : is_surface_normal_at<D>(part, center, each_closest_point))
+            return true;
+    }
+    return is_surface_normal<D>(part, place, each_closest_point);
+}
+
+template <int D>
+detail::SurfaceNormalFlags EdgeFilter<D>::surface_normal_flags(const Part<D>& part_a, const Part<D>& part_b,
+                                                               const SignedDistance<D>& distance,
+                                                               FunctionRef<const Manifold<D>&()> manifold_of) const {
+    detail::SurfaceNormalFlags result;
+    if (is_composite(b_) || neighbours_.of_a != nullptr)
+        result.a = is_surface_normal_of(part_b, point_on_b(distance, scale_), -0.5, manifold_of, b_, neighbours_.of_a,
+                                        [&] { return place_on_b(part_a, distance); });
+    if (is_composite(a_) || neighbours_.of_b != nullptr)
+        result.b = is_surface_normal_of(part_a, point_on_a(distance, scale_), 0.5, manifold_of, a_, neighbours_.of_b,
+                                        [&] { return place_on_a(part_b, distance); });
+    return result;
+}
+
+template <int D>
+bool EdgeFilter<D>::replace(const Part<D>& part_a, const Part<D>& part_b, const detail::SurfaceNormalFlags& flags,
+                            PartContact<D>& contact) {
+    std::optional<PartContact<D>> for_a, for_b;
+    if (larger_is_level_ ? size_excess_of_a_ <= 0 : !flags.a) {
+        NearestToCenter<D> nearest;
+        const SurfacePlace<D> place = place_on_b(part_a, contact.distance);
+        const auto plane = surface_plane<D>(part_b, place, closest_points_on(b_, neighbours_.of_a),
+                                            has_own_center(part_a, a_) ? nearest : nearest_to_a_);
+        if (plane) for_a = contact_with_plane(part_a, *plane, contact);
+    }
+    if (larger_is_level_ ? size_excess_of_a_ >= 0 : !flags.b) {
+        NearestToCenter<D> nearest;
+        const SurfacePlace<D> place = place_on_a(part_b, contact.distance);
+        const auto plane = surface_plane<D>(part_a, place, closest_points_on(a_, neighbours_.of_b),
+                                            has_own_center(part_b, b_) ? nearest : nearest_to_b_);
+        if (plane) for_b = contact_with_plane(part_b, *plane, flipped(contact));
+        if (for_b) flip(*for_b);
+    }
+    if (!for_a && !for_b) return false;
+    contact = for_a && (!for_b || for_a->distance.distance >= for_b->distance.distance) ? *for_a : *for_b;
+    return true;
+}
+
+template class EdgeFilter<2>;
+template class EdgeFilter<3>;
+
+}  // namespace abut::detail
