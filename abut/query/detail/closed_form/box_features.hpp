@@ -7,7 +7,7 @@
 #include <array>
 #include <bit>
 
-namespace abut {
+namespace abut::detail {
 
 /// The corners, edges and faces of a box, by two sets of bits: the fixed axes, plus 8 times the fixed axes at their low
 /// end.
@@ -23,4 +23,4 @@ inline constexpr std::array<Feature, 64> box_features = [] {
     return result;
 }();
 
-}  // namespace abut
+}  // namespace abut::detail
