@@ -17,6 +17,15 @@ SignedDistance<D> distance_from_plane(const Convex<D>& set, const HalfSpaceView<
     return result;
 }
 
+/// A convex part and a half-space, in either order.
+template <int D>
+SignedDistance<D> distance_of_half_space(const Part<D>& a, const Part<D>& b) {
+    const bool reversed = a.is_half_space();
+    SignedDistance<D> result = distance_from_plane((reversed ? b : a).convex(), (reversed ? a : b).half_space());
+    if (reversed) flip(result);
+    return result;
+}
+
 /// The kinds of the two parts are in their order.
 template <int D>
 bool ordered_contact(const Part<D>& a, const Part<D>& b, double reach, double margin, PartContact<D>& contact) {
@@ -38,8 +47,7 @@ bool mixed_overlaps(const Part<D>& a, const Part<D>& b) {
 template <int D>
 SignedDistance<D> mixed_distance(const Part<D>& a, const Part<D>& b) {
     if (a.is_function() || b.is_function()) return function_distance(a, b, DistanceRequest{});
-    return a.is_convex() ? distance_from_plane(a.convex(), b.half_space())
-                         : flipped(distance_from_plane(b.convex(), a.half_space()));
+    return distance_of_half_space(a, b);
 }
 
 template <int D>

@@ -28,14 +28,11 @@ bool has_own_center(const Part<D>& part, const View<D>& shape) {
     return !flat && is_composite(shape);
 }
 
-/// These two leave out the centre.
+/// A place without the centre.
 template <int D>
-SurfacePlace<D> point_on_a(const SignedDistance<D>& distance, double scale) {
+SurfacePlace<D> point_on(bool on_b, const SignedDistance<D>& distance, double scale) {
+    if (on_b) return {distance.on_b(), -distance.normal, DVec<D>(0.0), scale};
     return {distance.on_a, distance.normal, DVec<D>(0.0), scale};
-}
-template <int D>
-SurfacePlace<D> point_on_b(const SignedDistance<D>& distance, double scale) {
-    return {distance.on_b(), -distance.normal, DVec<D>(0.0), scale};
 }
 
 /// The contact of a part with the half-space behind a plane. The normal points out of the part. There is none for a
@@ -80,21 +77,19 @@ EdgeFilter<D>::EdgeFilter(const View<D>& a, const View<D>& b, const NeighbourSur
 
 /// The point, and the centre of the other shape or part.
 template <int D>
-SurfacePlace<D> EdgeFilter<D>::place_on_a(const Part<D>& part_b, const SignedDistance<D>& distance) const {
-    SurfacePlace<D> place = point_on_a(distance, scale_);
-    place.center = has_own_center(part_b, b_) ? middle_of(part_b, place.point) : center_of_b_.get();
-    return place;
-}
-template <int D>
-SurfacePlace<D> EdgeFilter<D>::place_on_b(const Part<D>& part_a, const SignedDistance<D>& distance) const {
-    SurfacePlace<D> place = point_on_b(distance, scale_);
-    place.center = has_own_center(part_a, a_) ? middle_of(part_a, place.point) : center_of_a_.get();
+SurfacePlace<D> EdgeFilter<D>::place_on(Side side, const Part<D>& other_part, const SignedDistance<D>& distance) const {
+    const bool on_b = side == Side::b;
+    SurfacePlace<D> place = point_on(on_b, distance, scale_);
+    place.center = has_own_center(other_part, on_b ? a_ : b_) ? middle_of(other_part, place.point)
+                                                              : (on_b ? center_of_a_ : center_of_b_).get();
     return place;
 }
 
 /// The closest points on a shape and its neighbours.
 template <int D>
-auto EdgeFilter<D>::closest_points_on(const View<D>& view, const EachClosestPoint<D>* neighbours) const {
+auto EdgeFilter<D>::closest_points_on(Side side) const {
+    const View<D>& view = side == Side::b ? b_ : a_;
+    const EachClosestPoint<D>* const neighbours = side == Side::b ? neighbours_.of_a : neighbours_.of_b;
     const PartCache<D>* const cache = is_composite(view) ? cache_ : nullptr;
     return [&view, neighbours, cache](const DVec<D>& point, double within, ClosestPointVisitor<D> visit) {
         double reach_left = within;
@@ -105,25 +100,24 @@ auto EdgeFilter<D>::closest_points_on(const View<D>& view, const EachClosestPoin
     };
 }
 
-/// Whether the normal of a part of `shape` is a surface normal at a point. The points of the manifold lie midway
-/// between two surfaces; a step along the normal by `to_surface` times their depth moves them to this one. Mostly
-/// no other part is near, and a cheap test finds that out first; `place_of()`, which adds the other shape's centre,
-/// costs more.
+/// Whether the normal of a part on this side is a surface normal. The points of the manifold lie midway between two
+/// surfaces; half their depth along the normal moves them to this one. Mostly no other part is near, and a cheap test
+/// finds that out first; the other shape's centre costs more.
 template <int D>
-bool EdgeFilter<D>::is_surface_normal_of(const Part<D>& part, const SurfacePlace<D>& point, double to_surface,
-                                         FunctionRef<const Manifold<D>&()> manifold_of, const View<D>& shape,
-                                         const EachClosestPoint<D>* neighbours,
-                                         FunctionRef<SurfacePlace<D>()> place_of) const {
-    const bool is_one_part = !is_composite(shape);
-    if (is_one_part && is_alone(point, *neighbours)) return true;
-    const SurfacePlace<D> place = place_of();
-    const auto each_closest_point = closest_points_on(shape, neighbours);
+bool EdgeFilter<D>::is_surface_normal_of(Side side, const Part<D>& part, const Part<D>& other_part,
+                                         const SignedDistance<D>& distance,
+                                         FunctionRef<const Manifold<D>&()> manifold_of) const {
+    const bool on_b = side == Side::b, is_one_part = !is_composite(on_b ? b_ : a_);
+    const EachClosestPoint<D>* const neighbours = on_b ? neighbours_.of_a : neighbours_.of_b;
+    if (is_one_part && is_alone(point_on(on_b, distance, scale_), *neighbours)) return true;
+    const SurfacePlace<D> place = place_on(side, other_part, distance);
+    const auto each_closest_point = closest_points_on(side);
     const Manifold<D>& manifold = manifold_of();
     if (manifold.count > 1) {
-        const DVec<D> normal = to_surface < 0 ? -place.normal : place.normal;
+        const double to_surface = on_b ? -0.5 : 0.5;
         DVec<D> sum(0.0);
         for (std::size_t i = 0; i < manifold.count; ++i)
-            sum += manifold.points[i].position + normal * (to_surface * manifold.points[i].depth);
+            sum += manifold.points[i].position + distance.normal * (to_surface * manifold.points[i].depth);
         SurfacePlace<D> center = place;
         center.point = sum / static_cast<double>(manifold.count);
         if (is_one_part && is_alone(center, *neighbours) ? has_normal(part, center)
@@ -139,33 +133,33 @@ detail::SurfaceNormalFlags EdgeFilter<D>::surface_normal_flags(const Part<D>& pa
                                                                FunctionRef<const Manifold<D>&()> manifold_of) const {
     detail::SurfaceNormalFlags result;
     if (is_composite(b_) || neighbours_.of_a != nullptr)
-        result.a = is_surface_normal_of(part_b, point_on_b(distance, scale_), -0.5, manifold_of, b_, neighbours_.of_a,
-                                        [&] { return place_on_b(part_a, distance); });
+        result.a = is_surface_normal_of(Side::b, part_b, part_a, distance, manifold_of);
     if (is_composite(a_) || neighbours_.of_b != nullptr)
-        result.b = is_surface_normal_of(part_a, point_on_a(distance, scale_), 0.5, manifold_of, a_, neighbours_.of_b,
-                                        [&] { return place_on_a(part_b, distance); });
+        result.b = is_surface_normal_of(Side::a, part_a, part_b, distance, manifold_of);
     return result;
+}
+
+/// A plane of the surface on this side near the place of the contact.
+template <int D>
+std::optional<SurfacePlane<D>> EdgeFilter<D>::plane_of(Side side, const Part<D>& part, const Part<D>& other_part,
+                                                       const SignedDistance<D>& distance) {
+    const bool on_b = side == Side::b, has_own = has_own_center(other_part, on_b ? a_ : b_);
+    NearestToCenter<D> nearest;
+    return surface_plane<D>(part, place_on(side, other_part, distance), closest_points_on(side),
+                            has_own ? nearest : (on_b ? nearest_to_a_ : nearest_to_b_));
 }
 
 template <int D>
 bool EdgeFilter<D>::replace(const Part<D>& part_a, const Part<D>& part_b, const detail::SurfaceNormalFlags& flags,
                             PartContact<D>& contact) {
     std::optional<PartContact<D>> for_a, for_b;
-    if (larger_is_level_ ? size_excess_of_a_ <= 0 : !flags.a) {
-        NearestToCenter<D> nearest;
-        const SurfacePlace<D> place = place_on_b(part_a, contact.distance);
-        const auto plane = surface_plane<D>(part_b, place, closest_points_on(b_, neighbours_.of_a),
-                                            has_own_center(part_a, a_) ? nearest : nearest_to_a_);
-        if (plane) for_a = contact_with_plane(part_a, *plane, contact);
-    }
-    if (larger_is_level_ ? size_excess_of_a_ >= 0 : !flags.b) {
-        NearestToCenter<D> nearest;
-        const SurfacePlace<D> place = place_on_a(part_b, contact.distance);
-        const auto plane = surface_plane<D>(part_a, place, closest_points_on(a_, neighbours_.of_b),
-                                            has_own_center(part_b, b_) ? nearest : nearest_to_b_);
-        if (plane) for_b = contact_with_plane(part_b, *plane, flipped(contact));
-        if (for_b) flip(*for_b);
-    }
+    if (larger_is_level_ ? size_excess_of_a_ <= 0 : !flags.a)
+        if (const auto plane = plane_of(Side::b, part_b, part_a, contact.distance))
+            for_a = contact_with_plane(part_a, *plane, contact);
+    if (larger_is_level_ ? size_excess_of_a_ >= 0 : !flags.b)
+        if (const auto plane = plane_of(Side::a, part_a, part_b, contact.distance))
+            for_b = contact_with_plane(part_b, *plane, flipped(contact));
+    if (for_b) flip(*for_b);
     if (!for_a && !for_b) return false;
     contact = for_a && (!for_b || for_a->distance.distance >= for_b->distance.distance) ? *for_a : *for_b;
     return true;

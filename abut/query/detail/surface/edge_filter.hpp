@@ -54,12 +54,15 @@ private:
         mutable std::optional<DVec<D>> found_;
     };
 
-    SurfacePlace<D> place_on_a(const Part<D>& part_b, const SignedDistance<D>& distance) const;
-    SurfacePlace<D> place_on_b(const Part<D>& part_a, const SignedDistance<D>& distance) const;
-    auto closest_points_on(const View<D>& view, const EachClosestPoint<D>* neighbours) const;
-    bool is_surface_normal_of(const Part<D>& part, const SurfacePlace<D>& point, double to_surface,
-                              FunctionRef<const Manifold<D>&()> manifold_of, const View<D>& shape,
-                              const EachClosestPoint<D>* neighbours, FunctionRef<SurfacePlace<D>()> place_of) const;
+    /// One of the two shapes, and the other one.
+    enum class Side : bool { a, b };
+
+    SurfacePlace<D> place_on(Side side, const Part<D>& other_part, const SignedDistance<D>& distance) const;
+    auto closest_points_on(Side side) const;
+    bool is_surface_normal_of(Side side, const Part<D>& part, const Part<D>& other_part,
+                              const SignedDistance<D>& distance, FunctionRef<const Manifold<D>&()> manifold_of) const;
+    std::optional<SurfacePlane<D>> plane_of(Side side, const Part<D>& part, const Part<D>& other_part,
+                                            const SignedDistance<D>& distance);
 
     const View<D>&a_, &b_;
     NeighbourSurfaces<D> neighbours_;
