@@ -4,16 +4,29 @@
 // arithmetic (Shewchuk: "Adaptive precision floating-point arithmetic and fast robust geometric predicates", 1997).
 // They never allocate.
 
+#include <abut/math/simd/upper_halves.hpp>
 #include <abut/math/vec.hpp>
 
 namespace abut {
+namespace detail {
+
+int orientation(const Vec2& a, const Vec2& b, const Vec2& c);
+int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+
+}  // namespace detail
 
 /// The orientation of triangle abc: 1 if it is counter-clockwise, -1 if it is clockwise, 0 if the points are collinear.
-int orientation(const Vec2& a, const Vec2& b, const Vec2& c);
+inline int orientation(const Vec2& a, const Vec2& b, const Vec2& c) {
+    detail::clear_upper_halves();
+    return detail::orientation(a, b, c);
+}
 
 /// The side of plane abc on which d lies: 1 if abc is counter-clockwise seen from d (on the side of cross(b - a, c -
 /// a)), -1 if it is clockwise, 0 if the points are coplanar.
-int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+inline int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    detail::clear_upper_halves();
+    return detail::orientation(a, b, c, d);
+}
 
 /// The orientation of triangle abc with c in double: each coordinate is 0 or from 2^-300 to 2^300 in magnitude.
 int turn_towards(const Vec2& a, const Vec2& b, const DVec<2>& c);

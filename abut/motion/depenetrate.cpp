@@ -1,3 +1,4 @@
+#include <abut/math/simd/library_entry.hpp>
 #include <abut/motion/depenetrate.hpp>
 #include <abut/motion/push/shortest_push.hpp>
 
@@ -5,6 +6,7 @@ namespace abut {
 
 template <int D>
 Depenetration<D> depenetrate_convex(const Convex<D>& shape, const World<D>& world, const Filter& filter) {
+    detail::enter_library();
     Depenetration<D> result;
     const bool finite = is_finite(shape);
     ABUT_ASSERT(finite);

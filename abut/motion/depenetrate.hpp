@@ -29,6 +29,7 @@ Depenetration<D> depenetrate_convex(const Convex<D>& shape, const World<D>& worl
 template <Shape S>
 requires(detail::is_convex_view<detail::ViewOf<S>>) Depenetration<dimension<S>> depenetrate(
     const S& shape, const World<dimension<S>>& world, const Filter& filter = {}) {
+    detail::clear_upper_halves();
     return depenetrate_convex<dimension<S>>(view(shape), world, filter);
 }
 

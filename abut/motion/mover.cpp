@@ -1,3 +1,4 @@
+#include <abut/math/simd/library_entry.hpp>
 #include <abut/motion/mover.hpp>
 #include <abut/motion/mover/move_and_slide.hpp>
 
@@ -55,6 +56,7 @@ Mover<D>& Mover<D>::operator=(Mover&&) noexcept = default;
 
 template <int D>
 void Mover<D>::set_options(const MoverOptions<D>& options) {
+    detail::enter_library();
     const bool finite = is_finite(options.up);
     ABUT_ASSERT(finite);
     options_ = options;
@@ -64,6 +66,7 @@ void Mover<D>::set_options(const MoverOptions<D>& options) {
 template <int D>
 Moved<D> Mover<D>::move_convex(const World<D>& world, const Convex<D>& shape, const Vec<D>& position,
                                const Vec<D>& motion, const MoverPasses<D>* passes) {
+    detail::enter_library();
     Moved<D> result;
     result.position = position;
     const bool finite = is_finite(shape) && is_finite(position) && is_finite(motion);

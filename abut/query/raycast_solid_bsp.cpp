@@ -1,5 +1,6 @@
 #include <abut/math/assert.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/math/simd/library_entry.hpp>
 #include <abut/query/raycast_solid_bsp.hpp>
 
 #include <algorithm>
@@ -9,6 +10,7 @@ namespace abut {
 
 template <int D>
 std::optional<Hit<D>> raycast(const Ray<D>& ray, const SolidBsp<D>& level, const QueryOptions<D>&) {
+    detail::enter_library();
     const bool finite = is_finite(ray.origin) && is_finite(ray.direction) && !std::isnan(ray.length);
     ABUT_ASSERT(finite);
     if (!finite) return std::nullopt;

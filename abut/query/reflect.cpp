@@ -1,5 +1,6 @@
 #include <abut/math/assert.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/math/simd/library_entry.hpp>
 #include <abut/query/reflect.hpp>
 
 namespace abut {
@@ -12,6 +13,7 @@ namespace abut {
 /// another mirror. The step displaces the reflected ray by at most twice the lift, as sin(2 a) / sin(a) <= 2.
 template <int D>
 Ray<D> reflect(const Ray<D>& ray, const Hit<D>& hit) {
+    detail::enter_library();
     const bool finite = is_finite(ray.origin) && is_finite(ray.direction) && !std::isnan(ray.length) &&
                         is_finite(hit.point) && is_finite(hit.normal) && std::isfinite(hit.distance);
     ABUT_ASSERT(finite);

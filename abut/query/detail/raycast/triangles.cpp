@@ -1,5 +1,6 @@
 #include <abut/convex/ray/triangle.hpp>
 #include <abut/math/assert.hpp>
+#include <abut/math/simd/library_entry.hpp>
 #include <abut/query/detail/raycast/triangles.hpp>
 #include <abut/query/detail/raycast/write_hit.hpp>
 #include <abut/query/raycast.hpp>
@@ -114,6 +115,7 @@ bool each_triangle_hit(const DRay<3>& beam, const Composite<3>& composite, const
 }
 
 std::optional<Hit<3>> raycast(const Ray<3>& ray, const Mesh& mesh, const QueryOptions<3>& options) {
+    detail::enter_library();
     std::optional<Hit<3>> result;
     const bool finite = is_valid_ray(ray);
     ABUT_ASSERT(finite);
