@@ -5,6 +5,7 @@
 #include "measure.hpp"
 #include "plot.hpp"
 #include "report.hpp"
+#include "upper_halves.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -52,6 +53,7 @@ std::vector<Bench> all_benches() {
     std::ranges::move(walk_step_benches(), std::back_inserter(result));
     std::ranges::move(walk_nearest_benches(), std::back_inserter(result));
     std::ranges::move(walk_path_benches(), std::back_inserter(result));
+    std::ranges::move(upper_halves_benches(), std::back_inserter(result));
     return result;
 }
 

@@ -6,6 +6,7 @@
 #include <abut/broad_phase/detail/parallel.hpp>
 #include <abut/broad_phase/reach.hpp>
 #include <abut/math/assert.hpp>
+#include <abut/math/simd/library_entry.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -52,6 +53,7 @@ void BruteForce<D>::set_all(std::span<const Aabb<D>> boxes) {
 
 template <int D>
 void BruteForce<D>::build(std::span<const Aabb<D>> boxes, Executor*) {
+    detail::enter_library();
     ABUT_ASSERT(boxes.size() < std::size_t{1} << 32);
     size_ = boxes.size();
     boxes_.reserve(size_);
@@ -61,6 +63,7 @@ void BruteForce<D>::build(std::span<const Aabb<D>> boxes, Executor*) {
 
 template <int D>
 void BruteForce<D>::update(std::span<const Aabb<D>> boxes, Executor* executor) {
+    detail::enter_library();
     ABUT_ASSERT(boxes.size() == size());
     if (boxes.size() != size()) return build(boxes, executor);
     free_.remove_used(boxes);
@@ -69,6 +72,7 @@ void BruteForce<D>::update(std::span<const Aabb<D>> boxes, Executor* executor) {
 
 template <int D>
 std::uint32_t BruteForce<D>::insert(const Aabb<D>& box) {
+    detail::enter_library();
     const std::uint32_t index = free_.take(static_cast<std::uint32_t>(size_));
     if (index == size_) {
         ABUT_ASSERT(size_ + 1 < std::size_t{1} << 32);
@@ -81,6 +85,7 @@ std::uint32_t BruteForce<D>::insert(const Aabb<D>& box) {
 
 template <int D>
 void BruteForce<D>::erase(std::uint32_t index) {
+    detail::enter_library();
     ABUT_ASSERT(index < size());
     if (index >= size() || free_.contains(index)) return;
     boxes_.set(index, detail::nan_box<D>());
@@ -89,6 +94,7 @@ void BruteForce<D>::erase(std::uint32_t index) {
 
 template <int D>
 bool BruteForce<D>::set(std::uint32_t index, const Aabb<D>& box) {
+    detail::enter_library();
     ABUT_ASSERT(index < size() && !free_.contains(index));
     if (index < size()) write(index, box);
     return true;
@@ -96,6 +102,7 @@ bool BruteForce<D>::set(std::uint32_t index, const Aabb<D>& box) {
 
 template <int D>
 Aabb<D> BruteForce<D>::bounds() const {
+    detail::enter_library();
     Aabb<D> result = Aabb<D>::empty();
     const detail::BoxSoaView<D> boxes = boxes_.view();
     for (std::size_t i = 0; i < size_; ++i)

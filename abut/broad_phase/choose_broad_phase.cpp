@@ -1,5 +1,6 @@
 #include <abut/broad_phase/choose_broad_phase.hpp>
 #include <abut/broad_phase/grid/cell_size.hpp>
+#include <abut/math/simd/library_entry.hpp>
 
 #include <algorithm>
 #include <array>
@@ -62,6 +63,7 @@ double pairs_per_cell(std::span<const Aabb<D>> sample, std::size_t count) {
 
 template <int D>
 BroadPhaseKind choose_broad_phase(std::span<const Aabb<D>> boxes, const BroadPhaseHistory& history) {
+    detail::enter_library();
     const std::size_t count = boxes.size();
     if (count < max_brute_force_count)
         return history.queries * brute_force_query_overhead(count) > tree_update_overhead ? BroadPhaseKind::bvh

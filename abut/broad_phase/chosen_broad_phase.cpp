@@ -1,6 +1,7 @@
 #include <abut/broad_phase/chosen_broad_phase.hpp>
 #include <abut/broad_phase/concept.hpp>
 #include <abut/broad_phase/detail/pair_buffer.hpp>
+#include <abut/math/simd/library_entry.hpp>
 
 #include <array>
 #include <type_traits>
@@ -67,6 +68,7 @@ BroadPhaseKind ChosenBroadPhase<D>::choose(std::span<const Aabb<D>> boxes) const
 
 template <int D>
 void ChosenBroadPhase<D>::build(std::span<const Aabb<D>> boxes, Executor* executor) {
+    detail::enter_library();
     const BroadPhaseKind chosen = choose(boxes);
     if (chosen != kind()) become(chosen);
     updates_ = 0;
@@ -76,6 +78,7 @@ void ChosenBroadPhase<D>::build(std::span<const Aabb<D>> boxes, Executor* execut
 
 template <int D>
 void ChosenBroadPhase<D>::update(std::span<const Aabb<D>> boxes, Executor* executor) {
+    detail::enter_library();
     constexpr std::uint32_t updates_per_choice = 64;
     // Rates far below 0.01 queries per box count as equal.
     constexpr double max_ratio = 2, offset = 0.01;
@@ -104,6 +107,7 @@ bool ChosenBroadPhase<D>::grow() {
 
 template <int D>
 bool ChosenBroadPhase<D>::set(std::uint32_t index, const Aabb<D>& box) {
+    detail::enter_library();
     return std::visit(
         [&](auto& phase) {
             if constexpr (requires { phase.set(index, box); }) return phase.set(index, box);
@@ -119,6 +123,7 @@ void ChosenBroadPhase<D>::refit(std::span<const Aabb<D>> boxes) {
 
 template <int D>
 void ChosenBroadPhase<D>::set_history(const BroadPhaseHistory& history) {
+    detail::enter_library();
     history_ = history;
 }
 
@@ -129,6 +134,7 @@ std::size_t ChosenBroadPhase<D>::size() const {
 
 template <int D>
 Aabb<D> ChosenBroadPhase<D>::bounds() const {
+    detail::enter_library();
     return std::visit([](const auto& phase) { return phase.bounds(); }, phase_);
 }
 

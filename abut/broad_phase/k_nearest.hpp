@@ -4,6 +4,7 @@
 
 #include <abut/broad_phase/concept.hpp>
 #include <abut/math/aabb.hpp>
+#include <abut/math/simd/upper_halves.hpp>
 
 #include <compare>
 #include <cstddef>
@@ -56,6 +57,7 @@ namespace abut {
 template <int D, BroadPhase<D> Phase>
 void k_nearest(const Phase& phase, std::type_identity_t<std::span<const Aabb<D>>> boxes, const Vec<D>& point,
                std::size_t k, std::vector<NearItem>& out) {
+    detail::clear_upper_halves();
     detail::NearestItems<D> nearest(point, k, out);
     phase.closest(point, [&](std::uint32_t item) { return nearest.offer(item, boxes[item]); });
     nearest.sort();

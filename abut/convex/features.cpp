@@ -1,5 +1,6 @@
 #include <abut/convex/features.hpp>
 #include <abut/math/assert.hpp>
+#include <abut/math/simd/library_entry.hpp>
 
 namespace abut::detail {
 namespace {
@@ -77,6 +78,7 @@ ClosestFeature<D> closest_on_points(const Convex<D>& core, const DVec<D>& point,
 
 template <int D>
 ClosestFeature<D> closest_on_segment(const DVec<D>& a, const DVec<D>& b, const DVec<D>& point) {
+    detail::enter_library();
     const DVec<D> along = b - a;
     ClosestFeature<D> result = closest_on_segment(a, b, point, DVec<D>(0.0));
     if (result.normal != DVec<D>(0.0)) return result;
@@ -90,6 +92,7 @@ ClosestFeature<D> closest_on_segment(const DVec<D>& a, const DVec<D>& b, const D
 template <int D>
 ClosestFeature<D> closest_on_segment(const DVec<D>& a, const DVec<D>& b, const DVec<D>& point,
                                      const DVec<D>& otherwise) {
+    detail::enter_library();
     const DVec<D> from = a - point, to = b - point, along = b - a;
     const double part = -dot(from, along), whole = dot(along, along);
     ClosestFeature<D> result;
@@ -112,6 +115,7 @@ ClosestFeature<D> closest_on_segment(const DVec<D>& a, const DVec<D>& b, const D
 
 template <int D>
 ClosestFeature<D> closest_on_box(const DVec<D>& half, const DVec<D>& point) {
+    detail::enter_library();
     ClosestFeature<D> result;
     result.point = point;
     std::uint32_t outside = 0, low = 0;
@@ -144,6 +148,7 @@ ClosestFeature<D> closest_on_box(const DVec<D>& half, const DVec<D>& point) {
 
 template <int D>
 ClosestFeature<D> closest_feature(const Convex<D>& core, const DVec<D>& point) {
+    detail::enter_library();
     ABUT_ASSERT(has_features(core));
     const bool stretched = !core.similar || !(core.scale > 0);
     if (stretched)

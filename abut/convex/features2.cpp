@@ -1,6 +1,7 @@
 // Closest features of polygons. Coordinates are relative to the query point.
 
 #include <abut/convex/features.hpp>
+#include <abut/math/simd/library_entry.hpp>
 
 #include <limits>
 
@@ -106,6 +107,7 @@ ClosestFeature<2> closest_on_loop(std::uint32_t count, double turn, const DVec<2
 }  // namespace
 
 ClosestFeature<2> closest_on_triangle(const DVec<2>& a, const DVec<2>& b, const DVec<2>& c, const DVec<2>& point) {
+    detail::enter_library();
     const std::array<DVec<2>, 3> corners{a - point, b - point, c - point};
     // The area from the corner of the two shorter edges: on a needle the long ones would round it away.
     double area = 0, minimum = std::numeric_limits<double>::infinity();
@@ -121,6 +123,7 @@ ClosestFeature<2> closest_on_triangle(const DVec<2>& a, const DVec<2>& b, const 
 }
 
 ClosestFeature<2> closest_on_polygon(std::span<const Vec2> points, const DVec<2>& point, const Affine<2>& place) {
+    detail::enter_library();
     Affine<2> relative = place;
     relative.offset -= point;
     const double turn = cross(place.column[0], place.column[1]) < 0 ? -1 : 1;

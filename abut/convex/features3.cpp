@@ -2,6 +2,7 @@
 
 #include <abut/convex/features.hpp>
 #include <abut/convex/hull/hull.hpp>
+#include <abut/math/simd/library_entry.hpp>
 
 #include <limits>
 
@@ -207,6 +208,7 @@ ClosestFeature<3> closest_on_surface(const Surface& surface) {
 }  // namespace
 
 ClosestFeature<3> closest_on_triangle(const DVec<3>& a, const DVec<3>& b, const DVec<3>& c, const DVec<3>& point) {
+    detail::enter_library();
     const std::array<DVec<3>, 3> corners{a - point, b - point, c - point};
     const auto corner = [&](std::uint32_t i) { return corners[i]; };
     const DVec<3> u = b - a, v = c - a, area = cross(u, v);
@@ -225,6 +227,7 @@ ClosestFeature<3> closest_on_triangle(const DVec<3>& a, const DVec<3>& b, const 
 
 ClosestFeature<3> closest_on_polyhedron(std::span<const Vec3> points, const Facets& facets, const DVec<3>& point,
                                         const Affine<3>& place) {
+    detail::enter_library();
     Affine<3> relative = place;
     relative.offset -= point;
     ClosestFeature<3> result = closest_on_surface(Surface(points, facets, relative));

@@ -4,6 +4,7 @@
 #include <abut/field/look_up/stencil.hpp>
 #include <abut/math/assert.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/math/simd/library_entry.hpp>
 
 #include <array>
 #include <cmath>
@@ -148,6 +149,7 @@ Vec<D> closest_by_planes(const Field<D>& field, const Vec<D>& point, const Field
 
 template <int D>
 Vec<D> Field<D>::closest(const Vec<D>& point) const {
+    detail::enter_library();
     ABUT_ASSERT(is_finite<D>(point));
     const Aabb<D> volume = volume_of(*data_);
     Vec<D> start = point;

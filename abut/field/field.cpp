@@ -4,6 +4,7 @@
 #include <abut/field/look_up/look_up.hpp>
 #include <abut/field/packed_direction.hpp>
 #include <abut/math/assert.hpp>
+#include <abut/math/simd/library_entry.hpp>
 
 #include <cmath>
 #include <limits>
@@ -56,30 +57,35 @@ Field<D>::Field(FieldData<D> data) {
 
 template <int D>
 float Field<D>::distance(const Vec<D>& point) const {
+    detail::enter_library();
     const FieldData<D>& data = *data_;
     return look_up_distance(data, point);
 }
 
 template <int D>
 FieldSample<D> Field<D>::sample(const Vec<D>& point) const {
+    detail::enter_library();
     const FieldData<D>& data = *data_;
     return look_up_sample(data, point);
 }
 
 template <int D>
 void Field<D>::distance(std::span<const Vec<D>> points, std::span<float> out) const {
+    detail::enter_library();
     ABUT_ASSERT(points.size() == out.size());
     look_up_all(*data_, points, out);
 }
 
 template <int D>
 void Field<D>::sample(std::span<const Vec<D>> points, std::span<FieldSample<D>> out) const {
+    detail::enter_library();
     ABUT_ASSERT(points.size() == out.size());
     look_up_all(*data_, points, out);
 }
 
 template <int D>
 Aabb<D> Field<D>::volume() const {
+    detail::enter_library();
     return volume_of(*data_);
 }
 
@@ -93,6 +99,7 @@ std::size_t Field<D>::bytes() const {
 
 template <int D>
 Aabb<D> bounds(const Field<D>& field) {
+    detail::enter_library();
     const FieldData<D>& data = field.data();
     Aabb<D> result = data.surface;
     // Nothing outside the volume is solid, unless everything is. The linear interpolation of exact distances keeps the

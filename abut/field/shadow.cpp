@@ -4,6 +4,7 @@
 #include <abut/field/shadow_ray.hpp>
 #include <abut/math/assert.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/math/simd/library_entry.hpp>
 
 #include <algorithm>
 #include <array>
@@ -42,18 +43,47 @@ float occlusion_of(const float* distances, float reach) {
     return static_cast<float>(sum / weights);
 }
 
-}  // namespace
-
 template <int D>
-float Field<D>::shadow(const Vec<D>& point, const Vec<D>& light, float softness) const {
+[[gnu::noinline]] float light_at(const Field<D>& field, const Vec<D>& point, const Vec<D>& light, float softness) {
     ABUT_ASSERT(is_finite<D>(point) && is_finite<D>(light) && softness >= 0);
-    detail::ShadowRay<D> ray(*data_, point, light);
-    while (ray.is_running()) ray.advance(distance(ray.place()));
+    detail::ShadowRay<D> ray(field.data(), point, light);
+    while (ray.is_running()) ray.advance(field.distance(ray.place()));
     return ray.light(softness);
 }
 
 template <int D>
+[[gnu::noinline]] void write_occlusion(const Field<D>& field, std::span<const Vec<D>> points,
+                                       std::span<const Vec<D>> normals, float reach, std::span<float> out) {
+    ABUT_ASSERT(points.size() == out.size() && points.size() == normals.size() && reach >= 0);
+    std::array<Vec<D>, batch_size * occlusion_samples> places;
+    std::array<float, batch_size * occlusion_samples> found;
+    for (std::size_t begin = 0; begin < points.size(); begin += batch_size) {
+        const std::size_t count = std::min(batch_size, points.size() - begin);
+        if (!(reach > 0)) {
+            for (std::size_t i = 0; i < count; ++i) out[begin + i] = 1;
+            continue;
+        }
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto some = places_along<D>(points[begin + i], normals[begin + i], reach);
+            std::copy(some.begin(), some.end(), places.begin() + static_cast<std::ptrdiff_t>(i * occlusion_samples));
+        }
+        field.distance(std::span(places).first(count * occlusion_samples),
+                       std::span(found).first(count * occlusion_samples));
+        for (std::size_t i = 0; i < count; ++i) out[begin + i] = occlusion_of(&found[i * occlusion_samples], reach);
+    }
+}
+
+}  // namespace
+
+template <int D>
+float Field<D>::shadow(const Vec<D>& point, const Vec<D>& light, float softness) const {
+    detail::enter_library();
+    return light_at(*this, point, light, softness);
+}
+
+template <int D>
 void Field<D>::shadow(std::span<const Vec<D>> points, const Vec<D>& light, float softness, std::span<float> out) const {
+    detail::enter_library();
     ABUT_ASSERT(points.size() == out.size() && is_finite<D>(light) && softness >= 0);
     std::array<detail::ShadowRay<D>, batch_size> rays;
     std::array<std::uint32_t, batch_size> of;  // the point of each ray
@@ -83,6 +113,7 @@ void Field<D>::shadow(std::span<const Vec<D>> points, const Vec<D>& light, float
 
 template <int D>
 float Field<D>::ambient_occlusion(const Vec<D>& point, const Vec<D>& normal, float reach) const {
+    detail::enter_library();
     ABUT_ASSERT(is_finite<D>(point) && is_finite<D>(normal) && reach >= 0);
     if (!(reach > 0)) return 1;
     const std::array<Vec<D>, occlusion_samples> places = places_along<D>(point, normal, reach);
@@ -94,22 +125,8 @@ float Field<D>::ambient_occlusion(const Vec<D>& point, const Vec<D>& normal, flo
 template <int D>
 void Field<D>::ambient_occlusion(std::span<const Vec<D>> points, std::span<const Vec<D>> normals, float reach,
                                  std::span<float> out) const {
-    ABUT_ASSERT(points.size() == out.size() && points.size() == normals.size() && reach >= 0);
-    std::array<Vec<D>, batch_size * occlusion_samples> places;
-    std::array<float, batch_size * occlusion_samples> found;
-    for (std::size_t begin = 0; begin < points.size(); begin += batch_size) {
-        const std::size_t count = std::min(batch_size, points.size() - begin);
-        if (!(reach > 0)) {
-            for (std::size_t i = 0; i < count; ++i) out[begin + i] = 1;
-            continue;
-        }
-        for (std::size_t i = 0; i < count; ++i) {
-            const auto some = places_along<D>(points[begin + i], normals[begin + i], reach);
-            std::copy(some.begin(), some.end(), places.begin() + static_cast<std::ptrdiff_t>(i * occlusion_samples));
-        }
-        distance(std::span(places).first(count * occlusion_samples), std::span(found).first(count * occlusion_samples));
-        for (std::size_t i = 0; i < count; ++i) out[begin + i] = occlusion_of(&found[i * occlusion_samples], reach);
-    }
+    detail::enter_library();
+    write_occlusion(*this, points, normals, reach, out);
 }
 
 template float Field<2>::shadow(const Vec2&, const Vec2&, float) const;

@@ -1,6 +1,7 @@
 #include <abut/field/half.hpp>
 #include <abut/field/texture.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/math/simd/library_entry.hpp>
 
 #include <algorithm>
 #include <array>
@@ -119,6 +120,7 @@ Result<FieldTexture<D>> to_texture(const Field<D>& field, const TextureOptions& 
 
 template <int D>
 float texel_distance(const FieldTexture<D>& texture, std::size_t texel) {
+    detail::enter_library();
     float value = 0;
     const std::byte* from = texture.bytes.data();
     if (texture.format == TextureFormat::r8_snorm) {

@@ -1,6 +1,7 @@
 #include <abut/math/motion.hpp>
 #include <abut/math/rigid_path.hpp>
 #include <abut/math/set_affine.hpp>
+#include <abut/math/simd/library_entry.hpp>
 
 #include <glm/ext/quaternion_double.hpp>
 
@@ -74,12 +75,14 @@ using namespace detail;
 
 template <int D>
 Motion<D> Motion<D>::between(const Pose<D>& from, const Pose<D>& to) {
+    detail::enter_library();
     return {from, to.position - from.position, Angle<D>(rotation_between(from.rotation, to.rotation))};
 }
 template struct Motion<2>;
 template struct Motion<3>;
 
 Pose2 pose_at(const Motion2& motion, float fraction) {
+    detail::enter_library();
     const RigidPath<2> path = rigid_path(motion);
     const double time = static_cast<double>(fraction);
     const DVec<2> x = place_at(path, time).column[0];
@@ -87,6 +90,7 @@ Pose2 pose_at(const Motion2& motion, float fraction) {
 }
 
 Pose3 pose_at(const Motion3& motion, float fraction) {
+    detail::enter_library();
     const RigidPath<3> path = rigid_path(motion);
     const double time = static_cast<double>(fraction), rate = length(path.angular_velocity);
     const SinCos half = sin_cos(0.5 * rate * time);

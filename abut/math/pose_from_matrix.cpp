@@ -1,5 +1,6 @@
 #include <abut/math/affine.hpp>
 #include <abut/math/pose_from_matrix.hpp>
+#include <abut/math/simd/library_entry.hpp>
 
 #include <algorithm>
 #include <array>
@@ -102,9 +103,11 @@ Result<Pose<D>> pose_of(const Matrix<D>& matrix) {
 }  // namespace
 
 Result<Pose2> pose_from(const glm::mat3& matrix) {
+    detail::enter_library();
     return pose_of<2>(matrix);
 }
 Result<Pose3> pose_from(const glm::mat4& matrix) {
+    detail::enter_library();
     return pose_of<3>(matrix);
 }
 

@@ -4,6 +4,7 @@
 
 #include <abut/math/dvec.hpp>
 #include <abut/math/predicates.hpp>
+#include <abut/math/simd/library_entry.hpp>
 
 #include <array>
 #include <cmath>
@@ -113,7 +114,7 @@ int exact_orientation(const DVec<3>& a, const DVec<3>& b, const DVec<3>& c, cons
 
 }  // namespace
 
-int orientation(const Vec2& a, const Vec2& b, const Vec2& c) {
+int detail::triangle_orientation(const Vec2& a, const Vec2& b, const Vec2& c) {
     const DVec<2> p = DVec<2>(b) - DVec<2>(a), q = DVec<2>(c) - DVec<2>(a);
     const double left = p.x * q.y, right = p.y * q.x, turn = left - right;
     // Each product of two rounded differences is off by 3 u; the final difference adds u. The bound is twice the
@@ -123,7 +124,7 @@ int orientation(const Vec2& a, const Vec2& b, const Vec2& c) {
     return exact_orientation(DVec<2>(a), DVec<2>(b), DVec<2>(c));
 }
 
-int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+int detail::tetrahedron_orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     const DVec<3> p = DVec<3>(b) - DVec<3>(a), q = DVec<3>(c) - DVec<3>(a), r = DVec<3>(d) - DVec<3>(a);
     double volume = 0, magnitude = 0;
     for (int i = 0; i < 3; ++i) {
@@ -139,10 +140,12 @@ int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
 }
 
 bool on_line(const Vec2& a, const Vec2& b, const Vec2& p) {
+    detail::enter_library();
     return orientation(a, b, p) == 0;
 }
 
 bool on_line(const Vec3& a, const Vec3& b, const Vec3& p) {
+    detail::enter_library();
     // The three coordinates of cross(b - a, p - a), each from projections of the points along an axis.
     const auto projection_on_line = [&](int x, int y) {
         return orientation(Vec2(a[x], a[y]), Vec2(b[x], b[y]), Vec2(p[x], p[y])) == 0;
@@ -151,6 +154,7 @@ bool on_line(const Vec3& a, const Vec3& b, const Vec3& p) {
 }
 
 bool in_plane(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) {
+    detail::enter_library();
     return orientation(a, b, c, p) == 0;
 }
 

@@ -4,16 +4,29 @@
 // arithmetic (Shewchuk: "Adaptive precision floating-point arithmetic and fast robust geometric predicates", 1997).
 // They never allocate.
 
+#include <abut/math/simd/upper_halves.hpp>
 #include <abut/math/vec.hpp>
 
 namespace abut {
+namespace detail {
+
+int triangle_orientation(const Vec2& a, const Vec2& b, const Vec2& c);
+int tetrahedron_orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+
+}  // namespace detail
 
 /// The orientation of triangle abc: 1 if it is counter-clockwise, -1 if it is clockwise, 0 if the points are collinear.
-int orientation(const Vec2& a, const Vec2& b, const Vec2& c);
+inline int orientation(const Vec2& a, const Vec2& b, const Vec2& c) {
+    detail::clear_upper_halves();
+    return detail::triangle_orientation(a, b, c);
+}
 
 /// The side of plane abc on which d lies: 1 if abc is counter-clockwise seen from d (on the side of cross(b - a, c -
 /// a)), -1 if it is clockwise, 0 if the points are coplanar.
-int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+inline int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    detail::clear_upper_halves();
+    return detail::tetrahedron_orientation(a, b, c, d);
+}
 
 /// True if p lies on the line through a and b, also beyond them; always true if a == b.
 bool on_line(const Vec2& a, const Vec2& b, const Vec2& p);

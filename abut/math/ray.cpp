@@ -1,5 +1,6 @@
 #include <abut/math/dvec.hpp>
 #include <abut/math/ray.hpp>
+#include <abut/math/simd/library_entry.hpp>
 
 namespace abut {
 
@@ -7,6 +8,7 @@ using namespace detail;
 
 template <int D>
 Ray<D> Ray<D>::between(const Vec<D>& a, const Vec<D>& b) {
+    detail::enter_library();
     const DVec<D> offset = DVec<D>(b) - DVec<D>(a);
     return {a, to_float(normalized(offset)), static_cast<float>(abut::length(offset))};
 }

@@ -1,3 +1,4 @@
+#include <abut/math/simd/library_entry.hpp>
 #include <abut/motion/depenetrate.hpp>
 #include <abut/motion/push/shortest_push.hpp>
 #include <abut/query/detail/valid_query.hpp>
@@ -6,6 +7,7 @@ namespace abut::detail {
 
 template <int D>
 Depenetration<D> depenetrate_convex(const Convex<D>& shape, const World<D>& world, const Filter& filter) {
+    detail::enter_library();
     Depenetration<D> result;
     if (!detail::is_valid_query(shape)) return result;
     const double touching = 1e-5 * detail::size(shape);

@@ -37,6 +37,7 @@ namespace abut {
 template <Shape S>
 requires(detail::is_convex_view<detail::ViewOf<S>>) Depenetration<dimension<S>> depenetrate(
     const S& shape, const World<dimension<S>>& world, const Filter& filter = {}) {
+    detail::clear_upper_halves();
     return detail::depenetrate_convex<dimension<S>>(view(shape), world, filter);
 }
 

@@ -1,5 +1,6 @@
 #include <abut/math/assert.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/math/simd/library_entry.hpp>
 #include <abut/motion/laser.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/view/part.hpp>
@@ -108,10 +109,15 @@ bool goes_through(const Bounce<D>& bounce, const Convex<D>& part, Hit<D>& hit) {
 
 template <int D>
 Laser<D>::Laser(const World<D>& world, const Ray<D>& ray, const Filter& filter)
-    : world_(&world), filter_(filter), piece_(ray), last_start_(ray.origin), hit_(world.raycast(ray, filter)) {}
+    : world_((detail::enter_library(), &world)),
+      filter_(filter),
+      piece_(ray),
+      last_start_(ray.origin),
+      hit_(world.raycast(ray, filter)) {}
 
 template <int D>
 void Laser<D>::bounce() {
+    detail::enter_library();
     ABUT_ASSERT(hit_);
     if (!hit_) return;
     const WorldHit<D> mirror = *hit_;

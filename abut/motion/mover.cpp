@@ -1,3 +1,4 @@
+#include <abut/math/simd/library_entry.hpp>
 #include <abut/motion/mover.hpp>
 #include <abut/motion/mover/move_and_slide.hpp>
 #include <abut/query/detail/valid_query.hpp>
@@ -59,6 +60,7 @@ Mover<D>& Mover<D>::operator=(Mover&&) noexcept = default;
 
 template <int D>
 void Mover<D>::set_options(const MoverOptions<D>& options) {
+    detail::enter_library();
     options_ = options;
     if (!detail::is_valid_query(options.up)) options_.up = MoverOptions<D>{}.up;
 }
@@ -66,6 +68,7 @@ void Mover<D>::set_options(const MoverOptions<D>& options) {
 template <int D>
 Moved<D> Mover<D>::move_convex(const World<D>& world, const Convex<D>& shape, const Vec<D>& position,
                                const Vec<D>& motion, const MoverPasses<D>* passes) {
+    detail::enter_library();
     Moved<D> result;
     result.position = position;
     if (!detail::is_valid_query(shape, position, motion)) return result;

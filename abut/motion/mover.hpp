@@ -93,6 +93,7 @@ public:
     template <Shape S>
     requires(detail::is_convex_view<detail::ViewOf<S>>&& dimension<S> ==
              D) Moved<D> move(const World<D>& world, const S& shape, const Vec<D>& position, const Vec<D>& motion) {
+        detail::clear_upper_halves();
         return move_convex(world, view(shape), position, motion, nullptr);
     }
     /// The overload with a filter: `passes` is called for each contact and returns true to pass through it.
@@ -100,6 +101,7 @@ public:
     requires(detail::is_convex_view<detail::ViewOf<S>>&& dimension<S> ==
              D) Moved<D> move(const World<D>& world, const S& shape, const Vec<D>& position, const Vec<D>& motion,
                               MoverPasses<D> passes) {
+        detail::clear_upper_halves();
         return move_convex(world, view(shape), position, motion, &passes);
     }
 

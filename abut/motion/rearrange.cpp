@@ -1,4 +1,5 @@
 #include <abut/math/assert.hpp>
+#include <abut/math/simd/library_entry.hpp>
 #include <abut/motion/order/arrangement.hpp>
 #include <abut/motion/rearrange.hpp>
 
@@ -182,6 +183,7 @@ std::vector<DVec<D>> directions(const Vec<D>& away) {
 template <int D>
 Rearrangement<D> rearrange(std::span<const Convex<D>> shapes, std::span<const Pose<D>> from,
                            std::span<const Pose<D>> to, const RearrangeOptions<D>& options) {
+    detail::enter_library();
     bool valid = from.size() == shapes.size() && to.size() == shapes.size() && is_finite(options.away) &&
                  options.away != Vec<D>(0);
     for (std::size_t i = 0; valid && i < shapes.size(); ++i)

@@ -55,6 +55,7 @@ Rearrangement<dimension<detail::ElementOf<Shapes>>> rearrange(
     const std::vector<Pose<dimension<detail::ElementOf<Shapes>>>>& to,
     const RearrangeOptions<dimension<detail::ElementOf<Shapes>>>& options = {}) {
     constexpr int D = dimension<detail::ElementOf<Shapes>>;
+    detail::clear_upper_halves();
     std::vector<detail::Convex<D>> views;
     for (const auto& shape : shapes) views.push_back(view(shape));
     return rearrange(std::span<const detail::Convex<D>>(views), std::span<const Pose<D>>(from),

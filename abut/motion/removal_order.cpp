@@ -1,4 +1,5 @@
 #include <abut/math/assert.hpp>
+#include <abut/math/simd/library_entry.hpp>
 #include <abut/motion/order/precedence.hpp>
 #include <abut/motion/removal_order.hpp>
 #include <abut/query/detail/valid_query.hpp>
@@ -86,6 +87,7 @@ RemovalOrder topological_order(std::size_t count, const std::vector<Precedence>&
 
 template <int D>
 RemovalOrder removal_order(std::span<const Convex<D>> shapes, const Vec<D>& direction) {
+    detail::enter_library();
     const bool is_direction = is_finite(direction) && direction != Vec<D>(0);
     ABUT_ASSERT(is_direction);
     std::vector<Convex<D>> finite;

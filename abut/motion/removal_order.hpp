@@ -54,6 +54,7 @@ namespace abut {
 template <detail::ConvexShapes Shapes>
 RemovalOrder removal_order(const Shapes& shapes, const Vec<dimension<detail::ElementOf<Shapes>>>& direction) {
     constexpr int D = dimension<detail::ElementOf<Shapes>>;
+    detail::clear_upper_halves();
     std::vector<detail::Convex<D>> views;
     for (const auto& shape : shapes) views.push_back(view(shape));
     return removal_order(std::span<const detail::Convex<D>>(views), direction);

@@ -1,4 +1,5 @@
 #include <abut/math/assert.hpp>
+#include <abut/math/simd/library_entry.hpp>
 #include <abut/query/early_out.hpp>
 
 #include <chrono>
@@ -38,6 +39,7 @@ double passed_all(std::span<const double> outcomes, std::size_t mask) {
 }  // namespace
 
 void best_order(std::span<const TestCost> tests, std::span<std::size_t> order) {
+    detail::enter_library();
     ABUT_ASSERT(order.size() == tests.size());
     for (std::size_t i = 0; i < tests.size(); ++i) {
         ABUT_ASSERT(is_cost(tests[i]));
@@ -54,12 +56,14 @@ std::vector<std::size_t> best_order(std::span<const TestCost> tests) {
 }
 
 double expected_cost(std::span<const TestCost> tests) {
+    detail::enter_library();
     Run run;
     for (const TestCost& test : tests) run.add(test);
     return run.cost;
 }
 
 double expected_cost(std::span<const TestCost> tests, std::span<const std::size_t> order) {
+    detail::enter_library();
     Run run;
     for (const std::size_t i : order) run.add(tests[i]);
     return run.cost;

@@ -9,6 +9,7 @@
 
 #include <abut/convex/hull/hull.hpp>
 #include <abut/math/assert.hpp>
+#include <abut/math/simd/library_entry.hpp>
 #include <abut/query/detail/valid_query.hpp>
 #include <abut/query/polytope.hpp>
 
@@ -225,9 +226,11 @@ ABUT_INSTANTIATE(3)
 }  // namespace detail
 
 Polygon polytope(const Aabb<2>& box) {
+    detail::enter_library();
     return finished(Polygon::build(corners(box)));
 }
 Polyhedron polytope(const Aabb<3>& box) {
+    detail::enter_library();
     return finished(Polyhedron::build(corners(box)));
 }
 

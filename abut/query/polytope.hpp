@@ -78,6 +78,7 @@ concept PolytopeShape = Shape<S> && detail::has_corners<S>;
 /// ABUT_ASSERT; in release the result is then the point 0.
 template <PolytopeShape S>
 PolytopeOf<dimension<S>> polytope(const S& shape) {
+    detail::clear_upper_halves();
     return detail::polytope_of_corners(view(shape));
 }
 
@@ -103,6 +104,7 @@ inline Polyhedron polytope(const Polyhedron& polyhedron) {
 template <Shape S>
 requires std::same_as<detail::ViewOf<S>, detail::Convex<dimension<S>>> PolytopeOf<dimension<S>> polytope(
     const S& shape, float tolerance) {
+    detail::clear_upper_halves();
     return detail::inscribed_polytope(view(shape), tolerance);
 }
 

@@ -1,4 +1,5 @@
 #include <abut/math/dvec.hpp>
+#include <abut/math/simd/library_entry.hpp>
 #include <abut/query/ray_through.hpp>
 
 namespace abut {
@@ -40,6 +41,7 @@ constexpr double max_float = static_cast<double>(std::numeric_limits<float>::max
 /// No matrix is inverted. The points seen at one position on the screen form a line, in which the planes of its column
 /// and of its row intersect; the near plane cuts off its beginning and the far plane its end.
 Ray<3> ray_through(const Vec2& mouse, const Aabb2& viewport, const glm::mat4& view_projection, const ClipSpace& clip) {
+    detail::enter_library();
     const Ray<3> nothing{Vec3(0), Vec3(1, 0, 0), 0};
     const double x = across(mouse.x, viewport.min.x, viewport.max.x);
     const double y = across(mouse.y, viewport.min.y, viewport.max.y) * (clip.y_down ? 1 : -1);

@@ -1,3 +1,4 @@
+#include <abut/math/simd/library_entry.hpp>
 #include <abut/query/detail/part_pairs.hpp>
 #include <abut/query/detail/raycast/part_hit.hpp>
 #include <abut/query/detail/valid_query.hpp>
@@ -120,6 +121,7 @@ std::optional<Hit<D>> raycast(const Ray<D>& ray, const View<D>& shape, const Que
 
 template <int D>
 std::optional<Hit<D>> raycast(const Ray<D>& ray, const SolidBsp<D>& level, const QueryOptions<D>&) {
+    detail::enter_library();
     if (!detail::is_valid_query(ray)) return std::nullopt;
     // A ray that ends on a face hits it although its length is rounded.
     constexpr double more = 1 + 1e-7;
@@ -151,6 +153,7 @@ std::optional<Hit<D>> raycast(const Ray<D>& ray, const SolidBsp<D>& level, const
 /// another mirror. The step displaces the reflected ray by at most twice the lift, as sin(2 a) / sin(a) <= 2.
 template <int D>
 Ray<D> reflect(const Ray<D>& ray, const Hit<D>& hit) {
+    detail::enter_library();
     if (!detail::is_valid_query(ray, hit)) return {ray.origin, to_float(axis<D>(0)), 0};
 
     // More than the rounding of a direction and a normal together, and of two points.

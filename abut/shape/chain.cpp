@@ -1,6 +1,7 @@
 #include <abut/broad_phase/bvh.hpp>
 #include <abut/math/assert.hpp>
 #include <abut/math/predicates.hpp>
+#include <abut/math/simd/library_entry.hpp>
 #include <abut/shape/chain.hpp>
 
 #include <vector>
@@ -33,6 +34,7 @@ Aabb2 box_of(const Segment2& s) {
 }  // namespace
 
 Result<Chain> Chain::build(std::span<const Vec2> points, bool closed, const ChainOptions& options) {
+    detail::enter_library();
     const std::size_t min_count = closed ? 3 : 2;
     if (points.size() < min_count)
         return Problem{ProblemCode::empty_input,
@@ -78,6 +80,7 @@ std::uint32_t Chain::size() const {
 }
 
 Segment2 Chain::segment(std::uint32_t index) const {
+    detail::enter_library();
     ABUT_ASSERT(index < size());
     return data_->segment(index);
 }
@@ -90,25 +93,30 @@ std::uint32_t Chain::neighbour(std::uint32_t segment, std::uint32_t end) const {
 }
 
 Aabb2 bounds(const Chain& chain) {
+    detail::enter_library();
     return chain.data_->tree.bounds();
 }
 
 void each_part(const Chain& chain, const Aabb2& box, detail::PartVisitor<2> visit) {
+    detail::enter_library();
     const Chain::Data& data = *chain.data_;
     data.tree.each_overlapping(box, [&](std::uint32_t index) -> bool { return visit(data.part(index), index); });
 }
 
 void each_part_along(const Chain& chain, const MovingBox<2>& box, detail::PartReachVisitor<2> visit) {
+    detail::enter_library();
     const Chain::Data& data = *chain.data_;
     data.tree.sweep(box, [&](std::uint32_t index) -> float { return visit(data.part(index), index); });
 }
 
 void each_part_near(const Chain& chain, const Aabb2& box, detail::PartReachVisitor<2> visit) {
+    detail::enter_library();
     const Chain::Data& data = *chain.data_;
     data.tree.closest(box, [&](std::uint32_t index) -> float { return visit(data.part(index), index); });
 }
 
 bool solid_contains(const Chain& chain, const Vec2& point) {
+    detail::enter_library();
     if (!chain.closed()) return false;
     // The winding number, from signed crossings of a ray along x: Sunday, "Inclusion of a point in a polygon" (2001).
     Aabb2 ahead{point, point};

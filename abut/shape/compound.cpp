@@ -1,5 +1,6 @@
 #include <abut/broad_phase/bvh.hpp>
 #include <abut/math/assert.hpp>
+#include <abut/math/simd/library_entry.hpp>
 #include <abut/shape/compound.hpp>
 #include <abut/shape/view/part.hpp>
 
@@ -36,6 +37,7 @@ MovingBox<D> with_unit_direction(const MovingBox<D>& box, double direction_lengt
 
 template <int D>
 Result<Compound<D>> Compound<D>::build(std::span<const AnyShape<D>> children) {
+    detail::enter_library();
     if (children.empty()) return Problem{ProblemCode::empty_input, "a compound needs at least one child", 0};
     auto data = std::make_shared<Data>();
     std::vector<Aabb<D>> boxes;
@@ -72,11 +74,13 @@ const View<D>& Compound<D>::child(std::uint32_t index) const {
 
 template <int D>
 Aabb<D> Compound<D>::bounds() const {
+    detail::enter_library();
     return data_->tree.bounds();
 }
 
 template <int D>
 void Compound<D>::each_part(const Aabb<D>& box, PartVisitor<D> visit) const {
+    detail::enter_library();
     data_->tree.each_overlapping(box, [&](std::uint32_t index) -> bool {
         bool go_on = true;
         detail::for_each_part(child(index), box, [&](const detail::Part<D>& part, std::uint32_t) {
@@ -88,6 +92,7 @@ void Compound<D>::each_part(const Aabb<D>& box, PartVisitor<D> visit) const {
 
 template <int D>
 void Compound<D>::each_part_along(const MovingBox<D>& box, PartReachVisitor<D> visit) const {
+    detail::enter_library();
     const double direction_length = length(box.direction);
     if (!(direction_length > 0)) return;
     double reach = box.length;
@@ -107,6 +112,7 @@ void Compound<D>::each_part_along(const MovingBox<D>& box, PartReachVisitor<D> v
 
 template <int D>
 void Compound<D>::each_part_near(const Aabb<D>& box, PartReachVisitor<D> visit) const {
+    detail::enter_library();
     float reach = std::numeric_limits<float>::infinity();
     data_->tree.closest(box, [&](std::uint32_t index) -> float {
         const auto visit_part = [&](const Convex<D>& part, std::uint32_t) -> float {
@@ -121,6 +127,7 @@ void Compound<D>::each_part_near(const Aabb<D>& box, PartReachVisitor<D> visit) 
 
 template <int D>
 bool Compound<D>::solid_contains(const Vec<D>& point) const {
+    detail::enter_library();
     bool found = false;
     data_->tree.each_overlapping(Aabb<D>{point, point}, [&](std::uint32_t index) -> bool {
         const auto* composite = std::get_if<Composite<D>>(&child(index));

@@ -1,4 +1,5 @@
 #include <abut/math/assert.hpp>
+#include <abut/math/simd/library_entry.hpp>
 #include <abut/shape/grid_hierarchy.hpp>
 #include <abut/shape/height_field.hpp>
 
@@ -81,6 +82,7 @@ struct HeightField::Data {
 
 Result<HeightField> HeightField::build(std::span<const float> heights, std::uint32_t columns, const Vec2& cell,
                                        const HeightFieldOptions& options) {
+    detail::enter_library();
     if (heights.empty()) return Problem{ProblemCode::empty_input, "a height field needs heights", 0};
     if (columns < 2)
         return Problem{ProblemCode::bad_argument,
@@ -135,6 +137,7 @@ std::uint32_t HeightField::rows() const {
     return data_->rows;
 }
 Vec2 HeightField::cell() const {
+    detail::enter_library();
     return data_->cell;
 }
 std::uint32_t HeightField::size() const {
@@ -142,6 +145,7 @@ std::uint32_t HeightField::size() const {
 }
 
 Triangle3 HeightField::triangle(std::uint32_t index) const {
+    detail::enter_library();
     ABUT_ASSERT(index < size());
     const std::uint32_t in = index / 2, columns = data_->cell_columns();
     return data_->triangle(in % columns, in / columns, index % 2);
@@ -169,6 +173,7 @@ std::uint32_t HeightField::neighbour(std::uint32_t triangle, std::uint32_t edge)
 }
 
 Aabb3 bounds(const HeightField& field) {
+    detail::enter_library();
     Aabb3 result = Aabb3::empty();
     const HeightField::Data& data = *field.data_;
     const HeightRange& all = data.blocks.all();
@@ -181,6 +186,7 @@ Aabb3 bounds(const HeightField& field) {
 
 void each_part(const HeightField& field, const Aabb3& box,
                FunctionRef<bool(const Triangle3& part, std::uint32_t index)> visit) {
+    detail::enter_library();
     const HeightField::Data& data = *field.data_;
     const Aabb3 query = usable(box);
     if (!overlaps(query, bounds(field))) return;
@@ -204,11 +210,13 @@ void each_part(const HeightField& field, const Aabb3& box,
 
 void each_part_along(const HeightField& field, const MovingBox<3>& box,
                      FunctionRef<float(const Triangle3& part, std::uint32_t index)> visit) {
+    detail::enter_library();
     field.data_->each_within(RayReach<3>::of_box(box), visit);
 }
 
 void each_part_near(const HeightField& field, const Aabb3& box,
                     FunctionRef<float(const Triangle3& part, std::uint32_t index)> visit) {
+    detail::enter_library();
     constexpr float any = std::numeric_limits<float>::infinity();
     field.data_->each_within(BoxReach<3>(box, any), visit);
 }

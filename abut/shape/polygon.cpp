@@ -3,6 +3,7 @@
 #include <abut/convex/polygon_soa.hpp>
 #include <abut/math/dvec.hpp>
 #include <abut/math/set_affine.hpp>
+#include <abut/math/simd/library_entry.hpp>
 #include <abut/shape/polygon.hpp>
 
 #include <algorithm>
@@ -33,7 +34,7 @@ void set_points(Convex<2>& convex, const Polygon& polygon) {
 
 /// True if a loop is certain to be a hull loop: it starts at the lexicographically smallest vertex, turns left at each
 /// vertex, winds once, and is clearly wider than the flatness tolerance and than `min_width`.
-bool is_hull_loop(std::span<const Vec2> loop, double min_width) {
+[[gnu::noinline]] bool is_hull_loop(std::span<const Vec2> loop, double min_width) {
     if (loop.size() < 3) return false;
     double area = 0;
     DVec<2> low(loop[0]), high(loop[0]);
@@ -68,6 +69,7 @@ Result<Polygon> Polygon::build(std::span<const Vec2> points) {
 }
 
 Result<Polygon> Polygon::build(std::span<const Vec2> points, const HullOptions& options) {
+    detail::enter_library();
     Result<Hull2> built = limited_hull(points, options);
     if (!built) return built.problem();
     Polygon result;
@@ -81,6 +83,7 @@ Result<Polygon> Polygon::build(std::initializer_list<Vec2> points) {
 }
 
 bool Polygon::set_outline(std::span<const Vec2> loop, double min_width) {
+    detail::enter_library();
     if (!is_hull_loop(loop, min_width)) return false;
     points_.assign(loop.begin(), loop.end());
     write_sides();
@@ -103,12 +106,14 @@ int Polygon::rank() const {
 }
 
 double Polygon::area() const {
+    detail::enter_library();
     double twice = 0;
     each_triangle(points(), [&](const DVec<2>& a, const DVec<2>& b) { twice += cross(a, b); });
     return 0.5 * twice;
 }
 
 Vec2 Polygon::centroid() const {
+    detail::enter_library();
     const std::span<const Vec2> corners = points();
     const DVec<2> origin(corners[0]);
     if (rank() < 2) return to_float(0.5 * (origin + DVec<2>(corners.back())));
@@ -122,6 +127,7 @@ Vec2 Polygon::centroid() const {
 }
 
 Vec2 Polygon::normal() const {
+    detail::enter_library();
     const std::span<const Vec2> corners = points();
     DVec<2> longest(0.0);
     for (std::size_t i = 0; i < corners.size(); ++i) {

@@ -2,6 +2,7 @@
 #include <abut/convex/hull/limited/limited_hull.hpp>
 #include <abut/convex/point_soa.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/math/simd/library_entry.hpp>
 #include <abut/shape/polyhedron.hpp>
 
 #include <utility>
@@ -39,6 +40,7 @@ Result<Polyhedron> Polyhedron::build(std::span<const Vec3> points) {
 }
 
 Result<Polyhedron> Polyhedron::build(std::span<const Vec3> points, const HullOptions& options) {
+    detail::enter_library();
     Result<Hull3> built = limited_hull(points, options);
     if (!built) return built.problem();
     Polyhedron result;
@@ -67,18 +69,22 @@ int Polyhedron::rank() const {
 }
 
 double Polyhedron::volume() const {
+    detail::enter_library();
     return data_ ? data_->hull.volume : 0;
 }
 
 double Polyhedron::area() const {
+    detail::enter_library();
     return data_ ? data_->hull.area : 0;
 }
 
 Vec3 Polyhedron::centroid() const {
+    detail::enter_library();
     return data_ ? data_->hull.centroid : origin3;
 }
 
 BoundingBall<3> Polyhedron::ball() const {
+    detail::enter_library();
     return data_ ? data_->ball : BoundingBall<3>();
 }
 
@@ -87,6 +93,7 @@ const PointSoa* Polyhedron::lanes() const {
 }
 
 Vec3 Polyhedron::normal() const {
+    detail::enter_library();
     const std::span<const Vec3> corners = points();
     if (rank() == 0) return to_float(axis<3>(0));
     if (rank() == 1) return to_float(perpendicular(DVec<3>(corners[1]) - DVec<3>(corners[0])));

@@ -1,4 +1,5 @@
 #include <abut/math/assert.hpp>
+#include <abut/math/simd/library_entry.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/grid_hierarchy.hpp>
 #include <abut/shape/segment.hpp>
@@ -103,6 +104,7 @@ struct TileMap::Data {
 };
 
 Result<TileMap> TileMap::build(std::span<const Tile> tiles, std::uint32_t columns, const Vec2& cell) {
+    detail::enter_library();
     if (tiles.empty()) return Problem{ProblemCode::empty_input, "a tile map needs tiles", 0};
     if (columns == 0 || tiles.size() % columns != 0)
         return Problem{
@@ -129,6 +131,7 @@ Result<TileMap> TileMap::build(std::span<const Tile> tiles, std::uint32_t column
 }
 
 Result<TileMap> TileMap::build(std::span<const Tile> tiles, std::uint32_t columns, float cell) {
+    detail::enter_library();
     return build(tiles, columns, Vec2(cell, cell));
 }
 
@@ -142,6 +145,7 @@ std::uint32_t TileMap::rows() const {
     return data_->rows;
 }
 Vec2 TileMap::cell() const {
+    detail::enter_library();
     return data_->cell;
 }
 std::uint32_t TileMap::size() const {
@@ -149,11 +153,13 @@ std::uint32_t TileMap::size() const {
 }
 
 Aabb2 TileMap::box(std::uint32_t index) const {
+    detail::enter_library();
     ABUT_ASSERT(index < size());
     return data_->box_of_tile(index % data_->columns, index / data_->columns);
 }
 
 Convex<2> TileMap::part(std::uint32_t index) const {
+    detail::enter_library();
     return tile_shape(tile(index), box(index));
 }
 
@@ -168,10 +174,12 @@ std::uint32_t TileMap::neighbour(std::uint32_t tile, std::uint32_t side) const {
 }
 
 Aabb2 bounds(const TileMap& map) {
+    detail::enter_library();
     return map.data_->box_of(map.data_->blocks.all());
 }
 
 void each_part(const TileMap& map, const Aabb2& box, PartVisitor<2> visit) {
+    detail::enter_library();
     const TileMap::Data& data = *map.data_;
     const Aabb2 query = usable(box);
     if (is_empty(query)) return;
@@ -189,10 +197,12 @@ void each_part(const TileMap& map, const Aabb2& box, PartVisitor<2> visit) {
 }
 
 void each_part_along(const TileMap& map, const MovingBox<2>& box, PartReachVisitor<2> visit) {
+    detail::enter_library();
     map.data_->each_within(RayReach<2>::of_box(box), visit);
 }
 
 void each_part_near(const TileMap& map, const Aabb2& box, PartReachVisitor<2> visit) {
+    detail::enter_library();
     constexpr float any = std::numeric_limits<float>::infinity();
     map.data_->each_within(BoxReach<2>(box, any), visit);
 }

@@ -1,4 +1,5 @@
 #include <abut/math/assert.hpp>
+#include <abut/math/simd/library_entry.hpp>
 #include <abut/walk/data.hpp>
 #include <abut/walk/frame.hpp>
 #include <abut/walk/nearest_on.hpp>
@@ -24,6 +25,7 @@ WalkPoint place_of(const WalkMeshData& data, const Vec3& point, const NearestTri
 }  // namespace
 
 WalkPoint WalkMesh::nearest(const Vec3& point) const {
+    detail::enter_library();
     const bool finite = is_finite(point);
     ABUT_ASSERT(finite);
     if (!finite) return somewhere(*data_);
@@ -33,6 +35,7 @@ WalkPoint WalkMesh::nearest(const Vec3& point) const {
 }
 
 WalkPoint WalkMesh::nearest(const Vec3& point, const WalkPoint& last) const {
+    detail::enter_library();
     const bool finite = is_finite(point), known = last.triangle < data_->leaf_of.size();
     ABUT_ASSERT(finite && known);
     if (!finite) return somewhere(*data_);
@@ -42,6 +45,7 @@ WalkPoint WalkMesh::nearest(const Vec3& point, const WalkPoint& last) const {
 }
 
 std::optional<WalkPoint> WalkMesh::nearest(const Vec3& point, float reach) const {
+    detail::enter_library();
     const bool finite = is_finite(point);
     ABUT_ASSERT(finite);
     if (!finite || !(reach >= 0)) return std::nullopt;

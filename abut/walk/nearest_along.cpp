@@ -2,6 +2,7 @@
 // or cross a sliver are decided here, so that shared edges leave no gap.
 
 #include <abut/math/assert.hpp>
+#include <abut/math/simd/library_entry.hpp>
 #include <abut/shape/mesh/rays.hpp>
 #include <abut/walk/data.hpp>
 #include <abut/walk/frame.hpp>
@@ -83,9 +84,8 @@ void find_first_hit_in_double(const WalkMeshData& data, const DRay<3>& beam, Fir
                 ReachCall(test_triangle));
 }
 
-}  // namespace
-
-std::optional<WalkPoint> WalkMesh::nearest_along(const Vec3& point, const Vec3& direction, float reach) const {
+[[gnu::noinline]] std::optional<WalkPoint> first_along(const WalkMeshData& data, const Vec3& point,
+                                                       const Vec3& direction, float reach) {
     const bool usable = is_finite(point) && is_finite(direction) && direction != Vec3(0.0f);
     ABUT_ASSERT(usable);
     if (!usable || !(reach >= 0)) return std::nullopt;
@@ -97,15 +97,22 @@ std::optional<WalkPoint> WalkMesh::nearest_along(const Vec3& point, const Vec3& 
     };
     MeshHit hit;
     FirstHit first{beam.length};
-    if (!find_first_hit(data_->tree, MeshRay{beam, beam}, RobustTriangleTest(undecided), hit)) {
-        find_first_hit_in_double(*data_, beam, first);
+    if (!find_first_hit(data.tree, MeshRay{beam, beam}, RobustTriangleTest(undecided), hit)) {
+        find_first_hit_in_double(data, beam, first);
     } else if (hit.triangle != nullptr) {
         first = {hit.entry.along, *hit.triangle};
     }
     if (first.triangle == detail::bvh_none) return std::nullopt;
-    const Vec3* const corner = data_->walk[first.triangle].corner;
+    const Vec3* const corner = data.walk[first.triangle].corner;
     const NearestOnTriangle on = nearest_on({corner[0], corner[1], corner[2]}, beam.at(first.along));
     return WalkPoint{first.triangle, quantised_weights(on.second, on.third)};
+}
+
+}  // namespace
+
+std::optional<WalkPoint> WalkMesh::nearest_along(const Vec3& point, const Vec3& direction, float reach) const {
+    detail::enter_library();
+    return first_along(*data_, point, direction, reach);
 }
 
 }  // namespace abut

@@ -1,4 +1,5 @@
 #include <abut/math/assert.hpp>
+#include <abut/math/simd/library_entry.hpp>
 #include <abut/walk/frame.hpp>
 #include <abut/walk/geodesic-inl.h>
 #include <abut/walk/parallel_transport.hpp>
@@ -61,11 +62,13 @@ Walked walk_on(const WalkTriangle* triangles, const WalkPoint& place, const DVec
 }  // namespace
 
 Walked WalkMesh::walk(const WalkPoint& place, const Vec3& step, const WalkOptions& options) const {
+    detail::enter_library();
     ABUT_ASSERT(is_finite(step));
     const WalkTriangle* triangles = data_->walk.data();
     return walk_on(triangles, place, to_plane_of(triangles[place.triangle], step), options);
 }
 Walked WalkMesh::walk(const WalkPoint& place, const Vec2& step, const WalkOptions& options) const {
+    detail::enter_library();
     ABUT_ASSERT(is_finite(step));
     return walk_on(data_->walk.data(), place, DVec<2>(step), options);
 }

@@ -1,6 +1,7 @@
 // The two elementary operations of a walk: a step in a triangle, and the crossing of an edge.
 
 #include <abut/math/assert.hpp>
+#include <abut/math/simd/library_entry.hpp>
 #include <abut/walk/frame.hpp>
 #include <abut/walk/parallel_transport.hpp>
 #include <abut/walk/unfolded_triangle-inl.h>
@@ -40,16 +41,19 @@ WalkedInTriangle step_in_triangle(const WalkTriangle& walk, const WalkPoint& pla
 }  // namespace
 
 WalkedInTriangle WalkMesh::walk_in_triangle(const WalkPoint& place, const Vec3& step) const {
+    detail::enter_library();
     ABUT_ASSERT(is_finite(step));
     const WalkTriangle& walk = data_->walk[place.triangle];
     return step_in_triangle(walk, place, to_plane_of(walk, step));
 }
 WalkedInTriangle WalkMesh::walk_in_triangle(const WalkPoint& place, const Vec2& step) const {
+    detail::enter_library();
     ABUT_ASSERT(is_finite(step));
     return step_in_triangle(data_->walk[place.triangle], place, DVec<2>(step));
 }
 
 std::optional<EdgeCrossing> WalkMesh::cross_edge(const WalkPoint& place) const {
+    detail::enter_library();
     for (std::uint32_t side = 0; side < 3; ++side) {
         const std::uint32_t opposite = next_corner(next_corner(side));
         if (place.weights[static_cast<glm::length_t>(opposite)] != 0) continue;
@@ -59,6 +63,7 @@ std::optional<EdgeCrossing> WalkMesh::cross_edge(const WalkPoint& place) const {
 }
 
 std::optional<EdgeCrossing> WalkMesh::cross_edge(const WalkPoint& place, std::uint32_t side) const {
+    detail::enter_library();
     ABUT_ASSERT(side < 3);
     const auto of = [&](std::uint32_t corner) { return place.weights[static_cast<glm::length_t>(corner)]; };
     const std::uint32_t end = next_corner(side);

@@ -1,4 +1,5 @@
 #include <abut/math/assert.hpp>
+#include <abut/math/simd/library_entry.hpp>
 #include <abut/walk/data.hpp>
 #include <abut/walk/frame.hpp>
 
@@ -42,14 +43,17 @@ std::optional<WalkSide> WalkMesh::beyond(const WalkSide& side) const {
 }
 
 Vec3 WalkMesh::to_world(const WalkPoint& place) const {
+    detail::enter_library();
     return to_float(position_of(data_->walk[place.triangle], place));
 }
 
 Vec3 WalkMesh::normal(const WalkPoint& place) const {
+    detail::enter_library();
     return to_float(WalkFrame(data_->walk[place.triangle]).normal());
 }
 
 Vec3 WalkMesh::smooth_normal(const WalkPoint& place) const {
+    detail::enter_library();
     const glm::uvec3& of = data_->corner_normals[place.triangle];
     const WalkWeights weights = normalised_weights(place.weights);
     const DVec<3> sum = DVec<3>(data_->normals[of.x]) * weights.first + DVec<3>(data_->normals[of.y]) * weights.second +
@@ -59,13 +63,16 @@ Vec3 WalkMesh::smooth_normal(const WalkPoint& place) const {
 }
 
 Vec2 WalkMesh::to_plane(std::uint32_t triangle, const Vec3& vector) const {
+    detail::enter_library();
     return to_float(to_plane_of(data_->walk[triangle], vector));
 }
 Vec3 WalkMesh::to_space(std::uint32_t triangle, const Vec2& vector) const {
+    detail::enter_library();
     return to_float(WalkFrame(data_->walk[triangle]).to_space(DVec<2>(vector)));
 }
 
 Aabb3 bounds(const WalkMesh& mesh) {
+    detail::enter_library();
     return mesh.data().bounds;
 }
 

@@ -7,13 +7,12 @@
 namespace abut::bench {
 
 float distance_with_upper_halves_in_use(const Sphere& sphere, const Box3& box) {
-#ifdef __AVX__
-    asm volatile("vpcmpeqd %%ymm15, %%ymm15, %%ymm15" ::: "xmm15");
-#endif
+    use_upper_halves();
     return closest(sphere, box).distance;
 }
 
 float distance_with_upper_halves_cleared(const Sphere& sphere, const Box3& box) {
+    use_and_clear_upper_halves();
     return closest(sphere, box).distance;
 }
 

@@ -5,6 +5,7 @@
 #include <abut/broad_phase/concept.hpp>
 #include <abut/broad_phase/detail/parallel.hpp>
 #include <abut/broad_phase/reach.hpp>
+#include <abut/math/simd/library_entry.hpp>
 
 #include <array>
 
@@ -60,26 +61,31 @@ private:
 
 template <int D>
 void Bvh<D>::build(std::span<const Aabb<D>> boxes, Executor* executor) {
+    detail::enter_library();
     tree_.build(boxes, executor);
 }
 
 template <int D>
 void Bvh<D>::update(std::span<const Aabb<D>> boxes, Executor* executor) {
+    detail::enter_library();
     tree_.update(boxes, executor);
 }
 
 template <int D>
 std::uint32_t Bvh<D>::insert(const Aabb<D>& box) {
+    detail::enter_library();
     return tree_.insert(box);
 }
 
 template <int D>
 void Bvh<D>::erase(std::uint32_t index) {
+    detail::enter_library();
     tree_.erase(index);
 }
 
 template <int D>
 bool Bvh<D>::set(std::uint32_t index, const Aabb<D>& box) {
+    detail::enter_library();
     return tree_.set(index, box);
 }
 

@@ -10,6 +10,7 @@
 #include <abut/broad_phase/grid/queries.hpp>
 #include <abut/broad_phase/sweep_pieces.hpp>
 #include <abut/math/assert.hpp>
+#include <abut/math/simd/library_entry.hpp>
 
 #include <algorithm>
 #include <array>
@@ -86,6 +87,7 @@ void Grid<D>::fill_cells(std::span<const Aabb<D>> boxes, Executor* executor) {
 
 template <int D>
 void Grid<D>::build(std::span<const Aabb<D>> boxes, Executor* executor) {
+    detail::enter_library();
     ABUT_ASSERT(boxes.size() <= std::size_t{1} << 27);
     boxes_.resize(boxes.size());
     free_.clear();
@@ -106,6 +108,7 @@ void Grid<D>::choose_cells_and_fill(std::span<const Aabb<D>> boxes, Executor* ex
 
 template <int D>
 void Grid<D>::update(std::span<const Aabb<D>> boxes, Executor* executor) {
+    detail::enter_library();
     ABUT_ASSERT(boxes.size() == size());
     if (boxes.size() != size()) return build(boxes, executor);
     free_.remove_used(boxes);
@@ -149,6 +152,7 @@ void Grid<D>::remove_from_cells(std::uint32_t index) {
 
 template <int D>
 std::uint32_t Grid<D>::insert(const Aabb<D>& box) {
+    detail::enter_library();
     const std::uint32_t index = free_.take(static_cast<std::uint32_t>(size()));
     if (index == size()) {
         ABUT_ASSERT(size() < std::size_t{1} << 27);
@@ -173,6 +177,7 @@ std::uint32_t Grid<D>::insert(const Aabb<D>& box) {
 
 template <int D>
 void Grid<D>::erase(std::uint32_t index) {
+    detail::enter_library();
     ABUT_ASSERT(index < size());
     if (index >= size() || free_.contains(index)) return;
     if (!is_empty(boxes_[index])) remove_from_cells(index);
@@ -183,6 +188,7 @@ void Grid<D>::erase(std::uint32_t index) {
 
 template <int D>
 bool Grid<D>::set(std::uint32_t index, const Aabb<D>& box) {
+    detail::enter_library();
     ABUT_ASSERT(index < size() && !free_.contains(index));
     if (index >= size() || store_.is_full()) return false;
     if (!is_empty(boxes_[index])) remove_from_cells(index);
@@ -194,6 +200,7 @@ bool Grid<D>::set(std::uint32_t index, const Aabb<D>& box) {
 
 template <int D>
 Aabb<D> Grid<D>::bounds() const {
+    detail::enter_library();
     Aabb<D> result = Aabb<D>::empty();
     for (const Aabb<D>& box : boxes_) result = merged(result, box);
     return result;

@@ -5,6 +5,7 @@
 #include <abut/broad_phase/detail/parallel.hpp>
 #include <abut/broad_phase/reach.hpp>
 #include <abut/math/assert.hpp>
+#include <abut/math/simd/library_entry.hpp>
 
 #include <algorithm>
 
@@ -29,6 +30,7 @@ Side side_of(const Aabb<D>& box, int axis, float plane) {
 
 template <int D>
 void Bsp<D>::build(std::span<const Aabb<D>> boxes, Executor*) {
+    detail::enter_library();
     ABUT_ASSERT(boxes.size() < std::size_t{1} << 31);
     size_ = boxes.size();
     bounds_ = Aabb<D>::empty();
@@ -49,6 +51,7 @@ void Bsp<D>::build(std::span<const Aabb<D>> boxes, Executor*) {
 
 template <int D>
 void Bsp<D>::update(std::span<const Aabb<D>> boxes, Executor* executor) {
+    detail::enter_library();
     ABUT_ASSERT(boxes.size() == size());
     const auto unmoved = [&](const Entry& entry) { return usable(boxes[entry.item]) == entry.box; };
     const auto stored = static_cast<std::size_t>(

@@ -6,6 +6,7 @@
 #include <abut/broad_phase/reach.hpp>
 #include <abut/math/assert.hpp>
 #include <abut/math/next_float.hpp>
+#include <abut/math/simd/library_entry.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -109,6 +110,7 @@ Aabb<D> path_bounds(const RayReach<D>& path, double from, double to) {
 
 template <int D>
 void LayeredGrid<D>::build(std::span<const Aabb<D>> boxes, Executor*) {
+    detail::enter_library();
     ABUT_ASSERT(boxes.size() < std::size_t{1} << 31);
     size_ = boxes.size();
     bounds_ = Aabb<D>::empty();
@@ -147,6 +149,7 @@ void LayeredGrid<D>::build(std::span<const Aabb<D>> boxes, Executor*) {
 
 template <int D>
 void LayeredGrid<D>::update(std::span<const Aabb<D>> boxes, Executor* executor) {
+    detail::enter_library();
     ABUT_ASSERT(boxes.size() == size());
     build(boxes, executor);
 }

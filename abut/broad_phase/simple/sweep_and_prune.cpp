@@ -7,6 +7,7 @@
 #include <abut/broad_phase/reach.hpp>
 #include <abut/broad_phase/sweep_and_prune.hpp>
 #include <abut/math/assert.hpp>
+#include <abut/math/simd/library_entry.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -188,6 +189,7 @@ bool add_hits(std::span<const detail::BoxOverlaps> hits, const std::uint32_t* it
 
 template <int D>
 void SweepAndPrune<D>::build(std::span<const Aabb<D>> boxes, Executor*) {
+    detail::enter_library();
     ABUT_ASSERT(boxes.size() <= std::size_t{1} << 30);
     size_ = boxes.size();
     order_.resize(size_);
@@ -203,6 +205,7 @@ void SweepAndPrune<D>::build(std::span<const Aabb<D>> boxes, Executor*) {
 
 template <int D>
 void SweepAndPrune<D>::update(std::span<const Aabb<D>> boxes, Executor*) {
+    detail::enter_library();
     ABUT_ASSERT(boxes.size() == size_);
     if (boxes.size() != size_) return build(boxes);
     sort(boxes);

@@ -3,6 +3,7 @@
 #include <abut/broad_phase/temporal/core.hpp>
 #include <abut/broad_phase/temporal/reach-inl.h>
 #include <abut/math/assert.hpp>
+#include <abut/math/simd/library_entry.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -49,6 +50,7 @@ double first_margin(std::span<const Aabb<D>> boxes) {
 template <int D>
 void TemporalCore<D>::build(std::span<const Aabb<D>> boxes, std::span<const float> top_speeds,
                             TemporalSearch<D>& search) {
+    detail::enter_library();
     ABUT_ASSERT(boxes.size() == top_speeds.size());
     wanted_.assign(boxes.size(), unbounded);
     const auto given = top_speeds.first(std::min(boxes.size(), top_speeds.size()));
@@ -59,6 +61,7 @@ void TemporalCore<D>::build(std::span<const Aabb<D>> boxes, std::span<const floa
 
 template <int D>
 void TemporalCore<D>::update(std::span<const Aabb<D>> boxes, double time, TemporalSearch<D>& search) {
+    detail::enter_library();
     ABUT_ASSERT(boxes.size() == size());
     if (boxes.size() != size()) {
         wanted_.resize(boxes.size(), unbounded);
@@ -81,6 +84,7 @@ void TemporalCore<D>::update(std::span<const Aabb<D>> boxes, double time, Tempor
 
 template <int D>
 void TemporalCore<D>::set_top_speed(std::uint32_t item, float speed) {
+    detail::enter_library();
     ABUT_ASSERT(item < size());
     wanted_[item] = usable_speed(speed);
     if (wanted_[item] > items_[item].speed) leave(item);
@@ -222,6 +226,7 @@ void TemporalCore<D>::count_held() {
 
 template <int D>
 void TemporalCore<D>::visit_pairs(PairsCall visit, Executor* executor) const {
+    detail::enter_library();
     std::size_t blocks = 0;
     for (const Table& pairs : tables_) blocks += pairs.pairs.blocks();
     // Counts the blocks of all tables consecutively.

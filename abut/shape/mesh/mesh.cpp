@@ -1,5 +1,6 @@
 #include <abut/math/assert.hpp>
 #include <abut/math/coincident.hpp>
+#include <abut/math/simd/library_entry.hpp>
 #include <abut/shape/mesh.hpp>
 #include <abut/shape/mesh/adjacency.hpp>
 #include <abut/shape/mesh/check_triangles.hpp>
@@ -63,6 +64,7 @@ bool is_beyond(const Triangle3& t, const Vec3& point) {
 }  // namespace
 
 Result<Mesh> Mesh::build(std::span<const Vec3> points, std::span<const glm::uvec3> triangles) {
+    detail::enter_library();
     if (std::optional<Problem> problem = problem_of_triangles(points, triangles, "a mesh")) return *std::move(problem);
     auto data = std::make_shared<Data>();
     data->points.assign(points.begin(), points.end());
@@ -89,28 +91,33 @@ std::uint32_t Mesh::neighbour(std::uint32_t triangle, std::uint32_t edge) const 
 }
 
 Triangle3 Mesh::triangle(std::uint32_t index) const {
+    detail::enter_library();
     const glm::uvec3& t = data_->triangles[index];
     return {data_->points[t.x], data_->points[t.y], data_->points[t.z]};
 }
 
 Aabb3 bounds(const Mesh& mesh) {
+    detail::enter_library();
     return mesh.data_->tree.root(0).box;
 }
 
 void each_part(const Mesh& mesh, const Aabb3& box,
                FunctionRef<bool(const Triangle3& part, std::uint32_t index)> visit) {
+    detail::enter_library();
     find_overlapping(mesh.data_->tree, box,
                      [&](std::uint32_t index) -> bool { return visit(mesh.triangle(index), index); });
 }
 
 void each_part_along(const Mesh& mesh, const MovingBox<3>& box,
                      FunctionRef<float(const Triangle3& part, std::uint32_t index)> visit) {
+    detail::enter_library();
     find_within(mesh.data_->tree, RayReach<3>::of_box(box),
                 [&](std::uint32_t index) -> float { return visit(mesh.triangle(index), index); });
 }
 
 void each_part_near(const Mesh& mesh, const Aabb3& box,
                     FunctionRef<float(const Triangle3& part, std::uint32_t index)> visit) {
+    detail::enter_library();
     constexpr float any = std::numeric_limits<float>::infinity();
     find_within(mesh.data_->tree, BoxReach<3>(box, any),
                 [&](std::uint32_t index) -> float { return visit(mesh.triangle(index), index); });
@@ -121,6 +128,7 @@ const MeshTree& triangle_tree(const Mesh& mesh) {
 }
 
 bool solid_contains(const Mesh& mesh, const Vec3& point) {
+    detail::enter_library();
     if (!mesh.closed()) return false;
     Aabb3 ahead{point, point};
     ahead.max.x = std::numeric_limits<float>::infinity();

@@ -1,5 +1,6 @@
 #include <abut/math/assert.hpp>
 #include <abut/math/predicates.hpp>
+#include <abut/math/simd/library_entry.hpp>
 #include <abut/shape/solid_bsp.hpp>
 #include <abut/shape/solid_bsp/cells.hpp>
 #include <abut/shape/solid_bsp/tree.hpp>
@@ -78,6 +79,7 @@ bool visit_pieces(const SolidTree<D>& tree, std::uint32_t at, const Vec<D>& eye,
 
 template <int D>
 Result<SolidBsp<D>> SolidBsp<D>::build(std::span<const Vec<D>> points, std::span<const Face> faces) {
+    detail::enter_library();
     if (auto problem = problem_of<D>(points, faces)) return *std::move(problem);
     auto tree = std::make_shared<SolidTree<D>>();
     tree->points.assign(points.begin(), points.end());
@@ -108,6 +110,7 @@ Result<SolidBsp<D>> SolidBsp<D>::build(std::span<const Vec<D>> points, std::span
 
 template <int D>
 bool SolidBsp<D>::contains(const Vec<D>& point) const {
+    detail::enter_library();
     const bool finite = is_finite(point);
     ABUT_ASSERT(finite);
     if (!finite) return false;
@@ -118,28 +121,34 @@ bool SolidBsp<D>::contains(const Vec<D>& point) const {
 
 template <int D>
 void SolidBsp<D>::visit_from(const Vec<D>& eye, PieceCall visit) const {
+    detail::enter_library();
     ABUT_ASSERT(is_finite(eye));
     if (is_finite(eye)) visit_pieces<D>(*tree_, tree_->root, eye, visit);
 }
 
 template <int D>
 Aabb<D> SolidBsp<D>::bounds() const {
+    detail::enter_library();
     return tree_->bounds;
 }
 template <int D>
 void SolidBsp<D>::each_part(const Aabb<D>& box, PartVisitor<D> visit) const {
+    detail::enter_library();
     tree_->parts.each_part(box, visit);
 }
 template <int D>
 void SolidBsp<D>::each_part_along(const MovingBox<D>& box, PartReachVisitor<D> visit) const {
+    detail::enter_library();
     tree_->parts.each_part_along(box, visit);
 }
 template <int D>
 void SolidBsp<D>::each_part_near(const Aabb<D>& box, PartReachVisitor<D> visit) const {
+    detail::enter_library();
     tree_->parts.each_part_near(box, visit);
 }
 template <int D>
 Aabb<D> SolidBsp<D>::part_bounds() const {
+    detail::enter_library();
     return tree_->parts.bounds();
 }
 template <int D>

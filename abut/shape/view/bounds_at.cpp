@@ -1,5 +1,6 @@
 #include <abut/math/next_float.hpp>
 #include <abut/math/set_affine.hpp>
+#include <abut/math/simd/library_entry.hpp>
 #include <abut/shape/any_shape.hpp>
 #include <abut/shape/view/view.hpp>
 
@@ -46,6 +47,7 @@ template <int D, class S>
 
 template <int D>
 Aabb<D> bounds_at(const Ball<D>& ball, const Pose<D>& pose) {
+    detail::enter_library();
     if (ball.center != Vec<D>(0.0f) || !all_finite(ball.center, Vec<D>(ball.radius), pose))
         return bounds_of_view(ball, pose);
     return box_around(DVec<D>(pose.position), DVec<D>(0.0), static_cast<double>(ball.radius));
@@ -53,6 +55,7 @@ Aabb<D> bounds_at(const Ball<D>& ball, const Pose<D>& pose) {
 
 template <int D>
 Aabb<D> bounds_at(const Box<D>& box, const Pose<D>& pose) {
+    detail::enter_library();
     if (box.rotation != no_rotation<D> || !all_finite(box.center, box.half, pose)) return bounds_of_view(box, pose);
     Affine<D> place;
     set_affine(place, pose);

@@ -1,4 +1,5 @@
 #include <abut/math/coincident.hpp>
+#include <abut/math/simd/library_entry.hpp>
 #include <abut/shape/mesh/clean_up.hpp>
 #include <abut/shape/mesh/orient.hpp>
 #include <abut/walk/build/assemble.hpp>
@@ -86,6 +87,7 @@ void orient_consistently(Walkable& walkable, WalkMeshData& data) {
 
 Result<WalkMesh> WalkMesh::build(std::span<const Vec3> points, std::span<const glm::uvec3> triangles,
                                  std::span<const Vec3> normals, std::span<const std::uint8_t> areas) {
+    detail::enter_library();
     if (std::optional<Problem> problem = problem_of_walk_mesh(points, triangles, normals, areas))
         return *std::move(problem);
     auto data = std::make_shared<WalkMeshData>();

@@ -1,4 +1,5 @@
 #include <abut/math/assert.hpp>
+#include <abut/math/simd/library_entry.hpp>
 #include <abut/walk/nearest_on.hpp>
 #include <abut/walk/path/corner_flip.hpp>
 #include <abut/walk/path/search.hpp>
@@ -202,6 +203,7 @@ std::optional<WalkStrip> strip_of(const WalkPathRules& rules, const WalkPoint& f
 
 std::optional<WalkPath> WalkMesh::find_path(const WalkPoint& from, const WalkPoint& to,
                                             const WalkPathOptions& options) const {
+    detail::enter_library();
     const bool valid = is_valid(*data_, from) && is_valid(*data_, to);
     ABUT_ASSERT(valid);
     if (!valid) return std::nullopt;

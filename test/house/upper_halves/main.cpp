@@ -12,7 +12,8 @@
 
 namespace {
 
-int failures = 0;
+using probe::expect_cleared_after;
+using probe::failures;
 
 /// `call` is one call of the library.
 template <class F>
@@ -24,17 +25,6 @@ void expect_cleared(const char* door, const F& call) {
     ++failures;
     std::printf("%s: upper halves in use in %d of %d calls of the user's function\n", door, probe::dirty_calls,
                 probe::calls);
-}
-
-/// For public functions that call no user function: the library, which uses no upper halves, leaves them as they were
-/// after the entry.
-template <class F>
-void expect_cleared_after(const char* door, const F& call) {
-    probe::return_with_upper_halves_in_use();
-    call();
-    if (!probe::upper_halves_in_use()) return;
-    ++failures;
-    std::printf("%s: upper halves in use after the call\n", door);
 }
 
 /// Queries that find nothing: a visitor leaves them clear after its call.
@@ -66,6 +56,8 @@ void call_public_functions() {
     Id id;
     const Box3 box{{0, 0, 0}, {1, 1, 1}};
     std::array<WorldClosest<3>, 2> nearest;
+    const Vec3 a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0}, d{0, 0, 1};
+    expect_cleared_after("orientation", [&] { sink = orientation(a, b, c, d) > 0; });
     expect_cleared_after("World::add", [&] { id = world.add(box); });
     expect_cleared_after("World::set_shape", [&] { world.set_shape(id, box); });
     expect_cleared_after("World::move", [&] { world.move(id, Pose3{{1, 0, 0}}); });
@@ -126,6 +118,7 @@ int main() {
     try_doors(probe::ByParts{ball}, "by its parts");
     try_doors(probe::ByDistance{ball}, "by its distance");
     call_public_functions();
+    probe::call_compiled_functions();
     try_broad_phase<abut::BruteForce<3>>("BruteForce");
     try_broad_phase<abut::Grid<3>>("Grid");
     try_broad_phase<abut::LayeredGrid<3>>("LayeredGrid");

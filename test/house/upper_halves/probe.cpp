@@ -6,7 +6,7 @@
 
 namespace probe {
 
-int calls = 0, dirty_calls = 0;
+int failures = 0, calls = 0, dirty_calls = 0;
 
 void return_with_upper_halves_in_use() {
     use_upper_halves();

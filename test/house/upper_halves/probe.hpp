@@ -5,7 +5,12 @@
 
 #include <abut/abut.hpp>
 
+#include <cstdio>
+
 namespace probe {
+
+/// The number of doors that failed.
+extern int failures;
 
 /// The number of calls of the functions below, and of those that found upper halves in use.
 extern int calls, dirty_calls;
@@ -21,6 +26,20 @@ void return_with_upper_halves_in_use();
 bool upper_halves_in_use();
 /// False if the processor doesn't report the state, or has no upper halves.
 bool can_check();
+
+/// For public functions that call no user function: the library, which uses no upper halves, leaves them as they were
+/// after the entry.
+template <class F>
+void expect_cleared_after(const char* door, const F& call) {
+    return_with_upper_halves_in_use();
+    call();
+    if (!upper_halves_in_use()) return;
+    ++failures;
+    std::printf("%s: upper halves in use after the call\n", door);
+}
+
+/// Calls the public functions that are compiled in the library, from a caller compiled without AVX.
+void call_compiled_functions();
 
 /// A ball.
 struct ByParts {

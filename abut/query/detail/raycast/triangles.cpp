@@ -1,4 +1,5 @@
 #include <abut/convex/ray/triangle.hpp>
+#include <abut/math/simd/library_entry.hpp>
 #include <abut/query/detail/raycast/part_hit.hpp>
 #include <abut/query/detail/valid_query.hpp>
 #include <abut/query/raycast.hpp>
@@ -120,6 +121,7 @@ namespace abut {
 using namespace detail;
 
 std::optional<Hit<3>> raycast(const Ray<3>& ray, const Mesh& mesh, const QueryOptions<3>& options) {
+    detail::enter_library();
     std::optional<Hit<3>> result;
     if (!detail::is_valid_query(ray)) return result;
     const DRay<3> beam = to_dray(ray);
