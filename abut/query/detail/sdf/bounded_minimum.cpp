@@ -78,6 +78,7 @@ public:
     }
 
     Minimum<D> run() {
+        if (options_.hint != nullptr) descend(path_point<D>(*options_.hint, 1));
         DVec<D> slope;
         function_.at(all_.center, slope);
         descend(set_.lowest(slope));

@@ -1,6 +1,6 @@
 #include <abut/convex/tolerance.hpp>
 #include <abut/query/detail/sdf/function_motion.hpp>
-#include <abut/query/detail/sdf/interval_search.hpp>
+#include <abut/query/detail/sdf/path_search.hpp>
 #include <abut/query/detail/sdf/placed_function.hpp>
 #include <abut/shape/view/view.hpp>
 
@@ -21,9 +21,6 @@ constexpr double slide_stride = 0.25;
 /// When a ray has used up half of its steps, each is at least this fraction of the length so far, as a ray may be
 /// infinite.
 constexpr double step_growth = 0.05;
-
-/// The limit on boxes where any point within the tolerance will do, instead of the deepest.
-constexpr int max_boxes_nearby = 8;
 
 /// The limit on halvings of an interval of time that contains the impact.
 constexpr int max_halvings = 40;
@@ -185,11 +182,11 @@ struct MotionBounds {
 };
 
 /// The first contact gained, by conservative advancement. distance_at(time, request) returns a SignedDistance;
-/// closing(distance, time) returns how fast it falls. is_free(from, until, time) proves that there is no contact in an
-/// interval, or sets a time at which there may be.
-template <int D, class DistanceAt, class Closing, class IsFree>
+/// closing(distance, time) returns how fast it falls. by_proofs(from) finds the first contact after a time without one,
+/// if intervals can be proven free.
+template <int D, class DistanceAt, class Closing, class ByProofs>
 std::optional<TimedDistance<D>> time_of_impact_by_steps(const MotionBounds<D>& motion, const DistanceAt& distance_at,
-                                                        const Closing& closing, const IsFree& is_free) {
+                                                        const Closing& closing, const ByProofs& by_proofs) {
     const double tolerance = motion.tolerance;
     DistanceRequest first_request;
     if (motion.proves_intervals) first_request.reach = tolerance;
@@ -223,13 +220,7 @@ std::optional<TimedDistance<D>> time_of_impact_by_steps(const MotionBounds<D>& m
     };
     double excess = 0;  // by which the distance may be too large
     for (int step = 0; step < function_sweep_max_iterations; ++step) {
-        if (motion.proves_intervals && !is_touching) {
-            const auto rough_distance_at = [&](double time) {
-                return distance_at(time, {.max_boxes = max_boxes_nearby});
-            };
-            return time_of_impact_by_intervals(now, motion.end, motion.speed, tolerance, rough_distance_at, closing,
-                                               is_free);
-        }
+        if (motion.proves_intervals && !is_touching) return by_proofs(now.time);
         const double gap = now.distance.distance - excess;
         double stride = is_touching ? std::max((gap - floor) / motion.speed, motion.sliding_interval)
                                     : std::max(gap, 0.25 * tolerance) / motion.speed;
@@ -256,12 +247,6 @@ std::optional<TimedDistance<D>> time_of_impact_by_steps(const MotionBounds<D>& m
     return std::nullopt;
 }
 
-template <int D>
-DVec<D> middle_of(const Convex<D>& part) {
-    const Aabb<D> box = bounds(part);
-    return (DVec<D>(box.min) + DVec<D>(box.max)) * 0.5;
-}
-
 template <class A, class B>
 bool has_convex_bounded(const A& a, const B& b) {
     constexpr int D = PartDimension<A>::value;
@@ -273,18 +258,13 @@ bool has_convex_bounded(const A& a, const B& b) {
         return false;
 }
 
-/// Whether a moving set stays apart from a function over an interval. If not, `time` is when the set passes the point
-/// found to touch.
+/// Moves an answer in the frame of the function to the world, and gives A and B their roles.
 template <int D>
-bool is_free_between(const Convex<D>& first, const Convex<D>& last, double expansion,
-                     const DistanceFunction<D>& function, double from, double until, double& time) {
-    DVec<D> place(0.0);
-    if (path_stays_apart(first, last, expansion, function, place)) return true;
-    const DVec<D> start = middle_of(first), displacement = middle_of(last) - start;
-    const double square = length_squared(displacement);
-    const double share = square > 0 ? std::clamp(dot(place - start, displacement) / square, 0.0, 1.0) : 0.5;
-    time = from + (until - from) * share;
-    return false;
+TimedDistance<D> in_world(TimedDistance<D> found, const Affine<D>& frame, bool function_is_a) {
+    found.distance.normal = frame.vector(found.distance.normal);
+    found.distance.on_a = frame.point(found.distance.on_a);
+    if (function_is_a) swap_roles(found.distance);
+    return found;
 }
 
 template <class Part>
@@ -412,16 +392,26 @@ bool time_of_impact(const A& a, const Path<D>& path, const B& b, std::uint32_t i
     const auto closing = [&](const SignedDistance<D>& distance, double) {
         return dot(path.direction, distance.normal);
     };
-    const auto is_free = [&](double from, double until, double& time) -> bool {
-        const DVec<D> start = path.direction * from, end = path.direction * until;
+    // In the frame of the function, which doesn't move there.
+    const auto by_proofs = [&](double from) -> std::optional<TimedDistance<D>> {
+        constexpr bool function_is_a = is_function<A>;
+        const auto shifted_by = [&](double along) {
+            Affine<D> result;
+            result.offset = path.direction * along;
+            return result;
+        };
+        const auto place = [&](double along) { return shifted_by(function_is_a ? -along : along); };
+        const auto straight = [](double, double) { return 0.0; };
+        const SetMotion<D> moving{place, straight, motion.speed};
+        std::optional<TimedDistance<D>> found;
         if constexpr (std::is_same_v<A, Convex<D>>)
-            return is_free_between(translated(a, start), translated(a, end), 0, b, from, until, time);
+            found = time_of_impact_by_proofs(a, b, moving, from, motion.end, motion.tolerance);
         else if constexpr (std::is_same_v<B, Convex<D>>)
-            return is_free_between(translated(b, -start), translated(b, -end), 0, a, from, until, time);
-        else
-            return false;
+            found = time_of_impact_by_proofs(b, a, moving, from, motion.end, motion.tolerance);
+        if (!found) return std::nullopt;
+        return in_world(*found, function_is_a ? shifted_by(found->time) : Affine<D>(), function_is_a);
     };
-    const std::optional<TimedDistance<D>> found = time_of_impact_by_steps(motion, distance_at, closing, is_free);
+    const std::optional<TimedDistance<D>> found = time_of_impact_by_steps(motion, distance_at, closing, by_proofs);
     if (!found) return false;
     impact.along = found->time;
     impact.normal = found->distance.normal;
@@ -458,26 +448,27 @@ bool time_of_impact(const A& a, const RigidPath<D>& path_a, const B& b, const Ri
     motion.tolerance = function_tolerance(moved(a, place_at(path_a, 0)), moved(b, place_at(path_b, 0)));
     motion.sliding_interval = slide_stride * std::min(size_of(a), size_of(b)) / speed;
     motion.proves_intervals = has_convex_bounded(a, b);
-    // In the function's frame, where it doesn't move. A point is nowhere farther from its chord than an eighth of its
-    // acceleration times the square of the time.
-    const auto stays_free = [](const auto& part, const RigidPath<D>& path, double reach, const auto& function,
-                               const RigidPath<D>& frame, double from, double until, double& time) {
-        const auto in_frame_at = [&](double then) {
-            return moved(moved(part, place_at(path, then)), back_from(place_at(frame, then)));
+    // In the frame of the function, which doesn't move there. A point is nowhere farther from its chord than an eighth
+    // of its acceleration times the square of the time.
+    const auto by_proofs = [&](double from) -> std::optional<TimedDistance<D>> {
+        constexpr bool function_is_a = is_function<A>;
+        const RigidPath<D>&frame = function_is_a ? path_a : path_b, &mover = function_is_a ? path_b : path_a;
+        const double acceleration =
+            relative_motion_bounds(mover, frame, function_is_a ? reach_b : reach_a).acceleration;
+        const auto place = [&](double time) { return back_from(place_at(frame, time)) * place_at(mover, time); };
+        const auto deviation = [&](double first, double last) {
+            return acceleration * (last - first) * (last - first) / 8;
         };
-        const double expansion =
-            relative_motion_bounds(path, frame, reach).acceleration * (until - from) * (until - from) / 8;
-        return is_free_between(in_frame_at(from), in_frame_at(until), expansion, function, from, until, time);
-    };
-    const auto is_free = [&](double from, double until, double& time) -> bool {
+        const SetMotion<D> moving{place, deviation, motion.speed};
+        std::optional<TimedDistance<D>> found;
         if constexpr (std::is_same_v<A, Convex<D>>)
-            return stays_free(a, path_a, reach_a, b, path_b, from, until, time);
+            found = time_of_impact_by_proofs(a, b, moving, from, motion.end, motion.tolerance);
         else if constexpr (std::is_same_v<B, Convex<D>>)
-            return stays_free(b, path_b, reach_b, a, path_a, from, until, time);
-        else
-            return false;
+            found = time_of_impact_by_proofs(b, a, moving, from, motion.end, motion.tolerance);
+        if (!found) return std::nullopt;
+        return in_world(*found, place_at(frame, found->time), function_is_a);
     };
-    const std::optional<TimedDistance<D>> found = time_of_impact_by_steps(motion, distance_at, closing, is_free);
+    const std::optional<TimedDistance<D>> found = time_of_impact_by_steps(motion, distance_at, closing, by_proofs);
     if (!found || found->time > limits.reach) return false;
     Feature feature;
     const ClosestCorners<D>& corners = found->distance.corners;

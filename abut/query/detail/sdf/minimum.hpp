@@ -31,6 +31,8 @@ struct MinimumOptions {
     int max_boxes = 0;  ///< 0: the limit above for the function
     /// For `bounded_minimum`: once the minimum is proven to be at least this, fine boxes are skipped.
     double sufficient_bound = std::numeric_limits<double>::infinity();
+    /// For `bounded_minimum`: a point of the set, at the end of its path, near the minimum; or null.
+    const DVec<D>* hint = nullptr;
 };
 
 template <int D>
