@@ -141,7 +141,7 @@ private:
         bound.sufficient = limit();
         bound.anchor = best_.point;
         bound.needs_gradient = false;
-        bound.only_cut = best_.boxes > 1 && contains_point(box, best_.point);
+        bound.only_cut = best_.boxes > 1 && best_.distance <= options_.reach && contains_point(box, best_.point);
         const DistanceBoundStatus known = function_.bound(box.center, box.half, bound);
         box.lower_bound = std::max(box.lower_bound, bound.lower_bound);
         if (!may_improve(box.lower_bound)) return;

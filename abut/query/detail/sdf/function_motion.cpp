@@ -200,7 +200,8 @@ std::optional<TimedDistance<D>> time_of_impact_by_steps(const MotionBounds<D>& m
         if (closing_speed > sliding_slope * motion.speed) {
             const double ahead = std::min(motion.end, now.time + 4 * tolerance / closing_speed);
             const double expected = closing_speed * (ahead - now.time);
-            if (distance_at(ahead, {}).distance <= start - 0.25 * expected) return now;
+            const double deeper = start - 0.25 * expected;
+            if (distance_at(ahead, {.sufficient = deeper}).distance <= deeper) return now;
         }
         now.started_inside = false;
     }
