@@ -9,14 +9,8 @@
 namespace abut {
 namespace {
 
-/// A motion of at most this slope relative to a surface slides.
-constexpr double sliding_slope = 1e-4;
-
 /// At a distance, an error of this fraction of the gap is allowed.
 constexpr double far_off = 0.1;
-
-/// A sliding shape is evaluated each time it has moved this fraction of its size.
-constexpr double slide_stride = 0.25;
 
 /// When a ray has used up half of its steps, each is at least this fraction of the length so far, as a ray may be
 /// infinite.
@@ -170,27 +164,13 @@ private:
     double min_step_ = 0, step_ = 0;
 };
 
-/// The bounds on the motion of two parts that the searches use.
-template <int D>
-struct MotionBounds {
-    double end = 1;                 ///< times go from 0 to this
-    double speed = 0;               ///< an upper bound of the rate of change of the distance
-    double tolerance = 0;           ///< of the time of impact, as a distance
-    double sliding_interval = 1;    ///< how often sliding is evaluated
-    double from = 0;                ///< before this their boxes don't overlap
-    bool proves_intervals = false;  ///< intervals can be proven free of contact
-};
-
 /// The first contact gained, by conservative advancement. distance_at(time, request) returns a SignedDistance;
-/// closing(distance, time) returns how fast it falls. by_proofs(from) finds the first contact after a time without one,
-/// if intervals can be proven free.
-template <int D, class DistanceAt, class Closing, class ByProofs>
-std::optional<TimedDistance<D>> time_of_impact_by_steps(const MotionBounds<D>& motion, const DistanceAt& distance_at,
-                                                        const Closing& closing, const ByProofs& by_proofs) {
+/// closing(distance, time) returns how fast it falls.
+template <int D, class DistanceAt, class Closing>
+std::optional<TimedDistance<D>> time_of_impact_by_steps(const MotionBounds& motion, const DistanceAt& distance_at,
+                                                        const Closing& closing) {
     const double tolerance = motion.tolerance;
-    DistanceRequest first_request;
-    if (motion.proves_intervals) first_request.reach = tolerance;
-    TimedDistance<D> now{motion.from, distance_at(motion.from, first_request), false};
+    TimedDistance<D> now{motion.from, distance_at(motion.from, {}), false};
     bool is_touching = now.distance.distance <= tolerance;
     double floor = -std::numeric_limits<double>::infinity();
     if (is_touching) {
@@ -221,7 +201,6 @@ std::optional<TimedDistance<D>> time_of_impact_by_steps(const MotionBounds<D>& m
     };
     double excess = 0;  // by which the distance may be too large
     for (int step = 0; step < function_sweep_max_iterations; ++step) {
-        if (motion.proves_intervals && !is_touching) return by_proofs(now.time);
         const double gap = now.distance.distance - excess;
         double stride = is_touching ? std::max((gap - floor) / motion.speed, motion.sliding_interval)
                                     : std::max(gap, 0.25 * tolerance) / motion.speed;
@@ -248,24 +227,37 @@ std::optional<TimedDistance<D>> time_of_impact_by_steps(const MotionBounds<D>& m
     return std::nullopt;
 }
 
-template <class A, class B>
-bool has_convex_bounded(const A& a, const B& b) {
-    constexpr int D = PartDimension<A>::value;
-    if constexpr (std::is_same_v<A, Convex<D>>)
-        return b.bound != nullptr;
-    else if constexpr (std::is_same_v<B, Convex<D>>)
-        return a.bound != nullptr;
+/// The first contact gained of a convex set and a function that bounds itself, in either order. `place` moves the set
+/// in the frame of the function, which `frame_at` moves in the world.
+template <int D, class A, class B, class Place, class Deviation, class FrameAt>
+std::optional<TimedDistance<D>> time_of_impact_by_proofs(const A& a, const B& b, const MotionBounds& motion,
+                                                         const Place& place, const Deviation& chord_deviation,
+                                                         const FrameAt& frame_at) {
+    const SetMotion<D> moving{place, chord_deviation};
+    std::optional<TimedDistance<D>> found;
+    if constexpr (is_function<A>)
+        found = time_of_impact_by_proofs(b, a, moving, motion);
     else
-        return false;
+        found = time_of_impact_by_proofs(a, b, moving, motion);
+    if (!found) return std::nullopt;
+    const Affine<D> frame = frame_at(found->time);
+    found->distance.normal = frame.vector(found->distance.normal);
+    found->distance.on_a = frame.point(found->distance.on_a);
+    if (is_function<A>) swap_roles(found->distance);
+    return found;
 }
 
-/// Moves an answer in the frame of the function to the world, and gives A and B their roles.
-template <int D>
-TimedDistance<D> in_world(TimedDistance<D> found, const Affine<D>& frame, bool function_is_a) {
-    found.distance.normal = frame.vector(found.distance.normal);
-    found.distance.on_a = frame.point(found.distance.on_a);
-    if (function_is_a) swap_roles(found.distance);
-    return found;
+template <class A, class B>
+constexpr bool has_convex =
+    std::is_same_v<A, Convex<PartDimension<A>::value>> || std::is_same_v<B, Convex<PartDimension<B>::value>>;
+
+/// Whether the function of a convex set and a function bounds itself.
+template <class A, class B>
+bool bounds_itself(const A& a, const B& b) {
+    if constexpr (is_function<A>)
+        return a.bound != nullptr;
+    else
+        return b.bound != nullptr;
 }
 
 template <class Part>
@@ -378,7 +370,7 @@ bool time_of_impact(const A& a, const Path<D>& path, const B& b, std::uint32_t i
         if (is_ball(a)) return ball_time_of_impact(a, b, path, true, index, impact);
     if constexpr (std::is_same_v<B, Convex<D>>)
         if (is_ball(b)) return ball_time_of_impact(b, a, path, false, index, impact);
-    MotionBounds<D> motion;
+    MotionBounds motion;
     motion.tolerance = function_tolerance(a, b);
     motion.end = path.length;
     const auto expansion = static_cast<float>(motion.tolerance);
@@ -386,33 +378,27 @@ bool time_of_impact(const A& a, const Path<D>& path, const B& b, std::uint32_t i
         return false;
     motion.speed = std::max(slope_of(a), slope_of(b));
     motion.sliding_interval = slide_stride * std::min(size_of(a), size_of(b));
-    motion.proves_intervals = has_convex_bounded(a, b);
-    const auto distance_at = [&](double along, const DistanceRequest& wanted) -> SignedDistance<D> {
-        return function_distance(translated(a, path.direction * along), b, wanted);
-    };
-    const auto closing = [&](const SignedDistance<D>& distance, double) {
-        return dot(path.direction, distance.normal);
-    };
-    // In the frame of the function, which doesn't move there.
-    const auto by_proofs = [&](double from) -> std::optional<TimedDistance<D>> {
-        constexpr bool function_is_a = is_function<A>;
-        const auto shifted_by = [&](double along) {
-            Affine<D> result;
-            result.offset = path.direction * along;
-            return result;
+    const auto first_contact = [&]() -> std::optional<TimedDistance<D>> {
+        if constexpr (has_convex<A, B>) {
+            const auto shifted_by = [&](double along) {
+                Affine<D> result;
+                result.offset = path.direction * along;
+                return result;
+            };
+            const auto place = [&](double along) { return shifted_by(is_function<A> ? -along : along); };
+            const auto frame = [&](double along) { return is_function<A> ? shifted_by(along) : Affine<D>(); };
+            const auto straight = [](double, double) { return 0.0; };
+            if (bounds_itself(a, b)) return time_of_impact_by_proofs<D>(a, b, motion, place, straight, frame);
+        }
+        const auto distance_at = [&](double along, const DistanceRequest& wanted) -> SignedDistance<D> {
+            return function_distance(translated(a, path.direction * along), b, wanted);
         };
-        const auto place = [&](double along) { return shifted_by(function_is_a ? -along : along); };
-        const auto straight = [](double, double) { return 0.0; };
-        const SetMotion<D> moving{place, straight, motion.speed};
-        std::optional<TimedDistance<D>> found;
-        if constexpr (std::is_same_v<A, Convex<D>>)
-            found = time_of_impact_by_proofs(a, b, moving, from, motion.end, motion.tolerance);
-        else if constexpr (std::is_same_v<B, Convex<D>>)
-            found = time_of_impact_by_proofs(b, a, moving, from, motion.end, motion.tolerance);
-        if (!found) return std::nullopt;
-        return in_world(*found, function_is_a ? shifted_by(found->time) : Affine<D>(), function_is_a);
+        const auto closing = [&](const SignedDistance<D>& distance, double) {
+            return dot(path.direction, distance.normal);
+        };
+        return time_of_impact_by_steps<D>(motion, distance_at, closing);
     };
-    const std::optional<TimedDistance<D>> found = time_of_impact_by_steps(motion, distance_at, closing, by_proofs);
+    const std::optional<TimedDistance<D>> found = first_contact();
     if (!found) return false;
     impact.along = found->time;
     impact.normal = found->distance.normal;
@@ -437,39 +423,34 @@ bool time_of_impact(const A& a, const RigidPath<D>& path_a, const B& b, const Ri
                                                   : std::numeric_limits<double>::infinity();
     const double speed = std::min(speed_a, speed_b);
     if (!std::isfinite(speed) || !(speed > 0)) return false;
-    const auto distance_at = [&](double time, const DistanceRequest& wanted) -> SignedDistance<D> {
-        return function_distance(moved(a, place_at(path_a, time)), moved(b, place_at(path_b, time)), wanted);
-    };
-    const auto closing = [&](const SignedDistance<D>& distance, double time) {
-        return dot(distance.normal, path_a.velocity(time, distance.on_a) - path_b.velocity(time, distance.on_b()));
-    };
-    MotionBounds<D> motion;
+    MotionBounds motion;
     motion.end = limits.until;
     motion.speed = speed * std::max(slope_of(a), slope_of(b));
     motion.tolerance = function_tolerance(moved(a, place_at(path_a, 0)), moved(b, place_at(path_b, 0)));
     motion.sliding_interval = slide_stride * std::min(size_of(a), size_of(b)) / speed;
-    motion.proves_intervals = has_convex_bounded(a, b);
-    // In the frame of the function, which doesn't move there. A point is nowhere farther from its chord than an eighth
-    // of its acceleration times the square of the time.
-    const auto by_proofs = [&](double from) -> std::optional<TimedDistance<D>> {
-        constexpr bool function_is_a = is_function<A>;
-        const RigidPath<D>&frame = function_is_a ? path_a : path_b, &mover = function_is_a ? path_b : path_a;
-        const double acceleration =
-            relative_motion_bounds(mover, frame, function_is_a ? reach_b : reach_a).acceleration;
-        const auto place = [&](double time) { return back_from(place_at(frame, time)) * place_at(mover, time); };
-        const auto deviation = [&](double first, double last) {
-            return acceleration * (last - first) * (last - first) / 8;
+    const auto first_contact = [&]() -> std::optional<TimedDistance<D>> {
+        if constexpr (has_convex<A, B>) {
+            const RigidPath<D>&frame = is_function<A> ? path_a : path_b, &mover = is_function<A> ? path_b : path_a;
+            // A point is nowhere farther from its chord than an eighth of its acceleration times the square of the
+            // time.
+            const double acceleration =
+                relative_motion_bounds(mover, frame, is_function<A> ? reach_b : reach_a).acceleration;
+            const auto place = [&](double time) { return back_from(place_at(frame, time)) * place_at(mover, time); };
+            const auto frame_at = [&](double time) { return place_at(frame, time); };
+            const auto deviation = [&](double first, double last) {
+                return acceleration * (last - first) * (last - first) / 8;
+            };
+            if (bounds_itself(a, b)) return time_of_impact_by_proofs<D>(a, b, motion, place, deviation, frame_at);
+        }
+        const auto distance_at = [&](double time, const DistanceRequest& wanted) -> SignedDistance<D> {
+            return function_distance(moved(a, place_at(path_a, time)), moved(b, place_at(path_b, time)), wanted);
         };
-        const SetMotion<D> moving{place, deviation, motion.speed};
-        std::optional<TimedDistance<D>> found;
-        if constexpr (std::is_same_v<A, Convex<D>>)
-            found = time_of_impact_by_proofs(a, b, moving, from, motion.end, motion.tolerance);
-        else if constexpr (std::is_same_v<B, Convex<D>>)
-            found = time_of_impact_by_proofs(b, a, moving, from, motion.end, motion.tolerance);
-        if (!found) return std::nullopt;
-        return in_world(*found, place_at(frame, found->time), function_is_a);
+        const auto closing = [&](const SignedDistance<D>& distance, double time) {
+            return dot(distance.normal, path_a.velocity(time, distance.on_a) - path_b.velocity(time, distance.on_b()));
+        };
+        return time_of_impact_by_steps<D>(motion, distance_at, closing);
     };
-    const std::optional<TimedDistance<D>> found = time_of_impact_by_steps(motion, distance_at, closing, by_proofs);
+    const std::optional<TimedDistance<D>> found = first_contact();
     if (!found || found->time > limits.reach) return false;
     Feature feature;
     const ClosestCorners<D>& corners = found->distance.corners;
