@@ -59,19 +59,14 @@ EnvelopeBound<D> envelope_bound(const std::array<DVec<D>, static_cast<std::size_
     for (int pivot = 0;; ++pivot) {
         const PathPoint<D> lowest_point = lowest(u);
         const DVec<D> point = DVec<D>(lowest_point) - center;
-        std::array<double, std::size_t{1} << D> along;
-        along[0] = 0;
-        for (std::size_t a = 0, count = 1; a < axes.size(); ++a, count *= 2) {
-            const double rise = dot(u, axes[a]);
-            for (std::size_t i = 0; i < count; ++i) {
-                along[count + i] = along[i] + rise;
-                along[i] -= rise;
-            }
-        }
+        std::array<double, static_cast<std::size_t>(D)> rise;
+        for (std::size_t a = 0; a < axes.size(); ++a) rise[a] = dot(u, axes[a]);
         std::size_t lowest_corner = 0;
-        double above = values[0] - along[0];
-        for (std::size_t i = 1; i < values.size(); ++i) {
-            const double height = values[i] - along[i];
+        double above = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            double along = 0;
+            for (std::size_t a = 0; a < rise.size(); ++a) along += (i >> a & 1) != 0 ? rise[a] : -rise[a];
+            const double height = values[i] - along;
             lowest_corner = height < above ? i : lowest_corner;
             above = std::min(above, height);
         }

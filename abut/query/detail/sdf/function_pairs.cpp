@@ -27,7 +27,7 @@ bool is_bounded(const Aabb<D>& box) {
     return is_finite(box.min) && is_finite(box.max);
 }
 template <int D>
-bool bounds_nothing(const Aabb<D>& box) {
+bool is_empty(const Aabb<D>& box) {
     return !(box.min[0] <= box.max[0]);
 }
 
@@ -97,7 +97,7 @@ ClosestCorners<D> corners_at(const Convex<D>& set, const DVec<D>& place, const D
 template <int D>
 SignedDistance<D> from_ball(const Convex<D>& ball, const DistanceFunction<D>& function,
                             const DistanceRequest& request) {
-    if (bounds_nothing(function.bounds)) return no_distance<D>();
+    if (is_empty(function.bounds)) return no_distance<D>();
     const PlacedFunction<D> placed(function);
     const DVec<D> middle = ball.place.point(DVec<D>(ball.vertices()[0]));
     const double value = placed.at(middle);
@@ -116,7 +116,7 @@ SignedDistance<D> from_ball(const Convex<D>& ball, const DistanceFunction<D>& fu
 template <int D>
 SignedDistance<D> from_convex(const Convex<D>& set, const DistanceFunction<D>& function, double margin,
                               const DistanceRequest& request) {
-    if (bounds_nothing(function.bounds)) return no_distance<D>();
+    if (is_empty(function.bounds)) return no_distance<D>();
     const bool by_function = function.bound != nullptr || !is_plain_box(set);
     const Affine<D> frame = by_function ? own_frame<D>(function) : own_frame<D>(set), back = back_from(frame);
     const DistanceFunction<D> own = moved(function, back);
@@ -142,7 +142,7 @@ template <int D>
 SignedDistance<D> above_half_space(const DistanceFunction<D>& function, const HalfSpaceView<D>& half_space,
                                    const DVec<D>& normal, double tolerance, double surface_tolerance,
                                    const DistanceRequest& request, int max_boxes) {
-    if (bounds_nothing(function.bounds)) return no_distance<D>();
+    if (is_empty(function.bounds)) return no_distance<D>();
     const bool has_bounds = is_bounded(function.bounds);
     ABUT_ASSERT(has_bounds);
     if (!has_bounds) return no_distance<D>();
@@ -169,7 +169,7 @@ SignedDistance<D> above_half_space(const DistanceFunction<D>& function, const Ha
 template <int D>
 SignedDistance<D> between(const DistanceFunction<D>& a, const DistanceFunction<D>& b, double margin,
                           const DistanceRequest& request) {
-    if (bounds_nothing(a.bounds) || bounds_nothing(b.bounds)) return no_distance<D>();
+    if (is_empty(a.bounds) || is_empty(b.bounds)) return no_distance<D>();
     const bool bounded_a = is_bounded(a.bounds), bounded_b = is_bounded(b.bounds);
     const bool has_bounds = bounded_a || bounded_b;
     ABUT_ASSERT(has_bounds);
@@ -353,7 +353,7 @@ requires FunctionPair<A, B>
 bool function_overlap(const A& a, const B& b) {
     constexpr int D = PartDimension<A>::value;
     if constexpr (std::is_same_v<A, Convex<D>>) {
-        if (is_ball(a) && !bounds_nothing(b.bounds))
+        if (is_ball(a) && !is_empty(b.bounds))
             return PlacedFunction<D>(b).at(a.place.point(DVec<D>(a.vertices()[0]))) <= a.radius;
     } else if constexpr (std::is_same_v<B, Convex<D>>) {
         return function_overlap(b, a);
