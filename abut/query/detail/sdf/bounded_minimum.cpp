@@ -17,6 +17,9 @@ namespace {
 /// At the limit on fine boxes the minimum may be lower by this fraction of the size.
 constexpr double coarse_tolerance = 1e-5;
 
+/// The limit on pieces into which a box is divided at once.
+constexpr std::size_t max_pieces = 64;
+
 /// The plane that splits a box in two.
 struct Cut {
     int axis = -1;
@@ -34,7 +37,7 @@ public:
     };
 
     bool empty() const { return count_ == 0; }
-    bool full() const { return count_ + 2 > entries_.size(); }
+    bool has_space(std::size_t pieces) const { return count_ + pieces <= entries_.size(); }
     double lower_bound() const {
         return count_ > 0 ? entries_[0].box.lower_bound : std::numeric_limits<double>::infinity();
     }
@@ -88,7 +91,7 @@ public:
         while (!heap.empty() && best_.distance > options_.sufficient && may_improve(heap.lower_bound())) {
             const bool is_coarse = best_.boxes >= bounded_minimum_max_fine_boxes &&
                                    heap.lower_bound() >= std::min(best_.distance - coarse, options_.sufficient_bound);
-            if (is_coarse || best_.boxes >= options_.max_boxes || heap.full()) {
+            if (is_coarse || best_.boxes >= options_.max_boxes || !heap.has_space(2)) {
                 best_.uncertainty = best_.distance - std::min(heap.lower_bound(), best_.distance);
                 break;
             }
@@ -120,49 +123,70 @@ private:
     /// Boxes of a higher bound can't improve the answer.
     double limit() const { return std::min(best_.distance - options_.tolerance, options_.reach); }
 
-    void process(SearchHeap<D>& heap, SearchBox<D> box) {
-        ++best_.boxes;
-        // Find the nearest support plane of the set: it excludes the box, or it bounds the box.
-        const Support* nearest = nullptr;
+    /// The support plane of the set nearest to a box, null if none is known. Returns false if one excludes the box.
+    bool find_support(const SearchBox<D>& box, const Support*& nearest) const {
         double behind = -std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < support_count_; ++i) {
             const Support& support = supports_[i];
             const double square = length_squared(support.gradient);
             if (!(square > 0)) continue;
             const double gap = support.lower_bound - dot(support.gradient, box.center);
-            if (gap > sum_along(support.gradient, box.half)) return;
+            if (gap > sum_along(support.gradient, box.half)) return false;
             if (gap / std::sqrt(square) > behind) {
                 behind = gap / std::sqrt(square);
                 nearest = &support;
             }
         }
+        return true;
+    }
+
+    void process(SearchHeap<D>& heap, SearchBox<D> box) {
+        ++best_.boxes;
+        const Support* nearest = nullptr;
+        if (!find_support(box, nearest)) return;
         DistanceBound<D> bound;
-        if (nearest != nullptr) bound.requested_gradient = nearest->gradient;
+        if (nearest != nullptr) {
+            bound.requested_gradient = nearest->gradient;
+            bound.requested_support = nearest->lower_bound;
+        }
         bound.sufficient = limit();
         bound.anchor = best_.point;
         bound.needs_gradient = false;
         bound.only_cut = best_.boxes > 1 && best_.distance <= options_.reach && contains_point(box, best_.point);
+        const auto visit = [&](const DVec<D>& low, const DVec<D>& high, DistanceBound<D>& piece) {
+            SearchBox<D> part{(low + high) * 0.5, (high - low) * 0.5, std::max(box.lower_bound, piece.lower_bound)};
+            const Support* beside = nullptr;
+            if (!may_improve(part.lower_bound) || best_.distance <= options_.sufficient) return;
+            ++best_.boxes;
+            if (find_support(part, beside)) process_piece(heap, part, piece, beside);
+        };
+        const DistancePieceVisitor<D> visitor(visit);
+        if (heap.has_space(max_pieces)) bound.visit_piece = &visitor;
         const DistanceBoundStatus known = function_.bound(box.center, box.half, bound);
+        if (known == DistanceBoundStatus::divided) return;
         box.lower_bound = std::max(box.lower_bound, bound.lower_bound);
         if (!may_improve(box.lower_bound)) return;
+        if (known == DistanceBoundStatus::valid && nearest != nullptr && !bound.is_smooth) {
+            const double in_set = nearest->lower_bound - dot(nearest->gradient, box.center);
+            box.lower_bound = std::max(
+                box.lower_bound, bound.requested_value + std::max(in_set, -sum_along(nearest->gradient, box.half)));
+            if (!may_improve(box.lower_bound)) return;
+        }
+        process_piece(heap, box, bound, nearest);
+    }
+
+    /// Bounds the box if it has no kink, and keeps it with the plane to cut it at.
+    void process_piece(SearchHeap<D>& heap, SearchBox<D> box, DistanceBound<D>& bound, const Support* nearest) {
         Cut cut{bound.cut_axis, bound.cut};
-        if (known == DistanceBoundStatus::valid) {
-            if (nearest != nullptr && !bound.is_smooth) {
-                const double in_set = nearest->lower_bound - dot(nearest->gradient, box.center);
-                box.lower_bound = std::max(
-                    box.lower_bound, bound.requested_value + std::max(in_set, -sum_along(nearest->gradient, box.half)));
-                if (!may_improve(box.lower_bound)) return;
-            }
-            if (bound.is_smooth) {
-                const DVec<D> start = nearest != nullptr ? nearest->gradient : DVec<D>(0.0);
-                const EnvelopeBound<D> envelope = bound_smooth(box, bound, start);
-                box.lower_bound = std::max(box.lower_bound, envelope.bound);
-                if (!may_improve(box.lower_bound)) return;
-                const DVec<D> place(envelope.place);
-                if (function_.at(place) < best_.distance - options_.tolerance) descend(envelope.place);
-                if (!may_improve(box.lower_bound)) return;
-                cut = best_cut(box, bound.curvature, place);
-            }
+        if (bound.is_smooth) {
+            const DVec<D> start = nearest != nullptr ? nearest->gradient : DVec<D>(0.0);
+            const EnvelopeBound<D> envelope = bound_smooth(box, bound, start);
+            box.lower_bound = std::max(box.lower_bound, envelope.bound);
+            if (!may_improve(box.lower_bound)) return;
+            const DVec<D> place(envelope.place);
+            if (function_.at(place) < best_.distance - options_.tolerance) descend(envelope.place);
+            if (!may_improve(box.lower_bound)) return;
+            cut = best_cut(box, bound.curvature, place);
         }
         if (cut.axis < 0) cut = {longest_axis(box.half), 0};
         if (!(std::abs(cut.at - box.center[cut.axis]) < (1 - 1e-9) * box.half[cut.axis])) cut.at = box.center[cut.axis];

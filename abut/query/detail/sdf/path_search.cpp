@@ -15,8 +15,9 @@ constexpr int max_turns = 40, max_root_steps = 40;
 /// between the next two, and its search aims at the last, so that the proof of the time before it has some clearance.
 constexpr double fraction_searched = 0.25, min_touching = -0.25, max_touching = 0.5, aimed_at = 0.125;
 
-/// The precision of an exact distance, as a fraction of the tolerance.
-constexpr double fraction_exact = 0.5;
+/// The precision of an exact distance, as a fraction of the tolerance, and of a descent on the way to the first
+/// contact, as a fraction of the last depth.
+constexpr double fraction_exact = 0.5, fraction_of_depth = 0.1;
 
 template <int D>
 class PathSearch {
@@ -31,6 +32,7 @@ public:
           own_(moved(function, back_)),
           placed_(own_),
           tolerance_(bounds.tolerance),
+          exact_(fraction_searched * tolerance_),
           search_tolerance_(std::max(tolerance_, function_search_tolerance(set, function))) {}
 
     std::optional<TimedDistance<D>> run() const {
@@ -70,13 +72,13 @@ private:
         options.tolerance = fraction_exact * tolerance_;
         options.reach = reach + set_.radius;
         const Minimum<D> minimum = bounded_minimum(placed_, set_at(time), options);
-        Touch result{time, minimum.point, minimum.distance - set_.radius, DVec<D>(0.0)};
-        if (minimum.distance < std::numeric_limits<double>::infinity()) placed_.at(minimum.point, result.gradient);
-        return result;
+        if (minimum.distance < std::numeric_limits<double>::infinity()) return touch_at(time, minimum.point);
+        return {time, minimum.point, minimum.distance, DVec<D>(0.0)};
     }
 
-    /// Descends from a point, or from the point of the set in its direction if the set doesn't contain it.
-    Touch deepest(double time, const DVec<D>& from, bool contains) const {
+    /// Descends from a point, or from the point of the set in its direction if the set doesn't contain it. The result
+    /// may exceed the minimum by about `tolerance`.
+    Touch deepest(double time, const DVec<D>& from, bool contains, double tolerance) const {
         const Convex<D> set = set_at(time);
         const PathHull<D> core(set, nullptr);
         PathPoint<D> first = path_point<D>(from, 0);
@@ -85,10 +87,15 @@ private:
             placed_.at(from, gradient);
             first = core.lowest(gradient);
         }
-        const ConditionalGradient<D> descent(placed_, core, fraction_searched * tolerance_,
-                                             -std::numeric_limits<double>::infinity());
+        const ConditionalGradient<D> descent(placed_, core, tolerance, -std::numeric_limits<double>::infinity());
         const LocalMinimum<D> found = descent.descend(first);
         return {time, DVec<D>(found.point), found.value - set_.radius, found.support.gradient};
+    }
+
+    Touch touch_at(double time, const DVec<D>& point) const {
+        Touch result{time, point, 0, DVec<D>(0.0)};
+        result.distance = placed_.at(point, result.gradient) - set_.radius;
+        return result;
     }
 
     /// Whether a touching set goes further in at once, at the deepest point.
@@ -101,7 +108,7 @@ private:
         if (!(closing_speed > sliding_slope * bounds_.speed)) return false;
         const double ahead = std::min(bounds_.end, touch.time + 4 * tolerance_ / closing_speed);
         const double expected = closing_speed * (ahead - touch.time);
-        return deepest(ahead, place_at(ahead).point(own), true).distance <= touch.distance - 0.25 * expected;
+        return deepest(ahead, place_at(ahead).point(own), true, exact_).distance <= touch.distance - 0.25 * expected;
     }
 
     /// The first time at which the distance is `level`, after a time at which it is more.
@@ -126,7 +133,7 @@ private:
             if (interval * bounds_.speed <= tolerance_) break;
             const bool is_exact = motion_.chord_deviation(free_until, goal) == 0;
             const double inner = std::clamp(time, free_until + 0.1 * interval, free_until + 0.75 * interval);
-            const Touch probe = deepest(is_exact ? time : inner, place, is_exact);
+            const Touch probe = is_exact ? touch_at(time, place) : deepest(inner, place, false, exact_);
             if (probe.distance <= level + max_touching * tolerance_) {
                 impact = back_to_first(free_until, probe, level);
                 if (!(impact->time > free_until)) break;
@@ -136,7 +143,7 @@ private:
                 goals[count++] = inner;
             }
         }
-        return answer(deepest(free_until, place, false), false);
+        return answer(deepest(free_until, place, false, exact_), false);
     }
 
     /// Whether the distance is more than `level` over an interval. If not, it may be less at `place`, a point of the
@@ -150,7 +157,8 @@ private:
         options.max_boxes = max_boxes_of_proof;
         options.hint = hint;
         const Minimum<D> minimum = bounded_minimum(placed_, set_at(from), set_at(until), options);
-        if (minimum.lower_bound >= std::min(options.sufficient_bound, radius - tolerance_)) return true;
+        if (minimum.lower_bound >= radius - tolerance_) return true;
+        if (minimum.lower_bound >= options.sufficient_bound && !(minimum.distance <= options.sufficient)) return true;
         place = minimum.point;
         time = from + (until - from) * std::clamp(minimum.share, 0.0, 1.0);
         return false;
@@ -163,7 +171,11 @@ private:
             const DVec<D> own = back_from(place_at(touch.time)).point(touch.point);
             const double time = time_of_touch(own, before, touch, level + aimed_at * tolerance_);
             if (!(time < touch.time)) break;
-            touch = deepest(time, place_at(time).point(own), true);
+            // While the contact is deep, the deepest point needn't be exact.
+            const double rough = fraction_of_depth * (level - touch.distance);
+            touch = deepest(time, place_at(time).point(own), true, std::max(exact_, rough));
+            if (rough > exact_ && touch.distance >= level + min_touching * tolerance_)
+                touch = deepest(time, touch.point, true, exact_);
         }
         return touch;
     }
@@ -200,7 +212,7 @@ private:
     Affine<D> frame_, back_;  ///< the function's own frame, and back from it
     DistanceFunction<D> own_;
     PlacedFunction<D> placed_;
-    double tolerance_, search_tolerance_;
+    double tolerance_, exact_, search_tolerance_;
 };
 
 }  // namespace
