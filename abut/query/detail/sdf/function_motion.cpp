@@ -188,7 +188,10 @@ std::optional<TimedDistance<D>> time_of_impact_by_steps(const MotionBounds& moti
     /// Finds the time of contact between a time without contact (or less deep) and one with it.
     const auto refine = [&](TimedDistance<D> before, TimedDistance<D> after, double wanted) {
         for (int i = 0; i < max_halvings; ++i) {
-            if (after.distance.distance >= wanted - tolerance) break;
+            // In less time the distance changes by no more than its own error.
+            if (after.distance.distance >= wanted - tolerance ||
+                (after.time - before.time) * motion.speed <= 0.5 * tolerance)
+                break;
             const double above = before.distance.distance - wanted, below = wanted - after.distance.distance;
             const double share = i % 2 == 0 && above > 0 ? std::clamp(above / (above + below), 0.05, 0.95) : 0.5;
             const double time = before.time + (after.time - before.time) * share;
