@@ -123,7 +123,7 @@ bool each_smooth_piece(const FieldData<D>& data, const DVec<D>& low, const DVec<
     }
     const SampleGrid<D> grid = grid_of(data, first);
     std::array<std::array<double, max_smooth_pieces + 3>, static_cast<std::size_t>(D)> sides;
-    Cell<D> count;
+    Cell<D> count(0);
     std::int32_t pieces = 1;
     for (int a = 0; a < D; ++a) {
         auto& side = sides[static_cast<std::size_t>(a)];

@@ -17,6 +17,9 @@ namespace {
 /// At the limit on fine boxes the minimum may be lower by this fraction of the size.
 constexpr double coarse_tolerance = 1e-5;
 
+/// The limit on steps that look for a plane between a box and the set.
+constexpr int max_steps_apart = 4;
+
 /// The limit on pieces into which a box is divided at once.
 constexpr std::size_t max_pieces = 64;
 
@@ -140,10 +143,28 @@ private:
         return true;
     }
 
+    /// Whether a few steps towards the box find a plane between it and the set.
+    bool is_apart(const SearchBox<D>& box) const {
+        DVec<D> point = best_.point;
+        for (int step = 0; step < max_steps_apart; ++step) {
+            DVec<D> from_box;
+            for (int a = 0; a < D; ++a)
+                from_box[a] = point[a] - std::clamp(point[a], box.center[a] - box.half[a], box.center[a] + box.half[a]);
+            const DVec<D> near = lowest(from_box), way = near - point;
+            if (dot(from_box, near - box.center) > sum_along(from_box, box.half)) return true;
+            const double square = length_squared(way);
+            if (!(square > 0)) return false;
+            point += way * std::clamp(-dot(from_box, way) / square, 0.0, 1.0);
+        }
+        return false;
+    }
+
     void process(SearchHeap<D>& heap, SearchBox<D> box) {
         ++best_.boxes;
         const Support* nearest = nullptr;
         if (!find_support(box, nearest)) return;
+        // A long path is beside many boxes of many cells, which would cost the most.
+        if (set_.moves() && largest(box.half) > function_.resolution() && is_apart(box)) return;
         DistanceBound<D> bound;
         if (nearest != nullptr) {
             bound.requested_gradient = nearest->gradient;

@@ -36,6 +36,8 @@ public:
         }
     }
 
+    bool moves() const { return last_ != nullptr; }
+
     /// The point that minimises dot(gradient, p).
     PathPoint<D> lowest(const DVec<D>& gradient) const {
         const PathPoint<D> low = path_point<D>(core_support(first_, -gradient).position, 0);

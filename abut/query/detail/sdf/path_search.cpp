@@ -1,6 +1,7 @@
 #include <abut/query/detail/sdf/conditional_gradient.hpp>
 #include <abut/query/detail/sdf/function_pairs.hpp>
 #include <abut/query/detail/sdf/path_search.hpp>
+#include <abut/shape/view/view.hpp>
 
 namespace abut {
 namespace {
@@ -134,8 +135,10 @@ private:
             const bool is_exact = motion_.chord_deviation(free_until, goal) == 0;
             const double inner = std::clamp(time, free_until + 0.1 * interval, free_until + 0.75 * interval);
             const Touch probe = is_exact ? touch_at(time, place) : deepest(inner, place, false, exact_);
-            if (probe.distance <= level + max_touching * tolerance_) {
-                impact = back_to_first(free_until, probe, level);
+            std::optional<Touch> earlier;
+            if (probe.distance <= level + max_touching * tolerance_) earlier = back_to_first(free_until, probe, level);
+            if (earlier && (!impact || earlier->time < goal)) {
+                impact = earlier;
                 if (!(impact->time > free_until)) break;
                 count = 1;
                 goals[0] = impact->time;
