@@ -40,7 +40,7 @@ EnvelopeBound<D> envelope_bound(const std::array<DVec<D>, static_cast<std::size_
                                 const std::array<double, std::size_t{1} << D>& values, const DVec<D>& start,
                                 double sufficient, double steepest, double size, const Lowest& lowest) {
     constexpr std::size_t rows = static_cast<std::size_t>(D) + 1;
-    constexpr int max_pivots = 16;
+    constexpr int max_pivots = 24;
     using Row = std::array<double, rows>;
     // The first pairs are artificial variables at the corners of a simplex, so high that none of them stays in a
     // solution.

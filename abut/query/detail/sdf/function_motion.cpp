@@ -188,10 +188,7 @@ std::optional<TimedDistance<D>> time_of_impact_by_steps(const MotionBounds& moti
     /// Finds the time of contact between a time without contact (or less deep) and one with it.
     const auto refine = [&](TimedDistance<D> before, TimedDistance<D> after, double wanted) {
         for (int i = 0; i < max_halvings; ++i) {
-            // In less time the distance changes by no more than its own error.
-            if (after.distance.distance >= wanted - tolerance ||
-                (after.time - before.time) * motion.speed <= 0.5 * tolerance)
-                break;
+            if (after.distance.distance >= wanted - tolerance || after.time - before.time <= motion.min_interval) break;
             const double above = before.distance.distance - wanted, below = wanted - after.distance.distance;
             const double share = i % 2 == 0 && above > 0 ? std::clamp(above / (above + below), 0.05, 0.95) : 0.5;
             const double time = before.time + (after.time - before.time) * share;
@@ -317,6 +314,14 @@ double size_of(const Part& part) {
         return size(part);
 }
 
+/// The distance of two fields may jump by the error of its search, which is more than it changes in this time.
+template <class A, class B>
+double min_interval_of(const A& a, const B& b, const MotionBounds& motion) {
+    if constexpr (is_function<A> && is_function<B>)
+        if (a.bound != nullptr && b.bound != nullptr) return 0.5 * motion.tolerance / motion.speed;
+    return 0;
+}
+
 /// The interval in which two boxes overlap, one of them moving; false: never.
 template <int D>
 bool boxes_overlap_during(const Aabb<D>& a, const Aabb<D>& b, const DVec<D>& direction, double& from, double& until) {
@@ -381,6 +386,7 @@ bool time_of_impact(const A& a, const Path<D>& path, const B& b, std::uint32_t i
         return false;
     motion.speed = std::max(slope_of(a), slope_of(b));
     motion.sliding_interval = slide_stride * std::min(size_of(a), size_of(b));
+    motion.min_interval = min_interval_of(a, b, motion);
     const auto first_contact = [&]() -> std::optional<TimedDistance<D>> {
         if constexpr (has_convex<A, B>) {
             const auto shifted_by = [&](double along) {
@@ -431,6 +437,7 @@ bool time_of_impact(const A& a, const RigidPath<D>& path_a, const B& b, const Ri
     motion.speed = speed * std::max(slope_of(a), slope_of(b));
     motion.tolerance = function_tolerance(moved(a, place_at(path_a, 0)), moved(b, place_at(path_b, 0)));
     motion.sliding_interval = slide_stride * std::min(size_of(a), size_of(b)) / speed;
+    motion.min_interval = min_interval_of(a, b, motion);
     const auto first_contact = [&]() -> std::optional<TimedDistance<D>> {
         if constexpr (has_convex<A, B>) {
             const RigidPath<D>&frame = is_function<A> ? path_a : path_b, &mover = is_function<A> ? path_b : path_a;

@@ -35,6 +35,7 @@ struct MotionBounds {
     double tolerance = 0;         ///< of the time of impact, as a distance
     double sliding_interval = 1;  ///< how often sliding is evaluated
     double from = 0;              ///< before this their boxes don't overlap
+    double min_interval = 0;      ///< shorter intervals of time aren't divided
 };
 
 template <int D>
