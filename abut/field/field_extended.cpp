@@ -1,5 +1,6 @@
 #include <abut/field/cells.hpp>
 #include <abut/field/field_extended.hpp>
+#include <abut/field/smooth_pieces.hpp>
 
 #include <limits>
 
@@ -13,17 +14,6 @@ constexpr std::int64_t few_samples = 64;
 
 /// A box is cut at the border of the volume before it is cut between cells.
 constexpr double border_first = 1e6;
-
-/// The way from the box around the surface to a point; false where there is no surface.
-template <int D>
-bool way_from_surface(const FieldData<D>& data, const DVec<D>& point, DVec<D>& way) {
-    for (int a = 0; a < D; ++a) {
-        const auto low = static_cast<double>(data.surface.min[a]), high = static_cast<double>(data.surface.max[a]);
-        if (!(low <= high)) return false;
-        way[a] = point[a] - std::clamp(point[a], low, high);
-    }
-    return true;
-}
 
 /// The distance, and where wanted its gradient.
 template <int D>
@@ -95,6 +85,8 @@ public:
 
     DistanceBoundStatus run(DistanceBound<D>& bound) {
         if (find_piece(bound)) return DistanceBoundStatus::valid;
+        if (bound.visit_piece != nullptr && each_smooth_piece(data_, low_, high_, bound))
+            return DistanceBoundStatus::divided;
         if (bound.only_cut && bound.cut_axis >= 0) return DistanceBoundStatus::box_too_large;
         bool is_within = true, is_beyond = false;
         std::int64_t samples = 1;
@@ -195,79 +187,8 @@ private:
         if (!grid.coarse) cut_across(1);
         if (widest > 0) return false;
         const CellValues<D> values = values_in(data_, grid, cell);
-        if (is_outside) {
-            if (!outside_corners(values, low, high, bound)) return false;
-        } else {
-            inside_corners(values, bound);
-        }
-        bound.is_smooth = true;
+        if (!piece_corners(data_, values, low_, high_, is_outside, bound)) return false;
         finish_corners(bound);
-        return true;
-    }
-
-    /// The values of a cell at the corners of a box; beyond the volume, of the nearest points of the volume.
-    void inside_corners(const CellValues<D>& values, DistanceBound<D>& bound) const {
-        bound.corners = values.values;
-        for (int a = 0; a < D; ++a) {
-            const auto cells = static_cast<double>(data_.cells[a]);
-            const double from = (std::clamp(low_[a], 0.0, cells) - values.low[a]) / values.side,
-                         until = (std::clamp(high_[a], 0.0, cells) - values.low[a]) / values.side;
-            const std::size_t bit = std::size_t{1} << a;
-            for (std::size_t i = 0; i < cell_corners<D>; ++i) {
-                if ((i & bit) != 0) continue;
-                const double before = bound.corners[i], rise = bound.corners[i | bit] - before;
-                bound.corners[i] = before + from * rise;
-                bound.corners[i | bit] = before + until * rise;
-            }
-        }
-    }
-
-    /// Outside, F(y, d) = sqrt(|y|^2 + max(d, 0)^2) is convex, and grows with d: its tangent plane at the anchor is
-    /// nowhere above it. So is that of the distance to the box around the surface. False where all is solid.
-    bool outside_corners(const CellValues<D>& values, const DVec<D>& low, const DVec<D>& high,
-                         DistanceBound<D>& bound) const {
-        inside_corners(values, bound);
-        DVec<D> near, away(0.0), anchor;
-        const DVec<D> place = in_cells(data_, bound.anchor);
-        for (int a = 0; a < D; ++a) {
-            const auto cells = static_cast<double>(data_.cells[a]);
-            const double at = std::clamp(place[a], low[a], high[a]);
-            near[a] = std::clamp(at, 0.0, cells);
-            away[a] = (at - near[a]) * cell_;
-            anchor[a] = static_cast<double>(data_.origin[a]) + cell_ * at;
-        }
-        const double there = values.at(near), beyond = std::max(there, 0.0);
-        bool is_solid = there < 0;
-        for (const double value : bound.corners) is_solid = is_solid || value < 0;
-        if (is_solid && holds_surface(data_)) return false;
-        const double here = std::sqrt(length_squared(away) + beyond * beyond);
-        DVec<D> from_surface(0.0);
-        const double to_surface = way_from_surface(data_, anchor, from_surface) ? length(from_surface) : 0;
-        const bool is_far = to_surface > here;
-        const double steep = is_far || !(here > 0) ? 0 : beyond / here;
-        DVec<D> rise(0.0);
-        if (is_far)
-            rise = from_surface / to_surface;
-        else if (here > 0)
-            rise = away / here;
-        const double constant = is_far ? to_surface : here - steep * there;
-        for (std::size_t i = 0; i < cell_corners<D>; ++i) {
-            double value = constant + steep * bound.corners[i];
-            for (int a = 0; a < D; ++a)
-                if (rise[a] != 0) {
-                    const double own = static_cast<double>(data_.origin[a]) + cell_ * (i >> a & 1 ? high_[a] : low_[a]);
-                    value += rise[a] * (own - anchor[a]);
-                }
-            bound.corners[i] = value;
-        }
-        // How far the tangent plane falls below.
-        const double curved = 0.5 / std::max(is_far ? to_surface : here, cell_);
-        for (int a = 0; a < D; ++a) {
-            const double aside =
-                std::max(std::abs(cell_ * low_[a] + static_cast<double>(data_.origin[a]) - anchor[a]),
-                         std::abs(cell_ * high_[a] + static_cast<double>(data_.origin[a]) - anchor[a]));
-            bound.curvature[a] += curved * (1 - rise[a] * rise[a]) * aside * aside;
-        }
         return true;
     }
 
@@ -275,8 +196,6 @@ private:
     void finish_corners(DistanceBound<D>& bound) const {
         const DVec<D>& half = half_;
         const auto& corners = bound.corners;
-        bound.lower_bound = corners[0];
-        for (const double value : corners) bound.lower_bound = std::min(bound.lower_bound, value);
         if (!bound.needs_gradient) return;
         for (int a = 0; a < D; ++a) {
             const std::size_t bit = std::size_t{1} << a;

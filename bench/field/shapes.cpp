@@ -102,11 +102,14 @@ std::function<Job()> of_boxes(Run run) {
     };
 }
 
+constexpr Box3 crate_box{{0, 0, 0}, {0.5f, 0.3f, 0.4f}};
+
 /// A crate, and poses around and in it, with motions between them.
 struct PoseMotions {
     static constexpr std::size_t count = 100;
 
-    PoseMotions() {
+    /// At any rotation, or unrotated boxes of `crate_box` at this distance from the crate's top.
+    explicit PoseMotions(float distance = -1) {
         oracle::Random random(5);
         const Aabb3 box = bounds(field);
         const Vec3 middle = 0.5f * (box.min + box.max), half = 0.5f * (box.max - box.min);
@@ -114,6 +117,10 @@ struct PoseMotions {
             Pose3 pose;
             pose.rotation = random.rotation<3>();
             pose.position = middle + to_float(random.in_cube<3>()) * (half + 1.5f);
+            if (distance >= 0) {
+                pose.rotation = Rotation<3>(1, 0, 0, 0);
+                pose.position.y = 0.5f + distance + crate_box.half.y;
+            }
             poses.push_back(pose);
             motions.push_back((middle + to_float(random.in_cube<3>()) * half - pose.position) * 1.25f);
         }
@@ -124,7 +131,6 @@ struct PoseMotions {
     std::vector<Vec3> motions;
 };
 
-constexpr Box3 crate_box{{0, 0, 0}, {0.5f, 0.3f, 0.4f}};
 constexpr Cylinder crate_cylinder{{-0.4f, 0, 0}, {0.4f, 0, 0}, 0.4f};
 
 bool holds(const Box3&, const Vec3&) {
@@ -153,9 +159,9 @@ double min_sampled(const Shape& shape, const Pose3& pose, const Field3& field) {
 
 /// Compares run(shape, motions, i) with sampled(shape, motions, i), and measures the slowest call.
 template <class Shape, class Run, class Sampled>
-std::function<Job()> of_poses(const Shape& shape, double tolerance, Run run, Sampled sampled) {
+std::function<Job()> of_poses(const Shape& shape, double tolerance, Run run, Sampled sampled, float distance = -1) {
     return [=] {
-        const auto motions = std::make_shared<const PoseMotions>();
+        const auto motions = std::make_shared<const PoseMotions>(distance);
         Job job{.items = PoseMotions::count, .values = PoseMotions::count, .tolerance = tolerance, .sides = {}};
         const auto worst = [=] {
             using Clock = std::chrono::steady_clock;
@@ -226,10 +232,12 @@ std::vector<Bench> field_shape_benches() {
             {"field/box/contact", of_boxes(depth)},
             {"field/shape/closest/box", of_poses(crate_box, 0.08, pose_gap, sampled_gap)},
             {"field/shape/closest/cylinder", of_poses(crate_cylinder, 0.08, pose_gap, sampled_gap)},
+            {"field/shape/closest/aligned", of_poses(crate_box, 0.08, pose_gap, sampled_gap, 1.9f)},
             {"field/shape/contact/box", of_poses(crate_box, 0.08, pose_depth, sampled_depth)},
             {"field/shape/contact/cylinder", of_poses(crate_cylinder, 0.08, pose_depth, sampled_depth)},
             {"field/shape/sweep/box", of_poses(crate_box, 1e-3, pose_fraction, sampled_fraction)},
-            {"field/shape/sweep/cylinder", of_poses(crate_cylinder, 1e-3, pose_fraction, sampled_fraction)}};
+            {"field/shape/sweep/cylinder", of_poses(crate_cylinder, 1e-3, pose_fraction, sampled_fraction)},
+            {"field/shape/sweep/aligned", of_poses(crate_box, 1e-3, pose_fraction, sampled_fraction, 1.9f)}};
 }
 
 }  // namespace abut::bench

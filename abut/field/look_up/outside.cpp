@@ -30,7 +30,7 @@ double free_around(const FieldData<D>& data, const DVec<D>& point, const FieldSt
 }
 
 template <int D>
-bool is_nowhere(const Aabb<D>& box) {
+bool has_no_point(const Aabb<D>& box) {
     for (int a = 0; a < D; ++a)
         if (!(box.min[a] <= box.max[a])) return true;
     return false;
@@ -62,7 +62,7 @@ FieldSample<D> outer_sample(const FieldData<D>& data, const Vec<D>& point) {
     // `nearest` isn't acute, and Pythagoras gives a lower bound.
     double bound = std::sqrt(length_squared(away) + free * free);
     // The bounding box of the surface gives another lower bound.
-    if (!is_nowhere(data.surface)) {
+    if (!has_no_point(data.surface)) {
         DVec<D> to_box;
         for (int a = 0; a < D; ++a) {
             const double p = static_cast<double>(point[a]);

@@ -4,6 +4,7 @@
 
 #include <abut/convex/support.hpp>
 #include <abut/math/aabb.hpp>
+#include <abut/math/function_ref.hpp>
 #include <abut/math/vec.hpp>
 
 #include <array>
@@ -22,6 +23,13 @@ struct FieldSample {
 }  // namespace abut
 
 namespace abut::detail {
+
+template <int D>
+struct DistanceBound;
+
+/// Takes a piece of a box, from its lower to its upper corner, and the bound there.
+template <int D>
+using DistancePieceVisitor = FunctionRef<void(const DVec<D>& low, const DVec<D>& high, DistanceBound<D>& piece)>;
 
 /// A lower bound of a signed distance in a box, by planes through the box's middle. The distance is at least `value +
 /// dot(gradient, x - middle)`, at least `requested_value + dot(requested_gradient, x - middle)`, and at least
@@ -43,6 +51,12 @@ struct DistanceBound {
     bool needs_gradient = true;  ///< input; if false, a smooth box has only `lower_bound`, `curvature` and `corners`
     bool only_cut = false;       ///< input: a box that isn't smooth only needs a place to be cut at
 
+    /// Input, or null: a box with few kinks may be divided into its smooth pieces, which are visited. A piece is left
+    /// out if it has no point where the distance is at most `sufficient` and dot(requested_gradient, x) is at least
+    /// `requested_support`.
+    const DistancePieceVisitor<D>* visit_piece = nullptr;
+    double requested_support = -std::numeric_limits<double>::infinity();
+
     /// Whether the distance has no kink in the box. Then it is nowhere below the function that is linear along each
     /// axis and has the values `corners` at the corners of the box; bit a of a corner's index chooses the upper side of
     /// axis a.
@@ -56,6 +70,7 @@ struct DistanceBound {
 enum class DistanceBoundStatus : std::uint8_t {
     unknown,        ///< nothing but the distances and the slope is known
     box_too_large,  ///< the box is too large for a plane bound; only `lower_bound` is valid
+    divided,        ///< the pieces were visited
     valid,
 };
 

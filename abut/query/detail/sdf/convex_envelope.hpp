@@ -1,8 +1,7 @@
 #pragma once
 
 // The minimum of the convex envelope of a function's corner values over the intersection of a box and a convex set. For
-// .cpp
-// files.
+// .cpp files.
 //
 // A point of both is sum(w_j p_j) = sum(w_j c_j), with points p_j of the set, corners c_j and weights w_j >= 0 of sum
 // 1; the envelope there is at most sum(w_j f_j). So the minimum is that of a linear program over pairs (p_j, c_j),
@@ -17,7 +16,7 @@
 //
 // is a lower bound for every u, so the search may stop at any time.
 
-#include <abut/math/dvec.hpp>
+#include <abut/query/detail/sdf/conditional_gradient.hpp>
 
 #include <array>
 #include <cmath>
@@ -29,25 +28,24 @@ namespace abut::detail {
 template <int D>
 struct EnvelopeBound {
     double bound = -std::numeric_limits<double>::infinity();  ///< at most the minimum
-    DVec<D> place{0.0};                                       ///< a point of the set, near the minimum of the envelope
+    PathPoint<D> place{0.0};                                  ///< a point of the set, near the minimum of the envelope
 };
 
-/// `axes` are the half axes of a box around the origin, and `values` those at its corners: bit a of a corner's index
-/// chooses the upper side along axis a. lowest(u) returns the point of the set, relative to the centre of the box, that
-/// minimises dot(u, p). The search stops at a bound above `sufficient`, or when the bound no longer grows. `start` is
-/// the first u. `steepest` is about the largest useful change of u, and grows as needed; `size` is about the size of
-/// the set.
+/// `axes` are the half axes of a box around `center`, and `values` those at its corners: bit a of a corner's index
+/// chooses the upper side along axis a. lowest(u) returns the point of the set that minimises dot(u, p). The search
+/// stops at a bound above `sufficient`, or when the bound no longer grows. `start` is the first u. `steepest` is about
+/// the largest useful change of u, and grows as needed; `size` is about the size of the set.
 template <int D, class Lowest>
-EnvelopeBound<D> envelope_bound(const std::array<DVec<D>, static_cast<std::size_t>(D)>& axes,
+EnvelopeBound<D> envelope_bound(const std::array<DVec<D>, static_cast<std::size_t>(D)>& axes, const DVec<D>& center,
                                 const std::array<double, std::size_t{1} << D>& values, const DVec<D>& start,
                                 double sufficient, double steepest, double size, const Lowest& lowest) {
     constexpr std::size_t rows = static_cast<std::size_t>(D) + 1;
-    constexpr int max_pivots = 16;
+    constexpr int max_pivots = 24;
     using Row = std::array<double, rows>;
     // The first pairs are artificial variables at the corners of a simplex, so high that none of them stays in a
     // solution.
     std::array<Row, rows> inverse{};
-    std::array<DVec<D>, rows> points{};
+    std::array<PathPoint<D>, rows> points{};
     std::array<bool, rows> is_artificial;
     is_artificial.fill(true);
     for (std::size_t j = 0; j < rows; ++j) {
@@ -59,26 +57,22 @@ EnvelopeBound<D> envelope_bound(const std::array<DVec<D>, static_cast<std::size_
     DVec<D> u = start;
     double value = std::numeric_limits<double>::infinity();
     for (int pivot = 0;; ++pivot) {
-        const DVec<D> point = lowest(u);
-        std::array<double, std::size_t{1} << D> along;
-        along[0] = 0;
-        for (std::size_t a = 0, count = 1; a < axes.size(); ++a, count *= 2) {
-            const double rise = dot(u, axes[a]);
-            for (std::size_t i = 0; i < count; ++i) {
-                along[count + i] = along[i] + rise;
-                along[i] -= rise;
-            }
-        }
+        const PathPoint<D> lowest_point = lowest(u);
+        const DVec<D> point = DVec<D>(lowest_point) - center;
+        std::array<double, static_cast<std::size_t>(D)> rise;
+        for (std::size_t a = 0; a < axes.size(); ++a) rise[a] = dot(u, axes[a]);
         std::size_t lowest_corner = 0;
-        double above = values[0] - along[0];
-        for (std::size_t i = 1; i < values.size(); ++i) {
-            const double height = values[i] - along[i];
+        double above = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            double along = 0;
+            for (std::size_t a = 0; a < rise.size(); ++a) along += (i >> a & 1) != 0 ? rise[a] : -rise[a];
+            const double height = values[i] - along;
             lowest_corner = height < above ? i : lowest_corner;
             above = std::min(above, height);
         }
         const double bound = above + dot(u, point);
         if (pivot == 0) {
-            result.place = point;
+            result.place = lowest_point;
             value = std::max(sufficient, bound) + steepest * size;
         }
         result.bound = std::max(result.bound, bound);
@@ -117,7 +111,7 @@ EnvelopeBound<D> envelope_bound(const std::array<DVec<D>, static_cast<std::size_
         }
         if (leaving == rows) break;
         is_artificial[leaving] = false;
-        points[leaving] = point;
+        points[leaving] = lowest_point;
         for (double& entry : inverse[leaving]) entry /= share[leaving];
         for (std::size_t j = 0; j < rows; ++j)
             if (j != leaving)
@@ -126,7 +120,7 @@ EnvelopeBound<D> envelope_bound(const std::array<DVec<D>, static_cast<std::size_
         for (int a = 0; a < D; ++a) u[a] -= change * inverse[leaving][static_cast<std::size_t>(a)];
         value += change * inverse[leaving][rows - 1];
     }
-    DVec<D> sum(0.0);
+    PathPoint<D> sum(0.0);
     double weights = 0;
     for (std::size_t j = 0; j < rows; ++j) {
         if (is_artificial[j]) continue;

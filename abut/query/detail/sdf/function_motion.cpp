@@ -1,6 +1,6 @@
 #include <abut/convex/tolerance.hpp>
 #include <abut/query/detail/sdf/function_motion.hpp>
-#include <abut/query/detail/sdf/interval_search.hpp>
+#include <abut/query/detail/sdf/path_search.hpp>
 #include <abut/query/detail/sdf/placed_function.hpp>
 #include <abut/shape/view/view.hpp>
 
@@ -9,21 +9,12 @@
 namespace abut::detail {
 namespace {
 
-/// A motion of at most this slope relative to a surface slides.
-constexpr double sliding_slope = 1e-4;
-
 /// At a distance, an error of this fraction of the gap is allowed.
 constexpr double far_off = 0.1;
-
-/// A sliding shape is evaluated each time it has moved this fraction of its size.
-constexpr double slide_stride = 0.25;
 
 /// When a ray has used up half of its steps, each is at least this fraction of the length so far, as a ray may be
 /// infinite.
 constexpr double step_growth = 0.05;
-
-/// The limit on boxes where any point within the tolerance will do, instead of the deepest.
-constexpr int max_boxes_nearby = 8;
 
 /// The limit on halvings of an interval of time that contains the impact.
 constexpr int max_halvings = 40;
@@ -173,27 +164,13 @@ private:
     double min_step_ = 0, step_ = 0;
 };
 
-/// The bounds on the motion of two parts that the searches use.
-template <int D>
-struct MotionBounds {
-    double end = 1;                 ///< times go from 0 to this
-    double speed = 0;               ///< an upper bound of the rate of change of the distance
-    double tolerance = 0;           ///< of the time of impact, as a distance
-    double sliding_interval = 1;    ///< how often sliding is evaluated
-    double from = 0;                ///< before this their boxes don't overlap
-    bool proves_intervals = false;  ///< intervals can be proven free of contact
-};
-
 /// The first contact gained, by conservative advancement. distance_at(time, request) returns a SignedDistance;
-/// closing(distance, time) returns how fast it falls. is_free(from, until, time) proves that there is no contact in an
-/// interval, or sets a time at which there may be.
-template <int D, class DistanceAt, class Closing, class IsFree>
-std::optional<TimedDistance<D>> time_of_impact_by_steps(const MotionBounds<D>& motion, const DistanceAt& distance_at,
-                                                        const Closing& closing, const IsFree& is_free) {
+/// closing(distance, time) returns how fast it falls.
+template <int D, class DistanceAt, class Closing>
+std::optional<TimedDistance<D>> time_of_impact_by_steps(const MotionBounds& motion, const DistanceAt& distance_at,
+                                                        const Closing& closing) {
     const double tolerance = motion.tolerance;
-    DistanceRequest first_request;
-    if (motion.proves_intervals) first_request.reach = tolerance;
-    TimedDistance<D> now{motion.from, distance_at(motion.from, first_request), false};
+    TimedDistance<D> now{motion.from, distance_at(motion.from, {}), false};
     bool is_touching = now.distance.distance <= tolerance;
     double floor = -std::numeric_limits<double>::infinity();
     if (is_touching) {
@@ -203,14 +180,15 @@ std::optional<TimedDistance<D>> time_of_impact_by_steps(const MotionBounds<D>& m
         if (closing_speed > sliding_slope * motion.speed) {
             const double ahead = std::min(motion.end, now.time + 4 * tolerance / closing_speed);
             const double expected = closing_speed * (ahead - now.time);
-            if (distance_at(ahead, {}).distance <= start - 0.25 * expected) return now;
+            const double deeper = start - 0.25 * expected;
+            if (distance_at(ahead, {.sufficient = deeper}).distance <= deeper) return now;
         }
         now.started_inside = false;
     }
     /// Finds the time of contact between a time without contact (or less deep) and one with it.
     const auto refine = [&](TimedDistance<D> before, TimedDistance<D> after, double wanted) {
         for (int i = 0; i < max_halvings; ++i) {
-            if (after.distance.distance >= wanted - tolerance) break;
+            if (after.distance.distance >= wanted - tolerance || after.time - before.time <= motion.min_interval) break;
             const double above = before.distance.distance - wanted, below = wanted - after.distance.distance;
             const double share = i % 2 == 0 && above > 0 ? std::clamp(above / (above + below), 0.05, 0.95) : 0.5;
             const double time = before.time + (after.time - before.time) * share;
@@ -223,13 +201,6 @@ std::optional<TimedDistance<D>> time_of_impact_by_steps(const MotionBounds<D>& m
     };
     double excess = 0;  // by which the distance may be too large
     for (int step = 0; step < function_sweep_max_iterations; ++step) {
-        if (motion.proves_intervals && !is_touching) {
-            const auto rough_distance_at = [&](double time) {
-                return distance_at(time, {.max_boxes = max_boxes_nearby});
-            };
-            return time_of_impact_by_intervals(now, motion.end, motion.speed, tolerance, rough_distance_at, closing,
-                                               is_free);
-        }
         const double gap = now.distance.distance - excess;
         double stride = is_touching ? std::max((gap - floor) / motion.speed, motion.sliding_interval)
                                     : std::max(gap, 0.25 * tolerance) / motion.speed;
@@ -256,35 +227,37 @@ std::optional<TimedDistance<D>> time_of_impact_by_steps(const MotionBounds<D>& m
     return std::nullopt;
 }
 
-template <int D>
-DVec<D> middle_of(const Convex<D>& part) {
-    const Aabb<D> box = bounds(part);
-    return (DVec<D>(box.min) + DVec<D>(box.max)) * 0.5;
+/// The first contact gained of a convex set and a function that bounds itself, in either order. `place` moves the set
+/// in the frame of the function, which `frame_at` moves in the world.
+template <int D, class A, class B, class Place, class Deviation, class FrameAt>
+std::optional<TimedDistance<D>> time_of_impact_by_proofs(const A& a, const B& b, const MotionBounds& motion,
+                                                         const Place& place, const Deviation& chord_deviation,
+                                                         const FrameAt& frame_at) {
+    const SetMotion<D> moving{place, chord_deviation};
+    std::optional<TimedDistance<D>> found;
+    if constexpr (is_function<A>)
+        found = time_of_impact_by_proofs(b, a, moving, motion);
+    else
+        found = time_of_impact_by_proofs(a, b, moving, motion);
+    if (!found) return std::nullopt;
+    const Affine<D> frame = frame_at(found->time);
+    found->distance.normal = frame.vector(found->distance.normal);
+    found->distance.on_a = frame.point(found->distance.on_a);
+    if (is_function<A>) swap_roles(found->distance);
+    return found;
 }
 
 template <class A, class B>
-bool has_convex_bounded(const A& a, const B& b) {
-    constexpr int D = PartDimension<A>::value;
-    if constexpr (std::is_same_v<A, Convex<D>>)
-        return b.bound != nullptr;
-    else if constexpr (std::is_same_v<B, Convex<D>>)
+constexpr bool has_convex =
+    std::is_same_v<A, Convex<PartDimension<A>::value>> || std::is_same_v<B, Convex<PartDimension<B>::value>>;
+
+/// Whether the function of a convex set and a function bounds itself.
+template <class A, class B>
+bool bounds_itself(const A& a, const B& b) {
+    if constexpr (is_function<A>)
         return a.bound != nullptr;
     else
-        return false;
-}
-
-/// Whether a moving set stays apart from a function over an interval. If not, `time` is when the set passes the point
-/// found to touch.
-template <int D>
-bool is_free_between(const Convex<D>& first, const Convex<D>& last, double expansion,
-                     const DistanceFunction<D>& function, double from, double until, double& time) {
-    DVec<D> place(0.0);
-    if (path_stays_apart(first, last, expansion, function, place)) return true;
-    const DVec<D> start = middle_of(first), displacement = middle_of(last) - start;
-    const double square = length_squared(displacement);
-    const double share = square > 0 ? std::clamp(dot(place - start, displacement) / square, 0.0, 1.0) : 0.5;
-    time = from + (until - from) * share;
-    return false;
+        return b.bound != nullptr;
 }
 
 template <class Part>
@@ -339,6 +312,14 @@ double size_of(const Part& part) {
         return std::numeric_limits<double>::infinity();
     else
         return size(part);
+}
+
+/// The distance of two fields may jump by the error of its search, which is more than it changes in this time.
+template <class A, class B>
+double min_interval_of(const A& a, const B& b, const MotionBounds& motion) {
+    if constexpr (is_function<A> && is_function<B>)
+        if (a.bound != nullptr && b.bound != nullptr) return 0.5 * motion.tolerance / motion.speed;
+    return 0;
 }
 
 /// The interval in which two boxes overlap, one of them moving; false: never.
@@ -397,7 +378,7 @@ bool time_of_impact(const A& a, const Path<D>& path, const B& b, std::uint32_t i
         if (is_ball(a)) return ball_time_of_impact(a, b, path, true, index, impact);
     if constexpr (std::is_same_v<B, Convex<D>>)
         if (is_ball(b)) return ball_time_of_impact(b, a, path, false, index, impact);
-    MotionBounds<D> motion;
+    MotionBounds motion;
     motion.tolerance = function_tolerance(a, b);
     motion.end = path.length;
     const auto expansion = static_cast<float>(motion.tolerance);
@@ -405,23 +386,28 @@ bool time_of_impact(const A& a, const Path<D>& path, const B& b, std::uint32_t i
         return false;
     motion.speed = std::max(slope_of(a), slope_of(b));
     motion.sliding_interval = slide_stride * std::min(size_of(a), size_of(b));
-    motion.proves_intervals = has_convex_bounded(a, b);
-    const auto distance_at = [&](double along, const DistanceRequest& wanted) -> SignedDistance<D> {
-        return function_distance(translated(a, path.direction * along), b, wanted);
+    motion.min_interval = min_interval_of(a, b, motion);
+    const auto first_contact = [&]() -> std::optional<TimedDistance<D>> {
+        if constexpr (has_convex<A, B>) {
+            const auto shifted_by = [&](double along) {
+                Affine<D> result;
+                result.offset = path.direction * along;
+                return result;
+            };
+            const auto place = [&](double along) { return shifted_by(is_function<A> ? -along : along); };
+            const auto frame = [&](double along) { return is_function<A> ? shifted_by(along) : Affine<D>(); };
+            const auto straight = [](double, double) { return 0.0; };
+            if (bounds_itself(a, b)) return time_of_impact_by_proofs<D>(a, b, motion, place, straight, frame);
+        }
+        const auto distance_at = [&](double along, const DistanceRequest& wanted) -> SignedDistance<D> {
+            return function_distance(translated(a, path.direction * along), b, wanted);
+        };
+        const auto closing = [&](const SignedDistance<D>& distance, double) {
+            return dot(path.direction, distance.normal);
+        };
+        return time_of_impact_by_steps<D>(motion, distance_at, closing);
     };
-    const auto closing = [&](const SignedDistance<D>& distance, double) {
-        return dot(path.direction, distance.normal);
-    };
-    const auto is_free = [&](double from, double until, double& time) -> bool {
-        const DVec<D> start = path.direction * from, end = path.direction * until;
-        if constexpr (std::is_same_v<A, Convex<D>>)
-            return is_free_between(translated(a, start), translated(a, end), 0, b, from, until, time);
-        else if constexpr (std::is_same_v<B, Convex<D>>)
-            return is_free_between(translated(b, -start), translated(b, -end), 0, a, from, until, time);
-        else
-            return false;
-    };
-    const std::optional<TimedDistance<D>> found = time_of_impact_by_steps(motion, distance_at, closing, is_free);
+    const std::optional<TimedDistance<D>> found = first_contact();
     if (!found) return false;
     impact.along = found->time;
     impact.normal = found->distance.normal;
@@ -446,38 +432,35 @@ bool time_of_impact(const A& a, const RigidPath<D>& path_a, const B& b, const Ri
                                                   : std::numeric_limits<double>::infinity();
     const double speed = std::min(speed_a, speed_b);
     if (!std::isfinite(speed) || !(speed > 0)) return false;
-    const auto distance_at = [&](double time, const DistanceRequest& wanted) -> SignedDistance<D> {
-        return function_distance(moved(a, place_at(path_a, time)), moved(b, place_at(path_b, time)), wanted);
-    };
-    const auto closing = [&](const SignedDistance<D>& distance, double time) {
-        return dot(distance.normal, path_a.velocity(time, distance.on_a) - path_b.velocity(time, distance.on_b()));
-    };
-    MotionBounds<D> motion;
+    MotionBounds motion;
     motion.end = limits.until;
     motion.speed = speed * std::max(slope_of(a), slope_of(b));
     motion.tolerance = function_tolerance(moved(a, place_at(path_a, 0)), moved(b, place_at(path_b, 0)));
     motion.sliding_interval = slide_stride * std::min(size_of(a), size_of(b)) / speed;
-    motion.proves_intervals = has_convex_bounded(a, b);
-    // In the function's frame, where it doesn't move. A point is nowhere farther from its chord than an eighth of its
-    // acceleration times the square of the time.
-    const auto stays_free = [](const auto& part, const RigidPath<D>& path, double reach, const auto& function,
-                               const RigidPath<D>& frame, double from, double until, double& time) {
-        const auto in_frame_at = [&](double then) {
-            return moved(moved(part, place_at(path, then)), back_from(place_at(frame, then)));
+    motion.min_interval = min_interval_of(a, b, motion);
+    const auto first_contact = [&]() -> std::optional<TimedDistance<D>> {
+        if constexpr (has_convex<A, B>) {
+            const RigidPath<D>&frame = is_function<A> ? path_a : path_b, &mover = is_function<A> ? path_b : path_a;
+            // A point is nowhere farther from its chord than an eighth of its acceleration times the square of the
+            // time.
+            const double acceleration =
+                relative_motion_bounds(mover, frame, is_function<A> ? reach_b : reach_a).acceleration;
+            const auto place = [&](double time) { return back_from(place_at(frame, time)) * place_at(mover, time); };
+            const auto frame_at = [&](double time) { return place_at(frame, time); };
+            const auto deviation = [&](double first, double last) {
+                return acceleration * (last - first) * (last - first) / 8;
+            };
+            if (bounds_itself(a, b)) return time_of_impact_by_proofs<D>(a, b, motion, place, deviation, frame_at);
+        }
+        const auto distance_at = [&](double time, const DistanceRequest& wanted) -> SignedDistance<D> {
+            return function_distance(moved(a, place_at(path_a, time)), moved(b, place_at(path_b, time)), wanted);
         };
-        const double expansion =
-            relative_motion_bounds(path, frame, reach).acceleration * (until - from) * (until - from) / 8;
-        return is_free_between(in_frame_at(from), in_frame_at(until), expansion, function, from, until, time);
+        const auto closing = [&](const SignedDistance<D>& distance, double time) {
+            return dot(distance.normal, path_a.velocity(time, distance.on_a) - path_b.velocity(time, distance.on_b()));
+        };
+        return time_of_impact_by_steps<D>(motion, distance_at, closing);
     };
-    const auto is_free = [&](double from, double until, double& time) -> bool {
-        if constexpr (std::is_same_v<A, Convex<D>>)
-            return stays_free(a, path_a, reach_a, b, path_b, from, until, time);
-        else if constexpr (std::is_same_v<B, Convex<D>>)
-            return stays_free(b, path_b, reach_b, a, path_a, from, until, time);
-        else
-            return false;
-    };
-    const std::optional<TimedDistance<D>> found = time_of_impact_by_steps(motion, distance_at, closing, is_free);
+    const std::optional<TimedDistance<D>> found = first_contact();
     if (!found || found->time > limits.reach) return false;
     Feature feature;
     const ClosestCorners<D>& corners = found->distance.corners;

@@ -15,8 +15,8 @@
 
 namespace abut::detail {
 
-/// The limits on steps of a ray and of a sweep; each step evaluates a distance.
-inline constexpr int function_ray_max_iterations = 1024, function_sweep_max_iterations = 256;
+/// The limit on steps of a ray; each step evaluates a distance.
+inline constexpr int function_ray_max_iterations = 1024;
 
 template <int D>
 bool part_hit(const DRay<D>& beam, const DistanceFunction<D>& part, PartHit<D>& hit);

@@ -22,9 +22,6 @@ constexpr double tilted_tolerance = 1e-3;
 /// The limits on boxes above a half-space, and above a tilted one.
 constexpr int max_boxes_above_half_space = 1024, max_boxes_tilted = 128;
 
-/// The limit for a search along a path; a shorter path may take fewer.
-constexpr int max_boxes_of_path = 192;
-
 template <int D>
 bool is_bounded(const Aabb<D>& box) {
     return is_finite(box.min) && is_finite(box.max);
@@ -129,13 +126,9 @@ SignedDistance<D> from_convex(const Convex<D>& set, const DistanceFunction<D>& f
     const Minimum<D> minimum = function.bound != nullptr ? bounded_minimum(placed, local_set, options)
                                                          : minimum_in_convex(placed, local_set, options);
     if (!(minimum.distance < std::numeric_limits<double>::infinity())) return no_distance<D>();
-    SignedDistance<D> result;
-    const double around = std::max(size(local_set), 1e-30);
-    const DVec<D> out = placed.normal(minimum.point, placed.step(minimum.point, around));
-    result.distance = minimum.distance - set.radius;
-    result.normal = frame.vector(-out);
-    result.on_a = frame.point(minimum.point - out * set.radius);
-    result.corners = corners_at(local_set, minimum.point, out, 1e-3 * around);
+    SignedDistance<D> result = distance_at_point(local_set, placed, minimum.point, minimum.distance - set.radius);
+    result.normal = frame.vector(result.normal);
+    result.on_a = frame.point(result.on_a);
     return result;
 }
 
@@ -315,22 +308,16 @@ SignedDistance<D> function_distance(const detail::Part<D>& a, const detail::Part
 }
 
 template <int D>
-bool path_stays_apart(const Convex<D>& first, const Convex<D>& last, double expansion,
-                      const DistanceFunction<D>& function, DVec<D>& place) {
-    if (has_no_extent(function.bounds)) return true;
-    const double margin = function_tolerance<D>(first, function), radius = first.radius + expansion;
-    const Affine<D> frame = own_frame<D>(function), back = back_from(frame);
-    const DistanceFunction<D> own = moved(function, back);
-    const PlacedFunction<D> placed(own);
-    MinimumOptions<D> options;
-    options.tolerance = 0.25 * margin;
-    options.reach = options.sufficient = radius - 0.75 * margin;
-    options.sufficient_bound = radius - function_search_tolerance<D>(first, function);
-    options.max_boxes = max_boxes_of_path;
-    const Minimum<D> minimum = bounded_minimum(placed, moved(first, back), moved(last, back), options);
-    if (minimum.lower_bound >= std::min(options.sufficient_bound, radius - margin)) return true;
-    place = frame.point(minimum.point);
-    return false;
+SignedDistance<D> distance_at_point(const Convex<D>& set, const PlacedFunction<D>& function, const DVec<D>& point,
+                                    double distance) {
+    SignedDistance<D> result;
+    const double around = std::max(size(set), 1e-30);
+    const DVec<D> out = function.normal(point, function.step(point, around));
+    result.distance = distance;
+    result.normal = -out;
+    result.on_a = point - out * set.radius;
+    result.corners = corners_at(set, point, out, 1e-3 * around);
+    return result;
 }
 
 template <int D>
@@ -362,7 +349,7 @@ bool function_contact(const detail::Part<D>& a, const detail::Part<D>& b, double
 }
 
 #define ABUT_INSTANTIATE(D)                                                                                           \
-    template bool path_stays_apart(const Convex<D>&, const Convex<D>&, double, const DistanceFunction<D>&, DVec<D>&); \
+    template SignedDistance<D> distance_at_point(const Convex<D>&, const PlacedFunction<D>&, const DVec<D>&, double); \
     template double function_tolerance(const detail::Part<D>&, const detail::Part<D>&);                               \
     template double function_search_tolerance(const detail::Part<D>&, const detail::Part<D>&);                        \
     template bool function_overlap(const detail::Part<D>&, const detail::Part<D>&);                                   \

@@ -9,6 +9,7 @@
 // of the largest ball in both.
 
 #include <abut/query/detail/pair_dispatch.hpp>
+#include <abut/query/detail/sdf/placed_function.hpp>
 #include <abut/shape/view/part.hpp>
 
 #include <type_traits>
@@ -78,10 +79,10 @@ requires FunctionPair<A, B> SignedDistance<PartDimension<A>::value> function_dis
     return function_distance<PartDimension<A>::value>(a, b, request);
 }
 
-/// Whether a convex set on its path is nowhere deeper in a function that bounds itself than the tolerance. The path
-/// lies in the hull of the set's start and end, grown by `expansion`; all in one frame. If not, `place` may touch.
+/// The distance of a set from a function, given the point of its core at which the function is lowest; all in the frame
+/// of the placed function.
 template <int D>
-bool path_stays_apart(const Convex<D>& first, const Convex<D>& last, double expansion,
-                      const DistanceFunction<D>& function, DVec<D>& place);
+SignedDistance<D> distance_at_point(const Convex<D>& set, const PlacedFunction<D>& function, const DVec<D>& point,
+                                    double distance);
 
 }  // namespace abut::detail

@@ -31,13 +31,16 @@ struct MinimumOptions {
     int max_boxes = 0;  ///< 0: the limit above for the function
     /// For `bounded_minimum`: once the minimum is proven to be at least this, fine boxes are skipped.
     double sufficient_bound = std::numeric_limits<double>::infinity();
+    /// For `bounded_minimum`: a point of the set, at the end of its path, near the minimum; or null.
+    const DVec<D>* hint = nullptr;
 };
 
 template <int D>
 struct Minimum {
     double distance = std::numeric_limits<double>::infinity();  ///< infinite if nothing is within reach
     DVec<D> point{0.0};
-    int boxes = 0;  ///< the number of boxes processed
+    double share = 0;  ///< of its path, at which the set contains the point; set by `bounded_minimum`
+    int boxes = 0;     ///< the number of boxes processed
     /// The minimum may be lower by this: by more than the tolerance only if the limit on boxes was reached.
     double uncertainty = 0;
     /// The minimum is at least this, at most the reach; set by `bounded_minimum`.

@@ -128,8 +128,19 @@ public:
         bound.requested_gradient = function_.place.transposed(requested) / factor_;
         bound.sufficient = bound.sufficient / factor_ + level_;
         bound.anchor = back_.point(anchor);
+        const DistancePieceVisitor<D>* const visit = has_own_axes_ ? bound.visit_piece : nullptr;
+        const auto visit_own = [&](const DVec<D>& low, const DVec<D>& high, DistanceBound<D>& piece) {
+            for (double& value : piece.corners) value = factor_ * (value - level_);
+            piece.lower_bound = factor_ * (piece.lower_bound - level_);
+            piece.curvature *= factor_;
+            (*visit)(function_.place.point(low), function_.place.point(high), piece);
+        };
+        const DistancePieceVisitor<D> visitor(visit_own);
+        bound.visit_piece = visit != nullptr ? &visitor : nullptr;
+        bound.requested_support = (bound.requested_support - dot(requested, function_.place.offset)) / factor_ + level_;
         const DistanceBoundStatus known =
             function_.bound(function_.object, middle - own_half, middle + own_half, bound);
+        if (known == DistanceBoundStatus::divided) return known;
         bound.requested_gradient = requested;
         bound.anchor = anchor;
         bound.lower_bound = factor_ * (bound.lower_bound - level_);
