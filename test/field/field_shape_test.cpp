@@ -188,7 +188,7 @@ TEST(FieldShape, PiecesFillTheBox) {
                               between_corners(piece.corners, share) - 2e-6);
                 }
             };
-            const DistancePieceVisitor<3> visitor(visit);
+            const DistanceBound<3>::PieceVisitor visitor(visit);
             DistanceBound<3> all;
             all.needs_gradient = false;
             all.visit_piece = &visitor;

@@ -24,18 +24,14 @@ struct FieldSample {
 
 namespace abut::detail {
 
-template <int D>
-struct DistanceBound;
-
-/// Takes a piece of a box, from its lower to its upper corner, and the bound there.
-template <int D>
-using DistancePieceVisitor = FunctionRef<void(const DVec<D>& low, const DVec<D>& high, DistanceBound<D>& piece)>;
-
 /// A lower bound of a signed distance in a box, by planes through the box's middle. The distance is at least `value +
 /// dot(gradient, x - middle)`, at least `requested_value + dot(requested_gradient, x - middle)`, and at least
 /// `lower_bound`.
 template <int D>
 struct DistanceBound {
+    /// Takes a piece of a box, from its lower to its upper corner, and the bound there.
+    using PieceVisitor = FunctionRef<void(const DVec<D>& low, const DVec<D>& high, DistanceBound& piece)>;
+
     double value = 0;
     DVec<D> gradient{0.0};  ///< a gradient that fits the box
     double lower_bound = -std::numeric_limits<double>::infinity();
@@ -54,7 +50,7 @@ struct DistanceBound {
     /// Input, or null: a box with few kinks may be divided into its smooth pieces, which are visited. A piece is left
     /// out if it has no point where the distance is at most `sufficient` and dot(requested_gradient, x) is at least
     /// `requested_support`.
-    const DistancePieceVisitor<D>* visit_piece = nullptr;
+    const PieceVisitor* visit_piece = nullptr;
     double requested_support = -std::numeric_limits<double>::infinity();
 
     /// Whether the distance has no kink in the box. Then it is nowhere below the function that is linear along each

@@ -181,7 +181,7 @@ private:
             ++best_.boxes;
             if (find_support(part, beside)) process_piece(heap, part, piece, beside);
         };
-        const DistancePieceVisitor<D> visitor(visit);
+        const typename DistanceBound<D>::PieceVisitor visitor(visit);
         if (heap.has_space(max_pieces)) bound.visit_piece = &visitor;
         const DistanceBoundStatus known = function_.bound(box.center, box.half, bound);
         if (known == DistanceBoundStatus::divided) return;

@@ -243,7 +243,7 @@ std::optional<TimedDistance<D>> time_of_impact_by_proofs(const A& a, const B& b,
     const Affine<D> frame = frame_at(found->time);
     found->distance.normal = frame.vector(found->distance.normal);
     found->distance.on_a = frame.point(found->distance.on_a);
-    if (is_function<A>) swap_roles(found->distance);
+    if (is_function<A>) flip(found->distance);
     return found;
 }
 

@@ -122,7 +122,6 @@ SignedDistance<D> from_convex(const Convex<D>& set, const DistanceFunction<D>& f
         std::max((function.bound != nullptr ? bounded_tolerance : search_tolerance) * margin, request.tolerance);
     options.sufficient = request.sufficient + set.radius;
     options.reach = request.reach + set.radius;
-    options.max_boxes = request.max_boxes;
     const Minimum<D> minimum = function.bound != nullptr ? bounded_minimum(placed, local_set, options)
                                                          : minimum_in_convex(placed, local_set, options);
     if (!(minimum.distance < std::numeric_limits<double>::infinity())) return no_distance<D>();

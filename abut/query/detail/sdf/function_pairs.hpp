@@ -52,7 +52,6 @@ struct DistanceRequest {
     double sufficient = -std::numeric_limits<double>::infinity();
     double reach = std::numeric_limits<double>::infinity();
     double tolerance = 0;  ///< the distance may exceed the minimum by this
-    int max_boxes = 0;     ///< of a search over a function that bounds itself; 0: the search's own limit
 };
 
 template <int D>

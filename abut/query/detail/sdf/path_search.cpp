@@ -34,7 +34,7 @@ public:
           placed_(own_),
           tolerance_(bounds.tolerance),
           exact_(fraction_searched * tolerance_),
-          search_tolerance_(std::max(tolerance_, function_search_tolerance(set, function))) {}
+          search_tolerance_(std::max(tolerance_, function_search_tolerance<D>(set, function))) {}
 
     std::optional<TimedDistance<D>> run() const {
         Touch now = exact(bounds_.from, tolerance_);

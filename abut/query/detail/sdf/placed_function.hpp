@@ -128,14 +128,14 @@ public:
         bound.requested_gradient = function_.place.transposed(requested) / factor_;
         bound.sufficient = bound.sufficient / factor_ + level_;
         bound.anchor = back_.point(anchor);
-        const DistancePieceVisitor<D>* const visit = has_own_axes_ ? bound.visit_piece : nullptr;
+        const typename DistanceBound<D>::PieceVisitor* const visit = has_own_axes_ ? bound.visit_piece : nullptr;
         const auto visit_own = [&](const DVec<D>& low, const DVec<D>& high, DistanceBound<D>& piece) {
             for (double& value : piece.corners) value = factor_ * (value - level_);
             piece.lower_bound = factor_ * (piece.lower_bound - level_);
             piece.curvature *= factor_;
             (*visit)(function_.place.point(low), function_.place.point(high), piece);
         };
-        const DistancePieceVisitor<D> visitor(visit_own);
+        const typename DistanceBound<D>::PieceVisitor visitor(visit_own);
         bound.visit_piece = visit != nullptr ? &visitor : nullptr;
         bound.requested_support = (bound.requested_support - dot(requested, function_.place.offset)) / factor_ + level_;
         const DistanceBoundStatus known =
