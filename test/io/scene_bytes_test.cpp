@@ -46,7 +46,8 @@ TEST(SceneBytes, GoThereAndBack) {
 }
 
 TEST(SceneBytes, BringProblems) {
-    const Result<Scene> scene = detail::scene_from_bytes(detail::to_bytes(Problem{ProblemCode::degenerate, "zero area", 7}));
+    const Result<Scene> scene =
+        detail::scene_from_bytes(detail::to_bytes(Problem{ProblemCode::degenerate, "zero area", 7}));
     ASSERT_FALSE(scene);
     EXPECT_EQ(scene.problem().code, ProblemCode::degenerate);
     EXPECT_EQ(scene.problem().message, "zero area");
