@@ -13,9 +13,6 @@
 
 namespace abut::detail {
 
-/// A box of more pieces is cut first.
-inline constexpr int max_smooth_pieces = 64;
-
 /// The way from the box around the surface to a point; false where there is no surface.
 template <int D>
 bool way_from_surface(const FieldData<D>& data, const DVec<D>& point, DVec<D>& way) {
@@ -113,16 +110,17 @@ bool piece_corners(const FieldData<D>& data, const CellValues<D>& values, const 
 template <int D>
 bool each_smooth_piece(const FieldData<D>& data, const DVec<D>& low, const DVec<D>& high,
                        const DistanceBound<D>& wanted) {
+    constexpr int max_pieces = DistanceBound<D>::max_pieces;
     Cell<D> first, last;
     for (int a = 0; a < D; ++a) {
         first[a] = std::clamp(static_cast<std::int32_t>(std::max(low[a], 0.0)), 0, last_cell(data, a));
         last[a] = std::clamp(static_cast<std::int32_t>(std::ceil(high[a])) - 1, first[a], last_cell(data, a));
-        if (last[a] - first[a] >= max_smooth_pieces) return false;
+        if (last[a] - first[a] >= max_pieces) return false;
         constexpr auto brick = static_cast<std::int32_t>(brick_cells<D>);
         if (data.store != FieldStore::dense && first[a] / brick != last[a] / brick) return false;
     }
     const SampleGrid<D> grid = grid_of(data, first);
-    std::array<std::array<double, max_smooth_pieces + 3>, static_cast<std::size_t>(D)> sides;
+    std::array<std::array<double, max_pieces + 3>, static_cast<std::size_t>(D)> sides;
     Cell<D> count(0);
     std::int32_t pieces = 1;
     for (int a = 0; a < D; ++a) {
@@ -139,7 +137,7 @@ bool each_smooth_piece(const FieldData<D>& data, const DVec<D>& low, const DVec<
         side[++n] = high[a];
         count[a] = static_cast<std::int32_t>(n);
         pieces *= count[a];
-        if (pieces > max_smooth_pieces) return false;
+        if (pieces > max_pieces) return false;
     }
     if (pieces == 1) return false;
     const auto cell_side = static_cast<double>(data.cell);

@@ -195,7 +195,7 @@ TEST(FieldShape, PiecesFillTheBox) {
             if (seen.bound(seen.object, center - half, center + half, all) != DistanceBoundStatus::divided) continue;
             ++divided;
             EXPECT_NEAR(volume, 8 * half.x * half.y * half.z, 1e-9);
-            // The same with limits.
+            // With limits.
             pieces.clear();
             DistanceBound<3> some;
             some.needs_gradient = false;

@@ -31,6 +31,8 @@ template <int D>
 struct DistanceBound {
     /// Takes a piece of a box, from its lower to its upper corner, and the bound there.
     using PieceVisitor = FunctionRef<void(const DVec<D>& low, const DVec<D>& high, DistanceBound& piece)>;
+    /// A box of more pieces isn't divided.
+    static constexpr int max_pieces = 64;
 
     double value = 0;
     DVec<D> gradient{0.0};  ///< a gradient that fits the box

@@ -1,6 +1,7 @@
 // The minimum of a function that bounds itself, over a convex set known by its support function.
 //
-// The search is branch and bound over boxes. It cuts boxes at kinks of the function and through the best point so far.
+// The search is branch and bound over boxes. It cuts boxes at kinks of the function and through the best point so far,
+// and divides a box with few kinks at all of them.
 // A plane below the function and a support plane of the set bound every box that may overlap the set. The support
 // planes of the best points bound a box with kinks. The convex envelope of its corner values bounds a box without
 // kinks; it is exact at the corners, so that boxes around a minimum shrink fast to it (convex_envelope.hpp).
@@ -19,9 +20,6 @@ constexpr double coarse_tolerance = 1e-5;
 
 /// The limit on steps that look for a plane between a box and the set.
 constexpr int max_steps_apart = 4;
-
-/// The limit on pieces into which a box is divided at once.
-constexpr std::size_t max_pieces = 64;
 
 /// The plane that splits a box in two.
 struct Cut {
@@ -182,7 +180,7 @@ private:
             if (find_support(part, beside)) process_piece(heap, part, piece, beside);
         };
         const typename DistanceBound<D>::PieceVisitor visitor(visit);
-        if (heap.has_space(max_pieces)) bound.visit_piece = &visitor;
+        if (heap.has_space(DistanceBound<D>::max_pieces)) bound.visit_piece = &visitor;
         const DistanceBoundStatus known = function_.bound(box.center, box.half, bound);
         if (known == DistanceBoundStatus::divided) return;
         box.lower_bound = std::max(box.lower_bound, bound.lower_bound);
