@@ -22,7 +22,7 @@ namespace abut {
 /// O(n), and rebuilds the subtrees whose sum of areas has grown since they were built. So the tree stays about as good
 /// as a new one, however long the boxes move. With an executor both run on several threads; the tree is the same.
 ///
-/// Up to 2^31 items. Memory: 56 bytes an item in 3D (50 in 2D) if there are many. That includes up to 190 kilobytes of
+/// Up to 2^31 items. Memory: 79 bytes an item in 3D (59 in 2D) if there are many. That includes up to 190 kilobytes of
 /// working memory, and as much again for each further thread that builds.
 template <int D>
 class Bvh : public detail::BroadPhaseInterface<Bvh<D>, D> {

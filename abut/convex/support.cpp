@@ -2,6 +2,7 @@
 #include <abut/convex/point_soa.hpp>
 #include <abut/convex/support.hpp>
 #include <abut/math/assert.hpp>
+#include <abut/math/round_outwards.hpp>
 
 namespace abut::detail {
 namespace {
@@ -96,14 +97,6 @@ DVec<D> reach_of_box(const Convex<D>& convex) {
     return reach;
 }
 
-/// The float at or beyond x, towards `side`.
-float rounded_outwards(double x, float side) {
-    const float nearest = static_cast<float>(x);
-    const bool inside = side > 0 ? static_cast<double>(nearest) < x : static_cast<double>(nearest) > x;
-    if (!inside) return nearest;
-    return side > 0 ? next_up(nearest) : next_down(nearest);
-}
-
 }  // namespace
 
 template <int D>
@@ -181,7 +174,6 @@ DVec<D> support(const Convex<D>& convex, const DVec<D>& direction) {
 template <int D>
 Aabb<D> bounds(const Convex<D>& convex) {
     Aabb<D> result;
-    constexpr float infinity = std::numeric_limits<float>::infinity();
     if (convex.core == Core::points && convex.points == nullptr && convex.inner_radius == 0) {
         // For so few points, placing all of them is cheaper than support queries.
         DVec<D> low = convex.place.point(DVec<D>(convex.own[0])), high = low;
@@ -193,22 +185,22 @@ Aabb<D> bounds(const Convex<D>& convex) {
             }
         }
         for (int i = 0; i < D; ++i) {
-            result.min[i] = rounded_outwards(low[i] - convex.radius, -infinity);
-            result.max[i] = rounded_outwards(high[i] + convex.radius, infinity);
+            result.min[i] = float_at_most(low[i] - convex.radius);
+            result.max[i] = float_at_least(high[i] + convex.radius);
         }
         return result;
     }
     if (convex.core == Core::box && convex.inner_radius == 0) {
         const DVec<D> reach = reach_of_box(convex);
         for (int i = 0; i < D; ++i) {
-            result.min[i] = rounded_outwards(convex.place.offset[i] - reach[i] - convex.radius, -infinity);
-            result.max[i] = rounded_outwards(convex.place.offset[i] + reach[i] + convex.radius, infinity);
+            result.min[i] = float_at_most(convex.place.offset[i] - reach[i] - convex.radius);
+            result.max[i] = float_at_least(convex.place.offset[i] + reach[i] + convex.radius);
         }
         return result;
     }
     for (int i = 0; i < D; ++i) {
-        result.min[i] = rounded_outwards(core_support(convex, axis<D>(i, -1)).position[i] - convex.radius, -infinity);
-        result.max[i] = rounded_outwards(core_support(convex, axis<D>(i, 1)).position[i] + convex.radius, infinity);
+        result.min[i] = float_at_most(core_support(convex, axis<D>(i, -1)).position[i] - convex.radius);
+        result.max[i] = float_at_least(core_support(convex, axis<D>(i, 1)).position[i] + convex.radius);
     }
     return result;
 }

@@ -55,7 +55,7 @@ void World<D>::set_fixed(Id id, bool fixed) {
     const Aabb<D> own = box(id.index - 1);
     boxes_of(*item).remove(item->place);
     item->fixed = fixed;
-    item->place = boxes_of(*item).add(id.index - 1);
+    add_to_boxes(id.index - 1);
     boxes_of(*item).set(item->place, own);
     mark_pending(id.index - 1);
 }

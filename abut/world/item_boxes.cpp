@@ -9,7 +9,7 @@ namespace abut::detail {
 namespace {
 
 /// The number of stale boxes up to which queries test them one by one.
-constexpr std::size_t max_stale = 16;
+constexpr std::size_t max_stale = 8;
 /// If more than this fraction of the boxes is stale (1 / 8), a refit costs no more than setting them one by one.
 constexpr std::size_t refit_divisor = 8;
 
@@ -20,7 +20,7 @@ ItemBoxes<D>::ItemBoxes(std::optional<BroadPhaseKind> kind)
     : phase_(kind ? ChosenBroadPhase<D>(*kind) : ChosenBroadPhase<D>()) {}
 
 template <int D>
-std::uint32_t ItemBoxes<D>::add(std::uint32_t slot) {
+std::uint32_t ItemBoxes<D>::add(std::uint32_t slot, double queries) {
     if (free_.empty()) {
         reserve_one_more(boxes_);
         reserve_one_more(slots_);
@@ -31,6 +31,7 @@ std::uint32_t ItemBoxes<D>::add(std::uint32_t slot) {
         // Another kind of broad phase may suit twice as many boxes.
         if (boxes_.size() > 2 * planned_) {
             planned_ = boxes_.size();
+            phase_.set_history({.queries = queries});
             phase_.build(boxes_);
             mark_current();
         } else if (phase_.size() + 1 == boxes_.size()) {
@@ -118,45 +119,41 @@ void ItemBoxes<D>::each_overlapping(const Aabb<D>& box, ItemCall visit) const {
     phase_.each_overlapping(box, [&](std::uint32_t place) { return is_stale_[place] != 0 || visit(slots_[place]); });
 }
 
-/// Visits the stale places within reach, and then the others by the broad phase's `search(visit, reach)`.
+/// Visits the places within reach by the broad phase's `search(visit)`, and then the stale ones. The reach is short by
+/// then, so that most of these need no visit.
 template <int D>
-template <class Reach, class Search>
-void ItemBoxes<D>::each_within_reach(Reach reach, ReachCall visit, const Search& search) const {
+template <class MakeReach, class Search>
+void ItemBoxes<D>::each_within_reach(const MakeReach& make_reach, ReachCall visit, const Search& search) const {
     prepare();
     float rest = std::numeric_limits<float>::infinity();
     const auto visit_slot = [&](std::uint32_t place) -> float { return rest = std::min(rest, visit(slots_[place])); };
+    search([&](std::uint32_t place) -> float { return is_stale_[place] != 0 ? rest : visit_slot(place); });
+    if (stale_.empty()) return;
+    auto reach = make_reach();
+    reach.shrink(rest);
     for (std::size_t i = 0; i < stale_.size() && !reach.is_exhausted(); ++i) {
         double measure = 0;
         const Aabb<D>& box = boxes_[stale_[i]];
         if (!is_empty(box) && reach.measure(box, measure)) reach.shrink(visit_slot(stale_[i]));
     }
-    if (reach.is_exhausted()) return;
-    search([&](std::uint32_t place) -> float { return is_stale_[place] != 0 ? rest : visit_slot(place); }, rest);
 }
 
 template <int D>
 void ItemBoxes<D>::raycast(const Ray<D>& ray, ReachCall visit) const {
-    each_within_reach(RayReach<D>(ray), visit, [&](auto visit_place, float reach) {
-        Ray<D> rest = ray;
-        rest.length = std::min(rest.length, reach);
-        phase_.raycast(rest, visit_place);
-    });
+    each_within_reach([&] { return RayReach<D>(ray); }, visit,
+                      [&](auto visit_place) { phase_.raycast(ray, visit_place); });
 }
 
 template <int D>
 void ItemBoxes<D>::sweep(const MovingBox<D>& box, ReachCall visit) const {
-    each_within_reach(RayReach<D>::of_box(box), visit, [&](auto visit_place, float reach) {
-        MovingBox<D> rest = box;
-        rest.length = std::min(rest.length, static_cast<double>(reach));
-        phase_.sweep(rest, visit_place);
-    });
+    each_within_reach([&] { return RayReach<D>::of_box(box); }, visit,
+                      [&](auto visit_place) { phase_.sweep(box, visit_place); });
 }
 
 template <int D>
 void ItemBoxes<D>::closest(const Aabb<D>& box, ReachCall visit, float max_distance) const {
-    each_within_reach(BoxReach<D>(box, max_distance), visit, [&](auto visit_place, float reach) {
-        phase_.closest(box, visit_place, std::min(max_distance, reach));
-    });
+    each_within_reach([&] { return BoxReach<D>(box, max_distance); }, visit,
+                      [&](auto visit_place) { phase_.closest(box, visit_place, max_distance); });
 }
 
 template class ItemBoxes<2>;

@@ -15,7 +15,7 @@ namespace abut::detail {
 /// Gives each item a place, its index in the broad phase, and keeps the broad phase up to date.
 ///
 /// A change costs a few nanoseconds. The first query after it updates the broad phase without allocating, on its own
-/// thread: up to 16 changed boxes are tested one by one instead, more are set one by one, and if more than about an
+/// thread: up to 8 changed boxes are tested one by one instead, more are set one by one, and if more than about an
 /// eighth of all boxes changed, the whole structure is refitted.
 template <int D>
 class ItemBoxes {
@@ -23,8 +23,9 @@ public:
     /// With a fixed kind of broad phase; by default it is chosen by the boxes and their history.
     explicit ItemBoxes(std::optional<BroadPhaseKind> kind = {});
 
-    /// Returns a new place for the item of this slot, with an empty box.
-    std::uint32_t add(std::uint32_t slot);
+    /// Returns a new place for the item of this slot, with an empty box. `queries` is their number for each item, see
+    /// BroadPhaseHistory.
+    std::uint32_t add(std::uint32_t slot, double queries);
     void set(std::uint32_t place, const Aabb<D>& box);
     const Aabb<D>& box(std::uint32_t place) const { return boxes_[place]; }
     /// Gives the next refresh a larger box, so that queries may visit more items until the refresh after it, which
@@ -38,7 +39,7 @@ public:
 
     /// Whether any box differs from that in the broad phase since the last refresh.
     bool changed() const { return changed_ > 0 || refreshed_ != boxes_.size() || is_wide_ || !wide_.empty(); }
-    /// Brings the broad phase up to date. `queries` is their number for each item, see BroadPhaseHistory.
+    /// Brings the broad phase up to date.
     void refresh(double queries);
     /// The broad phase as of the last refresh.
     const ChosenBroadPhase<D>& phase() const { return phase_; }
@@ -54,8 +55,8 @@ private:
     void mark_stale(std::uint32_t place);
     void mark_current();
     void prepare() const;
-    template <class Reach, class Search>
-    void each_within_reach(Reach reach, ReachCall visit, const Search& search) const;
+    template <class MakeReach, class Search>
+    void each_within_reach(const MakeReach& make_reach, ReachCall visit, const Search& search) const;
 
     mutable ChosenBroadPhase<D> phase_;
     std::vector<Aabb<D>> boxes_;        // by place; empty if free

@@ -28,6 +28,9 @@ public:
     void add(std::uint32_t weight) {
         if (count_.load(std::memory_order_relaxed) < limit_) count_.fetch_add(weight, std::memory_order_relaxed);
     }
+    void set_limit(std::uint32_t limit) { limit_ = limit; }
+    /// The sum since the last call of `take`.
+    std::uint32_t sum() const { return count_.load(std::memory_order_relaxed); }
     /// Returns the sum since the last call, clamped to that call's limit, and resets it with a new limit. No other
     /// thread may call `add` at the same time.
     std::uint32_t take(std::uint32_t limit) {

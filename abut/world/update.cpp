@@ -9,22 +9,17 @@ namespace abut {
 
 template <int D>
 void World<D>::refresh_boxes() {
-    // The running mean over 16 updates serves a game that sends its queries in every second or every tenth update. The
-    // limit is high enough to count the queries of several updates in one.
+    // The running mean over 16 updates serves a game that sends its queries in every second or every tenth update.
     constexpr double averaged_updates = 16;
-    const auto limit = static_cast<std::uint32_t>(detail::ray_weight * (moving_.size() + 64));
-    const double queries = static_cast<double>(query_count_.take(limit)) / detail::ray_weight;
-    queries_per_item_ += (queries / static_cast<double>(std::max<std::size_t>(moving_.size(), 1)) - queries_per_item_) /
-                         averaged_updates;
+    queries_per_item_ += (queries_per_item(query_count_.take(query_limit())) - queries_per_item_) / averaged_updates;
     moving_.refresh(queries_per_item_);
-    // Fixed items change seldom, and each moving item queries them once in an update.
-    if (fixed_.changed()) fixed_.refresh(1);
+    if (fixed_.changed()) fixed_.refresh(queries_per_fixed_item);
 }
 
 template <int D>
 void World<D>::refresh_now() {
     if (moving_.changed()) moving_.refresh(queries_per_item_);
-    if (fixed_.changed()) fixed_.refresh(1);
+    if (fixed_.changed()) fixed_.refresh(queries_per_fixed_item);
 }
 
 /// Adds a pair whose boxes in the broad phases overlap to near_, if its boxes are near and its layers agree.

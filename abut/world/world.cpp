@@ -58,9 +58,17 @@ Id World<D>::add_shape(const AnyShape<D>& shape, const ItemOptions<D>& options) 
     ++item.generation;
     ++count_;
     continuous_ += options.continuous ? 1 : 0;
-    item.place = boxes_of(item).add(slot);
+    add_to_boxes(slot);
     reset_item(slot);
     return id_of(slot);
+}
+
+/// Gives an item a place in fixed_ or moving_, with an empty box.
+template <int D>
+void World<D>::add_to_boxes(std::uint32_t slot) {
+    Item& item = items_[slot];
+    item.place = boxes_of(item).add(slot, item.fixed ? queries_per_fixed_item : recent_queries_per_item());
+    query_count_.set_limit(query_limit());
 }
 
 /// Sets an item's data that depend on its shape.

@@ -36,5 +36,7 @@ std::vector<Bench> temporal_benches();
 std::vector<Bench> world_benches();
 /// The cost of changes to a World, and of queries after them.
 std::vector<Bench> world_change_benches();
+/// The cost of changes to a World with a query after each.
+std::vector<Bench> world_interleaved_benches();
 
 }  // namespace abut::bench

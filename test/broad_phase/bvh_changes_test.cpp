@@ -44,6 +44,35 @@ TYPED_TEST(BvhChanges, AddingOneByOneMakesNoBadTree) {
     }
 }
 
+// Regression: a tree without capacity for splits enlarged its leaves instead. After each of 10,000 items had been set
+// to another place, its cost was 26 times (2D) and 45 times (3D) that of a new tree.
+TYPED_TEST(BvhChanges, SettingItemsAnywhereMakesNoBadTree) {
+    constexpr int D = dimension_of<TypeParam>;
+    const std::size_t count = 5000;
+    const scenes::MovingBoxes<D> scene(count, 5);
+    std::vector<Aabb<D>> boxes(scene.boxes().begin(), scene.boxes().end());
+    TypeParam tree, fresh;
+    tree.build(boxes);
+    for (std::uint64_t round = 0; round < 6; ++round) {
+        const scenes::MovingBoxes<D> other(count, 6 + round);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            boxes[i] = other.boxes()[i];
+            ASSERT_TRUE(tree.set(i, boxes[i])) << "round " << round << ", item " << i;
+        }
+        fresh.build(boxes);
+        EXPECT_LT(tree.cost(), 1.6 * fresh.cost()) << "round " << round;
+        std::size_t found = 0, expected = 0;
+        for (std::size_t i = 0; i < count; i += 50) {
+            tree.each_overlapping(boxes[i], [&](std::uint32_t) { ++found; });
+            for (const Aabb<D>& box : boxes) expected += overlaps(box, boxes[i]) ? 1u : 0u;
+        }
+        EXPECT_EQ(found, expected);
+        EXPECT_GT(found, 2 * count / 50);
+    }
+    tree.update(boxes);
+    EXPECT_LT(tree.cost(), 1.1 * fresh.cost()) << "repaired";
+}
+
 TYPED_TEST(BvhChanges, NeverDecays) {
     constexpr int D = dimension_of<TypeParam>;
     for (const bool crossing : {false, true}) {

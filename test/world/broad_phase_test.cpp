@@ -130,6 +130,18 @@ TEST(BroadPhaseOfAWorld, IsStableWithOccasionalRays) {
     EXPECT_EQ(changes_of_kind(120, 4, 300, BroadPhaseKind::bvh), 1);
 }
 
+// Regression: the choice for a growing world counted no query before the first update.
+TEST(BroadPhaseOfAWorld, SuitsQueriesBeforeTheFirstUpdate) {
+    for (const bool queries : {false, true}) {
+        World2 world;
+        for (int i = 0; i < 1000; ++i) {
+            world.add(Circle{{static_cast<float>(i % 32), static_cast<float>(i) / 32}, 0.4f});
+            if (queries) world.raycast(Ray2{{-1, 0}, {1, 0}, 100});
+        }
+        EXPECT_EQ(world.broad_phase(), queries ? BroadPhaseKind::bvh : BroadPhaseKind::grid);
+    }
+}
+
 TEST(QueryCount, IsTheSameFromManyThreads) {
     detail::QueryCount count;
     EXPECT_EQ(count.take(1000), 0u);

@@ -44,16 +44,18 @@ void BvhTree<D>::rebuild(std::span<const Aabb<D>> boxes, Executor* executor) {
     run_jobs(items, executor);
 }
 
-/// Reserves memory to build a tree of so many items, with space for the items at the end of the leaves.
+/// Reserves memory to build a tree of so many items, with space for the items at the end of the leaves. After many
+/// changes of single items leaves and nodes are less full than built ones: 4.4 items in a leaf and 4.5 children in a
+/// node, the minimum during 24 moves of each of 10,000 items to anywhere.
 template <int D>
 void BvhTree<D>::reserve(std::uint32_t items) {
     const std::size_t for_items = std::size_t{items} * sizeof(BvhItem) / sizeof(BvhLeaf<D>);
-    const std::size_t leaves = std::max<std::size_t>(bvh_max_leaves(items), for_items) + bvh_lanes;
+    const std::size_t leaves = std::max(std::size_t{items} * 15 / 64, for_items) + 2 * bvh_lanes;
     if (leaves_.size() < leaves) {
         leaves_.resize(leaves);
         leaf_parents_.resize(leaves);
     }
-    const std::size_t nodes = items / 20 + 2 * bvh_lanes;
+    const std::size_t nodes = items / 15 + 2 * bvh_lanes;
     if (nodes_.size() < nodes) nodes_.resize(nodes);
     if (subtrees_.empty()) subtrees_.resize(1);
     for (BvhSubtree<D>& subtree : subtrees_) subtree.reserve(std::min(items, bvh_subtree_items));

@@ -3,6 +3,7 @@
 // repairs the loss of quality.
 
 #include <abut/broad_phase/boxes.hpp>
+#include <abut/broad_phase/bvh/descent.hpp>
 #include <abut/broad_phase/bvh/surface_area.hpp>
 #include <abut/broad_phase/bvh/tree.hpp>
 #include <abut/math/assert.hpp>
@@ -30,27 +31,28 @@ NodeSplit split_overflow(const std::array<Aabb<D>, overflow_count>& boxes) {
     constexpr std::uint32_t min_count = 3;
     NodeSplit best{};
     double min_cost = std::numeric_limits<double>::infinity();
+    std::array<Vec<D>, overflow_count> centers;
+    for (std::uint32_t i = 0; i < overflow_count; ++i) centers[i] = center(boxes[i]);
     for (int axis = 0; axis < D; ++axis) {
         NodeSplit candidate{};
-        std::array<float, overflow_count> centers;
         for (std::uint32_t i = 0; i < overflow_count; ++i) {
-            const float at = centers[i] = center(boxes[i])[axis];
             std::uint32_t position = i;
-            for (; position > 0 && centers[candidate.order[position - 1]] > at; --position)
+            for (; position > 0 && centers[candidate.order[position - 1]][axis] > centers[i][axis]; --position)
                 candidate.order[position] = candidate.order[position - 1];
             candidate.order[position] = i;
         }
         std::array<double, overflow_count> right_cost{};
         Aabb<D> box = Aabb<D>::empty();
-        for (std::uint32_t i = overflow_count; i-- > 0;) {
+        for (std::uint32_t i = overflow_count; i-- > min_count;) {
             box = merged(box, boxes[candidate.order[i]]);
             right_cost[i] = box_size(box).area * (overflow_count - i);
         }
         box = Aabb<D>::empty();
         for (candidate.left = 1; candidate.left <= overflow_count - min_count; ++candidate.left) {
             box = merged(box, boxes[candidate.order[candidate.left - 1]]);
+            if (candidate.left < min_count) continue;
             const double cost = box_size(box).area * candidate.left + right_cost[candidate.left];
-            if (candidate.left < min_count || cost >= min_cost) continue;
+            if (cost >= min_cost) continue;
             min_cost = cost;
             best = candidate;
         }
@@ -58,45 +60,12 @@ NodeSplit split_overflow(const std::array<Aabb<D>, overflow_count>& boxes) {
     return best;
 }
 
-/// Half the surface areas of eight boxes, from their extents. An infinite extent counts as 0, as in `box_size`.
+/// Whether a box touches no side of another from inside.
 template <int D>
-void areas_of(double (&extent)[D][bvh_lanes], double (&area)[bvh_lanes]) {
-    for (auto& extents_on_axis : extent)
-        for (double& each : extents_on_axis) each = each < std::numeric_limits<double>::infinity() ? each : 0;
-    for (std::uint32_t lane = 0; lane < bvh_lanes; ++lane) {
-        if constexpr (D == 2)
-            area[lane] = extent[0][lane] + extent[1][lane];
-        else
-            area[lane] = extent[0][lane] * extent[1][lane] + extent[1][lane] * extent[2][lane] +
-                         extent[2][lane] * extent[0][lane];
-    }
-}
-
-/// The lane of the child whose area grows least by a box; among equals, the child with the smallest area.
-template <int D>
-std::uint32_t choose_lane(const BvhNode<D>& node, const Aabb<D>& box) {
-    std::uint32_t best = 0;
-    double min_growth = std::numeric_limits<double>::infinity(), min_area = min_growth;
-    // The compiler vectorises these loops over all lanes. The results of unused lanes are ignored.
-    double extent[D][bvh_lanes], merged_extent[D][bvh_lanes], areas[bvh_lanes], merged_areas[bvh_lanes];
-    for (int i = 0; i < D; ++i)
-        for (std::uint32_t lane = 0; lane < bvh_lanes; ++lane) {
-            const float low = node.min[i][lane], high = node.max[i][lane];
-            const float lower = box.min[i] < low ? box.min[i] : low, higher = high < box.max[i] ? box.max[i] : high;
-            extent[i][lane] = static_cast<double>(high) - static_cast<double>(low);
-            merged_extent[i][lane] = static_cast<double>(higher) - static_cast<double>(lower);
-        }
-    areas_of<D>(extent, areas);
-    areas_of<D>(merged_extent, merged_areas);
-    for (std::uint32_t lane = 0; lane < bvh_lanes && node.child[lane] != bvh_none; ++lane) {
-        if (!(node.min[0][lane] <= node.max[0][lane])) continue;
-        const double area = areas[lane], growth = merged_areas[lane] - area;
-        if (growth > min_growth || (growth == min_growth && area >= min_area)) continue;
-        min_growth = growth;
-        min_area = area;
-        best = lane;
-    }
-    return best;
+bool is_strictly_inside(const Aabb<D>& box, const Aabb<D>& outer) {
+    bool result = true;
+    for (int i = 0; i < D; ++i) result = result && outer.min[i] < box.min[i] && box.max[i] < outer.max[i];
+    return result;
 }
 
 }  // namespace
@@ -121,7 +90,7 @@ std::uint32_t BvhTree<D>::insert(const Aabb<D>& box) {
     const auto count = static_cast<std::uint32_t>(size());
     if (leaves_.size() < std::max(bvh_max_leaves(count) + bvh_lanes, leaves_live_ + spare) ||
         nodes_.size() < nodes_live_ + spare)
-        reserve(std::max({count + count / 2, 10 * (leaves_live_ + spare), 30 * (nodes_live_ + spare)}));
+        reserve(std::max({count + count / 2, 6 * (leaves_live_ + spare), 20 * (nodes_live_ + spare)}));
     const Aabb<D> stored = usable(box);
     if (!is_empty(stored)) add(index, stored);
     return index;
@@ -145,10 +114,10 @@ bool BvhTree<D>::set(std::uint32_t index, const Aabb<D>& box) {
         add(index, stored);
         return true;
     }
-    const bool stays = !is_empty(stored) && is_bounded(stored) == is_bounded(leaves_[slot].box(lane));
+    const Aabb<D> before = leaves_[slot].box(lane);
     // After a small move it stays in its leaf, as long as only one node above the leaf has to be enlarged.
-    if (stays && enlarge(slot, lane, stored, 1)) return true;
-    if (stays && !has_capacity()) return enlarge(slot, lane, stored, bvh_depth);
+    if (overlaps(stored, before) && is_bounded(stored) == is_bounded(before) && enlarge(slot, lane, stored))
+        return true;
     remove(index);
     positions_[index] = position_none;
     if (is_empty(stored)) return true;
@@ -157,34 +126,22 @@ bool BvhTree<D>::set(std::uint32_t index, const Aabb<D>& box) {
     return true;
 }
 
-/// Replaces a box of a leaf if that enlarges at most `levels` nodes above the leaf. Else changes nothing and returns
-/// false.
+/// Replaces a box of a leaf if that enlarges at most one node above the leaf. Else changes nothing and returns false.
 template <int D>
-bool BvhTree<D>::enlarge(std::uint32_t slot, std::uint32_t lane, const Aabb<D>& box, int levels) {
-    std::array<std::uint32_t, bvh_depth> refs, lanes;
-    std::uint32_t ref = slot | bvh_leaf_bit;
-    std::size_t enlarged = 0;
-    for (;; ++enlarged) {
-        const std::uint32_t parent = parent_of(ref);
-        if (parent == bvh_none) {
-            BvhRoot<D>& root = roots_[is_bounded(box) ? 0 : 1];
-            if (!contains(root.box, box) && enlarged > static_cast<std::size_t>(levels)) return false;
+bool BvhTree<D>::enlarge(std::uint32_t slot, std::uint32_t lane, const Aabb<D>& box) {
+    const std::uint32_t ref = slot | bvh_leaf_bit, parent = parent_of(ref);
+    BvhRoot<D>& root = roots_[is_bounded(box) ? 0 : 1];
+    if (parent == bvh_none) {
+        root.box = merged(root.box, box);
+    } else if (const std::uint32_t at = lane_of(ref); !contains(nodes_[parent].box(at), box)) {
+        const std::uint32_t above = nodes_[parent].parent;
+        if (above == bvh_none)
             root.box = merged(root.box, box);
-            break;
-        }
-        const std::uint32_t parent_lane = lane_of(ref);
-        if (contains(nodes_[parent].box(parent_lane), box)) break;
-        if (enlarged == static_cast<std::size_t>(levels)) return false;
-        refs[enlarged] = parent;
-        lanes[enlarged] = parent_lane;
-        ref = parent;
+        else if (!contains(nodes_[above].box(lane_of(parent)), box))
+            return false;
+        nodes_[parent].set(at, merged(nodes_[parent].box(at), box));
     }
     leaves_[slot].set(lane, box);
-    for (std::size_t i = 0; i < enlarged; ++i) {
-        BvhNode<D>& node = nodes_[refs[i]];
-        const Aabb<D> before = node.box(lanes[i]);
-        node.set(lanes[i], is_empty(before) ? box : merged(before, box));
-    }
     return true;
 }
 
@@ -226,15 +183,7 @@ void BvhTree<D>::add(std::uint32_t index, const Aabb<D>& box) {
         root.ref = leaf | bvh_leaf_bit;
         parent_of(root.ref) = bvh_none;
     }
-    std::uint32_t ref = root.ref;
-    while (!is_leaf(ref)) {
-        BvhNode<D>& node = nodes_[ref];
-        const std::uint32_t lane = choose_lane(node, box);
-        const Aabb<D> before = node.box(lane);
-        node.set(lane, is_empty(before) ? box : merged(before, box));
-        ++node.items;
-        ref = node.child[lane];
-    }
+    const std::uint32_t ref = descend(nodes_.data(), root.ref, box);
     const std::uint32_t slot = ref & ~bvh_leaf_bit, count = leaves_[slot].count();
     if (count < bvh_lanes) return write_item(slot, count, index, box);
 
@@ -268,7 +217,6 @@ void BvhTree<D>::attach_sibling(std::uint32_t ref, std::uint32_t sibling) {
             nodes_[new_root] = BvhNode<D>::empty();
             set_child(new_root, 0, ref, box);
             set_child(new_root, 1, sibling, sibling_box);
-            nodes_[new_root].items = items_;
             for (BvhRoot<D>& root : roots_)
                 if (root.ref == ref) root.ref = new_root;
             return;
@@ -286,11 +234,10 @@ void BvhTree<D>::attach_sibling(std::uint32_t ref, std::uint32_t sibling) {
         boxes[bvh_lanes] = sibling_box;
         children[bvh_lanes] = sibling;
         const NodeSplit split = split_overflow<D>(boxes);
-        const std::uint32_t second = allocate_node(), above = nodes_[parent].parent, items = nodes_[parent].items;
+        const std::uint32_t second = allocate_node(), above = nodes_[parent].parent;
         nodes_[parent] = nodes_[second] = BvhNode<D>::empty();
         nodes_[parent].parent = above;
-        // The count is an estimate until the next update. The built area of 0 makes that update rebuild the subtree.
-        nodes_[parent].items = nodes_[second].items = items / 2 + 1;
+        // The built area of 0 makes the next update rebuild the subtree.
         for (std::uint32_t i = 0; i < overflow_count; ++i) {
             const bool left = i < split.left;
             const std::uint32_t from = split.order[i];
@@ -304,44 +251,74 @@ void BvhTree<D>::attach_sibling(std::uint32_t ref, std::uint32_t sibling) {
 template <int D>
 void BvhTree<D>::set_child(std::uint32_t node, std::uint32_t lane, std::uint32_t child, const Aabb<D>& box) {
     nodes_[node].child[lane] = child;
+    set_box(node, lane, box);
+    parent_of(child) = node;
+}
+
+template <int D>
+void BvhTree<D>::set_box(std::uint32_t node, std::uint32_t lane, const Aabb<D>& box) {
     if (is_empty(box))
         nodes_[node].clear(lane);
     else
         nodes_[node].set(lane, box);
-    parent_of(child) = node;
 }
 
-/// Removes an item that is in the tree, and the leaves and nodes that become empty.
+/// Removes an item that is in the tree. A leaf with few items left is dissolved, and they are added elsewhere:
+/// otherwise many moves would leave many leaves with one item each.
 template <int D>
 void BvhTree<D>::remove(std::uint32_t index) {
+    constexpr std::uint32_t min_count = 2;
     --items_;
-    const std::uint32_t slot = positions_[index] / bvh_lanes;
-    remove_from_leaf(slot, positions_[index] % bvh_lanes);
-    std::uint32_t ref = slot | bvh_leaf_bit;
-    for (;;) {
-        const std::uint32_t parent = parent_of(ref);
-        const bool empty = (is_leaf(ref) ? leaves_[slot].count() : nodes_[ref].count()) == 0;
-        const Aabb<D> box = box_of(ref);
-        const std::uint32_t lane = parent == bvh_none ? 0 : lane_of(ref);
-        if (empty && is_leaf(ref)) free_leaf(slot);
-        if (empty && !is_leaf(ref)) free_node(ref);
-        if (parent == bvh_none) {
-            for (BvhRoot<D>& root : roots_)
-                if (root.ref == ref) root = {empty ? bvh_none : ref, box};
-            return;
-        }
-        BvhNode<D>& node = nodes_[parent];
-        --node.items;
-        if (empty) {
-            const std::uint32_t last = node.count() - 1;
-            if (lane != last) set_child(parent, lane, node.child[last], node.box(last));
-            node.clear(last);
-            node.child[last] = bvh_none;
-        } else {
-            set_child(parent, lane, ref, box);
-        }
-        ref = parent;
+    const std::uint32_t slot = positions_[index] / bvh_lanes, lane = positions_[index] % bvh_lanes;
+    const Aabb<D> box = leaves_[slot].box(lane);
+    remove_from_leaf(slot, lane);
+    const std::uint32_t ref = slot | bvh_leaf_bit, count = leaves_[slot].count();
+    const bool dissolves = count < min_count && parent_of(ref) != bvh_none && has_capacity();
+    if (count > 0 && !dissolves) return shrink(ref, box);
+    const BvhLeaf<D> rest = leaves_[slot];
+    unlink(ref);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        --items_;
+        add(rest.index[i], rest.box(i));
     }
+}
+
+/// Shrinks the boxes of a leaf or node and of those above, as far as a box that was removed below touched their sides.
+template <int D>
+void BvhTree<D>::shrink(std::uint32_t ref, const Aabb<D>& removed) {
+    for (std::uint32_t parent = parent_of(ref); parent != bvh_none; ref = parent, parent = parent_of(ref)) {
+        const std::uint32_t lane = lane_of(ref);
+        if (is_strictly_inside(removed, nodes_[parent].box(lane))) return;
+        set_box(parent, lane, box_of(ref));
+    }
+    BvhRoot<D>& root = roots_[roots_[0].ref == ref ? 0 : 1];
+    if (!is_strictly_inside(removed, root.box)) root.box = box_of(ref);
+}
+
+/// Frees an empty leaf. A node that has one child left is freed as well, and the child takes its place.
+template <int D>
+void BvhTree<D>::unlink(std::uint32_t ref) {
+    const std::uint32_t parent = parent_of(ref);
+    if (parent == bvh_none) {
+        roots_[roots_[0].ref == ref ? 0 : 1] = {};
+        return free_leaf(ref & ~bvh_leaf_bit);
+    }
+    BvhNode<D>& node = nodes_[parent];
+    const std::uint32_t lane = lane_of(ref), last = node.count() - 1;
+    const Aabb<D> removed = node.box(lane);
+    free_leaf(ref & ~bvh_leaf_bit);
+    if (lane != last) set_child(parent, lane, node.child[last], node.box(last));
+    node.clear(last);
+    node.child[last] = bvh_none;
+    if (last > 1) return shrink(parent, removed);
+    const std::uint32_t rest = node.child[0], above = node.parent;
+    parent_of(rest) = above;
+    if (above == bvh_none)
+        roots_[roots_[0].ref == parent ? 0 : 1].ref = rest;
+    else
+        nodes_[above].child[lane_of(parent)] = rest;
+    free_node(parent);
+    shrink(rest, removed);
 }
 
 template <int D>
@@ -352,9 +329,9 @@ Aabb<D> BvhTree<D>::box_of(std::uint32_t ref) const {
 template <int D>
 std::uint32_t BvhTree<D>::lane_of(std::uint32_t ref) const {
     const std::uint32_t parent = is_leaf(ref) ? leaf_parents_[ref & ~bvh_leaf_bit] : nodes_[ref].parent;
-    std::uint32_t lane = 0;
-    while (nodes_[parent].child[lane] != ref) ++lane;
-    return lane;
+    std::uint32_t result = 0;
+    for (std::uint32_t lane = 0; lane < bvh_lanes; ++lane) result += nodes_[parent].child[lane] == ref ? lane : 0;
+    return result;
 }
 
 template std::uint32_t BvhTree<2>::insert(const Aabb<2>&);

@@ -53,8 +53,12 @@ struct alignas(32) BvhRows {
     /// The bounds of its boxes; Aabb::empty() if there are none.
     Aabb<D> bounds() const {
         Aabb<D> result = Aabb<D>::empty();
-        for (std::uint32_t lane = 0; lane < bvh_lanes; ++lane)
-            if (min[0][lane] <= max[0][lane]) result = merged(result, box(lane));
+        // The comparisons are false for an unused box.
+        for (int i = 0; i < D; ++i)
+            for (std::uint32_t lane = 0; lane < bvh_lanes; ++lane) {
+                result.min[i] = min[i][lane] < result.min[i] ? min[i][lane] : result.min[i];
+                result.max[i] = result.max[i] < max[i][lane] ? max[i][lane] : result.max[i];
+            }
         return result;
     }
 };
@@ -65,7 +69,7 @@ struct alignas(32) BvhLeaf : BvhRows<D> {
 
     std::uint32_t count() const {
         std::uint32_t result = 0;
-        while (result < bvh_lanes && index[result] != bvh_none) ++result;
+        for (const std::uint32_t item : index) result += item != bvh_none ? 1u : 0u;
         return result;
     }
     static BvhLeaf empty() {
@@ -88,7 +92,7 @@ struct alignas(32) BvhNode : BvhRows<D> {
 
     std::uint32_t count() const {
         std::uint32_t result = 0;
-        while (result < bvh_lanes && child[result] != bvh_none) ++result;
+        for (const std::uint32_t ref : child) result += ref != bvh_none ? 1u : 0u;
         return result;
     }
     static BvhNode empty() {

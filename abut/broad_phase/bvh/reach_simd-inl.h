@@ -10,6 +10,7 @@
 
 #include <abut/broad_phase/bvh/overlap_simd-inl.h>
 #include <abut/broad_phase/reach.hpp>
+#include <abut/math/round_outwards.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -71,7 +72,7 @@ class RayLanes {
 public:
     explicit RayLanes(const RayReach<D>& reach) {
         for (int i = 0; i < D; ++i) {
-            const float low = not_above(reach.low()[i]), high = not_below(reach.high()[i]);
+            const float low = float_at_most(reach.low()[i]), high = float_at_least(reach.high()[i]);
             is_parallel_[i] = reach.direction()[i] == 0;
             set(i, low, high, is_parallel_[i] ? 1 : static_cast<float>(reach.inverse()[i]));
         }
@@ -122,13 +123,6 @@ public:
     }
 
 private:
-    static float not_above(double x) {
-        const auto rounded = static_cast<float>(x);
-        return static_cast<double>(rounded) > x ? std::nextafter(rounded, -std::numeric_limits<float>::infinity())
-                                                : rounded;
-    }
-    static float not_below(double x) { return -not_above(-x); }
-
     void set(int i, float low, float high, float inverse) {
         backwards_[i] = inverse < 0;
         front_[i] = backwards_[i] ? low : high;

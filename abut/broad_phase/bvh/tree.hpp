@@ -89,13 +89,16 @@ private:
     bool insert_missing(std::span<const Aabb<D>> boxes);
 
     bool has_capacity() const;
-    bool enlarge(std::uint32_t slot, std::uint32_t lane, const Aabb<D>& box, int levels);
+    bool enlarge(std::uint32_t slot, std::uint32_t lane, const Aabb<D>& box);
     void add(std::uint32_t index, const Aabb<D>& box);
     void attach_sibling(std::uint32_t ref, std::uint32_t sibling);
+    void set_box(std::uint32_t node, std::uint32_t lane, const Aabb<D>& box);
     void set_child(std::uint32_t node, std::uint32_t lane, std::uint32_t child, const Aabb<D>& box);
     void write_item(std::uint32_t slot, std::uint32_t lane, std::uint32_t index, const Aabb<D>& box);
     void remove_from_leaf(std::uint32_t slot, std::uint32_t lane);
     void remove(std::uint32_t index);
+    void shrink(std::uint32_t ref, const Aabb<D>& removed);
+    void unlink(std::uint32_t ref);
     Aabb<D> box_of(std::uint32_t ref) const;
     std::uint32_t lane_of(std::uint32_t ref) const;
     std::uint32_t& parent_of(std::uint32_t ref) {

@@ -1,4 +1,4 @@
-#include <abut/math/next_float.hpp>
+#include <abut/math/round_outwards.hpp>
 #include <abut/math/set_affine.hpp>
 #include <abut/math/simd/library_entry.hpp>
 #include <abut/shape/any_shape.hpp>
@@ -14,10 +14,8 @@ template <int D>
 Aabb<D> box_around(const DVec<D>& middle, const DVec<D>& reach, double radius) {
     Aabb<D> result;
     for (int i = 0; i < D; ++i) {
-        const double low = middle[i] - reach[i] - radius, high = middle[i] + reach[i] + radius;
-        const float min = static_cast<float>(low), max = static_cast<float>(high);
-        result.min[i] = static_cast<double>(min) > low ? next_down(min) : min;
-        result.max[i] = static_cast<double>(max) < high ? next_up(max) : max;
+        result.min[i] = float_at_most(middle[i] - reach[i] - radius);
+        result.max[i] = float_at_least(middle[i] + reach[i] + radius);
     }
     return result;
 }

@@ -1,0 +1,26 @@
+#pragma once
+
+// Doubles to floats, rounded down or up. For .cpp files.
+
+#include <abut/math/next_float.hpp>
+
+#include <bit>
+#include <cstdint>
+
+namespace abut {
+
+/// The largest float that is not above x; NaN for NaN. There is no branch, as none could predict on which side of x the
+/// nearest float lies.
+inline float float_at_most(double x) {
+    const auto nearest = static_cast<float>(x);
+    const std::uint32_t mask = 0u - static_cast<std::uint32_t>(static_cast<double>(nearest) > x);
+    return std::bit_cast<float>((std::bit_cast<std::uint32_t>(next_down(nearest)) & mask) |
+                                (std::bit_cast<std::uint32_t>(nearest) & ~mask));
+}
+
+/// The smallest float that is not below x; NaN for NaN.
+inline float float_at_least(double x) {
+    return -float_at_most(-x);
+}
+
+}  // namespace abut
