@@ -7,7 +7,7 @@
 #include <bit>
 #include <cstdint>
 
-namespace abut {
+namespace abut::detail {
 
 /// The largest float that is not above x; NaN for NaN. There is no branch, as none could predict on which side of x the
 /// nearest float lies.
@@ -23,4 +23,4 @@ inline float float_at_least(double x) {
     return -float_at_most(-x);
 }
 
-}  // namespace abut
+}  // namespace abut::detail
