@@ -4,7 +4,7 @@
 #include "../scenes/moving_boxes.hpp"
 #include "../scenes/terrain.hpp"
 #include "upper_halves.hpp"
-#include "walk.hpp"
+#include "walk/walk.hpp"
 #include <abut/broad_phase/bvh.hpp>
 #include <abut/field/field.hpp>
 #include <abut/motion/laser.hpp>

@@ -1,7 +1,7 @@
 // Distances: pairs in 3D, and hulls above a terrain.
 
+#include "../upper_halves.hpp"
 #include "narrow.hpp"
-#include "upper_halves.hpp"
 #include <abut/shape/mesh.hpp>
 
 namespace abut::bench {

@@ -1,6 +1,6 @@
 // Changes of a World with a query after each, compared with the same changes and the same queries of an updated world.
 
-#include "../scenes/moving_boxes.hpp"
+#include "../../scenes/moving_boxes.hpp"
 #include "broad.hpp"
 #include <abut/shape/ball.hpp>
 #include <abut/world/world.hpp>
