@@ -10,6 +10,28 @@
 
 namespace abut {
 
+/// A box around the moving box from one distance along its path to another, rounded outwards.
+template <int D>
+Aabb<D> box_around_path(const RayReach<D>& path, double from, double to) {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    const auto rounded = [](double number) {
+        constexpr double largest_float = std::numeric_limits<float>::max();
+        if (std::abs(number) <= largest_float) return static_cast<float>(number);
+        return number < 0 ? -infinity : infinity;
+    };
+    Aabb<D> result;
+    for (int i = 0; i < D; ++i) {
+        const double speed = path.direction()[i];
+        const double first = speed == 0 ? 0 : speed * from, last = speed == 0 ? 0 : speed * to;
+        const double low = path.low()[i] + std::min(first, last), high = path.high()[i] + std::max(first, last);
+        // The sum has a rounding error in the last digits of the largest term.
+        const double tolerance = 1e-14 * (std::abs(path.low()[i]) + std::abs(path.high()[i]) + std::abs(first));
+        result.min[i] = std::nextafter(rounded(low - tolerance), -infinity);
+        result.max[i] = std::nextafter(rounded(high + tolerance), infinity);
+    }
+    return result;
+}
+
 /// The path of a moving box through `bounds`, in pieces of equal length. The box around a long diagonal path is huge;
 /// the boxes around its pieces are small.
 template <int D>
@@ -38,7 +60,7 @@ public:
         for (int piece = 0; piece < count_ && reach_.within(time(piece)); ++piece) {
             const double from = piece == 0 ? 0 : time(piece);
             const double until = piece + 1 == count_ ? std::numeric_limits<double>::infinity() : time(piece + 1);
-            overlapping(around(time(piece), std::min(until, reach_.reach())),
+            overlapping(box_around_path(reach_, time(piece), std::min(until, reach_.reach())),
                         [&](std::uint32_t index, const Aabb<D>& box) -> bool {
                             double enters = 0;
                             if (!reach_.measure(box, enters) || enters < from || enters >= until) return true;
@@ -57,27 +79,6 @@ private:
 
     /// The first piece begins with the path, even if that is endless.
     double time(int piece) const { return piece == 0 ? begin_ : begin_ + (end_ - begin_) * piece / count_; }
-
-    /// A box around the moving box from one time to another, rounded outwards.
-    Aabb<D> around(double from, double to) const {
-        constexpr float infinity = std::numeric_limits<float>::infinity();
-        Aabb<D> result;
-        for (int i = 0; i < D; ++i) {
-            const double speed = reach_.direction()[i];
-            const double first = speed == 0 ? 0 : speed * from, last = speed == 0 ? 0 : speed * to;
-            const double low = reach_.low()[i] + std::min(first, last), high = reach_.high()[i] + std::max(first, last);
-            // The sum has a rounding error in the last digits of the largest term.
-            const double tolerance = 1e-14 * (std::abs(reach_.low()[i]) + std::abs(reach_.high()[i]) + std::abs(first));
-            result.min[i] = std::nextafter(rounded(low - tolerance), -infinity);
-            result.max[i] = std::nextafter(rounded(high + tolerance), infinity);
-        }
-        return result;
-    }
-    static float rounded(double number) {
-        constexpr double largest_float = std::numeric_limits<float>::max();
-        if (std::abs(number) <= largest_float) return static_cast<float>(number);
-        return number < 0 ? -std::numeric_limits<float>::infinity() : std::numeric_limits<float>::infinity();
-    }
 
     RayReach<D> reach_;
     double begin_ = 0, end_;

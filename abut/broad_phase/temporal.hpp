@@ -10,7 +10,6 @@
 #include <abut/math/executor.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -20,9 +19,11 @@ namespace abut {
 
 /// The pairs of a scene over time, over any other broad phase. Each item has a top speed: no face of its box moves
 /// farther in a unit of time, turning and growing included. Two boxes a gap g apart cannot touch before g / (v + w),
-/// nor separate before that when they overlap by a depth g: until then the pair is not tested. The inner structure
-/// searches for the pairs, in boxes grown by how far each may move until the next search. Items of like speed are
-/// searched for together, and counts decide how often.
+/// nor separate before that when they overlap by a depth g: until then the pair is not tested.
+///
+/// The inner structure searches for the pairs, in boxes grown by how far each may move until the next search: v T.
+/// Counts decide how long T is. Items so fast that they cross the spacing of the items within T are searched for in
+/// each update, among themselves and among the grown boxes.
 ///
 /// Exact as long as the boxes given to `update` stay within their speeds, up to two ulp of the coordinate. (A box that
 /// is moved by adding floats rounds in each update: at 1000 from the origin by 3e-5.) A box that is faster is detected
@@ -32,7 +33,7 @@ namespace abut {
 /// or is put elsewhere has no speed: call `jumped` for it. There are no region, ray and nearest queries: they need all
 /// boxes as they are now, and a Temporal does not read those.
 ///
-/// Memory: the inner structures, 36 bytes an item in 3D (28 in 2D), as many as a box for a search, and 12.2 a pair that
+/// Memory: the inner structures, 40 bytes an item in 3D (32 in 2D), as many as a box for a search, and 12.2 a pair that
 /// is held: 2 to 8 an item, where each overlaps two others. `update` allocates only where more pairs are held than ever
 /// before.
 template <int D, BroadPhase<D> Inner = Bvh<D>>
@@ -40,13 +41,13 @@ class Temporal {
 public:
     /// From nothing. Top speeds are per unit of time, 0 or more; infinity is for what may go anywhere.
     void build(std::span<const Aabb<D>> boxes, std::span<const float> top_speeds, Executor* executor = nullptr) {
-        Search search(inner_, executor);
-        core_.build(boxes, top_speeds, search);
+        core_.build(boxes, top_speeds);
+        search(boxes, executor);
     }
     /// The same count, where they are now: `time` after the last update. Reads the boxes of those items that are due.
     void update(std::span<const Aabb<D>> boxes, double time, Executor* executor = nullptr) {
-        Search search(inner_, executor);
-        core_.update(boxes, time, search);
+        core_.update(boxes, time);
+        search(boxes, executor);
     }
     /// From the last update on. A raised one makes the next update search for the item anew, a lowered one counts from
     /// the next search on.
@@ -72,31 +73,28 @@ public:
     const TemporalCounts& counts() const { return core_.counts(); }
 
 private:
-    using Inners = std::array<Inner, detail::temporal_groups>;
+    static void place(Inner& inner, std::span<const Aabb<D>> boxes, Executor* executor) {
+        if (boxes.size() == inner.size())
+            inner.update(boxes, executor);
+        else
+            inner.build(boxes, executor);
+    }
 
-    class Search final : public detail::TemporalSearch<D> {
-    public:
-        using Found = typename detail::TemporalSearch<D>::Found;
-
-        Search(Inners& inner, Executor* executor) : inner_(inner), executor_(executor) {}
-
-        void set(std::uint32_t group, std::span<const Aabb<D>> boxes, bool anew) override {
-            if (anew)
-                inner_[group].build(boxes, executor_);
-            else
-                inner_[group].update(boxes, executor_);
+    void search(std::span<const Aabb<D>> boxes, Executor* executor) {
+        if (core_.slow_due()) {
+            place(slow_, core_.grown_boxes(), executor);
+            slow_.each_pair([&](std::uint32_t i, std::uint32_t j) { core_.add_slow(i, j); });
         }
-        void each_pair(std::uint32_t group, Found found) const override { inner_[group].each_pair(found); }
-        void each_pair(std::uint32_t group, std::uint32_t other, Found found) const override {
-            inner_[group].each_overlapping_pair(inner_[other], found);
+        const std::span<const Aabb<D>> fast_boxes = core_.fast_boxes(boxes);
+        if (!fast_boxes.empty()) {
+            place(fast_, fast_boxes, executor);
+            fast_.each_pair([&](std::uint32_t i, std::uint32_t j) { core_.add_fast(i, j); });
+            slow_.each_overlapping_pair(fast_, [&](std::uint32_t i, std::uint32_t j) { core_.add_mixed(boxes, i, j); });
         }
+        core_.end_search();
+    }
 
-    private:
-        Inners& inner_;
-        Executor* executor_;
-    };
-
-    Inners inner_;
+    Inner slow_, fast_;
     detail::TemporalCore<D> core_;
 };
 

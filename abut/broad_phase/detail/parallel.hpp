@@ -2,10 +2,13 @@
 
 // Work on several threads. For .cpp files.
 
+#include <abut/broad_phase/detail/pair_buffer.hpp>
 #include <abut/broad_phase/visit.hpp>
 #include <abut/math/executor.hpp>
 
+#include <algorithm>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -32,6 +35,34 @@ void report_in_parallel(Executor& executor, std::uint32_t count, PairsCall visit
     executor.run(count, [&](std::uint32_t i) {
         if (!stopped.load(std::memory_order_relaxed)) task(i, PairsCall(report));
     });
+}
+
+/// Reports the pairs of `count` items, in ranges of at least `min_count` items if there is an executor: as many as are
+/// worth a thread. add_pairs(begin, end, pairs) returns false as soon as the buffer does.
+template <class AddPairs>
+void report_ranges(Executor* executor, std::size_t count, std::size_t min_count, PairsCall visit,
+                   const AddPairs& add_pairs) {
+    const std::size_t parts =
+        executor == nullptr ? 1 : std::clamp<std::size_t>(count / min_count, 1, 4 * std::size_t{executor->workers()});
+    const auto report_range = [&](std::size_t part, PairsCall report) {
+        PairBuffer pairs(report);
+        if (add_pairs(count * part / parts, count * (part + 1) / parts, pairs)) pairs.flush();
+    };
+    if (parts == 1) return report_range(0, visit);
+    report_in_parallel(*executor, static_cast<std::uint32_t>(parts), visit, report_range);
+}
+
+/// Reports the pairs of an item of one structure with an item of another: queries the second with each box of the
+/// first.
+template <class Phase>
+void report_between(const Phase& phase, const Phase& other, PairsCall visit) {
+    PairBuffer pairs(visit);
+    bool go_on = true;
+    phase.each_box([&](std::uint32_t i, const auto& box) {
+        other.each_overlapping(box, [&](std::uint32_t j) { return go_on = pairs.add(i, j); });
+        return go_on;
+    });
+    if (go_on) pairs.flush();
 }
 
 }  // namespace abut::detail

@@ -174,29 +174,17 @@ void Bsp<D>::visit_within(std::uint32_t index, const Aabb<D>& cell, Reach& reach
 
 template <int D>
 void Bsp<D>::visit_pairs(PairsCall visit, Executor* executor) const {
-    const std::size_t count = nodes_.size();
-    // Each part has enough boxes to be worth a thread.
-    const std::size_t parts =
-        executor == nullptr ? 1 : std::clamp<std::size_t>(count / 64, 1, 16 * std::size_t{executor->workers()});
-    const auto visit_part = [&](std::size_t part, PairsCall report) {
-        detail::PairBuffer pairs(report);
-        for (std::size_t node = part; node < count; node += parts)
-            if (!visit_pairs_of(static_cast<std::uint32_t>(node), pairs)) return;
-        pairs.flush();
+    const auto add_pairs = [&](std::size_t begin, std::size_t end, detail::PairBuffer& pairs) {
+        for (std::size_t node = begin; node < end; ++node)
+            if (!visit_pairs_of(static_cast<std::uint32_t>(node), pairs)) return false;
+        return true;
     };
-    if (parts == 1) return visit_part(0, visit);
-    detail::report_in_parallel(*executor, static_cast<std::uint32_t>(parts), visit, visit_part);
+    detail::report_ranges(executor, nodes_.size(), 64, visit, add_pairs);
 }
 
 template <int D>
 void Bsp<D>::visit_pairs(const Bsp& other, PairsCall visit) const {
-    if (nodes_.empty()) return;
-    detail::PairBuffer pairs(visit);
-    for (const Entry& theirs : other.entries_) {
-        const auto add = [&](const Entry& ours) { return pairs.add(ours.item, theirs.item); };
-        if (!visit_region(0, theirs.box, add)) return;
-    }
-    pairs.flush();
+    detail::report_between(*this, other, visit);
 }
 
 template <int D>

@@ -342,30 +342,18 @@ double SweepAndPrune<D>::cost() const {
 
 template <int D>
 void SweepAndPrune<D>::visit_pairs(PairsCall visit, Executor* executor) const {
-    // Each part has enough boxes to be worth a thread.
-    const std::size_t parts = executor == nullptr || count_ < 2048
-                                  ? 1
-                                  : std::min<std::size_t>(4 * std::size_t{executor->workers()}, count_ / 256);
-    const auto visit_part = [&](std::size_t part, PairsCall report) {
-        detail::PairBuffer pairs(report);
+    const auto add_pairs = [&](std::size_t begin, std::size_t end, detail::PairBuffer& pairs) {
         bool go_on = true;
         const auto add = [&](auto hits) { return go_on = add_hits(hits, items_.data(), pairs); };
-        each_sorted_overlap(boxes_.view(), count_ * part / parts, count_ * (part + 1) / parts, add);
-        if (go_on) pairs.flush();
+        each_sorted_overlap(boxes_.view(), begin, end, add);
+        return go_on;
     };
-    if (parts == 1) return visit_part(0, visit);
-    detail::report_in_parallel(*executor, static_cast<std::uint32_t>(parts), visit, visit_part);
+    detail::report_ranges(executor, count_, 1024, visit, add_pairs);
 }
 
 template <int D>
 void SweepAndPrune<D>::visit_pairs(const SweepAndPrune& other, PairsCall visit) const {
-    detail::PairBuffer pairs(visit);
-    bool go_on = true;
-    visit_boxes([&](std::uint32_t i, const Aabb<D>& box) {
-        other.visit_overlapping(box, [&](std::uint32_t j) { return go_on = pairs.add(i, j); });
-        return go_on;
-    });
-    if (go_on) pairs.flush();
+    detail::report_between(*this, other, visit);
 }
 
 template <int D>

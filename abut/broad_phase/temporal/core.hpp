@@ -7,9 +7,7 @@
 #include <abut/broad_phase/visit.hpp>
 #include <abut/math/aabb.hpp>
 #include <abut/math/executor.hpp>
-#include <abut/math/function_ref.hpp>
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -29,88 +27,63 @@ struct TemporalCounts {
 
 namespace detail {
 
-/// Items of like speed are searched for together: a group. Group 0 is searched in each update.
-inline constexpr std::uint32_t temporal_groups = 8;
-
-/// The inner structures, one a group.
-template <int D>
-class TemporalSearch {
-public:
-    using Found = FunctionRef<void(std::uint32_t, std::uint32_t)>;
-
-    /// `anew` if these are other items than before.
-    virtual void set(std::uint32_t group, std::span<const Aabb<D>> boxes, bool anew) = 0;
-    virtual void each_pair(std::uint32_t group, Found found) const = 0;
-    virtual void each_pair(std::uint32_t group, std::uint32_t other, Found found) const = 0;
-
-protected:
-    ~TemporalSearch() = default;
-};
-
 template <int D>
 struct BoxLanes;
 
+/// An item is slow or fast. Each box is given in every call; a search refers to items by their place among the slow or
+/// among the fast.
 template <int D>
 class TemporalCore {
 public:
-    void build(std::span<const Aabb<D>> boxes, std::span<const float> top_speeds, TemporalSearch<D>& search);
-    void update(std::span<const Aabb<D>> boxes, double time, TemporalSearch<D>& search);
+    /// Each is followed by the searches: of the slow items if `slow_due`, of the fast ones always.
+    void build(std::span<const Aabb<D>> boxes, std::span<const float> top_speeds);
+    void update(std::span<const Aabb<D>> boxes, double time);
     void set_top_speed(std::uint32_t item, float speed);
     void jumped(std::uint32_t item);
     float top_speed(std::uint32_t item) const { return wanted_[item]; }
 
-    void visit_pairs(PairsCall visit, Executor* executor) const;
+    bool slow_due() const { return slow_due_; }
+    /// Boxes that contain those of the slow items until the next search.
+    std::span<const Aabb<D>> grown_boxes() const { return found_in_; }
+    void add_slow(std::uint32_t i, std::uint32_t j);
+    std::span<const Aabb<D>> fast_boxes(std::span<const Aabb<D>> boxes);
+    void add_fast(std::uint32_t i, std::uint32_t j);
+    void add_mixed(std::span<const Aabb<D>> boxes, std::uint32_t slow, std::uint32_t fast);
+    void end_search();
 
+    void visit_pairs(PairsCall visit, Executor* executor) const;
     std::size_t size() const { return items_.size(); }
     const TemporalCounts& counts() const { return counts_; }
 
 private:
     struct Item {
-        Aabb<D> box;  ///< at the group's last search
-        float speed;  ///< that no face has exceeded since; infinity in group 0
-        std::uint32_t group;
+        Aabb<D> box;  ///< at the last search for slow items
+        float speed;  ///< that no face has exceeded since
+        bool is_fast;
     };
-    struct Group {
-        std::vector<std::uint32_t> members;  ///< ascending, except those added since the last search
-        double start = 0, end = 0;           ///< of the time for which the last search is valid
-        float fastest = 0;                   ///< of the members' top speeds at the last search
-        float elapsed = 0;                   ///< since the start
-        SearchWindow window;
-        double waited = 0;     ///< searches made in group 0 for items that belong here
-        bool changed = false;  ///< the members differ from those at the last search
-        bool left = false;     ///< its tables may have pairs of items that have left
-        bool due = false;
-    };
-    struct Table {
-        TimedPairs pairs;
-        double start = 0;
-    };
-
-    Table& table(std::uint32_t a, std::uint32_t b) { return tables_[a * temporal_groups + b]; }
-    void start(std::span<const Aabb<D>> boxes, TemporalSearch<D>& search);
-    std::uint32_t group_for(float speed) const;
-    std::uint32_t home_of(std::uint32_t item) const;
-    void leave(std::uint32_t item);
-    void check(const Item& item, const BoxLanes<D>& box);
+    void start(std::span<const Aabb<D>> boxes);
     void advance(double time);
-    void count_waiting();
-    void choose_due();
-    void test_due(std::span<const Aabb<D>> boxes);
+    void leave(std::uint32_t item);
     void remove_left();
-    void regroup();
-    void search_due(std::span<const Aabb<D>> boxes, TemporalSearch<D>& search);
-    void grow(Group& group, std::span<const Aabb<D>> boxes);
-    void fill(std::uint32_t a, std::uint32_t b, std::span<const Aabb<D>> boxes, const TemporalSearch<D>& search);
-    void count_held();
+    bool is_too_fast(const Item& item, const BoxLanes<D>& box);
+    void test_due(std::span<const Aabb<D>> boxes);
+    void grow_slow(std::span<const Aabb<D>> boxes);
 
     std::vector<Item> items_;
-    std::vector<float> wanted_;  // the top speeds as they were given last
-    std::vector<Aabb<D>> grown_;
-    std::array<Group, temporal_groups> groups_;
-    std::array<Table, temporal_groups * temporal_groups> tables_;  // of group a with group b, a <= b
+    std::vector<float> wanted_;               // the top speeds as they were given last
+    std::vector<std::uint32_t> slow_, fast_;  // the former as of the last search: some may have left
+    std::vector<Aabb<D>> found_in_;           // the boxes for a search
+    TimedPairs slow_pairs_;
+    std::vector<ItemPair> fast_pairs_;  // those that overlap now
+    std::size_t found_ = 0;             // pairs found by the searches of an update
+    SearchWindow window_;
     TemporalCounts counts_;
-    double now_ = 0, step_ = 0;
-    int fastest_ = 0;  // the binary exponent of the top speeds of group 1
+    double now_ = 0, step_ = 0;   // the time, and the last step
+    double start_ = 0, end_ = 0;  // of the time for which the last search is valid
+    float elapsed_ = 0;           // since the start
+    double spacing_ = 0;
+    double left_count_ = 0, waited_ = 0;  // items that have left the slow ones, and updates that each has been fast
+    bool slow_due_ = false, has_left_ = false;
 };
 
 extern template class TemporalCore<2>;

@@ -95,11 +95,6 @@ Aabb<D> grown_by_travel(const Aabb<D>& box, float travel) {
     return result;
 }
 
-/// The least time for a distance.
-inline double time_for(float travel, float speed) {
-    return speed > 0 ? static_cast<double>(travel / speed) : std::numeric_limits<double>::infinity();
-}
-
 /// Rounded down to a float; infinite time becomes the largest float.
 inline float no_later(double time) {
     return static_cast<float>(std::min(time, static_cast<double>(std::numeric_limits<float>::max())) * (1 - 0x1p-23));
