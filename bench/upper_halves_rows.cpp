@@ -95,7 +95,7 @@ Job polygon() {
 
 Job field_distance() {
     oracle::Random random(seed);
-    FieldData<3> data;
+    detail::FieldData<3> data;
     data.origin = Vec3(-8);
     data.cells = glm::uvec3(16);
     data.surface = {Vec3(-8), Vec3(8, 8, 0)};

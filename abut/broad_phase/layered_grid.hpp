@@ -71,7 +71,7 @@ private:
     bool visit_pairs_of(const Entry& entry, detail::PairBuffer& pairs) const;
     template <class Reach, class Region, class Measure>
     void visit_within(Reach reach, double begin, double step, const Region& region_of, const Measure& measure_of,
-                      ReachCall visit) const;
+                      detail::ReachCall visit) const;
 
     void visit_pairs(detail::PairsCall visit, Executor* executor) const;
     void visit_pairs(const LayeredGrid& other, detail::PairsCall visit) const;
