@@ -7,7 +7,7 @@
 #include <abut/math/executor.hpp>
 #include <abut/math/ray.hpp>
 
-#include <cmath>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -45,7 +45,7 @@ public:
 
 private:
     friend detail::BroadPhaseInterface<LayeredGrid<D>, D>;
-    using Cell = glm::vec<D, std::int32_t>;
+    using Cell = std::array<std::int32_t, D>;
     struct Entry {
         Aabb<D> box;
         Cell cell;
@@ -57,21 +57,19 @@ private:
         Cell low, high;
     };
     struct Level {
-        int level;             ///< the edge of a cell is 2^level
+        int level;             ///< the edge of a cell is 2^level; even
+        std::uint32_t count;   ///< the number of boxes
         CellRange home_cells;  ///< around the cells in which boxes are stored
     };
 
     std::uint32_t bucket_of(const Cell& cell, int level) const;
-    CellRange range_of(const Level& level, const Aabb<D>& box) const;
     template <class Visit>
     bool visit_cells(const CellRange& range, int level, const Visit& visit) const;
     bool covers_few_cells(const Aabb<D>& box) const;
     template <class Visit>
     bool visit_region(const Aabb<D>& box, const Visit& visit) const;
     bool visit_pairs_of(const Entry& entry, detail::PairBuffer& pairs) const;
-    template <class Reach, class Region, class Measure>
-    void visit_within(Reach reach, double begin, double step, const Region& region_of, const Measure& measure_of,
-                      detail::ReachCall visit) const;
+    double common_edge() const;
 
     void visit_pairs(detail::PairsCall visit, Executor* executor) const;
     void visit_pairs(const LayeredGrid& other, detail::PairsCall visit) const;
@@ -81,14 +79,11 @@ private:
     void visit_along(const MovingBox<D>& box, detail::ReachCall visit) const;
     void visit_near(const Aabb<D>& box, float reach, detail::ReachCall visit) const;
 
-    /// The edge of a cell of some box.
-    double typical_edge() const { return std::ldexp(1.0, entries_[entries_.size() / 2].level); }
-
     std::size_t size_ = 0;
     std::vector<Entry> entries_;               ///< the boxes that are not empty, bucket by bucket
     std::vector<Entry> unsorted_;              ///< the same in the order of the items
     std::vector<std::uint32_t> bucket_begin_;  ///< one more than the number of buckets, which is a power of two
-    std::vector<Level> levels_;                ///< those that hold boxes
+    std::vector<Level> levels_;                ///< those that hold boxes, the finest first
     Aabb<D> bounds_ = Aabb<D>::empty();
 };
 

@@ -46,7 +46,7 @@ void change_broad_phases() {
     const std::vector<float> speeds{1, 1};
     expect_cleared_after("choose_broad_phase", [&] { choose_broad_phase<3>(boxes); });
     Temporal<3> temporal;
-    std::vector<ItemPair> pairs;
+    std::vector<detail::ItemPair> pairs;
     expect_cleared_after("Temporal::build", [&] { temporal.build(boxes, speeds); });
     expect_cleared_after("Temporal::update", [&] { temporal.update(boxes, 0.1); });
     expect_cleared_after("Temporal::set_top_speed", [&] { temporal.set_top_speed(0, 1); });
@@ -76,10 +76,13 @@ void call_arithmetic() {
     expect_cleared_after("reflect", [&] { sink = reflect(ray, Hit<3>{}).length; });
     expect_cleared_after("ray_through", [&] { sink = ray_through(Vec2(1), Vec2(2), glm::mat4(1)).length; });
     expect_cleared_after("closest_on_segment", [&] {
-        sink = static_cast<float>(closest_on_segment<3>(DVec<3>(a), DVec<3>(b), DVec<3>(c)).distance);
+        sink = static_cast<float>(
+            detail::closest_on_segment<3>(detail::DVec<3>(a), detail::DVec<3>(b), detail::DVec<3>(c)).distance);
     });
     expect_cleared_after("closest_on_triangle", [&] {
-        sink = static_cast<float>(closest_on_triangle(DVec<3>(a), DVec<3>(b), DVec<3>(c), DVec<3>(d)).distance);
+        sink = static_cast<float>(
+            detail::closest_on_triangle(detail::DVec<3>(a), detail::DVec<3>(b), detail::DVec<3>(c), detail::DVec<3>(d))
+                .distance);
     });
     expect_cleared_after("expected_cost", [&] {
         sink = static_cast<float>(expected_cost(std::array{TestCost{1, 0.5}, TestCost{2, 0.5}}));
@@ -111,7 +114,7 @@ void visit_parts(const char* name, const Level& level) {
     std::printf("%s\n", name);
     const Aabb<D> far{Vec<D>(50), Vec<D>(51)};
     MovingBox<D> moving;
-    moving.center = DVec<D>(50.0);
+    moving.center = detail::DVec<D>(50.0);
     moving.direction[0] = 1;
     moving.length = 1;
     expect_cleared_after("bounds", [&] { sink = bounds(level).min.x; });
@@ -173,7 +176,7 @@ void call_walk_mesh() {
 
 /// The distance to the plane z = 0.
 Field3 plane_field() {
-    FieldData<3> data;
+    detail::FieldData<3> data;
     data.origin = Vec3(-2);
     data.cells = glm::uvec3(4);
     data.surface = {Vec3(-2, -2, 0), Vec3(2, 2, 0)};
