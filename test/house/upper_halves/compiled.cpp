@@ -75,15 +75,6 @@ void call_arithmetic() {
     expect_cleared_after("in_plane", [&] { sink = in_plane(a, b, c, d) ? 1.0f : 0.0f; });
     expect_cleared_after("reflect", [&] { sink = reflect(ray, Hit<3>{}).length; });
     expect_cleared_after("ray_through", [&] { sink = ray_through(Vec2(1), Vec2(2), glm::mat4(1)).length; });
-    expect_cleared_after("closest_on_segment", [&] {
-        sink = static_cast<float>(
-            detail::closest_on_segment<3>(detail::DVec<3>(a), detail::DVec<3>(b), detail::DVec<3>(c)).distance);
-    });
-    expect_cleared_after("closest_on_triangle", [&] {
-        sink = static_cast<float>(
-            detail::closest_on_triangle(detail::DVec<3>(a), detail::DVec<3>(b), detail::DVec<3>(c), detail::DVec<3>(d))
-                .distance);
-    });
     expect_cleared_after("expected_cost", [&] {
         sink = static_cast<float>(expected_cost(std::array{TestCost{1, 0.5}, TestCost{2, 0.5}}));
     });
