@@ -32,7 +32,7 @@ public:
     explicit Balls(const Interleaved& job) : job_(job), now_(items, broad_seed), later_(items, broad_seed + 1) {
         oracle::Random random(broad_seed);
         for (std::size_t i = 0; i < items; ++i)
-            rays_.push_back({at(later_, i), to_float<D>(random.direction<D>()), 25});
+            rays_.push_back({at(later_, i), detail::to_float<D>(random.direction<D>()), 25});
     }
 
     void clear() {
