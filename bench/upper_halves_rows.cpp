@@ -127,10 +127,10 @@ Job laser() {
     const auto world = std::make_shared<World3>();
     world->add(Box3{{0, -1, 0}, {50, 1, 50}});
     world->update();
-    return dirty_and_clear([=](std::size_t i) {
-        const Ray3 ray{{static_cast<float>(i) * 0.01f, 5, 0}, {0, -1, 0}, 10};
-        return static_cast<double>(Laser<3>(*world, ray).hit()->hit.distance);
-    });
+    std::vector<Ray3> rays;
+    while (rays.size() < calls) rays.push_back({{static_cast<float>(rays.size()) * 0.01f, 5, 0}, {0, -1, 0}, 10});
+    return dirty_and_clear(
+        [world, rays](std::size_t i) { return static_cast<double>(Laser<3>(*world, rays[i]).hit()->hit.distance); });
 }
 
 }  // namespace
