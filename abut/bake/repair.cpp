@@ -1,7 +1,7 @@
 #include <abut/bake/repair.hpp>
 #include <abut/bake/repair/fill_holes.hpp>
 #include <abut/bake/repair/orientation.hpp>
-#include <abut/math/coincident.hpp>
+#include <abut/math/detail/coincident.hpp>
 #include <abut/shape/mesh/check_triangles.hpp>
 #include <abut/shape/mesh/clean_up.hpp>
 #include <abut/shape/mesh/half_edges.hpp>

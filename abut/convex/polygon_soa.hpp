@@ -4,7 +4,7 @@
 // edges at once.
 
 #include <abut/convex/support.hpp>
-#include <abut/math/set_affine.hpp>
+#include <abut/math/detail/set_affine.hpp>
 
 #include <span>
 

@@ -2,7 +2,7 @@
 #include <abut/convex/point_soa.hpp>
 #include <abut/convex/support.hpp>
 #include <abut/math/assert.hpp>
-#include <abut/math/round_outwards.hpp>
+#include <abut/math/detail/round_outwards.hpp>
 
 namespace abut::detail {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <abut/field/check.hpp>
 #include <abut/field/file.hpp>
-#include <abut/math/blob.hpp>
+#include <abut/math/detail/blob.hpp>
 
 #include <array>
 #include <bit>

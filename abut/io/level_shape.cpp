@@ -1,7 +1,7 @@
 #include <abut/io/level_shape.hpp>
+#include <abut/math/detail/sin_cos.hpp>
 #include <abut/math/dvec.hpp>
 #include <abut/math/predicates.hpp>
-#include <abut/math/sin_cos.hpp>
 
 #include <algorithm>
 #include <cmath>

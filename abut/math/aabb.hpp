@@ -2,7 +2,7 @@
 
 // The axis-aligned bounding box (AABB), which the broad phases work on.
 
-#include <abut/math/next_float.hpp>
+#include <abut/math/detail/next_float.hpp>
 #include <abut/math/vec.hpp>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
+#include <abut/math/detail/rigid_path.hpp>
+#include <abut/math/detail/set_affine.hpp>
 #include <abut/math/motion.hpp>
-#include <abut/math/rigid_path.hpp>
-#include <abut/math/set_affine.hpp>
 #include <abut/math/simd/library_entry.hpp>
 
 #include <glm/ext/quaternion_double.hpp>

@@ -1,8 +1,8 @@
 #include <abut/math/affine.hpp>
+#include <abut/math/detail/set_affine.hpp>
+#include <abut/math/detail/sin_cos.hpp>
 #include <abut/math/pose.hpp>
-#include <abut/math/set_affine.hpp>
 #include <abut/math/simd/library_entry.hpp>
-#include <abut/math/sin_cos.hpp>
 
 #include <glm/ext/quaternion_double.hpp>
 

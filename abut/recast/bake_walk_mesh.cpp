@@ -1,7 +1,7 @@
-#include <abut/math/coincident.hpp>
+#include <abut/math/detail/coincident.hpp>
+#include <abut/math/detail/no_index.hpp>
+#include <abut/math/detail/sin_cos.hpp>
 #include <abut/math/dvec.hpp>
-#include <abut/math/no_index.hpp>
-#include <abut/math/sin_cos.hpp>
 #include <abut/recast/bake_walk_mesh.hpp>
 #include <abut/recast/recast_polygons.hpp>
 #include <abut/recast/stitch.hpp>

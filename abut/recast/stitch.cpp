@@ -1,5 +1,5 @@
+#include <abut/math/detail/no_index.hpp>
 #include <abut/math/dvec.hpp>
-#include <abut/math/no_index.hpp>
 #include <abut/recast/stitch.hpp>
 
 #include <algorithm>

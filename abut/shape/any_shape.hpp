@@ -4,7 +4,7 @@
 
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
-#include <abut/shape/counted.hpp>
+#include <abut/shape/detail/counted.hpp>
 #include <abut/shape/placed.hpp>
 
 #include <type_traits>

@@ -1,6 +1,6 @@
 #include <abut/math/assert.hpp>
 #include <abut/math/simd/library_entry.hpp>
-#include <abut/shape/grid_hierarchy.hpp>
+#include <abut/shape/detail/grid_hierarchy.hpp>
 #include <abut/shape/height_field.hpp>
 
 #include <vector>

@@ -1,8 +1,8 @@
 #include <abut/convex/hull/hull.hpp>
 #include <abut/convex/hull/limited/limited_hull.hpp>
 #include <abut/convex/polygon_soa.hpp>
+#include <abut/math/detail/set_affine.hpp>
 #include <abut/math/dvec.hpp>
-#include <abut/math/set_affine.hpp>
 #include <abut/math/simd/library_entry.hpp>
 #include <abut/shape/polygon.hpp>
 

@@ -1,7 +1,7 @@
 #include <abut/math/assert.hpp>
 #include <abut/math/simd/library_entry.hpp>
 #include <abut/shape/box.hpp>
-#include <abut/shape/grid_hierarchy.hpp>
+#include <abut/shape/detail/grid_hierarchy.hpp>
 #include <abut/shape/segment.hpp>
 #include <abut/shape/tile_map.hpp>
 #include <abut/shape/triangle.hpp>

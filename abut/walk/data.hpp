@@ -2,8 +2,8 @@
 
 // The stored data of a walk mesh. Not for users.
 
+#include <abut/math/detail/large_pages.hpp>
 #include <abut/math/dvec.hpp>
-#include <abut/math/large_pages.hpp>
 #include <abut/shape/mesh/tree.hpp>
 #include <abut/walk/walk_mesh.hpp>
 

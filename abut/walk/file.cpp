@@ -3,8 +3,8 @@
 // points, the triangles, their links, the normals, the areas, the structure of the tree, and a checksum of everything
 // before it. Frames, fans and boxes are not stored but computed from the rest, so a file cannot have them wrong.
 
-#include <abut/math/blob.hpp>
-#include <abut/math/coincident.hpp>
+#include <abut/math/detail/blob.hpp>
+#include <abut/math/detail/coincident.hpp>
 #include <abut/shape/mesh/check_triangles.hpp>
 #include <abut/shape/mesh/tree_topology.hpp>
 #include <abut/walk/build/assemble.hpp>

@@ -1,4 +1,4 @@
-#include <abut/math/next_float.hpp>
+#include <abut/math/detail/next_float.hpp>
 #include <abut/world/bounding_ball.hpp>
 
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "../../scenes/terrain.hpp"
 #include "../../test/oracle/random.hpp"
 #include "walk.hpp"
-#include <abut/math/sin_cos.hpp>
+#include <abut/math/detail/sin_cos.hpp>
 
 #include <cmath>
 #include <utility>

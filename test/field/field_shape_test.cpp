@@ -4,7 +4,7 @@
 #include "../oracle/is_long.hpp"
 #include "../oracle/random.hpp"
 #include <abut/bake/field.hpp>
-#include <abut/math/rigid_path.hpp>
+#include <abut/math/detail/rigid_path.hpp>
 #include <abut/query/certify.hpp>
 #include <abut/query/contact.hpp>
 #include <abut/query/contains.hpp>

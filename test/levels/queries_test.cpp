@@ -3,7 +3,7 @@
 
 #include "../oracle/pair.hpp"
 #include "levels.hpp"
-#include <abut/math/rigid_path.hpp>
+#include <abut/math/detail/rigid_path.hpp>
 #include <abut/query/closest.hpp>
 #include <abut/query/contact.hpp>
 #include <abut/query/contains.hpp>

@@ -1,7 +1,7 @@
 // Points at equal positions, against a reference over all earlier points.
 
 #include "../oracle/random.hpp"
-#include <abut/math/coincident.hpp>
+#include <abut/math/detail/coincident.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Arrays of all sizes, at the alignments that they request.
 
-#include <abut/math/large_pages.hpp>
+#include <abut/math/detail/large_pages.hpp>
 
 #include <cstdint>
 #include <vector>

@@ -2,9 +2,9 @@
 
 #include "../oracle/expect.hpp"
 #include "../oracle/random.hpp"
+#include <abut/math/detail/rigid_path.hpp>
+#include <abut/math/detail/set_affine.hpp>
 #include <abut/math/motion.hpp>
-#include <abut/math/rigid_path.hpp>
-#include <abut/math/set_affine.hpp>
 
 namespace abut {
 

@@ -1,5 +1,5 @@
 #include "../oracle/random.hpp"
-#include <abut/math/round_outwards.hpp>
+#include <abut/math/detail/round_outwards.hpp>
 
 #include <bit>
 #include <cmath>

@@ -3,8 +3,8 @@
 // User-defined distance functions: some have the form of library shapes, one does not.
 
 #include <abut/math/aabb.hpp>
+#include <abut/math/detail/sin_cos.hpp>
 #include <abut/math/dvec.hpp>
-#include <abut/math/sin_cos.hpp>
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/capsule.hpp>

@@ -2,7 +2,7 @@
 
 #include "../oracle/random.hpp"
 #include "meshes.hpp"
-#include <abut/math/coincident.hpp>
+#include <abut/math/detail/coincident.hpp>
 #include <abut/shape/mesh/tree_topology.hpp>
 #include <abut/shape/weld.hpp>
 

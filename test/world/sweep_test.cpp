@@ -5,7 +5,7 @@
 #include "bits.hpp"
 #include "circles.hpp"
 #include "simulation.hpp"
-#include <abut/math/rigid_path.hpp>
+#include <abut/math/detail/rigid_path.hpp>
 #include <abut/query/sweep.hpp>
 
 #include <array>

@@ -3,8 +3,8 @@
 // A bounding volume hierarchy of primitives: segments in 2D, triangles in 3D. Eight primitives of a leaf are stored
 // side by side (SoA), with all that their distance needs precomputed. For .cpp files.
 
+#include <abut/math/detail/large_pages.hpp>
 #include <abut/math/dvec.hpp>
-#include <abut/math/large_pages.hpp>
 #include <abut/math/vec.hpp>
 
 #include <array>

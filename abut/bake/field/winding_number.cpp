@@ -1,5 +1,5 @@
 #include <abut/bake/field/winding_number.hpp>
-#include <abut/math/sin_cos.hpp>
+#include <abut/math/detail/sin_cos.hpp>
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 
 // Triangulates an outline with holes by a plane sweep, the first step of its decomposition.
 
-#include <abut/math/no_index.hpp>
+#include <abut/math/detail/no_index.hpp>
 #include <abut/math/result.hpp>
 #include <abut/math/vec.hpp>
 

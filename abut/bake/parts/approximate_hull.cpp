@@ -1,8 +1,8 @@
 #include <abut/bake/parts/approximate_hull.hpp>
 #include <abut/convex/farthest_point.hpp>
 #include <abut/convex/hull/hull.hpp>
+#include <abut/math/detail/no_index.hpp>
 #include <abut/math/dvec.hpp>
-#include <abut/math/no_index.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include <abut/bake/parts/piece.hpp>
 #include <abut/bake/solid.hpp>
+#include <abut/math/detail/no_index.hpp>
 #include <abut/math/dvec.hpp>
-#include <abut/math/no_index.hpp>
 #include <abut/shape/mesh/half_edges.hpp>
 
 #include <algorithm>

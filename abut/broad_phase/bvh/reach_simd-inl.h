@@ -10,7 +10,7 @@
 
 #include <abut/broad_phase/bvh/overlap_simd-inl.h>
 #include <abut/broad_phase/reach.hpp>
-#include <abut/math/round_outwards.hpp>
+#include <abut/math/detail/round_outwards.hpp>
 
 #include <algorithm>
 #include <cmath>

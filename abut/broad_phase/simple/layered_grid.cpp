@@ -5,7 +5,7 @@
 #include <abut/broad_phase/layered_grid.hpp>
 #include <abut/broad_phase/reach.hpp>
 #include <abut/math/assert.hpp>
-#include <abut/math/next_float.hpp>
+#include <abut/math/detail/next_float.hpp>
 #include <abut/math/simd/library_entry.hpp>
 
 #include <algorithm>

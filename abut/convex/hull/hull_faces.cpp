@@ -2,8 +2,8 @@
 
 #include <abut/convex/bucket_sort.hpp>
 #include <abut/convex/hull/hull_faces.hpp>
+#include <abut/math/detail/no_index.hpp>
 #include <abut/math/dvec.hpp>
-#include <abut/math/no_index.hpp>
 
 #include <algorithm>
 #include <cmath>

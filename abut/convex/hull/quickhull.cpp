@@ -4,8 +4,8 @@
 #include <abut/convex/bucket_sort.hpp>
 #include <abut/convex/hull/highest_plane.hpp>
 #include <abut/convex/hull/quickhull.hpp>
+#include <abut/math/detail/no_index.hpp>
 #include <abut/math/dvec.hpp>
-#include <abut/math/no_index.hpp>
 
 #include <algorithm>
 #include <cmath>

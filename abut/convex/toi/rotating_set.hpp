@@ -3,7 +3,7 @@
 // A convex set that moves along a rigid path. For .cpp files.
 
 #include <abut/convex/support.hpp>
-#include <abut/math/rigid_path.hpp>
+#include <abut/math/detail/rigid_path.hpp>
 
 namespace abut::detail {
 

@@ -3,7 +3,7 @@
 // The JSON document of a glTF file as plain structs, reduced to what collision detection needs.
 // glTF 2.0 specification, https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html
 
-#include <abut/math/no_index.hpp>
+#include <abut/math/detail/no_index.hpp>
 #include <abut/math/result.hpp>
 
 #include <cstddef>

@@ -1,8 +1,8 @@
 #include <abut/io/file/scanner.hpp>
 #include <abut/io/level_shape.hpp>
 #include <abut/io/svg/path.hpp>
+#include <abut/math/detail/sin_cos.hpp>
 #include <abut/math/dvec.hpp>
-#include <abut/math/sin_cos.hpp>
 
 #include <algorithm>
 #include <array>

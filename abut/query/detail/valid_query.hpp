@@ -3,9 +3,9 @@
 // The check of numbers where a query enters the library. Functions inside rely on it. For .cpp files.
 
 #include <abut/math/assert.hpp>
+#include <abut/math/detail/rigid_path.hpp>
 #include <abut/math/motion.hpp>
 #include <abut/math/ray.hpp>
-#include <abut/math/rigid_path.hpp>
 #include <abut/query/hit.hpp>
 #include <abut/shape/view/view.hpp>
 

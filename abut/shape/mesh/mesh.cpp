@@ -1,5 +1,5 @@
 #include <abut/math/assert.hpp>
-#include <abut/math/coincident.hpp>
+#include <abut/math/detail/coincident.hpp>
 #include <abut/math/simd/library_entry.hpp>
 #include <abut/shape/mesh.hpp>
 #include <abut/shape/mesh/adjacency.hpp>

@@ -7,9 +7,9 @@
 #include <abut/broad_phase/reach.hpp>
 #include <abut/broad_phase/visit.hpp>
 #include <abut/math/aabb.hpp>
+#include <abut/math/detail/large_pages.hpp>
 #include <abut/math/dvec.hpp>
 #include <abut/math/function_ref.hpp>
-#include <abut/math/large_pages.hpp>
 #include <abut/math/ray.hpp>
 #include <abut/shape/triangle.hpp>
 

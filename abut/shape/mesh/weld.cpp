@@ -1,6 +1,6 @@
-#include <abut/math/coincident.hpp>
+#include <abut/math/detail/coincident.hpp>
+#include <abut/math/detail/no_index.hpp>
 #include <abut/math/dvec.hpp>
-#include <abut/math/no_index.hpp>
 #include <abut/shape/weld.hpp>
 
 #include <algorithm>

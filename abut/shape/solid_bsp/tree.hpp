@@ -3,9 +3,9 @@
 // The data of a SolidBsp and the interface of its builders. For .cpp files.
 
 #include <abut/math/aabb.hpp>
+#include <abut/math/detail/no_index.hpp>
 #include <abut/math/dvec.hpp>
 #include <abut/math/function_ref.hpp>
-#include <abut/math/no_index.hpp>
 #include <abut/shape/half_space.hpp>
 #include <abut/shape/solid_bsp/parts.hpp>
 

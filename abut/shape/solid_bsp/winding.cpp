@@ -1,7 +1,7 @@
 // Winding numbers by signed crossings of an axis-parallel line. The vertices of a face are ordered half-open in one
 // coordinate, so a line through a vertex or edge crosses exactly one of the faces that share it.
 
-#include <abut/math/coincident.hpp>
+#include <abut/math/detail/coincident.hpp>
 #include <abut/shape/solid_bsp/winding.hpp>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-#include <abut/math/round_outwards.hpp>
-#include <abut/math/set_affine.hpp>
+#include <abut/math/detail/round_outwards.hpp>
+#include <abut/math/detail/set_affine.hpp>
 #include <abut/math/simd/library_entry.hpp>
 #include <abut/shape/any_shape.hpp>
 #include <abut/shape/view/view.hpp>

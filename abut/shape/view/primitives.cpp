@@ -1,6 +1,6 @@
 // Views of the primitive shapes: core points with a radius, boxes, discs.
 
-#include <abut/math/set_affine.hpp>
+#include <abut/math/detail/set_affine.hpp>
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/capsule.hpp>

@@ -1,4 +1,4 @@
-#include <abut/math/coincident.hpp>
+#include <abut/math/detail/coincident.hpp>
 #include <abut/math/union_find.hpp>
 #include <abut/walk/build/assemble.hpp>
 #include <abut/walk/build/vertex_fans.hpp>

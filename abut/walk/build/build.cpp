@@ -1,4 +1,4 @@
-#include <abut/math/coincident.hpp>
+#include <abut/math/detail/coincident.hpp>
 #include <abut/math/simd/library_entry.hpp>
 #include <abut/shape/mesh/clean_up.hpp>
 #include <abut/shape/mesh/orient.hpp>

@@ -1,4 +1,4 @@
-#include <abut/math/no_index.hpp>
+#include <abut/math/detail/no_index.hpp>
 #include <abut/walk/path/search.hpp>
 #include <abut/walk/path/string_pulling.hpp>
 

@@ -3,7 +3,7 @@
 
 #include "../../oracle/check.hpp"
 #include "../../oracle/pair.hpp"
-#include <abut/math/rigid_path.hpp>
+#include <abut/math/detail/rigid_path.hpp>
 #include <abut/query/sweep.hpp>
 
 #include <numbers>

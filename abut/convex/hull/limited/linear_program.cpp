@@ -1,6 +1,6 @@
 #include <abut/convex/hull/limited/linear_program.hpp>
+#include <abut/math/detail/no_index.hpp>
 #include <abut/math/dvec.hpp>
-#include <abut/math/no_index.hpp>
 
 #include <array>
 #include <cstddef>

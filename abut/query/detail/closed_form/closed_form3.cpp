@@ -1,7 +1,7 @@
 #include <abut/convex/pairs/box_point-inl.h>
 #include <abut/convex/pairs/round3.hpp>
 #include <abut/convex/pairs/round3_simd-inl.h>
-#include <abut/math/set_affine.hpp>
+#include <abut/math/detail/set_affine.hpp>
 #include <abut/math/simd/rotation-inl.h>
 #include <abut/query/detail/closed_form/box_features.hpp>
 #include <abut/query/detail/closed_form/closed_form.hpp>

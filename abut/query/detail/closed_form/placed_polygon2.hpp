@@ -3,7 +3,7 @@
 // Plain shapes of the plane as placed polygons, without views of them. For .cpp files.
 
 #include <abut/convex/polygon_soa.hpp>
-#include <abut/math/set_affine.hpp>
+#include <abut/math/detail/set_affine.hpp>
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/capsule.hpp>

@@ -2,7 +2,7 @@
 // leave hard cases to the view: a ray that grazes, or starts on the surface.
 
 #include <abut/convex/ray/closed_forms.hpp>
-#include <abut/math/set_affine.hpp>
+#include <abut/math/detail/set_affine.hpp>
 #include <abut/math/simd/double2-inl.h>
 #include <abut/query/raycast.hpp>
 #include <abut/shape/ball.hpp>

@@ -2,7 +2,7 @@
 
 // Filters internal edges out of the normals of hits. For .cpp files.
 
-#include <abut/math/rigid_path.hpp>
+#include <abut/math/detail/rigid_path.hpp>
 #include <abut/query/detail/surface/surface_normal.hpp>
 #include <abut/query/hit.hpp>
 

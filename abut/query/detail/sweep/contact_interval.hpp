@@ -10,7 +10,7 @@
 //
 // and so the gap is at most e. This is the converse of the proof in convex/toi/separation_function.hpp.
 
-#include <abut/math/rigid_path.hpp>
+#include <abut/math/detail/rigid_path.hpp>
 #include <abut/query/detail/part_pairs.hpp>
 #include <abut/query/detail/surface/surface_normal.hpp>
 

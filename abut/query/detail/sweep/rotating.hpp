@@ -2,7 +2,7 @@
 
 // The time of impact of two parts on rigid paths, by conservative advancement. For .cpp files.
 
-#include <abut/math/rigid_path.hpp>
+#include <abut/math/detail/rigid_path.hpp>
 #include <abut/query/detail/part_pairs.hpp>
 
 namespace abut::detail {

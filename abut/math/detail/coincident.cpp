@@ -1,4 +1,4 @@
-#include <abut/math/coincident.hpp>
+#include <abut/math/detail/coincident.hpp>
 
 #include <bit>
 #include <cstddef>

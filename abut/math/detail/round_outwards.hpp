@@ -2,7 +2,7 @@
 
 // Doubles to floats, rounded down or up. For .cpp files.
 
-#include <abut/math/next_float.hpp>
+#include <abut/math/detail/next_float.hpp>
 
 #include <bit>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include <abut/math/large_pages.hpp>
+#include <abut/math/detail/large_pages.hpp>
 
 #ifdef __linux__
 #include <sys/mman.h>

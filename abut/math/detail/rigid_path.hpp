@@ -3,8 +3,8 @@
 // Rigid motions in double, for time of impact queries. For .cpp files.
 
 #include <abut/math/affine.hpp>
+#include <abut/math/detail/sin_cos.hpp>
 #include <abut/math/motion.hpp>
-#include <abut/math/sin_cos.hpp>
 
 #include <algorithm>
 
