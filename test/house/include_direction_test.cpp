@@ -82,7 +82,8 @@ std::optional<std::string> wrong(const fs::path& file, std::string_view line) {
     if (folder == "io") return std::nullopt;  // reads files, with whatever reads them
     if (folder == "recast" && root == "recastnavigation") return std::nullopt;
     if (root == "hwy") return std::nullopt;  // SIMD, in .cpp files alone
-    if (file == "abut/math/detail/large_pages.cpp" && target == "sys/mman.h") return std::nullopt;  // where there is one
+    if (file == "abut/math/detail/large_pages.cpp" && target == "sys/mman.h")
+        return std::nullopt;  // where there is one
     return "abut needs only glm";
 }
 
