@@ -8,9 +8,11 @@
 #include <abut/query/closest.hpp>
 #include <abut/query/detail/sweep/rotating.hpp>
 #include <abut/query/sweep.hpp>
+#include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/capsule.hpp>
 #include <abut/shape/cylinder.hpp>
+#include <abut/shape/half_space.hpp>
 #include <abut/shape/placed.hpp>
 #include <abut/shape/segment.hpp>
 
@@ -439,6 +441,12 @@ TEST(SweepRotating, NeedsFewSteps) {
             EXPECT_EQ(cut.time, whole.time);
         }
     }
+}
+
+// The time of impact of a half-space that left a shape deep inside without rotating was NaN.
+TEST(SweepRotating, OfAHalfSpaceThatLeavesAShapeInsideIsNoHit) {
+    EXPECT_FALSE(sweep(HalfSpace2{{0, 1}, 0}, Motion2{.move = {0, -1}}, Circle{{0, -3}, 1}, Motion2{}));
+    EXPECT_FALSE(sweep(HalfSpace3{{0, 1, 0}, 0}, Motion3{.move = {0, -1, 0}}, Sphere{{0, -3, 0}, 1}, Motion3{}));
 }
 
 }  // namespace

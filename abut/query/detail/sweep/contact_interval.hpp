@@ -14,6 +14,8 @@
 #include <abut/query/detail/part_pairs.hpp>
 #include <abut/query/detail/surface/surface_normal.hpp>
 
+#include <limits>
+
 namespace abut::detail {
 
 /// An interval of time.
@@ -27,8 +29,8 @@ class ContactInterval {
 public:
     explicit ContactInterval(Pair& pair)
         : pair_(pair),
-          speed_(std::min(relative_motion_bounds(pair.a.path(), pair.b.path(), pair.reach_a()).speed,
-                          relative_motion_bounds(pair.b.path(), pair.a.path(), pair.reach_b()).speed)) {}
+          speed_(std::min(speed_of(pair.a.path(), pair.b.path(), pair.reach_a()),
+                          speed_of(pair.b.path(), pair.a.path(), pair.reach_b()))) {}
 
     /// The time until which the gap certainly stays within the tolerance, at most the end of the span. `distance` is
     /// that at the start, and less.
@@ -49,6 +51,12 @@ public:
     }
 
 private:
+    /// An upper bound by the points of one part. A half-space has points at any distance, which bound nothing.
+    static double speed_of(const RigidPath<D>& path, const RigidPath<D>& frame, double reach) {
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        return reach < infinity ? relative_motion_bounds(path, frame, reach).speed : infinity;
+    }
+
     /// The limits on trials of a span, each half as long as the last, and on iterations for the time of separation.
     static constexpr int max_attempts = 16, max_iterations = 32;
     /// At the time of separation the gap is between these, in tolerances.
