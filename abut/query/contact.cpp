@@ -23,29 +23,35 @@ Contact<D> no_contact() {
 }
 
 template <int D>
-void answer(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options, Contact<D>& result) {
-    if (!detail::is_valid_pair(a, b)) return;
-    const double margin = static_cast<double>(options.margin);
-    PartContact<D> found;
-    if (!part_contact(a, b, margin, margin, {options.cache, options.trace}, found)) return;
-    if (!touch_at_fronts(a, b, found.distance.normal)) return;
-    write(found.distance, found.manifold, result);
-    name_features(a, b, found.distance, 0, 0, result);
+bool has_parts(const View<D>& a, const View<D>& b) {
+    return std::holds_alternative<Composite<D>>(a) || std::holds_alternative<Composite<D>>(b);
 }
 
-/// The deepest pair of parts.
+/// Returns false, and leaves `result`, if the sets don't touch.
 template <int D>
-struct Deepest {
-    Contact<D> contact;
-    std::pair<std::uint32_t, std::uint32_t> parts;
-    PartContact<D> found;
-};
+bool answer(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options, PartContact<D>& found,
+            Contact<D>& result) {
+    if (!detail::is_valid_pair(a, b)) return false;
+    const double margin = static_cast<double>(options.margin);
+    if (!part_contact(a, b, margin, margin, {options.cache, options.trace}, found)) return false;
+    if (!touch_at_fronts(a, b, found.distance.normal)) return false;
+    write(found.distance, found.manifold, result);
+    name_features(a, b, found.distance, 0, 0, result);
+    return true;
+}
 
+/// Finds the deepest pair of parts. Returns false, and leaves `result`, if the shapes don't touch.
 template <int D>
-Deepest<D> deepest_of(const View<D>& a, const View<D>& b, const QueryOptions<D>& options) {
+bool find_deepest(const View<D>& a, const View<D>& b, const QueryOptions<D>& options, DeepestParts<D>& deepest,
+                  Contact<D>& result) {
+    deepest.parts = {};
+    const auto *convex_a = std::get_if<Convex<D>>(&a), *convex_b = std::get_if<Convex<D>>(&b);
+    if (convex_a != nullptr && convex_b != nullptr)
+        return answer(*convex_a, *convex_b, options, deepest.contact, result);
+    if (!detail::is_valid_pair(a, b)) return false;
     const double margin = static_cast<double>(options.margin);
     const SearchOptions<D> search = search_options(a, b, options);
-    Deepest<D> result{no_contact<D>(), {}, {}};
+    bool touch = false;
     double limit = margin;
     detail::for_each_part_pair(
         a, b, options.margin,
@@ -56,28 +62,29 @@ Deepest<D> deepest_of(const View<D>& a, const View<D>& b, const QueryOptions<D>&
             if (!touch_at_fronts(part_a, part_b, distance.normal)) return true;
             const std::pair parts(index_a, index_b);
             // Among equally deep pairs the lowest wins, whatever the order of the visits.
-            if (result.contact && distance.distance == limit && parts > result.parts) return true;
+            if (touch && distance.distance == limit && parts > deepest.parts) return true;
             // Written during the visit: a composite shape may create its parts as it goes.
+            touch = true;
             limit = distance.distance;
-            result.parts = parts;
-            result.found = found;
-            write(found.distance, found.manifold, result.contact);
-            name_features(part_a, part_b, distance, index_a, index_b, result.contact);
+            deepest.parts = parts;
+            deepest.contact = found;
+            write(found.distance, found.manifold, result);
+            name_features(part_a, part_b, distance, index_a, index_b, result);
             return true;
         });
-    return result;
+    return touch;
 }
 
 /// Whether the normal of the deepest pair is a surface normal of both shapes.
 template <int D>
-bool is_surface_contact(const View<D>& a, const View<D>& b, const Deepest<D>& deepest, float margin,
+bool is_surface_contact(const View<D>& a, const View<D>& b, const DeepestParts<D>& deepest, float margin,
                         const NeighbourSurfaces<D>& neighbours) {
     bool is_surface = true;
     const EdgeFilter<D> filter(a, b, neighbours);
     detail::for_each_part_pair(
         a, b, margin, [&](const Part<D>& part_a, std::uint32_t index_a, const Part<D>& part_b, std::uint32_t index_b) {
             if (std::pair(index_a, index_b) != deepest.parts) return true;
-            const PartContact<D>& found = deepest.found;
+            const PartContact<D>& found = deepest.contact;
             is_surface = static_cast<bool>(filter.surface_normal_flags(
                 part_a, part_b, found.distance, [&]() -> const Manifold<D>& { return found.manifold; }));
             return false;
@@ -105,36 +112,31 @@ ContactWithNeighbours<D> deepest_surface_contact(const View<D>& a, const View<D>
 
 /// Two shapes of one part each: their one contact, or its replacement.
 template <int D>
-ContactWithNeighbours<D> only_contact(const View<D>& a, const View<D>& b, const Deepest<D>& deepest,
-                                      const NeighbourSurfaces<D>& neighbours) {
-    ContactWithNeighbours<D> result;
-    result.contact = deepest.contact;
+void filter_only_contact(const View<D>& a, const View<D>& b, const PartContact<D>& only,
+                         const NeighbourSurfaces<D>& neighbours, ContactWithNeighbours<D>& result) {
+    const Part<D> part_a = single_part(a), part_b = single_part(b);
     EdgeFilter<D> filter(a, b, neighbours);
-    detail::for_each_part_pair(
-        a, b, 0, [&](const Part<D>& part_a, std::uint32_t index_a, const Part<D>& part_b, std::uint32_t index_b) {
-            PartContact<D> found = deepest.found;
-            const detail::SurfaceNormalFlags flags = filter.surface_normal_flags(
-                part_a, part_b, found.distance, [&]() -> const Manifold<D>& { return found.manifold; });
-            if (flags) return false;
-            const bool is_replaced = filter.replace(part_a, part_b, flags, found);
-            if (found.distance.distance > 0) {
-                result.contact = {};
-                return false;
-            }
-            result.surface_normals = flags;
-            if (!is_replaced) return false;
-            write(found.distance, found.manifold, result.contact);
-            name_features(part_a, part_b, found.distance, index_a, index_b, result.contact);
-            return false;
-        });
-    return result;
+    const detail::SurfaceNormalFlags flags = filter.surface_normal_flags(
+        part_a, part_b, only.distance, [&]() -> const Manifold<D>& { return only.manifold; });
+    if (flags) return;
+    PartContact<D> found = only;
+    const bool is_replaced = filter.replace(part_a, part_b, flags, found);
+    if (found.distance.distance > 0) {
+        result.contact = {};
+        return;
+    }
+    result.surface_normals = flags;
+    if (!is_replaced) return;
+    write(found.distance, found.manifold, result.contact);
+    name_features(part_a, part_b, found.distance, 0, 0, result.contact);
 }
 
 /// Out of line, to keep the fast path small.
 template <int D>
 [[gnu::noinline]] void by_views(const ShapeRef<D>& a, const ShapeRef<D>& b, const QueryOptions<D>& options,
                                 Contact<D>& result) {
-    answer(convex_of(a), convex_of(b), options, result);
+    PartContact<D> found;
+    answer(convex_of(a), convex_of(b), options, found, result);
 }
 
 }  // namespace
@@ -142,7 +144,8 @@ template <int D>
 template <int D>
 Contact<D> contact(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options) {
     Contact<D> result = no_contact<D>();
-    answer(a, b, options, result);
+    PartContact<D> found;
+    answer(a, b, options, found, result);
     return result;
 }
 
@@ -157,15 +160,13 @@ Contact<D> contact(const ShapeRef<D>& a, const ShapeRef<D>& b, const QueryOption
 
 template <int D>
 Contact<D> contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& options) {
-    const auto *convex_a = std::get_if<Convex<D>>(&a), *convex_b = std::get_if<Convex<D>>(&b);
-    if (convex_a != nullptr && convex_b != nullptr) return contact(*convex_a, *convex_b, options);
-    if (!detail::is_valid_pair(a, b)) return no_contact<D>();
-    const Deepest<D> deepest = deepest_of(a, b, options);
-    const bool has_parts = std::holds_alternative<Composite<D>>(a) || std::holds_alternative<Composite<D>>(b);
-    if (!deepest.contact || !has_parts || is_surface_contact<D>(a, b, deepest, options.margin, {}))
-        return deepest.contact;
+    Contact<D> result = no_contact<D>();
+    DeepestParts<D> deepest;
+    if (!find_deepest(a, b, options, deepest, result) || !has_parts(a, b) ||
+        is_surface_contact<D>(a, b, deepest, options.margin, {}))
+        return result;
     const ContactWithNeighbours<D> surface = deepest_surface_contact<D>(a, b, options, {});
-    return surface.contact ? surface.contact : deepest.contact;
+    return surface.contact ? surface.contact : result;
 }
 
 }  // namespace abut
@@ -173,24 +174,29 @@ Contact<D> contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& op
 namespace abut::detail {
 
 template <int D>
-ContactWithNeighbours<D> contact_with_neighbours(const View<D>& a, const View<D>& b,
-                                                 const NeighbourSurfaces<D>& neighbours) {
-    ContactWithNeighbours<D> result;
-    const Deepest<D> deepest = deepest_of<D>(a, b, {});
-    if (!deepest.contact) return result;
-    const bool has_parts = std::holds_alternative<Composite<D>>(a) || std::holds_alternative<Composite<D>>(b);
-    if (!has_parts)
-        result = only_contact(a, b, deepest, neighbours);
-    else if (is_surface_contact(a, b, deepest, 0, neighbours))
-        result.contact = deepest.contact;
-    else
+bool find_deepest_parts(const View<D>& a, const View<D>& b, DeepestParts<D>& deepest, Contact<D>& contact) {
+    return find_deepest(a, b, {}, deepest, contact);
+}
+
+template <int D>
+ContactWithNeighbours<D> contact_with_neighbours(const View<D>& a, const View<D>& b, const DeepestParts<D>& deepest,
+                                                 const Contact<D>& contact, const NeighbourSurfaces<D>& neighbours) {
+    ContactWithNeighbours<D> result{contact, {}};
+    if (!has_parts(a, b))
+        filter_only_contact(a, b, deepest.contact, neighbours, result);
+    else if (!is_surface_contact(a, b, deepest, 0, neighbours))
         result = deepest_surface_contact<D>(a, b, {}, neighbours);
-    result.touch = true;
     return result;
 }
 
-template ContactWithNeighbours<2> contact_with_neighbours(const View<2>&, const View<2>&, const NeighbourSurfaces<2>&);
-template ContactWithNeighbours<3> contact_with_neighbours(const View<3>&, const View<3>&, const NeighbourSurfaces<3>&);
+#define ABUT_INSTANTIATE(D)                                                                                           \
+    template bool find_deepest_parts(const View<D>&, const View<D>&, DeepestParts<D>&, Contact<D>&);                  \
+    template ContactWithNeighbours<D> contact_with_neighbours(const View<D>&, const View<D>&, const DeepestParts<D>&, \
+                                                              const Contact<D>&, const NeighbourSurfaces<D>&);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
+
 }  // namespace abut::detail
 
 namespace abut {

@@ -12,14 +12,13 @@
 #include <abut/shape/any_shape.hpp>
 #include <abut/world/ball_early_out.hpp>
 #include <abut/world/bounding_ball.hpp>
-#include <abut/world/compressed_lists.hpp>
 #include <abut/world/id.hpp>
 #include <abut/world/item_boxes.hpp>
 #include <abut/world/pair_index.hpp>
 #include <abut/world/query_count.hpp>
 #include <abut/world/swept_box.hpp>
-#include <abut/world/view_cache.hpp>
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -30,6 +29,10 @@ template <int D>
 struct MoverAtHit;
 template <int D>
 struct ClosestPoint;
+template <int D>
+struct DeepestParts;
+template <int D>
+struct EdgeFilterState;
 
 }  // namespace abut::detail
 
@@ -47,10 +50,13 @@ struct ItemOptions {
     bool continuous = false;  ///< the events include all that it touches between two updates, at any speed: bullets
 };
 
-/// Options for tests and measurements. No answer depends on them.
+/// The first two are for tests and measurements: no answer depends on them.
 struct WorldOptions {
     BallEarlyOut ball_early_out = BallEarlyOut::measured;
     std::optional<BroadPhaseKind> broad_phase = std::nullopt;  ///< by default the world chooses
+    /// Whether contacts() has the normals of the surface that neighbouring items form together (docs/ghosts.md). If
+    /// not, each pair has its own contact. Events don't depend on it.
+    bool filter_edges = true;
 };
 
 /// The items that a query takes into account.
@@ -145,7 +151,10 @@ class World {
 public:
     World() = default;
     explicit World(const WorldOptions& options)
-        : fixed_(options.broad_phase), moving_(options.broad_phase), ball_early_outs_(options.ball_early_out) {}
+        : fixed_(options.broad_phase),
+          moving_(options.broad_phase),
+          filters_edges_(options.filter_edges),
+          ball_early_outs_(options.ball_early_out) {}
     World(World&&) noexcept = default;
     World& operator=(World&&) noexcept = default;
 
@@ -438,13 +447,21 @@ private:
     bool measure(const IdPair& pair, detail::BallEarlyOuts::Entry& entry);
     bool filters_edges(std::uint32_t slot) const;
     bool are_solid(std::uint32_t slot, std::uint32_t other) const;
+    void begin_edge_filter();
+    void reserve_edge_filter();
     void find_neighbours();
-    bool neighbours_changed(const IdPair& pair) const;
+    void find_changed_neighbours();
+    bool neighbours_changed(const IdPair& pair);
     void each_closest_point_beside(std::uint32_t slot, std::uint32_t other, const detail::DVec<D>& point, double within,
                                    FunctionRef<double(const detail::ClosestPoint<D>&)> visit);
+    bool is_center_covered(std::uint32_t slot);
+    bool is_alone(const Contact<D>& contact, std::uint32_t slot, std::uint32_t other, double side) const;
     bool find_contact(const IdPair& pair);
+    void filter_contact(FoundContact& found, const detail::DeepestParts<D>& deepest);
+    void filter_contacts();
     static FoundContact* found_contact(std::vector<FoundContact>& list, const IdPair& pair);
     bool is_covered(const FoundContact& ghost, const Id& item) const;
+    void find_contacts_beside_ghosts();
     void report_contacts();
     void compare_with_last();
     void set_fractions();
@@ -480,18 +497,14 @@ private:
     detail::ItemBoxes<D> fixed_, moving_;
     mutable detail::QueryCount query_count_;  // since the last update
     double queries_per_item_ = 0;             // running mean of queries per update and moving item
+    bool filters_edges_ = true;
 
     std::vector<IdPair> near_, last_near_;
-    /// An item that pairs with another item and whose AABB overlaps its AABB.
-    struct Neighbour {
-        Aabb<D> box;
-        std::uint32_t slot;
+    struct DeleteEdgeFilterState {
+        void operator()(detail::EdgeFilterState<D>* state) const;
     };
-    detail::CompressedLists<Neighbour> neighbours_;         // of the items whose contacts get surface normals
-    detail::CompressedLists<std::uint32_t> found_by_slot_;  // indices in found_, in an update with substitute normals
-    detail::ViewCache<D> views_;                            // valid during an update
-    std::vector<char> neighbour_changed_;           // by slot: an item near it has changed since the last update
-    std::vector<IdPair> touching_, last_touching_;  // now and at the last update
+    std::unique_ptr<detail::EdgeFilterState<D>, DeleteEdgeFilterState> edges_;  // made by the first update
+    std::vector<IdPair> touching_, last_touching_;                              // now and at the last update
     std::vector<FoundContact> found_, last_found_;
     std::vector<WorldContact<D>> contacts_;
     std::vector<WorldImpact<D>> impacts_;       // of continuous pairs that didn't touch at the last update

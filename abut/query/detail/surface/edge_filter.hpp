@@ -14,6 +14,9 @@ template <int D>
 struct NeighbourSurfaces {
     const EachClosestPoint<D>* of_a = nullptr;  ///< what A touches beside B
     const EachClosestPoint<D>* of_b = nullptr;  ///< what B touches beside A
+    /// The points nearest to the centres of A and B, shared by all pairs of an item that is no composite shape; null:
+    /// they are found for each pair.
+    NearestToCenter<D>*nearest_to_a = nullptr, *nearest_to_b = nullptr;
 };
 
 /// Filters contacts on internal edges between two shapes, to which it refers. The surface of a part is that of its
@@ -84,16 +87,30 @@ void each_contact_with_neighbours(const View<D>& a, const View<D>& b, const Quer
                                   const NeighbourSurfaces<D>& neighbours,
                                   FunctionRef<bool(const Contact<D>&, const detail::SurfaceNormalFlags&)> visit);
 
+/// The deepest pair of parts of two shapes that touch.
+template <int D>
+struct DeepestParts {
+    std::pair<std::uint32_t, std::uint32_t> parts;
+    PartContact<D> contact;
+
+    /// Written out: clearing all of it first is slow.
+    DeepestParts() {}
+};
+
+/// Returns false, and leaves `contact`, if the shapes don't touch.
+template <int D>
+bool find_deepest_parts(const View<D>& a, const View<D>& b, DeepestParts<D>& deepest, Contact<D>& contact);
+
 template <int D>
 struct ContactWithNeighbours {
     Contact<D> contact;                          ///< empty if the surfaces don't touch
-    bool touch = false;                          ///< whether the two shapes themselves touch
     detail::SurfaceNormalFlags surface_normals;  ///< false for a side whose surface doesn't have the pair's own normal
 };
 
-/// Like contact: the deepest contact of each_contact_with_neighbours.
+/// Like contact, of two shapes that touch: the deepest contact of each_contact_with_neighbours. `deepest` and `contact`
+/// are those of find_deepest_parts.
 template <int D>
-ContactWithNeighbours<D> contact_with_neighbours(const View<D>& a, const View<D>& b,
-                                                 const NeighbourSurfaces<D>& neighbours);
+ContactWithNeighbours<D> contact_with_neighbours(const View<D>& a, const View<D>& b, const DeepestParts<D>& deepest,
+                                                 const Contact<D>& contact, const NeighbourSurfaces<D>& neighbours);
 
 }  // namespace abut::detail
