@@ -2,6 +2,7 @@
 #include <abut/query/detail/closed_form/closed_form.hpp>
 #include <abut/query/detail/one_sided.hpp>
 #include <abut/query/detail/part_pairs.hpp>
+#include <abut/query/detail/solid/solid_queries.hpp>
 #include <abut/query/detail/surface/edge_filter.hpp>
 #include <abut/query/detail/valid_query.hpp>
 #include <abut/query/detail/write_answer.hpp>
@@ -130,6 +131,21 @@ ContactWithNeighbours<D> only_contact(const View<D>& a, const View<D>& b, const 
     return result;
 }
 
+Contact<3> solid_contact(const View<3>& a, const View<3>& b, float margin) {
+    const Closest<3> nearest = closest(a, b);
+    return nearest.distance <= margin ? contact_of_solids(a, b, nearest) : no_contact<3>();
+}
+
+/// Two triangles have no inside, so between two meshes the deepest pair decides, as it does in `closest`.
+template <int D>
+bool are_meshes(const View<D>& a, const View<D>& b) {
+    const auto is_mesh = [](const View<D>& shape) {
+        const auto* composite = std::get_if<Composite<D>>(&shape);
+        return composite != nullptr && composite->triangles != nullptr;
+    };
+    return is_mesh(a) && is_mesh(b);
+}
+
 /// Out of line, to keep the fast path small.
 template <int D>
 [[gnu::noinline]] void by_views(const ShapeRef<D>& a, const ShapeRef<D>& b, const QueryOptions<D>& options,
@@ -160,9 +176,11 @@ Contact<D> contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& op
     const auto *convex_a = std::get_if<Convex<D>>(&a), *convex_b = std::get_if<Convex<D>>(&b);
     if (convex_a != nullptr && convex_b != nullptr) return contact(*convex_a, *convex_b, options);
     if (!detail::is_valid_pair(a, b)) return no_contact<D>();
+    if constexpr (D == 3)
+        if (are_solids(a, b)) return solid_contact(a, b, options.margin);
     const Deepest<D> deepest = deepest_of(a, b, options);
     const bool has_parts = std::holds_alternative<Composite<D>>(a) || std::holds_alternative<Composite<D>>(b);
-    if (!deepest.contact || !has_parts || is_surface_contact<D>(a, b, deepest, options.margin, {}))
+    if (!deepest.contact || !has_parts || are_meshes(a, b) || is_surface_contact<D>(a, b, deepest, options.margin, {}))
         return deepest.contact;
     const ContactWithNeighbours<D> surface = deepest_surface_contact<D>(a, b, options, {});
     return surface.contact ? surface.contact : deepest.contact;
@@ -176,6 +194,12 @@ template <int D>
 ContactWithNeighbours<D> contact_with_neighbours(const View<D>& a, const View<D>& b,
                                                  const NeighbourSurfaces<D>& neighbours) {
     ContactWithNeighbours<D> result;
+    if constexpr (D == 3)
+        if (are_solids(a, b)) {
+            result.contact = solid_contact(a, b, 0);
+            result.touch = static_cast<bool>(result.contact);
+            return result;
+        }
     const Deepest<D> deepest = deepest_of<D>(a, b, {});
     if (!deepest.contact) return result;
     const bool has_parts = std::holds_alternative<Composite<D>>(a) || std::holds_alternative<Composite<D>>(b);

@@ -87,7 +87,8 @@ bool fans_overlap(const EdgeFan& a, const EdgeFan& b) {
 EdgeFan reversed(const EdgeFan& fan) {
     EdgeFan result = fan;
     std::swap(result.from, result.to);
-    for (std::size_t i = 0; i < fan.count; ++i) std::swap(result.blades[i].inside_before, result.blades[i].inside_after);
+    for (std::size_t i = 0; i < fan.count; ++i)
+        std::swap(result.blades[i].inside_before, result.blades[i].inside_after);
     return result;
 }
 

@@ -100,7 +100,8 @@ private:
 /// Tests the corners and edges of a triangle that lie in the plane of another one.
 class FlatContacts {
 public:
-    FlatContacts(const SolidTriangle& own, const SolidTriangle& other) : own_(own), other_(other), flat_(other.corners) {}
+    FlatContacts(const SolidTriangle& own, const SolidTriangle& other)
+        : own_(own), other_(other), flat_(other.corners) {}
 
     bool overlap() const {
         for (std::size_t i = 0; i < 3; ++i) {
@@ -135,8 +136,7 @@ private:
     /// Whether a sector around edge i, which lies in the other's plane, is inside both solids.
     bool at_edge(std::size_t i) const {
         const DVec<3>&from = own_.corners[i], &to = own_.corners[next_corner(i)];
-        if (crosses_inside(from, to))
-            return fans_overlap(own_.solid.fan(own_.index, i), half_space_around(from, to));
+        if (crosses_inside(from, to)) return fans_overlap(own_.solid.fan(own_.index, i), half_space_around(from, to));
         for (std::size_t j = 0; j < 3; ++j) {
             if (!is_along_edge(from, to, j)) continue;
             const EdgeFan fan = other_.solid.fan(other_.index, j);
@@ -235,13 +235,6 @@ bool overlap_at(const PlacedSolid& a, std::uint32_t index_a, const Corners& corn
            overlap_at_crossing_edges(own, other);
 }
 
-/// Whether a component of the surface of one solid is inside the other.
-bool has_component_inside(const PlacedSolid& inner, const PlacedSolid& outer) {
-    for (const std::uint32_t point : inner.components())
-        if (outer.side_of(inner.point(point)) == PointSide::inside) return true;
-    return false;
-}
-
 }  // namespace
 
 bool each_triangle_pair(const PlacedSolid& a, const PlacedSolid& b, float reach, TrianglePairVisitor visit) {
@@ -259,11 +252,16 @@ bool each_triangle_pair(const PlacedSolid& a, const PlacedSolid& b, float reach,
     return go_on;
 }
 
+bool has_component_inside(const PlacedSolid& inner, const PlacedSolid& outer) {
+    for (const std::uint32_t point : inner.components())
+        if (outer.side_of(inner.point(point)) == PointSide::inside) return true;
+    return false;
+}
+
 bool interiors_overlap(const PlacedSolid& a, const PlacedSolid& b) {
     if (!overlaps(a.box(), b.box())) return false;
     const bool finds_none = each_triangle_pair(
-        a, b, 0,
-        [&](std::uint32_t index_a, const Corners& corners_a, std::uint32_t index_b, const Corners& corners_b) {
+        a, b, 0, [&](std::uint32_t index_a, const Corners& corners_a, std::uint32_t index_b, const Corners& corners_b) {
             return !overlap_at(a, index_a, corners_a, b, index_b, corners_b);
         });
     return !finds_none || has_component_inside(a, b) || has_component_inside(b, a);

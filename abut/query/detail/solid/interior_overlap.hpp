@@ -20,6 +20,9 @@ namespace abut::detail {
 /// Touching solids share no inner point, however large the area is in which they touch.
 bool interiors_overlap(const PlacedSolid& a, const PlacedSolid& b);
 
+/// Whether a connected component of the surface of one solid is inside the other.
+bool has_component_inside(const PlacedSolid& inner, const PlacedSolid& outer);
+
 /// Visits the pairs of triangles whose boxes are at most `reach` apart, with their corners. Returns false if a visit
 /// did, which stops it.
 using TrianglePairVisitor =

@@ -54,6 +54,11 @@ public:
         const glm::uvec3& t = mesh_->triangles[triangle];
         return flipped_ ? Corners{point(t.x), point(t.z), point(t.y)} : Corners{point(t.x), point(t.y), point(t.z)};
     }
+    /// The index of a corner's point.
+    std::uint32_t point_index(std::uint32_t triangle, std::size_t corner) const {
+        const std::size_t own = flipped_ && corner > 0 ? 3 - corner : corner;
+        return mesh_->triangles[triangle][static_cast<glm::length_t>(own)];
+    }
     /// One point of each connected component of the surface.
     std::span<const std::uint32_t> components() const { return mesh_->components; }
 
@@ -70,9 +75,7 @@ public:
 
 private:
     /// The index in the mesh of the edge's side.
-    std::uint32_t mesh_side(std::size_t side) const {
-        return static_cast<std::uint32_t>(flipped_ ? 2 - side : side);
-    }
+    std::uint32_t mesh_side(std::size_t side) const { return static_cast<std::uint32_t>(flipped_ ? 2 - side : side); }
 
     const MeshSurface* mesh_;
     Affine<3> place_, to_local_;

@@ -11,7 +11,8 @@ constexpr double rounding = 1e-9;
 bool is_in_front(const MeetOfPlanes& meet, const DVec<3>& move) {
     return std::all_of(meet.planes.begin(), meet.planes.begin() + static_cast<std::ptrdiff_t>(meet.count),
                        [&](const MovePlane& plane) {
-                           return dot(plane.normal, move) >= plane.distance - rounding * (plane.distance + length(move));
+                           return dot(plane.normal, move) >=
+                                  plane.distance - rounding * (plane.distance + length(move));
                        });
 }
 
@@ -19,14 +20,16 @@ bool is_in_front(const MeetOfPlanes& meet, const DVec<3>& move) {
 std::optional<DVec<3>> meet_of(const MovePlane& p, const MovePlane& q) {
     const double cosine = dot(p.normal, q.normal), det = 1 - cosine * cosine;
     if (det < rounding) return std::nullopt;
-    return p.normal * ((p.distance - cosine * q.distance) / det) + q.normal * ((q.distance - cosine * p.distance) / det);
+    return p.normal * ((p.distance - cosine * q.distance) / det) +
+           q.normal * ((q.distance - cosine * p.distance) / det);
 }
 
 std::optional<DVec<3>> meet_of(const MovePlane& p, const MovePlane& q, const MovePlane& r) {
     const DVec<3> across = cross(q.normal, r.normal);
     const double det = dot(p.normal, across);
     if (std::abs(det) < rounding) return std::nullopt;
-    return (across * p.distance + cross(r.normal, p.normal) * q.distance + cross(p.normal, q.normal) * r.distance) / det;
+    return (across * p.distance + cross(r.normal, p.normal) * q.distance + cross(p.normal, q.normal) * r.distance) /
+           det;
 }
 
 }  // namespace
@@ -88,8 +91,9 @@ void MoveQueue::add(const MeetOfPlanes& meet, double limit) {
     if (std::any_of(known_.begin(), known_end, same)) return;
     if (known_count_ < known_.size()) known_[known_count_++] = meet.move;
     const auto end = sorted_.begin() + static_cast<std::ptrdiff_t>(count_);
-    const auto place = std::upper_bound(
-        sorted_.begin(), end, meet, [](const MeetOfPlanes& p, const MeetOfPlanes& q) { return p.distance > q.distance; });
+    const auto place = std::upper_bound(sorted_.begin(), end, meet, [](const MeetOfPlanes& p, const MeetOfPlanes& q) {
+        return p.distance > q.distance;
+    });
     if (count_ < sorted_.size()) {
         std::move_backward(place, end, end + 1);
         *place = meet;

@@ -28,8 +28,8 @@ double extent_of(const Aabb3& box) {
     return length(DVec<3>(box.max) - DVec<3>(box.min));
 }
 
-/// Pairs of triangles that crossed somewhere. They mostly cross along similar directions too, which shows quickly that a
-/// direction isn't better.
+/// Pairs of triangles that crossed somewhere. They mostly cross along similar directions too, which shows quickly that
+/// a direction isn't better.
 class CrossingPairs {
 public:
     struct Indices {
@@ -130,9 +130,9 @@ private:
     void leave_box() {
         for (int i = 0; i < 3; ++i)
             for (const double sign : {1.0, -1.0}) {
-                const double distance = sign > 0
-                                            ? static_cast<double>(a_.box().max[i]) - static_cast<double>(b_.box().min[i])
-                                            : static_cast<double>(b_.box().max[i]) - static_cast<double>(a_.box().min[i]);
+                const double distance =
+                    sign > 0 ? static_cast<double>(a_.box().max[i]) - static_cast<double>(b_.box().min[i])
+                             : static_cast<double>(b_.box().max[i]) - static_cast<double>(a_.box().min[i]);
                 if (distance >= best_distance_) continue;
                 best_ = {to_float(axis<3>(i, sign)), next_up(static_cast<float>(distance))};
                 best_distance_ = static_cast<double>(best_.depth);
@@ -224,8 +224,8 @@ private:
         }
     }
 
-    /// The next distance at which triangles begin to cross; the limit if none do. One solid is inside the other, or they
-    /// are flush.
+    /// The next distance at which triangles begin to cross; the limit if none do. One solid is inside the other, or
+    /// they are flush.
     double next_crossing(const DVec<3>& direction, double distance, double limit) const {
         double next = limit;
         const DVec<3> move = direction * (limit - distance);
@@ -252,24 +252,25 @@ private:
 
     /// Visits the planes to which B must move at least, so that some of the triangles part that cross after a move.
     void collect_planes(const DVec<3>& move, NearestPlanes& planes) const {
-        each_triangle_pair(a_, b_.moved(move), 0, [&](std::uint32_t, const Corners& a, std::uint32_t, const Corners& b) {
-            const auto add = [&](const Corners& face, double sign) {
-                const DVec<3> normal = normalized<3>(cross(face[1] - face[0], face[2] - face[0]) * sign);
-                double to = -infinity, from = infinity, back = infinity, front = -infinity;
-                for (std::size_t i = 0; i < 3; ++i) {
-                    const double on_a = dot(normal, a[i] - a[0]), on_b = dot(normal, b[i] - a[0]);
-                    to = std::max(to, on_a);
-                    back = std::min(back, on_a);
-                    from = std::min(from, on_b);
-                    front = std::max(front, on_b);
-                }
-                if (to - from > step_ && front - back > -step_)
-                    planes.add({normal, dot(normal, move) + to - from}, limit());
-            };
-            add(a, 1);
-            add(b, -1);
-            return true;
-        });
+        each_triangle_pair(
+            a_, b_.moved(move), 0, [&](std::uint32_t, const Corners& a, std::uint32_t, const Corners& b) {
+                const auto add = [&](const Corners& face, double sign) {
+                    const DVec<3> normal = normalized<3>(cross(face[1] - face[0], face[2] - face[0]) * sign);
+                    double to = -infinity, from = infinity, back = infinity, front = -infinity;
+                    for (std::size_t i = 0; i < 3; ++i) {
+                        const double on_a = dot(normal, a[i] - a[0]), on_b = dot(normal, b[i] - a[0]);
+                        to = std::max(to, on_a);
+                        back = std::min(back, on_a);
+                        from = std::min(from, on_b);
+                        front = std::max(front, on_b);
+                    }
+                    if (to - from > step_ && front - back > -step_)
+                        planes.add({normal, dot(normal, move) + to - from}, limit());
+                };
+                add(a, 1);
+                add(b, -1);
+                return true;
+            });
     }
 
     /// Moves to where planes meet, nearest first.

@@ -33,7 +33,8 @@ public:
         const Range a = range_along(axis, a_), b = range_along(axis, b_);
         const double speed = dot(axis, direction_), size = length(axis);
         if (std::abs(speed) <= 1e-13 * size) {
-            const double tolerance = flush * std::max({std::abs(a.min), std::abs(a.max), std::abs(b.min), std::abs(b.max)});
+            const double tolerance =
+                flush * std::max({std::abs(a.min), std::abs(a.max), std::abs(b.min), std::abs(b.max)});
             return b.min + tolerance < a.max && a.min + tolerance < b.max;
         }
         const double sign = speed > 0 ? 1 : -1;
@@ -56,8 +57,7 @@ private:
 
 }  // namespace
 
-bool slide_interval(const Corners& a_world, const Corners& b_world, const DVec<3>& direction,
-                    SlideInterval& interval) {
+bool slide_interval(const Corners& a_world, const Corners& b_world, const DVec<3>& direction, SlideInterval& interval) {
     // Relative to a corner, so that rounding is that of the triangles' sizes.
     const DVec<3> origin = a_world[0];
     Corners a = a_world, b = b_world;
@@ -75,7 +75,8 @@ bool slide_interval(const Corners& a_world, const Corners& b_world, const DVec<3
         // In one plane, or never: a distance at which parallel triangles pass each other is a single one.
         if (std::abs(dot(normal_a, direction)) > 1e-13 * size_a || dot(normal_a, normal_b) < 0) return false;
         const double apart = std::abs(dot(normal_a, b[0])) / size_a;
-        const double scale = std::max(largest(edges_a[0]) + largest(edges_a[1]), largest(edges_b[0]) + largest(edges_b[1]));
+        const double scale =
+            std::max(largest(edges_a[0]) + largest(edges_a[1]), largest(edges_b[0]) + largest(edges_b[1]));
         if (apart > 1e-12 * scale) return false;
         for (const DVec<3>& edge : edges_a)
             if (!slide.cut(cross(normal_a, edge))) return false;
