@@ -74,6 +74,16 @@ std::pair<int, bool> shortest_exit(const Aabb3& box, const DVec<3>& point) {
     return best;
 }
 
+SolidSurface surface_of(const View<3>& shape) {
+    const auto* composite = std::get_if<Composite<3>>(&shape);
+    return composite != nullptr ? SolidSurface(*composite->solid) : SolidSurface(std::get<Convex<3>>(shape));
+}
+
+const Affine<3>& place_of(const View<3>& shape) {
+    const auto* composite = std::get_if<Composite<3>>(&shape);
+    return composite != nullptr ? composite->place : std::get<Convex<3>>(shape).place;
+}
+
 }  // namespace
 
 int projection_axis(const Corners& corners) {
@@ -95,19 +105,19 @@ Aabb3 box_of(const Corners& corners) {
     return result;
 }
 
-PlacedSolid::PlacedSolid(const Composite<3>& composite)
-    : mesh_(composite.solid), place_(composite.place), box_(bounds(composite)) {
+PlacedSolid::PlacedSolid(const View<3>& shape) : surface_(surface_of(shape)), place_(place_of(shape)) {
     const double det = determinant(place_);
     flat_ = det == 0;
-    flipped_ = mesh_->inward != (det < 0);
+    flipped_ = surface_.is_inward() != (det < 0);
     to_local_ = flat_ ? Affine<3>() : inverse(place_, det);
+    box_ = mapped_box(surface_.box(), place_);
 }
 
 PlacedSolid PlacedSolid::moved(const DVec<3>& translation) const {
     PlacedSolid result = *this;
     result.place_.offset += translation;
     result.to_local_.offset = -to_local_.vector(result.place_.offset);
-    result.box_ = mapped_box(mesh_->tree.root(0).box, result.place_);
+    result.box_ = mapped_box(surface_.box(), result.place_);
     return result;
 }
 
@@ -122,21 +132,21 @@ void PlacedSolid::each_triangle(const Aabb3& box, FunctionRef<bool(std::uint32_t
     for (int i = 0; i < 3; ++i)
         if (near.min[i] > near.max[i]) return;
     Aabb3 local = mapped_box(near, to_local_);
-    const Aabb3& root = mesh_->tree.root(0).box;
+    const Aabb3 root = surface_.box();
     for (int i = 0; i < 3; ++i) {
         const float tolerance = 0x1p-22f * (root.max[i] - root.min[i] + std::abs(root.min[i]));
         local.min[i] -= tolerance;
         local.max[i] += tolerance;
     }
-    find_overlapping(mesh_->tree, local, [&](std::uint32_t index) -> bool { return visit(index); });
+    surface_.each_triangle(local, visit);
 }
 
 EdgeFan PlacedSolid::fan(std::uint32_t triangle, std::size_t side) const {
-    const auto position = [&](std::uint32_t t, std::uint32_t corner) -> const Vec3& {
-        return mesh_->points[mesh_->triangles[t][static_cast<glm::length_t>(corner % 3)]];
+    const auto position = [&](std::uint32_t t, std::uint32_t corner) {
+        return surface_.position(surface_.triangle(t)[corner % 3]);
     };
-    const std::uint32_t own = mesh_side(side);
-    const Vec3 &a = position(triangle, own), &b = position(triangle, own + 1);
+    const std::uint32_t own = own_side(side);
+    const Vec3 a = position(triangle, own), b = position(triangle, own + 1);
     EdgeFan result;
     const auto placed = [&](const Vec3& p) { return place_.point(DVec<3>(p)); };
     result.from = placed(flipped_ ? b : a);
@@ -144,7 +154,7 @@ EdgeFan PlacedSolid::fan(std::uint32_t triangle, std::size_t side) const {
     /// Adds the other corner of a triangle if it has the edge.
     const auto add = [&](std::uint32_t t) {
         for (std::uint32_t i = 0; i < 3; ++i) {
-            const Vec3 &from = position(t, i), &to = position(t, i + 1);
+            const Vec3 from = position(t, i), to = position(t, i + 1);
             const bool along = from == a && to == b;
             if (!along && !(from == b && to == a)) continue;
             const DVec<3> corner = placed(position(t, i + 2));
@@ -155,10 +165,10 @@ EdgeFan PlacedSolid::fan(std::uint32_t triangle, std::size_t side) const {
         }
     };
     add(triangle);
-    const std::uint32_t neighbour = mesh_->adjacency.neighbours[triangle][own];
+    const std::uint32_t neighbour = surface_.neighbour(triangle, own);
     if (neighbour == many_neighbours) {
         const Aabb3 around{glm::min(a, b), glm::max(a, b)};
-        find_overlapping(mesh_->tree, around, [&](std::uint32_t t) -> bool {
+        surface_.each_triangle(around, [&](std::uint32_t t) {
             if (t != triangle) add(t);
             return true;
         });

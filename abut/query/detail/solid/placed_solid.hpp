@@ -1,12 +1,11 @@
 #pragma once
 
-// A closed mesh at a place, as exact queries of solids need it: corners in double, triangles near a box, the triangles
+// A solid at a place, as exact queries of solids need it: corners in double, triangles near a box, the triangles
 // around an edge, and whether a point is inside. For .cpp files.
 
 #include <abut/math/aabb.hpp>
 #include <abut/math/function_ref.hpp>
-#include <abut/shape/mesh/surface.hpp>
-#include <abut/shape/view/view.hpp>
+#include <abut/query/detail/solid/solid_surface.hpp>
 
 #include <array>
 
@@ -38,29 +37,30 @@ struct EdgeFan {
 
 enum class PointSide : std::uint8_t { outside, on_surface, inside };
 
-/// Refers to the mesh. All answers are exact for the corners, which are the mesh's points placed in double.
+/// Refers to the shape. All answers are exact for the corners, which are the shape's points placed in double.
 class PlacedSolid {
 public:
-    /// `composite.solid` isn't null.
-    explicit PlacedSolid(const Composite<3>& composite);
+    /// The shape is a solid mesh or a solid polytope.
+    explicit PlacedSolid(const View<3>& shape);
 
     /// The solid after a translation.
     PlacedSolid moved(const DVec<3>& translation) const;
 
     const Aabb3& box() const { return box_; }
-    std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(mesh_->triangles.size()); }
-    DVec<3> point(std::uint32_t index) const { return place_.point(DVec<3>(mesh_->points[index])); }
+    std::uint32_t triangle_count() const { return surface_.triangle_count(); }
+    DVec<3> point(std::uint32_t index) const { return place_.point(DVec<3>(surface_.position(index))); }
     Corners corners(std::uint32_t triangle) const {
-        const glm::uvec3& t = mesh_->triangles[triangle];
-        return flipped_ ? Corners{point(t.x), point(t.z), point(t.y)} : Corners{point(t.x), point(t.y), point(t.z)};
+        const std::array<std::uint32_t, 3> t = surface_.triangle(triangle);
+        return flipped_ ? Corners{point(t[0]), point(t[2]), point(t[1])}
+                        : Corners{point(t[0]), point(t[1]), point(t[2])};
     }
     /// The index of a corner's point.
     std::uint32_t point_index(std::uint32_t triangle, std::size_t corner) const {
         const std::size_t own = flipped_ && corner > 0 ? 3 - corner : corner;
-        return mesh_->triangles[triangle][static_cast<glm::length_t>(own)];
+        return surface_.triangle(triangle)[own];
     }
     /// One point of each connected component of the surface.
-    std::span<const std::uint32_t> components() const { return mesh_->components; }
+    std::span<const std::uint32_t> components() const { return surface_.components(); }
 
     /// Visits at least the triangles whose boxes overlap the box; false stops.
     void each_triangle(const Aabb3& box, FunctionRef<bool(std::uint32_t triangle)> visit) const;
@@ -74,14 +74,14 @@ public:
     PointSide side_of(const DVec<3>& point, const DVec<3>* towards = nullptr) const;
 
 private:
-    /// The index in the mesh of the edge's side.
-    std::uint32_t mesh_side(std::size_t side) const { return static_cast<std::uint32_t>(flipped_ ? 2 - side : side); }
+    /// The side of the triangle as the surface orders its corners.
+    std::uint32_t own_side(std::size_t side) const { return static_cast<std::uint32_t>(flipped_ ? 2 - side : side); }
 
-    const MeshSurface* mesh_;
+    SolidSurface surface_;
     Affine<3> place_, to_local_;
     Aabb3 box_;
-    bool flat_;     ///< the placement flattens the mesh
-    bool flipped_;  ///< corners of the mesh's triangles are clockwise seen from outside
+    bool flat_;     ///< the placement flattens the shape
+    bool flipped_;  ///< corners of the surface's triangles are clockwise seen from outside
 };
 
 /// The axis along which the projection of a triangle is largest; -1 if the triangle has no area.

@@ -8,15 +8,6 @@
 namespace abut::detail {
 namespace {
 
-bool is_solid(const View<3>& shape) {
-    const auto* composite = std::get_if<Composite<3>>(&shape);
-    return composite != nullptr && composite->solid != nullptr;
-}
-
-PlacedSolid placed_solid(const View<3>& shape) {
-    return PlacedSolid(std::get<Composite<3>>(shape));
-}
-
 /// The tolerance of distances: see docs/correctness.md.
 double distance_tolerance(const View<3>& a, const View<3>& b) {
     double farthest = 0;
@@ -30,7 +21,7 @@ double distance_tolerance(const View<3>& a, const View<3>& b) {
 /// Sets a common point of the surfaces after the move, and its features.
 void name_point(const View<3>& a, const View<3>& b, const DVec<3>& move, Closest<3>& closest) {
     const ContactArea area =
-        contact_area(placed_solid(a), placed_solid(b), move, DVec<3>(closest.normal), distance_tolerance(a, b));
+        contact_area(PlacedSolid(a), PlacedSolid(b), move, DVec<3>(closest.normal), distance_tolerance(a, b));
     if (area.manifold.count == 0) return;
     closest.on_a = to_float(area.manifold.points[0].position);
     closest.on_b = to_float(area.manifold.points[0].position - move);
@@ -41,16 +32,17 @@ void name_point(const View<3>& a, const View<3>& b, const DVec<3>& move, Closest
 }  // namespace
 
 bool are_solids(const View<3>& a, const View<3>& b) {
-    return is_solid(a) && is_solid(b);
+    if (!is_solid_mesh(a) && !is_solid_mesh(b)) return false;
+    return (is_solid_mesh(a) || is_solid_polytope(a)) && (is_solid_mesh(b) || is_solid_polytope(b));
 }
 
 bool is_inside_other(const View<3>& a, const View<3>& b) {
-    const PlacedSolid solid_a = placed_solid(a), solid_b = placed_solid(b);
+    const PlacedSolid solid_a(a), solid_b(b);
     return has_component_inside(solid_a, solid_b) || has_component_inside(solid_b, solid_a);
 }
 
 bool find_depth(const View<3>& a, const View<3>& b, Closest<3>& closest) {
-    const PlacedSolid solid_a = placed_solid(a), solid_b = placed_solid(b);
+    const PlacedSolid solid_a(a), solid_b(b);
     if (!interiors_overlap(solid_a, solid_b)) return false;
     const SeparatingMove move = separating_move(solid_a, solid_b);
     closest.distance = -move.depth;
@@ -61,7 +53,7 @@ bool find_depth(const View<3>& a, const View<3>& b, Closest<3>& closest) {
 
 void name_touching(const View<3>& a, const View<3>& b, Closest<3>& closest) {
     closest.distance = 0;
-    closest.normal = to_float(touching_normal(placed_solid(a), placed_solid(b), distance_tolerance(a, b)));
+    closest.normal = to_float(touching_normal(PlacedSolid(a), PlacedSolid(b), distance_tolerance(a, b)));
     closest.on_b = closest.on_a;
     name_point(a, b, DVec<3>(0.0), closest);
 }
@@ -69,7 +61,7 @@ void name_touching(const View<3>& a, const View<3>& b, Closest<3>& closest) {
 Contact<3> contact_of_solids(const View<3>& a, const View<3>& b, const Closest<3>& closest) {
     const DVec<3> move = DVec<3>(closest.normal) * -static_cast<double>(closest.distance);
     const ContactArea area =
-        contact_area(placed_solid(a), placed_solid(b), move, DVec<3>(closest.normal), distance_tolerance(a, b));
+        contact_area(PlacedSolid(a), PlacedSolid(b), move, DVec<3>(closest.normal), distance_tolerance(a, b));
     Contact<3> result;
     result.normal = closest.normal;
     result.depth = -closest.distance;

@@ -7,7 +7,7 @@
 
 namespace abut::detail {
 
-/// Whether both shapes are solids; never in the plane.
+/// Whether one shape is the solid of a mesh, and the other one too or a box or a polyhedron; never in the plane.
 inline bool are_solids(const View<2>&, const View<2>&) {
     return false;
 }
