@@ -11,6 +11,7 @@
 
 #include <abut/math/detail/next_float.hpp>
 #include <abut/query/detail/solid/interior_overlap.hpp>
+#include <abut/query/detail/solid/move_cover.hpp>
 #include <abut/query/detail/solid/plane_meets.hpp>
 #include <abut/query/detail/solid/separating_move.hpp>
 #include <abut/query/detail/solid/slide_interval.hpp>
@@ -27,27 +28,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 double extent_of(const Aabb3& box) {
     return length(DVec<3>(box.max) - DVec<3>(box.min));
 }
-
-/// Pairs of triangles that crossed somewhere. They mostly cross along similar directions too, which shows quickly that
-/// a direction isn't better.
-class CrossingPairs {
-public:
-    struct Indices {
-        std::uint32_t a, b;
-    };
-
-    void add(const Indices& pair) {
-        pairs_[next_] = pair;
-        next_ = (next_ + 1) % capacity;
-        count_ = std::min(count_ + 1, capacity);
-    }
-    std::span<const Indices> all() const { return {pairs_.data(), count_}; }
-
-private:
-    static constexpr std::size_t capacity = 48;
-    std::array<Indices, capacity> pairs_;
-    std::size_t count_ = 0, next_ = 0;
-};
 
 /// Directions that were tried, as far as they fit.
 class TriedDirections {
@@ -70,13 +50,14 @@ private:
 
 class Search {
 public:
-    Search(const PlacedSolid& a, const PlacedSolid& b) : a_(a), b_(b) {
-        const double smaller = std::min(extent_of(a.box()), extent_of(b.box()));
+    Search(const View<3>& shape_a, const View<3>& shape_b) : a_(shape_a), b_(shape_b), cover_(a_, b_) {
+        const double smaller = std::min(extent_of(a_.box()), extent_of(b_.box()));
         double farthest = 0;
-        for (const Aabb3& box : {a.box(), b.box()})
+        for (const Aabb3& box : {a_.box(), b_.box()})
             farthest = std::max({farthest, largest(DVec<3>(box.min)), largest(DVec<3>(box.max))});
         step_ = 1e-9 * smaller + 1e-14 * farthest;
         float_step_ = 0x1p-23 * farthest;
+        if (a_.triangle_count() + b_.triangle_count() > min_triangles_for_balls) cover_.add_balls(shape_a, shape_b);
     }
 
     SeparatingMove find() {
@@ -85,7 +66,7 @@ public:
             for (const double sign : {1.0, -1.0}) try_direction(axis<3>(i, sign));
         for (const bool of_a : {true, false}) {
             const PlacedSolid& solid = of_a ? a_ : b_;
-            for (std::uint32_t i = 0; i < solid.triangle_count(); ++i) {
+            for (std::uint32_t i = 0; i < solid.triangle_count() && !is_least(); ++i) {
                 const Corners t = solid.corners(i);
                 const DVec<3> normal = cross(t[1] - t[0], t[2] - t[0]);
                 const double size = length(normal);
@@ -96,7 +77,7 @@ public:
                 try_direction(-direction);
             }
         }
-        search_meets();
+        if (!is_least()) search_meets();
         return best_;
     }
 
@@ -108,7 +89,11 @@ private:
 
     double limit() const { return best_distance_ * (1 - 1e-9); }
 
-    bool parts(const DVec<3>& move) const { return !interiors_overlap(a_, b_.moved(move)); }
+    bool is_least() const { return best_distance_ <= cover_.min_distance() * (1 + 1e-5); }
+
+    bool parts(const DVec<3>& move) const {
+        return !cover_.has_ball_at(move) && !interiors_overlap(a_, b_.moved(move));
+    }
 
     /// Takes a move that parts the solids in double, if it does so as floats too, or slightly longer.
     bool take(const DVec<3>& direction, double distance) {
@@ -156,8 +141,9 @@ private:
     Exit exit_along(const DVec<3>& direction, double limit) {
         Exit exit;
         double distance = 0;
-        leave_known_pairs(direction, limit, distance, exit.normal);
-        for (int i = 0; i < 256 && distance < limit; ++i) {
+        for (int i = 0; i < 256; ++i) {
+            cover_.leave(direction, step_, limit, distance, exit.normal);
+            if (distance >= limit) break;
             const Crossing crossing = crossing_at(direction, distance, limit);
             if (crossing.found && crossing.from < distance - step_) {
                 distance = crossing.to;
@@ -189,39 +175,21 @@ private:
         DVec<3> normal{0.0};
     };
 
-    /// Of the triangles that cross at a distance along a direction, or a step farther on, those that part last.
+    /// Of some triangles that cross at a distance along a direction, or a step farther on, those that part last.
     Crossing crossing_at(const DVec<3>& direction, double distance, double limit) {
         Crossing result;
-        CrossingPairs::Indices pair{};
+        int crossing_count = 0;
         each_triangle_pair(a_, b_.moved(direction * distance), static_cast<float>(2 * step_),
                            [&](std::uint32_t index_a, const Corners& a, std::uint32_t index_b, const Corners& b) {
                                SlideInterval slide;
                                if (!slide_interval(a, b, direction, slide)) return true;
                                if (!(slide.from < step_ && slide.to > 2 * step_)) return true;
-                               if (result.found && distance + slide.to <= result.to) return true;
-                               result = {true, distance + slide.from, distance + slide.to, slide.exit_normal};
-                               pair = {index_a, index_b};
-                               return result.to < limit;
+                               if (slide.from < -step_) cover_.add_pair(index_a, index_b);
+                               if (!result.found || distance + slide.to > result.to)
+                                   result = {true, distance + slide.from, distance + slide.to, slide.exit_normal};
+                               return result.to < limit && ++crossing_count < max_crossings;
                            });
-        if (result.found) known_.add(pair);
         return result;
-    }
-
-    /// Moves on as long as triangles cross that are known to cross elsewhere.
-    void leave_known_pairs(const DVec<3>& direction, double limit, double& distance, DVec<3>& normal) const {
-        for (bool goes_on = true; goes_on && distance < limit;) {
-            goes_on = false;
-            for (const CrossingPairs::Indices& pair : known_.all()) {
-                SlideInterval slide;
-                if (!slide_interval(a_.corners(pair.a), b_.corners(pair.b), direction, slide)) continue;
-                const bool is_inside = slide.from < distance - step_ || (distance == 0 && slide.from < 0);
-                if (!is_inside || slide.to <= distance + 2 * step_) continue;
-                distance = slide.to;
-                normal = slide.exit_normal;
-                goes_on = true;
-                if (distance >= limit) return;
-            }
-        }
     }
 
     /// The next distance at which triangles begin to cross; the limit if none do. One solid is inside the other, or
@@ -292,20 +260,23 @@ private:
         return meet.distance < limit() && parts(meet.move) && take(meet.move / meet.distance, meet.distance);
     }
 
-    static constexpr int max_meets = 64;
+    static constexpr int max_meets = 64, max_crossings = 16;
 
-    const PlacedSolid &a_, &b_;
+    /// Coarser solids have so few directions that balls don't pay.
+    static constexpr std::uint32_t min_triangles_for_balls = 256;
+
+    PlacedSolid a_, b_;
+    MoveCover cover_;
     double step_ = 0;        ///< a distance that doesn't count
     double float_step_ = 0;  ///< the same for floats
     SeparatingMove best_;
     double best_distance_ = infinity;
-    CrossingPairs known_;
     TriedDirections tried_;
 };
 
 }  // namespace
 
-SeparatingMove separating_move(const PlacedSolid& a, const PlacedSolid& b) {
+SeparatingMove separating_move(const View<3>& a, const View<3>& b) {
     return Search(a, b).find();
 }
 

@@ -14,6 +14,6 @@ struct SeparatingMove {
 
 /// The least move that the search finds. It is never longer than the shortest one along an axis of the world or along
 /// the normal of a face of either solid.
-SeparatingMove separating_move(const PlacedSolid& a, const PlacedSolid& b);
+SeparatingMove separating_move(const View<3>& a, const View<3>& b);
 
 }  // namespace abut::detail

@@ -44,7 +44,7 @@ bool is_inside_other(const View<3>& a, const View<3>& b) {
 bool find_depth(const View<3>& a, const View<3>& b, Closest<3>& closest) {
     const PlacedSolid solid_a(a), solid_b(b);
     if (!interiors_overlap(solid_a, solid_b)) return false;
-    const SeparatingMove move = separating_move(solid_a, solid_b);
+    const SeparatingMove move = separating_move(a, b);
     closest.distance = -move.depth;
     closest.normal = move.normal;
     name_point(a, b, DVec<3>(move.normal) * static_cast<double>(move.depth), closest);
@@ -64,7 +64,7 @@ Contact<3> contact_of_solids(const View<3>& a, const View<3>& b, const Closest<3
         contact_area(PlacedSolid(a), PlacedSolid(b), move, DVec<3>(closest.normal), distance_tolerance(a, b));
     Contact<3> result;
     result.normal = closest.normal;
-    result.depth = -closest.distance;
+    result.depth = 0 - closest.distance;
     for (std::size_t i = 0; i < area.manifold.count; ++i) {
         const ManifoldPoint<3>& point = area.manifold.points[i];
         result.points.push_back({to_float(point.position - move * 0.5), result.depth, point.feature});
