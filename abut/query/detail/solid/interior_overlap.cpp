@@ -140,8 +140,8 @@ private:
         for (std::size_t j = 0; j < 3; ++j) {
             if (!is_along_edge(from, to, j)) continue;
             const EdgeFan fan = other_.solid.fan(other_.index, j);
-            const bool same_direction = dot(to - from, fan.to - fan.from) > 0;
-            return fans_overlap(own_.solid.fan(own_.index, i), same_direction ? fan : reversed(fan));
+            const bool goes_along = dot(to - from, fan.to - fan.from) > 0;
+            return fans_overlap(own_.solid.fan(own_.index, i), goes_along ? fan : reversed(fan));
         }
         return false;
     }
