@@ -83,11 +83,7 @@ bool parts_overlap(const KitPart& a, const Vec3& at_a, const KitPart& b, const V
     return true;
 }
 
-/// Moves with dot(normal, move) < distance.
-struct Half {
-    DVec<3> normal{0.0};
-    double distance = 0;
-};
+using Half = MoveHalfSpace;
 using Sum = std::vector<Half>;
 
 /// The moves of B at which two parts overlap.
@@ -105,13 +101,6 @@ Sum minkowski_sum(const KitPart& a, const Vec3& at_a, const KitPart& b, const Ve
         result.push_back({-normal, static_cast<double>(Rational(range_b.high - range_a.low)) / size});
     }
     return result;
-}
-
-std::vector<Sum> minkowski_sums(const KitPiece& a, const Vec3& at_a, const KitPiece& b, const Vec3& at_b) {
-    std::vector<Sum> sums;
-    for (const KitPart& part_a : a.parts)
-        for (const KitPart& part_b : b.parts) sums.push_back(minkowski_sum(part_a, at_a, part_b, at_b));
-    return sums;
 }
 
 /// The least move outside of all half-spaces: on one of their planes, or where two or three of them meet.
@@ -172,8 +161,12 @@ bool interiors_overlap(const KitPiece& a, const Vec3& at_a, const KitPiece& b, c
     return false;
 }
 
-std::optional<double> least_separation(const KitPiece& a, const Vec3& at_a, const KitPiece& b, const Vec3& at_b) {
-    const std::vector<Sum> sums = minkowski_sums(a, at_a, b, at_b);
+OverlappingMoves::OverlappingMoves(const KitPiece& a, const Vec3& at_a, const KitPiece& b, const Vec3& at_b) {
+    for (const KitPart& part_a : a.parts)
+        for (const KitPart& part_b : b.parts) sums_.push_back(minkowski_sum(part_a, at_a, part_b, at_b));
+}
+
+std::optional<double> OverlappingMoves::least_separation() const {
     std::priority_queue<Node> nodes;
     nodes.push({});
     for (int i = 0; i < 3000 && !nodes.empty(); ++i) {
@@ -181,7 +174,7 @@ std::optional<double> least_separation(const KitPiece& a, const Vec3& at_a, cons
         nodes.pop();
         const Sum* inside = nullptr;
         double deepest = 1e-9;
-        for (const Sum& sum : sums) {
+        for (const Sum& sum : sums_) {
             const double depth = depth_in(sum, node.move);
             if (depth <= deepest) continue;
             deepest = depth;
@@ -200,13 +193,11 @@ std::optional<double> least_separation(const KitPiece& a, const Vec3& at_a, cons
     return std::nullopt;
 }
 
-double separation_along(const KitPiece& a, const Vec3& at_a, const KitPiece& b, const Vec3& at_b,
-                        const DVec<3>& direction) {
-    const std::vector<Sum> sums = minkowski_sums(a, at_a, b, at_b);
+double OverlappingMoves::separation_along(const DVec<3>& direction) const {
     double distance = 0;
     for (bool goes_on = true; goes_on;) {
         goes_on = false;
-        for (const Sum& sum : sums) {
+        for (const Sum& sum : sums_) {
             if (depth_in(sum, direction * distance) <= 1e-9) continue;
             double end = std::numeric_limits<double>::infinity();
             for (const Half& half : sum) {
