@@ -11,7 +11,7 @@ namespace {
 
 using oracle::Rational;
 
-int sign(const Rational& value) {
+int sign_of_rational(const Rational& value) {
     return value > 0 ? 1 : value < 0 ? -1 : 0;
 }
 
@@ -21,14 +21,14 @@ std::array<Rational, 3> difference(const DVec<3>& a, const DVec<3>& b) {
 
 int rational_side(const DVec<3>& a, const DVec<3>& b, const DVec<3>& c, const DVec<3>& d) {
     const auto p = difference(b, a), q = difference(c, a), r = difference(d, a);
-    return sign((p[1] * q[2] - p[2] * q[1]) * r[0] + (p[2] * q[0] - p[0] * q[2]) * r[1] +
-                (p[0] * q[1] - p[1] * q[0]) * r[2]);
+    return sign_of_rational((p[1] * q[2] - p[2] * q[1]) * r[0] + (p[2] * q[0] - p[0] * q[2]) * r[1] +
+                            (p[0] * q[1] - p[1] * q[0]) * r[2]);
 }
 
 int rational_turn(const DVec<3>& a, const DVec<3>& b, const DVec<3>& c, int axis) {
     const auto p = difference(b, a), q = difference(c, a);
     const auto i = static_cast<std::size_t>((axis + 1) % 3), j = static_cast<std::size_t>((axis + 2) % 3);
-    return sign(p[i] * q[j] - p[j] * q[i]);
+    return sign_of_rational(p[i] * q[j] - p[j] * q[i]);
 }
 
 /// Points in general position, or nearly in a plane or on a line, up to the last bit; near the origin or far from it.
