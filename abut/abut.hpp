@@ -59,6 +59,7 @@
 #include <abut/shape/polyhedron.hpp>
 #include <abut/shape/segment.hpp>
 #include <abut/shape/solid_bsp.hpp>
+#include <abut/shape/solid_mesh.hpp>
 #include <abut/shape/tile_map.hpp>
 #include <abut/shape/triangle.hpp>
 #include <abut/shape/weld.hpp>

@@ -4,6 +4,7 @@
 // float is a multiple of 2^-149 below 2^128, so products of three are multiples of 2^-447 below 2^384, and products of
 // differences are below 2^387.
 
+#include <abut/math/detail/expansion.hpp>
 #include <abut/math/dvec.hpp>
 #include <abut/math/predicates.hpp>
 #include <abut/math/simd/library_entry.hpp>
@@ -16,62 +17,11 @@ namespace abut {
 namespace {
 
 using detail::DVec;
-
-int sign(double value) {
-    return value > 0 ? 1 : value < 0 ? -1 : 0;
-}
-
-/// rounded + error == a + b, exactly (Knuth).
-struct Sum {
-    double rounded, error;
-};
-
-Sum two_sum(double a, double b) {
-    const double sum = a + b, b_in_sum = sum - a;
-    return {sum, (a - (sum - b_in_sum)) + (b - b_in_sum)};
-}
-
-/// rounded + error == a * b, exactly (Dekker).
-Sum two_product(double a, double b) {
-    const auto upper_half = [](double x) {
-        const double scaled = 0x1.0000002p27 * x;
-        return scaled - (scaled - x);
-    };
-    const double product = a * b, a_high = upper_half(a), a_low = a - a_high, b_high = upper_half(b),
-                 b_low = b - b_high;
-    return {product, ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low};
-}
-
-/// An expansion: an exact sum of up to 48 doubles as nonoverlapping components of increasing magnitude, none of them
-/// zero. The last component has the sign of the sum.
-class Expansion {
-public:
-    void add(double term) {
-        std::size_t count = 0;
-        for (std::size_t i = 0; i < count_; ++i) {
-            const Sum sum = two_sum(term, parts_[i]);
-            if (sum.error != 0) parts_[count++] = sum.error;
-            term = sum.rounded;
-        }
-        if (term != 0) parts_[count++] = term;
-        count_ = count;
-    }
-
-    /// Adds the product of a double `product` (of two floats) and a float.
-    void add_product(double product, double factor) {
-        // Two halves of 26 bits (Dekker), times 24: neither product is rounded.
-        const double scaled = 0x1.0000002p27 * product;
-        const double high = scaled - (scaled - product), low = product - high;
-        add(high * factor);
-        add(low * factor);
-    }
-
-    int sign() const { return count_ == 0 ? 0 : abut::sign(parts_[count_ - 1]); }
-
-private:
-    std::array<double, 48> parts_;
-    std::size_t count_ = 0;
-};
+using detail::ExactSum;
+using detail::Expansion;
+using detail::sign_of;
+using detail::two_product;
+using detail::two_sum;
 
 bool is_exact(const DVec<2>& from, const DVec<2>& to) {
     return two_sum(to.x, -from.x).error == 0 && two_sum(to.y, -from.y).error == 0;
@@ -83,10 +33,11 @@ bool is_exact(const DVec<2>& from, const DVec<2>& to) {
 int exact_orientation(const DVec<2>& a, const DVec<2>& b, const DVec<2>& c) {
     if (is_exact(a, b) && is_exact(a, c)) {
         const DVec<2> p = b - a, q = c - a;
-        const Sum left = two_product(p.x, q.y), right = two_product(p.y, q.x);
-        return left.rounded != right.rounded ? sign(left.rounded - right.rounded) : sign(left.error - right.error);
+        const ExactSum left = two_product(p.x, q.y), right = two_product(p.y, q.x);
+        return left.rounded != right.rounded ? sign_of(left.rounded - right.rounded)
+                                             : sign_of(left.error - right.error);
     }
-    Expansion sum;
+    Expansion<48> sum;  // enough for 24 products of two doubles
     const auto add_cross = [&](const DVec<2>& p, const DVec<2>& q) {
         sum.add(p.x * q.y);
         sum.add(-p.y * q.x);
@@ -99,7 +50,7 @@ int exact_orientation(const DVec<2>& a, const DVec<2>& b, const DVec<2>& c) {
 
 /// The determinant of four rows: [b c d] - [a c d] + [a b d] - [a b c], where [p q r] = dot(cross(p, q), r).
 int exact_orientation(const DVec<3>& a, const DVec<3>& b, const DVec<3>& c, const DVec<3>& d) {
-    Expansion sum;
+    Expansion<48> sum;
     const auto add_triple = [&](const DVec<3>& p, const DVec<3>& q, const DVec<3>& r) {
         for (int i = 0; i < 3; ++i) {
             const int j = (i + 1) % 3, k = (i + 2) % 3;
@@ -122,7 +73,7 @@ int detail::triangle_orientation(const Vec2& a, const Vec2& b, const Vec2& c) {
     // Each product of two rounded differences is off by 3 u; the final difference adds u. The bound is twice the
     // first-order error, 8 u; it is 0 only if both products are exactly 0.
     const double bound = 0x1p-50 * (std::abs(left) + std::abs(right));
-    if (std::abs(turn) >= bound) return sign(turn);
+    if (std::abs(turn) >= bound) return sign_of(turn);
     return exact_orientation(DVec<2>(a), DVec<2>(b), DVec<2>(c));
 }
 
@@ -137,7 +88,7 @@ int detail::tetrahedron_orientation(const Vec3& a, const Vec3& b, const Vec3& c,
     }
     // left and right: 3 u; their difference: 4 u; times r[i], a difference: 6 u; the two sums: 8 u. The bound is twice
     // that.
-    if (std::abs(volume) >= 0x1p-49 * magnitude) return sign(volume);
+    if (std::abs(volume) >= 0x1p-49 * magnitude) return sign_of(volume);
     return exact_orientation(DVec<3>(a), DVec<3>(b), DVec<3>(c), DVec<3>(d));
 }
 
@@ -167,10 +118,10 @@ namespace abut::detail {
 int turn_towards(const Vec2& a, const Vec2& b, const DVec<2>& c) {
     const DVec<2> from(a), to(b), p = to - from, q = c - from;
     const double left = p.x * q.y, right = p.y * q.x, turn = left - right;
-    if (std::abs(turn) >= 0x1p-50 * (std::abs(left) + std::abs(right))) return sign(turn);  // as above
-    Expansion sum;
+    if (std::abs(turn) >= 0x1p-50 * (std::abs(left) + std::abs(right))) return sign_of(turn);  // as above
+    Expansion<48> sum;
     const auto add_product = [&](double factor, double number) {
-        const Sum product = two_product(factor, number);
+        const ExactSum product = two_product(factor, number);
         sum.add(product.error);
         sum.add(product.rounded);
     };
@@ -186,9 +137,9 @@ int turn_towards(const Vec2& a, const Vec2& b, const DVec<2>& c) {
 int sign_of_sum(double a, double b, double c) {
     // a + b is off by at most half an ulp. If c nearly cancels it, the next sum is exact and not smaller than that; the
     // rounding error decides only if the sum is 0.
-    const Sum two = two_sum(a, b);
+    const ExactSum two = two_sum(a, b);
     const double three = two.rounded + c;
-    return sign(three != 0 ? three : two.error);
+    return sign_of(three != 0 ? three : two.error);
 }
 
 }  // namespace abut::detail

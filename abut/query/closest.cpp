@@ -2,6 +2,7 @@
 #include <abut/query/closest.hpp>
 #include <abut/query/detail/closed_form/closed_form.hpp>
 #include <abut/query/detail/part_pairs.hpp>
+#include <abut/query/detail/solid/solid_queries.hpp>
 #include <abut/query/detail/valid_query.hpp>
 #include <abut/query/detail/write_answer.hpp>
 
@@ -169,9 +170,16 @@ Closest<D> closest(const ShapeRef<D>& a, const ShapeRef<D>& b, const QueryOption
 template <int D>
 Closest<D> closest(const View<D>& a, const View<D>& b, const QueryOptions<D>& options) {
     if (!detail::is_valid_pair(a, b)) return {};
+    Closest<D> result;
+    const bool solids = are_solids(a, b);
+    if constexpr (D == 3)
+        if (solids && find_depth(a, b, result)) return result;
     Nearest<D> nearest(search_options(a, b, options));
     nearest.search(a, b);
-    return nearest.found();
+    result = nearest.found();
+    if constexpr (D == 3)
+        if (solids && result.distance <= 0) name_touching(a, b, result);
+    return result;
 }
 
 template Closest<2> closest(const View<2>&, const View<2>&, const QueryOptions<2>&);

@@ -41,7 +41,8 @@ template <>
 Closest<2> closest(const detail::ShapeRef<2>& a, const detail::ShapeRef<2>& b, const QueryOptions<2>& options);
 
 /// The signed distance of two shapes, with the closest points and the direction between them. The error is at most 1e-5
-/// x the size of the smaller shape. The depth of cylinders, cones and shapes known by a support function is a valid
+/// x the size of the smaller shape. The depth of two solids, as `solid(mesh)` makes them, is a move that parts them,
+/// mostly the least one. The depth of cylinders, cones and shapes known by a support function is a valid
 /// separating move, at most 1e-3 x size above the least.
 template <class A, class B>
 requires Pair<A, B> Closest<dimension<A>> closest(const A& a, const B& b,

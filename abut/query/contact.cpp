@@ -5,6 +5,7 @@
 #include <abut/query/detail/closed_form/closed_form.hpp>
 #include <abut/query/detail/one_sided.hpp>
 #include <abut/query/detail/part_pairs.hpp>
+#include <abut/query/detail/solid/solid_queries.hpp>
 #include <abut/query/detail/surface/edge_filter.hpp>
 #include <abut/query/detail/valid_query.hpp>
 #include <abut/query/detail/write_answer.hpp>
@@ -134,6 +135,21 @@ void filter_only_contact(const View<D>& a, const View<D>& b, const PartContact<D
     name_features(part_a, part_b, found.distance, 0, 0, result.contact);
 }
 
+Contact<3> solid_contact(const View<3>& a, const View<3>& b, float margin) {
+    const Closest<3> nearest = closest(a, b);
+    return nearest.distance <= margin ? contact_of_solids(a, b, nearest) : no_contact<3>();
+}
+
+/// Two triangles have no inside, so between two meshes the deepest pair decides, as it does in `closest`.
+template <int D>
+bool are_meshes(const View<D>& a, const View<D>& b) {
+    const auto is_mesh = [](const View<D>& shape) {
+        const auto* composite = std::get_if<Composite<D>>(&shape);
+        return composite != nullptr && composite->triangles != nullptr;
+    };
+    return is_mesh(a) && is_mesh(b);
+}
+
 /// Out of line, to keep the fast path small.
 template <int D>
 [[gnu::noinline]] void by_views(const ShapeRef<D>& a, const ShapeRef<D>& b, const QueryOptions<D>& options,
@@ -163,9 +179,11 @@ Contact<D> contact(const ShapeRef<D>& a, const ShapeRef<D>& b, const QueryOption
 
 template <int D>
 Contact<D> contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& options) {
+    if constexpr (D == 3)
+        if (are_solids(a, b) && detail::is_valid_pair(a, b)) return solid_contact(a, b, options.margin);
     Contact<D> result = no_contact<D>();
     DeepestParts<D> deepest;
-    if (!find_deepest(a, b, options, deepest, result) || !has_parts(a, b) ||
+    if (!find_deepest(a, b, options, deepest, result) || !has_parts(a, b) || are_meshes(a, b) ||
         is_surface_contact<D>(a, b, deepest, options.margin, {}))
         return result;
     const ContactWithNeighbours<D> surface = deepest_surface_contact<D>(a, b, options, {});
@@ -178,6 +196,11 @@ namespace abut::detail {
 
 template <int D>
 bool find_deepest_parts(const View<D>& a, const View<D>& b, DeepestParts<D>& deepest, Contact<D>& contact) {
+    if constexpr (D == 3)
+        if (are_solids(a, b)) {
+            contact = detail::is_valid_pair(a, b) ? solid_contact(a, b, 0) : no_contact<D>();
+            return static_cast<bool>(contact);
+        }
     return find_deepest(a, b, {}, deepest, contact);
 }
 
@@ -185,6 +208,7 @@ template <int D>
 ContactWithNeighbours<D> contact_with_neighbours(const View<D>& a, const View<D>& b, const DeepestParts<D>& deepest,
                                                  const Contact<D>& contact, const NeighbourSurfaces<D>& neighbours) {
     ContactWithNeighbours<D> result{contact, {}};
+    if (are_solids(a, b)) return result;
     if (!has_parts(a, b))
         filter_only_contact(a, b, deepest.contact, neighbours, result);
     else if (!is_surface_contact(a, b, deepest, 0, neighbours))

@@ -1,4 +1,5 @@
 #include <abut/query/detail/one_sided.hpp>
+#include <abut/query/detail/solid/solid_queries.hpp>
 #include <abut/query/detail/surface/edge_filter.hpp>
 #include <abut/query/detail/surface/reported_contacts.hpp>
 #include <abut/query/detail/valid_query.hpp>
@@ -181,6 +182,10 @@ template <int D>
 void each_contact_with_neighbours(const View<D>& a, const View<D>& b, const QueryOptions<D>& options,
                                   const NeighbourSurfaces<D>& neighbours,
                                   FunctionRef<bool(const Contact<D>&, const detail::SurfaceNormalFlags&)> visit) {
+    if (are_solids(a, b)) {
+        if (const Contact<D> only = contact(a, b, options)) visit(only, {});
+        return;
+    }
     ContactReporter<D>(a, b, options, neighbours, visit).report();
 }
 

@@ -1,6 +1,7 @@
 #include <abut/query/contains.hpp>
 #include <abut/query/detail/closed_form/closed_form.hpp>
 #include <abut/query/detail/part_pairs.hpp>
+#include <abut/query/detail/solid/solid_queries.hpp>
 #include <abut/query/detail/valid_query.hpp>
 #include <abut/query/overlaps.hpp>
 
@@ -39,7 +40,10 @@ bool overlaps(const ShapeRef<D>& a, const ShapeRef<D>& b, const QueryOptions<D>&
 
 template <int D>
 bool overlaps(const View<D>& a, const View<D>& b, const QueryOptions<D>& options) {
-    return detail::is_valid_pair(a, b) && any_parts_overlap(a, b, search_options(a, b, options));
+    if (!detail::is_valid_pair(a, b)) return false;
+    if (any_parts_overlap(a, b, search_options(a, b, options))) return true;
+    if constexpr (D == 3) return are_solids(a, b) && is_inside_other(a, b);
+    return false;
 }
 
 template <int D>

@@ -14,7 +14,7 @@
 namespace abut {
 
 /// The union of its triangles, each of zero thickness and two-sided. Part i is triangle i of the input. Only `contains`
-/// treats a closed mesh as solid. Immutable: copies share the data, so one mesh at many poses needs one tree. Memory:
+/// treats a closed mesh as solid; `solid(mesh)` is solid in every query. Immutable: copies share the data, so one mesh at many poses needs one tree. Memory:
 /// the input, 12 bytes a triangle for adjacency, and 34 to 39 bytes a triangle for the tree if neighbours share corner
 /// positions, else about 90.
 class Mesh {
@@ -37,8 +37,7 @@ public:
     std::uint32_t neighbour(std::uint32_t triangle, std::uint32_t edge) const;
 
 private:
-    struct Data;
-    explicit Mesh(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
+    explicit Mesh(std::shared_ptr<const detail::MeshSurface> data) : data_(std::move(data)) {}
 
     friend Aabb3 bounds(const Mesh& mesh);
     friend void each_part(const Mesh& mesh, const Aabb3& box,
@@ -49,9 +48,11 @@ private:
                                FunctionRef<float(const Triangle3& part, std::uint32_t index)> visit);
     /// The tree of the mesh, for ray casts; found by argument-dependent lookup alone.
     friend const detail::MeshTree& triangle_tree(const Mesh& mesh);
+    /// All data of the mesh, for queries of solids.
+    friend const detail::MeshSurface& mesh_surface(const Mesh& mesh);
     friend bool solid_contains(const Mesh& mesh, const Vec3& point);
 
-    std::shared_ptr<const Data> data_;
+    std::shared_ptr<const detail::MeshSurface> data_;
 };
 
 Aabb3 bounds(const Mesh& mesh);

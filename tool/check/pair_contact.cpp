@@ -24,6 +24,20 @@ std::optional<PairContact<D>> contained(const ObjectAt<D>& outer, const ObjectAt
     return PairContact<D>{-depth, allow, -nearest.normal, {point}, true};
 }
 
+// Solids in space: their contact says all.
+template <int D>
+bool are_solids(const Object<D>& a, const Object<D>& b) {
+    return D == 3 && (a.filled || b.filled) && (a.filled || a.solid) && (b.filled || b.solid);
+}
+
+// True if the surfaces of two overlapping solids don't touch.
+bool is_inside(const ObjectAt<3>& a, const ObjectAt<3>& b) {
+    return !overlaps(at(a.object.surface, a.pose), at(b.object.surface, b.pose));
+}
+bool is_inside(const ObjectAt<2>&, const ObjectAt<2>&) {
+    return false;
+}
+
 }  // namespace
 
 template <int D>
@@ -48,9 +62,11 @@ std::optional<PairContact<D>> pair_contact(const ObjectAt<D>& a, const ObjectAt<
         if (is_deep || is_close) {
             PairContact<D> result{-c.depth, allow, c.normal, {}, false};
             for (const auto& point : c.points) result.points.push_back(point.position);
+            result.inside = is_deep && are_solids(a.object, b.object) && is_inside(a, b);
             return result;
         }
     }
+    if (are_solids(a.object, b.object)) return std::nullopt;
     if (std::optional<PairContact<D>> result = contained(a, b, allow)) return result;
     std::optional<PairContact<D>> result = contained(b, a, allow);
     if (result) result->normal = -result->normal;

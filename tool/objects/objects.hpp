@@ -33,6 +33,7 @@ struct Object {
     InteriorPoint<D> inside;     ///< in the shape's frame
     float reach = 0;             ///< maximum distance of the shape from the origin of its frame
     View<D> shape;               ///< in its own frame
+    View<3> surface;             ///< of a filled mesh in space: its triangles alone, in its own frame
     Pose<D> pose;
     View<D> placed;
     Aabb<D> box = Aabb<D>::empty();

@@ -123,7 +123,7 @@ std::optional<Problem> SceneObjects::set_transform(std::size_t i, const glm::dma
     }
     object.pose.position = Vec3(matrix[3]);
     object.pose.rotation = glm::qua<float>(glm::normalize(glm::quat_cast(*rotation)));
-    object.placed = std::visit([&](const auto& shape) { return View<3>(view(at(shape, object.pose))); }, node.shape);
+    object.placed = view(at(object.shape, object.pose));
     object.box = bounds(object.placed);
     if (!abut::detail::is_finite(object.box.min) || !abut::detail::is_finite(object.box.max))
         return out_of_range(object);
@@ -161,7 +161,8 @@ std::optional<Problem> SceneObjects::bake(std::size_t i, const glm::dmat3& linea
         object.inside = interior_point(*built, object.filled);
         node.shape = *std::move(built);
     }
-    object.shape = std::visit([](const auto& shape) { return View<3>(view(shape)); }, node.shape);
+    object.surface = std::visit([](const auto& shape) { return View<3>(view(shape)); }, node.shape);
+    object.shape = object.filled ? View<3>(view(solid(std::get<Mesh>(node.shape)))) : object.surface;
     return std::nullopt;
 }
 

@@ -6,7 +6,7 @@ namespace abut::detail {
 namespace {
 
 /// A point in the frame of a box, in the world.
-void put(const BoxPlacement& box, const Triple& place, DVec<3>& position) {
+void write_position(const BoxPlacement& box, const Triple& place, DVec<3>& position) {
     const Affine<3>& map = box.place;
     for (int i = 0; i < 3; ++i)
         position[i] =
@@ -26,7 +26,7 @@ struct Writer {
         Triple middle;
         for (std::size_t k = 0; k < 3; ++k) middle[k] = closest.on_a[k] + closest.normal[k] * (0.5 * closest.distance);
         ManifoldPoint<3>& point = points.points[points.count++];
-        put(a, middle, point.position);
+        write_position(a, middle, point.position);
         point.depth = -closest.distance;
         point.feature = closest.part_a.low << 8 ^ closest.part_b.low;
     }
@@ -59,7 +59,7 @@ struct Writer {
             Triple place = clipped.point_on_face(nearest);
             if (&box == &b)
                 for (std::size_t i = 0; i < 3; ++i) place[i] += out[i] * clipped.gap[nearest];
-            put(box, place, *on_a);
+            write_position(box, place, *on_a);
         }
 
         std::array<std::size_t, 4> selected{0, 1, 2, 3};
@@ -77,7 +77,7 @@ struct Writer {
             const double along = clipped.gap[number[i]] + 0.5 * depths[i];
             for (std::size_t axis = 0; axis < 3; ++axis) place[axis] += out[axis] * along;
             ManifoldPoint<3>& point = points.points[points.count++];
-            put(box, place, point.position);
+            write_position(box, place, point.position);
             point.depth = margin > 0 || depths[i] > 0 ? depths[i] : 0;
             point.feature = clipped.name(number[i]) | name;
         }

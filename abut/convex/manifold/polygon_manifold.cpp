@@ -81,7 +81,7 @@ inline bool cut_to(const ProjectedEdge& reference, const DVec<2>& across, Projec
 }
 
 /// Member by member.
-inline void put(const ManifoldPoint<2>& from, ManifoldPoint<2>& to) {
+inline void write_point(const ManifoldPoint<2>& from, ManifoldPoint<2>& to) {
     to.position.x = from.position.x;
     to.position.y = from.position.y;
     to.depth = from.depth;
@@ -92,7 +92,7 @@ inline void put(const ManifoldPoint<2>& from, ManifoldPoint<2>& to) {
 void reduce(const Candidates& all, double tolerance, Manifold<2>& result) {
     result.count = std::min(all.count, result.points.size());
     if (all.count < 3) {
-        for (std::size_t i = 0; i < result.count; ++i) put(all.points[i], result.points[i]);
+        for (std::size_t i = 0; i < result.count; ++i) write_point(all.points[i], result.points[i]);
         return;
     }
     const auto& points = all.points;
@@ -100,8 +100,8 @@ void reduce(const Candidates& all, double tolerance, Manifold<2>& result) {
     const std::size_t deepest = points[0].depth >= threshold ? 0 : points[1].depth >= threshold ? 1 : 2;
     const std::size_t i = (deepest + 1) % 3, j = (deepest + 2) % 3;
     const auto far = [&](std::size_t k) { return length_squared(points[k].position - points[deepest].position); };
-    put(points[deepest], result.points[0]);
-    put(points[far(j) > far(i) ? j : i], result.points[1]);
+    write_point(points[deepest], result.points[0]);
+    write_point(points[far(j) > far(i) ? j : i], result.points[1]);
 }
 
 }  // namespace

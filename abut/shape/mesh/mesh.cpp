@@ -2,9 +2,8 @@
 #include <abut/math/detail/coincident.hpp>
 #include <abut/math/simd/library_entry.hpp>
 #include <abut/shape/mesh.hpp>
-#include <abut/shape/mesh/adjacency.hpp>
 #include <abut/shape/mesh/check_triangles.hpp>
-#include <abut/shape/mesh/tree.hpp>
+#include <abut/shape/mesh/surface.hpp>
 
 #include <algorithm>
 #include <array>
@@ -15,13 +14,6 @@
 namespace abut {
 
 using namespace detail;
-
-struct Mesh::Data {
-    std::vector<Vec3> points;
-    std::vector<glm::uvec3> triangles;
-    MeshTree tree;
-    MeshAdjacency adjacency;
-};
 
 namespace {
 
@@ -66,12 +58,13 @@ bool is_beyond(const Triangle3& t, const Vec3& point) {
 Result<Mesh> Mesh::build(std::span<const Vec3> points, std::span<const glm::uvec3> triangles) {
     detail::enter_library();
     if (std::optional<Problem> problem = problem_of_triangles(points, triangles, "a mesh")) return *std::move(problem);
-    auto data = std::make_shared<Data>();
+    auto data = std::make_shared<MeshSurface>();
     data->points.assign(points.begin(), points.end());
     data->triangles.assign(triangles.begin(), triangles.end());
     const std::vector<std::uint32_t> same = first_coincident(points);
     data->adjacency = build_mesh_adjacency(triangles, same);
     data->tree = build_mesh_tree(points, triangles, same);
+    if (data->adjacency.closed) find_components(*data, same);
     return Mesh(std::move(data));
 }
 
@@ -125,6 +118,10 @@ void each_part_near(const Mesh& mesh, const Aabb3& box,
 
 const MeshTree& triangle_tree(const Mesh& mesh) {
     return mesh.data_->tree;
+}
+
+const MeshSurface& mesh_surface(const Mesh& mesh) {
+    return *mesh.data_;
 }
 
 bool solid_contains(const Mesh& mesh, const Vec3& point) {

@@ -34,6 +34,7 @@ template <int D>
 using PartReachVisitor = FunctionRef<float(const Convex<D>& part, std::uint32_t index)>;
 
 struct MeshTree;
+struct MeshSurface;
 
 /// A composite shape: the union of its parts. Refers to the shape and must not outlive it.
 template <int D>
@@ -50,6 +51,8 @@ struct Composite : Placement<D> {
     void (*each_part_near)(const void* object, const Aabb<D>& box, PartReachVisitor<D> visit) = nullptr;
     /// The triangle tree if all parts are the triangles of a mesh; else null.
     const MeshTree* triangles = nullptr;
+    /// The surface of a closed mesh that is solid in every query; else null.
+    const MeshSurface* solid = nullptr;
     /// True if a point of the local frame is inside. Null: the shape is only the union of its parts.
     bool (*contains)(const void* object, const Vec<D>& point) = nullptr;
     /// The part adjacent to a side of a part, numbered as above. Null: unknown.

@@ -163,6 +163,7 @@ template <int D>
 Composite<D> rounded(const Composite<D>& composite, double radius) {
     Composite<D> result = composite;
     result.radius += radius;
+    if (radius > 0) result.solid = nullptr;  // the ball is added to the triangles
     return result;
 }
 

@@ -33,12 +33,12 @@ struct Lens {
     }
 };
 
-struct Tally {
+struct RoundTally {
     int sweeps = 0, hits = 0;
 };
 
 template <class A, class B>
-void check(const A& a, const B& b, std::uint64_t seed, Tally& tally) {
+void check(const A& a, const B& b, std::uint64_t seed, RoundTally& tally) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     oracle::Random random(seed);
     const DVec<3> displacement = random.direction<3>() * random.uniform(1.5, 4);
@@ -69,7 +69,7 @@ void check(const A& a, const B& b, std::uint64_t seed, Tally& tally) {
 
 template <class A, class B>
 void check_many(const A& a, const B& b) {
-    Tally tally;
+    RoundTally tally;
     for (std::uint64_t seed = 1; seed <= 60; ++seed) check(a, b, seed, tally);
     EXPECT_GT(tally.sweeps, 40);
     EXPECT_GT(tally.hits, tally.sweeps * 3 / 10);

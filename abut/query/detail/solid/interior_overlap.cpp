@@ -1,0 +1,270 @@
+#include <abut/math/detail/exact_orientation.hpp>
+#include <abut/query/detail/solid/edge_fan.hpp>
+#include <abut/query/detail/solid/interior_overlap.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace abut::detail {
+namespace {
+
+using Signs = std::array<int, 3>;
+
+std::size_t next_corner(std::size_t i) {
+    return i == 2 ? 0 : i + 1;
+}
+
+/// The sides of a triangle's plane on which the corners of another lie.
+Signs sides_of(const Corners& plane, const Corners& corners) {
+    Signs result;
+    for (std::size_t i = 0; i < 3; ++i) result[i] = exact_side(plane[0], plane[1], plane[2], corners[i]);
+    return result;
+}
+
+bool all_are(const Signs& signs, int sign) {
+    return signs[0] == sign && signs[1] == sign && signs[2] == sign;
+}
+bool has(const Signs& signs, int sign) {
+    return signs[0] == sign || signs[1] == sign || signs[2] == sign;
+}
+
+/// The corners in their cyclic order, beginning with one that is alone on its side of a plane; the others are on the
+/// other side or on the plane.
+std::array<std::size_t, 3> from_lone_corner(const Signs& signs) {
+    const int positive = static_cast<int>(std::count(signs.begin(), signs.end(), 1));
+    const int lone = positive == 1 ? 1 : -1;
+    const auto first = static_cast<std::size_t>(std::find(signs.begin(), signs.end(), lone) - signs.begin());
+    return {first, next_corner(first), next_corner(next_corner(first))};
+}
+
+/// Whether two triangles cross in a segment inside both. Each has corners on both sides of the other's plane. The line
+/// of the two planes leaves a triangle through the two edges at its lone corner; the order of the four points on the
+/// line is that of the edges (Guigue and Devillers, "Fast and robust triangle-triangle overlap test using orientation
+/// predicates", 2003).
+bool cross_inside(const Corners& a, const Signs& signs_a, const Corners& b, const Signs& signs_b) {
+    const auto i = from_lone_corner(signs_a), j = from_lone_corner(signs_b);
+    const DVec<3>&p = a[i[0]], &q = b[j[0]];
+    DVec<3> a_next = a[i[1]], a_last = a[i[2]], b_next = b[j[1]], b_last = b[j[2]];
+    if (signs_a[i[0]] < 0) std::swap(b_next, b_last);
+    if (signs_b[j[0]] < 0) std::swap(a_next, a_last);
+    return exact_side(p, a_next, q, b_next) < 0 && exact_side(p, a_last, b_last, q) < 0;
+}
+
+/// A triangle of a solid.
+struct SolidTriangle {
+    const PlacedSolid& solid;
+    std::uint32_t index;
+    const Corners& corners;
+    const Signs& sides;  ///< of its corners, beside the plane of the other triangle
+};
+
+/// Where a point in the plane of a triangle is.
+struct PlaceInTriangle {
+    enum Kind : std::uint8_t { outside, inside, on_edge, on_corner };
+    Kind kind = outside;
+    std::size_t index = 0;  ///< of the edge or the corner
+};
+
+/// A triangle in its plane, projected along an axis.
+class FlatTriangle {
+public:
+    explicit FlatTriangle(const Corners& corners)
+        : corners_(corners),
+          axis_(projection_axis(corners)),
+          front_(exact_turn(corners[0], corners[1], corners[2], axis_)) {}
+
+    /// 1 if the point is to the left of the directed line, seen from the front.
+    int turn(const DVec<3>& from, const DVec<3>& to, const DVec<3>& point) const {
+        return front_ * exact_turn(from, to, point, axis_);
+    }
+    int turn_of_edge(std::size_t edge, const DVec<3>& point) const {
+        return turn(corners_[edge], corners_[next_corner(edge)], point);
+    }
+    PlaceInTriangle place_of(const DVec<3>& point) const {
+        Signs turns;
+        for (std::size_t i = 0; i < 3; ++i)
+            if ((turns[i] = turn_of_edge(i, point)) < 0) return {};
+        const auto zeros = std::count(turns.begin(), turns.end(), 0);
+        if (zeros == 0) return {PlaceInTriangle::inside, 0};
+        const auto first = static_cast<std::size_t>(std::find(turns.begin(), turns.end(), 0) - turns.begin());
+        if (zeros == 1) return {PlaceInTriangle::on_edge, first};
+        // The corner where the two edges meet.
+        return {PlaceInTriangle::on_corner, turns[next_corner(first)] == 0 ? next_corner(first) : first};
+    }
+
+private:
+    const Corners& corners_;
+    int axis_, front_;
+};
+
+/// Tests the corners and edges of a triangle that lie in the plane of another one.
+class FlatContacts {
+public:
+    FlatContacts(const SolidTriangle& own, const SolidTriangle& other)
+        : own_(own), other_(other), flat_(other.corners) {}
+
+    bool overlap() const {
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (own_.sides[i] != 0) continue;
+            if (at_corner(i)) return true;
+            if (own_.sides[next_corner(i)] == 0 && at_edge(i)) return true;
+        }
+        return false;
+    }
+
+private:
+    /// Whether an edge at corner i goes inside the other solid from there, or an edge of the other solid inside this
+    /// one.
+    bool at_corner(std::size_t i) const {
+        const DVec<3>& corner = own_.corners[i];
+        const PlaceInTriangle place = flat_.place_of(corner);
+        if (place.kind == PlaceInTriangle::outside) return false;
+        const std::size_t next = next_corner(i), last = next_corner(next);
+        if (place.kind == PlaceInTriangle::inside) return own_.sides[next] < 0 || own_.sides[last] < 0;
+        if (place.kind == PlaceInTriangle::on_edge) {
+            const EdgeFan fan = other_.solid.fan(other_.index, place.index);
+            if (side_of(fan, own_.corners[next]) == PointSide::inside ||
+                side_of(fan, own_.corners[last]) == PointSide::inside)
+                return true;
+            return own_.solid.side_of(corner, &other_.corners[place.index]) == PointSide::inside ||
+                   own_.solid.side_of(corner, &other_.corners[next_corner(place.index)]) == PointSide::inside;
+        }
+        return other_.solid.side_of(corner, &own_.corners[next]) == PointSide::inside ||
+               other_.solid.side_of(corner, &own_.corners[last]) == PointSide::inside;
+    }
+
+    /// Whether a sector around edge i, which lies in the other's plane, is inside both solids.
+    bool at_edge(std::size_t i) const {
+        const DVec<3>&from = own_.corners[i], &to = own_.corners[next_corner(i)];
+        if (crosses_inside(from, to)) return fans_overlap(own_.solid.fan(own_.index, i), half_space_around(from, to));
+        for (std::size_t j = 0; j < 3; ++j) {
+            if (!is_along_edge(from, to, j)) continue;
+            const EdgeFan fan = other_.solid.fan(other_.index, j);
+            const bool goes_along = dot(to - from, fan.to - fan.from) > 0;
+            return fans_overlap(own_.solid.fan(own_.index, i), goes_along ? fan : reversed(fan));
+        }
+        return false;
+    }
+
+    /// Whether the edge has a point inside the other triangle: no line through an edge of either separates them.
+    bool crosses_inside(const DVec<3>& from, const DVec<3>& to) const {
+        Signs turns;
+        for (std::size_t j = 0; j < 3; ++j) {
+            turns[j] = flat_.turn(from, to, other_.corners[j]);
+            if (flat_.turn_of_edge(j, from) <= 0 && flat_.turn_of_edge(j, to) <= 0) return false;
+        }
+        return has(turns, 1) && has(turns, -1);
+    }
+
+    /// The other solid as the half-space behind its triangle.
+    EdgeFan half_space_around(const DVec<3>& from, const DVec<3>& to) const {
+        EdgeFan result;
+        result.from = from;
+        result.to = to;
+        for (const int side : {1, -1})
+            for (const DVec<3>& corner : other_.corners) {
+                if (flat_.turn(from, to, corner) != side) continue;
+                // To the left of the axis the front faces counter-clockwise.
+                result.add(corner, side > 0, side < 0);
+                break;
+            }
+        return result;
+    }
+
+    /// Whether the edge and edge j of the other triangle share more than a point.
+    bool is_along_edge(const DVec<3>& from, const DVec<3>& to, std::size_t j) const {
+        if (flat_.turn_of_edge(j, from) != 0 || flat_.turn_of_edge(j, to) != 0) return false;
+        const DVec<3>&other_from = other_.corners[j], &other_to = other_.corners[next_corner(j)];
+        int axis = 0;
+        while (axis < 2 && from[axis] == to[axis]) ++axis;
+        return std::max(std::min(from[axis], to[axis]), std::min(other_from[axis], other_to[axis])) <
+               std::min(std::max(from[axis], to[axis]), std::max(other_from[axis], other_to[axis]));
+    }
+
+    const SolidTriangle &own_, &other_;
+    FlatTriangle flat_;
+};
+
+/// Whether two edges cross in a point inside both.
+bool edges_cross(const DVec<3>& a0, const DVec<3>& a1, const DVec<3>& b0, const DVec<3>& b1) {
+    if (exact_side(a0, a1, b0, b1) != 0) return false;
+    for (int axis = 0; axis < 3; ++axis) {
+        const int from = exact_turn(a0, a1, b0, axis), to = exact_turn(a0, a1, b1, axis);
+        if (from == 0 && to == 0) continue;
+        return from * to < 0 && exact_turn(b0, b1, a0, axis) * exact_turn(b0, b1, a1, axis) < 0;
+    }
+    return false;
+}
+
+/// Whether two edges cross, and one goes inside the other solid from there.
+bool overlap_at_crossing_edges(const SolidTriangle& a, const SolidTriangle& b) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t next_i = next_corner(i);
+        if (a.sides[i] * a.sides[next_i] > 0) continue;
+        for (std::size_t j = 0; j < 3; ++j) {
+            const std::size_t next_j = next_corner(j);
+            if (b.sides[j] * b.sides[next_j] > 0) continue;
+            if (!edges_cross(a.corners[i], a.corners[next_i], b.corners[j], b.corners[next_j])) continue;
+            const EdgeFan fan_a = a.solid.fan(a.index, i), fan_b = b.solid.fan(b.index, j);
+            for (const DVec<3>& end : {a.corners[i], a.corners[next_i]})
+                if (side_of(fan_b, end) == PointSide::inside) return true;
+            for (const DVec<3>& end : {b.corners[j], b.corners[next_j]})
+                if (side_of(fan_a, end) == PointSide::inside) return true;
+        }
+    }
+    return false;
+}
+
+/// Whether an inner point of both solids shows at these two triangles.
+bool overlap_at(const PlacedSolid& a, std::uint32_t index_a, const Corners& corners_a, const PlacedSolid& b,
+                std::uint32_t index_b, const Corners& corners_b) {
+    const Signs sides_a = sides_of(corners_b, corners_a);
+    if (all_are(sides_a, 1) || all_are(sides_a, -1)) return false;
+    const Signs sides_b = sides_of(corners_a, corners_b);
+    if (all_are(sides_b, 1) || all_are(sides_b, -1)) return false;
+    if (has(sides_a, 1) && has(sides_a, -1) && has(sides_b, 1) && has(sides_b, -1) &&
+        cross_inside(corners_a, sides_a, corners_b, sides_b))
+        return true;
+    if (!has(sides_a, 0) && !has(sides_b, 0)) {
+        const SolidTriangle own{a, index_a, corners_a, sides_a}, other{b, index_b, corners_b, sides_b};
+        return overlap_at_crossing_edges(own, other);
+    }
+    if (projection_axis(corners_a) < 0 || projection_axis(corners_b) < 0) return false;
+    const SolidTriangle own{a, index_a, corners_a, sides_a}, other{b, index_b, corners_b, sides_b};
+    return FlatContacts(own, other).overlap() || FlatContacts(other, own).overlap() ||
+           overlap_at_crossing_edges(own, other);
+}
+
+}  // namespace
+
+bool each_triangle_pair(const PlacedSolid& a, const PlacedSolid& b, float reach, TrianglePairVisitor visit) {
+    bool go_on = true;
+    a.each_triangle(grown(b.box(), reach), [&](std::uint32_t index_a) {
+        const Corners corners_a = a.corners(index_a);
+        const Aabb3 box_a = grown(box_of(corners_a), reach);
+        if (!overlaps(box_a, b.box())) return true;
+        b.each_triangle(box_a, [&](std::uint32_t index_b) {
+            const Corners corners_b = b.corners(index_b);
+            return go_on = !overlaps(box_a, box_of(corners_b)) || visit(index_a, corners_a, index_b, corners_b);
+        });
+        return go_on;
+    });
+    return go_on;
+}
+
+bool has_component_inside(const PlacedSolid& inner, const PlacedSolid& outer) {
+    for (const std::uint32_t point : inner.components())
+        if (outer.side_of(inner.point(point)) == PointSide::inside) return true;
+    return false;
+}
+
+bool interiors_overlap(const PlacedSolid& a, const PlacedSolid& b) {
+    if (!overlaps(a.box(), b.box())) return false;
+    const bool finds_none = each_triangle_pair(
+        a, b, 0, [&](std::uint32_t index_a, const Corners& corners_a, std::uint32_t index_b, const Corners& corners_b) {
+            return !overlap_at(a, index_a, corners_a, b, index_b, corners_b);
+        });
+    return !finds_none || has_component_inside(a, b) || has_component_inside(b, a);
+}
+
+}  // namespace abut::detail

@@ -1,0 +1,117 @@
+#include <abut/math/dvec.hpp>
+#include <abut/query/closest.hpp>
+#include <abut/query/detail/solid/move_cover.hpp>
+#include <abut/query/raycast.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace abut::detail {
+namespace {
+
+/// A ball inside a solid.
+struct InnerBall {
+    DVec<3> center{0.0};
+    double radius = 0;
+};
+
+Vec3 middle_of(const Corners& t) {
+    return to_float((t[0] + t[1] + t[2]) / 3.0);
+}
+
+/// The ball around the middle of a chord that begins at a triangle.
+std::optional<InnerBall> inner_ball(const View<3>& shape, const PlacedSolid& solid, std::uint32_t triangle,
+                                    double extent) {
+    const Corners t = solid.corners(triangle);
+    const Vec3 inward = to_float(normalized<3>(cross(t[2] - t[0], t[1] - t[0])));
+    const Vec3 start = middle_of(t) + inward * static_cast<float>(1e-4 * extent);
+    const std::optional<Hit<3>> end = raycast(Ray3{start, inward, static_cast<float>(extent)}, shape);
+    if (!end) return std::nullopt;
+    const Vec3 center = start + inward * (0.5f * end->distance);
+    if (solid.side_of(DVec<3>(center)) != PointSide::inside) return std::nullopt;
+    const float radius = std::abs(closest(shape, Ball<3>{center, 0}).distance);
+    if (!(radius > 0)) return std::nullopt;
+    return InnerBall{DVec<3>(center), static_cast<double>(radius) * (1 - 1e-4)};
+}
+
+/// Balls inside a solid, behind triangles evenly spread over their order.
+template <std::size_t N>
+std::size_t find_inner_balls(const View<3>& shape, const PlacedSolid& solid, std::array<InnerBall, N>& balls) {
+    const double extent = length(DVec<3>(solid.box().max) - DVec<3>(solid.box().min));
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < N; ++i) {
+        const auto triangle = static_cast<std::uint32_t>(i * solid.triangle_count() / N);
+        if (const std::optional<InnerBall> ball = inner_ball(shape, solid, triangle, extent)) balls[count++] = *ball;
+    }
+    return count;
+}
+
+/// Where a line from 0 along a direction leaves a ball, if it is inside at a distance; else that distance.
+double end_in_ball(const DVec<3>& center, double radius, const DVec<3>& direction, double distance) {
+    const double along = dot(center, direction);
+    const double half_squared = radius * radius - (length_squared(center) - along * along);
+    if (half_squared <= 0) return distance;
+    const double half = std::sqrt(half_squared);
+    return along - half < distance ? std::max(along + half, distance) : distance;
+}
+
+}  // namespace
+
+void MoveCover::add_balls(const View<3>& shape_a, const View<3>& shape_b) {
+    std::array<InnerBall, max_inner> inner_a, inner_b;
+    const std::size_t count_a = find_inner_balls(shape_a, a_, inner_a),
+                      count_b = find_inner_balls(shape_b, b_, inner_b);
+    for (std::size_t i = 0; i < count_a; ++i)
+        for (std::size_t j = 0; j < count_b; ++j) {
+            const Ball ball{inner_a[i].center - inner_b[j].center, inner_a[i].radius + inner_b[j].radius};
+            balls_[ball_count_++] = ball;
+            min_distance_ = std::max(min_distance_, ball.radius - length(ball.center));
+        }
+}
+
+void MoveCover::add_pair(std::uint32_t triangle_a, std::uint32_t triangle_b) {
+    const Corners a = a_.corners(triangle_a), b = b_.corners(triangle_b);
+    const DVec<3> middle_a = (a[0] + a[1] + a[2]) / 3.0, middle_b = (b[0] + b[1] + b[2]) / 3.0;
+    double radius_a = 0, radius_b = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        radius_a = std::max(radius_a, length(a[i] - middle_a));
+        radius_b = std::max(radius_b, length(b[i] - middle_b));
+    }
+    pairs_[next_pair_] = {triangle_a, triangle_b};
+    around_pairs_[next_pair_] = {middle_a - middle_b, radius_a + radius_b};
+    next_pair_ = (next_pair_ + 1) % max_pairs;
+    pair_count_ = std::min(pair_count_ + 1, max_pairs);
+}
+
+void MoveCover::leave(const DVec<3>& direction, double step, double limit, double& distance, DVec<3>& normal) const {
+    for (bool goes_on = true; goes_on && distance < limit;) {
+        goes_on = false;
+        for (std::size_t i = 0; i < ball_count_; ++i) {
+            const double end = end_in_ball(balls_[i].center, balls_[i].radius, direction, distance);
+            if (!(end > distance + step)) continue;
+            distance = end;
+            normal = DVec<3>(0.0);
+            goes_on = true;
+        }
+        for (std::size_t i = 0; i < pair_count_ && distance < limit; ++i) {
+            const Ball& around = around_pairs_[i];
+            if (length_squared(direction * distance - around.center) >= around.radius * around.radius) continue;
+            SlideInterval slide;
+            if (!slide_interval(a_.corners(pairs_[i].a), b_.corners(pairs_[i].b), direction, slide)) continue;
+            const bool is_inside = slide.from < distance - step || (distance == 0 && slide.from < 0);
+            if (!is_inside || slide.to <= distance + 2 * step) continue;
+            distance = slide.to;
+            normal = slide.exit_normal;
+            goes_on = true;
+        }
+    }
+}
+
+bool MoveCover::has_ball_at(const DVec<3>& move) const {
+    return std::any_of(
+        balls_.begin(), balls_.begin() + static_cast<std::ptrdiff_t>(ball_count_),
+        [&](const Ball& ball) { return length_squared(move - ball.center) < ball.radius * ball.radius; });
+}
+
+}  // namespace abut::detail

@@ -1,0 +1,212 @@
+#include <abut/math/detail/exact_orientation.hpp>
+#include <abut/math/detail/next_float.hpp>
+#include <abut/query/detail/solid/placed_solid.hpp>
+#include <abut/shape/view/mapped_box.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace abut::detail {
+namespace {
+
+/// A point that is moved first by an infinitesimal step towards another point, and then by still smaller ones along
+/// the axes after the one of the line, so that the line along the axis through it meets no edge.
+struct SymbolicPoint {
+    const DVec<3>& at;
+    const DVec<3>* towards;
+    int axis;  ///< of the line
+
+    bool is_above(const DVec<3>& corner) const {
+        const int j = (axis + 2) % 3;
+        if (corner[j] != at[j]) return corner[j] < at[j];
+        return towards == nullptr || (*towards)[j] >= at[j];
+    }
+    /// The side of the projected edge on which it lies; 0 counts as beyond the edge.
+    int turn(const DVec<3>& from, const DVec<3>& to) const {
+        const int turn = exact_turn(from, to, at, axis);
+        return turn != 0 || towards == nullptr ? turn : exact_turn(from, to, *towards, axis);
+    }
+    int side(const Corners& t) const {
+        const int side = exact_side(t[0], t[1], t[2], at);
+        return side != 0 || towards == nullptr ? side : exact_side(t[0], t[1], t[2], *towards);
+    }
+    /// Whether the closed triangle contains the point, moved by the first step alone.
+    bool is_in(const Corners& t) const {
+        if (side(t) != 0) return false;
+        const int projection = projection_axis(t);
+        if (projection < 0) return false;
+        const int front = exact_turn(t[0], t[1], t[2], projection);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const DVec<3>&from = t[i], &to = t[(i + 1) % 3];
+            int left = exact_turn(from, to, at, projection);
+            if (left == 0 && towards != nullptr) left = exact_turn(from, to, *towards, projection);
+            if (left == -front) return false;
+        }
+        return true;
+    }
+    /// The signed crossing of the triangle by the line: 1, -1 or 0.
+    int winding(const Corners& t) const {
+        int winding = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const DVec<3>&from = t[i], &to = t[(i + 1) % 3];
+            const bool from_below = is_above(from), to_below = is_above(to);
+            if (from_below == to_below) continue;
+            const int left = turn(from, to);
+            if (from_below && left > 0) ++winding;
+            if (to_below && left < 0) --winding;
+        }
+        return winding;
+    }
+};
+
+/// The axis and sign of the shortest way out of a box.
+std::pair<int, bool> shortest_exit(const Aabb3& box, const DVec<3>& point) {
+    std::pair<int, bool> best{0, true};
+    double length = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 3; ++i)
+        for (const bool up : {true, false}) {
+            const double exit =
+                up ? static_cast<double>(box.max[i]) - point[i] : point[i] - static_cast<double>(box.min[i]);
+            if (exit >= length) continue;
+            length = exit;
+            best = {i, up};
+        }
+    return best;
+}
+
+SolidSurface surface_of(const View<3>& shape) {
+    const auto* composite = std::get_if<Composite<3>>(&shape);
+    return composite != nullptr ? SolidSurface(*composite->solid) : SolidSurface(std::get<Convex<3>>(shape));
+}
+
+const Affine<3>& place_of(const View<3>& shape) {
+    const auto* composite = std::get_if<Composite<3>>(&shape);
+    return composite != nullptr ? composite->place : std::get<Convex<3>>(shape).place;
+}
+
+}  // namespace
+
+int projection_axis(const Corners& corners) {
+    const DVec<3> normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+    int axis = 0;
+    for (int i = 1; i < 3; ++i)
+        if (std::abs(normal[i]) > std::abs(normal[axis])) axis = i;
+    for (int i = 0; i < 3; ++i, axis = (axis + 1) % 3)
+        if (exact_turn(corners[0], corners[1], corners[2], axis) != 0) return axis;
+    return -1;
+}
+
+Aabb3 box_of(const Corners& corners) {
+    Aabb3 result;
+    for (int i = 0; i < 3; ++i) {
+        result.min[i] = next_down(static_cast<float>(std::min({corners[0][i], corners[1][i], corners[2][i]})));
+        result.max[i] = next_up(static_cast<float>(std::max({corners[0][i], corners[1][i], corners[2][i]})));
+    }
+    return result;
+}
+
+PlacedSolid::PlacedSolid(const View<3>& shape) : surface_(surface_of(shape)), place_(place_of(shape)) {
+    const double det = determinant(place_);
+    flat_ = det == 0;
+    flipped_ = surface_.is_inward() != (det < 0);
+    to_local_ = flat_ ? Affine<3>() : inverse(place_, det);
+    box_ = mapped_box(surface_.box(), place_);
+}
+
+PlacedSolid PlacedSolid::moved(const DVec<3>& translation) const {
+    PlacedSolid result = *this;
+    result.place_.offset += translation;
+    result.to_local_.offset = -to_local_.vector(result.place_.offset);
+    result.box_ = mapped_box(surface_.box(), result.place_);
+    return result;
+}
+
+void PlacedSolid::each_triangle(const Aabb3& box, FunctionRef<bool(std::uint32_t triangle)> visit) const {
+    if (flat_) {
+        for (std::uint32_t i = 0; i < triangle_count(); ++i)
+            if (!visit(i)) return;
+        return;
+    }
+    // Only what overlaps the solid's box, so that a large box isn't rounded by much.
+    const Aabb3 near{glm::max(box.min, box_.min), glm::min(box.max, box_.max)};
+    for (int i = 0; i < 3; ++i)
+        if (near.min[i] > near.max[i]) return;
+    Aabb3 local = mapped_box(near, to_local_);
+    const Aabb3 root = surface_.box();
+    for (int i = 0; i < 3; ++i) {
+        const float tolerance = 0x1p-22f * (root.max[i] - root.min[i] + std::abs(root.min[i]));
+        local.min[i] -= tolerance;
+        local.max[i] += tolerance;
+    }
+    surface_.each_triangle(local, visit);
+}
+
+EdgeFan PlacedSolid::fan(std::uint32_t triangle, std::size_t side) const {
+    const auto position = [&](std::uint32_t t, std::uint32_t corner) {
+        return surface_.position(surface_.triangle(t)[corner % 3]);
+    };
+    const std::uint32_t own = own_side(side);
+    const Vec3 a = position(triangle, own), b = position(triangle, own + 1);
+    EdgeFan result;
+    const auto placed = [&](const Vec3& p) { return place_.point(DVec<3>(p)); };
+    result.from = placed(flipped_ ? b : a);
+    result.to = placed(flipped_ ? a : b);
+    /// Adds the other corner of a triangle if it has the edge.
+    const auto add = [&](std::uint32_t t) {
+        for (std::uint32_t i = 0; i < 3; ++i) {
+            const Vec3 from = position(t, i), to = position(t, i + 1);
+            const bool along = from == a && to == b;
+            if (!along && !(from == b && to == a)) continue;
+            const DVec<3> corner = placed(position(t, i + 2));
+            if (projection_axis({result.from, result.to, corner}) < 0) return;
+            // The front of a triangle that runs along the axis faces counter-clockwise.
+            result.add(corner, along, !along);
+            return;
+        }
+    };
+    add(triangle);
+    const std::uint32_t neighbour = surface_.neighbour(triangle, own);
+    if (neighbour == many_neighbours) {
+        const Aabb3 around{glm::min(a, b), glm::max(a, b)};
+        surface_.each_triangle(around, [&](std::uint32_t t) {
+            if (t != triangle) add(t);
+            return true;
+        });
+    } else if (neighbour != no_neighbour) {
+        add(neighbour);
+    }
+    return result;
+}
+
+PointSide PlacedSolid::side_of(const DVec<3>& point, const DVec<3>* towards) const {
+    Aabb3 ahead;
+    for (int i = 0; i < 3; ++i) {
+        if (point[i] < static_cast<double>(box_.min[i]) || point[i] > static_cast<double>(box_.max[i]))
+            return PointSide::outside;
+        ahead.min[i] = next_down(static_cast<float>(point[i]));
+        ahead.max[i] = next_up(static_cast<float>(point[i]));
+    }
+    const auto [axis, up] = shortest_exit(box_, point);
+    (up ? ahead.max : ahead.min)[axis] = (up ? box_.max : box_.min)[axis];
+    const SymbolicPoint symbolic{point, towards, axis};
+    int winding = 0;
+    bool on_surface = false;
+    each_triangle(ahead, [&, up = up, axis = axis](std::uint32_t index) {
+        const Corners t = corners(index);
+        if (symbolic.is_in(t)) {
+            on_surface = true;
+            return false;
+        }
+        const int crossing = symbolic.winding(t);
+        if (crossing == 0) return true;
+        const int side = symbolic.side(t);
+        const bool faces_up = exact_turn(t[0], t[1], t[2], axis) > 0;
+        const bool is_above = faces_up == (side < 0);
+        if (is_above == up) winding += crossing;
+        return true;
+    });
+    if (on_surface) return PointSide::on_surface;
+    return winding != 0 ? PointSide::inside : PointSide::outside;
+}
+
+}  // namespace abut::detail

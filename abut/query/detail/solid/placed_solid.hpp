@@ -1,0 +1,93 @@
+#pragma once
+
+// A solid at a place, as exact queries of solids need it: corners in double, triangles near a box, the triangles
+// around an edge, and whether a point is inside. For .cpp files.
+
+#include <abut/math/aabb.hpp>
+#include <abut/math/function_ref.hpp>
+#include <abut/query/detail/solid/solid_surface.hpp>
+
+#include <array>
+
+namespace abut::detail {
+
+/// The corners of a placed triangle.
+using Corners = std::array<DVec<3>, 3>;
+
+/// A half-plane bounded by the axis of a fan, by a point on it, and whether the solid lies on either side of it.
+struct FanBlade {
+    DVec<3> point;
+    bool inside_before;  ///< clockwise of it, seen against the direction of the axis
+    bool inside_after;   ///< counter-clockwise
+};
+
+/// A solid near a generic point of an edge: the half-planes around the edge as axis.
+struct EdgeFan {
+    static constexpr std::size_t capacity = 16;
+
+    DVec<3> from, to;  ///< the axis
+    std::array<FanBlade, capacity> blades;
+    std::size_t count = 0;
+
+    std::span<const FanBlade> all() const { return {blades.data(), count}; }
+    void add(const DVec<3>& point, bool inside_before, bool inside_after) {
+        if (count < capacity) blades[count++] = {point, inside_before, inside_after};
+    }
+};
+
+enum class PointSide : std::uint8_t { outside, on_surface, inside };
+
+/// Refers to the shape. All answers are exact for the corners, which are the shape's points placed in double.
+class PlacedSolid {
+public:
+    /// The shape is a solid mesh or a solid polytope.
+    explicit PlacedSolid(const View<3>& shape);
+
+    /// The solid after a translation.
+    PlacedSolid moved(const DVec<3>& translation) const;
+
+    const Aabb3& box() const { return box_; }
+    std::uint32_t triangle_count() const { return surface_.triangle_count(); }
+    DVec<3> point(std::uint32_t index) const { return place_.point(DVec<3>(surface_.position(index))); }
+    Corners corners(std::uint32_t triangle) const {
+        const std::array<std::uint32_t, 3> t = surface_.triangle(triangle);
+        return flipped_ ? Corners{point(t[0]), point(t[2]), point(t[1])}
+                        : Corners{point(t[0]), point(t[1]), point(t[2])};
+    }
+    /// The index of a corner's point.
+    std::uint32_t point_index(std::uint32_t triangle, std::size_t corner) const {
+        const std::size_t own = flipped_ && corner > 0 ? 3 - corner : corner;
+        return surface_.triangle(triangle)[own];
+    }
+    /// One point of each connected component of the surface.
+    std::span<const std::uint32_t> components() const { return surface_.components(); }
+
+    /// Visits at least the triangles whose boxes overlap the box; false stops.
+    void each_triangle(const Aabb3& box, FunctionRef<bool(std::uint32_t triangle)> visit) const;
+
+    /// The fan around the edge of a triangle from corner `side` to the next, as `corners` orders them, with that
+    /// direction.
+    EdgeFan fan(std::uint32_t triangle, std::size_t side) const;
+
+    /// Where a point is. With a direction, as another point, it is where a point infinitesimally far in that direction
+    /// is.
+    PointSide side_of(const DVec<3>& point, const DVec<3>* towards = nullptr) const;
+
+private:
+    /// The side of the triangle as the surface orders its corners.
+    std::uint32_t own_side(std::size_t side) const { return static_cast<std::uint32_t>(flipped_ ? 2 - side : side); }
+
+    SolidSurface surface_;
+    Affine<3> place_, to_local_;
+    Aabb3 box_;
+    bool flat_;     ///< the placement flattens the shape
+    bool flipped_;  ///< corners of the surface's triangles are clockwise seen from outside
+};
+
+/// The axis along which the projection of a triangle is largest; -1 if the triangle has no area.
+int projection_axis(const Corners& corners);
+
+/// The box around corners, rounded outwards.
+Aabb3 box_of(const Corners& corners);
+
+}  // namespace abut::detail

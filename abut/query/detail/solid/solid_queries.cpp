@@ -1,0 +1,79 @@
+#include <abut/query/detail/solid/contact_area.hpp>
+#include <abut/query/detail/solid/interior_overlap.hpp>
+#include <abut/query/detail/solid/separating_move.hpp>
+#include <abut/query/detail/solid/solid_queries.hpp>
+
+#include <algorithm>
+
+namespace abut::detail {
+namespace {
+
+/// The tolerance of distances: see docs/correctness.md.
+double distance_tolerance(const View<3>& a, const View<3>& b) {
+    double farthest = 0;
+    for (const View<3>* shape : {&a, &b}) {
+        const Aabb3 box = bounds(*shape);
+        farthest = std::max({farthest, largest(DVec<3>(box.min)), largest(DVec<3>(box.max))});
+    }
+    return 1e-5 * std::min(size(a), size(b)) + 0x1p-19 * farthest;
+}
+
+/// Sets a common point of the surfaces after the move, and its features.
+void name_point(const View<3>& a, const View<3>& b, const DVec<3>& move, Closest<3>& closest) {
+    const ContactArea area =
+        contact_area(PlacedSolid(a), PlacedSolid(b), move, DVec<3>(closest.normal), distance_tolerance(a, b));
+    if (area.manifold.count == 0) return;
+    closest.on_a = to_float(area.manifold.points[0].position);
+    closest.on_b = to_float(area.manifold.points[0].position - move);
+    closest.feature_a = area.feature_a;
+    closest.feature_b = area.feature_b;
+}
+
+}  // namespace
+
+bool are_solids(const View<3>& a, const View<3>& b) {
+    if (!is_solid_mesh(a) && !is_solid_mesh(b)) return false;
+    return (is_solid_mesh(a) || is_solid_polytope(a)) && (is_solid_mesh(b) || is_solid_polytope(b));
+}
+
+bool is_inside_other(const View<3>& a, const View<3>& b) {
+    const PlacedSolid solid_a(a), solid_b(b);
+    return has_component_inside(solid_a, solid_b) || has_component_inside(solid_b, solid_a);
+}
+
+bool find_depth(const View<3>& a, const View<3>& b, Closest<3>& closest) {
+    const PlacedSolid solid_a(a), solid_b(b);
+    if (!interiors_overlap(solid_a, solid_b)) return false;
+    const SeparatingMove move = separating_move(a, b);
+    closest.distance = -move.depth;
+    closest.normal = move.normal;
+    name_point(a, b, DVec<3>(move.normal) * static_cast<double>(move.depth), closest);
+    return true;
+}
+
+void name_touching(const View<3>& a, const View<3>& b, Closest<3>& closest) {
+    closest.distance = 0;
+    closest.normal = to_float(touching_normal(PlacedSolid(a), PlacedSolid(b), distance_tolerance(a, b)));
+    closest.on_b = closest.on_a;
+    name_point(a, b, DVec<3>(0.0), closest);
+}
+
+Contact<3> contact_of_solids(const View<3>& a, const View<3>& b, const Closest<3>& closest) {
+    const DVec<3> move = DVec<3>(closest.normal) * -static_cast<double>(closest.distance);
+    const ContactArea area =
+        contact_area(PlacedSolid(a), PlacedSolid(b), move, DVec<3>(closest.normal), distance_tolerance(a, b));
+    Contact<3> result;
+    result.normal = closest.normal;
+    result.depth = 0 - closest.distance;
+    for (std::size_t i = 0; i < area.manifold.count; ++i) {
+        const ManifoldPoint<3>& point = area.manifold.points[i];
+        result.points.push_back({to_float(point.position - move * 0.5), result.depth, point.feature});
+    }
+    if (result.points.empty())
+        result.points.push_back({to_float((DVec<3>(closest.on_a) + DVec<3>(closest.on_b)) * 0.5), result.depth, 0});
+    result.feature_a = closest.feature_a;
+    result.feature_b = closest.feature_b;
+    return result;
+}
+
+}  // namespace abut::detail

@@ -1,0 +1,178 @@
+// The depth of solids: a move that parts them, seldom longer than the least one.
+
+#include "../../oracle/is_long.hpp"
+#include "../../shape/meshes.hpp"
+#include "solid_pairs.hpp"
+#include <abut/query/closest.hpp>
+#include <abut/query/contact.hpp>
+#include <abut/query/detail/solid/interior_overlap.hpp>
+#include <abut/query/each_contact.hpp>
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+namespace abut::test {
+namespace {
+
+using detail::DVec;
+using detail::length;
+
+/// Whether the interiors are parted after B has moved, exactly.
+template <class A, class B>
+bool is_parted(const A& a, const B& b, const DVec<3>& move) {
+    const detail::PlacedSolid solid_a{View<3>(view(a))}, solid_b{View<3>(view(b))};
+    return !detail::interiors_overlap(solid_a, solid_b.moved(move));
+}
+
+template <class A, class B>
+bool is_parted(const A& a, const B& b, const Closest<3>& nearest) {
+    return is_parted(a, b, DVec<3>(nearest.normal) * -static_cast<double>(nearest.distance));
+}
+
+/// The shortest move along an axis, or along the normal of a face.
+double least_along_normals(const oracle::OverlappingMoves& moves, const scenes::KitPiece& a,
+                           const scenes::KitPiece& b) {
+    double least = std::numeric_limits<double>::infinity();
+    const auto offer = [&](const DVec<3>& direction) {
+        for (const double sign : {1.0, -1.0}) least = std::min(least, moves.separation_along(direction * sign));
+    };
+    for (int i = 0; i < 3; ++i) offer(detail::axis<3>(i));
+    for (const scenes::KitPiece* piece : {&a, &b})
+        for (const glm::uvec3& t : piece->triangles) {
+            const DVec<3> corner(piece->points[t.x]);
+            const DVec<3> normal =
+                detail::cross(DVec<3>(piece->points[t.y]) - corner, DVec<3>(piece->points[t.z]) - corner);
+            offer(normal / length(normal));
+        }
+    return least;
+}
+
+TEST(SolidDepth, OfAKitPartsAndIsMostlyTheLeast) {
+    constexpr std::uint64_t seed = 20263;
+    SCOPED_TRACE(seed);
+    oracle::Random random(seed);
+    const Kit kit;
+    const int pairs = oracle::is_long() ? 20'000 : 2'000;
+    int known = 0, near = 0;
+    for (int i = 0; i < pairs; ++i) {
+        const KitPair pair(kit, random);
+        const scenes::KitPiece &piece_a = kit.pieces[pair.a.piece], &piece_b = kit.pieces[pair.b.piece];
+        if (!oracle::interiors_overlap(piece_a, pair.a.position, piece_b, pair.b.position)) continue;
+        SCOPED_TRACE(pair.text(kit));
+        const auto a = placed(kit, pair.a), b = placed(kit, pair.b);
+        const Closest<3> nearest = closest(a, b);
+        const double depth = -static_cast<double>(nearest.distance);
+        const oracle::OverlappingMoves moves(piece_a, pair.a.position, piece_b, pair.b.position);
+        ASSERT_TRUE(is_parted(a, b, nearest));
+        ASSERT_NEAR(length(DVec<3>(nearest.normal)), 1, 1e-6);
+        ASSERT_LE(depth, least_along_normals(moves, piece_a, piece_b) * (1 + 1e-6) + 1e-6);
+        const std::optional<double> least = moves.least_separation();
+        if (!least) continue;
+        ++known;
+        ASSERT_GE(depth, *least * (1 - 1e-5) - 1e-6);
+        if (depth <= 1.05 * *least + 1e-6) ++near;
+    }
+    EXPECT_GT(known, pairs / 20);
+    EXPECT_GE(near, 0.95 * known) << near << " of " << known;
+}
+
+TEST(SolidDepth, OfANotchIsDiagonal) {
+    // A box that is 0.25 and 0.125 deep in the two arms of an L leaves both at once.
+    const Mesh corner = mesh_of(scenes::kit()[1]), box = box_surface({0.75f, 0.875f, 0}, {2, 2, 1}).mesh();
+    const Closest<3> nearest = closest(solid(corner), solid(box));
+    EXPECT_NEAR(nearest.distance, -std::sqrt(0.25 * 0.25 + 0.125 * 0.125), 1e-6);
+    EXPECT_TRUE(is_parted(solid(corner), solid(box), nearest));
+}
+
+TEST(SolidDepth, OfTurnedSolidsParts) {
+    constexpr std::uint64_t seed = 20264;
+    SCOPED_TRACE(seed);
+    oracle::Random random(seed);
+    const Kit kit;
+    int overlapping = 0, differ = 0;
+    for (int i = 0; i < 300; ++i) {
+        const KitPair pair(kit, random);
+        const Vec3 far = random.chance(0.2) ? Vec3(1000, -500, 200) : Vec3(0);
+        const auto a = at(solid(kit.meshes[pair.a.piece]), Pose3{pair.a.position + far, random.rotation<3>()});
+        const auto b = at(solid(kit.meshes[pair.b.piece]), Pose3{pair.b.position + far, random.rotation<3>()});
+        const Closest<3> nearest = closest(a, b);
+        const Contact<3> touch = contact(a, b);
+        if (nearest.distance > 0) {
+            EXPECT_FALSE(touch);
+            continue;
+        }
+        ++overlapping;
+        EXPECT_TRUE(is_parted(a, b, nearest));
+        EXPECT_EQ(touch.depth, -nearest.distance);
+        EXPECT_EQ(touch.normal, nearest.normal);
+        EXPECT_GE(touch.points.size(), 1u);
+        if (std::abs(closest(b, a).distance - nearest.distance) > 0.05f * std::abs(nearest.distance) + 1e-4f) ++differ;
+    }
+    EXPECT_GT(overlapping, 50);
+    EXPECT_LE(differ, 0.03 * overlapping) << "swapped, where the search isn't the least";
+}
+
+TEST(SolidContact, IsOneManifold) {
+    const Mesh floor = box_surface({0, 0, 0}, {8, 8, 1}).mesh(), crate = box_surface({0, 0, 0}, {1, 1, 1}).mesh();
+    for (const float sunk : {0.0f, 0.125f}) {
+        const auto on_it = at(solid(crate), Pose3{{3, 2, 1 - sunk}});
+        const Contact<3> touch = contact(solid(floor), on_it);
+        EXPECT_EQ(touch.depth, sunk);
+        EXPECT_EQ(touch.normal, Vec3(0, 0, 1));
+        ASSERT_EQ(touch.points.size(), 4u);
+        for (const auto& point : touch.points) {
+            EXPECT_FLOAT_EQ(point.position.z, 1 - 0.5f * sunk);
+            EXPECT_NEAR(std::abs(point.position.x - 3.5f), 0.5, 1e-5);
+            EXPECT_NEAR(std::abs(point.position.y - 2.5f), 0.5, 1e-5);
+            EXPECT_EQ(point.depth, sunk);
+        }
+        int visits = 0;
+        each_contact(solid(floor), on_it, [&](const Contact<3>&) { ++visits; });
+        EXPECT_EQ(visits, 1);
+        // The corners keep their names while the crate slides.
+        const Contact<3> later = contact(solid(floor), at(solid(crate), Pose3{{3.01f, 2.01f, 1 - sunk}}));
+        ASSERT_EQ(later.points.size(), 4u);
+        for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(later.points[i].feature, touch.points[i].feature);
+    }
+    const auto above = at(solid(crate), Pose3{{3, 2, 1.0625f}});
+    EXPECT_FALSE(contact(solid(floor), above));
+    const Contact<3> near = contact(solid(floor), above, {.margin = 0.125f});
+    EXPECT_EQ(near.depth, -0.0625f);
+    EXPECT_EQ(near.points.size(), 4u);
+}
+
+TEST(MeshContact, OfOpenMeshesAgreesWithClosest) {
+    // The depth was that of another pair of triangles, whose normal is one of the whole surface.
+    constexpr std::uint64_t seed = 20265;
+    SCOPED_TRACE(seed);
+    oracle::Random random(seed);
+    const Kit kit;
+    int touching = 0;
+    for (int i = 0; i < 400; ++i) {
+        const KitPair pair(kit, random);
+        const Pose3 turned{pair.b.position, random.chance(0.5) ? random.rotation<3>() : glm::quat(1, 0, 0, 0)};
+        const auto a = at(kit.meshes[pair.a.piece], Pose3{pair.a.position});
+        const auto b = at(kit.meshes[pair.b.piece], turned);
+        const Contact<3> touch = contact(a, b);
+        if (!touch) continue;
+        ++touching;
+        SCOPED_TRACE(pair.text(kit));
+        const Closest<3> nearest = closest(a, b);
+        ASSERT_NEAR(touch.depth, -nearest.distance, 2e-5);
+        if (nearest.distance < -1e-4f) {
+            ASSERT_GT(glm::dot(touch.normal, nearest.normal), 0.999f);
+            const auto part = [](const auto& shape, const Feature& feature) {
+                return at(shape.shape.triangle(feature.part), shape.pose);
+            };
+            Pose3 away = turned;
+            away.position += touch.normal * touch.depth;
+            const auto moved = at(kit.meshes[pair.b.piece], away);
+            EXPECT_GE(closest(part(a, touch.feature_a), part(moved, touch.feature_b)).distance, -1e-4f);
+        }
+    }
+    EXPECT_GT(touching, 100);
+}
+
+}  // namespace
+}  // namespace abut::test

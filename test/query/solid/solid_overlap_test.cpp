@@ -1,0 +1,162 @@
+// The interiors of solids: exact answers for a kit of modular pieces, flush and not.
+
+#include "../../oracle/is_long.hpp"
+#include "../../shape/meshes.hpp"
+#include "solid_pairs.hpp"
+#include <abut/query/closest.hpp>
+#include <abut/query/contact.hpp>
+#include <abut/query/overlaps.hpp>
+#include <abut/shape/box.hpp>
+#include <abut/shape/polyhedron.hpp>
+
+#include <gtest/gtest.h>
+
+namespace abut::test {
+namespace {
+
+/// A box with a box-shaped hole through it along z, of cells.
+Surface frame(int size, int hole) {
+    const int from = (size - hole) / 2, to = from + hole;
+    return cell_surface(size, [=](int x, int y, int) { return x < from || x >= to || y < from || y >= to; });
+}
+
+template <class A, class B>
+void expect_overlap(const A& a, const B& b, bool interiors) {
+    for (const bool swapped : {false, true}) {
+        const float distance = swapped ? closest(b, a).distance : closest(a, b).distance;
+        if (interiors)
+            EXPECT_LT(distance, 0);
+        else
+            EXPECT_GE(distance, 0);
+    }
+}
+
+TEST(SolidOverlap, OfAKitIsExact) {
+    constexpr std::uint64_t seed = 20261;
+    SCOPED_TRACE(seed);
+    oracle::Random random(seed);
+    const Kit kit;
+    const int pairs = oracle::is_long() ? 100'000 : 4'000;
+    int overlapping = 0, touching = 0;
+    for (int i = 0; i < pairs; ++i) {
+        const KitPair pair(kit, random);
+        const bool expected = oracle::interiors_overlap(kit.pieces[pair.a.piece], pair.a.position,
+                                                        kit.pieces[pair.b.piece], pair.b.position);
+        const auto a = placed(kit, pair.a), b = placed(kit, pair.b);
+        ASSERT_EQ(closest(a, b).distance < 0, expected) << pair.text(kit);
+        ASSERT_EQ(contact(b, a).depth > 0, expected) << pair.text(kit);
+        if (expected)
+            ++overlapping;
+        else if (overlaps(a, b))
+            ++touching;
+        ASSERT_TRUE(!expected || overlaps(a, b)) << pair.text(kit);
+    }
+    EXPECT_GT(overlapping, pairs / 20);
+    EXPECT_GT(touching, pairs / 20);
+}
+
+TEST(SolidOverlap, OfTPrismsSideBySide) {
+    // `contact` of the meshes said 0.316, 1 and 0 deep at the first three places, and `closest` 0 at all of them.
+    const Mesh t = mesh_of(scenes::kit()[0]);
+    for (const float x : {3.0f, 2.99f, 2.9f, 2.8f, 2.5f, 2.1f}) {
+        SCOPED_TRACE(x);
+        const auto other = at(solid(t), Pose3{{x, 0, 0}});
+        const Closest<3> nearest = closest(solid(t), other);
+        EXPECT_EQ(nearest.distance, x - 3);
+        EXPECT_EQ(nearest.normal, Vec3(1, 0, 0));
+        const Contact<3> touch = contact(solid(t), other);
+        EXPECT_EQ(touch.depth, 3 - x);
+        EXPECT_EQ(touch.normal, Vec3(1, 0, 0));
+        ASSERT_EQ(touch.points.size(), 4u);
+        for (const auto& point : touch.points) EXPECT_FLOAT_EQ(point.position.x, 0.5f * (3 + x));
+    }
+    EXPECT_EQ(closest(solid(t), at(solid(t), Pose3{{3.5f, 0, 0}})).distance, 0.5f);
+}
+
+TEST(SolidOverlap, OfAPegInAHoleThatFits) {
+    const Mesh hole = frame(4, 2).mesh(), peg = box_surface({1, 1, -1}, {3, 3, 5}).mesh(),
+               thick = box_surface({1, 1, -1}, {3.0625f, 3, 5}).mesh();
+    expect_overlap(solid(hole), solid(peg), false);
+    EXPECT_TRUE(overlaps(solid(hole), solid(peg)));
+    expect_overlap(solid(hole), solid(thick), true);
+    EXPECT_FLOAT_EQ(closest(solid(hole), at(solid(peg), Pose3{{0.25f, 0, 0}})).distance, -0.25f);
+}
+
+TEST(SolidOverlap, OfOneInsideAnother) {
+    const Mesh outer = box_surface({0, 0, 0}, {4, 4, 4}).mesh(), inner = box_surface({1, 1, 1}, {2, 2, 2}).mesh();
+    expect_overlap(solid(outer), solid(inner), true);
+    EXPECT_FLOAT_EQ(closest(solid(outer), solid(inner)).distance, -2);
+    EXPECT_TRUE(overlaps(solid(inner), solid(outer)));
+    EXPECT_FALSE(overlaps(inner, outer)) << "the surfaces alone";
+    const Mesh hollow = joined(box_surface({0, 0, 0}, {4, 4, 4}), reversed(box_surface({1, 1, 1}, {3, 3, 3}))).mesh();
+    expect_overlap(solid(hollow), solid(inner), false);
+    EXPECT_TRUE(overlaps(solid(hollow), solid(inner))) << "it touches the cavity's walls";
+    const auto free = at(solid(inner), Pose3{{0.5f, 0.5f, 0.5f}});
+    EXPECT_FALSE(overlaps(solid(hollow), free));
+    EXPECT_FLOAT_EQ(closest(solid(hollow), free).distance, 0.5f);
+    expect_overlap(solid(hollow), at(solid(inner), Pose3{{-0.125f, 0, 0}}), true);
+}
+
+TEST(SolidOverlap, OfSolidsThatTouchInAnEdgeOrACorner) {
+    const Mesh box = box_surface({0, 0, 0}, {1, 1, 1}).mesh();
+    for (const Vec3 at_b : {Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(1, 1, 1), Vec3(1, 0.5f, 0), Vec3(1, 1, 0.25f),
+                            Vec3(-1, 0.5f, -0.5f), Vec3(0, -1, 1)}) {
+        expect_overlap(solid(box), at(solid(box), Pose3{at_b}), false);
+        EXPECT_TRUE(overlaps(solid(box), at(solid(box), Pose3{at_b})));
+    }
+    // A flush box inside, and the same box.
+    for (const Vec3 at_b : {Vec3(0, 0, 0), Vec3(0.5f, 0, 0), Vec3(0, 0.5f, 0.5f), Vec3(0.99f, 0, 0)})
+        expect_overlap(solid(box), at(solid(box), Pose3{at_b}), true);
+    // Two roofs whose ridges cross: one on the other, and one sunk into the other.
+    const scenes::KitPiece along_x = scenes::kit_prism("", {{0, 0}, {2, 0}, {1, 1}}, {{0, 1, 2}}, 2, 1),
+                           along_z = scenes::kit_prism("", {{0, 0}, {1, -1}, {2, 0}}, {{0, 1, 2}}, 2, 0);
+    const Mesh lower = mesh_of(along_x), upper = mesh_of(along_z);
+    const Aabb3 low = bounds(lower), high = bounds(upper);
+    const Vec3 onto = Vec3(0.5f * (low.min + low.max) - 0.5f * (high.min + high.max));
+    for (const float sunk : {0.0f, 0.0078125f}) {
+        Vec3 place = onto;
+        place.y = low.max.y - high.min.y - sunk;
+        expect_overlap(solid(lower), at(solid(upper), Pose3{place}), sunk > 0);
+    }
+}
+
+TEST(SolidOverlap, OfAMeshThatIsInsideOut) {
+    const Surface box = box_surface({0, 0, 0}, {1, 1, 1});
+    const Mesh outwards = box.mesh(), inwards = reversed(box).mesh();
+    for (const float x : {0.5f, 1.0f, 1.5f}) {
+        expect_overlap(solid(inwards), at(solid(outwards), Pose3{{x, 0, 0}}), x < 1);
+        expect_overlap(solid(outwards), at(stretched(solid(outwards), Vec3(-1, 1, 1)), Pose3{{x + 1, 0, 0}}), x < 1);
+    }
+}
+
+TEST(SolidOverlap, OfBoxesAndPolyhedra) {
+    constexpr std::uint64_t seed = 20262;
+    SCOPED_TRACE(seed);
+    oracle::Random random(seed);
+    const Kit kit;
+    int overlapping = 0;
+    for (int i = 0; i < 300; ++i) {
+        const KitPair pair(kit, random);
+        const auto piece = placed(kit, pair.a);
+        const Vec3 half(0.5f, 0.25f, 1);
+        const Mesh as_mesh = box_surface(-half, half).mesh();
+        const Polyhedron hull = *Polyhedron::build(as_mesh.points());
+        const Vec3 place = pair.b.position;
+        const Closest<3> expected = closest(piece, at(solid(as_mesh), Pose3{place}));
+        EXPECT_FLOAT_EQ(closest(piece, Box3{place, half}).distance, expected.distance) << pair.text(kit);
+        EXPECT_FLOAT_EQ(closest(at(hull, Pose3{place}), piece).distance, expected.distance) << pair.text(kit);
+        if (expected.distance < 0) ++overlapping;
+    }
+    EXPECT_GT(overlapping, 10);
+}
+
+TEST(SolidOverlap, OfAMeshThatIsNotClosedIsThatOfItsTriangles) {
+    Surface open = box_surface({0, 0, 0}, {4, 4, 4});
+    open.triangles.pop_back();
+    const Mesh box = open.mesh(), inner = box_surface({1, 1, 1}, {2, 2, 2}).mesh();
+    EXPECT_FALSE(overlaps(solid(box), solid(inner)));
+    EXPECT_FLOAT_EQ(closest(solid(box), solid(inner)).distance, closest(box, inner).distance);
+}
+
+}  // namespace
+}  // namespace abut::test
