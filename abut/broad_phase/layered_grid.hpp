@@ -15,20 +15,17 @@
 
 namespace abut {
 
-namespace detail {
-class PairBuffer;
-}
-
 /// A BroadPhase: a hierarchical hash grid (concept.hpp documents each function).
 ///
 /// Each level is a uniform grid whose cells have four times the edge of those one level below. A box is stored once, on
 /// the finest level whose cells are larger than the box, in the cell that contains its lower corner. It therefore
 /// reaches at most one cell further on each axis, and a query on a level tests the cells that it overlaps and the ones
-/// before them. Pairs are found upwards: each box queries its own level and the coarser ones. The cells of all levels
-/// are the buckets of one hash table.
+/// before them. If these are more than the boxes of the level, the query tests all of these boxes instead. Pairs are
+/// found upwards: each box queries its own level and the coarser ones. The cells of a level are the buckets of a hash
+/// table.
 ///
-/// `build` and `update` sort all boxes by their bucket: O(n). A pair search tests O(levels) cells a box. A ray, a
-/// nearest query or a region that covers more cells than there are boxes tests all boxes.
+/// `build` and `update` sort all boxes by their bucket: O(n). A pair search tests O(levels) cells a box. Rays and
+/// nearest queries search regions that double in size.
 ///
 /// Christer Ericson, "Real-Time Collision Detection", 2005, section 7.2.
 ///
@@ -49,27 +46,20 @@ private:
     struct Entry {
         Aabb<D> box;
         Cell cell;
-        std::int32_t level;
+        std::uint32_t level;
         std::uint32_t item;
     };
-    /// The cells from one corner to another, both included.
-    struct CellRange {
-        Cell low, high;
-    };
     struct Level {
-        int level;             ///< the edge of a cell is 2^level; even
-        std::uint32_t count;   ///< the number of boxes
-        CellRange home_cells;  ///< around the cells in which boxes are stored
+        std::uint32_t level = 0;
+        std::uint32_t count = 0;         ///< the number of boxes
+        std::uint32_t first_bucket = 0;  ///< there are bit_ceil(count) buckets
     };
 
-    std::uint32_t bucket_of(const Cell& cell, int level) const;
+    static std::uint32_t bucket_of(const Level& level, const Cell& cell);
     template <class Visit>
-    bool visit_cells(const CellRange& range, int level, const Visit& visit) const;
-    bool covers_few_cells(const Aabb<D>& box) const;
-    template <class Visit>
-    bool visit_region(const Aabb<D>& box, const Visit& visit) const;
-    bool visit_pairs_of(const Entry& entry, detail::PairBuffer& pairs) const;
-    double common_edge() const;
+    bool visit_level(const Level& level, const Aabb<D>& box, const Visit& visit) const;
+    template <class Reach>
+    void visit_within(Reach reach, detail::ReachCall visit) const;
 
     void visit_pairs(detail::PairsCall visit, Executor* executor) const;
     void visit_pairs(const LayeredGrid& other, detail::PairsCall visit) const;
@@ -77,12 +67,12 @@ private:
     void visit_overlapping(const Aabb<D>& box, detail::ItemCall visit) const;
     void visit_along(const Ray<D>& ray, detail::ReachCall visit) const;
     void visit_along(const MovingBox<D>& box, detail::ReachCall visit) const;
-    void visit_near(const Aabb<D>& box, float reach, detail::ReachCall visit) const;
+    void visit_near(const Aabb<D>& box, float max_distance, detail::ReachCall visit) const;
 
     std::size_t size_ = 0;
     std::vector<Entry> entries_;               ///< the boxes that are not empty, bucket by bucket
     std::vector<Entry> unsorted_;              ///< the same in the order of the items
-    std::vector<std::uint32_t> bucket_begin_;  ///< one more than the number of buckets, which is a power of two
+    std::vector<std::uint32_t> bucket_begin_;  ///< the first entry of each bucket; at the end, the number of entries
     std::vector<Level> levels_;                ///< those that hold boxes, the finest first
     Aabb<D> bounds_ = Aabb<D>::empty();
 };

@@ -3,10 +3,13 @@
 #include "../../scenes/skewed_boxes.hpp"
 #include "dimensions.hpp"
 #include "scenes.hpp"
+#include <abut/broad_phase/brute_force.hpp>
 #include <abut/broad_phase/bvh.hpp>
 #include <abut/broad_phase/layered_grid.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -175,6 +178,58 @@ TYPED_TEST(Layered, VisitsFewForTheNearest) {
         });
         EXPECT_LE(hits, 8) << x;
     }
+}
+
+/// A face, or a coordinate of a query, of any magnitude.
+float any_number(oracle::Random& random) {
+    constexpr float far = std::numeric_limits<float>::infinity(), largest = std::numeric_limits<float>::max();
+    constexpr float numbers[] = {0, 1, 1e-45f, 1e-30f, 1e30f, largest, far};
+    const float number =
+        random.chance(0.5) ? numbers[random.below(7)] : static_cast<float>(random.power_of_two(-149, 127));
+    return random.chance(0.5) ? number : -number;
+}
+
+/// Searches proceed in regions of growing size. They end, and visit all, even if no region contains all boxes, or if
+/// the first is too small to change any coordinate.
+TYPED_TEST(Layered, SearchesEndWhateverTheNumbers) {
+    constexpr int D = TypeParam::value;
+    oracle::Random random(46);
+    const auto any_vector = [&] {
+        Vec<D> result;
+        for (int i = 0; i < D; ++i) result[i] = any_number(random);
+        return result;
+    };
+    std::size_t along = 0, near = 0;
+    for (int round = 0; round < 300; ++round) {
+        SCOPED_TRACE(testing::Message() << "seed 46, round " << round);
+        std::vector<Aabb<D>> boxes(1 + random.below(40));
+        for (Aabb<D>& box : boxes) {
+            const Vec<D> a = any_vector(), b = random.chance(0.2) ? a : any_vector();
+            box = {glm::min(a, b), glm::max(a, b)};
+        }
+        LayeredGrid<D> grid;
+        BruteForce<D> oracle;
+        grid.build(boxes);
+        oracle.build(boxes);
+        for (int query = 0; query < 10; ++query) {
+            MovingBox<D> moving{DVec<D>(any_vector()), DVec<D>(random.below(2)), DVec<D>(any_vector()), 1};
+            moving.direction *= random.power_of_two(-200, 0);
+            if (random.chance(0.5)) moving.length = std::abs(static_cast<double>(any_number(random)));
+            const Vec<D> point = any_vector();
+            const auto visited = [&](const auto& phase) {
+                std::pair<std::set<std::uint32_t>, std::set<std::uint32_t>> result;
+                phase.sweep(moving, [&](std::uint32_t i) { EXPECT_TRUE(result.first.insert(i).second); });
+                phase.closest(point, [&](std::uint32_t i) { EXPECT_TRUE(result.second.insert(i).second); });
+                return result;
+            };
+            const auto expected = visited(oracle);
+            EXPECT_EQ(visited(grid), expected);
+            along += expected.first.size();
+            near += expected.second.size();
+        }
+    }
+    EXPECT_GT(along, 3000u);
+    EXPECT_GT(near, 3000u);
 }
 
 }  // namespace
