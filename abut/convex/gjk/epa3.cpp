@@ -6,7 +6,7 @@ namespace abut::detail {
 namespace {
 
 /// It has no initialisers, so that the unused capacity of a polytope costs nothing.
-struct Face {
+struct PolytopeFace {
     std::array<std::uint32_t, 3> corner;    ///< counter-clockwise seen from outside
     std::array<std::uint32_t, 3> neighbor;  ///< the face across the edge from corner i to i + 1
     DVec<3> normal;
@@ -36,7 +36,7 @@ public:
         add_face(0, 2, 3, {0, 2, 1});
     }
 
-    const Face& face(std::uint32_t i) const { return faces_[i]; }
+    const PolytopeFace& face(std::uint32_t i) const { return faces_[i]; }
     const DVec<3>& corner(std::uint32_t face, std::size_t i) const { return points_[faces_[face].corner[i]].position; }
 
     /// The nearest face that is not a sliver; it is invalid if there is none.
@@ -121,7 +121,7 @@ private:
     static constexpr std::size_t max_faces = 6 * epa_max_iterations;
 
     void add_face(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::array<std::uint32_t, 3> neighbor) {
-        Face& face = faces_[face_count_++];
+        PolytopeFace& face = faces_[face_count_++];
         const DVec<3>& origin = points_[a].position;
         const DVec<3> ab = points_[b].position - origin, ac = points_[c].position - origin;
         const DVec<3> normal = cross(ab, ac);
@@ -129,12 +129,12 @@ private:
         const double longest_squared = std::max({length_squared(ab), length_squared(ac), length_squared(ac - ab)});
         const bool flat = !(area * area > tolerance_ * tolerance_ * longest_squared);
         const DVec<3> unit = flat ? DVec<3>(0.0) : normal / area;
-        face = Face{{a, b, c}, neighbor, unit, dot(unit, origin), true, flat};
+        face = PolytopeFace{{a, b, c}, neighbor, unit, dot(unit, origin), true, flat};
         distances_[face_count_ - 1] = flat ? infinity : face.distance;
     }
 
     bool is_visible(std::uint32_t face, const DVec<3>& position) const {
-        const Face& f = faces_[face];
+        const PolytopeFace& f = faces_[face];
         return !f.flat && dot(f.normal, position - points_[f.corner[0]].position) > tolerance_;
     }
 
@@ -157,7 +157,7 @@ private:
                 continue;
             }
             const std::size_t edge = (visit.entry + visit.done++) % 3;
-            const Face& face = faces_[visit.face];
+            const PolytopeFace& face = faces_[visit.face];
             const std::uint32_t beyond = face.neighbor[edge];
             if (!faces_[beyond].alive) continue;
             const std::uint32_t from = face.corner[edge], to = face.corner[(edge + 1) % 3];
@@ -184,7 +184,7 @@ private:
     double tolerance_;
     std::array<DifferencePoint<3>, epa_max_iterations + 4> points_;
     std::size_t point_count_;
-    std::array<Face, max_faces> faces_;
+    std::array<PolytopeFace, max_faces> faces_;
     std::array<double, max_faces> distances_;  ///< of the faces that can be expanded; infinite for the others
     std::uint32_t face_count_ = 0;
     std::array<Edge, 2 * epa_max_iterations> horizon_;
@@ -299,7 +299,7 @@ EpaResult<3> epa(const CoreDifference<3>& difference, const SearchOptions<3>& op
     for (std::size_t step = 0; step < epa_max_iterations; ++step) {
         nearest = polytope.nearest();
         if (!polytope.valid(nearest)) break;
-        const Face& face = polytope.face(nearest);
+        const PolytopeFace& face = polytope.face(nearest);
         const DifferencePoint<3> next = difference.support(face.normal);
         const double extent = dot(face.normal, next.position);
         record(polytope, nearest, extent, options.trace);
