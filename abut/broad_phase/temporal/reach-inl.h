@@ -30,12 +30,9 @@ struct BoxLanes {
     explicit BoxLanes(const Aabb<D>& box) {
         // One float of the other corner comes with each, in 2D two.
         static_assert(sizeof(box) == 2 * D * sizeof(float));
-        const float* floats = &box.min[0];
-        min = float4::load(floats);
-        if constexpr (D == 2)
-            max = float4::from_third(min);
-        else
-            max = float4::from_second(float4::load(floats + 2));
+        min = float4::load(&box.min[0]);
+        const float4::Floats last_four = float4::load(&box.min[0] + 2 * D - 4);
+        max = D == 2 ? float4::from_third(last_four) : float4::from_second(last_four);
     }
 };
 
@@ -58,26 +55,28 @@ struct Reach {
 };
 
 /// Each axis has two gaps between opposite faces, below zero where the boxes overlap. Boxes that touch separate as soon
-/// as one gap opens; others touch once all gaps are closed. Empty boxes and boxes with a NaN never touch.
+/// as one gap opens; others touch once all gaps are closed. The widest gap is the last to close, and the first to open.
+/// Empty boxes and boxes with a NaN never touch.
 template <int D>
 Reach reach_of(const BoxLanes<D>& a, const BoxLanes<D>& b) {
     using float4::magnitude;
     constexpr std::uint32_t axes = BoxLanes<D>::axes;
-    constexpr float endless = std::numeric_limits<float>::infinity();
     if ((float4::bits((a.min <= a.max) & (b.min <= b.max)) & axes) != axes) return {};
 
     const float4::Floats gap = a.min - b.max, other_gap = b.min - a.max;
-    const bool touching = (float4::bits((gap > 0.0f) | (other_gap > 0.0f)) & axes) == 0;
-    // Each gap is moved towards zero by the tolerance. The widest is the last to close, and the first to open. The gap
-    // between faces at infinity is NaN and never changes: `greater` ignores a first operand that is NaN.
-    const float nearer = touching ? 2 * rounding : -2 * rounding;
-    float4::Floats widest =
-        float4::max(gap + nearer * (magnitude(a.min) + magnitude(b.max)), float4::broadcast(-endless));
-    widest = float4::max(other_gap + nearer * (magnitude(b.min) + magnitude(a.max)), widest);
-    widest[3] = -endless;
-    if constexpr (D == 2) widest[2] = -endless;
-    const float gap_left = float4::max_lane(widest);
-    return {touching, std::max(touching ? -gap_left : gap_left, 0.0f) * (1 - 4 * leeway)};
+    const float4::Floats tolerance = 2 * rounding * (magnitude(a.min) + magnitude(b.max)),
+                         other_tolerance = 2 * rounding * (magnitude(b.min) + magnitude(a.max));
+    // The gap between faces at infinity is NaN and never changes: `max` ignores a first operand that is NaN.
+    const float4::Floats none = float4::broadcast(-std::numeric_limits<float>::infinity());
+    const auto widest = [none](float4::Floats first, float4::Floats second) {
+        float4::Floats result = float4::max(second, float4::max(first, none));
+        for (int i = D; i < 4; ++i) result[i] = none[i];
+        return float4::max_lane(result);
+    };
+    const float closes = widest(gap - tolerance, other_gap - other_tolerance),
+                opens = -widest(gap + tolerance, other_gap + other_tolerance);
+    return {(float4::bits((gap > 0.0f) | (other_gap > 0.0f)) & axes) == 0,
+            std::max({closes, opens, 0.0f}) * (1 - 4 * leeway)};
 }
 
 /// Contains the box as long as no face has moved by more than `travel`.
