@@ -25,9 +25,8 @@ namespace abut {
 ///
 /// The cells fill a region around most of the boxes; boxes outside belong to the cells at its border. Boxes that would
 /// touch more than 32 cells (16 in 2D) are stored separately and tested against all others, so that a few large boxes
-/// do no harm. Many sizes call for a LayeredGrid. The edge of the cells is chosen from counts of the data: about thirty
-/// boxes per cell, and at least three times the mean edge of the boxes. docs/broad_phases.md has the cost of other
-/// edges.
+/// do no harm. The edge of the cells is chosen from counts of the data: about thirty boxes per cell, and at least three
+/// times the mean edge of the boxes. docs/broad_phases.md has the cost of other edges.
 ///
 /// Raycasts and closest queries visit the cells front to back, and test sixteen boxes at a time.
 ///
