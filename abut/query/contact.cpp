@@ -2,12 +2,9 @@
 #include <abut/query/detail/closed_form/closed_form.hpp>
 #include <abut/query/detail/one_sided.hpp>
 #include <abut/query/detail/part_pairs.hpp>
-#include <abut/query/detail/surface/edge_filter.hpp>
+#include <abut/query/detail/surface/surface_contacts.hpp>
 #include <abut/query/detail/valid_query.hpp>
 #include <abut/query/detail/write_answer.hpp>
-
-#include <tuple>
-#include <utility>
 
 namespace abut {
 
@@ -22,110 +19,39 @@ Contact<D> no_contact() {
     return result;
 }
 
-template <int D>
-void answer(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options, Contact<D>& result) {
-    if (!detail::is_valid_pair(a, b)) return;
+/// For two convex parts, or two parts of any kind.
+template <int D, class PartType>
+void contact_of_parts(const PartType& a, const PartType& b, const QueryOptions<D>& options, Contact<D>& result) {
     const double margin = static_cast<double>(options.margin);
     PartContact<D> found;
-    if (!part_contact(a, b, margin, margin, {options.cache, options.trace}, found)) return;
-    if (!touch_at_fronts(a, b, found.distance.normal)) return;
+    if (!part_contact<D>(a, b, margin, margin, {options.cache, options.trace}, found)) return;
+    if (!touch_at_fronts<D>(a, b, found.distance.normal)) return;
     write(found.distance, found.manifold, result);
     name_features(a, b, found.distance, 0, 0, result);
 }
 
-/// The deepest pair of parts.
 template <int D>
-struct Deepest {
-    Contact<D> contact;
-    std::pair<std::uint32_t, std::uint32_t> parts;
-    PartContact<D> found;
-};
+void answer(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options, Contact<D>& result) {
+    if (detail::is_valid_pair(a, b)) contact_of_parts<D>(a, b, options, result);
+}
 
+/// The deepest pair of parts that touch, if any do.
 template <int D>
-Deepest<D> deepest_of(const View<D>& a, const View<D>& b, const QueryOptions<D>& options) {
-    const double margin = static_cast<double>(options.margin);
+std::optional<PairDistance<D>> deepest_pair(const View<D>& a, const View<D>& b, const QueryOptions<D>& options) {
     const SearchOptions<D> search = search_options(a, b, options);
-    Deepest<D> result{no_contact<D>(), {}, {}};
-    double limit = margin;
+    double limit = static_cast<double>(options.margin);
+    std::optional<PairDistance<D>> result;
     detail::for_each_part_pair(
         a, b, options.margin,
         [&](const Part<D>& part_a, std::uint32_t index_a, const Part<D>& part_b, std::uint32_t index_b) {
             PartContact<D> found;
-            if (!part_contact<D>(part_a, part_b, limit, margin, search, found)) return true;
-            const SignedDistance<D>& distance = found.distance;
-            if (!touch_at_fronts(part_a, part_b, distance.normal)) return true;
-            const std::pair parts(index_a, index_b);
-            // Among equally deep pairs the lowest wins, whatever the order of the visits.
-            if (result.contact && distance.distance == limit && parts > result.parts) return true;
-            // Written during the visit: a composite shape may create its parts as it goes.
-            limit = distance.distance;
-            result.parts = parts;
-            result.found = found;
-            write(found.distance, found.manifold, result.contact);
-            name_features(part_a, part_b, distance, index_a, index_b, result.contact);
+            if (!part_distance_within<D>(part_a, part_b, limit, limit, search, found)) return true;
+            if (!touch_at_fronts(part_a, part_b, found.distance.normal)) return true;
+            const PairDistance<D> pair{found.distance, index_a, index_b};
+            if (result && !comes_before(pair, *result)) return true;
+            result = pair;
+            limit = found.distance.distance;
             return true;
-        });
-    return result;
-}
-
-/// Whether the normal of the deepest pair is a surface normal of both shapes.
-template <int D>
-bool is_surface_contact(const View<D>& a, const View<D>& b, const Deepest<D>& deepest, float margin,
-                        const NeighbourSurfaces<D>& neighbours) {
-    bool is_surface = true;
-    const EdgeFilter<D> filter(a, b, neighbours);
-    detail::for_each_part_pair(
-        a, b, margin, [&](const Part<D>& part_a, std::uint32_t index_a, const Part<D>& part_b, std::uint32_t index_b) {
-            if (std::pair(index_a, index_b) != deepest.parts) return true;
-            const PartContact<D>& found = deepest.found;
-            is_surface = static_cast<bool>(filter.surface_normal_flags(
-                part_a, part_b, found.distance, [&]() -> const Manifold<D>& { return found.manifold; }));
-            return false;
-        });
-    return is_surface;
-}
-
-/// The deepest contact with a surface normal; of equals, the lowest parts.
-template <int D>
-ContactWithNeighbours<D> deepest_surface_contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& options,
-                                                 const NeighbourSurfaces<D>& neighbours) {
-    ContactWithNeighbours<D> result;
-    each_contact_with_neighbours<D>(a, b, options, neighbours,
-                                    [&](const Contact<D>& found, const detail::SurfaceNormalFlags& flags) {
-                                        const auto order = [](const Contact<D>& c) {
-                                            return std::tuple(-c.depth, c.feature_a.part, c.feature_b.part);
-                                        };
-                                        if (result.contact && order(found) >= order(result.contact)) return true;
-                                        result.contact = found;
-                                        result.surface_normals = flags;
-                                        return true;
-                                    });
-    return result;
-}
-
-/// Two shapes of one part each: their one contact, or its replacement.
-template <int D>
-ContactWithNeighbours<D> only_contact(const View<D>& a, const View<D>& b, const Deepest<D>& deepest,
-                                      const NeighbourSurfaces<D>& neighbours) {
-    ContactWithNeighbours<D> result;
-    result.contact = deepest.contact;
-    EdgeFilter<D> filter(a, b, neighbours);
-    detail::for_each_part_pair(
-        a, b, 0, [&](const Part<D>& part_a, std::uint32_t index_a, const Part<D>& part_b, std::uint32_t index_b) {
-            PartContact<D> found = deepest.found;
-            const detail::SurfaceNormalFlags flags = filter.surface_normal_flags(
-                part_a, part_b, found.distance, [&]() -> const Manifold<D>& { return found.manifold; });
-            if (flags) return false;
-            const bool is_replaced = filter.replace(part_a, part_b, flags, found);
-            if (found.distance.distance > 0) {
-                result.contact = {};
-                return false;
-            }
-            result.surface_normals = flags;
-            if (!is_replaced) return false;
-            write(found.distance, found.manifold, result.contact);
-            name_features(part_a, part_b, found.distance, index_a, index_b, result.contact);
-            return false;
         });
     return result;
 }
@@ -160,40 +86,19 @@ Contact<D> contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& op
     const auto *convex_a = std::get_if<Convex<D>>(&a), *convex_b = std::get_if<Convex<D>>(&b);
     if (convex_a != nullptr && convex_b != nullptr) return contact(*convex_a, *convex_b, options);
     if (!detail::is_valid_pair(a, b)) return no_contact<D>();
-    const Deepest<D> deepest = deepest_of(a, b, options);
-    const bool has_parts = std::holds_alternative<Composite<D>>(a) || std::holds_alternative<Composite<D>>(b);
-    if (!deepest.contact || !has_parts || is_surface_contact<D>(a, b, deepest, options.margin, {}))
-        return deepest.contact;
-    const ContactWithNeighbours<D> surface = deepest_surface_contact<D>(a, b, options, {});
-    return surface.contact ? surface.contact : deepest.contact;
-}
-
-}  // namespace abut
-
-namespace abut::detail {
-
-template <int D>
-ContactWithNeighbours<D> contact_with_neighbours(const View<D>& a, const View<D>& b,
-                                                 const NeighbourSurfaces<D>& neighbours) {
-    ContactWithNeighbours<D> result;
-    const Deepest<D> deepest = deepest_of<D>(a, b, {});
-    if (!deepest.contact) return result;
-    const bool has_parts = std::holds_alternative<Composite<D>>(a) || std::holds_alternative<Composite<D>>(b);
-    if (!has_parts)
-        result = only_contact(a, b, deepest, neighbours);
-    else if (is_surface_contact(a, b, deepest, 0, neighbours))
-        result.contact = deepest.contact;
-    else
-        result = deepest_surface_contact<D>(a, b, {}, neighbours);
-    result.touch = true;
+    Contact<D> result = no_contact<D>();
+    if (!std::holds_alternative<Composite<D>>(a) && !std::holds_alternative<Composite<D>>(b)) {
+        contact_of_parts(single_part(a), single_part(b), options, result);
+        return result;
+    }
+    const std::optional<PairDistance<D>> deepest = deepest_pair(a, b, options);
+    if (!deepest || whole_contact(a, b, options, *deepest, result)) return result;
+    each_surface_contact<D>(a, b, options, {}, [&](const SurfaceContact<D>& found) {
+        if (!result || found.contact.depth > result.depth) result = found.contact;
+        return true;
+    });
     return result;
 }
-
-template ContactWithNeighbours<2> contact_with_neighbours(const View<2>&, const View<2>&, const NeighbourSurfaces<2>&);
-template ContactWithNeighbours<3> contact_with_neighbours(const View<3>&, const View<3>&, const NeighbourSurfaces<3>&);
-}  // namespace abut::detail
-
-namespace abut {
 
 template Contact<2> contact(const View<2>&, const View<2>&, const QueryOptions<2>&);
 template Contact<3> contact(const View<3>&, const View<3>&, const QueryOptions<3>&);

@@ -2,7 +2,7 @@
 // of the union of all that it touches (docs/ghosts.md).
 
 #include <abut/broad_phase/boxes.hpp>
-#include <abut/query/detail/surface/edge_filter.hpp>
+#include <abut/query/detail/surface/surface_contacts.hpp>
 #include <abut/world/world.hpp>
 
 #include <algorithm>
