@@ -19,48 +19,30 @@ Contact<D> no_contact() {
     return result;
 }
 
-/// For two convex parts, or two parts of any kind.
+template <int D>
+bool has_parts(const View<D>& a, const View<D>& b) {
+    return std::holds_alternative<Composite<D>>(a) || std::holds_alternative<Composite<D>>(b);
+}
+
+/// Returns false, and leaves `result`, if the parts, which are convex sets or of any kind, don't touch.
 template <int D, class PartType>
-void contact_of_parts(const PartType& a, const PartType& b, const QueryOptions<D>& options, Contact<D>& result) {
+bool answer(const PartType& a, const PartType& b, const QueryOptions<D>& options, PartContact<D>& found,
+            Contact<D>& result) {
     const double margin = static_cast<double>(options.margin);
-    PartContact<D> found;
-    if (!part_contact<D>(a, b, margin, margin, {options.cache, options.trace}, found)) return;
-    if (!touch_at_fronts<D>(a, b, found.distance.normal)) return;
+    if (!part_contact<D>(a, b, margin, margin, {options.cache, options.trace}, found)) return false;
+    if (!touch_at_fronts<D>(a, b, found.distance.normal)) return false;
     write(found.distance, found.manifold, result);
     name_features(a, b, found.distance, 0, 0, result);
-}
-
-template <int D>
-void answer(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options, Contact<D>& result) {
-    if (detail::is_valid_pair(a, b)) contact_of_parts<D>(a, b, options, result);
-}
-
-/// The deepest pair of parts that touch, if any do.
-template <int D>
-std::optional<PairDistance<D>> deepest_pair(const View<D>& a, const View<D>& b, const QueryOptions<D>& options) {
-    const SearchOptions<D> search = search_options(a, b, options);
-    double limit = static_cast<double>(options.margin);
-    std::optional<PairDistance<D>> result;
-    detail::for_each_part_pair(
-        a, b, options.margin,
-        [&](const Part<D>& part_a, std::uint32_t index_a, const Part<D>& part_b, std::uint32_t index_b) {
-            PartContact<D> found;
-            if (!part_distance_within<D>(part_a, part_b, limit, limit, search, found)) return true;
-            if (!touch_at_fronts(part_a, part_b, found.distance.normal)) return true;
-            const PairDistance<D> pair{found.distance, index_a, index_b};
-            if (result && !comes_before(pair, *result)) return true;
-            result = pair;
-            limit = found.distance.distance;
-            return true;
-        });
-    return result;
+    return true;
 }
 
 /// Out of line, to keep the fast path small.
 template <int D>
 [[gnu::noinline]] void by_views(const ShapeRef<D>& a, const ShapeRef<D>& b, const QueryOptions<D>& options,
                                 Contact<D>& result) {
-    answer(convex_of(a), convex_of(b), options, result);
+    const Convex<D> convex_a = convex_of(a), convex_b = convex_of(b);
+    PartContact<D> found;
+    if (detail::is_valid_pair(convex_a, convex_b)) answer(convex_a, convex_b, options, found, result);
 }
 
 }  // namespace
@@ -68,7 +50,8 @@ template <int D>
 template <int D>
 Contact<D> contact(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options) {
     Contact<D> result = no_contact<D>();
-    answer(a, b, options, result);
+    PartContact<D> found;
+    if (detail::is_valid_pair(a, b)) answer(a, b, options, found, result);
     return result;
 }
 
@@ -83,22 +66,59 @@ Contact<D> contact(const ShapeRef<D>& a, const ShapeRef<D>& b, const QueryOption
 
 template <int D>
 Contact<D> contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& options) {
-    const auto *convex_a = std::get_if<Convex<D>>(&a), *convex_b = std::get_if<Convex<D>>(&b);
-    if (convex_a != nullptr && convex_b != nullptr) return contact(*convex_a, *convex_b, options);
-    if (!detail::is_valid_pair(a, b)) return no_contact<D>();
     Contact<D> result = no_contact<D>();
-    if (!std::holds_alternative<Composite<D>>(a) && !std::holds_alternative<Composite<D>>(b)) {
-        contact_of_parts(single_part(a), single_part(b), options, result);
+    DeepestParts<D> deepest;
+    if (!find_deepest_parts(a, b, options, deepest, result) || !has_parts(a, b) ||
+        whole_contact(a, b, options, deepest, result))
         return result;
-    }
-    const std::optional<PairDistance<D>> deepest = deepest_pair(a, b, options);
-    if (!deepest || whole_contact(a, b, options, *deepest, result)) return result;
     each_surface_contact<D>(a, b, options, {}, [&](const SurfaceContact<D>& found) {
         if (!result || found.contact.depth > result.depth) result = found.contact;
         return true;
     });
     return result;
 }
+
+}  // namespace abut
+
+namespace abut::detail {
+
+template <int D>
+bool find_deepest_parts(const View<D>& a, const View<D>& b, const QueryOptions<D>& options, DeepestParts<D>& deepest,
+                        Contact<D>& contact) {
+    if (!detail::is_valid_pair(a, b)) return false;
+    const auto *convex_a = std::get_if<Convex<D>>(&a), *convex_b = std::get_if<Convex<D>>(&b);
+    if (convex_a != nullptr && convex_b != nullptr)
+        return answer(*convex_a, *convex_b, options, deepest.contact, contact);
+    if (!has_parts(a, b)) return answer(single_part(a), single_part(b), options, deepest.contact, contact);
+    const SearchOptions<D> search = search_options(a, b, options);
+    double limit = static_cast<double>(options.margin);
+    PairDistance<D> first;
+    bool touch = false;
+    detail::for_each_part_pair(
+        a, b, options.margin,
+        [&](const Part<D>& part_a, std::uint32_t index_a, const Part<D>& part_b, std::uint32_t index_b) {
+            PartContact<D> found;
+            if (!part_distance_within<D>(part_a, part_b, limit, limit, search, found)) return true;
+            if (!touch_at_fronts(part_a, part_b, found.distance.normal)) return true;
+            const PairDistance<D> pair{found.distance, index_a, index_b};
+            if (touch && !comes_before(pair, first)) return true;
+            touch = true;
+            first = pair;
+            limit = found.distance.distance;
+            return true;
+        });
+    deepest.index_a = first.index_a;
+    deepest.index_b = first.index_b;
+    deepest.contact.distance = first.distance;
+    return touch;
+}
+
+template bool find_deepest_parts(const View<2>&, const View<2>&, const QueryOptions<2>&, DeepestParts<2>&, Contact<2>&);
+template bool find_deepest_parts(const View<3>&, const View<3>&, const QueryOptions<3>&, DeepestParts<3>&, Contact<3>&);
+
+}  // namespace abut::detail
+
+namespace abut {
 
 template Contact<2> contact(const View<2>&, const View<2>&, const QueryOptions<2>&);
 template Contact<3> contact(const View<3>&, const View<3>&, const QueryOptions<3>&);

@@ -25,6 +25,11 @@ public:
         each([this](std::uint32_t slot, const auto& make_entry) { entries_[--first_[slot]] = make_entry(); });
     }
 
+    void reserve(std::size_t slots, std::size_t entries) {
+        first_.reserve(slots + 1);
+        entries_.reserve(entries);
+    }
+
     std::span<const Entry> of(std::uint32_t slot) const {
         return std::span(entries_).subspan(first_[slot], first_[slot + 1] - first_[slot]);
     }

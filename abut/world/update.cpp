@@ -59,12 +59,12 @@ template <int D>
 void World<D>::repeat_last(const IdPair& pair) {
     if (!std::binary_search(last_touching_.begin(), last_touching_.end(), pair)) return;
     touching_.push_back(pair);
-    const FoundContact* last = found_contact(last_found_, pair);
-    if (last == nullptr) return;
+    const std::span<const FoundContact> last = last_contacts(pair);
+    if (last.empty()) return;
     if (neighbours_changed(pair))
         find_contact(pair);
     else
-        found_.push_back(*last);
+        found_.insert(found_.end(), last.begin(), last.end());
 }
 
 template <int D>
@@ -154,7 +154,6 @@ Events World<D>::find_events() {
     moving_.phase().each_overlapping_pair(
         fixed_.phase(), [this](std::uint32_t i, std::uint32_t j) { add_if_near(moving_.slot(i), fixed_.slot(j)); });
     std::sort(near_.begin(), near_.end());
-    find_neighbours();
 
     std::swap(touching_, last_touching_);
     std::swap(found_, last_found_);
@@ -165,9 +164,10 @@ Events World<D>::find_events() {
     passed_.clear();
     impacts_.clear();
     first_.slot = none;
-    views_.clear();
+    begin_edge_filter();
     counts_ = {near_.size(), 0, 0};
     for (const IdPair& pair : near_) test_pair(pair);
+    filter_contacts();
     report_contacts();
     ball_early_outs_.decide();
     // Reserve for the worst case of a scene of this size: the lists are swapped, and all pairs may begin, stay or end.
@@ -177,8 +177,10 @@ Events World<D>::find_events() {
     for (std::vector<IdPair>* list : {&began_, &ended_}) list->reserve(capacity + impacts_.capacity());
     fractions_.reserve(began_.capacity());
     last_found_.reserve(found_.capacity());
+    more_found_.reserve(found_.capacity());
     contacts_.reserve(found_.capacity());
     last_near_.reserve(near_.capacity());
+    reserve_edge_filter();
     compare_with_last();
     pair_index_.build(touching_, capacity);
 

@@ -12,10 +12,9 @@ namespace abut::detail {
 template <int D>
 class ViewCache {
 public:
-    /// The view of a slot, made by `make()` if it isn't cached. Valid until the next call. The first call allocates.
+    /// The view of a slot, made by `make()` if it isn't cached. Valid until the next call.
     template <class Make>
     const View<D>& of(std::uint32_t slot, const Make& make) {
-        if (entries_.empty()) entries_.resize(count);
         Entry& entry = entries_[slot % count];
         if (entry.slot != slot) {
             entry.slot = slot;
@@ -34,7 +33,7 @@ private:
         std::uint32_t slot = none;
         View<D> view;
     };
-    std::vector<Entry> entries_;
+    std::vector<Entry> entries_ = std::vector<Entry>(count);
 };
 
 }  // namespace abut::detail

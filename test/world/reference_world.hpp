@@ -205,12 +205,7 @@ private:
         if (p.sensor || q.sensor) {
             touch = overlaps(view_a, view_b);
         } else {
-            const auto others_of_a = others(a, b), others_of_b = others(b, a);
-            const detail::EachClosestPoint<D> of_a(others_of_a), of_b(others_of_b);
-            const detail::ContactWithNeighbours<D> among =
-                contact_with_neighbours<D>(view_a, view_b, {p.fixed ? nullptr : &of_a, q.fixed ? nullptr : &of_b});
-            touch = among.touch;
-            if (among.contact) found_.push_back({{a.first, b.first, among.contact}, among.surface_normals});
+            touch = find_contact(a, b, view_a, view_b);
         }
         if (touch) touching_.push_back(pair);
         if ((!p.continuous && !q.continuous) || (!a.second.before && !b.second.before)) return;
@@ -222,6 +217,41 @@ private:
     }
 
     using Entry = std::pair<const Id, Item>;
+
+    /// Adds the contact with the surfaces of the neighbours to found_. Two balls have no edges, and an item whose
+    /// centre a neighbour contains has no surface. Returns false if the items don't touch.
+    bool find_contact(const Entry& a, const Entry& b, const View<D>& view_a, const View<D>& view_b) {
+        detail::DeepestParts<D> deepest;
+        Contact<D> contact;
+        if (!find_deepest_parts(view_a, view_b, deepest, contact)) return false;
+        const auto others_of_a = others(a, b), others_of_b = others(b, a);
+        const detail::EachClosestPoint<D> of_a(others_of_a), of_b(others_of_b);
+        const bool are_balls = is_ball(view_a) && is_ball(view_b);
+        const detail::EachClosestPoint<D>* const beside_b = are_balls || !is_filtered(a) ? nullptr : &of_a;
+        const detail::EachClosestPoint<D>* const beside_a = are_balls || !is_filtered(b) ? nullptr : &of_b;
+        const detail::ContactWithNeighbours<D> filtered =
+            contact_with_neighbours<D>(view_a, view_b, deepest, contact, {beside_b, beside_a});
+        // Without neighbours there is always a contact.
+        if (filtered.contact)
+            found_.push_back({{a.first, b.first, filtered.contact}, filtered.surface_normals});
+        else if (beside_a == nullptr && beside_b == nullptr)
+            found_.push_back({{a.first, b.first, contact}, {}});
+        return true;
+    }
+    static bool is_ball(const View<D>& view) {
+        const auto* convex = std::get_if<detail::Convex<D>>(&view);
+        return convex != nullptr && convex->core == detail::Core::points && convex->count == 1;
+    }
+    bool is_filtered(const Entry& item) const {
+        if (item.second.options.fixed) return false;
+        const detail::DVec<D> middle(center(detail::bounds(item.second.view())));
+        bool covered = false;
+        others(item, item)(middle, 0, [&](const detail::ClosestPoint<D>& closest) {
+            covered = covered || closest.distance < 0;
+            return 0.0;
+        });
+        return !covered;
+    }
 
     /// Visits the closest points on the neighbours of an item, except on `but`: items that pair with it, are no
     /// sensors, and have boxes that overlap its own.

@@ -101,23 +101,29 @@ auto EdgeFilter<D>::closest_points_on(Side side) const {
 }
 
 /// Whether the normal of a part on this side is a surface normal. The points of the manifold lie midway between two
-/// surfaces; half their depth along the normal moves them to this one. Mostly no other part is near, and a cheap test
-/// finds that out first; the other shape's centre costs more.
+/// surfaces; half their depth along the normal moves them to this one. Mostly no other part is near one of the deepest
+/// points, and a cheap test finds that out first; the other shape's centre costs more.
 template <int D>
 bool EdgeFilter<D>::is_surface_normal_of(Side side, const Part<D>& part, const Part<D>& other_part,
                                          const SignedDistance<D>& distance,
                                          FunctionRef<const Manifold<D>&()> manifold_of) const {
     const bool on_b = side == Side::b, is_one_part = !is_composite(on_b ? b_ : a_);
     const EachClosestPoint<D>* const neighbours = on_b ? neighbours_.of_a : neighbours_.of_b;
-    if (is_one_part && is_alone(point_on(on_b, distance, scale_), *neighbours)) return true;
-    const SurfacePlace<D> place = place_on(side, other_part, distance);
-    const auto each_closest_point = closest_points_on(side);
+    SurfacePlace<D> place = point_on(on_b, distance, scale_);
+    if (is_one_part && is_alone(place, *neighbours)) return true;
     const Manifold<D>& manifold = manifold_of();
+    DVec<D> sum(0.0);
+    for (std::size_t i = 0; i < manifold.count; ++i) {
+        const ManifoldPoint<D>& point = manifold.points[i];
+        const DVec<D> on_surface = point.position + place.normal * (0.5 * point.depth);
+        sum += on_surface;
+        if (!is_one_part || point.depth < -distance.distance - deepest_tolerance * scale_) continue;
+        place.point = on_surface;
+        if (is_alone(place, *neighbours)) return true;
+    }
+    place = place_on(side, other_part, distance);
+    const auto each_closest_point = closest_points_on(side);
     if (manifold.count > 1) {
-        const double to_surface = on_b ? -0.5 : 0.5;
-        DVec<D> sum(0.0);
-        for (std::size_t i = 0; i < manifold.count; ++i)
-            sum += manifold.points[i].position + distance.normal * (to_surface * manifold.points[i].depth);
         SurfacePlace<D> center = place;
         center.point = sum / static_cast<double>(manifold.count);
         if (is_one_part && is_alone(center, *neighbours) ? has_normal(part, center)
@@ -145,8 +151,10 @@ std::optional<SurfacePlane<D>> EdgeFilter<D>::plane_of(Side side, const Part<D>&
                                                        const SignedDistance<D>& distance) {
     const bool on_b = side == Side::b, has_own = has_own_center(other_part, on_b ? a_ : b_);
     NearestToCenter<D> nearest;
+    NearestToCenter<D>* const shared = on_b ? neighbours_.nearest_to_a : neighbours_.nearest_to_b;
+    NearestToCenter<D>& of_shape = shared != nullptr ? *shared : on_b ? nearest_to_a_ : nearest_to_b_;
     return surface_plane<D>(part, place_on(side, other_part, distance), closest_points_on(side),
-                            has_own ? nearest : (on_b ? nearest_to_a_ : nearest_to_b_));
+                            has_own ? nearest : of_shape);
 }
 
 template <int D>

@@ -14,6 +14,9 @@ template <int D>
 struct NeighbourSurfaces {
     const EachClosestPoint<D>* of_a = nullptr;  ///< what A touches beside B
     const EachClosestPoint<D>* of_b = nullptr;  ///< what B touches beside A
+    /// The points nearest to the centres of A and B, shared by all pairs of an item that is no composite shape; null:
+    /// they are found for each pair.
+    NearestToCenter<D>*nearest_to_a = nullptr, *nearest_to_b = nullptr;
 };
 
 /// Filters contacts on internal edges between two shapes, to which it refers. The surface of a part is that of its

@@ -72,20 +72,34 @@ public:
         if (pairs_.cache() != nullptr) filter_.use_cache(*pairs_.cache());
     }
 
-    /// Returns whether the shapes touch.
-    bool report(Visit visit) {
-        bool go_on = true;
+    /// Returns whether the shapes touch. Without neighbours, shapes that touch have a contact, at least the deepest
+    /// one.
+    bool report(bool has_neighbours, Visit visit) {
+        bool go_on = true, any = false;
+        const auto visit_any = [&](const SurfaceContact<D>& found) {
+            any = true;
+            return visit(found);
+        };
+        Pair first;
         do {
             store_touching();
+            if (round_ == 1) {
+                if (stored_count_ == 0) return false;
+                first = stored().front();
+            }
             find_planes();
-            go_on = report_planes(first_new_, visit);
+            go_on = report_planes(first_new_, visit_any);
             if (!go_on) break;
             replace_ghosts();
             const std::size_t first_ghost = plane_count_;
             find_planes_of_ghosts();
-            go_on = report_planes(first_ghost, visit);
+            go_on = report_planes(first_ghost, visit_any);
         } while (go_on && !is_complete_);
-        return round_ > 1 || stored_count_ > 0;
+        if (!any && !has_neighbours) {
+            first.flags = {};
+            report_only_plane_of(first, visit);
+        }
+        return true;
     }
 
     bool report_plane_of(const PairDistance<D>& deepest, Contact<D>& result) {
@@ -96,9 +110,7 @@ public:
             return false;
         });
         if (!is_surface) return false;
-        stored_[stored_count_++] = {deepest, {}, true};
-        add_plane(stored_[0]);
-        report_planes(0, [&](const SurfaceContact<D>& found) {
+        report_only_plane_of({deepest, {}, true}, [&](const SurfaceContact<D>& found) {
             result = found.contact;
             return false;
         });
@@ -222,6 +234,15 @@ private:
         }
     }
 
+    void report_only_plane_of(const Pair& deepest, Visit visit) {
+        stored_[0] = deepest;
+        stored_count_ = 1;
+        is_single_round_ = false;
+        first_new_ = plane_count_ = 0;
+        add_plane(stored_[0]);
+        report_planes(0, visit);
+    }
+
     /// Joins the pairs of parts to the planes from `first` on, and reports these.
     bool report_planes(std::size_t first, Visit visit) {
         for (; first < plane_count_; first += max_manifolds) {
@@ -330,59 +351,74 @@ private:
     std::array<Features, max_manifolds> features_;
 };
 
-/// Two shapes of one part each: their own contact, or its replacement.
+/// Two shapes of one part each.
 template <int D>
 bool report_single(const View<D>& a, const View<D>& b, const QueryOptions<D>& options,
                    const NeighbourSurfaces<D>& neighbours, FunctionRef<bool(const SurfaceContact<D>&)> visit) {
-    const double margin = static_cast<double>(options.margin);
-    const Part<D> part_a = single_part(a), part_b = single_part(b);
-    PartContact<D> own;
-    if (!part_contact<D>(part_a, part_b, margin, margin, search_options(a, b, options), own)) return false;
-    if (!touch_at_fronts<D>(part_a, part_b, own.distance.normal)) return false;
-    EdgeFilter<D> filter(a, b, neighbours);
-    SurfaceContact<D> found;
-    found.surface_normals =
-        filter.surface_normal_flags(part_a, part_b, own.distance, [&]() -> const Manifold<D>& { return own.manifold; });
-    const bool is_replaced = !found.surface_normals && filter.replace(part_a, part_b, found.surface_normals, own);
-    if (own.distance.distance > margin) return true;
-    write(own.distance, own.manifold, found.contact);
-    name_features(part_a, part_b, own.distance, 0, 0, found.contact);
-    if (is_replaced) {
-        const PairDistance<D> pair{own.distance, 0, 0};
-        SurfaceManifold<D> manifold;
-        manifold.begin(pair, surface_probe_scale * filter.size(), ManifoldNames::single_parts, margin);
-        manifold.add(manifold.area(part_a, part_b, 0, 0));
-        if (!manifold.empty()) {
-            found.own_area = found.contact;
-            manifold.write(found.own_area);
-        }
-        manifold.add_deepest(pair);
-        manifold.write(found.contact);
-    }
-    visit(found);
+    DeepestParts<D> own;
+    Contact<D> contact;
+    if (!find_deepest_parts(a, b, options, own, contact)) return false;
+    const SurfaceContact<D> found =
+        filtered_contact(a, b, own.contact, contact, neighbours, static_cast<double>(options.margin));
+    if (found.contact) visit(found);
     return true;
 }
 
 }  // namespace
 
 template <int D>
+SurfaceContact<D> filtered_contact(const View<D>& a, const View<D>& b, const PartContact<D>& own,
+                                   const Contact<D>& contact, const NeighbourSurfaces<D>& neighbours, double margin) {
+    SurfaceContact<D> result{contact, {}, {}};
+    const Part<D> part_a = single_part(a), part_b = single_part(b);
+    EdgeFilter<D> filter(a, b, neighbours);
+    const SurfaceNormalFlags flags =
+        filter.surface_normal_flags(part_a, part_b, own.distance, [&]() -> const Manifold<D>& { return own.manifold; });
+    if (flags) return result;
+    PartContact<D> replaced = own;
+    const bool is_replaced = filter.replace(part_a, part_b, flags, replaced);
+    if (replaced.distance.distance > margin) {
+        result.contact = {};
+        return result;
+    }
+    result.surface_normals = flags;
+    if (!is_replaced) return result;
+    const PairDistance<D> pair{replaced.distance, 0, 0};
+    name_features(part_a, part_b, pair.distance, 0, 0, result.contact);
+    SurfaceManifold<D> manifold;
+    manifold.begin(pair, surface_probe_scale * filter.size(), ManifoldNames::single_parts, margin);
+    manifold.add(manifold.area(part_a, part_b, 0, 0));
+    if (!manifold.empty()) {
+        result.own_area = result.contact;
+        manifold.write(result.own_area);
+    }
+    manifold.add_deepest(pair);
+    manifold.write(result.contact);
+    return result;
+}
+
+template <int D>
 bool each_surface_contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& options,
                           const NeighbourSurfaces<D>& neighbours, FunctionRef<bool(const SurfaceContact<D>&)> visit) {
     if (std::holds_alternative<Composite<D>>(a) || std::holds_alternative<Composite<D>>(b))
-        return SurfaceContacts<D>(a, b, options, neighbours).report(visit);
+        return SurfaceContacts<D>(a, b, options, neighbours)
+            .report(neighbours.of_a != nullptr || neighbours.of_b != nullptr, visit);
     return report_single(a, b, options, neighbours, visit);
 }
 
 template <int D>
-bool whole_contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& options, const PairDistance<D>& deepest,
+bool whole_contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& options, const DeepestParts<D>& deepest,
                    Contact<D>& result) {
-    return SurfaceContacts<D>(a, b, options, {}).report_plane_of(deepest, result);
+    return SurfaceContacts<D>(a, b, options, {})
+        .report_plane_of({deepest.contact.distance, deepest.index_a, deepest.index_b}, result);
 }
 
 #define ABUT_INSTANTIATE(D)                                                                                       \
     template bool each_surface_contact(const View<D>&, const View<D>&, const QueryOptions<D>&,                    \
                                        const NeighbourSurfaces<D>&, FunctionRef<bool(const SurfaceContact<D>&)>); \
-    template bool whole_contact(const View<D>&, const View<D>&, const QueryOptions<D>&, const PairDistance<D>&,   \
+    template SurfaceContact<D> filtered_contact(const View<D>&, const View<D>&, const PartContact<D>&,            \
+                                                const Contact<D>&, const NeighbourSurfaces<D>&, double);          \
+    template bool whole_contact(const View<D>&, const View<D>&, const QueryOptions<D>&, const DeepestParts<D>&,   \
                                 Contact<D>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

@@ -26,10 +26,33 @@ template <int D>
 bool each_surface_contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& options,
                           const NeighbourSurfaces<D>& neighbours, FunctionRef<bool(const SurfaceContact<D>&)> visit);
 
+/// Filters the contact of two shapes of one part each that touch. `own` and `contact` are that contact without
+/// neighbours.
+template <int D>
+SurfaceContact<D> filtered_contact(const View<D>& a, const View<D>& b, const PartContact<D>& own,
+                                   const Contact<D>& contact, const NeighbourSurfaces<D>& neighbours,
+                                   double margin = 0);
+
+/// The deepest contact of two parts of two shapes.
+template <int D>
+struct DeepestParts {
+    std::uint32_t index_a = 0, index_b = 0;
+    PartContact<D> contact;
+
+    /// Written out: clearing all of it first is slow.
+    DeepestParts() {}
+};
+
+/// Finds the deepest parts; of composite shapes without the manifold. For two convex shapes it writes their contact
+/// too. Returns false, and leaves `contact`, if the shapes don't touch.
+template <int D>
+bool find_deepest_parts(const View<D>& a, const View<D>& b, const QueryOptions<D>& options, DeepestParts<D>& deepest,
+                        Contact<D>& contact);
+
 /// Writes the contact on the plane of two parts that touch, the deepest such pair. Returns false, and writes nothing,
 /// if that contact is on an internal edge.
 template <int D>
-bool whole_contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& options, const PairDistance<D>& deepest,
+bool whole_contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& options, const DeepestParts<D>& deepest,
                    Contact<D>& result);
 
 }  // namespace abut::detail

@@ -107,6 +107,38 @@ bool is_nearest_part(const Part<D>& part, const SurfacePlace<D>& place, const DV
     return !covered && (!is_uncertain || is_face(part, place, probe, own));
 }
 
+/// For a box, with a ball around it.
+template <int D>
+bool find_closest_point_on_box(const Convex<D>& box, const DVec<D>& point, double within, ClosestPoint<D>& closest) {
+    const double scale = box.scale, reach = within + box.radius;
+    const DVec<D> local = box.place.transposed(point - box.place.offset) / (scale * scale), half(box.own[0]);
+    DVec<D> on_box = local;
+    double inner_gap = -std::numeric_limits<double>::infinity();
+    int axis = 0;
+    for (int i = 0; i < D; ++i) {
+        const double gap = std::abs(local[i]) - half[i];
+        if (gap * scale > reach) return false;
+        if (gap > 0) on_box[i] = std::copysign(half[i], local[i]);
+        if (gap > inner_gap) {
+            inner_gap = gap;
+            axis = i;
+        }
+    }
+    if (inner_gap <= 0) on_box[axis] = std::copysign(half[axis], local[axis]);
+    const DVec<D> on_core = box.place.point(on_box);
+    closest.distance = inner_gap > 0 ? length(point - on_core) : inner_gap * scale;
+    closest.distance -= box.radius;
+    closest.point = on_core;
+    closest.behind = 0;
+    if (!(closest.distance <= within)) return false;
+    if (box.radius > 0) {
+        const DVec<D> local_out =
+            inner_gap > 0 ? local - on_box : detail::axis<D>(axis, std::copysign(1.0, local[axis]));
+        closest.point += normalized(box.place.vector(local_out)) * box.radius;
+    }
+    return true;
+}
+
 /// Orders equally near points, so that the order of the visits has no influence.
 template <int D>
 bool is_before(const DVec<D>& a, const DVec<D>& b) {
@@ -119,6 +151,7 @@ bool is_before(const DVec<D>& a, const DVec<D>& b) {
 
 template <int D>
 bool find_closest_point(const Convex<D>& part, const DVec<D>& point, double within, ClosestPoint<D>& closest) {
+    if (is_plain_box(part)) return find_closest_point_on_box(part, point, within, closest);
     if constexpr (D == 3) {
         if (is_round_points(part, 3)) {
             const TriangleClosest answer =
@@ -230,7 +263,7 @@ std::optional<SurfacePlane<D>> surface_plane(const Part<D>& part, const SurfaceP
         return plane;
     const double within = 1.001 * distance;
     if (!std::isfinite(nearest.closest.distance) && within > nearest.within) {
-        nearest.closest = nearest_surface_point(each_closest_point, place.center, within, place.scale, clear);
+        nearest.closest = nearest_surface_point(each_closest_point, place.center, within, place.scale, 0);
         nearest.within = within;
     }
     return plane_at(place.center, nearest.closest.distance <= within ? nearest.closest : ClosestPoint<D>());

@@ -24,6 +24,9 @@ namespace abut::detail {
 /// s, as a fraction of the size of the other shape.
 inline constexpr double surface_probe_scale = 1e-3;
 
+/// A contact point counts as one of the deepest if it is shallower by at most this fraction of s.
+inline constexpr double deepest_tolerance = 1e-2;
+
 /// The point of a part nearest to a query point.
 template <int D>
 struct ClosestPoint {

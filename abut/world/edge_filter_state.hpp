@@ -1,0 +1,69 @@
+#pragma once
+
+// The memory of a world's filter of internal edges during an update. For .cpp files.
+
+#include <abut/query/detail/surface/surface_contacts.hpp>
+#include <abut/world/compressed_lists.hpp>
+#include <abut/world/view_cache.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace abut::detail {
+
+template <int D>
+struct EdgeFilterState {
+    /// An item that pairs with another item and whose AABB overlaps its AABB.
+    struct Neighbour {
+        Aabb<D> box;
+        std::uint32_t slot;
+    };
+    /// A contact that the filter hasn't seen yet.
+    struct NewContact {
+        std::uint32_t place;  ///< in World::found_
+        DeepestParts<D> deepest;
+
+        explicit NewContact(std::size_t found) : place(static_cast<std::uint32_t>(found)) {}
+    };
+    /// What is known of the surface around the centre of an item.
+    struct Center {
+        NearestToCenter<D> nearest;
+        bool is_tested = false;   ///< for neighbours that contain it
+        bool is_covered = false;  ///< by a neighbour
+    };
+    static constexpr std::uint32_t none = 0xFFFFFFFF;
+
+    std::vector<NewContact> new_contacts;
+    std::vector<std::uint32_t>
+        list_of_slot;  ///< index in centers and neighbours; none for an item without new contacts
+    std::vector<Center> centers;
+    CompressedLists<Neighbour> neighbours;
+    std::vector<char> has_ghost;                   ///< by slot
+    CompressedLists<std::uint32_t> found_by_slot;  ///< indices in World::found_, in an update with substitute normals
+    ViewCache<D> views;
+    std::vector<char> neighbour_changed;  ///< by slot: an item near it has changed since the last update
+    bool neighbour_changed_is_known = false;
+
+    std::span<const Neighbour> neighbours_of(std::uint32_t slot) const { return neighbours.of(list_of_slot[slot]); }
+    Center& center_of(std::uint32_t slot) { return centers[list_of_slot[slot]]; }
+
+    void begin_update() {
+        new_contacts.clear();
+        views.clear();
+        neighbour_changed_is_known = false;
+    }
+    /// Reserves memory for the worst case of a scene of this size: all its contacts are new, or ghosts, or rest.
+    void reserve(std::size_t items, std::size_t near_pairs, std::size_t contacts) {
+        new_contacts.reserve(contacts);
+        list_of_slot.reserve(items);
+        centers.reserve(std::min(items, 2 * contacts));
+        neighbours.reserve(std::min(items, 2 * contacts), contacts > 0 ? 2 * near_pairs : 0);
+        has_ghost.reserve(items);
+        found_by_slot.reserve(items, 2 * contacts);
+        neighbour_changed.reserve(items);
+    }
+};
+
+}  // namespace abut::detail
