@@ -32,8 +32,9 @@ void add_options(CLI::App& verb, FileOptions& options, bool can_be_strict) {
         verb.add_flag("--strict", options.strict,
                       "Reject a file with a triangle of zero area; by default such triangles are left "
                       "out and counted");
-    // Accepted for scripts of earlier versions: it is the default now.
-    verb.add_flag("--skip-degenerate")->group("")->excludes(strict);
+    // Accepted for scripts of earlier versions: it is the default now. --help names it nowhere.
+    CLI::Option* skip = verb.add_flag("--skip-degenerate")->group("")->excludes(strict);
+    strict->remove_excludes(skip);
 }
 
 // Arguments of `abut check`; numbers and patterns are still text.
@@ -62,7 +63,7 @@ void add_options(CLI::App& verb, CheckArguments& arguments) {
         ->allow_extra_args(false);
     verb.add_option("--spawn", arguments.request.faults.spawns,
                     "Spawn points: nodes or points by path, name or class, with * and ?. Default: those "
-                    "with 'spawn' or 'player_start' in their name or class, in any case")
+                    "with 'spawn', 'player_start', 'playerstart' or 'player start' in their name or class, in any case")
         ->type_name("PATTERN")
         ->allow_extra_args(false);
     verb.add_option("--character", arguments.character,
@@ -136,7 +137,7 @@ void add_options(CLI::App& verb, HullArguments& arguments) {
     verb.add_flag("--each", arguments.request.each, "One hull per object, instead of one for all of them");
     verb.add_flag("--json", arguments.request.json, "Print one JSON object instead of text");
     add_options(verb, arguments.request.files, false);
-    verb.footer("Objects are placed as at the first time of the animation.");
+    verb.footer("Objects are placed as at the first moment of the animation.");
 }
 
 // Arguments of `abut decompose`; numbers are still text.
@@ -162,7 +163,8 @@ void add_options(CLI::App& verb, DecomposeArguments& arguments) {
     verb.add_flag("--json", arguments.request.json, "Print one JSON object instead of text");
     add_options(verb, arguments.request.files, false);
     verb.footer(
-        "All objects are merged, placed as at the first time, and repaired: coincident points are welded, "
+        "All objects are merged, placed as at the first moment of the animation, and repaired: coincident points are "
+        "welded, "
         "triangles are oriented consistently, small holes are filled.");
 }
 
@@ -200,7 +202,8 @@ void add_options(CLI::App& verb, FieldArguments& arguments) {
     verb.add_flag("--json", request.json, "Print one JSON object instead of text");
     add_options(verb, request.files, false);
     verb.footer(
-        "All objects are merged, placed as at the first time. The winding number of the surface decides between inside "
+        "All objects are merged, placed as at the first moment of the animation. The winding number of the surface "
+        "decides between inside "
         "and outside. Exits with 1 if the surface has gaps or the sign of over 0.1 % of the samples is uncertain; "
         "the field is written in any case.");
 }
@@ -230,7 +233,8 @@ void add_options(CLI::App& verb, WalkArguments& arguments) {
     verb.add_flag("--json", request.json, "Print one JSON object instead of text");
     add_options(verb, request.files, false);
     verb.footer(
-        "The triangles are a walkable surface, placed as at the first time; any direction may be up. "
+        "The triangles are a walkable surface, placed as at the first moment of the animation; any direction may be "
+        "up. "
         "Exits with 1 if no path leads from --from to --to, or one of them is out of reach.");
 }
 
@@ -315,8 +319,8 @@ Result<ExitCode> run_walk(WalkArguments& arguments) {
 
 int run(int count, char** arguments) {
     CLI::App app(
-        "Collision checks for scenes and levels: which objects touch, where, how deep and when; convex decomposition, "
-        "signed distance fields and paths over meshes.",
+        "Checks scenes and levels for collisions: which objects touch, where, how deep and when. Makes convex parts, "
+        "signed distance fields and walk meshes from meshes.",
         "abut");
     app.set_version_flag("--version", "abut " ABUT_VERSION);
     app.require_subcommand(1);
@@ -324,26 +328,28 @@ int run(int count, char** arguments) {
 
     CheckArguments check;
     CLI::App& check_verb = *app.add_subcommand(
-        "check", "Which objects of a scene or a level touch, where, how deep and when, and other faults of the level");
+        "check",
+        "Reports which objects of a scene or a level touch, where, how deep and when, and other faults of the level");
     add_options(check_verb, check);
     CastArguments cast;
-    CLI::App& cast_verb = *app.add_subcommand("cast", "The objects that a ray hits, with or without reflections");
+    CLI::App& cast_verb =
+        *app.add_subcommand("cast", "Reports the objects that a ray hits, with or without reflections");
     add_options(cast_verb, cast);
     HullArguments hull;
-    CLI::App& hull_verb = *app.add_subcommand("hull", "The convex hull of a mesh");
+    CLI::App& hull_verb = *app.add_subcommand("hull", "Writes the convex hull of a mesh");
     add_options(hull_verb, hull);
     DecomposeArguments decompose;
-    CLI::App& decompose_verb = *app.add_subcommand("decompose", "An approximate convex decomposition of a mesh");
+    CLI::App& decompose_verb = *app.add_subcommand("decompose", "Writes an approximate convex decomposition of a mesh");
     add_options(decompose_verb, decompose);
     FieldArguments field;
-    CLI::App& field_verb = *app.add_subcommand("field", "The signed distance field of a mesh or a level");
+    CLI::App& field_verb = *app.add_subcommand("field", "Bakes the signed distance field of a mesh or a level");
     add_options(field_verb, field);
     WalkArguments walk;
-    CLI::App& walk_verb = *app.add_subcommand(
-        "walk", "A mesh as a walkable surface: its connected components, its boundary, and paths over it");
+    CLI::App& walk_verb =
+        *app.add_subcommand("walk", "Checks a walk mesh: its connected components, its border, and paths over it");
     add_options(walk_verb, walk);
     InfoRequest info;
-    CLI::App& info_verb = *app.add_subcommand("info", "The contents of a scene, a level, a field or a walk mesh");
+    CLI::App& info_verb = *app.add_subcommand("info", "Lists the contents of a scene, a level, a field or a walk mesh");
     add_options(info_verb, info);
 
     try {

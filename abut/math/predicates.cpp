@@ -1,3 +1,5 @@
+// Exact predicates: double decides nearly always, and expansions of doubles decide where an error bound leaves it open.
+//
 // Error bounds use u = 2^-53, the relative rounding error of a double operation. Nothing underflows or overflows: a
 // float is a multiple of 2^-149 below 2^128, so products of three are multiples of 2^-447 below 2^384, and products of
 // differences are below 2^387.

@@ -1,3 +1,5 @@
+// The kinematic character controller: it moves a shape through a world by move and slide, without forces.
+
 #include <abut/math/simd/library_entry.hpp>
 #include <abut/motion/mover.hpp>
 #include <abut/motion/mover/move_and_slide.hpp>

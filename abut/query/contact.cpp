@@ -1,3 +1,6 @@
+// Contacts of two shapes, as a manifold. `QueryOptions::margin` is a speculative margin: surfaces up to that far
+// apart have contact points too, with a negative depth.
+
 #include <abut/query/contact.hpp>
 #include <abut/query/detail/closed_form/closed_form.hpp>
 #include <abut/query/detail/one_sided.hpp>

@@ -1,3 +1,6 @@
+// Continuous collision detection of two shapes: the time of impact of a motion in a straight line (a shape cast, or
+// convex cast) or with rotation.
+
 #include <abut/query/detail/closed_form/closed_form.hpp>
 #include <abut/query/detail/surface/hit_normal.hpp>
 #include <abut/query/detail/sweep/linear.hpp>

@@ -1,3 +1,5 @@
+// The walk mesh (navigation mesh): its places, its normals and its report.
+
 #include <abut/math/assert.hpp>
 #include <abut/math/simd/library_entry.hpp>
 #include <abut/walk/data.hpp>

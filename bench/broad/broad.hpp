@@ -34,6 +34,8 @@ std::vector<Bench> box_query_benches();
 std::vector<Bench> thread_benches();
 std::vector<Bench> temporal_benches();
 std::vector<Bench> world_benches();
+/// The cost of the filter of internal edges.
+std::vector<Bench> world_edge_benches();
 /// The cost of changes to a World, and of queries after them.
 std::vector<Bench> world_change_benches();
 /// The cost of changes to a World with a query after each.

@@ -53,13 +53,14 @@ struct WorldFrames {
     std::size_t count = 0;
     Shapes shapes = Shapes::mixed;
     std::size_t rays = 0;  ///< each 20 mean edges long
+    bool filter_edges = true;
 };
 
 /// Counts touching pairs, with all contacts, and ray hits.
 Side world_update(std::string who, const WorldFrames& frames, std::optional<BroadPhaseKind> broad_phase = {}) {
     struct State {
         State(const WorldFrames& f, std::optional<BroadPhaseKind> kind)
-            : scene(f.count, f.shapes), world({.broad_phase = kind}) {
+            : scene(f.count, f.shapes), world({.broad_phase = kind, .filter_edges = f.filter_edges}) {
             for (std::size_t i = 0; i < f.count; ++i)
                 ids.push_back(std::visit([&](const auto& s) { return world.add(s, {.pose = scene.pose(i)}); },
                                          scene.items[i].shape));
@@ -125,7 +126,9 @@ Job world(std::size_t count) {
             .rounds = 8,
             .frames = 10,
             .tolerance = 1,  // touching is decided to within the tolerance
-            .sides = {world_update("abut", {.count = count}), overlaps_without_world(count)}};
+            .sides = {world_update("abut", {.count = count}),
+                      world_update("abut without filter", {.count = count, .filter_edges = false}),
+                      overlaps_without_world(count)}};
 }
 
 /// With the broad phase that the World chooses, and with each alternative.

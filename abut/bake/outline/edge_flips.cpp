@@ -1,3 +1,6 @@
+// Flips of edges to the shorter diagonal. Delaunay flips would maximise the smallest angle; short edges are enough
+// here, and need no exact circle test.
+
 #include <abut/bake/outline/triangulate.hpp>
 #include <abut/math/dvec.hpp>
 #include <abut/math/predicates.hpp>

@@ -1,3 +1,6 @@
+// The functions of the uniform grid. Its cells are an array over a bounded region, so it needs no spatial hash;
+// LayeredGrid has one.
+
 #include <abut/broad_phase/boxes.hpp>
 #include <abut/broad_phase/concept.hpp>
 #include <abut/broad_phase/detail/pair_buffer.hpp>

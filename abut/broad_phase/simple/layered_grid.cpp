@@ -1,3 +1,5 @@
+// The hierarchical hash grid. All levels share one spatial hash, whose buckets are slices of a sorted array.
+
 #include <abut/broad_phase/boxes.hpp>
 #include <abut/broad_phase/concept.hpp>
 #include <abut/broad_phase/detail/pair_buffer.hpp>

@@ -1,3 +1,5 @@
+// Sweep and prune along one axis, in columns along the others.
+
 #include <abut/broad_phase/boxes.hpp>
 #include <abut/broad_phase/concept.hpp>
 #include <abut/broad_phase/detail/box_overlaps.hpp>

@@ -88,6 +88,9 @@ enum class TriangleClosest : std::uint8_t { found, beyond, unknown };
 TriangleClosest closest_point_on_triangle(const Convex<3>& triangle, const DVec<3>& point, double within,
                                           double& distance, DVec<3>& closest);
 
+/// Whether one face of a polyhedron with facets proves that a point is farther from it than `within`.
+bool is_beyond_a_face(const Convex<3>& hull, const DVec<3>& point, double within);
+
 /// Gives a result if the point is inside the polyhedron.
 bool hull_point(const Convex<3>& hull, const Convex<3>& point, SignedDistance<3>& result);
 

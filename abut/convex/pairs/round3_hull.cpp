@@ -1,4 +1,4 @@
-// A point inside a polyhedron.
+// A point and a polyhedron: inside it, or certainly far from it.
 
 #include <abut/convex/farthest_point.hpp>
 #include <abut/convex/pairs/round3.hpp>
@@ -20,11 +20,26 @@ double offset_of(const Convex<3>& hull, std::uint32_t face, const DVec<3>& norma
     return 0.5 * (low + high);
 }
 
+DVec<3> seen_from(const Convex<3>& hull, const DVec<3>& point) {
+    return hull.place.transposed(point - hull.place.offset) * (1 / (hull.scale * hull.scale));
+}
+
 }  // namespace
 
+bool is_beyond_a_face(const Convex<3>& hull, const DVec<3>& point, double within) {
+    // The lengths of the normals, and the products, are off by less.
+    constexpr double rounding = 1e-6;
+    const Facets& facets = *hull.facets;
+    if (facets.offsets.empty()) return false;
+    const DVec<3> seen = seen_from(hull, point);
+    const std::uint32_t likely = farthest_point(facets.normals, seen);
+    const double along = dot(DVec<3>(facets.normals[likely]), seen), offset = facets.offsets[likely];
+    const double gap = along - offset - rounding * (std::abs(along) + std::abs(offset));
+    return gap * hull.scale - hull.radius > within;
+}
+
 bool hull_point(const Convex<3>& hull, const Convex<3>& point, SignedDistance<3>& result) {
-    const DVec<3> seen =
-        hull.place.transposed(core_corner(point, 0) - hull.place.offset) * (1 / (hull.scale * hull.scale));
+    const DVec<3> seen = seen_from(hull, core_corner(point, 0));
     const Facets& facets = *hull.facets;
     const auto corner = [&](std::uint32_t i) { return DVec<3>(hull.vertices()[facets.loops[i]]); };
     // For most points outside one face decides.

@@ -1,3 +1,6 @@
+// The narrow phase: the path of each pair of convex parts, by the kinds of their cores. A path that can't prove its
+// answer returns none, and GJK and EPA answer.
+
 #include <abut/convex/manifold/round_manifold.hpp>
 #include <abut/convex/pairs/box3.hpp>
 #include <abut/convex/pairs/box_triangle.hpp>

@@ -153,6 +153,7 @@ template <int D>
 bool find_closest_point(const Convex<D>& part, const DVec<D>& point, double within, ClosestPoint<D>& closest) {
     if (is_plain_box(part)) return find_closest_point_on_box(part, point, within, closest);
     if constexpr (D == 3) {
+        if (is_plain_hull(part) && is_beyond_a_face(part, point, within)) return false;
         if (is_round_points(part, 3)) {
             const TriangleClosest answer =
                 closest_point_on_triangle(part, point, within, closest.distance, closest.point);
