@@ -9,6 +9,8 @@
 #include <abut/query/detail/valid_query.hpp>
 #include <abut/query/detail/write_answer.hpp>
 
+#include <utility>
+
 namespace abut {
 
 using namespace detail;
@@ -103,10 +105,11 @@ bool find_deepest_parts(const View<D>& a, const View<D>& b, const QueryOptions<D
             PartContact<D> found;
             if (!part_distance_within<D>(part_a, part_b, limit, limit, search, found)) return true;
             if (!touch_at_fronts(part_a, part_b, found.distance.normal)) return true;
-            const PairDistance<D> pair{found.distance, index_a, index_b};
-            if (touch && !comes_before(pair, first)) return true;
+            // Among equally deep pairs the lowest wins, whatever the order of the visits.
+            const bool is_lower = std::pair(index_a, index_b) < std::pair(first.index_a, first.index_b);
+            if (touch && found.distance.distance == limit && !is_lower) return true;
             touch = true;
-            first = pair;
+            first = {found.distance, index_a, index_b};
             limit = found.distance.distance;
             return true;
         });

@@ -327,12 +327,13 @@ void World<D>::report_contacts() {
         if (found.surface_normal || !found.result.contact) continue;
         found.reported = (found.surface_normal.a || !is_covered(found, found.result.a)) &&
                          (found.surface_normal.b || !is_covered(found, found.result.b));
-        if (found.reported || !found.own_area) continue;
-        found.result.contact = found.own_area;
-        found.reported = true;
     }
-    for (const FoundContact& found : found_)
-        if (found.reported) contacts_.push_back(found.result);
+    for (const FoundContact& found : found_) {
+        if (found.reported)
+            contacts_.push_back(found.result);
+        else if (found.own_area)
+            contacts_.push_back({found.result.a, found.result.b, found.own_area});
+    }
 }
 
 template class World<2>;

@@ -270,7 +270,7 @@ private:
         std::vector<bool> reported;
         for (const FoundContact& found : found_) reported.push_back(static_cast<bool>(found.surface_normal));
         for (std::size_t i = 0; i < found_.size(); ++i) {
-            FoundContact& ghost = found_[i];
+            const FoundContact& ghost = found_[i];
             if (ghost.surface_normal) continue;
             reported[i] = true;
             const double size = std::min(abut::detail::size(items_.at(ghost.result.a).view()),
@@ -292,12 +292,13 @@ private:
                 }
             }
             covered += reported[i] ? 0 : 1;
-            if (reported[i] || !ghost.own_area) continue;
-            ghost.result.contact = ghost.own_area;
-            reported[i] = true;
         }
         for (std::size_t i = 0; i < found_.size(); ++i) {
-            if (reported[i]) contacts.push_back(found_[i].result);
+            const WorldContact<D>& result = found_[i].result;
+            if (reported[i])
+                contacts.push_back(result);
+            else if (found_[i].own_area)
+                contacts.push_back({result.a, result.b, found_[i].own_area});
             ghosts += found_[i].surface_normal ? 0 : 1;
         }
     }

@@ -123,6 +123,7 @@ private:
         SurfaceNormalFlags flags;
         bool has_flags = false;
         bool is_replaced = false;  ///< by the plane of the surface
+        DVec<D> area_normal{0.0};  ///< of a replaced one, along a face
         Role role = Role::joined;
         std::uint32_t plane = 0;  ///< index of the plane that it is joined to
     };
@@ -247,7 +248,8 @@ private:
     bool report_planes(std::size_t first, Visit visit) {
         for (; first < plane_count_; first += max_manifolds) {
             const std::size_t count = std::min(plane_count_ - first, max_manifolds);
-            for (std::size_t i = 0; i < count; ++i) manifolds_[i].begin(deepest_on(first + i), step(), names_, margin_);
+            for (std::size_t i = 0; i < count; ++i)
+                manifolds_[i].begin(area_pair(deepest_on(first + i)), step(), names_, margin_);
             pairs_.each(
                 [&](const Part<D>& part_a, std::uint32_t index_a, const Part<D>& part_b, std::uint32_t index_b) {
                     add_to_manifolds(part_a, index_a, part_b, index_b, first, count);
@@ -288,19 +290,26 @@ private:
         }
     }
 
+    static PairDistance<D> area_pair(const Pair& deepest) {
+        PairDistance<D> result = deepest;
+        if (deepest.is_replaced) result.distance.normal = deepest.area_normal;
+        return result;
+    }
+
     bool report_plane(const Pair& deepest, const Features& features, SurfaceManifold<D>& manifold, Visit visit) {
         SurfaceContact<D> found;
         found.surface_normals = deepest.flags;
         found.contact.feature_a = features.feature_a;
         found.contact.feature_b = features.feature_b;
         if (!deepest.flags) {
-            if (deepest.is_replaced && !manifold.empty()) {
+            if (deepest.is_replaced && manifold.has_extent()) {
                 found.own_area = found.contact;
                 manifold.write(found.own_area);
             }
             manifold.add_deepest(deepest);
         }
         manifold.write(found.contact);
+        found.contact.normal = to_float(deepest.distance.normal);
         return visit(found);
     }
 
@@ -311,6 +320,7 @@ private:
             PartContact<D> contact{pair->distance, {}};
             pair->is_replaced = filter_.replace(part_a, part_b, pair->flags, contact);
             pair->distance = contact.distance;
+            pair->area_normal = face_normal(part_a, part_b, pair->flags, pair->distance.normal);
             if (pair->distance.distance > margin_) pair->role = Role::dropped;
             return true;
         });
@@ -386,14 +396,17 @@ SurfaceContact<D> filtered_contact(const View<D>& a, const View<D>& b, const Par
     const PairDistance<D> pair{replaced.distance, 0, 0};
     name_features(part_a, part_b, pair.distance, 0, 0, result.contact);
     SurfaceManifold<D> manifold;
-    manifold.begin(pair, surface_probe_scale * filter.size(), ManifoldNames::single_parts, margin);
+    PairDistance<D> along_face = pair;
+    along_face.distance.normal = face_normal(part_a, part_b, flags, pair.distance.normal);
+    manifold.begin(along_face, surface_probe_scale * filter.size(), ManifoldNames::single_parts, margin);
     manifold.add(manifold.area(part_a, part_b, 0, 0));
-    if (!manifold.empty()) {
+    if (manifold.has_extent()) {
         result.own_area = result.contact;
         manifold.write(result.own_area);
     }
     manifold.add_deepest(pair);
     manifold.write(result.contact);
+    result.contact.normal = to_float(pair.distance.normal);
     return result;
 }
 

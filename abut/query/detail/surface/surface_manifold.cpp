@@ -8,6 +8,9 @@ namespace {
 /// The largest angle between the normals of one plane, and its cosine.
 constexpr double max_plane_angle = 5e-3, min_plane_cosine = 1 - 0.5 * max_plane_angle * max_plane_angle;
 
+/// An area shorter than this fraction of the smaller shape's size is a sliver.
+constexpr double min_extent = 1e-2;
+
 /// A number for a feature of a pair of parts: equal for equal arguments, and by all odds different for others.
 std::uint32_t feature_hash(std::uint32_t kind, std::uint32_t part, std::uint32_t other_part, std::uint32_t name) {
     std::uint64_t hash = 0;
@@ -106,6 +109,22 @@ bool ContactPlane<D>::has(const DVec<D>& point_a, const DVec<D>& point_b) const 
 }
 
 template <int D>
+DVec<D> face_normal(const Part<D>& part_a, const Part<D>& part_b, const SurfaceNormalFlags& flags,
+                    const DVec<D>& normal) {
+    const auto of = [&](const Part<D>& part, const DVec<D>& out) -> std::optional<DVec<D>> {
+        if (!part.is_convex()) return std::nullopt;
+        const Face<D> face = face_along(part.convex(), out);
+        if (!face.flat() || dot(face.normal, out) < aligned) return std::nullopt;
+        return face.normal;
+    };
+    if (!flags.a)
+        if (const auto of_b = of(part_b, -normal)) return -*of_b;
+    if (!flags.b)
+        if (const auto of_a = of(part_a, normal)) return *of_a;
+    return normal;
+}
+
+template <int D>
 void ExtremePoints<D>::add(const ManifoldPoint<D>& point, const DVec<D>& normal) {
     const std::array<double, directions> along = along_directions(point.position, normal);
     const bool is_first = count_++ == 0;
@@ -135,6 +154,20 @@ ManifoldCandidates<D> ExtremePoints<D>::distinct(double tolerance) const {
     });
     if (is_deeper) result.push_back(deepest_);
     return result;
+}
+
+template <int D>
+double ExtremePoints<D>::extent() const {
+    double result = 0;
+    if (count_ == 0) return result;
+    for (const ManifoldPoint<D>& a : extreme_)
+        for (const ManifoldPoint<D>& b : extreme_) result = std::max(result, length_squared(a.position - b.position));
+    return std::sqrt(result);
+}
+
+template <int D>
+bool SurfaceManifold<D>::has_extent() const {
+    return points_.extent() > min_extent / surface_probe_scale * plane_.step;
 }
 
 template <int D>
@@ -224,9 +257,10 @@ void SurfaceManifold<D>::write(Contact<D>& contact) const {
     contact.depth = static_cast<float>(depth);
 }
 
-#define ABUT_INSTANTIATE(D)                                                     \
-    template bool comes_before(const PairDistance<D>&, const PairDistance<D>&); \
-    template struct ContactPlane<D>;                                            \
+#define ABUT_INSTANTIATE(D)                                                                                  \
+    template bool comes_before(const PairDistance<D>&, const PairDistance<D>&);                              \
+    template DVec<D> face_normal(const Part<D>&, const Part<D>&, const SurfaceNormalFlags&, const DVec<D>&); \
+    template struct ContactPlane<D>;                                                                         \
     template class SurfaceManifold<D>;
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

@@ -5,6 +5,7 @@
 
 #include <abut/query/contact.hpp>
 #include <abut/query/detail/surface/surface_normal.hpp>
+#include <abut/query/detail/surface/surface_normal_flags.hpp>
 
 namespace abut::detail {
 
@@ -41,16 +42,24 @@ struct ContactPlane {
     bool has(const DVec<D>& point_a, const DVec<D>& point_b) const;
 };
 
+/// The normal of the contact's surface that a part has as a face there: B's, if its surface doesn't have the normal of
+/// the parts' contact, or A's. If it has no such face, the contact's normal. Rounding tilts a plane between two parts,
+/// but not their faces.
+template <int D>
+DVec<D> face_normal(const Part<D>& part_a, const Part<D>& part_b, const SurfaceNormalFlags& flags,
+                    const DVec<D>& normal);
+
 /// Of any number of points, those that are extreme along fixed directions, and the deepest: the corners of their area,
 /// or in 3D points that span all but 2 % of it. The order in which they are added has no influence.
 template <int D>
 class ExtremePoints {
 public:
     void clear() { count_ = 0; }
-    bool empty() const { return count_ == 0; }
     void add(const ManifoldPoint<D>& point, const DVec<D>& normal);
     /// The points, without those that others are equal to within `tolerance`.
     ManifoldCandidates<D> distinct(double tolerance) const;
+    /// The largest distance between two of the points.
+    double extent() const;
 
 private:
     static constexpr std::size_t directions = D == 2 ? 2 : 16;
@@ -84,7 +93,8 @@ public:
     /// Adds the deepest point of a contact.
     void add_deepest(const PairDistance<D>& pair);
 
-    bool empty() const { return points_.empty(); }
+    /// Whether the points are farther apart than a sliver, whose support matters to nothing.
+    bool has_extent() const;
     /// Writes the normal, the depth of the deepest point, and the points; the features are left as they are.
     void write(Contact<D>& contact) const;
 
