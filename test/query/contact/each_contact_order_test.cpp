@@ -93,7 +93,7 @@ TEST(EachContactOrder, OfTrianglesDoesNotMatter) {
         const auto expected = contacts_of<3>(view(box), view(one));
         EXPECT_EQ(contacts_of<3>(view(box), view(other)), expected);
         several += expected.size() > 3 ? 1 : 0;
-        many += expected.size() > 12 ? 1 : 0;
+        many += expected.size() > 8 ? 1 : 0;
     }
     EXPECT_GT(several, 80);
     EXPECT_GT(many, 5);

@@ -8,6 +8,14 @@
 namespace abut::detail {
 namespace {
 
+/// A pair of parts among all that are visited. Parts of one child of a compound shape share an index.
+struct PairPlace {
+    std::uint32_t index_a = 0, index_b = 0;
+    std::uint32_t number = 0;  ///< of the visit, the same in each pass
+
+    friend bool operator==(const PairPlace&, const PairPlace&) = default;
+};
+
 /// The pairs of parts of two shapes, found once for several passes if one shape is composite, with few parts near, and
 /// the other convex.
 template <int D>
@@ -27,16 +35,27 @@ public:
     /// The parts of the composite shape; null if they aren't cached.
     const PartCache<D>* cache() const { return is_cached_ ? &parts_ : nullptr; }
 
-    /// visit(part_a, index_a, part_b, index_b) for at least all pairs that are at most the margin apart; false stops.
+    /// visit(part_a, part_b, place) for at least all pairs that are at most the margin apart; false stops.
     template <class Visit>
     void each(const Visit& visit) const {
-        if (!is_cached_) return for_each_part_pair(a_, b_, margin_, visit);
+        PairPlace place;
+        if (!is_cached_) {
+            for_each_part_pair(
+                a_, b_, margin_,
+                [&](const Part<D>& part_a, std::uint32_t index_a, const Part<D>& part_b, std::uint32_t index_b) {
+                    place.index_a = index_a;
+                    place.index_b = index_b;
+                    ++place.number;
+                    return visit(part_a, part_b, place);
+                });
+            return;
+        }
         for (std::uint32_t i = 0; i < parts_.size(); ++i) {
             if (!overlaps(parts_.box(i), box_)) continue;
             const Part<D> part(parts_.part(i)), other(*convex_);
-            const bool go_on =
-                a_is_composite_ ? visit(part, parts_.index(i), other, 0u) : visit(other, 0u, part, parts_.index(i));
-            if (!go_on) return;
+            (a_is_composite_ ? place.index_a : place.index_b) = parts_.index(i);
+            ++place.number;
+            if (!(a_is_composite_ ? visit(part, other, place) : visit(other, part, place))) return;
         }
     }
 
@@ -104,13 +123,18 @@ public:
 
     bool report_plane_of(const PairDistance<D>& deepest, Contact<D>& result) {
         bool is_surface = false;
-        pairs_.each([&](const Part<D>& part_a, std::uint32_t index_a, const Part<D>& part_b, std::uint32_t index_b) {
-            if (index_a != deepest.index_a || index_b != deepest.index_b) return true;
+        Pair first{deepest, {}, true};
+        pairs_.each([&](const Part<D>& part_a, const Part<D>& part_b, const PairPlace& place) {
+            SignedDistance<D> distance;
+            if (place.index_a != deepest.index_a || place.index_b != deepest.index_b ||
+                !touch(part_a, part_b, distance) || distance.distance != deepest.distance.distance)
+                return true;
+            first.place = place;
             is_surface = static_cast<bool>(flags_of(part_a, part_b, deepest.distance));
             return false;
         });
         if (!is_surface) return false;
-        report_only_plane_of({deepest, {}, true}, [&](const SurfaceContact<D>& found) {
+        report_only_plane_of(first, [&](const SurfaceContact<D>& found) {
             result = found.contact;
             return false;
         });
@@ -122,6 +146,7 @@ private:
     struct Pair : PairDistance<D> {
         SurfaceNormalFlags flags;
         bool has_flags = false;
+        PairPlace place{};
         bool is_replaced = false;  ///< by the plane of the surface
         DVec<D> area_normal{0.0};  ///< of a replaced one, along a face
         Role role = Role::joined;
@@ -156,11 +181,10 @@ private:
     std::span<const ContactPlane<D>> planes() const { return {planes_.data(), plane_count_}; }
     const Pair& deepest_on(std::size_t plane) const { return stored_[deepest_[plane - first_new_]]; }
 
-    Pair* find(std::uint32_t index_a, std::uint32_t index_b) {
-        const auto place = std::find_if(stored().begin(), stored().end(), [&](const Pair& pair) {
-            return pair.index_a == index_a && pair.index_b == index_b;
-        });
-        return place != stored().end() ? &*place : nullptr;
+    Pair* find(const PairPlace& place) {
+        const auto found =
+            std::find_if(stored().begin(), stored().end(), [&](const Pair& pair) { return pair.place == place; });
+        return found != stored().end() ? &*found : nullptr;
     }
     /// The index of the first plane that a contact is on; plane_count_ if there is none.
     std::size_t plane_of(const SignedDistance<D>& distance) const {
@@ -175,21 +199,22 @@ private:
         const PairDistance<D> last = last_;
         stored_count_ = 0;
         is_complete_ = true;
-        pairs_.each([&](const Part<D>& part_a, std::uint32_t index_a, const Part<D>& part_b, std::uint32_t index_b) {
+        pairs_.each([&](const Part<D>& part_a, const Part<D>& part_b, const PairPlace& place) {
             Pair pair;
             if (!touch(part_a, part_b, pair.distance)) return true;
-            pair.index_a = index_a;
-            pair.index_b = index_b;
+            pair.index_a = place.index_a;
+            pair.index_b = place.index_b;
+            pair.place = place;
             if (!is_first && !comes_before<D>(last, pair)) return true;
             is_complete_ = is_complete_ && stored_count_ < max_pairs;
-            const auto place = std::upper_bound(stored().begin(), stored().end(), pair, comes_before<D>);
-            if (place == stored().end() && stored_count_ == max_pairs) return true;
+            const auto after = std::upper_bound(stored().begin(), stored().end(), pair, comes_before<D>);
+            if (after == stored().end() && stored_count_ == max_pairs) return true;
             // Parts that aren't cached are there during the visit alone.
             if (pairs_.cache() == nullptr) {
                 pair.flags = flags_of(part_a, part_b, pair.distance);
                 pair.has_flags = true;
             }
-            const auto index = place - stored().begin();
+            const auto index = after - stored().begin();
             stored_count_ = std::min(stored_count_ + 1, max_pairs);
             std::move_backward(stored().begin() + index, stored().end() - 1, stored().end());
             stored()[static_cast<std::size_t>(index)] = pair;
@@ -214,8 +239,8 @@ private:
     const SurfaceNormalFlags& flags(Pair& pair) {
         if (pair.has_flags) return pair.flags;
         pair.has_flags = true;
-        pairs_.each([&](const Part<D>& part_a, std::uint32_t index_a, const Part<D>& part_b, std::uint32_t index_b) {
-            if (index_a != pair.index_a || index_b != pair.index_b) return true;
+        pairs_.each([&](const Part<D>& part_a, const Part<D>& part_b, const PairPlace& place) {
+            if (place != pair.place) return true;
             pair.flags = flags_of(part_a, part_b, pair.distance);
             return false;
         });
@@ -250,39 +275,38 @@ private:
             const std::size_t count = std::min(plane_count_ - first, max_manifolds);
             for (std::size_t i = 0; i < count; ++i)
                 manifolds_[i].begin(area_pair(deepest_on(first + i)), step(), names_, margin_);
-            pairs_.each(
-                [&](const Part<D>& part_a, std::uint32_t index_a, const Part<D>& part_b, std::uint32_t index_b) {
-                    add_to_manifolds(part_a, index_a, part_b, index_b, first, count);
-                    return true;
-                });
+            pairs_.each([&](const Part<D>& part_a, const Part<D>& part_b, const PairPlace& place) {
+                add_to_manifolds(part_a, part_b, place, first, count);
+                return true;
+            });
             for (std::size_t i = 0; i < count; ++i)
                 if (!report_plane(deepest_on(first + i), features_[i], manifolds_[i], visit)) return false;
         }
         return true;
     }
 
-    void add_to_manifolds(const Part<D>& part_a, std::uint32_t index_a, const Part<D>& part_b, std::uint32_t index_b,
-                          std::size_t first, std::size_t count) {
-        Pair* pair = find(index_a, index_b);
+    void add_to_manifolds(const Part<D>& part_a, const Part<D>& part_b, const PairPlace& place, std::size_t first,
+                          std::size_t count) {
+        Pair* pair = find(place);
         Pair other;
         if (pair == nullptr) {
             if (is_single_round_ || !touch(part_a, part_b, other.distance)) return;
-            other.index_a = index_a;
-            other.index_b = index_b;
+            other.index_a = place.index_a;
+            other.index_b = place.index_b;
             other.plane = static_cast<std::uint32_t>(plane_of(other.distance));
             other.role = other.plane < plane_count_ ? Role::joined : Role::ghost;
             pair = &other;
         }
         for (std::size_t i = 0; i < count; ++i) {
             const Pair& deepest = deepest_on(first + i);
-            if (deepest.index_a == index_a && deepest.index_b == index_b)
-                name_features(part_a, part_b, deepest.distance, index_a, index_b, features_[i]);
+            if (deepest.place == place)
+                name_features(part_a, part_b, deepest.distance, place.index_a, place.index_b, features_[i]);
         }
         if (pair->role == Role::joined && pair->plane >= first && pair->plane - first < count)
             return manifolds_[pair->plane - first].add(part_a, part_b, *pair);
         if (pair->role != Role::ghost && pair->role != Role::used_ghost) return;
         for (std::size_t i = 0; i < count; ++i) {
-            const ManifoldCandidates<D> area = manifolds_[i].area(part_a, part_b, index_a, index_b);
+            const ManifoldCandidates<D> area = manifolds_[i].area(part_a, part_b, place.index_a, place.index_b);
             if (area.count == 0) continue;
             if (pair == &other && flags_of(part_a, part_b, other.distance)) return;
             manifolds_[i].add(area);
@@ -314,8 +338,8 @@ private:
     }
 
     void replace_ghosts() {
-        pairs_.each([&](const Part<D>& part_a, std::uint32_t index_a, const Part<D>& part_b, std::uint32_t index_b) {
-            Pair* const pair = find(index_a, index_b);
+        pairs_.each([&](const Part<D>& part_a, const Part<D>& part_b, const PairPlace& place) {
+            Pair* const pair = find(place);
             if (pair == nullptr || pair->role != Role::ghost) return true;
             PartContact<D> contact{pair->distance, {}};
             pair->is_replaced = filter_.replace(part_a, part_b, pair->flags, contact);

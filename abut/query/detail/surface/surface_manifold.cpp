@@ -251,7 +251,12 @@ void SurfaceManifold<D>::write(Contact<D>& contact) const {
     contact.points.clear();
     double depth = -std::numeric_limits<double>::infinity();
     for (const ManifoldPoint<D>& point : std::span(manifold.points).first(manifold.count)) {
-        contact.points.push_back({to_float(point.position), static_cast<float>(point.depth), point.feature});
+        // Parts of one child of a compound shape share an index.
+        std::uint32_t feature = point.feature;
+        while (std::any_of(contact.points.begin(), contact.points.end(),
+                           [&](const ContactPoint<D>& other) { return other.feature == feature; }))
+            ++feature;
+        contact.points.push_back({to_float(point.position), static_cast<float>(point.depth), feature});
         depth = std::max(depth, point.depth);
     }
     contact.depth = static_cast<float>(depth);
