@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <span>
+#include <tuple>
 
 namespace abut::detail {
 namespace {
@@ -153,6 +154,13 @@ private:
         std::uint32_t plane = 0;  ///< index of the plane that it is joined to
     };
 
+    /// Equal contacts differ in their parts alone.
+    static bool comes_before(const Pair& a, const Pair& b) {
+        if (const int by_contact = compare(a.distance, b.distance)) return by_contact < 0;
+        if (const int by_face = compare(a.area_normal, b.area_normal)) return by_face < 0;
+        return std::tie(a.index_a, a.index_b) < std::tie(b.index_a, b.index_b);
+    }
+
     struct Features {
         Feature feature_a, feature_b;
     };
@@ -196,7 +204,7 @@ private:
     /// Stores the first touching pairs after those of the last round.
     void store_touching() {
         const bool is_first = round_++ == 0;
-        const PairDistance<D> last = last_;
+        const Pair last = last_;
         stored_count_ = 0;
         is_complete_ = true;
         pairs_.each([&](const Part<D>& part_a, const Part<D>& part_b, const PairPlace& place) {
@@ -205,9 +213,9 @@ private:
             pair.index_a = place.index_a;
             pair.index_b = place.index_b;
             pair.place = place;
-            if (!is_first && !comes_before<D>(last, pair)) return true;
+            if (!is_first && !comes_before(last, pair)) return true;
             is_complete_ = is_complete_ && stored_count_ < max_pairs;
-            const auto after = std::upper_bound(stored().begin(), stored().end(), pair, comes_before<D>);
+            const auto after = std::upper_bound(stored().begin(), stored().end(), pair, comes_before);
             if (after == stored().end() && stored_count_ == max_pairs) return true;
             // Parts that aren't cached are there during the visit alone.
             if (pairs_.cache() == nullptr) {
@@ -348,7 +356,7 @@ private:
             if (pair->distance.distance > margin_) pair->role = Role::dropped;
             return true;
         });
-        std::sort(stored().begin(), stored().end(), comes_before<D>);
+        std::sort(stored().begin(), stored().end(), comes_before);
     }
 
     void find_planes_of_ghosts() {
@@ -375,7 +383,7 @@ private:
     int round_ = 0;
     bool is_complete_ = false;      ///< no touching pair comes after the stored ones
     bool is_single_round_ = false;  ///< all touching pairs are stored
-    PairDistance<D> last_;          ///< the last one stored
+    Pair last_;                     ///< the last one stored
     std::size_t stored_count_ = 0, plane_count_ = 0;
     std::size_t first_new_ = 0;  ///< the first plane of this round
     std::array<Pair, max_pairs> stored_;

@@ -45,13 +45,6 @@ std::uint32_t deepest_feature(const PairDistance<D>& pair, ManifoldNames names) 
     return feature_hash(3, pair.index_a, pair.index_b, own_name);
 }
 
-template <int D>
-int compare(const DVec<D>& a, const DVec<D>& b) {
-    for (int i = 0; i < D; ++i)
-        if (a[i] != b[i]) return a[i] < b[i] ? -1 : 1;
-    return 0;
-}
-
 /// Orders points of equal rank by all their members.
 template <int D>
 bool is_less(const ManifoldPoint<D>& a, const ManifoldPoint<D>& b) {
@@ -87,13 +80,11 @@ std::array<double, 16> along_directions(const DVec<3>& position, const DVec<3>& 
 }  // namespace
 
 template <int D>
-bool comes_before(const PairDistance<D>& a, const PairDistance<D>& b) {
-    const SignedDistance<D>&p = a.distance, &q = b.distance;
-    if (p.distance != q.distance) return p.distance < q.distance;
+int compare(const SignedDistance<D>& a, const SignedDistance<D>& b) {
+    if (a.distance != b.distance) return a.distance < b.distance ? -1 : 1;
     // Twice the point midway.
-    if (const int by_place = compare(p.on_a + p.on_b(), q.on_a + q.on_b())) return by_place < 0;
-    if (const int by_normal = compare(p.normal, q.normal)) return by_normal < 0;
-    return std::tie(a.index_a, a.index_b) < std::tie(b.index_a, b.index_b);
+    const int by_place = compare(a.on_a + a.on_b(), b.on_a + b.on_b());
+    return by_place != 0 ? by_place : compare(a.normal, b.normal);
 }
 
 template <int D>
@@ -263,7 +254,7 @@ void SurfaceManifold<D>::write(Contact<D>& contact) const {
 }
 
 #define ABUT_INSTANTIATE(D)                                                                                  \
-    template bool comes_before(const PairDistance<D>&, const PairDistance<D>&);                              \
+    template int compare(const SignedDistance<D>&, const SignedDistance<D>&);                                \
     template DVec<D> face_normal(const Part<D>&, const Part<D>&, const SurfaceNormalFlags&, const DVec<D>&); \
     template struct ContactPlane<D>;                                                                         \
     template class SurfaceManifold<D>;

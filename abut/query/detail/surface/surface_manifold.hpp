@@ -16,10 +16,16 @@ struct PairDistance {
     std::uint32_t index_a = 0, index_b = 0;  ///< of the parts
 };
 
-/// An order that depends on the contacts alone, not on the order of the parts nor on which shape is first: the deepest
-/// first. Contacts that differ only in their parts are ordered by the indices of these.
+/// Compares contacts by themselves, not by their parts nor by which shape is first: the deepest is the least. Returns a
+/// number below, equal to or above 0.
 template <int D>
-bool comes_before(const PairDistance<D>& a, const PairDistance<D>& b);
+int compare(const SignedDistance<D>& a, const SignedDistance<D>& b);
+template <int D>
+int compare(const DVec<D>& a, const DVec<D>& b) {
+    for (int i = 0; i < D; ++i)
+        if (a[i] != b[i]) return a[i] < b[i] ? -1 : 1;
+    return 0;
+}
 
 /// The plane of a contact.
 template <int D>
