@@ -4,12 +4,14 @@
 #include "../oracle/random.hpp"
 #include <abut/bake/decompose.hpp>
 #include <abut/query/each_contact.hpp>
+#include <abut/query/overlaps.hpp>
 #include <abut/query/sweep.hpp>
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/compound.hpp>
 #include <abut/shape/polyhedron.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <utility>

@@ -250,7 +250,8 @@ void SurfaceManifold<D>::write(Contact<D>& contact) const {
         contact.points.push_back({to_float(point.position), static_cast<float>(point.depth), feature});
         depth = std::max(depth, point.depth);
     }
-    contact.depth = static_cast<float>(depth);
+    // The deepest point may differ from the deepest contact by rounding.
+    contact.depth = static_cast<float>(depth >= plane_.depth - tolerance_ ? plane_.depth : depth);
 }
 
 #define ABUT_INSTANTIATE(D)                                                                                  \
