@@ -6,11 +6,11 @@
 #include <abut/query/detail/one_sided.hpp>
 #include <abut/query/detail/part_pairs.hpp>
 #include <abut/query/detail/solid/solid_queries.hpp>
-#include <abut/query/detail/surface/edge_filter.hpp>
+#include <abut/query/detail/surface/surface_contacts.hpp>
 #include <abut/query/detail/valid_query.hpp>
 #include <abut/query/detail/write_answer.hpp>
+#include <abut/query/overlaps.hpp>
 
-#include <tuple>
 #include <utility>
 
 namespace abut {
@@ -31,110 +31,6 @@ bool has_parts(const View<D>& a, const View<D>& b) {
     return std::holds_alternative<Composite<D>>(a) || std::holds_alternative<Composite<D>>(b);
 }
 
-/// Returns false, and leaves `result`, if the sets don't touch.
-template <int D>
-bool answer(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options, PartContact<D>& found,
-            Contact<D>& result) {
-    if (!detail::is_valid_pair(a, b)) return false;
-    const double margin = static_cast<double>(options.margin);
-    if (!part_contact(a, b, margin, margin, {options.cache, options.trace}, found)) return false;
-    if (!touch_at_fronts(a, b, found.distance.normal)) return false;
-    write(found.distance, found.manifold, result);
-    name_features(a, b, found.distance, 0, 0, result);
-    return true;
-}
-
-/// Finds the deepest pair of parts. Returns false, and leaves `result`, if the shapes don't touch.
-template <int D>
-bool find_deepest(const View<D>& a, const View<D>& b, const QueryOptions<D>& options, DeepestParts<D>& deepest,
-                  Contact<D>& result) {
-    deepest.parts = {};
-    const auto *convex_a = std::get_if<Convex<D>>(&a), *convex_b = std::get_if<Convex<D>>(&b);
-    if (convex_a != nullptr && convex_b != nullptr)
-        return answer(*convex_a, *convex_b, options, deepest.contact, result);
-    if (!detail::is_valid_pair(a, b)) return false;
-    const double margin = static_cast<double>(options.margin);
-    const SearchOptions<D> search = search_options(a, b, options);
-    bool touch = false;
-    double limit = margin;
-    detail::for_each_part_pair(
-        a, b, options.margin,
-        [&](const Part<D>& part_a, std::uint32_t index_a, const Part<D>& part_b, std::uint32_t index_b) {
-            PartContact<D> found;
-            if (!part_contact<D>(part_a, part_b, limit, margin, search, found)) return true;
-            const SignedDistance<D>& distance = found.distance;
-            if (!touch_at_fronts(part_a, part_b, distance.normal)) return true;
-            const std::pair parts(index_a, index_b);
-            // Among equally deep pairs the lowest wins, whatever the order of the visits.
-            if (touch && distance.distance == limit && parts > deepest.parts) return true;
-            // Written during the visit: a composite shape may create its parts as it goes.
-            touch = true;
-            limit = distance.distance;
-            deepest.parts = parts;
-            deepest.contact = found;
-            write(found.distance, found.manifold, result);
-            name_features(part_a, part_b, distance, index_a, index_b, result);
-            return true;
-        });
-    return touch;
-}
-
-/// Whether the normal of the deepest pair is a surface normal of both shapes.
-template <int D>
-bool is_surface_contact(const View<D>& a, const View<D>& b, const DeepestParts<D>& deepest, float margin,
-                        const NeighbourSurfaces<D>& neighbours) {
-    bool is_surface = true;
-    const EdgeFilter<D> filter(a, b, neighbours);
-    detail::for_each_part_pair(
-        a, b, margin, [&](const Part<D>& part_a, std::uint32_t index_a, const Part<D>& part_b, std::uint32_t index_b) {
-            if (std::pair(index_a, index_b) != deepest.parts) return true;
-            const PartContact<D>& found = deepest.contact;
-            is_surface = static_cast<bool>(filter.surface_normal_flags(
-                part_a, part_b, found.distance, [&]() -> const Manifold<D>& { return found.manifold; }));
-            return false;
-        });
-    return is_surface;
-}
-
-/// The deepest contact with a surface normal; of equals, the lowest parts.
-template <int D>
-ContactWithNeighbours<D> deepest_surface_contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& options,
-                                                 const NeighbourSurfaces<D>& neighbours) {
-    ContactWithNeighbours<D> result;
-    each_contact_with_neighbours<D>(a, b, options, neighbours,
-                                    [&](const Contact<D>& found, const detail::SurfaceNormalFlags& flags) {
-                                        const auto order = [](const Contact<D>& c) {
-                                            return std::tuple(-c.depth, c.feature_a.part, c.feature_b.part);
-                                        };
-                                        if (result.contact && order(found) >= order(result.contact)) return true;
-                                        result.contact = found;
-                                        result.surface_normals = flags;
-                                        return true;
-                                    });
-    return result;
-}
-
-/// Two shapes of one part each: their one contact, or its replacement.
-template <int D>
-void filter_only_contact(const View<D>& a, const View<D>& b, const PartContact<D>& only,
-                         const NeighbourSurfaces<D>& neighbours, ContactWithNeighbours<D>& result) {
-    const Part<D> part_a = single_part(a), part_b = single_part(b);
-    EdgeFilter<D> filter(a, b, neighbours);
-    const detail::SurfaceNormalFlags flags = filter.surface_normal_flags(
-        part_a, part_b, only.distance, [&]() -> const Manifold<D>& { return only.manifold; });
-    if (flags) return;
-    PartContact<D> found = only;
-    const bool is_replaced = filter.replace(part_a, part_b, flags, found);
-    if (found.distance.distance > 0) {
-        result.contact = {};
-        return;
-    }
-    result.surface_normals = flags;
-    if (!is_replaced) return;
-    write(found.distance, found.manifold, result.contact);
-    name_features(part_a, part_b, found.distance, 0, 0, result.contact);
-}
-
 Contact<3> solid_contact(const View<3>& a, const View<3>& b, float margin) {
     const Closest<3> nearest = closest(a, b);
     return nearest.distance <= margin ? contact_of_solids(a, b, nearest) : no_contact<3>();
@@ -150,12 +46,25 @@ bool are_meshes(const View<D>& a, const View<D>& b) {
     return is_mesh(a) && is_mesh(b);
 }
 
+/// Returns false, and leaves `result`, if the parts, which are convex sets or of any kind, don't touch.
+template <int D, class PartType>
+bool answer(const PartType& a, const PartType& b, const QueryOptions<D>& options, PartContact<D>& found,
+            Contact<D>& result) {
+    const double margin = static_cast<double>(options.margin);
+    if (!part_contact<D>(a, b, margin, margin, {options.cache, options.trace}, found)) return false;
+    if (!touch_at_fronts<D>(a, b, found.distance.normal)) return false;
+    write(found.distance, found.manifold, result);
+    name_features(a, b, found.distance, 0, 0, result);
+    return true;
+}
+
 /// Out of line, to keep the fast path small.
 template <int D>
 [[gnu::noinline]] void by_views(const ShapeRef<D>& a, const ShapeRef<D>& b, const QueryOptions<D>& options,
                                 Contact<D>& result) {
+    const Convex<D> convex_a = convex_of(a), convex_b = convex_of(b);
     PartContact<D> found;
-    answer(convex_of(a), convex_of(b), options, found, result);
+    if (detail::is_valid_pair(convex_a, convex_b)) answer(convex_a, convex_b, options, found, result);
 }
 
 }  // namespace
@@ -164,7 +73,7 @@ template <int D>
 Contact<D> contact(const Convex<D>& a, const Convex<D>& b, const QueryOptions<D>& options) {
     Contact<D> result = no_contact<D>();
     PartContact<D> found;
-    answer(a, b, options, found, result);
+    if (detail::is_valid_pair(a, b)) answer(a, b, options, found, result);
     return result;
 }
 
@@ -183,11 +92,14 @@ Contact<D> contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& op
         if (are_solids(a, b) && detail::is_valid_pair(a, b)) return solid_contact(a, b, options.margin);
     Contact<D> result = no_contact<D>();
     DeepestParts<D> deepest;
-    if (!find_deepest(a, b, options, deepest, result) || !has_parts(a, b) || are_meshes(a, b) ||
-        is_surface_contact<D>(a, b, deepest, options.margin, {}))
+    if (!find_deepest_parts(a, b, options, deepest, result) || !has_parts(a, b) ||
+        whole_contact(a, b, options, deepest, are_meshes(a, b), result))
         return result;
-    const ContactWithNeighbours<D> surface = deepest_surface_contact<D>(a, b, options, {});
-    return surface.contact ? surface.contact : result;
+    each_surface_contact<D>(a, b, options, {}, [&](const SurfaceContact<D>& found) {
+        if (!result || found.contact.depth > result.depth) result = found.contact;
+        return true;
+    });
+    return result;
 }
 
 }  // namespace abut
@@ -195,34 +107,40 @@ Contact<D> contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& op
 namespace abut::detail {
 
 template <int D>
-bool find_deepest_parts(const View<D>& a, const View<D>& b, DeepestParts<D>& deepest, Contact<D>& contact) {
-    if constexpr (D == 3)
-        if (are_solids(a, b)) {
-            contact = detail::is_valid_pair(a, b) ? solid_contact(a, b, 0) : no_contact<D>();
-            return static_cast<bool>(contact);
-        }
-    return find_deepest(a, b, {}, deepest, contact);
+bool find_deepest_parts(const View<D>& a, const View<D>& b, const QueryOptions<D>& options, DeepestParts<D>& deepest,
+                        Contact<D>& contact) {
+    if (!detail::is_valid_pair(a, b)) return false;
+    const auto *convex_a = std::get_if<Convex<D>>(&a), *convex_b = std::get_if<Convex<D>>(&b);
+    if (convex_a != nullptr && convex_b != nullptr)
+        return answer(*convex_a, *convex_b, options, deepest.contact, contact);
+    if (!has_parts(a, b)) return answer(single_part(a), single_part(b), options, deepest.contact, contact);
+    if (are_solids(a, b)) return overlaps(a, b);
+    const SearchOptions<D> search = search_options(a, b, options);
+    double limit = static_cast<double>(options.margin);
+    PairDistance<D> first;
+    bool touch = false;
+    detail::for_each_part_pair(
+        a, b, options.margin,
+        [&](const Part<D>& part_a, std::uint32_t index_a, const Part<D>& part_b, std::uint32_t index_b) {
+            PartContact<D> found;
+            if (!part_distance_within<D>(part_a, part_b, limit, limit, search, found)) return true;
+            if (!touch_at_fronts(part_a, part_b, found.distance.normal)) return true;
+            // Among equally deep pairs the lowest wins, whatever the order of the visits.
+            const bool is_lower = std::pair(index_a, index_b) < std::pair(first.index_a, first.index_b);
+            if (touch && found.distance.distance == limit && !is_lower) return true;
+            touch = true;
+            first = {found.distance, index_a, index_b};
+            limit = found.distance.distance;
+            return true;
+        });
+    deepest.index_a = first.index_a;
+    deepest.index_b = first.index_b;
+    deepest.contact.distance = first.distance;
+    return touch;
 }
 
-template <int D>
-ContactWithNeighbours<D> contact_with_neighbours(const View<D>& a, const View<D>& b, const DeepestParts<D>& deepest,
-                                                 const Contact<D>& contact, const NeighbourSurfaces<D>& neighbours) {
-    ContactWithNeighbours<D> result{contact, {}};
-    if (are_solids(a, b)) return result;
-    if (!has_parts(a, b))
-        filter_only_contact(a, b, deepest.contact, neighbours, result);
-    else if (!is_surface_contact(a, b, deepest, 0, neighbours))
-        result = deepest_surface_contact<D>(a, b, {}, neighbours);
-    return result;
-}
-
-#define ABUT_INSTANTIATE(D)                                                                                           \
-    template bool find_deepest_parts(const View<D>&, const View<D>&, DeepestParts<D>&, Contact<D>&);                  \
-    template ContactWithNeighbours<D> contact_with_neighbours(const View<D>&, const View<D>&, const DeepestParts<D>&, \
-                                                              const Contact<D>&, const NeighbourSurfaces<D>&);
-ABUT_INSTANTIATE(2)
-ABUT_INSTANTIATE(3)
-#undef ABUT_INSTANTIATE
+template bool find_deepest_parts(const View<2>&, const View<2>&, const QueryOptions<2>&, DeepestParts<2>&, Contact<2>&);
+template bool find_deepest_parts(const View<3>&, const View<3>&, const QueryOptions<3>&, DeepestParts<3>&, Contact<3>&);
 
 }  // namespace abut::detail
 

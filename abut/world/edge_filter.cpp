@@ -156,7 +156,7 @@ bool World<D>::find_contact(const IdPair& pair) {
     bool touch = false;
     if (filters_edges(a) || filters_edges(b)) {
         auto& added = edges_->new_contacts.emplace_back(found_.size() - 1);
-        touch = find_deepest_parts(first_placed(a), placed(items_[b]), added.deepest, found.result.contact);
+        touch = find_deepest_parts(first_placed(a), placed(items_[b]), {}, added.deepest, found.result.contact);
         if (!touch) edges_->new_contacts.pop_back();
     } else {
         found.result.contact = abut::contact(first_placed(a), placed(items_[b]));
@@ -222,13 +222,42 @@ void World<D>::filter_contact(FoundContact& found, const DeepestParts<D>& deepes
     const auto nearest_to = [&](std::uint32_t slot) {
         return has_parts || !filters_edges(slot) ? nullptr : &edges_->center_of(slot).nearest;
     };
-    const ContactWithNeighbours<D> filtered =
-        contact_with_neighbours<D>(first_placed(a), placed(items_[b]), deepest, found.result.contact,
-                                   {for_a ? &of_a : nullptr, for_b ? &of_b : nullptr, nearest_to(a), nearest_to(b)});
-    if (!for_a && !for_b && !filtered.contact) return;
+    const NeighbourSurfaces<D> neighbours{for_a ? &of_a : nullptr, for_b ? &of_b : nullptr, nearest_to(a),
+                                          nearest_to(b)};
+    const View<D>& placed_a = first_placed(a);
+    const View<D> placed_b = placed(items_[b]);
+    if (!has_parts) {
+        set_contact(filtered_contact(placed_a, placed_b, deepest.contact, found.result.contact, neighbours), found);
+        return;
+    }
+    found.reported = false;
+    bool is_first = true;
+    each_surface_contact<D>(placed_a, placed_b, {}, neighbours, [&](const SurfaceContact<D>& filtered) {
+        if (!is_first) more_found_.push_back(found);
+        set_contact(filtered, std::exchange(is_first, false) ? found : more_found_.back());
+        return true;
+    });
+}
+
+template <int D>
+void World<D>::set_contact(const detail::SurfaceContact<D>& filtered, FoundContact& found) {
     found.result.contact = filtered.contact;
+    found.own_area = filtered.own_area;
     found.surface_normal = filtered.surface_normals;
     found.reported = static_cast<bool>(filtered.contact);
+}
+
+/// Merges the further contacts of pairs into found_. Both lists are sorted by pairs.
+template <int D>
+void World<D>::merge_more_found() {
+    std::size_t found = found_.size(), more = more_found_.size(), place = found + more;
+    found_.resize(place);
+    const auto pair_of = [](const FoundContact& contact) { return IdPair{contact.result.a, contact.result.b}; };
+    while (more > 0) {
+        const bool is_more = found == 0 || !(pair_of(more_found_[more - 1]) < pair_of(found_[found - 1]));
+        found_[--place] = is_more ? more_found_[--more] : found_[--found];
+    }
+    more_found_.clear();
 }
 
 template <int D>
@@ -236,14 +265,16 @@ void World<D>::filter_contacts() {
     if (edges_->new_contacts.empty()) return;
     find_neighbours();
     for (const auto& added : edges_->new_contacts) filter_contact(found_[added.place], added.deepest);
+    merge_more_found();
 }
 
 template <int D>
-typename World<D>::FoundContact* World<D>::found_contact(std::vector<FoundContact>& list, const IdPair& pair) {
-    const auto place = std::lower_bound(list.begin(), list.end(), pair, [](const FoundContact& found, const IdPair& p) {
-        return IdPair{found.result.a, found.result.b} < p;
-    });
-    return place != list.end() && place->result.a == pair.a && place->result.b == pair.b ? &*place : nullptr;
+std::span<const typename World<D>::FoundContact> World<D>::last_contacts(const IdPair& pair) const {
+    const auto pair_of = [](const FoundContact& found) { return IdPair{found.result.a, found.result.b}; };
+    const auto first =
+        std::partition_point(last_found_.begin(), last_found_.end(), [&](const auto& f) { return pair_of(f) < pair; });
+    const auto end = std::find_if(first, last_found_.end(), [&](const auto& f) { return pair_of(f) != pair; });
+    return {first, end};
 }
 
 /// Whether another reported contact of the item covers a contact with a substitute normal, a ghost.
@@ -281,7 +312,8 @@ void World<D>::find_contacts_beside_ghosts() {
     });
 }
 
-/// Reports the contacts with surface normals, and then, by id, those ghosts that no reported contact covers.
+/// Reports the contacts with surface normals, and then, by id, the ghosts. A ghost that a reported contact covers is
+/// reported by the area that its items have on the surface, if they have any, so that they still hold each other.
 template <int D>
 void World<D>::report_contacts() {
     bool any_ghost = false;
@@ -296,8 +328,12 @@ void World<D>::report_contacts() {
         found.reported = (found.surface_normal.a || !is_covered(found, found.result.a)) &&
                          (found.surface_normal.b || !is_covered(found, found.result.b));
     }
-    for (const FoundContact& found : found_)
-        if (found.reported) contacts_.push_back(found.result);
+    for (const FoundContact& found : found_) {
+        if (found.reported)
+            contacts_.push_back(found.result);
+        else if (found.own_area)
+            contacts_.push_back({found.result.a, found.result.b, found.own_area});
+    }
 }
 
 template class World<2>;

@@ -2,7 +2,7 @@
 
 // The memory of a world's filter of internal edges during an update. For .cpp files.
 
-#include <abut/query/detail/surface/edge_filter.hpp>
+#include <abut/query/detail/surface/surface_contacts.hpp>
 #include <abut/world/compressed_lists.hpp>
 #include <abut/world/view_cache.hpp>
 

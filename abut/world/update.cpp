@@ -59,12 +59,12 @@ template <int D>
 void World<D>::repeat_last(const IdPair& pair) {
     if (!std::binary_search(last_touching_.begin(), last_touching_.end(), pair)) return;
     touching_.push_back(pair);
-    const FoundContact* last = found_contact(last_found_, pair);
-    if (last == nullptr) return;
+    const std::span<const FoundContact> last = last_contacts(pair);
+    if (last.empty()) return;
     if (neighbours_changed(pair))
         find_contact(pair);
     else
-        found_.push_back(*last);
+        found_.insert(found_.end(), last.begin(), last.end());
 }
 
 template <int D>
@@ -177,6 +177,7 @@ Events World<D>::find_events() {
     for (std::vector<IdPair>* list : {&began_, &ended_}) list->reserve(capacity + impacts_.capacity());
     fractions_.reserve(began_.capacity());
     last_found_.reserve(found_.capacity());
+    more_found_.reserve(found_.capacity());
     contacts_.reserve(found_.capacity());
     last_near_.reserve(near_.capacity());
     reserve_edge_filter();

@@ -33,6 +33,8 @@ template <int D>
 struct DeepestParts;
 template <int D>
 struct EdgeFilterState;
+template <int D>
+struct SurfaceContact;
 
 }  // namespace abut::detail
 
@@ -233,8 +235,9 @@ public:
         detail::clear_upper_halves();
         return find_events();
     }
-    /// The contacts of the last update, for pairs without a sensor. An item that touches several others gets surface
-    /// normals of their union, without ghost collisions: docs/ghosts.md.
+    /// The contacts of the last update, for pairs without a sensor, sorted by pairs. A pair that touches with several
+    /// surfaces, such as a crate with the floor and a wall of one mesh, has an entry for each, the deepest first. An
+    /// item that touches several others gets surface normals of their union, without ghost collisions: docs/ghosts.md.
     std::span<const WorldContact<D>> contacts() const { return contacts_; }
     /// The impacts of the last update, sorted: one for each pair with a continuous item, sensor or not, that began and
     /// touched during its motion.
@@ -258,8 +261,8 @@ public:
     void each_touching(Id id, F&& visit) const {
         visit_touching(id, detail::bool_visitor(visit));
     }
-    /// The contact of a pair at the last update, from the lower id to the higher. It is false if the pair doesn't
-    /// touch, has a sensor, touched only during its motion, or if other contacts cover the same surface
+    /// The deepest contact of a pair at the last update, from the lower id to the higher. It is false if the pair
+    /// doesn't touch, has a sensor, touched only during its motion, or if other contacts cover the same surface
     /// (docs/ghosts.md).
     Contact<D> contact(const IdPair& pair) const;
     /// The impact of a pair at the last update; none if the pair isn't among `impacts`.
@@ -343,6 +346,17 @@ public:
     }
     template <class S, class F, class Why = detail::WhyNotIn<D, S>>
     auto each_overlapping(const S& shape, F&& visit, const Filter& filter = {}) const;
+    /// Calls visit(id, contact) for the contacts of a shape (A) with the items (B), in an unspecified order; it returns
+    /// nothing, or false to stop. The items are one surface for the shape, without ghost collisions, as in `contacts`;
+    /// an item that the shape touches with several surfaces has a contact for each. With a margin, items up to that far
+    /// away count as well.
+    template <detail::ShapeIn<D> S, detail::Visitor<Id, const Contact<D>&> F>
+    void each_contact(const S& shape, F&& visit, const Filter& filter = {}, const QueryOptions<D>& options = {}) const {
+        detail::with_view(
+            shape, [&](const View<D>& own) { visit_contacts(own, filter, options, detail::bool_visitor(visit)); });
+    }
+    template <class S, class F, class Why = detail::WhyNotIn<D, S>>
+    auto each_contact(const S& shape, F&& visit, const Filter& filter = {}, const QueryOptions<D>& options = {}) const;
     std::vector<Id> containing(const Vec<D>& point, const Filter& filter = {}) const {
         detail::clear_upper_halves();
         return all_containing(point, filter);
@@ -380,6 +394,7 @@ private:
     /// The contact of a touching pair, before ghost contacts are dropped.
     struct FoundContact {
         WorldContact<D> result;
+        Contact<D> own_area;  // of a ghost: its points on the faces of the two items
         detail::SurfaceNormalFlags
             surface_normal;     // false for an item if the normal is a substitute for one of an internal edge
         bool reported = false;  // whether it is among contacts()
@@ -459,7 +474,9 @@ private:
     bool find_contact(const IdPair& pair);
     void filter_contact(FoundContact& found, const detail::DeepestParts<D>& deepest);
     void filter_contacts();
-    static FoundContact* found_contact(std::vector<FoundContact>& list, const IdPair& pair);
+    static void set_contact(const detail::SurfaceContact<D>& filtered, FoundContact& found);
+    void merge_more_found();
+    std::span<const FoundContact> last_contacts(const IdPair& pair) const;
     bool is_covered(const FoundContact& ghost, const Id& item) const;
     void find_contacts_beside_ghosts();
     void report_contacts();
@@ -484,6 +501,8 @@ private:
     std::vector<WorldClosest<D>> list_of_nearest(const View<D>& shape, std::size_t k, const Filter& filter) const;
     std::vector<Id> all_overlapping(const View<D>& shape, const Filter& filter) const;
     void visit_overlapping(const View<D>& shape, const Filter& filter, FunctionRef<bool(Id)> visit) const;
+    void visit_contacts(const View<D>& shape, const Filter& filter, const QueryOptions<D>& options,
+                        FunctionRef<bool(Id, const Contact<D>&)> visit) const;
     void visit_in_box(const Aabb<D>& box, const Filter& filter, FunctionRef<bool(Id, const View<D>&)> visit) const;
 
     std::vector<Item> items_;
@@ -506,6 +525,7 @@ private:
     std::unique_ptr<detail::EdgeFilterState<D>, DeleteEdgeFilterState> edges_;  // made by the first update
     std::vector<IdPair> touching_, last_touching_;                              // now and at the last update
     std::vector<FoundContact> found_, last_found_;
+    std::vector<FoundContact> more_found_;  // further contacts of pairs in found_, in an update
     std::vector<WorldContact<D>> contacts_;
     std::vector<WorldImpact<D>> impacts_;       // of continuous pairs that didn't touch at the last update
     std::vector<IdPair> passed_, last_passed_;  // pairs with an impact that don't touch at the end; last update's

@@ -113,6 +113,7 @@ void check_world(int rounds) {
                     pairs.push_back({scene.ids[i], scene.ids[j]});
         std::vector<IdPair> reported;
         for (const WorldContact<D>& contact : scene.world.contacts()) reported.push_back({contact.a, contact.b});
+        reported.erase(std::unique(reported.begin(), reported.end()), reported.end());
         std::sort(pairs.begin(), pairs.end());
         touching += static_cast<int>(pairs.size());
         // An overlapping pair may have no contact: at the back of a one-sided shape, or if another contact covers it.

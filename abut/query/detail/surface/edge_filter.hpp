@@ -80,37 +80,4 @@ private:
 extern template class EdgeFilter<2>;
 extern template class EdgeFilter<3>;
 
-/// Like each_contact, with the neighbours as parts of the surfaces. The flags are false where the contact replaces one
-/// whose normal is no surface normal.
-template <int D>
-void each_contact_with_neighbours(const View<D>& a, const View<D>& b, const QueryOptions<D>& options,
-                                  const NeighbourSurfaces<D>& neighbours,
-                                  FunctionRef<bool(const Contact<D>&, const detail::SurfaceNormalFlags&)> visit);
-
-/// The deepest pair of parts of two shapes that touch.
-template <int D>
-struct DeepestParts {
-    std::pair<std::uint32_t, std::uint32_t> parts;
-    PartContact<D> contact;
-
-    /// Written out: clearing all of it first is slow.
-    DeepestParts() {}
-};
-
-/// Returns false, and leaves `contact`, if the shapes don't touch.
-template <int D>
-bool find_deepest_parts(const View<D>& a, const View<D>& b, DeepestParts<D>& deepest, Contact<D>& contact);
-
-template <int D>
-struct ContactWithNeighbours {
-    Contact<D> contact;                          ///< empty if the surfaces don't touch
-    detail::SurfaceNormalFlags surface_normals;  ///< false for a side whose surface doesn't have the pair's own normal
-};
-
-/// Like contact, of two shapes that touch: the deepest contact of each_contact_with_neighbours. `deepest` and `contact`
-/// are those of find_deepest_parts.
-template <int D>
-ContactWithNeighbours<D> contact_with_neighbours(const View<D>& a, const View<D>& b, const DeepestParts<D>& deepest,
-                                                 const Contact<D>& contact, const NeighbourSurfaces<D>& neighbours);
-
 }  // namespace abut::detail
