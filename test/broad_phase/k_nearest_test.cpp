@@ -36,16 +36,16 @@ std::vector<NearItem> by_sorting(const std::vector<Aabb<D>>& boxes, const Vec<D>
 }
 
 template <class T>
-class KNearest : public testing::Test {};
+class KNearest : public EachBroadPhase<T> {};
 TYPED_TEST_SUITE(KNearest, AllBroadPhases);
 
-TYPED_TEST(KNearest, LikeSortingAll) {
-    constexpr int D = dimension_of<TypeParam>;
+template <int D>
+void like_sorting_all(const AnyBroadPhase<D>& empty) {
     for (const Scene scene : all_scenes)
         for (const std::uint32_t count : {0u, 1u, 10u, 400u}) {
             oracle::Random random(14);
             const auto boxes = make_scene<D>(scene, count, random);
-            TypeParam phase;
+            AnyBroadPhase<D> phase = empty;
             phase.build(boxes);
             std::vector<NearItem> found{{1, 1}};
             for (const std::size_t k : {0u, 1u, 2u, 7u, 100u, 1000u})
@@ -58,13 +58,16 @@ TYPED_TEST(KNearest, LikeSortingAll) {
                 }
         }
 }
+TYPED_TEST(KNearest, LikeSortingAll) {
+    like_sorting_all(this->empty);
+}
 
-TYPED_TEST(KNearest, OfEquallyFarTheLowerIndices) {
-    constexpr int D = dimension_of<TypeParam>;
+template <int D>
+void of_equally_far_the_lower_indices(const AnyBroadPhase<D>& empty) {
     std::vector<Aabb<D>> boxes(30, {Vec<D>(0.1f), Vec<D>(1)});
     boxes[17] = {Vec<D>(-1), Vec<D>(1)};
     boxes[4] = Aabb<D>::empty();
-    TypeParam phase;
+    AnyBroadPhase<D> phase = empty;
     phase.build(boxes);
     std::vector<NearItem> found;
     k_nearest(phase, boxes, Vec<D>(-0.3f), 5, found);
@@ -80,12 +83,15 @@ TYPED_TEST(KNearest, OfEquallyFarTheLowerIndices) {
     ASSERT_EQ(found.size(), 3u);
     for (std::uint32_t k = 0; k < 3; ++k) EXPECT_EQ(found[k].item, k);
 }
+TYPED_TEST(KNearest, OfEquallyFarTheLowerIndices) {
+    of_equally_far_the_lower_indices(this->empty);
+}
 
-TYPED_TEST(KNearest, AllocatesNothingWhereThereIsRoomForK) {
-    constexpr int D = dimension_of<TypeParam>;
+template <int D>
+void allocates_nothing_where_there_is_room_for_k(const AnyBroadPhase<D>& empty) {
     oracle::Random random(15);
     const auto boxes = make_scene<D>(Scene::uniform, 300, random);
-    TypeParam phase;
+    AnyBroadPhase<D> phase = empty;
     phase.build(boxes);
     std::vector<NearItem> found;
     found.reserve(20);
@@ -93,6 +99,9 @@ TYPED_TEST(KNearest, AllocatesNothingWhereThereIsRoomForK) {
     k_nearest(phase, boxes, Vec<D>(1), 20, found);
     EXPECT_EQ(allocations(), before);
     EXPECT_EQ(found.size(), 20u);
+}
+TYPED_TEST(KNearest, AllocatesNothingWhereThereIsRoomForK) {
+    allocates_nothing_where_there_is_room_for_k(this->empty);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 // The list of all broad phases, for typed tests.
 
+#include "any_broad_phase.hpp"
+#include "scenes.hpp"
 #include <abut/broad_phase/brute_force.hpp>
 #include <abut/broad_phase/bsp.hpp>
 #include <abut/broad_phase/bvh.hpp>
@@ -22,5 +24,13 @@ using AllBroadPhases = testing::Types<   //
     Bvh<2>, Bvh<3>,                      //
     Bsp<2>, Bsp<3>,                      //
     ChosenBroadPhase<2>, ChosenBroadPhase<3>>;
+
+/// The base of their suites. A test passes `empty` to a function of the dimension, which is compiled once for all
+/// types.
+template <class T>
+class EachBroadPhase : public testing::Test {
+protected:
+    const AnyBroadPhase<dimension_of<T>> empty = AnyBroadPhase<dimension_of<T>>::template of<T>();
+};
 
 }  // namespace abut::test

@@ -10,7 +10,7 @@ namespace abut::test {
 namespace {
 
 template <class T>
-class Sweep : public testing::Test {};
+class Sweep : public EachBroadPhase<T> {};
 TYPED_TEST_SUITE(Sweep, AllBroadPhases);
 
 /// A random moving box through the boxes: at rest, along an axis or diagonal; sometimes of size 0, or with a motion
@@ -40,15 +40,15 @@ Aabb<D> finite_bounds(const std::vector<Aabb<D>>& boxes) {
     return result;
 }
 
-TYPED_TEST(Sweep, ComesToAllThatItTouches) {
-    constexpr int D = dimension_of<TypeParam>;
+template <int D>
+void comes_to_all_that_it_touches(const AnyBroadPhase<D>& empty) {
     oracle::Random random(21);
     int touching = 0, missed = 0;
     for (int round = 0; round < 64; ++round) {
         SCOPED_TRACE("round " + std::to_string(round));
         const Scene scene = all_scenes[static_cast<std::size_t>(round) % all_scenes.size()];
         const auto boxes = make_scene<D>(scene, 200, random);
-        TypeParam phase;
+        AnyBroadPhase<D> phase = empty;
         phase.build(boxes);
         const Aabb<D> bounds = finite_bounds(boxes);
         const DVec<D> low(bounds.min), extent = DVec<D>(bounds.max) - low;
@@ -68,15 +68,18 @@ TYPED_TEST(Sweep, ComesToAllThatItTouches) {
     EXPECT_GT(touching, 1000);
     EXPECT_GT(missed, 1000);
 }
+TYPED_TEST(Sweep, ComesToAllThatItTouches) {
+    comes_to_all_that_it_touches(this->empty);
+}
 
-TYPED_TEST(Sweep, StopsWhereTheReachEnds) {
-    constexpr int D = dimension_of<TypeParam>;
+template <int D>
+void stops_where_the_reach_ends(const AnyBroadPhase<D>& empty, bool in_order) {
     oracle::Random random(22);
     std::size_t visited = 0, touched = 0;
     for (int round = 0; round < 40; ++round) {
         SCOPED_TRACE("round " + std::to_string(round));
         const auto boxes = make_scene<D>(round % 2 == 0 ? Scene::uniform : Scene::mixed_sizes, 400, random);
-        TypeParam phase;
+        AnyBroadPhase<D> phase = empty;
         phase.build(boxes);
         const Aabb<D> bounds = finite_bounds(boxes);
         const DVec<D> low(bounds.min), extent = DVec<D>(bounds.max) - low;
@@ -104,15 +107,20 @@ TYPED_TEST(Sweep, StopsWhereTheReachEnds) {
         ASSERT_EQ(visited_count, entries.empty() ? 0 : 1);
     }
     EXPECT_GT(touched, 200u);
-    const bool in_order = !std::is_same_v<TypeParam, BruteForce<D>> && !std::is_same_v<TypeParam, ChosenBroadPhase<D>>;
     if (in_order) {
         EXPECT_LT(visited, touched) << "a search beyond the first item found";
     }
 }
-
-TYPED_TEST(Sweep, OfNothingFindsNothing) {
+TYPED_TEST(Sweep, StopsWhereTheReachEnds) {
     constexpr int D = dimension_of<TypeParam>;
-    TypeParam phase;
+    constexpr bool in_order =
+        !std::is_same_v<TypeParam, BruteForce<D>> && !std::is_same_v<TypeParam, ChosenBroadPhase<D>>;
+    stops_where_the_reach_ends(this->empty, in_order);
+}
+
+template <int D>
+void of_nothing_finds_nothing(const AnyBroadPhase<D>& empty) {
+    AnyBroadPhase<D> phase = empty;
     const MovingBox<D> along{DVec<D>(0.0), DVec<D>(1.0), DVec<D>(1.0), 10};
     phase.sweep(along, [](std::uint32_t) { FAIL(); });
     phase.build(std::vector<Aabb<D>>{{Vec<D>(-1), Vec<D>(1)}, Aabb<D>::empty()});
@@ -125,6 +133,9 @@ TYPED_TEST(Sweep, OfNothingFindsNothing) {
                              MovingBox<D>{DVec<D>(0.0), DVec<D>(1.0), DVec<D>(1.0), nan},
                              MovingBox<D>{DVec<D>(0.0), DVec<D>(1.0), DVec<D>(1.0), -1}})
         phase.sweep(bad, [](std::uint32_t) { FAIL(); });
+}
+TYPED_TEST(Sweep, OfNothingFindsNothing) {
+    of_nothing_finds_nothing(this->empty);
 }
 
 }  // namespace
