@@ -6,6 +6,7 @@
 #include <abut/query/closest.hpp>
 #include <abut/query/contact.hpp>
 #include <abut/query/overlaps.hpp>
+#include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/polyhedron.hpp>
 
@@ -148,6 +149,31 @@ TEST(SolidOverlap, OfBoxesAndPolyhedra) {
         if (expected.distance < 0) ++overlapping;
     }
     EXPECT_GT(overlapping, 10);
+}
+
+TEST(SolidOverlap, OfBallsAndPoints) {
+    constexpr std::uint64_t seed = 20267;
+    SCOPED_TRACE(seed);
+    oracle::Random random(seed);
+    const Mesh box = box_surface({0, 0, 0}, {4, 2, 3}).mesh();
+    const Polyhedron hull = *Polyhedron::build(box.points());
+    for (int i = 0; i < 300; ++i) {
+        const Vec3 center(random.uniform_float(-1, 5), random.uniform_float(-1, 3), random.uniform_float(-1, 4));
+        const Sphere ball{center, random.chance(0.3) ? 0 : random.uniform_float(0, 2)};
+        const Closest<3> expected = closest(hull, ball), nearest = closest(solid(box), ball);
+        ASSERT_NEAR(nearest.distance, expected.distance, 1e-4);
+        ASSERT_EQ(overlaps(solid(box), ball), expected.distance <= 0);
+        if (std::abs(expected.distance) < 1e-3f) continue;
+        ASSERT_GT(glm::dot(nearest.normal, nearest.on_b - nearest.on_a) * nearest.distance, 0);
+        ASSERT_NEAR(closest(ball, solid(box)).distance, expected.distance, 1e-4);
+        ASSERT_EQ(static_cast<bool>(contact(ball, solid(box))), expected.distance <= 0);
+    }
+    // In the corner of an L the ball leaves both arms.
+    const Mesh corner = mesh_of(scenes::kit()[1]);
+    const Closest<3> deep = closest(solid(corner), Sphere{{0.875f, 0.875f, 0.5f}, 0.5f});
+    EXPECT_LT(deep.distance, -0.625f);
+    const Vec3 out = Vec3(0.875f, 0.875f, 0.5f) - deep.normal * deep.distance;
+    EXPECT_GE(closest(solid(corner), Sphere{out, 0.5f}).distance, -1e-5f);
 }
 
 TEST(SolidOverlap, OfAMeshThatIsNotClosedIsThatOfItsTriangles) {

@@ -23,7 +23,7 @@
 namespace abut::detail {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unlimited_move = std::numeric_limits<double>::infinity();
 
 double extent_of(const Aabb3& box) {
     return length(DVec<3>(box.max) - DVec<3>(box.min));
@@ -48,9 +48,9 @@ private:
     std::size_t count_ = 0, next_ = 0;
 };
 
-class Search {
+class MoveSearch {
 public:
-    Search(const View<3>& shape_a, const View<3>& shape_b) : a_(shape_a), b_(shape_b), cover_(a_, b_) {
+    MoveSearch(const View<3>& shape_a, const View<3>& shape_b) : a_(shape_a), b_(shape_b), cover_(a_, b_) {
         const double smaller = std::min(extent_of(a_.box()), extent_of(b_.box()));
         double farthest = 0;
         for (const Aabb3& box : {a_.box(), b_.box()})
@@ -83,7 +83,7 @@ public:
 
 private:
     struct Exit {
-        double distance = infinity;
+        double distance = unlimited_move;
         DVec<3> normal{0.0};  ///< of the last plane
     };
 
@@ -224,7 +224,7 @@ private:
             a_, b_.moved(move), 0, [&](std::uint32_t, const Corners& a, std::uint32_t, const Corners& b) {
                 const auto add = [&](const Corners& face, double sign) {
                     const DVec<3> normal = normalized<3>(cross(face[1] - face[0], face[2] - face[0]) * sign);
-                    double to = -infinity, from = infinity, back = infinity, front = -infinity;
+                    double to = -unlimited_move, from = unlimited_move, back = from, front = to;
                     for (std::size_t i = 0; i < 3; ++i) {
                         const double on_a = dot(normal, a[i] - a[0]), on_b = dot(normal, b[i] - a[0]);
                         to = std::max(to, on_a);
@@ -270,14 +270,14 @@ private:
     double step_ = 0;        ///< a distance that doesn't count
     double float_step_ = 0;  ///< the same for floats
     SeparatingMove best_;
-    double best_distance_ = infinity;
+    double best_distance_ = unlimited_move;
     TriedDirections tried_;
 };
 
 }  // namespace
 
 SeparatingMove separating_move(const View<3>& a, const View<3>& b) {
-    return Search(a, b).find();
+    return MoveSearch(a, b).find();
 }
 
 }  // namespace abut::detail
