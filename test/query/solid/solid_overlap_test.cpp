@@ -56,6 +56,44 @@ TEST(SolidOverlap, OfAKitIsExact) {
     EXPECT_GT(touching, pairs / 20);
 }
 
+/// The deepest overlap, or else the least gap, of two parts of two pieces, as polyhedra.
+float distance_of_parts(const Kit& kit, const scenes::KitPlacement& a, const Pose3& pose_a,
+                        const scenes::KitPlacement& b, const Pose3& pose_b) {
+    float least = std::numeric_limits<float>::infinity();
+    for (const scenes::KitPart& part_a : kit.pieces[a.piece].parts)
+        for (const scenes::KitPart& part_b : kit.pieces[b.piece].parts)
+            least = std::min(least, closest(at(*Polyhedron::build(part_a.points), pose_a),
+                                            at(*Polyhedron::build(part_b.points), pose_b))
+                                        .distance);
+    return least;
+}
+
+TEST(SolidOverlap, OfTurnedPiecesIsThatOfTheirParts) {
+    constexpr std::uint64_t seed = 20268;
+    SCOPED_TRACE(seed);
+    oracle::Random random(seed);
+    const Kit kit;
+    int overlapping = 0, apart = 0;
+    for (int i = 0; i < 400; ++i) {
+        const KitPair pair(kit, random);
+        const Vec3 far = random.chance(0.2) ? Vec3(1000, -500, 200) : Vec3(0);
+        const Pose3 pose_a{pair.a.position + far, random.rotation<3>()},
+            pose_b{pair.b.position + far, random.rotation<3>()};
+        const auto a = at(solid(kit.meshes[pair.a.piece]), pose_a), b = at(solid(kit.meshes[pair.b.piece]), pose_b);
+        const float expected = distance_of_parts(kit, pair.a, pose_a, pair.b, pose_b);
+        const float distance = closest(a, b).distance;
+        if (expected > 0) {
+            ++apart;
+            ASSERT_NEAR(distance, expected, 1e-3) << pair.text(kit);
+        } else if (expected < -1e-4f) {
+            ++overlapping;
+            ASSERT_LT(distance, expected * 0.999f) << pair.text(kit);
+        }
+    }
+    EXPECT_GT(apart, 100);
+    EXPECT_GT(overlapping, 50);
+}
+
 TEST(SolidOverlap, OfTPrismsSideBySide) {
     // `contact` of the meshes said 0.316, 1 and 0 deep at the first three places, and `closest` 0 at all of them.
     const Mesh t = mesh_of(scenes::kit()[0]);
