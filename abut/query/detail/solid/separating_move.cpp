@@ -57,7 +57,9 @@ public:
             farthest = std::max({farthest, largest(DVec<3>(box.min)), largest(DVec<3>(box.max))});
         step_ = 1e-9 * smaller + 1e-14 * farthest;
         float_step_ = 0x1p-23 * farthest;
-        if (a_.triangle_count() + b_.triangle_count() > min_triangles_for_balls) cover_.add_balls(shape_a, shape_b);
+        if (a_.triangle_count() + b_.triangle_count() <= min_fine_triangles) return;
+        cover_.add_balls(shape_a, shape_b);
+        max_meets_ = max_meets_if_fine;
     }
 
     SeparatingMove find() {
@@ -245,7 +247,7 @@ private:
     void search_meets() {
         MoveQueue queue;
         queue.add({}, limit());
-        for (int i = 0; i < max_meets; ++i) {
+        for (int i = 0; i < max_meets_; ++i) {
             const std::optional<MeetOfPlanes> next = queue.take_nearest();
             if (!next || next->distance >= limit()) return;
             if (next->count > 0 && (take_meet(*next) || take_meet(farther_by(*next, step_)))) return;
@@ -260,10 +262,11 @@ private:
         return meet.distance < limit() && parts(meet.move) && take(meet.move / meet.distance, meet.distance);
     }
 
-    static constexpr int max_meets = 64, max_crossings = 16;
+    static constexpr int max_crossings = 16;
 
-    /// Coarser solids have so few directions that balls don't pay.
-    static constexpr std::uint32_t min_triangles_for_balls = 256;
+    /// Coarser solids have so few directions that balls don't pay, and larger faces, whose planes meet in notches.
+    static constexpr std::uint32_t min_fine_triangles = 256;
+    static constexpr int max_meets_if_fine = 12;
 
     PlacedSolid a_, b_;
     MoveCover cover_;
@@ -272,6 +275,7 @@ private:
     SeparatingMove best_;
     double best_distance_ = unlimited_move;
     TriedDirections tried_;
+    int max_meets_ = 64;  ///< how many meets of planes are tried
 };
 
 }  // namespace
