@@ -136,6 +136,28 @@ TEST(SolidOverlap, OfOneInsideAnother) {
     expect_overlap(solid(hollow), at(solid(inner), Pose3{{-0.125f, 0, 0}}), true);
 }
 
+/// A tetrahedron with its first corner at the origin, and the others at these places.
+Mesh tetrahedron(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const std::vector<Vec3> points{{0, 0, 0}, a, b, c};
+    return *Mesh::build(points, std::vector<glm::uvec3>{{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}});
+}
+
+TEST(SolidOverlap, OfOneInsideThatTouchesInACorner) {
+    const Mesh box = box_surface({0, 0, 0}, {8, 8, 8}).mesh();
+    // A corner in a face, in an edge, and in a corner of the box; from inside and from outside.
+    const Mesh in_face = tetrahedron({1, 0.5f, 0.25f}, {0.5f, 2, 0.5f}, {0.25f, 0.5f, 1});
+    for (const Vec3 place : {Vec3(0, 3, 3), Vec3(0, 0, 3), Vec3(0, 0, 0), Vec3(0, 4, 4)}) {
+        expect_overlap(solid(box), at(solid(in_face), Pose3{place}), true);
+        expect_overlap(solid(box), at(stretched(solid(in_face), Vec3(-1)), Pose3{place}), false);
+        EXPECT_TRUE(overlaps(solid(box), at(stretched(solid(in_face), Vec3(-1)), Pose3{place})));
+    }
+    // A corner of a cavity in an edge, a face and a corner of the solid: from within the material.
+    const Mesh corner = mesh_of(scenes::kit()[1]);
+    const Mesh below = tetrahedron({-0.25f, -0.5f, -0.25f}, {-0.5f, -0.25f, -0.25f}, {-0.5f, -0.5f, 0.125f});
+    for (const Vec3 place : {Vec3(1, 1, 0.5f), Vec3(1, 2, 0.5f), Vec3(2, 1, 0.5f), Vec3(1, 1, 1)})
+        expect_overlap(solid(corner), at(solid(below), Pose3{place}), true);
+}
+
 TEST(SolidOverlap, OfSolidsThatTouchInAnEdgeOrACorner) {
     const Mesh box = box_surface({0, 0, 0}, {1, 1, 1}).mesh();
     for (const Vec3 at_b : {Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(1, 1, 1), Vec3(1, 0.5f, 0), Vec3(1, 1, 0.25f),
