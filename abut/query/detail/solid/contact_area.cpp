@@ -241,8 +241,8 @@ double gap_along(const DVec<3>& direction, const Corners& a, const Corners& b) {
 
 }  // namespace
 
-ContactArea contact_area(const PlacedSolid& a, const PlacedSolid& b, const DVec<3>& move, const DVec<3>& normal,
-                         double tolerance) {
+SolidContactArea contact_area(const PlacedSolid& a, const PlacedSolid& b, const DVec<3>& move, const DVec<3>& normal,
+                              double tolerance) {
     const PlacedSolid moved = b.moved(move);
     AreaSearch search(a, moved, normal, tolerance);
     for (const bool any_normal : {false, true}) {
@@ -254,7 +254,7 @@ ContactArea contact_area(const PlacedSolid& a, const PlacedSolid& b, const DVec<
                 return true;
             });
     }
-    ContactArea result;
+    SolidContactArea result;
     const std::span<const TouchPoint> corners = search.points().corners();
     for (const TouchPoint& corner : corners)
         result.manifold.points[result.manifold.count++] = {corner.position, 0, corner.id};

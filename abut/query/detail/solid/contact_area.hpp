@@ -9,14 +9,14 @@
 namespace abut::detail {
 
 /// The corners of the area in which A touches B after a move of B.
-struct ContactArea {
+struct SolidContactArea {
     Manifold<3> manifold;  ///< positions are on A; depths are 0
     Feature feature_a, feature_b;
 };
 
 /// The points that have the normal, from A to B; all of them if none have it. Surfaces up to `tolerance` apart touch.
-ContactArea contact_area(const PlacedSolid& a, const PlacedSolid& b, const DVec<3>& move, const DVec<3>& normal,
-                         double tolerance);
+SolidContactArea contact_area(const PlacedSolid& a, const PlacedSolid& b, const DVec<3>& move, const DVec<3>& normal,
+                              double tolerance);
 
 /// A direction in which B leaves A, which it touches. `step` is so small a move that it counts as none.
 DVec<3> touching_normal(const PlacedSolid& a, const PlacedSolid& b, double step);

@@ -25,7 +25,7 @@ double distance_tolerance(const View<3>& a, const View<3>& b) {
 
 /// Sets a common point of the surfaces after the move, and its features.
 void name_point(const View<3>& a, const View<3>& b, const DVec<3>& move, Closest<3>& closest) {
-    const ContactArea area =
+    const SolidContactArea area =
         contact_area(PlacedSolid(a), PlacedSolid(b), move, DVec<3>(closest.normal), distance_tolerance(a, b));
     if (area.manifold.count == 0) return;
     closest.on_a = to_float(area.manifold.points[0].position);
@@ -92,7 +92,7 @@ Contact<3> contact_of_solids(const View<3>& a, const View<3>& b, const Closest<3
     result.feature_b = closest.feature_b;
     if (!is_ball(a) && !is_ball(b)) {
         const DVec<3> move = DVec<3>(closest.normal) * -static_cast<double>(closest.distance);
-        const ContactArea area =
+        const SolidContactArea area =
             contact_area(PlacedSolid(a), PlacedSolid(b), move, DVec<3>(closest.normal), distance_tolerance(a, b));
         for (std::size_t i = 0; i < area.manifold.count; ++i) {
             const ManifoldPoint<3>& point = area.manifold.points[i];
