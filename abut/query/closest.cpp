@@ -178,7 +178,7 @@ Closest<D> closest(const View<D>& a, const View<D>& b, const QueryOptions<D>& op
     nearest.search(a, b);
     result = nearest.found();
     if constexpr (D == 3)
-        if (solids && result.distance <= 0) name_touching(a, b, result);
+        if (solids) name_touching(a, b, result);
     return result;
 }
 

@@ -14,9 +14,9 @@
 namespace abut {
 
 /// The union of its triangles, each of zero thickness and two-sided. Part i is triangle i of the input. Only `contains`
-/// treats a closed mesh as solid; `solid(mesh)` is solid in every query. Immutable: copies share the data, so one mesh at many poses needs one tree. Memory:
-/// the input, 12 bytes a triangle for adjacency, and 34 to 39 bytes a triangle for the tree if neighbours share corner
-/// positions, else about 90.
+/// treats a closed mesh as solid; `solid(mesh)` is solid in every query. Immutable: copies share the data, so one mesh
+/// at many poses needs one tree. Memory: the input, 12 bytes a triangle for adjacency, and 34 to 39 bytes a triangle
+/// for the tree if neighbours share corner positions, else about 90.
 class Mesh {
 public:
     /// Takes one or more triangles; degenerate, duplicate and intersecting ones are allowed. Returns a Problem if a

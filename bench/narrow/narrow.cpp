@@ -10,8 +10,8 @@ namespace abut::bench {
 
 std::vector<Bench> narrow_benches() {
     std::vector<Bench> result;
-    for (const auto& benches :
-         {closest_benches(), overlaps_benches(), contact_benches(), plane_benches(), raycast_benches()})
+    for (const auto& benches : {closest_benches(), overlaps_benches(), contact_benches(), plane_benches(),
+                                raycast_benches(), solid_benches()})
         std::ranges::copy(benches, std::back_inserter(result));
     return result;
 }

@@ -149,5 +149,6 @@ std::vector<Bench> overlaps_benches();
 std::vector<Bench> contact_benches();
 std::vector<Bench> plane_benches();
 std::vector<Bench> raycast_benches();
+std::vector<Bench> solid_benches();
 
 }  // namespace abut::bench

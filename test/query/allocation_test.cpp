@@ -1,5 +1,7 @@
 // No query allocates memory.
 
+#include "../../scenes/bumpy_ball.hpp"
+#include "../../scenes/kit.hpp"
 #include "../oracle/check.hpp"
 #include "../oracle/pair.hpp"
 #include "user_functions.hpp"
@@ -20,6 +22,7 @@
 #include <abut/shape/placed.hpp>
 #include <abut/shape/polygon.hpp>
 #include <abut/shape/polyhedron.hpp>
+#include <abut/shape/solid_mesh.hpp>
 #include <abut/shape/tile_map.hpp>
 
 #include <atomic>
@@ -131,6 +134,23 @@ TEST(Allocation, OfMeshAndRoundShapeQueriesIsNone) {
     EXPECT_EQ(allocations_of_all_queries<3>(view(mesh), view(cylinder), ray), 0);
     EXPECT_EQ(allocations_of_all_queries<3>(view(cone), view(cylinder), ray), 0);
     EXPECT_EQ(allocations_of_all_queries<3>(view(mesh), view(at(mesh, Pose3{{0.5f, 0, 0}})), ray), 0);
+}
+
+TEST(Allocation, OfSolidQueriesIsNone) {
+    oracle::Random random(7);
+    const scenes::BumpyBall surface = scenes::bumpy_ball(12, 0.3, 0.01, random);
+    const Mesh ball = *Mesh::build(surface.points, surface.triangles);
+    const std::vector<scenes::KitPiece> pieces = scenes::kit();
+    const Mesh t = *Mesh::build(pieces[0].points, pieces[0].triangles);
+    const Ray3 ray = Ray3::between({-3, -2, -1}, {2, 2, 2});
+    for (const float x : {0.5f, 1.5f, 3.0f, 4.0f}) {
+        const Pose3 pose{{x, 0, 0}};
+        for (const View<3>& other : {View<3>(view(at(solid(ball), pose))), View<3>(view(at(solid(t), pose))),
+                                     View<3>(view(Box3{{x, 0, 0}, {1, 1, 1}})), View<3>(view(Sphere{{x, 0, 0}, 1}))}) {
+            EXPECT_EQ(allocations_of_all_queries<3>(view(solid(ball)), other, ray), 0);
+            EXPECT_EQ(allocations_of_all_queries<3>(view(solid(t)), other, ray), 0);
+        }
+    }
 }
 
 TEST(Allocation, OfLevelQueriesIsNone) {

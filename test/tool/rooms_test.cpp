@@ -79,17 +79,17 @@ TEST(Rooms, ExactlyTheOverlapsAreFound) {
             for (std::size_t j = i + 1; j < objects.size(); ++j) {
                 SCOPED_TRACE(objects[i].path + " " + objects[j].path);
                 const bool expected = room.overlap(i, j);
-                const auto told = found.find({i, j});
+                const auto reported = found.find({i, j});
                 // Convex shapes are right to within the tolerance of distances.
                 const float tolerance =
                     room.are_convex(i, j) ? 1e-5f * std::max(objects[i].radius, objects[j].radius) : 0;
                 if (!expected) {
-                    EXPECT_TRUE(told == found.end() || told->second <= tolerance);
+                    EXPECT_TRUE(reported == found.end() || reported->second <= tolerance);
                     continue;
                 }
                 ++overlapping;
-                ASSERT_TRUE(told != found.end());
-                EXPECT_LE(told->second, room.box_depth(i, j) * (1 + 1e-6) + 1e-7 + static_cast<double>(tolerance));
+                ASSERT_TRUE(reported != found.end());
+                EXPECT_LE(reported->second, room.box_depth(i, j) * (1 + 1e-6) + 1e-7 + static_cast<double>(tolerance));
             }
     }
     EXPECT_GT(overlapping, 10 * rooms);

@@ -10,6 +10,14 @@ constexpr float default_allow = 1e-3f;
 // Tolerance of queries relative to the smaller object's size: smaller gaps count as touching.
 constexpr float tolerance = 1e-5f;
 
+// A shape as its surface alone, at its place.
+View<3> surface_of(const ObjectAt<3>& object) {
+    return view(at(object.object.surface, object.pose));
+}
+const View<2>& surface_of(const ObjectAt<2>& object) {
+    return object.placed;
+}
+
 // Tests if an interior point of one body is inside the other, a filled mesh. The sum of the point's depths below both
 // surfaces is a lower bound of the separating distance. It is exact for balls and for identical bodies.
 template <int D>
@@ -17,7 +25,7 @@ std::optional<PairContact<D>> contained(const ObjectAt<D>& outer, const ObjectAt
     if (!outer.object.filled) return std::nullopt;
     const Vec<D> point = inner.pose * inner.object.inside.point;
     if (!contains(outer.box, point) || !contains(outer.placed, point)) return std::nullopt;
-    const Closest<D> nearest = closest(outer.placed, point);
+    const Closest<D> nearest = closest(surface_of(outer), point);
     const float depth = nearest.distance + inner.object.inside.depth;
     if (!(depth > allow)) return std::nullopt;
     // The normal points from the closest surface point to the interior point.
@@ -32,7 +40,7 @@ bool are_solids(const Object<D>& a, const Object<D>& b) {
 
 // True if the surfaces of two overlapping solids don't touch.
 bool is_inside(const ObjectAt<3>& a, const ObjectAt<3>& b) {
-    return !overlaps(at(a.object.surface, a.pose), at(b.object.surface, b.pose));
+    return !overlaps(surface_of(a), surface_of(b));
 }
 bool is_inside(const ObjectAt<2>&, const ObjectAt<2>&) {
     return false;

@@ -64,7 +64,7 @@ Result<Mesh> Mesh::build(std::span<const Vec3> points, std::span<const glm::uvec
     const std::vector<std::uint32_t> same = first_coincident(points);
     data->adjacency = build_mesh_adjacency(triangles, same);
     data->tree = build_mesh_tree(points, triangles, same);
-    if (data->adjacency.closed) find_components(*data, same);
+    if (data->adjacency.closed) find_components(*data);
     return Mesh(std::move(data));
 }
 

@@ -6,7 +6,6 @@
 #include <abut/shape/mesh/tree.hpp>
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace abut::detail {
@@ -18,11 +17,11 @@ struct MeshSurface {
     MeshAdjacency adjacency;
 
     // Of a closed mesh, for queries that treat it as solid:
-    std::vector<std::uint32_t> components;  ///< one point of each connected component of the surface
+    std::vector<std::uint32_t> components;  ///< one triangle of each component that is connected across manifold edges
     bool inward = false;                    ///< the surface as a whole encloses a negative volume
 };
 
-/// Sets `components` and `inward`. `same` maps each point to the lowest index at its position. O(n).
-void find_components(MeshSurface& surface, std::span<const std::uint32_t> same);
+/// Sets `components` and `inward`. O(n).
+void find_components(MeshSurface& surface);
 
 }  // namespace abut::detail

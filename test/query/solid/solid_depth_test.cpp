@@ -7,6 +7,8 @@
 #include <abut/query/contact.hpp>
 #include <abut/query/detail/solid/interior_overlap.hpp>
 #include <abut/query/each_contact.hpp>
+#include <abut/shape/any_shape.hpp>
+#include <abut/world/world.hpp>
 
 #include <algorithm>
 
@@ -140,6 +142,25 @@ TEST(SolidContact, IsOneManifold) {
     const Contact<3> near = contact(solid(floor), above, {.margin = 0.125f});
     EXPECT_EQ(near.depth, -0.0625f);
     EXPECT_EQ(near.points.size(), 4u);
+}
+
+TEST(SolidContact, OfViewsAndOwners) {
+    const Mesh t = mesh_of(scenes::kit()[0]);
+    const Pose3 beside{{2.75f, 0, 0}};
+    const auto owner = at(solid(mesh_of(scenes::kit()[0])), beside);
+    EXPECT_EQ(closest(solid(t), owner).distance, -0.25f);
+    EXPECT_EQ(closest(AnyShape<3>(solid(t)), AnyShape<3>(owner)).distance, -0.25f);
+    EXPECT_EQ(closest(solid(t), stretched(owner, Vec3(1, 0.5f, 1))).distance, -0.25f);
+    // The ball is added to the triangles, so that the sum has no inside.
+    EXPECT_EQ(closest(rounded(solid(t), 0.125f), owner).distance, closest(rounded(t, 0.125f), at(t, beside)).distance);
+    World3 world;
+    world.add(solid(t), {.fixed = true});
+    world.add(solid(t), {.pose = beside});
+    world.update();
+    ASSERT_EQ(world.contacts().size(), 1u);
+    const Contact<3>& touch = world.contacts()[0].contact;
+    EXPECT_EQ(touch.depth, 0.25f);
+    EXPECT_EQ(touch.points.size(), 4u);
 }
 
 TEST(MeshContact, OfOpenMeshesAgreesWithClosest) {

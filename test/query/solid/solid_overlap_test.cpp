@@ -6,6 +6,7 @@
 #include <abut/query/closest.hpp>
 #include <abut/query/contact.hpp>
 #include <abut/query/overlaps.hpp>
+#include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/polyhedron.hpp>
 
@@ -55,6 +56,44 @@ TEST(SolidOverlap, OfAKitIsExact) {
     EXPECT_GT(touching, pairs / 20);
 }
 
+/// The deepest overlap, or else the least gap, of two parts of two pieces, as polyhedra.
+float distance_of_parts(const Kit& kit, const scenes::KitPlacement& a, const Pose3& pose_a,
+                        const scenes::KitPlacement& b, const Pose3& pose_b) {
+    float least = std::numeric_limits<float>::infinity();
+    for (const scenes::KitPart& part_a : kit.pieces[a.piece].parts)
+        for (const scenes::KitPart& part_b : kit.pieces[b.piece].parts)
+            least = std::min(least, closest(at(*Polyhedron::build(part_a.points), pose_a),
+                                            at(*Polyhedron::build(part_b.points), pose_b))
+                                        .distance);
+    return least;
+}
+
+TEST(SolidOverlap, OfTurnedPiecesIsThatOfTheirParts) {
+    constexpr std::uint64_t seed = 20268;
+    SCOPED_TRACE(seed);
+    oracle::Random random(seed);
+    const Kit kit;
+    int overlapping = 0, apart = 0;
+    for (int i = 0; i < 400; ++i) {
+        const KitPair pair(kit, random);
+        const Vec3 far = random.chance(0.2) ? Vec3(1000, -500, 200) : Vec3(0);
+        const Pose3 pose_a{pair.a.position + far, random.rotation<3>()},
+            pose_b{pair.b.position + far, random.rotation<3>()};
+        const auto a = at(solid(kit.meshes[pair.a.piece]), pose_a), b = at(solid(kit.meshes[pair.b.piece]), pose_b);
+        const float expected = distance_of_parts(kit, pair.a, pose_a, pair.b, pose_b);
+        const float distance = closest(a, b).distance;
+        if (expected > 0) {
+            ++apart;
+            ASSERT_NEAR(distance, expected, 1e-3) << pair.text(kit);
+        } else if (expected < -1e-4f) {
+            ++overlapping;
+            ASSERT_LT(distance, expected * 0.999f) << pair.text(kit);
+        }
+    }
+    EXPECT_GT(apart, 100);
+    EXPECT_GT(overlapping, 50);
+}
+
 TEST(SolidOverlap, OfTPrismsSideBySide) {
     // `contact` of the meshes said 0.316, 1 and 0 deep at the first three places, and `closest` 0 at all of them.
     const Mesh t = mesh_of(scenes::kit()[0]);
@@ -95,6 +134,28 @@ TEST(SolidOverlap, OfOneInsideAnother) {
     EXPECT_FALSE(overlaps(solid(hollow), free));
     EXPECT_FLOAT_EQ(closest(solid(hollow), free).distance, 0.5f);
     expect_overlap(solid(hollow), at(solid(inner), Pose3{{-0.125f, 0, 0}}), true);
+}
+
+/// A tetrahedron with its first corner at the origin, and the others at these places.
+Mesh tetrahedron(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const std::vector<Vec3> points{{0, 0, 0}, a, b, c};
+    return *Mesh::build(points, std::vector<glm::uvec3>{{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}});
+}
+
+TEST(SolidOverlap, OfOneInsideThatTouchesInACorner) {
+    const Mesh box = box_surface({0, 0, 0}, {8, 8, 8}).mesh();
+    // A corner in a face, in an edge, and in a corner of the box; from inside and from outside.
+    const Mesh in_face = tetrahedron({1, 0.5f, 0.25f}, {0.5f, 2, 0.5f}, {0.25f, 0.5f, 1});
+    for (const Vec3 place : {Vec3(0, 3, 3), Vec3(0, 0, 3), Vec3(0, 0, 0), Vec3(0, 4, 4)}) {
+        expect_overlap(solid(box), at(solid(in_face), Pose3{place}), true);
+        expect_overlap(solid(box), at(stretched(solid(in_face), Vec3(-1)), Pose3{place}), false);
+        EXPECT_TRUE(overlaps(solid(box), at(stretched(solid(in_face), Vec3(-1)), Pose3{place})));
+    }
+    // A corner of a cavity in an edge, a face and a corner of the solid: from within the material.
+    const Mesh corner = mesh_of(scenes::kit()[1]);
+    const Mesh below = tetrahedron({-0.25f, -0.5f, -0.25f}, {-0.5f, -0.25f, -0.25f}, {-0.5f, -0.5f, 0.125f});
+    for (const Vec3 place : {Vec3(1, 1, 0.5f), Vec3(1, 2, 0.5f), Vec3(2, 1, 0.5f), Vec3(1, 1, 1)})
+        expect_overlap(solid(corner), at(solid(below), Pose3{place}), true);
 }
 
 TEST(SolidOverlap, OfSolidsThatTouchInAnEdgeOrACorner) {
@@ -148,6 +209,31 @@ TEST(SolidOverlap, OfBoxesAndPolyhedra) {
         if (expected.distance < 0) ++overlapping;
     }
     EXPECT_GT(overlapping, 10);
+}
+
+TEST(SolidOverlap, OfBallsAndPoints) {
+    constexpr std::uint64_t seed = 20267;
+    SCOPED_TRACE(seed);
+    oracle::Random random(seed);
+    const Mesh box = box_surface({0, 0, 0}, {4, 2, 3}).mesh();
+    const Polyhedron hull = *Polyhedron::build(box.points());
+    for (int i = 0; i < 300; ++i) {
+        const Vec3 center(random.uniform_float(-1, 5), random.uniform_float(-1, 3), random.uniform_float(-1, 4));
+        const Sphere ball{center, random.chance(0.3) ? 0 : random.uniform_float(0, 2)};
+        const Closest<3> expected = closest(hull, ball), nearest = closest(solid(box), ball);
+        ASSERT_NEAR(nearest.distance, expected.distance, 1e-4);
+        ASSERT_EQ(overlaps(solid(box), ball), expected.distance <= 0);
+        if (std::abs(expected.distance) < 1e-3f) continue;
+        ASSERT_GT(glm::dot(nearest.normal, nearest.on_b - nearest.on_a) * nearest.distance, 0);
+        ASSERT_NEAR(closest(ball, solid(box)).distance, expected.distance, 1e-4);
+        ASSERT_EQ(static_cast<bool>(contact(ball, solid(box))), expected.distance <= 0);
+    }
+    // In the corner of an L the ball leaves both arms.
+    const Mesh corner = mesh_of(scenes::kit()[1]);
+    const Closest<3> deep = closest(solid(corner), Sphere{{0.875f, 0.875f, 0.5f}, 0.5f});
+    EXPECT_LT(deep.distance, -0.625f);
+    const Vec3 out = Vec3(0.875f, 0.875f, 0.5f) - deep.normal * deep.distance;
+    EXPECT_GE(closest(solid(corner), Sphere{out, 0.5f}).distance, -1e-5f);
 }
 
 TEST(SolidOverlap, OfAMeshThatIsNotClosedIsThatOfItsTriangles) {

@@ -46,10 +46,31 @@ public:
     /// At most four points.
     std::span<const TouchPoint> corners() {
         if (count_ > 4) reduce();
+        for (std::size_t i = 0; i < count_; ++i) {
+            if (!is_between_others(i)) continue;
+            std::move(points_.begin() + static_cast<std::ptrdiff_t>(i + 1),
+                      points_.begin() + static_cast<std::ptrdiff_t>(count_),
+                      points_.begin() + static_cast<std::ptrdiff_t>(i));
+            --count_;
+            --i;
+        }
         return {points_.data(), count_};
     }
 
 private:
+    /// Whether a point lies between two others, and so is no corner.
+    bool is_between_others(std::size_t i) const {
+        for (std::size_t j = 0; j < count_; ++j)
+            for (std::size_t k = 0; k < j; ++k) {
+                if (j == i || k == i) continue;
+                const DVec<3> along = points_[k].position - points_[j].position,
+                              from = points_[i].position - points_[j].position;
+                const double squared = length_squared(along), t = dot(from, along);
+                if (t > 0 && t < squared && length(from - along * (t / squared)) <= tolerance_) return true;
+            }
+        return false;
+    }
+
     void reduce() {
         std::array<double, capacity> x, y;
         std::size_t first = 0;

@@ -17,8 +17,6 @@ public:
         }
     }
 
-    bool is_on_axis() const { return turn_ == 0; }
-
     /// 0: the angle is 0, 1: less than half a turn, 2: half a turn, 3: more.
     int class_of(const DVec<3>& point) const {
         const int side = exact_side(from_, to_, start_, point);
@@ -54,12 +52,22 @@ BladeSides blade_at(const EdgeFan& fan, const DVec<3>& point) {
     return result;
 }
 
+/// Whether the half-plane through a point that no blade goes through is inside.
+bool has_inside(const EdgeFan& fan, const DVec<3>& point) {
+    if (fan.count < 2) return false;
+    const AnglesFrom angles(fan, point);
+    const FanBlade* next = nullptr;
+    for (const FanBlade& blade : fan.all())
+        if (next == nullptr || angles.before(blade.point, next->point)) next = &blade;
+    return next->inside_before;
+}
+
 bool has_blade_inside(const EdgeFan& a, const EdgeFan& b) {
     for (const FanBlade& blade : a.all()) {
         const BladeSides same = blade_at(b, blade.point);
         if (same.found) {
             if ((same.inside_before && blade.inside_before) || (same.inside_after && blade.inside_after)) return true;
-        } else if (side_of(b, blade.point) == PointSide::inside) {
+        } else if (has_inside(b, blade.point)) {
             return true;
         }
     }
@@ -67,18 +75,6 @@ bool has_blade_inside(const EdgeFan& a, const EdgeFan& b) {
 }
 
 }  // namespace
-
-PointSide side_of(const EdgeFan& fan, const DVec<3>& point) {
-    if (fan.count < 2) return PointSide::outside;
-    const AnglesFrom angles(fan, point);
-    if (angles.is_on_axis()) return PointSide::on_surface;
-    const FanBlade* next = nullptr;
-    for (const FanBlade& blade : fan.all()) {
-        if (angles.class_of(blade.point) == 0) return PointSide::on_surface;
-        if (next == nullptr || angles.before(blade.point, next->point)) next = &blade;
-    }
-    return next != nullptr && next->inside_before ? PointSide::inside : PointSide::outside;
-}
 
 bool fans_overlap(const EdgeFan& a, const EdgeFan& b) {
     return has_blade_inside(a, b) || has_blade_inside(b, a);

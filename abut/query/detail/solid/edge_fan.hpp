@@ -6,11 +6,8 @@
 
 namespace abut::detail {
 
-/// Whether the half-plane through a point, bounded by the axis of the fan, lies inside the solid. Of a fan of fewer
-/// than two blades, beside a triangle of zero area, nothing is inside.
-PointSide side_of(const EdgeFan& fan, const DVec<3>& point);
-
-/// Whether two solids with the same axis share a sector around it.
+/// Whether two solids with the same axis share a sector around it. Of a fan of fewer than two blades, beside a triangle
+/// of zero area, nothing is known to be inside.
 bool fans_overlap(const EdgeFan& a, const EdgeFan& b);
 
 /// The same fan, with the direction of its axis reversed.

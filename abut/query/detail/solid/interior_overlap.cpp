@@ -58,13 +58,6 @@ struct SolidTriangle {
     const Signs& sides;  ///< of its corners, beside the plane of the other triangle
 };
 
-/// Where a point in the plane of a triangle is.
-struct PlaceInTriangle {
-    enum Kind : std::uint8_t { outside, inside, on_edge, on_corner };
-    Kind kind = outside;
-    std::size_t index = 0;  ///< of the edge or the corner
-};
-
 /// A triangle in its plane, projected along an axis.
 class FlatTriangle {
 public:
@@ -80,61 +73,26 @@ public:
     int turn_of_edge(std::size_t edge, const DVec<3>& point) const {
         return turn(corners_[edge], corners_[next_corner(edge)], point);
     }
-    PlaceInTriangle place_of(const DVec<3>& point) const {
-        Signs turns;
-        for (std::size_t i = 0; i < 3; ++i)
-            if ((turns[i] = turn_of_edge(i, point)) < 0) return {};
-        const auto zeros = std::count(turns.begin(), turns.end(), 0);
-        if (zeros == 0) return {PlaceInTriangle::inside, 0};
-        const auto first = static_cast<std::size_t>(std::find(turns.begin(), turns.end(), 0) - turns.begin());
-        if (zeros == 1) return {PlaceInTriangle::on_edge, first};
-        // The corner where the two edges meet.
-        return {PlaceInTriangle::on_corner, turns[next_corner(first)] == 0 ? next_corner(first) : first};
-    }
 
 private:
     const Corners& corners_;
     int axis_, front_;
 };
 
-/// Tests the corners and edges of a triangle that lie in the plane of another one.
-class FlatContacts {
+/// Tests the edges of a triangle that lie in the plane of another one.
+class FlatEdges {
 public:
-    FlatContacts(const SolidTriangle& own, const SolidTriangle& other)
-        : own_(own), other_(other), flat_(other.corners) {}
+    FlatEdges(const SolidTriangle& own, const SolidTriangle& other) : own_(own), other_(other), flat_(other.corners) {}
 
     bool overlap() const {
-        for (std::size_t i = 0; i < 3; ++i) {
-            if (own_.sides[i] != 0) continue;
-            if (at_corner(i)) return true;
-            if (own_.sides[next_corner(i)] == 0 && at_edge(i)) return true;
-        }
+        for (std::size_t i = 0; i < 3; ++i)
+            if (own_.sides[i] == 0 && own_.sides[next_corner(i)] == 0 && overlap_at(i)) return true;
         return false;
     }
 
 private:
-    /// Whether an edge at corner i goes inside the other solid from there, or an edge of the other solid inside this
-    /// one.
-    bool at_corner(std::size_t i) const {
-        const DVec<3>& corner = own_.corners[i];
-        const PlaceInTriangle place = flat_.place_of(corner);
-        if (place.kind == PlaceInTriangle::outside) return false;
-        const std::size_t next = next_corner(i), last = next_corner(next);
-        if (place.kind == PlaceInTriangle::inside) return own_.sides[next] < 0 || own_.sides[last] < 0;
-        if (place.kind == PlaceInTriangle::on_edge) {
-            const EdgeFan fan = other_.solid.fan(other_.index, place.index);
-            if (side_of(fan, own_.corners[next]) == PointSide::inside ||
-                side_of(fan, own_.corners[last]) == PointSide::inside)
-                return true;
-            return own_.solid.side_of(corner, &other_.corners[place.index]) == PointSide::inside ||
-                   own_.solid.side_of(corner, &other_.corners[next_corner(place.index)]) == PointSide::inside;
-        }
-        return other_.solid.side_of(corner, &own_.corners[next]) == PointSide::inside ||
-               other_.solid.side_of(corner, &own_.corners[last]) == PointSide::inside;
-    }
-
     /// Whether a sector around edge i, which lies in the other's plane, is inside both solids.
-    bool at_edge(std::size_t i) const {
+    bool overlap_at(std::size_t i) const {
         const DVec<3>&from = own_.corners[i], &to = own_.corners[next_corner(i)];
         if (crosses_inside(from, to)) return fans_overlap(own_.solid.fan(own_.index, i), half_space_around(from, to));
         for (std::size_t j = 0; j < 3; ++j) {
@@ -185,36 +143,6 @@ private:
     FlatTriangle flat_;
 };
 
-/// Whether two edges cross in a point inside both.
-bool edges_cross(const DVec<3>& a0, const DVec<3>& a1, const DVec<3>& b0, const DVec<3>& b1) {
-    if (exact_side(a0, a1, b0, b1) != 0) return false;
-    for (int axis = 0; axis < 3; ++axis) {
-        const int from = exact_turn(a0, a1, b0, axis), to = exact_turn(a0, a1, b1, axis);
-        if (from == 0 && to == 0) continue;
-        return from * to < 0 && exact_turn(b0, b1, a0, axis) * exact_turn(b0, b1, a1, axis) < 0;
-    }
-    return false;
-}
-
-/// Whether two edges cross, and one goes inside the other solid from there.
-bool overlap_at_crossing_edges(const SolidTriangle& a, const SolidTriangle& b) {
-    for (std::size_t i = 0; i < 3; ++i) {
-        const std::size_t next_i = next_corner(i);
-        if (a.sides[i] * a.sides[next_i] > 0) continue;
-        for (std::size_t j = 0; j < 3; ++j) {
-            const std::size_t next_j = next_corner(j);
-            if (b.sides[j] * b.sides[next_j] > 0) continue;
-            if (!edges_cross(a.corners[i], a.corners[next_i], b.corners[j], b.corners[next_j])) continue;
-            const EdgeFan fan_a = a.solid.fan(a.index, i), fan_b = b.solid.fan(b.index, j);
-            for (const DVec<3>& end : {a.corners[i], a.corners[next_i]})
-                if (side_of(fan_b, end) == PointSide::inside) return true;
-            for (const DVec<3>& end : {b.corners[j], b.corners[next_j]})
-                if (side_of(fan_a, end) == PointSide::inside) return true;
-        }
-    }
-    return false;
-}
-
 /// Whether an inner point of both solids shows at these two triangles.
 bool overlap_at(const PlacedSolid& a, std::uint32_t index_a, const Corners& corners_a, const PlacedSolid& b,
                 std::uint32_t index_b, const Corners& corners_b) {
@@ -225,14 +153,11 @@ bool overlap_at(const PlacedSolid& a, std::uint32_t index_a, const Corners& corn
     if (has(sides_a, 1) && has(sides_a, -1) && has(sides_b, 1) && has(sides_b, -1) &&
         cross_inside(corners_a, sides_a, corners_b, sides_b))
         return true;
-    if (!has(sides_a, 0) && !has(sides_b, 0)) {
-        const SolidTriangle own{a, index_a, corners_a, sides_a}, other{b, index_b, corners_b, sides_b};
-        return overlap_at_crossing_edges(own, other);
-    }
+    if (std::count(sides_a.begin(), sides_a.end(), 0) < 2 && std::count(sides_b.begin(), sides_b.end(), 0) < 2)
+        return false;
     if (projection_axis(corners_a) < 0 || projection_axis(corners_b) < 0) return false;
     const SolidTriangle own{a, index_a, corners_a, sides_a}, other{b, index_b, corners_b, sides_b};
-    return FlatContacts(own, other).overlap() || FlatContacts(other, own).overlap() ||
-           overlap_at_crossing_edges(own, other);
+    return FlatEdges(own, other).overlap() || FlatEdges(other, own).overlap();
 }
 
 }  // namespace
@@ -253,8 +178,12 @@ bool each_triangle_pair(const PlacedSolid& a, const PlacedSolid& b, float reach,
 }
 
 bool has_component_inside(const PlacedSolid& inner, const PlacedSolid& outer) {
-    for (const std::uint32_t point : inner.components())
-        if (outer.side_of(inner.point(point)) == PointSide::inside) return true;
+    for (const std::uint32_t triangle : inner.components()) {
+        // The component may touch the other surface in a corner. A point on an edge of it, next to the corner, is
+        // inside.
+        const Corners corners = inner.corners(triangle);
+        if (outer.side_of(corners[0], &corners[1]) == PointSide::inside) return true;
+    }
     return false;
 }
 

@@ -5,13 +5,14 @@
 // If they do, then one of these holds:
 //
 //   - two triangles cross in a segment that is inside both of them;
-//   - at some point of an edge, away from all corners, a sector around the edge is inside both solids. The edge lies in
-//     a triangle or along an edge of the other solid there, or it is inside the other solid;
-//   - a connected component of a surface is inside the other solid and touches it nowhere.
+//   - an edge of one solid lies in a triangle or along an edge of the other, and a sector around it is inside both;
+//   - a connected component of one surface is inside the other solid, and touches it in points at most.
 //
-// An edge that is inside somewhere, and touches the other surface elsewhere, is inside next to a point where it
-// touches. So everything is decided at pairs of triangles that touch, by the signs of determinants, without any point
-// that would have to be computed.
+// For an edge is inside the other solid somewhere, if the second doesn't hold. From there the component is inside as
+// far as one walks over its triangles. Around a point where it is not so any more, some triangle has a direction
+// inside, one outside or on the surface, and between them the surface of the other solid: then the triangle crosses it,
+// or has an edge of it inside. So everything is decided by the signs of determinants at triangles that touch, and by
+// the winding number of one point of each component.
 
 #include <abut/query/detail/solid/placed_solid.hpp>
 

@@ -60,8 +60,8 @@ double end_in_ball(const DVec<3>& center, double radius, const DVec<3>& directio
 
 void MoveCover::add_balls(const View<3>& shape_a, const View<3>& shape_b) {
     std::array<InnerBall, max_inner> inner_a, inner_b;
-    const std::size_t count_a = find_inner_balls(shape_a, a_, inner_a),
-                      count_b = find_inner_balls(shape_b, b_, inner_b);
+    const std::size_t count_a = find_inner_balls(surface_view(shape_a), a_, inner_a),
+                      count_b = find_inner_balls(surface_view(shape_b), b_, inner_b);
     for (std::size_t i = 0; i < count_a; ++i)
         for (std::size_t j = 0; j < count_b; ++j) {
             const Ball ball{inner_a[i].center - inner_b[j].center, inner_a[i].radius + inner_b[j].radius};

@@ -59,7 +59,7 @@ public:
         const std::size_t own = flipped_ && corner > 0 ? 3 - corner : corner;
         return surface_.triangle(triangle)[own];
     }
-    /// One point of each connected component of the surface.
+    /// One triangle of each connected component of the surface.
     std::span<const std::uint32_t> components() const { return surface_.components(); }
 
     /// Visits at least the triangles whose boxes overlap the box; false stops.

@@ -6,20 +6,20 @@
 namespace abut::detail {
 namespace {
 
-constexpr double rounding = 1e-9;
+constexpr double plane_rounding = 1e-9;
 
 bool is_in_front(const MeetOfPlanes& meet, const DVec<3>& move) {
     return std::all_of(meet.planes.begin(), meet.planes.begin() + static_cast<std::ptrdiff_t>(meet.count),
                        [&](const MovePlane& plane) {
                            return dot(plane.normal, move) >=
-                                  plane.distance - rounding * (plane.distance + length(move));
+                                  plane.distance - plane_rounding * (plane.distance + length(move));
                        });
 }
 
 /// The least move onto two planes, or none if they are parallel.
 std::optional<DVec<3>> meet_of(const MovePlane& p, const MovePlane& q) {
     const double cosine = dot(p.normal, q.normal), det = 1 - cosine * cosine;
-    if (det < rounding) return std::nullopt;
+    if (det < plane_rounding) return std::nullopt;
     return p.normal * ((p.distance - cosine * q.distance) / det) +
            q.normal * ((q.distance - cosine * p.distance) / det);
 }
@@ -27,7 +27,7 @@ std::optional<DVec<3>> meet_of(const MovePlane& p, const MovePlane& q) {
 std::optional<DVec<3>> meet_of(const MovePlane& p, const MovePlane& q, const MovePlane& r) {
     const DVec<3> across = cross(q.normal, r.normal);
     const double det = dot(p.normal, across);
-    if (std::abs(det) < rounding) return std::nullopt;
+    if (std::abs(det) < plane_rounding) return std::nullopt;
     return (across * p.distance + cross(r.normal, p.normal) * q.distance + cross(p.normal, q.normal) * r.distance) /
            det;
 }
@@ -39,7 +39,7 @@ void NearestPlanes::add(const MovePlane& plane, double limit) {
     const auto end = planes_.begin() + static_cast<std::ptrdiff_t>(count_);
     const auto same = [&](const MovePlane& other) {
         return dot(plane.normal, other.normal) > 1 - 1e-12 &&
-               std::abs(plane.distance - other.distance) <= rounding * limit;
+               std::abs(plane.distance - other.distance) <= plane_rounding * limit;
     };
     if (std::any_of(planes_.begin(), end, same)) return;
     if (count_ < planes_.size()) {
@@ -87,7 +87,7 @@ MeetOfPlanes farther_by(const MeetOfPlanes& meet, double distance) {
 void MoveQueue::add(const MeetOfPlanes& meet, double limit) {
     if (meet.distance >= limit) return;
     const auto known_end = known_.begin() + static_cast<std::ptrdiff_t>(known_count_);
-    const auto same = [&](const DVec<3>& other) { return length(meet.move - other) <= rounding * limit; };
+    const auto same = [&](const DVec<3>& other) { return length(meet.move - other) <= plane_rounding * limit; };
     if (std::any_of(known_.begin(), known_end, same)) return;
     if (known_count_ < known_.size()) known_[known_count_++] = meet.move;
     const auto end = sorted_.begin() + static_cast<std::ptrdiff_t>(count_);

@@ -23,7 +23,7 @@
 namespace abut::detail {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unlimited_move = std::numeric_limits<double>::infinity();
 
 double extent_of(const Aabb3& box) {
     return length(DVec<3>(box.max) - DVec<3>(box.min));
@@ -48,16 +48,18 @@ private:
     std::size_t count_ = 0, next_ = 0;
 };
 
-class Search {
+class MoveSearch {
 public:
-    Search(const View<3>& shape_a, const View<3>& shape_b) : a_(shape_a), b_(shape_b), cover_(a_, b_) {
+    MoveSearch(const View<3>& shape_a, const View<3>& shape_b) : a_(shape_a), b_(shape_b), cover_(a_, b_) {
         const double smaller = std::min(extent_of(a_.box()), extent_of(b_.box()));
         double farthest = 0;
         for (const Aabb3& box : {a_.box(), b_.box()})
             farthest = std::max({farthest, largest(DVec<3>(box.min)), largest(DVec<3>(box.max))});
         step_ = 1e-9 * smaller + 1e-14 * farthest;
         float_step_ = 0x1p-23 * farthest;
-        if (a_.triangle_count() + b_.triangle_count() > min_triangles_for_balls) cover_.add_balls(shape_a, shape_b);
+        if (a_.triangle_count() + b_.triangle_count() <= min_fine_triangles) return;
+        cover_.add_balls(shape_a, shape_b);
+        max_meets_ = max_meets_if_fine;
     }
 
     SeparatingMove find() {
@@ -83,7 +85,7 @@ public:
 
 private:
     struct Exit {
-        double distance = infinity;
+        double distance = unlimited_move;
         DVec<3> normal{0.0};  ///< of the last plane
     };
 
@@ -224,7 +226,7 @@ private:
             a_, b_.moved(move), 0, [&](std::uint32_t, const Corners& a, std::uint32_t, const Corners& b) {
                 const auto add = [&](const Corners& face, double sign) {
                     const DVec<3> normal = normalized<3>(cross(face[1] - face[0], face[2] - face[0]) * sign);
-                    double to = -infinity, from = infinity, back = infinity, front = -infinity;
+                    double to = -unlimited_move, from = unlimited_move, back = from, front = to;
                     for (std::size_t i = 0; i < 3; ++i) {
                         const double on_a = dot(normal, a[i] - a[0]), on_b = dot(normal, b[i] - a[0]);
                         to = std::max(to, on_a);
@@ -245,7 +247,7 @@ private:
     void search_meets() {
         MoveQueue queue;
         queue.add({}, limit());
-        for (int i = 0; i < max_meets; ++i) {
+        for (int i = 0; i < max_meets_; ++i) {
             const std::optional<MeetOfPlanes> next = queue.take_nearest();
             if (!next || next->distance >= limit()) return;
             if (next->count > 0 && (take_meet(*next) || take_meet(farther_by(*next, step_)))) return;
@@ -260,24 +262,26 @@ private:
         return meet.distance < limit() && parts(meet.move) && take(meet.move / meet.distance, meet.distance);
     }
 
-    static constexpr int max_meets = 64, max_crossings = 16;
+    static constexpr int max_crossings = 16;
 
-    /// Coarser solids have so few directions that balls don't pay.
-    static constexpr std::uint32_t min_triangles_for_balls = 256;
+    /// Coarser solids have so few directions that balls don't pay, and larger faces, whose planes meet in notches.
+    static constexpr std::uint32_t min_fine_triangles = 256;
+    static constexpr int max_meets_if_fine = 12;
 
     PlacedSolid a_, b_;
     MoveCover cover_;
     double step_ = 0;        ///< a distance that doesn't count
     double float_step_ = 0;  ///< the same for floats
     SeparatingMove best_;
-    double best_distance_ = infinity;
+    double best_distance_ = unlimited_move;
     TriedDirections tried_;
+    int max_meets_ = 64;  ///< how many meets of planes are tried
 };
 
 }  // namespace
 
 SeparatingMove separating_move(const View<3>& a, const View<3>& b) {
-    return Search(a, b).find();
+    return MoveSearch(a, b).find();
 }
 
 }  // namespace abut::detail

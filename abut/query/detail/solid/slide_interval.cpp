@@ -14,11 +14,11 @@ constexpr double parallel = 1e-10;
 /// An overlap along an axis that is smaller than this, relative to the triangles, may be rounding.
 constexpr double flush = 1e-13;
 
-struct Range {
+struct AxisRange {
     double min, max;
 };
 
-Range range_along(const DVec<3>& axis, const Corners& t) {
+AxisRange range_along(const DVec<3>& axis, const Corners& t) {
     const double a = dot(axis, t[0]), b = dot(axis, t[1]), c = dot(axis, t[2]);
     return {std::min({a, b, c}), std::max({a, b, c})};
 }
@@ -30,7 +30,7 @@ public:
 
     /// Returns false if no distance is left.
     bool cut(const DVec<3>& axis) {
-        const Range a = range_along(axis, a_), b = range_along(axis, b_);
+        const AxisRange a = range_along(axis, a_), b = range_along(axis, b_);
         const double speed = dot(axis, direction_), size = length(axis);
         if (std::abs(speed) <= 1e-13 * size) {
             const double tolerance =

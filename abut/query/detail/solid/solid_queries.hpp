@@ -7,7 +7,8 @@
 
 namespace abut::detail {
 
-/// Whether one shape is the solid of a mesh, and the other one too or a box or a polyhedron; never in the plane.
+/// Whether one shape is the solid of a mesh, and the other one too, or a box, a polyhedron or a ball; never in the
+/// plane.
 inline bool are_solids(const View<2>&, const View<2>&) {
     return false;
 }
@@ -19,7 +20,8 @@ bool are_solids(const View<3>& a, const View<3>& b);
 bool is_inside_other(const View<3>& a, const View<3>& b);
 /// If the interiors share a point, the least move that parts the solids. Otherwise false.
 bool find_depth(const View<3>& a, const View<3>& b, Closest<3>& closest);
-/// The solids touch: a direction in which B leaves A.
+/// If the surfaces of two solids without a common inner point touch: the distance 0, and a direction in which B leaves
+/// A.
 void name_touching(const View<3>& a, const View<3>& b, Closest<3>& closest);
 /// The contact at a distance that is known.
 Contact<3> contact_of_solids(const View<3>& a, const View<3>& b, const Closest<3>& closest);

@@ -23,7 +23,7 @@ constexpr std::array<std::array<std::uint32_t, 3>, 12> box_triangles{{
     {4, 7, 5},  // z
 }};
 
-constexpr std::uint32_t next(std::uint32_t side) {
+constexpr std::uint32_t side_after(std::uint32_t side) {
     return side == 2 ? 0 : side + 1;
 }
 
@@ -40,6 +40,13 @@ bool is_solid_polytope(const View<3>& shape) {
     if (convex->core == Core::box) return convex->own[0].x > 0 && convex->own[0].y > 0 && convex->own[0].z > 0;
     // A flat polygon has two faces.
     return convex->core == Core::points && convex->facets != nullptr && convex->facets->loop_ends.size() > 2;
+}
+
+View<3> surface_view(const View<3>& shape) {
+    if (!is_solid_mesh(shape)) return shape;
+    Composite<3> surface = std::get<Composite<3>>(shape);
+    surface.solid = nullptr;
+    return surface;
 }
 
 SolidSurface::SolidSurface(const Convex<3>& polytope) {
@@ -108,7 +115,7 @@ std::uint32_t SolidSurface::triangle_across(std::uint32_t from, std::uint32_t to
 std::uint32_t SolidSurface::neighbour(std::uint32_t index, std::uint32_t side) const {
     if (mesh_ != nullptr) return mesh_->adjacency.neighbours[index][side];
     const std::array<std::uint32_t, 3> t = triangle(index);
-    const std::uint32_t from = t[side], to = t[next(side)];
+    const std::uint32_t from = t[side], to = t[side_after(side)];
     if (facets_ != nullptr) {
         const FanTriangle fan = fan_triangle(index);
         if (side == 0 && fan.number > 0) return index - 1;
@@ -117,7 +124,7 @@ std::uint32_t SolidSurface::neighbour(std::uint32_t index, std::uint32_t side) c
     }
     for (std::uint32_t other = 0; other < box_triangles.size(); ++other)
         for (std::uint32_t i = 0; i < 3; ++i)
-            if (box_triangles[other][i] == to && box_triangles[other][next(i)] == from) return other;
+            if (box_triangles[other][i] == to && box_triangles[other][side_after(i)] == from) return other;
     return no_neighbour;
 }
 

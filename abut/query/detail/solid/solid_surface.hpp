@@ -13,6 +13,9 @@ namespace abut::detail {
 bool is_solid_mesh(const View<3>& shape);
 bool is_solid_polytope(const View<3>& shape);
 
+/// A solid mesh as its triangles alone; any other shape as it is.
+View<3> surface_view(const View<3>& shape);
+
 /// Refers to the mesh or the polytope. Triangles are counter-clockwise seen from outside, unless the mesh is inward.
 class SolidSurface {
 public:
