@@ -67,8 +67,8 @@ template <>
 Contact<2> contact(const detail::ShapeRef<2>& a, const detail::ShapeRef<2>& b, const QueryOptions<2>& options);
 
 /// The contact of two touching or overlapping shapes. Composite shapes return the deepest contact of each_contact: that
-/// of the plane of their deepest pair of parts, unless that pair touches on an internal edge. With a margin, shapes up to that
-/// far apart count as well.
+/// of the plane of their deepest pair of parts, unless that pair touches on an internal edge. With a margin, shapes up
+/// to that far apart count as well.
 template <class A, class B>
 requires Pair<A, B> Contact<dimension<A>> contact(const A& a, const B& b,
                                                   const QueryOptions<dimension<A>>& options = {}) {
