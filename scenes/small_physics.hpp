@@ -133,7 +133,7 @@ public:
     std::span<const Body<D>> bodies() const { return std::span(bodies_).subspan(1); }
     /// The contact points of the last step, and how many of them were there in the step before.
     std::size_t points() const { return points_.size(); }
-    std::size_t kept_points() const { return kept_points_; }
+    std::size_t persistent_points() const { return persistent_points_; }
     /// The root mean square of the velocities of the bodies.
     double speed() const {
         double sum = 0;
@@ -163,7 +163,7 @@ private:
         for (std::size_t i = 0; i < points_.size(); ++i) last.emplace(keys_[i], points_[i].total);
         points_.clear();
         keys_.clear();
-        kept_points_ = 0;
+        persistent_points_ = 0;
         for (const WorldContact<D>& touch : world.contacts())
             for (const ContactPoint<D>& point : touch.contact.points) {
                 Point& added = points_.emplace_back();
@@ -176,7 +176,7 @@ private:
                 keys_.emplace_back(touch.a, touch.b, point.feature);
                 const auto found = last.find(keys_.back());
                 if (found == last.end()) continue;
-                ++kept_points_;
+                ++persistent_points_;
                 added.total = found->second;
                 last.erase(found);
             }
@@ -250,7 +250,7 @@ private:
     std::vector<Body<D>> bodies_ = std::vector<Body<D>>(1);  // the first one stands for all that is fixed
     std::vector<Point> points_;
     std::vector<Key> keys_;
-    std::size_t kept_points_ = 0;
+    std::size_t persistent_points_ = 0;
 };
 
 }  // namespace abut::scenes

@@ -66,10 +66,10 @@ Contact<D> contact(const detail::ShapeRef<D>& a, const detail::ShapeRef<D>& b, c
 template <>
 Contact<2> contact(const detail::ShapeRef<2>& a, const detail::ShapeRef<2>& b, const QueryOptions<2>& options);
 
-/// The contact of two touching or overlapping shapes. Composite shapes return the contact of their deepest pair of
-/// parts, or, if that lies on an internal edge, the deepest contact of each_contact. Two meshes always return that of
-/// the deepest pair, with the depth and the normal of `closest`; two solids that of the move that parts them. With a
-/// margin, shapes up to that far apart count as well.
+/// The contact of two touching or overlapping shapes. Composite shapes return the deepest contact of each_contact: that
+/// of the plane of their deepest pair of parts, unless that pair touches on an internal edge. Two meshes always return
+/// that of the deepest pair, with the depth and the normal of `closest`; two solids that of the move that parts them.
+/// With a margin, shapes up to that far apart count as well.
 template <class A, class B>
 requires Pair<A, B> Contact<dimension<A>> contact(const A& a, const B& b,
                                                   const QueryOptions<dimension<A>>& options = {}) {

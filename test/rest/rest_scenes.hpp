@@ -196,10 +196,10 @@ void add_bodies(RestScene<D>& scene, const std::string& name) {
 }
 
 struct Rest {
-    double speed = 0;   ///< root mean square over the last seconds
-    double kept = 0;    ///< share of the contact points that were there in the step before
-    double moved = 0;   ///< the farthest that a body moved in the last seconds
-    double points = 0;  ///< mean number of contact points
+    double speed = 0;       ///< root mean square over the last seconds
+    double persistent = 0;  ///< share of the contact points that were there in the step before
+    double moved = 0;       ///< the farthest that a body moved in the last seconds
+    double points = 0;      ///< mean number of contact points
 };
 
 template <int D>
@@ -209,7 +209,7 @@ Rest play(const std::string& name, const RestCase& of, double seconds = 20, doub
     constexpr int rate = 240;
     const int steps = static_cast<int>(seconds * rate), first = static_cast<int>((seconds - measured) * rate);
     Rest result;
-    double sum = 0, kept = 0, points = 0;
+    double sum = 0, persistent = 0, points = 0;
     std::vector<Real<D>> from;
     for (int i = 0; i < steps; ++i) {
         scene.physics.step(1.0 / rate);
@@ -217,14 +217,14 @@ Rest play(const std::string& name, const RestCase& of, double seconds = 20, doub
         if (from.empty())
             for (const auto& body : scene.physics.bodies()) from.push_back(body.position);
         sum += scene.physics.speed() * scene.physics.speed();
-        kept += static_cast<double>(scene.physics.kept_points());
+        persistent += static_cast<double>(scene.physics.persistent_points());
         points += static_cast<double>(scene.physics.points());
     }
     std::size_t k = 0;
     for (const auto& body : scene.physics.bodies())
         result.moved = std::max(result.moved, glm::length(body.position - from[k++]));
     result.speed = std::sqrt(sum / (steps - first));
-    result.kept = points > 0 ? kept / points : 0;
+    result.persistent = points > 0 ? persistent / points : 0;
     result.points = points / (steps - first);
     return result;
 }
