@@ -150,6 +150,7 @@ private:
         bool has_flags = false;
         PairPlace place{};
         bool is_replaced = false;  ///< by the plane of the surface
+        bool has_face = false;     ///< on that plane
         DVec<D> area_normal{0.0};  ///< of a replaced one, along a face
         Role role = Role::joined;
         std::uint32_t plane = 0;  ///< index of the plane that it is joined to
@@ -315,6 +316,7 @@ private:
             return manifolds_[pair->plane - first].add(part_a, part_b, *pair);
         if (pair->role != Role::ghost && pair->role != Role::used_ghost) return;
         for (std::size_t i = 0; i < count; ++i) {
+            if (!manifolds_[i].may_have_face(part_a, part_b)) continue;
             const ManifoldCandidates<D> area = manifolds_[i].area(part_a, part_b, place.index_a, place.index_b);
             if (area.count == 0) continue;
             if (pair == &other && flags_of(part_a, part_b, other.distance)) return;
@@ -335,7 +337,7 @@ private:
         found.contact.feature_a = features.feature_a;
         found.contact.feature_b = features.feature_b;
         if (!deepest.flags) {
-            if (deepest.is_replaced && manifold.has_extent()) {
+            if (deepest.has_face && manifold.has_extent()) {
                 found.own_area = found.contact;
                 manifold.write(found.own_area);
             }
@@ -353,7 +355,9 @@ private:
             PartContact<D> contact{pair->distance, {}};
             pair->is_replaced = filter_.replace(part_a, part_b, pair->flags, contact);
             pair->distance = contact.distance;
-            pair->area_normal = face_normal(part_a, part_b, pair->flags, pair->distance.normal);
+            const std::optional<DVec<D>> face = face_normal<D>(part_a, part_b, pair->flags, {pair->distance, step()});
+            pair->has_face = face.has_value();
+            pair->area_normal = face.value_or(pair->distance.normal);
             if (pair->distance.distance > margin_) pair->role = Role::dropped;
             return true;
         });
@@ -426,17 +430,23 @@ SurfaceContact<D> filtered_contact(const View<D>& a, const View<D>& b, const Par
     }
     result.surface_normals = flags;
     if (!is_replaced) return result;
-    const PairDistance<D> pair{replaced.distance, 0, 0};
-    name_features(part_a, part_b, pair.distance, 0, 0, result.contact);
+    const double step = surface_probe_scale * filter.size();
+    const std::optional<DVec<D>> face = face_normal<D>(part_a, part_b, flags, {replaced.distance, step});
+    name_features(part_a, part_b, replaced.distance, 0, 0, result.contact);
+    if (!face) {
+        write(replaced.distance, replaced.manifold, result.contact);
+        return result;
+    }
+    PairDistance<D> pair{replaced.distance, 0, 0};
+    pair.distance.normal = *face;
     SurfaceManifold<D> manifold;
-    PairDistance<D> along_face = pair;
-    along_face.distance.normal = face_normal(part_a, part_b, flags, pair.distance.normal);
-    manifold.begin(along_face, surface_probe_scale * filter.size(), ManifoldNames::single_parts, margin);
+    manifold.begin(pair, step, ManifoldNames::single_parts, margin);
     manifold.add(manifold.area(part_a, part_b, 0, 0));
     if (manifold.has_extent()) {
         result.own_area = result.contact;
         manifold.write(result.own_area);
     }
+    pair.distance = replaced.distance;
     manifold.add_deepest(pair);
     manifold.write(result.contact);
     result.contact.normal = to_float(pair.distance.normal);

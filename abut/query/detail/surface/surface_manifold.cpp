@@ -100,19 +100,19 @@ bool ContactPlane<D>::has(const DVec<D>& point_a, const DVec<D>& point_b) const 
 }
 
 template <int D>
-DVec<D> face_normal(const Part<D>& part_a, const Part<D>& part_b, const SurfaceNormalFlags& flags,
-                    const DVec<D>& normal) {
-    const auto of = [&](const Part<D>& part, const DVec<D>& out) -> std::optional<DVec<D>> {
+std::optional<DVec<D>> face_normal(const Part<D>& part_a, const Part<D>& part_b, const SurfaceNormalFlags& flags,
+                                   const ContactPlane<D>& plane) {
+    const auto of = [&](const Part<D>& part, const DVec<D>& out, const DVec<D>& on_plane) -> std::optional<DVec<D>> {
         if (!part.is_convex()) return std::nullopt;
         const Face<D> face = face_along(part.convex(), out);
         if (!face.flat() || dot(face.normal, out) < aligned) return std::nullopt;
+        const DVec<D> offset = face.points[0] + face.normal * part.convex().radius - on_plane;
+        if (std::abs(dot(face.normal, offset)) > plane.step + max_plane_angle * length(offset)) return std::nullopt;
         return face.normal;
     };
     if (!flags.a)
-        if (const auto of_b = of(part_b, -normal)) return -*of_b;
-    if (!flags.b)
-        if (const auto of_a = of(part_a, normal)) return *of_a;
-    return normal;
+        if (const auto of_b = of(part_b, -plane.normal, plane.on_b)) return -*of_b;
+    return flags.b ? std::nullopt : of(part_a, plane.normal, plane.on_a);
 }
 
 template <int D>
@@ -209,6 +209,26 @@ void SurfaceManifold<D>::add_deepest(const PairDistance<D>& pair) {
                 plane_.normal);
 }
 
+/// Triangles and boxes, the most common parts, have few normals.
+template <int D>
+bool SurfaceManifold<D>::may_have_face(const Part<D>& part_a, const Part<D>& part_b) const {
+    const Part<D>& part = names_ == ManifoldNames::level_is_a ? part_a : part_b;
+    if (!part.is_convex()) return false;
+    const Convex<D>& set = part.convex();
+    const auto is_along = [&](const DVec<D>& normal) {
+        const double along = dot(normal, plane_.normal);
+        return along * along >= aligned * aligned * length_squared(normal);
+    };
+    if (set.core == Core::box && set.similar)
+        return std::any_of(set.place.column.begin(), set.place.column.end(), is_along);
+    if constexpr (D == 3)
+        if (set.core == Core::points && set.count == 3) {
+            const auto corner = [&](std::uint32_t i) { return set.place.point(DVec<3>(set.vertices()[i])); };
+            return is_along(cross(corner(1) - corner(0), corner(2) - corner(0)));
+        }
+    return true;
+}
+
 /// A point deeper than the deepest contact is none of this surface.
 template <int D>
 ManifoldCandidates<D> SurfaceManifold<D>::area(const Part<D>& part_a, const Part<D>& part_b, std::uint32_t index_a,
@@ -254,10 +274,11 @@ void SurfaceManifold<D>::write(Contact<D>& contact) const {
     contact.depth = static_cast<float>(depth >= plane_.depth - tolerance_ ? plane_.depth : depth);
 }
 
-#define ABUT_INSTANTIATE(D)                                                                                  \
-    template int compare(const SignedDistance<D>&, const SignedDistance<D>&);                                \
-    template DVec<D> face_normal(const Part<D>&, const Part<D>&, const SurfaceNormalFlags&, const DVec<D>&); \
-    template struct ContactPlane<D>;                                                                         \
+#define ABUT_INSTANTIATE(D)                                                                                \
+    template int compare(const SignedDistance<D>&, const SignedDistance<D>&);                              \
+    template std::optional<DVec<D>> face_normal(const Part<D>&, const Part<D>&, const SurfaceNormalFlags&, \
+                                                const ContactPlane<D>&);                                   \
+    template struct ContactPlane<D>;                                                                       \
     template class SurfaceManifold<D>;
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

@@ -48,12 +48,12 @@ struct ContactPlane {
     bool has(const DVec<D>& point_a, const DVec<D>& point_b) const;
 };
 
-/// The normal of the contact's surface that a part has as a face there: B's, if its surface doesn't have the normal of
-/// the parts' contact, or A's. If it has no such face, the contact's normal. Rounding tilts a plane between two parts,
-/// but not their faces.
+/// The normal from A to B of the face that a part has on a plane that replaces the normal of the parts' contact; none
+/// if it has no face there. The part is B's, if B's surface doesn't have that normal, or A's. Rounding tilts the plane
+/// between two parts, but not their faces.
 template <int D>
-DVec<D> face_normal(const Part<D>& part_a, const Part<D>& part_b, const SurfaceNormalFlags& flags,
-                    const DVec<D>& normal);
+std::optional<DVec<D>> face_normal(const Part<D>& part_a, const Part<D>& part_b, const SurfaceNormalFlags& flags,
+                                   const ContactPlane<D>& plane);
 
 /// Of any number of points, those that are extreme along fixed directions, and the deepest: the corners of their area,
 /// or in 3D points that span all but 2 % of it. The order in which they are added has no influence.
@@ -92,6 +92,8 @@ public:
 
     /// Adds a pair whose contact is on the plane: the corners of its contact area, and its deepest point.
     void add(const Part<D>& part_a, const Part<D>& part_b, const PairDistance<D>& pair);
+    /// Whether the level's part of a pair may have a face on the plane. It is false for most parts that have none.
+    bool may_have_face(const Part<D>& part_a, const Part<D>& part_b) const;
     /// The corners of the contact area on the plane of any pair; there are none if its faces are elsewhere.
     ManifoldCandidates<D> area(const Part<D>& part_a, const Part<D>& part_b, std::uint32_t index_a,
                                std::uint32_t index_b) const;
