@@ -268,6 +268,14 @@ private:
             else
                 pair.role = Role::ghost;
         }
+        // Equally deep contacts on one plane are joined, whichever of them came first.
+        for (Pair& pair : stored()) {
+            if (pair.role != Role::ghost) continue;
+            const std::size_t plane = plane_of(pair.distance);
+            if (plane == plane_count_ || planes_[plane].depth != -pair.distance.distance) continue;
+            pair.role = Role::joined;
+            pair.plane = static_cast<std::uint32_t>(plane);
+        }
     }
 
     void report_only_plane_of(const Pair& deepest, Visit visit) {
