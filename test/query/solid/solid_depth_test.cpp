@@ -8,6 +8,7 @@
 #include <abut/query/detail/solid/interior_overlap.hpp>
 #include <abut/query/each_contact.hpp>
 #include <abut/shape/any_shape.hpp>
+#include <abut/shape/polyhedron.hpp>
 #include <abut/world/world.hpp>
 
 #include <algorithm>
@@ -77,6 +78,80 @@ TEST(SolidDepth, OfAKitPartsAndIsMostlyTheLeast) {
     }
     EXPECT_GT(known, pairs / 20);
     EXPECT_GE(near, 0.95 * known) << near << " of " << known;
+}
+
+/// Two to five boxes, which may overlap; corners are multiples of 1/64.
+scenes::KitPiece union_of_boxes(oracle::Random& random) {
+    const auto coordinates = [&](std::uint32_t low, std::uint32_t count) {
+        Vec3 result;
+        for (int i = 0; i < 3; ++i) result[i] = static_cast<float>(low + random.below(count)) / 64;
+        return result;
+    };
+    scenes::KitPiece result;
+    const std::uint32_t count = 2 + random.below(4);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const Vec3 low = coordinates(0, 192);
+        const scenes::KitPiece box = scenes::kit_box("", low, low + coordinates(16, 128));
+        result = i == 0 ? box : joined(result, box);
+    }
+    return result;
+}
+
+TEST(SolidDepth, OfUnionsOfBoxesIsMostlyTheLeast) {
+    constexpr std::uint64_t seed = 20270;
+    SCOPED_TRACE(seed);
+    oracle::Random random(seed);
+    int known = 0, near = 0;
+    for (int i = 0; i < 250; ++i) {
+        const scenes::KitPiece piece_a = union_of_boxes(random), piece_b = union_of_boxes(random);
+        Vec3 place;
+        for (int k = 0; k < 3; ++k) place[k] = static_cast<float>(random.below(256)) / 64 - 2;
+        const Mesh mesh_a = mesh_of(piece_a), mesh_b = mesh_of(piece_b);
+        const auto b = at(solid(mesh_b), Pose3{place});
+        const Closest<3> nearest = closest(solid(mesh_a), b);
+        ASSERT_EQ(nearest.distance < 0, oracle::interiors_overlap(piece_a, Vec3(0), piece_b, place)) << i;
+        if (nearest.distance >= 0) continue;
+        ASSERT_TRUE(is_parted(solid(mesh_a), b, nearest)) << i;
+        const std::optional<double> least =
+            oracle::OverlappingMoves(piece_a, Vec3(0), piece_b, place).least_separation();
+        if (!least) continue;
+        ++known;
+        ASSERT_GE(-nearest.distance, *least * (1 - 1e-5) - 1e-6) << i;
+        if (-nearest.distance <= 1.05 * *least) ++near;
+    }
+    EXPECT_GT(known, 100);
+    EXPECT_GE(near, 0.95 * known) << near << " of " << known;
+}
+
+TEST(SolidDepth, OfConvexSolidsIsTheLeast) {
+    constexpr std::uint64_t seed = 20271;
+    SCOPED_TRACE(seed);
+    oracle::Random random(seed);
+    const auto hull = [&] {
+        std::vector<Vec3> points;
+        for (int i = 0; i < 30; ++i) points.push_back(detail::to_float(random.direction<3>() * random.uniform(0.5, 1)));
+        return *Polyhedron::build(points);
+    };
+    const auto mesh = [](const Polyhedron& polyhedron) {
+        std::vector<glm::uvec3> triangles;
+        const detail::Facets& facets = polyhedron.facets();
+        for (std::size_t face = 0; face < facets.loop_ends.size(); ++face) {
+            const auto loop = facets.loop(face);
+            for (std::size_t i = 1; i + 1 < loop.size(); ++i) triangles.emplace_back(loop[0], loop[i], loop[i + 1]);
+        }
+        return *Mesh::build(polyhedron.points(), triangles);
+    };
+    int overlapping = 0;
+    for (int i = 0; i < 60; ++i) {
+        const Polyhedron a = hull(), b = hull();
+        const Pose3 pose{detail::to_float(random.direction<3>() * random.uniform(0.2, 2)), random.rotation<3>()};
+        const Closest<3> expected = closest(a, at(b, pose));
+        const Mesh mesh_b = mesh(b);
+        const Closest<3> nearest = closest(solid(mesh(a)), at(solid(mesh_b), pose));
+        ASSERT_NEAR(nearest.distance, expected.distance, 0.05 * std::abs(expected.distance) + 1e-5) << i;
+        if (expected.distance < 0) ++overlapping;
+    }
+    EXPECT_GT(overlapping, 20);
 }
 
 TEST(SolidDepth, OfANotchIsDiagonal) {

@@ -136,6 +136,14 @@ TEST(SolidOverlap, OfOneInsideAnother) {
     expect_overlap(solid(hollow), at(solid(inner), Pose3{{-0.125f, 0, 0}}), true);
 }
 
+TEST(SolidOverlap, OfOneInsideOfAUnionOfBoxes) {
+    // The inner box is inside the first one, and flush with a face of the second one that is inside the first one too.
+    const Mesh boxes = joined(box_surface({0, 0, 0}, {4, 4, 4}), box_surface({-1, 1, 2}, {3, 3, 3})).mesh();
+    for (const Vec3 low : {Vec3(1, 1, 1), Vec3(1, 1, 3), Vec3(1, 0, 2), Vec3(1, 0.5f, 1), Vec3(3, 1, 2)})
+        expect_overlap(solid(boxes), solid(box_surface(low, low + Vec3(0.5f, 1, 1)).mesh()), true);
+    expect_overlap(solid(boxes), solid(box_surface({-1, 1, 3}, {0, 2, 4}).mesh()), false);
+}
+
 /// A tetrahedron with its first corner at the origin, and the others at these places.
 Mesh tetrahedron(const Vec3& a, const Vec3& b, const Vec3& c) {
     const std::vector<Vec3> points{{0, 0, 0}, a, b, c};

@@ -178,12 +178,8 @@ bool each_triangle_pair(const PlacedSolid& a, const PlacedSolid& b, float reach,
 }
 
 bool has_component_inside(const PlacedSolid& inner, const PlacedSolid& outer) {
-    for (const std::uint32_t triangle : inner.components()) {
-        // The component may touch the other surface in a corner. A point on an edge of it, next to the corner, is
-        // inside.
-        const Corners corners = inner.corners(triangle);
-        if (outer.side_of(corners[0], &corners[1]) == PointSide::inside) return true;
-    }
+    for (const std::uint32_t triangle : inner.components())
+        if (outer.is_inside_behind(inner.corners(triangle))) return true;
     return false;
 }
 

@@ -9,40 +9,31 @@
 namespace abut::detail {
 namespace {
 
-/// A point that is moved first by an infinitesimal step towards another point, and then by still smaller ones along
-/// the axes after the one of the line, so that the line along the axis through it meets no edge.
+/// The first of some points, moved by an infinitesimal step towards each of the others, each step infinitely smaller
+/// than the one before. The last steps are along the axes after the one of the line, so that the line along the axis
+/// through it meets no edge.
 struct SymbolicPoint {
-    const DVec<3>& at;
-    const DVec<3>* towards;
+    std::span<const DVec<3>> points;
     int axis;  ///< of the line
 
     bool is_above(const DVec<3>& corner) const {
         const int j = (axis + 2) % 3;
-        if (corner[j] != at[j]) return corner[j] < at[j];
-        return towards == nullptr || (*towards)[j] >= at[j];
+        if (corner[j] != points[0][j]) return corner[j] < points[0][j];
+        for (const DVec<3>& towards : points)
+            if (towards[j] != corner[j]) return towards[j] > corner[j];
+        return true;
     }
     /// The side of the projected edge on which it lies; 0 counts as beyond the edge.
     int turn(const DVec<3>& from, const DVec<3>& to) const {
-        const int turn = exact_turn(from, to, at, axis);
-        return turn != 0 || towards == nullptr ? turn : exact_turn(from, to, *towards, axis);
+        for (const DVec<3>& point : points)
+            if (const int turn = exact_turn(from, to, point, axis)) return turn;
+        return 0;
     }
+    /// The side of the plane; 0 if all points are in it.
     int side(const Corners& t) const {
-        const int side = exact_side(t[0], t[1], t[2], at);
-        return side != 0 || towards == nullptr ? side : exact_side(t[0], t[1], t[2], *towards);
-    }
-    /// Whether the closed triangle contains the point, moved by the first step alone.
-    bool is_in(const Corners& t) const {
-        if (side(t) != 0) return false;
-        const int projection = projection_axis(t);
-        if (projection < 0) return false;
-        const int front = exact_turn(t[0], t[1], t[2], projection);
-        for (std::size_t i = 0; i < 3; ++i) {
-            const DVec<3>&from = t[i], &to = t[(i + 1) % 3];
-            int left = exact_turn(from, to, at, projection);
-            if (left == 0 && towards != nullptr) left = exact_turn(from, to, *towards, projection);
-            if (left == -front) return false;
-        }
-        return true;
+        for (const DVec<3>& point : points)
+            if (const int side = exact_side(t[0], t[1], t[2], point)) return side;
+        return 0;
     }
     /// The signed crossing of the triangle by the line: 1, -1 or 0.
     int winding(const Corners& t) const {
@@ -59,19 +50,20 @@ struct SymbolicPoint {
     }
 };
 
-/// The axis and sign of the shortest way out of a box.
-std::pair<int, bool> shortest_exit(const Aabb3& box, const DVec<3>& point) {
-    std::pair<int, bool> best{0, true};
-    double length = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < 3; ++i)
-        for (const bool up : {true, false}) {
-            const double exit =
-                up ? static_cast<double>(box.max[i]) - point[i] : point[i] - static_cast<double>(box.min[i]);
-            if (exit >= length) continue;
-            length = exit;
-            best = {i, up};
-        }
-    return best;
+/// Whether a closed triangle contains a point.
+bool is_in(const Corners& t, const DVec<3>& point) {
+    if (exact_side(t[0], t[1], t[2], point) != 0) return false;
+    const int projection = projection_axis(t);
+    if (projection < 0) return false;
+    const int front = exact_turn(t[0], t[1], t[2], projection);
+    for (std::size_t i = 0; i < 3; ++i)
+        if (exact_turn(t[i], t[(i + 1) % 3], point, projection) == -front) return false;
+    return true;
+}
+
+/// How far a point is from a side of a box.
+double exit_length(const Aabb3& box, const DVec<3>& point, int axis, bool up) {
+    return up ? static_cast<double>(box.max[axis]) - point[axis] : point[axis] - static_cast<double>(box.min[axis]);
 }
 
 SolidSurface surface_of(const View<3>& shape) {
@@ -178,35 +170,59 @@ EdgeFan PlacedSolid::fan(std::uint32_t triangle, std::size_t side) const {
     return result;
 }
 
-PointSide PlacedSolid::side_of(const DVec<3>& point, const DVec<3>* towards) const {
+template <class Visit>
+void PlacedSolid::each_triangle_from(const DVec<3>& point, int axis, bool up, const Visit& visit) const {
     Aabb3 ahead;
     for (int i = 0; i < 3; ++i) {
-        if (point[i] < static_cast<double>(box_.min[i]) || point[i] > static_cast<double>(box_.max[i]))
-            return PointSide::outside;
         ahead.min[i] = next_down(static_cast<float>(point[i]));
         ahead.max[i] = next_up(static_cast<float>(point[i]));
     }
-    const auto [axis, up] = shortest_exit(box_, point);
     (up ? ahead.max : ahead.min)[axis] = (up ? box_.max : box_.min)[axis];
-    const SymbolicPoint symbolic{point, towards, axis};
+    each_triangle(ahead, [&](std::uint32_t index) { return visit(corners(index)); });
+}
+
+PointSide PlacedSolid::side_of(const DVec<3>& point) const {
+    if (!is_in_box(point)) return PointSide::outside;
+    int axis = 0;
+    bool up = true;
+    for (int i = 0; i < 3; ++i)
+        for (const bool other_up : {true, false})
+            if (exit_length(box_, point, i, other_up) < exit_length(box_, point, axis, up)) {
+                axis = i;
+                up = other_up;
+            }
+    const SymbolicPoint symbolic{{&point, 1}, axis};
     int winding = 0;
     bool on_surface = false;
-    each_triangle(ahead, [&, up = up, axis = axis](std::uint32_t index) {
-        const Corners t = corners(index);
-        if (symbolic.is_in(t)) {
-            on_surface = true;
-            return false;
-        }
+    each_triangle_from(point, axis, up, [&](const Corners& t) {
+        on_surface = on_surface || is_in(t, point);
         const int crossing = symbolic.winding(t);
-        if (crossing == 0) return true;
-        const int side = symbolic.side(t);
-        const bool faces_up = exact_turn(t[0], t[1], t[2], axis) > 0;
-        const bool is_above = faces_up == (side < 0);
+        if (crossing == 0) return !on_surface;
+        const bool faces_up = exact_turn(t[0], t[1], t[2], axis) > 0, is_above = faces_up == (symbolic.side(t) < 0);
         if (is_above == up) winding += crossing;
-        return true;
+        return !on_surface;
     });
     if (on_surface) return PointSide::on_surface;
     return winding != 0 ? PointSide::inside : PointSide::outside;
+}
+
+bool PlacedSolid::is_inside_behind(const Corners& triangle) const {
+    const int axis = projection_axis(triangle);
+    if (axis < 0 || !is_in_box(triangle[0])) return false;
+    const bool up = exit_length(box_, triangle[0], axis, true) < exit_length(box_, triangle[0], axis, false);
+    const int front = exact_turn(triangle[0], triangle[1], triangle[2], axis);
+    const SymbolicPoint symbolic{triangle, axis};
+    int winding = 0;
+    each_triangle_from(triangle[0], axis, up, [&](const Corners& t) {
+        const int crossing = symbolic.winding(t);
+        if (crossing == 0) return true;
+        const int faces = exact_turn(t[0], t[1], t[2], axis), side = symbolic.side(t);
+        // Of two triangles in one plane, the point is behind the one that faces the same way.
+        const bool is_behind = side != 0 ? side < 0 : faces == front;
+        if (((faces > 0) == is_behind) == up) winding += crossing;
+        return true;
+    });
+    return winding != 0;
 }
 
 }  // namespace abut::detail

@@ -69,11 +69,23 @@ public:
     /// direction.
     EdgeFan fan(std::uint32_t triangle, std::size_t side) const;
 
-    /// Where a point is. With a direction, as another point, it is where a point infinitesimally far in that direction
-    /// is.
-    PointSide side_of(const DVec<3>& point, const DVec<3>* towards = nullptr) const;
+    PointSide side_of(const DVec<3>& point) const;
+
+    /// Whether a point is inside that is infinitesimally near the first corner of a triangle, and behind the triangle.
+    /// It is on no surface, whatever touches there.
+    bool is_inside_behind(const Corners& triangle) const;
 
 private:
+    /// Visits at least the triangles that a line along an axis meets, from a point on; false stops.
+    template <class Visit>
+    void each_triangle_from(const DVec<3>& point, int axis, bool up, const Visit& visit) const;
+    bool is_in_box(const DVec<3>& point) const {
+        for (int i = 0; i < 3; ++i)
+            if (point[i] < static_cast<double>(box_.min[i]) || point[i] > static_cast<double>(box_.max[i]))
+                return false;
+        return true;
+    }
+
     /// The side of the triangle as the surface orders its corners.
     std::uint32_t own_side(std::size_t side) const { return static_cast<std::uint32_t>(flipped_ ? 2 - side : side); }
 

@@ -24,7 +24,7 @@ public:
     std::span<const MovePlane> all() const { return {planes_.data(), count_}; }
 
 private:
-    std::array<MovePlane, 16> planes_;
+    std::array<MovePlane, 32> planes_;
     std::size_t count_ = 0;
 };
 
@@ -50,9 +50,9 @@ public:
     std::optional<MeetOfPlanes> take_nearest();
 
 private:
-    std::array<MeetOfPlanes, 64> sorted_;  ///< farthest first
+    std::array<MeetOfPlanes, 128> sorted_;  ///< farthest first
     std::size_t count_ = 0;
-    std::array<DVec<3>, 256> known_;
+    std::array<DVec<3>, 512> known_;
     std::size_t known_count_ = 0;
 };
 

@@ -275,7 +275,7 @@ private:
     SeparatingMove best_;
     double best_distance_ = unlimited_move;
     TriedDirections tried_;
-    int max_meets_ = 64;  ///< how many meets of planes are tried
+    int max_meets_ = 512;  ///< how many meets of planes are tried
 };
 
 }  // namespace
