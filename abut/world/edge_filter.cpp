@@ -72,8 +72,8 @@ void World<D>::find_neighbours() {
         for (const IdPair& pair : near_) {
             const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
             const std::uint32_t list_a = list_of_slot[a], list_b = list_of_slot[b];
-            if ((list_a & list_b) == State::none || !are_solid(a, b) || (widened_ && !overlaps(box(a), box(b))))
-                continue;
+            if (list_a == State::none && list_b == State::none) continue;
+            if (!are_solid(a, b) || (widened_ && !overlaps(box(a), box(b)))) continue;
             const auto neighbour = [this](std::uint32_t slot) {
                 return [this, slot]() -> Neighbour { return {box(slot), slot}; };
             };
