@@ -43,7 +43,7 @@ TEST_F(ToolOnLevels, CheckFindsTheFaultsOfTheBundledLevel) {
     }
     const Ran ran = run({"check", bundled("plateau.tmj")});
     for (const char* line :
-         {"   1. Things/Sunk crate  and  World/Ground\n        3 deep, near (346, 161.5)\n",
+         {"   1. Things/Sunk crate  and  World/Ground\n        3 deep, near (348, 161.5)\n",
           "note: 1 text is left out: 'Things/sign 9'\n", "objects   8: 6 taken as convex solids, 2 as composites\n",
           "frames    1\n", "FAULTS FOUND: 2 pairs collide\n"})
         EXPECT_NE(ran.out.find(line), std::string::npos) << line << ran.out;
