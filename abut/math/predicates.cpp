@@ -1,9 +1,7 @@
-// Exact predicates: double decides nearly always, and expansions of doubles decide where an error bound leaves it open.
-//
-// Error bounds use u = 2^-53, the relative rounding error of a double operation. Nothing underflows or overflows: a
-// float is a multiple of 2^-149 below 2^128, so products of three are multiples of 2^-447 below 2^384, and products of
-// differences are below 2^387.
+// Exact predicates of floats, by those of doubles. Differences of floats are multiples of 2^-149 below 2^129, so
+// nothing underflows or overflows: products of three are multiples of 2^-447 below 2^387.
 
+#include <abut/math/detail/exact_orientation.hpp>
 #include <abut/math/detail/expansion.hpp>
 #include <abut/math/dvec.hpp>
 #include <abut/math/predicates.hpp>
@@ -14,7 +12,6 @@
 #include <cstddef>
 
 namespace abut {
-namespace {
 
 using detail::DVec;
 using detail::ExactSum;
@@ -23,73 +20,12 @@ using detail::sign_of;
 using detail::two_product;
 using detail::two_sum;
 
-bool is_exact(const DVec<2>& from, const DVec<2>& to) {
-    return two_sum(to.x, -from.x).error == 0 && two_sum(to.y, -from.y).error == 0;
-}
-
-/// If the differences are exact, as between floats of usual exponents, two products decide: rounding is monotonic, and
-/// equal rounded products are decided by their errors. Otherwise the determinant of | a 1 |, | b 1 |, | c 1 | is
-/// expanded into six products of two floats, which are exact in double.
-int exact_orientation(const DVec<2>& a, const DVec<2>& b, const DVec<2>& c) {
-    if (is_exact(a, b) && is_exact(a, c)) {
-        const DVec<2> p = b - a, q = c - a;
-        const ExactSum left = two_product(p.x, q.y), right = two_product(p.y, q.x);
-        return left.rounded != right.rounded ? sign_of(left.rounded - right.rounded)
-                                             : sign_of(left.error - right.error);
-    }
-    Expansion<48> sum;  // enough for 24 products of two doubles
-    const auto add_cross = [&](const DVec<2>& p, const DVec<2>& q) {
-        sum.add(p.x * q.y);
-        sum.add(-p.y * q.x);
-    };
-    add_cross(a, b);
-    add_cross(b, c);
-    add_cross(c, a);
-    return sum.sign();
-}
-
-/// The determinant of four rows: [b c d] - [a c d] + [a b d] - [a b c], where [p q r] = dot(cross(p, q), r).
-int exact_orientation(const DVec<3>& a, const DVec<3>& b, const DVec<3>& c, const DVec<3>& d) {
-    Expansion<48> sum;
-    const auto add_triple = [&](const DVec<3>& p, const DVec<3>& q, const DVec<3>& r) {
-        for (int i = 0; i < 3; ++i) {
-            const int j = (i + 1) % 3, k = (i + 2) % 3;
-            sum.add_product(p[j] * q[k], r[i]);
-            sum.add_product(-p[k] * q[j], r[i]);
-        }
-    };
-    add_triple(b, c, d);
-    add_triple(c, a, d);
-    add_triple(a, b, d);
-    add_triple(b, a, c);
-    return sum.sign();
-}
-
-}  // namespace
-
 int detail::triangle_orientation(const Vec2& a, const Vec2& b, const Vec2& c) {
-    const DVec<2> p = DVec<2>(b) - DVec<2>(a), q = DVec<2>(c) - DVec<2>(a);
-    const double left = p.x * q.y, right = p.y * q.x, turn = left - right;
-    // Each product of two rounded differences is off by 3 u; the final difference adds u. The bound is twice the
-    // first-order error, 8 u; it is 0 only if both products are exactly 0.
-    const double bound = 0x1p-50 * (std::abs(left) + std::abs(right));
-    if (std::abs(turn) >= bound) return sign_of(turn);
-    return exact_orientation(DVec<2>(a), DVec<2>(b), DVec<2>(c));
+    return exact_turn(DVec<2>(a), DVec<2>(b), DVec<2>(c));
 }
 
 int detail::tetrahedron_orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-    const DVec<3> p = DVec<3>(b) - DVec<3>(a), q = DVec<3>(c) - DVec<3>(a), r = DVec<3>(d) - DVec<3>(a);
-    double volume = 0, magnitude = 0;
-    for (int i = 0; i < 3; ++i) {
-        const int j = (i + 1) % 3, k = (i + 2) % 3;
-        const double left = p[j] * q[k], right = p[k] * q[j];
-        volume += (left - right) * r[i];
-        magnitude += (std::abs(left) + std::abs(right)) * std::abs(r[i]);
-    }
-    // left and right: 3 u; their difference: 4 u; times r[i], a difference: 6 u; the two sums: 8 u. The bound is twice
-    // that.
-    if (std::abs(volume) >= 0x1p-49 * magnitude) return sign_of(volume);
-    return exact_orientation(DVec<3>(a), DVec<3>(b), DVec<3>(c), DVec<3>(d));
+    return exact_side(DVec<3>(a), DVec<3>(b), DVec<3>(c), DVec<3>(d));
 }
 
 bool on_line(const Vec2& a, const Vec2& b, const Vec2& p) {

@@ -63,6 +63,8 @@ int side_by_expansion(const DVec<3>& a, const DVec<3>& b, const DVec<3>& c, cons
 
 }  // namespace
 
+// Error bounds use u = 2^-53, the relative rounding error of a double operation, and are twice the first-order error.
+
 int exact_side(const DVec<3>& a, const DVec<3>& b, const DVec<3>& c, const DVec<3>& d) {
     const DVec<3> p = b - a, q = c - a, r = d - a;
     double volume = 0, magnitude = 0;
@@ -72,19 +74,26 @@ int exact_side(const DVec<3>& a, const DVec<3>& b, const DVec<3>& c, const DVec<
         volume += (left - right) * r[i];
         magnitude += (std::abs(left) + std::abs(right)) * std::abs(r[i]);
     }
-    // The bound is that of tetrahedron_orientation(), which takes differences of floats, rounded alike.
+    // left and right: 3 u; their difference: 4 u; times r[i], a difference: 6 u; the two sums: 8 u.
     if (std::abs(volume) >= 0x1p-49 * magnitude) return sign_of(volume);
     return side_by_expansion(a, b, c, d);
 }
 
-int exact_turn(const DVec<3>& a, const DVec<3>& b, const DVec<3>& c, int axis) {
-    const int i = (axis + 1) % 3, j = (axis + 2) % 3;
-    const double left = (b[i] - a[i]) * (c[j] - a[j]), right = (b[j] - a[j]) * (c[i] - a[i]), turn = left - right;
+int exact_turn(const DVec<2>& a, const DVec<2>& b, const DVec<2>& c) {
+    const DVec<2> p = b - a, q = c - a;
+    const double left = p.x * q.y, right = p.y * q.x, turn = left - right;
+    // Each product of two rounded differences is off by 3 u; the final difference adds u. The bound is 0 only if both
+    // products are exactly 0.
     if (std::abs(turn) >= 0x1p-50 * (std::abs(left) + std::abs(right))) return sign_of(turn);
     Expansion<16> sum;
-    add_product(sum, ExactDifference(b[i], a[i]), ExactDifference(c[j], a[j]), 1);
-    add_product(sum, ExactDifference(b[j], a[j]), ExactDifference(c[i], a[i]), -1);
+    add_product(sum, ExactDifference(b.x, a.x), ExactDifference(c.y, a.y), 1);
+    add_product(sum, ExactDifference(b.y, a.y), ExactDifference(c.x, a.x), -1);
     return sum.sign();
+}
+
+int exact_turn(const DVec<3>& a, const DVec<3>& b, const DVec<3>& c, int axis) {
+    const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+    return exact_turn(DVec<2>(a[i], a[j]), DVec<2>(b[i], b[j]), DVec<2>(c[i], c[j]));
 }
 
 }  // namespace abut::detail

@@ -49,15 +49,6 @@ public:
         count_ = count;
     }
 
-    /// Adds the product of a double `product` (of two floats) and a float.
-    void add_product(double product, double factor) {
-        // Two halves of 26 bits (Dekker), times 24: neither product is rounded.
-        const double scaled = 0x1.0000002p27 * product;
-        const double high = scaled - (scaled - product), low = product - high;
-        add(high * factor);
-        add(low * factor);
-    }
-
     int sign() const { return count_ == 0 ? 0 : sign_of(parts_[count_ - 1]); }
 
 private:
