@@ -3,22 +3,10 @@
 
 #include <abut/math/detail/exact_orientation.hpp>
 #include <abut/math/detail/expansion.hpp>
-#include <abut/math/dvec.hpp>
 #include <abut/math/predicates.hpp>
 #include <abut/math/simd/library_entry.hpp>
 
-#include <array>
-#include <cmath>
-#include <cstddef>
-
 namespace abut {
-
-using detail::DVec;
-using detail::ExactSum;
-using detail::Expansion;
-using detail::sign_of;
-using detail::two_product;
-using detail::two_sum;
 
 int detail::triangle_orientation(const Vec2& a, const Vec2& b, const Vec2& c) {
     return exact_turn(DVec<2>(a), DVec<2>(b), DVec<2>(c));
@@ -52,22 +40,7 @@ bool in_plane(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) {
 namespace abut::detail {
 
 int turn_towards(const Vec2& a, const Vec2& b, const DVec<2>& c) {
-    const DVec<2> from(a), to(b), p = to - from, q = c - from;
-    const double left = p.x * q.y, right = p.y * q.x, turn = left - right;
-    if (std::abs(turn) >= 0x1p-50 * (std::abs(left) + std::abs(right))) return sign_of(turn);  // as above
-    Expansion<48> sum;
-    const auto add_product = [&](double factor, double number) {
-        const ExactSum product = two_product(factor, number);
-        sum.add(product.error);
-        sum.add(product.rounded);
-    };
-    sum.add(from.x * to.y);
-    sum.add(-from.y * to.x);
-    add_product(to.x, c.y);
-    add_product(-to.y, c.x);
-    add_product(-from.x, c.y);
-    add_product(from.y, c.x);
-    return sum.sign();
+    return exact_turn(DVec<2>(a), DVec<2>(b), c);
 }
 
 int sign_of_sum(double a, double b, double c) {
