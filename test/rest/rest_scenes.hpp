@@ -3,13 +3,13 @@
 // Scenes that must come to rest: boxes on floors of every kind, each with internal edges below the boxes.
 
 #include "../../scenes/small_physics.hpp"
+#include "../shape/brushes.hpp"
 #include <abut/shape/box.hpp>
 #include <abut/shape/chain.hpp>
 #include <abut/shape/compound.hpp>
 #include <abut/shape/height_field.hpp>
 #include <abut/shape/mesh.hpp>
 #include <abut/shape/placed.hpp>
-#include <abut/shape/solid_bsp.hpp>
 #include <abut/shape/tile_map.hpp>
 
 #include <string>
@@ -56,22 +56,6 @@ Compound<D> floor_compound() {
     return *Compound<D>::build(shapes);
 }
 template <int D>
-SolidBsp<D> floor_solid() {
-    std::vector<HalfSpace<D>> sides;
-    std::vector<std::uint32_t> ends;
-    for (const Box<D>& box : floor_boxes<D>()) {
-        for (int i = 0; i < D; ++i) {
-            Vec<D> normal(0.0f);
-            normal[i] = 1;
-            sides.push_back({normal, box.center[i] + box.half[i]});
-            sides.push_back({-normal, box.half[i] - box.center[i]});
-        }
-        ends.push_back(static_cast<std::uint32_t>(sides.size()));
-    }
-    return *SolidBsp<D>::from_brushes(sides, ends);
-}
-
-template <int D>
 void add_common_floor(SmallPhysics<D>& physics, const std::string& kind, const Pose<D>& pose) {
     if (kind == "box") {
         Vec<D> center(0.0f), half(static_cast<float>(rest_side));
@@ -82,7 +66,7 @@ void add_common_floor(SmallPhysics<D>& physics, const std::string& kind, const P
     } else if (kind == "compound") {
         physics.add_fixed(floor_compound<D>(), pose);
     } else if (kind == "solid") {
-        physics.add_fixed(floor_solid<D>(), pose);
+        physics.add_fixed(solid_of_boxes(floor_boxes<D>()), pose);
     }
 }
 inline void add_floor(SmallPhysics<2>& physics, const std::string& kind, const Pose2& pose) {

@@ -1,5 +1,6 @@
 // A solid level as a composite shape: its parts are the solid, and know their brush.
 
+#include "brushes.hpp"
 #include "solid_levels.hpp"
 #include <abut/query/closest.hpp>
 #include <abut/query/contact.hpp>
@@ -103,30 +104,17 @@ TEST(SolidParts, OfSurfacesAreTheSolid) {
     EXPECT_LT(counts.inside, counts.checked * 9 / 10);
 }
 
-/// The sides of a box.
-template <int D>
-void add_box(const Vec<D>& low, const Vec<D>& high, std::vector<HalfSpace<D>>& sides,
-             std::vector<std::uint32_t>& ends) {
-    for (int i = 0; i < D; ++i) {
-        Vec<D> normal(0.0f);
-        normal[i] = 1;
-        sides.push_back({normal, high[i]});
-        sides.push_back({-normal, -low[i]});
-    }
-    ends.push_back(static_cast<std::uint32_t>(sides.size()));
-}
-
 /// Three brushes; the second has no volume.
 template <int D>
 SolidBsp<D> three_brushes() {
     std::vector<HalfSpace<D>> sides;
     std::vector<std::uint32_t> ends;
-    add_box<D>(Vec<D>(0.0f), Vec<D>(4.0f), sides, ends);
-    add_box<D>(Vec<D>(7.0f), Vec<D>(6.0f), sides, ends);
+    add_brush<D>(Vec<D>(0.0f), Vec<D>(4.0f), sides, ends);
+    add_brush<D>(Vec<D>(7.0f), Vec<D>(6.0f), sides, ends);
     Vec<D> low(1.0f), high(3.0f);
     low[0] = 4;
     high[0] = 10;
-    add_box<D>(low, high, sides, ends);
+    add_brush<D>(low, high, sides, ends);
     return *SolidBsp<D>::from_brushes(sides, ends);
 }
 
@@ -205,7 +193,7 @@ TEST(SolidParts, FarFromTheOriginKeepTheirForm) {
     const float far = 1 << 16;
     std::vector<HalfSpace3> sides;
     std::vector<std::uint32_t> ends;
-    add_box<3>(Vec3(far), Vec3(far + 1), sides, ends);
+    add_brush<3>(Vec3(far), Vec3(far + 1), sides, ends);
     const Vec3 slope(0.6f, 0.8f, 0);  // cut off in the middle
     sides.push_back({slope, dot(slope, Vec3(far + 0.5f))});
     ends.back() = static_cast<std::uint32_t>(sides.size());

@@ -1,6 +1,7 @@
 // Contacts of all parts: internal edges of a floor give no ghost collisions, and real edges give contacts.
 
 #include "../../oracle/expect.hpp"
+#include "../../shape/brushes.hpp"
 #include "../../shape/meshes.hpp"
 #include "floors.hpp"
 #include <abut/query/each_contact.hpp>
@@ -27,22 +28,7 @@ using namespace test;
 
 constexpr std::uint64_t seed = 20260722;
 
-/// The tiles as one SolidBsp: each tile a brush, or the faces of all tiles.
-template <int D>
-SolidBsp<D> solid_of_lumps(const Pieces<Box<D>>& boxes) {
-    std::vector<HalfSpace<D>> sides;
-    std::vector<std::uint32_t> ends;
-    for (const Box<D>& box : boxes.pieces) {
-        for (int i = 0; i < D; ++i) {
-            Vec<D> normal(0.0f);
-            normal[i] = 1;
-            sides.push_back({normal, box.center[i] + box.half[i]});
-            sides.push_back({-normal, box.half[i] - box.center[i]});
-        }
-        ends.push_back(static_cast<std::uint32_t>(sides.size()));
-    }
-    return *SolidBsp<D>::from_brushes(sides, ends);
-}
+/// The faces of all tiles as one SolidBsp.
 SolidBsp3 solid_of_faces(const Pieces<Box3>& boxes) {
     test::Surface surface;
     for (const Box3& box : boxes.pieces)
@@ -137,10 +123,10 @@ TEST(EachContact, OfALevelFloorIsUpAlone) {
         expect_level_in_space("mesh", level_mesh(random), tolerance(random));
         expect_level_in_space("broken mesh", broken_mesh(random), tolerance(random));
         expect_level_in_space("boxes", boxes_in_space(random), tolerance(random));
-        expect_level_in_space("solid lumps", solid_of_lumps(boxes_in_space(random)), tolerance(random));
+        expect_level_in_space("solid lumps", solid_of_boxes(boxes_in_space(random).pieces), tolerance(random));
         expect_level_in_space("solid of faces", solid_of_faces(boxes_in_space(random)), tolerance(random));
         for (const SolidBsp2& solid :
-             {solid_of_lumps(boxes_of_the_plane(random)), solid_of_faces(boxes_of_the_plane(random))}) {
+             {solid_of_boxes(boxes_of_the_plane(random).pieces), solid_of_faces(boxes_of_the_plane(random))}) {
             expect_only_up<2>("box on a solid", Box2{{0, 0}, {0.4f, 0.3f}}, 0.3f, solid, tolerance(random));
             expect_only_up<2>("ball on a solid", Circle{{0, 0}, 0.3f}, 0.3f, solid, tolerance(random));
         }
