@@ -150,7 +150,7 @@ private:
         std::array<double, D> mass, total{};
         double depth;
     };
-    /// How much of a depth is pushed out in a second, and how much a spring gives way.
+    /// How much of a depth is pushed out in a second, and how soft a spring is.
     struct Softness {
         double rate = 0, mass_share = 1, impulse_share = 0;
     };

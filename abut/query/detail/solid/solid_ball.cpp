@@ -1,6 +1,6 @@
 // The signed distance of the centre changes by no more than the centre moves. So no move is shorter than the radius
 // minus that distance, and a step of this length along any direction never leads past a place where the ball is free
-// (sphere tracing). The way to the nearest point of the surface reaches the bound wherever the surface is not too
+// (sphere tracing). The direction to the nearest point of the surface reaches the bound wherever the surface is not too
 // concave.
 
 #include <abut/query/detail/solid/placed_solid.hpp>

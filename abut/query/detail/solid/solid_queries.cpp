@@ -1,3 +1,4 @@
+#include <abut/convex/tolerance.hpp>
 #include <abut/query/detail/solid/contact_area.hpp>
 #include <abut/query/detail/solid/interior_overlap.hpp>
 #include <abut/query/detail/solid/separating_move.hpp>
@@ -13,14 +14,14 @@ namespace {
 /// A distance of triangles smaller than this, relative to the size, is rounding.
 constexpr double touching = 1e-9;
 
-/// The tolerance of distances: see docs/correctness.md.
+/// The tolerance of distances; a coordinate seen from A is at most twice the largest one.
 double distance_tolerance(const View<3>& a, const View<3>& b) {
     double farthest = 0;
     for (const View<3>* shape : {&a, &b}) {
         const Aabb3 box = bounds(*shape);
         farthest = std::max({farthest, largest(DVec<3>(box.min)), largest(DVec<3>(box.max))});
     }
-    return 1e-5 * std::min(size(a), size(b)) + 0x1p-19 * farthest;
+    return tolerance_for(std::min(size(a), size(b)), 2 * farthest);
 }
 
 /// Sets a common point of the surfaces after the move, and its features.
