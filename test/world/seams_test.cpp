@@ -344,6 +344,24 @@ TEST(Seams, OfItemsThatDoNotPairGiveContacts) {
     }
 }
 
+/// Without the filter each pair has its own contact, also one on an internal edge, and the same events.
+TEST(Seams, GiveContactsWithoutTheFilter) {
+    World2 filtered, world({.filter_edges = false});
+    for (World2* each : {&filtered, &world}) {
+        each->add(Box2{{-0.5f, -0.5f}, {0.5f, 0.5f}}, {.fixed = true});
+        each->add(Box2{{0.5f, -0.5f}, {0.5f, 0.5f}}, {.fixed = true});
+        each->add(Box2{{0.399f, 0.29f}, {0.4f, 0.3f}});
+        EXPECT_EQ(each->update().began.size(), 2u);
+    }
+    EXPECT_EQ(filtered.contacts().size(), 1u);
+    ASSERT_EQ(world.contacts().size(), 2u);
+    for (const WorldContact<2>& found : world.contacts()) {
+        const Contact<2> own = contact(world.shape(found.a), world.shape(found.b));
+        EXPECT_EQ(found.contact.normal, own.normal);
+        EXPECT_EQ(found.contact.depth, own.depth);
+    }
+}
+
 /// An item with so many neighbours that they are found through the broad phases.
 TEST(Seams, OfManyPiecesGiveNoContact) {
     World2 world;

@@ -217,7 +217,7 @@ bool PlacedSolid::is_inside_behind(const Corners& triangle) const {
         const int crossing = symbolic.winding(t);
         if (crossing == 0) return true;
         const int faces = exact_turn(t[0], t[1], t[2], axis), side = symbolic.side(t);
-        // Of two triangles in one plane, the point is behind the one that has the same front.
+        // The point is behind a triangle in the same plane that faces the same direction.
         const bool is_behind = side != 0 ? side < 0 : faces == front;
         if (((faces > 0) == is_behind) == up) winding += crossing;
         return true;

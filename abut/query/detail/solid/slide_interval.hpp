@@ -14,7 +14,7 @@ struct SlideInterval {
 };
 
 /// Returns false if the triangles cross at no distance. Triangles in one plane, which moves along itself, cross while
-/// they share an area and have the same front: then both solids are behind it.
+/// they share an area and face the same direction: then both solids are behind it.
 bool slide_interval(const Corners& a, const Corners& b, const DVec<3>& direction, SlideInterval& interval);
 
 }  // namespace abut::detail
