@@ -11,12 +11,12 @@
 #include <abut/query/raycast.hpp>
 #include <abut/shape/any_shape.hpp>
 #include <abut/world/ball_early_out.hpp>
-#include <abut/world/bounding_ball.hpp>
+#include <abut/world/detail/bounding_ball.hpp>
+#include <abut/world/detail/item_boxes.hpp>
+#include <abut/world/detail/pair_index.hpp>
+#include <abut/world/detail/query_count.hpp>
+#include <abut/world/detail/swept_box.hpp>
 #include <abut/world/id.hpp>
-#include <abut/world/item_boxes.hpp>
-#include <abut/world/pair_index.hpp>
-#include <abut/world/query_count.hpp>
-#include <abut/world/swept_box.hpp>
 
 #include <memory>
 #include <optional>

@@ -3,7 +3,7 @@
 // HACD's hulls have fewer vertices and leave out up to 2 % of the diagonal here, which is tolerated.
 
 #include "../../scenes/solid_meshes.hpp"
-#include "../../test/oracle/part_quality.hpp"
+#include "../../test/oracle/bake/part_quality.hpp"
 #include "../bench.hpp"
 #include "bullet_hacd.hpp"
 #include <abut/bake/decompose.hpp>

@@ -1,6 +1,6 @@
 #include "../../scenes/outlines.hpp"
+#include "../oracle/bake/outline_parts.hpp"
 #include "../oracle/is_long.hpp"
-#include "../oracle/outline_parts.hpp"
 #include "../oracle/random.hpp"
 #include <abut/bake/decompose_outline.hpp>
 #include <abut/query/contains.hpp>

@@ -1,7 +1,7 @@
 // Meshes to convex parts: unions of convex bodies give these bodies, others are covered within the limits.
 
 #include "../../scenes/solid_meshes.hpp"
-#include "../oracle/part_quality.hpp"
+#include "../oracle/bake/part_quality.hpp"
 #include "../oracle/random.hpp"
 #include <abut/bake/decompose.hpp>
 #include <abut/bake/solid.hpp>

@@ -1,6 +1,6 @@
 // The oracle of convex parts itself, with known answers.
 
-#include "../oracle/part_quality.hpp"
+#include "../oracle/bake/part_quality.hpp"
 
 #include <vector>
 

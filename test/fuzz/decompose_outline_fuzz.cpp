@@ -1,6 +1,6 @@
 // Decomposes any rings: an exact oracle confirms the parts, or the result is a Problem with a message.
 
-#include "../oracle/outline_parts.hpp"
+#include "../oracle/bake/outline_parts.hpp"
 #include <abut/bake/decompose_outline.hpp>
 
 #include <bit>

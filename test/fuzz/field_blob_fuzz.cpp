@@ -1,9 +1,9 @@
 // Loads any bytes as a field: the load refuses them, or the field can be saved again and has a finite answer to every
 // query with finite points and shapes, near and far.
 
+#include "../oracle/bake/seal.hpp"
 #include "../oracle/finite_answers.hpp"
 #include "../oracle/random.hpp"
-#include "../oracle/seal.hpp"
 #include <abut/field/check.hpp>
 #include <abut/field/file.hpp>
 #include <abut/shape/ball.hpp>

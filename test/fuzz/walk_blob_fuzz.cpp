@@ -1,6 +1,6 @@
 // Loads any bytes as a walk mesh: the load refuses them, or the mesh can be walked on and saved again.
 
-#include "../oracle/seal.hpp"
+#include "../oracle/bake/seal.hpp"
 #include <abut/walk/file.hpp>
 
 #include <algorithm>

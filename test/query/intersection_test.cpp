@@ -1,10 +1,10 @@
 // The intersection of two polytopes: examples with known answers, exact areas and volumes, and invariants of all pairs.
 
+#include "../oracle/bake/volume.hpp"
 #include "../oracle/check.hpp"
 #include "../oracle/degenerate.hpp"
 #include "../oracle/expect.hpp"
 #include "../oracle/pair.hpp"
-#include "../oracle/volume.hpp"
 #include <abut/query/intersection.hpp>
 
 namespace abut {

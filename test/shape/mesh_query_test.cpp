@@ -1,7 +1,7 @@
 // Queries of meshes against a reference over all triangles: the least answer, bit for bit, and the reported part
 // attains it.
 
-#include "../world/random_shapes.hpp"
+#include "../world/support/random_shapes.hpp"
 #include "meshes.hpp"
 #include <abut/query/closest.hpp>
 #include <abut/query/contact.hpp>

@@ -1,7 +1,7 @@
 // `abut decompose` as a command line.
 
 #include "../../scenes/solid_meshes.hpp"
-#include "../oracle/part_quality.hpp"
+#include "../oracle/bake/part_quality.hpp"
 #include "tool_runs.hpp"
 #include <abut/io/read_scene.hpp>
 #include <abut/io/write_obj.hpp>

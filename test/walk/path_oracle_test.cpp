@@ -1,8 +1,8 @@
 // Paths over random ground, compared with shortest paths of other algorithms.
 
 #include "../oracle/is_long.hpp"
-#include "../oracle/surface_paths.hpp"
-#include "../oracle/visibility_graph.hpp"
+#include "../oracle/walk/surface_paths.hpp"
+#include "../oracle/walk/visibility_graph.hpp"
 #include "../query/hash.hpp"
 #include "path_meshes.hpp"
 #include <abut/math/pose.hpp>

@@ -2,8 +2,8 @@
 
 // Compares walks with the oracle's.
 
-#include "../oracle/geodesic.hpp"
 #include "../oracle/random.hpp"
+#include "../oracle/walk/geodesic.hpp"
 #include "walk_surfaces.hpp"
 #include <abut/walk/walk_mesh.hpp>
 

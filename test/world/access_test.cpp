@@ -1,6 +1,6 @@
 // Reading and changing the options of an item: queries see a change at once, the next update reports it.
 
-#include "circles.hpp"
+#include "support/circles.hpp"
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/world/world.hpp>

@@ -1,7 +1,7 @@
 // Allocations: none in an update of a world that has seen a scene of this size, and none in queries without a list.
 
 #include "../broad_phase/allocations.hpp"
-#include "simulation.hpp"
+#include "support/simulation.hpp"
 
 #include <gtest/gtest.h>
 

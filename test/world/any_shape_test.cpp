@@ -1,7 +1,7 @@
 // Shapes that are added to several worlds. Regression: a view could be added once, and referred to a shape of the first
 // world. When that shape was removed, the second world answered from freed memory: 14.5 for a distance of 0.5.
 
-#include "bits.hpp"
+#include "support/bits.hpp"
 #include <abut/shape/box.hpp>
 #include <abut/shape/compound.hpp>
 #include <abut/shape/polyhedron.hpp>

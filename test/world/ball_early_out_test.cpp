@@ -1,6 +1,6 @@
 // The decisions of the early out by bounding balls, from synthetic measurements.
 
-#include "random_shapes.hpp"
+#include "support/random_shapes.hpp"
 #include <abut/world/ball_early_out.hpp>
 
 #include <set>

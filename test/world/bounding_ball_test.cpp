@@ -1,9 +1,9 @@
 // Bounding balls contain their shapes at all scales and positions, and never separate shapes that touch.
 
-#include "random_shapes.hpp"
+#include "support/random_shapes.hpp"
 #include <abut/query/contact.hpp>
 #include <abut/query/overlaps.hpp>
-#include <abut/world/bounding_ball.hpp>
+#include <abut/world/detail/bounding_ball.hpp>
 
 #include <gtest/gtest.h>
 

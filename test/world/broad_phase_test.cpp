@@ -1,8 +1,8 @@
 // The broad phase that a world chooses, on which no answer depends.
 
-#include "bits.hpp"
-#include "simulation.hpp"
-#include <abut/world/query_count.hpp>
+#include "support/bits.hpp"
+#include "support/simulation.hpp"
+#include <abut/world/detail/query_count.hpp>
 
 #include <algorithm>
 #include <array>

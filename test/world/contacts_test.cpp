@@ -1,8 +1,8 @@
 // Contacts of a world as whole manifolds, and those of a query shape.
 
 #include "../oracle/random.hpp"
-#include "bits.hpp"
-#include "random_shapes.hpp"
+#include "support/bits.hpp"
+#include "support/random_shapes.hpp"
 #include <abut/query/each_contact.hpp>
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>

@@ -1,9 +1,9 @@
 // Continuous collision detection between two updates: closed-form examples, and motions sampled in fine steps.
 
 #include "../broad_phase/allocations.hpp"
-#include "bits.hpp"
-#include "circles.hpp"
-#include "random_shapes.hpp"
+#include "support/bits.hpp"
+#include "support/circles.hpp"
+#include "support/random_shapes.hpp"
 #include <abut/math/motion.hpp>
 #include <abut/query/overlaps.hpp>
 #include <abut/world/world.hpp>

@@ -1,7 +1,7 @@
 // The same calls give the same bits, and the order in which items were added affects only their ids.
 
-#include "bits.hpp"
-#include "simulation.hpp"
+#include "support/bits.hpp"
+#include "support/simulation.hpp"
 
 #include <iostream>
 #include <numeric>

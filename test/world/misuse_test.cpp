@@ -1,9 +1,9 @@
 // Misuse of a world: stale and null ids, non-finite numbers. With assertions, each call trips exactly one. Without
 // them, or if the user's assert_failed returns, the answer is neutral and nothing else happens.
 
-#include "bits.hpp"
-#include "circles.hpp"
-#include "random_shapes.hpp"
+#include "support/bits.hpp"
+#include "support/circles.hpp"
+#include "support/random_shapes.hpp"
 #include <abut/math/assert.hpp>
 #include <abut/world/world.hpp>
 

@@ -1,7 +1,7 @@
 // The items nearest to a point or a shape, and queries that ignore several items, with known answers.
 
-#include "before_and_after_update.hpp"
-#include "bits.hpp"
+#include "support/before_and_after_update.hpp"
+#include "support/bits.hpp"
 #include <abut/shape/ball.hpp>
 #include <abut/shape/half_space.hpp>
 #include <abut/world/world.hpp>

@@ -1,9 +1,9 @@
 // Queries of a world with known answers, before the update that takes the items into the trees and after it.
 
-#include "before_and_after_update.hpp"
-#include "bits.hpp"
-#include "circles.hpp"
-#include "random_shapes.hpp"
+#include "support/before_and_after_update.hpp"
+#include "support/bits.hpp"
+#include "support/circles.hpp"
+#include "support/random_shapes.hpp"
 #include <abut/world/world.hpp>
 
 #include <gtest/gtest.h>

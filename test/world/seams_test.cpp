@@ -2,7 +2,7 @@
 // walls, steps and ends of the floor do give one.
 
 #include "../oracle/random.hpp"
-#include "bits.hpp"
+#include "support/bits.hpp"
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/capsule.hpp>

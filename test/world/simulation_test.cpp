@@ -1,10 +1,10 @@
 // Random games against the reference implementation: the events, contacts and answers of a world are always those of
 // testing every pair.
 
-#include "simulation.hpp"
+#include "support/simulation.hpp"
 
 #include "../oracle/pair.hpp"
-#include "bits.hpp"
+#include "support/bits.hpp"
 
 #include <iostream>
 

@@ -1,8 +1,8 @@
 // The cost of queries before the next update is at most twice the cost after it. A shape counts the calls of its
 // support function as the measure of cost.
 
-#include "bits.hpp"
-#include "simulation.hpp"
+#include "support/bits.hpp"
+#include "support/simulation.hpp"
 
 #include <atomic>
 #include <functional>

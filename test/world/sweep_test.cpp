@@ -1,10 +1,10 @@
 // Sweeps through a world: examples with known answers, and comparison with a sweep of every single item.
 
 #include "../oracle/pair.hpp"
-#include "before_and_after_update.hpp"
-#include "bits.hpp"
-#include "circles.hpp"
-#include "simulation.hpp"
+#include "support/before_and_after_update.hpp"
+#include "support/bits.hpp"
+#include "support/circles.hpp"
+#include "support/simulation.hpp"
 #include <abut/math/detail/rigid_path.hpp>
 #include <abut/query/sweep.hpp>
 

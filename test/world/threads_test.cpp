@@ -1,7 +1,7 @@
 // Queries from many threads at once, before an update: each has the same answer as on one thread.
 
-#include "bits.hpp"
-#include "simulation.hpp"
+#include "support/bits.hpp"
+#include "support/simulation.hpp"
 
 #include <thread>
 

@@ -1,8 +1,8 @@
 // The results of an update: pairs that began, stayed and ended; and pairs that are not tested again.
 
-#include "bits.hpp"
-#include "circles.hpp"
-#include "random_shapes.hpp"
+#include "support/bits.hpp"
+#include "support/circles.hpp"
+#include "support/random_shapes.hpp"
 #include <abut/world/world.hpp>
 
 #include <algorithm>

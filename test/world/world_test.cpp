@@ -1,7 +1,7 @@
 // A world as a container: ids, the data it stores, and moving the world.
 
-#include "bits.hpp"
-#include "random_shapes.hpp"
+#include "support/bits.hpp"
+#include "support/random_shapes.hpp"
 #include <abut/world/world.hpp>
 
 #include <memory>

@@ -1,7 +1,7 @@
 // Hulls with a vertex limit of ill-conditioned sets: stretched, nearly flat, nearly collinear, tiny, huge or far away.
 // They contain every point exactly, and are no larger than the minimum-volume oriented box.
 
-#include "../../oracle/min_volume_box.hpp"
+#include "../../oracle/bake/min_volume_box.hpp"
 #include "exact_containment.hpp"
 #include "ill_conditioned_sets.hpp"
 #include <abut/convex/hull/limited/limited_hull.hpp>

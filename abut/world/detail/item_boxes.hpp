@@ -4,7 +4,7 @@
 
 #include <abut/broad_phase/chosen_broad_phase.hpp>
 #include <abut/math/aabb.hpp>
-#include <abut/world/deferred_work.hpp>
+#include <abut/world/detail/deferred_work.hpp>
 
 #include <cstdint>
 #include <optional>

@@ -2,8 +2,8 @@
 
 // The volume of the overlap of two polytopes, in rational numbers.
 
-#include "axes.hpp"
-#include "rational.hpp"
+#include "../axes.hpp"
+#include "../rational.hpp"
 
 #include <algorithm>
 #include <optional>

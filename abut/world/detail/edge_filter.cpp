@@ -2,7 +2,7 @@
 // of the union of all that it touches (docs/ghosts.md).
 
 #include <abut/broad_phase/boxes.hpp>
-#include <abut/world/edge_filter_state.hpp>
+#include <abut/world/detail/edge_filter_state.hpp>
 #include <abut/world/world.hpp>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #include <abut/math/detail/next_float.hpp>
-#include <abut/world/bounding_ball.hpp>
+#include <abut/world/detail/bounding_ball.hpp>
 
 #include <cmath>
 

@@ -4,7 +4,7 @@
 
 #include <abut/math/motion.hpp>
 #include <abut/math/ray.hpp>
-#include <abut/world/bounding_ball.hpp>
+#include <abut/world/detail/bounding_ball.hpp>
 
 namespace abut::detail {
 

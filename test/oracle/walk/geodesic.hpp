@@ -3,7 +3,7 @@
 // A reference implementation of the walks of abut/walk/walk_mesh.hpp, for any number type. It traces a geodesic in
 // space from edge to edge, and rotates the direction about each edge by vectors.
 
-#include "triangle_adjacency.hpp"
+#include "../triangle_adjacency.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 #include <abut/broad_phase/reach.hpp>
-#include <abut/world/swept_box.hpp>
+#include <abut/world/detail/swept_box.hpp>
 
 namespace abut::detail {
 namespace {

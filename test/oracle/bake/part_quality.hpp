@@ -2,7 +2,7 @@
 
 // The errors of convex parts as an approximation of a mesh, measured at random points.
 
-#include "random.hpp"
+#include "../random.hpp"
 #include <abut/bake/solid.hpp>
 #include <abut/math/aabb.hpp>
 #include <abut/query/closest.hpp>

@@ -2,7 +2,7 @@
 
 // The oriented box of least volume around points, by a local search from many starts: a slow reference.
 
-#include "random.hpp"
+#include "../random.hpp"
 #include <abut/convex/hull/hull.hpp>
 #include <abut/math/affine.hpp>
 #include <abut/math/dvec.hpp>

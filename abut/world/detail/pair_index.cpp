@@ -1,5 +1,5 @@
 #include <abut/broad_phase/detail/radix_sort.hpp>
-#include <abut/world/pair_index.hpp>
+#include <abut/world/detail/pair_index.hpp>
 
 #include <algorithm>
 #include <bit>

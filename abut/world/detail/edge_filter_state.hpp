@@ -3,8 +3,8 @@
 // The memory of a world's filter of internal edges during an update. For .cpp files.
 
 #include <abut/query/detail/surface/surface_contacts.hpp>
-#include <abut/world/compressed_lists.hpp>
-#include <abut/world/view_cache.hpp>
+#include <abut/world/detail/compressed_lists.hpp>
+#include <abut/world/detail/view_cache.hpp>
 
 #include <algorithm>
 #include <cstdint>

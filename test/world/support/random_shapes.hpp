@@ -2,7 +2,7 @@
 
 // Shapes of every kind for the tests of the world, and two user-defined ones.
 
-#include "../oracle/random.hpp"
+#include "../../oracle/random.hpp"
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/capsule.hpp>

@@ -2,7 +2,7 @@
 
 // Whether convex parts cover exactly the inside of an outline, in integers of any size.
 
-#include "rational.hpp"
+#include "../rational.hpp"
 #include <abut/math/aabb.hpp>
 #include <abut/math/predicates.hpp>
 #include <abut/shape/polygon.hpp>

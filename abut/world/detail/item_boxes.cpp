@@ -1,7 +1,7 @@
 #include <abut/broad_phase/boxes.hpp>
 #include <abut/broad_phase/detail/reserve_one_more.hpp>
 #include <abut/broad_phase/reach.hpp>
-#include <abut/world/item_boxes.hpp>
+#include <abut/world/detail/item_boxes.hpp>
 
 #include <algorithm>
 
