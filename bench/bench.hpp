@@ -54,6 +54,8 @@ std::vector<Bench> motion_linear_benches();
 std::vector<Bench> motion_rotation_benches();
 /// Ray casts against meshes, and building their trees.
 std::vector<Bench> ray_benches();
+/// Sweeps of one shape at a mesh.
+std::vector<Bench> mesh_sweep_benches();
 /// Disassembly order.
 std::vector<Bench> removal_benches();
 /// Shapes against the ground of a level.

@@ -21,6 +21,9 @@ struct RayMesh {
 };
 using SharedRayMesh = std::shared_ptr<const RayMesh>;
 
+/// Rays from above the ground to another point of it: most travel far just above it.
+SharedRayMesh terrain_rays(std::uint32_t columns);
+
 enum class Quality { usual, high };
 enum class Edges { fast, robust };
 

@@ -5,6 +5,7 @@
 #include <abut/convex/polygon_soa.hpp>
 #include <abut/convex/ray/ray_entry.hpp>
 
+#include <array>
 #include <limits>
 #include <span>
 
@@ -62,5 +63,8 @@ RayEntry<D> enter_capsule(const DRay<D>& ray, const DVec<D>& a, const DVec<D>& b
 /// Without thickness: a segment in 2D, a triangle in 3D.
 RayEntry<2> enter_segment(const DRay<2>& ray, const DVec<2>& a, const DVec<2>& b);
 RayEntry<3> enter_triangle(const DRay<3>& ray, const DVec<3>& a, const DVec<3>& b, const DVec<3>& c);
+
+/// A triangle in 3D with a ball of `radius` around it.
+RayEntry<3> enter_rounded_triangle(const DRay<3>& ray, const std::array<DVec<3>, 3>& corners, double radius);
 
 }  // namespace abut::detail

@@ -6,7 +6,7 @@ namespace {
 
 /// The ray in the shape's own frame, if the inverse placement is well conditioned.
 template <int D>
-bool unplace(const Placement<D>& placement, const DRay<D>& ray, DRay<D>& own) {
+bool unplace(const Placement<D>& placement, double radius, const DRay<D>& ray, DRay<D>& own) {
     const DVec<D> from = ray.origin - placement.place.offset;
     own.length = ray.length;
     if (placement.similar) {
@@ -16,7 +16,7 @@ bool unplace(const Placement<D>& placement, const DRay<D>& ray, DRay<D>& own) {
         own.direction = placement.place.transposed(ray.direction) * factor;
         return true;
     }
-    if (placement.radius > 0) return false;
+    if (radius > 0) return false;
     double shortest = std::numeric_limits<double>::infinity(), longest = 0, volume = 1;
     for (const DVec<D>& column : placement.place.column) {
         shortest = std::min(shortest, length(column));
@@ -52,38 +52,41 @@ RayEntry<D> enter_own(const Convex<D>& convex, const DRay<D>& own, double radius
 }
 
 template <int D>
-RayEntry<D> enter_few_points(const Convex<D>& convex, const DRay<D>& ray) {
+RayEntry<D> enter_few_points(const Convex<D>& convex, double radius, const DRay<D>& ray) {
     Affine<D> seen = convex.place;
     seen.offset -= ray.origin;
     const auto corner = [&](std::uint32_t i) { return seen.point(DVec<D>(convex.vertices()[i])); };
-    if (convex.count == 1) return enter_ball(ray, corner(0), convex.radius);
-    if (convex.count == 2 && convex.radius > 0) return enter_capsule(ray, corner(0), corner(1), convex.radius);
-    if (convex.radius > 0) return {};
-    if constexpr (D == 2) return enter_segment(ray, corner(0), corner(1));
-    if constexpr (D == 3)
-        if (convex.count == 3) return enter_triangle(ray, corner(0), corner(1), corner(2));
-    return {};
+    if (convex.count == 1) return enter_ball(ray, corner(0), radius);
+    if (convex.count == 2 && radius > 0) return enter_capsule(ray, corner(0), corner(1), radius);
+    if constexpr (D == 2) {
+        return radius > 0 ? RayEntry<2>() : enter_segment(ray, corner(0), corner(1));
+    } else {
+        if (convex.count != 3) return {};
+        return radius > 0 ? enter_rounded_triangle(ray, {corner(0), corner(1), corner(2)}, radius)
+                          : enter_triangle(ray, corner(0), corner(1), corner(2));
+    }
 }
 
 }  // namespace
 
 template <int D>
-RayEntry<D> ray_entry(const Convex<D>& convex, const DRay<D>& ray) {
+RayEntry<D> ray_entry(const Convex<D>& convex, const DRay<D>& ray, double more_radius) {
     if (convex.inner_radius > 0 || convex.core == Core::function) return {};
+    const double radius = convex.radius + more_radius;
     if (convex.core == Core::points && convex.facets == nullptr) {
-        if (convex.count <= static_cast<std::uint32_t>(D)) return enter_few_points(convex, ray);
+        if (convex.count <= static_cast<std::uint32_t>(D)) return enter_few_points(convex, radius, ray);
         if (D == 3) return {};
     }
     DRay<D> own;
-    if (!unplace(convex, ray, own)) return {};
-    RayEntry<D> result = enter_own(convex, own, convex.radius / convex.scale);
+    if (!unplace(convex, radius, ray, own)) return {};
+    RayEntry<D> result = enter_own(convex, own, radius / convex.scale);
     if (result.answer == RayAnswer::enters)
         result.normal =
             convex.similar ? convex.place.vector(result.normal) : mapped_normal(convex.place, result.normal);
     return result;
 }
 
-template RayEntry<2> ray_entry(const Convex<2>&, const DRay<2>&);
-template RayEntry<3> ray_entry(const Convex<3>&, const DRay<3>&);
+template RayEntry<2> ray_entry(const Convex<2>&, const DRay<2>&, double);
+template RayEntry<3> ray_entry(const Convex<3>&, const DRay<3>&, double);
 
 }  // namespace abut::detail

@@ -38,8 +38,8 @@ struct RayEntry {
 
 /// The entry of a ray from outside into the placed set. It misses no ray that goes deeper in than rounding explains.
 /// The entry lies on the surface to within some billionths of the distance and the size (for a polyhedron, to the
-/// flatness of its faces).
+/// flatness of its faces). With `more_radius`, the entry into all points within that of the set.
 template <int D>
-RayEntry<D> ray_entry(const Convex<D>& convex, const DRay<D>& ray);
+RayEntry<D> ray_entry(const Convex<D>& convex, const DRay<D>& ray, double more_radius = 0);
 
 }  // namespace abut::detail

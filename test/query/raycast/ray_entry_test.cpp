@@ -134,8 +134,7 @@ TYPED_TEST(RayEntryOf, ShapesOfEveryStyle) {
     }
     for (int kind = 0; kind < oracle::kind_count; ++kind) {
         const bool searched = kind == static_cast<int>(oracle::Kind::cloud) ||
-                              (D == 3 && (kind == static_cast<int>(oracle::Kind::segment) ||
-                                          kind == static_cast<int>(oracle::Kind::rounded_triangle)));
+                              (D == 3 && kind == static_cast<int>(oracle::Kind::segment));
         EXPECT_EQ(decided[static_cast<std::size_t>(kind)] > 100, !searched) << "kind " << kind;
     }
 }
@@ -210,6 +209,17 @@ TEST(RayEntry, NamesTheFaceItComesThrough) {
     const Triangle<3> triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     EXPECT_EQ(raycast(Ray3{{0.2f, 0.2f, 1}, {0, 0, -1}}, triangle)->feature, (Feature{0, 0, FeatureKind::face}));
     EXPECT_EQ(raycast(Ray3{{0.2f, 0.2f, -1}, {0, 0, 1}}, triangle)->feature, (Feature{0, 1, FeatureKind::face}));
+    const auto plate = rounded(triangle, 0.5f);
+    EXPECT_EQ(raycast(Ray3{{0.2f, 0.2f, 2}, {0, 0, -1}}, plate)->feature, (Feature{0, 0, FeatureKind::face}));
+    EXPECT_EQ(raycast(Ray3{{0.2f, 0.2f, -2}, {0, 0, 1}}, plate)->feature, (Feature{0, 1, FeatureKind::face}));
+    EXPECT_EQ(raycast(Ray3{{0.5f, -2, 0.1f}, {0, 1, 0}}, plate)->feature,
+              (Feature{0, edge_index(0, 1), FeatureKind::edge}));
+    EXPECT_EQ(raycast(Ray3{{2, 2, 0.1f}, {-1, -1, 0}}, plate)->feature,
+              (Feature{0, edge_index(1, 2), FeatureKind::edge}));
+    EXPECT_EQ(raycast(Ray3{{-2, 0.3f, 0.1f}, {1, 0, 0}}, plate)->feature,
+              (Feature{0, edge_index(0, 2), FeatureKind::edge}));
+    EXPECT_EQ(raycast(Ray3{{3, 0, 0.1f}, {-1, 0, 0}}, plate)->feature, (Feature{0, 1, FeatureKind::vertex}));
+    EXPECT_EQ(raycast(Ray3{{0, 3, 0.1f}, {0, -1, 0}}, plate)->feature, (Feature{0, 2, FeatureKind::vertex}));
 }
 
 TEST(RayEntry, MeetsAFlatHullFromBothSides) {

@@ -126,12 +126,6 @@ private:
         return 0.5 * closing * closing * (a_.radius + b_.radius) > tolerances_.slide;
     }
 
-    static Convex<D> grown(const Convex<D>& part, double radius) {
-        Convex<D> result = part;
-        result.radius += radius;
-        return result;
-    }
-
     /// A ball is a ray of its centre against the other part grown by its radius. `out` is the normal towards the start
     /// of the ray.
     FastAnswer ray(const Convex<D>& ball, const Convex<D>& other, const DVec<D>& direction, LinearImpact<D>& impact,
@@ -139,7 +133,7 @@ private:
         const DRay<D> beam{center_of(ball), direction, path_.length + tolerances_.touch};
         const RayEntry<D> entry = is_ball(other)
                                       ? enter_ball(beam, center_of(other) - beam.origin, other.radius + ball.radius)
-                                      : ray_entry(grown(other, ball.radius), beam);
+                                      : ray_entry(other, beam, ball.radius);
         if (entry.answer == RayAnswer::undecided) return FastAnswer::undecided;
         if (entry.answer == RayAnswer::misses) return FastAnswer::misses;
         out = normalized(entry.normal);
@@ -202,7 +196,6 @@ private:
     bool b_is_behind() const { return extent(a_, -path_.direction) + extent(b_, path_.direction) < -tolerances_.touch; }
 
     bool search(std::uint32_t index, LinearImpact<D>& impact) {
-        moving_ = a_;
         Moment now = moment_at(0);
         const bool starts_in_contact = now.distance.distance <= tolerances_.touch;
         if (starts_in_contact ? !deepens_from_start(now) : !advance(now)) return false;
@@ -225,8 +218,9 @@ private:
     Moment moment_at(double along) {
         Moment result;
         result.along = along;
-        set_translated(a_, path_.direction * along, moving_);
-        result.distance = part_distance(moving_, b_, SearchOptions<D>{cache_, nullptr});
+        A moved = a_;
+        set_translated(a_, path_.direction * along, moved);
+        result.distance = part_distance(moved, b_, SearchOptions<D>{cache_, nullptr});
         result.closing = dot(path_.direction, result.distance.normal);
         return result;
     }
@@ -343,7 +337,7 @@ private:
         options_.trace->steps.push_back(step);
     }
 
-    A a_, moving_;  ///< at the start, and now
+    A a_;  ///< at the start
     B b_;
     DVec<D> origin_;  ///< of all coordinates
     Path<D> path_;
