@@ -178,10 +178,10 @@ std::uint64_t hash_of_answers() {
 class Golden : public oracle::BySimdTarget {};
 
 TEST_P(Golden, AnswersInThePlaneHaveTheSameBitsEverywhere) {
-    EXPECT_EQ(hash_of_answers<2>(), 11443325238551615448u);
+    EXPECT_EQ(hash_of_answers<2>(), 2844938340580952247u);
 }
 TEST_P(Golden, AnswersInSpaceHaveTheSameBitsEverywhere) {
-    EXPECT_EQ(hash_of_answers<3>(), 10056297295649042802u);
+    EXPECT_EQ(hash_of_answers<3>(), 8318504513432291356u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, Golden, oracle::simd_targets(), oracle::simd_target_name);

@@ -9,8 +9,9 @@
 namespace abut::detail {
 
 /// Between the two copies of the plane the ray can only come in through a capsule, and before the nearer copy not at
-/// all. So the ray is followed to that copy, where it enters the prism or is outside of some edges. A capsule is left
-/// out if the ray is inside of its edge there and never gets outside.
+/// all. So the ray is followed to that copy, where it enters the prism or is outside of some edges. A ray that is
+/// inside of an edge there crosses the plane through that edge within a radius of the edge's line. So it enters the
+/// capsule of that edge only by an end, which is an end of another capsule too, and that capsule can be left out.
 RayEntry<3> enter_rounded_triangle(const DRay<3>& ray, const std::array<DVec<3>, 3>& corners, double radius) {
     const auto& [a, b, c] = corners;
     const DVec<3> normal = cross(b - a, c - a);
@@ -31,15 +32,14 @@ RayEntry<3> enter_rounded_triangle(const DRay<3>& ray, const std::array<DVec<3>,
     // From there until the ray leaves the other copy of the plane, at most.
     const double depth = descent > 0 ? std::min((height + radius) / descent, ray.length) - along : ray.length - along;
     const std::array<DVec<3>, 3> sides{b - a, c - b, a - c};
-    std::array<bool, 3> inside, stays_inside;
+    std::array<bool, 3> inside;
     for (std::size_t i = 0; i < 3; ++i) {
         const DVec<3> out = cross(sides[i], up) * side;
-        const double beyond = dot(out, there - corners[i]), leaves = dot(out, ray.direction);
-        const double least_beyond = beyond + std::min(leaves * depth, 0.0), clear = radius + tolerance;
+        const double beyond = dot(out, there - corners[i]);
+        const double least_beyond = beyond + std::min(dot(out, ray.direction) * depth, 0.0), clear = radius + tolerance;
         if (least_beyond > 0 && least_beyond * least_beyond > clear * clear * length_squared(sides[i]))
             return ray_misses<3>();
         inside[i] = beyond <= 0;
-        stays_inside[i] = inside[i] && leaves <= 0;
     }
     if (inside[0] && inside[1] && inside[2]) {
         if (along == 0) return {};
@@ -47,7 +47,7 @@ RayEntry<3> enter_rounded_triangle(const DRay<3>& ray, const std::array<DVec<3>,
     }
     RayEntry<3> first = ray_misses<3>();
     for (std::uint32_t i = 0; i < 3; ++i) {
-        if (stays_inside[i]) continue;
+        if (inside[i]) continue;
         const std::uint32_t next = i == 2 ? 0 : i + 1;
         RayEntry<3> entry = enter_capsule(ray, corners[i], corners[next], radius);
         if (entry.answer == RayAnswer::undecided) return entry;

@@ -38,7 +38,8 @@ double start_tolerance(const Convex<D>& part, const DVec<D>& start) {
 }  // namespace
 
 /// Each step ends at the separating plane, which is never behind the surface, so the ray passes nothing (conservative
-/// advancement; Mirtich, "Impulse-based dynamic simulation", 1996).
+/// advancement; Mirtich, "Impulse-based dynamic simulation", 1996). The plane goes through the support point: stepping
+/// by the computed distance, whose error may exceed the thickness of a nearly flat part, could pass through it.
 template <int D>
 bool part_hit_by_advance(const DRay<D>& beam, const Convex<D>& part, std::uint32_t index, Trace<D>* trace,
                          PartHit<D>& hit) {
@@ -50,7 +51,8 @@ bool part_hit_by_advance(const DRay<D>& beam, const Convex<D>& part, std::uint32
         const SignedDistance<D> distance =
             part_distance(part, point_shape<D>(beam.at(along)), SearchOptions<D>{&cache, trace});
         const double approach = -dot(beam.direction, distance.normal);
-        const bool is_near = distance.distance <= tolerance;
+        const double gap = dot(distance.normal, beam.at(along) - support(part, distance.normal));
+        const bool is_near = distance.distance <= tolerance || gap <= 0;
         // Every direction leads out of a thin part: a ray that starts on one leaves it, on whichever side rounding put
         // it.
         if (along == 0 && is_thin(part) && distance.distance <= start_tolerance(part, beam.origin)) return false;
@@ -63,7 +65,7 @@ bool part_hit_by_advance(const DRay<D>& beam, const Convex<D>& part, std::uint32
             name_feature(part, distance.corners.a, distance.corners.count, distance.normal, index, hit.feature);
             return true;
         }
-        along += distance.distance / approach;
+        along += gap / approach;
         if (!(along <= beam.length)) return false;
         last_approach = approach;
         last_normal = distance.normal;

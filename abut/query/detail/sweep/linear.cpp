@@ -195,9 +195,36 @@ private:
     /// Whether all of B lies behind all of A.
     bool b_is_behind() const { return extent(a_, -path_.direction) + extent(b_, path_.direction) < -tolerances_.touch; }
 
+    /// How far A moves at least before it comes near a triangle: until it has crossed the plane of the triangle, or one
+    /// through a side and the normal. Infinite if it never crosses one of them: most triangles beside the path of a
+    /// shape over a mesh are missed like this.
+    double free_length() const {
+        double result = 0;
+        if constexpr (D == 3 && std::is_same_v<A, Convex<D>> && std::is_same_v<B, Convex<D>>) {
+            if (b_.core != Core::points || b_.count != 3 || b_.inner_radius != 0) return 0;
+            std::array<DVec<3>, 3> corners;
+            for (std::size_t i = 0; i < 3; ++i) corners[i] = b_.place.point(DVec<3>(b_.vertices()[i]));
+            const DVec<3> normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+            const double gap = a_.radius + b_.radius + 2 * tolerances_.touch;
+            const auto cross_plane = [&](const DVec<3>& out, const DVec<3>& corner) {
+                const double start = dot(out, core_support(a_, -out).position - corner);
+                if (!(start > 0)) return;
+                const double rest = start - gap * length(out), closing = -dot(out, path_.direction);
+                if (rest > result * closing)
+                    result = closing > 0 ? rest / closing : std::numeric_limits<double>::infinity();
+            };
+            cross_plane(dot(normal, corners[0] - some_point(a_)) <= 0 ? normal : -normal, corners[0]);
+            for (std::size_t i = 0; i < 3; ++i)
+                cross_plane(cross(corners[(i + 1) % 3] - corners[i], normal), corners[i]);
+        }
+        return result;
+    }
+
     bool search(std::uint32_t index, LinearImpact<D>& impact) {
-        Moment now = moment_at(0);
-        const bool starts_in_contact = now.distance.distance <= tolerances_.touch;
+        const double from = options_.trace == nullptr ? free_length() : 0;
+        if (from > path_.length) return false;
+        Moment now = moment_at(from);
+        const bool starts_in_contact = from == 0 && now.distance.distance <= tolerances_.touch;
         if (starts_in_contact ? !deepens_from_start(now) : !advance(now)) return false;
         impact.along = now.along;
         impact.normal = now.distance.normal;
