@@ -58,8 +58,7 @@ private:
     static std::uint32_t bucket_of(const Level& level, const Cell& cell);
     template <class Visit>
     bool visit_level(const Level& level, const Aabb<D>& box, const Visit& visit) const;
-    template <class Reach>
-    void visit_within(Reach reach, detail::ReachCall visit) const;
+    double common_edge() const;
 
     void visit_pairs(detail::PairsCall visit, Executor* executor) const;
     void visit_pairs(const LayeredGrid& other, detail::PairsCall visit) const;

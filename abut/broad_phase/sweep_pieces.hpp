@@ -58,12 +58,15 @@ public:
     template <class Overlapping>
     void each(ReachCall visit, const Overlapping& overlapping) {
         for (int piece = 0; piece < count_ && reach_.within(time(piece)); ++piece) {
+            const bool is_last = piece + 1 == count_;
             const double from = piece == 0 ? 0 : time(piece);
-            const double until = piece + 1 == count_ ? std::numeric_limits<double>::infinity() : time(piece + 1);
+            const double until = is_last ? std::numeric_limits<double>::infinity() : time(piece + 1);
             overlapping(box_around_path(reach_, time(piece), std::min(until, reach_.reach())),
                         [&](std::uint32_t index, const Aabb<D>& box) -> bool {
                             double enters = 0;
-                            if (!reach_.measure(box, enters) || enters < from || enters >= until) return true;
+                            // The last piece has the boxes at infinity as well.
+                            if (!reach_.measure(box, enters) || enters < from) return true;
+                            if (enters >= until && !is_last) return true;
                             reach_.shrink(visit(index));
                             return !reach_.is_exhausted();
                         });

@@ -33,7 +33,7 @@ namespace abut {
 /// or is put elsewhere has no speed: call `jumped` for it. There are no region, ray and nearest queries: they need all
 /// boxes as they are now, and a Temporal does not read those.
 ///
-/// Memory: the inner structures, 56 to 60 bytes an item in 3D (40 to 44 in 2D), and 12.3 a pair that is held: 2 to 8 an
+/// Memory: the inner structures, 60 to 64 bytes an item in 3D (44 to 48 in 2D), and 12.3 a pair that is held: 2 to 8 an
 /// item, where each overlaps two others. `update` allocates only where more pairs are held than ever before.
 template <int D, BroadPhase<D> Inner = Bvh<D>>
 class Temporal {
@@ -53,7 +53,7 @@ public:
     void set_top_speed(std::uint32_t item, float speed) { core_.set_top_speed(item, speed); }
     float top_speed(std::uint32_t item) const { return core_.top_speed(item); }
     /// Since the last update the item has come, gone, or been put anywhere: the next one searches for it anew.
-    void jumped(std::uint32_t item) { core_.jumped(item); }
+    void jumped(std::uint32_t item) { core_.leave(item); }
 
     /// Every pair of boxes that overlapped at the last update, once, with i < j; see BroadPhase.
     template <detail::Visitor<std::uint32_t, std::uint32_t> F>

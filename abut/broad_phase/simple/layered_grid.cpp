@@ -58,26 +58,6 @@ std::array<std::int32_t, D> cell_at(const Vec<D>& corner, std::uint32_t level) {
     return cell;
 }
 
-/// The measure of a box at the end of a path of this length, or at this distance.
-template <int D>
-double measure_of(const RayReach<D>& reach, double length) {
-    return length / largest<D>(reach.direction());
-}
-template <int D>
-double measure_of(const BoxReach<D>&, double length) {
-    return length * length;
-}
-
-/// A box that overlaps all boxes with a measure from `begin` to `end`.
-template <int D>
-Aabb<D> region_of(const RayReach<D>& reach, double begin, double end) {
-    return box_around_path(reach, begin, std::min(end, reach.reach()));
-}
-template <int D>
-Aabb<D> region_of(const BoxReach<D>& reach, double, double end) {
-    return grown(reach.box(), next_up(static_cast<float>(std::min(std::sqrt(end), largest_float))));
-}
-
 }  // namespace
 
 template <int D>
@@ -123,13 +103,13 @@ void LayeredGrid<D>::update(std::span<const Aabb<D>> boxes, Executor* executor) 
     build(boxes, executor);
 }
 
-/// Cells that are neighbours on axis 0 are neighbouring buckets, except for each 64th, so that they share cache lines.
+/// Each row of cells along axis 0 has a hash. Its cells are consecutive buckets, and wrap at the last one.
 template <int D>
 std::uint32_t LayeredGrid<D>::bucket_of(const Level& level, const Cell& cell) {
-    constexpr std::uint32_t factor = 0x9E3779B1;
     std::uint32_t hash = 0;
-    for (std::size_t i = D; i-- > 0;) hash = hash * factor + static_cast<std::uint32_t>(cell[i]);
-    return level.first_bucket + ((hash + (hash >> 6) * factor) & (std::bit_ceil(level.count) - 1));
+    for (std::size_t i = 1; i < D; ++i) hash = (hash ^ hash >> 15 ^ static_cast<std::uint32_t>(cell[i])) * 0x9E3779B1;
+    hash ^= hash >> 15;
+    return level.first_bucket + ((hash + static_cast<std::uint32_t>(cell[0])) & (std::bit_ceil(level.count) - 1));
 }
 
 /// Calls visit(entry) for the boxes of a level that overlap this one, and for some others. Returns false as soon as the
@@ -148,15 +128,26 @@ bool LayeredGrid<D>::visit_level(const Level& level, const Aabb<D>& box, const V
         const Entry* first = &entries_[bucket_begin_[level.first_bucket]];
         return std::all_of(first, first + level.count, visit);
     }
-    for (Cell cell = low;;) {
-        const std::uint32_t bucket = bucket_of(level, cell);
-        for (std::uint32_t i = bucket_begin_[bucket]; i < bucket_begin_[bucket + 1]; ++i)
-            // The bucket may hold boxes of other cells as well.
-            if (entries_[i].cell == cell && !visit(entries_[i])) return false;
-        std::size_t axis = 0;
-        for (; axis < D && cell[axis] == high[axis]; ++axis) cell[axis] = low[axis];
+    const std::uint32_t end_bucket = level.first_bucket + std::bit_ceil(level.count);
+    for (Cell row = low;;) {
+        std::uint32_t bucket = bucket_of(level, row), remaining = static_cast<std::uint32_t>(high[0] - low[0]) + 1;
+        while (remaining > 0) {
+            const std::uint32_t buckets = std::min(remaining, end_bucket - bucket);
+            for (std::uint32_t i = bucket_begin_[bucket]; i < bucket_begin_[bucket + buckets]; ++i) {
+                // The buckets may hold boxes of other cells as well.
+                const Cell& cell = entries_[i].cell;
+                bool is_in_row = low[0] <= cell[0];
+                is_in_row &= cell[0] <= high[0];
+                for (std::size_t axis = 1; axis < D; ++axis) is_in_row &= cell[axis] == row[axis];
+                if (is_in_row && !visit(entries_[i])) return false;
+            }
+            remaining -= buckets;
+            bucket = level.first_bucket;
+        }
+        std::size_t axis = 1;
+        for (; axis < D && row[axis] == high[axis]; ++axis) row[axis] = low[axis];
         if (axis == D) return true;
-        ++cell[axis];
+        ++row[axis];
     }
 }
 
@@ -165,10 +156,15 @@ void LayeredGrid<D>::visit_pairs(PairsCall visit, Executor* executor) const {
     const auto add_pairs = [&](std::size_t begin, std::size_t end, PairBuffer& pairs) {
         for (std::size_t i = begin; i < end; ++i) {
             const Entry& entry = entries_[i];
-            // Two boxes of one level find each other: only the one with the lower index reports them.
+            // Two boxes of one level find each other: only the one with the lower index reports them. The comparisons
+            // have no branches, because no predictor could guess them.
             const auto add = [&](const Entry& other) {
-                return (other.level == entry.level && other.item <= entry.item) || !overlaps(entry.box, other.box) ||
-                       pairs.add_sorted(entry.item, other.item);
+                bool is_pair = other.level != entry.level || entry.item < other.item;
+                for (int axis = 0; axis < D; ++axis) {
+                    is_pair &= entry.box.min[axis] <= other.box.max[axis];
+                    is_pair &= other.box.min[axis] <= entry.box.max[axis];
+                }
+                return !is_pair || pairs.add_sorted(entry.item, other.item);
             };
             for (const Level& level : levels_)
                 if (level.level >= entry.level && !visit_level(level, entry.box, add)) return false;
@@ -198,20 +194,40 @@ void LayeredGrid<D>::visit_overlapping(const Aabb<D>& box, ItemCall visit) const
         if (!visit_level(level, query, test)) return;
 }
 
-/// Searches regions one after the other, each twice as long as the one before, and visits the boxes whose measures are
-/// beyond the last region and not beyond this one. The search ends at the latest when `end` is infinite.
 template <int D>
-template <class Reach>
-void LayeredGrid<D>::visit_within(Reach reach, ReachCall visit) const {
-    double begin = 0, visited = -1;
-    if (reach.is_exhausted() || entries_.empty() || !reach.measure(bounds_, begin)) return;
-    const std::uint32_t common_level = std::ranges::max_element(levels_, {}, &Level::count)->level;
-    double step = measure_of(reach, 0.25 * edge_of(common_level));
-    for (double end = begin + step;;) {
-        const Aabb<D> region = region_of(reach, begin, end);
-        if (!overlaps(region, bounds_)) return;
+double LayeredGrid<D>::common_edge() const {
+    return edge_of(std::ranges::max_element(levels_, {}, &Level::count)->level);
+}
+
+template <int D>
+void LayeredGrid<D>::visit_along(const Ray<D>& ray, ReachCall visit) const {
+    visit_along({DVec<D>(ray.origin), DVec<D>(0.0), DVec<D>(ray.direction), static_cast<double>(ray.length)}, visit);
+}
+
+template <int D>
+void LayeredGrid<D>::visit_along(const MovingBox<D>& box, ReachCall visit) const {
+    if (entries_.empty()) return;
+    WayPieces<D> pieces(box, bounds_, common_edge());
+    pieces.each(visit, [&](const Aabb<D>& piece, auto report) {
+        const auto test = [&](const Entry& entry) { return report(entry.item, entry.box); };
+        for (const Level& level : levels_)
+            if (!visit_level(level, piece, test)) return;
+    });
+}
+
+/// Searches regions one after the other, each twice as large as the one before, and visits the boxes that are beyond
+/// the last region and not beyond this one. The search ends at the latest when its distance is infinite.
+template <int D>
+void LayeredGrid<D>::visit_near(const Aabb<D>& box, float max_distance, ReachCall visit) const {
+    BoxReach<D> reach(box, max_distance);
+    double nearest = 0, visited = -1;
+    if (reach.is_exhausted() || entries_.empty() || !reach.measure(bounds_, nearest)) return;
+    double step = 0.25 * common_edge();
+    for (double distance = std::sqrt(nearest) + step;;) {
+        const double end = distance * distance;
+        const Aabb<D> region = grown(reach.box(), next_up(static_cast<float>(std::min(distance, largest_float))));
         std::size_t tested = 0;
-        double next = std::numeric_limits<double>::infinity();  // the least measure beyond the region
+        double next = std::numeric_limits<double>::infinity();  // the least squared distance beyond the region
         const auto test = [&](const Entry& entry) {
             ++tested;
             double measure = 0;
@@ -225,26 +241,11 @@ void LayeredGrid<D>::visit_within(Reach reach, ReachCall visit) const {
         for (const Level& level : levels_)
             if (!visit_level(level, region, test)) return;
         if (end >= reach.max_measure()) return;
-        begin = visited = end;
+        visited = end;
         step *= 2;
-        end += step;
-        if (tested == entries_.size()) end = std::max(end, next);
+        distance += step;
+        if (tested == entries_.size()) distance = std::max(distance, std::sqrt(next));
     }
-}
-
-template <int D>
-void LayeredGrid<D>::visit_along(const Ray<D>& ray, ReachCall visit) const {
-    visit_within(RayReach<D>(ray), visit);
-}
-
-template <int D>
-void LayeredGrid<D>::visit_along(const MovingBox<D>& box, ReachCall visit) const {
-    visit_within(RayReach<D>::of_box(box), visit);
-}
-
-template <int D>
-void LayeredGrid<D>::visit_near(const Aabb<D>& box, float max_distance, ReachCall visit) const {
-    visit_within(BoxReach<D>(box, max_distance), visit);
 }
 
 template class LayeredGrid<2>;

@@ -1,7 +1,10 @@
+// Between two moments t apart a face moves by at most v t (1 + 1e-6), and then two ulp for rounding its coordinate to a
+// float. The arithmetic is in float as well; the bounds allow for four times the former and twice the latter.
+
 #include <abut/broad_phase/boxes.hpp>
+#include <abut/broad_phase/detail/float4-inl.h>
 #include <abut/broad_phase/detail/parallel.hpp>
 #include <abut/broad_phase/temporal/core.hpp>
-#include <abut/broad_phase/temporal/reach-inl.h>
 #include <abut/math/assert.hpp>
 #include <abut/math/simd/library_entry.hpp>
 
@@ -12,12 +15,33 @@
 namespace abut::detail {
 namespace {
 
+using float4::Floats;
+
 constexpr float unbounded = std::numeric_limits<float>::infinity();
 constexpr double endless = std::numeric_limits<double>::infinity();
+constexpr double largest_time = std::numeric_limits<float>::max();
+/// Twice two ulp of the largest coordinate that a face may have after it has moved by `travel`.
+template <int D>
+float tolerance_of(const Aabb<D>& box, double travel) {
+    float largest = 0;
+    for (int i = 0; i < D; ++i)
+        for (const float x : {std::abs(box.min[i]), std::abs(box.max[i])})
+            if (x < unbounded) largest = std::max(largest, x);
+    return 0x1p-21f * (largest + static_cast<float>(travel));
+}
 
-float usable_speed(float speed) {
-    ABUT_ASSERT(speed >= 0);
-    return speed >= 0 ? speed : unbounded;
+/// Each axis has two gaps between opposite faces, below zero where the boxes overlap. The widest gap is the last to
+/// close, and the first to open. It is infinite if a box is empty or has a NaN.
+template <int D>
+float widest_gap(const Aabb<D>& a, const Aabb<D>& b) {
+    float result = -unbounded;
+    bool is_valid = true;
+    for (int i = 0; i < D; ++i) {
+        is_valid = is_valid && a.min[i] <= a.max[i] && b.min[i] <= b.max[i];
+        // The gap between faces at infinity is NaN and never changes: `max` ignores a second operand that is NaN.
+        result = std::max(std::max(result, a.min[i] - b.max[i]), b.min[i] - a.max[i]);
+    }
+    return is_valid ? result : unbounded;
 }
 
 /// The mean edge, or about the distance to a neighbour, whichever is larger. Ignores huge boxes.
@@ -53,23 +77,27 @@ double mean_speed(std::span<const float> speeds) {
     return sum / std::max(count, 1.0);
 }
 
+float usable_speed(float speed) {
+    ABUT_ASSERT(speed >= 0);
+    return speed >= 0 ? speed : unbounded;
+}
+
+/// Returns the pairs of a block that are due, one bit each, and leaves the earliest of the others in `next_due`.
+std::uint64_t take_due(PairBlock& block, float now) {
+    const Floats never = float4::broadcast(PairBlock::never);
+    Floats earliest = never;
+    std::uint64_t result = 0;
+    for (std::size_t i = 0; i < PairBlock::capacity; i += 4) {
+        const Floats due = float4::load(&block.due[i]);
+        result |= std::uint64_t{float4::bits(due <= now)} << i;
+        earliest = float4::min(earliest, due <= now ? never : due);
+    }
+    block.next_due = float4::min_lane(earliest);
+    return result;
+}
+
 std::size_t lowest_bit(std::uint64_t bits) {
     return static_cast<std::size_t>(std::countr_zero(bits));
-}
-
-/// The pairs that are due, one bit each.
-std::uint64_t due_bits(const PairBlock& block, float now) {
-    const float4::Floats limit = float4::broadcast(now);
-    std::uint64_t due = 0;
-    for (std::size_t i = 0; i < PairBlock::capacity; i += 4)
-        due |= std::uint64_t{float4::bits(float4::load(&block.due[i]) <= limit)} << i;
-    return due;
-}
-
-float earliest(const PairBlock& block) {
-    float4::Floats least = float4::broadcast(PairBlock::never);
-    for (std::size_t i = 0; i < PairBlock::capacity; i += 4) least = float4::min(float4::load(&block.due[i]), least);
-    return float4::min_lane(least);
 }
 
 }  // namespace
@@ -78,10 +106,10 @@ template <int D>
 void TemporalCore<D>::build(std::span<const Aabb<D>> boxes, std::span<const float> top_speeds) {
     enter_library();
     ABUT_ASSERT(boxes.size() == top_speeds.size());
-    wanted_.assign(boxes.size(), unbounded);
-    const auto given = top_speeds.first(std::min(boxes.size(), top_speeds.size()));
-    std::transform(given.begin(), given.end(), wanted_.begin(), usable_speed);
-    items_.assign(boxes.size(), {Aabb<D>::empty(), unbounded});
+    wanted_.assign(top_speeds.begin(), top_speeds.end());
+    wanted_.resize(boxes.size(), unbounded);
+    for (float& speed : wanted_) speed = usable_speed(speed);
+    items_.assign(boxes.size(), {Aabb<D>::empty(), unbounded, 0});
     counts_ = {};
     window_ = {};
     spacing_ = spacing_of(boxes);
@@ -97,12 +125,12 @@ void TemporalCore<D>::update(std::span<const Aabb<D>> boxes, double time) {
     counts_.plain_searches += size();
     for (const PairBlock& block : blocks_) counts_.plain_looks += block.count;
     blocks_.resize(slow_blocks_);
-    // Rounds up, so that the time is never too short.
-    now_ = time >= 0 ? std::nextafter(now_ + time, endless) : endless;
-    elapsed_ = no_earlier(now_);
+    // The clock rounds up, so that the time is never too short.
+    const double later = (static_cast<double>(now_) + (time >= 0 ? time : endless)) * (1 + 0x1p-23);
+    now_ = static_cast<float>(std::min(later, largest_time));
     waited_ += left_count_;
     slow_due_ = waited_ > 0 && waited_ >= size();
-    if (window_.rests() ? window_.has_rested(counts_.updates) : !(now_ < end_)) {
+    if (window_.rests() ? window_.has_rested(counts_.updates) : !(later < end_)) {
         window_.close(counts_, time);
         slow_due_ = true;
     }
@@ -117,7 +145,6 @@ void TemporalCore<D>::set_top_speed(std::uint32_t item, float speed) {
     if (wanted_[item] > items_[item].speed) leave(item);
 }
 
-/// Makes an item fast until the slow ones are searched next.
 template <int D>
 void TemporalCore<D>::leave(std::uint32_t item) {
     ABUT_ASSERT(item < size());
@@ -129,11 +156,16 @@ void TemporalCore<D>::leave(std::uint32_t item) {
 }
 
 template <int D>
-bool TemporalCore<D>::is_too_fast(const Item& item, const BoxLanes<D>& box) {
-    const bool too_fast = !item.is_fast() && !within_travel(BoxLanes<D>(item.box), box, item.speed * elapsed_);
-    ABUT_ASSERT(!too_fast);
-    counts_.too_fast += too_fast ? 1 : 0;
-    return too_fast;
+bool TemporalCore<D>::is_too_fast(const Item& item, const Aabb<D>& box) {
+    const float limit = item.margin(static_cast<double>(now_));
+    bool result = false;
+    // Between two faces at infinity there is no number, which is not greater than any.
+    for (int i = 0; i < D; ++i)
+        result |= std::abs(box.min[i] - item.box.min[i]) > limit || std::abs(box.max[i] - item.box.max[i]) > limit;
+    result = result && !item.is_fast();
+    ABUT_ASSERT(!result);
+    counts_.too_fast += result ? 1 : 0;
+    return result;
 }
 
 /// An item is slow if it moves by at most the spacing in the time T of the window. The boxes of slow items are grown by
@@ -145,22 +177,22 @@ void TemporalCore<D>::grow_slow(std::span<const Aabb<D>> boxes) {
     fast_.clear();
     blocks_.clear();
     slow_blocks_ = 0;
-    float fastest = 0;
+    end_ = endless;
     for (std::uint32_t i = 0; i < boxes.size(); ++i) {
         const Aabb<D> box = usable(boxes[i]);
-        is_too_fast(items_[i], BoxLanes<D>(box));
+        is_too_fast(items_[i], box);
         const float speed = wanted_[i];
         const double travel = speed > 0 ? static_cast<double>(speed) * window_.length() : 0;
         const bool is_fast = speed > 0 && (window_.rests() || !(travel <= spacing_));
-        items_[i] = {box, is_fast ? unbounded : speed};
-        search_boxes_[i] = is_fast ? Aabb<D>::empty() : grown_by_travel(box, static_cast<float>(travel));
+        items_[i] = {box, is_fast ? unbounded : speed, tolerance_of(box, travel)};
+        const float margin = items_[i].margin(window_.length());
+        search_boxes_[i] = is_fast ? Aabb<D>::empty() : Aabb<D>{box.min - margin, box.max + margin};
         if (is_fast)
             fast_.push_back(i);
-        else
-            fastest = std::max(fastest, speed);
+        else if (speed > 0)
+            end_ = window_.length();
     }
-    now_ = elapsed_ = 0;
-    end_ = fastest > 0 ? window_.length() : endless;
+    now_ = 0;
     left_count_ = waited_ = 0;
     has_left_ = false;
     slow_due_ = true;
@@ -172,19 +204,23 @@ void TemporalCore<D>::grow_slow(std::span<const Aabb<D>> boxes) {
 template <int D>
 void TemporalCore<D>::test_due(std::span<const Aabb<D>> boxes) {
     for (PairBlock& block : blocks_) {
-        if (block.next_due > elapsed_) continue;
-        for (std::uint64_t bits = due_bits(block, elapsed_); bits != 0; bits &= bits - 1) {
+        if (block.next_due > now_) continue;
+        for (std::uint64_t bits = take_due(block, now_); bits != 0; bits &= bits - 1) {
             const std::size_t k = lowest_bit(bits);
             const auto& [i, j] = block.pairs[k];
-            const BoxLanes<D> first(boxes[i]), second(boxes[j]);
-            if (is_too_fast(items_[i], first)) leave(i);
-            if (is_too_fast(items_[j], second)) leave(j);
-            const Reach reach = reach_of(first, second);
-            const double due = now_ + static_cast<double>(reach.travel / (items_[i].speed + items_[j].speed));
-            block.set(k, due < end_ ? no_later(due) : PairBlock::never, reach.touching);
+            const Item &first = items_[i], &second = items_[j];
+            if (is_too_fast(first, boxes[i])) leave(i);
+            if (is_too_fast(second, boxes[j])) leave(j);
+            const float gap = widest_gap(boxes[i], boxes[j]);
+            const float travel =
+                std::max(std::abs(gap) - first.tolerance - second.tolerance, 0.0f) * (1 - temporal_leeway);
+            // The sum rounds down, so that the test is never too late.
+            const double due =
+                (static_cast<double>(now_) + static_cast<double>(travel / (first.speed + second.speed))) *
+                (1 - 0x1p-23);
+            block.set(k, due < end_ ? static_cast<float>(std::min(due, largest_time)) : PairBlock::never, gap <= 0);
             ++counts_.looks;
         }
-        block.next_due = earliest(block);
     }
     if (has_left_) remove_left();
 }
@@ -193,10 +229,9 @@ void TemporalCore<D>::test_due(std::span<const Aabb<D>> boxes) {
 template <int D>
 void TemporalCore<D>::remove_left() {
     for (PairBlock& block : blocks_)
-        for (std::size_t k = 0; k < block.count; ++k) {
-            if (!items_[block.pairs[k].first].is_fast() && !items_[block.pairs[k].second].is_fast()) continue;
-            block.set(k, PairBlock::never, false);
-        }
+        for (std::size_t k = 0; k < block.count; ++k)
+            if (items_[block.pairs[k].first].is_fast() || items_[block.pairs[k].second].is_fast())
+                block.set(k, PairBlock::never, false);
     has_left_ = false;
 }
 

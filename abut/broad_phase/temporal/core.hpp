@@ -2,7 +2,6 @@
 
 // The part of Temporal<D> that does not depend on the inner broad phase. Not for users.
 
-#include <abut/broad_phase/temporal/search_window.hpp>
 #include <abut/broad_phase/visit.hpp>
 #include <abut/math/aabb.hpp>
 #include <abut/math/executor.hpp>
@@ -16,10 +15,65 @@
 #include <utility>
 #include <vector>
 
-namespace abut::detail {
+namespace abut {
 
-template <int D>
-struct BoxLanes;
+/// The work of a Temporal, and that of a broad phase that tests everything in each update.
+struct TemporalCounts {
+    std::uint64_t updates = 0;
+    std::uint64_t searches = 0;        ///< searches for the neighbours of an item
+    std::uint64_t looks = 0;           ///< tests of a pair: found by a search, or due
+    std::uint64_t plain_searches = 0;  ///< one an item and update
+    std::uint64_t plain_looks = 0;     ///< one a pair and update, of the pairs that are held
+    std::uint64_t too_fast = 0;        ///< items found farther away than their top speed allows
+};
+
+namespace detail {
+
+/// The time T for which boxes are grown. A long T needs few searches and finds many pairs; a short one the opposite. T
+/// is multiplied by the factor that lowered the cost of an update last time, else by its reciprocal (hill climbing). If
+/// a search would be valid for an update or two, the window rests: each update searches in boxes that are not grown,
+/// and the window tries again from time to time.
+class SearchWindow {
+public:
+    /// Starts with an estimate of T.
+    void begin(double length) { length_ = length; }
+
+    double length() const { return length_; }
+    bool rests() const { return resting_; }
+    bool has_rested(std::uint64_t updates) const { return updates - updates_ >= rest_for; }
+
+    /// Call at the end of the window, or of its rest. `step` is about the time of an update.
+    void close(const TemporalCounts& counts, double step) {
+        const double cost = cost_of(counts), rate = (cost - cost_) / static_cast<double>(counts.updates - updates_);
+        cost_ = cost;
+        updates_ = counts.updates;
+        if (resting_) {
+            rest_rate_ = rate;
+            length_ = std::max(length_, 4 * step);
+            resting_ = false;
+        } else {
+            if (rate > last_rate_) factor_ = 1 / factor_;
+            length_ *= factor_;
+            resting_ = rate > rest_rate_ || length_ < 2 * step;
+        }
+        last_rate_ = rate;
+    }
+
+private:
+    static constexpr std::uint64_t rest_for = 256;
+    static constexpr double endless = std::numeric_limits<double>::infinity();
+
+    /// Each count times about what it takes in nanoseconds; no clock is read.
+    static double cost_of(const TemporalCounts& counts) {
+        return 30 * static_cast<double>(counts.searches) + 20 * static_cast<double>(counts.looks) +
+               0.2 * static_cast<double>(counts.plain_looks);
+    }
+
+    double length_ = endless, factor_ = 1.5;
+    double cost_ = 0, last_rate_ = endless, rest_rate_ = endless;
+    std::uint64_t updates_ = 0;
+    bool resting_ = false;
+};
 
 /// 64 pairs, each with the time at which it is due to be tested again. A block in which none is due is skipped.
 struct PairBlock {
@@ -35,9 +89,12 @@ struct PairBlock {
     PairBlock() { due.fill(never); }
     void set(std::size_t i, float due_at, bool touches) {
         due[i] = due_at;
+        next_due = std::min(next_due, due_at);
         touching = (touching & ~(std::uint64_t{1} << i)) | std::uint64_t{touches} << i;
     }
 };
+
+inline constexpr float temporal_leeway = 4e-6f;
 
 /// An item is slow or fast. A search for the neighbours of slow items is valid for some time; then its pairs are tested
 /// as they become due. Fast items are searched for in each update.
@@ -48,7 +105,8 @@ public:
     void build(std::span<const Aabb<D>> boxes, std::span<const float> top_speeds);
     void update(std::span<const Aabb<D>> boxes, double time);
     void set_top_speed(std::uint32_t item, float speed);
-    void jumped(std::uint32_t item) { leave(item); }
+    /// Makes an item fast until the slow ones are searched next.
+    void leave(std::uint32_t item);
     float top_speed(std::uint32_t item) const { return wanted_[item]; }
 
     bool slow_due() const { return slow_due_; }
@@ -70,12 +128,17 @@ public:
 
 private:
     struct Item {
-        Aabb<D> box;  ///< at the last search for slow items
-        float speed;  ///< that no face has exceeded since; infinite for a fast item
+        Aabb<D> box;      ///< at the last search for slow items
+        float speed;      ///< that no face has exceeded since; infinite for a fast item
+        float tolerance;  ///< for the rounding of its faces until the next search
+        /// How far a face may be from where it was.
+        float margin(double time) const {
+            const double travel = speed > 0 ? static_cast<double>(speed) * time : 0;
+            return static_cast<float>(travel * (1 + temporal_leeway)) + tolerance;
+        }
         bool is_fast() const { return speed == std::numeric_limits<float>::infinity(); }
     };
-    void leave(std::uint32_t item);
-    bool is_too_fast(const Item& item, const BoxLanes<D>& box);
+    bool is_too_fast(const Item& item, const Aabb<D>& box);
     void grow_slow(std::span<const Aabb<D>> boxes);
     void remove_left();
     void add(const ItemPair& pair, float due, bool touches) {
@@ -83,7 +146,6 @@ private:
         PairBlock& block = blocks_.back();
         block.pairs[block.count] = std::minmax(pair.first, pair.second);
         block.set(block.count++, due, touches);
-        block.next_due = std::min(block.next_due, due);
     }
 
     std::vector<Item> items_;
@@ -94,8 +156,8 @@ private:
     std::size_t slow_blocks_ = 0;
     SearchWindow window_;
     TemporalCounts counts_;
-    double now_ = 0, end_ = 0;  // the time since the last search for slow items, and when the next is due
-    float elapsed_ = 0;         // `now_`, not rounded down
+    float now_ = 0;   // the time since the last search for slow items, not rounded down
+    double end_ = 0;  // when the next is due
     double spacing_ = 0;
     std::size_t left_count_ = 0,
                 waited_ = 0;  // items that have left the slow ones, and updates that each has been fast
@@ -105,4 +167,5 @@ private:
 extern template class TemporalCore<2>;
 extern template class TemporalCore<3>;
 
-}  // namespace abut::detail
+}  // namespace detail
+}  // namespace abut
