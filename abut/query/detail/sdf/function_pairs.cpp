@@ -122,8 +122,7 @@ SignedDistance<D> from_convex(const Convex<D>& set, const DistanceFunction<D>& f
         std::max((function.bound != nullptr ? bounded_tolerance : search_tolerance) * margin, request.tolerance);
     options.sufficient = request.sufficient + set.radius;
     options.reach = request.reach + set.radius;
-    const Minimum<D> minimum = function.bound != nullptr ? bounded_minimum(placed, local_set, options)
-                                                         : minimum_in_convex(placed, local_set, options);
+    const Minimum<D> minimum = minimum_in_convex(placed, local_set, options);
     if (!(minimum.distance < std::numeric_limits<double>::infinity())) return no_distance<D>();
     SignedDistance<D> result = distance_at_point(local_set, placed, minimum.point, minimum.distance - set.radius);
     result.normal = frame.vector(result.normal);
@@ -147,11 +146,10 @@ SignedDistance<D> above_half_space(const DistanceFunction<D>& function, const Ha
     const double height = dot(half_space.normal, frame.offset) - half_space.offset;
     MinimumOptions<D> options;
     options.tolerance = std::max(tolerance, request.tolerance);
-    options.surface_tolerance = surface_tolerance;
     options.max_boxes = max_boxes;
     options.sufficient = request.sufficient - height;
     options.reach = request.reach - height;
-    const Minimum<D> minimum = lowest_inside(placed, bounds(own), back.vector(normal), options);
+    const Minimum<D> minimum = lowest_inside(placed, bounds(own), back.vector(normal), surface_tolerance, options);
     if (!(minimum.distance < std::numeric_limits<double>::infinity())) return no_distance<D>();
     SignedDistance<D> result;
     result.normal = -half_space.normal;

@@ -72,7 +72,7 @@ private:
         MinimumOptions<D> options;
         options.tolerance = fraction_exact * tolerance_;
         options.reach = reach + set_.radius;
-        const Minimum<D> minimum = bounded_minimum(placed_, set_at(time), options);
+        const Minimum<D> minimum = minimum_in_convex(placed_, set_at(time), options);
         if (minimum.distance < std::numeric_limits<double>::infinity()) return touch_at(time, minimum.point);
         return {time, minimum.point, minimum.distance, DVec<D>(0.0)};
     }
@@ -159,7 +159,7 @@ private:
         options.sufficient_bound = radius - search_tolerance_;
         options.max_boxes = max_boxes_of_proof;
         options.hint = hint;
-        const Minimum<D> minimum = bounded_minimum(placed_, set_at(from), set_at(until), options);
+        const Minimum<D> minimum = minimum_in_convex(placed_, set_at(from), set_at(until), options);
         if (minimum.lower_bound >= radius - tolerance_) return true;
         if (minimum.lower_bound >= options.sufficient_bound && !(minimum.distance <= options.sufficient)) return true;
         place = minimum.point;
