@@ -1,11 +1,11 @@
 #pragma once
 
-// Local minima of a function that bounds itself, over a convex set or over the hull of its path. For .cpp files.
+// Local minima of a function over a convex set or over the hull of its path. For .cpp files.
 //
 // Conditional gradients with pairwise steps improve points (Frank, Wolfe 1956; Lacoste-Julien, Jaggi, "On the global
 // linear convergence of Frank-Wolfe optimization variants", 2015). They need the support function only.
 
-#include <abut/query/detail/sdf/branch_and_bound.hpp>
+#include <abut/query/detail/sdf/box_search.hpp>
 
 namespace abut::detail {
 

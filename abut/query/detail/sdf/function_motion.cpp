@@ -68,15 +68,15 @@ DistanceCrossing crossing_by_sphere_tracing(const DistanceFunction<D>& function,
 
 /// Clips a line to a box.
 template <int D>
-bool clip_to(const Aabb<D>& box, const LocalLine<D>& line, double& from, double& until) {
+bool clip_to(const DVec<D>& low, const DVec<D>& high, const LocalLine<D>& line, double& from, double& until) {
     for (int i = 0; i < D; ++i) {
-        const double low = static_cast<double>(box.min[i]) - line.origin[i],
-                     high = static_cast<double>(box.max[i]) - line.origin[i];
+        const double below = low[i] - line.origin[i], above = high[i] - line.origin[i];
+        if (std::isnan(below) || std::isnan(above)) continue;
         if (line.direction[i] == 0) {
-            if (low > 0 || high < 0) return false;
+            if (below > 0 || above < 0) return false;
             continue;
         }
-        const double first = low / line.direction[i], second = high / line.direction[i];
+        const double first = below / line.direction[i], second = above / line.direction[i];
         from = std::max(from, std::min(first, second));
         until = std::min(until, std::max(first, second));
     }
@@ -107,7 +107,7 @@ public:
         const double level = placed_.level(), local_tolerance = tolerance / placed_.factor();
         const Aabb<D> box = grown(own, static_cast<float>(level + 2 * local_tolerance));
         double from = 0, until = beam_.length;
-        if (!clip_to(box, line_, from, until)) return false;
+        if (!clip_to(DVec<D>(box.min), DVec<D>(box.max), line_, from, until)) return false;
         // Farther points of a function without bounds are beyond the range of floats.
         until = std::min(until, from + 1e30);
         const double size =
@@ -164,17 +164,29 @@ private:
     double min_step_ = 0, step_ = 0;
 };
 
-/// The first contact gained, by conservative advancement. distance_at(time, request) returns a SignedDistance;
-/// closing(distance, time) returns how fast it falls.
-template <int D, class DistanceAt, class Closing>
-std::optional<TimedDistance<D>> time_of_impact_by_steps(const MotionBounds& motion, const DistanceAt& distance_at,
-                                                        const Closing& closing) {
+/// A part at a time of its path.
+template <int D>
+View<D> view_at(const Part<D>& part, const RigidPath<D>& path, double time) {
+    return part.visit([&](const auto& own) -> View<D> { return moved(own, place_at(path, time)); });
+}
+
+/// The first contact gained, by conservative advancement.
+template <int D>
+std::optional<TimedDistance<D>> time_of_impact_by_steps(const Part<D>& a, const RigidPath<D>& path_a, const Part<D>& b,
+                                                        const RigidPath<D>& path_b, const MotionBounds& motion) {
+    const auto distance_at = [&](double time, const DistanceRequest& wanted) {
+        const View<D> view_a = view_at(a, path_a, time), view_b = view_at(b, path_b, time);
+        return function_distance<D>(single_part(view_a), single_part(view_b), wanted);
+    };
     const double tolerance = motion.tolerance;
     TimedDistance<D> now{motion.from, distance_at(motion.from, {}), false};
     bool is_touching = now.distance.distance <= tolerance;
     double floor = -std::numeric_limits<double>::infinity();
     if (is_touching) {
-        const double start = now.distance.distance, closing_speed = closing(now.distance, now.time);
+        const double start = now.distance.distance;
+        const DVec<D> velocity =
+            path_a.velocity(now.time, now.distance.on_a) - path_b.velocity(now.time, now.distance.on_b());
+        const double closing_speed = dot(now.distance.normal, velocity);
         now.started_inside = start < -tolerance;
         floor = std::min(start, 0.0) - tolerance;
         if (closing_speed > sliding_slope * motion.speed) {
@@ -227,117 +239,50 @@ std::optional<TimedDistance<D>> time_of_impact_by_steps(const MotionBounds& moti
     return std::nullopt;
 }
 
-/// The first contact gained of a convex set and a function that bounds itself, in either order. `place` moves the set
-/// in the frame of the function, which `frame_at` moves in the world.
-template <int D, class A, class B, class Place, class Deviation, class FrameAt>
-std::optional<TimedDistance<D>> time_of_impact_by_proofs(const A& a, const B& b, const MotionBounds& motion,
-                                                         const Place& place, const Deviation& chord_deviation,
-                                                         const FrameAt& frame_at) {
-    const SetMotion<D> moving{place, chord_deviation};
-    std::optional<TimedDistance<D>> found;
-    if constexpr (is_function<A>)
-        found = time_of_impact_by_proofs(b, a, moving, motion);
-    else
-        found = time_of_impact_by_proofs(a, b, moving, motion);
-    if (!found) return std::nullopt;
-    const Affine<D> frame = frame_at(found->time);
-    found->distance.normal = frame.vector(found->distance.normal);
-    found->distance.on_a = frame.point(found->distance.on_a);
-    if (is_function<A>) flip(found->distance);
+/// The first contact gained of a convex set and a function that bounds itself, in either order.
+template <int D>
+std::optional<TimedDistance<D>> time_of_impact_by_proofs(const Part<D>& a, const RigidPath<D>& path_a, const Part<D>& b,
+                                                         const RigidPath<D>& path_b, const MotionBounds& motion) {
+    if (a.is_convex()) return time_of_impact_by_proofs(a.convex(), path_a, b.function(), path_b, motion);
+    auto found = time_of_impact_by_proofs(b.convex(), path_b, a.function(), path_a, motion);
+    if (found) flip(found->distance);
     return found;
 }
 
-template <class A, class B>
-constexpr bool has_convex =
-    std::is_same_v<A, Convex<PartDimension<A>::value>> || std::is_same_v<B, Convex<PartDimension<B>::value>>;
-
-/// Whether the function of a convex set and a function bounds itself.
-template <class A, class B>
-bool bounds_itself(const A& a, const B& b) {
-    if constexpr (is_function<A>)
-        return a.bound != nullptr;
-    else
-        return b.bound != nullptr;
-}
-
-template <class Part>
-bool is_ball(const Part&) {
-    return false;
-}
-
-template <int D>
-Convex<D> translated(const Convex<D>& part, const DVec<D>& by) {
-    Convex<D> result = part;
-    result.place.offset += by;
-    return result;
-}
-template <int D>
-DistanceFunction<D> translated(const DistanceFunction<D>& part, const DVec<D>& by) {
-    DistanceFunction<D> result = part;
-    result.place.offset += by;
-    return result;
-}
-template <int D>
-HalfSpaceView<D> translated(const HalfSpaceView<D>& part, const DVec<D>& by) {
-    return {part.normal, part.offset + dot(part.normal, by)};
-}
-
-template <class Part>
-double slope_of(const Part& part) {
-    if constexpr (is_function<Part>)
-        return static_cast<double>(part.slope);
-    else
-        return 1;
-}
-
 /// The largest distance of the part from its pivot; infinite without bounds.
-template <class Part>
-double reach_of(const Part& part) {
-    constexpr int D = PartDimension<Part>::value;
+template <int D>
+double reach_of(const Part<D>& part) {
     const Aabb<D> box = bounds(part);
     if (!(is_finite(box.min) && is_finite(box.max))) return std::numeric_limits<double>::infinity();
-    double squares = 0;
-    for (int i = 0; i < D; ++i) {
-        const double farthest =
-            std::max(std::abs(static_cast<double>(box.min[i])), std::abs(static_cast<double>(box.max[i])));
-        squares += farthest * farthest;
-    }
-    return std::sqrt(squares);
+    return length(glm::max(glm::abs(DVec<D>(box.min)), glm::abs(DVec<D>(box.max))));
 }
 
-template <class Part>
-double size_of(const Part& part) {
-    constexpr int D = PartDimension<Part>::value;
-    if constexpr (std::is_same_v<Part, HalfSpaceView<D>>)
-        return std::numeric_limits<double>::infinity();
-    else
-        return size(part);
-}
-
-/// The distance of two fields may jump by the error of its search, which is more than it changes in this time.
-template <class A, class B>
-double min_interval_of(const A& a, const B& b, const MotionBounds& motion) {
-    if constexpr (is_function<A> && is_function<B>)
-        if (a.bound != nullptr && b.bound != nullptr) return 0.5 * motion.tolerance / motion.speed;
-    return 0;
-}
-
-/// The interval in which two boxes overlap, one of them moving; false: never.
 template <int D>
-bool boxes_overlap_during(const Aabb<D>& a, const Aabb<D>& b, const DVec<D>& direction, double& from, double& until) {
-    for (int i = 0; i < D; ++i) {
-        const double low = static_cast<double>(b.min[i]) - static_cast<double>(a.max[i]),
-                     high = static_cast<double>(b.max[i]) - static_cast<double>(a.min[i]);
-        if (std::isnan(low) || std::isnan(high)) continue;
-        if (direction[i] == 0) {
-            if (low > 0 || high < 0) return false;
-            continue;
-        }
-        const double first = low / direction[i], second = high / direction[i];
-        from = std::max(from, std::min(first, second));
-        until = std::min(until, std::max(first, second));
+double size_of(const Part<D>& part) {
+    if (part.is_half_space()) return std::numeric_limits<double>::infinity();
+    return part.is_convex() ? size(part.convex()) : size(part.function());
+}
+
+/// The first contact gained of two parts, one or both of which are functions.
+template <int D>
+std::optional<TimedDistance<D>> first_contact(const Part<D>& a, const RigidPath<D>& path_a, const Part<D>& b,
+                                              const RigidPath<D>& path_b, MotionBounds& motion) {
+    double slope = 1, size = std::numeric_limits<double>::infinity();
+    bool has_convex = false, bounds_itself = true;
+    for (const Part<D>* part : {&a, &b}) {
+        has_convex = has_convex || part->is_convex();
+        size = std::min(size, size_of(*part));
+        if (!part->is_function()) continue;
+        slope = std::max(slope, static_cast<double>(part->function().slope));
+        bounds_itself = bounds_itself && part->function().bound != nullptr;
     }
-    return from <= until;
+    motion.sliding_interval = slide_stride * size / motion.speed;
+    motion.speed *= slope;
+    if (has_convex && bounds_itself) return time_of_impact_by_proofs(a, path_a, b, path_b, motion);
+    // The distance of two fields may jump by the error of its search, which is more than it changes in this time.
+    if (bounds_itself && a.is_function() && b.is_function())
+        motion.min_interval = 0.5 * motion.tolerance / motion.speed;
+    return time_of_impact_by_steps(a, path_a, b, path_b, motion);
 }
 
 /// A ball is its centre against the function rounded by its radius.
@@ -349,7 +294,7 @@ bool ball_time_of_impact(const Convex<D>& ball, const DistanceFunction<D>& funct
     const DRay<D> beam{center, direction, path.length};
     const DistanceFunction<D> grown_function = rounded(function, ball.radius);
     typename PointSweep<D>::PointImpact found;
-    if (!PointSweep<D>(grown_function, beam).run(0.5 * function_tolerance(ball, function), found)) return false;
+    if (!PointSweep<D>(grown_function, beam).run(0.5 * function_tolerance<D>(ball, function), found)) return false;
     impact.along = found.along;
     impact.normal = ball_moves ? -found.out : found.out;
     impact.started_inside = found.started_inside;
@@ -370,122 +315,69 @@ bool part_hit(const DRay<D>& beam, const DistanceFunction<D>& part, PartHit<D>& 
     return true;
 }
 
-template <int D, class A, class B>
-requires FunctionPair<A, B>
-bool time_of_impact(const A& a, const Path<D>& path, const B& b, std::uint32_t index, const SweepOptions<D>&,
-                    LinearImpact<D>& impact) {
-    if constexpr (std::is_same_v<A, Convex<D>>)
-        if (is_ball(a)) return ball_time_of_impact(a, b, path, true, index, impact);
-    if constexpr (std::is_same_v<B, Convex<D>>)
-        if (is_ball(b)) return ball_time_of_impact(b, a, path, false, index, impact);
+template <int D>
+bool function_time_of_impact(const AnyPart<D>& a, const Path<D>& path, const AnyPart<D>& b, std::uint32_t index,
+                             LinearImpact<D>& impact) {
+    if (a.is_convex() && is_ball(a.convex()))
+        return ball_time_of_impact(a.convex(), b.function(), path, true, index, impact);
+    if (b.is_convex() && is_ball(b.convex()))
+        return ball_time_of_impact(b.convex(), a.function(), path, false, index, impact);
     MotionBounds motion;
-    motion.tolerance = function_tolerance(a, b);
+    motion.tolerance = function_tolerance<D>(a, b);
     motion.end = path.length;
-    const auto expansion = static_cast<float>(motion.tolerance);
-    if (!boxes_overlap_during(grown(bounds(a), expansion), bounds(b), path.direction, motion.from, motion.end))
+    const Aabb<D> box_a = grown(bounds(a), static_cast<float>(motion.tolerance)), box_b = bounds(b);
+    const LocalLine<D> relative{DVec<D>(0.0), path.direction};
+    if (!clip_to(DVec<D>(box_b.min) - DVec<D>(box_a.max), DVec<D>(box_b.max) - DVec<D>(box_a.min), relative,
+                 motion.from, motion.end))
         return false;
-    motion.speed = std::max(slope_of(a), slope_of(b));
-    motion.sliding_interval = slide_stride * std::min(size_of(a), size_of(b));
-    motion.min_interval = min_interval_of(a, b, motion);
-    const auto first_contact = [&]() -> std::optional<TimedDistance<D>> {
-        if constexpr (has_convex<A, B>) {
-            const auto shifted_by = [&](double along) {
-                Affine<D> result;
-                result.offset = path.direction * along;
-                return result;
-            };
-            const auto place = [&](double along) { return shifted_by(is_function<A> ? -along : along); };
-            const auto frame = [&](double along) { return is_function<A> ? shifted_by(along) : Affine<D>(); };
-            const auto straight = [](double, double) { return 0.0; };
-            if (bounds_itself(a, b)) return time_of_impact_by_proofs<D>(a, b, motion, place, straight, frame);
-        }
-        const auto distance_at = [&](double along, const DistanceRequest& wanted) -> SignedDistance<D> {
-            return function_distance(translated(a, path.direction * along), b, wanted);
-        };
-        const auto closing = [&](const SignedDistance<D>& distance, double) {
-            return dot(path.direction, distance.normal);
-        };
-        return time_of_impact_by_steps<D>(motion, distance_at, closing);
-    };
-    const std::optional<TimedDistance<D>> found = first_contact();
+    motion.speed = 1;
+    RigidPath<D> path_a, path_b;
+    path_a.move = path.direction;
+    const std::optional<TimedDistance<D>> found = first_contact<D>(a, path_a, b, path_b, motion);
     if (!found) return false;
     impact.along = found->time;
     impact.normal = found->distance.normal;
     impact.point = found->distance.on_a;
     impact.started_inside = found->started_inside;
+    impact.feature = {index, 0, FeatureKind::none};
     const ClosestCorners<D>& corners = found->distance.corners;
-    if constexpr (std::is_same_v<B, Convex<D>>)
-        name_feature(b, corners.b, corners.count, -impact.normal, index, impact.feature);
-    else
-        impact.feature = {index, 0, FeatureKind::none};
+    if (b.is_convex()) name_feature(b.convex(), corners.b, corners.count, -impact.normal, index, impact.feature);
     return true;
 }
 
-template <int D, class A, class B>
-requires FunctionPair<A, B>
-bool time_of_impact(const A& a, const RigidPath<D>& path_a, const B& b, const RigidPath<D>& path_b,
-                    const RotatingSweepLimits& limits, const SearchOptions<D>&, RotatingImpact<D>& impact) {
-    const double reach_a = reach_of(a), reach_b = reach_of(b);
-    const double speed_a = std::isfinite(reach_a) ? relative_motion_bounds(path_a, path_b, reach_a).speed
-                                                  : std::numeric_limits<double>::infinity();
-    const double speed_b = std::isfinite(reach_b) ? relative_motion_bounds(path_b, path_a, reach_b).speed
-                                                  : std::numeric_limits<double>::infinity();
-    const double speed = std::min(speed_a, speed_b);
-    if (!std::isfinite(speed) || !(speed > 0)) return false;
+template <int D>
+bool function_time_of_impact(const AnyPart<D>& a, const RigidPath<D>& path_a, const AnyPart<D>& b,
+                             const RigidPath<D>& path_b, const RotatingSweepLimits& limits, RotatingImpact<D>& impact) {
     MotionBounds motion;
+    motion.speed = std::numeric_limits<double>::infinity();
+    for (const bool by_a : {true, false}) {
+        const double reach = reach_of<D>(by_a ? a : b);
+        if (!std::isfinite(reach)) continue;
+        motion.speed =
+            std::min(motion.speed, relative_motion_bounds(by_a ? path_a : path_b, by_a ? path_b : path_a, reach).speed);
+    }
+    if (!std::isfinite(motion.speed) || !(motion.speed > 0)) return false;
     motion.end = limits.until;
-    motion.speed = speed * std::max(slope_of(a), slope_of(b));
-    motion.tolerance = function_tolerance(moved(a, place_at(path_a, 0)), moved(b, place_at(path_b, 0)));
-    motion.sliding_interval = slide_stride * std::min(size_of(a), size_of(b)) / speed;
-    motion.min_interval = min_interval_of(a, b, motion);
-    const auto first_contact = [&]() -> std::optional<TimedDistance<D>> {
-        if constexpr (has_convex<A, B>) {
-            const RigidPath<D>&frame = is_function<A> ? path_a : path_b, &mover = is_function<A> ? path_b : path_a;
-            // A point is nowhere farther from its chord than an eighth of its acceleration times the square of the
-            // time.
-            const double acceleration =
-                relative_motion_bounds(mover, frame, is_function<A> ? reach_b : reach_a).acceleration;
-            const auto place = [&](double time) { return back_from(place_at(frame, time)) * place_at(mover, time); };
-            const auto frame_at = [&](double time) { return place_at(frame, time); };
-            const auto deviation = [&](double first, double last) {
-                return acceleration * (last - first) * (last - first) / 8;
-            };
-            if (bounds_itself(a, b)) return time_of_impact_by_proofs<D>(a, b, motion, place, deviation, frame_at);
-        }
-        const auto distance_at = [&](double time, const DistanceRequest& wanted) -> SignedDistance<D> {
-            return function_distance(moved(a, place_at(path_a, time)), moved(b, place_at(path_b, time)), wanted);
-        };
-        const auto closing = [&](const SignedDistance<D>& distance, double time) {
-            return dot(distance.normal, path_a.velocity(time, distance.on_a) - path_b.velocity(time, distance.on_b()));
-        };
-        return time_of_impact_by_steps<D>(motion, distance_at, closing);
-    };
-    const std::optional<TimedDistance<D>> found = first_contact();
+    const View<D> first_a = view_at<D>(a, path_a, 0), first_b = view_at<D>(b, path_b, 0);
+    motion.tolerance = function_tolerance<D>(single_part(first_a), single_part(first_b));
+    const std::optional<TimedDistance<D>> found = first_contact<D>(a, path_a, b, path_b, motion);
     if (!found || found->time > limits.reach) return false;
-    Feature feature;
+    impact = {found->time, found->distance.on_b(), found->distance.normal, found->started_inside, Feature()};
     const ClosestCorners<D>& corners = found->distance.corners;
-    if constexpr (std::is_same_v<B, Convex<D>>)
-        name_feature(moved(b, place_at(path_b, found->time)), corners.b, corners.count, -found->distance.normal, 0,
-                     feature);
-    impact = {found->time, found->distance.on_b(), found->distance.normal, found->started_inside, feature};
+    if (b.is_convex())
+        name_feature(moved(b.convex(), place_at(path_b, found->time)), corners.b, corners.count, -impact.normal, 0,
+                     impact.feature);
     return true;
 }
 
-#define ABUT_INSTANTIATE_FOR(D, A, B)                                                                       \
-    template bool time_of_impact(const A&, const Path<D>&, const B&, std::uint32_t, const SweepOptions<D>&, \
-                                 LinearImpact<D>&);                                                         \
-    template bool time_of_impact(const A&, const RigidPath<D>&, const B&, const RigidPath<D>&,              \
-                                 const RotatingSweepLimits&, const SearchOptions<D>&, RotatingImpact<D>&);
-#define ABUT_INSTANTIATE(D)                                                          \
-    template bool part_hit(const DRay<D>&, const DistanceFunction<D>&, PartHit<D>&); \
-    ABUT_INSTANTIATE_FOR(D, DistanceFunction<D>, Convex<D>)                          \
-    ABUT_INSTANTIATE_FOR(D, Convex<D>, DistanceFunction<D>)                          \
-    ABUT_INSTANTIATE_FOR(D, DistanceFunction<D>, HalfSpaceView<D>)                   \
-    ABUT_INSTANTIATE_FOR(D, HalfSpaceView<D>, DistanceFunction<D>)                   \
-    ABUT_INSTANTIATE_FOR(D, DistanceFunction<D>, DistanceFunction<D>)
+#define ABUT_INSTANTIATE(D)                                                                                    \
+    template bool part_hit(const DRay<D>&, const DistanceFunction<D>&, PartHit<D>&);                           \
+    template bool function_time_of_impact(const AnyPart<D>&, const Path<D>&, const AnyPart<D>&, std::uint32_t, \
+                                          LinearImpact<D>&);                                                   \
+    template bool function_time_of_impact(const AnyPart<D>&, const RigidPath<D>&, const AnyPart<D>&,           \
+                                          const RigidPath<D>&, const RotatingSweepLimits&, RotatingImpact<D>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
-#undef ABUT_INSTANTIATE_FOR
 
 }  // namespace abut::detail

@@ -21,14 +21,15 @@ inline constexpr int function_ray_max_iterations = 1024;
 template <int D>
 bool part_hit(const DRay<D>& beam, const DistanceFunction<D>& part, PartHit<D>& hit);
 
-template <int D, class A, class B>
-requires FunctionPair<A, B>
-bool time_of_impact(const A& a, const Path<D>& path, const B& b, std::uint32_t index, const SweepOptions<D>& options,
-                    LinearImpact<D>& impact);
+// Below, one or both of the parts are functions, and neither or one of them is a half-space.
 
-template <int D, class A, class B>
-requires FunctionPair<A, B>
-bool time_of_impact(const A& a, const RigidPath<D>& path_a, const B& b, const RigidPath<D>& path_b,
-                    const RotatingSweepLimits& limits, const SearchOptions<D>& options, RotatingImpact<D>& impact);
+template <int D>
+bool function_time_of_impact(const AnyPart<D>& a, const Path<D>& path, const AnyPart<D>& b, std::uint32_t index,
+                             LinearImpact<D>& impact);
+
+/// `limits.from` and `limits.max_iterations` don't matter.
+template <int D>
+bool function_time_of_impact(const AnyPart<D>& a, const RigidPath<D>& path_a, const AnyPart<D>& b,
+                             const RigidPath<D>& path_b, const RotatingSweepLimits& limits, RotatingImpact<D>& impact);
 
 }  // namespace abut::detail

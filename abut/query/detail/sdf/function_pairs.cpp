@@ -33,7 +33,7 @@ bool has_no_extent(const Aabb<D>& box) {
 
 /// Infinite without bounds.
 template <int D>
-double finite_size(const detail::Part<D>& part) {
+double finite_size(const Part<D>& part) {
     if (part.is_convex()) return size(part.convex());
     return part.is_function() && is_bounded(part.function().bounds) ? size(part.function())
                                                                     : std::numeric_limits<double>::infinity();
@@ -122,8 +122,7 @@ SignedDistance<D> from_convex(const Convex<D>& set, const DistanceFunction<D>& f
         std::max((function.bound != nullptr ? bounded_tolerance : search_tolerance) * margin, request.tolerance);
     options.sufficient = request.sufficient + set.radius;
     options.reach = request.reach + set.radius;
-    const Minimum<D> minimum = function.bound != nullptr ? bounded_minimum(placed, local_set, options)
-                                                         : minimum_in_convex(placed, local_set, options);
+    const Minimum<D> minimum = minimum_in_convex(placed, local_set, options);
     if (!(minimum.distance < std::numeric_limits<double>::infinity())) return no_distance<D>();
     SignedDistance<D> result = distance_at_point(local_set, placed, minimum.point, minimum.distance - set.radius);
     result.normal = frame.vector(result.normal);
@@ -147,11 +146,10 @@ SignedDistance<D> above_half_space(const DistanceFunction<D>& function, const Ha
     const double height = dot(half_space.normal, frame.offset) - half_space.offset;
     MinimumOptions<D> options;
     options.tolerance = std::max(tolerance, request.tolerance);
-    options.surface_tolerance = surface_tolerance;
     options.max_boxes = max_boxes;
     options.sufficient = request.sufficient - height;
     options.reach = request.reach - height;
-    const Minimum<D> minimum = lowest_inside(placed, bounds(own), back.vector(normal), options);
+    const Minimum<D> minimum = lowest_inside(placed, bounds(own), back.vector(normal), surface_tolerance, options);
     if (!(minimum.distance < std::numeric_limits<double>::infinity())) return no_distance<D>();
     SignedDistance<D> result;
     result.normal = -half_space.normal;
@@ -270,7 +268,7 @@ Manifold<D> points_on_plane(const DistanceFunction<D>& function, const HalfSpace
 }  // namespace
 
 template <int D>
-double function_tolerance(const detail::Part<D>& a, const detail::Part<D>& b) {
+double function_tolerance(const Part<D>& a, const Part<D>& b) {
     if (!a.is_function()) return function_tolerance(b, a);
     const double smaller = std::min(finite_size(a), finite_size(b));
     const double coordinate =
@@ -279,11 +277,11 @@ double function_tolerance(const detail::Part<D>& a, const detail::Part<D>& b) {
 }
 
 template <int D>
-double function_search_tolerance(const detail::Part<D>& a, const detail::Part<D>& b) {
+double function_search_tolerance(const Part<D>& a, const Part<D>& b) {
     const double margin = function_tolerance(a, b), smaller = std::min(finite_size(a), finite_size(b));
     // Functions that need no search, functions with bounds for boxes, and all others.
     double of_size = 0;
-    for (const detail::Part<D>* part : {&a, &b}) {
+    for (const Part<D>* part : {&a, &b}) {
         if (part->is_convex() && is_ball(part->convex())) return margin;
         if (part->is_function()) of_size = std::max(of_size, part->function().bound != nullptr ? 1e-4 : 1e-3);
     }
@@ -291,8 +289,7 @@ double function_search_tolerance(const detail::Part<D>& a, const detail::Part<D>
 }
 
 template <int D>
-SignedDistance<D> function_distance(const detail::Part<D>& a, const detail::Part<D>& b,
-                                    const DistanceRequest& request) {
+SignedDistance<D> function_distance(const Part<D>& a, const Part<D>& b, const DistanceRequest& request) {
     if (a.kind() > b.kind()) {
         SignedDistance<D> result = function_distance(b, a, request);
         if (std::isfinite(result.distance)) flip(result);
@@ -320,7 +317,7 @@ SignedDistance<D> distance_at_point(const Convex<D>& set, const PlacedFunction<D
 }
 
 template <int D>
-bool function_overlap(const detail::Part<D>& a, const detail::Part<D>& b) {
+bool function_overlap(const Part<D>& a, const Part<D>& b) {
     if (a.kind() > b.kind()) return function_overlap(b, a);
     if (a.is_convex() && is_ball(a.convex()) && !has_no_extent(b.function().bounds)) {
         const Convex<D>& ball = a.convex();
@@ -330,8 +327,7 @@ bool function_overlap(const detail::Part<D>& a, const detail::Part<D>& b) {
 }
 
 template <int D>
-bool function_contact(const detail::Part<D>& a, const detail::Part<D>& b, double reach, double margin,
-                      PartContact<D>& contact) {
+bool function_contact(const Part<D>& a, const Part<D>& b, double reach, double margin, PartContact<D>& contact) {
     const SignedDistance<D>& distance = contact.distance =
         function_distance(a, b, {-std::numeric_limits<double>::infinity(), reach});
     if (!(distance.distance <= reach)) return false;
@@ -349,12 +345,11 @@ bool function_contact(const detail::Part<D>& a, const detail::Part<D>& b, double
 
 #define ABUT_INSTANTIATE(D)                                                                                           \
     template SignedDistance<D> distance_at_point(const Convex<D>&, const PlacedFunction<D>&, const DVec<D>&, double); \
-    template double function_tolerance(const detail::Part<D>&, const detail::Part<D>&);                               \
-    template double function_search_tolerance(const detail::Part<D>&, const detail::Part<D>&);                        \
-    template bool function_overlap(const detail::Part<D>&, const detail::Part<D>&);                                   \
-    template SignedDistance<D> function_distance(const detail::Part<D>&, const detail::Part<D>&,                      \
-                                                 const DistanceRequest&);                                             \
-    template bool function_contact(const detail::Part<D>&, const detail::Part<D>&, double, double, PartContact<D>&);
+    template double function_tolerance(const Part<D>&, const Part<D>&);                                               \
+    template double function_search_tolerance(const Part<D>&, const Part<D>&);                                        \
+    template bool function_overlap(const Part<D>&, const Part<D>&);                                                   \
+    template SignedDistance<D> function_distance(const Part<D>&, const Part<D>&, const DistanceRequest&);             \
+    template bool function_contact(const Part<D>&, const Part<D>&, double, double, PartContact<D>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

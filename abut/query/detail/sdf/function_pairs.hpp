@@ -12,38 +12,18 @@
 #include <abut/query/detail/sdf/placed_function.hpp>
 #include <abut/shape/view/part.hpp>
 
-#include <type_traits>
-
 namespace abut::detail {
 
-template <class Part>
-struct PartDimension;
-template <int D>
-struct PartDimension<Convex<D>> : std::integral_constant<int, D> {};
-template <int D>
-struct PartDimension<HalfSpaceView<D>> : std::integral_constant<int, D> {};
-template <int D>
-struct PartDimension<DistanceFunction<D>> : std::integral_constant<int, D> {};
-
-template <class Part>
-inline constexpr bool is_function = false;
-template <int D>
-inline constexpr bool is_function<DistanceFunction<D>> = true;
-
-/// Two parts, one or both of which are distance functions.
-template <class A, class B>
-concept FunctionPair = PartDimension<A>::value == PartDimension<B>::value && (is_function<A> || is_function<B>);
-
-// The functions below take such pairs, in either order.
+// One or both of the parts below are functions, in either order.
 
 /// The tolerance of an answer about the pair, including the rounding of the coordinates at which the function is
 /// evaluated.
 template <int D>
-double function_tolerance(const detail::Part<D>& a, const detail::Part<D>& b);
+double function_tolerance(const Part<D>& a, const Part<D>& b);
 
 /// The tolerance of a distance found by a search; larger if a function gives no bounds.
 template <int D>
-double function_search_tolerance(const detail::Part<D>& a, const detail::Part<D>& b);
+double function_search_tolerance(const Part<D>& a, const Part<D>& b);
 
 /// The precision that a caller needs. A distance of at most `sufficient` may be inexact, and one of more than `reach`
 /// is reported as infinite. The distance is also infinite if a function has no bounds, and the other part is a
@@ -55,28 +35,16 @@ struct DistanceRequest {
 };
 
 template <int D>
-SignedDistance<D> function_distance(const detail::Part<D>& a, const detail::Part<D>& b, const DistanceRequest& request);
+SignedDistance<D> function_distance(const Part<D>& a, const Part<D>& b, const DistanceRequest& request);
 
 /// Stops at the first common point.
 template <int D>
-bool function_overlap(const detail::Part<D>& a, const detail::Part<D>& b);
+bool function_overlap(const Part<D>& a, const Part<D>& b);
 
 /// The kinds of the two parts are in their order. The contact points on a convex set are those of its face towards the
 /// function's shape.
 template <int D>
-bool function_contact(const detail::Part<D>& a, const detail::Part<D>& b, double reach, double margin,
-                      PartContact<D>& contact);
-
-template <class A, class B>
-requires FunctionPair<A, B>
-double function_tolerance(const A& a, const B& b) {
-    return function_tolerance<PartDimension<A>::value>(a, b);
-}
-template <class A, class B>
-requires FunctionPair<A, B> SignedDistance<PartDimension<A>::value> function_distance(const A& a, const B& b,
-                                                                                      const DistanceRequest& request) {
-    return function_distance<PartDimension<A>::value>(a, b, request);
-}
+bool function_contact(const Part<D>& a, const Part<D>& b, double reach, double margin, PartContact<D>& contact);
 
 /// The distance of a set from a function, given the point of its core at which the function is lowest; all in the frame
 /// of the placed function.

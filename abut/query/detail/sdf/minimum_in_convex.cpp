@@ -1,212 +1,233 @@
-#include <abut/query/detail/sdf/branch_and_bound.hpp>
+// The minimum of a function over a convex set known by its support function.
+//
+// The search cuts boxes at kinks of the function and through the best point so far,
+// and divides a box with few kinks at all of them.
+// A plane below the function and a support plane of the set bound every box that may overlap the set. The support
+// planes of the best points bound a box with kinks. The convex envelope of its corner values bounds a box without
+// kinks; it is exact at the corners, so that boxes around a minimum shrink fast to it (convex_envelope.hpp).
+// Descents improve points (conditional_gradient.hpp).
+
+#include <abut/query/detail/sdf/conditional_gradient.hpp>
+#include <abut/query/detail/sdf/convex_envelope.hpp>
+
+#include <algorithm>
 
 namespace abut::detail {
 namespace {
 
-/// The point of a core nearest to a point.
-template <int D>
-class NearestInCore {
-public:
-    explicit NearestInCore(const Convex<D>& convex) : convex_(convex) {
-        convex_.radius = 0;
-        if (convex.inner_radius > 0) return;
-        if (convex.core == Core::points && convex.count <= 2) {
-            first_ = convex.place.point(DVec<D>(convex.vertices()[0]));
-            direction_ = convex.count == 2 ? convex.place.point(DVec<D>(convex.vertices()[1])) - first_ : DVec<D>(0.0);
-            kind_ = Kind::segment;
-        } else if (is_plain_box(convex)) {
-            kind_ = Kind::box;
-        }
-    }
+/// At the limit on fine boxes the minimum may be lower by this fraction of the size.
+constexpr double coarse_tolerance = 1e-5;
 
-    DVec<D> nearest(const DVec<D>& point) const {
-        if (kind_ == Kind::segment) {
-            const double square = length_squared(direction_);
-            return square > 0 ? first_ + direction_ * std::clamp(dot(point - first_, direction_) / square, 0.0, 1.0)
-                              : first_;
-        }
-        if (kind_ == Kind::box) {
-            const DVec<D> own =
-                convex_.place.transposed(point - convex_.place.offset) / (convex_.scale * convex_.scale);
-            DVec<D> clamped;
-            for (int i = 0; i < D; ++i) {
-                const auto half = static_cast<double>(convex_.own[0][i]);
-                clamped[i] = std::clamp(own[i], -half, half);
-            }
-            return clamped == own ? point : convex_.place.point(clamped);
-        }
-        return nearest_in_core(convex_, point);
-    }
+/// The limit on steps that look for a plane between a box and the set.
+constexpr int max_steps_apart = 4;
 
-    DVec<D> lowest(const DVec<D>& gradient) const { return core_support(convex_, -gradient).position; }
-
-private:
-    enum class Kind : std::uint8_t { any, segment, box };
-
-    Convex<D> convex_;
-    Kind kind_ = Kind::any;
-    DVec<D> first_, direction_;
-};
+/// The limits on boxes: in all, and for details of a function that bounds itself finer than a 10000th of the size.
+constexpr int max_boxes_in_convex = 512, max_fine_boxes = 48;
 
 template <int D>
-class ConvexMinimum {
+class ConvexMinimum : BoxSearch<D> {
 public:
-    ConvexMinimum(const PlacedFunction<D>& function, const Convex<D>& convex, const MinimumOptions<D>& options)
-        : function_(function), convex_(convex), core_(convex), options_(with_box_limit(options, false)) {
-        DVec<D> low, high;
+    /// `last` is the end of its path; null: it doesn't move.
+    ConvexMinimum(const PlacedFunction<D>& function, const Convex<D>& convex, const Convex<D>* last,
+                  const MinimumOptions<D>& options)
+        : BoxSearch<D>(options),
+          function_(function),
+          set_(convex, last),
+          descent_(function_, set_, options.tolerance, options.sufficient) {
+        DVec<D> low(0.0), high(0.0);
         for (int i = 0; i < D; ++i) {
-            low[i] = core_support(convex, axis<D>(i, -1)).position[i];
-            high[i] = core_support(convex, axis<D>(i, 1)).position[i];
+            low[i] = lowest(axis<D>(i, 1))[i];
+            high[i] = lowest(axis<D>(i, -1))[i];
         }
-        all_ = {(low + high) * 0.5, (high - low) * 0.5, -std::numeric_limits<double>::infinity()};
+        all_ = SearchBox<D>::between(low, high);
         size_ = length(all_.half);
-        cell_size_ = estimated_cell_size(function, size_);
-        step_ = function.step(all_.center, size_);
+        function_.set_size(all_.center, size_);
+        if (!has_bounds()) options_.tolerance = std::max(options_.tolerance, estimate_tolerance * size_);
     }
 
-    void run(const DVec<D>& middle_of_function) {
-        const DVec<D> first = core_.nearest(all_.center);
-        sample(first);
-        if (size_ == 0) return;
-        descend(first);
-        const DVec<D> second = core_.nearest(middle_of_function);
-        sample(second);
-        if (second != first && best.point == second) descend(second);
-        bool is_smallest = false;
-        all_.lower_bound = lower_bound_in(all_, is_smallest);
-        if (may_improve(all_.lower_bound)) {
-            descents_ = 0;
-            if (has_simplices(convex_))
-                each_simplex(convex_, [&](const CoreSimplex<D>& simplex) { split_simplex(simplex); });
-            else
-                branch_and_bound(*this, all_, options_);
-        }
-        if (best.distance > options_.reach) best.distance = std::numeric_limits<double>::infinity();
+    Minimum<D> find() {
+        if (options_.hint != nullptr) descend(path_point<D>(*options_.hint, 1));
+        DVec<D> slope;
+        function_.at(all_.center, slope);
+        descend(set_.lowest(slope));
+        this->run(all_, max_boxes_in_convex);
+        return best_;
     }
-
-    double lower_bound_in(const SearchBox<D>& box, bool& is_smallest) {
-        // The value in the centre, whether or not that is in the core, rejects most boxes.
-        const double around = function_.at(box.center) - function_.slope() * length(box.half);
-        if (!(around < best.distance - options_.tolerance && around <= options_.reach)) return around;
-        const DVec<D> near = core_.nearest(box.center), direction = box.center - near;
-        const double gap_squared = length_squared(direction);
-        constexpr double no_point = std::numeric_limits<double>::infinity();
-        if (gap_squared > sum_along(direction, box.half) * (1 + 1e-12) && gap_squared > 0) return no_point;
-        const double here = sample(near);
-        const double lower_bound = std::max(around, here - function_.slope() * farthest(near, box));
-        if (!(lower_bound < best.distance - options_.tolerance && lower_bound <= options_.reach)) return lower_bound;
-        if (length(box.half) > cell_size_) return lower_bound;
-        is_smallest = length(box.half) <= min_estimated_cell_fraction * size_;
-        const DistanceBound<D> bound = function_.estimate(box.center, box.half, function_.at(box.center));
-        const DVec<D> lowest = core_.lowest(bound.gradient);
-        const double estimated =
-            bound.value + std::max(dot(bound.gradient, lowest - box.center), -sum_along(bound.gradient, box.half));
-        if (estimated < best.distance - options_.tolerance) descend(near);
-        return std::max(lower_bound, estimated);
-    }
-
-    Minimum<D> best;
 
 private:
-    /// Evaluates the function, and keeps the best point.
-    double sample(const DVec<D>& point) {
-        const double here = function_.at(point);
-        if (here < best.distance) {
-            best.distance = here;
-            best.point = point;
-        }
-        return here;
+    using BoxSearch<D>::options_;
+    using BoxSearch<D>::best_;
+    using BoxSearch<D>::may_improve;
+    using BoxSearch<D>::limit;
+    using Support = SupportPlane<D>;
+
+    DVec<D> lowest(const DVec<D>& gradient) const { return DVec<D>(set_.lowest(gradient)); }
+
+    bool has_bounds() const { return function_.function().bound != nullptr; }
+
+    bool is_enough() const override {
+        return best_.boxes >= max_fine_boxes &&
+               this->lowest_bound() >= std::min(best_.distance - coarse_tolerance * size_, options_.sufficient_bound);
     }
 
-    void descend(DVec<D> from) {
-        if (++descents_ > search_max_descents) return;
-        double here = function_.at(from);
-        for (int i = 0; i < search_max_descent_steps && here > options_.sufficient; ++i) {
-            const DVec<D> gradient = function_.gradient(from, step_);
-            if (!(length_squared(gradient) > 0)) return;
-            const DVec<D> to_corner = core_.lowest(gradient) - from;
-            if (-dot(gradient, to_corner) <= 0.25 * options_.tolerance) return;
-            if (!step_down(from, here, [&](double part) { return from + to_corner * part; }) &&
-                !step_down(from, here, [&](double part) { return core_.nearest(from - gradient * (part * size_)); }))
-                return;
-        }
-    }
-    template <class Place>
-    bool step_down(DVec<D>& from, double& here, const Place& place) {
-        double part = 1;
-        for (int i = 0; i < search_max_halvings; ++i, part *= 0.5) {
-            const DVec<D> candidate = place(part);
-            const double value = sample(candidate);
-            if (value < here - 0.1 * options_.tolerance) {
-                from = candidate;
-                here = value;
-                return true;
+    /// The support plane of the set nearest to a box, null if none is known. Returns false if one excludes the box.
+    bool find_support(const SearchBox<D>& box, const Support*& nearest) const {
+        double behind = -std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < support_count_; ++i) {
+            const Support& support = supports_[i];
+            const double square = length_squared(support.gradient);
+            if (!(square > 0)) continue;
+            const double gap = support.lower_bound - dot(support.gradient, box.center);
+            if (gap > sum_along(support.gradient, box.half)) return false;
+            if (gap / std::sqrt(square) > behind) {
+                behind = gap / std::sqrt(square);
+                nearest = &support;
             }
+        }
+        return true;
+    }
+
+    /// Whether a few steps towards the box find a plane between it and the set.
+    bool is_apart(const SearchBox<D>& box) const {
+        DVec<D> point = best_.point;
+        for (int step = 0; step < max_steps_apart; ++step) {
+            DVec<D> from_box;
+            for (int a = 0; a < D; ++a)
+                from_box[a] = point[a] - std::clamp(point[a], box.center[a] - box.half[a], box.center[a] + box.half[a]);
+            const DVec<D> near = lowest(from_box), way = near - point;
+            if (dot(from_box, near - box.center) > sum_along(from_box, box.half)) return true;
+            const double square = length_squared(way);
+            if (!(square > 0)) return false;
+            point += way * std::clamp(-dot(from_box, way) / square, 0.0, 1.0);
         }
         return false;
     }
 
-    bool may_improve(double lower_bound) const { return may_improve(lower_bound, options_.tolerance); }
-    bool may_improve(double lower_bound, double tolerance) const {
-        return lower_bound < best.distance - tolerance && lower_bound <= options_.reach;
+    void process(SearchBox<D> box) override {
+        ++best_.boxes;
+        const Support* nearest = nullptr;
+        if (!find_support(box, nearest)) return;
+        // A long path is beside many boxes of many cells, which would cost the most.
+        if (set_.moves() && largest(box.half) > function_.resolution() && is_apart(box)) return;
+        DistanceBound<D> bound;
+        if (nearest != nullptr) {
+            bound.requested_gradient = nearest->gradient;
+            bound.requested_support = nearest->lower_bound;
+        }
+        bound.sufficient = limit();
+        bound.anchor = best_.point;
+        bound.needs_gradient = false;
+        bound.only_cut = best_.boxes > 1 && best_.distance <= options_.reach && contains_point(box, best_.point);
+        const auto visit = [&](const DVec<D>& low, const DVec<D>& high, DistanceBound<D>& piece) {
+            SearchBox<D> part = SearchBox<D>::between(low, high);
+            part.lower_bound = std::max(box.lower_bound, piece.lower_bound);
+            const Support* beside = nullptr;
+            if (!may_improve(part.lower_bound) || best_.distance <= options_.sufficient) return;
+            ++best_.boxes;
+            if (find_support(part, beside)) process_piece(part, piece, beside);
+        };
+        const typename DistanceBound<D>::PieceVisitor visitor(visit);
+        bound.visit_piece = &visitor;
+        const DistanceBoundStatus known = function_.bound(box.center, box.half, bound);
+        if (known == DistanceBoundStatus::divided) return;
+        box.lower_bound = std::max(box.lower_bound, bound.lower_bound);
+        if (!may_improve(box.lower_bound)) return;
+        if (known == DistanceBoundStatus::valid && nearest != nullptr && !bound.is_smooth) {
+            const double in_set = nearest->lower_bound - dot(nearest->gradient, box.center);
+            box.lower_bound = std::max(
+                box.lower_bound, bound.requested_value + std::max(in_set, -sum_along(nearest->gradient, box.half)));
+            if (!may_improve(box.lower_bound)) return;
+        }
+        process_piece(box, bound, nearest);
     }
 
-    /// Bisects the simplex until no part of it can hold less.
-    void split_simplex(CoreSimplex<D> first) {
-        for (std::size_t i = 0; i < first.count; ++i) first.values[i] = sample(first.points[i]);
-        SimplexStack<D> stack;
-        stack.push(first);
-        while (!stack.empty() && best.distance > options_.sufficient) {
-            CoreSimplex<D> simplex = stack.pop();
-            if (!may_improve(simplex.lower_bound)) continue;
-            if (best.boxes == options_.max_boxes || stack.full()) {
-                best.uncertainty =
-                    std::max({best.uncertainty, best.distance - std::min(simplex.lower_bound, stack.lower_bound())});
-                return;
+    /// Bounds the box if it has no kink, and keeps it with the plane to cut it at.
+    void process_piece(SearchBox<D> box, DistanceBound<D>& bound, const Support* nearest) {
+        Cut cut{bound.cut_axis, bound.cut};
+        if (bound.is_smooth) {
+            const DVec<D> start = nearest != nullptr ? nearest->gradient : DVec<D>(0.0);
+            const EnvelopeBound<D> envelope = bound_smooth(box, bound, start);
+            box.lower_bound = std::max(box.lower_bound, envelope.bound);
+            if (!may_improve(box.lower_bound)) return;
+            const DVec<D> place(envelope.place);
+            if (function_.at(place) < best_.distance - options_.tolerance) descend(envelope.place);
+            if (!may_improve(box.lower_bound)) return;
+            cut = best_cut(box, bound.curvature, place);
+        }
+        this->push(box, cut);
+    }
+
+    /// Bounds a box without kinks by the convex envelope of its corner values. Adds the mixed differences of these
+    /// values to bound.curvature.
+    EnvelopeBound<D> bound_smooth(const SearchBox<D>& box, DistanceBound<D>& bound, const DVec<D>& start) const {
+        add_twist(bound.corners, bound.curvature);
+        double steepest = 0;
+        for (int a = 0; a < D; ++a) {
+            if (!(box.half[a] > 0)) continue;
+            double rise = 0;
+            for (std::size_t i = 0; i < bound.corners.size(); ++i)
+                rise += (i >> a & 1) != 0 ? bound.corners[i] : -bound.corners[i];
+            rise /= static_cast<double>(bound.corners.size());
+            steepest =
+                std::max({steepest, bound.curvature[a] / box.half[a], 0.5 * std::abs(rise / box.half[a] - start[a])});
+        }
+        return envelope_bound<D>(function_.axes_of(box.half), box.center, bound.corners, start, limit(),
+                                 std::min(steepest, 8 * function_.slope()), size_,
+                                 [&](const DVec<D>& u) { return set_.lowest(u); });
+    }
+
+    static bool contains_point(const SearchBox<D>& box, const DVec<D>& point) {
+        for (int a = 0; a < D; ++a)
+            if (!(std::abs(point[a] - box.center[a]) <= box.half[a])) return false;
+        return true;
+    }
+
+    /// A function that is linear along each axis curves by its mixed differences only.
+    static void add_twist(const std::array<double, std::size_t{1} << D>& corners, DVec<D>& curvature) {
+        for (int a = 0; a < D; ++a)
+            for (int b = 0; b < a; ++b) {
+                const std::size_t bits = (std::size_t{1} << a) | (std::size_t{1} << b);
+                double twist = 0;
+                for (std::size_t i = 0; i < corners.size(); ++i)
+                    twist += (i & bits) == 0 || (i & bits) == bits ? corners[i] : -corners[i];
+                twist = std::abs(twist) / static_cast<double>(corners.size());
+                curvature[a] += twist;
+                curvature[b] += twist;
             }
-            ++best.boxes;
-            simplex.lower_bound = std::max(simplex.lower_bound, lower_bound_of(simplex));
-            if (!may_improve(simplex.lower_bound)) continue;
-            const auto [i, j] = longest_edge(simplex);
-            const DVec<D> middle = (simplex.points[i] + simplex.points[j]) * 0.5;
-            if (middle == simplex.points[i] || middle == simplex.points[j]) continue;
-            const double value = sample(middle);
-            CoreSimplex<D> beside = simplex;
-            simplex.points[i] = beside.points[j] = middle;
-            simplex.values[i] = beside.values[j] = value;
-            const bool beside_first = beside.values[i] < simplex.values[j];
-            stack.push(beside_first ? simplex : beside);
-            stack.push(beside_first ? beside : simplex);
-        }
     }
 
-    /// The lower bound of the function in the simplex, by all that is known of it.
-    double lower_bound_of(const CoreSimplex<D>& simplex) {
-        const DVec<D> middle = middle_of(simplex);
-        const double here = sample(middle), reach = reach_from(simplex, middle);
-        double lower_bound = here - function_.slope() * reach;
-        if (!may_improve(lower_bound)) return lower_bound;
-        if (reach > cell_size_) return lower_bound;
-        // Between corners the function is estimated from the corners, with a dip like that in the centre.
-        double lowest = simplex.values[0], mean = 0;
-        for (std::size_t i = 0; i < simplex.count; ++i) {
-            lowest = std::min(lowest, simplex.values[i]);
-            mean += simplex.values[i] / static_cast<double>(simplex.count);
-        }
-        const double estimated = std::min(lowest, here) - 2 * std::max(mean - here, 0.0);
-        if (!may_improve(estimated, estimate_tolerance * size_)) return std::numeric_limits<double>::infinity();
-        lower_bound = std::max(lower_bound, estimated);
-        if (here <= best.distance && may_improve(lower_bound)) descend(middle);
-        return lower_bound;
+    /// Cuts the axis along which the bound loses most, through the best point, where the bound is then exact.
+    Cut best_cut(const SearchBox<D>& box, const DVec<D>& curvature, const DVec<D>& place) const {
+        const int a = longest_axis(largest(curvature) > 0 ? curvature * box.half : box.half);
+        for (const double at : {best_.point[a], place[a]})
+            if (std::abs(at - box.center[a]) < 0.9 * box.half[a]) return {a, at};
+        return {a, box.center[a]};
     }
 
-    const PlacedFunction<D>& function_;
-    const Convex<D>& convex_;
-    NearestInCore<D> core_;
-    MinimumOptions<D> options_;
+    void descend(const PathPoint<D>& from) {
+        const LocalMinimum<D> found = descent_.descend(from);
+        if (found.value < best_.distance) {
+            best_.distance = found.value;
+            best_.point = DVec<D>(found.point);
+            best_.share = share_of<D>(found.point);
+        }
+        add_support(found.support);
+    }
+    void add_support(const Support& support) {
+        if (support_count_ == supports_.size()) {
+            for (std::size_t i = 1; i < support_count_; ++i) supports_[i - 1] = supports_[i];
+            --support_count_;
+        }
+        supports_[support_count_++] = support;
+    }
+
+    PlacedFunction<D> function_;
+    PathHull<D> set_;
+    ConditionalGradient<D> descent_;
     SearchBox<D> all_;
-    double size_ = 0, cell_size_ = 0, step_ = 0;
-    int descents_ = 0;
+    double size_ = 0;  ///< of the core
+    std::array<Support, 8> supports_;
+    std::size_t support_count_ = 0;
 };
 
 }  // namespace
@@ -214,21 +235,19 @@ private:
 template <int D>
 Minimum<D> minimum_in_convex(const PlacedFunction<D>& function, const Convex<D>& convex,
                              const MinimumOptions<D>& options) {
-    if (convex.core == Core::points && convex.count == 1 && convex.inner_radius == 0) {
-        Minimum<D> result;
-        result.point = convex.place.point(DVec<D>(convex.vertices()[0]));
-        const double here = function.at(result.point);
-        if (here <= options.reach) result.distance = here;
-        return result;
-    }
-    ConvexMinimum<D> search(function, convex, options);
-    const Aabb<D>& own = function.function().bounds;
-    search.run(function.function().place.point(DVec<D>(center(own))));
-    return search.best;
+    return ConvexMinimum<D>(function, convex, nullptr, options).find();
 }
 
-#define ABUT_INSTANTIATE(D) \
-    template Minimum<D> minimum_in_convex(const PlacedFunction<D>&, const Convex<D>&, const MinimumOptions<D>&);
+template <int D>
+Minimum<D> minimum_in_convex(const PlacedFunction<D>& function, const Convex<D>& first, const Convex<D>& last,
+                             const MinimumOptions<D>& options) {
+    return ConvexMinimum<D>(function, first, &last, options).find();
+}
+
+#define ABUT_INSTANTIATE(D)                                                                                      \
+    template Minimum<D> minimum_in_convex(const PlacedFunction<D>&, const Convex<D>&, const MinimumOptions<D>&); \
+    template Minimum<D> minimum_in_convex(const PlacedFunction<D>&, const Convex<D>&, const Convex<D>&,          \
+                                          const MinimumOptions<D>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

@@ -23,10 +23,11 @@ constexpr double fraction_exact = 0.5, fraction_of_depth = 0.1;
 template <int D>
 class PathSearch {
 public:
-    PathSearch(const Convex<D>& set, const DistanceFunction<D>& function, const SetMotion<D>& motion,
-               const MotionBounds& bounds)
+    PathSearch(const Convex<D>& set, const RigidPath<D>& path_of_set, const DistanceFunction<D>& function,
+               const RigidPath<D>& path_of_function, const MotionBounds& bounds)
         : set_(set),
-          motion_(motion),
+          path_of_set_(path_of_set),
+          path_of_function_(path_of_function),
           bounds_(bounds),
           frame_(own_frame<D>(function)),
           back_(back_from(frame_)),
@@ -34,7 +35,11 @@ public:
           placed_(own_),
           tolerance_(bounds.tolerance),
           exact_(fraction_searched * tolerance_),
-          search_tolerance_(std::max(tolerance_, function_search_tolerance<D>(set, function))) {}
+          search_tolerance_(std::max(tolerance_, function_search_tolerance<D>(set, function))) {
+        const Aabb<D> box = detail::bounds(set);
+        const double reach = length(glm::max(glm::abs(DVec<D>(box.min)), glm::abs(DVec<D>(box.max))));
+        acceleration_ = relative_motion_bounds(path_of_set, path_of_function, reach).acceleration;
+    }
 
     std::optional<TimedDistance<D>> run() const {
         Touch now = exact(bounds_.from, tolerance_);
@@ -64,7 +69,14 @@ private:
         DVec<D> gradient;  ///< of the function there
     };
 
-    Affine<D> place_at(double time) const { return back_ * motion_.place_at(time); }
+    /// The place of the set in the function's own frame, which is rigid.
+    Affine<D> place_at(double time) const {
+        return back_ * (back_from(detail::place_at(path_of_function_, time)) * detail::place_at(path_of_set_, time));
+    }
+    /// How far a point may be from its chord: an eighth of its acceleration times the square of the time.
+    double chord_deviation(double from, double until) const {
+        return acceleration_ * (until - from) * (until - from) / 8;
+    }
     Convex<D> set_at(double time) const { return moved(set_, place_at(time)); }
 
     /// The deepest point; infinite if that is farther off than `reach`.
@@ -72,7 +84,7 @@ private:
         MinimumOptions<D> options;
         options.tolerance = fraction_exact * tolerance_;
         options.reach = reach + set_.radius;
-        const Minimum<D> minimum = bounded_minimum(placed_, set_at(time), options);
+        const Minimum<D> minimum = minimum_in_convex(placed_, set_at(time), options);
         if (minimum.distance < std::numeric_limits<double>::infinity()) return touch_at(time, minimum.point);
         return {time, minimum.point, minimum.distance, DVec<D>(0.0)};
     }
@@ -132,7 +144,7 @@ private:
                 continue;
             }
             if (interval * bounds_.speed <= tolerance_) break;
-            const bool is_exact = motion_.chord_deviation(free_until, goal) == 0;
+            const bool is_exact = chord_deviation(free_until, goal) == 0;
             const double inner = std::clamp(time, free_until + 0.1 * interval, free_until + 0.75 * interval);
             const Touch probe = is_exact ? touch_at(time, place) : deepest(inner, place, false, exact_);
             std::optional<Touch> earlier;
@@ -152,14 +164,14 @@ private:
     /// Whether the distance is more than `level` over an interval. If not, it may be less at `place`, a point of the
     /// core at `time`. `hint` is a point of the core at the end.
     bool is_free(double from, double until, double level, const DVec<D>* hint, double& time, DVec<D>& place) const {
-        const double radius = set_.radius + level + motion_.chord_deviation(from, until);
+        const double radius = set_.radius + level + chord_deviation(from, until);
         MinimumOptions<D> options;
         options.tolerance = fraction_searched * tolerance_;
         options.reach = options.sufficient = radius - (1 - fraction_searched) * tolerance_;
         options.sufficient_bound = radius - search_tolerance_;
         options.max_boxes = max_boxes_of_proof;
         options.hint = hint;
-        const Minimum<D> minimum = bounded_minimum(placed_, set_at(from), set_at(until), options);
+        const Minimum<D> minimum = minimum_in_convex(placed_, set_at(from), set_at(until), options);
         if (minimum.lower_bound >= radius - tolerance_) return true;
         if (minimum.lower_bound >= options.sufficient_bound && !(minimum.distance <= options.sufficient)) return true;
         place = minimum.point;
@@ -204,32 +216,35 @@ private:
 
     TimedDistance<D> answer(const Touch& touch, bool started_inside) const {
         SignedDistance<D> distance = distance_at_point(set_at(touch.time), placed_, touch.point, touch.distance);
-        distance.normal = frame_.vector(distance.normal);
-        distance.on_a = frame_.point(distance.on_a);
+        const Affine<D> place = detail::place_at(path_of_function_, touch.time);
+        distance.normal = place.vector(frame_.vector(distance.normal));
+        distance.on_a = place.point(frame_.point(distance.on_a));
         return {touch.time, distance, started_inside};
     }
 
     const Convex<D>& set_;
-    const SetMotion<D>& motion_;
+    const RigidPath<D>&path_of_set_, &path_of_function_;
     const MotionBounds& bounds_;
     Affine<D> frame_, back_;  ///< the function's own frame, and back from it
     DistanceFunction<D> own_;
     PlacedFunction<D> placed_;
-    double tolerance_, exact_, search_tolerance_;
+    double tolerance_, exact_, search_tolerance_, acceleration_ = 0;
 };
 
 }  // namespace
 
 template <int D>
-std::optional<TimedDistance<D>> time_of_impact_by_proofs(const Convex<D>& set, const DistanceFunction<D>& function,
-                                                         const SetMotion<D>& motion, const MotionBounds& bounds) {
+std::optional<TimedDistance<D>> time_of_impact_by_proofs(const Convex<D>& set, const RigidPath<D>& path_of_set,
+                                                         const DistanceFunction<D>& function,
+                                                         const RigidPath<D>& path_of_function,
+                                                         const MotionBounds& bounds) {
     if (!(function.bounds.min[0] <= function.bounds.max[0])) return std::nullopt;
-    return PathSearch<D>(set, function, motion, bounds).run();
+    return PathSearch<D>(set, path_of_set, function, path_of_function, bounds).run();
 }
 
-#define ABUT_INSTANTIATE(D)                                                                                         \
-    template std::optional<TimedDistance<D>> time_of_impact_by_proofs(const Convex<D>&, const DistanceFunction<D>&, \
-                                                                      const SetMotion<D>&, const MotionBounds&);
+#define ABUT_INSTANTIATE(D)                                            \
+    template std::optional<TimedDistance<D>> time_of_impact_by_proofs( \
+        const Convex<D>&, const RigidPath<D>&, const DistanceFunction<D>&, const RigidPath<D>&, const MotionBounds&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

@@ -8,7 +8,7 @@
 // proven, or the proof finds an earlier contact. An interval without either is split.
 
 #include <abut/convex/gjk/signed_distance.hpp>
-#include <abut/math/function_ref.hpp>
+#include <abut/math/detail/rigid_path.hpp>
 #include <abut/shape/view/distance_function.hpp>
 
 #include <optional>
@@ -45,16 +45,12 @@ struct TimedDistance {
     bool started_inside = false;
 };
 
-/// How a set moves in the frame of a function.
+/// The first contact gained, with the distance from the set to the function. Both are in the frames that their paths
+/// move.
 template <int D>
-struct SetMotion {
-    FunctionRef<Affine<D>(double time)> place_at;                    ///< rigid
-    FunctionRef<double(double from, double until)> chord_deviation;  ///< of any point; 0: it doesn't rotate
-};
-
-/// The first contact gained, with the distance from the set to the function in the function's frame.
-template <int D>
-std::optional<TimedDistance<D>> time_of_impact_by_proofs(const Convex<D>& set, const DistanceFunction<D>& function,
-                                                         const SetMotion<D>& motion, const MotionBounds& bounds);
+std::optional<TimedDistance<D>> time_of_impact_by_proofs(const Convex<D>& set, const RigidPath<D>& path_of_set,
+                                                         const DistanceFunction<D>& function,
+                                                         const RigidPath<D>& path_of_function,
+                                                         const MotionBounds& bounds);
 
 }  // namespace abut::detail

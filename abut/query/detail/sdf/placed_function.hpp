@@ -30,6 +30,18 @@ Affine<D> back_from(const Affine<D>& rigid) {
     return result;
 }
 
+/// How much a plane rises from the middle of a box to its highest corner.
+template <int D>
+double sum_along(const DVec<D>& gradient, const DVec<D>& half) {
+    double result = 0;
+    for (int i = 0; i < D; ++i) result += std::abs(gradient[i]) * half[i];
+    return result;
+}
+
+/// A function that gives no bounds but its slope is estimated from samples in the centre and at the sides of cells of
+/// this fraction of the size, down to the second fraction.
+inline constexpr double estimated_cell_fraction = 1.0 / 8, min_cell_fraction = 1e-3;
+
 /// A function placed in a frame. It refers to the function, which must be finite.
 template <int D>
 class PlacedFunction {
@@ -64,35 +76,6 @@ public:
         return own == own ? factor_ * (own - level_) : std::numeric_limits<double>::infinity();
     }
 
-    /// The gradient by central differences of this step.
-    DVec<D> gradient(const DVec<D>& point, double step) const {
-        DVec<D> result(0.0);
-        for (int i = 0; i < D; ++i) {
-            const DVec<D> aside = axis<D>(i, step);
-            const double change = at(point + aside) - at(point - aside);
-            result[i] = std::isfinite(change) ? change / (2 * step) : 0;
-        }
-        return result;
-    }
-
-    /// An estimate of the lower bound in a box, from samples in the centre and at the sides: a plane, lowered by twice
-    /// its possible error if the function has one bend along each axis.
-    DistanceBound<D> estimate(const DVec<D>& center, const DVec<D>& half, double here) const {
-        DistanceBound<D> result;
-        result.value = here;
-        const double min_reach = 1e-3 * largest(half);
-        for (int i = 0; i < D; ++i) {
-            const double reach = std::max(half[i], min_reach);
-            const DVec<D> aside = axis<D>(i, reach);
-            const double after = at(center + aside), before = at(center - aside),
-                         second_difference = after + before - 2 * here;
-            if (!std::isfinite(second_difference)) continue;
-            result.gradient[i] = (after - before) / (2 * reach);
-            result.value -= std::max(-second_difference, 0.5 * second_difference);
-        }
-        return result;
-    }
-
     /// The unit vector of steepest ascent.
     DVec<D> normal(const DVec<D>& point, double step) const {
         if (function_.sample != nullptr) {
@@ -101,7 +84,7 @@ public:
             const double size = length(global);
             if (size > 0 && std::isfinite(size)) return global / size;
         }
-        return normalized(gradient(point, step));
+        return normalized(differences(point, step));
     }
 
     /// The step of central differences: much larger than the rounding of coordinates, and smaller than `size`.
@@ -110,16 +93,28 @@ public:
         return std::max({1e-3 * size, rounding, 0.25 * resolution_});
     }
 
-    /// For a function that bounds itself: the distance in double, and its gradient.
+    /// The distance, in double if the function bounds itself, and its gradient.
     double at(const DVec<D>& point, DVec<D>& gradient) const {
+        if (function_.gradient == nullptr) {
+            gradient = differences(point, step_);
+            return at(point);
+        }
         const double own = function_.gradient(function_.object, back_.point(point), gradient);
         gradient = back_.transposed(gradient) * factor_;
         return factor_ * (own - level_);
     }
 
+    /// The size of what a search looks for, about a point. A function that gives no bounds has no details smaller than
+    /// a fraction of it.
+    void set_size(const DVec<D>& middle, double size) {
+        step_ = step(middle, size);
+        cell_size_ = resolution_ > 0 ? resolution_ : estimated_cell_fraction * size;
+        min_cell_size_ = min_cell_fraction * size;
+    }
+
     /// A lower bound in a box, as exact as the function gives it.
     DistanceBoundStatus bound(const DVec<D>& center, const DVec<D>& half, DistanceBound<D>& bound) const {
-        if (function_.bound == nullptr) return DistanceBoundStatus::unknown;
+        if (function_.bound == nullptr) return estimate(center, half, bound);
         const DVec<D> middle = back_.point(center);
         DVec<D> own_half(0.0);
         for (int i = 0; i < D; ++i)
@@ -166,6 +161,10 @@ public:
     std::array<DVec<D>, static_cast<std::size_t>(D)> axes_of(const DVec<D>& half) const {
         std::array<DVec<D>, static_cast<std::size_t>(D)> result = function_.place.column;
         for (int i = 0; i < D; ++i) {
+            if (function_.bound == nullptr) {
+                result[static_cast<std::size_t>(i)] = axis<D>(i, half[i]);
+                continue;
+            }
             double own_half = 0;
             for (int j = 0; j < D; ++j) own_half += std::abs(back_.column[static_cast<std::size_t>(j)][i]) * half[j];
             result[static_cast<std::size_t>(i)] *= own_half;
@@ -174,9 +173,51 @@ public:
     }
 
 private:
+    /// The gradient by central differences of this step.
+    DVec<D> differences(const DVec<D>& point, double step) const {
+        DVec<D> result(0.0);
+        for (int i = 0; i < D; ++i) {
+            const DVec<D> aside = axis<D>(i, step);
+            const double change = at(point + aside) - at(point - aside);
+            result[i] = std::isfinite(change) ? change / (2 * step) : 0;
+        }
+        return result;
+    }
+
+    /// A lower bound in a box by the slope. In a small one an estimate from samples in the centre and at the sides: a
+    /// plane, lowered by twice its possible error if the function has one bend along each axis.
+    DistanceBoundStatus estimate(const DVec<D>& center, const DVec<D>& half, DistanceBound<D>& bound) const {
+        const double here = at(center), radius = length(half);
+        bound.lower_bound = radius > min_cell_size_ ? here - slope() * radius : std::numeric_limits<double>::infinity();
+        if (bound.lower_bound > bound.sufficient || radius > cell_size_) return DistanceBoundStatus::box_too_large;
+        bound.value = here;
+        for (int i = 0; i < D; ++i) {
+            const double reach = std::max(half[i], 1e-3 * largest(half));
+            const DVec<D> aside = axis<D>(i, reach);
+            const double after = at(center + aside), before = at(center - aside),
+                         second_difference = after + before - 2 * here;
+            if (!std::isfinite(second_difference)) continue;
+            bound.gradient[i] = (after - before) / (2 * reach);
+            // Its slope limits how far it falls between the samples.
+            bound.curvature[i] =
+                std::max({-second_difference, 0.0,
+                          std::min(0.5 * second_difference, slope() * reach - 0.5 * second_difference)});
+            bound.value -= bound.curvature[i];
+        }
+        bound.requested_value = bound.value - sum_along(bound.gradient - bound.requested_gradient, half);
+        bound.is_smooth = true;
+        for (std::size_t i = 0; i < bound.corners.size(); ++i) {
+            bound.corners[i] = bound.value;
+            for (int a = 0; a < D; ++a)
+                bound.corners[i] += bound.gradient[a] * ((i >> a & 1) != 0 ? half[a] : -half[a]);
+        }
+        return DistanceBoundStatus::valid;
+    }
+
     const DistanceFunction<D>& function_;
     Affine<D> back_;
     double factor_, level_, resolution_;
+    double step_ = 0, cell_size_ = 0, min_cell_size_ = 0;
     bool has_own_axes_ = true;  ///< the frame's axes are those of the function
 };
 

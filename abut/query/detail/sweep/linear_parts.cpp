@@ -77,14 +77,10 @@ private:
 template <int D>
 bool mixed_time_of_impact(const Part<D>& a, const Path<D>& path, const Part<D>& b, std::uint32_t index,
                           const SweepOptions<D>& options, LinearImpact<D>& impact) {
-    return a.visit([&]<class A>(const A& part_a) {
-        return b.visit([&]<class B>(const B& part_b) {
-            if constexpr (std::is_same_v<A, HalfSpaceView<D>> && std::is_same_v<B, HalfSpaceView<D>>)
-                return false;
-            else
-                return time_of_impact<D>(part_a, path, part_b, index, options, impact);
-        });
-    });
+    if (a.is_function() || b.is_function()) return function_time_of_impact(a, path, b, index, impact);
+    if (a.is_half_space() && b.is_half_space()) return false;
+    return a.is_half_space() ? time_of_impact<D>(a.half_space(), path, b.convex(), index, options, impact)
+                             : time_of_impact<D>(a.convex(), path, b.half_space(), index, options, impact);
 }
 
 template <int D>

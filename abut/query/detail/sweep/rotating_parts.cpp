@@ -103,22 +103,6 @@ private:
     double margin_ = 0;
 };
 
-/// The time of impact of two parts of any kinds.
-template <int D>
-bool part_time_of_impact(const Part<D>& a, const RigidPath<D>& path_a, const Part<D>& b, const RigidPath<D>& path_b,
-                         const RotatingSweepLimits& limits, const SearchOptions<D>& options,
-                         RotatingImpact<D>& impact) {
-    if (!a.is_function() && !b.is_function()) return time_of_impact(a, path_a, b, path_b, limits, options, impact);
-    return a.visit([&]<class A>(const A& part_a) {
-        return b.visit([&]<class B>(const B& part_b) {
-            if constexpr (FunctionPair<A, B>)
-                return time_of_impact<D>(part_a, path_a, part_b, path_b, limits, options, impact);
-            else
-                return false;
-        });
-    });
-}
-
 template <int D>
 class EarliestImpact {
 public:
@@ -182,7 +166,9 @@ private:
                    const TimeSpan& span) {
         RotatingImpact<D> found;
         const RotatingSweepLimits limits{.from = span.from, .until = span.to, .reach = any ? first.time : span.to};
-        if (!part_time_of_impact(a, path_a_, b, path_b_, limits, options_, found)) return;
+        if (a.is_function() || b.is_function() ? !function_time_of_impact(a, path_a_, b, path_b_, limits, found)
+                                               : !time_of_impact(a, path_a_, b, path_b_, limits, options_, found))
+            return;
         // Of several parts hit at one time the lowest wins, whatever the order of the visits.
         if (any && std::tuple(found.time, index_b, index_a) >= std::tuple(first.time, first.feature.part, index_a_))
             return;
