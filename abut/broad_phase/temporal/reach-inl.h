@@ -7,8 +7,8 @@
 //   |x' - x| <= v t (1 + leeway) + 2^-22 min(|x|, |x'|)
 // The arithmetic is in float. Its error is a tenth of the leeway, and less than twice the rounding.
 
-#include <abut/broad_phase/detail/float4-inl.h>
 #include <abut/math/aabb.hpp>
+#include <abut/math/simd/float4-inl.h>
 
 #include <algorithm>
 #include <cmath>

@@ -24,7 +24,7 @@ Hull3 hull_with_faces(std::span<const Vec3> points, const HullGrid& grid, const 
     if (spread.rank == 2) {
         const auto& [a, b, c, d] = spread.points;
         const HullFaces flat = flat_faces(points, DVec<3>(grid_normal(grid.points[a], grid.points[b], grid.points[c])));
-        measure(result, grid, triangles_of(flat));
+        measure(result, grid, triangles_of(flat.loops, flat.loop_ends));
         HullFaces faces = in_order(flat, points.size());
         for (const Vec3& normal : faces.normals) {
             const auto along = [&](const Vec3& point) { return dot(DVec<3>(normal), DVec<3>(point)); };

@@ -97,6 +97,14 @@ void measure(Hull3& hull, std::span<const Vec3> points, std::span<const std::uin
                    [&](std::size_t i) { return DVec<3>(points[triangles[i]]) - origin; });
 }
 
+Vec3 normal_of_loop(std::span<const Vec3> points, std::span<const std::uint32_t> loop) {
+    DVec<3> area(0.0);
+    const DVec<3> origin(points[loop[0]]);
+    for (std::size_t i = 1; i + 1 < loop.size(); ++i)
+        area += cross(DVec<3>(points[loop[i]]) - origin, DVec<3>(points[loop[i + 1]]) - origin);
+    return to_float(normalized(area));
+}
+
 HullFaces flat_faces(std::span<const Vec3> points, const DVec<3>& normal) {
     const int up = longest_axis(normal);
     std::vector<Vec2> outline;
@@ -104,12 +112,9 @@ HullFaces flat_faces(std::span<const Vec3> points, const DVec<3>& normal) {
     for (const Vec3& point : points) outline.emplace_back(point[(up + 1) % 3], point[(up + 2) % 3]);
     std::vector<std::uint32_t> loop = hull_loop(outline);
 
-    DVec<3> area(0.0);
-    const DVec<3> origin(points[loop[0]]);
-    for (std::size_t i = 1; i + 1 < loop.size(); ++i)
-        area += cross(DVec<3>(points[loop[i]]) - origin, DVec<3>(points[loop[i + 1]]) - origin);
+    const Vec3 front = normal_of_loop(points, loop);
     HullFaces result;
-    result.normals = {to_float(normalized(area)), to_float(-normalized(area))};
+    result.normals = {front, -front};
     result.loops = loop;
     result.loops.insert(result.loops.end(), loop.rbegin(), loop.rend());
     const auto corners = static_cast<std::uint32_t>(loop.size());
@@ -117,11 +122,14 @@ HullFaces flat_faces(std::span<const Vec3> points, const DVec<3>& normal) {
     return result;
 }
 
-std::vector<std::uint32_t> triangles_of(const HullFaces& faces) {
+std::vector<std::uint32_t> triangles_of(std::span<const std::uint32_t> loops,
+                                        std::span<const std::uint32_t> loop_ends) {
     std::vector<std::uint32_t> result;
-    for (std::size_t face = 0; face < faces.normals.size(); ++face) {
-        const std::span<const std::uint32_t> loop = faces.loop(face);
-        for (std::size_t i = 1; i + 1 < loop.size(); ++i) result.insert(result.end(), {loop[0], loop[i], loop[i + 1]});
+    std::size_t begin = 0;
+    for (const std::uint32_t end : loop_ends) {
+        for (std::size_t i = begin + 1; i + 1 < end; ++i)
+            result.insert(result.end(), {loops[begin], loops[i], loops[i + 1]});
+        begin = end;
     }
     return result;
 }
@@ -130,7 +138,7 @@ Hull3 flat_hull(std::span<const Vec3> points, const DVec<3>& normal, std::span<c
     Hull3 result;
     result.rank = 2;
     HullFaces faces = flat_faces(points, normal);
-    measure(result, points, triangles_of(faces));
+    measure(result, points, triangles_of(faces.loops, faces.loop_ends));
     faces = in_order(faces, points.size());
     for (const Vec3& across : faces.normals)
         result.offsets.push_back(std::max(offset_above(across, points), offset_above(across, inside)));

@@ -39,9 +39,14 @@ void take_faces(Hull3& result, std::span<const Vec3> points, HullFaces faces);
 void measure(Hull3& hull, const HullGrid& grid, std::span<const std::uint32_t> triangles);
 void measure(Hull3& hull, std::span<const Vec3> points, std::span<const std::uint32_t> triangles);
 
+/// The unit vector area of a loop.
+Vec3 normal_of_loop(std::span<const Vec3> points, std::span<const std::uint32_t> loop);
+
+/// The corners of triangles that cover the faces.
+std::vector<std::uint32_t> triangles_of(std::span<const std::uint32_t> loops, std::span<const std::uint32_t> loop_ends);
+
 /// Two faces, back to back, around coplanar points: their 2D hull along the axis nearest to the normal.
 HullFaces flat_faces(std::span<const Vec3> points, const DVec<3>& normal);
-std::vector<std::uint32_t> triangles_of(const HullFaces& faces);
 
 /// The flat hull of sorted, different points. The offsets bound the points `inside` as well.
 Hull3 flat_hull(std::span<const Vec3> points, const DVec<3>& normal, std::span<const Vec3> inside);

@@ -1,4 +1,5 @@
 #include <abut/convex/farthest_point.hpp>
+#include <abut/convex/hull/hull_assembly.hpp>
 #include <abut/convex/hull/limited/inner_hull.hpp>
 #include <abut/math/dvec.hpp>
 
@@ -27,16 +28,11 @@ std::vector<Vec3> far_apart(std::span<const Vec3> points, std::size_t count, con
 /// One per corner: the gradient of the volume by its position, for constant faces.
 std::vector<DVec<3>> slopes(const Hull3& hull) {
     std::vector<DVec<3>> result(hull.points.size(), DVec<3>(0.0));
-    std::size_t begin = 0;
-    for (const std::uint32_t end : hull.loop_ends) {
-        for (std::size_t i = begin + 1; i + 1 < end; ++i) {
-            const std::uint32_t numbers[] = {hull.loops[begin], hull.loops[i], hull.loops[i + 1]};
-            for (std::size_t j = 0; j < 3; ++j)
-                result[numbers[j]] += cross(DVec<3>(hull.points[numbers[(j + 1) % 3]] - hull.points[0]),
-                                            DVec<3>(hull.points[numbers[(j + 2) % 3]] - hull.points[0]));
-        }
-        begin = end;
-    }
+    const std::vector<std::uint32_t> triangles = triangles_of(hull.loops, hull.loop_ends);
+    for (std::size_t i = 0; i < triangles.size(); i += 3)
+        for (std::size_t j = 0; j < 3; ++j)
+            result[triangles[i + j]] += cross(DVec<3>(hull.points[triangles[i + (j + 1) % 3]] - hull.points[0]),
+                                              DVec<3>(hull.points[triangles[i + (j + 2) % 3]] - hull.points[0]));
     return result;
 }
 

@@ -38,15 +38,6 @@ bool holds(std::span<const Vec3> corners, std::span<const std::uint32_t> triangl
     return true;
 }
 
-/// The unit vector area of a loop.
-Vec3 normal_of_loop(std::span<const Vec3> corners, std::span<const std::uint32_t> loop) {
-    const DVec<3> origin(corners[loop[0]]);
-    DVec<3> area(0.0);
-    for (std::size_t i = 1; i + 1 < loop.size(); ++i)
-        area += cross(DVec<3>(corners[loop[i]]) - origin, DVec<3>(corners[loop[i + 1]]) - origin);
-    return to_float(normalized(area));
-}
-
 /// Searches for the smallest of several bodies around one set of points.
 class LimitedHull3Search {
 public:
@@ -141,10 +132,13 @@ private:
                 const DVec<3> share = box.share(points[i]);
                 outline.emplace_back(share[right], share[ahead]);
             }
-            if (outline.size() < 3) continue;
             const bool pyramid = limit_ < 6;
             const std::size_t count = pyramid ? limit_ - 1 : limit_ / 2;
-            if (outline.size() > count) outline = outer_polygons(outline, count)[0];
+            if (outline.size() > count) {
+                const std::vector<Loop2> found = outer_polygons(outline, count);
+                outline = found.empty() ? Loop2() : found[0];
+            }
+            if (outline.size() < 3) continue;
             std::vector<DVec<3>> around;
             const auto add = [&](const DVec<2>& place, double height) {
                 DVec<3> share;

@@ -20,6 +20,10 @@ Plane<3> relative_to(const DVec<3>& origin, const Plane<3>& plane) {
     return {plane.normal, plane.offset - dot(plane.normal, origin)};
 }
 
+Plane<3> plane_touching(const DVec<3>& normal, const DVec<3>& a, const DVec<3>& b, const DVec<3>& c) {
+    return {normal, std::max({dot(normal, a), dot(normal, b), dot(normal, c)})};
+}
+
 }  // namespace
 
 OuterHull::OuterHull(const ConvexSurface& surface)
@@ -32,8 +36,7 @@ OuterHull::OuterHull(const ConvexSurface& surface)
     for (std::uint32_t h = 0; h < origin_.size(); ++h) leaving_[origin_[h]] = h;
     for (std::uint32_t triangle = 0; triangle < surface.triangles.normals.size(); ++triangle) {
         const DVec<3>&a = corner(triangle, 0), &b = corner(triangle, 1), &c = corner(triangle, 2);
-        const DVec<3> normal = normalized(DVec<3>(surface.triangles.normals[triangle]));
-        planes_.push_back({normal, std::max({dot(normal, a), dot(normal, b), dot(normal, c)})});
+        planes_.push_back(plane_touching(normalized(DVec<3>(surface.triangles.normals[triangle])), a, b, c));
         areas_.push_back(cross(b - a, c - a));
     }
 }
@@ -148,19 +151,14 @@ std::optional<OuterHull::Merge> OuterHull::merge_at(std::uint32_t half_edge) {
     return Merge{*apex + middle_, added};
 }
 
-void OuterHull::set_plane(std::uint32_t triangle) {
-    const DVec<3>&a = corner(triangle, 0), &b = corner(triangle, 1), &c = corner(triangle, 2);
-    const DVec<3> area = areas_[triangle] = cross(b - a, c - a);
-    if (!(length(area) > 1e-10 * std::max(length_squared(b - a), length_squared(c - a)))) return;
-    const DVec<3> normal = area / length(area);
-    planes_[triangle] = {normal, std::max({dot(normal, a), dot(normal, b), dot(normal, c)})};
-}
-
-/// A degenerate triangle takes the plane of its neighbour across the ring.
+/// The planes of the triangles around a moved point. A degenerate one takes that of its neighbour across the ring.
 void OuterHull::set_planes_of_ring() {
     for (const std::uint32_t h : ring_) {
-        planes_[h / 3] = planes_[twin_[h] / 3];
-        set_plane(h / 3);
+        const std::uint32_t triangle = h / 3;
+        const DVec<3>&a = corner(triangle, 0), &b = corner(triangle, 1), &c = corner(triangle, 2);
+        const DVec<3> area = areas_[triangle] = cross(b - a, c - a);
+        const bool degenerate = !(length(area) > 1e-10 * std::max(length_squared(b - a), length_squared(c - a)));
+        planes_[triangle] = degenerate ? planes_[twin_[h] / 3] : plane_touching(area / length(area), a, b, c);
     }
 }
 

@@ -59,7 +59,6 @@ private:
     double estimated_cost(std::uint32_t half_edge);
     std::optional<Merge> merge_at(std::uint32_t half_edge);
     void merge(std::uint32_t half_edge, const DVec<3>& point);
-    void set_plane(std::uint32_t triangle);
     void set_planes_of_ring();
     void cut_around(std::uint32_t point, SupportSearch& inside);
     bool fits(std::uint32_t point, const DVec<3>& at, SupportSearch& inside);

@@ -187,6 +187,26 @@ Loop2 OuterPolygon::corners() const {
     return result;
 }
 
+/// The corners whose edges have directions, and different ones, beyond rounding.
+Loop2 distinct_corners(std::span<const DVec<2>> loop) {
+    const auto is_straight = [](const DVec<2>& a, const DVec<2>& b, const DVec<2>& c) {
+        constexpr double rounding = 1e-12;
+        const DVec<2> in = b - a, out = c - b;
+        return length(in) <= rounding || length(out) <= rounding || cross(normalized(in), normalized(out)) <= rounding;
+    };
+    Loop2 result;
+    const auto remove_straight = [&](const DVec<2>& next) {
+        while (result.size() > 1 && is_straight(result[result.size() - 2], result.back(), next)) result.pop_back();
+    };
+    for (const DVec<2>& point : loop) {
+        remove_straight(point);
+        result.push_back(point);
+    }
+    remove_straight(result[0]);
+    if (result.size() > 2 && is_straight(result.back(), result[0], result[1])) result.erase(result.begin());
+    return result;
+}
+
 /// The minimum oriented rectangle, or a triangle of twice its area around it.
 Loop2 rectangle_around(std::span<const DVec<2>> inner, bool as_triangle, const Affine<2>& seen) {
     Loop2 loop;
@@ -215,7 +235,9 @@ double area_of(std::span<const DVec<2>> loop) {
 }
 
 std::vector<Loop2> outer_polygons(std::span<const DVec<2>> loop, std::size_t count, const Affine<2>& seen) {
-    OuterPolygon simplified(loop, loop), rectangle(loop, rectangle_around(loop, count == 3, seen));
+    const Loop2 inner = distinct_corners(loop);
+    if (inner.size() < 3) return {};
+    OuterPolygon simplified(inner, inner), rectangle(inner, rectangle_around(inner, count == 3, seen));
     simplified.simplify(count);
     std::vector<Loop2> result;
     for (OuterPolygon* polygon : {&simplified, &rectangle}) {

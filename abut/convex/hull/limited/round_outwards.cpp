@@ -1,9 +1,9 @@
 #include <abut/convex/hull/hull_input.hpp>
 #include <abut/convex/hull/limited/round_outwards.hpp>
+#include <abut/math/detail/round_outwards.hpp>
 #include <abut/math/dvec.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -22,28 +22,16 @@ constexpr double folded = 1e-3;
 constexpr int max_margins = 14;
 constexpr double first_margin = 0x1p-40, margin_factor = 8;
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-
-/// The floats below and above a number.
-std::array<float, 2> around(double value) {
-    const auto nearest = static_cast<float>(value);
-    const auto back = static_cast<double>(nearest);
-    if (back == value) return {nearest, nearest};
-    return back < value ? std::array{nearest, std::nextafter(nearest, infinity)}
-                        : std::array{std::nextafter(nearest, -infinity), nearest};
-}
-
 /// The lowest of the float points around a position in the world that are above all planes.
 template <int D>
 std::optional<Vec<D>> lowest_around(const DVec<D>& place, std::span<const Plane<D>> planes,
                                     const StretchedFrame<D>& frame) {
-    std::array<std::array<float, 2>, static_cast<std::size_t>(D)> floats{};
-    for (int i = 0; i < D; ++i) floats[static_cast<std::size_t>(i)] = around(place[i]);
     std::optional<Vec<D>> result;
     double min_sum = std::numeric_limits<double>::max();
     for (unsigned choice = 0; choice < 1u << D; ++choice) {
         Vec<D> candidate;
-        for (int i = 0; i < D; ++i) candidate[i] = floats[static_cast<std::size_t>(i)][choice >> i & 1u];
+        for (int i = 0; i < D; ++i)
+            candidate[i] = (choice >> i & 1u) == 0 ? float_at_most(place[i]) : float_at_least(place[i]);
         if (!is_finite<D>(candidate)) continue;
         const DVec<D> seen = frame.from_world(DVec<D>(candidate));
         double sum = 0;
@@ -91,7 +79,7 @@ DVec<3> raised(const DVec<3>& corner, std::span<const Plane<3>> planes, std::spa
 /// The distance to the next float.
 double spacing(double value) {
     const auto near = static_cast<float>(std::abs(value));
-    return static_cast<double>(std::nextafter(near, infinity)) - static_cast<double>(near);
+    return static_cast<double>(next_up(near)) - static_cast<double>(near);
 }
 
 /// A float point near `corner` that is above, or on, all planes of the corner. Then it contains all that the planes and
