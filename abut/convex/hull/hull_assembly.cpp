@@ -1,5 +1,6 @@
 #include <abut/convex/bucket_sort.hpp>
 #include <abut/convex/hull/hull_assembly.hpp>
+#include <abut/convex/hull/hull_input.hpp>
 #include <abut/math/dvec.hpp>
 
 #include <algorithm>
@@ -9,6 +10,44 @@
 #include <vector>
 
 namespace abut::detail {
+namespace {
+
+DVec<3> area_normal(const DVec<3>& a, const DVec<3>& b, const DVec<3>& c) {
+    return cross(b - a, c - a);
+}
+GridPoint area_normal(const GridPoint& a, const GridPoint& b, const GridPoint& c) {
+    return grid_normal(a, b, c);
+}
+double height_along(const DVec<3>& normal, const DVec<3>& a) {
+    return dot(normal, a);
+}
+double height_along(const GridPoint& normal, const GridPoint& a) {
+    return grid_dot(normal, a);
+}
+
+/// seen(i) is the corner i of the triangles in steps, relative to `origin`.
+template <class Seen>
+void measure_around(Hull3& hull, const DVec<3>& least, const DVec<3>& origin, double step, std::size_t count,
+                    Seen seen) {
+    // The centroid of the tetrahedron with the origin is (a + b + c) / 4, that of the triangle (a + b + c) / 3.
+    double volume = 0, area = 0;
+    DVec<3> by_volume(0.0), by_area(0.0);
+    for (std::size_t i = 0; i < count; i += 3) {
+        const auto a = seen(i), b = seen(i + 1), c = seen(i + 2), normal = area_normal(a, b, c);
+        const double part = height_along(normal, a), face = length(DVec<3>(normal));
+        volume += part;
+        by_volume += part * DVec<3>(a + b + c);
+        area += face;
+        by_area += face * DVec<3>(a + b + c);
+    }
+    const bool has_volume = hull.rank == 3 && volume > 0;
+    const DVec<3> center = has_volume ? by_volume / (4 * volume) : by_area / (3 * area);
+    hull.centroid = to_float(least + (origin + center) * step);
+    hull.volume = has_volume ? volume / 6 * step * step * step : 0;
+    hull.area = area / 2 * step * step;
+}
+
+}  // namespace
 
 /// Two consecutive points identify a loop.
 HullFaces in_order(const HullFaces& faces, std::size_t point_count) {
@@ -39,18 +78,72 @@ HullFaces in_order(const HullFaces& faces, std::size_t point_count) {
 }
 
 void take_faces(Hull3& result, std::span<const Vec3> points, HullFaces faces) {
-    std::vector<std::uint32_t> number(points.size(), 0);
-    for (const std::uint32_t point : faces.loops) number[point] = 1;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        if (number[i] == 0) continue;
-        number[i] = static_cast<std::uint32_t>(result.points.size());
-        result.points.push_back(points[i]);
-    }
+    result.points = points_in_use(points, faces.loops);
     result.normals = std::move(faces.normals);
     result.loops = std::move(faces.loops);
     result.loop_ends = std::move(faces.loop_ends);
-    for (std::uint32_t& point : result.loops) point = number[point];
     result.edges = facet_edges(result.loops, result.loop_ends);
+}
+
+void measure(Hull3& hull, const HullGrid& grid, std::span<const std::uint32_t> triangles) {
+    const GridPoint& origin = grid.points[triangles[0]];
+    measure_around(hull, grid.least, DVec<3>(origin), grid.step, triangles.size(),
+                   [&](std::size_t i) { return grid.points[triangles[i]] - origin; });
+}
+
+void measure(Hull3& hull, std::span<const Vec3> points, std::span<const std::uint32_t> triangles) {
+    const DVec<3> origin(points[triangles[0]]);
+    measure_around(hull, DVec<3>(0.0), origin, 1, triangles.size(),
+                   [&](std::size_t i) { return DVec<3>(points[triangles[i]]) - origin; });
+}
+
+Vec3 normal_of_loop(std::span<const Vec3> points, std::span<const std::uint32_t> loop) {
+    DVec<3> area(0.0);
+    const DVec<3> origin(points[loop[0]]);
+    for (std::size_t i = 1; i + 1 < loop.size(); ++i)
+        area += cross(DVec<3>(points[loop[i]]) - origin, DVec<3>(points[loop[i + 1]]) - origin);
+    return to_float(normalized(area));
+}
+
+HullFaces flat_faces(std::span<const Vec3> points, const DVec<3>& normal) {
+    const int up = longest_axis(normal);
+    std::vector<Vec2> outline;
+    outline.reserve(points.size());
+    for (const Vec3& point : points) outline.emplace_back(point[(up + 1) % 3], point[(up + 2) % 3]);
+    std::vector<std::uint32_t> loop = hull_loop(outline);
+
+    const Vec3 front = normal_of_loop(points, loop);
+    HullFaces result;
+    result.normals = {front, -front};
+    result.loops = loop;
+    result.loops.insert(result.loops.end(), loop.rbegin(), loop.rend());
+    const auto corners = static_cast<std::uint32_t>(loop.size());
+    result.loop_ends = {corners, 2 * corners};
+    return result;
+}
+
+std::vector<std::uint32_t> triangles_of(std::span<const std::uint32_t> loops,
+                                        std::span<const std::uint32_t> loop_ends) {
+    std::vector<std::uint32_t> result;
+    std::size_t begin = 0;
+    for (const std::uint32_t end : loop_ends) {
+        for (std::size_t i = begin + 1; i + 1 < end; ++i)
+            result.insert(result.end(), {loops[begin], loops[i], loops[i + 1]});
+        begin = end;
+    }
+    return result;
+}
+
+Hull3 flat_hull(std::span<const Vec3> points, const DVec<3>& normal, std::span<const Vec3> inside) {
+    Hull3 result;
+    result.rank = 2;
+    HullFaces faces = flat_faces(points, normal);
+    measure(result, points, triangles_of(faces.loops, faces.loop_ends));
+    faces = in_order(faces, points.size());
+    for (const Vec3& across : faces.normals)
+        result.offsets.push_back(std::max(offset_above(across, points), offset_above(across, inside)));
+    take_faces(result, points, std::move(faces));
+    return result;
 }
 
 double offset_above(const Vec3& normal, std::span<const Vec3> points) {

@@ -7,9 +7,11 @@
 #include <abut/math/vec.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace abut::detail {
 
@@ -37,6 +39,14 @@ glm::vec<D, float> without_negative_zero(const glm::vec<D, float>& point) {
     return point + glm::vec<D, float>(0.0f);
 }
 
+/// The points in lexicographical order, each once, with 0 for -0.
+inline std::vector<Vec3> sorted_without_copies(std::vector<Vec3> points) {
+    for (Vec3& point : points) point = without_negative_zero(point);
+    std::sort(points.begin(), points.end(), [](const Vec3& a, const Vec3& b) { return less(a, b); });
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    return points;
+}
+
 /// The least and the greatest coordinate on every axis.
 template <int D>
 DVec<D> min_corner(std::span<const glm::vec<D, float>> points) {
@@ -51,6 +61,12 @@ DVec<D> max_corner(std::span<const glm::vec<D, float>> points) {
     for (const Vec<D>& point : points)
         for (int i = 0; i < D; ++i) result[i] = std::max(result[i], static_cast<double>(point[i]));
     return result;
+}
+
+/// The axis with the largest absolute coordinate, of several the first.
+inline int longest_axis(const DVec<3>& v) {
+    const DVec<3> steep{std::abs(v.x), std::abs(v.y), std::abs(v.z)};
+    return steep.x >= steep.y && steep.x >= steep.z ? 0 : (steep.y >= steep.z ? 1 : 2);
 }
 
 /// The longest side of the bounding box.

@@ -1,43 +1,23 @@
 // The Minkowski sum of two polygons: their edges merged by direction.
 
 #include <abut/convex/hull/minkowski.hpp>
+#include <abut/math/detail/expansion.hpp>
 #include <abut/math/dvec.hpp>
 
 namespace abut::detail {
 namespace {
 
-/// value + error is the product of two doubles, exactly (Veltkamp 1968, Dekker 1971).
-struct Product {
-    Product(double x, double y) : value(x * y) {
-        const Halves a(x), b(y);
-        error = a.low * b.low - (((value - a.high * b.high) - a.low * b.high) - a.high * b.low);
-    }
-
-    double value, error;
-
-private:
-    struct Halves {
-        explicit Halves(double x) {
-            const double shifted = 0x1.0000002p27 * x;
-            high = shifted - (shifted - x);
-            low = x - high;
-        }
-        double high, low;
-    };
-};
-
 /// The sign of cross(u, v), exact. Rounding keeps the order of two products unless it makes them equal.
 int turn(const DVec<2>& u, const DVec<2>& v) {
-    const Product left(u.x, v.y), right(u.y, v.x);
-    if (left.value != right.value) return left.value > right.value ? 1 : -1;
-    return (left.error > right.error ? 1 : 0) - (left.error < right.error ? 1 : 0);
+    const ExactSum left = two_product(u.x, v.y), right = two_product(u.y, v.x);
+    return left.rounded != right.rounded ? sign_of(left.rounded - right.rounded) : sign_of(left.error - right.error);
 }
 
 /// A convex loop from its lexicographically least corner. The directions of its edges turn once around, from downwards,
 /// which is the last.
-class Loop {
+class ConvexLoop {
 public:
-    explicit Loop(std::span<const DVec<2>> corners) : corners_(corners) {
+    explicit ConvexLoop(std::span<const DVec<2>> corners) : corners_(corners) {
         for (std::size_t i = 1; i < corners.size(); ++i) {
             const DVec<2>&p = corners[i], &least = corners[first_];
             if (p.x < least.x || (p.x == least.x && p.y < least.y)) first_ = i;
@@ -69,7 +49,7 @@ int compare(const DVec<2>& u, const DVec<2>& v) {
 }  // namespace
 
 std::vector<CornerPair> sum_corners(std::span<const DVec<2>> a, std::span<const DVec<2>> b) {
-    const Loop loop_a(a), loop_b(b);
+    const ConvexLoop loop_a(a), loop_b(b);
     std::vector<CornerPair> result{{loop_a.corner(0), loop_b.corner(0)}};
     result.reserve(loop_a.edges() + loop_b.edges() + 1);
     std::size_t i = 0, j = 0;

@@ -3,8 +3,8 @@
 // A single look-up in SIMD vectors of four. It performs the same operations in the same order as the reference
 // implementation `linear_sample`. For .cpp files.
 
-#include <abut/broad_phase/detail/float4-inl.h>
 #include <abut/field/look_up/stencil.hpp>
+#include <abut/math/simd/float4-inl.h>
 
 #include <bit>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include <abut/broad_phase/detail/float4-inl.h>
+#include <abut/math/simd/float4-inl.h>
 #include <abut/shape/mesh/build.hpp>
 #include <abut/shape/mesh/leaf_split.hpp>
 

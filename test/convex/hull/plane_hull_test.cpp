@@ -5,7 +5,6 @@
 #include "point_sets.hpp"
 #include <abut/convex/hull/hull_input.hpp>
 #include <abut/convex/hull/limited/limited_hull.hpp>
-#include <abut/convex/hull/limited/outer_polygon.hpp>
 #include <abut/math/predicates.hpp>
 #include <abut/shape/polygon.hpp>
 
@@ -158,6 +157,22 @@ TEST(LimitedHullOfThePlane, ReportsProblems) {
     for (Vec2& point : square) point *= std::numeric_limits<float>::max();
     EXPECT_EQ(limited_hull(square, {4})->points.size(), 4u);
     EXPECT_EQ(limited_hull(square, {3}).problem().code, ProblemCode::too_large);
+}
+
+// Two of the corners are within 1e-20 of an edge, relative to its length: the triangle around all five had become a
+// line.
+TEST(LimitedHullOfThePlane, HoldsCornersNearlyInALine) {
+    const std::vector<Vec2> points{
+        {-3.6e13f, 4.4e-19f}, {1.7e14f, -4.6e33f}, {4.1e34f, -2.1e11f}, {3.8e32f, 1.3e-26f}, {1.5e24f, 1.2e-15f}};
+    EXPECT_EQ(hull(points)->points.size(), 5u);
+    for (const std::uint32_t limit : {3u, 4u}) {
+        SCOPED_TRACE("limit " + std::to_string(limit));
+        double added = -1;
+        const auto built = limited_hull(points, {limit, &added});
+        ASSERT_TRUE(built);
+        EXPECT_EQ(count_outside(built->points, points), 0u);
+        EXPECT_LT(added, 1e-3 * area_of(built->points));
+    }
 }
 
 // The best polygon around a circle is regular: n tan(pi / n) / pi times its area.

@@ -1,4 +1,5 @@
-#include <abut/convex/hull/hull_input.hpp>
+#include <abut/convex/farthest_point.hpp>
+#include <abut/convex/hull/hull_assembly.hpp>
 #include <abut/convex/hull/limited/inner_hull.hpp>
 #include <abut/math/dvec.hpp>
 
@@ -9,11 +10,7 @@
 namespace abut::detail {
 namespace {
 
-constexpr int max_rounds = 8;
-
-std::size_t greatest(std::span<const double> values) {
-    return static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
-}
+constexpr int max_moves = 8;
 
 /// Farthest point sampling from `first`.
 std::vector<Vec3> far_apart(std::span<const Vec3> points, std::size_t count, const Vec3& first) {
@@ -23,7 +20,7 @@ std::vector<Vec3> far_apart(std::span<const Vec3> points, std::size_t count, con
         const DVec<3> last(result.back());
         for (std::size_t i = 0; i < points.size(); ++i)
             squares[i] = std::min(squares[i], length_squared(DVec<3>(points[i]) - last));
-        result.push_back(points[greatest(squares)]);
+        result.push_back(points[farthest_of(squares, [](double square) { return square; })]);
     }
     return result;
 }
@@ -31,39 +28,22 @@ std::vector<Vec3> far_apart(std::span<const Vec3> points, std::size_t count, con
 /// One per corner: the gradient of the volume by its position, for constant faces.
 std::vector<DVec<3>> slopes(const Hull3& hull) {
     std::vector<DVec<3>> result(hull.points.size(), DVec<3>(0.0));
-    std::size_t begin = 0;
-    for (const std::uint32_t end : hull.loop_ends) {
-        for (std::size_t i = begin + 1; i + 1 < end; ++i) {
-            const std::uint32_t numbers[] = {hull.loops[begin], hull.loops[i], hull.loops[i + 1]};
-            for (std::size_t j = 0; j < 3; ++j)
-                result[numbers[j]] += cross(DVec<3>(hull.points[numbers[(j + 1) % 3]] - hull.points[0]),
-                                            DVec<3>(hull.points[numbers[(j + 2) % 3]] - hull.points[0]));
-        }
-        begin = end;
-    }
+    const std::vector<std::uint32_t> triangles = triangles_of(hull.loops, hull.loop_ends);
+    for (std::size_t i = 0; i < triangles.size(); i += 3)
+        for (std::size_t j = 0; j < 3; ++j)
+            result[triangles[i + j]] += cross(DVec<3>(hull.points[triangles[i + (j + 1) % 3]] - hull.points[0]),
+                                              DVec<3>(hull.points[triangles[i + (j + 2) % 3]] - hull.points[0]));
     return result;
-}
-
-const Vec3& highest(std::span<const Vec3> points, const DVec<3>& direction) {
-    std::size_t best = 0;
-    double maximum = dot(direction, DVec<3>(points[0]));
-    for (std::size_t i = 1; i < points.size(); ++i) {
-        const double height = dot(direction, DVec<3>(points[i]));
-        if (height <= maximum) continue;
-        maximum = height;
-        best = i;
-    }
-    return points[best];
 }
 
 }  // namespace
 
 Hull3 inner_hull(std::span<const Vec3> points, std::size_t count, const Vec3& first) {
     Hull3 result = *hull(far_apart(points, count, first));
-    for (int round = 0; round < max_rounds && result.rank == 3; ++round) {
+    for (int round = 0; round < max_moves && result.rank == 3; ++round) {
         const std::vector<DVec<3>> directions = slopes(result);
         std::vector<Vec3> moved;
-        for (const DVec<3>& direction : directions) moved.push_back(highest(points, direction));
+        for (const DVec<3>& direction : directions) moved.push_back(points[farthest_point(points, direction)]);
         Hull3 next = *hull(moved);
         if (!(next.volume > result.volume)) break;
         result = std::move(next);

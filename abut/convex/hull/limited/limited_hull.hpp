@@ -24,6 +24,11 @@ Result<Hull3> limited_hull(std::span<const Vec3> points, const HullOptions& opti
 /// floats; for 3 corners twice that. Nothing if corners would leave the range of floats.
 std::optional<Hull2> outline_of(std::span<const Vec2> hull_points, std::size_t limit, const Affine<2>& seen);
 
+/// `full` is the flat hull of the points, with more than `limit` corners. The result lies in the same plane. Seen along
+/// the axis nearest to the plane's normal, it contains each point exactly, and each point is below both of its faces.
+/// Nothing if it would leave the range of floats, or if floats have no points near the plane.
+std::optional<Hull3> limited_flat_hull(const Hull3& full, std::span<const Vec3> points, std::size_t limit);
+
 /// The problem if corners would leave the range of floats.
 inline Problem beyond_floats() {
     return {ProblemCode::too_large, "so few corners that hold all points are beyond the range of floats", 0};

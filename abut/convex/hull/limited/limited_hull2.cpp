@@ -1,37 +1,26 @@
-// Hulls with a vertex limit in 2D.
+// Hulls with a vertex limit in 2D, and of coplanar points in 3D.
 
+#include <abut/convex/hull/hull_assembly.hpp>
 #include <abut/convex/hull/hull_input.hpp>
 #include <abut/convex/hull/limited/limited_hull.hpp>
-#include <abut/convex/hull/limited/minimum_box.hpp>
 #include <abut/convex/hull/limited/outer_polygon.hpp>
 #include <abut/convex/hull/limited/round_outwards.hpp>
-#include <abut/convex/hull/limited/stretched_frame.hpp>
 #include <abut/math/dvec.hpp>
 #include <abut/math/predicates.hpp>
 
 #include <algorithm>
-#include <optional>
+#include <cmath>
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace abut::detail {
-namespace {
 
-constexpr int max_margins2 = 14;
-constexpr double first_margin2 = 0x1p-40;
-
-template <class Point>
-double area_of(std::span<const Point> loop) {
-    double twice = 0;
-    const DVec<2> origin(loop[0]);
-    for (std::size_t i = 1; i + 1 < loop.size(); ++i)
-        twice += cross(DVec<2>(loop[i]) - origin, DVec<2>(loop[i + 1]) - origin);
-    return 0.5 * twice;
+double size_of(const Hull2& hull) {
+    return area_of(Loop2(hull.points.begin(), hull.points.end()));
 }
 
-/// The hull of the corners, if it contains all points, exactly.
-std::optional<Hull2> hull_around(std::span<const Vec2> corners, std::span<const Vec2> points) {
+std::optional<Hull2> hull_around(std::span<const Vec2> corners, std::span<const Vec2> points,
+                                 const StretchedFrame<2>&) {
     Hull2 result{{}, 2};
     for (const std::uint32_t i : hull_loop(corners)) result.points.push_back(corners[i]);
     const std::size_t count = result.points.size();
@@ -42,108 +31,23 @@ std::optional<Hull2> hull_around(std::span<const Vec2> corners, std::span<const 
     return result;
 }
 
-class LimitedHull2Search {
-public:
-    LimitedHull2Search(std::span<const Vec2> points, std::size_t limit, const Affine<2>& shown,
-                       const StretchedFrame<2>& frame)
-        : points_(points), limit_(limit), frame_(frame) {
-        for (const Vec2& point : points) inner_.push_back(frame.from_world(DVec<2>(point)));
-        offer_rectangle(shown);
-        loops_.push_back(outer_polygon(inner_, limit));
-    }
-
-    /// Rounding only adds area: a loop no smaller than the best result is skipped.
-    std::optional<Hull2> smallest_rounded() const {
-        std::vector<std::pair<double, std::size_t>> order;
-        for (std::size_t i = 0; i < loops_.size(); ++i)
-            order.emplace_back(area_of<DVec<2>>(loops_[i]) * determinant(frame_.out), i);
-        std::sort(order.begin(), order.end());
-        std::optional<Hull2> best = bounding_box();
-        for (const auto& [area, number] : order) {
-            if (best && area_of<Vec2>(best->points) <= area) break;
-            std::optional<Hull2> next = rounded(loops_[number]);
-            if (next && (!best || area_of<Vec2>(next->points) < area_of<Vec2>(best->points))) best = std::move(next);
-        }
-        return best;
-    }
-
-private:
-    /// The minimum oriented rectangle, or the triangle around it.
-    void offer_rectangle(const Affine<2>& shown) {
-        std::vector<DVec<2>> loop;
-        for (const DVec<2>& point : inner_) loop.push_back(shown.vector(frame_.out.vector(point)));
-        const DVec<2> along = minimum_rectangle(loop), across(-along.y, along.x);
-        const auto extremes = [&](const DVec<2>& axis) {
-            const auto [low, high] = std::minmax_element(
-                loop.begin(), loop.end(), [&](const auto& a, const auto& b) { return dot(axis, a) < dot(axis, b); });
-            return std::pair(dot(axis, *low), dot(axis, *high));
-        };
-        const auto [left, right] = extremes(along);
-        const auto [low, high] = extremes(across);
-        const Affine<2> back = inverse(shown, determinant(shown));
-        std::vector<DVec<2>>& offered = loops_.emplace_back();
-        for (const DVec<2>& unit : around_unit_cube<2>(limit_)) {
-            const DVec<2> place = along * (left + (right - left) * unit.x) + across * (low + (high - low) * unit.y);
-            offered.push_back(frame_.into.vector(back.vector(place)));
-        }
-        if (area_of<DVec<2>>(offered) < 0) std::reverse(offered.begin(), offered.end());
-    }
-
-    /// The corners of a loop in floats, each outside of its two edges by `margin`. Nothing if one leaves the range of
-    /// floats.
-    std::optional<std::vector<Vec2>> rounded_corners(std::span<const DVec<2>> loop, double margin) const {
-        const std::size_t count = loop.size();
-        std::vector<Plane<2>> lines;
-        for (std::size_t i = 0; i < count; ++i) {
-            const DVec<2> along = loop[(i + 1) % count] - loop[i], normal = normalized(DVec<2>(along.y, -along.x));
-            double offset = dot(normal, loop[i]);
-            for (const DVec<2>& point : inner_) offset = std::max(offset, dot(normal, point));
-            lines.push_back({normal, offset + margin});
-        }
-        std::vector<Vec2> result;
-        for (std::size_t i = 0; i < count; ++i) {
-            const Plane<2> both[] = {lines[(i + count - 1) % count], lines[i]};
-            const std::optional<Vec2> corner = rounded_corner<2>(loop[i], both, frame_);
-            if (!corner) return std::nullopt;
-            result.push_back(*corner);
-        }
-        return result;
-    }
-
-    std::optional<Hull2> rounded(std::span<const DVec<2>> loop) const {
-        double margin = 0;
-        for (int i = 0; i < max_margins2; ++i) {
-            const std::optional<std::vector<Vec2>> corners = rounded_corners(loop, margin);
-            if (!corners) return std::nullopt;
-            if (std::optional<Hull2> result = hull_around(*corners, points_)) return result;
-            margin = margin == 0 ? first_margin2 : 8 * margin;
-        }
-        return std::nullopt;
-    }
-
-    /// The bounding box, whose corners are floats, or a triangle around it.
-    std::optional<Hull2> bounding_box() const {
-        for (const double growth : {0x1p-20, 0x1p-10, 1.0}) {
-            const std::vector<Vec2> corners = corners_of_box<2>(points_, limit_, growth);
-            if (corners.empty()) return std::nullopt;
-            if (std::optional<Hull2> result = hull_around(corners, points_)) return result;
-        }
-        return std::nullopt;
-    }
-
-    std::span<const Vec2> points_;
-    std::size_t limit_;
-    const StretchedFrame<2>& frame_;
-    std::vector<DVec<2>> inner_;  ///< the points in the frame
-    std::vector<std::vector<DVec<2>>> loops_;
-};
-
-}  // namespace
-
 std::optional<Hull2> outline_of(std::span<const Vec2> hull_points, std::size_t limit, const Affine<2>& seen) {
-    const std::optional<StretchedFrame<2>> frame = stretched_frame(hull_points, hull_points);
+    const std::optional<StretchedFrame<2>> frame = stretched_frame<2>(hull_points, hull_points);
     if (!frame) return std::nullopt;
-    return LimitedHull2Search(hull_points, limit, seen, *frame).smallest_rounded();
+    Loop2 inner;
+    for (const Vec2& point : hull_points) inner.push_back(frame->from_world(DVec<2>(point)));
+    std::vector<OuterBody<2>> bodies;
+    for (const Loop2& loop : outer_polygons(inner, limit, seen * frame->out)) {
+        OuterBody<2> body{area_of(loop) * determinant(frame->out), loop, {}, {}};
+        const auto count = static_cast<std::uint32_t>(loop.size());
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const DVec<2> along = loop[(i + 1) % count] - loop[i], normal = normalized(DVec<2>(along.y, -along.x));
+            body.planes.push_back({normal, dot(normal, loop[i])});
+            body.through.push_back({(i + count - 1) % count, i});
+        }
+        bodies.push_back(std::move(body));
+    }
+    return smallest_rounded<2>(std::move(bodies), hull_points, limit, *frame);
 }
 
 Result<Hull2> limited_hull(std::span<const Vec2> points, const HullOptions& options) {
@@ -156,8 +60,45 @@ Result<Hull2> limited_hull(std::span<const Vec2> points, const HullOptions& opti
     if (!full || options.max_vertices == 0 || full->points.size() <= options.max_vertices) return full;
     std::optional<Hull2> result = outline_of(full->points, options.max_vertices, {});
     if (!result) return beyond_floats();
-    if (options.added != nullptr) *options.added = area_of<Vec2>(result->points) - area_of<Vec2>(full->points);
+    if (options.added != nullptr) *options.added = std::max(0.0, size_of(*result) - size_of(*full));
     return *std::move(result);
+}
+
+std::optional<Hull3> limited_flat_hull(const Hull3& full, std::span<const Vec3> points, std::size_t limit) {
+    const DVec<3> normal = normalized(DVec<3>(full.normals[0])), origin(full.points[0]);
+    const auto height = [&](const Vec3& point) { return dot(normal, DVec<3>(point) - origin); };
+    // The plane midway between the lowest and the highest point, seen along the axis nearest to its normal.
+    const auto [low, high] = std::minmax_element(points.begin(), points.end(),
+                                                 [&](const Vec3& a, const Vec3& b) { return height(a) < height(b); });
+    const double middle = 0.5 * (height(*low) + height(*high));
+    const int up = longest_axis(normal), right = (up + 1) % 3, ahead = (up + 2) % 3;
+    const bool level =
+        std::all_of(points.begin(), points.end(), [&](const Vec3& point) { return point[up] == points[0][up]; });
+
+    // The slopes of the plane, and a map of the projection that restores lengths: a root of (1 + x x, x y; x y, 1 + y
+    // y).
+    const double x = -normal[right] / normal[up], y = -normal[ahead] / normal[up], root = std::sqrt(1 + x * x);
+    Affine<2> to_plane;
+    to_plane.column = {DVec<2>(root, 0), DVec<2>(x * y / root, std::sqrt(1 + x * x + y * y) / root)};
+    std::vector<Vec2> seen, inner;
+    for (const Vec3& point : points) seen.emplace_back(point[right], point[ahead]);
+    for (const std::uint32_t i : hull_loop(seen)) inner.push_back(seen[i]);
+    const std::optional<Hull2> outer = outline_of(inner, limit, to_plane);
+    if (!outer) return std::nullopt;
+
+    std::vector<Vec3> corners;
+    for (const Vec2& corner : outer->points) {
+        Vec3& lifted = corners.emplace_back();
+        lifted[right] = corner.x;
+        lifted[ahead] = corner.y;
+        const double rise =
+            x * (static_cast<double>(corner.x) - origin[right]) + y * (static_cast<double>(corner.y) - origin[ahead]);
+        lifted[up] = static_cast<float>(level ? origin[up] : origin[up] + middle / normal[up] + rise);
+        const double tolerance = hull_tolerance * extent<3>(full.points);
+        if (!is_finite(lifted) || !(std::abs(height(lifted) - middle) <= tolerance)) return std::nullopt;
+    }
+    std::sort(corners.begin(), corners.end(), [](const Vec3& a, const Vec3& b) { return less(a, b); });
+    return flat_hull(corners, normal, points);
 }
 
 }  // namespace abut::detail

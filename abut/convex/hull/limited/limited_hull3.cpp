@@ -1,24 +1,19 @@
 // Hulls with a vertex limit in 3D.
 
+#include <abut/convex/hull/hull_assembly.hpp>
 #include <abut/convex/hull/hull_input.hpp>
 #include <abut/convex/hull/interior_filter.hpp>
-#include <abut/convex/hull/limited/convex_surface.hpp>
-#include <abut/convex/hull/limited/hull_in_frame.hpp>
 #include <abut/convex/hull/limited/inner_hull.hpp>
-#include <abut/convex/hull/limited/limited_flat_hull.hpp>
 #include <abut/convex/hull/limited/limited_hull.hpp>
 #include <abut/convex/hull/limited/minimum_box.hpp>
 #include <abut/convex/hull/limited/outer_hull.hpp>
 #include <abut/convex/hull/limited/outer_polygon.hpp>
-#include <abut/convex/hull/limited/round_outwards.hpp>
-#include <abut/convex/hull/limited/stretched_frame.hpp>
-#include <abut/math/affine.hpp>
 #include <abut/math/dvec.hpp>
+#include <abut/math/predicates.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -28,221 +23,163 @@ namespace {
 /// The tolerance of the surface, for a body of about size 1. The planes move outwards to all points at the end.
 constexpr double coarse = 0x1p-17;
 constexpr std::size_t few_corners = 32, very_few_corners = 16, box_corners = 32, pool_corners = 64;
-constexpr int tightening_rounds = 8, max_margins3 = 14;
-constexpr double first_margin3 = 0x1p-24;
+constexpr int tightening_rounds = 8;
 
-/// Searches for the smallest of several surfaces around one body.
+/// Whether all points lie in the hull of a closed surface with outward winding: none is above a triangle.
+bool holds(std::span<const Vec3> corners, std::span<const std::uint32_t> triangles, std::span<const Vec3> points) {
+    const DVec<3> low = min_corner<3>(points), high = max_corner<3>(points);
+    for (std::size_t i = 0; i < triangles.size(); i += 3) {
+        const Vec3 &a = corners[triangles[i]], &b = corners[triangles[i + 1]], &c = corners[triangles[i + 2]];
+        const DVec<3> origin(a), u = DVec<3>(b) - origin, v = DVec<3>(c) - origin, normal = cross(u, v);
+        const double surely = 1e-14 * length(u) * length(v) * (length(low - origin) + length(high - low));
+        for (const Vec3& point : points)
+            if (!(dot(normal, DVec<3>(point) - origin) < -surely) && orientation(a, b, c, point) > 0) return false;
+    }
+    return true;
+}
+
+/// Searches for the smallest of several bodies around one set of points.
 class LimitedHull3Search {
 public:
-    LimitedHull3Search(std::vector<Vec3> points, std::size_t limit, const StretchedFrame<3>& frame)
-        : points_(std::move(points)), limit_(limit), frame_(frame) {
-        for (const Vec3& point : points_) seen_.push_back(frame.from_world(DVec<3>(point)));
+    LimitedHull3Search(const ConvexSurface& surface, std::size_t limit, const StretchedFrame<3>& frame)
+        : inside_(surface), limit_(limit), frame_(frame) {
+        OuterHull mesh(surface);
+        mesh.simplify(std::max(limit, pool_corners));
+        offer_simplified(mesh);
+        if (limit <= few_corners) offer_inner();
+        if (limit <= pool_corners) offer_polar(mesh.body());
+        mesh.simplify(box_corners);
+        offer_prisms(mesh.body());
     }
 
-    std::optional<Hull3> run() {
-        const std::optional<ConvexSurface> surface = convex_surface(seen_, coarse);
-        if (surface) {
-            const VertexGraph inside(*surface);
-            OuterHull mesh(*surface);
-            mesh.simplify(std::max(limit_, pool_corners));
-            OuterHull simple = mesh;
-            simple.simplify(limit_);
-            offer(std::move(simple), inside);
-            if (limit_ <= few_corners) offer_inner(inside);
-            if (limit_ <= few_corners) offer_polar(mesh, inside);
-            offer_boxes(std::move(mesh), inside);
-        }
-        return smallest_rounded();
-    }
+    std::vector<OuterBody<3>> bodies() && { return std::move(bodies_); }
 
 private:
     /// A surface much larger than the best one isn't tightened. It stays as a fallback if rounding fails for the
     /// others.
-    void offer(OuterHull mesh, const VertexGraph& inside) {
-        constexpr double hopeless = 1.4;
+    void offer(OuterHull mesh) {
+        const double hopeless = 1 + 4.0 / static_cast<double>(limit_);
         if (mesh.count() > limit_) return;
-        double volume = mesh.volume();
-        if (!(volume > hopeless * min_volume_)) {
-            mesh.tighten(inside, tightening_rounds);
-            volume = mesh.volume();
-        }
+        if (!(mesh.volume() > hopeless * min_volume_)) mesh.tighten(inside_, tightening_rounds);
+        const double volume = mesh.volume();
         if (!(volume > 0)) return;
         min_volume_ = std::min(min_volume_, volume);
-        meshes_.emplace_back(volume * determinant(frame_.out), std::move(mesh));
+        bodies_.push_back(mesh.body());
+        bodies_.back().size = volume * determinant(frame_.out);
+    }
+
+    void offer_simplified(OuterHull mesh) {
+        mesh.simplify(limit_);
+        if (mesh.count() > limit_) {
+            // No edge could collapse. From other positions some may.
+            mesh.tighten(inside_, 1);
+            mesh.simplify(limit_);
+        }
+        offer(std::move(mesh));
     }
 
     /// The hull of the corners, scaled until it contains all points.
-    void offer_grown(std::span<const DVec<3>> corners, const VertexGraph& inside) {
+    void offer_grown(std::span<const DVec<3>> corners) {
         const std::optional<ConvexSurface> surface = convex_surface(corners, 0);
         if (!surface) return;
         OuterHull mesh(*surface);
-        DVec<3> middle(0.0);
-        for (const DVec<3>& corner : surface->points) middle += corner;
-        mesh.grow(middle / static_cast<double>(surface->points.size()), inside);
-        offer(std::move(mesh), inside);
+        mesh.grow(inside_);
+        offer(std::move(mesh));
     }
 
-    /// The corners of half as many planes, chosen among those of the mesh by duality: the hull of their polar points,
-    /// at 1 / offset along the normals, has faces that are such corners.
-    void offer_polar(const OuterHull& mesh, const VertexGraph& inside) {
+    /// Inner hulls with this number of corners, which suit round bodies.
+    void offer_inner() {
+        std::vector<Vec3> points;
+        for (const DVec<3>& point : inside_.points()) points.push_back(to_float(point));
+        for (int start = 0; start < (limit_ <= very_few_corners ? 3 : 1); ++start) {
+            const Hull3 inner = inner_hull(points, limit_, to_float(inside_.highest(axis<3>(start))));
+            offer_grown(std::vector<DVec<3>>(inner.points.begin(), inner.points.end()));
+        }
+    }
+
+    /// The corners of half as many planes, chosen among those of a body by duality: the hull of their polar points, at
+    /// 1 / offset along the normals, has faces that are such corners.
+    void offer_polar(const OuterBody<3>& body) {
         constexpr double min_offset = 1e-3;
         std::vector<Vec3> polar;
-        for (std::uint32_t triangle = 0; triangle < mesh.triangle_count(); ++triangle)
-            if (mesh.has_triangle(triangle) && mesh.plane(triangle).offset > min_offset)
-                polar.push_back(to_float(mesh.plane(triangle).normal / mesh.plane(triangle).offset));
+        for (const Plane<3>& plane : body.planes)
+            if (plane.offset > min_offset) polar.push_back(to_float(plane.normal / plane.offset));
         if (polar.size() < 4) return;
         const Hull3 chosen = inner_hull(polar, limit_ / 2 + 2, polar[0]);
         std::vector<DVec<3>> corners;
         for (std::size_t face = 0; face < chosen.normals.size(); ++face)
             if (chosen.offsets[face] > min_offset)
                 corners.push_back(DVec<3>(chosen.normals[face]) / chosen.offsets[face]);
-        if (corners.size() >= 4) offer_grown(corners, inside);
+        if (corners.size() >= 4) offer_grown(corners);
     }
 
-    /// An inner hull with this number of corners, which suits round bodies.
-    void offer_inner(const VertexGraph& inside) {
-        std::vector<Vec3> points;
-        for (const DVec<3>& point : inside.points()) points.push_back(to_float(point));
-        const int starts = limit_ <= very_few_corners ? 3 : 1;
-        for (int start = 0; start < starts; ++start) {
-            std::vector<DVec<3>> corners;
-            const Vec3& first = points[inside.highest(axis<3>(start), 0)];
-            for (const Vec3& corner : inner_hull(points, limit_, first).points) corners.emplace_back(corner);
-            offer_grown(corners, inside);
-        }
-    }
-
-    /// The minimum oriented box, or its substitute below 8 corners; and prisms along its axes.
-    void offer_boxes(OuterHull mesh, const VertexGraph& inside) {
-        mesh.simplify(box_corners);
-        std::vector<DVec<3>> corners, normals;
+    /// Prisms along the axes of the minimum oriented box; pyramids if the limit is below 6. A prism over an outline
+    /// with half as many corners is no larger than the box, or twice the box if that outline is a triangle. A pyramid
+    /// three times as high, 1.5 times as wide at its base, has 2.25 times the volume of the prism.
+    void offer_prisms(const OuterBody<3>& approximate) {
+        std::vector<DVec<3>> points, corners, normals;
         for (const DVec<3>& column : frame_.out.column) normals.push_back(normalized(column));
         for (int i = 0; i < 3; ++i) normals.push_back(axis<3>(i));
-        for (std::uint32_t triangle = 0; triangle < mesh.triangle_count(); ++triangle)
-            if (mesh.has_triangle(triangle))
-                normals.push_back(normalized(frame_.into.transposed(mesh.plane(triangle).normal)));
-        std::vector<DVec<3>> approximate;
-        for (std::uint32_t point = 0; point < mesh.points().size(); ++point)
-            if (mesh.has_point(point)) approximate.push_back(frame_.out.vector(mesh.points()[point]));
-        for (const DVec<3>& point : inside.points()) corners.push_back(frame_.out.vector(point));
-        const OrientedBox box = minimum_box(corners, approximate, normals);
-        const auto place = [&](const DVec<3>& unit) {
-            DVec<3> result(0.0);
-            for (int i = 0; i < 3; ++i)
-                result += box.axes[static_cast<std::size_t>(i)] * (box.low[i] + (box.high[i] - box.low[i]) * unit[i]);
-            return frame_.into.vector(result);
-        };
-        std::vector<DVec<3>> around;
-        for (const DVec<3>& unit : around_unit_cube<3>(limit_)) around.push_back(place(unit));
-        offer_grown(around, inside);
-        if (limit_ < 6) return;
-        for (std::size_t up = 0; up < 3; ++up) {
-            const std::size_t right = (up + 1) % 3, ahead = (up + 2) % 3;
-            std::vector<DVec<2>> loop;
-            for (const std::uint32_t i : silhouette(corners, box.axes[right], box.axes[ahead]))
-                loop.push_back(scaled(box, corners[i], right, ahead));
-            if (loop.size() < 3) continue;
-            if (loop.size() > limit_ / 2) loop = outer_polygon(loop, limit_ / 2);
-            around.clear();
-            for (const DVec<2>& corner : loop)
-                for (const double height : {0.0, 1.0}) {
-                    DVec<3> unit;
-                    unit[static_cast<int>(right)] = corner.x;
-                    unit[static_cast<int>(ahead)] = corner.y;
-                    unit[static_cast<int>(up)] = height;
-                    around.push_back(place(unit));
-                }
-            offer_grown(around, inside);
+        for (const Plane<3>& plane : approximate.planes)
+            normals.push_back(normalized(frame_.into.transposed(plane.normal)));
+        for (const DVec<3>& corner : approximate.corners) corners.push_back(frame_.out.vector(corner));
+        for (const DVec<3>& point : inside_.points()) points.push_back(frame_.out.vector(point));
+        const OrientedBox box = minimum_box(points, corners, normals);
+        for (int up = 0; up < 3; ++up) {
+            const int right = (up + 1) % 3, ahead = (up + 2) % 3;
+            Loop2 outline;
+            for (const std::uint32_t i : silhouette(points, box, up)) {
+                const DVec<3> share = box.share(points[i]);
+                outline.emplace_back(share[right], share[ahead]);
+            }
+            const bool pyramid = limit_ < 6;
+            const std::size_t count = pyramid ? limit_ - 1 : limit_ / 2;
+            if (outline.size() > count) {
+                const std::vector<Loop2> found = outer_polygons(outline, count);
+                outline = found.empty() ? Loop2() : found[0];
+            }
+            if (outline.size() < 3) continue;
+            std::vector<DVec<3>> around;
+            const auto add = [&](const DVec<2>& place, double height) {
+                DVec<3> share;
+                share[right] = place.x;
+                share[ahead] = place.y;
+                share[up] = height;
+                around.push_back(frame_.into.vector(box.at(share)));
+            };
+            DVec<2> middle(0.0);
+            for (const DVec<2>& corner : outline) middle += corner / static_cast<double>(outline.size());
+            for (const DVec<2>& corner : outline) {
+                add(pyramid ? middle + (corner - middle) * 1.5 : corner, 0);
+                if (!pyramid) add(corner, 1);
+            }
+            if (pyramid) add(middle, 3);
+            offer_grown(around);
         }
     }
 
-    static DVec<2> scaled(const OrientedBox& box, const DVec<3>& p, std::size_t right, std::size_t ahead) {
-        const auto share = [&](std::size_t axis) {
-            const int i = static_cast<int>(axis);
-            return (dot(box.axes[axis], p) - box.low[i]) / (box.high[i] - box.low[i]);
-        };
-        return {share(right), share(ahead)};
-    }
-
-    /// The corners of a mesh in floats: outside of the planes of their triangles by `margin`, after the planes were
-    /// moved outwards to all points. Nothing if one leaves the range of floats.
-    std::optional<std::vector<Vec3>> rounded_corners(const OuterHull& mesh, double margin) const {
-        std::vector<Plane<3>> planes(mesh.triangle_count());
-        for (std::uint32_t triangle = 0; triangle < planes.size(); ++triangle) {
-            if (!mesh.has_triangle(triangle)) continue;
-            planes[triangle] = mesh.plane(triangle);
-            for (const DVec<3>& point : seen_)
-                planes[triangle].offset = std::max(planes[triangle].offset, dot(planes[triangle].normal, point));
-            planes[triangle].offset += margin;
-        }
-        std::vector<Vec3> result;
-        std::vector<Plane<3>> around;
-        for (std::uint32_t point = 0; point < mesh.points().size(); ++point) {
-            if (!mesh.has_point(point)) continue;
-            around.clear();
-            mesh.each_triangle_around(point, [&](std::uint32_t triangle) { around.push_back(planes[triangle]); });
-            const std::optional<Vec3> corner = rounded_corner<3>(mesh.points()[point], around, frame_);
-            if (!corner) return std::nullopt;
-            result.push_back(*corner);
-        }
-        return result;
-    }
-
-    std::optional<Hull3> rounded(const OuterHull& mesh) const {
-        double margin = 0;
-        for (int i = 0; i < max_margins3; ++i) {
-            const std::optional<std::vector<Vec3>> corners = rounded_corners(mesh, margin);
-            if (!corners) return std::nullopt;
-            if (std::optional<Hull3> result = hull_in_frame(*corners, points_, frame_)) return result;
-            margin = margin == 0 ? first_margin3 : 4 * margin;
-        }
-        return std::nullopt;
-    }
-
-    /// The bounding box, whose corners are floats, or its substitute below 8 corners.
-    std::optional<Hull3> bounding_box() const {
-        for (const double growth : {0x1p-20, 0x1p-10, 1.0}) {
-            const std::vector<Vec3> corners = corners_of_box<3>(points_, limit_, growth);
-            if (corners.empty()) return std::nullopt;
-            if (std::optional<Hull3> result = hull_in_frame(corners, points_, frame_)) return result;
-        }
-        return std::nullopt;
-    }
-
-    /// Rounding only adds volume: a mesh no smaller than the best result is skipped.
-    std::optional<Hull3> smallest_rounded() {
-        std::stable_sort(meshes_.begin(), meshes_.end(),
-                         [](const auto& a, const auto& b) { return a.first < b.first; });
-        std::optional<Hull3> best = bounding_box();
-        for (const auto& [volume, mesh] : meshes_) {
-            if (best && best->volume <= volume) break;
-            std::optional<Hull3> next = rounded(mesh);
-            if (next && (!best || next->volume < best->volume)) best = std::move(next);
-        }
-        return best;
-    }
-
-    std::vector<Vec3> points_;
+    SupportSearch inside_;
     std::size_t limit_;
     const StretchedFrame<3>& frame_;
-    std::vector<DVec<3>> seen_;                               ///< the points in the frame
-    std::vector<std::pair<double, OuterHull>> meshes_;        ///< with their volumes in the world
+    std::vector<OuterBody<3>> bodies_;
     double min_volume_ = std::numeric_limits<double>::max();  ///< of the volumes in the frame
 };
 
 std::optional<Hull3> limited_solid(const Hull3& full, std::span<const Vec3> points, std::size_t limit) {
-    std::vector<Vec3> sorted = without_interior_points(points);
-    std::sort(sorted.begin(), sorted.end(), [](const Vec3& a, const Vec3& b) { return less(a, b); });
-    sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
-    const std::optional<StretchedFrame<3>> frame = stretched_frame(full.points, sorted);
+    const std::vector<Vec3> sorted = sorted_without_copies(without_interior_points(points));
+    const std::optional<StretchedFrame<3>> frame = stretched_frame<3>(full.points, sorted);
     if (!frame) return std::nullopt;
-    return LimitedHull3Search(std::move(sorted), limit, *frame).run();
+    std::vector<DVec<3>> seen;
+    for (const Vec3& point : sorted) seen.push_back(frame->from_world(DVec<3>(point)));
+    std::vector<OuterBody<3>> bodies;
+    if (const std::optional<ConvexSurface> surface = convex_surface(seen, coarse))
+        bodies = LimitedHull3Search(*surface, limit, *frame).bodies();
+    return smallest_rounded<3>(std::move(bodies), sorted, limit, *frame);
 }
 
 /// Coplanar points as pairs of the next floats below and above: a body as thick as rounding.
 std::vector<Vec3> thickened(const Hull3& full, std::span<const Vec3> points) {
-    const DVec<3> normal(full.normals[0]), steep{std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};
-    const int up = steep.x >= steep.y && steep.x >= steep.z ? 0 : (steep.y >= steep.z ? 1 : 2);
+    const int up = longest_axis(DVec<3>(full.normals[0]));
     std::vector<Vec3> result;
     for (const Vec3& point : points)
         for (const float limit : {-std::numeric_limits<float>::max(), std::numeric_limits<float>::max()}) {
@@ -253,6 +190,34 @@ std::vector<Vec3> thickened(const Hull3& full, std::span<const Vec3> points) {
 }
 
 }  // namespace
+
+double size_of(const Hull3& hull) {
+    return hull.volume;
+}
+
+std::optional<Hull3> hull_around(std::span<const Vec3> corners, std::span<const Vec3> points,
+                                 const StretchedFrame<3>& frame) {
+    const std::vector<Vec3> sorted = sorted_without_copies({corners.begin(), corners.end()});
+    std::vector<DVec<3>> seen;
+    for (const Vec3& corner : sorted) seen.push_back(frame.from_world(DVec<3>(corner)));
+    const HullGrid grid = on_grid(seen);
+    const Spread spread = spread_of(grid, grid.tolerance);
+    if (spread.rank < 3) return std::nullopt;
+    const TriangleSurface surface = quickhull(grid.points, spread.points, 0);
+    if (!holds(sorted, surface.origin, points)) return std::nullopt;
+
+    Hull3 result;
+    result.rank = 3;
+    measure(result, sorted, surface.origin);
+    HullFaces faces = in_order(hull_faces(grid.points, surface, grid.tolerance, grid.flatness), sorted.size());
+    for (std::size_t face = 0; face < faces.normals.size(); ++face) {
+        Vec3& normal = faces.normals[face];
+        normal = normal_of_loop(sorted, faces.loop(face));
+        result.offsets.push_back(std::max(offset_above(normal, sorted), offset_above(normal, points)));
+    }
+    take_faces(result, sorted, std::move(faces));
+    return result;
+}
 
 Result<Hull3> limited_hull(std::span<const Vec3> points, const HullOptions& options) {
     if (options.added != nullptr) *options.added = 0;

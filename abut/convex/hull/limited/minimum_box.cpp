@@ -13,53 +13,36 @@ constexpr std::size_t refined = 3;
 constexpr int max_rotations = 30;
 constexpr double min_gain = 1e-7;
 
-struct Range {
-    double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
-
-    void add(double value) {
-        low = std::min(low, value);
-        high = std::max(high, value);
-    }
-    double size() const { return high - low; }
-};
-
-template <class Points, class Along>
-Range range_of(const Points& points, Along along) {
-    Range result;
-    for (const auto& point : points) result.add(along(point));
-    return result;
-}
-
 OrientedBox box_along(std::span<const DVec<3>> points, const std::array<DVec<3>, 3>& axes) {
-    OrientedBox result{axes, DVec<3>(0.0), DVec<3>(0.0)};
-    for (int i = 0; i < 3; ++i) {
-        const Range range =
-            range_of(points, [&](const DVec<3>& p) { return dot(axes[static_cast<std::size_t>(i)], p); });
-        result.low[i] = range.low;
-        result.high[i] = range.high;
-    }
+    OrientedBox result{axes, DVec<3>(std::numeric_limits<double>::infinity()), DVec<3>(0.0)};
+    result.high = -result.low;
+    for (const DVec<3>& point : points)
+        for (int i = 0; i < 3; ++i) {
+            const double along = dot(result.axis(i), point);
+            result.low[i] = std::min(result.low[i], along);
+            result.high[i] = std::max(result.high[i], along);
+        }
     return result;
 }
 
 /// The box rotated about one of its axes to the minimum volume.
-OrientedBox rotated_about(std::span<const DVec<3>> points, const OrientedBox& box, std::size_t about) {
-    const DVec<3>&up = box.axes[about], &right = box.axes[(about + 1) % 3], &ahead = box.axes[(about + 2) % 3];
+OrientedBox rotated_about(std::span<const DVec<3>> points, const OrientedBox& box, int about) {
+    const DVec<3>&up = box.axis(about), &right = box.axis((about + 1) % 3), &ahead = box.axis((about + 2) % 3);
     std::vector<DVec<2>> loop;
-    for (const std::uint32_t i : silhouette(points, right, ahead))
+    for (const std::uint32_t i : silhouette(points, box, about))
         loop.emplace_back(dot(right, points[i]), dot(ahead, points[i]));
     if (loop.size() < 3) return box;
     const DVec<2> along = minimum_rectangle(loop);
-    std::array<DVec<3>, 3> axes;
-    axes[about] = up;
-    axes[(about + 1) % 3] = normalized(right * along.x + ahead * along.y);
-    axes[(about + 2) % 3] = cross(up, axes[(about + 1) % 3]);
+    std::array<DVec<3>, 3> axes{up, normalized(right * along.x + ahead * along.y), DVec<3>(0.0)};
+    axes[2] = cross(up, axes[1]);
+    std::rotate(axes.begin(), axes.end() - about, axes.end());
     return box_along(points, axes);
 }
 
 OrientedBox shrunk(std::span<const DVec<3>> points, OrientedBox best) {
     int idle = 0;
     for (int turn = 0; turn < max_rotations && idle < 3; ++turn) {
-        const OrientedBox next = rotated_about(points, best, static_cast<std::size_t>(turn % 3));
+        const OrientedBox next = rotated_about(points, best, turn % 3);
         const bool less = next.volume() < best.volume() * (1 - min_gain);
         idle = less ? 0 : idle + 1;
         if (less) best = next;
@@ -100,15 +83,26 @@ double OrientedBox::volume() const {
     return size.x * size.y * size.z;
 }
 
-std::vector<std::uint32_t> silhouette(std::span<const DVec<3>> points, const DVec<3>& right, const DVec<3>& ahead) {
-    const auto across = [&](const DVec<3>& p) { return dot(right, p); };
-    const auto along = [&](const DVec<3>& p) { return dot(ahead, p); };
-    const Range x = range_of(points, across), y = range_of(points, along);
-    if (!(x.size() > 0) || !(y.size() > 0)) return {};
+DVec<3> OrientedBox::share(const DVec<3>& point) const {
+    DVec<3> result;
+    for (int i = 0; i < 3; ++i) result[i] = (dot(axis(i), point) - low[i]) / (high[i] - low[i]);
+    return result;
+}
+
+DVec<3> OrientedBox::at(const DVec<3>& share) const {
+    DVec<3> result(0.0);
+    for (int i = 0; i < 3; ++i) result += axis(i) * (low[i] + (high[i] - low[i]) * share[i]);
+    return result;
+}
+
+std::vector<std::uint32_t> silhouette(std::span<const DVec<3>> points, const OrientedBox& box, int up) {
+    const int right = (up + 1) % 3, ahead = (up + 2) % 3;
+    if (!(box.high[right] > box.low[right]) || !(box.high[ahead] > box.low[ahead])) return {};
     std::vector<Vec2> seen;
-    seen.reserve(points.size());
-    for (const DVec<3>& p : points)
-        seen.push_back(to_float(DVec<2>((across(p) - x.low) / x.size(), (along(p) - y.low) / y.size())));
+    for (const DVec<3>& point : points) {
+        const DVec<3> share = box.share(point);
+        seen.push_back(to_float(DVec<2>(share[right], share[ahead])));
+    }
     return hull_loop(seen);
 }
 

@@ -1,190 +1,174 @@
-// Simplification by edge collapse.
-
 #include <abut/convex/hull/limited/outer_hull.hpp>
 #include <abut/math/dvec.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace abut::detail {
+namespace {
+
+/// The tolerance of convexity and of containment: the corners of a hull's face aren't coplanar to more than this.
+constexpr double flatness = 1e-6;
+constexpr int max_halvings = 5;
+/// The best place of a collapse adds less than the one of the estimate. An edge whose estimate is too low is tried in
+/// vain; one whose estimate is too high comes too late.
+constexpr double optimism = 0.7;
+constexpr double min_tightening_gain = 1e-4;
+
+Plane<3> relative_to(const DVec<3>& origin, const Plane<3>& plane) {
+    return {plane.normal, plane.offset - dot(plane.normal, origin)};
+}
+
+Plane<3> plane_touching(const DVec<3>& normal, const DVec<3>& a, const DVec<3>& b, const DVec<3>& c) {
+    return {normal, std::max({dot(normal, a), dot(normal, b), dot(normal, c)})};
+}
+
+}  // namespace
+
 OuterHull::OuterHull(const ConvexSurface& surface)
     : points_(surface.points),
-      leaving_(surface.points.size(), none),
+      leaving_(surface.points.size(), no_index),
       origin_(surface.triangles.origin),
       twin_(surface.triangles.twin),
       count_(surface.points.size()),
-      version_(surface.triangles.origin.size(), 0),
-      mark_(surface.points.size(), 0) {
+      cost_(surface.triangles.origin.size(), 0) {
     for (std::uint32_t h = 0; h < origin_.size(); ++h) leaving_[origin_[h]] = h;
     for (std::uint32_t triangle = 0; triangle < surface.triangles.normals.size(); ++triangle) {
-        const DVec<3>&a = points_[corner(triangle, 0)], &b = points_[corner(triangle, 1)],
-              &c = points_[corner(triangle, 2)];
-        const DVec<3> normal = normalized(DVec<3>(surface.triangles.normals[triangle]));
-        planes_.push_back({normal, std::max({dot(normal, a), dot(normal, b), dot(normal, c)})});
-        areas_.push_back(length(cross(b - a, c - a)));
+        const DVec<3>&a = corner(triangle, 0), &b = corner(triangle, 1), &c = corner(triangle, 2);
+        planes_.push_back(plane_touching(normalized(DVec<3>(surface.triangles.normals[triangle])), a, b, c));
+        areas_.push_back(cross(b - a, c - a));
     }
 }
 
 double OuterHull::volume() const {
     double six_times = 0;
     for (std::uint32_t t = 0; t < planes_.size(); ++t)
-        if (has_triangle(t))
-            six_times += dot(cross(points_[corner(t, 0)], points_[corner(t, 1)]), points_[corner(t, 2)]);
+        if (has_triangle(t)) six_times += dot(cross(corner(t, 0), corner(t, 1)), corner(t, 2));
     return six_times / 6;
 }
 
-void OuterHull::grow(const DVec<3>& middle, const VertexGraph& inside) {
-    double factor = 1;
-    std::uint32_t highest = 0;
+OuterBody<3> OuterHull::body() const {
+    OuterBody<3> result;
+    std::vector<std::uint32_t> number(planes_.size(), 0);
     for (std::uint32_t triangle = 0; triangle < planes_.size(); ++triangle) {
         if (!has_triangle(triangle)) continue;
-        const Plane<3>& plane = planes_[triangle];
-        const double inner = dot(plane.normal, middle);
-        highest = inside.highest(plane.normal, highest);
-        factor = std::max(factor, (dot(plane.normal, inside.points()[highest]) - inner) / (plane.offset - inner));
+        number[triangle] = static_cast<std::uint32_t>(result.planes.size());
+        result.planes.push_back(planes_[triangle]);
+    }
+    for (std::uint32_t point = 0; point < points_.size(); ++point) {
+        if (leaving_[point] == no_index) continue;
+        result.corners.push_back(points_[point]);
+        std::vector<std::uint32_t>& through = result.through.emplace_back();
+        each_leaving(point, [&](std::uint32_t h) { through.push_back(number[h / 3]); });
+    }
+    return result;
+}
+
+void OuterHull::grow(SupportSearch& inside) {
+    DVec<3> middle(0.0);
+    for (const DVec<3>& point : points_) middle += point;
+    middle /= static_cast<double>(points_.size());
+    double factor = 1;
+    for (const Plane<3>& plane : planes_) {
+        const DVec<3> highest = inside.highest(plane.normal) - middle;
+        factor = std::max(factor, dot(plane.normal, highest) / relative_to(middle, plane).offset);
     }
     for (DVec<3>& point : points_) point = middle + (point - middle) * factor;
-    for (Plane<3>& plane : planes_) {
-        const double inner = dot(plane.normal, middle);
-        plane.offset = inner + (plane.offset - inner) * factor;
-    }
-    for (double& area : areas_) area *= factor * factor;
+    for (DVec<3>& area : areas_) area *= factor * factor;
+    for (Plane<3>& plane : planes_)
+        plane.offset = dot(plane.normal, middle) + relative_to(middle, plane).offset * factor;
 }
 
-void OuterHull::gather_ring(std::uint32_t half_edge) {
-    const std::uint32_t a = origin_[half_edge], b = origin_[twin_[half_edge]];
-    const std::uint32_t left = half_edge / 3, right = twin_[half_edge] / 3;
-    middle_ = (points_[a] + points_[b]) * 0.5;
+/// The triangles around a point or, if it is not `no_index`, around a half-edge from there.
+void OuterHull::gather_ring(std::uint32_t point, std::uint32_t half_edge) {
+    const bool around_edge = half_edge != no_index;
+    const std::uint32_t end = around_edge ? origin_[twin_[half_edge]] : point;
+    const std::uint32_t left = half_edge / 3, right = around_edge ? twin_[half_edge] / 3 : left;
+    middle_ = (points_[point] + points_[end]) * 0.5;
     ring_.clear();
     star_.clear();
-    each_leaving(a, [&](std::uint32_t h) {
-        star_.push_back(h / 3);
-        if (h / 3 != left && h / 3 != right) ring_.push_back(following(h));
-    });
-    each_leaving(b, [&](std::uint32_t h) {
-        if (h / 3 == left || h / 3 == right) return;
-        star_.push_back(h / 3);
-        ring_.push_back(following(h));
-    });
-    finish_ring();
-}
-
-void OuterHull::gather_ring_of_point(std::uint32_t point) {
-    middle_ = points_[point];
-    ring_.clear();
-    star_.clear();
-    each_leaving(point, [&](std::uint32_t h) {
-        star_.push_back(h / 3);
-        ring_.push_back(following(h));
-    });
-    finish_ring();
-}
-
-void OuterHull::finish_ring() {
     slope_ = DVec<3>(0.0);
-    size_ = 0;
-    for (const std::uint32_t h : ring_) {
-        const DVec<3> from = points_[origin_[h]] - middle_, to = points_[origin_[following(h)]] - middle_;
-        slope_ += cross(from, to);
-        size_ = std::max(size_, length_squared(from));
-    }
+    volume_ = size_ = 0;
+    const auto gather = [&](std::uint32_t from) {
+        each_leaving(from, [&](std::uint32_t h) {
+            const bool beside_edge = h / 3 == left || h / 3 == right;
+            if (!beside_edge || from == point) {
+                star_.push_back(h / 3);
+                slope_ += areas_[h / 3];
+                volume_ += dot(areas_[h / 3], points_[from] - middle_);
+            }
+            if (beside_edge) return;
+            ring_.push_back(following(h));
+            size_ = std::max(size_, length_squared(points_[origin_[ring_.back()]] - middle_));
+        });
+    };
+    gather(point);
+    if (around_edge) gather(end);
     size_ = std::sqrt(size_);
 }
 
-/// Six times the difference of the volumes of the ring's cones to `apex`, relative to the middle, and to the middle.
-double OuterHull::volume_to(const DVec<3>& apex) const {
-    return dot(slope_, apex);
+/// Six times the volume that is added if cones from the ring to `apex`, relative to the middle, replace the star.
+double OuterHull::added_by(const DVec<3>& apex) const {
+    return dot(slope_, apex) - volume_;
 }
 
 /// An estimate of the cost of a collapse, as six times a volume: the new point moves along the mean of the normals
 /// until it is outside of all planes.
 double OuterHull::estimated_cost(std::uint32_t half_edge) {
-    const std::uint32_t a = origin_[half_edge], b = origin_[twin_[half_edge]];
-    const std::uint32_t left = half_edge / 3, right = twin_[half_edge] / 3;
-    star_.clear();
-    each_leaving(a, [&](std::uint32_t h) { star_.push_back(h / 3); });
-    each_leaving(b, [&](std::uint32_t h) {
-        if (h / 3 != left && h / 3 != right) star_.push_back(h / 3);
-    });
-    const DVec<3> middle = (points_[a] + points_[b]) * 0.5;
-    DVec<3> direction(0.0), slope(0.0);
-    double old = 0;
-    for (const std::uint32_t triangle : star_) {
-        const Plane<3>& plane = planes_[triangle];
-        direction += plane.normal;
-        slope += plane.normal * areas_[triangle];
-        old += areas_[triangle] * (plane.offset - dot(plane.normal, middle));
-    }
+    gather_ring(origin_[half_edge], half_edge);
+    DVec<3> direction(0.0);
+    for (const std::uint32_t triangle : star_) direction += planes_[triangle].normal;
     double out = 0;
     for (const std::uint32_t triangle : star_) {
-        const Plane<3>& plane = planes_[triangle];
-        const double rise = dot(plane.normal, direction), need = plane.offset - dot(plane.normal, middle);
+        const double rise = dot(planes_[triangle].normal, direction);
         if (!(rise > 1e-3)) return std::numeric_limits<double>::max();
-        if (need > out * rise) out = need / rise;
+        out = std::max(out, relative_to(middle_, planes_[triangle]).offset / rise);
     }
-    return dot(slope, direction) * out - old;
+    return optimism * added_by(direction * out);
 }
 
 std::optional<OuterHull::Merge> OuterHull::merge_at(std::uint32_t half_edge) {
-    gather_ring(half_edge);
+    gather_ring(origin_[half_edge], half_edge);
+    // The link condition: a common neighbour beside those of the two triangles is twice on the ring, and the surface
+    // would fold there.
+    neighbours_.clear();
+    for (const std::uint32_t h : ring_) neighbours_.push_back(origin_[h]);
+    std::sort(neighbours_.begin(), neighbours_.end());
+    if (std::adjacent_find(neighbours_.begin(), neighbours_.end()) != neighbours_.end()) return std::nullopt;
     limits_.clear();
-    const auto local = [&](const Plane<3>& plane) {
-        return Plane<3>{plane.normal, plane.offset - dot(plane.normal, middle_)};
-    };
-    double old = 0;
-    for (const std::uint32_t triangle : star_) {
-        limits_.push_back(local(planes_[triangle]));
-        const DVec<3> a = points_[corner(triangle, 0)] - middle_, b = points_[corner(triangle, 1)] - middle_,
-                      c = points_[corner(triangle, 2)] - middle_;
-        old += dot(cross(a, b), c);
-    }
+    for (const std::uint32_t triangle : star_) limits_.push_back(relative_to(middle_, planes_[triangle]));
     for (const std::uint32_t h : ring_) {
-        Plane<3> outer = local(planes_[twin_[h] / 3]);
+        Plane<3> outer = relative_to(middle_, planes_[twin_[h] / 3]);
         outer.offset += flatness;
         limits_.push_back(flipped(outer));
     }
     const std::optional<DVec<3>> apex = lowest_above(limits_, slope_, size_);
     if (!apex) return std::nullopt;
     // A volume below the old one by more than rounding means that the surface would turn inside out.
-    const double added = volume_to(*apex) - old;
+    const double added = added_by(*apex);
     if (added < -1e-9 * size_ * size_ * size_) return std::nullopt;
     return Merge{*apex + middle_, added};
 }
 
-/// The link condition: two neighbours with a third common neighbour beside those of their two triangles would fold the
-/// surface.
-bool OuterHull::can_merge(std::uint32_t half_edge) {
-    if (count_ <= 4) return false;
-    ++search_;
-    each_leaving(origin_[half_edge], [&](std::uint32_t h) { mark_[origin_[twin_[h]]] = search_; });
-    std::size_t common = 0;
-    each_leaving(origin_[twin_[half_edge]],
-                 [&](std::uint32_t h) { common += mark_[origin_[twin_[h]]] == search_ ? 1u : 0u; });
-    return common == 2;
-}
-
-void OuterHull::set_plane(std::uint32_t triangle) {
-    const DVec<3>&a = points_[corner(triangle, 0)], &b = points_[corner(triangle, 1)],
-          &c = points_[corner(triangle, 2)];
-    const DVec<3> u = b - a, v = c - a, normal = cross(u, v);
-    const double area = length(normal);
-    areas_[triangle] = area;
-    const double longest = std::max(length_squared(u), length_squared(v));
-    if (!(area > 1e-10 * longest)) return;
-    planes_[triangle].normal = normal / area;
-    planes_[triangle].offset = std::max(
-        {dot(planes_[triangle].normal, a), dot(planes_[triangle].normal, b), dot(planes_[triangle].normal, c)});
+/// The planes of the triangles around a moved point. A degenerate one takes that of its neighbour across the ring.
+void OuterHull::set_planes_of_ring() {
+    for (const std::uint32_t h : ring_) {
+        const std::uint32_t triangle = h / 3;
+        const DVec<3>&a = corner(triangle, 0), &b = corner(triangle, 1), &c = corner(triangle, 2);
+        const DVec<3> area = areas_[triangle] = cross(b - a, c - a);
+        const bool degenerate = !(length(area) > 1e-10 * std::max(length_squared(b - a), length_squared(c - a)));
+        planes_[triangle] = degenerate ? planes_[twin_[h] / 3] : plane_touching(area / length(area), a, b, c);
+    }
 }
 
 /// Edge collapse: the first end of the half-edge moves to `point`; the other end and the two triangles are removed.
 void OuterHull::merge(std::uint32_t half_edge, const DVec<3>& point) {
-    gather_ring(half_edge);
     const std::uint32_t a = origin_[half_edge], b = origin_[twin_[half_edge]];
+    gather_ring(a, half_edge);
     each_leaving(b, [&](std::uint32_t h) { origin_[h] = a; });
     points_[a] = point;
-    leaving_[b] = none;
+    leaving_[b] = no_index;
     for (const std::uint32_t side : {half_edge, twin_[half_edge]}) {
         const std::uint32_t first = following(side), second = following(first);
         const std::uint32_t one = twin_[first], other = twin_[second];
@@ -193,67 +177,96 @@ void OuterHull::merge(std::uint32_t half_edge, const DVec<3>& point) {
         twin_[one] = other;
         twin_[other] = one;
     }
-    // A degenerate triangle takes the plane of its neighbour across the ring.
-    for (const std::uint32_t h : ring_) {
-        planes_[h / 3] = planes_[twin_[h] / 3];
-        set_plane(h / 3);
-    }
+    set_planes_of_ring();
     for (const std::uint32_t side : {half_edge, twin_[half_edge]})
-        for (const std::uint32_t h : {side, following(side), following(following(side))}) origin_[h] = none;
+        for (const std::uint32_t h : {side, following(side), following(following(side))}) origin_[h] = no_index;
     --count_;
 }
 
-void OuterHull::push(std::uint32_t half_edge) {
-    if (twin_[half_edge] < half_edge) half_edge = twin_[half_edge];
-    heap_.push_back({estimated_cost(half_edge), half_edge, ++version_[half_edge]});
-}
-
-namespace {
-
-constexpr auto later = [](const auto& a, const auto& b) {
-    return a.cost != b.cost ? a.cost > b.cost : a.half_edge > b.half_edge;
-};
-
-}  // namespace
-
-void OuterHull::push_all() {
-    heap_.clear();
-    for (std::uint32_t h = 0; h < origin_.size(); ++h)
-        if (origin_[h] != none && h < twin_[h]) push(h);
-    std::make_heap(heap_.begin(), heap_.end(), later);
+void OuterHull::set_cost(std::uint32_t half_edge, double cost) {
+    const std::uint32_t edge = std::min(half_edge, twin_[half_edge]);
+    cost_[edge] = cost;
+    cheapest_.push({cost, edge});
 }
 
 void OuterHull::simplify(std::size_t count) {
-    bool fresh = false;
+    bool fresh = false;  // whether no collapse succeeded since all edges were tried
     while (count_ > count) {
-        if (heap_.empty()) {
+        if (cheapest_.empty()) {
             if (fresh) return;
-            push_all();
+            for (std::uint32_t h = 0; h < origin_.size(); ++h)
+                if (origin_[h] != no_index && h < twin_[h]) set_cost(h, estimated_cost(h));
             fresh = true;
-            if (heap_.empty()) return;
         }
-        std::pop_heap(heap_.begin(), heap_.end(), later);
-        const HeapEntry next = heap_.back();
-        heap_.pop_back();
-        if (origin_[next.half_edge] == none || version_[next.half_edge] != next.version) continue;
-        if (!can_merge(next.half_edge)) continue;
-        const std::optional<Merge> found = merge_at(next.half_edge);
+        const auto [cost, edge] = cheapest_.top();
+        cheapest_.pop();
+        if (origin_[edge] == no_index || edge > twin_[edge] || cost != cost_[edge]) continue;
+        const std::optional<Merge> found = merge_at(edge);
         if (!found) continue;
-        if (!heap_.empty() && found->added > heap_.front().cost && found->added > next.cost) {
-            heap_.push_back({found->added, next.half_edge, next.version});
-            std::push_heap(heap_.begin(), heap_.end(), later);
+        if (!cheapest_.empty() && found->added > cheapest_.top().first && found->added > cost) {
+            set_cost(edge, found->added);
             continue;
         }
-        const std::uint32_t survivor = origin_[next.half_edge];
-        merge(next.half_edge, found->point);
+        const std::uint32_t survivor = origin_[edge];
+        merge(edge, found->point);
         fresh = false;
-        std::vector<std::uint32_t> again;
-        each_leaving(survivor, [&](std::uint32_t h) { again.push_back(h); });
-        for (const std::uint32_t h : again) {
-            const std::size_t before = heap_.size();
-            push(h);
-            if (heap_.size() > before) std::push_heap(heap_.begin(), heap_.end(), later);
+        each_leaving(survivor, [&](std::uint32_t h) { set_cost(h, estimated_cost(h)); });
+    }
+}
+
+/// The constraints of a corner: above the plane through each edge of the ring that touches `inside`, so that it stays
+/// contained, and below the planes across the ring, so that the surface stays convex.
+void OuterHull::cut_around(std::uint32_t point, SupportSearch& inside) {
+    gather_ring(point, no_index);
+    limits_.clear();
+    for (const std::uint32_t h : ring_) {
+        const Plane<3>& outer = planes_[twin_[h] / 3];
+        const DVec<3> from = points_[origin_[h]], along = points_[origin_[twin_[h]]] - from;
+        const DVec<3> on = normalized(cross(outer.normal, along));
+        const DVec<3> seen = inside.first_touched(from, on, outer.normal, 1e-12 * length(along)) - from;
+        const double x = dot(on, seen), y = std::max(0.0, -dot(outer.normal, seen));
+        const DVec<3> normal = normalized(outer.normal * x + on * y), local = from - middle_;
+        limits_.push_back({normal, dot(normal, local)});
+        limits_.push_back(flipped<3>({outer.normal, dot(outer.normal, local) + flatness}));
+    }
+}
+
+/// Whether a corner can move: its triangles then contain `inside`, and stay convex.
+bool OuterHull::fits(std::uint32_t point, const DVec<3>& at, SupportSearch& inside) {
+    bool result = true;
+    each_leaving(point, [&](std::uint32_t h) {
+        if (!result) return;
+        // Across the edge h: the third corner of the neighbouring triangle.
+        const DVec<3> b = points_[origin_[following(h)]], c = points_[origin_[following(following(h))]],
+                      d = points_[origin_[following(following(twin_[h]))]];
+        const DVec<3> normal = cross(b - at, c - at);
+        const double tolerance = flatness * length(normal);
+        result = dot(normal, d - at) <= 2 * tolerance && dot(normal, inside.highest(normal) - at) <= tolerance;
+    });
+    return result;
+}
+
+void OuterHull::tighten(SupportSearch& inside, int rounds) {
+    for (int round = 0; round < rounds; ++round) {
+        double gain = 0, size = 0;
+        for (std::uint32_t point = 0; point < points_.size(); ++point) {
+            if (leaving_[point] == no_index) continue;
+            cut_around(point, inside);
+            size = std::max(size, size_);
+            const std::optional<DVec<3>> found = lowest_above(limits_, slope_, size_);
+            if (!found || !(added_by(*found) < 0)) continue;
+            DVec<3> step = *found;
+            int halvings = 0;
+            while (halvings < max_halvings && !fits(point, middle_ + step, inside)) {
+                ++halvings;
+                step *= 0.5;
+            }
+            if (halvings == max_halvings) continue;
+            gain -= added_by(step);
+            points_[point] = middle_ + step;
+            set_planes_of_ring();
         }
+        if (!(gain > min_tightening_gain * size * size * size)) return;
     }
 }
 

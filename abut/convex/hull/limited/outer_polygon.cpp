@@ -1,79 +1,69 @@
+#include <abut/convex/farthest_point.hpp>
+#include <abut/convex/hull/limited/minimum_box.hpp>
 #include <abut/convex/hull/limited/outer_polygon.hpp>
 #include <abut/math/dvec.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
+#include <functional>
 #include <optional>
 #include <queue>
+#include <utility>
 
 namespace abut::detail {
 namespace {
 
-constexpr int max_rounds = 40;
-constexpr std::size_t max_chosen_edges = 12, pool = 32;
+constexpr int max_tightenings = 40;
 
 /// One of the remaining lines, in a ring.
 struct Line {
     DVec<2> direction{0.0};             ///< of length 1, the inner loop to its left
     DVec<2> start{0.0};                 ///< the intersection with the line before
-    std::uint32_t first = 0, last = 0;  ///< the corners of the inner loop on it: two neighbours, or one
+    std::uint32_t first = 0, last = 0;  ///< the extreme corners of the inner loop across it: two neighbours, or one
     std::uint32_t before = 0, after = 0;
-    std::uint32_t version = 0;
+    double cost = 0;  ///< the area that its removal adds
     bool alive = true;
 };
 
 class OuterPolygon {
 public:
-    explicit OuterPolygon(std::span<const DVec<2>> inner) : inner_(inner), lines_(inner.size()), count_(inner.size()) {
-        const auto size = static_cast<std::uint32_t>(inner.size());
+    /// The lines along the edges of `outer`, which contains the inner loop.
+    OuterPolygon(std::span<const DVec<2>> inner, std::span<const DVec<2>> outer)
+        : inner_(inner), lines_(outer.size()), count_(outer.size()) {
+        const auto size = static_cast<std::uint32_t>(outer.size());
+        std::uint32_t touched = farthest_of(inner, [&](const DVec<2>& p) { return cross(p, outer[1] - outer[0]); });
         for (std::uint32_t i = 0; i < size; ++i) {
-            const std::uint32_t end = next(i);
-            lines_[i] = {normalized(inner[end] - inner[i]), inner[i], i, end, i == 0 ? size - 1 : i - 1, end};
+            const std::uint32_t end = i + 1 == size ? 0 : i + 1;
+            lines_[i] = {normalized(outer[end] - outer[i]), outer[i], 0, 0, i == 0 ? size - 1 : i - 1, end};
+            const auto rise = [&](std::uint32_t from) {
+                return cross(lines_[i].direction, normalized(inner_[next(from)] - inner_[from]));
+            };
+            constexpr double level = 1e-12;
+            while (rise(touched) < -level) touched = next(touched);
+            lines_[i].first = touched;
+            if (rise(touched) <= level) touched = next(touched);
+            lines_[i].last = touched;
         }
     }
 
-    void reduce(std::size_t count);
-    void choose(std::size_t count);
+    void simplify(std::size_t count);
     void tighten();
-    std::vector<DVec<2>> corners() const;
+    Loop2 corners() const;
     std::size_t count() const { return count_; }
 
 private:
-    struct Removal {
-        double area;
-        std::uint32_t line, version;
-    };
-    struct HigherCost {
-        bool operator()(const Removal& a, const Removal& b) const {
-            return a.area != b.area ? a.area > b.area : a.line > b.line;
-        }
-    };
-    /// The direction along the inner loop in which a line has to roll.
-    enum class Roll { back, here, on };
-    /// A line between two others, and its end.
-    struct Cut {
-        Line line;
-        Roll roll;
-        DVec<2> to{0.0};
-    };
-
     std::uint32_t next(std::uint32_t i) const { return i + 1 == inner_.size() ? 0 : i + 1; }
     std::uint32_t some_line() const;
     std::optional<DVec<2>> apex_over(std::uint32_t line) const;
     void push(std::uint32_t line);
-    void remove(std::uint32_t line, const DVec<2>& apex);
-    void find_touched(Line& line) const;
-    void make_triangle();
-    Cut cut_along(const Line& before, const Line& after, std::uint32_t edge) const;
     double put_best(std::uint32_t line);
 
     std::span<const DVec<2>> inner_;
     std::vector<Line> lines_;
     std::size_t count_;
-    std::priority_queue<Removal, std::vector<Removal>, HigherCost> queue_;
+    using Removal = std::pair<double, std::uint32_t>;  ///< the cost of a line, and its number
+    std::priority_queue<Removal, std::vector<Removal>, std::greater<>> cheapest_;
 };
 
 std::uint32_t OuterPolygon::some_line() const {
@@ -95,158 +85,29 @@ std::optional<DVec<2>> OuterPolygon::apex_over(std::uint32_t line) const {
 }
 
 void OuterPolygon::push(std::uint32_t line) {
-    ++lines_[line].version;
     const std::optional<DVec<2>> apex = apex_over(line);
-    if (!apex) return;
     const DVec<2>&a = lines_[line].start, &b = lines_[lines_[line].after].start;
-    queue_.push({std::abs(cross(*apex - a, b - a)), line, lines_[line].version});
+    lines_[line].cost = apex ? std::abs(cross(*apex - a, b - a)) : -1;
+    if (apex) cheapest_.push({lines_[line].cost, line});
 }
 
-void OuterPolygon::remove(std::uint32_t line, const DVec<2>& apex) {
-    Line& gone = lines_[line];
-    gone.alive = false;
-    lines_[gone.before].after = gone.after;
-    lines_[gone.after].before = gone.before;
-    lines_[gone.after].start = apex;
-    --count_;
-}
-
-void OuterPolygon::reduce(std::size_t count) {
-    for (std::uint32_t i = 0; i < lines_.size(); ++i)
-        if (lines_[i].alive) push(i);
-    while (count_ > count && count_ > 4 && !queue_.empty()) {
-        const Removal next = queue_.top();
-        queue_.pop();
-        const Line& line = lines_[next.line];
-        if (!line.alive || line.version != next.version) continue;
-        remove(next.line, *apex_over(next.line));
+/// Removes lines until `count` are left, or none of them has neighbours that intersect beyond it.
+void OuterPolygon::simplify(std::size_t count) {
+    for (std::uint32_t i = 0; i < lines_.size(); ++i) push(i);
+    while (count_ > count && !cheapest_.empty()) {
+        const auto [cost, line] = cheapest_.top();
+        cheapest_.pop();
+        Line& gone = lines_[line];
+        if (!gone.alive || gone.cost != cost) continue;
+        lines_[gone.after].start = *apex_over(line);
+        gone.alive = false;
+        lines_[gone.before].after = gone.after;
+        lines_[gone.after].before = gone.before;
+        --count_;
         for (const std::uint32_t changed :
-             {line.before, line.after, lines_[line.before].before, lines_[line.after].after})
+             {gone.before, gone.after, lines_[gone.before].before, lines_[gone.after].after})
             push(changed);
     }
-    if (count == 3 && count_ == 4) make_triangle();
-}
-
-/// Chooses the `count` lines of minimum area, all along edges of the inner loop, by dynamic programming from each
-/// possible first line.
-void OuterPolygon::choose(std::size_t count) {
-    constexpr double never = std::numeric_limits<double>::max();
-    std::vector<std::uint32_t> numbers;
-    for (std::uint32_t i = 0; i < lines_.size(); ++i)
-        if (lines_[i].alive) numbers.push_back(i);
-    const std::size_t size = numbers.size();
-    const auto line = [&](std::size_t i) -> const Line& { return lines_[numbers[i % size]]; };
-
-    // Twice the area between two lines and the inner loop.
-    std::vector<double> around(inner_.size() + 1, 0);
-    for (std::uint32_t i = 0; i < inner_.size(); ++i) around[i + 1] = around[i] + cross(inner_[i], inner_[next(i)]);
-    std::vector<double> between(size * size, never);
-    for (std::size_t i = 0; i < size; ++i)
-        for (std::size_t j = i + 1; j < i + size; ++j) {
-            const DVec<2>&a = inner_[line(i).last], &b = inner_[line(j).first];
-            const double turn = cross(line(i).direction, line(j).direction);
-            if (!(turn > 1e-9)) continue;
-            const DVec<2> apex = a + line(i).direction * (cross(b - a, line(j).direction) / turn);
-            double outline = around[line(j).first] - around[line(i).last];
-            if (line(j).first < line(i).last) outline += around.back();
-            between[i * size + j % size] = cross(a, apex) + cross(apex, b) - outline;
-        }
-
-    double min_area = never;
-    std::vector<std::size_t> best;
-    std::vector<double> cost(count * size);
-    std::vector<std::size_t> from(count * size);
-    for (std::size_t start = 0; start + count <= size; ++start) {
-        std::fill(cost.begin(), cost.end(), never);
-        cost[start] = 0;
-        for (std::size_t step = 1; step < count; ++step)
-            for (std::size_t i = start; i < size; ++i) {
-                const double so_far = cost[(step - 1) * size + i];
-                if (!(so_far < min_area)) continue;
-                for (std::size_t j = i + 1; j < size; ++j) {
-                    const double more = between[i * size + j];
-                    if (more == never || !(so_far + more < cost[step * size + j])) continue;
-                    cost[step * size + j] = so_far + more;
-                    from[step * size + j] = i;
-                }
-            }
-        for (std::size_t last = start; last < size; ++last) {
-            const double so_far = cost[(count - 1) * size + last], more = between[last * size + start];
-            if (so_far == never || more == never || !(so_far + more < min_area)) continue;
-            min_area = so_far + more;
-            best.assign(count, last);
-            for (std::size_t step = count - 1; step > 0; --step) best[step - 1] = from[step * size + best[step]];
-        }
-    }
-    if (best.empty()) return;
-    std::vector<bool> chosen(lines_.size(), false);
-    for (const std::size_t i : best) chosen[numbers[i]] = true;
-    for (const std::uint32_t number : numbers)
-        if (!chosen[number]) remove(number, lines_[number].start);
-    for (const std::size_t i : best) {
-        Line& here = lines_[numbers[i]];
-        const Line& before = lines_[here.before];
-        const DVec<2> offset = inner_[here.first] - inner_[before.last];
-        here.start = inner_[before.last] +
-                     before.direction * (cross(offset, here.direction) / cross(before.direction, here.direction));
-    }
-}
-
-/// The corner of the inner loop farthest outside of a line, or the edge along it.
-void OuterPolygon::find_touched(Line& line) const {
-    std::uint32_t touched = 0;
-    for (std::uint32_t i = 1; i < inner_.size(); ++i)
-        if (cross(line.direction, inner_[i] - inner_[touched]) < 0) touched = i;
-    const auto along = [&](std::uint32_t from, std::uint32_t to) {
-        const DVec<2> edge = inner_[to] - inner_[from];
-        return std::abs(cross(line.direction, edge)) <= 1e-12 * length(edge);
-    };
-    const std::uint32_t before = touched == 0 ? static_cast<std::uint32_t>(inner_.size()) - 1 : touched - 1;
-    line.first = along(before, touched) ? before : touched;
-    line.last = along(touched, next(touched)) ? next(touched) : touched;
-}
-
-/// Replaces four corners by three: two adjacent edges stay, and the third edge has the opposite corner as its midpoint,
-/// or runs along one of the other two edges. It takes the smallest area.
-void OuterPolygon::make_triangle() {
-    const std::vector<DVec<2>> quad = corners();
-    double min_area = std::numeric_limits<double>::max();
-    std::array<DVec<2>, 3> best{};
-    const auto offer = [&](const DVec<2>& a, const DVec<2>& b, const DVec<2>& c) {
-        const double area = cross(b - a, c - a);
-        if (!(area < min_area)) return;
-        min_area = area;
-        best = {a, b, c};
-    };
-    for (std::size_t i = 0; i < 4; ++i) {
-        const DVec<2>& a = quad[i];
-        const DVec<2> b = quad[(i + 1) % 4] - a, c = quad[(i + 2) % 4] - a, d = quad[(i + 3) % 4] - a;
-        const double x = cross(c, d) / cross(b, d), y = cross(b, c) / cross(b, d);  // c = b x + d y
-        if (x >= 0.5 && y >= 0.5) offer(a, a + b * (2 * x), a + d * (2 * y));
-        const double turn = cross(b, c - d), along = cross(d, c - d) / turn;
-        if (turn < 0 && along < std::numeric_limits<double>::max()) offer(a, a + b * along, a + d);
-    }
-    lines_.assign(3, {});
-    for (std::uint32_t i = 0; i < 3; ++i) {
-        const DVec<2> direction = normalized(best[(i + 1) % 3] - best[i]);
-        lines_[i] = {direction, best[i], 0, 0, (i + 2) % 3, (i + 1) % 3};
-        find_touched(lines_[i]);
-    }
-    count_ = 3;
-}
-
-/// The line along an edge of the inner loop, between its two neighbours.
-OuterPolygon::Cut OuterPolygon::cut_along(const Line& before, const Line& after, std::uint32_t edge) const {
-    const DVec<2>& origin = inner_[edge];
-    const DVec<2> direction = inner_[next(edge)] - origin;
-    const double in = cross(before.direction, direction), out = cross(direction, after.direction);
-    if (!(in > 0)) return {{}, Roll::back};
-    if (!(out > 0)) return {{}, Roll::on};
-    const DVec<2> from = before.start + before.direction * (cross(origin - before.start, direction) / in);
-    const DVec<2> to = origin + direction * (cross(after.start - origin, after.direction) / out);
-    const double middle = dot((from + to) * 0.5 - origin, direction);
-    const Roll roll = middle < 0 ? Roll::back : middle > length_squared(direction) ? Roll::on : Roll::here;
-    return {{normalized(direction), from, edge, next(edge)}, roll, to};
 }
 
 /// Moves a line between its neighbours to the minimum area, and returns the gain.
@@ -257,41 +118,52 @@ double OuterPolygon::put_best(std::uint32_t line) {
     if (std::abs(turn) < 1e-9) return 0;
     const DVec<2> apex = before.start + before.direction * (cross(after.start - before.start, after.direction) / turn);
 
-    // The line rolls along the inner loop until it touches with its midpoint.
+    // The line rolls along the inner loop until it touches with its midpoint, in an edge or a corner.
     const auto size = static_cast<std::uint32_t>(inner_.size());
-    std::uint32_t low = 0, high = (after.first + size - before.last) % size;
-    std::optional<Cut> found;
+    std::uint32_t low = before.last, high = low + (after.first + size - low) % size;
+    Line best;
+    DVec<2> to(0.0);
+    bool found = false;
     while (low < high && !found) {
-        const std::uint32_t middle = low + (high - low) / 2;
-        const Cut cut = cut_along(before, after, (before.last + middle) % size);
-        if (cut.roll == Roll::here) found = cut;
-        if (cut.roll == Roll::back) high = middle;
-        if (cut.roll == Roll::on) low = middle + 1;
+        const std::uint32_t middle = low + (high - low) / 2, edge = middle % size;
+        const DVec<2>& origin = inner_[edge];
+        const DVec<2> along = inner_[next(edge)] - origin;
+        const double in = cross(before.direction, along), out = cross(along, after.direction);
+        best.start = before.start + before.direction * (cross(origin - before.start, along) / in);
+        to = origin + along * (cross(after.start - origin, after.direction) / out);
+        best.first = edge;
+        best.last = next(edge);
+        const double reach = dot((best.start + to) * 0.5 - origin, along);
+        if (!(in > 0) || (out > 0 && reach < 0))
+            high = middle;
+        else if (!(out > 0) || reach > length_squared(along))
+            low = middle + 1;
+        else
+            found = true;
     }
     if (!found) {
-        const std::uint32_t touched = (before.last + low) % size;
-        const DVec<2> seen = inner_[touched] - apex;  // before.direction x + after.direction y
+        best.first = best.last = low % size;
+        const DVec<2>&previous = inner_[(low + size - 1) % size], &at = inner_[low % size];
+        const DVec<2> seen = at - apex;  // before.direction x + after.direction y
         const double x = cross(seen, after.direction) / turn, y = cross(before.direction, seen) / turn;
-        const DVec<2> from = apex + before.direction * (2 * x), to = apex + after.direction * (2 * y);
-        const DVec<2>&previous = inner_[(touched + size - 1) % size], &at = inner_[touched];
-        if (from == to || !(cross(at - previous, to - from) >= 0) ||
-            !(cross(to - from, inner_[next(touched)] - at) >= 0))
+        best.start = apex + before.direction * (2 * x);
+        to = apex + after.direction * (2 * y);
+        if (best.start == to || !(cross(at - previous, to - best.start) >= 0) ||
+            !(cross(to - best.start, inner_[next(best.last)] - at) >= 0))
             return 0;
-        found = Cut{{normalized(to - from), from, touched, touched}, Roll::here, to};
     }
-    const double gain =
-        cross(after.start - apex, here.start - apex) * -1 - cross(found->to - apex, found->line.start - apex) * -1;
+    const double gain = cross(here.start - apex, after.start - apex) - cross(best.start - apex, to - apex);
     if (!(gain > 0)) return 0;
-    here.direction = found->line.direction;
-    here.start = found->line.start;
-    here.first = found->line.first;
-    here.last = found->line.last;
-    after.start = found->to;
+    here.direction = normalized(to - best.start);
+    here.start = best.start;
+    here.first = best.first;
+    here.last = best.last;
+    after.start = to;
     return gain;
 }
 
 void OuterPolygon::tighten() {
-    for (int round = 0; round < max_rounds; ++round) {
+    for (int round = 0; round < max_tightenings; ++round) {
         double gain = 0, size = 0;
         const std::uint32_t first = some_line();
         std::uint32_t line = first;
@@ -304,8 +176,8 @@ void OuterPolygon::tighten() {
     }
 }
 
-std::vector<DVec<2>> OuterPolygon::corners() const {
-    std::vector<DVec<2>> result;
+Loop2 OuterPolygon::corners() const {
+    Loop2 result;
     const std::uint32_t first = some_line();
     std::uint32_t line = first;
     do {
@@ -315,17 +187,67 @@ std::vector<DVec<2>> OuterPolygon::corners() const {
     return result;
 }
 
+/// The corners whose edges have directions, and different ones, beyond rounding.
+Loop2 distinct_corners(std::span<const DVec<2>> loop) {
+    const auto is_straight = [](const DVec<2>& a, const DVec<2>& b, const DVec<2>& c) {
+        constexpr double rounding = 1e-12;
+        const DVec<2> in = b - a, out = c - b;
+        return length(in) <= rounding || length(out) <= rounding || cross(normalized(in), normalized(out)) <= rounding;
+    };
+    Loop2 result;
+    const auto remove_straight = [&](const DVec<2>& next) {
+        while (result.size() > 1 && is_straight(result[result.size() - 2], result.back(), next)) result.pop_back();
+    };
+    for (const DVec<2>& point : loop) {
+        remove_straight(point);
+        result.push_back(point);
+    }
+    remove_straight(result[0]);
+    if (result.size() > 2 && is_straight(result.back(), result[0], result[1])) result.erase(result.begin());
+    return result;
+}
+
+/// The minimum oriented rectangle, or a triangle of twice its area around it.
+Loop2 rectangle_around(std::span<const DVec<2>> inner, bool as_triangle, const Affine<2>& seen) {
+    Loop2 loop;
+    for (const DVec<2>& point : inner) loop.push_back(seen.vector(point));
+    const DVec<2> along = minimum_rectangle(loop), across(-along.y, along.x);
+    const auto reach = [&](const DVec<2>& direction) {
+        return dot(direction, loop[farthest_of(loop, [&](const DVec<2>& p) { return dot(direction, p); })]);
+    };
+    const double left = -reach(-along), low = -reach(-across);
+    const DVec<2> corner = along * left + across * low, right = along * (reach(along) - left),
+                  up = across * (reach(across) - low);
+    loop = {corner, corner + right, corner + right + up, corner + up};
+    if (as_triangle) loop = {corner, corner + right * 2.0, corner + up * 2.0};
+    const Affine<2> back = inverse(seen, determinant(seen));
+    for (DVec<2>& point : loop) point = back.vector(point);
+    if (area_of(loop) < 0) std::reverse(loop.begin(), loop.end());
+    return loop;
+}
+
 }  // namespace
 
-std::vector<DVec<2>> outer_polygon(std::span<const DVec<2>> loop, std::size_t count) {
-    OuterPolygon outer(loop);
-    if (count <= max_chosen_edges) {
-        outer.reduce(std::max<std::size_t>(pool, count));
-        if (outer.count() > count) outer.choose(count);
+double area_of(std::span<const DVec<2>> loop) {
+    double twice = 0;
+    for (std::size_t i = 1; i + 1 < loop.size(); ++i) twice += cross(loop[i] - loop[0], loop[i + 1] - loop[0]);
+    return 0.5 * twice;
+}
+
+std::vector<Loop2> outer_polygons(std::span<const DVec<2>> loop, std::size_t count, const Affine<2>& seen) {
+    const Loop2 inner = distinct_corners(loop);
+    if (inner.size() < 3) return {};
+    OuterPolygon simplified(inner, inner), rectangle(inner, rectangle_around(inner, count == 3, seen));
+    simplified.simplify(count);
+    std::vector<Loop2> result;
+    for (OuterPolygon* polygon : {&simplified, &rectangle}) {
+        if (polygon->count() > count) continue;
+        polygon->tighten();
+        result.push_back(polygon->corners());
     }
-    outer.reduce(count);
-    outer.tighten();
-    return outer.corners();
+    std::stable_sort(result.begin(), result.end(),
+                     [](const Loop2& a, const Loop2& b) { return area_of(a) < area_of(b); });
+    return result;
 }
 
 }  // namespace abut::detail

@@ -1,12 +1,12 @@
 #include <abut/convex/hull/hull_input.hpp>
 #include <abut/convex/hull/limited/round_outwards.hpp>
+#include <abut/math/detail/round_outwards.hpp>
 #include <abut/math/dvec.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <vector>
+#include <utility>
 
 namespace abut::detail {
 namespace {
@@ -15,28 +15,23 @@ namespace {
 /// rounding of doubles is far smaller. Floats near 0 are closer together than that.
 constexpr double min_rise = 2e-11;
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
+/// A plane this far inside of the points is that of a triangle that rounding has folded over.
+constexpr double folded = 1e-3;
 
-/// The floats below and above a number.
-std::array<float, 2> around(double value) {
-    const auto nearest = static_cast<float>(value);
-    const auto back = static_cast<double>(nearest);
-    if (back == value) return {nearest, nearest};
-    return back < value ? std::array{nearest, std::nextafter(nearest, infinity)}
-                        : std::array{std::nextafter(nearest, -infinity), nearest};
-}
+/// Hulls that miss a point are tried again, farther out.
+constexpr int max_margins = 14;
+constexpr double first_margin = 0x1p-40, margin_factor = 8;
 
 /// The lowest of the float points around a position in the world that are above all planes.
 template <int D>
 std::optional<Vec<D>> lowest_around(const DVec<D>& place, std::span<const Plane<D>> planes,
                                     const StretchedFrame<D>& frame) {
-    std::array<std::array<float, 2>, static_cast<std::size_t>(D)> floats{};
-    for (int i = 0; i < D; ++i) floats[static_cast<std::size_t>(i)] = around(place[i]);
     std::optional<Vec<D>> result;
     double min_sum = std::numeric_limits<double>::max();
     for (unsigned choice = 0; choice < 1u << D; ++choice) {
         Vec<D> candidate;
-        for (int i = 0; i < D; ++i) candidate[i] = floats[static_cast<std::size_t>(i)][choice >> i & 1u];
+        for (int i = 0; i < D; ++i)
+            candidate[i] = (choice >> i & 1u) == 0 ? float_at_most(place[i]) : float_at_least(place[i]);
         if (!is_finite<D>(candidate)) continue;
         const DVec<D> seen = frame.from_world(DVec<D>(candidate));
         double sum = 0;
@@ -84,11 +79,12 @@ DVec<3> raised(const DVec<3>& corner, std::span<const Plane<3>> planes, std::spa
 /// The distance to the next float.
 double spacing(double value) {
     const auto near = static_cast<float>(std::abs(value));
-    return static_cast<double>(std::nextafter(near, infinity)) - static_cast<double>(near);
+    return static_cast<double>(next_up(near)) - static_cast<double>(near);
 }
 
-}  // namespace
-
+/// A float point near `corner` that is above, or on, all planes of the corner. Then it contains all that the planes and
+/// the corner contain. Corner and planes are in the frame, the point is in the world; -0 becomes 0. Nothing if there is
+/// none in the range of floats. Above is meant to the rounding of doubles.
 template <int D>
 std::optional<Vec<D>> rounded_corner(const DVec<D>& corner, std::span<const Plane<D>> planes,
                                      const StretchedFrame<D>& frame) {
@@ -109,42 +105,70 @@ std::optional<Vec<D>> rounded_corner(const DVec<D>& corner, std::span<const Plan
     return std::nullopt;
 }
 
-template <>
-std::vector<DVec<2>> around_unit_cube<2>(std::size_t limit) {
-    if (limit < 4) return {{0, 0}, {2, 0}, {0, 2}};
-    return {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-}
-
-template <>
-std::vector<DVec<3>> around_unit_cube<3>(std::size_t limit) {
-    if (limit < 5) return {{0, 0, 0}, {3, 0, 0}, {0, 3, 0}, {0, 0, 3}};
-    if (limit < 6) return {{-0.25, -0.25, 0}, {1.25, -0.25, 0}, {1.25, 1.25, 0}, {-0.25, 1.25, 0}, {0.5, 0.5, 3}};
-    if (limit < 8) return {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 1}, {2, 0, 1}, {0, 2, 1}};
-    return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};
-}
-
+/// The corners of a body in floats: outside of their planes by `margin`, after these were moved outwards to all points.
+/// Nothing if one leaves the range of floats.
 template <int D>
-std::vector<Vec<D>> corners_of_box(std::span<const Vec<D>> points, std::size_t limit, double growth) {
-    const DVec<D> low = min_corner<D>(points), high = max_corner<D>(points);
-    const bool pyramid = D == 3 && limit == 5;
+std::optional<std::vector<Vec<D>>> rounded_corners(const OuterBody<D>& body, std::span<const DVec<D>> points,
+                                                   double margin, const StretchedFrame<D>& frame) {
+    std::vector<Plane<D>> planes = body.planes, through;
+    std::vector<bool> is_folded;
+    for (Plane<D>& plane : planes) {
+        const double offset = plane.offset;
+        for (const DVec<D>& point : points) plane.offset = std::max(plane.offset, dot(plane.normal, point));
+        is_folded.push_back(D == 3 && plane.offset - offset > folded);
+        plane.offset += margin;
+    }
     std::vector<Vec<D>> result;
-    for (const DVec<D>& unit : around_unit_cube<D>(pyramid ? 4 : limit)) {
-        Vec<D> corner;
-        for (int i = 0; i < D; ++i) {
-            const double legs = unit[i] * (1 + growth), beyond = low[i] + (high[i] - low[i]) * legs;
-            corner[i] = unit[i] == 0   ? static_cast<float>(low[i])
-                        : unit[i] == 1 ? static_cast<float>(high[i])
-                                       : std::nextafter(static_cast<float>(beyond), infinity);
-        }
-        if (!is_finite<D>(corner)) return {};
-        result.push_back(without_negative_zero(corner));
+    for (std::size_t i = 0; i < body.corners.size(); ++i) {
+        through.clear();
+        for (const std::uint32_t plane : body.through[i])
+            if (!is_folded[plane]) through.push_back(planes[plane]);
+        const std::optional<Vec<D>> corner = rounded_corner<D>(body.corners[i], through, frame);
+        if (!corner) return std::nullopt;
+        result.push_back(*corner);
     }
     return result;
 }
 
-template std::vector<Vec2> corners_of_box(std::span<const Vec2>, std::size_t, double);
-template std::vector<Vec3> corners_of_box(std::span<const Vec3>, std::size_t, double);
-template std::optional<Vec2> rounded_corner(const DVec<2>&, std::span<const Plane<2>>, const StretchedFrame<2>&);
-template std::optional<Vec3> rounded_corner(const DVec<3>&, std::span<const Plane<3>>, const StretchedFrame<3>&);
+}  // namespace
+
+template <int D>
+std::optional<HullOf<D>> smallest_rounded(std::vector<OuterBody<D>> bodies, std::span<const Vec<D>> points,
+                                          std::size_t limit, const StretchedFrame<D>& frame) {
+    std::vector<DVec<D>> seen;
+    for (const Vec<D>& point : points) seen.push_back(frame.from_world(DVec<D>(point)));
+    std::optional<HullOf<D>> best;
+    if (limit >= 1u << D) {
+        const DVec<D> low = min_corner<D>(points), high = max_corner<D>(points);
+        std::vector<Vec<D>> box;
+        for (unsigned choice = 0; choice < 1u << D; ++choice) {
+            DVec<D> corner;
+            for (int i = 0; i < D; ++i) corner[i] = (choice >> i & 1u) == 0 ? low[i] : high[i];
+            box.push_back(without_negative_zero(to_float(corner)));
+        }
+        best = hull_around(box, points, frame);
+    }
+    std::stable_sort(bodies.begin(), bodies.end(), [](const auto& a, const auto& b) { return a.size < b.size; });
+    for (const OuterBody<D>& body : bodies) {
+        // Rounding only adds to the size.
+        if (best && size_of(*best) <= body.size) break;
+        double margin = 0;
+        for (int i = 0; i < max_margins; ++i) {
+            const auto corners = rounded_corners<D>(body, seen, margin, frame);
+            if (!corners) break;
+            if (std::optional<HullOf<D>> next = hull_around(*corners, points, frame)) {
+                if (!best || size_of(*next) < size_of(*best)) best = std::move(next);
+                break;
+            }
+            margin = margin == 0 ? first_margin : margin_factor * margin;
+        }
+    }
+    return best;
+}
+
+template std::optional<Hull2> smallest_rounded(std::vector<OuterBody<2>>, std::span<const Vec2>, std::size_t,
+                                               const StretchedFrame<2>&);
+template std::optional<Hull3> smallest_rounded(std::vector<OuterBody<3>>, std::span<const Vec3>, std::size_t,
+                                               const StretchedFrame<3>&);
 
 }  // namespace abut::detail

@@ -1,33 +1,45 @@
 #pragma once
 
-// Rounds corners in double to floats, outwards.
+// Convex bodies around points, rounded to floats such that they still contain them.
 
+#include <abut/convex/hull/hull.hpp>
 #include <abut/convex/hull/limited/linear_program.hpp>
 #include <abut/convex/hull/limited/stretched_frame.hpp>
 
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 namespace abut::detail {
 
-/// A float point near `corner` that is above, or on, all planes of the corner. Then it contains all that the planes and
-/// the corner contain. Corner and planes are in the frame, the point is in the world; -0 becomes 0. Nothing if there is
-/// none in the range of floats. Above is meant to the rounding of doubles.
 template <int D>
-std::optional<Vec<D>> rounded_corner(const DVec<D>& corner, std::span<const Plane<D>> planes,
-                                     const StretchedFrame<D>& frame);
+using HullOf = std::conditional_t<D == 2, Hull2, Hull3>;
 
-/// Corners around the unit cube, for each limit below 9 without a search: the cube itself (8 corners in 3D, 4 in 2D)
-/// or, in 3D, a prism of twice its volume (6), a pyramid of 2.25 times (5) or a tetrahedron of 4.5 times (4); in 2D a
-/// triangle of twice its area.
+/// A convex body in a frame.
 template <int D>
-std::vector<DVec<D>> around_unit_cube(std::size_t limit);
+struct OuterBody {
+    double size = 0;  ///< its area or volume in the world
+    std::vector<DVec<D>> corners;
+    std::vector<Plane<D>> planes;                     ///< of its faces, outwards
+    std::vector<std::vector<std::uint32_t>> through;  ///< one per corner: the planes through it
+};
 
-/// The cube, prism, tetrahedron, rectangle or triangle around the bounding box of the points, in floats, with its
-/// slanted side scaled by 1 + `growth`. None if they leave the range of floats.
+/// The smallest hull with floats as corners of these bodies and, if the limit allows its corners, the bounding box.
+/// Every point lies in it, exactly. Nothing if all of them would leave the range of floats.
 template <int D>
-std::vector<Vec<D>> corners_of_box(std::span<const Vec<D>> points, std::size_t limit, double growth);
+std::optional<HullOf<D>> smallest_rounded(std::vector<OuterBody<D>> bodies, std::span<const Vec<D>> points,
+                                          std::size_t limit, const StretchedFrame<D>& frame);
+
+/// The hull of a few corners, and its area or volume. Nothing if a point lies outside, which is decided exactly. In 3D
+/// the faces are decided in the frame, where the hull isn't thin. Normals, offsets and sizes are those of the world,
+/// and the offsets bound the points as well.
+std::optional<Hull2> hull_around(std::span<const Vec2> corners, std::span<const Vec2> points,
+                                 const StretchedFrame<2>& frame);
+std::optional<Hull3> hull_around(std::span<const Vec3> corners, std::span<const Vec3> points,
+                                 const StretchedFrame<3>& frame);
+double size_of(const Hull2& hull);
+double size_of(const Hull3& hull);
 
 }  // namespace abut::detail

@@ -3,7 +3,6 @@
 // An affine frame in which a set of points is about as wide as it is long and high.
 
 #include <abut/math/affine.hpp>
-#include <abut/math/vec.hpp>
 
 #include <optional>
 #include <span>
@@ -24,7 +23,7 @@ struct StretchedFrame {
 /// The axes go from the farthest two corners, to the corner farthest from their line, and in 3D orthogonal to both. The
 /// bounding box of the points becomes the cube of side 1 around the origin. The corners are some of the points, in any
 /// order. Nothing if the points have no area (in 3D no volume) in double.
-std::optional<StretchedFrame<2>> stretched_frame(std::span<const Vec2> corners, std::span<const Vec2> points);
-std::optional<StretchedFrame<3>> stretched_frame(std::span<const Vec3> corners, std::span<const Vec3> points);
+template <int D>
+std::optional<StretchedFrame<D>> stretched_frame(std::span<const Vec<D>> corners, std::span<const Vec<D>> points);
 
 }  // namespace abut::detail
