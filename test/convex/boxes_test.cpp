@@ -5,6 +5,7 @@
 #include <abut/convex/pairs/box3.hpp>
 #include <abut/query/certify.hpp>
 #include <abut/query/contact.hpp>
+#include <abut/query/detail/pair_dispatch.hpp>
 #include <abut/query/overlaps.hpp>
 
 #include <gtest/gtest.h>
@@ -141,10 +142,10 @@ TEST(Boxes, AreAsFarApartAsTheSearchesSay) {
         const Convex<3> a = view(boxes.a), b = view(boxes.b);
         if (!are_plain_boxes(a, b)) return;
         ++axis_pairs;
-        const SignedDistance<3> found = distance_of_boxes(a, b, {}), searched = signed_distance(a, b);
+        const SignedDistance<3> found = part_distance<3>(a, b, {}), searched = signed_distance(a, b);
         EXPECT_NEAR(found.distance, searched.distance, search_tolerance(boxes) + 1e-9 * std::abs(searched.distance));
         EXPECT_NEAR(length(found.normal), 1, 1e-14);
-        EXPECT_EQ(boxes_overlap(a, b, {}), found.distance <= 0);
+        EXPECT_EQ(part_overlaps<3>(a, b, {}), found.distance <= 0);
         const auto answer = closest(boxes.a, boxes.b);
         EXPECT_EQ(answer.distance, static_cast<float>(found.distance));
         EXPECT_TRUE(certify(boxes.a, boxes.b, answer));
@@ -186,10 +187,11 @@ TEST(Boxes, TouchWhereTheSearchesSay) {
         const Convex<3> a = view(boxes.a), b = view(boxes.b);
         if (!are_plain_boxes(a, b)) return;
         const double margin = random.chance(0.5) ? 0 : boxes.size * random.uniform(0, 0.5);
-        SignedDistance<3> distance;
-        Manifold<3> points;
-        const bool found = contact_of_boxes(a, b, margin, margin, {}, distance, points);
-        const SignedDistance<3> reference = distance_of_boxes(a, b, {});
+        PartContact<3> contact;
+        const bool found = part_contact<3>(a, b, margin, margin, {}, contact);
+        const SignedDistance<3>& distance = contact.distance;
+        const Manifold<3>& points = contact.manifold;
+        const SignedDistance<3> reference = part_distance<3>(a, b, {});
         EXPECT_EQ(found, reference.distance <= margin);
         if (!found) return;
         ++touching;
@@ -248,9 +250,9 @@ std::vector<double> numbers_of_contacts() {
     for (std::uint64_t seed = 0; seed < 700; ++seed) {
         Random random(seed);
         const Boxes boxes = random_boxes(random, static_cast<BoxFamily>(seed % box_family_count));
-        SignedDistance<3> distance;
-        Manifold<3> points;
-        if (!contact_of_boxes(view(boxes.a), view(boxes.b), boxes.size, boxes.size, {}, distance, points)) continue;
+        PartContact<3> contact;
+        if (!part_contact<3>(view(boxes.a), view(boxes.b), boxes.size, boxes.size, {}, contact)) continue;
+        const Manifold<3>& points = contact.manifold;
         for (std::size_t i = 0; i < points.count; ++i) {
             const ManifoldPoint<3>& point = points.points[i];
             for (int k = 0; k < 3; ++k) numbers.push_back(point.position[k]);
