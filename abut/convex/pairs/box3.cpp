@@ -1,3 +1,4 @@
+#include <abut/convex/gjk/trace.hpp>
 #include <abut/convex/manifold/box_face_clip.hpp>
 #include <abut/convex/manifold/box_manifold.hpp>
 #include <abut/convex/pairs/box3.hpp>
@@ -71,7 +72,7 @@ bool closest_on_face_of_a(const BoxFrame& frame, std::size_t axis, double gap, B
     const double side = frame.half_a[axis] * closest.normal[axis];
     Triple nearest{frame.middle[0], frame.middle[1], frame.middle[2]};
     for (std::size_t j = 0; j < 3; ++j) {
-        const double half = frame.axis_b[j][axis] * side > 0 ? -frame.half_b[j] : frame.half_b[j];
+        const double half = frame.axis_b[j][axis] * closest.normal[axis] > 0 ? -frame.half_b[j] : frame.half_b[j];
         for (std::size_t i = 0; i < 3; ++i) nearest[i] += frame.axis_b[j][i] * half;
     }
     if (std::abs(nearest[u]) <= frame.half_a[u] && std::abs(nearest[v]) <= frame.half_a[v]) {
@@ -167,21 +168,28 @@ void store(const BoxesDistance& result, Cache& cache) {
 
 }  // namespace
 
-BoxAnswer boxes_overlap(const PlacedBox& a, const PlacedBox& b, Cache* cache) {
-    if (still_separated(a, b, 0, cache)) return BoxAnswer::no;
+BoxAnswer boxes_within(const PlacedBox& a, const PlacedBox& b, double reach, Cache* cache) {
+    if (still_separated(a, b, reach, cache)) return BoxAnswer::no;
     const BoxFaceGaps gaps(a, b);
     if (!gaps.finite()) return BoxAnswer::unknown;
-    if (cache == nullptr && gaps.of_a_wider_than(0)) return BoxAnswer::no;
+    if (cache == nullptr && gaps.of_a_wider_than(reach)) return BoxAnswer::no;
     const BoxFaceGap face = gaps.widest();
-    if (face.gap > 0 && cache == nullptr) return BoxAnswer::no;
+    if (cache == nullptr && face.gap > reach) return BoxAnswer::no;
     const BoxFrame frame = gaps.frame();
-    if (face.gap > 0) {
+    if (face.gap > reach) {
         store_axis(a, face_normal(frame, face.number), cache);
         return BoxAnswer::no;
     }
     const BoxEdgeGaps edges(frame, face.gap);
-    if (!edges.apart) return BoxAnswer::yes;
-    if (cache != nullptr) store_axis(a, unit_edge_axis(frame, edges.widest(0)), cache);
+    if (face.gap <= 0 && !edges.apart) return BoxAnswer::yes;
+    if (reach == 0 || (edges.apart && edges.wider_than(reach))) {
+        if (cache != nullptr) store_axis(a, unit_edge_axis(frame, edges.widest(0)), cache);
+        return BoxAnswer::no;
+    }
+    BoxClosest closest;
+    if (!nearest_points(frame, face, closest)) return BoxAnswer::unknown;
+    if (closest.distance <= reach) return BoxAnswer::yes;
+    store_axis(a, closest.normal, cache);
     return BoxAnswer::no;
 }
 
@@ -226,6 +234,29 @@ BoxAnswer contact_of_boxes(const PlacedBox& a, const PlacedBox& b, double reach,
     set_world_distance(a, closest, false, result.distance);
     DVec<3>* const place = along_face ? &result.distance.on_a : nullptr;
     return manifold_of_boxes(a, b, frame, closest, margin, place, points) ? BoxAnswer::yes : BoxAnswer::unknown;
+}
+
+void record_axes(const PlacedBox& a, const PlacedBox& b, Trace<3>& trace) {
+    const auto record = [&](const DVec<3>& direction) {
+        const DVec<3> from_a = lanes::vector(a.center), from_b = lanes::vector(b.center);
+        if (!(length_squared(direction) > 1e-12)) return;
+        const DVec<3> axis = normalized(dot(direction, from_b - from_a) < 0 ? -direction : direction);
+        const lanes::Double3 along = lanes::double3(axis);
+        const double reach_a = dot(magnitude(a.axes.transposed(along)), a.half)[0], at_a = dot(axis, from_a);
+        const double reach_b = dot(magnitude(b.axes.transposed(along)), b.half)[0], at_b = dot(axis, from_b);
+        trace.steps.push_back(AxisStep<3>{to_float(axis), static_cast<float>(at_a - reach_a),
+                                          static_cast<float>(at_a + reach_a), static_cast<float>(at_b - reach_b),
+                                          static_cast<float>(at_b + reach_b)});
+    };
+    const auto columns = [](const PlacedBox& box) {
+        return std::array{lanes::vector(box.axes.first_column()), lanes::vector(box.axes.second_column()),
+                          lanes::vector(box.axes.last_column())};
+    };
+    const std::array<DVec<3>, 3> of_a = columns(a), of_b = columns(b);
+    for (const DVec<3>& normal : of_a) record(normal);
+    for (const DVec<3>& normal : of_b) record(normal);
+    for (const DVec<3>& edge_a : of_a)
+        for (const DVec<3>& edge_b : of_b) record(cross(edge_a, edge_b));
 }
 
 }  // namespace abut::detail

@@ -175,9 +175,8 @@ bool closest_of_ball_and_box(const ShapeRef<3>& ball_given, const ShapeRef<3>& b
     return closest_of_any_ball_and_box(ball_given, box_given, ball_is_a, result);
 }
 
-bool are_boxes_of_volume(const ShapeRef<3>& a, const ShapeRef<3>& b) {
-    return a.kind == ShapeKind::box && b.kind == ShapeKind::box && has_volume(a.as<Box3>().half) &&
-           has_volume(b.as<Box3>().half);
+bool are_boxes(const ShapeRef<3>& a, const ShapeRef<3>& b) {
+    return a.kind == ShapeKind::box && b.kind == ShapeKind::box;
 }
 
 inline PlacedBox placed_box(const ShapeRef<3>& given) {
@@ -273,8 +272,8 @@ bool bounding_balls_apart(const ShapeRef<3>& a, const ShapeRef<3>& b, double rea
 }  // namespace
 
 ClosedFormAnswer closed_form_overlap(const ShapeRef<3>& a, const ShapeRef<3>& b, Cache* cache) {
-    if (are_boxes_of_volume(a, b)) {
-        const BoxAnswer answer = boxes_overlap(placed_box(a), placed_box(b), cache);
+    if (are_boxes(a, b)) {
+        const BoxAnswer answer = boxes_within(placed_box(a), placed_box(b), 0, cache);
         if (answer != BoxAnswer::unknown)
             return answer == BoxAnswer::yes ? ClosedFormAnswer::yes : ClosedFormAnswer::no;
     }
@@ -286,11 +285,11 @@ bool closed_form_closest(const ShapeRef<3>& a, const ShapeRef<3>& b, Cache* cach
     if (a.kind == ShapeKind::ball && b.kind == ShapeKind::ball) return closest_of_balls(a, b, result);
     if (a.kind == ShapeKind::ball && b.kind == ShapeKind::box) return closest_of_ball_and_box(a, b, true, result);
     if (a.kind == ShapeKind::box && b.kind == ShapeKind::ball) return closest_of_ball_and_box(b, a, false, result);
-    return are_boxes_of_volume(a, b) && closest_of_boxes(a, b, cache, result);
+    return are_boxes(a, b) && closest_of_boxes(a, b, cache, result);
 }
 
 bool closed_form_contact(const ShapeRef<3>& a, const ShapeRef<3>& b, double margin, Cache* cache, Contact<3>& result) {
-    if (are_boxes_of_volume(a, b)) return contact_of_boxes(a, b, margin, cache, result);
+    if (are_boxes(a, b)) return contact_of_boxes(a, b, margin, cache, result);
     return bounding_balls_apart(a, b, margin);
 }
 
