@@ -1,10 +1,11 @@
-// Box against box: the separating axis test against the general GJK and EPA.
+// Box against box, flat ones among them: the separating axis test against the general GJK and EPA.
 
 #include "../oracle/pair.hpp"
 #include "../oracle/simd_targets.hpp"
 #include <abut/convex/pairs/box3.hpp>
 #include <abut/query/certify.hpp>
 #include <abut/query/contact.hpp>
+#include <abut/query/detail/pair_dispatch.hpp>
 #include <abut/query/overlaps.hpp>
 
 #include <gtest/gtest.h>
@@ -18,8 +19,8 @@ namespace {
 using oracle::Random;
 
 /// The relative position of two boxes.
-enum class BoxFamily { any, aligned, flush, turned_about_a_normal, edge_on_edge, nested, stretched_out };
-constexpr int box_family_count = 7;
+enum class BoxFamily { any, aligned, flush, turned_about_a_normal, edge_on_edge, nested, stretched_out, flat };
+constexpr int box_family_count = 8;
 
 struct Boxes {
     Box3 a, b;
@@ -66,6 +67,11 @@ Boxes random_boxes(Random& random, BoxFamily family) {
     switch (family) {
         case BoxFamily::any:
         case BoxFamily::stretched_out:
+            put_apart(boxes, random);
+            break;
+        case BoxFamily::flat:
+            for (Box3* box : {&boxes.a, &boxes.b})
+                if (random.chance(0.7)) box->half[static_cast<int>(random.below(3))] *= random.chance(0.5) ? 0 : 1e-5f;
             put_apart(boxes, random);
             break;
         case BoxFamily::aligned:
@@ -132,24 +138,20 @@ void each_pair(Visit&& visit) {
 
 /// The error of GJK and EPA.
 double search_tolerance(const Boxes& boxes) {
-    return 1e-9 * (size_of(boxes.a) + size_of(boxes.b));
+    return 1e-7 * (size_of(boxes.a) + size_of(boxes.b));
 }
 
 TEST(Boxes, AreAsFarApartAsTheSearchesSay) {
-    int axis_pairs = 0;
     each_pair([&](const Boxes& boxes, Random&) {
         const Convex<3> a = view(boxes.a), b = view(boxes.b);
-        if (!are_plain_boxes(a, b)) return;
-        ++axis_pairs;
-        const SignedDistance<3> found = distance_of_boxes(a, b, {}), searched = signed_distance(a, b);
+        const SignedDistance<3> found = part_distance<3>(a, b, {}), searched = signed_distance(a, b);
         EXPECT_NEAR(found.distance, searched.distance, search_tolerance(boxes) + 1e-9 * std::abs(searched.distance));
         EXPECT_NEAR(length(found.normal), 1, 1e-14);
-        EXPECT_EQ(boxes_overlap(a, b, {}), found.distance <= 0);
+        EXPECT_EQ(part_overlaps<3>(a, b, {}), found.distance <= 0);
         const auto answer = closest(boxes.a, boxes.b);
         EXPECT_EQ(answer.distance, static_cast<float>(found.distance));
         EXPECT_TRUE(certify(boxes.a, boxes.b, answer));
     });
-    EXPECT_GT(axis_pairs, 10000);
 }
 
 /// The largest distance of the points of one contact from the nearest point of the other.
@@ -184,12 +186,12 @@ TEST(Boxes, TouchWhereTheSearchesSay) {
     int touching = 0, several = 0, similar = 0;
     each_pair([&](const Boxes& boxes, Random& random) {
         const Convex<3> a = view(boxes.a), b = view(boxes.b);
-        if (!are_plain_boxes(a, b)) return;
         const double margin = random.chance(0.5) ? 0 : boxes.size * random.uniform(0, 0.5);
-        SignedDistance<3> distance;
-        Manifold<3> points;
-        const bool found = contact_of_boxes(a, b, margin, margin, {}, distance, points);
-        const SignedDistance<3> reference = distance_of_boxes(a, b, {});
+        PartContact<3> contact;
+        const bool found = part_contact<3>(a, b, margin, margin, {}, contact);
+        const SignedDistance<3>& distance = contact.distance;
+        const Manifold<3>& points = contact.manifold;
+        const SignedDistance<3> reference = part_distance<3>(a, b, {});
         EXPECT_EQ(found, reference.distance <= margin);
         if (!found) return;
         ++touching;
@@ -248,9 +250,9 @@ std::vector<double> numbers_of_contacts() {
     for (std::uint64_t seed = 0; seed < 700; ++seed) {
         Random random(seed);
         const Boxes boxes = random_boxes(random, static_cast<BoxFamily>(seed % box_family_count));
-        SignedDistance<3> distance;
-        Manifold<3> points;
-        if (!contact_of_boxes(view(boxes.a), view(boxes.b), boxes.size, boxes.size, {}, distance, points)) continue;
+        PartContact<3> contact;
+        if (!part_contact<3>(view(boxes.a), view(boxes.b), boxes.size, boxes.size, {}, contact)) continue;
+        const Manifold<3>& points = contact.manifold;
         for (std::size_t i = 0; i < points.count; ++i) {
             const ManifoldPoint<3>& point = points.points[i];
             for (int k = 0; k < 3; ++k) numbers.push_back(point.position[k]);

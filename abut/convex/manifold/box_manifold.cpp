@@ -5,18 +5,9 @@
 namespace abut::detail {
 namespace {
 
-/// A point in the frame of a box, in the world.
-void write_position(const BoxPlacement& box, const Triple& place, DVec<3>& position) {
-    const Affine<3>& map = box.place;
-    for (int i = 0; i < 3; ++i)
-        position[i] =
-            map.offset[i] +
-            (map.column[0][i] * place[0] + map.column[1][i] * place[1] + map.column[2][i] * place[2]) * box.one;
-}
-
 /// Writes points in place, component by component.
 struct Writer {
-    const BoxPlacement &a, &b;
+    const PlacedBox &a, &b;
     const BoxClosest& closest;
     double margin, tolerance;
     DVec<3>* on_a;
@@ -26,14 +17,14 @@ struct Writer {
         Triple middle;
         for (std::size_t k = 0; k < 3; ++k) middle[k] = closest.on_a[k] + closest.normal[k] * (0.5 * closest.distance);
         ManifoldPoint<3>& point = points.points[points.count++];
-        write_position(a, middle, point.position);
+        lanes::put(a.point(middle), &point.position.x);
         point.depth = -closest.distance;
         point.feature = closest.part_a.low << 8 ^ closest.part_b.low;
     }
 
     /// Adds the points of the intersection of a face of `box` and a face of the other box, which `frame` holds in its
     /// axes. `name` is added to the feature names.
-    bool add_clipped_face(const BoxPlacement& box, const BoxFrame& frame, const Triple& out, std::uint32_t name) const {
+    bool add_clipped_face(const PlacedBox& box, const BoxFrame& frame, const Triple& out, std::uint32_t name) const {
         const BoxFaceClip clipped(frame, out);
         const double depth = -closest.distance;
         std::array<double, BoxFaceClip::capacity + 1> x, y, depths;
@@ -59,7 +50,7 @@ struct Writer {
             Triple place = clipped.point_on_face(nearest);
             if (&box == &b)
                 for (std::size_t i = 0; i < 3; ++i) place[i] += out[i] * clipped.gap[nearest];
-            write_position(box, place, *on_a);
+            lanes::put(box.point(place), &on_a->x);
         }
 
         std::array<std::size_t, 4> selected{0, 1, 2, 3};
@@ -77,7 +68,7 @@ struct Writer {
             const double along = clipped.gap[number[i]] + 0.5 * depths[i];
             for (std::size_t axis = 0; axis < 3; ++axis) place[axis] += out[axis] * along;
             ManifoldPoint<3>& point = points.points[points.count++];
-            write_position(box, place, point.position);
+            lanes::put(box.point(place), &point.position.x);
             point.depth = margin > 0 || depths[i] > 0 ? depths[i] : 0;
             point.feature = clipped.name(number[i]) | name;
         }
@@ -87,7 +78,7 @@ struct Writer {
 
 }  // namespace
 
-bool manifold_of_boxes(const BoxPlacement& a, const BoxPlacement& b, const BoxFrame& frame, const BoxClosest& closest,
+bool manifold_of_boxes(const PlacedBox& a, const PlacedBox& b, const BoxFrame& frame, const BoxClosest& closest,
                        double margin, DVec<3>* on_a, Manifold<3>& points) {
     const Triple &half_a = frame.half_a, &half_b = frame.half_b;
     const double tolerance = 1e-6 * std::min(half_a[0] + half_a[1] + half_a[2], half_b[0] + half_b[1] + half_b[2]);

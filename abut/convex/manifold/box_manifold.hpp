@@ -11,7 +11,7 @@ namespace abut::detail {
 /// corners and edges touch and the same face is the reference. If the normal is that of a face, the closest point need
 /// not be known: it is written to `on_a`, in the world, unless that is null. Returns false, with the points undefined,
 /// if it isn't found.
-bool manifold_of_boxes(const BoxPlacement& a, const BoxPlacement& b, const BoxFrame& frame, const BoxClosest& closest,
+bool manifold_of_boxes(const PlacedBox& a, const PlacedBox& b, const BoxFrame& frame, const BoxClosest& closest,
                        double margin, DVec<3>* on_a, Manifold<3>& points);
 
 }  // namespace abut::detail

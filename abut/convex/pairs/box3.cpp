@@ -1,3 +1,4 @@
+#include <abut/convex/gjk/trace.hpp>
 #include <abut/convex/manifold/box_face_clip.hpp>
 #include <abut/convex/manifold/box_manifold.hpp>
 #include <abut/convex/pairs/box3.hpp>
@@ -7,26 +8,25 @@
 namespace abut::detail {
 namespace {
 
-/// Warm start: whether the cached axis still separates the boxes by more than `reach`, which is not below zero. An
-/// unset axis separates nothing.
-bool still_separated(const Convex<3>& a, const Convex<3>& b, double reach, const Cache* cache) {
+/// Warm start: whether the cached axis still separates the boxes by more than `reach`. An unset axis separates nothing.
+bool still_separated(const PlacedBox& a, const PlacedBox& b, double reach, const Cache* cache) {
+    using namespace lanes;
     if (cache == nullptr || reach < 0) return false;
-    const DVec<3> axis(static_cast<double>(cache->axis[0]), static_cast<double>(cache->axis[1]),
-                       static_cast<double>(cache->axis[2]));
-    double middle = dot(axis, b.place.offset - a.place.offset), covered = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        covered += std::abs(dot(axis, a.place.column[i])) * static_cast<double>(a.own[0][static_cast<int>(i)]);
-        covered += std::abs(dot(axis, b.place.column[i])) * static_cast<double>(b.own[0][static_cast<int>(i)]);
-    }
+    const Double3 axis{loaded(cache->axis.data()), loaded_twice(cache->axis[2])};
+    const double apart = dot(axis, b.center - a.center)[0];
+    const double covered =
+        (dot(magnitude(a.axes.transposed(axis)), a.half) + dot(magnitude(b.axes.transposed(axis)), b.half))[0];
     // The cached axis has length 1 to within 1e-6, or it is zero.
-    const double tolerance = 1e-14 * (std::abs(middle) + covered) + 1e-6 * reach;
-    return middle - covered > reach + tolerance && length_squared(axis) < 1 + 1e-6;
+    const double tolerance = 1e-14 * (std::abs(apart) + covered) + 1e-6 * reach;
+    return apart - covered > reach + tolerance && apart <= std::numeric_limits<double>::max() &&
+           dot(axis, axis)[0] < 1 + 1e-6;
 }
 
-void store_axis(const BoxPlacement& a, const Triple& normal, Cache* cache) {
+void store_axis(const PlacedBox& a, const Triple& normal, Cache* cache) {
     if (cache == nullptr) return;
-    const DVec<3> axis = a.vector(normal);
-    for (std::size_t i = 0; i < 3; ++i) cache->axis[i] = static_cast<float>(axis[static_cast<int>(i)]);
+    const lanes::Double3 axis = a.vector(normal);
+    lanes::store(axis.xy, cache->axis.data());
+    cache->axis[2] = static_cast<float>(axis.z[0]);
 }
 
 Triple face_normal(const BoxFrame& frame, std::size_t number) {
@@ -72,7 +72,7 @@ bool closest_on_face_of_a(const BoxFrame& frame, std::size_t axis, double gap, B
     const double side = frame.half_a[axis] * closest.normal[axis];
     Triple nearest{frame.middle[0], frame.middle[1], frame.middle[2]};
     for (std::size_t j = 0; j < 3; ++j) {
-        const double half = frame.axis_b[j][axis] * side > 0 ? -frame.half_b[j] : frame.half_b[j];
+        const double half = frame.axis_b[j][axis] * closest.normal[axis] > 0 ? -frame.half_b[j] : frame.half_b[j];
         for (std::size_t i = 0; i < 3; ++i) nearest[i] += frame.axis_b[j][i] * half;
     }
     if (std::abs(nearest[u]) <= frame.half_a[u] && std::abs(nearest[v]) <= frame.half_a[v]) {
@@ -127,8 +127,7 @@ bool deepest_edges(const BoxFrame& frame, const BoxFaceGap& face, const BoxEdgeG
     return true;
 }
 
-bool find_closest(const BoxFrame& frame, BoxClosest& closest) {
-    const BoxFaceGap face = widest_face_gap(frame);
+bool find_closest(const BoxFrame& frame, const BoxFaceGap& face, BoxClosest& closest) {
     if (face.gap > 0) return nearest_points(frame, face, closest);
     const BoxEdgeGaps edges(frame, face.gap);
     if (edges.apart) return nearest_points(frame, face, closest);
@@ -143,108 +142,121 @@ bool is_corner(const std::array<std::uint32_t, 4>& numbers, std::uint32_t count)
 }
 
 /// Warm start: whether the cached corner is still the closest one.
-bool nearest_as_before(const Convex<3>& a, const Convex<3>& b, const Cache& cache, SignedDistance<3>& distance) {
+bool nearest_as_before(const PlacedBox& a, const PlacedBox& b, const Cache& cache, BoxesDistance& result) {
     const bool of_a = is_corner(cache.corner_a, cache.count), of_b = is_corner(cache.corner_b, cache.count);
     if (cache.count == 0 || !(of_a || of_b)) return false;
-    const Convex<3>&first = of_b ? a : b, &second = of_b ? b : a;
-    BoxClosest closest;
-    if (!nearest_from_corner(BoxFrame(first, second), of_b ? cache.corner_b[0] : cache.corner_a[0], closest))
-        return false;
-    set_world_distance(BoxPlacement(first), closest, !of_b, distance);
-    set_corners(closest, !of_b, distance.corners);
+    const PlacedBox &first = of_b ? a : b, &second = of_b ? b : a;
+    const std::uint32_t corner = of_b ? cache.corner_b[0] : cache.corner_a[0];
+    BoxClosest& closest = result.closest;
+    const BoxFaceGaps gaps(first, second);
+    if (!gaps.finite() || !nearest_from_corner(gaps.frame(), corner, closest)) return false;
+    set_world_distance(first, closest, !of_b, result.distance);
+    if (!of_b) std::swap(closest.part_a, closest.part_b);
     return true;
 }
 
-void store(const SignedDistance<3>& distance, Cache& cache) {
+void store(const BoxesDistance& result, Cache& cache) {
+    ClosestCorners<3> corners;
+    set_corners(result.closest, corners);
     for (std::size_t i = 0; i < 3; ++i) {
-        cache.axis[i] = static_cast<float>(distance.normal[static_cast<int>(i)]);
-        cache.corner_a[i] = distance.corners.a[i];
-        cache.corner_b[i] = distance.corners.b[i];
+        cache.axis[i] = static_cast<float>(result.distance.normal[static_cast<int>(i)]);
+        cache.corner_a[i] = corners.a[i];
+        cache.corner_b[i] = corners.b[i];
     }
-    cache.count = static_cast<std::uint32_t>(distance.corners.count);
+    cache.count = static_cast<std::uint32_t>(corners.count);
 }
 
 }  // namespace
 
-// With a trace, the general algorithms run first, so that their steps are recorded. Their answers agree.
-
-bool boxes_overlap(const Convex<3>& a, const Convex<3>& b, const SearchOptions<3>& options) {
-    if (options.trace != nullptr) convex_overlap(a, b, {.trace = options.trace});
-    if (still_separated(a, b, 0, options.cache)) return false;
-    const BoxFrame frame(a, b);
-    const BoxFaceGap face = widest_face_gap(frame);
-    if (face.gap > 0) {
-        if (options.cache != nullptr) store_axis(BoxPlacement(a), face_normal(frame, face.number), options.cache);
-        return false;
-    }
-    const BoxEdgeGaps edges(frame, face.gap);
-    if (!edges.apart) return true;
-    if (options.cache != nullptr) store_axis(BoxPlacement(a), unit_edge_axis(frame, edges.widest(0)), options.cache);
-    return false;
-}
-
-SignedDistance<3> distance_of_boxes(const Convex<3>& a, const Convex<3>& b, const SearchOptions<3>& options) {
-    SignedDistance<3> result;
-    if (options.trace != nullptr) signed_distance(a, b, {.trace = options.trace});
-    if (options.cache == nullptr || !nearest_as_before(a, b, *options.cache, result)) {
-        const BoxFrame frame(a, b);
-        BoxClosest closest;
-        if (!find_closest(frame, closest)) {
-            result = signed_distance(a, b, options);
-            return result;
-        }
-        set_world_distance(BoxPlacement(a), closest, false, result);
-        set_corners(closest, false, result.corners);
-    }
-    if (options.cache != nullptr && result.distance > 0) store(result, *options.cache);
-    return result;
-}
-
-BoxContact contact_in_frame(const BoxFrame& frame, const BoxFaceGap& face, const BoxPlacement& a, const BoxPlacement& b,
-                            double reach, double margin, Cache* cache, BoxClosest& closest, SignedDistance<3>& distance,
-                            Manifold<3>& points) {
+BoxAnswer boxes_within(const PlacedBox& a, const PlacedBox& b, double reach, Cache* cache) {
+    if (still_separated(a, b, reach, cache)) return BoxAnswer::no;
+    const BoxFaceGaps gaps(a, b);
+    if (!gaps.finite()) return BoxAnswer::unknown;
+    if (cache == nullptr && gaps.of_a_wider_than(reach)) return BoxAnswer::no;
+    const BoxFaceGap face = gaps.widest();
+    if (cache == nullptr && face.gap > reach) return BoxAnswer::no;
+    const BoxFrame frame = gaps.frame();
     if (face.gap > reach) {
         store_axis(a, face_normal(frame, face.number), cache);
-        return BoxContact::none;
+        return BoxAnswer::no;
+    }
+    const BoxEdgeGaps edges(frame, face.gap);
+    if (face.gap <= 0 && !edges.apart) return BoxAnswer::yes;
+    if (reach == 0 || (edges.apart && edges.wider_than(reach))) {
+        if (cache != nullptr) store_axis(a, unit_edge_axis(frame, edges.widest(0)), cache);
+        return BoxAnswer::no;
+    }
+    BoxClosest closest;
+    if (!nearest_points(frame, face, closest)) return BoxAnswer::unknown;
+    if (closest.distance <= reach) return BoxAnswer::yes;
+    store_axis(a, closest.normal, cache);
+    return BoxAnswer::no;
+}
+
+BoxAnswer distance_of_boxes(const PlacedBox& a, const PlacedBox& b, Cache* cache, BoxesDistance& result) {
+    if (cache == nullptr || !nearest_as_before(a, b, *cache, result)) {
+        const BoxFaceGaps gaps(a, b);
+        if (!gaps.finite() || !find_closest(gaps.frame(), gaps.widest(), result.closest)) return BoxAnswer::unknown;
+        set_world_distance(a, result.closest, false, result.distance);
+    }
+    if (cache != nullptr && result.distance.distance > 0) store(result, *cache);
+    return BoxAnswer::yes;
+}
+
+BoxAnswer contact_of_boxes(const PlacedBox& a, const PlacedBox& b, double reach, double margin, Cache* cache,
+                           BoxesDistance& result, Manifold<3>& points) {
+    if (still_separated(a, b, reach, cache)) return BoxAnswer::no;
+    const BoxFaceGaps gaps(a, b);
+    if (!gaps.finite()) return BoxAnswer::unknown;
+    const BoxFaceGap face = gaps.widest();
+    const BoxFrame frame = gaps.frame();
+    if (face.gap > reach) {
+        store_axis(a, face_normal(frame, face.number), cache);
+        return BoxAnswer::no;
     }
     const BoxEdgeGaps edges(frame, face.gap);
     if (edges.apart && edges.wider_than(reach)) {
         store_axis(a, unit_edge_axis(frame, edges.widest(0)), cache);
-        return BoxContact::none;
+        return BoxAnswer::no;
     }
+    BoxClosest& closest = result.closest;
     const bool apart = face.gap > 0 || edges.apart, along_face = !apart && !edges.beats_face;
     bool found = true;
     if (along_face)
         set_features_along(frame, face_normal(frame, face.number), face.gap, closest);
     else
         found = apart ? nearest_points(frame, face, closest) : deepest_edges(frame, face, edges, closest);
-    if (!found) return BoxContact::unknown;
+    if (!found) return BoxAnswer::unknown;
     if (closest.distance > reach) {
         store_axis(a, closest.normal, cache);
-        return BoxContact::none;
+        return BoxAnswer::no;
     }
-    set_world_distance(a, closest, false, distance);
-    DVec<3>* const place = along_face ? &distance.on_a : nullptr;
-    return manifold_of_boxes(a, b, frame, closest, margin, place, points) ? BoxContact::some : BoxContact::unknown;
+    set_world_distance(a, closest, false, result.distance);
+    DVec<3>* const place = along_face ? &result.distance.on_a : nullptr;
+    return manifold_of_boxes(a, b, frame, closest, margin, place, points) ? BoxAnswer::yes : BoxAnswer::unknown;
 }
 
-bool contact_of_boxes(const Convex<3>& a, const Convex<3>& b, double reach, double margin,
-                      const SearchOptions<3>& options, SignedDistance<3>& distance, Manifold<3>& points) {
-    if (options.trace != nullptr)
-        manifold(a, b, signed_distance(a, b, {.trace = options.trace}), margin, options.trace);
-    if (still_separated(a, b, reach, options.cache)) return false;
-    const BoxFrame frame(a, b);
-    BoxClosest closest;
-    const BoxContact contact = contact_in_frame(frame, widest_face_gap(frame), BoxPlacement(a), BoxPlacement(b), reach,
-                                                margin, options.cache, closest, distance, points);
-    if (contact != BoxContact::unknown) {
-        set_corners(closest, false, distance.corners);
-        return contact == BoxContact::some;
-    }
-    distance = signed_distance(a, b, options);
-    if (distance.distance > reach) return false;
-    points = manifold(a, b, distance, margin);
-    return true;
+void record_axes(const PlacedBox& a, const PlacedBox& b, Trace<3>& trace) {
+    const auto record = [&](const DVec<3>& direction) {
+        const DVec<3> from_a = lanes::vector(a.center), from_b = lanes::vector(b.center);
+        if (!(length_squared(direction) > 1e-12)) return;
+        const DVec<3> axis = normalized(dot(direction, from_b - from_a) < 0 ? -direction : direction);
+        const lanes::Double3 along = lanes::double3(axis);
+        const double reach_a = dot(magnitude(a.axes.transposed(along)), a.half)[0], at_a = dot(axis, from_a);
+        const double reach_b = dot(magnitude(b.axes.transposed(along)), b.half)[0], at_b = dot(axis, from_b);
+        trace.steps.push_back(AxisStep<3>{to_float(axis), static_cast<float>(at_a - reach_a),
+                                          static_cast<float>(at_a + reach_a), static_cast<float>(at_b - reach_b),
+                                          static_cast<float>(at_b + reach_b)});
+    };
+    const auto columns = [](const PlacedBox& box) {
+        return std::array{lanes::vector(box.axes.first_column()), lanes::vector(box.axes.second_column()),
+                          lanes::vector(box.axes.last_column())};
+    };
+    const std::array<DVec<3>, 3> of_a = columns(a), of_b = columns(b);
+    for (const DVec<3>& normal : of_a) record(normal);
+    for (const DVec<3>& normal : of_b) record(normal);
+    for (const DVec<3>& edge_a : of_a)
+        for (const DVec<3>& edge_b : of_b) record(cross(edge_a, edge_b));
 }
 
 }  // namespace abut::detail

@@ -18,21 +18,6 @@ double signed_square(double gap) {
 
 }  // namespace
 
-BoxFaceGap widest_face_gap(const BoxFrame& frame) {
-    std::array<double, 6> gaps;
-    for (std::size_t i = 0; i < 3; ++i) {
-        double reach = frame.half_a[i];
-        for (std::size_t j = 0; j < 3; ++j) reach += std::abs(frame.axis_b[j][i]) * frame.half_b[j];
-        gaps[i] = std::abs(frame.middle[i]) - reach;
-    }
-    for (std::size_t j = 0; j < 3; ++j) {
-        const Triple& axis = frame.axis_b[j];
-        const double reach = dot({std::abs(axis[0]), std::abs(axis[1]), std::abs(axis[2])}, frame.half_a);
-        gaps[3 + j] = std::abs(dot(axis, frame.middle)) - (frame.half_b[j] + reach);
-    }
-    return widest_of(gaps);
-}
-
 // Two axes at a time: edges 0 and 1 of B with each edge of A, then edge 2 of B with those of A.
 BoxEdgeGaps::BoxEdgeGaps(const BoxFrame& frame, double face_gap) {
     using namespace lanes;

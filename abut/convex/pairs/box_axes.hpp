@@ -16,14 +16,60 @@ struct BoxFaceGap {
     std::size_t number;  ///< 0 to 2: a face of A, 3 to 5: a face of B
 };
 
-/// The widest of the gaps of all face normals.
-inline BoxFaceGap widest_of(const std::array<double, 6>& gaps) {
-    const auto wider = [&](std::size_t i, std::size_t j) { return gaps[j] > gaps[i] ? j : i; };
-    const std::size_t best = wider(wider(wider(0, 1), 2), wider(wider(3, 4), 5));
-    return {gaps[best], best};
-}
+/// The gaps along the face normals of both. Those of B are added only on demand, because in most cases those of A
+/// suffice to separate the boxes.
+class BoxFaceGaps {
+public:
+    BoxFaceGaps(const PlacedBox& a, const PlacedBox& b)
+        : half_a_(a.half),
+          half_b_(b.half),
+          axis_b_{a.axes.transposed(b.axes.first_column()), a.axes.transposed(b.axes.second_column()),
+                  a.axes.transposed(b.axes.last_column())},
+          middle_(a.axes.transposed(b.center - a.center)),
+          sizes_{magnitude(axis_b_[0]), magnitude(axis_b_[1]), magnitude(axis_b_[2])} {
+        using namespace lanes;
+        const Double3 reach_a =
+            half_a_ + sizes_[0] * first(half_b_.xy) + sizes_[1] * second(half_b_.xy) + sizes_[2] * half_b_.z;
+        of_a_ = magnitude(middle_) - reach_a;
+    }
 
-BoxFaceGap widest_face_gap(const BoxFrame& frame);
+    /// The gaps of A depend on all numbers of both boxes.
+    bool finite() const { return lanes::finite(of_a_.xy + of_a_.z); }
+    bool of_a_wider_than(double reach) const {
+        return lanes::bits(lanes::greater(of_a_.xy, of_a_.z) > lanes::double2(reach)) != 0;
+    }
+
+    BoxFaceGap widest() const {
+        using namespace lanes;
+        Double2 apart[3], reach_b[3];
+        for (std::size_t i = 0; i < 3; ++i) {
+            apart[i] = magnitude(dot(axis_b_[i], middle_));
+            reach_b[i] = dot(sizes_[i], half_a_);
+        }
+        std::array<double, 6> gaps;
+        put(of_a_.xy, &gaps[0]);
+        gaps[2] = of_a_.z[0];
+        put(lower(apart[0], apart[1]) - (half_b_.xy + lower(reach_b[0], reach_b[1])), &gaps[3]);
+        gaps[5] = (apart[2] - (half_b_.z + reach_b[2]))[0];
+        const auto wider = [&](std::size_t i, std::size_t j) { return gaps[j] > gaps[i] ? j : i; };
+        const std::size_t best = wider(wider(wider(0, 1), 2), wider(wider(3, 4), 5));
+        return {gaps[best], best};
+    }
+
+    BoxFrame frame() const {
+        using lanes::put;
+        BoxFrame result;
+        put(half_a_, result.half_a.data());
+        put(half_b_, result.half_b.data());
+        for (std::size_t i = 0; i < 3; ++i) put(axis_b_[i], result.axis_b[i].data());
+        put(middle_, result.middle.data());
+        return result;
+    }
+
+private:
+    lanes::Double3 half_a_, half_b_, axis_b_[3], middle_;  ///< as in a BoxFrame
+    lanes::Double3 sizes_[3], of_a_;
+};
 
 /// The gaps along cross products of edges, at 3 * (edge of A) + (edge of B). They are reduced by the rounding error, so
 /// that a face wins a tie. Nearly parallel edges have no axis, and no gap.

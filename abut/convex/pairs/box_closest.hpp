@@ -45,29 +45,22 @@ struct BoxFeatureCorners {
     }
 };
 
-/// Converts a result in the frame of A, or with `by_b` in the frame of B with B first, to the world, without the
-/// corners. It writes component by component: reading a vector as a whole right after its components were written
-/// stalls.
-inline void set_world_distance(const BoxPlacement& box, const BoxClosest& closest, bool by_b,
-                               SignedDistance<3>& result) {
-    const double one = box.one, one_normal = by_b ? -one : one, beyond = by_b ? closest.distance : 0;
-    const Triple &n = closest.normal, &p = closest.on_a;
-    const Triple on_a{p[0] + n[0] * beyond, p[1] + n[1] * beyond, p[2] + n[2] * beyond};
-    const Affine<3>& place = box.place;
+/// Converts a result in the frame of a box to the world, without the corners; `by_b` if the box is B.
+inline void set_world_distance(const PlacedBox& box, const BoxClosest& closest, bool by_b, SignedDistance<3>& result) {
+    using namespace lanes;
+    const Double3 n = double3(closest.normal), p = double3(closest.on_a);
+    const Double3 on_a = by_b ? p + n * double2(closest.distance) : p;
     result.distance = closest.distance;
-    for (int i = 0; i < 3; ++i) {
-        const double x = place.column[0][i], y = place.column[1][i], z = place.column[2][i];
-        result.normal[i] = (x * n[0] + y * n[1] + z * n[2]) * one_normal;
-        result.on_a[i] = place.offset[i] + (x * on_a[0] + y * on_a[1] + z * on_a[2]) * one;
-    }
+    put(box.axes.vector(n) * double2(by_b ? -1 : 1), &result.normal.x);
+    put(box.center + box.axes.vector(on_a), &result.on_a.x);
 }
 
-inline void set_corners(const BoxClosest& closest, bool by_b, ClosestCorners<3>& corners) {
-    const BoxFeatureCorners first(closest.part_a), second(closest.part_b);
-    corners.count = std::max(first.count, second.count);
+inline void set_corners(const BoxClosest& closest, ClosestCorners<3>& corners) {
+    const BoxFeatureCorners of_a(closest.part_a), of_b(closest.part_b);
+    corners.count = std::max(of_a.count, of_b.count);
     for (std::size_t i = 0; i < 3; ++i) {
-        corners.a[i] = by_b ? second.numbers[i] : first.numbers[i];
-        corners.b[i] = by_b ? first.numbers[i] : second.numbers[i];
+        corners.a[i] = of_a.numbers[i];
+        corners.b[i] = of_b.numbers[i];
     }
 }
 

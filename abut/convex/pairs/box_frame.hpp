@@ -3,6 +3,7 @@
 // Two boxes in the frame of the first. For .cpp files.
 
 #include <abut/convex/support.hpp>
+#include <abut/math/simd/rotation-inl.h>
 
 namespace abut::detail {
 
@@ -20,35 +21,33 @@ constexpr std::size_t last_axis(std::size_t i) {
     return i == 0 ? 2 : i - 1;
 }
 
+/// From components: a vector loaded as a whole right after its components were written stalls.
+inline lanes::Double3 double3(const Triple& v) {
+    return {lanes::double2(v[0], v[1]), lanes::double2(v[2])};
+}
+
+/// A box in the world.
+struct PlacedBox {
+    lanes::Turned axes;  ///< the columns; of length 1
+    lanes::Double3 center, half;
+
+    PlacedBox(const Vec3& center_of_box, const Vec3& half_of_box, const glm::quat& rotation)
+        : axes(lanes::turned(rotation)), center(lanes::loaded(center_of_box)), half(lanes::loaded(half_of_box)) {}
+    PlacedBox(const Affine<3>& place, double scale, const Vec3& half_of_box)
+        : axes(lanes::scaled(place.column, 1 / scale)),
+          center(lanes::double3(place.offset)),
+          half(lanes::loaded(half_of_box) * lanes::double2(scale)) {}
+
+    /// A vector along the axes of the box, in the world.
+    lanes::Double3 vector(const Triple& v) const { return axes.vector(double3(v)); }
+    lanes::Double3 point(const Triple& p) const { return center + vector(p); }
+};
+
 /// B in the frame of A: the middle of A is the origin, its axes are x, y and z. Lengths are those of the world.
 struct BoxFrame {
     Triple half_a, half_b;
     std::array<Triple, 3> axis_b;  ///< of length 1
     Triple middle;                 ///< of B
-
-    BoxFrame() = default;
-    BoxFrame(const Convex<3>& a, const Convex<3>& b) {
-        const double one_a = 1 / a.scale, one_both = one_a * (1 / b.scale);
-        const DVec<3> between = b.place.offset - a.place.offset;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const DVec<3>& axis_a = a.place.column[i];
-            half_a[i] = static_cast<double>(a.own[0][static_cast<int>(i)]) * a.scale;
-            half_b[i] = static_cast<double>(b.own[0][static_cast<int>(i)]) * b.scale;
-            middle[i] = abut::detail::dot(axis_a, between) * one_a;
-            for (std::size_t j = 0; j < 3; ++j) axis_b[j][i] = abut::detail::dot(axis_a, b.place.column[j]) * one_both;
-        }
-    }
-
-    /// For boxes whose placements are rigid.
-    BoxFrame(const Affine<3>& a, const Vec3& half_of_a, const Affine<3>& b, const Vec3& half_of_b) {
-        const DVec<3> between = b.offset - a.offset;
-        for (std::size_t i = 0; i < 3; ++i) {
-            half_a[i] = static_cast<double>(half_of_a[static_cast<int>(i)]);
-            half_b[i] = static_cast<double>(half_of_b[static_cast<int>(i)]);
-            middle[i] = abut::detail::dot(a.column[i], between);
-            for (std::size_t j = 0; j < 3; ++j) axis_b[j][i] = abut::detail::dot(a.column[i], b.column[j]);
-        }
-    }
 
     /// The components of a vector along the axes of B.
     Triple along_b(const Triple& v) const { return {dot(axis_b[0], v), dot(axis_b[1], v), dot(axis_b[2], v)}; }
@@ -71,17 +70,6 @@ struct BoxFrame {
         return half_a[0] + half_a[1] + half_a[2] + half_b[0] + half_b[1] + half_b[2] + std::abs(middle[0]) +
                std::abs(middle[1]) + std::abs(middle[2]);
     }
-};
-
-/// Maps vectors from the axes of a box into the world.
-struct BoxPlacement {
-    const Affine<3>& place;
-    double one = 1;  ///< 1 / the scale
-
-    explicit BoxPlacement(const Affine<3>& of_box) : place(of_box) {}
-    explicit BoxPlacement(const Convex<3>& box) : place(box.place), one(1 / box.scale) {}
-
-    DVec<3> vector(const Triple& v) const { return place.vector(DVec<3>(v[0] * one, v[1] * one, v[2] * one)); }
 };
 
 }  // namespace abut::detail

@@ -2,10 +2,16 @@
 
 // Overlap and penetration depth of a box and a triangle in 3D, by their separating axes.
 
-#include <abut/convex/pairs/box3.hpp>
 #include <abut/convex/pairs/round3.hpp>
 
 namespace abut::detail {
+
+/// Whether a box isn't nearly flat. Flat boxes take the general algorithms.
+inline bool has_volume(const Vec3& half) {
+    const float longest = std::max(std::max(half.x, half.y), half.z),
+                shortest = std::min(std::min(half.x, half.y), half.z);
+    return shortest > 1e-4f * longest;
+}
 
 /// Whether the functions below take A and B. Both may have balls around them.
 inline bool are_box_and_triangle(const Convex<3>& a, const Convex<3>& b) {

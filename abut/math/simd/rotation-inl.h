@@ -4,11 +4,17 @@
 
 #include <abut/math/simd/double2-inl.h>
 
+#include <array>
 #include <cstddef>
 
 #include <glm/ext/quaternion_float.hpp>
 
 namespace abut::lanes {
+
+inline void put(const Double3& v, double* numbers) {
+    put(v.xy, numbers);
+    numbers[2] = v.z[0];
+}
 
 /// A 3x3 rotation matrix by rows; the last elements of the first two rows are stored as those of the last column.
 struct Turned {
@@ -47,6 +53,17 @@ inline Turned turned(const glm::quat& q) {
             .row_z = ends(minus, plus),
             .column_z = ends(plus, minus),
             .last = 1 - (xx_yy + swapped(xx_yy))};
+}
+
+/// The matrix of the columns times a number.
+inline Turned scaled(const std::array<glm::vec<3, double>, 3>& columns, double number) {
+    const auto& [x, y, z] = columns;
+    const Double2 s = double2(number);
+    return {.row_x = double2(x.x, y.x) * s,
+            .row_y = double2(x.y, y.y) * s,
+            .row_z = double2(x.z, y.z) * s,
+            .column_z = double2(z.x, z.y) * s,
+            .last = double2(z.z) * s};
 }
 
 }  // namespace abut::lanes

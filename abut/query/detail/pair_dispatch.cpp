@@ -35,6 +35,68 @@ bool any_distance_within(const Convex<D>& a, const Convex<D>& b, double reach, c
 
 }  // namespace
 
+// Two boxes, each with a ball around it or not. With a trace, the general algorithms run too, so that their steps are
+// recorded. Their answers agree.
+
+namespace {
+
+bool are_plain_boxes(const Convex<3>& a, const Convex<3>& b) {
+    return is_plain_box(a) && is_plain_box(b);
+}
+
+bool boxes_overlap(const Convex<3>& a, const Convex<3>& b, const SearchOptions<3>& options) {
+    const PlacedBox box_a = placed_box(a), box_b = placed_box(b);
+    if (options.trace != nullptr) {
+        record_axes(box_a, box_b, *options.trace);
+        convex_overlap(a, b, {.trace = options.trace});
+    }
+    const BoxAnswer answer = boxes_within(box_a, box_b, a.radius + b.radius, options.cache);
+    return answer == BoxAnswer::unknown ? convex_overlap(a, b, options) : answer == BoxAnswer::yes;
+}
+
+void boxes_distance(const Convex<3>& a, const Convex<3>& b, const SearchOptions<3>& options,
+                    SignedDistance<3>& result) {
+    const PlacedBox box_a = placed_box(a), box_b = placed_box(b);
+    if (options.trace != nullptr) {
+        record_axes(box_a, box_b, *options.trace);
+        signed_distance(a, b, {.trace = options.trace});
+    }
+    BoxesDistance boxes;
+    if (distance_of_boxes(box_a, box_b, options.cache, boxes) == BoxAnswer::unknown) {
+        result = signed_distance(a, b, options);
+        return;
+    }
+    result = boxes.distance;
+    set_corners(boxes.closest, result.corners);
+    if (a.radius == 0 && b.radius == 0) return;
+    result.distance -= a.radius + b.radius;
+    result.on_a += result.normal * a.radius;
+}
+
+bool boxes_contact(const Convex<3>& a, const Convex<3>& b, double reach, double margin, const SearchOptions<3>& options,
+                   PartContact<3>& contact) {
+    contact.manifold.count = 0;
+    if (a.radius > 0 || b.radius > 0 || options.trace != nullptr) {
+        boxes_distance(a, b, options, contact.distance);
+        if (options.trace != nullptr) manifold(a, b, contact.distance, margin, options.trace);
+        if (a.radius > 0 || b.radius > 0) return contact.distance.distance <= reach;
+    }
+    BoxesDistance boxes;
+    const BoxAnswer answer =
+        contact_of_boxes(placed_box(a), placed_box(b), reach, margin, options.cache, boxes, contact.manifold);
+    if (answer == BoxAnswer::yes) {
+        contact.distance = boxes.distance;
+        set_corners(boxes.closest, contact.distance.corners);
+    } else if (answer == BoxAnswer::unknown) {
+        contact.distance = signed_distance(a, b, options);
+        contact.manifold = manifold(a, b, contact.distance, margin);
+        return contact.distance.distance <= reach;
+    }
+    return answer == BoxAnswer::yes;
+}
+
+}  // namespace
+
 // A box and a triangle, in either order. With a trace, GJK runs, so that its steps can be shown.
 
 namespace {
@@ -102,10 +164,11 @@ SignedDistance<2> part_distance(const Convex<2>& a, const Convex<2>& b, const Se
 }
 template <>
 SignedDistance<3> part_distance(const Convex<3>& a, const Convex<3>& b, const SearchOptions<3>& options) {
-    if (are_plain_boxes(a, b)) return distance_of_boxes(a, b, options);
     SignedDistance<3> result;
     constexpr double unlimited = std::numeric_limits<double>::infinity();
-    if (triangle_distance(a, b, unlimited, options, result) == BoxTriangle::unknown)
+    if (are_plain_boxes(a, b))
+        boxes_distance(a, b, options, result);
+    else if (triangle_distance(a, b, unlimited, options, result) == BoxTriangle::unknown)
         any_distance(a, b, options, result);
     return result;
 }
@@ -128,8 +191,7 @@ bool part_distance_within(const Convex<2>& a, const Convex<2>& b, double reach, 
 template <>
 bool part_distance_within(const Convex<3>& a, const Convex<3>& b, double reach, double margin,
                           const SearchOptions<3>& options, PartContact<3>& contact) {
-    if (are_plain_boxes(a, b))
-        return contact_of_boxes(a, b, reach, margin, options, contact.distance, contact.manifold);
+    if (are_plain_boxes(a, b)) return boxes_contact(a, b, reach, margin, options, contact);
     const BoxTriangle answer = triangle_distance(a, b, reach, options, contact.distance);
     if (answer == BoxTriangle::unknown) return any_distance_within(a, b, reach, options, contact);
     contact.manifold.count = 0;

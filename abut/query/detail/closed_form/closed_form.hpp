@@ -25,10 +25,6 @@ bool closed_form_closest(const ShapeRef<3>& a, const ShapeRef<3>& b, Cache* cach
 
 bool closed_form_contact(const ShapeRef<3>& a, const ShapeRef<3>& b, double margin, Cache* cache, Contact<3>& result);
 
-/// Two boxes in space without poses on top.
-ClosedFormAnswer closed_form_overlap(const Box3& a, const Box3& b);
-bool closed_form_contact(const Box3& a, const Box3& b, double margin, Cache* cache, Contact<3>& result);
-
 /// A sweep of two plain shapes in the plane. The answer is `unknown` for shapes that touch at the start, slide or
 /// graze. `result` is written only if the answer is `yes`.
 ClosedFormAnswer closed_form_sweep(const ShapeRef<2>& a, const Vec2& motion_a, const ShapeRef<2>& b,

@@ -1,9 +1,9 @@
+#include <abut/convex/pairs/box3.hpp>
 #include <abut/convex/pairs/box_point-inl.h>
 #include <abut/convex/pairs/round3.hpp>
 #include <abut/convex/pairs/round3_simd-inl.h>
 #include <abut/math/detail/set_affine.hpp>
 #include <abut/math/simd/rotation-inl.h>
-#include <abut/query/detail/closed_form/box_features.hpp>
 #include <abut/query/detail/closed_form/closed_form.hpp>
 #include <abut/query/detail/part_pairs.hpp>
 #include <abut/query/detail/write_answer.hpp>
@@ -21,6 +21,20 @@ namespace {
 inline bool is_finite(float number) {
     return std::bit_cast<std::uint32_t>(number) << 1 < 0xff000000u;
 }
+
+/// The corners, edges and faces of a box, by two sets of bits: the fixed axes, plus 8 times the fixed axes at their low
+/// end.
+constexpr std::array<Feature, 64> box_features = [] {
+    std::array<Feature, 64> result{};
+    for (std::uint32_t i = 0; i < 64; ++i) {
+        const std::uint32_t fixed = i & 7u, low = i >> 3 & fixed;
+        const int count = std::popcount(fixed);
+        if (count == 1) result[i] = {0, (fixed & 6u) + (low != 0 ? 1u : 0u), FeatureKind::face};
+        if (count == 2) result[i] = {0, edge_index(low, low | (fixed ^ 7u)), FeatureKind::edge};
+        if (count == 3) result[i] = {0, low, FeatureKind::vertex};
+    }
+    return result;
+}();
 
 /// Indexed by the location on a segment.
 constexpr Feature segment_features[3] = {
@@ -161,8 +175,41 @@ bool closest_of_ball_and_box(const ShapeRef<3>& ball_given, const ShapeRef<3>& b
     return closest_of_any_ball_and_box(ball_given, box_given, ball_is_a, result);
 }
 
-bool are_boxes_in_place(const ShapeRef<3>& a, const ShapeRef<3>& b) {
-    return a.kind == ShapeKind::box && b.kind == ShapeKind::box && a.pose == nullptr && b.pose == nullptr;
+bool are_boxes(const ShapeRef<3>& a, const ShapeRef<3>& b) {
+    return a.kind == ShapeKind::box && b.kind == ShapeKind::box;
+}
+
+inline PlacedBox placed_box(const ShapeRef<3>& given) {
+    const Box3& box = given.as<Box3>();
+    if (given.pose == nullptr) return {box.center, box.half, box.rotation};
+    Affine<3> place;
+    place_by(box, *given.pose, place);
+    return {place, 1, box.half};
+}
+
+template <class Answer>
+void write_box_features(const BoxClosest& closest, Answer& result) {
+    result.feature_a = box_features[(closest.part_a.free ^ 7u) + 8 * closest.part_a.low];
+    result.feature_b = box_features[(closest.part_b.free ^ 7u) + 8 * closest.part_b.low];
+}
+
+bool closest_of_boxes(const ShapeRef<3>& a, const ShapeRef<3>& b, Cache* cache, Closest<3>& result) {
+    BoxesDistance boxes;
+    if (distance_of_boxes(placed_box(a), placed_box(b), cache, boxes) == BoxAnswer::unknown) return false;
+    write(boxes.distance, result);
+    write_box_features(boxes.closest, result);
+    return true;
+}
+
+bool contact_of_boxes(const ShapeRef<3>& a, const ShapeRef<3>& b, double margin, Cache* cache, Contact<3>& result) {
+    BoxesDistance boxes;
+    Manifold<3> points;
+    const BoxAnswer answer = contact_of_boxes(placed_box(a), placed_box(b), margin, margin, cache, boxes, points);
+    if (answer == BoxAnswer::yes) {
+        write(boxes.distance, points, result);
+        write_box_features(boxes.closest, result);
+    }
+    return answer != BoxAnswer::unknown;
 }
 
 /// A ball around a shape, by its radius, or by its square alone if the radius would take a root; and a sum that is
@@ -225,20 +272,24 @@ bool bounding_balls_apart(const ShapeRef<3>& a, const ShapeRef<3>& b, double rea
 }  // namespace
 
 ClosedFormAnswer closed_form_overlap(const ShapeRef<3>& a, const ShapeRef<3>& b, Cache* cache) {
-    if (are_boxes_in_place(a, b) && cache == nullptr) return closed_form_overlap(a.as<Box3>(), b.as<Box3>());
+    if (are_boxes(a, b)) {
+        const BoxAnswer answer = boxes_within(placed_box(a), placed_box(b), 0, cache);
+        if (answer != BoxAnswer::unknown)
+            return answer == BoxAnswer::yes ? ClosedFormAnswer::yes : ClosedFormAnswer::no;
+    }
     return bounding_balls_apart(a, b, 0) ? ClosedFormAnswer::no : ClosedFormAnswer::unknown;
 }
 
-bool closed_form_closest(const ShapeRef<3>& a, const ShapeRef<3>& b, Cache*, Closest<3>& result) {
+bool closed_form_closest(const ShapeRef<3>& a, const ShapeRef<3>& b, Cache* cache, Closest<3>& result) {
     if (a.kind == ShapeKind::capsule && b.kind == ShapeKind::capsule) return closest_of_capsules(a, b, result);
     if (a.kind == ShapeKind::ball && b.kind == ShapeKind::ball) return closest_of_balls(a, b, result);
     if (a.kind == ShapeKind::ball && b.kind == ShapeKind::box) return closest_of_ball_and_box(a, b, true, result);
     if (a.kind == ShapeKind::box && b.kind == ShapeKind::ball) return closest_of_ball_and_box(b, a, false, result);
-    return false;
+    return are_boxes(a, b) && closest_of_boxes(a, b, cache, result);
 }
 
 bool closed_form_contact(const ShapeRef<3>& a, const ShapeRef<3>& b, double margin, Cache* cache, Contact<3>& result) {
-    if (are_boxes_in_place(a, b)) return closed_form_contact(a.as<Box3>(), b.as<Box3>(), margin, cache, result);
+    if (are_boxes(a, b)) return contact_of_boxes(a, b, margin, cache, result);
     return bounding_balls_apart(a, b, margin);
 }
 
