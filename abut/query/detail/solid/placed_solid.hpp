@@ -67,6 +67,8 @@ public:
     PlacedSolid moved(const DVec<3>& translation) const;
 
     const Aabb3& box() const { return box_; }
+    /// Whether the corners of the shape's own triangles are clockwise seen from outside.
+    bool is_flipped() const { return flipped_; }
     std::uint32_t triangle_count() const { return surface_.triangle_count(); }
     DVec<3> point(std::uint32_t index) const { return place_.point(DVec<3>(surface_.position(index))); }
     Corners corners(std::uint32_t triangle) const {
