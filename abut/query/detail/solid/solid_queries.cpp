@@ -16,16 +16,6 @@ namespace {
 /// A distance of triangles smaller than this, relative to the size, is rounding.
 constexpr double touching = 1e-9;
 
-/// The tolerance of distances; a coordinate seen from A is at most twice the largest one.
-double distance_tolerance(const View<3>& a, const View<3>& b) {
-    double farthest = 0;
-    for (const View<3>* shape : {&a, &b}) {
-        const Aabb3 box = bounds(*shape);
-        farthest = std::max({farthest, largest(DVec<3>(box.min)), largest(DVec<3>(box.max))});
-    }
-    return tolerance_for(std::min(size(a), size(b)), 2 * farthest);
-}
-
 void flip(Closest<3>& closest) {
     closest.normal = -closest.normal;
     std::swap(closest.on_a, closest.on_b);
@@ -41,7 +31,7 @@ void flip(Contact<3>& contact) {
 /// Sets a common point of the surfaces after the move, and its features.
 void name_point(const View<3>& a, const View<3>& b, const DVec<3>& move, Closest<3>& closest) {
     const SolidContactArea area =
-        contact_area(PlacedSolid(a), PlacedSolid(b), move, DVec<3>(closest.normal), distance_tolerance(a, b));
+        contact_area(PlacedSolid(a), PlacedSolid(b), move, DVec<3>(closest.normal), solid_tolerance(a, b));
     if (area.manifold.count == 0) return;
     closest.on_a = to_float(area.manifold.points[0].position);
     closest.on_b = to_float(area.manifold.points[0].position - move);
@@ -81,7 +71,7 @@ Contact<3> exact_contact(const View<3>& a, const View<3>& b, const Closest<3>& n
     const DVec<3> normal(nearest.normal);
     const PlacedSolid solid_a(a), solid_b(b);
     Contact<3> result = contact_of(nearest.normal, 0 - nearest.distance,
-                                   contact_area(solid_a, solid_b, move_of(nearest), normal, distance_tolerance(a, b)));
+                                   contact_area(solid_a, solid_b, move_of(nearest), normal, solid_tolerance(a, b)));
     if (result.points.empty())
         result.points.push_back({to_float((DVec<3>(nearest.on_a) + DVec<3>(nearest.on_b)) * 0.5), result.depth, 0});
     return result;
@@ -91,7 +81,7 @@ void each_exact_contact(const View<3>& a, const View<3>& b, float margin, const 
                         FunctionRef<bool(const Contact<3>&)> visit) {
     const DVec<3> move = move_of(nearest), main_normal(nearest.normal);
     bool any = false;
-    each_contact_area(PlacedSolid(a), PlacedSolid(b), move, main_normal, distance_tolerance(a, b),
+    each_contact_area(PlacedSolid(a), PlacedSolid(b), move, main_normal, solid_tolerance(a, b),
                       [&](const DVec<3>& normal, const SolidContactArea& area) {
                           const auto depth = static_cast<float>(dot(normal, move));
                           if (area.manifold.count == 0 || depth < -margin) return true;
@@ -111,7 +101,7 @@ void each_convex_contact(const View<3>& solid, const Convex<3>& set, float margi
     Convex<3> parted = set;
     parted.place.offset += move;
     bool any = false;
-    const auto reach = static_cast<float>(distance_tolerance(solid, set));
+    const auto reach = static_cast<float>(solid_tolerance(solid, set));
     each_surface_contact<3>(surface_view(solid), parted, {.margin = reach}, {}, [&](const SurfaceContact<3>& found) {
         const DVec<3> normal(found.contact.normal);
         const double depth = dot(normal, move);
@@ -216,6 +206,16 @@ bool are_solids(const View<3>& a, const View<3>& b) {
     return (is_solid_mesh(a) || is_solid_mesh(b)) && joins(a) && joins(b);
 }
 
+// A coordinate seen from A is at most twice the largest one.
+double solid_tolerance(const View<3>& a, const View<3>& b) {
+    double farthest = 0;
+    for (const View<3>* shape : {&a, &b}) {
+        const Aabb3 box = bounds(*shape);
+        farthest = std::max({farthest, largest(DVec<3>(box.min)), largest(DVec<3>(box.max))});
+    }
+    return tolerance_for(std::min(size(a), size(b)), 2 * farthest);
+}
+
 bool is_inside_other(const View<3>& a, const View<3>& b) {
     if (are_solids(a, b)) {
         const PlacedSolid solid_a(a), solid_b(b);
@@ -246,7 +246,7 @@ bool find_depth(const View<3>& a, const View<3>& b, bool names_points, Closest<3
 void name_touching(const View<3>& a, const View<3>& b, bool names_points, Closest<3>& closest) {
     if (!are_solids(a, b) || static_cast<double>(closest.distance) > touching * std::min(size(a), size(b))) return;
     closest.distance = 0;
-    closest.normal = to_float(touching_normal(PlacedSolid(a), PlacedSolid(b), distance_tolerance(a, b)));
+    closest.normal = to_float(touching_normal(PlacedSolid(a), PlacedSolid(b), solid_tolerance(a, b)));
     closest.on_b = closest.on_a;
     if (names_points) name_point(a, b, DVec<3>(0.0), closest);
 }

@@ -24,6 +24,9 @@ bool are_solids(const View<3>& a, const View<3>& b);
 
 // For pairs with a solid.
 
+/// The tolerance of distances.
+double solid_tolerance(const View<3>& a, const View<3>& b);
+
 /// Whether one of two shapes whose surfaces don't touch, or a part of it, is inside the other.
 bool is_inside_other(const View<3>& a, const View<3>& b);
 /// If a shape shares a point with the interior of the other, a move that parts the two; of a composite shape, the
