@@ -170,17 +170,30 @@ Closest<D> closest(const ShapeRef<D>& a, const ShapeRef<D>& b, const QueryOption
 template <int D>
 Closest<D> closest(const View<D>& a, const View<D>& b, const QueryOptions<D>& options) {
     if (!detail::is_valid_pair(a, b)) return {};
-    Closest<D> result;
-    const bool solids = are_solids(a, b);
     if constexpr (D == 3)
-        if (solids && find_depth(a, b, result)) return result;
+        if (has_solid(a, b)) return closest_to_solid(a, b, options, true);
     Nearest<D> nearest(search_options(a, b, options));
     nearest.search(a, b);
+    return nearest.found();
+}
+
+}  // namespace abut
+
+namespace abut::detail {
+
+Closest<3> closest_to_solid(const View<3>& a, const View<3>& b, const QueryOptions<3>& options, bool names_points) {
+    Closest<3> result;
+    if (find_depth(a, b, names_points, result)) return result;
+    Nearest<3> nearest(search_options(a, b, options));
+    nearest.search(a, b);
     result = nearest.found();
-    if constexpr (D == 3)
-        if (solids) name_touching(a, b, result);
+    name_touching(a, b, names_points, result);
     return result;
 }
+
+}  // namespace abut::detail
+
+namespace abut {
 
 template Closest<2> closest(const View<2>&, const View<2>&, const QueryOptions<2>&);
 template Closest<3> closest(const View<3>&, const View<3>&, const QueryOptions<3>&);

@@ -31,11 +31,6 @@ bool has_parts(const View<D>& a, const View<D>& b) {
     return std::holds_alternative<Composite<D>>(a) || std::holds_alternative<Composite<D>>(b);
 }
 
-Contact<3> solid_contact(const View<3>& a, const View<3>& b, float margin) {
-    const Closest<3> nearest = closest(a, b);
-    return nearest.distance <= margin ? contact_of_solids(a, b, nearest) : no_contact<3>();
-}
-
 /// Two triangles have no inside, so between two meshes the deepest pair decides, as it does in `closest`.
 template <int D>
 bool are_meshes(const View<D>& a, const View<D>& b) {
@@ -88,9 +83,10 @@ Contact<D> contact(const ShapeRef<D>& a, const ShapeRef<D>& b, const QueryOption
 
 template <int D>
 Contact<D> contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& options) {
-    if constexpr (D == 3)
-        if (are_solids(a, b) && detail::is_valid_pair(a, b)) return solid_contact(a, b, options.margin);
     Contact<D> result = no_contact<D>();
+    if constexpr (D == 3)
+        if (has_solid(a, b) && detail::is_valid_pair(a, b) && find_solid_contact(a, b, options.margin, result))
+            return result;
     DeepestParts<D> deepest;
     if (!find_deepest_parts(a, b, options, deepest, result) || !has_parts(a, b) ||
         whole_contact(a, b, options, deepest, are_meshes(a, b), result))
@@ -136,6 +132,7 @@ bool find_deepest_parts(const View<D>& a, const View<D>& b, const QueryOptions<D
     deepest.index_a = first.index_a;
     deepest.index_b = first.index_b;
     deepest.contact.distance = first.distance;
+    if constexpr (D == 3) return touch || (has_solid(a, b) && is_inside_other(a, b));
     return touch;
 }
 

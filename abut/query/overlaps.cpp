@@ -42,7 +42,7 @@ template <int D>
 bool overlaps(const View<D>& a, const View<D>& b, const QueryOptions<D>& options) {
     if (!detail::is_valid_pair(a, b)) return false;
     if (any_parts_overlap(a, b, search_options(a, b, options))) return true;
-    if constexpr (D == 3) return are_solids(a, b) && is_inside_other(a, b);
+    if constexpr (D == 3) return has_solid(a, b) && is_inside_other(a, b);
     return false;
 }
 

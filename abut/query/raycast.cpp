@@ -1,6 +1,7 @@
 #include <abut/math/simd/library_entry.hpp>
 #include <abut/query/detail/part_pairs.hpp>
 #include <abut/query/detail/raycast/part_hit.hpp>
+#include <abut/query/detail/solid/solid_motion.hpp>
 #include <abut/query/detail/valid_query.hpp>
 #include <abut/query/raycast.hpp>
 #include <abut/query/reflect.hpp>
@@ -15,7 +16,8 @@ using namespace detail;
 namespace {
 
 template <int D>
-bool first_hit(const DRay<D>& beam, const Composite<D>& composite, const QueryOptions<D>& options, PartHit<D>& first) {
+bool first_surface_hit(const DRay<D>& beam, const Composite<D>& composite, const QueryOptions<D>& options,
+                       PartHit<D>& first) {
     bool any = false;
     if constexpr (D == 3)
         if (first_triangle_hit(beam, composite, options, first, any)) return any;
@@ -33,6 +35,20 @@ bool first_hit(const DRay<D>& beam, const Composite<D>& composite, const QueryOp
                            return static_cast<float>(rest.length);
                        });
     return any;
+}
+
+template <int D>
+bool first_hit(const DRay<D>& beam, const Composite<D>& composite, const QueryOptions<D>& options, PartHit<D>& first) {
+    if constexpr (D == 3)
+        if (composite.solid != nullptr) {
+            QueryOptions<3> of_both_sides = options;
+            of_both_sides.back_faces = true;
+            const auto surface_hit = [&](const DRay<3>& rest, PartHit<3>& hit) {
+                return first_surface_hit(rest, composite, of_both_sides, hit);
+            };
+            return enter_solid(beam, composite, surface_hit, first);
+        }
+    return first_surface_hit(beam, composite, options, first);
 }
 
 template <int D>

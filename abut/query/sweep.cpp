@@ -2,6 +2,8 @@
 // convex cast) or with rotation.
 
 #include <abut/query/detail/closed_form/closed_form.hpp>
+#include <abut/query/detail/solid/solid_motion.hpp>
+#include <abut/query/detail/solid/solid_queries.hpp>
 #include <abut/query/detail/surface/hit_normal.hpp>
 #include <abut/query/detail/sweep/linear.hpp>
 #include <abut/query/detail/sweep/rotating.hpp>
@@ -25,6 +27,24 @@ void filter_normal(const MoverAtHit<D>& mover, const View<D>& shape, const DVec<
     filtered.point = to_float(point);
     filter_hit_normal<D>(mover, shape, closest_points, filtered);
     hit.normal = filtered.normal;
+}
+
+/// A hit of shapes that overlap at the start and go further in.
+Hit<3> hit_inside(const Closest<3>& nearest) {
+    Hit<3> hit;
+    hit.point = to_float((DVec<3>(nearest.on_a) + DVec<3>(nearest.on_b)) * 0.5);
+    hit.normal = -nearest.normal;
+    hit.started_inside = true;
+    hit.feature = nearest.feature_b;
+    return hit;
+}
+
+/// The motion as a whole, of a hit during its last part.
+std::optional<Hit<3>> after(double time, double length, std::optional<Hit<3>> hit) {
+    if (!hit) return hit;
+    hit->fraction = static_cast<float>(std::min(time + (1 - time) * static_cast<double>(hit->fraction), 1.0));
+    hit->distance = static_cast<float>(time * length) + hit->distance;
+    return hit;
 }
 
 // Straight motions.
@@ -111,8 +131,8 @@ std::optional<Hit<D>> sweep_paths(const Convex<D>& a, RigidPath<D> path_a, const
 }
 
 template <int D>
-std::optional<Hit<D>> sweep_paths(const View<D>& a, RigidPath<D> path_a, const View<D>& b, RigidPath<D> path_b,
-                                  const QueryOptions<D>& options) {
+std::optional<Hit<D>> sweep_part_paths(const View<D>& a, RigidPath<D> path_a, const View<D>& b, RigidPath<D> path_b,
+                                       const QueryOptions<D>& options) {
     RotatingImpact<D> first;
     std::optional<Hit<D>> result = hit_on_paths(a, path_a, b, path_b, [&](RotatingImpact<D>& impact) {
         const bool found = time_of_impact<D>(a, path_a, b, path_b, search_options(a, b, options), impact);
@@ -125,6 +145,47 @@ std::optional<Hit<D>> sweep_paths(const View<D>& a, RigidPath<D> path_a, const V
         filter_normal<D>(mover, moved(b, place_at(path_b, first.time)), first.point, *result);
     }
     return result;
+}
+
+/// The rest of a path after a time.
+RigidPath<3> rest_of(const RigidPath<3>& path, double time) {
+    return {place_at(path, time), path.move * (1 - time), path.angular_velocity * (1 - time)};
+}
+
+/// The largest distance of a point of a shape from the origin of its path.
+double reach_of(const View<3>& shape) {
+    const Aabb3 box = bounds(shape);
+    DVec<3> farthest;
+    for (int i = 0; i < 3; ++i)
+        farthest[i] = std::max(std::abs(static_cast<double>(box.min[i])), std::abs(static_cast<double>(box.max[i])));
+    return length(farthest);
+}
+
+std::optional<Hit<3>> sweep_solid(const View<3>& a, const RigidPath<3>& path_a, const View<3>& b,
+                                  const RigidPath<3>& path_b, const QueryOptions<3>& options) {
+    const auto closest_at = [&](double time) {
+        return closest(moved(a, place_at(path_a, time)), moved(b, place_at(path_b, time)));
+    };
+    const auto closing = [&](const Closest<3>& nearest) {
+        const DVec<3> place = (DVec<3>(nearest.on_a) + DVec<3>(nearest.on_b)) * 0.5;
+        return dot(path_a.velocity(0, place) - path_b.velocity(0, place), DVec<3>(nearest.normal));
+    };
+    const double speed = relative_motion_bounds(path_a, path_b, reach_of(a)).speed;
+    const SolidStart start = start_in_solid(moved(a, path_a.start), moved(b, path_b.start), speed, closest_at, closing);
+    if (!start.is_inside) return sweep_part_paths(a, path_a, b, path_b, options);
+    if (start.goes_in) return hit_inside(start.nearest);
+    if (start.time >= 1) return std::nullopt;
+    return after(start.time, length(path_a.move - path_b.move),
+                 sweep_part_paths(a, rest_of(path_a, start.time), b, rest_of(path_b, start.time), options));
+}
+
+template <int D>
+std::optional<Hit<D>> sweep_paths(const View<D>& a, const RigidPath<D>& path_a, const View<D>& b,
+                                  const RigidPath<D>& path_b, const QueryOptions<D>& options) {
+    if constexpr (D == 3)
+        if (has_solid(a, b) && detail::is_valid_pair(a, b, path_a, path_b))
+            return sweep_solid(a, path_a, b, path_b, options);
+    return sweep_part_paths(a, path_a, b, path_b, options);
 }
 
 }  // namespace
@@ -154,9 +215,11 @@ std::optional<Hit<3>> sweep(const ShapeRef<3>& a, const Vec3& motion_a, const Sh
     return sweep(convex_of(a), motion_a, convex_of(b), motion_b, options);
 }
 
+namespace {
+
 template <int D>
-std::optional<Hit<D>> sweep(const View<D>& a, const Vec<D>& motion_a, const View<D>& b, const Vec<D>& motion_b,
-                            const QueryOptions<D>& options) {
+std::optional<Hit<D>> sweep_parts(const View<D>& a, const Vec<D>& motion_a, const View<D>& b, const Vec<D>& motion_b,
+                                  const QueryOptions<D>& options) {
     std::optional<Hit<D>> result;
     const auto find = [&](const Path<D>& path, LinearImpact<D>& first) {
         const SearchOptions<D> options_of_pair = search_options(a, b, options);
@@ -170,6 +233,40 @@ std::optional<Hit<D>> sweep(const View<D>& a, const Vec<D>& motion_a, const View
         filter_normal(linear_mover_at_hit<D>(a, moved_a - moved_b), b, DVec<D>(result->point) - moved_b, *result);
     }
     return result;
+}
+
+View<3> translated(const View<3>& shape, const DVec<3>& by) {
+    Affine<3> place = Affine<3>();
+    place.offset = by;
+    return moved(shape, place);
+}
+
+/// Of shapes of which one is a solid: until they are parted, or from the start, the motion goes on like that of their
+/// parts.
+std::optional<Hit<3>> sweep_solid(const View<3>& a, const Vec3& motion_a, const View<3>& b, const Vec3& motion_b,
+                                  const QueryOptions<3>& options) {
+    const DVec<3> of_a(motion_a), of_b(motion_b);
+    const double speed = length(of_a - of_b);
+    const SolidStart start = start_in_solid(
+        a, b, speed, [&](double time) { return closest(translated(a, of_a * time), translated(b, of_b * time)); },
+        [&](const Closest<3>& nearest) { return dot(of_a - of_b, DVec<3>(nearest.normal)); });
+    if (!start.is_inside) return sweep_parts(a, motion_a, b, motion_b, options);
+    if (start.goes_in) return hit_inside(start.nearest);
+    if (start.time >= 1) return std::nullopt;
+    return after(start.time, speed,
+                 sweep_parts(translated(a, of_a * start.time), to_float(of_a * (1 - start.time)),
+                             translated(b, of_b * start.time), to_float(of_b * (1 - start.time)), options));
+}
+
+}  // namespace
+
+template <int D>
+std::optional<Hit<D>> sweep(const View<D>& a, const Vec<D>& motion_a, const View<D>& b, const Vec<D>& motion_b,
+                            const QueryOptions<D>& options) {
+    if constexpr (D == 3)
+        if (has_solid(a, b) && detail::is_valid_pair(a, b, motion_a, motion_b))
+            return sweep_solid(a, motion_a, b, motion_b, options);
+    return sweep_parts(a, motion_a, b, motion_b, options);
 }
 
 template <int D>

@@ -17,28 +17,31 @@ namespace {
 using oracle::Random;
 
 template <int D>
-std::vector<Vec<D>> corners(const PolytopeOf<D>& polytope) {
+std::vector<Vec<D>> corners_of_polytope(const PolytopeOf<D>& polytope) {
     return {polytope.points().begin(), polytope.points().end()};
 }
 
 TEST(Polytope, OfWhatHasCornersIsExact) {
-    EXPECT_EQ(corners<2>(polytope(Aabb2{{0, 0.1f}, {0.3f, 0.7f}})),
+    EXPECT_EQ(corners_of_polytope<2>(polytope(Aabb2{{0, 0.1f}, {0.3f, 0.7f}})),
               (std::vector<Vec2>{{0, 0.1f}, {0.3f, 0.1f}, {0.3f, 0.7f}, {0, 0.7f}}));
-    EXPECT_EQ(corners<2>(polytope(Box2{{1, 2}, {3, 1}})), (std::vector<Vec2>{{-2, 1}, {4, 1}, {4, 3}, {-2, 3}}));
-    EXPECT_EQ(corners<2>(polytope(Triangle2{{0, 3}, {6, 0}, {0, 0}})), (std::vector<Vec2>{{0, 0}, {6, 0}, {0, 3}}));
-    EXPECT_EQ(corners<3>(polytope(Segment3{{4, 5, 6}, {1, 2, 3}})), (std::vector<Vec3>{{1, 2, 3}, {4, 5, 6}}));
+    EXPECT_EQ(corners_of_polytope<2>(polytope(Box2{{1, 2}, {3, 1}})),
+              (std::vector<Vec2>{{-2, 1}, {4, 1}, {4, 3}, {-2, 3}}));
+    EXPECT_EQ(corners_of_polytope<2>(polytope(Triangle2{{0, 3}, {6, 0}, {0, 0}})),
+              (std::vector<Vec2>{{0, 0}, {6, 0}, {0, 3}}));
+    EXPECT_EQ(corners_of_polytope<3>(polytope(Segment3{{4, 5, 6}, {1, 2, 3}})),
+              (std::vector<Vec3>{{1, 2, 3}, {4, 5, 6}}));
     EXPECT_EQ(polytope(Aabb3{{0, 0, 0}, {1, 2, 3}}).volume(), 6);
     EXPECT_EQ(polytope(Triangle3{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}).rank(), 2);
 }
 
 TEST(Polytope, OfPlacedAndStretchedOnes) {
     const Polygon polygon = *Polygon::build({{0, 0}, {2, 0}, {0, 1}});
-    EXPECT_EQ(corners<2>(polytope(at(polygon, Pose2{{5, 5}, Turn{0, 1}}))),
+    EXPECT_EQ(corners_of_polytope<2>(polytope(at(polygon, Pose2{{5, 5}, Turn{0, 1}}))),
               (std::vector<Vec2>{{4, 5}, {5, 5}, {5, 7}}));
-    EXPECT_EQ(corners<2>(polytope(stretched(polygon, Vec2(-1, 0)))), (std::vector<Vec2>{{-2, 0}, {0, 0}}));
+    EXPECT_EQ(corners_of_polytope<2>(polytope(stretched(polygon, Vec2(-1, 0)))), (std::vector<Vec2>{{-2, 0}, {0, 0}}));
     EXPECT_EQ(polytope(stretched(Box3{{0, 0, 0}, {1, 1, 1}}, Vec3(1, 2, 3))).volume(), 48);
-    EXPECT_EQ(corners<2>(polytope(polygon)), corners<2>(polygon));
-    EXPECT_EQ(corners<2>(polytope(polygon, 0.5f)), corners<2>(polygon));
+    EXPECT_EQ(corners_of_polytope<2>(polytope(polygon)), corners_of_polytope<2>(polygon));
+    EXPECT_EQ(corners_of_polytope<2>(polytope(polygon, 0.5f)), corners_of_polytope<2>(polygon));
 }
 
 TEST(Polytope, WithoutToleranceIsForTypesThatAreOne) {
@@ -149,10 +152,10 @@ TEST(Polytope, IsWithinTheToleranceOfCylindersAndCones) {
 
 TEST(Polytope, OfAUsersShapeHasItsCorners) {
     const oracle::PointCloud<3> cloud{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}, {1, 1, 1}, {3, 3, 3}}};
-    EXPECT_EQ(corners<3>(polytope(cloud, 1e-3f)),
+    EXPECT_EQ(corners_of_polytope<3>(polytope(cloud, 1e-3f)),
               (std::vector<Vec3>{{0, 0, 0}, {0, 0, 4}, {0, 4, 0}, {3, 3, 3}, {4, 0, 0}}));
     const oracle::PointCloud<2> flat{{{0, 0}, {4, 0}, {0, 4}, {1, 1}, {3, 3}}};
-    EXPECT_EQ(corners<2>(polytope(flat, 1e-3f)), (std::vector<Vec2>{{0, 0}, {4, 0}, {3, 3}, {0, 4}}));
+    EXPECT_EQ(corners_of_polytope<2>(polytope(flat, 1e-3f)), (std::vector<Vec2>{{0, 0}, {4, 0}, {3, 3}, {0, 4}}));
 }
 
 TEST(Polytope, LooksAcrossWhatSeemsToBeASegment) {
@@ -198,9 +201,9 @@ TEST(Polytope, StopsWhereASupportFunctionContradictsItself) {
 // These calls trip assertions if they are enabled.
 TEST(Polytope, OfBadInputIsHarmless) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_EQ(corners<2>(polytope(Circle{{nan, 0}, 1}, 0.1f)), std::vector<Vec2>{Vec2(0)});
-    EXPECT_EQ(corners<3>(polytope(Segment3{{nan, 0, 0}, {1, 1, 1}})), std::vector<Vec3>{Vec3(0)});
-    EXPECT_EQ(corners<2>(polytope(view(Circle{{1, 0}, 1}))), std::vector<Vec2>{Vec2(0)});
+    EXPECT_EQ(corners_of_polytope<2>(polytope(Circle{{nan, 0}, 1}, 0.1f)), std::vector<Vec2>{Vec2(0)});
+    EXPECT_EQ(corners_of_polytope<3>(polytope(Segment3{{nan, 0, 0}, {1, 1, 1}})), std::vector<Vec3>{Vec3(0)});
+    EXPECT_EQ(corners_of_polytope<2>(polytope(view(Circle{{1, 0}, 1}))), std::vector<Vec2>{Vec2(0)});
     for (const float tolerance : {0.0f, -1.0f, nan}) {
         const Convex<2> circle = view(Circle{{0, 0}, 1});
         EXPECT_LT(gaps<2>(circle, polytope(circle, tolerance), Random(1))[1], 1e-5);

@@ -219,6 +219,46 @@ TEST(SolidContact, IsOneManifold) {
     EXPECT_EQ(near.points.size(), 4u);
 }
 
+TEST(SolidContact, OfACornerIsOneForEachPlane) {
+    // An L has a floor with the normal y, and a wall with the normal x.
+    const Mesh corner = mesh_of(scenes::kit()[1]), box = box_surface({0, 0, 0}, {1, 1, 1}).mesh();
+    struct Found {
+        Vec3 normal;
+        float depth;
+        std::size_t points;
+    };
+    for (const bool as_mesh : {true, false})
+        for (const float sunk_x : {0.0f, 0.125f})
+            for (const float sunk_y : {0.0f, 0.25f}) {
+                SCOPED_TRACE(std::to_string(sunk_x) + " " + std::to_string(sunk_y));
+                const Pose3 pose{{1 - sunk_x, 1 - sunk_y, 0.25f}};
+                std::vector<Found> found;
+                const auto visit = [&](const Contact<3>& contact) {
+                    found.push_back({contact.normal, contact.depth, contact.points.size()});
+                };
+                if (as_mesh)
+                    each_contact(solid(corner), at(solid(box), pose), visit);
+                else
+                    each_contact(solid(corner), Box3{pose.position + Vec3(0.5f), Vec3(0.5f)}, visit);
+                ASSERT_EQ(found.size(), 2u);
+                if (found[0].normal.x < 0.5f) std::swap(found[0], found[1]);
+                EXPECT_EQ(found[0].normal, Vec3(1, 0, 0));
+                EXPECT_EQ(found[1].normal, Vec3(0, 1, 0));
+                EXPECT_FLOAT_EQ(found[0].depth, sunk_x);
+                EXPECT_FLOAT_EQ(found[1].depth, sunk_y);
+                EXPECT_EQ(found[0].points, 4u);
+                EXPECT_EQ(found[1].points, 4u);
+            }
+    // Sides that are flush, and face the same direction, are no contact.
+    const Mesh floor = box_surface({0, 0, 0}, {1, 1, 1}).mesh();
+    int visits = 0;
+    each_contact(solid(floor), at(solid(box), Pose3{{0, 0.875f, 0}}), [&](const Contact<3>& contact) {
+        ++visits;
+        EXPECT_EQ(contact.normal, Vec3(0, 1, 0));
+    });
+    EXPECT_EQ(visits, 1);
+}
+
 TEST(SolidContact, OfViewsAndOwners) {
     const Mesh t = mesh_of(scenes::kit()[0]);
     const Pose3 beside{{2.75f, 0, 0}};
@@ -226,8 +266,10 @@ TEST(SolidContact, OfViewsAndOwners) {
     EXPECT_EQ(closest(solid(t), owner).distance, -0.25f);
     EXPECT_EQ(closest(AnyShape<3>(solid(t)), AnyShape<3>(owner)).distance, -0.25f);
     EXPECT_EQ(closest(solid(t), stretched(owner, Vec3(1, 0.5f, 1))).distance, -0.25f);
-    // The ball is added to the triangles, so that the sum has no inside.
-    EXPECT_EQ(closest(rounded(solid(t), 0.125f), owner).distance, closest(rounded(t, 0.125f), at(t, beside)).distance);
+    // The ball is added to the triangles, so that the sum has no inside; the other one still has.
+    EXPECT_NEAR(closest(rounded(solid(t), 0.125f), owner).distance, -0.375f, 1e-5);
+    EXPECT_EQ(closest(rounded(solid(t), 0.125f), at(t, beside)).distance,
+              closest(rounded(t, 0.125f), at(t, beside)).distance);
     World3 world;
     world.add(solid(t), {.fixed = true});
     world.add(solid(t), {.pose = beside});

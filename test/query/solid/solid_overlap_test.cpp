@@ -10,6 +10,9 @@
 #include <abut/shape/box.hpp>
 #include <abut/shape/polyhedron.hpp>
 
+#include <array>
+#include <string>
+
 #include <gtest/gtest.h>
 
 namespace abut::test {
@@ -187,6 +190,62 @@ TEST(SolidOverlap, OfSolidsThatTouchInAnEdgeOrACorner) {
         place.y = low.max.y - high.min.y - sunk;
         expect_overlap(solid(lower), at(solid(upper), Pose3{place}), sunk > 0);
     }
+}
+
+/// Prisms around the z axis, each from one angle to another, in steps of a 48th of a turn. All share the axis as an
+/// edge.
+scenes::KitPiece star(const std::vector<std::array<std::uint32_t, 2>>& sectors, float radius) {
+    const std::vector<Vec2> circle = scenes::kit_circle(48, radius);
+    scenes::KitPiece result;
+    for (const auto& [from, to] : sectors) {
+        const scenes::KitPiece wedge =
+            scenes::kit_prism("", {{0, 0}, circle[from % 48], circle[to % 48]}, {{0, 1, 2}}, 1);
+        result = result.points.empty() ? wedge : joined(result, wedge);
+    }
+    return result;
+}
+
+TEST(SolidOverlap, AtAnEdgeOfManyTriangles) {
+    // At most 16 triangles at an edge were looked at: a prism between two others seemed to be inside.
+    std::vector<std::array<std::uint32_t, 2>> sectors;
+    for (std::uint32_t from = 0; from < 48; from += 4) sectors.push_back({from, from + 2});
+    const Mesh many = mesh_of(star(sectors, 2));
+    ASSERT_TRUE(many.closed());
+    for (std::uint32_t from = 0; from < 48; ++from)
+        for (const std::uint32_t size : {1u, 2u, 3u}) {
+            SCOPED_TRACE(std::to_string(from) + " " + std::to_string(size));
+            const bool is_between = from % 4 >= 2 && from % 4 + size <= 4;
+            for (const float radius : {1.0f, 2.0f, 3.0f})
+                expect_overlap(solid(many), solid(mesh_of(star({{from, from + size}}, radius))), !is_between);
+        }
+}
+
+TEST(SolidOverlap, OfPrismsAroundOneAxis) {
+    constexpr std::uint64_t seed = 20272;
+    SCOPED_TRACE(seed);
+    oracle::Random random(seed);
+    const auto random_star = [&](std::uint32_t max_count, float radius) {
+        std::vector<std::array<std::uint32_t, 2>> sectors;
+        for (std::uint32_t count = 1 + random.below(max_count); count > 0; --count) {
+            const std::uint32_t from = random.below(48);
+            sectors.push_back({from, from + 1 + random.below(6)});
+        }
+        return star(sectors, radius);
+    };
+    int overlapping = 0;
+    const int pairs = oracle::is_long() ? 2000 : 200;
+    for (int i = 0; i < pairs; ++i) {
+        // Prisms of one piece may overlap, lie on one another or touch.
+        const scenes::KitPiece a = random_star(12, 2), b = random_star(3, 1);
+        const Vec3 place(0, 0, static_cast<float>(random.below(3)) * 0.5f);
+        const bool expected = oracle::interiors_overlap(a, Vec3(0), b, place);
+        const Mesh mesh_a = mesh_of(a), mesh_b = mesh_of(b);
+        ASSERT_EQ(closest(solid(mesh_a), at(solid(mesh_b), Pose3{place})).distance < 0, expected) << i;
+        ASSERT_EQ(closest(at(solid(mesh_b), Pose3{place}), solid(mesh_a)).distance < 0, expected) << i;
+        if (expected) ++overlapping;
+    }
+    EXPECT_GT(overlapping, pairs / 5);
+    EXPECT_LT(overlapping, pairs * 4 / 5);
 }
 
 TEST(SolidOverlap, OfAMeshThatIsInsideOut) {

@@ -241,19 +241,18 @@ double gap_along(const DVec<3>& direction, const Corners& a, const Corners& b) {
 
 }  // namespace
 
-SolidContactArea contact_area(const PlacedSolid& a, const PlacedSolid& b, const DVec<3>& move, const DVec<3>& normal,
-                              double tolerance) {
-    const PlacedSolid moved = b.moved(move);
+namespace {
+
+/// Searches the area of one normal, or of any.
+SolidContactArea area_of(const PlacedSolid& a, const PlacedSolid& moved, const DVec<3>& normal, double tolerance,
+                         bool any_normal) {
     AreaSearch search(a, moved, normal, tolerance);
-    for (const bool any_normal : {false, true}) {
-        if (!search.points().empty()) break;
-        each_triangle_pair(
-            a, moved, static_cast<float>(tolerance),
-            [&](std::uint32_t index_a, const Corners& corners_a, std::uint32_t index_b, const Corners& corners_b) {
-                search.add(index_a, corners_a, index_b, corners_b, any_normal);
-                return true;
-            });
-    }
+    each_triangle_pair(
+        a, moved, static_cast<float>(tolerance),
+        [&](std::uint32_t index_a, const Corners& corners_a, std::uint32_t index_b, const Corners& corners_b) {
+            search.add(index_a, corners_a, index_b, corners_b, any_normal);
+            return true;
+        });
     SolidContactArea result;
     const std::span<const TouchPoint> corners = search.points().corners();
     for (const TouchPoint& corner : corners)
@@ -263,6 +262,72 @@ SolidContactArea contact_area(const PlacedSolid& a, const PlacedSolid& b, const 
         result.feature_b = corners[0].b;
     }
     return result;
+}
+
+/// The normals of faces that touch, each once.
+class TouchNormals {
+public:
+    TouchNormals(const DVec<3>& known, double tolerance) : tolerance_(tolerance) { normals_[count_++] = known; }
+
+    /// Adds the normals of the faces of two triangles, from A to B.
+    void add(const Corners& a, const Corners& b) {
+        const DVec<3> front_a = front_of(a), front_b = front_of(b);
+        if (touches_face(a, front_a, b, front_b)) add(front_a);
+        if (touches_face(b, front_b, a, front_a)) add(-front_b);
+    }
+    /// Without the one that was known.
+    std::span<const DVec<3>> all() const { return {normals_.data() + 1, count_ - 1}; }
+
+private:
+    /// Whether a triangle is in front of another one, and touches it.
+    bool touches_face(const Corners& face, const DVec<3>& front, const Corners& other,
+                      const DVec<3>& other_front) const {
+        ClippedCorners touching;
+        for (const DVec<3>& corner : other) {
+            const double height = dot(front, corner - face[0]);
+            if (height < -tolerance_) return false;
+            if (height <= tolerance_) touching.add(corner, 0);
+        }
+        if (touching.all().empty() || (touching.all().size() == 3 && dot(front, other_front) > 0)) return false;
+        touching.clip(face, front, 0.1 * tolerance_);
+        return !touching.all().empty();
+    }
+    void add(const DVec<3>& normal) {
+        const auto same = [&](const DVec<3>& other) { return dot(normal, other) > same_direction; };
+        if (count_ == normals_.size() || std::any_of(normals_.begin(), normals_.begin() + count_, same)) return;
+        normals_[count_++] = normal;
+    }
+
+    double tolerance_;
+    std::array<DVec<3>, 33> normals_;
+    std::size_t count_ = 0;
+};
+
+}  // namespace
+
+SolidContactArea contact_area(const PlacedSolid& a, const PlacedSolid& b, const DVec<3>& move, const DVec<3>& normal,
+                              double tolerance) {
+    const PlacedSolid moved = b.moved(move);
+    const SolidContactArea result = area_of(a, moved, normal, tolerance, false);
+    return result.manifold.count > 0 ? result : area_of(a, moved, normal, tolerance, true);
+}
+
+void each_contact_area(const PlacedSolid& a, const PlacedSolid& b, const DVec<3>& move, const DVec<3>& normal,
+                       double tolerance, FunctionRef<bool(const DVec<3>& normal, const SolidContactArea& area)> visit) {
+    const PlacedSolid moved = b.moved(move);
+    const SolidContactArea first = area_of(a, moved, normal, tolerance, false);
+    if (first.manifold.count > 0 && !visit(normal, first)) return;
+    TouchNormals normals(normal, tolerance);
+    each_triangle_pair(a, moved, static_cast<float>(tolerance),
+                       [&](std::uint32_t, const Corners& corners_a, std::uint32_t, const Corners& corners_b) {
+                           normals.add(corners_a, corners_b);
+                           return true;
+                       });
+    for (const DVec<3>& other : normals.all()) {
+        const SolidContactArea area = area_of(a, moved, other, tolerance, false);
+        if (area.manifold.count > 0 && !visit(other, area)) return;
+    }
+    if (first.manifold.count == 0 && normals.all().empty()) visit(normal, area_of(a, moved, normal, tolerance, true));
 }
 
 DVec<3> touching_normal(const PlacedSolid& a, const PlacedSolid& b, double step) {

@@ -18,6 +18,12 @@ struct SolidContactArea {
 SolidContactArea contact_area(const PlacedSolid& a, const PlacedSolid& b, const DVec<3>& move, const DVec<3>& normal,
                               double tolerance);
 
+/// Visits the contact area of each plane on which A touches B after the move, with its normal from A to B: first that
+/// of `normal`, then those of faces with other normals, up to a capacity of 32. If no face has a normal, it visits all
+/// points as one area. The visitor returns false to stop.
+void each_contact_area(const PlacedSolid& a, const PlacedSolid& b, const DVec<3>& move, const DVec<3>& normal,
+                       double tolerance, FunctionRef<bool(const DVec<3>& normal, const SolidContactArea& area)> visit);
+
 /// A direction in which B leaves A, which it touches. `step` is so small a move that it counts as none.
 DVec<3> touching_normal(const PlacedSolid& a, const PlacedSolid& b, double step);
 

@@ -7,10 +7,7 @@
 namespace abut::detail {
 
 /// Whether two solids with the same axis share a sector around it. Of a fan of fewer than two blades, beside a triangle
-/// of zero area, nothing is known to be inside.
+/// of zero area, nothing but the backs of its blades is known to be inside.
 bool fans_overlap(const EdgeFan& a, const EdgeFan& b);
-
-/// The same fan, with the direction of its axis reversed.
-EdgeFan reversed(const EdgeFan& fan);
 
 }  // namespace abut::detail

@@ -94,12 +94,17 @@ private:
     /// Whether a sector around edge i, which lies in the other's plane, is inside both solids.
     bool overlap_at(std::size_t i) const {
         const DVec<3>&from = own_.corners[i], &to = own_.corners[next_corner(i)];
-        if (crosses_inside(from, to)) return fans_overlap(own_.solid.fan(own_.index, i), half_space_around(from, to));
+        if (crosses_inside(from, to)) {
+            const std::optional<EdgeFan> fan = own_.solid.fan(own_.index, i);
+            return fan && fans_overlap(*fan, half_space_around(from, to));
+        }
         for (std::size_t j = 0; j < 3; ++j) {
             if (!is_along_edge(from, to, j)) continue;
-            const EdgeFan fan = other_.solid.fan(other_.index, j);
-            const bool goes_along = dot(to - from, fan.to - fan.from) > 0;
-            return fans_overlap(own_.solid.fan(own_.index, i), goes_along ? fan : reversed(fan));
+            const std::optional<EdgeFan> own = own_.solid.fan(own_.index, i);
+            const std::optional<EdgeFan> other = own ? other_.solid.fan(other_.index, j) : std::nullopt;
+            if (!other) return false;
+            const bool goes_along = dot(to - from, other->to - other->from) > 0;
+            return fans_overlap(*own, goes_along ? *other : other->reversed());
         }
         return false;
     }
@@ -116,9 +121,7 @@ private:
 
     /// The other solid as the half-space behind its triangle.
     EdgeFan half_space_around(const DVec<3>& from, const DVec<3>& to) const {
-        EdgeFan result;
-        result.from = from;
-        result.to = to;
+        EdgeFan result(from, to);
         for (const int side : {1, -1})
             for (const DVec<3>& corner : other_.corners) {
                 if (flat_.turn(from, to, corner) != side) continue;

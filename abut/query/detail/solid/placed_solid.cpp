@@ -133,40 +133,47 @@ void PlacedSolid::each_triangle(const Aabb3& box, FunctionRef<bool(std::uint32_t
     surface_.each_triangle(local, visit);
 }
 
-EdgeFan PlacedSolid::fan(std::uint32_t triangle, std::size_t side) const {
+void PlacedSolid::each_blade(std::uint32_t triangle, std::uint32_t own_side,
+                             FunctionRef<bool(std::uint32_t triangle, const FanBlade& blade)> visit) const {
     const auto position = [&](std::uint32_t t, std::uint32_t corner) {
         return surface_.position(surface_.triangle(t)[corner % 3]);
     };
-    const std::uint32_t own = own_side(side);
-    const Vec3 a = position(triangle, own), b = position(triangle, own + 1);
-    EdgeFan result;
     const auto placed = [&](const Vec3& p) { return place_.point(DVec<3>(p)); };
-    result.from = placed(flipped_ ? b : a);
-    result.to = placed(flipped_ ? a : b);
-    /// Adds the other corner of a triangle if it has the edge.
-    const auto add = [&](std::uint32_t t) {
+    const Vec3 a = position(triangle, own_side), b = position(triangle, own_side + 1);
+    const DVec<3> placed_a = placed(a), placed_b = placed(b);
+    /// Visits the other corner of a triangle if it has the edge.
+    const auto visit_if_there = [&](std::uint32_t t) {
         for (std::uint32_t i = 0; i < 3; ++i) {
             const Vec3 from = position(t, i), to = position(t, i + 1);
             const bool along = from == a && to == b;
             if (!along && !(from == b && to == a)) continue;
             const DVec<3> corner = placed(position(t, i + 2));
-            if (projection_axis({result.from, result.to, corner}) < 0) return;
+            if (projection_axis({placed_a, placed_b, corner}) < 0) return true;
             // The front of a triangle that runs along the axis faces counter-clockwise.
-            result.add(corner, along, !along);
-            return;
+            return visit(t, {corner, along, !along});
         }
+        return true;
     };
-    add(triangle);
-    const std::uint32_t neighbour = surface_.neighbour(triangle, own);
+    const std::uint32_t neighbour = surface_.neighbour(triangle, own_side);
     if (neighbour == many_neighbours) {
-        const Aabb3 around{glm::min(a, b), glm::max(a, b)};
-        surface_.each_triangle(around, [&](std::uint32_t t) {
-            if (t != triangle) add(t);
-            return true;
-        });
-    } else if (neighbour != no_neighbour) {
-        add(neighbour);
+        surface_.each_triangle({glm::min(a, b), glm::max(a, b)}, visit_if_there);
+    } else if (visit_if_there(triangle) && neighbour != no_neighbour) {
+        visit_if_there(neighbour);
     }
+}
+
+std::optional<EdgeFan> PlacedSolid::fan(std::uint32_t triangle, std::size_t side) const {
+    const std::uint32_t own = own_side(side);
+    const std::array<std::uint32_t, 3> t = surface_.triangle(triangle);
+    EdgeFan result(point(t[own]), point(t[(own + 1) % 3]));
+    if (flipped_) std::swap(result.from, result.to);
+    bool is_first = true;
+    each_blade(triangle, own, [&](std::uint32_t other, const FanBlade& blade) {
+        result.add(blade.point, blade.inside_before, blade.inside_after);
+        return is_first = other >= triangle;
+    });
+    if (!is_first) return std::nullopt;
+    result.refer_to(*this, triangle, own);
     return result;
 }
 

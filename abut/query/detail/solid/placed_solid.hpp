@@ -8,6 +8,7 @@
 #include <abut/query/detail/solid/solid_surface.hpp>
 
 #include <array>
+#include <optional>
 
 namespace abut::detail {
 
@@ -21,18 +22,37 @@ struct FanBlade {
     bool inside_after;   ///< counter-clockwise
 };
 
-/// A solid near a generic point of an edge: the half-planes around the edge as axis.
-struct EdgeFan {
-    static constexpr std::size_t capacity = 16;
+class PlacedSolid;
+
+/// A solid near a generic point of an edge: the half-planes around the edge as axis. Refers to the solid.
+class EdgeFan {
+public:
+    EdgeFan(const DVec<3>& start, const DVec<3>& end) : from(start), to(end) {}
 
     DVec<3> from, to;  ///< the axis
-    std::array<FanBlade, capacity> blades;
-    std::size_t count = 0;
 
-    std::span<const FanBlade> all() const { return {blades.data(), count}; }
+    /// Visits each blade, in no order.
+    void each(FunctionRef<void(const FanBlade& blade)> visit) const;
+    std::size_t count() const { return count_; }
     void add(const DVec<3>& point, bool inside_before, bool inside_after) {
-        if (count < capacity) blades[count++] = {point, inside_before, inside_after};
+        if (count_ < stored_.size()) stored_[count_] = {point, inside_before, inside_after};
+        ++count_;
     }
+    /// Makes `each` search the triangles again if more blades were added than are stored.
+    void refer_to(const PlacedSolid& solid, std::uint32_t triangle, std::uint32_t own_side) {
+        solid_ = &solid;
+        triangle_ = triangle;
+        own_side_ = own_side;
+    }
+    /// The same fan, with the direction of its axis reversed.
+    EdgeFan reversed() const;
+
+private:
+    std::array<FanBlade, 4> stored_;
+    std::size_t count_ = 0;
+    const PlacedSolid* solid_ = nullptr;
+    std::uint32_t triangle_ = 0, own_side_ = 0;
+    bool is_reversed_ = false;
 };
 
 enum class PointSide : std::uint8_t { outside, on_surface, inside };
@@ -47,6 +67,8 @@ public:
     PlacedSolid moved(const DVec<3>& translation) const;
 
     const Aabb3& box() const { return box_; }
+    /// Whether the corners of the shape's own triangles are clockwise seen from outside.
+    bool is_flipped() const { return flipped_; }
     std::uint32_t triangle_count() const { return surface_.triangle_count(); }
     DVec<3> point(std::uint32_t index) const { return place_.point(DVec<3>(surface_.position(index))); }
     Corners corners(std::uint32_t triangle) const {
@@ -66,8 +88,8 @@ public:
     void each_triangle(const Aabb3& box, FunctionRef<bool(std::uint32_t triangle)> visit) const;
 
     /// The fan around the edge of a triangle from corner `side` to the next, as `corners` orders them, with that
-    /// direction.
-    EdgeFan fan(std::uint32_t triangle, std::size_t side) const;
+    /// direction. Only the first of the triangles at an edge has it; none for the others.
+    std::optional<EdgeFan> fan(std::uint32_t triangle, std::size_t side) const;
 
     PointSide side_of(const DVec<3>& point) const;
 
@@ -76,6 +98,12 @@ public:
     bool is_inside_behind(const Corners& triangle) const;
 
 private:
+    friend class EdgeFan;
+
+    /// Visits the blades at an edge, with their triangles; false stops.
+    void each_blade(std::uint32_t triangle, std::uint32_t own_side,
+                    FunctionRef<bool(std::uint32_t triangle, const FanBlade& blade)> visit) const;
+
     /// Visits at least the triangles that a line along an axis meets, from a point on; false stops.
     template <class Visit>
     void each_triangle_from(const DVec<3>& point, int axis, bool up, const Visit& visit) const;

@@ -464,10 +464,10 @@ SurfaceContact<D> filtered_contact(const View<D>& a, const View<D>& b, const Par
 template <int D>
 bool each_surface_contact(const View<D>& a, const View<D>& b, const QueryOptions<D>& options,
                           const NeighbourSurfaces<D>& neighbours, FunctionRef<bool(const SurfaceContact<D>&)> visit) {
-    if (are_solids(a, b)) {
-        const Contact<D> only = contact(a, b, options);
-        if (only) visit({only, {}, {}});
-        return static_cast<bool>(only);
+    if constexpr (D == 3) {
+        bool touch = false;
+        const auto report = [&](const Contact<D>& contact) { return visit({contact, {}, {}}); };
+        if (has_solid(a, b) && each_solid_contact(a, b, options.margin, report, touch)) return touch;
     }
     if (std::holds_alternative<Composite<D>>(a) || std::holds_alternative<Composite<D>>(b))
         return SurfaceContacts<D>(a, b, options, neighbours)
