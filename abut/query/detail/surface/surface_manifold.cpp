@@ -8,6 +8,9 @@ namespace {
 /// The largest angle between the normals of one plane, and its cosine.
 constexpr double max_plane_angle = 5e-3, min_plane_cosine = 1 - 0.5 * max_plane_angle * max_plane_angle;
 
+/// A face that is this thin is an edge, and so is one a little less thin.
+constexpr float max_thinness = 1e-5f;
+
 /// An area shorter than this fraction of the smaller shape's size is a sliver.
 constexpr double min_extent = 1e-2;
 
@@ -116,6 +119,38 @@ std::optional<DVec<D>> face_normal(const Part<D>& part_a, const Part<D>& part_b,
 }
 
 template <int D>
+FaceNormals<D>::FaceNormals(const Part<D>& part) {
+    if (!part.is_convex()) return;
+    const Convex<D>& set = part.convex();
+    if (set.core == Core::box && set.similar) {
+        const Vec<D>& half = set.own[0];
+        float shortest = half[0], longest = half[0];
+        for (int i = 1; i < D; ++i) {
+            shortest = std::min(shortest, half[i]);
+            longest = std::max(longest, half[i]);
+        }
+        if (!(shortest > 2 * max_thinness * longest)) return;
+        for (const DVec<D>& column : set.place.column) normals_[count_++] = column;
+    }
+    if constexpr (D == 3)
+        if (set.core == Core::points && set.count == 3) {
+            const auto corner = [&](std::uint32_t i) { return set.place.point(DVec<3>(set.vertices()[i])); };
+            const DVec<3> ab = corner(1) - corner(0), ac = corner(2) - corner(0), area = cross(ab, ac);
+            const double longest = std::max(length_squared(ab), length_squared(ac));
+            if (length_squared(area) > 16 * max_thinness * max_thinness * longest * longest) normals_[count_++] = area;
+        }
+}
+
+template <int D>
+bool FaceNormals<D>::may_face(const DVec<D>& direction) const {
+    const auto used = std::span(normals_).first(count_);
+    return used.empty() || std::any_of(used.begin(), used.end(), [&](const DVec<D>& normal) {
+               const double along = dot(normal, direction);
+               return along * along >= aligned * aligned * (1 - 1e-12) * length_squared(normal);
+           });
+}
+
+template <int D>
 void ExtremePoints<D>::add(const ManifoldPoint<D>& point, const DVec<D>& normal) {
     const std::array<double, directions> along = along_directions(point.position, normal);
     const bool is_first = count_++ == 0;
@@ -209,26 +244,6 @@ void SurfaceManifold<D>::add_deepest(const PairDistance<D>& pair) {
                 plane_.normal);
 }
 
-/// Triangles and boxes, the most common parts, have few normals.
-template <int D>
-bool SurfaceManifold<D>::may_have_face(const Part<D>& part_a, const Part<D>& part_b) const {
-    const Part<D>& part = names_ == ManifoldNames::level_is_a ? part_a : part_b;
-    if (!part.is_convex()) return false;
-    const Convex<D>& set = part.convex();
-    const auto is_along = [&](const DVec<D>& normal) {
-        const double along = dot(normal, plane_.normal);
-        return along * along >= aligned * aligned * length_squared(normal);
-    };
-    if (set.core == Core::box && set.similar)
-        return std::any_of(set.place.column.begin(), set.place.column.end(), is_along);
-    if constexpr (D == 3)
-        if (set.core == Core::points && set.count == 3) {
-            const auto corner = [&](std::uint32_t i) { return set.place.point(DVec<3>(set.vertices()[i])); };
-            return is_along(cross(corner(1) - corner(0), corner(2) - corner(0)));
-        }
-    return true;
-}
-
 /// A point deeper than the deepest contact is none of this surface.
 template <int D>
 ManifoldCandidates<D> SurfaceManifold<D>::area(const Part<D>& part_a, const Part<D>& part_b, std::uint32_t index_a,
@@ -279,6 +294,7 @@ void SurfaceManifold<D>::write(Contact<D>& contact) const {
     template std::optional<DVec<D>> face_normal(const Part<D>&, const Part<D>&, const SurfaceNormalFlags&, \
                                                 const ContactPlane<D>&);                                   \
     template struct ContactPlane<D>;                                                                       \
+    template class FaceNormals<D>;                                                                         \
     template class SurfaceManifold<D>;
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
