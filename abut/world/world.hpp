@@ -394,10 +394,10 @@ private:
     /// The contact of a touching pair, before ghost contacts are dropped.
     struct FoundContact {
         WorldContact<D> result;
-        Contact<D> own_area;  // of a ghost: its points on the faces of the two items
         detail::SurfaceNormalFlags
-            surface_normal;     // false for an item if the normal is a substitute for one of an internal edge
-        bool reported = false;  // whether it is among contacts()
+            surface_normal;        // false for an item if the normal is a substitute for one of an internal edge
+        bool reported = false;     // whether it is among contacts()
+        bool is_own_area = false;  // the points of the ghost before it on the faces of the two items
     };
 
     static View<D> point_view(const Vec<D>& point) {
@@ -474,7 +474,7 @@ private:
     bool find_contact(const IdPair& pair);
     void filter_contact(FoundContact& found, const detail::DeepestParts<D>& deepest);
     void filter_contacts();
-    static void set_contact(const detail::SurfaceContact<D>& filtered, FoundContact& found);
+    void set_contact(const detail::SurfaceContact<D>& filtered, FoundContact& found);
     void merge_more_found();
     std::span<const FoundContact> last_contacts(const IdPair& pair) const;
     bool is_covered(const FoundContact& ghost, const Id& item) const;

@@ -55,7 +55,6 @@ void World<D>::reserve_edge_filter() {
 template <int D>
 void World<D>::find_neighbours() {
     using State = EdgeFilterState<D>;
-    using Neighbour = typename State::Neighbour;
     std::vector<std::uint32_t>& list_of_slot = edges_->list_of_slot;
     list_of_slot.assign(items_.size(), State::none);
     edges_->centers.clear();
@@ -74,14 +73,15 @@ void World<D>::find_neighbours() {
             const std::uint32_t list_a = list_of_slot[a], list_b = list_of_slot[b];
             if (list_a == State::none && list_b == State::none) continue;
             if (!are_solid(a, b) || (widened_ && !overlaps(box(a), box(b)))) continue;
-            const auto neighbour = [this](std::uint32_t slot) {
-                return [this, slot]() -> Neighbour { return {box(slot), slot}; };
-            };
+            const auto neighbour = [](std::uint32_t slot) { return [slot] { return slot; }; };
             if (list_a != State::none) add(list_a, neighbour(b));
             if (list_b != State::none) add(list_b, neighbour(a));
         }
     };
     edges_->neighbours.build(edges_->centers.size(), each);
+    const std::span<const std::uint32_t> all = edges_->neighbours.all();
+    edges_->neighbour_boxes.reserve(all.size());
+    for (std::size_t i = 0; i < all.size(); ++i) edges_->neighbour_boxes.set(i, box(all[i]));
 }
 
 /// A contact may change if an item near one of the two was added, removed or moved.
@@ -123,11 +123,10 @@ void World<D>::each_closest_point_beside(std::uint32_t slot, std::uint32_t other
         each_closest_point_on<D>(edges_->views.of(item, [&] { return placed(items_[item]); }), point, within, narrow);
         return within > stop_visiting;
     };
-    const auto neighbours = edges_->neighbours_of(slot);
-    if (neighbours.size() <= max_listed_neighbours) {
-        for (const auto& neighbour : neighbours)
-            if (overlaps_branchless(neighbour.box, near) && neighbour.slot != other && !visit_item(neighbour.slot))
-                return;
+    if (edges_->neighbour_count(slot) <= max_listed_neighbours) {
+        edges_->each_neighbour(slot, near, [&](std::uint32_t neighbour) {
+            return neighbour == other || !overlaps_branchless(box(neighbour), near) || visit_item(neighbour);
+        });
         return;
     }
     const Item& item = items_[slot];
@@ -170,8 +169,10 @@ bool World<D>::find_contact(const IdPair& pair) {
 template <int D>
 bool World<D>::is_center_covered(std::uint32_t slot) {
     auto& state = edges_->center_of(slot);
-    if (!std::exchange(state.is_tested, true))
-        each_closest_point_beside(slot, slot, DVec<D>(center(box(slot))), 0, [&](const ClosestPoint<D>& closest) {
+    if (std::exchange(state.is_tested, true)) return state.is_covered;
+    const Vec<D> middle = center(box(slot));
+    if (!edges_->each_neighbour(slot, {middle, middle}, [](std::uint32_t) { return false; }))
+        each_closest_point_beside(slot, slot, DVec<D>(middle), 0, [&](const ClosestPoint<D>& closest) {
             state.is_covered = closest.distance < 0;
             return state.is_covered ? stop_visiting : 0.0;
         });
@@ -186,15 +187,12 @@ bool World<D>::is_alone(const Contact<D>& contact, std::uint32_t slot, std::uint
         static_cast<double>(std::min(items_[slot].local_ball.radius, items_[other].local_ball.radius));
     const double scale = surface_probe_scale * radius;
     const double min_depth = static_cast<double>(contact.depth) - 0.5 * deepest_tolerance * scale;
-    const auto neighbours = edges_->neighbours_of(slot);
     return std::any_of(contact.points.begin(), contact.points.end(), [&](const ContactPoint<D>& point) {
         const double depth = static_cast<double>(point.depth);
         if (depth < min_depth) return false;
         const DVec<D> on_surface = DVec<D>(point.position) - DVec<D>(contact.normal) * (0.5 * side * depth);
         const Aabb<D> near = box_around(on_surface, probe_reach * scale);
-        return std::none_of(neighbours.begin(), neighbours.end(), [&](const auto& neighbour) {
-            return neighbour.slot != other && overlaps_branchless(neighbour.box, near);
-        });
+        return edges_->each_neighbour(slot, near, [&](std::uint32_t neighbour) { return neighbour == other; });
     });
 }
 
@@ -207,8 +205,8 @@ void World<D>::filter_contact(FoundContact& found, const DeepestParts<D>& deepes
     if (type_a == ShapeType::ball && type_b == ShapeType::ball) return;
     const bool has_parts = type_a == ShapeType::composite || type_b == ShapeType::composite;
     const auto needs_filter = [&](std::uint32_t slot, std::uint32_t other, double side) {
-        return filters_edges(slot) && edges_->neighbours_of(slot).size() > 1 &&
-               (has_parts || !is_alone(found.result.contact, slot, other, side)) && !is_center_covered(slot);
+        return filters_edges(slot) && edges_->neighbour_count(slot) > 1 && !is_center_covered(slot) &&
+               (has_parts || !is_alone(found.result.contact, slot, other, side));
     };
     const bool for_a = needs_filter(a, b, 1), for_b = needs_filter(b, a, -1);
     if (!for_a && !for_b && !has_parts) return;
@@ -239,12 +237,16 @@ void World<D>::filter_contact(FoundContact& found, const DeepestParts<D>& deepes
     });
 }
 
+/// The area of a ghost follows it in the list.
 template <int D>
 void World<D>::set_contact(const detail::SurfaceContact<D>& filtered, FoundContact& found) {
     found.result.contact = filtered.contact;
-    found.own_area = filtered.own_area;
     found.surface_normal = filtered.surface_normals;
     found.reported = static_cast<bool>(filtered.contact);
+    found.is_own_area = false;
+    if (!filtered.own_area) return;
+    const WorldContact<D> area{found.result.a, found.result.b, filtered.own_area};
+    more_found_.push_back({.result = area, .surface_normal = {}, .reported = false, .is_own_area = true});
 }
 
 /// Merges the further contacts of pairs into found_. Both lists are sorted by pairs.
@@ -324,15 +326,14 @@ void World<D>::report_contacts() {
     }
     if (any_ghost) find_contacts_beside_ghosts();
     for (FoundContact& found : found_) {
-        if (found.surface_normal || !found.result.contact) continue;
+        if (found.surface_normal || !found.result.contact || found.is_own_area) continue;
         found.reported = (found.surface_normal.a || !is_covered(found, found.result.a)) &&
                          (found.surface_normal.b || !is_covered(found, found.result.b));
     }
+    bool is_before_reported = true;
     for (const FoundContact& found : found_) {
-        if (found.reported)
-            contacts_.push_back(found.result);
-        else if (found.own_area)
-            contacts_.push_back({found.result.a, found.result.b, found.own_area});
+        if (found.is_own_area ? !is_before_reported : found.reported) contacts_.push_back(found.result);
+        is_before_reported = found.reported;
     }
 }
 

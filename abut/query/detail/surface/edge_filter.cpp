@@ -118,7 +118,8 @@ bool EdgeFilter<D>::is_surface_normal_of(Side side, const Part<D>& part, const P
         const ManifoldPoint<D>& point = manifold.points[i];
         const DVec<D> on_surface = point.position + place.normal * (0.5 * point.depth);
         sum += on_surface;
-        if (!is_one_part || point.depth < -distance.distance - deepest_tolerance * scale_) continue;
+        if (!is_one_part || manifold.count == 1 || point.depth < -distance.distance - deepest_tolerance * scale_)
+            continue;
         place.point = on_surface;
         if (is_alone(place, *neighbours)) return true;
     }

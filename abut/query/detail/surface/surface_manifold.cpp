@@ -106,7 +106,7 @@ template <int D>
 std::optional<DVec<D>> face_normal(const Part<D>& part_a, const Part<D>& part_b, const SurfaceNormalFlags& flags,
                                    const ContactPlane<D>& plane) {
     const auto of = [&](const Part<D>& part, const DVec<D>& out, const DVec<D>& on_plane) -> std::optional<DVec<D>> {
-        if (!part.is_convex()) return std::nullopt;
+        if (!part.is_convex() || !FaceNormals<D>(part).may_face(out)) return std::nullopt;
         const Face<D> face = face_along(part.convex(), out);
         if (!face.flat() || dot(face.normal, out) < aligned) return std::nullopt;
         const DVec<D> offset = face.points[0] + face.normal * part.convex().radius - on_plane;
@@ -183,17 +183,17 @@ ManifoldCandidates<D> ExtremePoints<D>::distinct(double tolerance) const {
 }
 
 template <int D>
-double ExtremePoints<D>::extent() const {
-    double result = 0;
-    if (count_ == 0) return result;
+bool ExtremePoints<D>::extend_beyond(double length) const {
+    if (count_ < 2) return false;
     for (const ManifoldPoint<D>& a : extreme_)
-        for (const ManifoldPoint<D>& b : extreme_) result = std::max(result, length_squared(a.position - b.position));
-    return std::sqrt(result);
+        for (const ManifoldPoint<D>& b : extreme_)
+            if (length_squared(a.position - b.position) > length * length) return true;
+    return false;
 }
 
 template <int D>
 bool SurfaceManifold<D>::has_extent() const {
-    return points_.extent() > min_extent / surface_probe_scale * plane_.step;
+    return points_.extend_beyond(min_extent / surface_probe_scale * plane_.step);
 }
 
 template <int D>

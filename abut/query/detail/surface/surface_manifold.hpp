@@ -78,8 +78,8 @@ public:
     void add(const ManifoldPoint<D>& point, const DVec<D>& normal);
     /// The points, without those that others are equal to within `tolerance`.
     ManifoldCandidates<D> distinct(double tolerance) const;
-    /// The largest distance between two of the points.
-    double extent() const;
+    /// Whether two of the points are farther apart than a length.
+    bool extend_beyond(double length) const;
 
 private:
     static constexpr std::size_t directions = D == 2 ? 2 : 16;
