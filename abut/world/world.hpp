@@ -462,20 +462,16 @@ private:
     bool measure(const IdPair& pair, detail::BallEarlyOuts::Entry& entry);
     bool filters_edges(std::uint32_t slot) const;
     bool are_solid(std::uint32_t slot, std::uint32_t other) const;
-    void begin_edge_filter();
     void reserve_edge_filter();
     void find_neighbours();
-    void find_changed_neighbours();
-    bool neighbours_changed(const IdPair& pair);
+    bool neighbours_changed(const IdPair& pair) const;
     void each_closest_point_beside(std::uint32_t slot, std::uint32_t other, const detail::DVec<D>& point, double within,
                                    FunctionRef<double(const detail::ClosestPoint<D>&)> visit);
     bool is_center_covered(std::uint32_t slot);
     bool is_alone(const Contact<D>& contact, std::uint32_t slot, std::uint32_t other, double side) const;
     bool find_contact(const IdPair& pair);
-    void filter_contact(FoundContact& found, const detail::DeepestParts<D>& deepest);
-    void filter_contacts();
-    void set_contact(const detail::SurfaceContact<D>& filtered, FoundContact& found);
-    void merge_more_found();
+    bool needs_filter(std::uint32_t slot, std::uint32_t other, const Contact<D>* contact, double side);
+    void add_found(const IdPair& pair, const detail::SurfaceContact<D>& filtered);
     std::span<const FoundContact> last_contacts(const IdPair& pair) const;
     bool is_covered(const FoundContact& ghost, const Id& item) const;
     void find_contacts_beside_ghosts();
@@ -522,10 +518,9 @@ private:
     struct DeleteEdgeFilterState {
         void operator()(detail::EdgeFilterState<D>* state) const;
     };
-    std::unique_ptr<detail::EdgeFilterState<D>, DeleteEdgeFilterState> edges_;  // made by the first update
+    std::unique_ptr<detail::EdgeFilterState<D>, DeleteEdgeFilterState> edges_;  // made by the first update that filters
     std::vector<IdPair> touching_, last_touching_;                              // now and at the last update
     std::vector<FoundContact> found_, last_found_;
-    std::vector<FoundContact> more_found_;  // further contacts of pairs in found_, in an update
     std::vector<WorldContact<D>> contacts_;
     std::vector<WorldImpact<D>> impacts_;       // of continuous pairs that didn't touch at the last update
     std::vector<IdPair> passed_, last_passed_;  // pairs with an impact that don't touch at the end; last update's
