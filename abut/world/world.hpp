@@ -396,6 +396,7 @@ private:
         WorldContact<D> result;
         detail::SurfaceNormalFlags
             surface_normal;        // false for an item if the normal is a substitute for one of an internal edge
+        float size = 0;            // then that of the smaller item
         bool reported = false;     // whether it is among contacts()
         bool is_own_area = false;  // the points of the ghost before it on the faces of the two items
     };
@@ -464,7 +465,8 @@ private:
     bool are_solid(std::uint32_t slot, std::uint32_t other) const;
     void reserve_edge_filter();
     void find_neighbours();
-    bool neighbours_changed(const IdPair& pair) const;
+    void find_changed_neighbours();
+    bool neighbours_changed(const IdPair& pair);
     void each_closest_point_beside(std::uint32_t slot, std::uint32_t other, const detail::DVec<D>& point, double within,
                                    FunctionRef<double(const detail::ClosestPoint<D>&)> visit);
     bool is_center_covered(std::uint32_t slot);

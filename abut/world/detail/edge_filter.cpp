@@ -54,13 +54,7 @@ void World<D>::find_neighbours() {
     if (edges_ == nullptr) edges_.reset(new EdgeFilterState<D>());
     EdgeFilterState<D>& state = *edges_;
     state.views.clear();
-    state.neighbour_changed.assign(items_.size(), false);
-    for (const std::vector<IdPair>* pairs : {&near_, &last_near_})
-        for (const IdPair& pair : *pairs) {
-            const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
-            if (items_[a].pending) state.neighbour_changed[b] = true;
-            if (items_[b].pending) state.neighbour_changed[a] = true;
-        }
+    state.neighbour_changed_is_known = false;
     state.list_of_slot.assign(items_.size(), state.none);
     state.centers.clear();
     for (const IdPair& pair : near_) {
@@ -86,9 +80,24 @@ void World<D>::find_neighbours() {
     for (std::size_t i = 0; i < all.size(); ++i) state.neighbour_boxes.set(i, box(all[i]));
 }
 
+/// Marks the items near which another one has changed.
+template <int D>
+void World<D>::find_changed_neighbours() {
+    edges_->neighbour_changed_is_known = true;
+    std::vector<char>& changed = edges_->neighbour_changed;
+    changed.assign(items_.size(), false);
+    for (const std::vector<IdPair>* pairs : {&near_, &last_near_})
+        for (const IdPair& pair : *pairs) {
+            const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
+            if (items_[a].pending) changed[b] = true;
+            if (items_[b].pending) changed[a] = true;
+        }
+}
+
 /// Whether an item near one of the two has changed.
 template <int D>
-bool World<D>::neighbours_changed(const IdPair& pair) const {
+bool World<D>::neighbours_changed(const IdPair& pair) {
+    if (filters_edges_ && !edges_->neighbour_changed_is_known) find_changed_neighbours();
     const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
     return (filters_edges(a) && edges_->neighbour_changed[a]) || (filters_edges(b) && edges_->neighbour_changed[b]);
 }
@@ -167,8 +176,8 @@ bool World<D>::is_alone(const Contact<D>& contact, std::uint32_t slot, std::uint
 /// contact of items without parts are known.
 template <int D>
 bool World<D>::needs_filter(std::uint32_t slot, std::uint32_t other, const Contact<D>* contact, double side) {
-    return filters_edges(slot) && edges_->neighbour_count(slot) > 1 && !is_center_covered(slot) &&
-           (contact == nullptr || !is_alone(*contact, slot, other, side));
+    if (!filters_edges(slot) || edges_->neighbour_count(slot) <= 1 || edges_->center_of(slot).is_covered) return false;
+    return (contact == nullptr || !is_alone(*contact, slot, other, side)) && !is_center_covered(slot);
 }
 
 /// Finds the contacts of two items and appends them to found_, with the surface of their neighbours where these are
@@ -231,9 +240,12 @@ bool World<D>::find_contact(const IdPair& pair) {
 /// The area of a ghost follows it in the list.
 template <int D>
 void World<D>::add_found(const IdPair& pair, const detail::SurfaceContact<D>& filtered) {
-    found_.push_back(
-        {{pair.a, pair.b, filtered.contact}, filtered.surface_normals, static_cast<bool>(filtered.contact), false});
-    if (filtered.own_area) found_.push_back({{pair.a, pair.b, filtered.own_area}, {}, false, true});
+    found_.push_back({{pair.a, pair.b, filtered.contact},
+                      filtered.surface_normals,
+                      static_cast<float>(filtered.size),
+                      static_cast<bool>(filtered.contact),
+                      false});
+    if (filtered.own_area) found_.push_back({{pair.a, pair.b, filtered.own_area}, {}, 0, false, true});
 }
 
 template <int D>
@@ -252,7 +264,6 @@ bool World<D>::is_covered(const FoundContact& ghost, const Id& item) const {
         return DVec<D>(contact.contact.normal) * (contact.a == item ? 1.0 : -1.0);
     };
     const WorldContact<D>& result = ghost.result;
-    const double size = std::min(detail::size(shape(result.a)), detail::size(shape(result.b)));
     const std::uint32_t slot = item.index - 1;
     if (!filters_edges(slot)) return false;
     const auto others = edges_->found_by_slot.of(slot);
@@ -260,7 +271,8 @@ bool World<D>::is_covered(const FoundContact& ghost, const Id& item) const {
         const FoundContact& other = found_[place];
         return other.reported && &other != &ghost &&
                covers_contact<D>(normal_from_item(other.result), static_cast<double>(other.result.contact.depth),
-                                 normal_from_item(result), static_cast<double>(result.contact.depth), size);
+                                 normal_from_item(result), static_cast<double>(result.contact.depth),
+                                 static_cast<double>(ghost.size));
     });
 }
 

@@ -34,6 +34,7 @@ struct EdgeFilterState {
     CompressedLists<std::uint32_t> found_by_slot;  ///< indices in World::found_, in an update with substitute normals
     ViewCache<D> views;
     std::vector<char> neighbour_changed;  ///< by slot: an item near it has changed since the last update
+    bool neighbour_changed_is_known = false;
 
     std::size_t neighbour_count(std::uint32_t slot) const { return neighbours.of(list_of_slot[slot]).size(); }
     /// Calls visit(neighbour) for the neighbours of an item whose AABBs overlap a box, until it returns false. Returns

@@ -374,6 +374,7 @@ private:
     bool report_plane(const Pair& deepest, const Features& features, SurfaceManifold<D>& manifold, Visit visit) {
         SurfaceContact<D> found;
         found.surface_normals = deepest.flags;
+        found.size = filter_.size();
         found.contact.feature_a = features.feature_a;
         found.contact.feature_b = features.feature_b;
         if (!deepest.flags) {
@@ -452,7 +453,7 @@ bool report_single(const View<D>& a, const View<D>& b, const QueryOptions<D>& op
 template <int D>
 SurfaceContact<D> filtered_contact(const View<D>& a, const View<D>& b, const PartContact<D>& own,
                                    const Contact<D>& contact, const NeighbourSurfaces<D>& neighbours, double margin) {
-    SurfaceContact<D> result{contact, {}, {}};
+    SurfaceContact<D> result{contact, {}, {}, 0};
     const Part<D> part_a = single_part(a), part_b = single_part(b);
     EdgeFilter<D> filter(a, b, neighbours);
     const SurfaceNormalFlags flags =
@@ -465,6 +466,7 @@ SurfaceContact<D> filtered_contact(const View<D>& a, const View<D>& b, const Par
         return result;
     }
     result.surface_normals = flags;
+    result.size = filter.size();
     if (!is_replaced) return result;
     const double step = surface_probe_scale * filter.size();
     const std::optional<DVec<D>> face = face_normal<D>(part_a, part_b, flags, {pair.distance, step});
@@ -490,7 +492,7 @@ bool each_surface_contact(const View<D>& a, const View<D>& b, const QueryOptions
                           const NeighbourSurfaces<D>& neighbours, FunctionRef<bool(const SurfaceContact<D>&)> visit) {
     if (are_solids(a, b)) {
         const Contact<D> only = contact(a, b, options);
-        if (only) visit({only, {}, {}});
+        if (only) visit({only, {}, {}, 0});
         return static_cast<bool>(only);
     }
     if (std::holds_alternative<Composite<D>>(a) || std::holds_alternative<Composite<D>>(b))
