@@ -123,11 +123,13 @@ public:
                 first = stored().front();
             }
             find_planes();
+            find_forgotten(first_new_, false);
             go_on = report_planes(first_new_, visit_any);
             if (!go_on) break;
             replace_ghosts();
             const std::size_t first_ghost = plane_count_;
             find_planes_of_ghosts();
+            find_forgotten(first_ghost, true);
             go_on = report_planes(first_ghost, visit_any);
         } while (go_on && !is_complete_);
         if (!any && !has_neighbours) {
@@ -254,13 +256,13 @@ private:
     /// Stores the first touching pairs after those of the last round.
     void store_touching() {
         const bool is_first = round_++ == 0;
-        const Pair last = last_;
+        before_ = last_;
         stored_count_ = 0;
         is_complete_ = true;
         pairs_.each([&](const Part<D>& part_a, const Part<D>& part_b, const PairPlace& place) {
             Pair pair(place);
             if (!touch(part_a, part_b, pair.distance)) return true;
-            if (!is_first && !comes_before(last, pair)) return true;
+            if (!is_first && !comes_before(before_, pair)) return true;
             is_complete_ = is_complete_ && stored_count_ < max_pairs;
             const auto after = std::upper_bound(stored().begin(), stored().end(), pair, comes_before);
             if (after == stored().end() && stored_count_ == max_pairs) return true;
@@ -280,12 +282,14 @@ private:
         if (plane_count_ > max_old_planes) {  // the planes of the first rounds are forgotten
             std::copy_n(planes_.data() + plane_count_ - max_old_planes, max_old_planes, planes_.data());
             plane_count_ = max_old_planes;
+            has_forgotten_ = true;
         }
         first_new_ = plane_count_;
     }
 
     /// Adds the plane of a stored pair, the deepest on it.
     void add_plane(const Pair& deepest) {
+        is_reported_[plane_count_ - first_new_] = false;
         deepest_[plane_count_ - first_new_] = static_cast<std::uint32_t>(&deepest - stored_.data());
         planes_[plane_count_++] = ContactPlane<D>(deepest.distance, step());
     }
@@ -329,6 +333,23 @@ private:
         report_planes(0, visit);
     }
 
+    /// Finds the planes from `first` on that an earlier round reported and forgot: those that have a surface contact,
+    /// or for planes of ghosts any contact, of a pair of that round.
+    void find_forgotten(std::size_t first, bool are_ghosts) {
+        if (!has_forgotten_ || first == plane_count_) return;
+        pairs_.each([&](const Part<D>& part_a, const Part<D>& part_b, const PairPlace& place) {
+            Pair other(place);
+            if (!touch(part_a, part_b, other.distance) || comes_before(before_, other)) return true;
+            other.flags = flags_of(part_a, part_b, other.distance);
+            if (!other.flags && !(are_ghosts && filter_.replace(part_a, part_b, other.flags, other.distance)))
+                return true;
+            const ContactPlane<D> plane(other.distance, step());
+            for (std::size_t i = first; i < plane_count_; ++i)
+                is_reported_[i - first_new_] |= plane.has(deepest_on(i).distance);
+            return true;
+        });
+    }
+
     /// Joins the pairs of parts to the planes from `first` on, and reports these.
     bool report_planes(std::size_t first, Visit visit) {
         for (; first < plane_count_; first += max_manifolds) {
@@ -339,7 +360,9 @@ private:
                 add_to_manifolds(part_a, part_b, pair, first, count);
             });
             for (std::size_t i = 0; i < count; ++i)
-                if (!report_plane(deepest_on(first + i), features_[i], manifolds_[i], visit)) return false;
+                if (!is_reported_[first + i - first_new_] &&
+                    !report_plane(deepest_on(first + i), features_[i], manifolds_[i], visit))
+                    return false;
         }
         return true;
     }
@@ -425,11 +448,14 @@ private:
     int round_ = 0;
     bool is_complete_ = false;      ///< no touching pair comes after the stored ones
     bool is_single_round_ = false;  ///< all touching pairs are stored
+    bool has_forgotten_ = false;    ///< planes of earlier rounds
     Pair last_;                     ///< the last one stored
+    Pair before_;                   ///< the last one of the round before
     std::size_t stored_count_ = 0, plane_count_ = 0;
     std::size_t first_new_ = 0;  ///< the first plane of this round
     UninitializedArray<Pair, max_pairs> stored_;
     UninitializedArray<ContactPlane<D>, max_old_planes + max_pairs> planes_;
+    std::array<bool, max_pairs> is_reported_;
     std::array<std::uint32_t, max_pairs> deepest_;  ///< indices of the deepest pairs on the planes of this round
     UninitializedArray<SurfaceManifold<D>, max_manifolds> manifolds_;
     std::array<Features, max_manifolds> features_;
