@@ -219,6 +219,17 @@ double size(const Convex<D>& convex) {
             half[i] = 0.5 * ((reach[i] + convex.place.offset[i]) - (convex.place.offset[i] - reach[i]));
         return length(half) + convex.radius;
     }
+    if (convex.core == Core::points && convex.count <= 3 && convex.inner_radius == 0) {
+        DVec<D> low = convex.place.point(DVec<D>(convex.vertices()[0])), high = low;
+        for (std::uint32_t k = 1; k < convex.count; ++k) {
+            const DVec<D> point = convex.place.point(DVec<D>(convex.vertices()[k]));
+            for (int i = 0; i < D; ++i) {
+                low[i] = std::min(low[i], point[i]);
+                high[i] = std::max(high[i], point[i]);
+            }
+        }
+        return length((high - low) * 0.5) + convex.radius;
+    }
     for (int i = 0; i < D; ++i)
         half[i] =
             0.5 * (core_support(convex, axis<D>(i, 1)).position[i] - core_support(convex, axis<D>(i, -1)).position[i]);

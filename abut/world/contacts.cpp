@@ -55,12 +55,11 @@ private:
         bool covered = false;
         each_item_(box_, [&](Id other, const View<D>& item) {
             if (other == id) return true;
-            const double size = std::min(detail::size(shape_), detail::size(item));
             each_of_item(other, item, [&](const SurfaceContact<D>& found) {
-                covered =
-                    (found.surface_normals || other < id) &&
-                    covers_contact<D>(DVec<D>(found.contact.normal), static_cast<double>(found.contact.depth),
-                                      DVec<D>(ghost.contact.normal), static_cast<double>(ghost.contact.depth), size);
+                covered = (found.surface_normals || other < id) &&
+                          covers_contact<D>(DVec<D>(found.contact.normal), static_cast<double>(found.contact.depth),
+                                            DVec<D>(ghost.contact.normal), static_cast<double>(ghost.contact.depth),
+                                            ghost.size);
                 return !covered;
             });
             return !covered;

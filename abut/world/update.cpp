@@ -164,10 +164,9 @@ Events World<D>::find_events() {
     passed_.clear();
     impacts_.clear();
     first_.slot = none;
-    begin_edge_filter();
     counts_ = {near_.size(), 0, 0};
+    find_neighbours();
     for (const IdPair& pair : near_) test_pair(pair);
-    filter_contacts();
     report_contacts();
     ball_early_outs_.decide();
     // Reserve for the worst case of a scene of this size: the lists are swapped, and all pairs may begin, stay or end.
@@ -177,7 +176,6 @@ Events World<D>::find_events() {
     for (std::vector<IdPair>* list : {&began_, &ended_}) list->reserve(capacity + impacts_.capacity());
     fractions_.reserve(began_.capacity());
     last_found_.reserve(found_.capacity());
-    more_found_.reserve(found_.capacity());
     contacts_.reserve(found_.capacity());
     last_near_.reserve(near_.capacity());
     reserve_edge_filter();

@@ -394,10 +394,11 @@ private:
     /// The contact of a touching pair, before ghost contacts are dropped.
     struct FoundContact {
         WorldContact<D> result;
-        Contact<D> own_area;  // of a ghost: its points on the faces of the two items
         detail::SurfaceNormalFlags
-            surface_normal;     // false for an item if the normal is a substitute for one of an internal edge
-        bool reported = false;  // whether it is among contacts()
+            surface_normal;        // false for an item if the normal is a substitute for one of an internal edge
+        float size = 0;            // then that of the smaller item
+        bool reported = false;     // whether it is among contacts()
+        bool is_own_area = false;  // the points of the ghost before it on the faces of the two items
     };
 
     static View<D> point_view(const Vec<D>& point) {
@@ -462,7 +463,6 @@ private:
     bool measure(const IdPair& pair, detail::BallEarlyOuts::Entry& entry);
     bool filters_edges(std::uint32_t slot) const;
     bool are_solid(std::uint32_t slot, std::uint32_t other) const;
-    void begin_edge_filter();
     void reserve_edge_filter();
     void find_neighbours();
     void find_changed_neighbours();
@@ -472,10 +472,8 @@ private:
     bool is_center_covered(std::uint32_t slot);
     bool is_alone(const Contact<D>& contact, std::uint32_t slot, std::uint32_t other, double side) const;
     bool find_contact(const IdPair& pair);
-    void filter_contact(FoundContact& found, const detail::DeepestParts<D>& deepest);
-    void filter_contacts();
-    static void set_contact(const detail::SurfaceContact<D>& filtered, FoundContact& found);
-    void merge_more_found();
+    bool needs_filter(std::uint32_t slot, std::uint32_t other, const Contact<D>* contact, double side);
+    void add_found(const IdPair& pair, const detail::SurfaceContact<D>& filtered);
     std::span<const FoundContact> last_contacts(const IdPair& pair) const;
     bool is_covered(const FoundContact& ghost, const Id& item) const;
     void find_contacts_beside_ghosts();
@@ -522,10 +520,9 @@ private:
     struct DeleteEdgeFilterState {
         void operator()(detail::EdgeFilterState<D>* state) const;
     };
-    std::unique_ptr<detail::EdgeFilterState<D>, DeleteEdgeFilterState> edges_;  // made by the first update
+    std::unique_ptr<detail::EdgeFilterState<D>, DeleteEdgeFilterState> edges_;  // made by the first update that filters
     std::vector<IdPair> touching_, last_touching_;                              // now and at the last update
     std::vector<FoundContact> found_, last_found_;
-    std::vector<FoundContact> more_found_;  // further contacts of pairs in found_, in an update
     std::vector<WorldContact<D>> contacts_;
     std::vector<WorldImpact<D>> impacts_;       // of continuous pairs that didn't touch at the last update
     std::vector<IdPair> passed_, last_passed_;  // pairs with an impact that don't touch at the end; last update's

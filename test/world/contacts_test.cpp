@@ -150,5 +150,21 @@ TEST(WorldContacts, OfAQueryShapeWithAMarginAreThoseNearToo) {
     EXPECT_EQ(visits, 0);
 }
 
+/// A crate in a corner of tiles and a pillar beside it has three contacts, two of them with the tiles.
+TEST(WorldContacts, OfAQueryShapeStopWhenTheVisitorSaysSo) {
+    std::vector<Tile> tiles(10, Tile::full);
+    tiles.resize(30, Tile::empty);
+    tiles[19] = tiles[29] = Tile::full;
+    World2 world;
+    world.add(*TileMap::build(tiles, 10, 1.0f), {.fixed = true});
+    world.add(Box2{{7.53f, 1.5f}, {0.5f, 0.4f}}, {.fixed = true});
+    const Box2 crate{{8.52f, 1.49f}, {0.5f, 0.5f}};
+    for (int limit = 1; limit <= 4; ++limit) {
+        int visits = 0;
+        world.each_contact(crate, [&](Id, const Contact<2>&) { return ++visits < limit; });
+        EXPECT_EQ(visits, std::min(limit, 3));
+    }
+}
+
 }  // namespace
 }  // namespace abut::test

@@ -54,14 +54,17 @@ public:
         return hn::And(hn::Le(hn::LoadU(d, boxes.min[axis] + i), max_[axis]),
                        hn::Ge(hn::LoadU(d, boxes.max[axis] + i), min_[axis]));
     }
+    /// The overlap bits of the lanes from i on.
+    std::uint32_t overlap_bits_of_lanes(const BoxSoaView<D>& boxes, std::size_t i) const {
+        Mask hit = overlaps(boxes, i, 0);
+        for (int axis = 1; axis < D; ++axis) hit = hn::And(hit, overlaps(boxes, i, axis));
+        return bits_of(hit);
+    }
     /// The overlap bits of the box_lanes boxes from i on.
     std::uint32_t overlap_bits(const BoxSoaView<D>& boxes, std::size_t i) const {
         std::uint32_t result = 0;
-        for (std::size_t part = 0; part < box_lanes; part += lanes) {
-            Mask hit = overlaps(boxes, i + part, 0);
-            for (int axis = 1; axis < D; ++axis) hit = hn::And(hit, overlaps(boxes, i + part, axis));
-            result |= bits_of(hit) << part;
-        }
+        for (std::size_t part = 0; part < box_lanes; part += lanes)
+            result |= overlap_bits_of_lanes(boxes, i + part) << part;
         return result;
     }
 
@@ -100,9 +103,9 @@ template <int D>
 std::uint64_t overlap_bits_of(const BoxSoaView<D>& boxes, std::size_t first, std::size_t count, const Aabb<D>& box) {
     const BroadcastBox<D> lanes_of_box(box);
     std::uint64_t result = 0;
-    for (std::size_t i = 0; i < count; i += box_lanes)
-        result |= std::uint64_t{lanes_of_box.overlap_bits(boxes, first + i) & low_bits(count - i)} << i;
-    return result;
+    for (std::size_t i = 0; i < count; i += lanes)
+        result |= std::uint64_t{lanes_of_box.overlap_bits_of_lanes(boxes, first + i)} << i;
+    return count < 64 ? result & ((std::uint64_t{1} << count) - 1) : result;
 }
 
 template <int D>

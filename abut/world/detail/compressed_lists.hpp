@@ -31,8 +31,11 @@ public:
     }
 
     std::span<const Entry> of(std::uint32_t slot) const {
-        return std::span(entries_).subspan(first_[slot], first_[slot + 1] - first_[slot]);
+        return std::span(entries_).subspan(first(slot), first_[slot + 1] - first(slot));
     }
+    /// The index of the first entry of a list among all entries.
+    std::uint32_t first(std::uint32_t slot) const { return first_[slot]; }
+    std::span<const Entry> all() const { return entries_; }
 
 private:
     std::vector<std::uint32_t> first_;  // by slot; the last element is the number of entries

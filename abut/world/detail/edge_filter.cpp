@@ -2,6 +2,7 @@
 // of the union of all that it touches (docs/ghosts.md).
 
 #include <abut/broad_phase/boxes.hpp>
+#include <abut/query/contact.hpp>
 #include <abut/world/detail/edge_filter_state.hpp>
 #include <abut/world/world.hpp>
 
@@ -41,50 +42,45 @@ void World<D>::DeleteEdgeFilterState::operator()(EdgeFilterState<D>* state) cons
 }
 
 template <int D>
-void World<D>::begin_edge_filter() {
-    if (edges_ == nullptr) edges_.reset(new EdgeFilterState<D>());
-    edges_->begin_update();
-}
-
-template <int D>
 void World<D>::reserve_edge_filter() {
-    edges_->reserve(items_.size(), near_.capacity(), found_.capacity());
+    if (filters_edges_) edges_->reserve(items_.size(), near_.capacity(), found_.capacity());
 }
 
-/// Finds the neighbours of the items with new contacts.
+/// Finds the neighbours of the items of all pairs whose contact may be new: one of the two, or an item near one of
+/// them, was added, removed or moved.
 template <int D>
 void World<D>::find_neighbours() {
-    using State = EdgeFilterState<D>;
-    using Neighbour = typename State::Neighbour;
-    std::vector<std::uint32_t>& list_of_slot = edges_->list_of_slot;
-    list_of_slot.assign(items_.size(), State::none);
-    edges_->centers.clear();
-    for (const auto& added : edges_->new_contacts) {
-        const WorldContact<D>& contact = found_[added.place].result;
-        for (const Id& id : {contact.a, contact.b}) {
-            std::uint32_t& list = list_of_slot[id.index - 1];
-            if (list != State::none || !filters_edges(id.index - 1)) continue;
-            list = static_cast<std::uint32_t>(edges_->centers.size());
-            edges_->centers.emplace_back();
-        }
+    if (!filters_edges_) return;
+    if (edges_ == nullptr) edges_.reset(new EdgeFilterState<D>());
+    EdgeFilterState<D>& state = *edges_;
+    state.views.clear();
+    state.neighbour_changed_is_known = false;
+    state.list_of_slot.assign(items_.size(), state.none);
+    state.centers.clear();
+    for (const IdPair& pair : near_) {
+        const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
+        if (!items_[a].pending && !items_[b].pending && !neighbours_changed(pair)) continue;
+        for (const std::uint32_t slot : {a, b})
+            if (state.list_of_slot[slot] == state.none && filters_edges(slot)) state.add_list(slot);
     }
     const auto each = [&](auto&& add) {
         for (const IdPair& pair : near_) {
             const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
-            const std::uint32_t list_a = list_of_slot[a], list_b = list_of_slot[b];
-            if (list_a == State::none && list_b == State::none) continue;
+            const std::uint32_t list_a = state.list_of_slot[a], list_b = state.list_of_slot[b];
+            if (list_a == state.none && list_b == state.none) continue;
             if (!are_solid(a, b) || (widened_ && !overlaps(box(a), box(b)))) continue;
-            const auto neighbour = [this](std::uint32_t slot) {
-                return [this, slot]() -> Neighbour { return {box(slot), slot}; };
-            };
-            if (list_a != State::none) add(list_a, neighbour(b));
-            if (list_b != State::none) add(list_b, neighbour(a));
+            const auto neighbour = [](std::uint32_t slot) { return [slot] { return slot; }; };
+            if (list_a != state.none) add(list_a, neighbour(b));
+            if (list_b != state.none) add(list_b, neighbour(a));
         }
     };
-    edges_->neighbours.build(edges_->centers.size(), each);
+    state.neighbours.build(state.centers.size(), each);
+    const std::span<const std::uint32_t> all = state.neighbours.all();
+    state.neighbour_boxes.reserve(all.size());
+    for (std::size_t i = 0; i < all.size(); ++i) state.neighbour_boxes.set(i, box(all[i]));
 }
 
-/// A contact may change if an item near one of the two was added, removed or moved.
+/// Marks the items near which another one has changed.
 template <int D>
 void World<D>::find_changed_neighbours() {
     edges_->neighbour_changed_is_known = true;
@@ -98,9 +94,10 @@ void World<D>::find_changed_neighbours() {
         }
 }
 
+/// Whether an item near one of the two has changed.
 template <int D>
 bool World<D>::neighbours_changed(const IdPair& pair) {
-    if (!edges_->neighbour_changed_is_known) find_changed_neighbours();
+    if (filters_edges_ && !edges_->neighbour_changed_is_known) find_changed_neighbours();
     const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
     return (filters_edges(a) && edges_->neighbour_changed[a]) || (filters_edges(b) && edges_->neighbour_changed[b]);
 }
@@ -123,11 +120,10 @@ void World<D>::each_closest_point_beside(std::uint32_t slot, std::uint32_t other
         each_closest_point_on<D>(edges_->views.of(item, [&] { return placed(items_[item]); }), point, within, narrow);
         return within > stop_visiting;
     };
-    const auto neighbours = edges_->neighbours_of(slot);
-    if (neighbours.size() <= max_listed_neighbours) {
-        for (const auto& neighbour : neighbours)
-            if (overlaps_branchless(neighbour.box, near) && neighbour.slot != other && !visit_item(neighbour.slot))
-                return;
+    if (edges_->neighbour_count(slot) <= max_listed_neighbours) {
+        edges_->each_neighbour(slot, near, [&](std::uint32_t neighbour) {
+            return neighbour == other || !overlaps_branchless(box(neighbour), near) || visit_item(neighbour);
+        });
         return;
     }
     const Item& item = items_[slot];
@@ -145,33 +141,14 @@ void World<D>::each_closest_point_beside(std::uint32_t slot, std::uint32_t other
     }
 }
 
-/// Finds the contact of two items by themselves and appends it to found_; false if they don't touch.
-template <int D>
-bool World<D>::find_contact(const IdPair& pair) {
-    const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
-    FoundContact& found = found_.emplace_back();
-    found.result.a = pair.a;
-    found.result.b = pair.b;
-    found.reported = true;
-    bool touch = false;
-    if (filters_edges(a) || filters_edges(b)) {
-        auto& added = edges_->new_contacts.emplace_back(found_.size() - 1);
-        touch = find_deepest_parts(first_placed(a), placed(items_[b]), {}, added.deepest, found.result.contact);
-        if (!touch) edges_->new_contacts.pop_back();
-    } else {
-        found.result.contact = abut::contact(first_placed(a), placed(items_[b]));
-        touch = static_cast<bool>(found.result.contact);
-    }
-    if (!touch) found_.pop_back();
-    return touch;
-}
-
 /// Whether a neighbour contains the centre of the item's AABB. Then the item is too deep in others to have a surface.
 template <int D>
 bool World<D>::is_center_covered(std::uint32_t slot) {
     auto& state = edges_->center_of(slot);
-    if (!std::exchange(state.is_tested, true))
-        each_closest_point_beside(slot, slot, DVec<D>(center(box(slot))), 0, [&](const ClosestPoint<D>& closest) {
+    if (std::exchange(state.is_tested, true)) return state.is_covered;
+    const Vec<D> middle = center(box(slot));
+    if (!edges_->each_neighbour(slot, {middle, middle}, [](std::uint32_t) { return false; }))
+        each_closest_point_beside(slot, slot, DVec<D>(middle), 0, [&](const ClosestPoint<D>& closest) {
             state.is_covered = closest.distance < 0;
             return state.is_covered ? stop_visiting : 0.0;
         });
@@ -186,32 +163,51 @@ bool World<D>::is_alone(const Contact<D>& contact, std::uint32_t slot, std::uint
         static_cast<double>(std::min(items_[slot].local_ball.radius, items_[other].local_ball.radius));
     const double scale = surface_probe_scale * radius;
     const double min_depth = static_cast<double>(contact.depth) - 0.5 * deepest_tolerance * scale;
-    const auto neighbours = edges_->neighbours_of(slot);
     return std::any_of(contact.points.begin(), contact.points.end(), [&](const ContactPoint<D>& point) {
         const double depth = static_cast<double>(point.depth);
         if (depth < min_depth) return false;
         const DVec<D> on_surface = DVec<D>(point.position) - DVec<D>(contact.normal) * (0.5 * side * depth);
         const Aabb<D> near = box_around(on_surface, probe_reach * scale);
-        return std::none_of(neighbours.begin(), neighbours.end(), [&](const auto& neighbour) {
-            return neighbour.slot != other && overlaps_branchless(neighbour.box, near);
-        });
+        return edges_->each_neighbour(slot, near, [&](std::uint32_t neighbour) { return neighbour == other; });
     });
 }
 
-/// Replaces the contact of a pair by that with the surface of its neighbours, if they are near.
+/// Whether the item in `slot` needs the surface of its neighbours for its contact with another item. The points of a
+/// contact of items without parts are known.
 template <int D>
-void World<D>::filter_contact(FoundContact& found, const DeepestParts<D>& deepest) {
-    const std::uint32_t a = found.result.a.index - 1, b = found.result.b.index - 1;
+bool World<D>::needs_filter(std::uint32_t slot, std::uint32_t other, const Contact<D>* contact, double side) {
+    if (!filters_edges(slot) || edges_->neighbour_count(slot) <= 1 || edges_->center_of(slot).is_covered) return false;
+    return (contact == nullptr || !is_alone(*contact, slot, other, side)) && !is_center_covered(slot);
+}
+
+/// Finds the contacts of two items and appends them to found_, with the surface of their neighbours where these are
+/// near. Returns whether the items touch.
+template <int D>
+bool World<D>::find_contact(const IdPair& pair) {
+    const std::uint32_t a = pair.a.index - 1, b = pair.b.index - 1;
     const ShapeType type_a = items_[a].type, type_b = items_[b].type;
-    // Balls have no edges to catch on.
-    if (type_a == ShapeType::ball && type_b == ShapeType::ball) return;
     const bool has_parts = type_a == ShapeType::composite || type_b == ShapeType::composite;
-    const auto needs_filter = [&](std::uint32_t slot, std::uint32_t other, double side) {
-        return filters_edges(slot) && edges_->neighbours_of(slot).size() > 1 &&
-               (has_parts || !is_alone(found.result.contact, slot, other, side)) && !is_center_covered(slot);
-    };
-    const bool for_a = needs_filter(a, b, 1), for_b = needs_filter(b, a, -1);
-    if (!for_a && !for_b && !has_parts) return;
+    const bool is_filtered = filters_edges(a) || filters_edges(b);
+    const View<D>& placed_a = first_placed(a);
+    const View<D> placed_b = placed(items_[b]);
+    DeepestParts<D> deepest;
+    if (!has_parts || !is_filtered) {
+        FoundContact& found = found_.emplace_back();
+        found.result.a = pair.a;
+        found.result.b = pair.b;
+        found.reported = true;
+        if (has_parts)
+            found.result.contact = abut::contact(placed_a, placed_b);
+        else
+            find_deepest_parts(placed_a, placed_b, {}, deepest, found.result.contact);
+        const bool touch = static_cast<bool>(found.result.contact);
+        if (!touch) found_.pop_back();
+        // Balls have no edges to catch on.
+        if (!touch || !is_filtered || (type_a == ShapeType::ball && type_b == ShapeType::ball)) return touch;
+    }
+    const Contact<D>* const own = has_parts ? nullptr : &found_.back().result.contact;
+    const bool for_a = needs_filter(a, b, own, 1), for_b = needs_filter(b, a, own, -1);
+    if (!for_a && !for_b && !has_parts) return true;
     const auto closest_points_beside = [this](std::uint32_t slot, std::uint32_t other) {
         return [this, slot, other](const DVec<D>& point, double within, ClosestPointVisitor<D> visit) {
             each_closest_point_beside(slot, other, point, within, visit);
@@ -224,48 +220,32 @@ void World<D>::filter_contact(FoundContact& found, const DeepestParts<D>& deepes
     };
     const NeighbourSurfaces<D> neighbours{for_a ? &of_a : nullptr, for_b ? &of_b : nullptr, nearest_to(a),
                                           nearest_to(b)};
-    const View<D>& placed_a = first_placed(a);
-    const View<D> placed_b = placed(items_[b]);
     if (!has_parts) {
-        set_contact(filtered_contact(placed_a, placed_b, deepest.contact, found.result.contact, neighbours), found);
-        return;
-    }
-    found.reported = false;
-    bool is_first = true;
-    each_surface_contact<D>(placed_a, placed_b, {}, neighbours, [&](const SurfaceContact<D>& filtered) {
-        if (!is_first) more_found_.push_back(found);
-        set_contact(filtered, std::exchange(is_first, false) ? found : more_found_.back());
+        const SurfaceContact<D> filtered = filtered_contact(placed_a, placed_b, deepest.contact, *own, neighbours);
+        found_.pop_back();
+        add_found(pair, filtered);
         return true;
-    });
-}
-
-template <int D>
-void World<D>::set_contact(const detail::SurfaceContact<D>& filtered, FoundContact& found) {
-    found.result.contact = filtered.contact;
-    found.own_area = filtered.own_area;
-    found.surface_normal = filtered.surface_normals;
-    found.reported = static_cast<bool>(filtered.contact);
-}
-
-/// Merges the further contacts of pairs into found_. Both lists are sorted by pairs.
-template <int D>
-void World<D>::merge_more_found() {
-    std::size_t found = found_.size(), more = more_found_.size(), place = found + more;
-    found_.resize(place);
-    const auto pair_of = [](const FoundContact& contact) { return IdPair{contact.result.a, contact.result.b}; };
-    while (more > 0) {
-        const bool is_more = found == 0 || !(pair_of(more_found_[more - 1]) < pair_of(found_[found - 1]));
-        found_[--place] = is_more ? more_found_[--more] : found_[--found];
     }
-    more_found_.clear();
+    const std::size_t first = found_.size();
+    const bool touch =
+        each_surface_contact<D>(placed_a, placed_b, {}, neighbours, [&](const SurfaceContact<D>& filtered) {
+            add_found(pair, filtered);
+            return true;
+        });
+    // A pair that touches without a contact is in the list too.
+    if (touch && found_.size() == first) add_found(pair, {});
+    return touch;
 }
 
+/// The area of a ghost follows it in the list.
 template <int D>
-void World<D>::filter_contacts() {
-    if (edges_->new_contacts.empty()) return;
-    find_neighbours();
-    for (const auto& added : edges_->new_contacts) filter_contact(found_[added.place], added.deepest);
-    merge_more_found();
+void World<D>::add_found(const IdPair& pair, const detail::SurfaceContact<D>& filtered) {
+    found_.push_back({{pair.a, pair.b, filtered.contact},
+                      filtered.surface_normals,
+                      static_cast<float>(filtered.size),
+                      static_cast<bool>(filtered.contact),
+                      false});
+    if (filtered.own_area) found_.push_back({{pair.a, pair.b, filtered.own_area}, {}, 0, false, true});
 }
 
 template <int D>
@@ -284,7 +264,6 @@ bool World<D>::is_covered(const FoundContact& ghost, const Id& item) const {
         return DVec<D>(contact.contact.normal) * (contact.a == item ? 1.0 : -1.0);
     };
     const WorldContact<D>& result = ghost.result;
-    const double size = std::min(detail::size(shape(result.a)), detail::size(shape(result.b)));
     const std::uint32_t slot = item.index - 1;
     if (!filters_edges(slot)) return false;
     const auto others = edges_->found_by_slot.of(slot);
@@ -292,7 +271,8 @@ bool World<D>::is_covered(const FoundContact& ghost, const Id& item) const {
         const FoundContact& other = found_[place];
         return other.reported && &other != &ghost &&
                covers_contact<D>(normal_from_item(other.result), static_cast<double>(other.result.contact.depth),
-                                 normal_from_item(result), static_cast<double>(result.contact.depth), size);
+                                 normal_from_item(result), static_cast<double>(result.contact.depth),
+                                 static_cast<double>(ghost.size));
     });
 }
 
@@ -324,15 +304,14 @@ void World<D>::report_contacts() {
     }
     if (any_ghost) find_contacts_beside_ghosts();
     for (FoundContact& found : found_) {
-        if (found.surface_normal || !found.result.contact) continue;
+        if (found.surface_normal || !found.result.contact || found.is_own_area) continue;
         found.reported = (found.surface_normal.a || !is_covered(found, found.result.a)) &&
                          (found.surface_normal.b || !is_covered(found, found.result.b));
     }
+    bool is_before_reported = true;
     for (const FoundContact& found : found_) {
-        if (found.reported)
-            contacts_.push_back(found.result);
-        else if (found.own_area)
-            contacts_.push_back({found.result.a, found.result.b, found.own_area});
+        if (found.is_own_area ? !is_before_reported : found.reported) contacts_.push_back(found.result);
+        is_before_reported = found.reported;
     }
 }
 

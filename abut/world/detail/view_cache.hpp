@@ -28,7 +28,7 @@ public:
 
 private:
     static constexpr std::uint32_t none = 0xFFFFFFFF;
-    static constexpr std::size_t count = 64;
+    static constexpr std::size_t count = 256;
     struct Entry {
         std::uint32_t slot = none;
         View<D> view;

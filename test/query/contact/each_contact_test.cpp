@@ -8,11 +8,13 @@
 #include <abut/shape/ball.hpp>
 #include <abut/shape/box.hpp>
 #include <abut/shape/capsule.hpp>
+#include <abut/shape/chain.hpp>
 #include <abut/shape/cylinder.hpp>
 #include <abut/shape/placed.hpp>
 #include <abut/shape/polygon.hpp>
 #include <abut/shape/solid_bsp.hpp>
 
+#include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -251,6 +253,30 @@ TEST(EachContact, StopsWhenTheVisitorSaysSo) {
     each_contact(Sphere{{0, 0, 0}, 0.5f}, walls, [&](const Contact<3>&) { return ++count < 3; });
     EXPECT_EQ(all, 6);
     EXPECT_EQ(count, 3);
+}
+
+/// More pairs of parts touch, on more planes, than are stored at once. Those of the bottom are the deepest and the
+/// least deep ones, and those of all other sides come between.
+TEST(EachContact, ReportsEachPlaneOnceHoweverManyPartsTouch) {
+    constexpr int sides = 90, bottom_parts = 12;
+    const auto on_circle = [](double side, double radius) {
+        const double angle = std::acos(-1.0) * side / sides;
+        return Vec2(radius * std::cos(angle), radius * std::sin(angle));
+    };
+    std::vector<Vec2> shape{{-10.05f, -0.1f}, {10.09f, -0.04f}}, level;
+    for (int i = 1; i < sides; ++i) shape.push_back(on_circle(i, 10.09 - 0.04 * i / sides));
+    for (int i = 0; i < bottom_parts; ++i) level.emplace_back(-10 + 20.0 * i / bottom_parts, 0);
+    for (int i = 0; i < sides; ++i) {
+        level.push_back(on_circle(i, 10));
+        level.push_back((on_circle(i, 10) + on_circle(i + 1, 10)) * 0.5f);
+    }
+    const Polygon polygon = *Polygon::build(shape);
+    const Chain chain = *Chain::build(level, true);
+    std::vector<Contact<2>> all;
+    each_contact(polygon, chain, [&](const Contact<2>& found) { all.push_back(found); });
+    EXPECT_EQ(all.size(), sides + 1u);
+    for (std::size_t i = 0; i < all.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j) EXPECT_LT(dot(all[i].normal, all[j].normal), 0.9999f) << i << " " << j;
 }
 
 TEST(EachContact, FromTheOtherSideIsTheSameTurnedRound) {

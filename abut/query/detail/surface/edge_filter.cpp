@@ -1,4 +1,5 @@
 #include <abut/query/detail/surface/edge_filter.hpp>
+#include <abut/query/detail/surface/surface_manifold.hpp>
 
 namespace abut::detail {
 namespace {
@@ -35,23 +36,18 @@ SurfacePlace<D> point_on(bool on_b, const SignedDistance<D>& distance, double sc
     return {distance.on_a, distance.normal, DVec<D>(0.0), scale};
 }
 
-/// The contact of a part with the half-space behind a plane. The normal points out of the part. There is none for a
-/// half-space, which keeps its own contact, and for a distance function, which would need a search.
+/// Writes the distance of a part from the half-space behind a plane; the normal points out of the part. Returns false
+/// for a half-space, which keeps its own contact, and for a distance function, which would need a search.
 template <int D>
-std::optional<PartContact<D>> contact_with_plane(const Part<D>& part, const SurfacePlane<D>& plane,
-                                                 const PartContact<D>& own) {
-    if (!part.is_convex()) return std::nullopt;
-    PartContact<D> contact = own;
-    SignedDistance<D>& distance = contact.distance;
+bool find_distance_to_plane(const Part<D>& part, const SurfacePlane<D>& plane, SignedDistance<D>& distance) {
+    if (!part.is_convex()) return false;
     distance.normal = -plane.normal;
     const CorePoint<D> deepest = core_support(part.convex(), distance.normal);
     distance.on_a = deepest.position + distance.normal * part.convex().radius;
     distance.distance = dot(plane.normal, distance.on_a - plane.point);
     distance.corners.count = 1;
     distance.corners.a[0] = deepest.index;
-    contact.manifold.count = 1;
-    contact.manifold.points[0] = {distance.on_a + distance.normal * (0.5 * distance.distance), -distance.distance, 0};
-    return contact;
+    return true;
 }
 
 }  // namespace
@@ -69,9 +65,10 @@ EdgeFilter<D>::EdgeFilter(const View<D>& a, const View<D>& b, const NeighbourSur
     : a_(a),
       b_(b),
       neighbours_(neighbours),
-      scale_(surface_probe_distance(a, b)),
-      larger_is_level_(is_composite(a) && is_composite(b)),
-      size_excess_of_a_(larger_is_level_ ? detail::size(a) - detail::size(b) : 0),
+      size_a_(detail::size(a)),
+      size_b_(detail::size(b)),
+      scale_(surface_probe_scale * size()),
+      are_composite_(is_composite(a) && is_composite(b)),
       center_of_a_(a),
       center_of_b_(b) {}
 
@@ -111,13 +108,18 @@ bool EdgeFilter<D>::is_surface_normal_of(Side side, const Part<D>& part, const P
     const EachClosestPoint<D>* const neighbours = on_b ? neighbours_.of_a : neighbours_.of_b;
     SurfacePlace<D> place = point_on(on_b, distance, scale_);
     if (is_one_part && is_alone(place, *neighbours)) return true;
-    const Manifold<D>& manifold = manifold_of();
+    // Without a face along the normal the area is one point.
+    const bool may_have_area =
+        FaceNormals<D>(part).may_face(distance.normal) || FaceNormals<D>(other_part).may_face(distance.normal);
+    Manifold<D> no_area;
+    const Manifold<D>& manifold = may_have_area ? manifold_of() : no_area;
     DVec<D> sum(0.0);
     for (std::size_t i = 0; i < manifold.count; ++i) {
         const ManifoldPoint<D>& point = manifold.points[i];
         const DVec<D> on_surface = point.position + place.normal * (0.5 * point.depth);
         sum += on_surface;
-        if (!is_one_part || point.depth < -distance.distance - deepest_tolerance * scale_) continue;
+        if (!is_one_part || manifold.count == 1 || point.depth < -distance.distance - deepest_tolerance * scale_)
+            continue;
         place.point = on_surface;
         if (is_alone(place, *neighbours)) return true;
     }
@@ -159,18 +161,17 @@ std::optional<SurfacePlane<D>> EdgeFilter<D>::plane_of(Side side, const Part<D>&
 
 template <int D>
 bool EdgeFilter<D>::replace(const Part<D>& part_a, const Part<D>& part_b, const detail::SurfaceNormalFlags& flags,
-                            PartContact<D>& contact) {
-    std::optional<PartContact<D>> for_a, for_b;
-    if (larger_is_level_ ? size_excess_of_a_ <= 0 : !flags.a)
-        if (const auto plane = plane_of(Side::b, part_b, part_a, contact.distance))
-            for_a = contact_with_plane(part_a, *plane, contact);
-    if (larger_is_level_ ? size_excess_of_a_ >= 0 : !flags.b)
-        if (const auto plane = plane_of(Side::a, part_a, part_b, contact.distance))
-            for_b = contact_with_plane(part_b, *plane, flipped(contact));
-    if (for_b) flip(*for_b);
-    if (!for_a && !for_b) return false;
-    contact = for_a && (!for_b || for_a->distance.distance >= for_b->distance.distance) ? *for_a : *for_b;
-    return true;
+                            SignedDistance<D>& distance) {
+    SignedDistance<D> for_a = distance, for_b = flipped(distance);
+    const auto find = [&](Side side, const Part<D>& part, const Part<D>& other, SignedDistance<D>& found) {
+        const std::optional<SurfacePlane<D>> plane = plane_of(side, part, other, distance);
+        return plane && find_distance_to_plane(other, *plane, found);
+    };
+    const bool has_a = (are_composite_ ? !a_is_larger() : !flags.a) && find(Side::b, part_b, part_a, for_a);
+    const bool has_b = (are_composite_ ? size_a_ >= size_b_ : !flags.b) && find(Side::a, part_a, part_b, for_b);
+    if (has_b) flip(for_b);
+    if (has_a || has_b) distance = has_a && (!has_b || for_a.distance >= for_b.distance) ? for_a : for_b;
+    return has_a || has_b;
 }
 
 template class EdgeFilter<2>;

@@ -32,7 +32,8 @@ public:
     double reach() const { return 5 * scale_; }
 
     /// The size of the smaller shape.
-    double size() const { return scale_ / surface_probe_scale; }
+    double size() const { return std::min(size_a_, size_b_); }
+    bool a_is_larger() const { return size_a_ > size_b_; }
 
     /// Tests the normal between two parts in the centre of their contact area and at the deepest point. manifold_of()
     /// returns that area.
@@ -40,11 +41,11 @@ public:
                                                     const SignedDistance<D>& distance,
                                                     FunctionRef<const Manifold<D>&()> manifold_of) const;
 
-    /// Replaces a normal that is no surface normal by a plane of the surface and its closest point. Of two composite
+    /// Replaces a distance whose normal is no surface normal by that from a plane of the surface. Of two composite
     /// shapes the larger counts as the level. Of two such planes it takes the one that separates sooner, so that
     /// swapping A and B changes nothing. Returns false, and changes nothing, if there is no plane.
     bool replace(const Part<D>& part_a, const Part<D>& part_b, const detail::SurfaceNormalFlags& flags,
-                 PartContact<D>& contact);
+                 SignedDistance<D>& distance);
 
 private:
     class Center {
@@ -69,9 +70,8 @@ private:
 
     const View<D>&a_, &b_;
     NeighbourSurfaces<D> neighbours_;
-    double scale_;
-    bool larger_is_level_;     ///< both shapes are composite: the larger one is the level
-    double size_excess_of_a_;  ///< size of A - size of B
+    double size_a_, size_b_, scale_;
+    bool are_composite_;  ///< both shapes: the larger one is the level
     Center center_of_a_, center_of_b_;
     const PartCache<D>* cache_ = nullptr;
     NearestToCenter<D> nearest_to_a_, nearest_to_b_;

@@ -30,9 +30,12 @@ bool PartCache<D>::fill(const Composite<D>& shape, const Aabb<D>& box) {
         if (!all) return false;
         const Aabb<D> bounds_of_part = bounds(part);
         if (!overlaps(bounds_of_part, box)) return true;
-        boxes_[count_] = bounds_of_part;
-        ::new (static_cast<void*>(storage_ + count_ * sizeof(Entry))) Entry{part, index};
-        ++count_;
+        for (int axis = 0; axis < D; ++axis) {
+            min_[axis][count_] = bounds_of_part.min[axis];
+            max_[axis][count_] = bounds_of_part.max[axis];
+        }
+        entries_[count_].part = part;
+        entries_[count_++].index = index;
         return true;
     });
     if (!all) {
@@ -46,12 +49,11 @@ template <int D>
 bool PartCache<D>::each_closest_point(const DVec<D>& point, double within, ClosestPointVisitor<D> visit) const {
     const Aabb<D> around = box_around(point, within);
     if (!contains(box_, around)) return false;
-    for (std::uint32_t i = 0; i < count_; ++i) {
-        if (!overlaps_branchless(boxes_[i], around)) continue;
+    each_overlapping(around, [&](std::uint32_t i) {
         ClosestPoint<D> closest;
         if (find_closest_point(part(i), point, within, closest)) within = visit(closest);
-        if (within == stop_visiting) break;
-    }
+        return within != stop_visiting;
+    });
     return true;
 }
 

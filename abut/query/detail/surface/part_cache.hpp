@@ -2,11 +2,11 @@
 
 // A cache of the parts of a composite shape near another shape, found once for many queries. For .cpp files.
 
+#include <abut/broad_phase/detail/box_overlaps.hpp>
+#include <abut/math/detail/uninitialized_array.hpp>
 #include <abut/query/detail/surface/surface_normal.hpp>
 
-#include <cstddef>
-#include <new>
-#include <type_traits>
+#include <bit>
 
 namespace abut::detail {
 
@@ -21,10 +21,16 @@ public:
     bool fill(const Composite<D>& shape, const Aabb<D>& box);
 
     std::uint32_t size() const { return count_; }
-    const Convex<D>& part(std::uint32_t i) const { return entry(i).part; }
+    const Convex<D>& part(std::uint32_t i) const { return entries_[i].part; }
     /// The index of the part in its shape.
-    std::uint32_t index(std::uint32_t i) const { return entry(i).index; }
-    const Aabb<D>& box(std::uint32_t i) const { return boxes_[i]; }
+    std::uint32_t index(std::uint32_t i) const { return entries_[i].index; }
+
+    /// Calls visit(i) for the parts whose boxes overlap a box, until it returns false.
+    template <class Visit>
+    void each_overlapping(const Aabb<D>& box, const Visit& visit) const {
+        for (std::uint64_t left = overlap_bits(boxes_view(), 0, count_, box); left != 0; left &= left - 1)
+            if (!visit(static_cast<std::uint32_t>(std::countr_zero(left)))) return;
+    }
 
     /// Like each_closest_point_on. Returns false, and visits nothing, for a query beyond the box.
     bool each_closest_point(const DVec<D>& point, double within, ClosestPointVisitor<D> visit) const;
@@ -34,15 +40,20 @@ private:
         Convex<D> part;
         std::uint32_t index;
     };
-    static_assert(std::is_trivially_destructible_v<Entry>);
-
-    const Entry& entry(std::uint32_t i) const { return *std::launder(reinterpret_cast<const Entry*>(storage_) + i); }
+    BoxSoaView<D> boxes_view() const {
+        BoxSoaView<D> result;
+        for (std::size_t axis = 0; axis < D; ++axis) {
+            result.min[axis] = min_[axis];
+            result.max[axis] = max_[axis];
+        }
+        return result;
+    }
 
     Aabb<D> box_ = Aabb<D>::empty();
     std::uint32_t count_ = 0;
-    Aabb<D> boxes_[capacity];
-    /// Uninitialised, because constructing all entries would cost more than a query.
-    alignas(Entry) std::byte storage_[capacity * sizeof(Entry)];
+    /// The boxes of the parts.
+    float min_[D][capacity], max_[D][capacity];
+    UninitializedArray<Entry, capacity> entries_;
 };
 
 extern template class PartCache<2>;

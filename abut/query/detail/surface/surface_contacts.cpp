@@ -1,7 +1,6 @@
 #include <abut/query/detail/one_sided.hpp>
 #include <abut/query/detail/solid/solid_queries.hpp>
 #include <abut/query/detail/surface/surface_contacts.hpp>
-#include <abut/query/detail/write_answer.hpp>
 
 #include <algorithm>
 #include <span>
@@ -13,7 +12,7 @@ namespace {
 /// A pair of parts among all that are visited. Parts of one child of a compound shape share an index.
 struct PairPlace {
     std::uint32_t index_a = 0, index_b = 0;
-    std::uint32_t number = 0;  ///< of the visit, the same in each pass
+    std::uint32_t number = 0;  ///< of the cached part, or of the visit, which is the same in each pass
 
     friend bool operator==(const PairPlace&, const PairPlace&) = default;
 };
@@ -52,16 +51,31 @@ public:
                 });
             return;
         }
-        for (std::uint32_t i = 0; i < parts_.size(); ++i) {
-            if (!overlaps(parts_.box(i), box_)) continue;
-            const Part<D> part(parts_.part(i)), other(*convex_);
+        parts_.each_overlapping(box_, [&](std::uint32_t i) {
             (a_is_composite_ ? place.index_a : place.index_b) = parts_.index(i);
-            ++place.number;
-            if (!(a_is_composite_ ? visit(part, other, place) : visit(other, part, place))) return;
-        }
+            place.number = i;
+            return visit_cached(place, visit);
+        });
+    }
+    /// visit(part_a, part_b, place) for one of these pairs.
+    template <class Visit>
+    void at(const PairPlace& place, const Visit& visit) const {
+        if (is_cached_)
+            visit_cached(place, visit);
+        else
+            each([&](const Part<D>& part_a, const Part<D>& part_b, const PairPlace& other) {
+                if (other == place) visit(part_a, part_b, place);
+                return other != place;
+            });
     }
 
 private:
+    template <class Visit>
+    decltype(auto) visit_cached(const PairPlace& place, const Visit& visit) const {
+        const Part<D> part(parts_.part(place.number)), other(*convex_);
+        return a_is_composite_ ? visit(part, other, place) : visit(other, part, place);
+    }
+
     const View<D>&a_, &b_;
     float margin_;
     bool a_is_composite_, is_cached_ = false;
@@ -87,8 +101,8 @@ public:
                     const NeighbourSurfaces<D>& neighbours)
         : margin_(static_cast<double>(options.margin)),
           search_(search_options(a, b, options)),
-          names_(detail::size(a) > detail::size(b) ? ManifoldNames::level_is_a : ManifoldNames::level_is_b),
           filter_(a, b, neighbours),
+          names_(filter_.a_is_larger() ? ManifoldNames::level_is_a : ManifoldNames::level_is_b),
           pairs_(a, b, options.margin, filter_.reach()) {
         if (pairs_.cache() != nullptr) filter_.use_cache(*pairs_.cache());
     }
@@ -109,11 +123,13 @@ public:
                 first = stored().front();
             }
             find_planes();
+            find_forgotten(first_new_, false);
             go_on = report_planes(first_new_, visit_any);
             if (!go_on) break;
             replace_ghosts();
             const std::size_t first_ghost = plane_count_;
             find_planes_of_ghosts();
+            find_forgotten(first_ghost, true);
             go_on = report_planes(first_ghost, visit_any);
         } while (go_on && !is_complete_);
         if (!any && !has_neighbours) {
@@ -125,13 +141,13 @@ public:
 
     bool report_plane_of(const PairDistance<D>& deepest, bool keeps_edges, Contact<D>& result) {
         bool is_surface = false;
-        Pair first{deepest, {}, true};
+        Pair first;
         pairs_.each([&](const Part<D>& part_a, const Part<D>& part_b, const PairPlace& place) {
             SignedDistance<D> distance;
             if (place.index_a != deepest.index_a || place.index_b != deepest.index_b ||
                 !touch(part_a, part_b, distance) || distance.distance != deepest.distance.distance)
                 return true;
-            first.place = place;
+            first = Pair(place, deepest.distance);
             is_surface = keeps_edges || flags_of(part_a, part_b, deepest.distance);
             return false;
         });
@@ -146,14 +162,18 @@ public:
 private:
     enum class Role : std::uint8_t { joined, ghost, used_ghost, dropped };  ///< a used ghost has area on a plane
     struct Pair : PairDistance<D> {
+        PairPlace place;
         SurfaceNormalFlags flags;
         bool has_flags = false;
-        PairPlace place{};
         bool is_replaced = false;  ///< by the plane of the surface
         bool has_face = false;     ///< on that plane
-        DVec<D> area_normal{0.0};  ///< of a replaced one, along a face
         Role role = Role::joined;
         std::uint32_t plane = 0;  ///< index of the plane that it is joined to
+        DVec<D> area_normal;      ///< of a replaced one, along a face
+
+        Pair() = default;
+        explicit Pair(const PairPlace& of, const SignedDistance<D>& found = {})
+            : PairDistance<D>{found, of.index_a, of.index_b}, place(of), area_normal(0.0) {}
     };
 
     /// Equal contacts differ in their parts alone.
@@ -196,6 +216,36 @@ private:
             std::find_if(stored().begin(), stored().end(), [&](const Pair& pair) { return pair.place == place; });
         return found != stored().end() ? &*found : nullptr;
     }
+    /// visit(part_a, part_b, pair) for the stored pairs. Parts that aren't cached are there during their visit alone.
+    template <class Visit>
+    void each_stored(const Visit& visit) {
+        if (pairs_.cache() != nullptr) {
+            for (Pair& pair : stored())
+                pairs_.at(pair.place, [&](const Part<D>& part_a, const Part<D>& part_b, const PairPlace&) {
+                    visit(part_a, part_b, pair);
+                });
+            return;
+        }
+        pairs_.each([&](const Part<D>& part_a, const Part<D>& part_b, const PairPlace& place) {
+            if (Pair* const pair = find(place)) visit(part_a, part_b, *pair);
+            return true;
+        });
+    }
+    /// The same for all touching pairs. One that isn't stored counts as a ghost, unless it is on a plane.
+    template <class Visit>
+    void each_touching(const Visit& visit) {
+        if (is_single_round_) return each_stored(visit);
+        pairs_.each([&](const Part<D>& part_a, const Part<D>& part_b, const PairPlace& place) {
+            if (Pair* const pair = find(place)) {
+                visit(part_a, part_b, *pair);
+            } else if (Pair other(place); touch(part_a, part_b, other.distance)) {
+                other.plane = static_cast<std::uint32_t>(plane_of(other.distance));
+                other.role = other.plane < plane_count_ ? Role::joined : Role::ghost;
+                visit(part_a, part_b, other);
+            }
+            return true;
+        });
+    }
     /// The index of the first plane that a contact is on; plane_count_ if there is none.
     std::size_t plane_of(const SignedDistance<D>& distance) const {
         const auto place = std::find_if(planes().begin(), planes().end(),
@@ -206,16 +256,13 @@ private:
     /// Stores the first touching pairs after those of the last round.
     void store_touching() {
         const bool is_first = round_++ == 0;
-        const Pair last = last_;
+        before_ = last_;
         stored_count_ = 0;
         is_complete_ = true;
         pairs_.each([&](const Part<D>& part_a, const Part<D>& part_b, const PairPlace& place) {
-            Pair pair;
+            Pair pair(place);
             if (!touch(part_a, part_b, pair.distance)) return true;
-            pair.index_a = place.index_a;
-            pair.index_b = place.index_b;
-            pair.place = place;
-            if (!is_first && !comes_before(last, pair)) return true;
+            if (!is_first && !comes_before(before_, pair)) return true;
             is_complete_ = is_complete_ && stored_count_ < max_pairs;
             const auto after = std::upper_bound(stored().begin(), stored().end(), pair, comes_before);
             if (after == stored().end() && stored_count_ == max_pairs) return true;
@@ -233,15 +280,16 @@ private:
         is_single_round_ = is_first && is_complete_;
         if (stored_count_ > 0) last_ = stored().back();
         if (plane_count_ > max_old_planes) {  // the planes of the first rounds are forgotten
-            const auto end = planes_.begin() + static_cast<std::ptrdiff_t>(plane_count_);
-            std::move(end - max_old_planes, end, planes_.begin());
+            std::copy_n(planes_.data() + plane_count_ - max_old_planes, max_old_planes, planes_.data());
             plane_count_ = max_old_planes;
+            has_forgotten_ = true;
         }
         first_new_ = plane_count_;
     }
 
     /// Adds the plane of a stored pair, the deepest on it.
     void add_plane(const Pair& deepest) {
+        is_reported_[plane_count_ - first_new_] = false;
         deepest_[plane_count_ - first_new_] = static_cast<std::uint32_t>(&deepest - stored_.data());
         planes_[plane_count_++] = ContactPlane<D>(deepest.distance, step());
     }
@@ -249,10 +297,8 @@ private:
     const SurfaceNormalFlags& flags(Pair& pair) {
         if (pair.has_flags) return pair.flags;
         pair.has_flags = true;
-        pairs_.each([&](const Part<D>& part_a, const Part<D>& part_b, const PairPlace& place) {
-            if (place != pair.place) return true;
+        pairs_.at(pair.place, [&](const Part<D>& part_a, const Part<D>& part_b, const PairPlace&) {
             pair.flags = flags_of(part_a, part_b, pair.distance);
-            return false;
         });
         return pair.flags;
     }
@@ -287,49 +333,58 @@ private:
         report_planes(0, visit);
     }
 
+    /// Finds the planes from `first` on that an earlier round reported and forgot: those that have a surface contact,
+    /// or for planes of ghosts any contact, of a pair of that round.
+    void find_forgotten(std::size_t first, bool are_ghosts) {
+        if (!has_forgotten_ || first == plane_count_) return;
+        pairs_.each([&](const Part<D>& part_a, const Part<D>& part_b, const PairPlace& place) {
+            Pair other(place);
+            if (!touch(part_a, part_b, other.distance) || comes_before(before_, other)) return true;
+            other.flags = flags_of(part_a, part_b, other.distance);
+            if (!other.flags && !(are_ghosts && filter_.replace(part_a, part_b, other.flags, other.distance)))
+                return true;
+            const ContactPlane<D> plane(other.distance, step());
+            for (std::size_t i = first; i < plane_count_; ++i)
+                is_reported_[i - first_new_] |= plane.has(deepest_on(i).distance);
+            return true;
+        });
+    }
+
     /// Joins the pairs of parts to the planes from `first` on, and reports these.
     bool report_planes(std::size_t first, Visit visit) {
         for (; first < plane_count_; first += max_manifolds) {
             const std::size_t count = std::min(plane_count_ - first, max_manifolds);
             for (std::size_t i = 0; i < count; ++i)
                 manifolds_[i].begin(area_pair(deepest_on(first + i)), step(), names_, margin_);
-            pairs_.each([&](const Part<D>& part_a, const Part<D>& part_b, const PairPlace& place) {
-                add_to_manifolds(part_a, part_b, place, first, count);
-                return true;
+            each_touching([&](const Part<D>& part_a, const Part<D>& part_b, Pair& pair) {
+                add_to_manifolds(part_a, part_b, pair, first, count);
             });
             for (std::size_t i = 0; i < count; ++i)
-                if (!report_plane(deepest_on(first + i), features_[i], manifolds_[i], visit)) return false;
+                if (!is_reported_[first + i - first_new_] &&
+                    !report_plane(deepest_on(first + i), features_[i], manifolds_[i], visit))
+                    return false;
         }
         return true;
     }
 
-    void add_to_manifolds(const Part<D>& part_a, const Part<D>& part_b, const PairPlace& place, std::size_t first,
+    void add_to_manifolds(const Part<D>& part_a, const Part<D>& part_b, Pair& pair, std::size_t first,
                           std::size_t count) {
-        Pair* pair = find(place);
-        Pair other;
-        if (pair == nullptr) {
-            if (is_single_round_ || !touch(part_a, part_b, other.distance)) return;
-            other.index_a = place.index_a;
-            other.index_b = place.index_b;
-            other.plane = static_cast<std::uint32_t>(plane_of(other.distance));
-            other.role = other.plane < plane_count_ ? Role::joined : Role::ghost;
-            pair = &other;
-        }
         for (std::size_t i = 0; i < count; ++i) {
             const Pair& deepest = deepest_on(first + i);
-            if (deepest.place == place)
-                name_features(part_a, part_b, deepest.distance, place.index_a, place.index_b, features_[i]);
+            if (deepest.place == pair.place)
+                name_features(part_a, part_b, deepest.distance, pair.index_a, pair.index_b, features_[i]);
         }
-        if (pair->role == Role::joined && pair->plane >= first && pair->plane - first < count)
-            return manifolds_[pair->plane - first].add(part_a, part_b, *pair);
-        if (pair->role != Role::ghost && pair->role != Role::used_ghost) return;
+        if (pair.role == Role::joined && pair.plane >= first && pair.plane - first < count)
+            return manifolds_[pair.plane - first].add(part_a, part_b, pair);
+        if (pair.role != Role::ghost && pair.role != Role::used_ghost) return;
+        const FaceNormals<D> level_faces(names_ == ManifoldNames::level_is_a ? part_a : part_b);
         for (std::size_t i = 0; i < count; ++i) {
-            if (!manifolds_[i].may_have_face(part_a, part_b)) continue;
-            const ManifoldCandidates<D> area = manifolds_[i].area(part_a, part_b, place.index_a, place.index_b);
+            if (!level_faces.may_face(manifolds_[i].plane().normal)) continue;
+            const ManifoldCandidates<D> area = manifolds_[i].area(part_a, part_b, pair.index_a, pair.index_b);
             if (area.count == 0) continue;
-            if (pair == &other && flags_of(part_a, part_b, other.distance)) return;
+            if (!pair.has_flags && flags_of(part_a, part_b, pair.distance)) return;
             manifolds_[i].add(area);
-            pair->role = Role::used_ghost;
+            pair.role = Role::used_ghost;
         }
     }
 
@@ -342,6 +397,7 @@ private:
     bool report_plane(const Pair& deepest, const Features& features, SurfaceManifold<D>& manifold, Visit visit) {
         SurfaceContact<D> found;
         found.surface_normals = deepest.flags;
+        found.size = filter_.size();
         found.contact.feature_a = features.feature_a;
         found.contact.feature_b = features.feature_b;
         if (!deepest.flags) {
@@ -357,17 +413,13 @@ private:
     }
 
     void replace_ghosts() {
-        pairs_.each([&](const Part<D>& part_a, const Part<D>& part_b, const PairPlace& place) {
-            Pair* const pair = find(place);
-            if (pair == nullptr || pair->role != Role::ghost) return true;
-            PartContact<D> contact{pair->distance, {}};
-            pair->is_replaced = filter_.replace(part_a, part_b, pair->flags, contact);
-            pair->distance = contact.distance;
-            const std::optional<DVec<D>> face = face_normal<D>(part_a, part_b, pair->flags, {pair->distance, step()});
-            pair->has_face = face.has_value();
-            pair->area_normal = face.value_or(pair->distance.normal);
-            if (pair->distance.distance > margin_) pair->role = Role::dropped;
-            return true;
+        each_stored([&](const Part<D>& part_a, const Part<D>& part_b, Pair& pair) {
+            if (pair.role != Role::ghost) return;
+            pair.is_replaced = filter_.replace(part_a, part_b, pair.flags, pair.distance);
+            const std::optional<DVec<D>> face = face_normal<D>(part_a, part_b, pair.flags, {pair.distance, step()});
+            pair.has_face = face.has_value();
+            pair.area_normal = face.value_or(pair.distance.normal);
+            if (pair.distance.distance > margin_) pair.role = Role::dropped;
         });
         std::sort(stored().begin(), stored().end(), comes_before);
     }
@@ -390,19 +442,22 @@ private:
 
     double margin_;
     SearchOptions<D> search_;
-    ManifoldNames names_;
     EdgeFilter<D> filter_;
+    ManifoldNames names_;
     PartPairs<D> pairs_;
     int round_ = 0;
     bool is_complete_ = false;      ///< no touching pair comes after the stored ones
     bool is_single_round_ = false;  ///< all touching pairs are stored
+    bool has_forgotten_ = false;    ///< planes of earlier rounds
     Pair last_;                     ///< the last one stored
+    Pair before_;                   ///< the last one of the round before
     std::size_t stored_count_ = 0, plane_count_ = 0;
     std::size_t first_new_ = 0;  ///< the first plane of this round
-    std::array<Pair, max_pairs> stored_;
-    std::array<ContactPlane<D>, max_old_planes + max_pairs> planes_;
+    UninitializedArray<Pair, max_pairs> stored_;
+    UninitializedArray<ContactPlane<D>, max_old_planes + max_pairs> planes_;
+    std::array<bool, max_pairs> is_reported_;
     std::array<std::uint32_t, max_pairs> deepest_;  ///< indices of the deepest pairs on the planes of this round
-    std::array<SurfaceManifold<D>, max_manifolds> manifolds_;
+    UninitializedArray<SurfaceManifold<D>, max_manifolds> manifolds_;
     std::array<Features, max_manifolds> features_;
 };
 
@@ -424,37 +479,34 @@ bool report_single(const View<D>& a, const View<D>& b, const QueryOptions<D>& op
 template <int D>
 SurfaceContact<D> filtered_contact(const View<D>& a, const View<D>& b, const PartContact<D>& own,
                                    const Contact<D>& contact, const NeighbourSurfaces<D>& neighbours, double margin) {
-    SurfaceContact<D> result{contact, {}, {}};
+    SurfaceContact<D> result{contact, {}, {}, 0};
     const Part<D> part_a = single_part(a), part_b = single_part(b);
     EdgeFilter<D> filter(a, b, neighbours);
     const SurfaceNormalFlags flags =
         filter.surface_normal_flags(part_a, part_b, own.distance, [&]() -> const Manifold<D>& { return own.manifold; });
     if (flags) return result;
-    PartContact<D> replaced = own;
-    const bool is_replaced = filter.replace(part_a, part_b, flags, replaced);
-    if (replaced.distance.distance > margin) {
+    PairDistance<D> pair{own.distance};
+    const bool is_replaced = filter.replace(part_a, part_b, flags, pair.distance);
+    if (pair.distance.distance > margin) {
         result.contact = {};
         return result;
     }
     result.surface_normals = flags;
+    result.size = filter.size();
     if (!is_replaced) return result;
     const double step = surface_probe_scale * filter.size();
-    const std::optional<DVec<D>> face = face_normal<D>(part_a, part_b, flags, {replaced.distance, step});
-    name_features(part_a, part_b, replaced.distance, 0, 0, result.contact);
-    if (!face) {
-        write(replaced.distance, replaced.manifold, result.contact);
-        return result;
-    }
-    PairDistance<D> pair{replaced.distance, 0, 0};
-    pair.distance.normal = *face;
+    const std::optional<DVec<D>> face = face_normal<D>(part_a, part_b, flags, {pair.distance, step});
+    name_features(part_a, part_b, pair.distance, 0, 0, result.contact);
+    PairDistance<D> area = pair;
+    area.distance.normal = face.value_or(pair.distance.normal);
     SurfaceManifold<D> manifold;
-    manifold.begin(pair, step, ManifoldNames::single_parts, margin);
-    manifold.add(manifold.area(part_a, part_b, 0, 0));
+    manifold.begin(area, step, ManifoldNames::single_parts, margin);
+    if (face) manifold.add(manifold.area(part_a, part_b, 0, 0));
     if (manifold.has_extent()) {
         result.own_area = result.contact;
         manifold.write(result.own_area);
     }
-    pair.distance = replaced.distance;
+    if (!face) pair.distance.corners = {};  // the surface there is another shape's, whose corners are unknown
     manifold.add_deepest(pair);
     manifold.write(result.contact);
     result.contact.normal = to_float(pair.distance.normal);
@@ -466,7 +518,7 @@ bool each_surface_contact(const View<D>& a, const View<D>& b, const QueryOptions
                           const NeighbourSurfaces<D>& neighbours, FunctionRef<bool(const SurfaceContact<D>&)> visit) {
     if constexpr (D == 3) {
         bool touch = false;
-        const auto report = [&](const Contact<D>& contact) { return visit({contact, {}, {}}); };
+        const auto report = [&](const Contact<D>& contact) { return visit({contact, {}, {}, 0}); };
         if (has_solid(a, b) && each_solid_contact(a, b, options.margin, report, touch)) return touch;
     }
     if (std::holds_alternative<Composite<D>>(a) || std::holds_alternative<Composite<D>>(b))

@@ -17,6 +17,7 @@ struct SurfaceContact {
     Contact<D> own_area;
     /// False for a side whose surface doesn't have the normal of the parts' contact, which was replaced.
     SurfaceNormalFlags surface_normals;
+    double size = 0;  ///< of the smaller shape, of a contact whose normal was replaced
 };
 
 /// Visits one contact for each plane on which two shapes touch, of which at least one is composite or has neighbours;

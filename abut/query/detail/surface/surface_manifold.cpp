@@ -8,6 +8,9 @@ namespace {
 /// The largest angle between the normals of one plane, and its cosine.
 constexpr double max_plane_angle = 5e-3, min_plane_cosine = 1 - 0.5 * max_plane_angle * max_plane_angle;
 
+/// A face that is this thin is an edge, and so is one a little less thin.
+constexpr float max_thinness = 1e-5f;
+
 /// An area shorter than this fraction of the smaller shape's size is a sliver.
 constexpr double min_extent = 1e-2;
 
@@ -103,7 +106,7 @@ template <int D>
 std::optional<DVec<D>> face_normal(const Part<D>& part_a, const Part<D>& part_b, const SurfaceNormalFlags& flags,
                                    const ContactPlane<D>& plane) {
     const auto of = [&](const Part<D>& part, const DVec<D>& out, const DVec<D>& on_plane) -> std::optional<DVec<D>> {
-        if (!part.is_convex()) return std::nullopt;
+        if (!part.is_convex() || !FaceNormals<D>(part).may_face(out)) return std::nullopt;
         const Face<D> face = face_along(part.convex(), out);
         if (!face.flat() || dot(face.normal, out) < aligned) return std::nullopt;
         const DVec<D> offset = face.points[0] + face.normal * part.convex().radius - on_plane;
@@ -113,6 +116,38 @@ std::optional<DVec<D>> face_normal(const Part<D>& part_a, const Part<D>& part_b,
     if (!flags.a)
         if (const auto of_b = of(part_b, -plane.normal, plane.on_b)) return -*of_b;
     return flags.b ? std::nullopt : of(part_a, plane.normal, plane.on_a);
+}
+
+template <int D>
+FaceNormals<D>::FaceNormals(const Part<D>& part) {
+    if (!part.is_convex()) return;
+    const Convex<D>& set = part.convex();
+    if (set.core == Core::box && set.similar) {
+        const Vec<D>& half = set.own[0];
+        float shortest = half[0], longest = half[0];
+        for (int i = 1; i < D; ++i) {
+            shortest = std::min(shortest, half[i]);
+            longest = std::max(longest, half[i]);
+        }
+        if (!(shortest > 2 * max_thinness * longest)) return;
+        for (const DVec<D>& column : set.place.column) normals_[count_++] = column;
+    }
+    if constexpr (D == 3)
+        if (set.core == Core::points && set.count == 3) {
+            const auto corner = [&](std::uint32_t i) { return set.place.point(DVec<3>(set.vertices()[i])); };
+            const DVec<3> ab = corner(1) - corner(0), ac = corner(2) - corner(0), area = cross(ab, ac);
+            const double longest = std::max(length_squared(ab), length_squared(ac));
+            if (length_squared(area) > 16 * max_thinness * max_thinness * longest * longest) normals_[count_++] = area;
+        }
+}
+
+template <int D>
+bool FaceNormals<D>::may_face(const DVec<D>& direction) const {
+    const auto used = std::span(normals_).first(count_);
+    return used.empty() || std::any_of(used.begin(), used.end(), [&](const DVec<D>& normal) {
+               const double along = dot(normal, direction);
+               return along * along >= aligned * aligned * (1 - 1e-12) * length_squared(normal);
+           });
 }
 
 template <int D>
@@ -148,17 +183,17 @@ ManifoldCandidates<D> ExtremePoints<D>::distinct(double tolerance) const {
 }
 
 template <int D>
-double ExtremePoints<D>::extent() const {
-    double result = 0;
-    if (count_ == 0) return result;
+bool ExtremePoints<D>::extend_beyond(double length) const {
+    if (count_ < 2) return false;
     for (const ManifoldPoint<D>& a : extreme_)
-        for (const ManifoldPoint<D>& b : extreme_) result = std::max(result, length_squared(a.position - b.position));
-    return std::sqrt(result);
+        for (const ManifoldPoint<D>& b : extreme_)
+            if (length_squared(a.position - b.position) > length * length) return true;
+    return false;
 }
 
 template <int D>
 bool SurfaceManifold<D>::has_extent() const {
-    return points_.extent() > min_extent / surface_probe_scale * plane_.step;
+    return points_.extend_beyond(min_extent / surface_probe_scale * plane_.step);
 }
 
 template <int D>
@@ -207,26 +242,6 @@ void SurfaceManifold<D>::add_deepest(const PairDistance<D>& pair) {
     const double depth = -pair.distance.distance;
     points_.add({pair.distance.on_a - pair.distance.normal * (0.5 * depth), depth, deepest_feature(pair, names_)},
                 plane_.normal);
-}
-
-/// Triangles and boxes, the most common parts, have few normals.
-template <int D>
-bool SurfaceManifold<D>::may_have_face(const Part<D>& part_a, const Part<D>& part_b) const {
-    const Part<D>& part = names_ == ManifoldNames::level_is_a ? part_a : part_b;
-    if (!part.is_convex()) return false;
-    const Convex<D>& set = part.convex();
-    const auto is_along = [&](const DVec<D>& normal) {
-        const double along = dot(normal, plane_.normal);
-        return along * along >= aligned * aligned * length_squared(normal);
-    };
-    if (set.core == Core::box && set.similar)
-        return std::any_of(set.place.column.begin(), set.place.column.end(), is_along);
-    if constexpr (D == 3)
-        if (set.core == Core::points && set.count == 3) {
-            const auto corner = [&](std::uint32_t i) { return set.place.point(DVec<3>(set.vertices()[i])); };
-            return is_along(cross(corner(1) - corner(0), corner(2) - corner(0)));
-        }
-    return true;
 }
 
 /// A point deeper than the deepest contact is none of this surface.
@@ -279,6 +294,7 @@ void SurfaceManifold<D>::write(Contact<D>& contact) const {
     template std::optional<DVec<D>> face_normal(const Part<D>&, const Part<D>&, const SurfaceNormalFlags&, \
                                                 const ContactPlane<D>&);                                   \
     template struct ContactPlane<D>;                                                                       \
+    template class FaceNormals<D>;                                                                         \
     template class SurfaceManifold<D>;
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

@@ -55,6 +55,20 @@ template <int D>
 std::optional<DVec<D>> face_normal(const Part<D>& part_a, const Part<D>& part_b, const SurfaceNormalFlags& flags,
                                    const ContactPlane<D>& plane);
 
+/// The normals of all faces of a part, if it is a triangle or a box. Other parts may have any.
+template <int D>
+class FaceNormals {
+public:
+    explicit FaceNormals(const Part<D>& part);
+
+    /// Whether the part may have a face along a direction of length 1, or none at all because it is thin.
+    bool may_face(const DVec<D>& direction) const;
+
+private:
+    std::array<DVec<D>, D> normals_;  ///< of any length
+    std::size_t count_ = 0;           ///< 0: of any direction
+};
+
 /// Of any number of points, those that are extreme along fixed directions, and the deepest: the corners of their area,
 /// or in 3D points that span all but 2 % of it. The order in which they are added has no influence.
 template <int D>
@@ -64,8 +78,8 @@ public:
     void add(const ManifoldPoint<D>& point, const DVec<D>& normal);
     /// The points, without those that others are equal to within `tolerance`.
     ManifoldCandidates<D> distinct(double tolerance) const;
-    /// The largest distance between two of the points.
-    double extent() const;
+    /// Whether two of the points are farther apart than a length.
+    bool extend_beyond(double length) const;
 
 private:
     static constexpr std::size_t directions = D == 2 ? 2 : 16;
@@ -92,8 +106,6 @@ public:
 
     /// Adds a pair whose contact is on the plane: the corners of its contact area, and its deepest point.
     void add(const Part<D>& part_a, const Part<D>& part_b, const PairDistance<D>& pair);
-    /// Whether the level's part of a pair may have a face on the plane. It is false for most parts that have none.
-    bool may_have_face(const Part<D>& part_a, const Part<D>& part_b) const;
     /// The corners of the contact area on the plane of any pair; there are none if its faces are elsewhere.
     ManifoldCandidates<D> area(const Part<D>& part_a, const Part<D>& part_b, std::uint32_t index_a,
                                std::uint32_t index_b) const;
@@ -115,6 +127,8 @@ private:
     ExtremePoints<D> points_;
 };
 
+extern template class FaceNormals<2>;
+extern template class FaceNormals<3>;
 extern template class SurfaceManifold<2>;
 extern template class SurfaceManifold<3>;
 

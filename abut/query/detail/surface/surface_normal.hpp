@@ -21,7 +21,7 @@
 
 namespace abut::detail {
 
-/// s, as a fraction of the size of the other shape.
+/// s, as a fraction of the size of the smaller shape; the other one counts as the level.
 inline constexpr double surface_probe_scale = 1e-3;
 
 /// A contact point counts as one of the deepest if it is shallower by at most this fraction of s.
@@ -149,12 +149,6 @@ bool covers_contact(const DVec<D>& normal, double depth, const DVec<D>& other, d
 template <int D>
 DVec<D> middle_of(const AnyPart<D>& part, const DVec<D>& nearby) {
     return part.is_half_space() ? nearby : DVec<D>(center(bounds(part)));
-}
-
-/// s for a pair, by the smaller shape; the other one counts as the level.
-template <int D>
-double surface_probe_distance(const View<D>& a, const View<D>& b) {
-    return surface_probe_scale * std::min(size(a), size(b));
 }
 
 }  // namespace abut::detail
