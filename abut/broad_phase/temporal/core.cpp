@@ -2,10 +2,10 @@
 // float. The arithmetic is in float as well; the bounds allow for four times the former and twice the latter.
 
 #include <abut/broad_phase/boxes.hpp>
-#include <abut/math/simd/float4-inl.h>
 #include <abut/broad_phase/detail/parallel.hpp>
 #include <abut/broad_phase/temporal/core.hpp>
 #include <abut/math/assert.hpp>
+#include <abut/math/simd/float4-inl.h>
 #include <abut/math/simd/library_entry.hpp>
 
 #include <algorithm>
