@@ -1,10 +1,12 @@
 #include <abut/bake/solid.hpp>
+#include <abut/convex/bounding_ball.hpp>
+#include <abut/convex/hull/hill_climb.hpp>
 #include <abut/convex/hull/hull.hpp>
-#include <abut/math/aabb.hpp>
 #include <abut/math/dvec.hpp>
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <tuple>
 #include <vector>
 
@@ -49,62 +51,11 @@ public:
         : point_(a), normal_(normalized(cross(DVec<3>(b) - point_, DVec<3>(c) - point_), DVec<3>(0.0))) {}
 
     double height(const Vec3& p) const { return dot(normal_, DVec<3>(p) - point_); }
-    const DVec<3>& normal() const { return normal_; }
 
 private:
     DVec<3> point_;
     DVec<3> normal_;
 };
-
-/// The support function of a hull by hill climbing from vertex to vertex; a convex body has no other local maximum.
-/// Each search starts at the previous result (a warm start): consecutive triangles are neighbours.
-class HillClimb {
-public:
-    explicit HillClimb(const Hull3& hull) : hull_(hull), first_(hull.points.size() + 1, 0) {
-        for (const std::uint32_t corner : hull.loops) ++first_[corner + 1];
-        for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
-        next_.resize(hull.loops.size());
-        std::vector<std::uint32_t> filled(first_.begin(), first_.end() - 1);
-        std::uint32_t begin = 0;
-        for (const std::uint32_t end : hull.loop_ends) {
-            for (std::uint32_t i = begin; i < end; ++i)
-                next_[filled[hull.loops[i]]++] = hull.loops[i + 1 == end ? begin : i + 1];
-            begin = end;
-        }
-    }
-
-    const Vec3& farthest(const DVec<3>& direction) {
-        const auto reach = [&](std::uint32_t corner) { return dot(direction, DVec<3>(hull_.points[corner])); };
-        double best = reach(at_);
-        for (bool is_improving = true; is_improving;) {
-            is_improving = false;
-            for (std::uint32_t i = first_[at_]; i < first_[at_ + 1]; ++i) {
-                const double next_reach = reach(next_[i]);
-                if (next_reach <= best) continue;
-                best = next_reach;
-                at_ = next_[i];
-                is_improving = true;
-                break;
-            }
-        }
-        return hull_.points[at_];
-    }
-
-private:
-    const Hull3& hull_;
-    std::vector<std::uint32_t> first_;  // one per vertex: where its neighbours begin in next_
-    std::vector<std::uint32_t> next_;   // each edge occurs for both its ends, once in each loop
-    std::uint32_t at_ = 0;
-};
-
-double bounding_radius(std::span<const Vec3> points) {
-    Aabb3 box = Aabb3::empty();
-    for (const Vec3& p : points) box = merged(box, Aabb3{p, p});
-    const DVec<3> middle(center(box));
-    double radius = 0;
-    for (const Vec3& p : points) radius = std::max(radius, length(DVec<3>(p) - middle));
-    return radius;
-}
 
 }  // namespace
 
@@ -121,7 +72,7 @@ double signed_volume(std::span<const Vec3> points, std::span<const glm::uvec3> t
 bool is_convex_solid(std::span<const Vec3> points, std::span<const glm::uvec3> triangles) {
     constexpr std::size_t tetrahedron = 4;
     if (triangles.size() < tetrahedron) return false;
-    const double tolerance = 1e-5 * bounding_radius(points);
+    const double tolerance = 1e-5 * ball_around<3>(points).radius;
 
     // 1. The surface is closed, and no edge is reflex. This test rejects nearly every concave surface.
     const std::vector<Edge> edges = sorted_edges(triangles);
@@ -136,10 +87,18 @@ bool is_convex_solid(std::span<const Vec3> points, std::span<const glm::uvec3> t
     // 2. Many reflex edges within the tolerance can add up, and disconnected bodies pass the first test.
     const Result<Hull3> corners = hull(points);
     if (!corners || corners->rank < 3) return false;
-    HillClimb hill_climb(*corners);
+    const HillClimb hill_climb(corners->points.size(), corners->loops, corners->loop_ends);
+    std::uint32_t highest = 0;  // neighbouring triangles have neighbouring support points
     return std::all_of(triangles.begin(), triangles.end(), [&](const glm::uvec3& t) {
         const Plane plane(points[t.x], points[t.y], points[t.z]);
-        return plane.height(hill_climb.farthest(plane.normal())) <= tolerance;
+        double max_height = -std::numeric_limits<double>::infinity();
+        highest = hill_climb.best(highest, [&](std::uint32_t i) {
+            const double height = plane.height(corners->points[i]);
+            if (!(height > max_height)) return false;
+            max_height = height;
+            return true;
+        });
+        return max_height <= tolerance;
     });
 }
 
