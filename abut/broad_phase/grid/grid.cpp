@@ -67,7 +67,7 @@ void Grid<D>::reserve(std::size_t count) {
     if (count <= capacity_) return;
     capacity_ = count;
     large_.reserve(count);
-    store_.reserve(max_page_count(count), detail::grid_max_cells(count), detail::PackedBounds<D>::guards);
+    store_.reserve(max_page_count(count), detail::grid_max_cells(count));
 }
 
 template <int D>

@@ -50,15 +50,20 @@ void store_bits(const hn::Mask<Lanes> (&overlap)[groups], std::uint8_t* bits) {
     }
 }
 
-/// The records of a page in SIMD vectors.
+/// The records of a page in SIMD vectors. Those beyond its count overlap nothing, for every subtraction from their low
+/// word clears guard bits.
 template <int D>
 struct Page {
     hn::Vec<Lanes> low[groups], high[groups];
 
-    explicit Page(const GridRecord* records) {
+    Page(const GridRecord* records, std::size_t count) {
+        const auto none = hn::Set(d, PackedBounds<D>::guards);
         hn::Vec<Lanes> unused;
-        for (std::size_t g = 0; g < groups; ++g)
+        for (std::size_t g = 0; g < groups; ++g) {
             hn::LoadInterleaved3(d, &records[g * lanes].low, low[g], high[g], unused);
+            const std::size_t before = std::min(g * lanes, count);
+            low[g] = hn::IfThenElse(hn::FirstN(d, count - before), low[g], none);
+        }
     }
 
     /// Tests each record of `row` against the whole page.
@@ -154,9 +159,9 @@ bool visit(const GridStore& store, const Aabb<D>* boxes, std::uint32_t begin, st
     const GridRecord* records = store.records.data();
     Tile tile;
     for (std::uint32_t cell = begin; cell < end; ++cell) {
-        // The newest page may be partly filled. Whole words of its tile are tested; unused records overlap nothing.
+        // The newest page may be partly filled. Whole words of its tile are tested; its other records overlap nothing.
         const bool continues = store.each_page(cell, [&](std::uint32_t column, std::uint32_t count) {
-            const Page<D> page(records + column);
+            const Page<D> page(records + column, count);
             const std::uint32_t words = (count + Tile::rows_per_word - 1) / Tile::rows_per_word;
             page.test(records + column, words * Tile::rows_per_word, tile);
             if (!reporter.make_space()) return false;

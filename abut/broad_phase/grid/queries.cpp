@@ -248,11 +248,12 @@ void overlapping(const GridItems<D>& items, const Aabb<D>& box, ItemCall visit) 
     each_cell<D>(items.cells.range(quantised), [&](const GridCell<D>& cell) {
         // The flags of copies ensure that only the first cell in common reports an item.
         const PackedBox<D> bounds(quantised, cell);
-        return items.store.each_page(items.cells.index(cell), [&](std::uint32_t first, std::uint32_t) {
+        return items.store.each_page(items.cells.index(cell), [&](std::uint32_t first, std::uint32_t count) {
             const GridRecord* records = items.store.records.data() + first;
             std::uint32_t bits = 0;
             for (std::size_t i = 0; i < page_size; i += lanes)
                 bits |= bits_of(RecordLanes(records + i).template overlap<D>(bounds)) << i;
+            bits &= (1u << count) - 1;
             while (bits != 0) {
                 const GridRecord& record = records[next_lane(bits)];
                 if (!PackedBounds<D>::surely_overlap(bounds.low, bounds.high, record.low, record.high) &&

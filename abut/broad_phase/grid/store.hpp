@@ -29,12 +29,10 @@ public:
     static constexpr std::uint32_t pages_per_cell = 3;
     static constexpr std::uint32_t none = 0xffffffff;
 
-    std::vector<GridRecord> records;  ///< in pages; unused records overlap nothing
+    std::vector<GridRecord> records;  ///< in pages; those beyond the count of a page are of no use
 
-    /// Reserves capacity for so many pages and cells. Allocates nothing if the capacity suffices. `guards` are the
-    /// guard bits of PackedBounds.
-    void reserve(std::uint32_t max_pages, std::uint32_t max_cells, std::uint32_t guards) {
-        no_overlap_low_ = guards;
+    /// Reserves capacity for so many pages and cells. Allocates nothing if the capacity suffices.
+    void reserve(std::uint32_t max_pages, std::uint32_t max_cells) {
         page_limit_ = max_pages;
         // The reserve keeps the capacity exact: a resize alone could double it.
         records.reserve(std::size_t{page_size} * max_pages);
@@ -72,7 +70,6 @@ public:
             records[position] = records[last];
             return false;
         });
-        records[last] = {no_overlap_low_, 0, 0};
         next_[cell] = last;
         if (last % page_size == 0) end_page(cell, last);
     }
@@ -109,11 +106,8 @@ private:
             std::atomic_ref(is_full_).store(1, std::memory_order_relaxed);
             return none;
         }
-        const std::uint32_t first = page * page_size;
         previous_[page] = position == 0 ? none : position - page_size;
-        // These records overlap nothing, for every subtraction clears guard bits.
-        for (std::uint32_t i = 0; i < page_size; ++i) records[first + i] = {no_overlap_low_, 0, 0};
-        return first;
+        return page * page_size;
     }
     /// Frees the newest page of a cell, which begins at this record.
     void end_page(std::uint32_t cell, std::uint32_t first) {
@@ -138,7 +132,6 @@ private:
     std::uint32_t page_limit_ = 0;
     std::uint32_t free_page_ = none;  ///< the head of the free list
     mutable std::uint32_t is_full_ = 0;
-    std::uint32_t no_overlap_low_ = 0;  ///< the low word of unused records
 };
 
 /// Boxes that would touch more cells are stored separately.
