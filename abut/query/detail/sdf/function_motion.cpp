@@ -249,14 +249,6 @@ std::optional<TimedDistance<D>> time_of_impact_by_proofs(const Part<D>& a, const
     return found;
 }
 
-/// The largest distance of the part from its pivot; infinite without bounds.
-template <int D>
-double reach_of(const Part<D>& part) {
-    const Aabb<D> box = bounds(part);
-    if (!(is_finite(box.min) && is_finite(box.max))) return std::numeric_limits<double>::infinity();
-    return length(glm::max(glm::abs(DVec<D>(box.min)), glm::abs(DVec<D>(box.max))));
-}
-
 template <int D>
 double size_of(const Part<D>& part) {
     if (part.is_half_space()) return std::numeric_limits<double>::infinity();
@@ -351,7 +343,7 @@ bool function_time_of_impact(const AnyPart<D>& a, const RigidPath<D>& path_a, co
     MotionBounds motion;
     motion.speed = std::numeric_limits<double>::infinity();
     for (const bool by_a : {true, false}) {
-        const double reach = reach_of<D>(by_a ? a : b);
+        const double reach = reach_of(bounds(by_a ? a : b));
         if (!std::isfinite(reach)) continue;
         motion.speed =
             std::min(motion.speed, relative_motion_bounds(by_a ? path_a : path_b, by_a ? path_b : path_a, reach).speed);

@@ -39,27 +39,20 @@ double finite_size(const Part<D>& part) {
                                                                     : std::numeric_limits<double>::infinity();
 }
 
-/// The largest coordinate at which a function is evaluated, in its local frame.
+/// The largest coordinate at which a function is evaluated beside a convex set, in its local frame.
 template <int D>
-double largest_query_coordinate(const DistanceFunction<D>& function, const Convex<D>& other) {
+double largest_query_coordinate(const DistanceFunction<D>& function, const Convex<D>& set) {
     const Affine<D> back = inverse(function.place, determinant(function.place));
-    return largest(back.point(reference_point(other))) * min_scale_factor<D>(function);
+    return largest(back.point(reference_point(set))) * min_scale_factor<D>(function);
 }
+/// Beside another part it is that of the function's box.
 template <int D>
-double largest_local_coordinate(const DistanceFunction<D>& function) {
+double largest_query_coordinate(const DistanceFunction<D>& function) {
     double largest_bound = 0;
     for (int i = 0; i < D; ++i)
         for (const float bound : {function.bounds.min[i], function.bounds.max[i]})
             if (std::isfinite(bound)) largest_bound = std::max(largest_bound, std::abs(static_cast<double>(bound)));
     return largest_bound * min_scale_factor<D>(function);
-}
-template <int D>
-double largest_query_coordinate(const DistanceFunction<D>& function, const HalfSpaceView<D>&) {
-    return largest_local_coordinate(function);
-}
-template <int D>
-double largest_query_coordinate(const DistanceFunction<D>& function, const DistanceFunction<D>& other) {
-    return std::max(largest_local_coordinate(function), largest_local_coordinate(other));
 }
 
 template <int D>
@@ -271,8 +264,9 @@ template <int D>
 double function_tolerance(const Part<D>& a, const Part<D>& b) {
     if (!a.is_function()) return function_tolerance(b, a);
     const double smaller = std::min(finite_size(a), finite_size(b));
-    const double coordinate =
-        b.visit([&](const auto& part_b) { return largest_query_coordinate(a.function(), part_b); });
+    double coordinate =
+        b.is_convex() ? largest_query_coordinate(a.function(), b.convex()) : largest_query_coordinate(a.function());
+    if (b.is_function()) coordinate = std::max(coordinate, largest_query_coordinate(b.function()));
     return tolerance_for(std::isfinite(smaller) ? smaller : 0, coordinate + (std::isfinite(smaller) ? smaller : 0));
 }
 

@@ -36,9 +36,8 @@ public:
           tolerance_(bounds.tolerance),
           exact_(fraction_searched * tolerance_),
           search_tolerance_(std::max(tolerance_, function_search_tolerance<D>(set, function))) {
-        const Aabb<D> box = detail::bounds(set);
-        const double reach = length(glm::max(glm::abs(DVec<D>(box.min)), glm::abs(DVec<D>(box.max))));
-        acceleration_ = relative_motion_bounds(path_of_set, path_of_function, reach).acceleration;
+        acceleration_ =
+            relative_motion_bounds(path_of_set, path_of_function, reach_of(detail::bounds(set))).acceleration;
     }
 
     std::optional<TimedDistance<D>> run() const {

@@ -11,6 +11,8 @@
 #include <abut/math/detail/rigid_path.hpp>
 #include <abut/shape/view/distance_function.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace abut::detail {
@@ -27,6 +29,18 @@ inline constexpr double slide_stride = 0.25;
 /// The limit on steps of a sweep that evaluate a distance. Once half of them are used up, each covers at least its
 /// share of the rest.
 inline constexpr int function_sweep_max_iterations = 256;
+
+/// The largest distance of a part from its pivot, the origin, by its box; infinite without bounds.
+template <int D>
+double reach_of(const Aabb<D>& box) {
+    double squares = 0;
+    for (int i = 0; i < D; ++i) {
+        const double farthest =
+            std::max(std::abs(static_cast<double>(box.min[i])), std::abs(static_cast<double>(box.max[i])));
+        squares += farthest * farthest;
+    }
+    return std::sqrt(squares);
+}
 
 /// The bounds on the motion of two parts that the searches use.
 struct MotionBounds {
