@@ -3,6 +3,7 @@
 #include <abut/convex/manifold/box_manifold.hpp>
 #include <abut/convex/pairs/box3.hpp>
 #include <abut/convex/pairs/box_axes.hpp>
+#include <abut/convex/pairs/box_closest.hpp>
 #include <abut/convex/pairs/box_distance.hpp>
 
 namespace abut::detail {
@@ -22,11 +23,12 @@ bool still_separated(const PlacedBox& a, const PlacedBox& b, double reach, const
            dot(axis, axis)[0] < 1 + 1e-6;
 }
 
-void store_axis(const PlacedBox& a, const Triple& normal, Cache* cache) {
-    if (cache == nullptr) return;
-    const lanes::Double3 axis = a.vector(normal);
+void store_axis(const lanes::Double3& axis, Cache* cache) {
     lanes::store(axis.xy, cache->axis.data());
     cache->axis[2] = static_cast<float>(axis.z[0]);
+}
+void store_axis(const PlacedBox& a, const Triple& normal, Cache* cache) {
+    if (cache != nullptr) store_axis(a.axes.vector(in_lanes(normal)), cache);
 }
 
 Triple face_normal(const BoxFrame& frame, std::size_t number) {
@@ -142,98 +144,100 @@ bool is_corner(const std::array<std::uint32_t, 4>& numbers, std::uint32_t count)
 }
 
 /// Warm start: whether the cached corner is still the closest one.
-bool nearest_as_before(const PlacedBox& a, const PlacedBox& b, const Cache& cache, BoxesDistance& result) {
+bool nearest_as_before(const PlacedBox& a, const PlacedBox& b, const Cache& cache, CoresDistance& found) {
     const bool of_a = is_corner(cache.corner_a, cache.count), of_b = is_corner(cache.corner_b, cache.count);
     if (cache.count == 0 || !(of_a || of_b)) return false;
     const PlacedBox &first = of_b ? a : b, &second = of_b ? b : a;
     const std::uint32_t corner = of_b ? cache.corner_b[0] : cache.corner_a[0];
-    BoxClosest& closest = result.closest;
     const BoxFaceGaps gaps(first, second);
+    BoxClosest closest;
     if (!gaps.finite() || !nearest_from_corner(gaps.frame(), corner, closest)) return false;
-    set_world_distance(first, closest, !of_b, result.distance);
-    if (!of_b) std::swap(closest.part_a, closest.part_b);
+    set_world_distance(first, closest, !of_b, found);
     return true;
 }
 
-void store(const BoxesDistance& result, Cache& cache) {
+void store(const CoresDistance& found, Cache& cache) {
     ClosestCorners<3> corners;
-    set_corners(result.closest, corners);
+    set_corners(found.part_a, found.part_b, corners);
     for (std::size_t i = 0; i < 3; ++i) {
-        cache.axis[i] = static_cast<float>(result.distance.normal[static_cast<int>(i)]);
         cache.corner_a[i] = corners.a[i];
         cache.corner_b[i] = corners.b[i];
     }
     cache.count = static_cast<std::uint32_t>(corners.count);
+    store_axis(found.normal, &cache);
 }
 
 }  // namespace
 
-BoxAnswer boxes_within(const PlacedBox& a, const PlacedBox& b, double reach, Cache* cache) {
-    if (still_separated(a, b, reach, cache)) return BoxAnswer::no;
+PairAnswer boxes_overlap(const PlacedBox& a, const PlacedBox& b, Cache* cache) {
+    const double reach = a.radius[0] + b.radius[0];
+    if (still_separated(a, b, reach, cache)) return PairAnswer::no;
     const BoxFaceGaps gaps(a, b);
-    if (!gaps.finite()) return BoxAnswer::unknown;
-    if (cache == nullptr && gaps.of_a_wider_than(reach)) return BoxAnswer::no;
+    if (!gaps.finite()) return PairAnswer::unknown;
+    if (cache == nullptr && gaps.of_a_wider_than(reach)) return PairAnswer::no;
     const BoxFaceGap face = gaps.widest();
-    if (cache == nullptr && face.gap > reach) return BoxAnswer::no;
+    if (cache == nullptr && face.gap > reach) return PairAnswer::no;
     const BoxFrame frame = gaps.frame();
     if (face.gap > reach) {
         store_axis(a, face_normal(frame, face.number), cache);
-        return BoxAnswer::no;
+        return PairAnswer::no;
     }
     const BoxEdgeGaps edges(frame, face.gap);
-    if (face.gap <= 0 && !edges.apart) return BoxAnswer::yes;
+    if (face.gap <= 0 && !edges.apart) return PairAnswer::yes;
     if (reach == 0 || (edges.apart && edges.wider_than(reach))) {
         if (cache != nullptr) store_axis(a, unit_edge_axis(frame, edges.widest(0)), cache);
-        return BoxAnswer::no;
+        return PairAnswer::no;
     }
     BoxClosest closest;
-    if (!nearest_points(frame, face, closest)) return BoxAnswer::unknown;
-    if (closest.distance <= reach) return BoxAnswer::yes;
+    if (!nearest_points(frame, face, closest)) return PairAnswer::unknown;
+    if (closest.distance <= reach) return PairAnswer::yes;
     store_axis(a, closest.normal, cache);
-    return BoxAnswer::no;
+    return PairAnswer::no;
 }
 
-BoxAnswer distance_of_boxes(const PlacedBox& a, const PlacedBox& b, Cache* cache, BoxesDistance& result) {
-    if (cache == nullptr || !nearest_as_before(a, b, *cache, result)) {
+bool distance_of_boxes(const PlacedBox& a, const PlacedBox& b, Cache* cache, CoresDistance& found) {
+    if (cache == nullptr || !nearest_as_before(a, b, *cache, found)) {
         const BoxFaceGaps gaps(a, b);
-        if (!gaps.finite() || !find_closest(gaps.frame(), gaps.widest(), result.closest)) return BoxAnswer::unknown;
-        set_world_distance(a, result.closest, false, result.distance);
+        BoxClosest closest;
+        if (!gaps.finite() || !find_closest(gaps.frame(), gaps.widest(), closest)) return false;
+        set_world_distance(a, closest, false, found);
     }
-    if (cache != nullptr && result.distance.distance > 0) store(result, *cache);
-    return BoxAnswer::yes;
+    if (cache != nullptr && found.distance[0] > 0) store(found, *cache);
+    add_balls(a.radius, b.radius, found);
+    return true;
 }
 
-BoxAnswer contact_of_boxes(const PlacedBox& a, const PlacedBox& b, double reach, double margin, Cache* cache,
-                           BoxesDistance& result, Manifold<3>& points) {
-    if (still_separated(a, b, reach, cache)) return BoxAnswer::no;
+PairAnswer contact_of_boxes(const PlacedBox& a, const PlacedBox& b, double reach, double margin, Cache* cache,
+                            CoresDistance& found, Manifold<3>& points) {
+    if (still_separated(a, b, reach, cache)) return PairAnswer::no;
     const BoxFaceGaps gaps(a, b);
-    if (!gaps.finite()) return BoxAnswer::unknown;
+    if (!gaps.finite()) return PairAnswer::unknown;
     const BoxFaceGap face = gaps.widest();
     const BoxFrame frame = gaps.frame();
     if (face.gap > reach) {
         store_axis(a, face_normal(frame, face.number), cache);
-        return BoxAnswer::no;
+        return PairAnswer::no;
     }
     const BoxEdgeGaps edges(frame, face.gap);
     if (edges.apart && edges.wider_than(reach)) {
         store_axis(a, unit_edge_axis(frame, edges.widest(0)), cache);
-        return BoxAnswer::no;
+        return PairAnswer::no;
     }
-    BoxClosest& closest = result.closest;
+    BoxClosest closest;
     const bool apart = face.gap > 0 || edges.apart, along_face = !apart && !edges.beats_face;
-    bool found = true;
+    bool known = true;
     if (along_face)
         set_features_along(frame, face_normal(frame, face.number), face.gap, closest);
     else
-        found = apart ? nearest_points(frame, face, closest) : deepest_edges(frame, face, edges, closest);
-    if (!found) return BoxAnswer::unknown;
+        known = apart ? nearest_points(frame, face, closest) : deepest_edges(frame, face, edges, closest);
+    if (!known) return PairAnswer::unknown;
     if (closest.distance > reach) {
         store_axis(a, closest.normal, cache);
-        return BoxAnswer::no;
+        return PairAnswer::no;
     }
-    set_world_distance(a, closest, false, result.distance);
-    DVec<3>* const place = along_face ? &result.distance.on_a : nullptr;
-    return manifold_of_boxes(a, b, frame, closest, margin, place, points) ? BoxAnswer::yes : BoxAnswer::unknown;
+    set_world_distance(a, closest, false, found);
+    lanes::Double3* const place = along_face ? &found.on_a : nullptr;
+    return manifold_of_boxes(a, b, frame, closest, margin, place, points) ? PairAnswer::yes : PairAnswer::unknown;
 }
 
 void record_axes(const PlacedBox& a, const PlacedBox& b, Trace<3>& trace) {
