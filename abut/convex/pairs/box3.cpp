@@ -4,7 +4,6 @@
 #include <abut/convex/pairs/box3.hpp>
 #include <abut/convex/pairs/box_axes.hpp>
 #include <abut/convex/pairs/box_closest.hpp>
-#include <abut/convex/pairs/box_distance.hpp>
 
 namespace abut::detail {
 namespace {
@@ -104,21 +103,29 @@ std::uint32_t foremost_corner(const BoxFrame& frame, std::size_t axis) {
 }
 
 /// The closest points of disjoint boxes. In most cases one of them is the corner that reaches farthest against the face
-/// with the widest gap.
+/// with the widest gap, or both are on edges. Else the corner nearest to where one search ends starts the next, by
+/// turns of either box.
 bool nearest_points(const BoxFrame& frame, const BoxFaceGap& face, BoxClosest& closest) {
-    if (face.gap > 0 && face.number < 3) {
-        if (nearest_from_corner(frame, foremost_corner(frame, face.number), closest)) return true;
-    } else if (face.gap > 0) {
-        const BoxFrame swapped_frame = frame.swapped();
-        if (nearest_from_corner(swapped_frame, foremost_corner(swapped_frame, face.number - 3), closest)) {
-            flip(frame, closest);
-            return true;
-        }
-    }
-    if (nearest_corner(frame, closest)) return true;
+    const bool of_b = face.number > 2;
+    BoxFrame swapped_frame;
+    if (of_b) swapped_frame = frame.swapped();
+    const auto find_from = [&](bool in_b, std::uint32_t corner) {
+        if (!nearest_from_corner(in_b ? swapped_frame : frame, corner, closest)) return false;
+        if (in_b) flip(frame, closest);
+        return true;
+    };
+    if (face.gap > 0 && find_from(of_b, foremost_corner(of_b ? swapped_frame : frame, face.number % 3))) return true;
+    std::uint32_t corner = closest.part_a.low;
+
     const BoxEdgeGaps edges(frame, face.gap);
     const std::size_t number = edges.widest(0);
     if (number < 9 && closest_on_edges(frame, number, closest) && closest.distance > 0) return true;
+
+    if (!of_b) swapped_frame = frame.swapped();
+    for (int turn = 1; turn < 5; ++turn) {
+        if (find_from(of_b != (turn % 2 == 1), corner)) return true;
+        corner = closest.part_a.low;
+    }
     return face.gap > 0 && closest_on_face(frame, face, closest);
 }
 
@@ -143,16 +150,29 @@ bool is_corner(const std::array<std::uint32_t, 4>& numbers, std::uint32_t count)
     return !other;
 }
 
-/// Warm start: whether the cached corner is still the closest one.
+/// The axis of an edge by its two corners; 3 if they are not the ends of an edge.
+std::uint32_t axis_of_edge(const std::array<std::uint32_t, 4>& corners) {
+    const std::uint32_t bit = corners[0] ^ corners[1];
+    return bit == 1 ? 0 : bit == 2 ? 1 : bit == 4 ? 2 : 3;
+}
+
+/// Warm start: whether the cached corner, or the cached edges, are still the closest ones.
 bool nearest_as_before(const PlacedBox& a, const PlacedBox& b, const Cache& cache, CoresDistance& found) {
-    const bool of_a = is_corner(cache.corner_a, cache.count), of_b = is_corner(cache.corner_b, cache.count);
-    if (cache.count == 0 || !(of_a || of_b)) return false;
-    const PlacedBox &first = of_b ? a : b, &second = of_b ? b : a;
-    const std::uint32_t corner = of_b ? cache.corner_b[0] : cache.corner_a[0];
+    if (cache.count == 0) return false;
+    const bool of_b = is_corner(cache.corner_b, cache.count), of_a = !of_b && is_corner(cache.corner_a, cache.count);
+    const PlacedBox &first = of_a ? b : a, &second = of_a ? a : b;
     const BoxFaceGaps gaps(first, second);
+    if (!gaps.finite()) return false;
+    const BoxFrame frame = gaps.frame();
     BoxClosest closest;
-    if (!gaps.finite() || !nearest_from_corner(gaps.frame(), corner, closest)) return false;
-    set_world_distance(first, closest, !of_b, found);
+    if (of_a || of_b) {
+        if (!nearest_from_corner(frame, of_b ? cache.corner_b[0] : cache.corner_a[0], closest)) return false;
+    } else {
+        const std::uint32_t edge_a = axis_of_edge(cache.corner_a), edge_b = axis_of_edge(cache.corner_b);
+        if (cache.count != 2 || edge_a == 3 || edge_b == 3) return false;
+        if (!closest_on_edges(frame, 3 * edge_a + edge_b, closest) || !(closest.distance > 0)) return false;
+    }
+    set_world_distance(first, closest, of_a, found);
     return true;
 }
 

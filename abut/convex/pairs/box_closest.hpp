@@ -26,6 +26,17 @@ inline void flip(const BoxFrame& frame, BoxClosest& closest) {
     std::swap(closest.part_a, closest.part_b);
 }
 
+// The closest points of two disjoint boxes in closed form: a corner of one box and the other box, or an edge of each.
+// The plane between the points proves the result.
+
+/// The closest points of A and of a corner of B, or of the corner that it leads on to. Returns false if nothing is
+/// proven: another corner, or none, is closest. Then `part_a` is the feature of A nearest to the last one.
+bool nearest_from_corner(const BoxFrame& frame, std::uint32_t corner_of_b, BoxClosest& closest);
+
+/// The closest points of the two edges of an edge axis, with the separation or overlap along it in `closest.distance`.
+/// Returns false if the edges don't cross within their ends, or are parallel.
+bool closest_on_edges(const BoxFrame& frame, std::size_t number, BoxClosest& closest);
+
 /// Converts a result in the frame of a box to the world; `by_b` if the box is B.
 inline void set_world_distance(const PlacedBox& box, const BoxClosest& closest, bool by_b, CoresDistance& found) {
     using namespace lanes;
